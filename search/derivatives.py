@@ -181,7 +181,7 @@ def main():
                 if said is not None:
                     seen += 1
                     stated, off = found["error"][name], abs(said - truth)
-                    ratio = max(0.0, off - known) / (stated + 1e-9 * abs(said) + 1e-300)
+                    ratio = max(0.0, off - 3 * known) / (stated + 1e-9 * abs(said) + 1e-300)
                     if off > 3 * known:
                         ratios.append(stated / off)
                     if name not in not_smooth and ratio > worst.get(name, (0.0,))[0]:

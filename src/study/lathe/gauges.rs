@@ -218,7 +218,6 @@ pub struct OuterHalf<'a> {
     looked: Looked<'a>,
     hitter: &'a Hitter<'a>,
     ends: [f64; 2],
-    steps: usize,
     /// What was found of a probe.
     found: Vec<(Probe, Option<Greatest>)>,
     /// Answers without a derivative.
@@ -226,9 +225,7 @@ pub struct OuterHalf<'a> {
 }
 
 /// Steps of a look along the outer half.
-pub const CLOSELY: usize = 128;
-/// Steps where best places are known to be near others.
-pub const ROUGHLY: usize = 32;
+const STEPS: usize = 128;
 /// Distance of the places of a difference along the bat, as a share of the length: 3 mm of 84 cm. The
 /// difference is of the fourth order.
 const APART: f64 = 1.0 / 280.0;
@@ -255,11 +252,11 @@ struct Greatest {
 }
 
 impl<'a> OuterHalf<'a> {
-    /// Looks along the outer half of a bat of that length (m), in so many steps.
-    pub fn new(hitter: &'a Hitter<'a>, length: f64, steps: usize) -> Self {
+    /// Looks along the outer half of a bat of that length (m).
+    pub fn new(hitter: &'a Hitter<'a>, length: f64) -> Self {
         let ends = [0.5 * length, length];
-        let looked = Looked::by(ends, (steps, LOCATED), hitter);
-        Self { looked, hitter, ends, steps, found: vec![], rivals: vec![] }
+        let looked = Looked::by(ends, (STEPS, LOCATED), hitter);
+        Self { looked, hitter, ends, found: vec![], rivals: vec![] }
     }
 
     /// The gauge and the value of an answer about a hit; None where there is no such answer, and no gauge
@@ -301,7 +298,7 @@ impl<'a> OuterHalf<'a> {
 
     /// How far a search by slopes may go from where a search by values ended (m).
     fn reach(&self) -> f64 {
-        1.5 * (self.ends[1] - self.ends[0]) / self.steps as f64
+        1.5 * (self.ends[1] - self.ends[0]) / STEPS as f64
     }
 
     /// The best value of a probe, or its place.
@@ -338,15 +335,14 @@ impl<'a> OuterHalf<'a> {
         let sign = probe.sign();
         let values = self.looked.values(|glance| Some(sign * probe.of(self.hitter, glance)?));
         let place =
-            |k: usize| self.ends[0] + (self.ends[1] - self.ends[0]) * k as f64 / self.steps as f64;
+            |k: usize| self.ends[0] + (self.ends[1] - self.ends[0]) * k as f64 / STEPS as f64;
         let near = NEARLY * best.value.abs();
         let apart = 2.5 * (place(1) - place(0));
         let top = |j: &usize| {
             let up = *j == 0 || values[*j] >= values[j - 1];
-            up && (*j == self.steps || values[*j] >= values[j + 1])
-                && (place(*j) - best.x).abs() > apart
+            up && (*j == STEPS || values[*j] >= values[j + 1]) && (place(*j) - best.x).abs() > apart
         };
-        let rival = (0..=self.steps).filter(top).find(|j| sign * best.value - values[*j] <= near);
+        let rival = (0..=STEPS).filter(top).find(|j| sign * best.value - values[*j] <= near);
         rival.map(|j| Peak { x: place(j), value: sign * values[j] })
     }
 

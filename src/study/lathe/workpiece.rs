@@ -16,7 +16,7 @@ use crate::collision::sweep::{Trial, sweep};
 use crate::collision::sweet_spot::Peak;
 use crate::modes::solve::{Request, Solution};
 use crate::study::comparison::contender::Figure;
-use crate::study::lathe::gauges::{CLOSELY, Gauge, OuterHalf, ROUGHLY, Rivals, Seen};
+use crate::study::lathe::gauges::{Gauge, OuterHalf, Rivals, Seen};
 use crate::study::lathe::same_plan::SamePlan;
 use crate::study::lathe::samples::{BodySlope, SectionSlopes};
 use crate::study::many::answers::{Answer, figure, on_the_bat};
@@ -196,7 +196,7 @@ impl Workpiece {
         let hitter = hit.hitter(&self.bat, &self.solution, &hit.scene)?;
         let length = self.bat.length();
         let half_wave = length / (hitter.modes_used() + 1) as f64;
-        let mut along = OuterHalf::new(&hitter, length, CLOSELY);
+        let mut along = OuterHalf::new(&hitter, length);
         for (k, answer) in self.answers.iter().enumerate().filter(|(_, a)| a.of_a_hit()) {
             let (gauge, value) = along.gauge(*answer);
             let closing = hit.scene.swing.abs() * (length + hit.scene.pivot) + hit.scene.ball_speed;
@@ -453,7 +453,7 @@ impl Workpiece {
         let solution = turned.as_ref().map(|bat| self.plan.solve(bat)).transpose()?;
         let bat = turned.as_ref().unwrap_or(&self.bat);
         let hitter = hit.hitter(bat, solution.as_ref().unwrap_or(&self.solution), &hit.scene)?;
-        let mut along = OuterHalf::new(&hitter, bat.length(), CLOSELY);
+        let mut along = OuterHalf::new(&hitter, bat.length());
         Ok(self.answers.iter().map(|answer| along.peak(*answer)).collect())
     }
 
@@ -482,7 +482,7 @@ impl Workpiece {
             let swing = hit.scene.swing * ratio.powf(*exponent);
             let scene = Scene { swing, ..hit.scene.clone() };
             let hitter = hit.hitter(bat, solution, &scene)?;
-            let mut along = OuterHalf::new(&hitter, bat.length(), ROUGHLY);
+            let mut along = OuterHalf::new(&hitter, bat.length());
             let of = |(answer, known): (&Answer, &Option<f64>)| match answer.of_a_hit() {
                 true => along.gauge(*answer).1,
                 false => *known,
