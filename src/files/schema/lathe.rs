@@ -158,7 +158,7 @@ pub struct DoneToTheEnd {
 pub struct NotSmooth {
     /// The output.
     pub name: String,
-    /// Why: two places along the bat are nearly as good, the output has a corner at its best place, or a finite cut
+    /// Why: two places along the bat are nearly as good, there is a corner at the best place, or a finite cut
     /// makes it jump.
     #[schemars(extend("enum" = ["rivals", "corner", "cut"]))]
     #[serde(default)]

@@ -115,7 +115,7 @@ fn words(map: &LatheMap, shown: TableUnits) -> String {
                 "No derivative of {name}: it is {one} and {other}, and a cut may make it jump."
             ),
             WhyNotSmooth::Corner => {
-                format!("No derivative of {name}: it has a corner where it is best, {one}.")
+                format!("No derivative of {name}: there is a corner, {one}.")
             }
             WhyNotSmooth::Cut => format!(
                 "The derivative of {name} does not tell the finite cut of some band: it jumps from \

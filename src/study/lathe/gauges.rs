@@ -407,10 +407,15 @@ impl<'a> OuterHalf<'a> {
         let x = self.looked.zone(peak)[end];
         let apart = smooth.map_or(APART * self.ends[1], |(_, apart)| apart);
         let stencil = Stencil { apart, ..self.stencil(Probe::Speed) };
-        let Some((x, by)) = stencil.edge(x, floor) else { return (None, Some(x)) };
-        if corner || !self.inside(x, stencil.apart) {
+        if !self.inside(x, stencil.apart) {
             return (None, Some(x));
         }
+        let (Some((x, by)), false) = (stencil.edge(x, floor), corner) else {
+            let edge = Peak { x, value: floor };
+            let answer = Answer::Zone(end == 1);
+            self.rivals.push(Rivals { answer, peaks: [edge; 2], why: WhyNotSmooth::Corner });
+            return (None, Some(x));
+        };
         let reach = self.reach();
         let sought =
             Sought { wanted: Wanted::Edge, probe: Probe::Speed, best: peak.x, x, apart, reach };
@@ -477,17 +482,23 @@ impl Stencil<'_> {
         None
     }
 
-    /// Newton's steps from some micrometres to as near as numbers are to where the value is `floor`.
-    fn edge(&self, mut x: f64, floor: f64) -> Option<(f64, [f64; 3])> {
-        for _ in 0..3 {
-            let [value, slope, _] = self.derivatives(x)?;
-            let by = (floor - value) / slope;
-            if by.abs() >= self.apart || !by.is_finite() {
-                break;
+    /// Newton's steps from some micrometres to as near as numbers are to where the value is `floor`, and the
+    /// derivatives there; None where they lead elsewhere.
+    fn edge(&self, start: f64, floor: f64) -> Option<(f64, [f64; 3])> {
+        const NEWTON: usize = 4;
+        let mut x = start;
+        for _ in 0..NEWTON {
+            let by = self.derivatives(x)?;
+            let step = (floor - by[0]) / by[1];
+            if !step.is_finite() || (x + step - start).abs() >= self.apart {
+                return None;
             }
-            x += by;
+            if step.abs() < 1e-7 * self.hitter.profile.length() {
+                return Some((x, by));
+            }
+            x += step;
         }
-        Some((x, self.derivatives(x)?))
+        None
     }
 }
 
