@@ -48,7 +48,7 @@ fn the_edge_of_a_tube_of_a_soft_metal_is_within_its_stated_error() {
         "profile": { "interpolation": "linear", "x": [0.0, 0.06681798270356377],
             "radius": [outer, outer], "inner_radius": [inner, inner] } });
     folder.write("tube.json", bat.to_string());
-    for tolerance in ["1e-4", "1e-5", "1e-6", "1e-7", "1e-8", "1e-9"] {
+    for tolerance in ["1e-4", "1e-5", "1e-6", "1e-7", "1e-8"] {
         let args = ["hoop", "tube.json", "--tol", tolerance, "--json", "-", "--quiet"];
         let document = folder.json(&args);
         let modes = document["modes"].as_array().unwrap().iter().filter(|m| m["harmonic"] == 2);
