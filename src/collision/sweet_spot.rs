@@ -162,6 +162,12 @@ impl<'a> Looked<'a> {
         self.places[k]
     }
 
+    /// Values at the places of the look; −∞ where there is none.
+    pub fn values(&self, value: impl Fn(&Glance) -> Option<f64>) -> Vec<f64> {
+        let of = |glance: &Option<Glance>| glance.as_ref().and_then(&value);
+        self.seen.iter().map(|glance| of(glance).unwrap_or(f64::NEG_INFINITY)).collect()
+    }
+
     /// Where the ball leaves fastest (m/s).
     pub fn fastest(&self) -> Option<Peak> {
         self.greatest(|glance| Some(glance.exit_speed))
@@ -217,7 +223,7 @@ impl<'a> Looked<'a> {
         let low = self.place(best.saturating_sub(1));
         let high = self.place((best + 1).min(self.last()));
         let mut here = (Peak { x: self.place(best), value: seen }, [low, high]);
-        let seen: Vec<f64> = self.seen.iter().map(of).collect();
+        let seen = self.values(&value);
         let mut closer: Vec<(usize, f64)> = (0..self.last())
             .filter(|k| k + 1 < best || *k > best)
             .map(|k| (k, highest_between(&self.places, &seen, k)))

@@ -49,7 +49,7 @@ pub struct LatheFile {
     pub added_mass: AddedMass,
     /// Changes that are solved, as no derivative tells them.
     pub done_to_the_end: Vec<DoneToTheEnd>,
-    /// Outputs without a derivative: two places along the bat are nearly as good.
+    /// Outputs that are not smooth, each with the reason.
     pub not_smooth_at: Vec<NotSmooth>,
     /// How well the map holds.
     pub check: Check,
@@ -152,12 +152,18 @@ pub struct DoneToTheEnd {
     pub reason: Option<String>,
 }
 
-/// An output without a derivative: its two best places compete.
+/// An output that is not smooth. Rivals and a corner leave it without a derivative; after a cut the finite change of
+/// some band is another one than the derivative says.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct NotSmooth {
     /// The output.
     pub name: String,
-    /// The best place and the other (m).
+    /// Why: two places along the bat are nearly as good, there is a corner at the best place, or a finite cut
+    /// makes it jump.
+    #[schemars(extend("enum" = ["rivals", "corner", "cut"]))]
+    #[serde(default)]
+    pub why: String,
+    /// The best place and the other, or that after the cut (m).
     pub x_m: [f64; 2],
     /// The values there.
     pub value: [f64; 2],

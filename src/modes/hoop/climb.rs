@@ -17,14 +17,21 @@ use crate::modes::hoop::system::Wall;
 
 /// One fineness of the elements after the other: degrees along and across, geometric steps towards ends, kinks
 /// and corners.
+///
+/// What is left at last is the wall's edge at a free end, where the corners' own motion goes as `r^2.74` (the
+/// least root of `sin(λπ/2) = ±λ` beyond 1, whatever the material) and one element reaches across: so the error
+/// falls as a power of the degree. The wall bends there, and of a wall that bends the sections warp by odd
+/// polynomials: an odd degree gains, the even one after it a tenth or nothing. From 5 across on every step is
+/// therefore one of two degrees across, or the difference of two meshes would not see the error. A tube of Poisson's ratio
+/// 0.45, error by degree across: 5 1.8e-7, 6 1.7e-7, 7 1.6e-8, 8 1.6e-8, 9 1e-9.
 const LADDER: [([usize; 2], [usize; 3]); 7] = [
     ([4, 2], [0, 0, 1]),
     ([5, 3], [1, 0, 1]),
     ([6, 4], [2, 1, 2]),
     ([8, 5], [3, 2, 3]),
-    ([9, 6], [4, 3, 4]),
-    ([10, 7], [5, 4, 5]),
-    ([12, 8], [6, 5, 6]),
+    ([9, 7], [4, 3, 4]),
+    ([10, 9], [5, 4, 5]),
+    ([12, 11], [6, 5, 6]),
 ];
 /// Of a smooth wall this share of the difference of two meshes is stated as the error of the finer: the
 /// error falls at least to 0.47 of itself from one mesh to the next, and a true error may be three times as

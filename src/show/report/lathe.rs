@@ -11,6 +11,7 @@ use crate::show::report::lathe_table::{TableUnits, legend, table};
 use crate::show::report::text::{edited, wrapped};
 use crate::show::report::units::Units;
 use crate::study::comparison::contender::Figure;
+use crate::study::lathe::gauges::{Rivals, WhyNotSmooth};
 use crate::study::lathe::map::{LatheMap, TurnedBand};
 use crate::study::lathe::recipe::{RecipeCut, least_wood};
 use crate::study::lathe::workpiece::Method;
@@ -106,14 +107,21 @@ fn words(map: &LatheMap, shown: TableUnits) -> String {
     }
     for rival in &map.piece.rivals {
         let [a, b] = rival.peaks;
-        let line = format!(
-            "No derivative of {}: it is {} at {} and {} at {}, and a cut may make it jump.",
-            rival.answer.name(),
-            significant(a.value, 4),
-            shown.place(a.x),
-            significant(b.value, 4),
-            shown.place(b.x),
-        );
+        let name = rival.answer.name();
+        let [one, other] =
+            [a, b].map(|peak| format!("{} at {}", significant(peak.value, 4), shown.place(peak.x)));
+        let line = match rival.why {
+            WhyNotSmooth::Rivals => format!(
+                "No derivative of {name}: it is {one} and {other}, and a cut may make it jump."
+            ),
+            WhyNotSmooth::Corner => {
+                format!("No derivative of {name}: there is a corner, {one}.")
+            }
+            WhyNotSmooth::Cut => format!(
+                "The derivative of {name} does not tell the finite cut of some band: it jumps from \
+                 {one} to {other}."
+            ),
+        };
         out += &wrapped(&line, 2);
     }
     for band in map.bands.iter().filter(|band| band.reason.is_some()) {
@@ -293,8 +301,14 @@ fn done_to_the_end(map: &LatheMap) -> Vec<file::DoneToTheEnd> {
 }
 
 fn not_smooth(map: &LatheMap) -> Vec<file::NotSmooth> {
-    let one = |rivals: &crate::study::lathe::gauges::Rivals| file::NotSmooth {
+    let one = |rivals: &Rivals| file::NotSmooth {
         name: rivals.answer.name(),
+        why: match rivals.why {
+            WhyNotSmooth::Rivals => "rivals",
+            WhyNotSmooth::Corner => "corner",
+            WhyNotSmooth::Cut => "cut",
+        }
+        .to_owned(),
         x_m: rivals.peaks.map(|peak| peak.x),
         value: rivals.peaks.map(|peak| peak.value),
     };

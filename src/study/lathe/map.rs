@@ -11,6 +11,7 @@ use crate::bat::material::Material;
 use crate::bat::turned::DiameterChange;
 use crate::modes::solve::Request;
 use crate::study::comparison::contender::Figure;
+use crate::study::lathe::gauges::{Rivals, WhyNotSmooth};
 use crate::study::lathe::samples::{by_added_mass, frequency_density};
 use crate::study::lathe::workpiece::{Care, HitTerms, Slopes, Workpiece};
 use crate::study::many::answers::Answer;
@@ -96,6 +97,11 @@ pub fn best_place(bat: &Bat, request: &Request, hit: &HitTerms) -> Result<Option
     Ok(piece.values()[0].map(|place| place.value))
 }
 
+/// A finite cut and its derivative that are apart by more than this share are looked at.
+const APART: f64 = 0.1;
+/// What half of a cut leaves of that distance where the answer only curves: a half by the second order, a quarter by
+/// the third.
+const CURVED: std::ops::RangeInclusive<f64> = 0.15..=0.8;
 /// More pieces of a profile than this make a map take long.
 const MANY: usize = 200;
 
@@ -173,6 +179,8 @@ impl LatheMap {
         let mut map =
             Self { piece, terms, bands: vec![], weights: vec![], wholes: vec![], check: None };
         map.bands = map.turned()?;
+        let cuts = map.cuts_that_jump()?;
+        map.piece.rivals.extend(cuts);
         map.check = map.checked();
         map.weights = map.weighted();
         map.wholes = map.done_to_the_end(bat);
@@ -220,6 +228,57 @@ impl LatheMap {
             }
         };
         Ok(finite.into_iter().enumerate().map(band).collect())
+    }
+
+    /// Searched answers whose finite cut of a band does not go where the derivative points: where both are apart by
+    /// more than [`APART`], half of the cut tells a curve, by which half of the distance is left, from a jump.
+    fn cuts_that_jump(&self) -> Result<Vec<Rivals>> {
+        let answers = &self.terms.answers;
+        let of_band = |band: &TurnedBand| -> Result<Vec<Rivals>> {
+            let (Some(slopes), Some(finite)) = (&band.slopes, &band.finite) else {
+                return Ok(vec![]);
+            };
+            let pair = |k: usize, change: Option<f64>| {
+                let slope = slopes.same_swing[k].filter(|_| answers[k].is_searched())?;
+                let apart = (change? - slope.value).abs() - slope.error;
+                Some((apart, slope.value.abs().max(change?.abs())))
+            };
+            let far = |k: &usize| {
+                pair(*k, finite[0][*k]).is_some_and(|(apart, most)| apart > APART * most)
+            };
+            let far: Vec<usize> = (0..answers.len()).filter(far).collect();
+            if far.is_empty() {
+                return Ok(vec![]);
+            }
+            let change = |depth: f64| DiameterChange::band(band.ends, -1.0).scaled(depth);
+            let half = 0.5 * self.terms.cut;
+            let found = self.less(&self.piece.cut(&change(half), &[0.0])?, half).remove(0);
+            let jumps = |k: &usize| {
+                let [whole, half] = [finite[0][*k], found[*k]].map(|change| pair(*k, change));
+                let share = whole.zip(half).map(|((whole, _), (half, _))| half / whole);
+                share.is_some_and(|share| !CURVED.contains(&share))
+            };
+            let far: Vec<usize> = far.into_iter().filter(jumps).collect();
+            if far.is_empty() {
+                return Ok(vec![]);
+            }
+            let (was, is) =
+                (self.piece.peaks(None)?, self.piece.peaks(Some(&change(self.terms.cut)))?);
+            let one = |k: usize| {
+                let peaks = [was[k]?, is[k]?];
+                Some(Rivals { answer: answers[k], peaks, why: WhyNotSmooth::Cut })
+            };
+            Ok(far.into_iter().filter_map(one).collect())
+        };
+        let all = threads::map(self.bands.len(), |k| of_band(&self.bands[k]));
+        let mut told: Vec<Rivals> = vec![];
+        for jump in all.into_iter().collect::<Result<Vec<_>>>()?.into_iter().flatten() {
+            // Once is enough.
+            if told.iter().all(|known| known.answer != jump.answer) {
+                told.push(jump);
+            }
+        }
+        Ok(told)
     }
 
     /// How far formula and differences are apart.

@@ -13,9 +13,10 @@ use crate::collision::hit::{Effort, Model, Scene};
 use crate::collision::hitter::Hitter;
 use crate::collision::hoop_wall::{HoopInHit, WhyRigid};
 use crate::collision::sweep::{Trial, sweep};
+use crate::collision::sweet_spot::Peak;
 use crate::modes::solve::{Request, Solution};
 use crate::study::comparison::contender::Figure;
-use crate::study::lathe::gauges::{CLOSELY, Gauge, OuterHalf, ROUGHLY, Rivals, Seen};
+use crate::study::lathe::gauges::{Gauge, OuterHalf, Rivals, Seen};
 use crate::study::lathe::same_plan::SamePlan;
 use crate::study::lathe::samples::{BodySlope, SectionSlopes};
 use crate::study::many::answers::{Answer, figure, on_the_bat};
@@ -195,7 +196,7 @@ impl Workpiece {
         let hitter = hit.hitter(&self.bat, &self.solution, &hit.scene)?;
         let length = self.bat.length();
         let half_wave = length / (hitter.modes_used() + 1) as f64;
-        let mut along = OuterHalf::new(&hitter, length, CLOSELY);
+        let mut along = OuterHalf::new(&hitter, length);
         for (k, answer) in self.answers.iter().enumerate().filter(|(_, a)| a.of_a_hit()) {
             let (gauge, value) = along.gauge(*answer);
             let closing = hit.scene.swing.abs() * (length + hit.scene.pivot) + hit.scene.ball_speed;
@@ -207,7 +208,9 @@ impl Workpiece {
         let swing = hit.scene.swing;
         let readings = |faster: f64| -> Result<Vec<Option<f64>>> {
             let scene = Scene { swing: swing * (1.0 + faster), ..hit.scene.clone() };
-            Ok(self.readings(&hit.hitter(&self.bat, &self.solution, &scene)?))
+            let hitter = hit.hitter(&self.bat, &self.solution, &scene)?;
+            let [read] = Self::readings(&hitter, [&self.gauges]);
+            Ok(read)
         };
         if swing != 0.0 {
             let (fast, slow) = (readings(FASTER)?, readings(-FASTER)?);
@@ -227,10 +230,14 @@ impl Workpiece {
         self.hit.as_ref().is_some_and(|hit| hit.scene.hoop == rigid)
     }
 
-    /// What the gauges read of a bat that is hit.
-    fn readings(&self, hitter: &Hitter) -> Vec<Option<f64>> {
-        let seen = Seen::new(hitter, self.gauges.iter().flatten());
-        self.gauges.iter().map(|gauge| gauge.as_ref()?.read(hitter, &seen)).collect()
+    /// What gauges read of a bat that is hit.
+    fn readings<const N: usize>(
+        hitter: &Hitter,
+        gauges: [&[Option<Gauge>]; N],
+    ) -> [Vec<Option<f64>>; N] {
+        let seen = Seen::new(hitter, gauges.iter().copied().flatten().flatten());
+        let read = |gauge: &Option<Gauge>| gauge.as_ref()?.read(hitter, &seen);
+        gauges.map(|gauges| gauges.iter().map(read).collect())
     }
 
     /// The bat, cut at its borders.
@@ -271,18 +278,25 @@ impl Workpiece {
             Care::OneStep => &[1.0],
             Care::TwoSteps => &[1.0, 0.5],
         };
-        let now = if steps.is_empty() { Raw::default() } else { self.raw(&self.bat, care)? };
+        let ways = match care {
+            Care::TwoSteps if !steps.is_empty() => self.ways()?,
+            _ => None,
+        };
+        let now = match steps {
+            [] => Raw::default(),
+            _ => self.raw(&self.bat, ways.as_ref())?,
+        };
         let all = threads::map(changes.len() * steps.len(), |k| {
             let (step, look) = (k % steps.len(), &changes[k / steps.len()]);
-            // How much the modes left out do is seen by one step.
-            let care = if step == 0 { care } else { Care::OneStep };
-            self.difference(look, steps[step], &now, care)
+            // How much the ways differ is seen by one step.
+            let ways = ways.as_ref().filter(|_| step == 0);
+            self.difference(look, steps[step], &now, ways)
         });
         let all: Vec<Quotient> = all.into_iter().collect::<Result<_>>()?;
         let of_change = |k: usize| &all[k * steps.len()..(k + 1) * steps.len()];
-        // Where two numbers of modes agree by luck, what they do elsewhere tells more.
+        // Where two ways agree by luck, what they do elsewhere tells more.
         let usual = |answer: usize| {
-            let of = |k: usize| of_change(k).first().map_or(0.0, |first| first.left_out(answer));
+            let of = |k: usize| of_change(k).first().map_or(0.0, |first| first.apart(answer));
             (0..changes.len()).map(of).sum::<f64>() / changes.len() as f64
         };
         let usual: Vec<f64> = (0..self.answers.len()).map(usual).collect();
@@ -306,7 +320,7 @@ impl Workpiece {
         // Two steps as one of the fourth order.
         let check = |(k, answer): (usize, &Answer)| {
             let Answer::Frequency(_) = answer else { return None };
-            let [whole, half] = [found.first()?, found.get(1)?].map(|d| d.by_modes[0][k]);
+            let [whole, half] = [found.first()?, found.get(1)?].map(|d| d.by_way[0][k]);
             Some((4.0 * half? - whole?) / 3.0).filter(|_| found.iter().all(|d| d.central))
         };
         Slopes {
@@ -324,22 +338,22 @@ impl Workpiece {
         change: &DiameterChange,
         share: f64,
         now: &Raw,
-        care: Care,
+        ways: Option<&Ways>,
     ) -> Result<Quotient> {
         let all = change.stretches().iter().flat_map(|stretch| stretch.diameter);
         let largest = all.fold(0.0, |largest: f64, by| largest.max(by.abs()));
         if largest == 0.0 {
-            let by_modes = [0; 3].map(|_| vec![Some(0.0); self.answers.len()]);
-            return Ok(Quotient { central: true, by_modes });
+            let by_way = [0; WAYS].map(|_| vec![Some(0.0); self.answers.len()]);
+            return Ok(Quotient { central: true, by_way });
         }
         let step = share * STEP / largest;
         // A bat that ends in a point cannot lose wood there.
         let [more, less] = [step, -step].map(|step| self.bat.turned(&change.scaled(step)));
         let central = more.is_ok() && less.is_ok();
         let (thick, thin) = match (more, less) {
-            (Ok(more), Ok(less)) => (self.raw(&more, care)?, self.raw(&less, care)?),
-            (Ok(more), Err(_)) => (self.raw(&more, care)?, now.clone()),
-            (Err(_), Ok(less)) => (now.clone(), self.raw(&less, care)?),
+            (Ok(more), Ok(less)) => (self.raw(&more, ways)?, self.raw(&less, ways)?),
+            (Ok(more), Err(_)) => (self.raw(&more, ways)?, now.clone()),
+            (Err(_), Ok(less)) => (now.clone(), self.raw(&less, ways)?),
             (Err(error), Err(_)) => return Err(error),
         };
         let run = if central { 2.0 * step } else { step };
@@ -347,16 +361,16 @@ impl Workpiece {
             let slope = |(a, b): (&Option<f64>, &Option<f64>)| Some(((*a)? - (*b)?) / run);
             thick.iter().zip(thin).map(slope).collect()
         };
-        let by_modes = [0, 1, 2].map(|k| slopes((&thick.by_modes[k], &thin.by_modes[k])));
-        Ok(Quotient { central, by_modes })
+        let by_way = std::array::from_fn(|k| slopes((&thick.by_way[k], &thin.by_way[k])));
+        Ok(Quotient { central, by_way })
     }
 
     /// What differences are taken of, on this plan: nodes, modal masses, and what the gauges read.
-    fn raw(&self, bat: &Bat, care: Care) -> Result<Raw> {
+    fn raw(&self, bat: &Bat, ways: Option<&Ways>) -> Result<Raw> {
         let solution = self.plan.solve(bat)?;
         let read = match &self.hit {
-            Some(hit) => self.with_fewer(hit, bat, &solution, care)?,
-            None => [0; 3].map(|_| vec![None; self.answers.len()]),
+            Some(hit) => self.every_way(hit, bat, &solution, ways)?,
+            None => [0; WAYS].map(|_| vec![None; self.answers.len()]),
         };
         let of = |(answer, read): (&Answer, Option<f64>)| match *answer {
             Answer::Node(order) => {
@@ -371,29 +385,50 @@ impl Workpiece {
             _ => read,
         };
         let all = |read: Vec<Option<f64>>| self.answers.iter().zip(read).map(of).collect();
-        Ok(Raw { by_modes: read.map(all) })
+        Ok(Raw { by_way: read.map(all) })
     }
 
-    /// What the gauges read of a bat that is hit, by all its modes and, with care, without the last two and
-    /// without the last quarter of them.
-    fn with_fewer(
+    /// The ways beside the gauges' own, each with its places sought anew; None where nothing is hit.
+    fn ways(&self) -> Result<Option<Ways>> {
+        let Some(hit) = &self.hit else { return Ok(None) };
+        let sought = |solution: &Solution, share: f64| -> Result<Vec<Option<Gauge>>> {
+            let hitter = hit.hitter(&self.bat, solution, &hit.scene)?;
+            let of = |gauge: &Option<Gauge>| Some(gauge.as_ref()?.again(&hitter, share));
+            Ok(threads::map(self.gauges.len(), |k| of(&self.gauges[k])))
+        };
+        let closer = sought(&self.solution, 0.5)?;
+        if !hit.effort.completed {
+            return Ok(Some(Ways { closer, fewer: vec![] }));
+        }
+        let count = self.solution.modes.len();
+        let fewer = [count.saturating_sub(2), count * 3 / 4]
+            .map(|count| Ok((count, sought(&with_modes(&self.solution, count), 1.0)?)));
+        let fewer = fewer.into_iter().collect::<Result<_>>()?;
+        Ok(Some(Ways { closer, fewer }))
+    }
+
+    /// What the gauges read of a bat that is hit, and what those of the other ways do.
+    fn every_way(
         &self,
         hit: &Hit,
         bat: &Bat,
         solution: &Solution,
-        care: Care,
-    ) -> Result<[Vec<Option<f64>>; 3]> {
-        let all = self.readings(&hit.hitter(bat, solution, &hit.scene)?);
-        if care == Care::OneStep || !hit.effort.completed {
-            return Ok([all.clone(), all.clone(), all]);
-        }
-        let few = |count: usize| {
-            let mut fewer = solution.clone();
-            fewer.modes.truncate(count);
-            Ok(self.readings(&hit.hitter(bat, &fewer, &hit.scene)?))
+        ways: Option<&Ways>,
+    ) -> Result<[Vec<Option<f64>>; WAYS]> {
+        let hitter = hit.hitter(bat, solution, &hit.scene)?;
+        let Some(Ways { closer, fewer }) = ways else {
+            let [all] = Self::readings(&hitter, [&self.gauges]);
+            return Ok([0; WAYS].map(|_| all.clone()));
         };
-        let count = solution.modes.len();
-        Ok([all, few(count.saturating_sub(2))?, few(count * 3 / 4)?])
+        let [all, by_closer] = Self::readings(&hitter, [&self.gauges, closer]);
+        let few = |k: usize| {
+            let Some((count, gauges)) = fewer.get(k) else { return Ok(all.clone()) };
+            let solution = with_modes(solution, *count);
+            let [read] = Self::readings(&hit.hitter(bat, &solution, &hit.scene)?, [gauges]);
+            Ok(read)
+        };
+        let [two, quarter] = [few(0)?, few(1)?];
+        Ok([all, by_closer, two, quarter])
     }
 
     /// The answers of the bat changed by much, for a batter who swings it at `Ω (I₀/I)^n`.
@@ -405,6 +440,21 @@ impl Workpiece {
         let bat = self.bat.turned(change)?;
         let solution = self.plan.solve(&bat)?;
         self.measured(&bat, &solution, exponents)
+    }
+
+    /// Where each searched answer is best, on the bat as it is or after a cut.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::slopes`].
+    pub fn peaks(&self, change: Option<&DiameterChange>) -> Result<Vec<Option<Peak>>> {
+        let Some(hit) = &self.hit else { return Ok(vec![None; self.answers.len()]) };
+        let turned = change.map(|change| self.bat.turned(change)).transpose()?;
+        let solution = turned.as_ref().map(|bat| self.plan.solve(bat)).transpose()?;
+        let bat = turned.as_ref().unwrap_or(&self.bat);
+        let hitter = hit.hitter(bat, solution.as_ref().unwrap_or(&self.solution), &hit.scene)?;
+        let mut along = OuterHalf::new(&hitter, bat.length());
+        Ok(self.answers.iter().map(|answer| along.peak(*answer)).collect())
     }
 
     /// The answers of any other bat, with elements of its own and as many modes, for batters who swing it at
@@ -432,7 +482,7 @@ impl Workpiece {
             let swing = hit.scene.swing * ratio.powf(*exponent);
             let scene = Scene { swing, ..hit.scene.clone() };
             let hitter = hit.hitter(bat, solution, &scene)?;
-            let mut along = OuterHalf::new(&hitter, bat.length(), ROUGHLY);
+            let mut along = OuterHalf::new(&hitter, bat.length());
             let of = |(answer, known): (&Answer, &Option<f64>)| match answer.of_a_hit() {
                 true => along.gauge(*answer).1,
                 false => *known,
@@ -454,42 +504,66 @@ impl Hit {
     }
 }
 
+/// The first modes of a solution.
+fn with_modes(solution: &Solution, count: usize) -> Solution {
+    let mut fewer = solution.clone();
+    fewer.modes.truncate(count);
+    fewer
+}
+
+/// In how many ways a derivative is found: by the gauges, by places half as far apart, without the last two modes,
+/// without the last quarter of them. The gauges of each way have the places that it finds.
+const WAYS: usize = 4;
+
+/// The gauges of the other ways.
+struct Ways {
+    /// By places half as far apart.
+    closer: Vec<Option<Gauge>>,
+    /// Without the last two modes and without the last quarter, with the number of modes that is left; none where
+    /// modes are not left out.
+    fewer: Vec<(usize, Vec<Option<Gauge>>)>,
+}
+
 /// What differences are taken of, answer by answer.
 #[derive(Debug, Clone, Default)]
 struct Raw {
-    /// With all modes, without the last two, without the last quarter of them.
-    by_modes: [Vec<Option<f64>>; 3],
+    /// In every way.
+    by_way: [Vec<Option<f64>>; WAYS],
 }
 
 /// A quotient of differences, answer by answer.
 struct Quotient {
     /// Whether it is about the bat as it is; else to one side.
     central: bool,
-    /// With all modes, without the last two, without the last quarter of them.
-    by_modes: [Vec<Option<f64>>; 3],
+    /// In every way.
+    by_way: [Vec<Option<f64>>; WAYS],
 }
 
 impl Quotient {
-    /// The most that the last two modes, or the last quarter of them, do to an answer's slope.
-    fn left_out(&self, k: usize) -> f64 {
-        let [whole, fewer @ ..] = [0, 1, 2].map(|count| self.by_modes[count][k]);
-        let off = |few: f64| whole.map_or(0.0, |whole| (whole - few).abs());
-        fewer.into_iter().flatten().map(off).fold(0.0, f64::max)
+    /// How far an answer's slope may be off by its way: by what the last two modes or the last quarter of them do to
+    /// it, and by the distance of places, whose error falls with that at least.
+    fn apart(&self, k: usize) -> f64 {
+        let [whole, closer, fewer @ ..] = self.by_way.each_ref().map(|way| way[k]);
+        let off = |other: Option<f64>| match (whole, other) {
+            (Some(whole), Some(other)) => (whole - other).abs(),
+            _ => 0.0,
+        };
+        2.0 * off(closer) + fewer.map(off).into_iter().fold(0.0, f64::max)
     }
 }
 
-/// The derivative from differences by one step or two. Its error is that of the step, and what modes that are
-/// left out do to it, or `usual`ly to such an answer.
+/// The derivative from differences by one step or two. Its error is that of the step, and how far the ways are
+/// apart, or `usual`ly of such an answer.
 fn joined(differences: &[Quotient], k: usize, usual: f64) -> Option<Figure> {
     let [first, rest @ ..] = differences else { return None };
-    let whole = first.by_modes[0][k]?;
+    let whole = first.by_way[0][k]?;
     let Some(second) = rest.first() else { return Some(Figure::new(whole, 0.0)) };
-    let half = second.by_modes[0][k]?;
-    let left_out = first.left_out(k).max(usual);
+    let half = second.by_way[0][k]?;
+    let apart = first.apart(k).max(usual);
     match first.central && second.central {
         // The half step's error is a third of the difference.
-        true => Some(Figure::new(whole, 4.0 / 3.0 * (whole - half).abs() + left_out)),
-        false => Some(Figure::new(2.0 * half - whole, (whole - half).abs() + left_out)),
+        true => Some(Figure::new(whole, 4.0 / 3.0 * (whole - half).abs() + apart)),
+        false => Some(Figure::new(2.0 * half - whole, (whole - half).abs() + apart)),
     }
 }
 

@@ -175,7 +175,7 @@ impl Answer {
     }
 
     /// Whether the barrel must be searched for it.
-    pub(super) fn is_searched(self) -> bool {
+    pub fn is_searched(self) -> bool {
         self.of_the_hands()
             || matches!(
                 self,
