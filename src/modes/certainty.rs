@@ -35,12 +35,30 @@ pub struct Doubt {
     pub flattest: f64,
     /// Round-off of the deflection.
     pub rounding: f64,
-    /// What cancels of the kinetic energy of point masses, over what is left of all.
+    /// What cancels of the kinetic energy of weights off their place, over all that is left.
     pub cancelled: f64,
 }
 
-/// A share that another motion may have in a mode, and its deflections; None where they are not known.
-pub type Share<'a> = (f64, Option<&'a Doubt>);
+/// Shares that other motions may have in a mode.
+#[derive(Clone, Copy, Default)]
+pub struct Shares<'a> {
+    /// Number of the motion and its share.
+    pub of: &'a [(usize, f64)],
+    /// The motions that are known; one with another number moves nowhere more than all of these.
+    pub motions: &'a [Doubt],
+}
+
+impl Shares<'_> {
+    /// How much of the deflection at a place they may be.
+    fn at(&self, place: usize) -> f64 {
+        let moves = |motion: &Doubt| motion.places[place][1].abs();
+        let mixed = |(number, share): &(usize, f64)| match self.motions.get(*number) {
+            Some(motion) => share * moves(motion),
+            None => share * self.motions.iter().map(moves).fold(0.0, f64::max),
+        };
+        self.of.iter().map(mixed).sum()
+    }
+}
 
 /// Nodes (m) that are there, an error that holds for those in doubtful stretches, and the stretches where nodes
 /// cannot be told.
@@ -66,14 +84,14 @@ struct Side {
 struct Way<'a> {
     doubt: &'a Doubt,
     shape: &'a Shape,
-    shares: &'a [Share<'a>],
+    shares: Shares<'a>,
     nodes: &'a [f64],
     told: Told,
 }
 
 impl Doubt {
     /// Which of a shape's nodes are certain where other motions may have these shares in it.
-    pub fn tell(&self, shape: &Shape, nodes: &[f64], shares: &[Share]) -> Told {
+    pub fn tell(&self, shape: &Shape, nodes: &[f64], shares: Shares) -> Told {
         let mut way = Way { doubt: self, shape, shares, nodes, told: Told::default() };
         let [clamps, _] = &self.held;
         let mut borders: Vec<f64> = clamps.clone();
@@ -90,22 +108,9 @@ impl Doubt {
         told
     }
 
-    /// Every place with the largest deflection that one of the motions has there.
-    pub fn envelope(motions: &[Self]) -> Self {
-        let Some((first, others)) = motions.split_first() else { return Self::default() };
-        let mut places: Vec<[f64; 3]> = first.places.clone();
-        for other in others {
-            let pairs = places.iter_mut().zip(&other.places);
-            pairs.for_each(|(most, own)| most[1] = most[1].abs().max(own[1].abs()));
-        }
-        Self { places, ..Self::default() }
-    }
-
     /// How far the deflection at a place may be off.
-    fn error(&self, place: usize, shares: &[Share]) -> f64 {
-        let mixed =
-            |(share, other): &Share| share * other.map_or(1.0, |o| o.places[place][1].abs());
-        self.own(place) + shares.iter().map(mixed).sum::<f64>()
+    fn error(&self, place: usize, shares: Shares) -> f64 {
+        self.own(place) + shares.at(place)
     }
 
     /// What the mesh and round-off may have done there.
@@ -129,9 +134,10 @@ impl Way<'_> {
         if places.is_empty() || (!clamps.is_empty() && largest <= RESTING) {
             return;
         }
-        let most: f64 = self.shares.iter().map(|(share, _)| share).sum();
+        let most: f64 = self.shares.of.iter().map(|(_, share)| share).sum();
         let end = |place: usize| Side { number: None, x: self.doubt.places[place][0], sign: 0.0 };
         let (mut last, mut doubtful) = (end(places.start), vec![]);
+        let mut before = self.nodes.partition_point(|node| *node < last.x);
         let past = end(places.end - 1);
         for number in places {
             let [x, w, _] = self.doubt.places[number];
@@ -145,7 +151,11 @@ impl Way<'_> {
                 continue;
             }
             let next = Side { number: Some(number), x, sign: w.signum() };
-            self.between(last, next, &doubtful);
+            let nodes = self.nodes[before..].iter().take_while(|node| **node <= x).count();
+            before += nodes;
+            if nodes > 0 || !doubtful.is_empty() || !self.doubt.dips.is_empty() {
+                self.between(last, next, &doubtful);
+            }
             doubtful.clear();
             last = next;
         }
@@ -199,6 +209,12 @@ impl Way<'_> {
     /// Between two certain places beside each other are all zeros that were found, but for two between which
     /// the deflection is smaller than its error; and where it comes as near to zero, two may be.
     fn without_doubt(&mut self, [a, b]: [Side; 2], fixed: Vec<f64>, free: Vec<f64>) {
+        let mut dips =
+            self.doubt.dips.iter().filter(|dip| dip[0] >= a.x && dip[0] <= b.x).peekable();
+        if free.len() < 2 && dips.peek().is_none() {
+            self.told.nodes.extend(free.iter().chain(&fixed));
+            return;
+        }
         let error = |side: Side| side.number.map_or(0.0, |k| self.doubt.error(k, self.shares));
         let least = CERTAIN * error(a).max(error(b));
         let own = |x: f64| self.shape.derivatives_at(x);
@@ -209,7 +225,6 @@ impl Way<'_> {
             _ => self.told.nodes.extend(&free),
         }
         self.told.nodes.extend(&fixed);
-        let dips = self.doubt.dips.iter().filter(|dip| dip[0] >= a.x && dip[0] <= b.x);
         let near: Vec<f64> = dips.filter(|dip| dip[1].abs() <= least).map(|dip| dip[0]).collect();
         for x in near {
             self.told.untold.push(self.around(x, least));
@@ -246,18 +261,18 @@ mod tests {
     #[test]
     fn a_node_is_told_where_both_signs_beside_it_are_certain() {
         let (shape, doubt) = line(1.0, 0.42, 1e-3);
-        let told = doubt.tell(&shape, &[0.42], &[]);
+        let told = doubt.tell(&shape, &[0.42], Shares::default());
         assert_eq!(told, Told { nodes: vec![0.42], error: 0.0, untold: vec![] });
         // Even where a point lies beside the node, in its error.
         let (shape, doubt) = line(1.0, 0.401, 1e-3);
-        assert_eq!(doubt.tell(&shape, &[0.401], &[]).nodes, [0.401]);
-        assert_eq!(doubt.tell(&shape, &[0.401], &[]).untold, [[0.0; 2]; 0]);
+        assert_eq!(doubt.tell(&shape, &[0.401], Shares::default()).nodes, [0.401]);
+        assert_eq!(doubt.tell(&shape, &[0.401], Shares::default()).untold, [[0.0; 2]; 0]);
     }
 
     #[test]
     fn a_sign_change_at_an_end_that_is_smaller_than_the_error_is_no_node() {
         let (shape, doubt) = line(1.0, 0.02, 0.01);
-        let told = doubt.tell(&shape, &[0.02], &[]);
+        let told = doubt.tell(&shape, &[0.02], Shares::default());
         assert!(told.nodes.is_empty(), "{told:?}");
         assert!((told.untold[0][1] - 0.05).abs() < 1e-12, "{told:?}");
     }
@@ -269,7 +284,8 @@ mod tests {
             places: other.places.iter().map(|p| [p[0], 1.0, 0.0]).collect(),
             ..other.clone()
         };
-        assert_eq!(doubt.tell(&shape, &[0.05], &[(0.1, Some(&other))]).nodes, [0.05]);
-        assert!(doubt.tell(&shape, &[0.05], &[(0.1, Some(&moving))]).nodes.is_empty());
+        let shares = |motions| Shares { of: &[(0, 0.1)], motions };
+        assert_eq!(doubt.tell(&shape, &[0.05], shares(&[other])).nodes, [0.05]);
+        assert!(doubt.tell(&shape, &[0.05], shares(&[moving])).nodes.is_empty());
     }
 }

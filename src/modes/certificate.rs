@@ -2,7 +2,7 @@
 //!
 //! [`crate::solve()`] calls these; what they find is in [`crate::modes::mode::ModeError`].
 
-use crate::modes::certainty::{Doubt, Share};
+use crate::modes::certainty::{Doubt, Shares};
 use crate::modes::mode::Mode;
 
 /// Relative round-off of a frequency by the running sums.
@@ -175,7 +175,6 @@ pub fn add_neighbours(modes: &mut [Mode], beyond: Option<f64>, left: &[f64], fac
     let mut errors: Vec<f64> = all.iter().map(|known| known.error).collect();
     share(&omegas, &mut errors);
     let doubts: Vec<Doubt> = modes.iter_mut().map(|mode| std::mem::take(&mut mode.doubt)).collect();
-    let all_of_them = Doubt::envelope(&doubts);
     for k in 0..modes.len() {
         // The residual of a factored `K` is its round-off, in the fastest modes.
         let residual = if factored { 0.0 } else { modes[k].error.residual };
@@ -197,12 +196,9 @@ pub fn add_neighbours(modes: &mut [Mode], beyond: Option<f64>, left: &[f64], fac
         let nodes = modes[k].shape.slopes(&modes[k].nodes);
         let shift = |part: &Part| part.share * modes[part.other].shape.shift(&nodes);
         let moved: f64 = near.map(shift).sum();
-        let known = |part: &Part| (part.share, doubts.get(part.other));
-        let mut shares: Vec<Share> = parts.iter().map(known).collect();
-        // A mode beyond the list moves nowhere more than all of those in it: where the bat is held.
-        let unknown = shares.iter_mut().filter(|(_, doubt)| doubt.is_none());
-        unknown.for_each(|(_, doubt)| *doubt = Some(&all_of_them));
-        let told = doubts[k].tell(&modes[k].shape, &modes[k].nodes, &shares);
+        let of: Vec<(usize, f64)> = parts.iter().map(|part| (part.other, part.share)).collect();
+        let shares = Shares { of: &of, motions: &doubts };
+        let told = doubts[k].tell(&modes[k].shape, &modes[k].nodes, shares);
         let nearest = both.iter().map(|part| part.gap).fold(1.0, f64::min);
         let mode = &mut modes[k];
         let length = mode.shape.length();

@@ -223,7 +223,7 @@ impl<'a> Account<'a> {
         let ratio = first.map_or(1.0, |first| mode.omega / first.omega);
         let residual = residuals.get(modes.len()).copied();
         let left = residual.filter(|_| *apart > 0 && !slow);
-        // The load of a weight is its mass times what the rigid motions leave of its way.
+        // The couple of a weight off its place is that of what the rigid motions leave of its way.
         let mut rounding = self.rounding + 0.5 * f64::EPSILON * mode.doubt.cancelled;
         if self.by_value {
             mode.error.residual = residual.unwrap_or(0.0);
