@@ -610,6 +610,8 @@ fn the_least_wood_can_be_turned_off() {
             }
         }
     }
+}
+
 /// What is searched along a bat changes as whole bats say, each with modes, steps and a search of its own at 1e-7, by
 /// the derivative and by the finite cut, or it is said that it is not smooth. The bats: two that hands hold and one that
 /// is free, where a ball comes back and valleys along the bat are narrower than a millimetre.

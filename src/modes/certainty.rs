@@ -284,8 +284,11 @@ mod tests {
             places: other.places.iter().map(|p| [p[0], 1.0, 0.0]).collect(),
             ..other.clone()
         };
-        let shares = |motions| Shares { of: &[(0, 0.1)], motions };
-        assert_eq!(doubt.tell(&shape, &[0.05], shares(&[other])).nodes, [0.05]);
-        assert!(doubt.tell(&shape, &[0.05], shares(&[moving])).nodes.is_empty());
+        let nodes = |motion: Doubt| {
+            let shares = Shares { of: &[(0, 0.1)], motions: &[motion] };
+            doubt.tell(&shape, &[0.05], shares).nodes
+        };
+        assert_eq!(nodes(other), [0.05]);
+        assert!(nodes(moving).is_empty());
     }
 }

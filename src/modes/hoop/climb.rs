@@ -18,8 +18,8 @@ use crate::modes::hoop::system::Wall;
 /// One fineness of the elements after the other: degrees along and across, geometric steps towards ends, kinks
 /// and corners.
 ///
-/// What is left at last is the wall's edge at a free end, where the corners' own motion goes as `r^2.74` (the
-/// least root of `sin(λπ/2) = ±λ` beyond 1, whatever the material) and one element reaches across: so the error
+/// What is left at last is the wall's edge at a free end, where the corners' own motion goes as `r^λ`, λ = 2.740 ± 1.119 i (the
+/// least root of `sin(λπ/2) = ±λ` beyond 1, whatever the material: M. L. Williams, J. Appl. Mech. 19, 526, 1952), and one element reaches across: so the error
 /// falls as a power of the degree. The wall bends there, and of a wall that bends the sections warp by odd
 /// polynomials: an odd degree gains, the even one after it a tenth or nothing. From 5 across on every step is
 /// therefore one of two degrees across, or the difference of two meshes would not see the error. A tube of Poisson's ratio
