@@ -506,7 +506,7 @@ fn the_hit_document_has_the_keys_of_the_contract_and_its_energies_sum() {
         let scene = "bat_pivot_m swing_rad_s ball ball_speed_m_s cor hands_m energies_seen_from";
         assert_eq!(keys(&hit["scene"]), set(scene));
         assert_eq!(hit["scene"]["bat_pivot_m"], 0.0635);
-        let spot = "exit_speed_max vibration_min node_mode_1_m node_mode_2_m \
+        let spot = "exit_speed_max first_separation_max vibration_min node_mode_1_m node_mode_2_m \
                     center_of_percussion_m zone_m hands_velocity_min \
                     hands_acceleration_min inch_off_m_s";
         assert_eq!(keys(&hit["sweet_spot"]), set(spot));

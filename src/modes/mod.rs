@@ -1,7 +1,7 @@
 //! How does the bat ring, as accurately as asked?
 //!
-//! [`solve()`](solve::solve) plans elements for a tolerance, solves, states an error for every number,
-//! and refines until the stated errors are within the tolerance.
+//! [`solve()`](solve::solve) plans elements for a tolerance, states an error for every number, and refines until
+//! these are within it.
 //!
 //! | file | question |
 //! |---|---|
@@ -13,8 +13,7 @@
 //! | `memory`, [`request`], [`solution`], [`task`], `refine` | what is asked and how much memory it takes; what is answered; the modes on one mesh, and of a bat as it is |
 //! | [`shifts`], [`theory_choice`], [`tuned`], [`prepared`] | what do rotary inertia and shear do to the frequencies; which theory does a bat need; how stiff is the wood, by a tap; both at once |
 //! | [`solve`](mod@solve), [`up_to`], [`batch`] | solve to a tolerance; up to a frequency; many bats |
-//! | [`enclosure`] | between which numbers do frequencies lie, proven |
-//! | [`compliance`] | how the bat gives way at a place |
+//! | [`enclosure`], [`compliance`] | between which numbers do frequencies lie, proven; how the bat gives way at a place |
 //! | [`pole`], [`reduced`], `free_motions`, [`damping`] | few modes with dashpots, and how their motions die out |
 //! | [`hoop`] | how the wall of a hollow bat rings |
 

@@ -149,7 +149,7 @@ fn strains(report: &AfterHit, units: Units) -> String {
             out,
             "  {what:<24} {:.3} %, {} at {}, {:.2} ms",
             100.0 * worst.strain,
-            units.stress(worst.stress, 1),
+            units.first().stress(worst.stress, 1),
             place(worst.x, units),
             1e3 * worst.time
         );
@@ -190,7 +190,7 @@ fn strength(report: &AfterHit, units: Units) -> String {
     let every = (report.envelope.len() / 10).max(1);
     for at in report.envelope.iter().step_by(every) {
         let place = format!("at {}", place(at.x, units));
-        let stress = units.stress(at.stress, 1);
+        let stress = units.first().stress(at.stress, 1);
         let _ = writeln!(out, "  {place:<24} {:.3} %, {stress}", 100.0 * at.strain);
     }
     out += "\nStrength (clear wood along the grain; grain, knots, dents not known)\n";

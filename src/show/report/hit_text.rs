@@ -22,7 +22,7 @@ const FLAGS: [(&str, char, &str); 8] = [
     ("reload", 'r', "pressed again while it was springing back"),
     ("late_contact", 'l', "the bat caught up when the force had almost gone"),
     ("second_contact", 's', "hit again after it left; the speed is that in the end"),
-    ("ball_law_beyond", 'b', "the ball's law was not measured for such a hit (docs/limits.md)"),
+    ("ball_law_beyond", 'b', "not measured for such a hit (docs/limits.md)"),
     ("no_contact", 'n', "the bat runs away from the ball"),
     ("no_section", 'p', "the bat ends in a point"),
     ("no_real_solution", 'i', "the model has no real solution"),
@@ -100,7 +100,7 @@ pub fn impacts(bat: &Bat, impacts: &[Impact], units: Units) -> String {
 fn row(cells: [String; 9], walls: bool) -> String {
     let widths = match walls {
         true => [8, 8, 9, 9, 8, 9, 8, 9, 8],
-        false => [10, 9, 10, 10, 9, 10, 9, 9, 0],
+        false => [9, 9, 10, 10, 9, 10, 9, 9, 0],
     };
     let line: String = cells
         .iter()

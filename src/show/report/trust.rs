@@ -181,8 +181,11 @@ pub fn table(analysis: &Analysis, units: Units) -> String {
     };
     row("sweet spot", Answer::BestPlace);
     row("fastest ball", Answer::ExitSpeed);
-    row("1 % less at", Answer::ZoneFrom);
-    row("     and at", Answer::ZoneTo);
+    // Around a later contact speeds come and go within a millimetre.
+    if !analysis.verdict.doubts.contains(&Doubt::LaterContact) {
+        row("1 % less at", Answer::ZoneFrom);
+        row("     and at", Answer::ZoneTo);
+    }
     row("swing weight", Answer::SwingWeight);
     row("mass", Answer::Mass);
     row("f1", Answer::Frequency1);
@@ -225,7 +228,7 @@ fn doubted(doubt: &Doubt, units: Units) -> String {
             let [low, high] = wall.bbcor.range;
             format!(
                 "The wall dents by {} of its {} {unit}: beyond half of it this theory ends; the ball's figures are \
-                 rough, BBCOR {:.3} of the free bat ({:.3} stiff; {low:.3} to {high:.3}).",
+                 rough, free BBCOR {:.3} ({:.3} stiff; {low:.3} to {high:.3}).",
                 deep(wall.dent),
                 deep(wall.thickness),
                 wall.bbcor.with,
@@ -238,13 +241,10 @@ fn doubted(doubt: &Doubt, units: Units) -> String {
                 .to_owned()
         }
         Doubt::LaterContact => {
-            "The fastest place lives on a later contact of bat and ball: small changes of either move it far."
-                .to_owned()
+            "The fastest ball is struck again as it leaves: small changes move that far.".to_owned()
         }
         Doubt::BallLaw => {
-            "The ball's law was not measured for such a hit: it touches for more than 2 ms or returns less than \
-             0.44 of its speed."
-                .to_owned()
+            "Beyond the ball's measured law: over 2 ms in touch, or under 0.44 returned.".to_owned()
         }
         Doubt::ExitSpeeds { error } => format!(
             "Exit speeds are less accurate than was asked: the worst within {error:.0e} of the closing speed."
