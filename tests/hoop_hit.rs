@@ -293,7 +293,7 @@ fn a_wall_counts_where_it_matters() {
         scene.with_wall(choice, &bat, Model::Contact, tolerance).unwrap().hoop
     };
     assert!(scene(WallChoice::Auto, Some(1e-4)).wall().is_some());
-    assert!(matches!(scene(WallChoice::Auto, Some(0.5)), HoopInHit::LeftOut(_)));
+    assert!(matches!(scene(WallChoice::Auto, Some(0.9)), HoopInHit::LeftOut(_)));
     assert!(matches!(scene(WallChoice::Auto, None), HoopInHit::LeftOut(_)));
     assert!(matches!(scene(WallChoice::Off, Some(1e-4)), HoopInHit::LeftOut(_)));
     assert!(scene(WallChoice::On, None).wall().is_some());
@@ -430,4 +430,38 @@ fn hits_on_every_hollow_bat_are_as_accurate_as_asked() {
             assert!(error <= 1e-4, "{bat} {}: {error:e}", impact["x_m"]);
         }
     }
+}
+
+/// A thick wall under a slow ball changes little and is left out; how little is part of the stated error, at the open
+/// tip too, where it gives way most.
+#[test]
+fn a_wall_that_is_left_out_is_within_the_stated_error() {
+    let text = std::fs::read_to_string("meshes/bbcor_made_up_open.json").unwrap();
+    let thick = text
+        .replace("0.0333 - 0.003\"", "0.0333 - 0.012\"")
+        .replace("0.0026 + 0.0004*", "0.0026 + 0.0084*");
+    let bat = Bat::from_text("thick.json", &thick, "".as_ref()).unwrap();
+    let places = [0.65, 0.75, 0.83, 0.838];
+    let mut left_out = 0;
+    for (speed, tolerance) in [(0.01, 1e-3), (0.3, 1e-2), (3.0, 1e-2), (37.0, 3e-2)] {
+        let of = |choice, tolerance: f64| {
+            let scene = Scene { swing: 0.0, ball_speed: speed, ..Scene::default() };
+            let scene = scene.with_wall(choice, &bat, Model::Contact, Some(tolerance)).unwrap();
+            let accuracy = Accuracy { exit_speed: tolerance, ..Accuracy::default() };
+            (
+                sweep(&bat, Model::Contact, &scene, &accuracy, &places).unwrap(),
+                scene.hoop.wall().is_none(),
+            )
+        };
+        let ((rough, rigid), (fine, _)) =
+            (of(WallChoice::Auto, tolerance), of(WallChoice::On, 1e-5));
+        left_out += usize::from(rigid);
+        assert!(rough.met, "{speed}");
+        for (rough, fine) in rough.impacts.iter().zip(&fine.impacts) {
+            let [one, other] = [rough, fine].map(|impact| impact.outcome.as_ref().unwrap());
+            let off = (one.exit_speed - other.exit_speed).abs() / speed;
+            assert!(off <= one.error + other.error, "{speed} {}: {off:e} {:e}", rough.x, one.error);
+        }
+    }
+    assert!(left_out >= 2, "{left_out}");
 }

@@ -48,7 +48,7 @@ pub struct Args {
 
     /// Whether a hollow barrel's wall gives way by its own hoop modes: auto, on or off
     ///
-    /// auto: where that changes BBCOR by more than --tol, by estimate, and not with a number of modes of
+    /// auto: where that changes BBCOR by more than 0.15 of --tol, by estimate, and not with a number of modes of
     /// your own.
     #[arg(long, value_name = "WHEN", default_value = "auto", help_heading = "The test",
           value_parser = ["auto", "on", "off"], hide_possible_values = true)]

@@ -86,7 +86,7 @@ pub struct SceneArgs {
 
     /// Whether a hollow barrel's wall gives way by its own hoop modes: auto, on or off
     ///
-    /// For the contact model. auto: where that changes BBCOR by more than --tol, by estimate, and not
+    /// For the contact model. auto: where that changes BBCOR by more than 0.15 of --tol, by estimate, and not
     /// with a number of modes of your own.
     #[arg(long, value_name = "WHEN", default_value = "auto",
           value_parser = ["auto", "on", "off"], hide_possible_values = true)]

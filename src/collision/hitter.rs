@@ -113,6 +113,7 @@ impl<'a> Hitter<'a> {
         let pressed =
             law.as_ref().map_or(f64::NAN, |law| law.pressed_by(0.5 * mass * speed * speed) / speed);
         let (wall, wall_error) = felt_wall(scene.wall, pressed, effort.accuracy);
+        let wall_error = wall_error + scene.hoop.error();
         let hoop = scene.hoop.wall().filter(|_| model == Model::Contact && wall.is_none());
         let hoop = hoop.map(|hoop| hoop.on(bat)).transpose()?;
         let wall_modes = match &hoop {

@@ -310,6 +310,18 @@ impl HoopInHit {
         }
     }
 
+    /// How far an exit speed may be off, relative to the closing speed, for a wall that was left out because it
+    /// changes little.
+    pub fn error(&self) -> f64 {
+        /// Of the estimated change: at an open tip the wall gives way more than twice as far as within the barrel, for
+        /// which the estimate is about twice too large.
+        const AT_THE_TIP: f64 = 2.0;
+        match self {
+            Self::LeftOut(WhyRigid::Small { gain, .. }) => AT_THE_TIP * gain,
+            _ => 0.0,
+        }
+    }
+
     /// The wall, where it gives way.
     pub fn wall(&self) -> Option<&Arc<HoopWall>> {
         match self {

@@ -74,12 +74,15 @@ impl Scene {
         Ok(Self { hoop, ..self })
     }
 
-    /// The wall where it changes the restitution by more than the tolerance; where its modes cannot be
+    /// The wall where it may change an exit speed by more than a share of the tolerance; where its modes cannot be
     /// found it stays rigid, and the reason is kept.
     fn where_it_matters(&self, bat: &Bat, tolerance: f64) -> HoopInHit {
+        /// Of the tolerance, so that modes and steps have the rest.
+        const SHARE: f64 = 0.3;
         let gain = self.gain_by_wall(bat).unwrap_or(0.0);
-        if gain <= tolerance {
-            return HoopInHit::LeftOut(WhyRigid::Small { gain, tolerance });
+        let rigid = HoopInHit::LeftOut(WhyRigid::Small { gain, tolerance });
+        if rigid.error() <= SHARE * tolerance {
+            return rigid;
         }
         match HoopWall::of(bat, self.ball.radius, &hoop_request(tolerance)) {
             Ok(wall) => HoopInHit::Counted(wall),
