@@ -181,6 +181,9 @@ pub fn needed(analysis: &Analysis) -> Vec<String> {
 pub fn why(analysis: &Analysis, units: Units) -> Option<String> {
     let figures = &analysis.figures;
     let (peak, rigid) = (figures.spot.exit_speed_max?, figures.rigid_best?);
+    if let Some(text) = hit_text::lives_on_later(figures, units) {
+        return Some(text);
+    }
     let here = figures.best.as_ref().and_then(|best| best.outcome.as_ref());
     let (Some(there), Some(here)) = (figures.vibration_at_rigid_best, here) else {
         return Some("Further out the bat gives way more than its speed makes up for.".to_owned());

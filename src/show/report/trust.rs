@@ -259,6 +259,10 @@ pub fn about(analysis: &Analysis, answer: Answer, units: Units) -> Option<String
     let spread = &analysis.spread;
     spread.mostly(answer)?;
     let deviation = spread.of(answer)?.deviation?;
+    // No slope tells how far it jumps.
+    if answer == Answer::BestPlace && analysis.verdict.doubts.contains(&Doubt::LaterContact) {
+        return Some("may jump far".to_owned());
+    }
     let of_ball = [Answer::BestPlace, Answer::ExitSpeed, Answer::ZoneFrom, Answer::ZoneTo];
     let ball = analysis.verdict.ball_is_open() && of_ball.contains(&answer);
     let stiff = [Answer::Mass, Answer::BalancePoint, Answer::SwingWeight].contains(&answer);
