@@ -6,6 +6,7 @@ use std::fs;
 use std::path::Path;
 
 use common::documents::{WRITTEN, error, folder, manifest, page, written};
+use common::folder::Folder;
 use jsonschema::Validator;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -347,5 +348,26 @@ fn each_object(
     }
     for (k, inner) in value.as_array().into_iter().flatten().enumerate() {
         each_object(inner, &format!("{path}/{k}"), see);
+    }
+}
+
+/// A nearly dead ball, whose fastest place lives on a later contact; a dented wall; a bat of no material's density:
+/// each doubt is one that the format knows.
+#[test]
+fn doubts_are_those_of_the_format() {
+    let folder = Folder::new("schema-doubts");
+    let schema = validator(&kind("analysis").schema());
+    let mut seen = std::collections::BTreeSet::new();
+    for bat in
+        [&["r161", "--cor", "0.3"][..], &["bbcor_made_up"], &["northwestern_aluminium"], &["dowel"]]
+    {
+        let args = [&["analyze"], bat, &["--json", "-", "--quiet"]].concat();
+        let document = folder.json(&args);
+        assert_valid(&schema, &document, bat[0]);
+        let doubts = document["open"]["doubts"].as_array().unwrap();
+        seen.extend(doubts.iter().map(|doubt| doubt["about"].as_str().unwrap().to_owned()));
+    }
+    for about in ["later_contact", "ball_law", "dent", "density", "shear"] {
+        assert!(seen.contains(about), "{about}: {seen:?}");
     }
 }

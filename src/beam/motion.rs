@@ -53,8 +53,8 @@ pub struct Motion<R> {
     /// How far the deflection is from what the springs and pins that hold it say (m), at the worst of them: round-off
     /// of the shape, for they are one.
     pub slack: R,
-    /// `Σ m d w θ` of the point masses whose centre is d off their place, with the root at rest (kg m²): what cancels in the
-    /// couple of a far or heavy one, of which the rigid motions leave little.
+    /// `Σ m d w θ` of the point masses whose centre is d off their place, with the root at rest (kg m²). Most of it
+    /// cancels when the rigid motions are taken off.
     pub carried: R,
     /// Inertia of the point masses and reactions of the contacts.
     pub(crate) forces: Vec<[R; 2]>,

@@ -136,7 +136,8 @@ impl Reduced {
 fn near_others(groups: &mut [Group], others: &[Pole]) {
     let all: Vec<c64> =
         groups.iter().flat_map(|group| &group.poles).chain(others).map(|p| p.s).collect();
-    for (k, pole) in groups.iter_mut().flat_map(|group| &mut group.poles).enumerate() {
+    let poles = groups.iter_mut().flat_map(|group| &mut group.poles).enumerate();
+    for (k, pole) in poles.filter(|(_, pole)| pole.error.is_finite()) {
         let apart = |s: c64| (s - pole.s).norm() / pole.s.norm();
         let beside =
             all.iter().enumerate().filter(|(j, _)| *j != k).flat_map(|(_, s)| [*s, s.conj()]);

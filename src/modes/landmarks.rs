@@ -37,8 +37,8 @@ impl Track {
         Self { samples, changes, ends, xi }
     }
 
-    /// Place (m), deflection and change of the knob end, the points of elements of those middles and lengths,
-    /// and the tip, so many times as large.
+    /// Place (m), deflection and change of the knob end, of the points of elements of those middles and lengths, and
+    /// of the tip; deflections and changes times `scale`.
     pub(super) fn places(&self, stretches: &[(f64, f64)], scale: f64) -> Vec<[f64; 3]> {
         let end = |x: f64, [w, change]: [f64; 2]| [x, scale * w, scale * change];
         let (middle, length) = stretches.last().copied().unwrap_or_default();

@@ -55,9 +55,10 @@ pub struct Open {
 /// A reason why the answers are less certain than what is counted as open of them.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Doubt {
-    /// What it is about: the density of the material, shear that is left out for want of a modulus, the dent in a hollow barrel's wall, a wall that is taken as
-    /// rigid, exit speeds that are less accurate than was asked.
-    #[schemars(extend("enum" = ["density", "shear", "dent", "rigid_wall", "exit_speeds"]))]
+    /// What it is about: the density of the material, shear that is left out for want of a modulus, the dent in a
+    /// hollow barrel's wall, a wall that is taken as rigid, a fastest place that lives on a later contact, a hit
+    /// for which the ball's law was not measured, exit speeds that are less accurate than was asked.
+    #[schemars(extend("enum" = ["density", "shear", "dent", "rigid_wall", "later_contact", "ball_law", "exit_speeds"]))]
     pub about: &'static str,
     /// The doubt in a sentence.
     pub text: String,

@@ -154,13 +154,14 @@ impl Contender {
         let hitter = Hitter::new(terms.model, &scene, &bat, &sweep.solution, sweep.effort)?;
         let sought = Sought::new(&hitter, terms.look);
         let spot = SweetSpot::within(&sought.looked);
-        let best = spot.exit_speed_max.map(|peak| sought.best(peak));
+        let fastest = spot.exit_speed_max.map(|peak| sought.hit(peak));
+        let best = spot.exit_speed_max.zip(fastest.as_ref());
+        let best = best.map(|(peak, hit)| sought.best(peak, hit));
         let zone = spot.exit_speed_max.zip(spot.zone);
         let zone = zone.map(|(peak, zone)| zone.map(|edge| sought.edge(peak, edge)));
         let least = spot.vibration_min.map(|peak| sought.least(peak));
         let bbcor = [1, 2].map(|k| sought.bbcor(k));
         let wall = spot.exit_speed_max.and_then(|peak| hitter.wall_figures(peak.x));
-        let fastest = spot.exit_speed_max.map(|peak| hitter.strike(peak.x));
         let verdict = Verdict::of((&bat, &scene), &sweep, fastest.as_ref(), wall);
         Ok(Self {
             inertia: bat.inertia(),
@@ -236,16 +237,25 @@ impl<'a> Sought<'a> {
 
     /// How far the exit speed may be off (m/s), and the closing speed (m/s).
     fn speed_error(&self, x: f64) -> [f64; 2] {
-        let impact = self.hitter.strike(x);
+        self.error_of(&self.hitter.strike(x))
+    }
+
+    /// The hit at a place that was found.
+    pub fn hit(&self, peak: Peak) -> Impact {
+        self.hitter.strike(peak.x)
+    }
+
+    /// How far the exit speed of a hit may be off (m/s), and its closing speed (m/s).
+    fn error_of(&self, impact: &Impact) -> [f64; 2] {
         let closing = impact.bat_speed + self.hitter.scene.ball_speed;
         // Nothing said is all there is to lose.
-        let error = impact.outcome.map_or(1.0, |outcome| outcome.error);
+        let error = impact.outcome.as_ref().map_or(1.0, |outcome| outcome.error);
         [error.max(SOUGHT) * closing, closing]
     }
 
-    /// Speed, place and vibration of the fastest ball.
-    pub fn best(&self, peak: Peak) -> [Figure; 3] {
-        let [error, closing] = self.speed_error(peak.x);
+    /// Speed, place and vibration of the fastest ball, by the hit there.
+    pub fn best(&self, peak: Peak, hit: &Impact) -> [Figure; 3] {
+        let [error, closing] = self.error_of(hit);
         let off = self.place_error(peak, error, |seen| Some(seen.exit_speed));
         let energy = |x: f64| self.hitter.glance(x).and_then(|seen| seen.vibration);
         let here = energy(peak.x).unwrap_or(0.0);

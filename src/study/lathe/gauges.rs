@@ -154,7 +154,7 @@ impl Gauge {
         Self { terms, off, sought: Some(sought) }
     }
 
-    /// The same answer on a bat of other modes, or by places that are so many times as far apart, its places sought
+    /// The same answer on a bat of other modes, or by places `share` times as far apart, its places sought
     /// anew; as it is where they are not found near those that it has.
     pub fn again(&self, hitter: &Hitter, share: f64) -> Self {
         let Some(sought) = self.sought else { return self.clone() };

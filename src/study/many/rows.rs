@@ -254,7 +254,7 @@ impl Searched {
         let felt = [0, 1].map(|k| Some(felt[k]?.looked.least_felt(k)?.x));
         let hands = asked(|answer| answer.of_the_hands());
         Ok(Self {
-            fastest: fastest.map(|(sought, peak)| sought.best(peak)),
+            fastest: fastest.map(|(sought, peak)| sought.best(peak, &sought.hit(peak))),
             zone: zone
                 .map(|(sought, peak)| sought.looked.zone(peak).map(|edge| sought.edge(peak, edge))),
             least: least.and_then(|sought| Some(sought.least(sought.looked.least_vibration()?))),
