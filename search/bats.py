@@ -24,8 +24,8 @@ HERE = Path(__file__).resolve().parent
 ALWAYS, MOSTLY, VISIBLE = 3.0, 30.0, 1e-13
 
 
-def with_libraries():
-    """Runs this file again in a venv that has them."""
+def with_libraries(script=__file__):
+    """Runs that file again in a venv that has them."""
     try:
         import flint, numpy  # noqa: F401
         return
@@ -39,7 +39,7 @@ def with_libraries():
         subprocess.run([sys.executable, "-m", "venv", folder], check=True)
         install = [python, "-m", "pip", "install", "--quiet", "python-flint", "numpy"]
         subprocess.run(install, check=True)
-    os.execve(python, [str(python), __file__, *sys.argv[1:]], {**os.environ, "BATS_VENV": "1"})
+    os.execve(python, [str(python), script, *sys.argv[1:]], {**os.environ, "BATS_VENV": "1"})
 
 
 def solved(program, bat, case):

@@ -328,11 +328,12 @@ class Bat:
             bend = np.polynomial.polynomial.polyder(slope)
             top = int(np.argmax(np.abs(samples)))
             most = max(most, abs(samples[top]))
-            if 0 < top < len(grid) - 1:
-                u = grid[top]
-                for _ in range(8):
-                    u = np.clip(u - value(slope, u) / value(bend, u), -1, 1)
-                most = max(most, abs(value(w, u)))
+            # Beside a border the largest deflection may be between it and the first place too.
+            u = grid[top]
+            for _ in range(8):
+                bent = value(bend, u)
+                u = np.clip(u - value(slope, u) / bent, -1, 1) if bent else u
+            most = max(most, abs(value(w, u)))
             middle = 0.5 * (s.a + s.b)
             # Round-off of the sum is no sign; nor is what 256 bits leave of a part at rest.
             least = max(1e-14 * float(np.sum(np.abs(w))), 1e-30 * biggest)

@@ -9,7 +9,7 @@ use sweetspot::modes::mode::Mode;
 use sweetspot::modes::solve::solve_within;
 use sweetspot::proof::bundled::{CASES, bundled_bat};
 use sweetspot::proof::validation::Truth;
-use sweetspot::{Bat, Request, Solver, solve};
+use sweetspot::{Bat, Request, Solver, Theory, solve};
 
 fn on(elements: usize, modes: usize) -> Request {
     Request { modes, elements: Some(elements), ..Request::plain() }
@@ -299,5 +299,40 @@ fn a_mode_is_the_same_within_its_errors_however_many_are_asked_for() {
                 listed.for_each(|x| within("node", off(*x, &mode.nodes), known));
             }
         }
+    }
+}
+
+/// A single mode of a rod at the edge of arithmetic, in closed form; then twenty cylinders, thick ones on thin ones,
+/// whose first frequency the transfer matrices give with 256 bits (`search/reference.py`).
+#[test]
+fn the_round_off_of_a_rod_and_of_a_chain_of_cylinders_is_within_what_is_stated() {
+    let rod = r#"{ "format": "sweetspot-bat/1", "name": "rod", "material": { "density": 872.3926239428256,
+        "youngs_modulus": 10709753329.35646 }, "profile": { "interpolation": "constant",
+        "x": [0.0, 0.7555227933761856], "radius": [0.02129207709237852, 0.02129207709237852] } }"#;
+    let chain = r#"{ "format": "sweetspot-bat/1", "name": "chain", "material": { "density": 825.9087813728294,
+        "youngs_modulus": 15443708160.44743, "shear_modulus": 1798257277.981977,
+        "shear_coefficient": 0.5163665701781662 }, "profile": { "interpolation": "constant",
+        "x": [0.0, 0.024233097862596677, 0.03386398304231097, 0.12012674432673583, 0.13127989609156948,
+        0.19301907217093922, 0.21072480918763964, 0.2822416634981044, 0.3035016501224824, 0.32059294008621364,
+        0.3589662871406377, 0.4272387948508746, 0.45031594478473125, 0.5100107669369066, 0.514608371813188,
+        0.5704475803133818, 0.671774142872647, 0.7439211415821062, 0.7515043064943124, 0.822224572684607,
+        0.8504199949883617], "radius": [0.07790696942320188, 0.02465772581659259, 0.01084868517134951,
+        0.01513054939434322, 0.04599351244385202, 0.06596011258520529, 0.0412095090829045, 0.03417121254490006,
+        0.007401161228885981, 0.00809466137581869, 0.03673035720512565, 0.07633352445485785, 0.07822738093974549,
+        0.032391617059750626, 0.012255937810181326, 0.017296104148518614, 0.005872124350282712,
+        0.006500342585832123, 0.007134341179962125, 0.11040242985807089, 0.11040242985807089] } }"#;
+    let (beta, length) = (4.730040744862704, 0.7555227933761856_f64);
+    let speed = (10709753329.35646_f64 / 872.3926239428256).sqrt() * 0.02129207709237852 / 2.0;
+    let closed = (beta / length).powi(2) * speed / std::f64::consts::TAU;
+    for (text, theory, tolerance, exact) in [
+        (rod, Theory::EulerBernoulli, 3.006816322114997e-13, closed),
+        (chain, Theory::Timoshenko, 2.1457221786818713e-12, 21.41903272476554542713872),
+    ] {
+        let bat = Bat::from_text("bat.json", text, "".as_ref()).unwrap();
+        let request = Request { modes: 1, tolerance, theory, ..Request::plain() };
+        let solution = solve(&bat, &request).unwrap();
+        let mode = &solution.modes[0];
+        let (off, stated) = ((mode.frequency() / exact - 1.0).abs(), mode.error.total());
+        assert!(solution.met && off <= 3.0 * stated + 4e-16, "{off:.1e} {stated:.1e}");
     }
 }

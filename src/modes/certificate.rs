@@ -21,21 +21,9 @@ pub fn round_off(ratio: f64, elements: usize, over: bool) -> f64 {
 /// What is the mesh's fault and what the arithmetic's; `ratio` is that of the frequency to the slowest.
 ///
 /// A factored `K` loses ε n⁴, which shows in the residual; its square is the error of Rayleigh's
-/// quotient. Far slower modes leave their own round-off in the compliance: of a mode they and all
-/// other slower ones were taken out of, the residual beyond what the iteration stopped at (`left`)
-/// shows it, and half of that is the frequency's.
-pub fn account(
-    mode: &mut Mode,
-    ratio: f64,
-    (elements, over): (usize, bool),
-    factored: bool,
-    left: Option<f64>,
-) {
-    let mut sums = round_off(ratio, elements, over);
-    if let Some(left) = left {
-        let residual = mode.error.residual;
-        sums += 0.5 * ((residual - left) * (residual + left)).max(0.0).sqrt();
-    }
+/// quotient.
+pub fn account(mode: &mut Mode, ratio: f64, (elements, over): (usize, bool), factored: bool) {
+    let sums = round_off(ratio, elements, over);
     mode.error.round_off = sums;
     if factored {
         let solver = 0.5 * mode.error.residual.powi(2);
@@ -43,6 +31,30 @@ pub fn account(
         mode.error.round_off += solver;
     }
     blur(mode, sums);
+}
+
+/// What a frequency, relative, and with its square what faster ones lose of their digits where the residual is
+/// beyond what the iteration stopped at (`left`).
+///
+/// Far slower modes leave their own round-off in the compliance: of a mode they and all other slower ones were taken
+/// out of (`apart`), what is beyond shows it, and half of that is the frequency's. So do thick parts on thin ones, as
+/// in a chain of cylinders; of a usual bat what is beyond is some ε times the square of the `ratio`. Where the
+/// iteration stopped before, the residual tells of the iteration alone.
+pub fn lost(residual: f64, left: f64, ratio: f64, apart: bool) -> f64 {
+    const USUAL: f64 = 3.0 * f64::EPSILON;
+    /// Such a residual is no iteration's.
+    const ARITHMETIC: f64 = 3e-14;
+    /// Up to so much the residual may be small by chance.
+    const CHANCE: f64 = 48.0 * f64::EPSILON;
+    let beyond = ((residual - left) * (residual + left)).max(0.0).sqrt();
+    match apart {
+        true => 0.5 * beyond,
+        false if left > 0.1 * residual && residual > ARITHMETIC => 0.0,
+        false => {
+            let beyond = (beyond - USUAL * ratio * ratio).max(0.0);
+            0.5 * beyond + (2.5 * beyond).min(CHANCE)
+        }
+    }
 }
 
 /// What round-off of a frequency, relative, is worth in the shape, the nodes and the modal mass.

@@ -23,7 +23,6 @@ use crate::beam::rule::MOST_POINTS;
 use crate::beam::sections::losses;
 use crate::beam::sweep::Bare;
 use crate::beam::view::View;
-use crate::eigen::lanczos::Lanczos;
 use crate::modes::mode::Shape;
 use crate::modes::pairs::{Pairs, pairs_of};
 
@@ -152,11 +151,18 @@ impl Flexible {
         }
         self.pairs.solve(count, CONVERGED)?;
         let apart = self.pairs.solve_apart(CONVERGED)?;
-        let (unit, dimension) = (self.energy_unit, self.dimension);
-        let Lanczos { values, vectors, .. } = self.pairs.lanczos();
-        let omegas = values.iter().map(|value| (unit / value).sqrt()).collect();
-        let vectors = vectors.chunks_exact(dimension).map(<[f64]>::to_vec).collect();
-        Ok((omegas, vectors, apart))
+        let dimension = self.dimension;
+        // The iteration's own values are known to ε of the greatest; what moves and what strains tells more.
+        let own = std::mem::take(&mut self.pairs.lanczos().vectors);
+        let mut motion = Motion::default();
+        let omegas = (0..own.len() / dimension).map(|k| {
+            let (slower, one) = own[..(k + 1) * dimension].split_at(k * dimension);
+            let slower = if k < apart { &[] } else { slower };
+            self.pairs.look_at_one(one, slower, Depth::Shape, &mut motion);
+            motion.omega
+        });
+        let omegas = omegas.collect();
+        Ok((omegas, own.chunks_exact(dimension).map(<[f64]>::to_vec).collect(), apart))
     }
 
     /// Number of modes that there are.

@@ -66,7 +66,7 @@ impl Reduced {
     }
 
     /// Round-off of `vᵀ Z(s) v`: each of its terms is known to ε of itself; and as far as dashpots couple the
-    /// motion with others, `|s| |C v|` and 1 at most, the inertia of them all to ε of the slowest mode's.
+    /// motion with others, `|s| |C v|` and 1 at most, strains to ε twice the ratio of s to the slowest mode's.
     fn round_off(&self, mass: &Mat<f64>, damping: &Mat<f64>, pole: &Pole) -> f64 {
         let r = self.rigid_unknowns();
         let sizes: Vec<f64> = pole.rigid.iter().chain(&pole.parts).map(|v| v.norm()).collect();
@@ -79,9 +79,9 @@ impl Reduced {
         };
         let strained: f64 = sizes[r..].iter().map(|v| v * v).sum();
         let pulled = (r..sizes.len()).map(|i| of(damping, i).powi(2)).sum::<f64>().sqrt();
-        let slowest = self.omega.first().map_or(0.0, |omega| omega.powi(-2));
-        let coupled = slowest * strained * (s * pulled).min(1.0);
-        f64::EPSILON * (s * s * (form(mass) + coupled) + s * form(damping) + strained)
+        let ratio = self.omega.first().map_or(0.0, |slowest| s / slowest);
+        let coupled = 2.0 * ratio * strained * (s * pulled).min(1.0);
+        f64::EPSILON * (s * s * form(mass) + s * form(damping) + strained + coupled)
     }
 
     /// Makes an eigenvalue and its vector as good as arithmetic allows: inverse iteration

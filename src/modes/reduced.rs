@@ -206,6 +206,15 @@ impl Reduced {
         self.flexible.rigid[k].mass / self.flexible.energy_unit
     }
 
+    /// `Σ |q_i| |M_ij| |q_j′|` (s² by the square of a strain's unit) of two answers.
+    pub fn inertia_of(&self, [one, other]: &[Answer; 2]) -> f64 {
+        let row = |i: usize, j: usize| self.mass[i.max(j)][i.min(j)].abs();
+        let by = |i: usize| -> f64 {
+            other.parts.iter().enumerate().map(|(j, part)| row(i, j) * part.norm()).sum()
+        };
+        one.parts.iter().enumerate().map(|(i, part)| part.norm() * by(i)).sum()
+    }
+
     /// C (s) of all unknowns, rigid motions first, as far as it is the dashpots'.
     pub fn damping(&self) -> Mat<f64> {
         let (rigid, n) = (self.rigid_unknowns(), self.members.len());

@@ -16,7 +16,7 @@ use crate::beam::rule::Rule;
 use crate::beam::sections;
 use crate::beam::view::View;
 use crate::eigen::lanczos::Lanczos;
-use crate::modes::certificate::{account, add_neighbours, add_round_off, is_twin};
+use crate::modes::certificate::{account, add_neighbours, add_round_off, is_twin, lost};
 use crate::modes::damping::Damping;
 use crate::modes::mode::Mode;
 use crate::modes::pairs::{Pairs, pairs_of};
@@ -196,6 +196,8 @@ pub struct Account<'a> {
     rounding: f64,
     /// How many elements there are, and whether they reach over stations.
     elements: (usize, bool),
+    /// What slower modes lost of their digits ([`lost`]), over the square of their ω.
+    lost: f64,
 }
 
 impl<'a> Account<'a> {
@@ -210,28 +212,36 @@ impl<'a> Account<'a> {
             missed: sections::missed_on(bat, mesh, rule, theory),
             rounding: sections::round_off(bat, mesh),
             elements: (mesh.len(), mesh.over_stations()),
+            lost: 0.0,
         }
     }
 
     /// The next mode, with what its errors lack.
     pub fn add(&mut self, mut mode: Mode) {
-        let Self { modes, apart, residuals, .. } = self;
         mode.error.discretization += self.missed;
         // Round-off is that of the slowest mode that was not taken out of the others.
-        let slow = modes.len() < *apart;
-        let first = modes.get(if slow { 0 } else { *apart });
+        let slow = self.modes.len() < self.apart;
+        let first = self.modes.get(if slow { 0 } else { self.apart });
         let ratio = first.map_or(1.0, |first| mode.omega / first.omega);
-        let residual = residuals.get(modes.len()).copied();
-        let left = residual.filter(|_| *apart > 0 && !slow);
+        let residual = self.residuals.get(self.modes.len()).copied();
+        let left = residual.filter(|_| !(slow || self.factored || self.by_value));
         // The couple of a weight off its place is that of what the rigid motions leave of its way.
         let mut rounding = self.rounding + 0.5 * f64::EPSILON * mode.doubt.cancelled;
         if self.by_value {
             mode.error.residual = residual.unwrap_or(0.0);
             rounding += 0.5 * f64::EPSILON * ratio * ratio;
         }
-        account(&mut mode, ratio, self.elements, self.factored, left);
+        if let Some(left) = left {
+            let apart = self.apart > 0;
+            let (square, lost) =
+                (mode.omega.powi(2), lost(mode.error.residual, left, ratio, apart));
+            // Of those that are taken apart each is known by its own residual.
+            self.lost = if apart { lost / square } else { self.lost.max(lost / square) };
+            rounding += self.lost * square;
+        }
+        account(&mut mode, ratio, self.elements, self.factored);
         add_round_off(&mut mode, rounding);
-        modes.push(mode);
+        self.modes.push(mode);
     }
 }
 

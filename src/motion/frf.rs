@@ -81,7 +81,8 @@ pub struct Sample {
     /// Deflection per force (m/N).
     #[serde(serialize_with = "parts")]
     pub receptance: c64,
-    /// How much of it may be missing for the strains left out (m/N).
+    /// How far it may be off (m/N): for the strains left out, and for what the modes' own errors, relative,
+    /// make of the inertia in every shape.
     pub truncation: f64,
 }
 
@@ -104,6 +105,10 @@ pub struct Frf {
 
 /// The mesh of a response has its modes to that accuracy at least.
 const MESH: f64 = 1e-8;
+/// The inertia of shapes is known to so many times the error of the asked frequencies, relative, those above the asked
+/// modes included, which the mesh is not planned for; and to that at best.
+const BEYOND: f64 = 12.0;
+const KNOWN: f64 = 1e-12;
 /// What may be missing, relative to the points' own responses.
 const MISSING: f64 = 1e-12;
 
@@ -265,7 +270,7 @@ impl Frf {
             Sample {
                 frequency: *f,
                 receptance: answers[0].at(&self.places[1]) + c64::new(rigid, 0.0),
-                truncation: self.missing(&answers),
+                truncation: self.missing(&answers) + self.blurred(&answers, *f),
             }
         };
         Ok(frequencies.iter().map(sample).collect())
@@ -279,6 +284,16 @@ impl Frf {
     /// How much of the receptance the strains miss (m/N).
     fn missing(&self, answers: &[Answer; 2]) -> f64 {
         self.reduced.flexible.energy_unit * answers[0].missed() * answers[1].missed()
+    }
+
+    /// What the errors of the modes may make of the receptance (m/N): a change δM of the inertia changes it by
+    /// `ω² qᵀ δM q′`.
+    fn blurred(&self, answers: &[Answer; 2], frequency: f64) -> f64 {
+        let inertia = (TAU * frequency).powi(2) * self.reduced.inertia_of(answers);
+        let unit = self.reduced.flexible.energy_unit;
+        let rigid =
+            if self.reduced.flexible.rigid.is_empty() { 0.0 } else { self.rigid(frequency) };
+        BEYOND * self.solution.worst().max(KNOWN) * (inertia * unit + rigid.abs())
     }
 
     /// The mean size of both points' own receptances (m/N), which one between them may be far

@@ -97,7 +97,7 @@ pub enum Answer {
         /// Imaginary part (m/N).
         #[serde(rename = "imaginary_m_per_n")]
         imaginary: Vec<f64>,
-        /// How much the modes left out may be (m/N).
+        /// How far it may be off, for what is left out and for the modes' own errors (m/N).
         #[serde(rename = "truncation_m_per_n")]
         truncation: Vec<f64>,
     },
@@ -109,7 +109,7 @@ pub enum Answer {
         /// Imaginary part (m/(s N)).
         #[serde(rename = "imaginary_m_per_s_n")]
         imaginary: Vec<f64>,
-        /// How much the modes left out may be (m/(s N)).
+        /// How far it may be off, for what is left out and for the modes' own errors (m/(s N)).
         #[serde(rename = "truncation_m_per_s_n")]
         truncation: Vec<f64>,
     },
@@ -121,7 +121,7 @@ pub enum Answer {
         /// Imaginary part (1/kg).
         #[serde(rename = "imaginary_1_per_kg")]
         imaginary: Vec<f64>,
-        /// How much the modes left out may be (1/kg).
+        /// How far it may be off, for what is left out and for the modes' own errors (1/kg).
         #[serde(rename = "truncation_1_per_kg")]
         truncation: Vec<f64>,
     },
