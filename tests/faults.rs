@@ -319,7 +319,7 @@ fn what_has_no_end_is_refused() {
     );
     let zero = |line: &str| refused(&bash(&folder, line));
     assert!(zero("$S modes /dev/zero").contains("more than 256 MiB"));
-    assert!(zero("$S modes csv.json").contains("more than 256 MiB"));
+    assert!(zero("$S modes csv.json").contains("a pipe or a device"));
     assert!(zero("$S hit bat.json --ball /dev/zero").contains("more than 256 MiB"));
     assert!(zero("$S convert /dev/zero --to csv").contains("more than 256 MiB"));
     let huge = File::create(folder.0.join("huge.json")).unwrap();
@@ -415,6 +415,182 @@ fn columns_outside_of_the_folder_are_read_of_a_named_bat_alone_and_said() {
             assert!(!outside || said.contains("in the folder of this one"), "{said}");
         }
     }
+}
+
+/// A line that no message and no cell may have.
+const SECRET: &str = "root:hunter2,17:the secret";
+
+/// A folder with a file of somebody's own, a pipe, and files that name them in every way.
+fn of_a_stranger(name: &str) -> Folder {
+    let folder = folder(name);
+    fs::create_dir(folder.0.join("in")).unwrap();
+    for secret in ["secret", "secret.json", "in/secret.json", "in/secret.csv"] {
+        folder.write(secret, format!("{SECRET}\n{SECRET}\n"));
+    }
+    symlink("../secret", folder.0.join("in/link.json")).unwrap();
+    symlink("/dev/zero", folder.0.join("in/zero.json")).unwrap();
+    for pipe in ["in/pipe.json", "in/pipe.csv"] {
+        assert!(Command::new("mkfifo").arg(folder.0.join(pipe)).status().unwrap().success());
+    }
+    folder
+}
+
+#[test]
+fn what_a_file_names_is_read_only_if_it_begins_as_it_should_and_no_word_of_it_is_told() {
+    let folder = of_a_stranger("secrets");
+    let absolute = folder.0.join("secret").display().to_string();
+    let names = [
+        "secret.json",
+        "link.json",
+        "zero.json",
+        "pipe.json",
+        "../secret.json",
+        &absolute,
+        "/dev/zero",
+        "/proc/self/environ",
+        "/dev/stdin",
+    ];
+    let kinds = [
+        ("study", r#"{ "format": "sweetspot-study/1", "bat": "NAME", "outputs": ["f1_hz"] }"#),
+        (
+            "study",
+            r#"{ "format": "sweetspot-study/1", "bat": "r161", "ball": "NAME", "outputs": ["f1_hz"] }"#,
+        ),
+        (
+            "study",
+            r#"{ "format": "sweetspot-study/1", "bat": "r161", "outputs": ["f1_hz"],
+                 "vary": { "bat.profile": { "values": [{ "csv": "NAME" }] } } }"#,
+        ),
+        (
+            "scatter",
+            r#"{ "format": "sweetspot-scatter/1", "density": { "lognormal": "4 %" }, "ball": "NAME" }"#,
+        ),
+        ("scatter", r#"{ "format": "sweetspot-scatter/1", "covariance": "NAME" }"#),
+        ("aim", r#"{ "format": "sweetspot-aim/1", "targets": ["mass -1 oz"], "rules": "NAME" }"#),
+        (
+            "modes",
+            r#"{ "format": "sweetspot-bat/1", "material": "white-ash", "profile": { "csv": "NAME" } }"#,
+        ),
+    ];
+    for (verb, text) in kinds {
+        for name in names {
+            folder.write("in/file.json", text.replace("NAME", name));
+            let line = match verb {
+                "study" => "study in/file.json --out out",
+                "modes" => "modes in/file.json",
+                verb => &format!("{verb} r161 in/file.json"),
+            };
+            // A pipe that is opened is waited on for ever.
+            let output = bash(&folder, &format!("timeout 20 $S {line} < in/secret.csv"));
+            let told = refused(&output);
+            let said = told.clone() + &String::from_utf8_lossy(&output.stdout);
+            assert!(!said.contains("hunter2") && !said.contains("17:"), "{text} {name}: {said}");
+        }
+    }
+    // Beside another bat what is none is a row with the reason.
+    let all = names.map(|name| format!("\"{name}\"")).join(", ");
+    let study = format!(
+        r#"{{ "format": "sweetspot-study/1", "bat": ["r161", "../secret", "secret.json"], "outputs": ["f1_hz"] }}"#
+    );
+    folder.write("in/file.json", study);
+    let output = bash(&folder, "timeout 20 $S study in/file.json --out out");
+    succeeded(&output);
+    assert!(String::from_utf8_lossy(&output.stderr).contains("outside of its folder"), "{all}");
+    let part = folder.read("out/part-000000.csv");
+    assert!(part.contains("does not begin as a bat file") && !part.contains("hunter2"), "{part}");
+}
+
+#[test]
+fn files_outside_of_the_folder_are_read_of_a_named_file_alone_and_said() {
+    let folder = folder("elsewhere");
+    fs::create_dir_all(folder.0.join("in/below")).unwrap();
+    fs::create_dir(folder.0.join("bats")).unwrap();
+    let ball =
+        r#"{ "format": "sweetspot-ball/1", "mass": "5 oz", "radius": "1.45 in", "cor": 0.5 }"#;
+    let rules = r#"{ "format": "sweetspot-rules/1", "name": "mine", "source": "me", "date": "2026", "mass_at_most": "40 oz" }"#;
+    for place in ["", "in/", "in/below/", "bats/"] {
+        folder.write(&format!("{place}bat.json"), BAT);
+        folder.write(&format!("{place}ball.json"), ball);
+        folder.write(&format!("{place}rules.json"), rules);
+        folder.write(&format!("{place}t.csv"), "x_in,diameter_in\n0,1\n33,2.5\n");
+    }
+    let kinds = [
+        (
+            "bat.json",
+            "study",
+            r#"{ "format": "sweetspot-study/1", "bat": "NAME", "outputs": ["f1_hz"] }"#,
+        ),
+        (
+            "",
+            "study",
+            r#"{ "format": "sweetspot-study/1", "bat": "NAMEbats", "outputs": ["f1_hz"] }"#,
+        ),
+        (
+            "ball.json",
+            "study",
+            r#"{ "format": "sweetspot-study/1", "bat": "r161", "ball": "NAME", "outputs": ["f1_hz"] }"#,
+        ),
+        (
+            "t.csv",
+            "study",
+            r#"{ "format": "sweetspot-study/1", "bat": "r161", "outputs": ["f1_hz"],
+                 "vary": { "bat.profile": { "values": [{ "csv": "NAME" }] } } }"#,
+        ),
+        (
+            "ball.json",
+            "scatter",
+            r#"{ "format": "sweetspot-scatter/1", "density": { "lognormal": "4 %" },
+                 "outputs": ["f1_hz"], "ball": "NAME" }"#,
+        ),
+        (
+            "rules.json",
+            "aim",
+            r#"{ "format": "sweetspot-aim/1", "targets": ["mass same"], "rules": "NAME" }"#,
+        ),
+    ];
+    for (own, verb, text) in kinds {
+        for (place, outside) in [("", false), ("below/", false), ("../", true), ("../bats/", true)]
+        {
+            if own.is_empty() && place != "../" {
+                continue;
+            }
+            let text = text.replace("NAME", &format!("{place}{own}"));
+            folder.write("in/file.json", &text);
+            let _ = fs::remove_dir_all(folder.0.join("out"));
+            let line = match verb {
+                "study" => "study in/file.json --out out",
+                "scatter" => "scatter r161 in/file.json --points 64",
+                verb => &format!("{verb} r161 in/file.json"),
+            };
+            let output = bash(&folder, &format!("$S {line}"));
+            let told = String::from_utf8_lossy(&output.stderr);
+            assert!(output.status.success(), "{text}: {told}");
+            assert_eq!(told.contains("outside of its folder"), outside, "{text}: {told}");
+            let quiet = bash(&folder, &format!("$S {line} --quiet"));
+            assert!(!String::from_utf8_lossy(&quiet.stderr).contains("outside"), "{text}");
+            let path = folder.0.join("in/file.json");
+            let wrong = match verb {
+                "study" => sweetspot::show::many::source::Study::read(&path).err(),
+                "scatter" => sweetspot::files::scatter_file::from_file(&path).err(),
+                _ => sweetspot::files::aim_file::AimFile::read(&path).err(),
+            };
+            assert_eq!(wrong.is_some(), outside, "{text}");
+            let said = wrong.map_or(String::new(), |error| error.to_string());
+            assert!(!outside || said.contains("in the folder of this one"), "{said}");
+        }
+    }
+}
+
+#[test]
+fn a_study_that_was_sent_reads_no_file() {
+    use sweetspot::show::many::source::Study;
+    let folder = folder("sent");
+    let study = r#"{ "format": "sweetspot-study/1", "bat": "bat.json", "outputs": ["f1_hz"] }"#;
+    let sent = Study::of("study", study, &folder.0).unwrap().alone();
+    assert!(Study::arrived(&sent).is_ok());
+    let ball = r#"\"outputs\""#;
+    let with_ball = sent.replace(ball, &format!(r#"\"ball\": \"/etc/passwd\", {ball}"#));
+    assert!(with_ball != sent && Study::arrived(&with_ball).is_err());
 }
 
 #[test]

@@ -13,7 +13,7 @@ use crate::show::many::table::{Column, Table};
 use crate::show::plot::many;
 use crate::show::plot::picture::Picture;
 
-use crate::cli::common::examples;
+use crate::cli::common::{examples, note_outside};
 use crate::cli::done::{Done, NOT_REACHED, warn};
 use crate::cli::pictures;
 use crate::cli::progress::Progress;
@@ -67,7 +67,8 @@ Examples:
       what makes the answers vary, with pictures; rows that are there stay";
 
 pub fn run(args: &Args) -> Result<Done> {
-    let study = Study::read(&args.study)?;
+    let (study, outside) = Study::named_by_a_person(&args.study)?;
+    note_outside(&args.study, &outside, args.quiet);
     let rows = &study.rows;
     let pairs = pairs(rows, &args.scatter)?;
     let folder = StudyFolder::open(&args.out, &study)?;

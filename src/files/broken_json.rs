@@ -1,7 +1,33 @@
 //! What to say of text that is not JSON.
 
-use crate::base::error::{Complaint, Error, shortened};
+use serde_json::Value;
+
+use crate::base::error::{Complaint, Error, Excerpt, Place, shortened};
 use crate::files::document::Document;
+
+/// What to say of a text that does not begin as a JSON object does. It may be any file, of which no word is quoted.
+pub(crate) fn not_an_object(document: &Document) -> Error {
+    let text = document.text.trim();
+    let kind = serde_json::from_str::<Value>(text).map(|value| match value {
+        Value::Array(_) => "a list",
+        Value::String(_) => "a text",
+        Value::Number(_) => "a number",
+        _ => "a word",
+    });
+    let complaint = match kind {
+        Ok(kind) => Complaint::new("", format!("{kind} alone"), "a JSON object, { … }"),
+        Err(_) => {
+            let hint = "YAML, TOML and tables are other formats: write { \"name\": value, … }";
+            Complaint::new("", "text that is not JSON", "`{`, with which a JSON object begins")
+                .hinted(hint)
+        }
+    };
+    let Document { file, .. } = document;
+    let start = document.text.len() - document.text.trim_start().len();
+    let (file, excerpt) = (file.clone(), Excerpt::default());
+    let (line, column) = document.place(start);
+    Error::Input { place: Box::new(Place { file, line, column, excerpt }), complaint }
+}
 
 /// What `serde_json` says of text that is not JSON, in found and expected, with its place.
 pub(crate) fn told(document: &Document, error: &serde_json::Error) -> Error {

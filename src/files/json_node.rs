@@ -36,6 +36,9 @@ impl<'a> Node<'a> {
             let complaint = Complaint::new("", "an empty file", "a JSON object");
             return Err(document.error(0..0, complaint));
         }
+        if !document.text.trim_start().starts_with('{') {
+            return Err(broken_json::not_an_object(document));
+        }
         match serde_json::from_str::<&RawValue>(&document.text) {
             Ok(raw) => Ok(Self { document, path: String::new(), raw: raw.get() }),
             Err(error) => Err(broken_json::told(document, &error)),

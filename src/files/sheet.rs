@@ -241,6 +241,28 @@ pub(crate) fn normal(name: &str) -> String {
     }
 }
 
+/// Whether a text begins as a table of numbers with columns that begin with `keys` does: a header of them with
+/// numbers below it, half of them at least, or a first line of other names with numbers alone below it.
+pub(crate) fn begins_with_numbers(text: &str, keys: &[&str]) -> bool {
+    /// Lines that are looked at.
+    const LOOKED_AT: usize = 1000;
+    let is_comment = |line: &&str| line.trim().is_empty() || line.starts_with('#');
+    let is_sign = |c: char| c.is_whitespace() || [',', ';', '|', '"'].contains(&c);
+    let cells = |line: &str| -> Vec<String> {
+        let cells = line.split(is_sign).filter(|cell| !cell.is_empty());
+        cells.take(LOOKED_AT).map(normal).collect()
+    };
+    let number = |cell: &&String| sheet_number::value(cell, Decimal::Point).is_ok();
+    let is_named = |cell: &String| keys.iter().any(|key| cell.starts_with(key));
+    let lines: Vec<&str> = text.lines().filter(|line| !is_comment(line)).take(LOOKED_AT).collect();
+    lines.windows(2).enumerate().any(|(k, pair)| {
+        let [names, below] = [cells(pair[0]), cells(pair[1])];
+        let numbers = below.iter().filter(number).count();
+        let known = names.iter().any(is_named) && 2 * numbers >= below.len();
+        below.len() > 1 && (known || k == 0 && numbers == below.len())
+    })
+}
+
 /// What stands between the cells of a table.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Separator {

@@ -122,7 +122,7 @@ impl<'a> StudyFolder<'a> {
         let manifest = path.join(MANIFEST);
         let wanted = schema::text(&this.manifest());
         if manifest.exists() {
-            let found = file::read(&manifest)?;
+            let found = file::read_plain(&manifest)?;
             this.same(&String::from_utf8_lossy(&found), &wanted)?;
             file::remove_lost(path);
             return Ok(this);
@@ -177,7 +177,7 @@ impl<'a> StudyFolder<'a> {
         let npz = npz || archive.exists();
         let made = match path.exists() {
             true if !npz || archive.exists() => return Ok(()),
-            true => String::from_utf8_lossy(&file::read(&path)?).into_owned(),
+            true => String::from_utf8_lossy(&file::read_plain(&path)?).into_owned(),
             false => part(self.study, k, tell),
         };
         if npz {

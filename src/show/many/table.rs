@@ -1,10 +1,9 @@
 //! Which numbers are in the rows that are there?
 
 use std::collections::BTreeMap;
-use std::fs::File;
-use std::io::BufReader;
 
-use crate::base::error::{Error, Result};
+use crate::base::error::Result;
+use crate::base::file;
 use crate::files::study_rows::Rows;
 use crate::show::many::folder::{StudyFolder, number, read};
 use crate::study::many::indices::Indices;
@@ -77,9 +76,8 @@ impl Table {
         };
         for k in 0..folder.parts() {
             let path = folder.part(k);
-            let failed = |source| Error::Read { path: path.clone(), source };
-            let part = File::open(&path).map_err(failed)?;
-            read(rows, k, (&path, BufReader::new(part)), |row| table.add(row, &numbers))?;
+            let part = file::read_plain(&path)?;
+            read(rows, k, (&path, &part[..]), |row| table.add(row, &numbers))?;
         }
         Ok(table)
     }

@@ -1,0 +1,133 @@
+//! Which files may a file name, and how are they read?
+//!
+//! A file may come from a stranger. What it names lies in its own [`Folder`] or below; elsewhere only where a
+//! person has named the file itself, who is told then. No word is quoted of a file that does not begin as it
+//! should, since messages are logged and sent.
+
+use std::cell::RefCell;
+use std::fs;
+use std::path::{Component, Path, PathBuf};
+
+use crate::base::error::{Complaint, Error, Result};
+use crate::files::document::Document;
+use crate::files::sheet;
+
+/// Files that were read outside of the folder of the file that names them.
+#[derive(Debug, Default)]
+pub struct Outside(RefCell<Vec<PathBuf>>);
+
+impl Outside {
+    /// Their paths, each once.
+    pub fn paths(self) -> Vec<PathBuf> {
+        self.0.into_inner()
+    }
+
+    fn note(&self, path: &Path) {
+        let mut all = self.0.borrow_mut();
+        if !all.iter().any(|known| known == path) {
+            all.push(path.to_owned());
+        }
+    }
+}
+
+/// The folder of a file, in which the files that it names are sought.
+#[derive(Debug, Clone, Copy)]
+pub struct Folder<'a> {
+    path: &'a Path,
+    /// Where to note a file outside of it; without such a place there must be none.
+    outside: Option<&'a Outside>,
+}
+
+impl<'a> Folder<'a> {
+    /// A folder that no name may lead out of.
+    pub fn closed(path: &'a Path) -> Self {
+        Self { path, outside: None }
+    }
+
+    /// The folder of a file that a person has named: what it reads elsewhere is noted.
+    pub fn of(file: &'a Path, outside: &'a Outside) -> Self {
+        Self { path: file.parent().unwrap_or(Path::new("")), outside: Some(outside) }
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        self.path
+    }
+
+    /// A folder in this one, which names lead out of as they do out of this one.
+    pub fn below(self, path: &'a Path) -> Self {
+        Self { path, ..self }
+    }
+
+    /// The path of a file by its name, if it may be read.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] for a file outside of the folder.
+    pub fn find(&self, name: &str) -> Result<PathBuf> {
+        let path = self.path.join(name);
+        let folder = if self.path == Path::new("") { Path::new(".") } else { self.path };
+        // Links are followed; a file that cannot be found is judged by its name.
+        let inside = match (fs::canonicalize(folder), fs::canonicalize(&path)) {
+            (Ok(folder), Ok(file)) => file.starts_with(folder),
+            _ => Path::new(name).components().all(|part| matches!(part, Component::Normal(_))),
+        };
+        match self.outside {
+            _ if inside => {}
+            Some(outside) => outside.note(&path),
+            None => {
+                let expected = "a file in the folder of this one, or below";
+                let hint = "the command line also reads others, of a file named there";
+                let complaint = Complaint::new("", format!("\"{name}\""), expected);
+                return Err(Error::Value(complaint.hinted(hint)));
+            }
+        }
+        Ok(path)
+    }
+
+    /// A document of that kind, such as `bat`.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::find`]; [`Error::Read`]; [`Error::Value`] without a word of a file that does not begin as such a
+    /// document does.
+    pub(crate) fn json(&self, name: &str, kind: &str) -> Result<Document> {
+        json(&self.find(name)?, kind)
+    }
+
+    /// A table of numbers in columns of those names.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::json`].
+    pub(crate) fn table(&self, name: &str, columns: &[&str]) -> Result<Document> {
+        let path = self.find(name)?;
+        match Document::named(&path, true)? {
+            Ok(document) if sheet::begins_with_numbers(&document.text, columns) => Ok(document),
+            _ => {
+                let found =
+                    format!("{}, which does not begin as a table of numbers", path.display());
+                let expected = "names of columns, such as x_in,diameter_in, and numbers below them";
+                Err(Error::value("", found, expected))
+            }
+        }
+    }
+}
+
+/// The document of that kind at a path that may be read.
+///
+/// # Errors
+///
+/// Those of [`Folder::json`].
+pub(crate) fn json(path: &Path, kind: &str) -> Result<Document> {
+    let format = format!("\"sweetspot-{kind}/");
+    let begins = |text: &str| text.trim_start().starts_with('{') && text.contains(&format);
+    match Document::named(path, false)? {
+        Ok(document) if begins(&document.text) => Ok(document),
+        _ => {
+            let found = format!("{}, which does not begin as a {kind} file", path.display());
+            let expected = format!("a JSON object with \"format\": {format}1\"");
+            Err(Error::value("", found, expected))
+        }
+    }
+}
