@@ -2180,3 +2180,30 @@ fn readings_and_scatters_that_cannot_be_are_told() {
     }
     assert_none(faults);
 }
+
+/// A text that is not JSON is told as such, and no word of it is quoted.
+#[test]
+fn what_is_not_json_is_told_as_such() {
+    let folder = Folder::new("not_json");
+    let texts = [
+        "format: sweetspot-bat/1\nname: secret\n",
+        "---\nformat: secret\n",
+        "name = \"secret\"\n",
+        "# a bat\nsecret: 1\n",
+        "- secret\n",
+        "[secret]\na=1\n",
+        "null secret",
+        "secret",
+        "x,secret\n1,2\n",
+    ];
+    for text in texts {
+        folder.write("bat.yaml", text);
+        for args in [&["modes", "bat.yaml"][..], &["hit", "r161", "--ball", "bat.yaml"]] {
+            let output = folder.run(args);
+            let told = String::from_utf8_lossy(&output.stderr).into_owned();
+            assert_eq!(output.status.code(), Some(2), "{text}: {told}");
+            let said = told.contains("text that is not JSON") && told.contains("expected `{`");
+            assert!(said && !told.contains("secret") && !told.contains("ident"), "{text}: {told}");
+        }
+    }
+}

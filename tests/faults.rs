@@ -593,6 +593,148 @@ fn a_study_that_was_sent_reads_no_file() {
     assert!(with_ball != sent && Study::arrived(&with_ball).is_err());
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn where_memory_ends_words_are_said_and_no_part_stays() {
+    let folder = folder("memory");
+    let lines = [
+        "hoop bbcor_made_up --json out",
+        "hit bbcor_made_up --json out",
+        "bbcor composite_made_up",
+        "study study.json --out parts",
+    ];
+    let study = r#"{ "format": "sweetspot-study/1", "bat": "bbcor_made_up", "points": 8,
+        "vary": { "bat.material.density": { "lognormal": 0.04 } }, "outputs": ["exit_speed_max.value"] }"#;
+    folder.write("study.json", study);
+    for line in lines {
+        for limit in [40_000, 65_536, 100_000] {
+            let output = bash(&folder, &format!("ulimit -v {limit}; exec timeout 60 $S {line}"));
+            let told = String::from_utf8_lossy(&output.stderr);
+            // Where less is needed than was thought there is an answer.
+            let code = output.status.code();
+            assert!(code == Some(2) || code == Some(0), "{line} {limit}: {output:?}");
+            let said = told.contains("error: ") && !told.contains("memory allocation of");
+            assert!(code == Some(0) || said, "{line} {limit}: {told}");
+        }
+    }
+    let told = refused(&bash(&folder, "ulimit -v 65536; exec $S hoop bbcor_made_up"));
+    assert!(told.contains("memory: found none left"), "{told}");
+    assert!(folder.names().iter().all(|name| !name.ends_with(".part")), "{:?}", folder.names());
+}
+
+#[test]
+fn no_spreadsheet_computes_a_name_and_no_terminal_obeys_one() {
+    let folder = folder("formulas");
+    fs::create_dir(folder.0.join("bats")).unwrap();
+    let names = [
+        "=1+1",
+        "+1",
+        "-1",
+        "@SUM(A1)",
+        "\t=1",
+        "'=1",
+        "plain",
+        "it's",
+        "e\u{1b}[31m",
+        "r\u{202e}",
+    ];
+    for name in names {
+        folder.write(&format!("bats/{name}.json"), BAT);
+    }
+    let study = r#"{ "format": "sweetspot-study/1", "bat": "bats", "outputs": ["f1_hz"],
+        "vary": { "bat.source": { "values": ["-3", "=x"] }, "bat.edits": { "values": [[]] },
+                  "bat.profile.diameter": { "values": [[1.7, 1.6]] } } }"#;
+    folder.write("study.json", study);
+    let output = bash(&folder, "$S study study.json --out out");
+    let shown = succeeded(&output) + &String::from_utf8_lossy(&output.stderr);
+    let marks = |text: &str| text.chars().any(|c| (c.is_control() && c != '\n') || c == '\u{202e}');
+    assert!(!marks(&shown), "{shown}");
+    let part = folder.read("out/part-000000.csv");
+    let mut reader = csv::Reader::from_reader(part.as_bytes());
+    let rows: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
+    let mut found: Vec<String> = rows.iter().map(|row| row[1].to_owned()).collect();
+    found.dedup();
+    let mut written = [
+        "'=1+1",
+        "'+1",
+        "'-1",
+        "'@SUM(A1)",
+        "'\t=1",
+        "''=1",
+        "plain",
+        "it's",
+        "e\\u{1b}[31m",
+        "r\\u{202e}",
+    ];
+    written.sort();
+    found.sort();
+    assert_eq!(found, written);
+    for row in &rows {
+        assert!(["'-3", "'=x"].contains(&&row[2]) && row[5].parse::<f64>().is_ok(), "{row:?}");
+    }
+    // Numbers are numbers, also below 0, and a table with such cells is read.
+    folder.write("t.csv", "x_in,diameter_in\n'+0,1.7\n33,'+1.7\n");
+    folder.write(
+        "t.json",
+        BAT.replace(r#""x": [0, 33], "diameter": [1.7, 1.7]"#, r#""csv": "t.csv""#),
+    );
+    let mass =
+        |bat: &str| folder.json(&["modes", bat, "--json", "-"])["summary"]["mass_kg"].clone();
+    assert_eq!(mass("t.json"), mass("bat.json"));
+    let shape = folder.text(&["modes", "bat.json", "--csv", "-"]);
+    assert!(!shape.contains('\''), "{shape}");
+    let ringing = folder.text(&["ring", "bat.json", "--at", "0.6", "--csv", "-"]);
+    assert!(ringing.contains(",-") && !ringing.contains('\''));
+}
+
+#[test]
+fn json_holds_no_mark_that_acts_on_a_terminal() {
+    let folder = folder("marks");
+    let name = "a\u{202e}b\u{9b}c\u{200f}d\u{7f}e\u{61c}";
+    let bat = BAT.replace("{ \"format\"", &format!("{{ \"name\": \"{name}\", \"format\""));
+    folder.write("marks.json", bat);
+    folder.write("r.json", r#"{ "format": "sweetspot-readings/1", "mass": "30 oz", "lines": [ { "hz": 170, "mode": 1 } ] }"#);
+    let lines = [
+        "modes marks.json --json -",
+        "hit marks.json --json -",
+        "analyze marks.json --json -",
+        "lathe marks.json --json -",
+        "scatter marks.json --points 64 --json -",
+        "calibrate marks.json r.json --out -",
+        "calibrate marks.json r.json --json -",
+        "convert marks.json --to json",
+    ];
+    for line in lines {
+        let output = bash(&folder, &format!("$S {line}"));
+        let text = String::from_utf8(output.stdout).unwrap();
+        let marks = ['\u{202e}', '\u{9b}', '\u{200f}', '\u{7f}', '\u{61c}'];
+        assert!(!text.contains(marks), "{line}");
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(!told.contains(marks), "{line}: {told}");
+        if output.status.code() == Some(0) && is_json(&text) {
+            let read: Value = serde_json::from_str(&text).unwrap();
+            assert!(read.to_string().contains("a\u{202e}b"), "{line}: {text}");
+        }
+    }
+}
+
+#[test]
+fn a_report_may_lie_in_a_folder_that_the_same_run_makes() {
+    let folder = folder("report");
+    for line in [
+        "analyze bat.json --out D --report D/r.md",
+        "analyze bat.json --out ./D/E --report D/r.html",
+        "analyze bat.json --plots D --report ./D/r.html",
+        "compare bat.json r161 --plots D --report D/r.html",
+    ] {
+        succeeded(&bash(&folder, &format!("$S {line} --quiet")));
+        assert!(folder.read_names("D").iter().any(|name| name.starts_with("r.")), "{line}");
+        fs::remove_dir_all(folder.0.join("D")).unwrap();
+    }
+    let told = refused(&bash(&folder, "$S analyze bat.json --out D --report D/none/r.html"));
+    assert!(told.contains("cannot write D/none/r.html") && !folder.0.join("D").exists(), "{told}");
+}
+
 #[test]
 fn the_licences_of_everything_in_the_program_come_with_it() {
     let folder = folder("licences");

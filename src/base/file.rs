@@ -9,6 +9,7 @@ use std::hash::{BuildHasher, RandomState};
 use std::io::{self, Error as Fault, ErrorKind, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 
 use crate::base::error::{Error, Result};
 
@@ -406,7 +407,21 @@ fn locked<T>(list: &Mutex<T>) -> MutexGuard<'_, T> {
 /// Removes every part that is being written, for a program that is told to stop. No further file is
 /// begun: whoever tries waits for the end of the program, which must follow.
 pub fn abandon() {
-    let parts = parts();
+    remove_all(parts());
+}
+
+/// As [`abandon`], but does not wait for long: whoever writes may be this thread itself.
+pub fn abandon_at_once() {
+    const TRIES: u32 = 50;
+    for _ in 0..TRIES {
+        if let Ok(parts) = PARTS.try_lock() {
+            return remove_all(parts);
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+}
+
+fn remove_all(parts: MutexGuard<'static, Vec<PathBuf>>) {
     for part in parts.iter() {
         // It may be whole and renamed by now.
         let _ = fs::remove_file(part);

@@ -5,6 +5,7 @@
 //!
 //! | file | question |
 //! |---|---|
+//! | [`marks`] | which characters act on what shows them |
 //! | [`error`], `mistakes` | what was wrong, where, what was expected; several mistakes at once |
 //! | [`telling`], `clock`, [`threads`] | how far is a computation; how long does it take; on how many threads |
 //! | [`file`](mod@file) | how is a file written so that nothing is lost |
@@ -16,6 +17,8 @@
 //! | [`quadrature`], [`interval`] | how is an integral taken; which values can an expression take |
 //! | [`xml`] | how is a text written into XML |
 
+#[doc(hidden)]
+pub mod marks;
 pub mod error;
 pub(crate) mod mistakes;
 pub mod telling;

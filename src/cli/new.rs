@@ -25,6 +25,7 @@ use crate::cli::asking::new_options::{called, given, refuse_existing};
 use crate::cli::bat_text::{self, Measured};
 use crate::cli::common::{Prepared, glyphs, prepare, printed};
 use crate::cli::done::Done;
+use crate::cli::style;
 use crate::cli::value::TheoryChoice;
 
 pub use crate::cli::asking::new_options::Args;
@@ -64,7 +65,7 @@ fn made(args: &Args, measured: &Measured, text: &str) -> Result<Done> {
     }
     refuse_existing(&path, args.force)?;
     file::write(&path, text.as_bytes())?;
-    Ok(Done::new(shown(&bat, measured, &path), 0))
+    Ok(Done::new(style::table(&shown(&bat, measured, &path)), 0))
 }
 
 /// The bat as it was written, and what to do with it.

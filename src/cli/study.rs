@@ -17,6 +17,7 @@ use crate::cli::common::{examples, note_outside};
 use crate::cli::done::{Done, NOT_REACHED, warn};
 use crate::cli::pictures;
 use crate::cli::progress::Progress;
+use crate::cli::style;
 
 /// Many bats: what varies from bat to bat, and what comes of it
 ///
@@ -96,7 +97,7 @@ pub fn run(args: &Args) -> Result<Done> {
         text += &summary::shares(&table, rows);
     }
     // A row without an answer is a row; where all are, nothing that was asked was reached.
-    Ok(Done::new(text, if table.met == 0 { NOT_REACHED } else { 0 }))
+    Ok(Done::new(style::table(&text), if table.met == 0 { NOT_REACHED } else { 0 }))
 }
 
 /// The columns to draw against each other.

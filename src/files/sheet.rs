@@ -8,6 +8,7 @@
 use std::ops::Range;
 
 use crate::base::error::{Complaint, Error, Result};
+use crate::base::marks;
 use crate::base::mistakes;
 use crate::base::typed;
 use crate::base::units::{self, Quantity};
@@ -52,6 +53,7 @@ impl<'a> Sheet<'a> {
                 let complaint = Complaint::new(field, "a quote without an end", "quotes in pairs");
                 document.error(quote..quote + 1, complaint.hinted("a closing quote is missing"))
             })?;
+            let cells: Vec<&str> = cells.into_iter().map(marks::of_cell).collect();
             // Spreadsheets leave lines that hold only separators.
             if cells.iter().any(|cell| !cell.is_empty()) {
                 rows.push(SheetRow { start, cells });

@@ -39,7 +39,7 @@ pub fn part(study: &Study, k: u64, tell: &(impl Fn(u64) + Sync)) -> String {
     let [from, to] = [k.saturating_mul(ROWS).min(all), (k + 1).saturating_mul(ROWS).min(all)];
     let mut table = Csv::new(rows.columns().into_iter().map(|[name, _]| name));
     for cells in in_groups(from..to, |some| rows.cells(some), tell) {
-        table.row(cells.into_iter().map(Cell::from));
+        table.row(cells.into_iter().map(Cell::written));
     }
     table.text()
 }

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::base::error::Result;
 use crate::base::file;
+use crate::base::marks;
 use crate::files::study_rows::Rows;
 use crate::show::many::folder::{StudyFolder, number, read};
 use crate::study::many::indices::Indices;
@@ -93,7 +94,7 @@ impl Table {
         let [why, met] = [1, 2].map(|k| &row[row.len() - k]);
         self.met += u64::from(met == "true");
         if !why.is_empty() {
-            let (first, said) = (self.rows - 1, why.to_owned());
+            let (first, said) = (self.rows - 1, marks::of_cell(why).to_owned());
             let new = || Reason { rows: 0, first, said };
             self.reasons.entry(kind(why)).or_insert_with(new).rows += 1;
         }
