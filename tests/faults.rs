@@ -683,7 +683,7 @@ fn no_spreadsheet_computes_a_name_and_no_terminal_obeys_one() {
     assert_eq!(mass("t.json"), mass("bat.json"));
     let shape = folder.text(&["modes", "bat.json", "--csv", "-"]);
     assert!(!shape.contains('\''), "{shape}");
-    let ringing = folder.text(&["ring", "bat.json", "--at", "0.6", "--csv", "-"]);
+    let ringing = folder.text(&["ring", "bat.json", "--at", "0.6", "--impulse", "1", "--csv", "-"]);
     assert!(ringing.contains(",-") && !ringing.contains('\''));
 }
 
@@ -713,7 +713,9 @@ fn json_holds_no_mark_that_acts_on_a_terminal() {
         assert!(!told.contains(marks), "{line}: {told}");
         if output.status.code() == Some(0) && is_json(&text) {
             let read: Value = serde_json::from_str(&text).unwrap();
-            assert!(read.to_string().contains("a\u{202e}b"), "{line}: {text}");
+            let named = read.to_string().contains("a\u{202e}b");
+            assert!(named || !text.contains("\\u202e"), "{line}: {text}");
+            assert!(named || !line.starts_with("modes"), "{text}");
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What to say of text that is not JSON.
 
-use serde_json::Value;
+use serde::de::IgnoredAny;
 
 use crate::base::error::{Complaint, Error, Excerpt, Place, shortened};
 use crate::files::document::Document;
@@ -8,14 +8,12 @@ use crate::files::document::Document;
 /// What to say of a text that does not begin as a JSON object does. It may be any file, of which no word is quoted.
 pub(crate) fn not_an_object(document: &Document) -> Error {
     let text = document.text.trim();
-    let kind = serde_json::from_str::<Value>(text).map(|value| match value {
-        Value::Array(_) => "a list",
-        Value::String(_) => "a text",
-        Value::Number(_) => "a number",
-        _ => "a word",
-    });
-    let complaint = match kind {
-        Ok(kind) => Complaint::new("", format!("{kind} alone"), "a JSON object, { … }"),
+    let complaint = match serde_json::from_str::<IgnoredAny>(text) {
+        Ok(_) => Complaint::new("", "a text alone", "an object { … }"),
+        Err(error) if error.is_eof() && text.starts_with('[') => {
+            let found = "the end of the file";
+            Complaint::new("", found, "the rest of a list").hinted(unclosed("a list"))
+        }
         Err(_) => {
             let hint = "YAML, TOML and tables are other formats: write { \"name\": value, … }";
             Complaint::new("", "text that is not JSON", "`{`, with which a JSON object begins")

@@ -120,13 +120,13 @@ impl<'a> Folder<'a> {
 ///
 /// Those of [`Folder::json`].
 pub(crate) fn json(path: &Path, kind: &str) -> Result<Document> {
-    let format = format!("\"sweetspot-{kind}/");
-    let begins = |text: &str| text.trim_start().starts_with('{') && text.contains(&format);
+    // One of another kind is told by its format.
+    let begins = |text: &str| text.trim_start().starts_with('{') && text.contains("\"sweetspot-");
     match Document::named(path, false)? {
         Ok(document) if begins(&document.text) => Ok(document),
         _ => {
             let found = format!("{}, which does not begin as a {kind} file", path.display());
-            let expected = format!("a JSON object with \"format\": {format}1\"");
+            let expected = format!("a JSON object with \"format\": \"sweetspot-{kind}/1\"");
             Err(Error::value("", found, expected))
         }
     }

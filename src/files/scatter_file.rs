@@ -169,20 +169,12 @@ fn from_document(document: &Document, folder: &Folder) -> Result<ScatterFile> {
 
 /// A built-in ball, or that of a file.
 fn ball(node: &Node, folder: &Folder) -> Result<Ball> {
-    balls::ball_in(&node.string()?, folder)
-        .map_err(|error| named_in_vain(node, error, "a ball file or the name of a built-in ball"))
+    balls::ball_in(&node.string()?, folder).map_err(|error| named_in_vain(node, error))
 }
 
 /// What is wrong with a file that a node names: said where it does.
-fn named_in_vain(node: &Node, error: Error, expected: &str) -> Error {
-    match error {
-        Error::Read { path, source } => {
-            node.error(format!("{}, which cannot be read ({source})", path.display()), expected)
-        }
-        error => {
-            error.placed(|complaint| node.complain(Complaint { field: String::new(), ..complaint }))
-        }
-    }
+fn named_in_vain(node: &Node, error: Error) -> Error {
+    error.placed(|complaint| node.complain(Complaint { field: String::new(), ..complaint }))
 }
 
 /// Everything that differs, in the order of the file.
@@ -304,9 +296,8 @@ fn covariance(
             return Err(other.key().error(found, "one of them: the calibration says it"));
         }
     }
-    let document = folder
-        .json(&node.string()?, "calibrate")
-        .map_err(|error| named_in_vain(node, error, "what calibrate --json has written"))?;
+    let document =
+        folder.json(&node.string()?, "calibrate").map_err(|error| named_in_vain(node, error))?;
     let file = Node::root(&document)?.members()?;
     file.check_format("sweetspot-calibrate/1")?;
     let listed = file.require("parameters", "\"parameters\" of a calibration")?.items()?;

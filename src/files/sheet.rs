@@ -243,26 +243,37 @@ pub(crate) fn normal(name: &str) -> String {
     }
 }
 
-/// Whether a text begins as a table of numbers with columns that begin with `keys` does: a header of them with
-/// numbers below it, half of them at least, or a first line of other names with numbers alone below it.
+/// Whether a text begins as a table of numbers with columns of those names does: they stand in its first line, in
+/// half of the cells at least, or further down with numbers below them, or its first line has other names with
+/// numbers alone below them. A text without a line begins as any.
 pub(crate) fn begins_with_numbers(text: &str, keys: &[&str]) -> bool {
-    /// Lines that are looked at.
+    /// Lines that are looked at, and cells of a line.
     const LOOKED_AT: usize = 1000;
-    let is_comment = |line: &&str| line.trim().is_empty() || line.starts_with('#');
+    let is_empty = |line: &&str| line.trim().is_empty() || line.starts_with('#');
     let is_sign = |c: char| c.is_whitespace() || [',', ';', '|', '"'].contains(&c);
     let cells = |line: &str| -> Vec<String> {
         let cells = line.split(is_sign).filter(|cell| !cell.is_empty());
         cells.take(LOOKED_AT).map(normal).collect()
     };
-    let number = |cell: &&String| sheet_number::value(cell, Decimal::Point).is_ok();
-    let is_named = |cell: &String| keys.iter().any(|key| cell.starts_with(key));
-    let lines: Vec<&str> = text.lines().filter(|line| !is_comment(line)).take(LOOKED_AT).collect();
-    lines.windows(2).enumerate().any(|(k, pair)| {
-        let [names, below] = [cells(pair[0]), cells(pair[1])];
-        let numbers = below.iter().filter(number).count();
-        let known = names.iter().any(is_named) && 2 * numbers >= below.len();
-        below.len() > 1 && (known || k == 0 && numbers == below.len())
-    })
+    let is_known = |cell: &String| {
+        let rest = keys.iter().filter_map(|key| cell.strip_prefix(key));
+        rest.into_iter().any(|rest| rest.is_empty() || rest.starts_with('_'))
+    };
+    let half = |cells: &[String], is: &dyn Fn(&String) -> bool| {
+        2 * cells.iter().filter(|cell| is(cell)).count() >= cells.len()
+    };
+    let is_number = |cell: &String| sheet_number::value(cell, Decimal::Point).is_ok();
+    let lines: Vec<&str> = text.lines().filter(|line| !is_empty(line)).take(LOOKED_AT).collect();
+    let [first, second] = [0, 1].map(|k| lines.get(k).map_or(vec![], |line| cells(line)));
+    let separator = lines.first().is_some_and(|line| line.len() == 5 && line.starts_with("sep="));
+    let other = second.len() > 1 && second.iter().all(is_number);
+    separator
+        || half(&first, &is_known)
+        || other
+        || lines.windows(2).any(|pair| {
+            let [names, below] = [cells(pair[0]), cells(pair[1])];
+            below.len() > 1 && half(&names, &is_known) && half(&below, &is_number)
+        })
 }
 
 /// What stands between the cells of a table.
