@@ -2,10 +2,10 @@
 
 use serde::de::IgnoredAny;
 
-use crate::base::error::{Complaint, Error, Excerpt, Place, shortened};
+use crate::base::error::{Complaint, Error, shortened};
 use crate::files::document::Document;
 
-/// What to say of a text that does not begin as a JSON object does. It may be any file, of which no word is quoted.
+/// What to say of a text that does not begin as a JSON object does.
 pub(crate) fn not_an_object(document: &Document) -> Error {
     let text = document.text.trim();
     let complaint = match serde_json::from_str::<IgnoredAny>(text) {
@@ -20,11 +20,9 @@ pub(crate) fn not_an_object(document: &Document) -> Error {
                 .hinted(hint)
         }
     };
-    let Document { file, .. } = document;
     let start = document.text.len() - document.text.trim_start().len();
-    let (file, excerpt) = (file.clone(), Excerpt::default());
-    let (line, column) = document.place(start);
-    Error::Input { place: Box::new(Place { file, line, column, excerpt }), complaint }
+    let first = document.text[start..].chars().next().map_or(0, char::len_utf8);
+    document.error(start..start + first, complaint)
 }
 
 /// What `serde_json` says of text that is not JSON, in found and expected, with its place.

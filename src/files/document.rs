@@ -100,7 +100,7 @@ impl Document {
     }
 
     /// Line and column of a byte.
-    pub fn place(&self, offset: usize) -> (usize, usize) {
+    fn place(&self, offset: usize) -> (usize, usize) {
         let (mut at, mut line, mut column) = self.last.get();
         if at > offset {
             (at, line, column) = START;

@@ -8,7 +8,7 @@ use std::cell::RefCell;
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
-use crate::base::error::{Complaint, Error, Result};
+use crate::base::error::{Complaint, Error, Excerpt, Place, Result};
 use crate::files::document::Document;
 use crate::files::sheet;
 
@@ -89,7 +89,7 @@ impl<'a> Folder<'a> {
     ///
     /// # Errors
     ///
-    /// As [`Self::find`]; [`Error::Read`]; [`Error::Value`] without a word of a file that does not begin as such a
+    /// As [`Self::find`]; [`Error::Read`]; [`Error::Input`] without a word of a file that does not begin as such a
     /// document does.
     pub(crate) fn json(&self, name: &str, kind: &str) -> Result<Document> {
         json(&self.find(name)?, kind)
@@ -105,10 +105,8 @@ impl<'a> Folder<'a> {
         match Document::named(&path, true)? {
             Ok(document) if sheet::begins_with_numbers(&document.text, columns) => Ok(document),
             _ => {
-                let found =
-                    format!("{}, which does not begin as a table of numbers", path.display());
                 let expected = "names of columns, such as x_in,diameter_in, and numbers below them";
-                Err(Error::value("", found, expected))
+                Err(something_else(&path, "a table of numbers", expected))
             }
         }
     }
@@ -125,9 +123,16 @@ pub(crate) fn json(path: &Path, kind: &str) -> Result<Document> {
     match Document::named(path, false)? {
         Ok(document) if begins(&document.text) => Ok(document),
         _ => {
-            let found = format!("{}, which does not begin as a {kind} file", path.display());
             let expected = format!("a JSON object with \"format\": \"sweetspot-{kind}/1\"");
-            Err(Error::value("", found, expected))
+            Err(something_else(path, &format!("a {kind} file"), &expected))
         }
     }
+}
+
+/// An error about the beginning of a file, without a word of it.
+fn something_else(path: &Path, than: &str, expected: &str) -> Error {
+    let (file, excerpt) = (path.display().to_string(), Excerpt::default());
+    let place = Box::new(Place { file, line: 1, column: 1, excerpt });
+    let complaint = Complaint::new("", format!("something else than {than}"), expected);
+    Error::Input { place, complaint }
 }
