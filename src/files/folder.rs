@@ -9,6 +9,7 @@ use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 use crate::base::error::{Complaint, Error, Excerpt, Place, Result};
+use crate::base::file::read_plain;
 use crate::files::document::Document;
 use crate::files::sheet;
 
@@ -102,8 +103,11 @@ impl<'a> Folder<'a> {
     /// As [`Self::json`].
     pub(crate) fn table(&self, name: &str, columns: &[&str]) -> Result<Document> {
         let path = self.find(name)?;
+        let begins = |text: &str| sheet::begins_with_numbers(text, columns);
         match Document::named(&path, true)? {
-            Ok(document) if sheet::begins_with_numbers(&document.text, columns) => Ok(document),
+            Ok(document) if begins(&document.text) => Ok(document),
+            // Letters that cannot be read, further down.
+            Err(error) if begins(&String::from_utf8_lossy(&read_plain(&path)?)) => Err(error),
             _ => {
                 let expected = "names of columns, such as x_in,diameter_in, and numbers below them";
                 Err(something_else(&path, "a table of numbers", expected))
@@ -122,6 +126,7 @@ pub(crate) fn json(path: &Path, kind: &str) -> Result<Document> {
     let begins = |text: &str| text.trim_start().starts_with('{') && text.contains("\"sweetspot-");
     match Document::named(path, false)? {
         Ok(document) if begins(&document.text) => Ok(document),
+        Err(error) if begins(&String::from_utf8_lossy(&read_plain(path)?)) => Err(error),
         _ => {
             let expected = format!("a JSON object with \"format\": \"sweetspot-{kind}/1\"");
             Err(something_else(path, &format!("a {kind} file"), &expected))
