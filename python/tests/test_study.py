@@ -310,9 +310,10 @@ def test_files_elsewhere_are_read_of_a_study_that_a_person_names_alone(tmp_path)
     path.write_text(json.dumps({"format": "sweetspot-study/1", "bat": "../bat.json", "outputs": ["f1_hz"]}))
     with pytest.raises(ss.SweetspotError, match="in the folder of this one"):
         ss.run_study(path)
-    said = run(path, tmp_path / "a")
+    command = [sys.executable, "-m", "sweetspot.study", str(path), "--out", str(tmp_path / "a")]
+    said = subprocess.run(command, capture_output=True, text=True)
     assert said.returncode == 0 and "bat.json, which is outside of its folder" in said.stderr
-    said = run(path, tmp_path / "b", "--quiet")
+    said = run(path, tmp_path / "b")
     assert said.returncode == 0 and "outside" not in said.stderr
     for secret in (str(tmp_path / "secret"), "../secret", "/dev/zero"):
         spec = {"format": "sweetspot-study/1", "bat": ["r161", secret], "outputs": ["f1_hz"]}
