@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Write THIRD-PARTY.md: every package in the program, its licence, and the licences' texts.
+"""Write THIRD-PARTY.md: every package in the program and in the Python package, its licence, and the licences' texts.
 
     licences/third_party.py            write the file
     licences/third_party.py --check    fail if the file is not what would be written, or if a
@@ -42,13 +42,14 @@ def metadata(target):
 
 
 def packages():
-    """Every package that a build of the program holds, by name and version."""
+    """Every package that a build of the program or of the Python package holds, by name and version."""
     held = {}
     for target in TARGETS:
         known = metadata(target)
         by_id = {package["id"]: package for package in known["packages"]}
         nodes = {node["id"]: node for node in known["resolve"]["nodes"]}
-        left, seen = [known["resolve"]["root"]], set()
+        own = set(known["workspace_members"])
+        left, seen = list(own), set()
         while left:
             node = left.pop()
             if node in seen:
@@ -57,7 +58,7 @@ def packages():
             for dependency in nodes[node]["deps"]:
                 if any(kind["kind"] is None for kind in dependency["dep_kinds"]):
                     left.append(dependency["pkg"])
-        for node in seen - {known["resolve"]["root"]}:
+        for node in seen - own:
             package = by_id[node]
             held[package["name"], package["version"]] = package
     return [held[key] for key in sorted(held)]
@@ -80,9 +81,10 @@ def written():
     lines = [
         "# Third-party software",
         "",
-        "The program `sweetspot` contains these packages. `licences/third_party.py` wrote this file",
-        "from what cargo fetched; the licences' texts follow the table. The pictures are drawn with",
-        "the font Ubuntu Light, under the Ubuntu Font Licence 1.0, which is among them.",
+        "The program `sweetspot` and its Python package contain these packages.",
+        "`licences/third_party.py` wrote this file from what cargo fetched; the licences' texts",
+        "follow the table. The pictures are drawn with the font Ubuntu Light, under the Ubuntu Font",
+        "Licence 1.0, which is among them.",
         "",
         "| package | licence | where from |",
         "|---|---|---|",

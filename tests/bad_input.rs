@@ -116,14 +116,14 @@ fn a_file_that_is_not_a_bat_file_is_refused() {
         ("empty", b"", &["bat.json:1:1", "an empty file", "JSON object"]),
         ("blank", b" \r\n\t", &["bat.json:1:1", "an empty file"]),
         ("mark only", b"\xef\xbb\xbf", &["bat.json:1:1", "an empty file"]),
-        ("binary", b"\x7fELF\x02\x01\x01\0\0\0", &["bat.json:1:1", "expected a JSON value"]),
-        ("zeros", &[0; 64], &["bat.json:1:1", "expected a JSON value"]),
+        ("binary", b"\x7fELF\x02\x01\x01\0\0\0", &["bat.json:1:1", "text that is not JSON"]),
+        ("zeros", &[0; 64], &["bat.json:1:1", "text that is not JSON"]),
         ("invalid UTF-8", b"{\n \"a\": \"\xff\"}", &["bat.json:2:8", "not text", "UTF-8"]),
         ("overlong", b"{ \"a\": \"\xc0\xaf\"}", &["bat.json:1:9", "not text", "UTF-8"]),
         ("UTF-16", b"\xff\xfe{\0}\0", &["bat.json:1:1", "no \"format\""]),
         ("half a sign", b"\xff\xfe{\0}\0}", &["bat.json:1:1", "not UTF-16 text", "UTF-8"]),
         ("UTF-16 without a mark", b"{\0}\0", &["bat.json:1:2", "expected"]),
-        ("not JSON", b"x,radius\n0,0.02\n", &["bat.json:1:1", "found x, expected"]),
+        ("not JSON", b"x,radius\n0,0.02\n", &["bat.json:1:1", "text that is not JSON", "`{`"]),
         ("truncated", &BAT.as_bytes()[..60], &["bat.json:", "the end of the file", "the rest"]),
         ("unclosed", b"{\n", &["bat.json:1:2", "the end of the file", "the rest of an object"]),
         ("two", b"{} {}", &["bat.json:1:4", "found {", "expected the end of the file"]),
@@ -2179,4 +2179,31 @@ fn readings_and_scatters_that_cannot_be_are_told() {
         faults.extend(folder.misanswer(&[&args[..], more].concat(), says));
     }
     assert_none(faults);
+}
+
+/// A text that is not JSON is told as such.
+#[test]
+fn what_is_not_json_is_told_as_such() {
+    let folder = Folder::new("not_json");
+    let texts = [
+        "format: sweetspot-bat/1\nname: secret\n",
+        "---\nformat: secret\n",
+        "name = \"secret\"\n",
+        "# a bat\nsecret: 1\n",
+        "- secret\n",
+        "[secret]\na=1\n",
+        "null secret",
+        "secret",
+        "x,secret\n1,2\n",
+    ];
+    for text in texts {
+        folder.write("bat.yaml", text);
+        for args in [&["modes", "bat.yaml"][..], &["hit", "r161", "--ball", "bat.yaml"]] {
+            let output = folder.run(args);
+            let told = String::from_utf8_lossy(&output.stderr).into_owned();
+            assert_eq!(output.status.code(), Some(2), "{text}: {told}");
+            let said = told.contains("text that is not JSON") && told.contains("expected `{`");
+            assert!(said && !told.contains("ident"), "{text}: {told}");
+        }
+    }
 }

@@ -319,7 +319,7 @@ fn what_has_no_end_is_refused() {
     );
     let zero = |line: &str| refused(&bash(&folder, line));
     assert!(zero("$S modes /dev/zero").contains("more than 256 MiB"));
-    assert!(zero("$S modes csv.json").contains("more than 256 MiB"));
+    assert!(zero("$S modes csv.json").contains("a pipe or a device"));
     assert!(zero("$S hit bat.json --ball /dev/zero").contains("more than 256 MiB"));
     assert!(zero("$S convert /dev/zero --to csv").contains("more than 256 MiB"));
     let huge = File::create(folder.0.join("huge.json")).unwrap();
@@ -415,6 +415,324 @@ fn columns_outside_of_the_folder_are_read_of_a_named_bat_alone_and_said() {
             assert!(!outside || said.contains("in the folder of this one"), "{said}");
         }
     }
+}
+
+/// A line that no message and no cell may have.
+const SECRET: &str = "root:hunter2,17:the secret";
+
+/// A folder with a file of somebody's own, a pipe, and files that name them in every way.
+fn of_a_stranger(name: &str) -> Folder {
+    let folder = folder(name);
+    fs::create_dir(folder.0.join("in")).unwrap();
+    for secret in ["secret", "secret.json", "in/secret.json", "in/secret.csv"] {
+        folder.write(secret, format!("{SECRET}\n{SECRET}\n"));
+    }
+    symlink("../secret", folder.0.join("in/link.json")).unwrap();
+    symlink("/dev/zero", folder.0.join("in/zero.json")).unwrap();
+    for pipe in ["in/pipe.json", "in/pipe.csv"] {
+        assert!(Command::new("mkfifo").arg(folder.0.join(pipe)).status().unwrap().success());
+    }
+    folder
+}
+
+#[test]
+fn what_a_file_names_is_read_only_if_it_begins_as_it_should_and_no_word_of_it_is_told() {
+    let folder = of_a_stranger("secrets");
+    let absolute = folder.0.join("secret").display().to_string();
+    let names = [
+        "secret.json",
+        "link.json",
+        "zero.json",
+        "pipe.json",
+        "../secret.json",
+        &absolute,
+        "/dev/zero",
+        "/proc/self/environ",
+        "/dev/stdin",
+    ];
+    let kinds = [
+        ("study", r#"{ "format": "sweetspot-study/1", "bat": "NAME", "outputs": ["f1_hz"] }"#),
+        (
+            "study",
+            r#"{ "format": "sweetspot-study/1", "bat": "r161", "ball": "NAME", "outputs": ["f1_hz"] }"#,
+        ),
+        (
+            "study",
+            r#"{ "format": "sweetspot-study/1", "bat": "r161", "outputs": ["f1_hz"],
+                 "vary": { "bat.profile": { "values": [{ "csv": "NAME" }] } } }"#,
+        ),
+        (
+            "scatter",
+            r#"{ "format": "sweetspot-scatter/1", "density": { "lognormal": "4 %" }, "ball": "NAME" }"#,
+        ),
+        ("scatter", r#"{ "format": "sweetspot-scatter/1", "covariance": "NAME" }"#),
+        ("aim", r#"{ "format": "sweetspot-aim/1", "targets": ["mass -1 oz"], "rules": "NAME" }"#),
+        (
+            "modes",
+            r#"{ "format": "sweetspot-bat/1", "material": "white-ash", "profile": { "csv": "NAME" } }"#,
+        ),
+    ];
+    for (verb, text) in kinds {
+        for name in names {
+            folder.write("in/file.json", text.replace("NAME", name));
+            let line = match verb {
+                "study" => "study in/file.json --out out",
+                "modes" => "modes in/file.json",
+                verb => &format!("{verb} r161 in/file.json"),
+            };
+            // A pipe that is opened is waited on for ever.
+            let output = bash(&folder, &format!("timeout 20 $S {line} < in/secret.csv"));
+            let told = refused(&output);
+            let said = told.clone() + &String::from_utf8_lossy(&output.stdout);
+            assert!(!said.contains("hunter2") && !said.contains("17:"), "{text} {name}: {said}");
+        }
+    }
+    // Beside another bat what is none is a row with the reason.
+    let study = r#"{ "format": "sweetspot-study/1", "bat": ["r161", "../secret", "secret.json"],
+        "outputs": ["f1_hz"] }"#;
+    folder.write("in/file.json", study);
+    let output = bash(&folder, "timeout 20 $S study in/file.json --out out");
+    succeeded(&output);
+    assert!(String::from_utf8_lossy(&output.stderr).contains("outside of its folder"));
+    let part = folder.read("out/part-000000.csv");
+    assert!(part.contains("something else than a bat file") && !part.contains("hunter2"), "{part}");
+}
+
+#[test]
+fn files_outside_of_the_folder_are_read_of_a_named_file_alone_and_said() {
+    let folder = folder("elsewhere");
+    fs::create_dir_all(folder.0.join("in/below")).unwrap();
+    fs::create_dir(folder.0.join("bats")).unwrap();
+    let ball =
+        r#"{ "format": "sweetspot-ball/1", "mass": "5 oz", "radius": "1.45 in", "cor": 0.5 }"#;
+    let rules = r#"{ "format": "sweetspot-rules/1", "name": "mine", "source": "me", "date": "2026", "mass_at_most": "40 oz" }"#;
+    for place in ["", "in/", "in/below/", "bats/"] {
+        folder.write(&format!("{place}bat.json"), BAT);
+        folder.write(&format!("{place}ball.json"), ball);
+        folder.write(&format!("{place}rules.json"), rules);
+        folder.write(&format!("{place}t.csv"), "x_in,diameter_in\n0,1\n33,2.5\n");
+    }
+    let kinds = [
+        (
+            "bat.json",
+            "study",
+            r#"{ "format": "sweetspot-study/1", "bat": "NAME", "outputs": ["f1_hz"] }"#,
+        ),
+        (
+            "",
+            "study",
+            r#"{ "format": "sweetspot-study/1", "bat": "NAMEbats", "outputs": ["f1_hz"] }"#,
+        ),
+        (
+            "ball.json",
+            "study",
+            r#"{ "format": "sweetspot-study/1", "bat": "r161", "ball": "NAME", "outputs": ["f1_hz"] }"#,
+        ),
+        (
+            "t.csv",
+            "study",
+            r#"{ "format": "sweetspot-study/1", "bat": "r161", "outputs": ["f1_hz"],
+                 "vary": { "bat.profile": { "values": [{ "csv": "NAME" }] } } }"#,
+        ),
+        (
+            "ball.json",
+            "scatter",
+            r#"{ "format": "sweetspot-scatter/1", "density": { "lognormal": "4 %" },
+                 "outputs": ["f1_hz"], "ball": "NAME" }"#,
+        ),
+        (
+            "rules.json",
+            "aim",
+            r#"{ "format": "sweetspot-aim/1", "targets": ["mass same"], "rules": "NAME" }"#,
+        ),
+    ];
+    for (own, verb, text) in kinds {
+        for (place, outside) in [("", false), ("below/", false), ("../", true), ("../bats/", true)]
+        {
+            if own.is_empty() && place != "../" {
+                continue;
+            }
+            let text = text.replace("NAME", &format!("{place}{own}"));
+            folder.write("in/file.json", &text);
+            let _ = fs::remove_dir_all(folder.0.join("out"));
+            let line = match verb {
+                "study" => "study in/file.json --out out",
+                "scatter" => "scatter r161 in/file.json --points 64",
+                verb => &format!("{verb} r161 in/file.json"),
+            };
+            let output = bash(&folder, &format!("$S {line}"));
+            let told = String::from_utf8_lossy(&output.stderr);
+            assert!(output.status.success(), "{text}: {told}");
+            assert_eq!(told.contains("outside of its folder"), outside, "{text}: {told}");
+            let quiet = bash(&folder, &format!("$S {line} --quiet"));
+            assert!(!String::from_utf8_lossy(&quiet.stderr).contains("outside"), "{text}");
+            let path = folder.0.join("in/file.json");
+            let wrong = match verb {
+                "study" => sweetspot::show::many::source::Study::read(&path).err(),
+                "scatter" => sweetspot::files::scatter_file::from_file(&path).err(),
+                _ => sweetspot::files::aim_file::AimFile::read(&path).err(),
+            };
+            assert_eq!(wrong.is_some(), outside, "{text}");
+            let said = wrong.map_or(String::new(), |error| error.to_string());
+            assert!(!outside || said.contains("in the folder of this one"), "{said}");
+        }
+    }
+}
+
+#[test]
+fn a_study_that_was_sent_reads_no_file() {
+    use sweetspot::show::many::source::Study;
+    let folder = folder("sent");
+    let study = r#"{ "format": "sweetspot-study/1", "bat": "bat.json", "outputs": ["f1_hz"] }"#;
+    let sent = Study::of("study", study, &folder.0).unwrap().alone();
+    assert!(Study::arrived(&sent).is_ok());
+    let ball = r#"\"outputs\""#;
+    let with_ball = sent.replace(ball, &format!(r#"\"ball\": \"/etc/passwd\", {ball}"#));
+    assert!(with_ball != sent && Study::arrived(&with_ball).is_err());
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn where_memory_ends_words_are_said_and_no_part_stays() {
+    let folder = folder("memory");
+    let lines = [
+        "hoop bbcor_made_up --json out",
+        "hit bbcor_made_up --json out",
+        "bbcor composite_made_up",
+        "study study.json --out parts",
+    ];
+    let study = r#"{ "format": "sweetspot-study/1", "bat": "bbcor_made_up", "points": 8,
+        "vary": { "bat.material.density": { "lognormal": 0.04 } }, "outputs": ["exit_speed_max.value"] }"#;
+    folder.write("study.json", study);
+    for line in lines {
+        for limit in [40_000, 65_536, 100_000] {
+            let output = bash(&folder, &format!("ulimit -v {limit}; exec timeout 60 $S {line}"));
+            let told = String::from_utf8_lossy(&output.stderr);
+            // Where less is needed than was thought there is an answer.
+            let code = output.status.code();
+            assert!(code == Some(2) || code == Some(0), "{line} {limit}: {output:?}");
+            let said = told.contains("error: ") && !told.contains("memory allocation of");
+            assert!(code == Some(0) || said, "{line} {limit}: {told}");
+        }
+    }
+    let told = refused(&bash(&folder, "ulimit -v 65536; exec $S hoop bbcor_made_up"));
+    assert!(told.contains("memory: found none left"), "{told}");
+    assert!(folder.names().iter().all(|name| !name.ends_with(".part")), "{:?}", folder.names());
+}
+
+#[test]
+fn no_spreadsheet_computes_a_name_and_no_terminal_obeys_one() {
+    let folder = folder("formulas");
+    fs::create_dir(folder.0.join("bats")).unwrap();
+    let names = [
+        "=1+1",
+        "+1",
+        "-1",
+        "@SUM(A1)",
+        "\t=1",
+        "'=1",
+        "plain",
+        "it's",
+        "e\u{1b}[31m",
+        "r\u{202e}",
+    ];
+    for name in names {
+        folder.write(&format!("bats/{name}.json"), BAT);
+    }
+    let study = r#"{ "format": "sweetspot-study/1", "bat": "bats", "outputs": ["f1_hz"],
+        "vary": { "bat.source": { "values": ["-3", "=x"] }, "bat.edits": { "values": [[]] },
+                  "bat.profile.diameter": { "values": [[1.7, 1.6]] } } }"#;
+    folder.write("study.json", study);
+    let output = bash(&folder, "$S study study.json --out out");
+    let shown = succeeded(&output) + &String::from_utf8_lossy(&output.stderr);
+    let marks = |text: &str| text.chars().any(|c| (c.is_control() && c != '\n') || c == '\u{202e}');
+    assert!(!marks(&shown), "{shown}");
+    let part = folder.read("out/part-000000.csv");
+    let mut reader = csv::Reader::from_reader(part.as_bytes());
+    let rows: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
+    let mut found: Vec<String> = rows.iter().map(|row| row[1].to_owned()).collect();
+    found.dedup();
+    let mut written = [
+        "'=1+1",
+        "'+1",
+        "'-1",
+        "'@SUM(A1)",
+        "'\t=1",
+        "''=1",
+        "plain",
+        "it's",
+        "e\\u{1b}[31m",
+        "r\\u{202e}",
+    ];
+    written.sort();
+    found.sort();
+    assert_eq!(found, written);
+    for row in &rows {
+        assert!(["'-3", "'=x"].contains(&&row[2]) && row[5].parse::<f64>().is_ok(), "{row:?}");
+    }
+    // Numbers are numbers, also below 0, and a table with such cells is read.
+    folder.write("t.csv", "x_in,diameter_in\n'+0,1.7\n33,'+1.7\n");
+    folder.write(
+        "t.json",
+        BAT.replace(r#""x": [0, 33], "diameter": [1.7, 1.7]"#, r#""csv": "t.csv""#),
+    );
+    let mass =
+        |bat: &str| folder.json(&["modes", bat, "--json", "-"])["summary"]["mass_kg"].clone();
+    assert_eq!(mass("t.json"), mass("bat.json"));
+    let shape = folder.text(&["modes", "bat.json", "--csv", "-"]);
+    assert!(!shape.contains('\''), "{shape}");
+    let ringing = folder.text(&["ring", "bat.json", "--at", "0.6", "--impulse", "1", "--csv", "-"]);
+    assert!(ringing.contains(",-") && !ringing.contains('\''));
+}
+
+#[test]
+fn json_holds_no_mark_that_acts_on_a_terminal() {
+    let folder = folder("marks");
+    let name = "a\u{202e}b\u{9b}c\u{200f}d\u{7f}e\u{61c}";
+    let bat = BAT.replace("{ \"format\"", &format!("{{ \"name\": \"{name}\", \"format\""));
+    folder.write("marks.json", bat);
+    folder.write("r.json", r#"{ "format": "sweetspot-readings/1", "mass": "30 oz", "lines": [ { "hz": 170, "mode": 1 } ] }"#);
+    let lines = [
+        "modes marks.json --json -",
+        "hit marks.json --json -",
+        "analyze marks.json --json -",
+        "lathe marks.json --json -",
+        "scatter marks.json --points 64 --json -",
+        "calibrate marks.json r.json --out -",
+        "calibrate marks.json r.json --json -",
+        "convert marks.json --to json",
+    ];
+    for line in lines {
+        let output = bash(&folder, &format!("$S {line}"));
+        let text = String::from_utf8(output.stdout).unwrap();
+        let marks = ['\u{202e}', '\u{9b}', '\u{200f}', '\u{7f}', '\u{61c}'];
+        assert!(!text.contains(marks), "{line}");
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(!told.contains(marks), "{line}: {told}");
+        if output.status.code() == Some(0) && is_json(&text) {
+            let read: Value = serde_json::from_str(&text).unwrap();
+            let named = read.to_string().contains("a\u{202e}b");
+            assert!(named || !text.contains("\\u202e"), "{line}: {text}");
+            assert!(named || !line.starts_with("modes"), "{text}");
+        }
+    }
+}
+
+#[test]
+fn a_report_may_lie_in_a_folder_that_the_same_run_makes() {
+    let folder = folder("report");
+    for line in [
+        "analyze bat.json --out D --report D/r.md",
+        "analyze bat.json --out ./D/E --report D/r.html",
+        "analyze bat.json --plots D --report ./D/r.html",
+        "compare bat.json r161 --plots D --report D/r.html",
+    ] {
+        succeeded(&bash(&folder, &format!("$S {line} --quiet")));
+        assert!(folder.read_names("D").iter().any(|name| name.starts_with("r.")), "{line}");
+        fs::remove_dir_all(folder.0.join("D")).unwrap();
+    }
+    let told = refused(&bash(&folder, "$S analyze bat.json --out D --report D/none/r.html"));
+    assert!(told.contains("cannot write D/none/r.html") && !folder.0.join("D").exists(), "{told}");
 }
 
 #[test]

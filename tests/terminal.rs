@@ -272,11 +272,16 @@ fn manual_pages_are_roff_with_the_words_of_the_help() {
 
 /// Runs `new` with these answers.
 fn answered(folder: &Folder, args: &[&str], answers: &str) -> std::process::Output {
+    typed(folder, args, answers.as_bytes())
+}
+
+/// As [`answered`], with answers of any bytes.
+fn typed(folder: &Folder, args: &[&str], answers: &[u8]) -> std::process::Output {
     let mut command = folder.command(&[&["new", "--ask"], args].concat());
     let piped = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
     let mut child = piped.spawn().unwrap();
     // It may have stopped before the last answer.
-    let _ = child.stdin.take().unwrap().write_all(answers.as_bytes());
+    let _ = child.stdin.take().unwrap().write_all(answers);
     child.wait_with_output().unwrap()
 }
 
@@ -396,7 +401,9 @@ fn who_quits_keeps_the_answers_and_a_draft_is_of_one_bat() {
     let all = ANSWERS.split_once('\n').unwrap().1;
     let output = answered(&folder, &["--name", "Other"], all);
     let told = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(output.status.code() == Some(0) && told.contains("of another bat, 'Mine'"), "{told}");
+    let plain = told.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(output.status.code() == Some(0) && plain.contains("of another bat, 'Mine'"), "{told}");
+    assert!(plain.contains("kept in sweetspot-new-2.draft until"), "{told}");
     assert_eq!(folder.read("sweetspot-new.draft"), kept);
     assert_eq!(Bat::from_file(folder.0.join("other.json")).unwrap().name(), "Other");
     // No begins anew, and nothing of the draft is in the other bat.
@@ -405,6 +412,121 @@ fn who_quits_keeps_the_answers_and_a_draft_is_of_one_bat() {
     let third = Bat::from_file(folder.0.join("third.json")).unwrap();
     assert!(third.name() == "Third" && (third.length() - 34.0 * 0.0254).abs() < 1e-12);
     assert_eq!(folder.names(), ["other.json", "third.json"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn what_is_no_draft_stays_as_it_is_and_the_answers_are_kept_beside_it() {
+    use std::os::unix::fs::symlink;
+    let folder = Folder::new("no_draft");
+    let path = |name: &str| folder.0.join(name);
+    let first = "# Answers to sweetspot new, which goes on after them\n";
+    folder
+        .write("latin", b"# Answers to sweetspot new, which goes on after them\nname: M\xfcller\n");
+    folder.write("notes", format!("{first}a line of somebody's own\n"));
+    folder.write("verb", first.replace("new", "calibrate") + "name: Mine\n");
+    folder.write("long", format!("{first}name: {}\n", "n".repeat(5 << 20)));
+    folder.write("ours", format!("{first}name: Mine\n"));
+    let made = std::process::Command::new("mkfifo").arg(path("pipe")).status().unwrap();
+    assert!(made.success());
+    fs::create_dir(path("folder")).unwrap();
+    let whole = ["latin", "notes", "verb", "long", "pipe", "folder"];
+    let links = ["/dev/zero", "/dev/stdin", "nowhere", "ours", "pipe", "loop.json.draft"];
+    for (k, what) in whole.into_iter().chain(links).enumerate() {
+        let name = if what.starts_with("loop") { "loop" } else { &format!("b{k}") };
+        let draft = path(&format!("{name}.json.draft"));
+        match k < whole.len() {
+            true => fs::rename(path(what), &draft).unwrap(),
+            false => symlink(what, &draft).unwrap(),
+        }
+        let before = fs::symlink_metadata(&draft).unwrap();
+        let text = before.is_file().then(|| fs::read(&draft).unwrap());
+        let file = format!("{name}.json");
+        for answers in ["Mine\nin\n33\nquit\n", "yes\nquit\n"] {
+            let output = answered(&folder, &[&file], answers);
+            let told = String::from_utf8_lossy(&output.stderr).into_owned();
+            let plain = told.split_whitespace().collect::<Vec<_>>().join(" ");
+            assert_eq!(output.status.code(), Some(0), "{what}: {told}");
+            assert!(plain.contains(&format!("{file}-2.draft")), "{what}: {told}");
+        }
+        let output = answered(&folder, &[&file], &format!("no\n{ANSWERS}"));
+        assert_eq!(output.status.code(), Some(0), "{what}");
+        let after = fs::symlink_metadata(&draft).unwrap();
+        assert_eq!(after.file_type(), before.file_type(), "{what}");
+        assert_eq!(before.is_file().then(|| fs::read(&draft).unwrap()), text, "{what}");
+        assert!(path(&file).exists() && !path(&format!("{file}-2.draft")).exists(), "{what}");
+        if what == "folder" {
+            folder.write("pipe", "");
+        }
+    }
+    assert!(!path("nowhere").exists());
+    assert_eq!(folder.read("ours"), format!("{first}name: Mine\n"));
+}
+
+#[cfg(unix)]
+#[test]
+fn two_dialogues_at_the_same_time_keep_a_draft_each() {
+    let folder = Folder::new("two");
+    let path = |name: &str| folder.0.join(name);
+    let begin = |answers: &[u8]| {
+        let mut command = folder.attentive(&["new", "mine.json", "--ask"]);
+        let mut child = command.stdin(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        let mut typed = child.stdin.take().unwrap();
+        typed.write_all(answers).unwrap();
+        (child, typed)
+    };
+    let until = |name: &str, part: &str| {
+        while !fs::read_to_string(path(name)).unwrap_or_default().contains(part) {
+            std::thread::yield_now();
+        }
+    };
+    let (first, mut typed) = begin(b"First\nin\n");
+    until("mine.json.draft", "unit: in");
+    let (second, also) = begin(b"Second\ncm\n");
+    until("mine.json-2.draft", "unit: cm");
+    typed.write_all(b"33\n").unwrap();
+    until("mine.json.draft", "length: 33");
+    drop((typed, also));
+    for child in [first, second] {
+        assert_eq!(child.wait_with_output().unwrap().status.code(), Some(2));
+    }
+    assert_eq!(folder.names(), ["mine.json-2.draft", "mine.json.draft"]);
+    assert!(folder.read("mine.json.draft").contains("name: First"));
+    assert!(folder.read("mine.json-2.draft").contains("name: Second"));
+}
+
+#[test]
+fn an_answer_in_another_encoding_is_asked_again() {
+    let folder = Folder::new("latin");
+    let answers = [b"M\xfcller\n\xff\xfe\n", ANSWERS.as_bytes()].concat();
+    let output = typed(&folder, &["mine.json"], &answers);
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.code() == Some(0) && told.contains("another encoding"), "{told}");
+    assert_eq!(Bat::from_file(folder.0.join("mine.json")).unwrap().name(), "Mine");
+    let endless = typed(&folder, &["other.json"], &b"\xff\n".repeat(100));
+    let told = String::from_utf8_lossy(&endless.stderr).into_owned();
+    assert!(endless.status.code() == Some(2) && told.contains("50 wrong answers"), "{told}");
+}
+
+#[test]
+fn a_dialogue_that_writes_no_file_keeps_its_answers_in_the_users_own_folder() {
+    let folder = Folder::new("state");
+    fs::create_dir(folder.0.join("work")).unwrap();
+    let run = |home: &str, value: &std::path::Path| {
+        let mut command = folder.command(&["calibrate", "r161", "--ask"]);
+        command.current_dir(folder.0.join("work")).env_remove("XDG_STATE_HOME").env(home, value);
+        let piped = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = piped.spawn().unwrap();
+        let _ = child.stdin.take().unwrap().write_all(b"30.65 oz\nquit\n");
+        String::from_utf8(child.wait_with_output().unwrap().stderr).unwrap()
+    };
+    let [state, home] = ["state", "home"].map(|name| folder.0.join(name));
+    let told = run("XDG_STATE_HOME", &state);
+    assert!(told.contains("sweetspot/r161-calibrate.draft"), "{told}");
+    assert!(state.join("sweetspot/r161-calibrate.draft").is_file());
+    run("HOME", &home);
+    assert!(home.join(".local/state/sweetspot/r161-calibrate.draft").is_file());
+    assert!(folder.read_names("work").is_empty());
 }
 
 #[test]

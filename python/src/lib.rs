@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
+use sweetspot::base::marks::written_out;
 use sweetspot::base::threads;
 use sweetspot::beam::assembly::Pencil;
 use sweetspot::collision::Hitter;
@@ -215,7 +216,15 @@ impl Study {
         free(py, || Source::read(&path)).map(Self)
     }
 
-    /// A study from its text, its files sought in a folder.
+    /// A study that a person has named, and the files outside of its folder that it names, as they are shown.
+    #[staticmethod]
+    fn named_by_a_person(py: Python<'_>, path: PathBuf) -> PyResult<(Self, Vec<String>)> {
+        let (study, outside) = free(py, || Source::named_by_a_person(&path))?;
+        let shown = outside.iter().map(|path| written_out(&path.display().to_string()));
+        Ok((Self(study), shown.collect()))
+    }
+
+    /// A study from its text, its files in a folder or below.
     #[staticmethod]
     fn of(py: Python<'_>, name: &str, text: &str, folder: PathBuf) -> PyResult<Self> {
         free(py, || Source::of(name, text, &folder)).map(Self)

@@ -297,3 +297,50 @@ def test_parquet_has_the_same_rows(tmp_path, three_parts):
     (tmp_path / "p" / "manifest.json").unlink()
     said = run(three_parts, tmp_path / "p", "--parquet")
     assert said.returncode == 2 and "parts of a study that is not known" in said.stderr
+
+
+def test_files_elsewhere_are_read_of_a_study_that_a_person_names_alone(tmp_path):
+    folder = tmp_path / "in"
+    folder.mkdir()
+    bat = {"format": "sweetspot-bat/1", "material": "white-ash-dynamic",
+           "profile": {"unit": "in", "x": [0, 33], "diameter": [1.7, 1.7]}}
+    (tmp_path / "bat.json").write_text(json.dumps(bat))
+    (tmp_path / "secret").write_text("root:hunter2:17\n")
+    path = folder / "study.json"
+    path.write_text(json.dumps({"format": "sweetspot-study/1", "bat": "../bat.json", "outputs": ["f1_hz"]}))
+    with pytest.raises(ss.SweetspotError, match="in the folder of this one"):
+        ss.run_study(path)
+    command = [sys.executable, "-m", "sweetspot.study", str(path), "--out", str(tmp_path / "a")]
+    said = subprocess.run(command, capture_output=True, text=True)
+    assert said.returncode == 0 and "bat.json, which is outside of its folder" in said.stderr
+    said = run(path, tmp_path / "b")
+    assert said.returncode == 0 and "outside" not in said.stderr
+    for secret in (str(tmp_path / "secret"), "../secret", "/dev/zero"):
+        spec = {"format": "sweetspot-study/1", "bat": ["r161", secret], "outputs": ["f1_hz"]}
+        path.write_text(json.dumps(spec))
+        said = run(path, tmp_path / f"out{hash(secret)}")
+        assert "hunter2" not in said.stderr + said.stdout
+        for part in tmp_path.glob("out*/*.csv"):
+            assert "hunter2" not in part.read_text()
+
+
+def test_texts_of_a_table_are_what_they_were(tmp_path):
+    names = ["'=z", "+1", "=1+1", "it's"]
+    bat = {"format": "sweetspot-bat/1", "material": "white-ash-dynamic",
+           "profile": {"unit": "in", "x": [0, 33], "diameter": [1.7, 1.7]}}
+    for name in names:
+        (tmp_path / f"{name}.json").write_text(json.dumps(bat))
+    study = Study({"bat": [f"{name}.json" for name in names], "outputs": ["f1_hz"]}, tmp_path)
+    part = study.part(0)
+    assert b"'=1+1" in part and b"''=z" in part
+    assert list(study.result(part)["bat"]) == names
+
+
+def test_a_part_that_is_no_file_is_not_waited_on(tmp_path):
+    study = Study({"bat": "r161", "outputs": ["f1_hz"]})
+    for name, make_it in (("a", lambda path: path.symlink_to("/dev/zero")), ("b", os.mkfifo)):
+        out = tmp_path / name
+        study.open(out)
+        make_it(out / "part-000000.csv")
+        with pytest.raises(ss.SweetspotError, match="a pipe, a device or a folder"):
+            study.kept(out, 0)

@@ -8,6 +8,8 @@
 use std::fmt;
 use std::path::PathBuf;
 
+use crate::base::marks::written_out as one_line;
+
 /// The result of everything here that can fail.
 pub type Result<T> = std::result::Result<T, Error>;
 
@@ -245,12 +247,6 @@ impl fmt::Display for Complaint {
         write!(f, "found {found}, expected {}", one_line(&self.expected))?;
         if self.hint.is_empty() { Ok(()) } else { write!(f, "; {}", one_line(&self.hint)) }
     }
-}
-
-/// A text that may hold anything of somebody's file, its control characters written out.
-fn one_line(text: &str) -> String {
-    let written = |c: char| if c.is_control() { c.escape_default().to_string() } else { c.into() };
-    text.chars().map(written).collect()
 }
 
 /// The beginning of a text that may be a megabyte of somebody's file.

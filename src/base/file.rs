@@ -9,6 +9,7 @@ use std::hash::{BuildHasher, RandomState};
 use std::io::{self, Error as Fault, ErrorKind, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 
 use crate::base::error::{Error, Result};
 
@@ -45,7 +46,7 @@ pub fn keep() {
     ["/dev/stdout", "/dev/stderr"].iter().for_each(|name| note(Path::new(name)));
 }
 
-/// Reads a whole file.
+/// Reads a whole file, or what a pipe or a device gives, that a person has named.
 ///
 /// # Errors
 ///
@@ -55,6 +56,22 @@ pub fn read(path: &Path) -> Result<Vec<u8>> {
     let bytes = up_to(path, MOST).map_err(failed)?;
     note(path);
     Ok(bytes)
+}
+
+/// Reads a whole file that nobody has named at this moment: another file names it, or it lies where one is
+/// expected. A pipe, on which a reader may wait for ever, and a device are none.
+///
+/// # Errors
+///
+/// As [`read`].
+pub fn read_plain(path: &Path) -> Result<Vec<u8>> {
+    let failed = |source| Error::Read { path: path.to_owned(), source };
+    let is = fs::metadata(path).map_err(failed)?;
+    if !is.is_file() && !is.is_dir() {
+        let said = "it is a pipe or a device, not a file";
+        return Err(failed(Fault::new(ErrorKind::InvalidInput, said)));
+    }
+    read(path)
 }
 
 fn up_to(path: &Path, most: u64) -> io::Result<Vec<u8>> {
@@ -73,7 +90,7 @@ fn up_to(path: &Path, most: u64) -> io::Result<Vec<u8>> {
 }
 
 /// A file, if it is one, is kept from now on.
-fn note(path: &Path) {
+pub(crate) fn note(path: &Path) {
     if let (Some(file), Some(kept)) = (Identity::of(path), locked(&KEPT).as_mut()) {
         kept.push(file);
     }
@@ -269,19 +286,29 @@ fn overwrite(path: &Path, contents: &[u8]) -> io::Result<()> {
 
 /// Writes a part in the folder of the target, as `old` in owner and permissions, and renames it.
 fn write_beside(target: &Path, old: Option<&Metadata>, contents: &[u8]) -> io::Result<()> {
+    beside(target, old, contents, |part| fs::rename(part, target)).map(drop)
+}
+
+/// Writes a part in the folder of the target, as `old` in owner and permissions, and lets `put` take it to its
+/// place: the file, which is locked where files can be.
+pub(crate) fn beside(
+    target: &Path,
+    old: Option<&Metadata>,
+    contents: &[u8],
+    put: impl FnOnce(&Path) -> io::Result<()>,
+) -> io::Result<File> {
     let (part, mut file) = new_part(target)?;
     let written = old
         .map_or(Ok(()), |old| as_before(&file, old))
         .and_then(|()| file.write_all(contents))
         .and_then(|()| file.sync_all())
-        .and_then(|()| fs::rename(&part, target));
-    drop(file);
+        .and_then(|()| put(&part));
     if written.is_err() {
         // The part is of no use; that it may not be there is no further error.
         let _ = fs::remove_file(&part);
     }
     parts().retain(|other| *other != part);
-    written
+    written.map(|()| file)
 }
 
 /// How the name of a file begins that is being written, and how it ends.
@@ -355,13 +382,13 @@ fn names(_: &Metadata) -> u64 {
 
 /// Disk and number of a file.
 #[cfg(unix)]
-fn number(file: &Metadata) -> Option<(u64, u64)> {
+pub(crate) fn number(file: &Metadata) -> Option<(u64, u64)> {
     use std::os::unix::fs::MetadataExt;
     Some((file.dev(), file.ino()))
 }
 
 #[cfg(not(unix))]
-fn number(_: &Metadata) -> Option<(u64, u64)> {
+pub(crate) fn number(_: &Metadata) -> Option<(u64, u64)> {
     None
 }
 
@@ -380,7 +407,21 @@ fn locked<T>(list: &Mutex<T>) -> MutexGuard<'_, T> {
 /// Removes every part that is being written, for a program that is told to stop. No further file is
 /// begun: whoever tries waits for the end of the program, which must follow.
 pub fn abandon() {
-    let parts = parts();
+    remove_all(parts());
+}
+
+/// As [`abandon`], but does not wait for long: whoever writes may be this thread itself.
+pub fn abandon_at_once() {
+    const TRIES: u32 = 50;
+    for _ in 0..TRIES {
+        if let Ok(parts) = PARTS.try_lock() {
+            return remove_all(parts);
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+}
+
+fn remove_all(parts: MutexGuard<'static, Vec<PathBuf>>) {
     for part in parts.iter() {
         // It may be whole and renamed by now.
         let _ = fs::remove_file(part);

@@ -5,9 +5,11 @@
 //!
 //! | file | question |
 //! |---|---|
+//! | [`marks`] | which characters act on what shows them |
 //! | [`error`], `mistakes` | what was wrong, where, what was expected; several mistakes at once |
 //! | [`telling`], `clock`, [`threads`] | how far is a computation; how long does it take; on how many threads |
 //! | [`file`](mod@file) | how is a file written so that nothing is lost |
+//! | `own_file` | how is a file kept that this program alone may write over |
 //! | [`typed`], [`units`] | which numbers and units were typed; what is a number with a unit in SI |
 //! | [`number`] | how is a number written |
 //! | [`real`], [`lanes`] | one number or several side by side |
@@ -15,6 +17,8 @@
 //! | [`quadrature`], [`interval`] | how is an integral taken; which values can an expression take |
 //! | [`xml`] | how is a text written into XML |
 
+#[doc(hidden)]
+pub mod marks;
 pub mod error;
 pub(crate) mod mistakes;
 pub mod telling;
@@ -23,6 +27,8 @@ pub(crate) mod clock;
 pub mod threads;
 #[doc(hidden)]
 pub mod file;
+#[cfg(feature = "cli")]
+pub(crate) mod own_file;
 #[doc(hidden)]
 pub mod typed;
 pub mod units;

@@ -1,5 +1,7 @@
 //! Text as XML has it.
 
+use crate::base::marks::is_bidi;
+
 /// The text between tags and in quoted attributes; control characters, which XML cannot hold, become
 /// blanks, and marks that turn what follows the sign for what cannot be shown.
 pub fn escaped(text: &str) -> String {
@@ -23,11 +25,6 @@ pub fn put(out: &mut String, c: char) {
         '"' => *out += "&quot;",
         c => out.push(c),
     }
-}
-
-/// Marks that turn the direction of what follows, and could make a name or a number read as another.
-pub fn is_bidi(c: char) -> bool {
-    matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
 #[cfg(test)]

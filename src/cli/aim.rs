@@ -20,7 +20,7 @@ use crate::study::comparison::contender::Terms as Looks;
 use crate::study::comparison::table::{Comparison, Entry};
 use crate::study::lathe::workpiece::HitTerms;
 
-use crate::cli::common::{OutputArgs, Prepared, SolveArgs, examples, read};
+use crate::cli::common::{OutputArgs, Prepared, SolveArgs, examples, note_outside, read};
 use crate::cli::delivered::{apart, put};
 use crate::cli::done::{Done, NOT_REACHED};
 use crate::cli::edits::EditArgs;
@@ -160,7 +160,11 @@ fn slope(text: &str) -> std::result::Result<f64, String> {
 pub fn run(args: &Args) -> Result<Done> {
     apart(&[("--json", &args.output.json), ("--cuts", &args.cuts), ("--out", &args.out)])?;
     args.solve.refuse_budget("aim")?;
-    let aim_file = args.aim.as_deref().map(AimFile::read).transpose()?;
+    let aim_file = args.aim.as_deref().map(AimFile::named_by_a_person).transpose()?;
+    let aim_file = aim_file.map(|(aim_file, outside)| {
+        args.aim.iter().for_each(|file| note_outside(file, &outside, args.output.quiet));
+        aim_file
+    });
     let wish = wish(args, aim_file.as_ref())?;
     let bat = read(&args.bat, &args.edits, args.output.quiet)?;
     let Prepared { bat, request, warning } = args.solve.prepare(bat, 10, &args.output)?;
@@ -226,7 +230,7 @@ fn wish(args: &Args, aim_file: Option<&AimFile>) -> Result<Wish> {
     }
     wish.free = free;
     if let Some(name) = &args.rules {
-        let rules = rules_file::named(name, Path::new(""));
+        let rules = rules_file::named(name);
         wish.rules = Some(rules.map_err(|error| error.placed(option("--rules")))?);
     }
     wish.remove_only = (wish.remove_only || args.remove_only) && !args.add;

@@ -131,7 +131,8 @@ const MODES: usize = 10;
 pub fn run(args: &Args) -> Result<Done> {
     let model = args.scene.model()?;
     // A report that cannot be written is told before it is computed.
-    args.report.as_deref().map(page::file::expected).transpose()?;
+    let made = [&args.out, &args.plots];
+    args.report.as_deref().map(|path| page::file::expected(path, &made)).transpose()?;
     apart(&[("--json", &args.output.json), ("--report", &args.report)])?;
     args.solve.refuse_budget("analyze")?;
     let (bat, text) = args.bat.read_with_text(&args.output)?;

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use crate::base::marks;
 use crate::base::number::rounded;
 use crate::bat::profile::{Interpolation, Profile, Stations};
 
@@ -73,7 +74,7 @@ pub fn text(bat: &Measured) -> String {
         let walls = vec![quoted(wall); rows.len()].join(", ");
         let _ = write!(out, ",\n    \"wall_thickness\": [{walls}]");
     }
-    out + "\n  }\n}\n"
+    marks::json(&(out + "\n  }\n}\n"))
 }
 
 /// Place, diameter and diameter of the hole at every station. A cup has stations of its own, with the diameters that

@@ -21,6 +21,7 @@ use crate::study::measured::pairing::LEAST;
 use crate::study::measured::study::{ALIKE, Shapes, Study};
 
 use crate::cli::asking::dialogue::Dialogue;
+use crate::cli::asking::draft;
 use crate::cli::asking::readings_asked::asked;
 use crate::cli::beside::BesideArgs;
 use crate::cli::common::{Prepared, examples, prepare, printed, read_with_text, warn};
@@ -233,14 +234,8 @@ struct Told {
 
 /// Where answers are kept: they are of one bat.
 fn draft(args: &Args) -> PathBuf {
-    let of_bat = || {
-        let mut name = args.bat.file_stem().unwrap_or_default().to_owned();
-        name.push("-calibrate");
-        name
-    };
-    let mut name = args.readings.as_deref().map_or_else(of_bat, |path| path.as_os_str().to_owned());
-    name.push(".draft");
-    name.into()
+    let bat = args.bat.file_stem().unwrap_or_default().to_string_lossy();
+    draft::stem(args.readings.as_deref(), &format!("{bat}-calibrate"))
 }
 
 /// Reads what was measured, or asks for it; None where who was asked left.
@@ -250,7 +245,7 @@ fn readings(args: &Args, bat: &Bat) -> Result<Option<Told>> {
             let expected = "a readings file, such as readings.json, or --ask to answer questions";
             return Err(Error::value("MEASURED", "none", expected));
         }
-        let mut person = Dialogue::kept(stdin().lock(), "calibrate", &draft(args), bat.name());
+        let mut person = Dialogue::kept(stdin().lock(), ("calibrate", &draft(args)), bat.name());
         let Some(text) = person.hold(|person| asked(person, bat))? else { return Ok(None) };
         if let Some(path) = &args.readings {
             file::write(path, text.as_bytes())?;

@@ -344,21 +344,26 @@ pub fn read(path: &Path, edits: &EditArgs, quiet: bool) -> Result<Bat> {
 /// Reads a bat, edits it, passes its warnings on, and returns the text of its file too. A name without
 /// ending is that of a built-in bat, unless there is a file of it.
 pub fn read_with_text(path: &Path, edits: &EditArgs, quiet: bool) -> Result<(Bat, String)> {
-    let Named { bat, text, columns_outside } = match bundled::named(path)? {
+    let Named { bat, text, outside } = match bundled::named(path)? {
         Some((name, text)) => {
             let bat = Bat::from_text(name, text, Path::new(""))?;
-            Named { bat, text: text.to_owned(), columns_outside: None }
+            Named { bat, text: text.to_owned(), outside: vec![] }
         }
         None => Bat::named_by_a_person(path)?,
     };
+    note_outside(path, &outside, quiet);
     let file = path.display();
-    if let Some(columns) = columns_outside {
-        let columns = columns.display();
-        warn(&format!("note: {file} is of {columns}, which is outside of its folder"), quiet);
-    }
     let bat = edits.edit(bat)?;
     bat.warnings().iter().for_each(|w| warn(&format!("warning: {file}: {w}"), quiet));
     Ok((bat, text))
+}
+
+/// Says which files a file has named that are outside of its folder.
+pub fn note_outside(file: &Path, outside: &[PathBuf], quiet: bool) {
+    for other in outside {
+        let (file, other) = (file.display(), other.display());
+        warn(&format!("note: {file} names {other}, which is outside of its folder"), quiet);
+    }
 }
 
 /// An error about members of a scene, which are options here.

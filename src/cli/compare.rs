@@ -203,7 +203,7 @@ fn bats_beside(args: &Args) -> Result<Done> {
         ));
     }
     if let Some(path) = &args.report {
-        page::file::expected_page(path)?;
+        page::file::expected_page(path, &[&args.plots])?;
     }
     let model = args.scene.model()?;
     let mut warnings = vec![];

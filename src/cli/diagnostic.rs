@@ -3,6 +3,7 @@
 use std::io::Write;
 
 use crate::base::error::{Complaint, Error, Excerpt, Place};
+use crate::base::marks;
 use crate::files::schema;
 use crate::files::schema::mistakes::ErrorFile;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
@@ -33,7 +34,8 @@ pub fn as_json(document: impl FnOnce() -> ErrorFile) {
     let mut options = std::env::args_os().skip(1).take_while(|word| word != "--");
     if options.any(|word| word == "--json" || word.as_encoded_bytes().starts_with(b"--json=")) {
         // There is nobody left to tell if standard error is closed.
-        let _ = writeln!(std::io::stderr(), "{}", schema::value(&document()));
+        let _ =
+            writeln!(std::io::stderr(), "{}", marks::json(&schema::value(&document()).to_string()));
     }
 }
 

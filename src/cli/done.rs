@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use crate::base::xml::is_bidi;
+pub use crate::base::marks::written_out as printable;
 
 /// What is left to do when a verb is done.
 pub struct Done {
@@ -33,12 +33,4 @@ pub const NOT_REACHED: u8 = 3;
 pub fn warn(warning: &str) {
     // A closed standard error is no reason to fail.
     let _ = writeln!(io::stderr(), "warning: {}", printable(warning));
-}
-
-/// One line that does nothing to a terminal, whatever a file is called or holds.
-pub fn printable(text: &str) -> String {
-    // Marks that turn the direction of writing could show a line as another one.
-    let acts = |c: char| c.is_control() || is_bidi(c) || matches!(c, '\u{2028}' | '\u{2029}');
-    let escaped = |c: char| if acts(c) { c.escape_default().to_string() } else { c.into() };
-    text.chars().map(escaped).collect()
 }

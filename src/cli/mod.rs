@@ -56,4 +56,4 @@ mod licences;
 mod verbs;
 mod program;
 
-pub use program::run;
+pub use {program::run, stop::end_without_memory};

@@ -19,11 +19,13 @@ use crate::study::spread::Readings;
 
 use crate::cli::asking::ask::shown_density;
 use crate::cli::asking::dialogue::Dialogue;
+use crate::cli::asking::draft;
 use crate::cli::asking::interview::asked;
 use crate::cli::asking::new_options::{called, given, refuse_existing};
 use crate::cli::bat_text::{self, Measured};
 use crate::cli::common::{Prepared, glyphs, prepare, printed};
 use crate::cli::done::Done;
+use crate::cli::style;
 use crate::cli::value::TheoryChoice;
 
 pub use crate::cli::asking::new_options::Args;
@@ -37,7 +39,7 @@ pub fn run(args: &Args) -> Result<Done> {
         return made(args, &measured, &bat_text::text(&measured));
     }
     let of = args.name.as_deref().unwrap_or_default();
-    let mut person = Dialogue::kept(stdin().lock(), "new", &draft(args), of);
+    let mut person = Dialogue::kept(stdin().lock(), ("new", &draft(args)), of);
     let Some(measured) = person.hold(|person| asked(args, person))? else {
         return Ok(Done::new(String::new(), 0));
     };
@@ -50,12 +52,9 @@ pub fn run(args: &Args) -> Result<Done> {
     Ok(done)
 }
 
-/// Where answers are kept until the bat file is written.
+/// Where answers are kept until the bat file is written: beside it, which is here where it has no name yet.
 fn draft(args: &Args) -> PathBuf {
-    let name = args.file.as_deref().filter(|file| file.as_os_str() != "-");
-    let mut name = name.unwrap_or(Path::new("sweetspot-new")).as_os_str().to_owned();
-    name.push(".draft");
-    name.into()
+    draft::stem(Some(args.file.as_deref().unwrap_or(Path::new("sweetspot-new"))), "new")
 }
 
 fn made(args: &Args, measured: &Measured, text: &str) -> Result<Done> {
@@ -66,7 +65,7 @@ fn made(args: &Args, measured: &Measured, text: &str) -> Result<Done> {
     }
     refuse_existing(&path, args.force)?;
     file::write(&path, text.as_bytes())?;
-    Ok(Done::new(shown(&bat, measured, &path), 0))
+    Ok(Done::new(style::table(&shown(&bat, measured, &path)), 0))
 }
 
 /// The bat as it was written, and what to do with it.

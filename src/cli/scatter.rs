@@ -14,7 +14,7 @@ use crate::show::report::{resolved, scatter};
 use crate::study::scatter::rows::{ScatterPlan, ScatterRows};
 use crate::study::scatter::scattered::{SHARES, Scattered, WRITTEN};
 
-use crate::cli::common::{examples, printed, read};
+use crate::cli::common::{examples, note_outside, printed, read};
 use crate::cli::delivered::{apart, put};
 use crate::cli::done::Done;
 use crate::cli::edits::EditArgs;
@@ -90,7 +90,11 @@ Examples:
 
 pub fn run(args: &Args) -> Result<Done> {
     apart(&[("--json", &args.json), ("--csv", &args.csv)])?;
-    let said = args.scatter.as_ref().map(scatter_file::from_file).transpose()?;
+    let said = args.scatter.as_deref().map(scatter_file::named_by_a_person).transpose()?;
+    let said = said.map(|(said, outside)| {
+        args.scatter.iter().for_each(|file| note_outside(file, &outside, args.quiet));
+        said
+    });
     let bat = read(&args.bat, &args.edits, args.quiet)?;
     let said = match said {
         Some(said) => said,

@@ -1,5 +1,9 @@
 //! What happens when somebody stops the program: no half file stays, and no half line on the terminal.
 
+use std::io::{IsTerminal, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
 use crate::base::file;
 
 use crate::cli::progress;
@@ -9,6 +13,25 @@ fn stop(signal: i32) -> ! {
     file::abandon();
     progress::clear();
     std::process::exit(128 + signal)
+}
+
+/// Ends the program where there is no memory left. Nothing in here asks for more.
+pub fn end_without_memory() -> ! {
+    const SAID: &[u8] =
+        b"error: memory: found none left, of this machine or of a limit such as ulimit -v, \
+        expected more for this bat; no half file was left\n";
+    static ENDING: AtomicBool = AtomicBool::new(false);
+    if ENDING.swap(true, Ordering::Relaxed) {
+        // Another thread is at it. If it is this one, words have been said.
+        std::thread::sleep(Duration::from_secs(2));
+        std::process::abort();
+    }
+    let mut errors = std::io::stderr();
+    // A line that shows progress ends first.
+    let line: &[u8] = if errors.is_terminal() { b"\n" } else { b"" };
+    let _ = errors.write_all(line).and_then(|()| errors.write_all(SAID));
+    file::abandon_at_once();
+    std::process::exit(2)
 }
 
 /// From now on a signal that ends a program ends this one [cleanly](stop), except where whoever

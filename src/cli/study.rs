@@ -13,10 +13,11 @@ use crate::show::many::table::{Column, Table};
 use crate::show::plot::many;
 use crate::show::plot::picture::Picture;
 
-use crate::cli::common::examples;
+use crate::cli::common::{examples, note_outside};
 use crate::cli::done::{Done, NOT_REACHED, warn};
 use crate::cli::pictures;
 use crate::cli::progress::Progress;
+use crate::cli::style;
 
 /// Many bats: what varies from bat to bat, and what comes of it
 ///
@@ -67,7 +68,8 @@ Examples:
       what makes the answers vary, with pictures; rows that are there stay";
 
 pub fn run(args: &Args) -> Result<Done> {
-    let study = Study::read(&args.study)?;
+    let (study, outside) = Study::named_by_a_person(&args.study)?;
+    note_outside(&args.study, &outside, args.quiet);
     let rows = &study.rows;
     let pairs = pairs(rows, &args.scatter)?;
     let folder = StudyFolder::open(&args.out, &study)?;
@@ -95,7 +97,7 @@ pub fn run(args: &Args) -> Result<Done> {
         text += &summary::shares(&table, rows);
     }
     // A row without an answer is a row; where all are, nothing that was asked was reached.
-    Ok(Done::new(text, if table.met == 0 { NOT_REACHED } else { 0 }))
+    Ok(Done::new(style::table(&text), if table.met == 0 { NOT_REACHED } else { 0 }))
 }
 
 /// The columns to draw against each other.

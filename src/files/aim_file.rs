@@ -1,6 +1,6 @@
 //! What does somebody want of a bat, as it is written down: the `sweetspot-aim/1` file.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::base::error::{Complaint, Error, Result};
 use crate::base::mistakes::{self, Mistakes};
@@ -8,6 +8,7 @@ use crate::base::number::shortest;
 use crate::base::units::Quantity;
 use crate::files::aim_text;
 use crate::files::document::Document;
+use crate::files::folder::{Folder, Outside};
 use crate::files::json_node::{Node, Object};
 use crate::files::part_file;
 use crate::files::rules_file::{self, truth};
@@ -45,8 +46,19 @@ impl AimFile {
     /// [`Error::Read`], or [`Error::Input`] with line and column, or several of them.
     pub fn read(path: &Path) -> Result<Self> {
         let document = Document::read(path)?;
-        let wish = wish(&document, path.parent().unwrap_or(Path::new("")))?;
+        let wish = wish(&document, &Folder::closed(path.parent().unwrap_or(Path::new(""))))?;
         Ok(Self { document, wish })
+    }
+
+    /// Reads an aim file that a person has named, and the files outside of its folder that it names.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::read`].
+    pub fn named_by_a_person(path: &Path) -> Result<(Self, Vec<PathBuf>)> {
+        let (document, outside) = (Document::read(path)?, Outside::default());
+        let wish = wish(&document, &Folder::of(path, &outside))?;
+        Ok((Self { document, wish }, outside.paths()))
     }
 
     /// Reads one from text; `file` is what messages call it.
@@ -56,7 +68,7 @@ impl AimFile {
     /// As [`Self::read`].
     pub fn from_text(file: &str, text: &str) -> Result<Self> {
         let document = Document::new(file.to_owned(), text);
-        let wish = wish(&document, Path::new(""))?;
+        let wish = wish(&document, &Folder::closed(Path::new("")))?;
         Ok(Self { document, wish })
     }
 
@@ -67,7 +79,7 @@ impl AimFile {
     }
 }
 
-fn wish(document: &Document, folder: &Path) -> Result<Wish> {
+fn wish(document: &Document, folder: &Folder) -> Result<Wish> {
     let root = Node::root(document)?.members()?;
     root.check_format("sweetspot-aim/1")?;
     let mut mistakes = Mistakes::default();
@@ -107,9 +119,9 @@ fn list<T>(node: &Node, one: impl Fn(&Node) -> Result<T>) -> Result<Vec<T>> {
     mistakes::all(node.items()?.iter().map(one))
 }
 
-fn rules(node: &Node, folder: &Path) -> Result<crate::study::aim::rules::RuleSet> {
+fn rules(node: &Node, folder: &Folder) -> Result<crate::study::aim::rules::RuleSet> {
     let name = node.string()?;
-    rules_file::named(&name, folder).map_err(|error| match error {
+    rules_file::named_in(&name, folder).map_err(|error| match error {
         Error::Read { source, .. } => {
             node.error(format!("{name}, which cannot be read ({source})"), "a rule file")
         }
@@ -254,8 +266,9 @@ fn limit(node: &Node) -> Result<DiameterLimit> {
     };
     let (at_least, at_most) = (of("at_least"), of("at_most"));
     if from < 0.0 || from >= to {
+        let end = if to.is_finite() { format!("{to} m") } else { "the tip".to_owned() };
         mistakes
-            .add(node.error(format!("{from} m to {to} m"), "a stretch that ends after it begins"));
+            .add(node.error(format!("{from} m to {end}"), "a stretch that ends after it begins"));
     }
     if let (Some(least), Some(most)) = (at_least, at_most)
         && least > most

@@ -74,7 +74,7 @@ pub fn written(ball: &Ball) -> Value {
     file
 }
 
-fn from_document(document: &Document) -> Result<Ball> {
+pub(crate) fn from_document(document: &Document) -> Result<Ball> {
     let root = Node::root(document)?.members()?;
     root.check_format("sweetspot-ball/1")?;
     let mut mistakes = Mistakes::default();

@@ -2,6 +2,8 @@
 
 use crate::base::error::{Complaint, Error, Result, nearest};
 use crate::collision::ball::Ball;
+use crate::files::ball_file;
+use crate::files::folder::Folder;
 
 /// A ball's name and what makes it.
 type NamedBall = (&'static str, fn() -> Ball);
@@ -24,14 +26,32 @@ pub fn is_built_in(name: &str) -> bool {
 ///
 /// As [`Ball::from_file`] and [`Ball::linear`], and [`Error::Value`] for a misspelt name.
 pub fn ball(name: &str, stiffness: Option<f64>) -> Result<Ball> {
-    let ball = match BALLS.iter().find(|(known, _)| *known == name) {
-        Some((_, built_in)) => built_in(),
+    let ball = match built_in(name) {
+        Some(ball) => ball,
         None => Ball::from_file(name).map_err(|error| unknown_ball(name, error))?,
     };
     match stiffness {
         Some(stiffness) => ball.linear(stiffness),
         None => Ok(ball),
     }
+}
+
+/// A ball by its name or its file, as a file in that folder has it.
+///
+/// # Errors
+///
+/// As [`ball`], and those of [`Folder::json`].
+pub fn ball_in(name: &str, folder: &Folder) -> Result<Ball> {
+    if let Some(ball) = built_in(name) {
+        return Ok(ball);
+    }
+    let document = folder.json(name, "ball").map_err(|error| unknown_ball(name, error))?;
+    ball_file::from_document(&document)
+}
+
+/// A ball that is known by that name.
+pub fn built_in(name: &str) -> Option<Ball> {
+    BALLS.iter().find(|(known, _)| *known == name).map(|(_, ball)| ball())
 }
 
 /// The error for an unreadable ball: a name near a known one is a misspelling, not a file.

@@ -1,8 +1,6 @@
 //! How a bat is written down: the `sweetspot-bat/1` file, read and checked.
 
-use std::cell::Cell;
-use std::fs;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
@@ -17,6 +15,7 @@ use crate::bat::weighed::Weighed;
 use crate::files::document::Document;
 use crate::files::edits_file;
 use crate::files::fixtures_file;
+use crate::files::folder::{Folder, Outside};
 use crate::files::json_node::{Node, Object};
 use crate::files::part_file;
 use crate::files::station_table::{COLUMNS, StationTable};
@@ -65,7 +64,8 @@ impl Bat {
     pub fn with_text(path: impl AsRef<Path>) -> Result<(Self, String)> {
         let path = path.as_ref();
         let document = Document::read(path)?;
-        let bat = from_document(&document, &Folder::of(path, None))?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let bat = from_document(&document, &Folder::closed(folder))?;
         Ok((bat, document.text))
     }
 
@@ -78,9 +78,9 @@ impl Bat {
     pub fn named_by_a_person(path: impl AsRef<Path>) -> Result<Named> {
         let path = path.as_ref();
         let document = Document::read(path)?;
-        let outside = Cell::new(None);
-        let bat = from_document(&document, &Folder::of(path, Some(&outside)))?;
-        Ok(Named { bat, text: document.text, columns_outside: outside.into_inner() })
+        let outside = Outside::default();
+        let bat = from_document(&document, &Folder::of(path, &outside))?;
+        Ok(Named { bat, text: document.text, outside: outside.paths() })
     }
 
     /// Reads a bat from text; `file` is what messages call it, a `csv` is sought in `folder`.
@@ -104,7 +104,12 @@ impl Bat {
     ///
     /// As [`Self::from_file`].
     pub fn from_text(file: &str, text: &str, folder: &Path) -> Result<Self> {
-        from_document(&Document::new(file.to_owned(), text), &Folder { path: folder, left: None })
+        Self::from_text_in(file, text, &Folder::closed(folder))
+    }
+
+    /// Reads a bat from text, as [`Self::from_text`], its `csv` sought in a folder that it may be led out of.
+    pub(crate) fn from_text_in(file: &str, text: &str, folder: &Folder) -> Result<Self> {
+        from_document(&Document::new(file.to_owned(), text), folder)
     }
 }
 
@@ -115,36 +120,8 @@ pub struct Named {
     pub bat: Bat,
     /// What its file says.
     pub text: String,
-    /// The CSV file that it was read from, where that is outside of the bat file's folder.
-    pub columns_outside: Option<PathBuf>,
-}
-
-/// The folder of a bat file, in which its `csv` is sought.
-struct Folder<'a> {
-    path: &'a Path,
-    /// Where to note a file outside of it; without such a place there must be none.
-    left: Option<&'a Cell<Option<PathBuf>>>,
-}
-
-impl<'a> Folder<'a> {
-    fn of(file: &'a Path, left: Option<&'a Cell<Option<PathBuf>>>) -> Self {
-        Self { path: file.parent().unwrap_or(Path::new("")), left }
-    }
-
-    /// The path of a file by its name in a bat file, if it may be read.
-    fn find(&self, name: &str) -> Option<PathBuf> {
-        let path = self.path.join(name);
-        let folder = if self.path == Path::new("") { Path::new(".") } else { self.path };
-        // Links are followed; a file that cannot be found is judged by its name.
-        let inside = match (fs::canonicalize(folder), fs::canonicalize(&path)) {
-            (Ok(folder), Ok(file)) => file.starts_with(folder),
-            _ => Path::new(name).components().all(|part| matches!(part, Component::Normal(_))),
-        };
-        if !inside {
-            self.left?.set(Some(path.clone()));
-        }
-        Some(path)
-    }
+    /// Files that it was read from outside of the bat file's folder.
+    pub outside: Vec<PathBuf>,
 }
 
 /// A profile, as a bat file in `folder` has it, with the columns of its table in place of that table's name: bare
@@ -153,14 +130,14 @@ impl<'a> Folder<'a> {
 /// # Errors
 ///
 /// [`Error::Value`] for what is wrong with the profile, [`Error::Input`] with line and column for the table.
-pub fn without_table(profile: &Value, folder: &Path) -> Result<Value> {
+pub fn without_table(profile: &Value, folder: &Folder) -> Result<Value> {
     const NAME: &str = "";
     let document = Document::new(NAME.to_owned(), &profile.to_string());
     let mut profile = profile.clone();
     let mut read = || {
         let root = Node::root(&document)?.members()?;
         let (name, factor) = length_unit(&root)?;
-        let table = table(root, &Folder { path: folder, left: None }, (&name, factor))?;
+        let table = table(root, folder, (&name, factor))?;
         let columns = table.columns().map(|(key, values)| {
             (key.to_owned(), values.iter().map(|value| value / factor).collect::<Value>())
         });
@@ -338,17 +315,13 @@ fn table<'a>(object: Object<'a>, folder: &Folder, unit: (&str, f64)) -> Result<S
         }
     }
     mistakes.and(node.string().and_then(|name| {
-        let path = folder.find(&name).ok_or_else(|| {
-            let expected = "a file in the folder of this one, or below";
-            let hint = "the command line also reads others, of a bat file named there";
-            node.complain(Complaint::new("", node.shown(), expected).hinted(hint))
-        })?;
-        StationTable::from_csv(&path, unit.1).map_err(|error| match error {
-            Error::Read { source, .. } => node.error(
+        let document = folder.table(&name, &COLUMNS).map_err(|error| match error {
+            Error::Read { path, source } => node.error(
                 format!("{}, which cannot be read ({source})", path.display()),
                 "a CSV file, sought from the folder of this one",
             ),
-            other => other,
-        })
+            error => error.placed(|complaint| node.complain(complaint)),
+        })?;
+        StationTable::from_csv(document, unit.1)
     }))
 }

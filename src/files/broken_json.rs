@@ -1,7 +1,29 @@
 //! What to say of text that is not JSON.
 
+use serde::de::IgnoredAny;
+
 use crate::base::error::{Complaint, Error, shortened};
 use crate::files::document::Document;
+
+/// What to say of a text that does not begin as a JSON object does.
+pub(crate) fn not_an_object(document: &Document) -> Error {
+    let text = document.text.trim();
+    let complaint = match serde_json::from_str::<IgnoredAny>(text) {
+        Ok(_) => Complaint::new("", "a text alone", "an object { … }"),
+        Err(error) if error.is_eof() && text.starts_with('[') => {
+            let found = "the end of the file";
+            Complaint::new("", found, "the rest of a list").hinted(unclosed("a list"))
+        }
+        Err(_) => {
+            let hint = "YAML, TOML and tables are other formats: write { \"name\": value, … }";
+            Complaint::new("", "text that is not JSON", "`{`, with which a JSON object begins")
+                .hinted(hint)
+        }
+    };
+    let start = document.text.len() - document.text.trim_start().len();
+    let first = document.text[start..].chars().next().map_or(0, char::len_utf8);
+    document.error(start..start + first, complaint)
+}
 
 /// What `serde_json` says of text that is not JSON, in found and expected, with its place.
 pub(crate) fn told(document: &Document, error: &serde_json::Error) -> Error {

@@ -8,6 +8,7 @@ use crate::base::error::{Complaint, Error, Excerpt, Place, Result};
 use crate::base::file;
 
 /// The text of one input file, a byte-order mark removed.
+#[derive(Debug)]
 pub(crate) struct Document {
     pub file: String,
     pub text: String,
@@ -27,8 +28,17 @@ impl Document {
         Self::of(path, true)
     }
 
+    /// A file that another one names, or what is wrong with its letters.
+    pub fn named(path: &Path, of_a_table: bool) -> Result<Result<Self>> {
+        let bytes = file::read_plain(path)?;
+        Ok(Self::decoded(path, bytes, of_a_table))
+    }
+
     fn of(path: &Path, of_a_table: bool) -> Result<Self> {
-        let bytes = file::read(path)?;
+        Self::decoded(path, file::read(path)?, of_a_table)
+    }
+
+    fn decoded(path: &Path, bytes: Vec<u8>, of_a_table: bool) -> Result<Self> {
         let name = path.display().to_string();
         let wide = match bytes[..] {
             [0xff, 0xfe, ..] => Some(utf_16(&bytes, u16::from_le_bytes)),

@@ -36,7 +36,12 @@ impl<'a> Node<'a> {
             let complaint = Complaint::new("", "an empty file", "a JSON object");
             return Err(document.error(0..0, complaint));
         }
+        let is_object = document.text.trim_start().starts_with('{');
         match serde_json::from_str::<&RawValue>(&document.text) {
+            Ok(raw) if !is_object && raw.get().starts_with('"') => {
+                Err(broken_json::not_an_object(document))
+            }
+            Err(_) if !is_object => Err(broken_json::not_an_object(document)),
             Ok(raw) => Ok(Self { document, path: String::new(), raw: raw.get() }),
             Err(error) => Err(broken_json::told(document, &error)),
         }

@@ -6,14 +6,14 @@
 //! |---|---|
 //! | `document`, `broken_json`, `json_node` | the text and its places; JSON that does not parse; a value with its place |
 //! | `sheet_number`, `sheet`, `csv_file` | a number in a table; its cells; columns of numbers |
+//! | [`folder`] | which other files may a file name |
 //! | `station_table` | the stations of a profile |
 //! | `part_file`, `fixtures_file`, `edits_file`, [`bat_file`] | a bat |
 //! | [`ball_file`], [`balls`], [`scene_file`] | a ball; which ball is meant; how a bat is hit |
 //! | [`shape_file`], [`force_file`] | an initial shape; a force in time |
 //! | `amounts`, [`readings_file`] | shares and readings with their uncertainty; what was measured of a bat |
 //! | [`scatter_file`] | what differs between bats of one model |
-//! | [`study_vary`], [`study_file`], [`study_rows`] | what a study varies; what it asks; row k of it |
-//! | `study_warnings` | what of a study is strange, or without effect |
+//! | [`study_vary`], [`study_file`], [`study_rows`], `study_warnings` | what a study varies; what it asks; row k of it; what is strange |
 //! | `wish_words`, `aim_text`, `rules_file`, `aim_file` | what is wished of a bat: in words; the rules of a game; a wish |
 //! | [`schema`] | the types of every JSON format and their schemas |
 //! | [`uff`] | universal files, read and written |
@@ -24,6 +24,7 @@ pub(crate) mod broken_json;
 pub(crate) mod json_node;
 mod sheet_number;
 pub(crate) mod sheet;
+pub mod folder;
 pub(crate) mod csv_file;
 pub(crate) mod station_table;
 pub(crate) mod amounts;

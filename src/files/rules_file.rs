@@ -7,6 +7,7 @@ use crate::base::error::{Complaint, Error, Result};
 use crate::base::mistakes::{self, Mistakes};
 use crate::base::units::Quantity;
 use crate::files::document::Document;
+use crate::files::folder::Folder;
 use crate::files::json_node::{Node, Object};
 use crate::study::aim::rules::{Rule, RuleSet};
 
@@ -44,12 +45,25 @@ const WORDS: [&str; 7] = ["format", "$schema", "name", "game", "source", "date",
 /// # Errors
 ///
 /// [`Error::Value`] with the nearest name; what is wrong with the file.
-pub fn named(name: &str, folder: &Path) -> Result<RuleSet> {
+pub fn named(name: &str) -> Result<RuleSet> {
+    named_by(name, |name| Document::read(Path::new(name)))
+}
+
+/// As [`named`], as a file in that folder names them.
+///
+/// # Errors
+///
+/// As [`named`], and those of [`Folder::json`].
+pub fn named_in(name: &str, folder: &Folder) -> Result<RuleSet> {
+    named_by(name, |name| folder.json(name, "rules"))
+}
+
+fn named_by(name: &str, read: impl Fn(&str) -> Result<Document>) -> Result<RuleSet> {
     if let Some((name, text)) = BUILT_IN.iter().find(|(known, _)| *known == name) {
         return from_document(&Document::new((*name).to_owned(), text));
     }
     if name.ends_with(".json") {
-        return from_document(&Document::read(&folder.join(name))?);
+        return from_document(&read(name)?);
     }
     let names = BUILT_IN.map(|(name, _)| name);
     let expected = format!("{}, or a rule file (.json)", names.join(", "));
@@ -119,13 +133,13 @@ mod tests {
     #[test]
     fn every_set_that_travels_with_the_program_reads_and_tells_its_source() {
         for (name, _) in BUILT_IN {
-            let set = named(name, Path::new("")).unwrap();
+            let set = named(name).unwrap();
             assert!(set.name == name && !set.source.is_empty() && !set.date.is_empty());
             assert!(set.diameter() < 0.08 && set.diameter() > 0.05, "{name}");
         }
-        let mlb = named("mlb", Path::new("")).unwrap();
+        let mlb = named("mlb").unwrap();
         assert!((mlb.diameter() - 2.61 * 0.0254).abs() < 1e-15);
-        let wrong = named("mbl", Path::new("")).unwrap_err().to_string();
+        let wrong = named("mbl").unwrap_err().to_string();
         assert!(wrong.contains("did you mean mlb?"), "{wrong}");
     }
 }

@@ -3,7 +3,7 @@
 //! [`from_text`] reads a `sweetspot-scatter/1` file and tells all its mistakes at once. A covariance in it is the
 //! result of a calibration, `sweetspot-calibrate/1`.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::base::error::{Complaint, Error, Result};
 use crate::base::mistakes::{self, Mistakes};
@@ -15,6 +15,7 @@ use crate::collision::setup::Setup;
 use crate::files::amounts::share;
 use crate::files::balls;
 use crate::files::document::Document;
+use crate::files::folder::{Folder, Outside};
 use crate::files::json_node::{Node, Object};
 use crate::files::scene_file;
 use crate::study::many::answers::Answer;
@@ -89,7 +90,19 @@ pub fn of_wood(bat: &Bat) -> Option<ScatterFile> {
 /// [`Error::Read`], or [`Error::Input`] with line and column, or several of them.
 pub fn from_file(path: impl AsRef<Path>) -> Result<ScatterFile> {
     let path = path.as_ref();
-    from_document(&Document::read(path)?, path.parent().unwrap_or(Path::new("")))
+    let folder = path.parent().unwrap_or(Path::new(""));
+    from_document(&Document::read(path)?, &Folder::closed(folder))
+}
+
+/// Reads a scatter file that a person has named, and the files outside of its folder that it names.
+///
+/// # Errors
+///
+/// As [`from_file`].
+pub fn named_by_a_person(path: &Path) -> Result<(ScatterFile, Vec<PathBuf>)> {
+    let outside = Outside::default();
+    let file = from_document(&Document::read(path)?, &Folder::of(path, &outside))?;
+    Ok((file, outside.paths()))
 }
 
 /// Reads it from text; `file` is what messages call it, ball and covariance are sought in `folder`.
@@ -108,10 +121,10 @@ pub fn from_file(path: impl AsRef<Path>) -> Result<ScatterFile> {
 ///
 /// As [`from_file`].
 pub fn from_text(file: &str, text: &str, folder: &Path) -> Result<ScatterFile> {
-    from_document(&Document::new(file.to_owned(), text), folder)
+    from_document(&Document::new(file.to_owned(), text), &Folder::closed(folder))
 }
 
-fn from_document(document: &Document, folder: &Path) -> Result<ScatterFile> {
+fn from_document(document: &Document, folder: &Folder) -> Result<ScatterFile> {
     let root = Node::root(document)?.members()?;
     root.check_format("sweetspot-scatter/1")?;
     let mut mistakes = Mistakes::default();
@@ -155,12 +168,13 @@ fn from_document(document: &Document, folder: &Path) -> Result<ScatterFile> {
 }
 
 /// A built-in ball, or that of a file.
-fn ball(node: &Node, folder: &Path) -> Result<Ball> {
-    let name = node.string()?;
-    match balls::is_built_in(&name) {
-        true => balls::ball(&name, None),
-        false => balls::ball(&folder.join(&name).display().to_string(), None),
-    }
+fn ball(node: &Node, folder: &Folder) -> Result<Ball> {
+    balls::ball_in(&node.string()?, folder).map_err(|error| named_in_vain(node, error))
+}
+
+/// What is wrong with a file that a node names: said where it does.
+fn named_in_vain(node: &Node, error: Error) -> Error {
+    error.placed(|complaint| node.complain(Complaint { field: String::new(), ..complaint }))
 }
 
 /// Everything that differs, in the order of the file.
@@ -273,7 +287,7 @@ fn correlations(node: &Node, differences: &mut Differences) -> Result<()> {
 fn covariance(
     node: &Node,
     root: &Object,
-    folder: &Path,
+    folder: &Folder,
     differences: &mut Differences,
 ) -> Result<()> {
     for key in ["density", "youngs_modulus", "shear_over_young"] {
@@ -282,7 +296,8 @@ fn covariance(
             return Err(other.key().error(found, "one of them: the calibration says it"));
         }
     }
-    let document = Document::read(&folder.join(node.string()?))?;
+    let document =
+        folder.json(&node.string()?, "calibrate").map_err(|error| named_in_vain(node, error))?;
     let file = Node::root(&document)?.members()?;
     file.check_format("sweetspot-calibrate/1")?;
     let listed = file.require("parameters", "\"parameters\" of a calibration")?.items()?;

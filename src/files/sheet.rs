@@ -8,6 +8,7 @@
 use std::ops::Range;
 
 use crate::base::error::{Complaint, Error, Result};
+use crate::base::marks;
 use crate::base::mistakes;
 use crate::base::typed;
 use crate::base::units::{self, Quantity};
@@ -52,6 +53,7 @@ impl<'a> Sheet<'a> {
                 let complaint = Complaint::new(field, "a quote without an end", "quotes in pairs");
                 document.error(quote..quote + 1, complaint.hinted("a closing quote is missing"))
             })?;
+            let cells: Vec<&str> = cells.into_iter().map(marks::of_cell).collect();
             // Spreadsheets leave lines that hold only separators.
             if cells.iter().any(|cell| !cell.is_empty()) {
                 rows.push(SheetRow { start, cells });
@@ -239,6 +241,39 @@ pub(crate) fn normal(name: &str) -> String {
         Some("-" | "1") | None => stem.to_owned(),
         Some(unit) => format!("{stem}_{unit}"),
     }
+}
+
+/// Whether a text begins as a table of numbers with columns of those names does: they stand in its first line, in
+/// half of the cells at least, or further down with numbers below them, or its first line has other names with
+/// numbers alone below them. A text without a line begins as any.
+pub(crate) fn begins_with_numbers(text: &str, keys: &[&str]) -> bool {
+    /// Lines that are looked at, and cells of a line.
+    const LOOKED_AT: usize = 1000;
+    let is_empty = |line: &&str| line.trim().is_empty() || line.starts_with('#');
+    let is_sign = |c: char| c.is_whitespace() || [',', ';', '|', '"'].contains(&c);
+    let cells = |line: &str| -> Vec<String> {
+        let cells = line.split(is_sign).filter(|cell| !cell.is_empty());
+        cells.take(LOOKED_AT).map(normal).collect()
+    };
+    let is_known = |cell: &String| {
+        let rest = keys.iter().filter_map(|key| cell.strip_prefix(key));
+        rest.into_iter().any(|rest| rest.is_empty() || rest.starts_with('_'))
+    };
+    let half = |cells: &[String], is: &dyn Fn(&String) -> bool| {
+        2 * cells.iter().filter(|cell| is(cell)).count() >= cells.len()
+    };
+    let is_number = |cell: &String| sheet_number::value(cell, Decimal::Point).is_ok();
+    let lines: Vec<&str> = text.lines().filter(|line| !is_empty(line)).take(LOOKED_AT).collect();
+    let [first, second] = [0, 1].map(|k| lines.get(k).map_or(vec![], |line| cells(line)));
+    let separator = lines.first().is_some_and(|line| line.len() == 5 && line.starts_with("sep="));
+    let other = second.len() > 1 && second.iter().all(is_number);
+    separator
+        || half(&first, &is_known)
+        || other
+        || lines.windows(2).any(|pair| {
+            let [names, below] = [cells(pair[0]), cells(pair[1])];
+            below.len() > 1 && half(&names, &is_known) && half(&below, &is_number)
+        })
 }
 
 /// What stands between the cells of a table.

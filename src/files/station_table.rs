@@ -1,8 +1,6 @@
 //! Columns of stations as a user wrote them, in a bat file or a CSV file, each value with its
 //! place.
 
-use std::path::Path;
-
 use crate::base::error::{Complaint, Error, Result};
 use crate::base::mistakes::{self, Mistakes};
 use crate::base::typed;
@@ -74,8 +72,7 @@ impl<'a> StationTable<'a> {
 
     /// The columns of a CSV file, named and given their units by its header (`x_in,diameter_in`);
     /// a name without a unit is times `unit` (m). Lines that begin with `#` are comments.
-    pub fn from_csv(path: &Path, unit: f64) -> Result<StationTable<'static>> {
-        let document = Document::table(path)?;
+    pub fn from_csv(document: Document, unit: f64) -> Result<StationTable<'static>> {
         let csv = Csv::read(&document, &COLUMNS, Quantity::Length, unit)?;
         let header = |found: String, expected: &str| {
             Err(csv.error(&document, "", None, Complaint::new("header", found, expected)))

@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 use crate::base::error::{Error, Result};
+use crate::base::marks;
 use crate::base::number::shortest;
 use crate::bat::body::Bat;
 use crate::collision::ball::Ball;
@@ -216,7 +217,7 @@ impl Rows {
         std::iter::once(0).chain(inputs).chain(answers..=last).collect()
     }
 
-    /// The cells of those rows: of each its number, of several bats its name, its inputs, answers with their
+    /// The cells of those rows, as they are written: of each its number, of several bats its name, its inputs, answers with their
     /// errors, whether they are as accurate as asked, and why there are none.
     pub fn cells(&self, rows: Range<u64>) -> Vec<Vec<String>> {
         rows.clone().zip(self.answers(rows)).map(|(k, found)| self.cells_of(k, found)).collect()
@@ -226,7 +227,7 @@ impl Rows {
         let (bat, row) = self.row(k);
         let answers = self.study.asked.answers.len();
         let mut cells = vec![k.to_string()];
-        cells.extend(self.several().then(|| bat.name.clone()));
+        cells.extend(self.several().then(|| marks::cell(&bat.name)));
         cells.extend(self.study.varied.iter().map(|varied| varied.cell(&row)));
         let (met, why) = match found {
             Ok(found) => {
@@ -250,7 +251,7 @@ impl Rows {
                 (false, bat.document.as_ref().err().cloned().unwrap_or_else(|| reason(&error)))
             }
         };
-        cells.extend([met.to_string(), why]);
+        cells.extend([met.to_string(), marks::cell(&why)]);
         cells
     }
 

@@ -6,6 +6,7 @@
 use serde_json::{Value, json};
 
 use crate::base::error::{Complaint, Error, Place, Result};
+use crate::base::marks;
 use crate::base::mistakes::{self, Mistakes};
 use crate::base::number::shortest;
 use crate::base::typed;
@@ -87,13 +88,13 @@ impl Varied {
         }
     }
 
-    /// Its value in a row, as a table has it: a number in its unit, or what the list says.
+    /// Its value in a row, as a table has it, written as a cell: a number in its unit, or what the list says.
     pub fn cell(&self, row: &Row) -> String {
         match &self.way {
             Way::Drawn(k, _) => shortest(row.values[*k]),
             Way::Numbered(k, values, _) => shortest(values[row.picks[*k] as usize]),
             Way::Listed(k, values) => match &values[row.picks[*k] as usize].said {
-                Value::String(text) => text.clone(),
+                Value::String(text) => marks::cell(text),
                 other => other.to_string(),
             },
         }

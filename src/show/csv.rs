@@ -1,15 +1,24 @@
 //! Tables for spreadsheets and other programs: one line of names, then numbers that read back to the
-//! same bits, with commas between them and nothing else.
+//! same bits, with commas between them and nothing else. A text that a spreadsheet would compute has an apostrophe
+//! before it.
 
 use csv::Writer;
 
+use crate::base::marks;
 use crate::collision::columns::{self, Column};
 use crate::collision::hit::Impact;
 use crate::modes::mode::ModeError;
 use crate::modes::solve::Solution;
 
-/// One cell.
+/// One cell, as it is written.
 pub struct Cell(String);
+
+impl Cell {
+    /// One that was written before, such as a number.
+    pub fn written(text: String) -> Self {
+        Self(text)
+    }
+}
 
 impl From<f64> for Cell {
     fn from(value: f64) -> Self {
@@ -31,13 +40,13 @@ impl From<bool> for Cell {
 
 impl From<&str> for Cell {
     fn from(value: &str) -> Self {
-        Self(value.to_owned())
+        Self(marks::cell(value))
     }
 }
 
 impl From<String> for Cell {
     fn from(value: String) -> Self {
-        Self(value)
+        value.as_str().into()
     }
 }
 
@@ -54,7 +63,7 @@ impl Csv {
     /// A table with these columns, named with their units.
     pub fn new<S: Into<String>>(names: impl IntoIterator<Item = S>) -> Self {
         let mut table = Self(Writer::from_writer(vec![]));
-        table.row(names.into_iter().map(|name| Cell(name.into())));
+        table.row(names.into_iter().map(|name| Cell::from(name.into())));
         table
     }
 

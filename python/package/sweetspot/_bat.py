@@ -16,6 +16,8 @@ from ._errors import SweetspotError
 from ._results import Hit, Modes
 
 Quantity = float | str
+# The largest file that is read (bytes), as by the program.
+MOST = 256 << 20
 """A number in SI, or a text with its unit, such as ``"28 in"``."""
 
 
@@ -107,7 +109,11 @@ class Bat:
         if not path.is_file() and (text := _core.built_in(str(path))) is not None:
             return cls._of(str(path), text, Path())
         try:
-            text = path.read_text(encoding="utf-8")
+            with path.open("rb") as file:
+                read = file.read(MOST + 1)
+            if len(read) > MOST:
+                raise OSError(f"it has more than {MOST >> 20} MiB, the most that is read")
+            text = read.decode("utf-8")
         except (OSError, UnicodeDecodeError) as error:
             place = json.dumps({"mistakes": [{"file": str(path)}]})
             raise SweetspotError(f"cannot read {path}: {error}", place) from error

@@ -28,8 +28,8 @@ from ._errors import SweetspotError
 class Study:
     """A study that can be run: a file, or the members of one.
 
-    ``spec`` is the path of a study file or a dictionary with its members; files that it names are sought in its
-    folder, or in ``folder``.
+    ``spec`` is the path of a study file or a dictionary with its members; files that it names are in its folder or
+    below, or in ``folder``. Files elsewhere are refused: only what a person names at a keyboard reads them.
     """
 
     def __init__(self, spec: str | Path | Mapping[str, Any], folder: str | Path = "") -> None:
@@ -39,6 +39,14 @@ class Study:
         else:
             self._core = _core.Study(Path(spec))
         self.rows, self.parts = self._core.size()
+
+    @classmethod
+    def named_by_a_person(cls, spec: Path) -> tuple[Study, list[str]]:
+        """The study of a file that was named on a command line, and the files outside of its folder that it names."""
+        study = cls.__new__(cls)
+        study._core, outside = _core.Study.named_by_a_person(Path(spec))
+        study.rows, study.parts = study._core.size()
+        return study, outside
 
     @property
     def columns(self) -> list[tuple[str, str]]:
@@ -66,6 +74,8 @@ class Study:
         path = part_path(out, k, parquet)
         if not path.exists():
             return None
+        if not path.is_file():
+            raise SweetspotError(f"{path}: found a pipe, a device or a folder, expected a part of the study")
         part = path.read_bytes()
         if parquet:
             _check_rows(path, range(k * _core.ROWS, min((k + 1) * _core.ROWS, self.rows)))
@@ -199,7 +209,14 @@ def _column(name: str, cells: tuple[str, ...], is_number: bool) -> np.ndarray:
         return np.array([int(cell) for cell in cells], dtype=np.int64)
     if is_number:
         return np.array([float(cell) if cell else np.nan for cell in cells], dtype=float)
-    return np.array(cells, dtype=object)
+    return np.array([_text(cell) for cell in cells], dtype=object)
+
+
+def _text(cell: str) -> str:
+    """A text without the apostrophe that stands before what a spreadsheet would compute."""
+    rest = cell.lstrip("'")
+    guarded = rest.startswith(("=", "+", "-", "@", "\t", "＝", "＋", "－", "＠", "\\r"))
+    return cell[1:] if guarded and cell.startswith("'") else cell
 
 
 def run_study(

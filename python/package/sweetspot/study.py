@@ -110,7 +110,9 @@ def run(
     spec: Path, out: Path, engine: str, workers: int | None, address: str | None, parquet: bool, quiet: bool
 ) -> None:
     """Makes every part that is not there."""
-    study = Study(spec)
+    study, outside = Study.named_by_a_person(spec)
+    for other in outside if not quiet else ():
+        print(f"note: {spec} names {other}, which is outside of its folder", file=sys.stderr)
     study.open(out)
     for strange in study.warnings():
         print(f"warning: {strange}", file=sys.stderr)

@@ -3,27 +3,20 @@
 //! A dialogue is a function of its answers. To go back is to leave the last answer out and to ask from
 //! the beginning, passing over what is known; a draft is a file of the answers.
 
-use std::fs;
 use std::io::{BufRead, Read as _, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::base::error::{Complaint, Error, Result};
 use crate::show::report::text::wrapped;
 
+use crate::cli::asking::draft::{Answers, Draft};
 use crate::cli::common::printed;
+use crate::cli::done::printable;
 
 /// A person gives up sooner, and a program that answers without end is stopped.
 const MOST_TRIES: usize = 50;
 /// The longest line that is read at once (bytes).
 const LONGEST: u64 = 1 << 16;
-/// The first line of a draft, before the verb that it is of and [`GOES_ON`], by which it is told from a file of
-/// somebody's own.
-const ANSWERS_TO: &str = "# Answers to sweetspot ";
-const GOES_ON: &str = ", which goes on after them";
-/// The second line, before the bat's name, where that was no question.
-const OF: &str = "# of: ";
-/// The question about the bat's name.
-pub const NAME: &str = "name";
 
 /// What an answer means, or why it is invalid.
 pub type Read<T> = std::result::Result<T, Complaint>;
@@ -71,24 +64,6 @@ pub struct Dialogue<R> {
     before: Option<Answers>,
 }
 
-/// Where answers are kept.
-struct Draft {
-    path: PathBuf,
-    /// Its first line.
-    header: String,
-    /// Which bat it is of; empty where an answer says so.
-    of: String,
-}
-
-/// The answers of a draft.
-#[derive(Default)]
-struct Answers {
-    /// Which bat they are of; empty where none has said so.
-    of: String,
-    /// Each after the name of its question.
-    given: Vec<[String; 2]>,
-}
-
 /// Words that leave a dialogue.
 const LEAVING: [&str; 3] = ["quit", "exit", "q"];
 
@@ -99,37 +74,13 @@ impl<R: BufRead> Dialogue<R> {
         Self { answers, given: vec![], passed: 0, draft: None, before: None }
     }
 
-    /// A dialogue of that verb about that bat, which may not have a name yet, that is kept in a draft. Where there is
-    /// one of this bat, [`Self::hold`] asks whether to go on with it; one of another bat stays as it is.
-    pub fn kept(answers: R, verb: &str, draft: &Path, of: &str) -> Self {
-        let header = format!("{ANSWERS_TO}{verb}{GOES_ON}");
-        let text = fs::read_to_string(draft).ok();
-        let name = printed(draft);
-        let before = match &text {
-            None => Some(Answers::default()),
-            Some(text) => read_draft(text, &header),
-        };
-        let other = before.as_ref().map(|before| &before.of);
-        let other = other.filter(|other| !of.is_empty() && !other.is_empty() && *other != of);
-        let note = match (&before, other) {
-            (None, _) => format!("{name} is another file: nothing is kept."),
-            (_, Some(other)) => {
-                format!(
-                    "{name} is of another bat, '{other}': it stays as it is, and nothing is kept."
-                )
-            }
-            (Some(before), _) if before.given.is_empty() => {
-                format!("Answers are kept in {name} until all is done.")
-            }
-            _ => String::new(),
-        };
-        let kept = before.is_some() && other.is_none();
-        let before = before.filter(|before| kept && !before.given.is_empty());
-        let draft = Draft { path: draft.to_owned(), header, of: of.to_owned() };
-        let draft = kept.then_some(draft);
-        let dialogue = Self { answers, given: vec![], passed: 0, draft, before };
-        if !note.is_empty() {
-            dialogue.tell(&note);
+    /// A dialogue about that bat, which may not have a name yet, that is kept in a draft. Where there is one of this
+    /// bat, [`Self::hold`] asks whether to go on with it.
+    pub fn kept(answers: R, draft: (&str, &Path), of: &str) -> Self {
+        let (draft, before) = Draft::of(draft, of);
+        let dialogue = Self { answers, given: vec![], passed: 0, draft: Some(draft), before };
+        if let (Some(draft), None) = (&dialogue.draft, &dialogue.before) {
+            dialogue.tell(&draft.said());
         }
         dialogue
     }
@@ -160,7 +111,7 @@ impl<R: BufRead> Dialogue<R> {
     /// Asks whether to go on with a draft of before, by the name of its bat.
     fn resume(&mut self) -> Asked<()> {
         let Some(before) = self.before.take() else { return Ok(()) };
-        let draft = self.draft.as_ref().map_or(String::new(), |draft| printed(&draft.path));
+        let draft = self.kept_in().unwrap_or_default();
         let of = if before.of.is_empty() { "a bat without a name" } else { &before.of };
         let count = before.given.len();
         let answers = if count == 1 { "answer" } else { "answers" };
@@ -178,12 +129,10 @@ impl<R: BufRead> Dialogue<R> {
 
     /// Says where the answers are once somebody has left.
     fn left<T>(&self) -> Option<T> {
-        let kept = self.draft.as_ref().filter(|draft| draft.path.is_file());
-        self.tell(&match kept {
+        self.tell(&match self.kept_in() {
             Some(draft) => format!(
-                "Left, and nothing is written. The answers are kept in {}; the same command asks whether to go \
-                 on with them.",
-                printed(&draft.path)
+                "Left, and nothing is written. The answers are kept in {draft}; the same command asks whether to \
+                 go on with them."
             ),
             None => "Left, and nothing is written.".to_owned(),
         });
@@ -204,8 +153,14 @@ impl<R: BufRead> Dialogue<R> {
     }
 
     fn tell(&self, text: &str) {
+        let lines: Vec<String> = wrapped(text, 2).trim_end().split('\n').map(printable).collect();
         // Without standard error the questions are not seen; the answers may come all the same.
-        let _ = writeln!(std::io::stderr(), "{}", wrapped(text, 2).trim_end());
+        let _ = writeln!(std::io::stderr(), "{}", lines.join("\n"));
+    }
+
+    /// Where answers are kept, if there are any.
+    fn kept_in(&self) -> Option<String> {
+        self.draft.as_ref().and_then(Draft::path).map(printed)
     }
 
     /// Asks until the answer is one.
@@ -231,7 +186,13 @@ impl<R: BufRead> Dialogue<R> {
         read: impl Fn(&str) -> Read<T>,
     ) -> Asked<(String, T)> {
         for _ in 0..MOST_TRIES {
-            let line = self.line(question)?;
+            let line = match self.line(question)? {
+                Ok(line) => line,
+                Err(complaint) => {
+                    self.tell(&format!("  {complaint}"));
+                    continue;
+                }
+            };
             let answer = if line.is_empty() { question.usual.unwrap_or("") } else { &line };
             match (answer, read(answer)) {
                 ("?", _) => self.tell(&format!("  {}", question.help)),
@@ -264,55 +225,42 @@ impl<R: BufRead> Dialogue<R> {
         value
     }
 
-    /// The next line, without blanks around it.
-    fn line(&mut self, question: &Question) -> Asked<String> {
+    /// The next line, without blanks around it, or why it is no text.
+    fn line(&mut self, question: &Question) -> Asked<Read<String>> {
         let hint = question.usual.filter(|usual| !usual.is_empty());
         let hint = hint.map_or(String::new(), |usual| format!(" [{usual}]"));
-        let _ = write!(std::io::stderr(), "{}{hint}: ", question.text);
-        let mut line = String::new();
+        let text: Vec<String> = question.text.split('\n').map(printable).collect();
+        let _ = write!(std::io::stderr(), "{}{}: ", text.join("\n"), printable(&hint));
+        let mut line = vec![];
         let failed = |source| Error::Read { path: "standard input".into(), source };
-        if (&mut self.answers).take(LONGEST).read_line(&mut line).map_err(failed)? == 0 {
+        let mut answers = (&mut self.answers).take(LONGEST);
+        if answers.read_until(b'\n', &mut line).map_err(failed)? == 0 {
             let _ = writeln!(std::io::stderr());
             return Err(self.ended(question, "the end of the answers"));
         }
-        Ok(line.trim().to_owned())
+        Ok(match String::from_utf8(line) {
+            Ok(line) => Ok(line.trim().to_owned()),
+            Err(_) => {
+                let expected = "UTF-8: type it without accents, or set the terminal to UTF-8";
+                Err(Complaint::new("", "letters in another encoding than UTF-8", expected))
+            }
+        })
     }
 
     fn ended(&self, question: &Question, found: &str) -> Halt {
-        let kept = self.draft.as_ref().filter(|draft| draft.path.is_file());
-        let kept = kept.map_or("nothing was written".to_owned(), |draft| {
-            let draft = printed(&draft.path);
+        let kept = self.kept_in().map_or("nothing was written".to_owned(), |draft| {
             format!("the others are kept in {draft}, and the same command asks whether to go on with them")
         });
         Halt::Failed(Error::value(question.text.trim(), found, format!("an answer; {kept}")))
     }
 
     /// Writes the draft, or removes it where there is nothing to keep.
-    fn keep(&self) {
-        let Some(draft) = &self.draft else { return };
-        let lines = self.given.iter().map(|[name, answer]| format!("{name}: {answer}\n"));
-        // A folder that cannot be written to is told of in the end, with all answers.
-        let _ = match self.given.is_empty() {
-            true => fs::remove_file(&draft.path),
-            false => {
-                let of = if draft.of.is_empty() { "" } else { &format!("{OF}{}\n", draft.of) };
-                let text = format!("{}\n{of}{}", draft.header, lines.collect::<String>());
-                fs::write(&draft.path, text)
-            }
-        };
+    fn keep(&mut self) {
+        let moved = self.draft.as_mut().and_then(|draft| draft.keep(&self.given));
+        if let Some(said) = moved {
+            self.tell(&said);
+        }
     }
-}
-
-/// The answers of a draft with that first line, each after the name of its question, and the bat they are of; None of
-/// another file.
-fn read_draft(text: &str, header: &str) -> Option<Answers> {
-    let lines = text.strip_prefix(header)?;
-    let of = lines.lines().find_map(|line| line.strip_prefix(OF));
-    let lines = lines.lines().filter(|line| !line.starts_with(OF));
-    let answer = |line: &str| line.split_once(':').map(|(a, b)| [a, b.trim()].map(str::to_owned));
-    let given: Vec<[String; 2]> = lines.filter_map(answer).collect();
-    let named = given.iter().find(|[name, _]| name == NAME).map(|[_, name]| name.as_str());
-    Some(Answers { of: of.or(named).unwrap_or_default().to_owned(), given })
 }
 
 fn yes_or_no(text: &str) -> Read<bool> {

@@ -6,7 +6,8 @@ use crate::base::error::Complaint;
 use crate::bat::material::Material;
 
 use crate::cli::asking::ask;
-use crate::cli::asking::dialogue::{Asked, Dialogue, NAME, Question, Read};
+use crate::cli::asking::dialogue::{Asked, Dialogue, Question, Read};
+use crate::cli::asking::draft::NAME;
 use crate::cli::asking::new_options::{
     Args, called, length, like, of_option, refuse_existing, source, stations, unit,
 };

@@ -44,6 +44,7 @@ use schemars::transform::{RecursiveTransform, Transform};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
+use crate::base::marks;
 use crate::files::schema::document::Document;
 
 /// The schema of a kind of document.
@@ -59,7 +60,7 @@ pub fn id(name: &str) -> String {
 
 /// A document as it is written, in lines.
 pub fn text<T: Serialize>(document: &T) -> String {
-    format!("{:#}\n", value(document))
+    marks::json(&format!("{:#}\n", value(document)))
 }
 
 /// A document as JSON.

@@ -8,7 +8,8 @@ use super::{
     Analysis, Complex, Dataset, Header, NodalData, Node, Nodes, Skipped, Stamp, TraceLine, Units,
     Universal,
 };
-use crate::base::error::{Error, Result};
+use crate::base::error::Result;
+use crate::base::file;
 
 /// Columns of eight integers, of coordinates.
 const INTEGERS: [usize; 8] = [10; 8];
@@ -20,9 +21,7 @@ const DOUBLES: [usize; 3] = [25; 3];
 ///
 /// [`Error::Read`] if there is no such file; those of [`parse`].
 pub fn read(path: &Path) -> Result<Universal> {
-    let failed = |source| Error::Read { path: path.to_owned(), source };
-    let bytes = std::fs::read(path).map_err(failed)?;
-    parse(&path.display().to_string(), &bytes)
+    parse(&path.display().to_string(), &file::read(path)?)
 }
 
 /// Reads the bytes of a universal file into SI; `file` is what messages call it.

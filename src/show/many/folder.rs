@@ -39,7 +39,7 @@ pub fn part(study: &Study, k: u64, tell: &(impl Fn(u64) + Sync)) -> String {
     let [from, to] = [k.saturating_mul(ROWS).min(all), (k + 1).saturating_mul(ROWS).min(all)];
     let mut table = Csv::new(rows.columns().into_iter().map(|[name, _]| name));
     for cells in in_groups(from..to, |some| rows.cells(some), tell) {
-        table.row(cells.into_iter().map(Cell::from));
+        table.row(cells.into_iter().map(Cell::written));
     }
     table.text()
 }
@@ -122,7 +122,7 @@ impl<'a> StudyFolder<'a> {
         let manifest = path.join(MANIFEST);
         let wanted = schema::text(&this.manifest());
         if manifest.exists() {
-            let found = file::read(&manifest)?;
+            let found = file::read_plain(&manifest)?;
             this.same(&String::from_utf8_lossy(&found), &wanted)?;
             file::remove_lost(path);
             return Ok(this);
@@ -177,7 +177,7 @@ impl<'a> StudyFolder<'a> {
         let npz = npz || archive.exists();
         let made = match path.exists() {
             true if !npz || archive.exists() => return Ok(()),
-            true => String::from_utf8_lossy(&file::read(&path)?).into_owned(),
+            true => String::from_utf8_lossy(&file::read_plain(&path)?).into_owned(),
             false => part(self.study, k, tell),
         };
         if npz {

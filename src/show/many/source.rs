@@ -11,9 +11,10 @@ use crate::base::file;
 use crate::bat::body::Bat;
 use crate::collision::ball::Ball;
 use crate::files::ball_file::written;
-use crate::files::balls::{ball, is_built_in};
+use crate::files::balls::{ball_in, built_in};
 use crate::files::bat_file::without_table;
 use crate::files::document::Document;
+use crate::files::folder::{Folder, Outside, json as json_at};
 use crate::files::study_file::StudyFile;
 use crate::files::study_rows::{BatText, Rows, reason};
 use crate::files::study_vary::Subject;
@@ -59,12 +60,28 @@ impl Study {
         Self::of(&file, &text, path.parent().unwrap_or(Path::new("")))
     }
 
-    /// A study from its text; `name` is what messages call it, its files are sought in `folder`.
+    /// Reads a study that a person has named, and the files outside of its folder that it names.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::read`].
+    pub fn named_by_a_person(path: &Path) -> Result<(Self, Vec<PathBuf>)> {
+        let Document { file, text, .. } = Document::read(path)?;
+        let outside = Outside::default();
+        let study = Self::in_folder(&file, &text, Folder::of(path, &outside))?;
+        Ok((study, outside.paths()))
+    }
+
+    /// A study from its text; `name` is what messages call it, its files are in `folder` or below.
     ///
     /// # Errors
     ///
     /// As [`Self::read`].
     pub fn of(name: &str, text: &str, folder: &Path) -> Result<Self> {
+        Self::in_folder(name, text, Folder::closed(folder))
+    }
+
+    fn in_folder(name: &str, text: &str, folder: Folder) -> Result<Self> {
         let mut study = StudyFile::from_text(name, text)?;
         let own = Path::new(name).file_name().map_or(name.into(), |own| own.to_string_lossy());
         let mut sources = vec![Source { name: own.into_owned(), text: text.to_owned() }];
@@ -72,10 +89,10 @@ impl Study {
             .map_err(|error| study.names_in_vain(Subject::Bat, error))?;
         let tables = tables(folder, &mut study, &mut sources)?;
         let name = study.ball.as_deref().unwrap_or("baseball");
-        let (ball, own_ball) = match is_built_in(name) {
-            true => (ball(name, None)?, None),
-            false => {
-                let ball = ball(&folder.join(name).display().to_string(), None)
+        let (ball, own_ball) = match built_in(name) {
+            Some(ball) => (ball, None),
+            None => {
+                let ball = ball_in(name, &folder)
                     .map_err(|error| study.names_in_vain(Subject::Ball, error))?;
                 let text = written(&ball).to_string();
                 sources.push(Source { name: name.to_owned(), text: text.clone() });
@@ -106,7 +123,9 @@ impl Study {
         }
         let ball = match &parcel.ball {
             Some(text) => Ball::from_text("ball", text)?,
-            None => ball(study.ball.as_deref().unwrap_or("baseball"), None)?,
+            // What is sent names no file here.
+            None => built_in(study.ball.as_deref().unwrap_or("baseball"))
+                .ok_or_else(|| Error::value("study", "no ball", "one sent by this version"))?,
         };
         let rows = Rows::new(study, parcel.bats.clone(), ball)?;
         Ok(Self { rows, sources: vec![], parcel })
@@ -114,13 +133,14 @@ impl Study {
 }
 
 /// Profiles in place of the tables that values name, put into the study.
-fn tables(folder: &Path, study: &mut StudyFile, sources: &mut Vec<Source>) -> Result<Vec<Value>> {
+fn tables(folder: Folder, study: &mut StudyFile, sources: &mut Vec<Source>) -> Result<Vec<Value>> {
     let mut all = vec![];
     for varied in &mut study.varied {
         varied.replace_tables(|table| {
-            let profile = without_table(table, folder)?;
+            let profile = without_table(table, &folder)?;
             let name = table["csv"].as_str().unwrap_or_default();
-            let text = String::from_utf8_lossy(&file::read(&folder.join(name))?).into_owned();
+            let text =
+                String::from_utf8_lossy(&file::read_plain(&folder.find(name)?)?).into_owned();
             sources.push(Source { name: name.to_owned(), text });
             all.push(profile.clone());
             Ok(profile)
@@ -131,15 +151,15 @@ fn tables(folder: &Path, study: &mut StudyFile, sources: &mut Vec<Source>) -> Re
 
 /// The bats of those names: files from the study's folder, all of a folder, or built-in ones. Of several, one
 /// that is no bat stays with the reason.
-fn bats(folder: &Path, study: &StudyFile, sources: &mut Vec<Source>) -> Result<Vec<BatText>> {
+fn bats(folder: Folder, study: &StudyFile, sources: &mut Vec<Source>) -> Result<Vec<BatText>> {
     let mut all: Vec<(String, PathBuf)> = vec![];
     for name in &study.bats {
-        let path = folder.join(name);
+        let path = folder.find(name)?;
         // A folder that is called like a built-in bat is what was made of it.
         let built_in = || bundled::named(Path::new(name)).is_ok_and(|found| found.is_some());
         match path.is_dir() && !built_in() {
             false => all.push((name.clone(), path)),
-            true => all.extend(files_of(name, &path)?),
+            true => all.extend(files_of(name, folder.below(&path))?),
         }
     }
     let mut seen = HashSet::new();
@@ -176,20 +196,21 @@ fn bats(folder: &Path, study: &StudyFile, sources: &mut Vec<Source>) -> Result<V
 }
 
 /// The bat files of a folder, by rising name.
-fn files_of(name: &str, path: &Path) -> Result<Vec<(String, PathBuf)>> {
-    let failed = |source| Error::Read { path: path.to_owned(), source };
-    let entries = std::fs::read_dir(path).map_err(failed)?;
+fn files_of(name: &str, folder: Folder) -> Result<Vec<(String, PathBuf)>> {
+    let failed = |source| Error::Read { path: folder.path().to_owned(), source };
+    let entries = std::fs::read_dir(folder.path()).map_err(failed)?;
     let mut files = vec![];
     for entry in entries {
-        let path = entry.map_err(failed)?.path();
-        let is_json = path.extension().is_some_and(|extension| extension == "json");
-        if is_json && path.is_file() && !is_another_document(&path) {
-            let own = path.file_name().unwrap_or_default().to_string_lossy();
-            files.push((format!("{}/{own}", name.trim_end_matches('/')), path));
+        let own = entry.map_err(failed)?.file_name().to_string_lossy().into_owned();
+        if own.ends_with(".json") && folder.path().join(&own).is_file() {
+            let path = folder.find(&own)?;
+            if !is_another_document(&path) {
+                files.push((format!("{}/{own}", name.trim_end_matches('/')), path));
+            }
         }
     }
     if files.is_empty() {
-        let found = format!("the folder {} without a .json file of a bat", path.display());
+        let found = format!("the folder {} without a .json file of a bat", folder.path().display());
         return Err(Error::value("bat", found, "a folder of bat files"));
     }
     files.sort();
@@ -198,7 +219,7 @@ fn files_of(name: &str, path: &Path) -> Result<Vec<(String, PathBuf)>> {
 
 /// Whether a file says of itself that it is a document of this program, and no bat: the study itself, a manifest.
 fn is_another_document(path: &Path) -> bool {
-    let text = file::read(path).unwrap_or_default();
+    let text = file::read_plain(path).unwrap_or_default();
     let document: Value = serde_json::from_slice(&text).unwrap_or_default();
     let format = document["format"].as_str().unwrap_or_default();
     format.starts_with("sweetspot-") && !format.starts_with("sweetspot-bat/")
@@ -219,18 +240,19 @@ fn bat(
         read(own, text);
         return Ok(text.to_owned());
     }
-    let Document { file, text, .. } = Document::read(path)?;
+    let Document { file, text, .. } = json_at(path, "bat")?;
     read(name, &text);
-    let folder = path.parent().unwrap_or(Path::new(""));
-    Bat::from_text(&file, &text, folder)?;
+    // Nobody has named this file at a keyboard: what it names lies in its own folder.
+    let folder = Folder::closed(path.parent().unwrap_or(Path::new("")));
+    Bat::from_text_in(&file, &text, &folder)?;
     let mut document: Value = serde_json::from_str(&text).unwrap_or_default();
     let Some(table) = document["profile"]["csv"].as_str() else { return Ok(text) };
     if let Some(varied) = study.varied.iter().find(|varied| varied.path == "bat.profile.unit") {
         let found = format!("it for {file}, whose table may have units of its own");
         return Err(varied.wrong(Complaint::new("", found, "columns, such as bat.profile.x")));
     }
-    let bytes = file::read(&folder.join(table))?;
+    let bytes = file::read_plain(&folder.find(table)?)?;
     read(table, &String::from_utf8_lossy(&bytes));
-    document["profile"] = without_table(&document["profile"], folder)?;
+    document["profile"] = without_table(&document["profile"], &folder)?;
     Ok(document.to_string())
 }

@@ -1,10 +1,10 @@
 //! Which numbers are in the rows that are there?
 
 use std::collections::BTreeMap;
-use std::fs::File;
-use std::io::BufReader;
 
-use crate::base::error::{Error, Result};
+use crate::base::error::Result;
+use crate::base::file;
+use crate::base::marks;
 use crate::files::study_rows::Rows;
 use crate::show::many::folder::{StudyFolder, number, read};
 use crate::study::many::indices::Indices;
@@ -77,9 +77,8 @@ impl Table {
         };
         for k in 0..folder.parts() {
             let path = folder.part(k);
-            let failed = |source| Error::Read { path: path.clone(), source };
-            let part = File::open(&path).map_err(failed)?;
-            read(rows, k, (&path, BufReader::new(part)), |row| table.add(row, &numbers))?;
+            let part = file::read_plain(&path)?;
+            read(rows, k, (&path, &part[..]), |row| table.add(row, &numbers))?;
         }
         Ok(table)
     }
@@ -95,7 +94,7 @@ impl Table {
         let [why, met] = [1, 2].map(|k| &row[row.len() - k]);
         self.met += u64::from(met == "true");
         if !why.is_empty() {
-            let (first, said) = (self.rows - 1, why.to_owned());
+            let (first, said) = (self.rows - 1, marks::of_cell(why).to_owned());
             let new = || Reason { rows: 0, first, said };
             self.reasons.entry(kind(why)).or_insert_with(new).rows += 1;
         }

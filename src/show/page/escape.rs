@@ -1,6 +1,7 @@
 //! Text that a page shows as it is, whatever it holds.
 
-use crate::base::xml::{is_bidi, put};
+use crate::base::marks::is_bidi;
+use crate::base::xml::put;
 
 /// For HTML, between tags and within quoted attributes. Characters that no page may hold become
 /// the sign for what cannot be shown.

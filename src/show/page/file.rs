@@ -37,14 +37,21 @@ impl Kind {
     }
 }
 
-/// Whether a report can be expected there, before it is made: a name of its kind, in a folder.
+/// Whether a report can be expected there, before it is made: a name of its kind, in a folder that is there or that
+/// is made before the report, with one of `made`.
 ///
 /// # Errors
 ///
 /// Those of [`Kind::of`], and [`Error::Write`] where there is no such folder.
-pub fn expected(path: &Path) -> Result<Kind> {
+pub fn expected(path: &Path, made: &[&Option<PathBuf>]) -> Result<Kind> {
     let kind = Kind::of(path)?;
     let folder = path.parent().filter(|folder| *folder != Path::new(""));
+    // `./a` and `a` are one.
+    let plain = |path: &Path| path.strip_prefix(".").unwrap_or(path).to_owned();
+    let made = made.iter().filter_map(|made| made.as_deref()).map(plain);
+    if folder.is_some_and(|folder| made.into_iter().any(|made| made.starts_with(plain(folder)))) {
+        return Ok(kind);
+    }
     let is_one = folder.unwrap_or(Path::new(".")).join(".").metadata();
     is_one.map(|_| kind).map_err(|source| Error::Write { path: path.to_owned(), source })
 }
@@ -54,8 +61,8 @@ pub fn expected(path: &Path) -> Result<Kind> {
 /// # Errors
 ///
 /// As [`expected`], and [`Error::Value`] for a name of Markdown.
-pub fn expected_page(path: &Path) -> Result<()> {
-    match expected(path)? {
+pub fn expected_page(path: &Path, made: &[&Option<PathBuf>]) -> Result<()> {
+    match expected(path, made)? {
         Kind::Html => Ok(()),
         Kind::Markdown => {
             Err(Error::value("--report", path.display(), "a file name that ends in .html"))

@@ -4,7 +4,8 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use crate::base::error::{Error, Result};
+use crate::base::error::Result;
+use crate::base::file;
 use crate::collision::figures::BarrelSpeed;
 use crate::collision::hit::{Model, Scene};
 use crate::files::schema;
@@ -33,9 +34,7 @@ impl Input {
     ///
     /// [`Error::Read`].
     pub fn read(path: &Path) -> Result<Self> {
-        let failed = |source| Error::Read { path: path.to_owned(), source };
-        let again = path.is_file();
-        let bytes = if again { std::fs::read(path).map_err(failed)? } else { vec![] };
+        let bytes = if path.is_file() { file::read_plain(path)? } else { vec![] };
         Ok(Self::new(path, &String::from_utf8_lossy(&bytes)))
     }
 

@@ -1,7 +1,5 @@
 //! The bat that meets a wish: its file, its document, its cut list.
 
-use std::path::Path;
-
 use serde_json::{Value, json};
 
 use crate::base::number::{rounded, shortest, signed, significant};
@@ -208,7 +206,7 @@ pub fn warning(outcome: &Outcome, rules: Option<&RuleSet>, us: bool) -> Option<S
     if rules.is_some_and(|rules| rules.diameter().is_finite()) {
         return None;
     }
-    let known = |name: &str| rules_file::named(name, Path::new("")).ok();
+    let known = |name: &str| rules_file::named(name).ok();
     let games = [
         ("mlb", "rule 3.02 of Major League Baseball"),
         (

@@ -8,6 +8,7 @@ use crate::bat::body::Bat;
 use crate::bat::material::Material;
 use crate::files::document::Document;
 use crate::files::json_node::Node;
+use crate::files::schema;
 use crate::show::report::calibrate::shown;
 use crate::show::report::resolved;
 use crate::study::calibrate::calibration::{Calibration, Verdict};
@@ -61,7 +62,7 @@ pub fn text(
     if new.get("profile").is_some_and(|profile| profile.get("csv").is_some()) {
         new["profile"] = json!(resolved::profile(bat.unedited().profile()));
     }
-    Ok(format!("{:#}\n", Value::Object(new)))
+    Ok(schema::text(&Value::Object(new)))
 }
 
 /// What the scale and the tap came to, so that whatever reads the bat knows how well its density and its stiffness

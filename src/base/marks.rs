@@ -1,0 +1,84 @@
+//! Which characters act on what shows them, and how are they written out?
+//!
+//! A name may come from a stranger's file: control characters act on a terminal, marks of direction make a line
+//! read as another one, and a spreadsheet computes what begins as a formula does.
+
+/// Marks that turn the direction of what follows, and could make a name or a number read as another.
+pub fn is_bidi(c: char) -> bool {
+    matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+}
+
+/// Whether a character acts on what shows it: controls, marks of direction, ends of lines.
+fn acts(c: char) -> bool {
+    c.is_control()
+        || is_bidi(c)
+        || matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}' | '\u{2029}')
+}
+
+/// One line that does nothing to a terminal, whatever a file is called or holds.
+pub fn written_out(text: &str) -> String {
+    let written = |c: char| if acts(c) { c.escape_default().to_string() } else { c.into() };
+    text.chars().map(written).collect()
+}
+
+/// JSON that reads as the same: what acts on a terminal stands as `\uXXXX` in its texts.
+pub fn json(text: &str) -> String {
+    let written = |c: char| match acts(c) && !c.is_ascii_whitespace() {
+        true => format!("\\u{:04x}", u32::from(c)),
+        false => c.into(),
+    };
+    text.chars().map(written).collect()
+}
+
+/// Whether a spreadsheet may take a text for a formula, after apostrophes that there may be before it.
+fn is_formula(text: &str) -> bool {
+    const BEGINS: [char; 9] = ['=', '+', '-', '@', '\t', '＝', '＋', '－', '＠'];
+    let text = text.trim_start_matches('\'');
+    // A carriage return is written out.
+    text.starts_with(BEGINS) || text.starts_with("\\r")
+}
+
+/// A text as a cell of a table that spreadsheets open: an apostrophe before what could be a formula, and one more
+/// before one that has apostrophes already. Controls but tabs are written out.
+pub fn cell(text: &str) -> String {
+    let text: Vec<String> = text.split('\t').map(written_out).collect();
+    let text = text.join("\t");
+    if is_formula(&text) { format!("'{text}") } else { text }
+}
+
+/// The text of a cell, without the apostrophe that [`cell`] has put before it.
+pub fn of_cell(cell: &str) -> &str {
+    let text = cell.strip_prefix('\'').filter(|text| is_formula(text));
+    text.unwrap_or(cell)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cell_reads_back_and_is_no_formula() {
+        for text in [
+            "=1+1", "+1", "-1", "@SUM(A1)", "\t=1", "'=1", "''-x", "'", "''", "'plain", "it's", "",
+            "plain", "1-2", " =1", "＝1", "\\r", "'\\r",
+        ] {
+            let written = cell(text);
+            assert!(!written.starts_with(['=', '+', '-', '@', '\t', '＝']), "{written}");
+            assert_eq!(of_cell(&written), text);
+        }
+        assert_eq!(cell("=1"), "'=1");
+        assert_eq!(cell("'=1"), "''=1");
+        assert_eq!(cell("it's"), "it's");
+        assert_eq!(cell("\r=1"), "'\\r=1");
+        assert_eq!(cell("\u{1b}[31m\n\u{202e}"), "\\u{1b}[31m\\n\\u{202e}");
+    }
+
+    #[test]
+    fn json_stays_the_same_document() {
+        let text = "{\n  \"a\": \"é\u{202e}\u{9b}\u{7f}\u{200f}黒\"\n}\n";
+        let written = json(text);
+        assert_eq!(written, "{\n  \"a\": \"é\\u202e\\u009b\\u007f\\u200f黒\"\n}\n");
+        let read = |text: &str| serde_json::from_str::<serde_json::Value>(text).unwrap();
+        assert_eq!(read(&written), read(text));
+    }
+}
