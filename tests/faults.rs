@@ -745,3 +745,43 @@ fn the_licences_of_everything_in_the_program_come_with_it() {
     }
     assert_eq!(text, folder.text(&["licenses"]));
 }
+
+/// What a file may hold of one kind is counted before anything is computed, and names of any length cost in proportion.
+#[test]
+fn more_than_the_stated_limits_is_refused_at_once() {
+    let folder = folder("limits");
+    let bat = |more: &str| {
+        format!(
+            r#"{{ "format": "sweetspot-bat/1", "name": "d", "material": {{ "density": 700, "youngs_modulus": 15e9 }},
+            "profile": {{ "interpolation": "linear", "x": [0, 0.84], "radius": [0.012, 0.03] }}{more} }}"#
+        )
+    };
+    let many = |one: &str, count: usize| vec![one; count].join(", ");
+    let tapes =
+        format!(", \"tapes\": [{}]", many(r#"{ "from": 0, "to": 0.1, "mass": 1e-5 }"#, 401));
+    folder.write("tapes.json", &bat(&tapes));
+    let targets = many(r#"{ "name": "mass_kg", "change": "-1 %" }"#, 21);
+    folder.write(
+        "aim.json",
+        &format!(r#"{{ "format": "sweetspot-aim/1", "targets": [{targets}] }}"#),
+    );
+    folder.write("bat.json", &bat(""));
+    let paths: Vec<String> =
+        (0..101).map(|k| format!(r#""bat.p{k}": {{ "values": [1, 2] }}"#)).collect();
+    let study = format!(
+        r#"{{ "format": "sweetspot-study/1", "bat": "bat.json", "vary": {{ {} }} }}"#,
+        paths.join(", ")
+    );
+    folder.write("study.json", &study);
+    for (arguments, told) in [
+        (&["modes", "tapes.json"][..], ["tapes", "401 items", "400 at most"]),
+        (&["aim", "bat.json", "aim.json"], ["targets", "21 items", "20 at most"]),
+        (&["study", "study.json", "--out", "D"], ["vary", "101 paths", "100 at most"]),
+        (&["modes", "bat.json", "-n", "401"], ["401", "--modes", "400"]),
+    ] {
+        let output = folder.run(arguments);
+        let error = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{arguments:?} {error}");
+        assert!(told.iter().all(|part| error.contains(part)), "{arguments:?} {error}");
+    }
+}

@@ -116,7 +116,13 @@ fn wish(document: &Document, folder: &Folder) -> Result<Wish> {
 }
 
 fn list<T>(node: &Node, one: impl Fn(&Node) -> Result<T>) -> Result<Vec<T>> {
-    mistakes::all(node.items()?.iter().map(one))
+    /// What a search takes grows faster than their number.
+    const MOST: usize = 20;
+    let items = node.items()?;
+    if items.len() > MOST {
+        return Err(node.error(format!("{} items", items.len()), format!("{MOST} at most")));
+    }
+    mistakes::all(items.iter().map(one))
 }
 
 fn rules(node: &Node, folder: &Folder) -> Result<crate::study::aim::rules::RuleSet> {

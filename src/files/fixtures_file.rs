@@ -45,6 +45,12 @@ fn list<P: Part>(
     start: impl Fn() -> P,
     length: Option<f64>,
 ) -> Result<Vec<P>> {
+    /// What the sections carry is counted for every pair of them.
+    const MOST: usize = 400;
     let Some(node) = root.get(key) else { return Ok(vec![]) };
-    mistakes::all(node.items()?.iter().map(|item| part_file::part(item, start(), length)))
+    let items = node.items()?;
+    if items.len() > MOST {
+        return Err(node.error(format!("{} items", items.len()), format!("{MOST} at most")));
+    }
+    mistakes::all(items.iter().map(|item| part_file::part(item, start(), length)))
 }

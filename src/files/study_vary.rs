@@ -231,6 +231,11 @@ pub(crate) fn varied(node: &Node, wanted: &mut Wanted) -> Result<Vec<Varied>> {
         let expected = "one path at least, such as \"bat.material.density\"";
         return Err(node.error("an empty object", expected));
     }
+    /// Every row writes all of them into its bat, and finds each there.
+    const MOST: usize = 100;
+    if paths.len() > MOST {
+        return Err(node.error(format!("{} paths", paths.len()), format!("{MOST} at most")));
+    }
     let mut all: Vec<(Subject, Vec<Step>, &str)> = vec![];
     mistakes::all(paths.iter().map(|(path, node)| {
         let key = node.key();

@@ -33,8 +33,7 @@ pub fn account(mode: &mut Mode, ratio: f64, (elements, over): (usize, bool), fac
     blur(mode, sums);
 }
 
-/// What a frequency, relative, and with its square what faster ones lose of their digits where the residual is
-/// beyond what the iteration stopped at (`left`).
+/// What a frequency loses of its digits, relative, where the residual is beyond what the iteration stopped at (`left`).
 ///
 /// Far slower modes leave their own round-off in the compliance: of a mode they and all other slower ones were taken
 /// out of (`apart`), what is beyond shows it, and half of that is the frequency's. So do thick parts on thin ones, as

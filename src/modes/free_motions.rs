@@ -1,7 +1,7 @@
 //! How does a damped bat go on by itself?
 
 use faer::linalg::solvers::Solve;
-use faer::{Mat, Side, c64};
+use faer::{Mat, c64};
 
 use crate::base::error::{Error, Result};
 use crate::base::linear::{dot, solve_two};
@@ -172,24 +172,6 @@ struct State {
     matrix: Mat<f64>,
 }
 
-/// `ℓ` (s) of the reduced bat, and its strains for which M is diagonal; the modes' is.
-fn diagonal(reduced: &Reduced) -> Result<(Vec<f64>, Mat<f64>)> {
-    let (modes, n) = (reduced.omega.len(), reduced.len());
-    let (mut lengths, mut turned) = (vec![0.0; n], Mat::<f64>::identity(n, n));
-    (0..modes).for_each(|k| lengths[k] = 1.0 / reduced.omega[k]);
-    let extra = n - modes;
-    if extra > 0 {
-        let block =
-            Mat::from_fn(extra, extra, |i, j| reduced.mass[modes + i.max(j)][modes + i.min(j)]);
-        let eigen = block.self_adjoint_eigen(Side::Lower).map_err(|_| no_solution(n))?;
-        for j in 0..extra {
-            lengths[modes + j] = eigen.S().column_vector()[j].max(0.0).sqrt();
-            (0..extra).for_each(|i| turned[(modes + i, modes + j)] = eigen.U()[(i, j)]);
-        }
-    }
-    Ok((lengths, turned))
-}
-
 fn no_solution(wanted: usize) -> Error {
     Error::NotConverged { wanted, converged: 0, steps: 0 }
 }
@@ -197,7 +179,7 @@ fn no_solution(wanted: usize) -> Error {
 impl State {
     fn of(reduced: &Reduced) -> Result<Self> {
         let (n, r) = (reduced.len(), reduced.rigid_unknowns());
-        let (lengths, turned) = diagonal(reduced)?;
+        let (lengths, turned) = reduced.diagonal()?;
         let [_, all] = reduced.viscous();
         let slowest = lengths.first().copied().unwrap_or(1.0);
         let unit: Vec<f64> = (0..r).map(|k| slowest / reduced.rigid_mass(k).sqrt()).collect();

@@ -1,7 +1,6 @@
 //! How does the bat ring, as accurately as asked?
 //!
-//! [`solve()`](solve::solve) plans elements for a tolerance, states an error for every number, and refines until
-//! these are within it.
+//! [`solve()`](solve::solve) plans elements for a tolerance, states every error, and refines until these are within it.
 //!
 //! | file | question |
 //! |---|---|
@@ -14,7 +13,7 @@
 //! | [`shifts`], [`theory_choice`], [`tuned`], [`prepared`] | what do rotary inertia and shear do to the frequencies; which theory does a bat need; how stiff is the wood, by a tap; both at once |
 //! | [`solve`](mod@solve), [`up_to`], [`batch`] | solve to a tolerance; up to a frequency; many bats |
 //! | [`enclosure`], [`compliance`] | between which numbers do frequencies lie, proven; how the bat gives way at a place |
-//! | [`pole`], [`reduced`], `free_motions`, [`damping`] | few modes with dashpots, and how their motions die out |
+//! | [`pole`], [`reduced`], `driven`, `free_motions`, [`damping`] | few modes with dashpots, how they follow a force, and how they die out |
 //! | [`hoop`] | how the wall of a hollow bat rings |
 
 pub mod shape;
@@ -33,6 +32,7 @@ pub mod compliance;
 pub mod pole;
 #[doc(hidden)]
 pub mod reduced;
+pub(crate) mod driven;
 pub(crate) mod free_motions;
 pub mod shares;
 pub mod damping;

@@ -1,7 +1,7 @@
 //! How does a damped bat move, in as few unknowns as tell it?
 //!
 //! [`Reduced::new`], then [`Reduced::free_motions`] for what goes on by itself and
-//! [`Reduced::answer`] for what a force makes of it.
+//! `Reduced::answer` for what a force makes of it.
 //!
 //! In scaled strains the stiffness is the identity, and a motion as `e^{st}` obeys
 //!
@@ -19,10 +19,9 @@
 //!
 //! F. Tisseur, K. Meerbergen, The quadratic eigenvalue problem, SIAM Review 43 (2001) 235.
 
-use faer::linalg::solvers::Solve;
-use faer::{Mat, c64};
+use faer::{Mat, Side, c64};
 
-use crate::base::error::Result;
+use crate::base::error::{Error, Result};
 use crate::base::linear::dot;
 use crate::bat::body::Bat;
 use crate::beam::degree::Elements;
@@ -38,7 +37,7 @@ pub struct Reduced {
     members: Vec<Member>,
     /// Lower rows of `vᵀMv` (s²) and `vᵀK″v`.
     pub(super) mass: Vec<Vec<f64>>,
-    loss: Vec<Vec<f64>>,
+    pub(super) loss: Vec<Vec<f64>>,
     /// Whether a dashpot moves rigid motions that nothing else holds.
     pub coupled: bool,
 }
@@ -52,25 +51,6 @@ struct Member {
     loss: Vec<f64>,
     /// How far it draws every dashpot out (m).
     drawn: Vec<f64>,
-}
-
-/// Strains under a force as `e^{iωt}`.
-pub struct Answer {
-    /// Parts of the rigid motions, where they are coupled.
-    pub rigid: Vec<c64>,
-    /// Parts of the strains.
-    pub parts: Vec<c64>,
-    /// What the projection misses, as real and imaginary strains.
-    pub residual: [Vec<f64>; 2],
-}
-
-/// A force of 1 N somewhere, and the deflection there.
-#[derive(Debug, Clone)]
-pub struct Place {
-    /// Deflection by the free rigid motions (m).
-    pub rigid: Vec<f64>,
-    /// Deflection by every strain of the reduced bat (m); those that join later have none.
-    pub row: Vec<f64>,
 }
 
 impl Reduced {
@@ -116,6 +96,29 @@ impl Reduced {
     /// The strains of member k.
     pub fn strains(&self, k: usize) -> &[f64] {
         &self.members[k].strains
+    }
+
+    /// `ℓ` (s), and the strains for which `M = diag(ℓ²)`: the modes, and what is apart of them in the others.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NotConverged`] where the others' small eigenproblem has no solution.
+    pub(super) fn diagonal(&self) -> Result<(Vec<f64>, Mat<f64>)> {
+        let (modes, n) = (self.omega.len(), self.len());
+        let (mut lengths, mut turned) = (vec![0.0; n], Mat::<f64>::identity(n, n));
+        (0..modes).for_each(|k| lengths[k] = 1.0 / self.omega[k]);
+        let extra = n - modes;
+        if extra > 0 {
+            let block =
+                Mat::from_fn(extra, extra, |i, j| self.mass[modes + i.max(j)][modes + i.min(j)]);
+            let none = |_| Error::NotConverged { wanted: n, converged: 0, steps: 0 };
+            let eigen = block.self_adjoint_eigen(Side::Lower).map_err(none)?;
+            for j in 0..extra {
+                lengths[modes + j] = eigen.S().column_vector()[j].max(0.0).sqrt();
+                (0..extra).for_each(|i| turned[(modes + i, modes + j)] = eigen.U()[(i, j)]);
+            }
+        }
+        Ok((lengths, turned))
     }
 
     fn member(&self, strains: Vec<f64>, with_inertia: bool) -> Member {
@@ -204,15 +207,6 @@ impl Reduced {
     /// Mass of an unknown rigid motion, in the unit of energy (s²/m² or s²).
     pub(super) fn rigid_mass(&self, k: usize) -> f64 {
         self.flexible.rigid[k].mass / self.flexible.energy_unit
-    }
-
-    /// `Σ |q_i| |M_ij| |q_j′|` (s² by the square of a strain's unit) of two answers.
-    pub fn inertia_of(&self, [one, other]: &[Answer; 2]) -> f64 {
-        let row = |i: usize, j: usize| self.mass[i.max(j)][i.min(j)].abs();
-        let by = |i: usize| -> f64 {
-            other.parts.iter().enumerate().map(|(j, part)| row(i, j) * part.norm()).sum()
-        };
-        one.parts.iter().enumerate().map(|(i, part)| part.norm() * by(i)).sum()
     }
 
     /// C (s) of all unknowns, rigid motions first, as far as it is the dashpots'.
@@ -329,54 +323,6 @@ impl Reduced {
             sum += drawn * *u;
         }
         sum * self.flexible.energy_unit / pole.norm
-    }
-
-    /// A force or a deflection at x; its static strains join the others.
-    pub fn place(&mut self, x: f64) -> Place {
-        let row = self.flexible.row(x);
-        self.add(row.clone());
-        let rigid = self.flexible.rigid.iter().map(|rigid| rigid.deflection(x)).collect();
-        Place { rigid, row: self.members.iter().map(|m| dot(&m.strains, &row)).collect() }
-    }
-
-    /// The strains under a force of `e^{iωt}` newtons at a place, the materials' stiffness times
-    /// `1 + iη`; `damping` is [`Self::damping`].
-    pub fn answer(&self, damping: &Mat<f64>, place: &Place, omega: f64) -> Answer {
-        let (n, r) = (self.members.len(), self.rigid_unknowns());
-        let (square, unit) = (omega * omega, self.flexible.energy_unit);
-        let z = Mat::from_fn(r + n, r + n, |i, j| {
-            let (mut real, mut imaginary) = (0.0, omega * damping[(i, j)]);
-            if i >= r && j >= r {
-                let (low, high) = (i.min(j) - r, i.max(j) - r);
-                real = f64::from(u8::from(i == j)) - square * self.mass[high][low];
-                imaginary += self.loss[high][low];
-            } else if i == j {
-                real = -square * self.rigid_mass(i);
-            }
-            c64::new(real, imaginary)
-        });
-        let forces = place.rigid[..r].iter().chain(&place.row);
-        let forces: Vec<f64> = forces.map(|w| w / unit).collect();
-        let force = |i: usize, _| c64::new(forces.get(i).copied().unwrap_or(0.0), 0.0);
-        let solved = z.partial_piv_lu().solve(Mat::from_fn(r + n, 1, force));
-        let of = |range: std::ops::Range<usize>| range.map(|i| solved[(i, 0)]).collect();
-        let (rigid, parts): (Vec<c64>, Vec<c64>) = (of(0..r), of(r..r + n));
-        let residual = self.residual(c64::new(0.0, omega), true, &rigid, &parts);
-        Answer { rigid, parts, residual }
-    }
-}
-
-impl Answer {
-    /// The deflection at a place (m), without the rigid motions that dashpots leave alone.
-    pub fn at(&self, place: &Place) -> c64 {
-        let strains = self.parts.iter().zip(&place.row).map(|(part, w)| *part * *w);
-        let rigid = self.rigid.iter().zip(&place.rigid).map(|(part, w)| *part * *w);
-        strains.chain(rigid).sum()
-    }
-
-    /// Size of the residual.
-    pub fn missed(&self) -> f64 {
-        self.residual.iter().map(|r| dot(r, r)).sum::<f64>().sqrt()
     }
 }
 

@@ -111,7 +111,7 @@ impl Request {
 }
 
 /// Upper limit on requested modes; beam theory has no meaning beyond it.
-pub const MOST_MODES: usize = 1000;
+pub const MOST_MODES: usize = 400;
 /// A mesh that needs more memory is refused.
 const MOST_GIGABYTES: f64 = 8.0;
 /// Residual of an eigenpair that is as good as arithmetic allows.

@@ -196,8 +196,6 @@ pub struct Account<'a> {
     rounding: f64,
     /// How many elements there are, and whether they reach over stations.
     elements: (usize, bool),
-    /// What slower modes lost of their digits ([`lost`]), over the square of their ω.
-    lost: f64,
 }
 
 impl<'a> Account<'a> {
@@ -212,7 +210,6 @@ impl<'a> Account<'a> {
             missed: sections::missed_on(bat, mesh, rule, theory),
             rounding: sections::round_off(bat, mesh),
             elements: (mesh.len(), mesh.over_stations()),
-            lost: 0.0,
         }
     }
 
@@ -232,12 +229,7 @@ impl<'a> Account<'a> {
             rounding += 0.5 * f64::EPSILON * ratio * ratio;
         }
         if let Some(left) = left {
-            let apart = self.apart > 0;
-            let (square, lost) =
-                (mode.omega.powi(2), lost(mode.error.residual, left, ratio, apart));
-            // Of those that are taken apart each is known by its own residual.
-            self.lost = if apart { lost / square } else { self.lost.max(lost / square) };
-            rounding += self.lost * square;
+            rounding += lost(mode.error.residual, left, ratio, self.apart > 0);
         }
         account(&mut mode, ratio, self.elements, self.factored);
         add_round_off(&mut mode, rounding);

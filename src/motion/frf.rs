@@ -22,8 +22,9 @@ use crate::base::error::{Error, Result};
 use crate::base::linear::dot;
 use crate::bat::body::Bat;
 use crate::beam::degree::Elements;
+use crate::modes::driven::{Answer, Driven, Place};
 use crate::modes::prepared::{Prepared, prepare};
-use crate::modes::reduced::{Answer, Place, Reduced};
+use crate::modes::reduced::Reduced;
 use crate::modes::solve::{Request, Solution, solve};
 use crate::motion::peaks::{self, Peak};
 
@@ -169,8 +170,11 @@ impl Frf {
     /// strains that are there: those of the modes and of a constant force until
     /// [`Self::receptances`] has asked for others.
     pub fn strained(&self, frequency: f64) -> c64 {
-        let answer = self.reduced.answer(&self.reduced.damping(), &self.places[0], TAU * frequency);
-        answer.at(&self.places[1])
+        self.strained_by(&self.reduced.driven(), frequency)
+    }
+
+    fn strained_by(&self, driven: &Driven, frequency: f64) -> c64 {
+        self.reduced.answer(driven, &self.places[0], TAU * frequency).at(&self.places[1])
     }
 
     /// The part of the receptance (m/N) of rigid motions that nothing holds.
@@ -185,10 +189,10 @@ impl Frf {
     }
 
     /// The receptance (m/N) at a frequency (Hz) by the strains that are there.
-    fn receptance(&self, frequency: f64) -> c64 {
+    fn receptance(&self, driven: &Driven, frequency: f64) -> c64 {
         let rigid =
             if self.reduced.flexible.rigid.is_empty() { 0.0 } else { self.rigid(frequency) };
-        self.strained(frequency) + c64::new(rigid, 0.0)
+        self.strained_by(driven, frequency) + c64::new(rigid, 0.0)
     }
 
     /// Natural frequency (Hz) and damping ratio of every mode.
@@ -212,7 +216,8 @@ impl Frf {
     /// The peaks between the ends of a rising grid of frequencies (Hz), their sizes in the unit of
     /// that kind, by the strains that are there: [`Self::receptances`] adds those that are missed.
     pub fn peaks(&self, kind: Kind, grid: &[f64]) -> Vec<Peak> {
-        let size = |f: f64| (self.receptance(f) * kind.of(f)).norm();
+        let driven = self.reduced.driven();
+        let size = |f: f64| (self.receptance(&driven, f) * kind.of(f)).norm();
         peaks::of(grid, &self.modes(), &size)
     }
 
@@ -243,10 +248,10 @@ impl Frf {
         let probe = |k: usize| probes[k * last / (count - 1).max(1)];
         let probes: Vec<f64> = (0..count).map(probe).collect();
         for _ in 0..MOST_ROUNDS {
-            let damping = self.reduced.damping();
+            let driven = self.reduced.driven();
             let mut worst: Option<(f64, [Answer; 2])> = None;
             for f in &probes {
-                let answers = self.answers(&damping, *f);
+                let answers = self.answers(&driven, *f);
                 let missing = self.missing(&answers) / self.scale(&answers, *f);
                 if missing > worst.as_ref().map_or(MISSING, |(most, _)| *most) {
                     worst = Some((missing, answers));
@@ -263,9 +268,9 @@ impl Frf {
             // The new strains move both points too.
             self.places = self.points.map(|x| self.reduced.place(x));
         }
-        let damping = self.reduced.damping();
+        let driven = self.reduced.driven();
         let sample = |f: &f64| {
-            let answers = self.answers(&damping, *f);
+            let answers = self.answers(&driven, *f);
             let rigid = if free { self.rigid(*f) } else { 0.0 };
             Sample {
                 frequency: *f,
@@ -276,9 +281,9 @@ impl Frf {
         Ok(frequencies.iter().map(sample).collect())
     }
 
-    fn answers(&self, damping: &faer::Mat<f64>, frequency: f64) -> [Answer; 2] {
+    fn answers(&self, driven: &Driven, frequency: f64) -> [Answer; 2] {
         let omega = TAU * frequency;
-        [0, 1].map(|k| self.reduced.answer(damping, &self.places[k], omega))
+        [0, 1].map(|k| self.reduced.answer(driven, &self.places[k], omega))
     }
 
     /// How much of the receptance the strains miss (m/N).

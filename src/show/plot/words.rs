@@ -72,11 +72,13 @@ pub fn fitted(words: &str, look: Type, most: f64) -> String {
     if width(words, look) <= most {
         return words.to_owned();
     }
-    let mut out = words.to_owned();
-    while !out.is_empty() && width(&out, look) + width("…", look) > most {
-        out.pop();
-    }
-    out.trim_end().to_owned() + "…"
+    let mut room = most - width("…", look);
+    let mut buffer = [0; 4];
+    let fits = words.chars().take_while(|c| {
+        room -= width(c.encode_utf8(&mut buffer), look);
+        room >= 0.0
+    });
+    fits.collect::<String>().trim_end().to_owned() + "…"
 }
 
 #[cfg(test)]

@@ -180,8 +180,7 @@ pub fn model(bat: &Bat, solution: &Solution) -> String {
 /// Breaks a line at its last spaces before column 80, the rest indented; ends the line.
 pub fn wrapped(text: &str, indent: usize) -> String {
     let (mut out, mut rest, mut lead) = (String::new(), text, 0);
-    while lead + rest.chars().count() > 80 {
-        let end = rest.char_indices().nth(80 - lead).map_or(rest.len(), |(at, _)| at);
+    while let Some((end, _)) = rest.char_indices().nth(80 - lead) {
         let Some(space) = rest[..end].rfind(' ').filter(|at| *at > 0) else { break };
         let _ = writeln!(out, "{:lead$}{}", "", rest[..space].trim_end());
         (rest, lead) = (rest[space..].trim_start(), indent);

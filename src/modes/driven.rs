@@ -1,0 +1,147 @@
+//! How does a damped bat follow a force as `e^{iωt}`?
+
+use faer::linalg::solvers::Solve;
+use faer::{Mat, c64};
+
+use crate::base::linear::dot;
+use crate::modes::reduced::Reduced;
+
+/// Strains under a force as `e^{iωt}`.
+pub struct Answer {
+    /// Parts of the rigid motions, where they are coupled.
+    pub rigid: Vec<c64>,
+    /// Parts of the strains.
+    pub parts: Vec<c64>,
+    /// What the projection misses, as real and imaginary strains.
+    pub residual: [Vec<f64>; 2],
+}
+
+/// A force of 1 N somewhere, and the deflection there.
+#[derive(Debug, Clone)]
+pub struct Place {
+    /// Deflection by the free rigid motions (m).
+    pub rigid: Vec<f64>,
+    /// Deflection by every strain of the reduced bat (m); those that join later have none.
+    pub row: Vec<f64>,
+}
+
+/// What is the same at every frequency.
+pub struct Driven {
+    damping: Mat<f64>,
+    apart: Option<Apart>,
+}
+
+/// Strains that no damping couples: each follows a force by itself.
+struct Apart {
+    /// `ℓ` (s) of every one, and its loss factor.
+    each: Vec<(f64, f64)>,
+    /// The strains, in those of the members.
+    turned: Mat<f64>,
+}
+
+impl Reduced {
+    /// A force or a deflection at x; its static strains join the others.
+    pub fn place(&mut self, x: f64) -> Place {
+        let row = self.flexible.row(x);
+        self.add(row.clone());
+        let rigid = self.flexible.rigid.iter().map(|rigid| rigid.deflection(x)).collect();
+        Place { rigid, row: (0..self.len()).map(|k| dot(self.strains(k), &row)).collect() }
+    }
+
+    /// `Σ |q_i| |M_ij| |q_j′|` (s² by the square of a strain's unit) of two answers.
+    pub fn inertia_of(&self, [one, other]: &[Answer; 2]) -> f64 {
+        let row = |i: usize, j: usize| self.mass[i.max(j)][i.min(j)].abs();
+        let by = |i: usize| -> f64 {
+            other.parts.iter().enumerate().map(|(j, part)| row(i, j) * part.norm()).sum()
+        };
+        one.parts.iter().enumerate().map(|(i, part)| part.norm() * by(i)).sum()
+    }
+
+    /// What is the same at every frequency, as long as no strains join.
+    pub fn driven(&self) -> Driven {
+        Driven { damping: self.damping(), apart: self.apart() }
+    }
+
+    /// The strains one by one: without dashpots, and where the materials lose of every mode and of all other strains
+    /// so much, and couple none.
+    fn apart(&self) -> Option<Apart> {
+        const COUPLED: f64 = 1e-12;
+        let (n, modes) = (self.len(), self.omega.len());
+        let own: Vec<f64> = (0..n).map(|k| self.loss[k][k]).collect();
+        let others = own.get(modes).copied().unwrap_or(0.0);
+        let most = COUPLED * own.iter().copied().fold(0.0, f64::max);
+        let alike = own.iter().skip(modes).all(|loss| (loss - others).abs() <= most);
+        let alone = (0..n).all(|i| self.loss[i][..i].iter().all(|loss| loss.abs() <= most));
+        if !(self.flexible.dashpots.is_empty() && alike && alone) {
+            return None;
+        }
+        let (lengths, turned) = self.diagonal().ok()?;
+        Some(Apart { each: lengths.into_iter().zip(own).collect(), turned })
+    }
+
+    /// The strains under a force of `e^{iωt}` newtons at a place, the materials' stiffness times
+    /// `1 + iη`; `driven` is [`Self::driven`].
+    pub fn answer(&self, driven: &Driven, place: &Place, omega: f64) -> Answer {
+        let (rigid, parts) = match &driven.apart {
+            Some(apart) => (vec![], self.one_by_one(apart, place, omega)),
+            None => self.together(&driven.damping, place, omega),
+        };
+        let residual = self.residual(c64::new(0.0, omega), true, &rigid, &parts);
+        Answer { rigid, parts, residual }
+    }
+
+    /// The parts of strains that nothing couples.
+    fn one_by_one(&self, apart: &Apart, place: &Place, omega: f64) -> Vec<c64> {
+        let (n, modes) = (self.len(), self.omega.len());
+        let force = |i: usize| place.row.get(i).copied().unwrap_or(0.0) / self.flexible.energy_unit;
+        let along = |k: usize| match k < modes {
+            true => force(k),
+            false => (modes..n).map(|i| apart.turned[(i, k)] * force(i)).sum(),
+        };
+        let follows = |(k, (length, loss)): (usize, &(f64, f64))| {
+            along(k) / c64::new(1.0 - (omega * length).powi(2), *loss)
+        };
+        let mut parts: Vec<c64> = apart.each.iter().enumerate().map(follows).collect();
+        let turned = |i: usize| (modes..n).map(|k| parts[k] * apart.turned[(i, k)]).sum();
+        let others: Vec<c64> = (modes..n).map(turned).collect();
+        parts.splice(modes.., others);
+        parts
+    }
+
+    /// The parts of rigid motions and strains that dashpots and losses couple.
+    fn together(&self, damping: &Mat<f64>, place: &Place, omega: f64) -> (Vec<c64>, Vec<c64>) {
+        let (n, r) = (self.len(), self.rigid_unknowns());
+        let (square, unit) = (omega * omega, self.flexible.energy_unit);
+        let z = Mat::from_fn(r + n, r + n, |i, j| {
+            let (mut real, mut imaginary) = (0.0, omega * damping[(i, j)]);
+            if i >= r && j >= r {
+                let (low, high) = (i.min(j) - r, i.max(j) - r);
+                real = f64::from(u8::from(i == j)) - square * self.mass[high][low];
+                imaginary += self.loss[high][low];
+            } else if i == j {
+                real = -square * self.rigid_mass(i);
+            }
+            c64::new(real, imaginary)
+        });
+        let forces = place.rigid[..r].iter().chain(&place.row);
+        let forces: Vec<f64> = forces.map(|w| w / unit).collect();
+        let force = |i: usize, _| c64::new(forces.get(i).copied().unwrap_or(0.0), 0.0);
+        let solved = z.partial_piv_lu().solve(Mat::from_fn(r + n, 1, force));
+        let of = |range: std::ops::Range<usize>| range.map(|i| solved[(i, 0)]).collect();
+        (of(0..r), of(r..r + n))
+    }
+}
+
+impl Answer {
+    /// The deflection at a place (m), without the rigid motions that dashpots leave alone.
+    pub fn at(&self, place: &Place) -> c64 {
+        let strains = self.parts.iter().zip(&place.row).map(|(part, w)| *part * *w);
+        let rigid = self.rigid.iter().zip(&place.rigid).map(|(part, w)| *part * *w);
+        strains.chain(rigid).sum()
+    }
+
+    /// Size of the residual.
+    pub fn missed(&self) -> f64 {
+        self.residual.iter().map(|r| dot(r, r)).sum::<f64>().sqrt()
+    }
+}
