@@ -7,6 +7,7 @@ use crate::base::file;
 use crate::bat::body::Bat;
 use crate::collision::sweet_spot::FINE;
 use crate::files::measured;
+use crate::modes::request::MOST_MODES;
 use crate::show::report::{self, comparison, comparison_data, comparison_screen};
 use crate::show::{page, plot};
 use crate::study::comparison::contender::Terms;
@@ -73,7 +74,7 @@ pub struct Args {
 
     /// Number of bending modes that count in a hit [default: as many as it needs]
     #[arg(short = 'n', long = "modes", value_name = "N",
-          value_parser = clap::value_parser!(u16).range(0..=1000))]
+          value_parser = clap::value_parser!(u16).range(0..=MOST_MODES as i64))]
     count: Option<u16>,
 
     /// Distance of the places where exit speeds are compared
