@@ -596,6 +596,12 @@ fn what_makes_answers_vary_is_said_and_drawn() {
     assert!(said.contains("here bats or lists differ too"), "{said}");
 }
 
+/// The names in a folder of those parts.
+fn with_sums(parts: &[&str]) -> Vec<String> {
+    let both = |part: &&str| [part.to_string(), format!("{part}.sha256")];
+    ["manifest.json".to_owned()].into_iter().chain(parts.iter().flat_map(both)).collect()
+}
+
 /// Started again, on more threads or fewer, stopped at any moment: the folder is the same.
 #[test]
 fn a_folder_is_the_same_however_it_was_made() {
@@ -603,7 +609,7 @@ fn a_folder_is_the_same_however_it_was_made() {
     let folder = study("study-killed", &text);
     folder.text(&["study", "study.json", "--out", "whole", "--jobs", "1"]);
     let names = folder.read_names("whole");
-    assert_eq!(names, ["manifest.json", "part-000000.csv", "part-000001.csv", "part-000002.csv"]);
+    assert_eq!(names, with_sums(&["part-000000.csv", "part-000001.csv", "part-000002.csv"]));
     std::fs::create_dir(folder.0.join("killed")).unwrap();
     for round in 0..50 {
         let mut child = folder
@@ -621,7 +627,7 @@ fn a_folder_is_the_same_however_it_was_made() {
             assert!(whole == part, "{name} after {round}");
         }
         if names.iter().all(|name| there.contains(name)) {
-            let lost = format!("killed/{}", names[1 + round as usize % 3]);
+            let lost = format!("killed/{}", names[1 + round as usize % (names.len() - 1)]);
             std::fs::remove_file(folder.0.join(lost)).unwrap();
         }
     }
@@ -712,7 +718,7 @@ fn a_part_that_is_not_the_study_s_is_refused() {
             let told = String::from_utf8_lossy(&output.stderr).into_owned();
             assert!(told.contains("part-000000.csv") && told.contains("makes it anew"), "{told}");
             assert_eq!(output.status.code(), Some(2), "{told}");
-            assert_eq!(folder.read_names("out").len(), 4);
+            assert_eq!(folder.read_names("out").len(), 7);
         }
         assert_eq!(folder.read("out/part-000000.csv"), damage);
     }
@@ -731,6 +737,156 @@ fn a_part_that_is_not_the_study_s_is_refused() {
     }
     let told = refused(&folder, "study.json");
     assert!(told.contains("parts of a study that is not known"), "{told}");
+}
+
+/// Beside each part and archive is its sum, as `sha256sum` writes it; whatever bit is turned is seen.
+#[test]
+fn a_part_of_which_a_bit_was_turned_is_refused() {
+    let folder = study("study-bits", SCATTER);
+    let run =
+        |more: &[&str]| folder.run(&[&["study", "study.json", "--out", "out"], more].concat());
+    assert!(run(&["--npz"]).status.success());
+    let names = with_sums(&["part-000000.csv", "part-000000.npz"]);
+    assert_eq!(folder.read_names("out"), names);
+    let sum = folder.read("out/part-000000.csv.sha256");
+    assert!(sum.len() == 64 + 18 && sum.ends_with("  part-000000.csv\n"), "{sum}");
+    for name in &names[1..] {
+        let name = &format!("out/{name}");
+        let bytes = std::fs::read(folder.0.join(name)).unwrap();
+        let turned = |k: usize, bit: u8| {
+            let mut turned = bytes.clone();
+            turned[k] ^= 1 << bit;
+            turned
+        };
+        // Of a sum the case of a letter means nothing.
+        let places = (0..14).map(|k| turned(k * (bytes.len() - 1) / 13, k as u8 % 5));
+        for damage in places.chain([vec![], bytes[..bytes.len() / 2].to_vec()]) {
+            folder.write(name, damage);
+            let output = run(&[]);
+            let said = String::from_utf8_lossy(&output.stderr);
+            assert_eq!(output.status.code(), Some(2), "{name} {said}");
+            assert!(said.contains(&name[..19]) && said.contains("without this file"), "{said}");
+        }
+        folder.write(name, bytes);
+        assert!(run(&[]).status.success());
+    }
+}
+
+/// A part without a sum is one of an older folder: it is checked by its rows, and gets one.
+#[test]
+fn a_part_without_a_sum_is_checked_by_its_rows() {
+    let folder = study("study-sumless", &SCATTER.replace("\"points\": 50", "\"points\": 3"));
+    let run = || folder.run(&["study", "study.json", "--out", "out", "--npz"]);
+    let whole = String::from_utf8(run().stdout).unwrap();
+    let [part, sum] = ["", ".sha256"].map(|end| folder.read(&format!("out/part-000000.csv{end}")));
+    let archive = std::fs::read(folder.0.join("out/part-000000.npz")).unwrap();
+    let without = |name: &str| std::fs::remove_file(folder.0.join("out").join(name)).unwrap();
+    for name in ["part-000000.csv.sha256", "part-000000.npz.sha256"] {
+        let before = folder.read(&format!("out/{name}"));
+        without(name);
+        assert_eq!(String::from_utf8(run().stdout).unwrap(), whole);
+        assert_eq!(folder.read(&format!("out/{name}")), before);
+    }
+    without("part-000000.csv.sha256");
+    let line = part.lines().nth(1).unwrap();
+    let cells: Vec<&str> = line.split(',').collect();
+    for k in 0..cells.len() - 1 {
+        for other in ["maybe", "NaN", "inf", "1e999", "+1", "", "text"] {
+            let mut changed = cells.clone();
+            changed[k] = other;
+            // An error may be unknown.
+            let is_error =
+                part.lines().next().unwrap().split(',').nth(k).unwrap().ends_with("_error");
+            if cells[k] == other || (other.is_empty() && is_error) {
+                continue;
+            }
+            folder.write("out/part-000000.csv", part.replacen(line, &changed.join(","), 1));
+            let told = refused(&folder, "study.json");
+            assert!(told.contains("part-000000.csv") && told.contains("row"), "{k} {other} {told}");
+        }
+    }
+    folder.write("out/part-000000.csv", &part);
+    without("part-000000.npz.sha256");
+    for damage in [&[][..], &archive[..100], b"old"] {
+        folder.write("out/part-000000.npz", damage);
+        let told = refused(&folder, "study.json");
+        assert!(told.contains("part-000000.npz") && told.contains("makes it anew"), "{told}");
+    }
+    without("part-000000.npz");
+    assert_eq!(String::from_utf8(run().stdout).unwrap(), whole);
+    assert!(std::fs::read(folder.0.join("out/part-000000.npz")).unwrap() == archive);
+    assert_eq!(folder.read("out/part-000000.csv.sha256"), sum);
+}
+
+/// Where walls are solved parts are small, whatever machine asks; a folder that was begun with parts of the usual
+/// size goes on with them.
+#[test]
+fn a_study_of_walls_has_small_parts() {
+    let text = |outputs: &str| {
+        format!(
+            r#"{{ "format": "sweetspot-study/1", "bat": "bbcor_made_up", "points": 70, "tol": 0.5,
+                "vary": {{ "scene.pitch": {{ "uniform": ["70 mph", "90 mph"] }} }},
+                "outputs": [{outputs}] }}"#
+        )
+    };
+    let hit = "\"exit_speed_m_s@0.7\"";
+    let folder = study("study-walls", &text(hit));
+    let run = |more: &[&str]| {
+        let output = folder.run(&[&["study", "study.json", "--out", "out"], more].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let whole = run(&["--jobs", "1"]);
+    assert_eq!(folder.read_names("out"), with_sums(&["part-000000.csv", "part-000001.csv"]));
+    let manifest = folder.read("out/manifest.json");
+    assert!(manifest.contains("\"rows_per_part\": 64") && manifest.contains("\"parts\": 2"));
+    let rows: Vec<String> =
+        ["0", "1"].map(|k| folder.read(&format!("out/part-00000{k}.csv"))).into();
+    let tail = rows[1].split_once('\n').unwrap().1;
+    // As an older version has begun it, with its manifest and without.
+    let older = manifest.replace("\"rows_per_part\": 64", "\"rows_per_part\": 4096");
+    let older = older.replace("\"parts\": 2", "\"parts\": 1");
+    for manifest in [older.clone(), older.replace("  \"rows_per_part\": 4096,\n", "")] {
+        std::fs::remove_dir_all(folder.0.join("out")).unwrap();
+        std::fs::create_dir(folder.0.join("out")).unwrap();
+        folder.write("out/manifest.json", &manifest);
+        assert_eq!(run(&["--jobs", "2"]), whole);
+        assert_eq!(folder.read_names("out"), with_sums(&["part-000000.csv"]));
+        assert_eq!(folder.read("out/part-000000.csv"), rows[0].clone() + tail);
+        assert_eq!(folder.read("out/manifest.json"), manifest);
+    }
+    for each in ["0", "1", "63", "-1", "1e30", "\"64\""] {
+        let other =
+            manifest.replace("\"rows_per_part\": 64", &format!("\"rows_per_part\": {each}"));
+        folder.write("out/manifest.json", other);
+        assert!(refused(&folder, "study.json").contains("the rows per part"));
+    }
+    // Anew, where nobody can be asked only if that was said; what else is there stays.
+    folder.write("out/manifest.json", &older);
+    folder.write("out/part-notes.csv", "mine");
+    let output = folder.run(&["study", "study.json", "--out", "out", "--fresh"]);
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.code() == Some(2) && told.contains("--yes"), "{told}");
+    assert!(folder.read_names("out").contains(&"part-000000.csv".to_owned()));
+    assert_eq!(run(&["--fresh", "--yes"]), whole);
+    assert_eq!(folder.read("out/part-notes.csv"), "mine");
+    std::fs::remove_file(folder.0.join("out/part-notes.csv")).unwrap();
+    assert_eq!(folder.read_names("out"), with_sums(&["part-000000.csv", "part-000001.csv"]));
+    assert_eq!(folder.read("out/manifest.json"), manifest);
+    folder.write("out/manifest.json", "{\"format\": \"mine\"}");
+    let output = folder.run(&["study", "study.json", "--out", "out", "--fresh", "--yes"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(folder.read_names("out").len(), 5);
+    // What asks for no wall has parts of the usual size.
+    for (outputs, more) in [("\"mass_kg\"", ""), (hit, "\"scene\": { \"wall\": \"off\" },")] {
+        folder.write(
+            "study.json",
+            text(outputs).replacen("\"points\"", &format!("{more} \"points\""), 1),
+        );
+        let out = if more.is_empty() { "solid" } else { "off" };
+        folder.run(&["study", "study.json", "--out", out]);
+        assert!(folder.read(&format!("{out}/manifest.json")).contains("\"rows_per_part\": 4096"));
+    }
 }
 
 /// What the program says of a study that it refuses.

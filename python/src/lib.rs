@@ -3,11 +3,19 @@
 //! What goes in and out are texts: bat files, scenes and the documents that the command line writes. The
 //! package around it makes NumPy arrays of them.
 
+use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread::Builder;
+use std::time::Duration;
 
+use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
+use sweetspot::base::file;
 use sweetspot::base::marks::written_out;
 use sweetspot::base::threads;
 use sweetspot::beam::assembly::Pencil;
@@ -22,8 +30,10 @@ use sweetspot::modes::prepared::{Prepared, prepare};
 use sweetspot::modes::request::MOST_MODES;
 use sweetspot::proof::bundled;
 use sweetspot::show::exchange::npz;
-use sweetspot::show::many::folder::{ROWS, StudyFolder, part, read};
+use sweetspot::show::many::folder::StudyFolder;
+use sweetspot::show::many::part::{Division, made};
 use sweetspot::show::many::source::Study as Source;
+use sweetspot::show::many::sums;
 use sweetspot::show::plot::picture::Picture;
 use sweetspot::show::plot::sets::{Hits, of_modes};
 use sweetspot::show::plot::sheet::Sheet;
@@ -47,6 +57,49 @@ fn free<T: Send>(
     work: impl FnOnce() -> sweetspot::Result<T> + Send,
 ) -> PyResult<T> {
     py.detach(work).map_err(|error| raised(py, &error))
+}
+
+/// What `work` gives. A signal for which Python raises something is heard at once: `work` sees that it is of no
+/// use any more, and ends beside.
+fn heard<T: Send + 'static>(
+    py: Python<'_>,
+    work: impl FnOnce(&AtomicBool) -> T + Send + 'static,
+) -> PyResult<T> {
+    const LISTENS: Duration = Duration::from_millis(50);
+    let stop = Arc::new(AtomicBool::new(false));
+    let work = Arc::new(Mutex::new(Some(work)));
+    let (send, receive) = channel();
+    let begun = Builder::new().spawn({
+        let (stop, work) = (Arc::clone(&stop), Arc::clone(&work));
+        move || {
+            let work = work.lock().unwrap_or_else(PoisonError::into_inner).take();
+            // Nobody listens any more where that was of no use.
+            let _ = send.send(work.map(|work| work(&stop)));
+        }
+    });
+    let Ok(thread) = begun else {
+        // Where no thread can be started nobody listens.
+        let work = work.lock().unwrap_or_else(PoisonError::into_inner).take();
+        let found = work.map(|work| py.detach(|| work(&stop)));
+        return found.ok_or_else(|| PyRuntimeError::new_err("nothing was made"));
+    };
+    let receive = Mutex::new(receive);
+    let wait = || {
+        let receive = receive.lock().unwrap_or_else(PoisonError::into_inner);
+        receive.recv_timeout(LISTENS)
+    };
+    loop {
+        match py.detach(wait) {
+            Ok(Some(found)) => return Ok(found),
+            Err(RecvTimeoutError::Timeout) => {
+                py.check_signals().inspect_err(|_| stop.store(true, Ordering::Relaxed))?;
+            }
+            Ok(None) | Err(RecvTimeoutError::Disconnected) => match py.detach(|| thread.join()) {
+                Err(mistake) => resume_unwind(mistake),
+                Ok(()) => return Err(PyRuntimeError::new_err("nothing was made")),
+            },
+        }
+    }
 }
 
 /// A bat.
@@ -207,13 +260,13 @@ fn built_in_names() -> Vec<&'static str> {
 
 /// A study: its rows are functions of their numbers.
 #[pyclass(frozen, module = "sweetspot._core")]
-struct Study(Source);
+struct Study(Arc<Source>);
 
 #[pymethods]
 impl Study {
     #[new]
     fn new(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        free(py, || Source::read(&path)).map(Self)
+        free(py, || Source::read(&path)).map(Arc::new).map(Self)
     }
 
     /// A study that a person has named, and the files outside of its folder that it names, as they are shown.
@@ -221,13 +274,13 @@ impl Study {
     fn named_by_a_person(py: Python<'_>, path: PathBuf) -> PyResult<(Self, Vec<String>)> {
         let (study, outside) = free(py, || Source::named_by_a_person(&path))?;
         let shown = outside.iter().map(|path| written_out(&path.display().to_string()));
-        Ok((Self(study), shown.collect()))
+        Ok((Self(Arc::new(study)), shown.collect()))
     }
 
     /// A study from its text, its files in a folder or below.
     #[staticmethod]
     fn of(py: Python<'_>, name: &str, text: &str, folder: PathBuf) -> PyResult<Self> {
-        free(py, || Source::of(name, text, &folder)).map(Self)
+        free(py, || Source::of(name, text, &folder)).map(Arc::new).map(Self)
     }
 
     /// Names and units of the columns.
@@ -254,36 +307,89 @@ impl Study {
     /// A study that was sent here.
     #[staticmethod]
     fn arrived(py: Python<'_>, text: &str) -> PyResult<Self> {
-        free(py, || Source::arrived(text)).map(Self)
+        free(py, || Source::arrived(text)).map(Arc::new).map(Self)
     }
 
-    /// How many rows and parts there are.
+    /// How many rows there are, and how many of them in a part.
     fn size(&self) -> (u64, u64) {
-        (self.0.rows.count(), StudyFolder::parts_of(&self.0))
+        let division = Division::of(&self.0.rows);
+        (division.rows, division.rows_per_part)
     }
 
-    /// A part as the bytes of a CSV file, on so many threads, all if none are named.
-    fn part(&self, py: Python<'_>, k: u64, jobs: Option<usize>) -> PyResult<Py<PyBytes>> {
-        let text = free(py, || Ok(threads::with(jobs, || part(&self.0, k, &|_| ()))))?;
-        Ok(PyBytes::new(py, text.as_bytes()).unbind())
+    /// Some parts of so many rows, each as the bytes of a CSV file, on so many threads, all if none are named.
+    fn parts(
+        &self,
+        py: Python<'_>,
+        parts: Vec<u64>,
+        rows_per_part: u64,
+        jobs: Option<usize>,
+    ) -> PyResult<Vec<Py<PyBytes>>> {
+        let division = self.division(rows_per_part);
+        if let Some(other) = parts.iter().find(|k| **k >= division.parts()) {
+            let last = division.parts() - 1;
+            let expected = format!("a part of the study, 0 to {last}");
+            return Err(raised(py, &Error::value("part", other, expected)));
+        }
+        let study = Arc::clone(&self.0);
+        let texts = heard(py, move |stop| {
+            let part = |k: usize| made(&study, division.part(parts[k]), stop, &|_| ());
+            threads::with(jobs, || threads::map(parts.len(), part))
+        })?;
+        Ok(texts.iter().map(|text| PyBytes::new(py, text.as_bytes()).unbind()).collect())
     }
 
-    /// Refuses part k, which is at that path, if it is not as the study makes it.
-    fn check(&self, py: Python<'_>, k: u64, path: PathBuf, part: &[u8]) -> PyResult<()> {
-        free(py, || read(&self.0.rows, k, (&path, part), |_| ()))
+    /// Opens the folder of the study, or refuses one of another: rows of a part there.
+    fn open(&self, py: Python<'_>, out: PathBuf) -> PyResult<u64> {
+        free(py, || StudyFolder::open(&out, &self.0).map(|folder| folder.division().rows_per_part))
     }
 
-    /// Opens the folder of the study, or refuses one of another.
-    fn open(&self, py: Python<'_>, out: PathBuf) -> PyResult<()> {
-        free(py, || StudyFolder::open(&out, &self.0).map(|_| ()))
+    /// Part k in an opened folder, if it is there and right.
+    fn kept(
+        &self,
+        py: Python<'_>,
+        out: PathBuf,
+        rows_per_part: u64,
+        k: u64,
+    ) -> PyResult<Option<Py<PyBytes>>> {
+        let division = self.division(rows_per_part);
+        let part = free(py, || StudyFolder::again(&out, &self.0, division).kept(k))?;
+        Ok(part.map(|part| PyBytes::new(py, &part).unbind()))
     }
+}
+
+impl Study {
+    fn division(&self, rows_per_part: u64) -> Division {
+        Division { rows: self.0.rows.count(), rows_per_part: rows_per_part.max(1) }
+    }
+}
+
+/// Whether a file fits the sum beside it; false where there is none.
+#[pyfunction]
+fn fits_its_sum(py: Python<'_>, path: PathBuf) -> PyResult<bool> {
+    free(py, || sums::fits(&path, &file::read_plain(&path)?))
+}
+
+/// Writes the sum of a file beside it.
+#[pyfunction]
+fn add_sum(py: Python<'_>, path: PathBuf) -> PyResult<()> {
+    free(py, || sums::add(&path, &file::read_plain(&path)?))
+}
+
+/// Writes a file and then its sum.
+#[pyfunction]
+fn keep(py: Python<'_>, path: PathBuf, bytes: &[u8]) -> PyResult<()> {
+    free(py, || sums::write(&path, bytes))
 }
 
 #[pymodule]
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add("ROWS", ROWS)?;
+    module.add("MOST_JOBS", threads::MOST)?;
+    module.add("MOST_BYTES", file::MOST)?;
     module.add_class::<Bat>()?;
     module.add_class::<Study>()?;
+    module.add_function(wrap_pyfunction!(fits_its_sum, module)?)?;
+    module.add_function(wrap_pyfunction!(add_sum, module)?)?;
+    module.add_function(wrap_pyfunction!(keep, module)?)?;
     module.add_function(wrap_pyfunction!(built_in, module)?)?;
     module.add_function(wrap_pyfunction!(built_in_names, module)?)?;
     Ok(())

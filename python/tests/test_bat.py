@@ -149,3 +149,77 @@ def test_wrong_arguments_are_named():
     assert told.value.file == "no/such.json"
     named = ss.Bat([0, 33], [1.7, 1.7], unit="in", material="white-ash", name="<b>x</b>")
     assert "<b>x</b>" not in named._repr_html_().split("<svg")[0]
+
+
+def test_numbers_may_come_from_other_packages():
+    from decimal import Decimal
+
+    import pandas as pd
+    import pyarrow as pa
+
+    x, diameter = [0.0, 0.5, 0.8], [0.04, 0.05, 0.06]
+    known = ss.Bat(x, diameter, material=ALUMINIUM)
+    for take in (
+        pd.Series,
+        lambda values: pd.Series(values, index=[5, 6, 7]),
+        pa.array,
+        lambda values: pa.chunked_array([values[:1], values[1:]]),
+        lambda values: [Decimal(str(value)) for value in values],
+        lambda values: [pa.scalar(value) for value in values],
+        np.array,
+        lambda values: np.array(values, dtype=object),
+        lambda values: np.array(values, dtype=np.longdouble),
+        tuple,
+    ):
+        bat = ss.Bat(take(x), take(diameter), material={**ALUMINIUM, "density": Decimal("2700")})
+        assert bat.mass_kg == known.mass_kg, take
+        assert np.array_equal(bat.hit(take([0.6, 0.7, 0.75])).exit_speed_m_s, known.hit([0.6, 0.7, 0.75]).exit_speed_m_s)
+        bat.modes(2, tol=Decimal("1e-3"))
+
+
+def test_what_is_of_another_kind_is_the_package_s_error_too():
+    bat = ss.Bat.from_file("r161")
+    for call in (
+        lambda: bat.modes("3"),
+        lambda: bat.modes(2.5),
+        lambda: bat.modes(2, tol="x"),
+        lambda: bat.modes(2, theory=3),
+        lambda: bat.modes(2, unknown=3),
+        lambda: bat.hit(0.7, pitch=object()),
+        lambda: bat.hit(0.7, pitch={1, 2}),
+        lambda: bat.hit(0.7, ball=3),
+        lambda: bat.hit(0.7, tol=None),
+        lambda: bat.hit([[0.6], [0.7]]),
+        lambda: bat.inertia_kg_m2("x"),
+        lambda: bat.edit(3),
+        lambda: ss.Bat(0, 1, material="oak", name=object()),
+        lambda: ss.Bat(),
+        lambda: ss.Bat.from_file(3),
+        lambda: ss.Bat.from_document(3),
+        lambda: bat.modes(10**30),
+        lambda: bat.modes(2, points=2**64),
+        lambda: bat.modes(2, tol=10**400),
+        lambda: bat.inertia_kg_m2(10**400),
+        lambda: bat.hit(0.7, pitch="\udc80"),
+        lambda: ss.Bat.from_file("\0"),
+        lambda: ss.Study(3),
+        lambda: ss.Study({"bat": object()}),
+        lambda: ss.run_study(3),
+        lambda: ss.run_study(bat),
+    ):
+        with pytest.raises(ss.SweetspotError) as caught:
+            call()
+        assert isinstance(caught.value, (TypeError, ValueError))
+        again = pickle.loads(pickle.dumps(caught.value))
+        assert type(again) is type(caught.value) and str(again) == str(caught.value)
+    with pytest.raises(TypeError):
+        bat.modes("3")
+
+
+def test_stiffness_and_mass_can_be_unpacked():
+    found = ss.Bat.from_file("r161").matrices(3)
+    stiffness, mass = found
+    assert stiffness is found["K"] and mass is found["M"] and "K_data" in found
+    assert set(dict(found)) == set(found.keys()) == {name for name, _ in found.items()}
+    # A rigid shift has the bat's mass and no stiffness.
+    assert mass[0, 0] > 0 and np.allclose(stiffness, stiffness.T)

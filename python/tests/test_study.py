@@ -56,7 +56,7 @@ def test_a_part_sent_to_another_machine_is_the_same(tmp_path):
             "outputs": ["f1_hz", "exit_speed_m_s@0.7"]}
     study = Study(spec, tmp_path)
     shipped = study.shipped()
-    assert make(shipped, 0) == bytes(study.part(0)) == bytes(study.part(0, 1))
+    assert make(shipped, 0, study.rows_per_part) == bytes(study.part(0)) == bytes(study.part(0, 1))
 
 
 def run(study, out, *more):
@@ -66,6 +66,10 @@ def run(study, out, *more):
 
 def parts(folder):
     return {path.name: path.read_bytes() for path in folder.iterdir()}
+
+
+def named(count):
+    return ["manifest.json", *(f"part-{k:06}.csv{end}" for k in range(count) for end in ("", ".sha256"))]
 
 
 @pytest.fixture
@@ -86,7 +90,7 @@ def test_the_folder_of_processes_is_that_of_threads(tmp_path, scatter):
     assert run(scatter, tmp_path / "a").returncode == 0
     ss.run_study(scatter, out=tmp_path / "b", jobs=1)
     assert parts(tmp_path / "a") == parts(tmp_path / "b")
-    assert sorted(parts(tmp_path / "a")) == ["manifest.json", *(f"part-{k:06}.csv" for k in range(5))]
+    assert sorted(parts(tmp_path / "a")) == named(5)
     # A lost part is made again, the others are left alone.
     (tmp_path / "a" / "part-000002.csv").unlink()
     kept = (tmp_path / "a" / "part-000001.csv").stat().st_mtime_ns
@@ -169,7 +173,7 @@ def test_a_full_disk_leaves_whole_parts_alone(tmp_path, three_parts):
 
     command = [sys.executable, "-m", "sweetspot.study", str(three_parts), "--out", str(tmp_path / "full"), "--quiet"]
     said = subprocess.run(command, capture_output=True, text=True, preexec_fn=small)
-    assert said.returncode == 3 and "cannot write to" in said.stderr
+    assert said.returncode == 3 and "cannot write" in said.stderr
     assert [path.name for path in (tmp_path / "full").iterdir()] == ["manifest.json"]
     assert run(three_parts, tmp_path / "full").returncode == 0
     assert run(three_parts, tmp_path / "whole").returncode == 0
@@ -266,7 +270,7 @@ def test_damaged_parts_are_refused_by_their_names(tmp_path, three_parts):
     (tmp_path / "a" / ".sweetspot-lost.part").write_bytes(b"row")
     (tmp_path / "a" / "part-000001.csv").unlink()
     assert run(three_parts, tmp_path / "a").returncode == 0
-    assert sorted(parts(tmp_path / "a")) == ["manifest.json", *(f"part-{k:06}.csv" for k in range(3))]
+    assert sorted(parts(tmp_path / "a")) == named(3)
     assert (tmp_path / "a" / "part-000001.csv").read_bytes() == whole
 
 
@@ -342,5 +346,168 @@ def test_a_part_that_is_no_file_is_not_waited_on(tmp_path):
         out = tmp_path / name
         study.open(out)
         make_it(out / "part-000000.csv")
-        with pytest.raises(ss.SweetspotError, match="a pipe, a device or a folder"):
+        with pytest.raises(ss.SweetspotError, match="a pipe or a device"):
             study.kept(out, 0)
+
+
+def test_a_turned_bit_is_seen_in_every_kind_of_part(tmp_path):
+    pytest.importorskip("pyarrow")
+    from pyarrow import parquet
+
+    path = tmp_path / "small.json"
+    path.write_text(json.dumps({"format": "sweetspot-study/1", **SCATTER, "points": 8}))
+    for kind, more in (("csv", ()), ("parquet", ("--parquet",))):
+        out = tmp_path / kind
+        assert run(path, out, *more).returncode == 0
+        part, sum_of = out / f"part-000000.{kind}", out / f"part-000000.{kind}.sha256"
+        command = ["sha256sum", "-c", sum_of.name]
+        assert subprocess.run(command, cwd=out, capture_output=True).returncode == 0
+        whole = part.read_bytes()
+        for k in range(14):
+            at = k * (len(whole) - 1) // 13
+            part.write_bytes(whole[:at] + bytes([whole[at] ^ 4]) + whole[at + 1 :])
+            said = run(path, out, *more)
+            assert said.returncode == 2 and part.name in said.stderr and "makes it anew" in said.stderr
+        part.write_bytes(whole)
+        before = sum_of.read_bytes()
+        sum_of.unlink()
+        assert run(path, out, *more).returncode == 0 and sum_of.read_bytes() == before
+    table = parquet.read_table(part)
+    for name, wrong in (("f1_hz", math.nan), ("f1_hz", math.inf), ("met", False), ("row", 9)):
+        values = table[name].to_pylist()
+        changed = table.set_column(table.column_names.index(name), name, [[wrong, *values[1:]]])
+        parquet.write_table(changed, part)
+        sum_of.unlink(missing_ok=True)
+        said = run(path, out, "--parquet")
+        assert said.returncode == 2 and part.name in said.stderr, (name, said.stderr)
+
+
+def poisoned(shipped, k, rows_per_part):
+    """A part that ends whoever makes it."""
+    if k == 1:
+        os.kill(os.getpid(), signal.SIGKILL)
+    return make(shipped, k, rows_per_part)
+
+
+def test_a_part_that_ends_its_worker_is_named_and_the_others_are_made(tmp_path, scatter, monkeypatch, capsys):
+    from sweetspot import study as verb
+
+    monkeypatch.setattr(verb, "make", poisoned)
+    code = verb.main([str(scatter), "--out", str(tmp_path / "p"), "--workers", "2", "--quiet"])
+    assert code == 3 and "part 1 ended its worker 3 times" in capsys.readouterr().err
+    monkeypatch.undo()
+    assert run(scatter, tmp_path / "p").returncode == 0
+    assert sorted(parts(tmp_path / "p")) == named(5)
+
+
+def test_tasks_are_given_out_some_at_a_time():
+    from sweetspot.study import Lost, shared_out
+
+    class Pool:
+        most = ended_at = closed = 0
+
+        def room(self):
+            return 4
+
+        def start(self, k):
+            return [k]
+
+        def ended(self, tasks):
+            self.most = max(self.most, len(tasks))
+            dies = [task for task in tasks if task[0] == 5]
+            if dies:
+                # All that is under way dies with it.
+                self.ended_at += 1
+                return [(task, None) for task in tasks]
+            return [(tasks[0], b"%d" % tasks[0][0])]
+
+        def close(self):
+            self.closed += 1
+
+    class Hashed(list):
+        __hash__ = object.__hash__
+
+    pool = Pool()
+    pool.start = lambda k: Hashed([k])
+    found = {}
+    with pytest.raises(Lost, match="part 5"):
+        for k, part in shared_out(pool, list(range(8))):
+            found[k] = part
+    assert pool.most == 4 and pool.closed == 1 and pool.ended_at == 4
+    assert set(found) >= set(range(5)) and 5 not in found
+
+
+@pytest.fixture
+def slow(tmp_path):
+    path = tmp_path / "slow.json"
+    spec = {**SCATTER, "points": 200000, "tol": 1e-9, "outputs": ["exit_speed_max.value", "f30_hz", "bbcor_max"]}
+    path.write_text(json.dumps({"format": "sweetspot-study/1", **spec}))
+    return path
+
+
+def test_an_interrupt_is_heard_inside_a_part(tmp_path, slow):
+    program = (
+        "import sys, sweetspot as ss\n"
+        "print('ready', flush=True)\n"
+        "try: ss.run_study(sys.argv[1], out=sys.argv[2])\n"
+        "except KeyboardInterrupt: sys.exit(9)\n"
+    )
+    command = [sys.executable, "-c", program, str(slow), str(tmp_path / "out")]
+    running = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+    assert running.stdout.readline() == "ready\n"
+    while not (tmp_path / "out" / "manifest.json").exists():
+        time.sleep(0.05)
+    time.sleep(1)
+    at = time.monotonic()
+    running.send_signal(signal.SIGINT)
+    assert running.wait(20) == 9
+    assert time.monotonic() - at < 3
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT, signal.SIGKILL])
+def test_processes_end_with_the_one_that_shares_out(tmp_path, slow, number):
+    before = set(workers_of("spawn_main"))
+    command = [sys.executable, "-m", "sweetspot.study", str(slow), "--out", str(tmp_path / "out"), "--workers", "2"]
+    running = subprocess.Popen(command, stderr=subprocess.DEVNULL)
+    until = time.monotonic() + 60
+    while len(own := set(workers_of("spawn_main")) - before) < 2 and time.monotonic() < until:
+        time.sleep(0.05)
+    time.sleep(1)
+    running.send_signal(number)
+    assert running.wait(20) == {signal.SIGTERM: 143, signal.SIGINT: 130, signal.SIGKILL: -9}[number]
+    until = time.monotonic() + 5
+    while own & set(workers_of("spawn_main")) and time.monotonic() < until:
+        time.sleep(0.05)
+    assert len(own) == 2 and not own & set(workers_of("spawn_main"))
+
+
+def test_parts_that_there_are_not_are_refused():
+    study = Study({**SCATTER, "points": 2})
+    assert study.parts == 1
+    for k in (99, -1, 2**64 - 1, 2**64, 1.5, "0", None, True):
+        with pytest.raises(ss.SweetspotError, match="part: found"):
+            study.part(k)
+    for jobs in (1025, 2**40, "2", True):
+        with pytest.raises(ss.SweetspotError, match="jobs: found"):
+            study.part(0, jobs)
+        with pytest.raises(ss.SweetspotError, match="jobs: found"):
+            ss.run_study({**SCATTER, "points": 2}, jobs=jobs)
+
+
+def test_a_study_of_walls_has_small_parts(tmp_path):
+    spec = {"bat": "bbcor_made_up", "points": 70, "tol": 0.5, "outputs": ["exit_speed_m_s@0.7"],
+            "vary": {"scene.pitch": {"uniform": ["70 mph", "90 mph"]}}}
+    path = tmp_path / "walls.json"
+    path.write_text(json.dumps({"format": "sweetspot-study/1", **spec}))
+    study = Study(path)
+    assert (study.rows_per_part, study.parts) == (64, 2)
+    result = ss.run_study(path, out=tmp_path / "a")
+    assert run(path, tmp_path / "b").returncode == 0
+    assert parts(tmp_path / "a") == parts(tmp_path / "b") and sorted(parts(tmp_path / "a")) == named(2)
+    manifest = json.loads((tmp_path / "a" / "manifest.json").read_text())
+    (tmp_path / "c").mkdir()
+    (tmp_path / "c" / "manifest.json").write_text(json.dumps({**manifest, "rows_per_part": 4096, "parts": 1}))
+    assert run(path, tmp_path / "c").returncode == 0
+    again = ss.run_study(path, out=tmp_path / "c")
+    assert sorted(parts(tmp_path / "c")) == named(1)
+    assert all(np.array_equal(result[name], again[name]) for name in result.names)

@@ -11,6 +11,10 @@ std::thread_local! {
     static ALONE: Cell<bool> = const { Cell::new(false) };
 }
 
+/// The most threads that may be asked for.
+#[cfg(feature = "show")]
+pub const MOST: u16 = 1024;
+
 /// What is in the cell, made by `make` if nothing is.
 ///
 /// Whoever makes it does so alone. A thread of the pool that waits for others takes up other work
@@ -29,7 +33,7 @@ pub(crate) fn made<T>(cell: &OnceLock<T>, make: impl FnOnce() -> T) -> &T {
 }
 
 /// What `of` makes of 0, 1, … below `count`, in that order.
-pub(crate) fn map<T: Send>(count: usize, of: impl Fn(usize) -> T + Sync) -> Vec<T> {
+pub fn map<T: Send>(count: usize, of: impl Fn(usize) -> T + Sync) -> Vec<T> {
     #[cfg(feature = "parallel")]
     if !ALONE.get() && pool::is_there() {
         return pool::map(count, of);
@@ -60,6 +64,16 @@ pub fn with<T: Send>(threads: Option<usize>, work: impl FnOnce() -> T + Send) ->
     }
     let _ = threads;
     work()
+}
+
+/// How many threads share work here.
+#[cfg(feature = "show")]
+pub fn count() -> usize {
+    #[cfg(feature = "parallel")]
+    if pool::is_there() {
+        return rayon::current_num_threads();
+    }
+    1
 }
 
 #[cfg(feature = "parallel")]

@@ -1,22 +1,40 @@
-//! What takes long: on a terminal, how far it is and how long it will take.
+//! What takes long: how far it is and how long it will take, on a terminal and elsewhere.
 
 use std::io::IsTerminal;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread::{Builder, JoinHandle};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 /// Nobody is told of what is done sooner.
 const PATIENCE: Duration = Duration::from_millis(500);
 const TICK: Duration = Duration::from_millis(100);
+/// Who reads a pipe or a file is told so often.
+const LINE: Duration = Duration::from_secs(30);
 /// The whole work in steps of a bar.
 const STEPS: u64 = 10_000;
 
 /// One line on standard error, if that is a terminal, after half a second; gone at the end.
 pub struct Progress {
-    bar: Option<(ProgressBar, Waiting)>,
+    shown: Shown,
+    begun: Instant,
+    /// How much of the work was done before, 0 to 1.
+    before: f64,
+}
+
+enum Shown {
+    Not,
+    Bar(ProgressBar, Waiting),
+    Lines(Mutex<Line>),
+}
+
+/// The last line that was said, if one was.
+struct Line {
+    at: Instant,
+    any: bool,
 }
 
 /// The thread that shows the bar when it is time to.
@@ -29,9 +47,79 @@ impl Progress {
     /// Begins to wait; `what` is done first.
     pub fn new(quiet: bool, what: &str) -> Self {
         let dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
-        if quiet || dumb || !std::io::stderr().is_terminal() {
-            return Self { bar: None };
+        let hidden = quiet || dumb || !std::io::stderr().is_terminal();
+        let shown = if hidden { Shown::Not } else { Shown::bar(what) };
+        Self { shown, begun: Instant::now(), before: 0.0 }
+    }
+
+    /// So much of the work is done, 0 to 1, and this comes next.
+    pub fn say(&self, share: f64, what: &str) {
+        let share = share.clamp(0.0, 1.0);
+        let left = left(self.begun.elapsed(), self.before, share);
+        let said =
+            left.map_or(what.to_owned(), |left| format!("{} left  {what}", HumanDuration(left)));
+        match &self.shown {
+            Shown::Not => {}
+            Shown::Bar(bar, _) => {
+                if bar.position() == 0 && share > 0.0 {
+                    bar.set_style(style("{spinner} {bar:24} {percent:>3} %  {wide_msg}"));
+                }
+                bar.set_position((share * STEPS as f64) as u64);
+                bar.set_message(said);
+            }
+            Shown::Lines(last) => {
+                let mut last = last.lock().unwrap_or_else(PoisonError::into_inner);
+                if last.at.elapsed() >= LINE || (last.any && share == 1.0) {
+                    eprintln!("{:3.0} %  {said}", (100.0 * share).floor());
+                    *last = Line { at: Instant::now(), any: true };
+                }
+            }
         }
+    }
+}
+
+/// The time that is left when a share of all is done, some of it before; None where that cannot be told.
+fn left(elapsed: Duration, before: f64, share: f64) -> Option<Duration> {
+    let done = share - before;
+    (done > 0.0 && share < 1.0)
+        .then(|| Duration::try_from_secs_f64(elapsed.as_secs_f64() * (1.0 - share) / done).ok())?
+}
+
+/// Many things that are alike, of which some were done before. Where standard error is no terminal there is a line
+/// every half minute.
+pub struct Counted {
+    progress: Progress,
+    what: &'static str,
+    all: u64,
+    before: u64,
+    done: AtomicU64,
+}
+
+impl Counted {
+    /// Of `all` so many are there.
+    pub fn new(quiet: bool, what: &'static str, all: u64, before: u64) -> Self {
+        let mut progress = Progress::new(quiet, what);
+        progress.before = before as f64 / all as f64;
+        // It may take days: who looks into a log wants to know too.
+        if !quiet && matches!(progress.shown, Shown::Not) {
+            progress.shown = Shown::Lines(Mutex::new(Line { at: Instant::now(), any: false }));
+        }
+        Self { progress, what, all, before, done: AtomicU64::new(before) }
+    }
+
+    /// So many more are done.
+    pub fn more(&self, some: u64) {
+        let done = self.done.fetch_add(some, Ordering::Relaxed) + some;
+        let rate = (done - self.before) as f64 / self.progress.begun.elapsed().as_secs_f64();
+        let digits = usize::from(rate < 10.0);
+        let (all, what) = (self.all, self.what);
+        let said = format!("{done} of {all} {what}, {rate:.digits$} a second");
+        self.progress.say(done as f64 / all as f64, &said);
+    }
+}
+
+impl Shown {
+    fn bar(what: &str) -> Self {
         let bar = ProgressBar::with_draw_target(Some(STEPS), ProgressDrawTarget::hidden());
         bar.set_style(style("{spinner} {elapsed}  {wide_msg}"));
         bar.set_message(what.to_owned());
@@ -50,23 +138,13 @@ impl Progress {
         };
         // Where no thread can be started nothing is shown.
         let thread = Builder::new().spawn(wait).ok();
-        Self { bar: Some((bar, Waiting { stop: Some(stop), thread })) }
-    }
-
-    /// So much of the work is done, 0 to 1, and this comes next.
-    pub fn say(&self, share: f64, what: &str) {
-        let Some((bar, _)) = &self.bar else { return };
-        if bar.position() == 0 && share > 0.0 {
-            bar.set_style(style("{spinner} {bar:24} {percent:>3} %, {eta} left  {wide_msg}"));
-        }
-        bar.set_position((share.clamp(0.0, 1.0) * STEPS as f64) as u64);
-        bar.set_message(what.to_owned());
+        Self::Bar(bar, Waiting { stop: Some(stop), thread })
     }
 }
 
 impl Drop for Progress {
     fn drop(&mut self) {
-        let Some((bar, waiting)) = &mut self.bar else { return };
+        let Shown::Bar(bar, waiting) = &mut self.shown else { return };
         waiting.stop.take();
         if let Some(thread) = waiting.thread.take() {
             // The thread only draws: its failure is ignored.
@@ -101,5 +179,20 @@ pub fn beside(say: impl FnOnce()) {
     match bar {
         Some(bar) => bar.suspend(say),
         None => say(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_was_done_before_took_no_time() {
+        let ten = Duration::from_secs(10);
+        assert_eq!(left(ten, 0.0, 0.5), Some(ten));
+        // Half was there, and half of the other half took ten seconds.
+        assert_eq!(left(ten, 0.5, 0.75), Some(ten));
+        assert_eq!(left(ten, 0.5, 0.5), None);
+        assert_eq!(left(ten, 0.0, 1.0), None);
     }
 }

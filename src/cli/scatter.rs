@@ -18,7 +18,7 @@ use crate::cli::common::{examples, note_outside, printed, read};
 use crate::cli::delivered::{apart, put};
 use crate::cli::done::Done;
 use crate::cli::edits::EditArgs;
-use crate::cli::progress::Progress;
+use crate::cli::progress::Counted;
 use crate::cli::{pictures, style};
 
 /// How much bats of one model, and swings of one batter, differ
@@ -49,7 +49,7 @@ pub struct Args {
     seed: u64,
 
     /// Threads [default: as many as there are processors]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=i64::from(threads::MOST)))]
     jobs: Option<u16>,
 
     /// Write the bats nearest to the 5th, 50th and 95th percentile into this folder, as bat files
@@ -109,10 +109,8 @@ pub fn run(args: &Args) -> Result<Done> {
     let plan = ScatterPlan { differences, setup, impact, outputs, tolerance, points, seed };
     let of = output(args, &plan)?;
     let rows = ScatterRows::new(&bat, plan).map_err(|error| named(args, error))?;
-    let progress = Progress::new(args.quiet, "bats");
-    let tell = |done: u64| {
-        progress.say(done as f64 / points as f64, &format!("{done} of {points} bats"));
-    };
+    let progress = Counted::new(args.quiet, "bats", points, 0);
+    let tell = |some| progress.more(some);
     let found = threads::with(args.jobs.map(usize::from), || Scattered::new(&rows, &tell));
     drop(progress);
     if found.answered() == 0 {

@@ -1,12 +1,13 @@
 //! `sweetspot study FILE`: many bats, one row each.
 
-use std::path::PathBuf;
-use std::time::Instant;
+use std::io::{IsTerminal, Write};
+use std::path::{Path, PathBuf};
 
 use crate::base::error::{Complaint, Error, Result};
 use crate::base::threads;
 use crate::files::study_rows::Rows;
 use crate::show::many::folder::StudyFolder;
+use crate::show::many::fresh;
 use crate::show::many::source::Study;
 use crate::show::many::summary::{self, answers, names, percentile, sorted};
 use crate::show::many::table::{Column, Table};
@@ -16,15 +17,15 @@ use crate::show::plot::picture::Picture;
 use crate::cli::common::{examples, note_outside};
 use crate::cli::done::{Done, NOT_REACHED, warn};
 use crate::cli::pictures;
-use crate::cli::progress::Progress;
+use crate::cli::progress::Counted;
 use crate::cli::style;
 
 /// Many bats: what varies from bat to bat, and what comes of it
 ///
 /// A study names a bat, a ball and a scene, what of them varies (lists, grids, distributions, with
 /// correlations) and what is asked of every bat. Each row is a bat, with its errors or the reason why there is
-/// no answer. Rows are written in parts of 4096, each a function of the study and its number alone: started
-/// again, it goes on where it was.
+/// no answer. Rows are written in parts of 4096, of 64 where walls of hollow barrels are solved, each a function of
+/// the study and its number alone: started again, it goes on where it was.
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES))]
 pub struct Args {
@@ -52,8 +53,16 @@ pub struct Args {
     scatter: Vec<String>,
 
     /// Threads [default: as many as there are processors]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=i64::from(threads::MOST)))]
     jobs: Option<u16>,
+
+    /// Remove the parts that are in the folder, after asking, and make all anew
+    #[arg(long, help_heading = "Output")]
+    fresh: bool,
+
+    /// Do not ask [with --fresh]
+    #[arg(long, requires = "fresh", help_heading = "Output")]
+    yes: bool,
 
     /// No progress on standard error
     #[arg(long, help_heading = "Output")]
@@ -72,21 +81,20 @@ pub fn run(args: &Args) -> Result<Done> {
     note_outside(&args.study, &outside, args.quiet);
     let rows = &study.rows;
     let pairs = pairs(rows, &args.scatter)?;
+    if args.fresh {
+        clear(&args.out, args.yes)?;
+    }
     let folder = StudyFolder::open(&args.out, &study)?;
     // Before the work, which may take hours.
     rows.warnings().iter().for_each(|warning| warn(warning));
-    let count = rows.count();
-    let progress = Progress::new(args.quiet, "bats");
-    let (begun, before) = (Instant::now(), folder.made());
-    let tell = |done: u64| {
-        let rate = done.saturating_sub(before) as f64 / begun.elapsed().as_secs_f64();
-        progress.say(
-            done as f64 / count as f64,
-            &format!("{done} of {count} bats, {rate:.0} a second"),
-        );
-    };
-    let make = || (0..folder.parts()).try_for_each(|k| folder.make(k, args.npz, &tell));
-    threads::with(args.jobs.map(usize::from), make)?;
+    let jobs = args.jobs.map(usize::from);
+    let missing = threads::with(jobs, || folder.missing(args.npz))?;
+    let division = folder.division();
+    let left: u64 =
+        missing.iter().map(|k| division.part(*k)).map(|rows| rows.end - rows.start).sum();
+    let progress = Counted::new(args.quiet, "bats", division.rows, division.rows - left);
+    let tell = |some| progress.more(some);
+    threads::with(jobs, || folder.make(&missing, args.npz, &tell))?;
     drop(progress);
     let table = Table::read(&folder, rows)?;
     if let Some(folder) = &args.plots {
@@ -98,6 +106,34 @@ pub fn run(args: &Args) -> Result<Done> {
     }
     // A row without an answer is a row; where all are, nothing that was asked was reached.
     Ok(Done::new(style::table(&text), if table.met == 0 { NOT_REACHED } else { 0 }))
+}
+
+/// Removes what studies have written into a folder, if the person wants that.
+fn clear(out: &Path, yes: bool) -> Result<()> {
+    let files = fresh::files(out)?;
+    if files.is_empty() {
+        return Ok(());
+    }
+    let there = format!("{} files of a study in {}", files.len(), out.display());
+    if !yes {
+        let refused = |found: String| {
+            let expected = "y to the question whether they may be removed, or --yes";
+            let complaint = Complaint::new("--fresh", found, expected);
+            Error::Value(complaint.hinted("nothing there was changed"))
+        };
+        if !std::io::stdin().is_terminal() || !std::io::stderr().is_terminal() {
+            return Err(refused(format!("{there}, and nobody to ask")));
+        }
+        let mut said = String::new();
+        let mut errors = std::io::stderr();
+        // Where nothing can be shown, nothing is answered.
+        let _ = write!(errors, "Remove {there}? [y/N] ").and_then(|()| errors.flush());
+        let _ = std::io::stdin().read_line(&mut said);
+        if !["y", "yes"].contains(&&*said.trim().to_lowercase()) {
+            return Err(refused(format!("{there}, and no")));
+        }
+    }
+    fresh::remove(&files)
 }
 
 /// The columns to draw against each other.

@@ -14,6 +14,7 @@ use crate::collision::hit::{Model, Scene, Wall};
 use crate::collision::hoop_wall::HoopInHit;
 use crate::collision::pulse::Pulse;
 use crate::collision::wall_choice::WallChoice;
+use crate::modes::hoop::rings;
 
 /// Swing, pitch, ball and wall, before the bat is known.
 #[derive(Debug, Clone, PartialEq)]
@@ -158,6 +159,12 @@ impl Setup {
         let (hands, wall, hoop) = (self.hands, self.spring_mass()?, HoopInHit::None);
         let scene = Scene { pivot, swing, ball, ball_speed, cor, hands, wall, hoop };
         Ok((scene.with_wall(self.wall, bat, self.model, tolerance)?, law))
+    }
+
+    /// Whether a hit on that bat may ask for the modes of its wall.
+    pub(crate) fn may_solve_wall(&self, bat: &Bat) -> bool {
+        let asked = self.wall != WallChoice::Off && self.wall_stiffness.is_none();
+        asked && self.model == Model::Contact && rings(bat)
     }
 
     /// The speed of a point of the barrel, where that was given.

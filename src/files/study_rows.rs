@@ -19,9 +19,13 @@ use crate::files::ball_file::written;
 use crate::files::scene_file;
 use crate::files::study_file::StudyFile;
 use crate::files::study_vary::Subject;
+use crate::study::comparison::contender::Figure;
 use crate::study::many::answers::on_the_bat;
 use crate::study::many::design::{MOST_ROWS, Row};
 use crate::study::many::rows::{Asked, Found, Trial};
+
+/// Combinations of lists, and rows, that are tried.
+const TRIED: u64 = 32;
 
 /// A bat as a file has it.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -112,8 +116,6 @@ impl Rows {
         varying: &Varying,
         without_asking: bool,
     ) -> (Option<(Row, Bat)>, Option<Error>) {
-        /// Combinations of lists, and rows, that are tried.
-        const TRIED: u64 = 32;
         let (mut model, mut wrong) = (None, None);
         for row in self.study.design.examples(TRIED) {
             let bat = self.bat(varying, &row);
@@ -149,6 +151,20 @@ impl Rows {
     /// Whether there are several bats.
     pub fn several(&self) -> bool {
         self.bats.len() > 1
+    }
+
+    /// Whether walls of hollow barrels are solved, in one of the rows that are tried of each bat at least.
+    pub fn solves_walls(&self) -> bool {
+        let solved = |bat: &Varying, row: &Row| {
+            let setup = self.setup(row).ok()?;
+            Some(setup.may_solve_wall(&self.bat(bat, row).ok()?))
+        };
+        let hit = self.study.asked.answers.iter().any(|answer| answer.of_a_hit());
+        let mut bats = self.bats.iter().filter(|bat| hit && bat.document.is_ok());
+        bats.any(|bat| {
+            let rows = self.study.design.examples(TRIED);
+            rows.into_iter().any(|row| solved(bat, &row) == Some(true))
+        })
     }
 
     /// What came of those rows, in the order of what is asked, or why there is no answer. A row's answers do
@@ -223,12 +239,40 @@ impl Rows {
         rows.clone().zip(self.answers(rows)).map(|(k, found)| self.cells_of(k, found)).collect()
     }
 
-    fn cells_of(&self, k: u64, found: Result<Found>) -> Vec<String> {
+    /// The first cells of a row: its number, its bat, its inputs.
+    fn inputs_of(&self, k: u64) -> Vec<String> {
         let (bat, row) = self.row(k);
-        let answers = self.study.asked.answers.len();
         let mut cells = vec![k.to_string()];
         cells.extend(self.several().then(|| marks::cell(&bat.name)));
         cells.extend(self.study.varied.iter().map(|varied| varied.cell(&row)));
+        cells
+    }
+
+    /// The first cell of a row that was read back which cannot be, and what was expected.
+    pub fn wrong_cell(&self, k: u64, cells: &csv::StringRecord) -> Option<(usize, String)> {
+        let inputs = self.inputs_of(k);
+        if let Some(wrong) = (0..inputs.len()).find(|cell| cells[*cell] != *inputs[*cell]) {
+            return Some((wrong, format!("\"{}\"", inputs[wrong])));
+        }
+        let met = inputs.len() + 2 * self.study.asked.answers.len();
+        let explained = !cells[met + 1].is_empty();
+        for cell in inputs.len()..met {
+            let text = &cells[cell];
+            let is_number = text.parse().is_ok_and(|x: f64| x.is_finite() && shortest(x) == text);
+            // An error that is not known is left out beside its answer.
+            let is_error = (cell - inputs.len()) % 2 == 1;
+            if !(is_number || text.is_empty() && (explained || is_error)) {
+                return Some((cell, "a finite number, or none and why in the row".to_owned()));
+            }
+        }
+        let right = cells[met] == *"true" || (cells[met] == *"false" && explained);
+        (!right).then(|| (met, "true, or false and why in the row".to_owned()))
+    }
+
+    fn cells_of(&self, k: u64, found: Result<Found>) -> Vec<String> {
+        let (bat, _) = self.row(k);
+        let answers = self.study.asked.answers.len();
+        let mut cells = self.inputs_of(k);
         let (met, why) = match found {
             Ok(found) => {
                 let of =
@@ -237,7 +281,8 @@ impl Rows {
                     let both = figure.map(|figure| [figure.value, figure.error].map(of));
                     both.unwrap_or_default()
                 }));
-                let missing = found.figures.iter().any(Option::is_none);
+                let known = |figure: &Option<Figure>| figure.is_some_and(|of| of.value.is_finite());
+                let missing = !found.figures.iter().all(known);
                 let why = match (found.off, found.met, missing) {
                     (Some(off), ..) => reason(&off),
                     (None, _, true) => "the bat has no such answer".to_owned(),

@@ -9,7 +9,7 @@ Numbers are in SI; texts carry their unit: ``bat.hit(bat_speed="72 mph")``.
 """
 
 from ._bat import Bat, built_in_bats
-from ._errors import SweetspotError
+from ._errors import SweetspotError, SweetspotTypeError
 from ._results import Hit, Modes
 from ._study import Study, StudyResult, run_study
 
@@ -20,6 +20,7 @@ __all__ = [
     "Study",
     "StudyResult",
     "SweetspotError",
+    "SweetspotTypeError",
     "built_in_bats",
     "run_study",
 ]

@@ -5,44 +5,69 @@ from __future__ import annotations
 import html
 import json
 import os
+from array import array
 from collections.abc import Mapping, Sequence
+from decimal import Decimal
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from . import _core
-from ._errors import SweetspotError
+from ._errors import SweetspotError, SweetspotTypeError, all_told
 from ._results import Hit, Modes
 
 Quantity = float | str
-# The largest file that is read (bytes), as by the program.
-MOST = 256 << 20
 """A number in SI, or a text with its unit, such as ``"28 in"``."""
 
 
 def _plain(value: Any) -> Any:
     """What JSON can hold."""
-    if isinstance(value, np.ndarray):
-        return value.tolist()
-    if isinstance(value, np.generic):
-        return value.item()
+    if value is None or isinstance(value, (str, bool, int, float)) and not isinstance(value, np.generic):
+        return value
     if isinstance(value, Mapping):
         return {str(key): _plain(member) for key, member in value.items()}
     if isinstance(value, os.PathLike):
         return os.fspath(value)
-    if isinstance(value, (list, tuple)):
+    if isinstance(value, (list, tuple, range, array)):
         return [_plain(item) for item in value]
+    if isinstance(value, (Decimal, Fraction)):
+        return float(value)
+    # NumPy, columns of pandas, polars and others, arrays of Arrow, and what else calls itself an array.
+    for known, take in (
+        ("to_numpy", lambda: value.to_numpy()),
+        ("to_pylist", lambda: value.to_pylist()),
+        ("as_py", lambda: value.as_py()),
+        ("__array__", lambda: np.asarray(value)),
+    ):
+        if hasattr(value, known) and not isinstance(value, (np.ndarray, np.generic)):
+            return _plain(take())
+    if isinstance(value, (np.ndarray, np.generic)):
+        # A number whose kind Python has not, such as np.longdouble, stays what it is.
+        found = value.tolist()
+        return float(found) if isinstance(found, np.floating) else _plain(found)
     return value
 
 
-def whole(name: str, value: int, least: int) -> int:
-    """A whole number that is not less, or an exception with its name."""
-    if not isinstance(value, (int, np.integer)) or not least <= value < 2**32:
-        raise SweetspotError(f"{name}: found {value!r}, expected a whole number, {least} or more")
+def whole(name: str, value: Any, least: int, most: int = 2**32 - 1) -> int:
+    """A whole number that is neither less nor more, or an exception with its name."""
+    is_whole = isinstance(value, (int, np.integer)) and not isinstance(value, bool)
+    if not is_whole or not least <= value <= most:
+        expected = f"{least} or more" if most >= 2**32 - 1 else f"{least} to {most}"
+        kind = SweetspotError if is_whole else SweetspotTypeError
+        raise kind(f"{name}: found {value!r}, expected a whole number, {expected}")
     return int(value)
 
 
+class Matrices(dict):
+    """Arrays by their names, of which stiffness and mass can be unpacked: ``K, M = bat.matrices()``."""
+
+    def __iter__(self) -> Any:
+        return iter((self["K"], self["M"]))
+
+
+@all_told
 class Bat:
     """A bat of a profile and a material. Places count from the knob end.
 
@@ -110,9 +135,9 @@ class Bat:
             return cls._of(str(path), text, Path())
         try:
             with path.open("rb") as file:
-                read = file.read(MOST + 1)
-            if len(read) > MOST:
-                raise OSError(f"it has more than {MOST >> 20} MiB, the most that is read")
+                read = file.read(_core.MOST_BYTES + 1)
+            if len(read) > _core.MOST_BYTES:
+                raise OSError(f"it has more than {_core.MOST_BYTES >> 20} MiB, the most that is read")
             text = read.decode("utf-8")
         except (OSError, UnicodeDecodeError) as error:
             place = json.dumps({"mistakes": [{"file": str(path)}]})
@@ -197,14 +222,14 @@ class Bat:
         ``swing_speed``, ``pitch``, ``pivot``, ``hands``, ``cor``, ``model`` and so on; numbers are in SI.
         """
         try:
-            places = None if at is None else np.atleast_1d(np.asarray(at, dtype=float)).tolist()
+            places = None if at is None else np.atleast_1d(np.asarray(_plain(at), dtype=float)).tolist()
         except (TypeError, ValueError) as error:
             raise SweetspotError(f"at: found {at!r}, expected places in m, numbers") from error
         document, pictures = self._core.hit(json.dumps(_plain(scene)), str(ball), places, tol, theory)
         return Hit(json.loads(document), dict(pictures))
 
-    def matrices(self, n: int = 10, tol: float = 1e-4, *, theory: str | None = None) -> dict[str, np.ndarray]:
-        """Arrays of the finite elements that the first ``n`` modes were found with.
+    def matrices(self, n: int = 10, tol: float = 1e-4, *, theory: str | None = None) -> Matrices:
+        """Arrays of the finite elements that the first ``n`` modes were found with: ``K, M = bat.matrices()``.
 
         ``K`` and ``M`` are the dense stiffness (N/m, N, N m) and mass (kg, kg m, kg m²) matrices; the others are
         those of the archive that ``sweetspot modes --matrices`` writes.
@@ -212,7 +237,7 @@ class Bat:
         import io
 
         with np.load(io.BytesIO(self._core.matrices(n, tol, theory))) as archive:
-            arrays = {name: archive[name] for name in archive.files}
+            arrays = Matrices((name, archive[name]) for name in archive.files)
         for name in ("K", "M"):
             parts = {key: arrays[f"{name}_{key}"] for key in ("data", "indices", "indptr", "shape")}
             arrays[name] = _dense(**parts)

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import functools
 import json
-from typing import Any
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+Named = TypeVar("Named")
 
 
 class SweetspotError(ValueError):
@@ -24,8 +28,43 @@ class SweetspotError(ValueError):
         self.field: str | None = first.get("place")
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _again, (str(self), json.dumps({"mistakes": self.mistakes}))
+        return _again, (type(self), str(self), json.dumps({"mistakes": self.mistakes}))
 
 
-def _again(message: str, document: str) -> SweetspotError:
-    return SweetspotError(message, document)
+class SweetspotTypeError(SweetspotError, TypeError):
+    """Something of another kind than was expected, or an argument that there is not."""
+
+
+def _again(kind: type[SweetspotError], message: str, document: str) -> SweetspotError:
+    return kind(message, document)
+
+
+def told(function: Callable[..., Any]) -> Callable[..., Any]:
+    """The function with what Python says of wrong arguments as the package's error."""
+
+    @functools.wraps(function)
+    def call(*args: Any, **named: Any) -> Any:
+        try:
+            return function(*args, **named)
+        except SweetspotError:
+            raise
+        except TypeError as error:
+            raise SweetspotTypeError(f"{function.__qualname__}: {error}") from error
+        except (ValueError, OverflowError, RecursionError) as error:
+            raise SweetspotError(f"{function.__qualname__}: {error}") from error
+
+    return call
+
+
+def all_told(named: type[Named]) -> type[Named]:
+    """A class whose functions that anybody may call are :func:`told`."""
+    for name, member in list(vars(named).items()):
+        if name.startswith("_") and name not in ("__init__", "__getitem__"):
+            continue
+        if isinstance(member, (classmethod, staticmethod)):
+            setattr(named, name, type(member)(told(member.__func__)))
+        elif isinstance(member, property):
+            setattr(named, name, property(told(member.fget), doc=member.__doc__))
+        elif callable(member) and not isinstance(member, type):
+            setattr(named, name, told(member))
+    return named

@@ -7,7 +7,6 @@ import functools
 import io
 import json
 import os
-import tempfile
 import warnings
 from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
@@ -15,16 +14,12 @@ from typing import Any
 
 import numpy as np
 
-try:
-    import fcntl
-except ImportError:
-    fcntl = None
-
 from . import _core
 from ._bat import _plain, whole
-from ._errors import SweetspotError
+from ._errors import SweetspotError, all_told, told
 
 
+@all_told
 class Study:
     """A study that can be run: a file, or the members of one.
 
@@ -38,15 +33,23 @@ class Study:
             self._core = _core.Study.of("study", text, Path(folder))
         else:
             self._core = _core.Study(Path(spec))
-        self.rows, self.parts = self._core.size()
+        self._count()
 
     @classmethod
     def named_by_a_person(cls, spec: Path) -> tuple[Study, list[str]]:
         """The study of a file that was named on a command line, and the files outside of its folder that it names."""
         study = cls.__new__(cls)
         study._core, outside = _core.Study.named_by_a_person(Path(spec))
-        study.rows, study.parts = study._core.size()
+        study._count()
         return study, outside
+
+    def _count(self) -> None:
+        self.rows, self.rows_per_part = self._core.size()
+
+    @property
+    def parts(self) -> int:
+        """How many parts there are."""
+        return -(-self.rows // self.rows_per_part)
 
     @property
     def columns(self) -> list[tuple[str, str]]:
@@ -63,25 +66,58 @@ class Study:
 
     def part(self, k: int, jobs: int | None = None) -> bytes:
         """Part k as a CSV file, made on so many threads (all processors without)."""
-        return self._core.part(k, None if jobs is None else whole("jobs", jobs, 1))
+        return self.made([k], jobs)[0]
+
+    def made(self, parts: list[int], jobs: int | None = None) -> list[bytes]:
+        """Some parts as CSV files, made together on so many threads (all processors without)."""
+        parts = [whole("part", k, 0, self.parts - 1) for k in parts]
+        jobs = None if jobs is None else whole("jobs", jobs, 1, _core.MOST_JOBS)
+        return self._core.parts(parts, self.rows_per_part, jobs)
 
     def open(self, out: str | Path) -> None:
-        """Makes the folder of the study with its manifest, or raises if it is another study's."""
-        self._core.open(Path(out))
+        """Makes the folder of the study with its manifest, or raises if it is another study's.
 
-    def kept(self, out: Path, k: int, parquet: bool = False) -> bytes | None:
-        """Part k if it is in the folder, or raises if it is not as the study makes it."""
+        Of a folder that was begun with larger parts the study takes their number of rows.
+        """
+        self.rows_per_part = self._core.open(Path(out))
+
+    def kept(self, out: str | Path, k: int, parquet: bool = False) -> bytes | None:
+        """Part k if it is in the opened folder, or raises if it is not as the study makes it."""
+        out, k = Path(out), whole("part", k, 0, self.parts - 1)
+        if not parquet:
+            return self._core.kept(out, self.rows_per_part, k)
         path = part_path(out, k, parquet)
         if not path.exists():
             return None
-        if not path.is_file():
-            raise SweetspotError(f"{path}: found a pipe, a device or a folder, expected a part of the study")
-        part = path.read_bytes()
+        if not _core.fits_its_sum(path):
+            self._check_parquet(path, k)
+            _core.add_sum(path)
+        return path.read_bytes()
+
+    def keep(self, out: str | Path, k: int, part: bytes, parquet: bool = False) -> None:
+        """Writes part k and its sum into the opened folder: it is there whole, or not."""
         if parquet:
-            _check_rows(path, range(k * _core.ROWS, min((k + 1) * _core.ROWS, self.rows)))
-        else:
-            self._core.check(k, path, part)
-        return part
+            from pyarrow import parquet as engine
+
+            file = io.BytesIO()
+            engine.write_table(self.result(part).to_arrow(), file)
+            part = file.getvalue()
+        _core.keep(part_path(Path(out), k, parquet), part)
+
+    def _check_parquet(self, path: Path, k: int) -> None:
+        from pyarrow import parquet
+
+        rows = range(k * self.rows_per_part, min((k + 1) * self.rows_per_part, self.rows))
+        try:
+            table = parquet.read_table(path)
+            wrong = _wrong_in(table, [name for name, _ in self.columns], self._core.numbers(), rows)
+        except Exception as error:
+            wrong = f"no table ({error})"
+        if wrong is not None:
+            raise SweetspotError(
+                f"{path}: found {wrong}, expected rows {rows.start} to {rows.stop - 1}; "
+                "without this file the study makes it anew"
+            )
 
     def shipped(self) -> str:
         """The study with everything it needs, to be sent to another machine."""
@@ -94,47 +130,29 @@ def _arrived(shipped: str) -> _core.Study:
     return _core.Study.arrived(shipped)
 
 
-def make(shipped: str, k: int) -> bytes:
+def make(shipped: str, k: int, rows_per_part: int) -> bytes:
     """Part k of a study that was sent here, on one thread."""
-    return bytes(_arrived(shipped).part(k, 1))
+    return bytes(_arrived(shipped).parts([k], rows_per_part, 1)[0])
 
 
-def keep(path: Path, part: bytes | StudyResult) -> None:
-    """Writes a part beside its place and renames it, as Parquet if it is a table: it is there whole, or not."""
-    out = path.parent
-    # As the program names its own, which removes those that nobody holds.
-    beside, written = tempfile.mkstemp(dir=out, prefix=".sweetspot-", suffix=".part")
-    try:
-        with os.fdopen(beside, "wb") as file:
-            if fcntl is not None:
-                fcntl.flock(file, fcntl.LOCK_EX)
-            if isinstance(part, StudyResult):
-                from pyarrow import parquet
-
-                parquet.write_table(part.to_arrow(), file)
-            else:
-                file.write(part)
-            file.flush()
-            os.fsync(file.fileno())
-        os.chmod(written, 0o666 & ~_umask())
-        os.replace(written, path)
-    except BaseException:
-        os.unlink(written)
-        raise
-
-
-def _check_rows(path: Path, rows: range) -> None:
-    from pyarrow import parquet
-
-    try:
-        found = parquet.read_table(path, columns=["row"])["row"].to_pylist()
-    except Exception:
-        found = None
-    if found != list(rows):
-        raise SweetspotError(
-            f"{path}: found other rows, expected rows {rows.start} to {rows.stop - 1}; "
-            "without this file the study makes it anew"
-        )
+def _wrong_in(table: Any, names: list[str], numbers: list[str], rows: range) -> str | None:
+    """What is wrong with the rows of a table that was read back, if anything is."""
+    if table.column_names != names:
+        return "other columns"
+    columns = {name: table[name].to_pylist() for name in names}
+    if columns["row"] != list(rows):
+        return "other rows"
+    for row, met, why in zip(rows, columns["met"], columns["error"]):
+        if not isinstance(met, bool) or not isinstance(why, str) or not (met or why):
+            return f"no reason in row {row}"
+    for name in numbers:
+        if name in ("row", "met"):
+            continue
+        for row, value, why in zip(rows, columns[name], columns["error"]):
+            unknown = name.endswith("_error") or why
+            if not isinstance(value, float) or not (np.isfinite(value) or np.isnan(value) and unknown):
+                return f"{value!r} as {name} of row {row}"
+    return None
 
 
 def part_path(out: Path, k: int, parquet: bool = False) -> Path:
@@ -142,12 +160,7 @@ def part_path(out: Path, k: int, parquet: bool = False) -> Path:
     return out / f"part-{k:06}.{'parquet' if parquet else 'csv'}"
 
 
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
-
-
+@all_told
 class StudyResult:
     """Rows of a study: inputs, answers with their errors, ``met`` and ``error``.
 
@@ -219,6 +232,12 @@ def _text(cell: str) -> str:
     return cell[1:] if guarded and cell.startswith("'") else cell
 
 
+def _together(rows_per_part: int, jobs: int | None) -> int:
+    """How many parts are made together."""
+    return max(1, 64 * min(jobs or os.cpu_count() or 1, 64) // rows_per_part)
+
+
+@told
 def run_study(
     spec: str | Path | Mapping[str, Any],
     *,
@@ -235,21 +254,28 @@ def run_study(
     what varies without an effect on anything that is asked, are warned of.
     """
     study = Study(spec, folder)
+    jobs = None if jobs is None else whole("jobs", jobs, 1, _core.MOST_JOBS)
     for strange in study.warnings():
-        warnings.warn(strange, stacklevel=2)
+        warnings.warn(strange, stacklevel=3)
     if out is not None:
         out = Path(out)
         study.open(out)
-    parts = []
-    for k in range(study.parts):
+    parts: list[bytes] = []
+    while (k := len(parts)) < study.parts:
         part = None if out is None else study.kept(out, k)
         if part is None:
-            part = study.part(k, jobs)
-            if out is not None:
-                keep(part_path(out, k), part)
-        parts.append(part)
+            # Small parts are made together, so that every thread has rows.
+            together = range(k, min(k + _together(study.rows_per_part, jobs), study.parts))
+            together = [j for j in together if out is None or not part_path(out, j).exists()]
+            together = [j for n, j in enumerate(together) if j == k + n]
+            for j, part in zip(together, study.made(together, jobs)):
+                if out is not None:
+                    study.keep(out, j, part)
+                parts.append(part)
+        else:
+            parts.append(part)
         if progress is not None:
-            progress(k + 1, study.parts)
+            progress(len(parts), study.parts)
     # The head stands in every part.
     rows = [part if k == 0 else part.split(b"\n", 1)[1] for k, part in enumerate(parts)]
     return study.result(b"".join(rows))

@@ -4,82 +4,217 @@ from __future__ import annotations
 
 import argparse
 import os
+import signal
 import socket
 import sys
+import threading
+import time
+from collections import Counter, deque
 from collections.abc import Callable, Iterator
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import closing
+from datetime import timedelta
+from multiprocessing import get_context
+from multiprocessing.connection import Connection
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 from ._errors import SweetspotError
-from ._study import Study, keep, make, part_path
+from ._study import Study, make
 
 PROCESSORS = os.cpu_count() or 1
 NO_WHEEL = "a worker has no package sweetspot: install the wheel wherever workers run"
 
 
 Parts = Iterator[tuple[int, bytes]]
-# A worker that dies is no fault of the part it was at; one that kills every worker is.
-DEATHS = 10
+# A worker that dies is no fault of the part it was at; a part that kills so many, alone, is.
+DEATHS = 3
+# Tasks for each worker: one to do and others that wait for it.
+WINDOW = 3
 
 
-def local(shipped: str, parts: list[int], workers: int | None, address: str | None) -> Parts:
-    """Parts on this machine, a process a worker; a part whose worker died is made again by others."""
-    from concurrent.futures import ProcessPoolExecutor, as_completed
-    from concurrent.futures.process import BrokenProcessPool
-    from multiprocessing import get_context
-
-    if address is not None:
-        raise SweetspotError("--address: found it with --engine local, expected --engine ray or dask")
-    left, deaths = dict.fromkeys(parts), 0
-    while left:
-        with ProcessPoolExecutor(workers or PROCESSORS, mp_context=get_context("spawn")) as pool:
-            tasks = {pool.submit(make, shipped, k): k for k in left}
-            try:
-                for done in as_completed(tasks):
-                    part = done.result()
-                    del left[tasks[done]]
-                    yield tasks[done], part
-            except BrokenProcessPool:
-                deaths += 1
-                if deaths > DEATHS:
-                    raise
-            finally:
-                pool.shutdown(wait=False, cancel_futures=True)
+class Lost(Exception):
+    """A part that no worker comes back from."""
 
 
-def ray(shipped: str, parts: list[int], workers: int | None, address: str | None) -> Parts:
-    """Parts on Ray's workers; a part whose worker died is made again by another."""
-    os.environ.setdefault("RAY_USAGE_STATS_ENABLED", "0")
-    import ray as engine
+class Pool(Protocol):
+    """Workers of one kind, which are at some tasks."""
 
-    own = {"num_cpus": workers or PROCESSORS, "include_dashboard": False}
-    where = {"address": address} if address else own
-    reached("ray", address, lambda: engine.init(log_to_driver=False, ignore_reinit_error=True, **where))
-    task = engine.remote(num_cpus=1, max_retries=-1)(make)
-    study, left = engine.put(shipped), list(reversed(parts))
-    running = {}
-    while left or running:
+    def room(self) -> int:
+        """How many tasks they may have."""
+
+    def start(self, k: int) -> Any:
+        """A task that makes part k."""
+
+    def ended(self, tasks: list[Any]) -> list[tuple[Any, bytes | None]]:
+        """Waits for some of the tasks: what they made, None where a worker died."""
+
+    def close(self) -> None:
+        """Ends them."""
+
+
+def shared_out(pool: Pool, parts: list[int]) -> Parts:
+    """The parts as workers make them, some tasks at a time.
+
+    Parts that were under way when a worker died are tried again one at a time, with nothing beside them.
+    """
+    left, again, deaths = deque(parts), deque(), Counter()
+    running: dict[Any, int] = {}
+    try:
+        while left or again or running:
+            alone = None
+            if again and not running:
+                alone = again.popleft()
+                running[pool.start(alone)] = alone
+            while not again and alone is None and left and len(running) < pool.room():
+                k = left.popleft()
+                running[pool.start(k)] = k
+            for task, part in pool.ended(list(running)):
+                k = running.pop(task)
+                if part is not None:
+                    yield k, part
+                    continue
+                deaths[k] += k == alone
+                if deaths[k] == DEATHS:
+                    raise Lost(f"part {k} ended its worker {DEATHS} times, with nothing beside it (memory, perhaps)")
+                again.append(k)
+    finally:
+        pool.close()
+
+
+class Local:
+    """Processes of this machine. They end with the one that started them, however that ends."""
+
+    def __init__(self, shipped: str, rows_per_part: int, workers: int | None, address: str | None) -> None:
+        if address is not None:
+            raise SweetspotError("--address: found it with --engine local, expected --engine ray or dask")
+        self._given, self._workers = (shipped, rows_per_part), workers or PROCESSORS
+        self._pool: ProcessPoolExecutor | None = None
+
+    def room(self) -> int:
+        return WINDOW * self._workers
+
+    def start(self, k: int) -> Future[bytes]:
+        if self._pool is None:
+            context = get_context("spawn")
+            self._alive, held = context.Pipe(duplex=False)
+            self._pool = ProcessPoolExecutor(self._workers, context, initializer=_follow, initargs=(self._alive,))
+            self._held = held
+        shipped, rows_per_part = self._given
+        try:
+            return self._pool.submit(make, shipped, k, rows_per_part)
+        except BrokenProcessPool as error:
+            failed: Future[bytes] = Future()
+            failed.set_exception(error)
+            return failed
+
+    def ended(self, tasks: list[Future[bytes]]) -> list[tuple[Future[bytes], bytes | None]]:
+        done = wait(tasks, return_when=FIRST_COMPLETED).done
+        if any(isinstance(task.exception(), BrokenProcessPool) for task in done):
+            # All end with it.
+            done = wait(tasks).done
+            self.close()
+        dead = lambda task: isinstance(task.exception(), BrokenProcessPool)
+        return [(task, None if dead(task) else task.result()) for task in done]
+
+    def close(self) -> None:
+        if self._pool is not None:
+            pool, self._pool = self._pool, None
+            # Whoever holds the other end hears that this one is closed.
+            self._held.close()
+            pool.shutdown(wait=True, cancel_futures=True)
+            self._alive.close()
+
+
+def _follow(alive: Connection) -> None:
+    """Ends this process as soon as the one that started it does, or closes its end."""
+
+    def listen() -> None:
+        try:
+            alive.recv()
+        except (EOFError, OSError):
+            pass
+        os._exit(1)
+
+    # Who presses ^C means the one that shares out.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threading.Thread(target=listen, daemon=True).start()
+
+
+class Ray:
+    """Ray's workers."""
+
+    def __init__(self, shipped: str, rows_per_part: int, workers: int | None, address: str | None) -> None:
+        os.environ.setdefault("RAY_USAGE_STATS_ENABLED", "0")
+        import ray as engine
+
+        own = {"num_cpus": workers or PROCESSORS, "include_dashboard": False}
+        where = {"address": address} if address else own
+        self._own = not engine.is_initialized()
+        reached("ray", address, lambda: engine.init(log_to_driver=False, ignore_reinit_error=True, **where))
+        self._engine, self._rows = engine, rows_per_part
+        self._task = engine.remote(num_cpus=1, max_retries=0)(make)
+        self._study = engine.put(shipped)
+        named = ("WorkerCrashedError", "NodeDiedError", "LocalRayletDiedError", "OutOfMemoryError", "ObjectLostError")
+        self._deaths = tuple(getattr(engine.exceptions, name) for name in named if hasattr(engine.exceptions, name))
+
+    def room(self) -> int:
         # Asked anew, as machines come and go.
-        busy = 4 * max(1, int(engine.cluster_resources().get("CPU", 1)))
-        while left and len(running) < busy:
-            k = left.pop()
-            running[task.remote(study, k)] = k
-        done, _ = engine.wait(list(running))
-        for one in done:
-            yield running.pop(one), engine.get(one)
+        return WINDOW * max(1, int(self._engine.cluster_resources().get("CPU", 1)))
+
+    def start(self, k: int) -> Any:
+        return self._task.remote(self._study, k, self._rows)
+
+    def ended(self, tasks: list[Any]) -> list[tuple[Any, bytes | None]]:
+        return [(task, self._found(task)) for task in self._engine.wait(tasks)[0]]
+
+    def _found(self, task: Any) -> bytes | None:
+        try:
+            return self._engine.get(task)
+        except self._deaths:
+            return None
+
+    def close(self) -> None:
+        if self._own:
+            self._engine.shutdown()
 
 
-def dask(shipped: str, parts: list[int], workers: int | None, address: str | None) -> Parts:
-    """Parts on Dask's workers; a part whose worker died is made again by another."""
-    from distributed import Client, as_completed
+class Dask:
+    """Dask's workers."""
 
-    own = {"n_workers": workers or PROCESSORS, "threads_per_worker": 1, "dashboard_address": None}
-    with reached("dask", address, lambda: Client(address) if address else Client(**own)) as client:
+    def __init__(self, shipped: str, rows_per_part: int, workers: int | None, address: str | None) -> None:
+        import dask
+        import distributed
+
+        own = {"n_workers": workers or PROCESSORS, "threads_per_worker": 1, "dashboard_address": None}
+        # A scheduler that runs tries a task again by itself, on the next worker.
+        with dask.config.set({"distributed.scheduler.allowed-failures": 0}):
+            connect = lambda: distributed.Client(address) if address else distributed.Client(**own)
+            self._client = reached("dask", address, connect)
+        self._engine, self._given = distributed, (shipped, rows_per_part)
         # One that cannot read what it is to do would die without a word.
-        client.run(eval, "__import__('sweetspot').__name__")
-        tasks = {client.submit(make, shipped, k, pure=False, retries=DEATHS): k for k in parts}
-        for done in as_completed(tasks):
-            yield tasks.pop(done), done.result()
+        self._client.run(eval, "__import__('sweetspot').__name__")
+
+    def room(self) -> int:
+        return WINDOW * max(1, sum(self._client.nthreads().values()))
+
+    def start(self, k: int) -> Any:
+        shipped, rows_per_part = self._given
+        return self._client.submit(make, shipped, k, rows_per_part, pure=False)
+
+    def ended(self, tasks: list[Any]) -> list[tuple[Any, bytes | None]]:
+        done = self._engine.wait(tasks, return_when="FIRST_COMPLETED").done
+        return [(task, self._found(task)) for task in done]
+
+    def _found(self, task: Any) -> bytes | None:
+        try:
+            return task.result()
+        except self._engine.KilledWorker:
+            return None
+
+    def close(self) -> None:
+        self._client.close()
 
 
 def reached(engine: str, address: str | None, connect: Callable[[], Any]) -> Any:
@@ -99,7 +234,7 @@ def reached(engine: str, address: str | None, connect: Callable[[], Any]) -> Any
         ) from error
 
 
-ENGINES = {"local": local, "ray": ray, "dask": dask}
+ENGINES: dict[str, Callable[..., Pool]] = {"local": Local, "ray": Ray, "dask": Dask}
 
 
 class Unwritten(Exception):
@@ -117,15 +252,32 @@ def run(
     for strange in study.warnings():
         print(f"warning: {strange}", file=sys.stderr)
     parts = [k for k in range(study.parts) if study.kept(out, k, parquet) is None]
-    done = study.parts - len(parts)
-    for k, part in ENGINES[engine](study.shipped(), parts, workers, address) if parts else ():
-        try:
-            keep(part_path(out, k, parquet), study.result(part) if parquet else part)
-        except OSError as error:
-            raise Unwritten(f"cannot write to {out}: {error}") from error
-        done += 1
-        if not quiet:
-            print(f"{done} of {study.parts} parts", file=sys.stderr)
+    if not parts:
+        return
+    rows = lambda k: min((k + 1) * study.rows_per_part, study.rows) - k * study.rows_per_part
+    there = study.rows - sum(map(rows, parts))
+    done, begun, said = there, time.monotonic(), time.monotonic()
+    pool = ENGINES[engine](study.shipped(), study.rows_per_part, workers, address)
+    with closing(shared_out(pool, parts)) as made:
+        for k, part in made:
+            try:
+                study.keep(out, k, part, parquet)
+            except SweetspotError as error:
+                raise Unwritten(str(error)) from error
+            done += rows(k)
+            now = time.monotonic()
+            if not quiet and (now - said >= (1 if sys.stderr.isatty() else 30) or done == study.rows):
+                left = timedelta(seconds=round((now - begun) * (study.rows - done) / (done - there)))
+                print(f"{done} of {study.rows} bats, {left} left", file=sys.stderr)
+                said = now
+
+
+class Ended(BaseException):
+    """A signal that ends the program."""
+
+
+def _end(number: int, _: Any) -> None:
+    raise Ended(number)
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -143,6 +295,10 @@ def main(arguments: list[str] | None = None) -> int:
         parser.error(f"argument --workers: found {args.workers}, expected 1 or more")
     if args.workers is not None and args.address is not None:
         parser.error("argument --workers: found it with --address, where workers run already; expected one of them")
+    for name in ("SIGTERM", "SIGHUP"):
+        number = getattr(signal, name, None)
+        if number is not None and signal.getsignal(number) == signal.SIG_DFL:
+            signal.signal(number, _end)
     try:
         run(args.study, args.out, args.engine, args.workers, args.address, args.parquet, args.quiet)
     except SweetspotError as error:
@@ -153,12 +309,15 @@ def main(arguments: list[str] | None = None) -> int:
         told = NO_WHEEL if needed.split(".")[0] == "sweetspot" else f"no package {needed}: pip install {needed}"
         print(f"error: {told}", file=sys.stderr)
         return 3
-    except Unwritten as error:
+    except (Unwritten, Lost) as error:
         print(f"error: {error}; the parts that are there are whole", file=sys.stderr)
         return 3
     except KeyboardInterrupt:
         print("stopped; started again it goes on where it was", file=sys.stderr)
         return 130
+    except Ended as error:
+        print("stopped; started again it goes on where it was", file=sys.stderr)
+        return 128 + error.args[0]
     except Exception as error:
         told = NO_WHEEL if "No module named 'sweetspot" in str(error) else f"{args.engine}: {error}"
         print(f"error: {told}; the parts that are there are whole", file=sys.stderr)

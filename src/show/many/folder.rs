@@ -4,26 +4,27 @@
 //! and its number alone: so whatever is there is right, and what is missing can be made at any time.
 
 use std::env::consts::{ARCH, OS};
-use std::io::Read;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
 
 use serde_json::Value;
 
 use crate::base::error::{Complaint, Error, Result};
-use crate::base::file;
+use crate::base::{file, threads};
 use crate::files::schema;
 use crate::files::schema::document::{Format, Generator};
 use crate::files::schema::study::{ColumnNamed, FileRead, StudyManifest};
-use crate::files::study_rows::Rows;
-use crate::show::csv::{Cell, Csv};
 use crate::show::exchange::npz;
+use crate::show::many::part::{self, Division, ROWS};
 use crate::show::many::source::Study;
+use crate::show::many::sums;
 use crate::study::many::hash::of_text;
-use crate::study::many::rows::in_groups;
+use crate::study::many::rows::TOGETHER;
 
-/// Rows of a part.
-pub const ROWS: u64 = 4096;
-const MANIFEST: &str = "manifest.json";
+/// The name of the manifest.
+pub const MANIFEST: &str = "manifest.json";
+/// The program ends where it stops.
+static NEVER: AtomicBool = AtomicBool::new(false);
 /// The C library, whose elementary functions another may round in another way.
 const LIBRARY: &str = match () {
     () if cfg!(target_env = "gnu") => "gnu",
@@ -32,83 +33,11 @@ const LIBRARY: &str = match () {
     () => "own",
 };
 
-/// Part k of a study, as a CSV file; `tell` is told how many rows of all are done.
-pub fn part(study: &Study, k: u64, tell: &(impl Fn(u64) + Sync)) -> String {
-    let rows = &study.rows;
-    let all = rows.count();
-    let [from, to] = [k.saturating_mul(ROWS).min(all), (k + 1).saturating_mul(ROWS).min(all)];
-    let mut table = Csv::new(rows.columns().into_iter().map(|[name, _]| name));
-    for cells in in_groups(from..to, |some| rows.cells(some), tell) {
-        table.row(cells.into_iter().map(Cell::written));
-    }
-    table.text()
-}
-
-/// Reads part k of a study, which is at `path`, and gives `each` its rows.
-///
-/// # Errors
-///
-/// [`Error::Value`] for a part that is not as the study makes it.
-pub fn read(
-    rows: &Rows,
-    k: u64,
-    (path, part): (&Path, impl Read),
-    mut each: impl FnMut(&csv::StringRecord),
-) -> Result<()> {
-    let damaged = |found: String, expected: String| {
-        let complaint = Complaint::new(path.display().to_string(), found, expected);
-        Error::Value(complaint.hinted("without this file the study makes it anew"))
-    };
-    let table = |error: csv::Error| damaged(error.to_string(), "a table".to_owned());
-    let mut reader = csv::Reader::from_reader(part);
-    let columns = rows.columns();
-    let names: Vec<&str> = columns.iter().map(|[name, _]| &name[..]).collect();
-    if reader.headers().map_err(table)? != names {
-        return Err(damaged("other columns".to_owned(), names.join(", ")));
-    }
-    let [mut row, end] = [k, k + 1].map(|k| k.saturating_mul(ROWS).min(rows.count()));
-    for cells in reader.records() {
-        let cells = cells.map_err(table)?;
-        if row == end || cells[0] != *row.to_string() {
-            let expected = if row == end { "its end".to_owned() } else { format!("row {row}") };
-            return Err(damaged(format!("row \"{}\"", &cells[0]), expected));
-        }
-        each(&cells);
-        row += 1;
-    }
-    match row == end {
-        true => Ok(()),
-        false => Err(damaged(format!("no row {row}"), format!("rows to {}", end - 1))),
-    }
-}
-
-/// The columns of part k that are numbers in every row.
-fn columns(rows: &Rows, k: u64, part: (&Path, &str)) -> Result<Vec<(String, Vec<f64>)>> {
-    let names = rows.columns();
-    let named = |k: &usize| (names[*k][0].clone(), vec![]);
-    let numbers = rows.numbers();
-    let mut columns: Vec<(String, Vec<f64>)> = numbers.iter().map(named).collect();
-    read(rows, k, (part.0, part.1.as_bytes()), |row| {
-        for ((_, values), k) in columns.iter_mut().zip(&numbers) {
-            values.push(number(&row[*k]));
-        }
-    })?;
-    Ok(columns)
-}
-
-/// A cell that is a number; whether something is so is 1 or 0, what is not there is NaN.
-pub fn number(cell: &str) -> f64 {
-    match cell {
-        "true" => 1.0,
-        "false" => 0.0,
-        cell => cell.parse().unwrap_or(f64::NAN),
-    }
-}
-
 /// The folder of a study.
 pub struct StudyFolder<'a> {
     path: &'a Path,
     study: &'a Study,
+    division: Division,
 }
 
 impl<'a> StudyFolder<'a> {
@@ -118,19 +47,23 @@ impl<'a> StudyFolder<'a> {
     ///
     /// [`Error::Value`] for a folder of another study or with parts of an unknown one; [`Error::Write`].
     pub fn open(path: &'a Path, study: &'a Study) -> Result<Self> {
-        let this = Self { path, study };
+        let own = Division::of(&study.rows);
+        let mut this = Self { path, study, division: own };
         let manifest = path.join(MANIFEST);
-        let wanted = schema::text(&this.manifest());
         if manifest.exists() {
             let found = file::read_plain(&manifest)?;
-            this.same(&String::from_utf8_lossy(&found), &wanted)?;
+            let found: Value = serde_json::from_slice(&found).unwrap_or_default();
+            let each = found.get("rows_per_part").map_or(Some(ROWS), Value::as_u64);
+            // One that was begun with parts of the usual size goes on with them.
+            if each == Some(ROWS) {
+                this.division.rows_per_part = ROWS;
+            }
+            this.same(found)?;
             file::remove_lost(path);
             return Ok(this);
         }
         let entries = std::fs::read_dir(path).into_iter().flatten().flatten();
-        let is_part = |name: &str| {
-            name.starts_with("part-") && (name.ends_with(".csv") || name.ends_with(".parquet"))
-        };
+        let is_part = |name: &str| part::is_of_one(name) && !name.ends_with(sums::END);
         if entries.into_iter().any(|entry| entry.file_name().to_str().is_some_and(is_part)) {
             let expected = "another folder, or its manifest.json beside the parts";
             let found = "parts of a study that is not known";
@@ -139,18 +72,18 @@ impl<'a> StudyFolder<'a> {
         let failed = |source| Error::Write { path: path.to_owned(), source };
         std::fs::create_dir_all(path).map_err(failed)?;
         file::remove_lost(path);
-        file::write(&manifest, wanted.as_bytes())?;
+        file::write(&manifest, schema::text(&this.manifest()).as_bytes())?;
         Ok(this)
     }
 
-    /// Number of parts of a study.
-    pub fn parts_of(study: &Study) -> u64 {
-        study.rows.count().div_ceil(ROWS)
+    /// The folder that was opened before with that division.
+    pub fn again(path: &'a Path, study: &'a Study, division: Division) -> Self {
+        Self { path, study, division }
     }
 
-    /// Number of parts.
-    pub fn parts(&self) -> u64 {
-        Self::parts_of(self.study)
+    /// How the rows are shared out.
+    pub fn division(&self) -> Division {
+        self.division
     }
 
     /// Path of a part.
@@ -158,35 +91,93 @@ impl<'a> StudyFolder<'a> {
         self.path.join(format!("part-{k:06}.csv"))
     }
 
-    /// How many rows of all are there.
-    pub fn made(&self) -> u64 {
-        let there = (0..self.parts()).filter(|k| self.part(*k).exists()).count() as u64;
-        (there * ROWS).min(self.study.rows.count())
-    }
-
-    /// Makes a part, if it is not there, on request with its numbers as a NumPy archive beside it; `tell` is told
-    /// how many rows of all are done.
+    /// Part k if it is there.
     ///
     /// # Errors
     ///
-    /// [`Error::Write`]; [`read`] of a part that is there and gets its archive.
-    pub fn make(&self, k: u64, npz: bool, tell: &(impl Fn(u64) + Sync)) -> Result<()> {
+    /// [`Error::Value`] for one that does not fit its sum or, without one, is not as the study makes it.
+    pub fn kept(&self, k: u64) -> Result<Option<Vec<u8>>> {
         let path = self.part(k);
+        if !path.exists() {
+            return Ok(None);
+        }
+        let part = file::read_plain(&path)?;
+        if !sums::fits(&path, &part)? {
+            part::read(&self.study.rows, self.division.part(k), (&path, &part[..]), |_| ())?;
+            sums::add(&path, &part)?;
+        }
+        Ok(Some(part))
+    }
+
+    /// The parts that are missing. On request each that is there gets its numbers as a NumPy archive.
+    ///
+    /// # Errors
+    ///
+    /// [`Self::kept`]; [`Error::Write`].
+    pub fn missing(&self, npz: bool) -> Result<Vec<u64>> {
+        let look = |k: usize| {
+            let k = k as u64;
+            let Some(part) = self.kept(k)? else { return Ok(Some(k)) };
+            self.archive(k, npz, &part)?;
+            Ok(None)
+        };
+        let missing = threads::map(self.division.parts() as usize, look);
+        missing.into_iter().filter_map(Result::transpose).collect()
+    }
+
+    /// Makes those parts, on request with their numbers as a NumPy archive; `tell` is told of rows that are
+    /// done, how many more there are.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Write`].
+    pub fn make(&self, parts: &[u64], npz: bool, tell: &(impl Fn(u64) + Sync)) -> Result<()> {
+        for some in parts.chunks(self.at_once()) {
+            let made = threads::map(some.len(), |k| self.make_one(some[k], npz, tell));
+            made.into_iter().collect::<Result<()>>()?;
+        }
+        Ok(())
+    }
+
+    /// Parts that are made together, so that every thread has some groups of rows.
+    fn at_once(&self) -> usize {
+        let rows = 4 * TOGETHER * threads::count() as u64;
+        rows.div_ceil(self.division.rows_per_part) as usize
+    }
+
+    fn make_one(&self, k: u64, npz: bool, tell: &(impl Fn(u64) + Sync)) -> Result<()> {
+        let path = self.part(k);
+        let made = part::made(self.study, self.division.part(k), &NEVER, tell);
         let archive = path.with_extension("npz");
         // One that is there is of the part that is lost.
-        let npz = npz || archive.exists();
-        let made = match path.exists() {
-            true if !npz || archive.exists() => return Ok(()),
-            true => String::from_utf8_lossy(&file::read_plain(&path)?).into_owned(),
-            false => part(self.study, k, tell),
-        };
-        if npz {
-            let failed = |source| Error::Write { path: archive.clone(), source };
-            let columns = columns(&self.study.rows, k, (&path, &made))?;
-            let bytes = npz::columns(&columns).map_err(failed)?;
-            file::write(&archive, &bytes)?;
+        if npz || archive.exists() {
+            sums::write(&archive, &self.numbers(k, made.as_bytes())?)?;
         }
-        if path.exists() { Ok(()) } else { file::write(&path, made.as_bytes()) }
+        sums::write(&path, made.as_bytes())
+    }
+
+    /// Looks at the archive of a part that is there, or makes it on request.
+    fn archive(&self, k: u64, npz: bool, part: &[u8]) -> Result<()> {
+        let path = self.part(k).with_extension("npz");
+        if !path.exists() {
+            return if npz { sums::write(&path, &self.numbers(k, part)?) } else { Ok(()) };
+        }
+        let there = file::read_plain(&path)?;
+        if sums::fits(&path, &there)? {
+            return Ok(());
+        }
+        match there == self.numbers(k, part)? {
+            true => sums::add(&path, &there),
+            false => Err(sums::damaged(&path, "another archive", "the numbers of the part")),
+        }
+    }
+
+    /// The numbers of a part as a NumPy archive.
+    fn numbers(&self, k: u64, part: &[u8]) -> Result<Vec<u8>> {
+        let path = self.part(k);
+        let columns = part::columns(&self.study.rows, self.division.part(k), (&path, part))?;
+        npz::columns(&columns)
+            .map_err(|source| Error::Write { path: path.with_extension("npz"), source })
     }
 
     fn manifest(&self) -> StudyManifest {
@@ -202,15 +193,18 @@ impl<'a> StudyFolder<'a> {
             files: files.collect(),
             columns: columns.collect(),
             rows: self.study.rows.count(),
-            rows_per_part: ROWS,
-            parts: self.parts(),
+            rows_per_part: self.division.rows_per_part,
+            parts: self.division.parts(),
         }
     }
 
     /// An error that says what has changed since a manifest was written.
-    fn same(&self, found: &str, wanted: &str) -> Result<()> {
-        let read = |text: &str| serde_json::from_str::<Value>(text).unwrap_or_default();
-        let (mut found, wanted) = (read(found), read(wanted));
+    fn same(&self, mut found: Value) -> Result<()> {
+        let wanted = serde_json::to_value(self.manifest()).unwrap_or_default();
+        // Every part had as many before manifests said so.
+        if let Some(found) = found.as_object_mut() {
+            found.entry("rows_per_part").or_insert(ROWS.into());
+        }
         // Under any name it is the same study.
         let own = "/files/0/name";
         if let Some((there, here)) = found.pointer_mut(own).zip(wanted.pointer(own)) {

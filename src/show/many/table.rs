@@ -6,7 +6,8 @@ use crate::base::error::Result;
 use crate::base::file;
 use crate::base::marks;
 use crate::files::study_rows::Rows;
-use crate::show::many::folder::{StudyFolder, number, read};
+use crate::show::many::folder::StudyFolder;
+use crate::show::many::part::{number, read};
 use crate::study::many::indices::Indices;
 
 /// Rows that are kept in memory; of more every third, fifth, … is: an odd step takes as many of every part of
@@ -75,10 +76,11 @@ impl Table {
             met: 0,
             reasons: BTreeMap::new(),
         };
-        for k in 0..folder.parts() {
+        let division = folder.division();
+        for k in 0..division.parts() {
             let path = folder.part(k);
             let part = file::read_plain(&path)?;
-            read(rows, k, (&path, &part[..]), |row| table.add(row, &numbers))?;
+            read(rows, division.part(k), (&path, &part[..]), |row| table.add(row, &numbers))?;
         }
         Ok(table)
     }

@@ -4,7 +4,6 @@
 //! the model.
 
 use std::ops::Range;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::base::error::{Error, Result};
 use crate::base::threads;
@@ -61,21 +60,22 @@ impl Found {
     }
 }
 
-/// What `of` makes of some rows, in their order, on all cores; `tell` is told how many there are up to then.
+/// Rows that are computed together: some bats in the lanes of every vector, on one plan.
+pub const TOGETHER: u64 = 16;
+
+/// What `of` makes of some rows, in their order, on all cores; `tell` is told of rows that are done, how many
+/// more there are.
 pub fn in_groups<T: Send>(
     rows: Range<u64>,
     of: impl Fn(Range<u64>) -> Vec<T> + Sync,
     tell: impl Fn(u64) + Sync,
 ) -> Vec<T> {
-    /// Rows that are computed together: some bats in the lanes of every vector, on one plan.
-    const TOGETHER: u64 = 16;
-    let done = AtomicU64::new(rows.start);
     let from = |group: usize| rows.end.min(rows.start + group as u64 * TOGETHER);
     let groups = (rows.end - rows.start).div_ceil(TOGETHER) as usize;
     let group = |group: usize| {
         let (first, end) = (from(group), from(group + 1));
         let found = of(first..end);
-        tell(done.fetch_add(end - first, Ordering::Relaxed) + end - first);
+        tell(end - first);
         found
     };
     threads::map(groups, group).into_iter().flatten().collect()

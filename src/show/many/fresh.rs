@@ -1,0 +1,54 @@
+//! Which files of a folder have studies written, and how is it begun anew?
+
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+
+use crate::base::error::{Error, Result};
+use crate::base::file;
+use crate::show::many::folder::MANIFEST;
+use crate::show::many::part;
+
+/// Files of a study in a folder, its manifest last; none where no study is.
+///
+/// # Errors
+///
+/// [`Error::Value`] where the folder's manifest is not of a study; [`Error::Read`].
+pub fn files(folder: &Path) -> Result<Vec<PathBuf>> {
+    let manifest = folder.join(MANIFEST);
+    if !manifest.exists() {
+        return Ok(vec![]);
+    }
+    let found: Value = serde_json::from_slice(&file::read_plain(&manifest)?).unwrap_or_default();
+    if !found["format"].as_str().is_some_and(|of| of.starts_with("sweetspot-study-manifest/")) {
+        let found = "something else than the manifest of a study";
+        let expected = "a folder of a study: --fresh removes nothing else";
+        return Err(Error::value(manifest.display().to_string(), found, expected));
+    }
+    let failed = |source| Error::Read { path: folder.to_owned(), source };
+    let mut files = vec![];
+    for entry in std::fs::read_dir(folder).map_err(failed)? {
+        let entry = entry.map_err(failed)?;
+        let of_a_study = entry.file_name().to_str().is_some_and(part::is_of_one);
+        if of_a_study && entry.file_type().is_ok_and(|is| is.is_file()) {
+            files.push(entry.path());
+        }
+    }
+    files.push(manifest);
+    Ok(files)
+}
+
+/// Removes those files, in their order.
+///
+/// # Errors
+///
+/// [`Error::Write`].
+pub fn remove(files: &[PathBuf]) -> Result<()> {
+    files.iter().try_for_each(|path| match std::fs::remove_file(path) {
+        Err(source) if source.kind() != ErrorKind::NotFound => {
+            Err(Error::Write { path: path.clone(), source })
+        }
+        _ => Ok(()),
+    })
+}
