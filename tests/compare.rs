@@ -3,7 +3,7 @@
 use crate::common;
 
 use common::folder::Folder;
-use common::{bat, cone};
+use common::{bat, cone, of_factors};
 use serde_json::Value;
 use sweetspot::Bat;
 use sweetspot::bat::profile::Interpolation;
@@ -55,8 +55,7 @@ fn a_bat_differs_from_itself_in_nothing() {
 #[test]
 fn a_denser_bat_is_heavier_by_as_much_and_rings_the_same() {
     let light = cone(0.0125, 0.033);
-    let mut heavy = light.clone();
-    heavy.scale(1.25, 1.25);
+    let heavy = of_factors(&light, [1.25, 1.25]);
     let both = compare(&[light, heavy], 1e-4);
     for key in ["length", "balance_point", "frequency_1", "frequency_3", "node_2_of_mode_1"] {
         assert!(!row(&both, key).difference(1).unwrap().is_real(), "{key}");
@@ -125,8 +124,7 @@ fn what_is_stated_of_an_error_holds() {
 #[test]
 fn one_batter_swings_the_heavier_bat_slower() {
     let light = cone(0.0125, 0.033);
-    let mut heavy = light.clone();
-    heavy.scale(1.25, 1.25);
+    let heavy = of_factors(&light, [1.25, 1.25]);
     let reference = light.inertia().about(0.1524);
     let law = SwingLaw { exponent: 0.5, reference, of_reference: 50.0 };
     let entry = |bat: &Bat| Entry {

@@ -1,5 +1,7 @@
 //! Hits of held bats, of balls whose bounce depends on the speed, of barrels that give way.
 
+use crate::common::of_factors;
+
 use sweetspot::bat::fixtures::{Fixtures, Grip, Held, Support};
 use sweetspot::bat::theory::Theory;
 use sweetspot::collision::ball::Ball;
@@ -205,8 +207,7 @@ fn a_stiff_bat_in_soft_hands_is_free() {
     let free = bundled_bat("meshes/r161.json").unwrap();
     let grip = Grip { from: 0.0, to: 0.1524, stiffness: 3e4, damping: 0.0 };
     let gripped = held(Fixtures { grip: Some(grip), ..Fixtures::default() });
-    let mut stiff = gripped.clone();
-    stiff.scale(1.0, 1e6);
+    let stiff = of_factors(&gripped, [1.0, 1e6]);
     let scene = Scene::default();
     for x in [0.5, 0.65, 0.8] {
         let exit = |bat: &Bat, model| hit(bat, model, &scene, x).exit_speed;

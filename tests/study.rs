@@ -718,7 +718,7 @@ fn a_part_that_is_not_the_study_s_is_refused() {
             let told = String::from_utf8_lossy(&output.stderr).into_owned();
             assert!(told.contains("part-000000.csv") && told.contains("makes it anew"), "{told}");
             assert_eq!(output.status.code(), Some(2), "{told}");
-            assert_eq!(folder.read_names("out").len(), 7);
+            assert!(!folder.read_names("out").contains(&"part-000000.npz".to_owned()));
         }
         assert_eq!(folder.read("out/part-000000.csv"), damage);
     }
@@ -846,9 +846,9 @@ fn a_study_of_walls_has_small_parts() {
     // As an older version has begun it, with its manifest and without.
     let older = manifest.replace("\"rows_per_part\": 64", "\"rows_per_part\": 4096");
     let older = older.replace("\"parts\": 2", "\"parts\": 1");
-    for manifest in [older.clone(), older.replace("  \"rows_per_part\": 4096,\n", "")] {
-        std::fs::remove_dir_all(folder.0.join("out")).unwrap();
-        std::fs::create_dir(folder.0.join("out")).unwrap();
+    std::fs::remove_dir_all(folder.0.join("out")).unwrap();
+    std::fs::create_dir(folder.0.join("out")).unwrap();
+    for manifest in [older.replace("  \"rows_per_part\": 4096,\n", ""), older.clone()] {
         folder.write("out/manifest.json", &manifest);
         assert_eq!(run(&["--jobs", "2"]), whole);
         assert_eq!(folder.read_names("out"), with_sums(&["part-000000.csv"]));

@@ -384,17 +384,25 @@ def test_a_turned_bit_is_seen_in_every_kind_of_part(tmp_path):
 
 def poisoned(shipped, k, rows_per_part):
     """A part that ends whoever makes it."""
+    from sweetspot._study import make
+
     if k == 1:
         os.kill(os.getpid(), signal.SIGKILL)
     return make(shipped, k, rows_per_part)
 
 
-def test_a_part_that_ends_its_worker_is_named_and_the_others_are_made(tmp_path, scatter, monkeypatch, capsys):
+@pytest.mark.parametrize("engine", ["local", "ray", "dask"])
+def test_a_part_that_ends_its_worker_is_named_and_the_others_are_made(tmp_path, scatter, monkeypatch, capsys, engine):
     from sweetspot import study as verb
 
-    monkeypatch.setattr(verb, "make", poisoned)
-    code = verb.main([str(scatter), "--out", str(tmp_path / "p"), "--workers", "2", "--quiet"])
-    assert code == 3 and "part 1 ended its worker 3 times" in capsys.readouterr().err
+    of_engine = poisoned
+    if engine != "local":
+        pytest.importorskip({"ray": "ray", "dask": "distributed"}[engine])
+        # Workers have no module of tests: these engines send the function itself.
+        of_engine = type(poisoned)(poisoned.__code__, {"os": os, "signal": signal, "__builtins__": __builtins__})
+    monkeypatch.setattr(verb, "make", of_engine)
+    command = [str(scatter), "--out", str(tmp_path / "p"), "--engine", engine, "--workers", "2", "--quiet"]
+    assert verb.main(command) == 3 and "part 1 ended its worker 3 times" in capsys.readouterr().err
     monkeypatch.undo()
     assert run(scatter, tmp_path / "p").returncode == 0
     assert sorted(parts(tmp_path / "p")) == named(5)

@@ -332,7 +332,7 @@ impl Bat {
     }
 
     /// One factor on every density and one on every modulus of the bat.
-    pub fn scale(&mut self, density: f64, modulus: f64) {
+    pub(crate) fn scale(&mut self, density: f64, modulus: f64) {
         self.layups.iter_mut().for_each(|layup| layup.scaled(density, modulus));
         for region in &mut self.fixtures.regions {
             region.layup.scaled(density, modulus);

@@ -13,6 +13,7 @@ use std::f64::consts::{PI, TAU};
 use sweetspot::Bat;
 use sweetspot::bat::material::Material;
 use sweetspot::bat::profile::{Interpolation, Profile, Stations};
+use sweetspot::bat::weighed::Weighed;
 
 pub const LENGTH: f64 = 0.8382;
 pub const RADIUS: f64 = 0.0213;
@@ -32,6 +33,16 @@ pub fn dowel() -> Bat {
 
 pub fn cone(from: f64, to: f64) -> Bat {
     bat(&[0.0, LENGTH], &[from, to], &[0.0; 2], Interpolation::Linear)
+}
+
+/// That bat with factors on the density and on the moduli of its material.
+pub fn of_factors(bat: &Bat, [density, moduli]: [f64; 2]) -> Bat {
+    let mut material = bat.material().clone();
+    material.density *= density;
+    material.youngs_modulus *= moduli;
+    material.shear_modulus.iter_mut().for_each(|shear| *shear *= moduli);
+    let built = Bat::builder(bat.profile().clone(), material).fixtures(bat.fixtures().clone());
+    built.weighed(Weighed::default()).build().unwrap()
 }
 
 /// The n-th root of `cos β cosh β = 1`, digits of Abramowitz-and-Stegun-like tables for the
