@@ -759,13 +759,11 @@ fn more_than_the_stated_limits_is_refused_at_once() {
     let many = |one: &str, count: usize| vec![one; count].join(", ");
     let tapes =
         format!(", \"tapes\": [{}]", many(r#"{ "from": 0, "to": 0.1, "mass": 1e-5 }"#, 401));
-    folder.write("tapes.json", &bat(&tapes));
+    folder.write("tapes.json", bat(&tapes));
     let targets = many(r#"{ "name": "mass_kg", "change": "-1 %" }"#, 21);
-    folder.write(
-        "aim.json",
-        &format!(r#"{{ "format": "sweetspot-aim/1", "targets": [{targets}] }}"#),
-    );
-    folder.write("bat.json", &bat(""));
+    folder
+        .write("aim.json", format!(r#"{{ "format": "sweetspot-aim/1", "targets": [{targets}] }}"#));
+    folder.write("bat.json", bat(""));
     let paths: Vec<String> =
         (0..101).map(|k| format!(r#""bat.p{k}": {{ "values": [1, 2] }}"#)).collect();
     let study = format!(
