@@ -98,8 +98,11 @@ mod tests {
     use crate::files::document::Document;
 
     fn read(text: &str) -> Result<Reading> {
-        let document = Document::new("readings.json".into(), text);
-        reading(&Node::root(&document)?, Quantity::Mass, 1e-3, [0.1, 5.0])
+        let text = format!("{{ \"mass\": {text} }}");
+        let document = Document::new("readings.json".into(), &text);
+        let root = Node::root(&document)?.members()?;
+        let node = root.get("mass").expect("a member");
+        reading(node, Quantity::Mass, 1e-3, [0.1, 5.0])
     }
 
     #[test]

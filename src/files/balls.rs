@@ -40,7 +40,7 @@ pub fn ball(name: &str, stiffness: Option<f64>) -> Result<Ball> {
 ///
 /// # Errors
 ///
-/// As [`ball`], and those of [`Folder::json`].
+/// As [`ball`], and those of `Folder::json`.
 pub fn ball_in(name: &str, folder: &Folder) -> Result<Ball> {
     if let Some(ball) = built_in(name) {
         return Ok(ball);

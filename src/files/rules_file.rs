@@ -53,7 +53,7 @@ pub fn named(name: &str) -> Result<RuleSet> {
 ///
 /// # Errors
 ///
-/// As [`named`], and those of [`Folder::json`].
+/// As [`named`], and those of `Folder::json`.
 pub fn named_in(name: &str, folder: &Folder) -> Result<RuleSet> {
     named_by(name, |name| folder.json(name, "rules"))
 }

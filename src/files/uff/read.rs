@@ -19,7 +19,7 @@ const DOUBLES: [usize; 3] = [25; 3];
 ///
 /// # Errors
 ///
-/// [`Error::Read`] if there is no such file; those of [`parse`].
+/// [`Error::Read`](crate::Error) if there is no such file; those of [`parse`].
 pub fn read(path: &Path) -> Result<Universal> {
     parse(&path.display().to_string(), &file::read(path)?)
 }
@@ -28,7 +28,7 @@ pub fn read(path: &Path) -> Result<Universal> {
 ///
 /// # Errors
 ///
-/// [`Error::Input`] with line and column of text in place of a number, of a dataset that
+/// [`Error::Input`](crate::Error) with line and column of text in place of a number, of a dataset that
 /// ends too early, and of anything outside a dataset.
 pub fn parse(file: &str, bytes: &[u8]) -> Result<Universal> {
     parse_in(file, bytes, None)
@@ -38,7 +38,7 @@ pub fn parse(file: &str, bytes: &[u8]) -> Result<Universal> {
 ///
 /// # Errors
 ///
-/// Those of [`parse`]; [`Error::Input`] for a dataset 164 where units are given.
+/// Those of [`parse`]; [`Error::Input`](crate::Error) for a dataset 164 where units are given.
 pub fn parse_in(file: &str, bytes: &[u8], given: Option<&Units>) -> Result<Universal> {
     let mut lines = Lines::new(file, bytes);
     let mut read = Universal {

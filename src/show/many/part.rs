@@ -69,7 +69,7 @@ pub fn made(
 ///
 /// # Errors
 ///
-/// [`Error::Value`] for a part that is not as the study makes it.
+/// [`Error::Value`](crate::Error) for a part that is not as the study makes it.
 pub fn read(
     rows: &Rows,
     wanted: Range<u64>,
