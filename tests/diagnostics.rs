@@ -295,9 +295,13 @@ fn ten_mistakes_are_shown_and_the_others_counted() {
     let lines: Vec<usize> = each.iter().map(|one| one.line.as_ref().unwrap().0).collect();
     assert_eq!(lines, (2..12).collect::<Vec<_>>());
     assert_eq!(summary.unwrap(), "40 mistakes in my.json: these and 30 more");
-    let items = vec!["{ \"x\": 0.1, \"type\": \"fixed\" }"; 100_000].join(", ");
+    let items = vec!["{ \"x\": 0.1, \"type\": \"fixed\" }"; 400].join(", ");
     let supports = format!("\"supports\": [{items}], \"profile\"");
     let said = of_bat(&folder, &GOOD.replace("\"profile\"", &supports));
+    assert!(said.ends_with("error: 400 mistakes in my.json: these and 390 more\n"), "{said}");
+    let text = r#"{ "format": "sweetspot-bat/1", "name": "d", "material": { "density": 700, "youngs_modulus": 15e9 },
+        "profile": { "interpolation": "linear", "x": [X], "radius": [X] } }"#;
+    let said = of_bat(&folder, &text.replace('X', &vec!["\"a\""; 50_000].join(", ")));
     assert!(said.ends_with("error: 100000 mistakes in my.json: these and 99990 more\n"), "{said}");
 }
 

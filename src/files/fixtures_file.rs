@@ -45,11 +45,12 @@ fn list<P: Part>(
     start: impl Fn() -> P,
     length: Option<f64>,
 ) -> Result<Vec<P>> {
-    /// What the sections carry is counted for every pair of them.
+    /// What these take grows faster than their number: a stretch knows every tape on it, and absorbers damp together.
     const MOST: usize = 400;
+    const GROWING: [&str; 3] = ["regions", "tapes", "absorbers"];
     let Some(node) = root.get(key) else { return Ok(vec![]) };
     let items = node.items()?;
-    if items.len() > MOST {
+    if items.len() > MOST && GROWING.contains(&key) {
         return Err(node.error(format!("{} items", items.len()), format!("{MOST} at most")));
     }
     mistakes::all(items.iter().map(|item| part_file::part(item, start(), length)))
