@@ -62,7 +62,7 @@ impl Progress {
             Shown::Not => {}
             Shown::Bar(bar, _) => {
                 if bar.position() == 0 && share > 0.0 {
-                    bar.set_style(style("{spinner} {bar:24} {percent:>3} %  {wide_msg}"));
+                    bar.set_style(style("{spinner} {bar:24} {percent:>3} %, {wide_msg}"));
                 }
                 bar.set_position((share * STEPS as f64) as u64);
                 bar.set_message(said);
