@@ -36,14 +36,14 @@ pub fn account(mode: &mut Mode, ratio: f64, (elements, over): (usize, bool), fac
 /// What a frequency loses of its digits, relative, where the residual is beyond what the iteration stopped at (`left`).
 ///
 /// Far slower modes leave their own round-off in the compliance: of a mode they and all other slower ones were taken
-/// out of (`apart`), what is beyond shows it, and half of that is the frequency's. So do thick parts on thin ones, as
-/// in a chain of cylinders; of a usual bat what is beyond is some ε times the square of the `ratio`. Where the
-/// iteration stopped before, the residual tells of the iteration alone.
+/// out of (`apart`), the residual beyond `left` shows it, and half of that is the frequency's. Thick parts on thin
+/// ones leave round-off too, as in a chain of cylinders. The residual of a usual bat is some ε times the square of the
+/// `ratio`, and costs nothing. Where the iteration stopped at a larger residual, round-off cannot be seen in it.
 pub fn lost(residual: f64, left: f64, ratio: f64, apart: bool) -> f64 {
     const USUAL: f64 = 3.0 * f64::EPSILON;
-    /// Such a residual is no iteration's.
+    /// Iterations stop above; a smaller residual is round-off.
     const ARITHMETIC: f64 = 3e-14;
-    /// Up to so much the residual may be small by chance.
+    /// A frequency may lose three times the residual where both are a few ε, and no more than this.
     const CHANCE: f64 = 48.0 * f64::EPSILON;
     let beyond = ((residual - left) * (residual + left)).max(0.0).sqrt();
     match apart {

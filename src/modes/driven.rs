@@ -62,8 +62,8 @@ impl Reduced {
         Driven { damping: self.damping(), apart: self.apart() }
     }
 
-    /// The strains one by one: without dashpots, and where the materials lose of every mode and of all other strains
-    /// so much, and couple none.
+    /// The strains one by one. There must be no dashpots, and the loss must couple no two strains: every mode has a
+    /// loss factor, and all other strains have the same one.
     fn apart(&self) -> Option<Apart> {
         const COUPLED: f64 = 1e-12;
         let (n, modes) = (self.len(), self.omega.len());
@@ -143,5 +143,61 @@ impl Answer {
     /// Size of the residual.
     pub fn missed(&self) -> f64 {
         self.residual.iter().map(|r| dot(r, r)).sum::<f64>().sqrt()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Bat;
+    use crate::bat::theory::Theory;
+    use crate::modes::request::Request;
+    use crate::modes::solve::solve;
+
+    /// The short way without coupling and the equations of all strains together, with and without loss, with losses
+    /// of single modes, and with strains beyond the modes; a dashpot leaves the second alone.
+    #[test]
+    fn strains_that_nothing_couples_follow_as_all_together_do() {
+        let bat = |more: &str, loss: f64| {
+            let text = format!(
+                r#"{{ "format": "sweetspot-bat/1", "material": {{ "density": 700, "youngs_modulus": 15e9,
+                "shear_modulus": 1e9, "loss_factor": {loss} }}, "profile": {{ "interpolation": "linear",
+                "x": [0, 0.4, 0.84], "radius": [0.012, 0.014, 0.03] }}{more} }}"#
+            );
+            Bat::from_text("bat.json", &text, "".as_ref()).unwrap()
+        };
+        let reduced = |bat: &Bat| {
+            let request = Request { modes: 4, theory: Theory::Timoshenko, ..Request::default() };
+            let solution = solve(bat, &request).unwrap();
+            let mut reduced = Reduced::new(bat, solution.elements(), 4).unwrap();
+            let places = [0.1, 0.55].map(|x| {
+                reduced.place(x);
+                x
+            });
+            let places = places.map(|x| reduced.place(x));
+            (reduced, places)
+        };
+        for (loss, measured) in [(0.0, false), (0.02, false), (0.0, true)] {
+            let (mut reduced, [at, to]) = reduced(&bat("", loss));
+            if measured {
+                reduced.lose(&[0.01, 0.02, 0.03, 0.04]);
+            }
+            let driven = reduced.driven();
+            let apart = driven.apart.as_ref().expect("nothing couples");
+            assert!(reduced.len() > reduced.omega.len());
+            for frequency in [20.0, 160.0, 700.0, 3000.0] {
+                let omega = std::f64::consts::TAU * frequency;
+                let short = reduced.one_by_one(apart, &at, omega);
+                let (_, long) = reduced.together(&driven.damping, &at, omega);
+                let at_place = |parts: Vec<c64>| {
+                    Answer { rigid: vec![], parts, residual: [vec![], vec![]] }.at(&to)
+                };
+                let [short, long] = [short, long].map(at_place);
+                assert!((short - long).norm() < 1e-10 * long.norm(), "{frequency} {short} {long}");
+            }
+        }
+        let grip =
+            ", \"grip\": { \"from\": 0, \"to\": 0.15, \"stiffness\": 3e4, \"damping\": 300 }";
+        assert!(reduced(&bat(grip, 0.0)).0.driven().apart.is_none());
     }
 }

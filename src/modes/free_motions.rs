@@ -65,8 +65,8 @@ impl Reduced {
         }
     }
 
-    /// Round-off of `vᵀ Z(s) v`: each of its terms is known to ε of itself; and as far as dashpots couple the
-    /// motion with others, `|s| |C v|` and 1 at most, strains to ε twice the ratio of s to the slowest mode's.
+    /// Round-off of `vᵀ Z(s) v`. Each of its terms is known to ε of itself. Strains that dashpots couple, a share of
+    /// `|s| |C v|` and 1 at most, are known to 2 ε times the ratio of s to the slowest mode's.
     fn round_off(&self, mass: &Mat<f64>, damping: &Mat<f64>, pole: &Pole) -> f64 {
         let r = self.rigid_unknowns();
         let sizes: Vec<f64> = pole.rigid.iter().chain(&pole.parts).map(|v| v.norm()).collect();

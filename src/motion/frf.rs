@@ -106,9 +106,10 @@ pub struct Frf {
 
 /// The mesh of a response has its modes to that accuracy at least.
 const MESH: f64 = 1e-8;
-/// The inertia of shapes is known to so many times the error of the asked frequencies, relative, those above the asked
-/// modes included, which the mesh is not planned for; and to that at best.
+/// How well the inertia of all shapes is known, over the largest relative error of an asked frequency. The mesh is not
+/// planned for shapes above the asked modes.
 const BEYOND: f64 = 12.0;
+/// It is never known better than this.
 const KNOWN: f64 = 1e-12;
 /// What may be missing, relative to the points' own responses.
 const MISSING: f64 = 1e-12;
