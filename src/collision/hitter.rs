@@ -49,8 +49,6 @@ pub struct Hitter<'a> {
     pub(super) wall_modes: Vec<[f64; 2]>,
 }
 
-/// The lightest bat, over the ball's mass, whose contact with it is followed: one of an eightieth takes a minute.
-const LIGHTEST: f64 = 0.1;
 /// Longest usual step of a contact, as a share of the time for which the ball is pressed: about a
 /// quarter of the way to the deepest compression. By the example `tuning_steps` half of it takes half as many
 /// steps again at rough accuracies, and twice as much saves hardly any at good ones.
@@ -62,8 +60,8 @@ impl<'a> Hitter<'a> {
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] for a contact with a ball whose force law is not known or that is ten times as heavy as the
-    /// bat, a held bat by the WPI report's model, and a contact with a mode that dashpots keep from swinging.
+    /// [`Error::Value`] for a contact with a ball whose force law is not known, a held bat by the
+    /// WPI report's model, and a contact with a mode that dashpots keep from swinging.
     pub fn new(
         model: Model,
         scene: &'a Scene,
@@ -106,15 +104,6 @@ impl<'a> Hitter<'a> {
             balance_point: line.balance_point,
             inertia: line.about_balance,
         };
-        if model == Model::Contact && rigid.mass < LIGHTEST * scene.ball.mass {
-            let found = format!("a bat of {:.2e} kg", rigid.mass);
-            let expected = format!(
-                "one of {:.2e} kg at least, a tenth of the ball's: a lighter one stays on the ball and rings for so \
-                 long that no hit of it ends in time; `sweetspot modes` has its modes",
-                LIGHTEST * scene.ball.mass
-            );
-            return Err(Error::value("hit", found, expected));
-        }
         let motion = rigid.swung(scene.swing, scene.pivot);
         let modes = struck.modes();
         let speed = rigid.speed_at(0.75 * bat.length(), motion).abs() + scene.ball_speed;
