@@ -115,19 +115,21 @@ def main():
     parser.add_argument("--minutes", type=float, default=20)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--tubes", type=int, default=10**9)
+    parser.add_argument("--first", type=int, default=0, help="number of the first tube")
     parser.add_argument("--program", default=str(ROOT / "target/debug/sweetspot"))
     arguments = parser.parse_args()
     end = time.time() + 60 * arguments.minutes
-    number = seen = false = short = 0
+    number, seen, false, short = arguments.first, 0, 0, 0
     worst, ratios, spent = (0.0, ""), [], 0.0
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder) / "bat.json"
-        while time.time() < end and number < arguments.tubes:
+        while time.time() < end and number < arguments.first + arguments.tubes:
             rng = random.Random(f"{arguments.seed} {number}")
             number += 1
             tube, n = draw(rng), rng.choice([2, 2, 3, 4])
             path.write_text(json.dumps(written(tube)))
-            truth, rough = (ritz(tube, n, p, q, 3) for p, q in ((44, 14), (36, 11)))
+            # Two that are good, whose difference is round-off, and one that is less so.
+            truth, other, rough = (ritz(tube, n, p, q, 3) for p, q in ((44, 14), (46, 13), (36, 11)))
             for tol in (1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9):
                 command = [arguments.program, "hoop", str(path), "--tol", str(tol), "--json", "-"]
                 began = os.times().children_user
@@ -139,10 +141,11 @@ def main():
                     continue
                 answer = json.loads(done.stdout)
                 own = [mode for mode in answer["modes"] if mode["harmonic"] == n]
-                for mode, right, lower in zip(own, truth, rough):
+                for mode, right, again, lower in zip(own, truth, other, rough):
                     seen += 1
                     off = abs(mode["frequency_hz"] / right - 1)
-                    known, stated = lower / right - 1 + 1e-11, mode["error"]
+                    known = abs(lower / right - 1) + abs(again / right - 1) + 1e-11
+                    stated = mode["error"]
                     where = f"{arguments.seed} {number - 1} tol {tol} n {n} m {mode['order']}"
                     if off > 3 * known:
                         ratios.append(stated / off)
@@ -154,7 +157,7 @@ def main():
                         print(f"off {off:.2e}, stated {stated:.2e}, known {known:.0e}: {where} "
                               f"{tube}", flush=True)
     median = statistics.median(ratios) if ratios else math.nan
-    print(f"{number} tubes, {seen} modes, {false} false, worst true/stated {worst[0]:.2f} "
+    print(f"{number - arguments.first} tubes, {seen} modes, {false} false, worst true/stated {worst[0]:.2f} "
           f"({worst[1]}), median stated/true {median:.2f} of {len(ratios)}, {short} with exit 3, "
           f"{spent:.1f} s")
     return 1 if false else 0

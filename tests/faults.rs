@@ -776,11 +776,15 @@ fn more_than_the_stated_limits_is_refused_at_once() {
         paths.join(", ")
     );
     folder.write("study.json", &study);
+    // Of a radius of 1 to 1.1 mm.
+    folder.write("wire.json", bat("").replace("0.012, 0.03", "1e-3, 1.1e-3"));
     for (arguments, told) in [
         (&["modes", "tapes.json"][..], ["tapes", "401 items", "400 at most"]),
         (&["aim", "bat.json", "aim.json"], ["targets", "21 items", "20 at most"]),
         (&["study", "study.json", "--out", "D"], ["vary", "101 paths", "100 at most"]),
         (&["modes", "bat.json", "-n", "401"], ["401", "--modes", "400"]),
+        (&["hit", "wire.json"], ["2.04e-3 kg", "carries this one along", "1.45e-2 kg at least"]),
+        (&["analyze", "wire.json"], ["2.04e-3 kg", "carries this one along", "sweetspot modes"]),
     ] {
         let output = folder.run(arguments);
         let error = String::from_utf8_lossy(&output.stderr).into_owned();

@@ -49,6 +49,9 @@ pub struct Hitter<'a> {
     pub(super) wall_modes: Vec<[f64; 2]>,
 }
 
+/// A bat lighter than this share of the ball's mass, whose first mode turns by less than that angle while the ball is
+/// pressed, is not hit: the ball carries it along, and it rings against the ball for seconds of computing at each place.
+const CARRIED: [f64; 2] = [0.1, 0.1];
 /// Longest usual step of a contact, as a share of the time for which the ball is pressed: about a
 /// quarter of the way to the deepest compression. By the example `tuning_steps` half of it takes half as many
 /// steps again at rough accuracies, and twice as much saves hardly any at good ones.
@@ -60,8 +63,8 @@ impl<'a> Hitter<'a> {
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] for a contact with a ball whose force law is not known, a held bat by the
-    /// WPI report's model, and a contact with a mode that dashpots keep from swinging.
+    /// [`Error::Value`] for a contact with a ball whose force law is not known or that carries the bat along, a held
+    /// bat by the WPI report's model, and a contact with a mode that dashpots keep from swinging.
     pub fn new(
         model: Model,
         scene: &'a Scene,
@@ -112,6 +115,11 @@ impl<'a> Hitter<'a> {
         // How long the ball is pressed, more or less; not a number without a law or a speed.
         let pressed =
             law.as_ref().map_or(f64::NAN, |law| law.pressed_by(0.5 * mass * speed * speed) / speed);
+        let turned = modes.first().map_or(f64::INFINITY, |[omega, _]| omega * pressed);
+        let share = rigid.mass / scene.ball.mass;
+        if model == Model::Contact && !held && share < CARRIED[0] && turned < CARRIED[1] {
+            return Err(carried(rigid.mass, scene.ball.mass, turned));
+        }
         let (wall, wall_error) = felt_wall(scene.wall, pressed, effort.accuracy);
         let wall_error = wall_error + scene.hoop.error();
         let hoop = scene.hoop.wall().filter(|_| model == Model::Contact && wall.is_none());
@@ -295,8 +303,21 @@ impl<'a> Hitter<'a> {
         let (collider, law) = (self.collider.as_ref()?, self.law_at(x, closing)?);
         let meet =
             |accuracy| (collider.meet_beside(felt, others, &*law, closing, accuracy), accuracy);
-        resolved(accuracy, meet, |(met, _)| met.is_sound(felt, closing))
+        resolved(accuracy, meet, felt, closing)
     }
+}
+
+/// The error about a bat (kg) that a ball (kg) carries along, whose first mode turns by that angle meanwhile.
+fn carried(bat: f64, ball: f64, turned: f64) -> Error {
+    let found = format!(
+        "a bat of {bat:.2e} kg, whose first mode turns by {turned:.0e} while the ball is pressed"
+    );
+    let expected = format!(
+        "one of {:.2e} kg at least, a tenth of the ball's mass, or a stiffer one: the ball carries this one along; \
+         `sweetspot modes` has its modes",
+        CARRIED[0] * ball
+    );
+    Error::value("hit", found, expected)
 }
 
 /// The modes as a contact takes them, those of the wall first, for a ball that is pressed for about that
@@ -313,15 +334,19 @@ fn collider(modes: &[[f64; 2]], wall: &[[f64; 2]], pressed: f64) -> Result<Colli
     Ok(Collider::new(&all, longest))
 }
 
-/// The meeting by steps of that accuracy, or by better ones where these do not hold.
+/// The meeting by steps of that accuracy, or by better ones where these do not hold; None where no number of steps
+/// within reason comes to an end, as where a bat is so light that the ball carries it along.
 pub(super) fn resolved<T>(
     accuracy: f64,
-    meet: impl Fn(f64) -> T,
-    is_sound: impl Fn(&T) -> bool,
-) -> Option<T> {
+    meet: impl Fn(f64) -> (Encounter, T),
+    felt: &Felt,
+    closing: f64,
+) -> Option<(Encounter, T)> {
     const TRIES: i32 = 12;
     const FINER: f64 = 0.2;
-    (0..TRIES).map(|k| meet(FINER.powi(k) * accuracy)).find(is_sound)
+    let tried = (0..TRIES).map(|k| meet(FINER.powi(k) * accuracy));
+    let mut ended = tried.take_while(|(met, _)| !met.is_exhausted());
+    ended.find(|(met, _)| met.is_sound(felt, closing))
 }
 
 /// ω (rad/s) and damping ratio of a wall that has a mass.

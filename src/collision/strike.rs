@@ -106,7 +106,7 @@ impl Hitter<'_> {
         let (felt, closing) = (self.felt(x), self.closing(x)?);
         let (collider, law) = (self.collider.as_ref()?, self.law_at(x, closing)?);
         let meet = |accuracy| collider.meet_recorded(&felt, &*law, closing, accuracy);
-        resolved(SMOOTH, meet, |(met, _)| met.is_sound(&felt, closing)).map(|(_, pieces)| pieces)
+        resolved(SMOOTH, meet, &felt, closing).map(|(_, pieces)| pieces)
     }
 
     /// Force and compression of the ball at `x` (m) in time, by the contact model, at `parts` instants

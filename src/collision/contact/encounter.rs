@@ -30,6 +30,7 @@
 //! method. Exact motion under a polynomial load: variation of constants. Energy by projection: E. Hairer, C. Lubich,
 //! G. Wanner, Geometric Numerical Integration (2006), section IV.4.
 
+use crate::collision::contact::pressing::MOST_STEPS;
 use crate::collision::contact::touch::Felt;
 
 /// What a meeting of ball and bat left behind.
@@ -76,6 +77,11 @@ pub struct Encounter {
 }
 
 impl Encounter {
+    /// Whether the steps came to no end because there were too many of them: finer ones would be more.
+    pub fn is_exhausted(&self) -> bool {
+        self.endless && self.steps >= MOST_STEPS
+    }
+
     /// Whether the bat's surface caught the ball again after it had left.
     pub fn again(&self) -> bool {
         self.touches > 1

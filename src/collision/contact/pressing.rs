@@ -18,7 +18,7 @@ use crate::collision::contact::touch::{Felt, State, Touch};
 /// Halvings of the longest step.
 pub(super) const LEVELS: usize = 42;
 /// A meeting that needs more steps than this has failed.
-const MOST_STEPS: usize = 20_000;
+pub(super) const MOST_STEPS: usize = 20_000;
 /// Share of the largest compression by which its return may be missed.
 const MISSED: f64 = 1e-8;
 /// Share of the energy that the force may still give when it is let go.

@@ -40,6 +40,21 @@ pub struct StudyFolder<'a> {
     division: Division,
 }
 
+/// The manifest of some study.
+///
+/// # Errors
+///
+/// [`Error::Value`] where it is none; [`Error::Read`].
+pub(super) fn manifest_at(path: &Path) -> Result<Value> {
+    let found: Value = serde_json::from_slice(&file::read_plain(path)?).unwrap_or_default();
+    if found["format"].as_str().is_some_and(|of| of.starts_with("sweetspot-study-manifest/")) {
+        return Ok(found);
+    }
+    let what = "something else than the manifest of a study";
+    let expected = "the manifest that was written there, or another folder";
+    Err(Error::value(path.display().to_string(), what, expected))
+}
+
 impl<'a> StudyFolder<'a> {
     /// The folder, made if it is not there, with the manifest of this study.
     ///
@@ -51,8 +66,7 @@ impl<'a> StudyFolder<'a> {
         let mut this = Self { path, study, division: own };
         let manifest = path.join(MANIFEST);
         if manifest.exists() {
-            let found = file::read_plain(&manifest)?;
-            let found: Value = serde_json::from_slice(&found).unwrap_or_default();
+            let found = manifest_at(&manifest)?;
             let each = found.get("rows_per_part").map_or(Some(ROWS), Value::as_u64);
             // One that was begun with parts of the usual size goes on with them.
             if each == Some(ROWS) {

@@ -3,11 +3,8 @@
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use serde_json::Value;
-
 use crate::base::error::{Error, Result};
-use crate::base::file;
-use crate::show::many::folder::MANIFEST;
+use crate::show::many::folder::{MANIFEST, manifest_at};
 use crate::show::many::part;
 
 /// Files of a study in a folder, its manifest last; none where no study is.
@@ -20,12 +17,7 @@ pub fn files(folder: &Path) -> Result<Vec<PathBuf>> {
     if !manifest.exists() {
         return Ok(vec![]);
     }
-    let found: Value = serde_json::from_slice(&file::read_plain(&manifest)?).unwrap_or_default();
-    if !found["format"].as_str().is_some_and(|of| of.starts_with("sweetspot-study-manifest/")) {
-        let found = "something else than the manifest of a study";
-        let expected = "a folder of a study: --fresh removes nothing else";
-        return Err(Error::value(manifest.display().to_string(), found, expected));
-    }
+    manifest_at(&manifest)?;
     let failed = |source| Error::Read { path: folder.to_owned(), source };
     let mut files = vec![];
     for entry in std::fs::read_dir(folder).map_err(failed)? {
