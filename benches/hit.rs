@@ -153,7 +153,7 @@ fn again(met: &Encounter) -> bool {
 fn compare(hit: &Hit) {
     let [k, alpha] = [hit.scene.ball.stiffness, hit.scene.ball.exponent].map(Option::unwrap);
     let (places, law) = (hit.places(), PowerLaw::new(k, alpha, hit.scene.cor));
-    let mass = hit.scene.ball.mass;
+    let mass = hit.scene.ball.mass_kg;
     let (ten, many, all) = (hit.solved(10), hit.solved(18), hit.solved(80));
     let (few, eighteen, finest) =
         (Struck::new(&hit.bat, &ten), Struck::new(&hit.bat, &many), Struck::new(&hit.bat, &all));

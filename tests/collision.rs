@@ -16,7 +16,7 @@ fn solved(path: &str) -> (Bat, Solution) {
 
 /// The report's swing and pitch: a 5 oz ball at 90 mph, 2.5 in beyond the knob.
 fn scene(swing: f64) -> Scene {
-    let ball = Ball { mass: 5.0 * 0.028_349_523_125, ..Ball::baseball() };
+    let ball = Ball { mass_kg: 5.0 * 0.028_349_523_125, ..Ball::baseball() };
     Scene { pivot: 0.0635, swing, ball, ball_speed: 40.2336, cor: 0.5, ..Scene::default() }
 }
 
@@ -98,7 +98,7 @@ fn modal_energies_on_the_dowel_are_those_of_the_raw_shapes() {
         for (n, energy) in (1..).zip(&outcome.energy.vibration_by_mode) {
             let shape = sweetspot::collision::energy_loss::wpi_shape(n, fraction);
             let share = 0.2 * shape * shape / ((2 * n + 1) as f64).powi(2);
-            let expected = share * outcome.impulse.powi(2) / scene.ball.mass;
+            let expected = share * outcome.impulse.powi(2) / scene.ball.mass_kg;
             assert!((energy - expected).abs() < 1e-6 * outcome.energy.initial, "{fraction} {n}");
         }
     }

@@ -17,7 +17,7 @@ use sweetspot::{Bat, Request, Solution, solve};
 /// Swing and pitch of the WPI report, a ball of 5 oz with k = 1e7 N/m^1.5.
 fn scene(swing: f64, cor: f64) -> Scene {
     let ball = Ball {
-        mass: 5.0 * 0.028_349_523_125,
+        mass_kg: 5.0 * 0.028_349_523_125,
         stiffness: Some(1e7),
         exponent: Some(1.5),
         ..Ball::baseball()
@@ -83,7 +83,7 @@ fn energy_and_both_momenta_are_kept_everywhere() {
                     let energy = &outcome.energy;
                     let closing = bat_speed + scene.ball_speed;
                     let arm = x - body.balance_point;
-                    let inverse = 1.0 / scene.ball.mass + 1.0 / body.mass + arm * arm / inertia;
+                    let inverse = 1.0 / scene.ball.mass_kg + 1.0 / body.mass + arm * arm / inertia;
                     let available = 0.5 * closing * closing / inverse;
                     assert!(energy.imbalance().abs() < 1e-10 * available, "{file} {cor} {x}");
                     // The bat's own motion from its energy: both momenta of the ball are the
@@ -93,7 +93,7 @@ fn energy_and_both_momenta_are_kept_everywhere() {
                     let after = [v - j / body.mass, w - j * arm / inertia];
                     let rigid = 0.5 * (body.mass * after[0].powi(2) + inertia * after[1].powi(2));
                     assert!((energy.bat_rigid - rigid).abs() < 1e-12 * rigid.max(1.0));
-                    let change = scene.ball.mass * (outcome.exit_speed + scene.ball_speed);
+                    let change = scene.ball.mass_kg * (outcome.exit_speed + scene.ball_speed);
                     assert!((change - j).abs() < 1e-12 * j);
                     if cor == 1.0 {
                         assert!(energy.dissipated_ball.abs() < 1e-12 * available);
@@ -311,7 +311,8 @@ fn a_stiff_ball_meets_as_many_modes_as_are_quick_beside_its_contact() {
         (&heavy, 0.717_513_7, 37.0, [0.14156, 18.267e9, 1.5, 1.0], 13.204, 5e-4),
     ] {
         let (stiffness, exponent) = (Some(stiffness), Some(exponent));
-        let ball = Ball { mass, radius: 0.0366, stiffness, exponent, cor, ..Ball::baseball() };
+        let ball =
+            Ball { mass_kg: mass, radius_m: 0.0366, stiffness, exponent, cor, ..Ball::baseball() };
         let scene = Scene { swing: 0.0, ball, ball_speed: speed, cor, ..Scene::default() };
         let accuracy =
             Accuracy { exit_speed: 1e-3, theory: Theory::EulerBernoulli, ..Accuracy::default() };

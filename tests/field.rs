@@ -55,12 +55,13 @@ fn fastest(bat: &Bat, scene: &Scene) -> f64 {
 fn a_bat_on_the_laboratories_pivot_sends_the_ball_back_like_a_free_one() {
     let bat = bundled_bat("meshes/r161.json").unwrap();
     let pivoted = tested(&bat);
-    let scene = Scene { swing: 0.0, ball_speed: pivoted.protocol.ball_speed, ..Scene::default() };
-    let places: Vec<f64> = pivoted.places.iter().map(|place| place.impact.x).collect();
+    let scene = Scene { swing: 0.0, ball_speed: pivoted.scene.ball_speed, ..Scene::default() };
+    let places: Vec<f64> = pivoted.scan.places.iter().map(|place| place.x_m).collect();
     let free = sweep(&bat, Model::Contact, &scene, &accuracy(), &places).unwrap();
     let mut most = f64::NEG_INFINITY;
-    for (held, free) in pivoted.places.iter().zip(&free.impacts) {
-        let [held, free] = [&held.impact, free].map(|i| i.outcome.as_ref().unwrap().exit_speed);
+    for (held, free) in pivoted.scan.places.iter().zip(&free.impacts) {
+        let held = held.exit_speed_m_s.unwrap();
+        let free = free.outcome.as_ref().unwrap().exit_speed;
         assert!((held - free).abs() < 5e-4 * scene.ball_speed, "{held} {free}");
         most = most.max(held);
     }
@@ -72,25 +73,26 @@ fn a_bat_on_the_laboratories_pivot_sends_the_ball_back_like_a_free_one() {
 fn bbcor_follows_from_the_rebound_and_the_swing_weight() {
     let bat = bundled_bat("meshes/r161.json").unwrap();
     let tested = tested(&bat);
-    assert_eq!(tested.places.len(), 23);
+    let scan = &tested.scan;
+    assert_eq!(scan.places.len(), 23);
     let inertia = bat.inertia().about(STANDARD_PIVOT);
-    for place in &tested.places {
-        let outcome = place.impact.outcome.as_ref().unwrap();
-        let efficiency = outcome.exit_speed / tested.protocol.ball_speed;
-        let arm = place.impact.x - STANDARD_PIVOT;
-        let r = tested.protocol.ball.mass * arm * arm / inertia;
+    for place in &scan.places {
+        let efficiency = place.exit_speed_m_s.unwrap() / scan.protocol.ball_speed_m_s;
+        let arm = place.x_m - STANDARD_PIVOT;
+        let r = scan.protocol.ball.mass_kg * arm * arm / inertia;
         let bbcor = efficiency * (1.0 + r) + r;
-        assert!((place.bbcor.unwrap() - bbcor).abs() < 1e-12, "{}", place.impact.x);
+        assert!((place.bbcor.unwrap() - bbcor).abs() < 1e-12, "{}", place.x_m);
         // BESR is the speed after the hit over that before it with the bat moving at half of it; BPF is BBCOR
         // over what the ball does on a rigid wall.
-        assert!((place.besr().unwrap() - (efficiency + 0.5)).abs() < 1e-12);
-        let bpf = place.bpf(&tested.protocol).unwrap();
-        assert!((bpf * tested.protocol.cor / bbcor - 1.0).abs() < 1e-12, "{bpf}");
-        assert!(place.error.unwrap() >= outcome.error);
+        assert!((place.besr.unwrap() - (efficiency + 0.5)).abs() < 1e-12);
+        let bpf = place.bpf.unwrap();
+        assert!((bpf * scan.protocol.cor / bbcor - 1.0).abs() < 1e-12, "{bpf}");
+        let speed = place.error.exit_speed_m_s.unwrap() / scan.protocol.ball_speed_m_s;
+        assert!(place.error.bbcor.unwrap() >= speed);
     }
-    let most = tested.most().unwrap().bbcor.unwrap();
+    let most = scan.largest.as_ref().unwrap().bbcor;
     assert!(most < 0.5 && most > 0.48, "{most}");
-    assert_eq!(tested.within(), Some(true));
+    assert_eq!(scan.within_limit, Some(true));
 }
 
 /// A swing weight that was measured is the profile's, as such or by the period of a pendulum about any pivot,
@@ -135,7 +137,7 @@ fn what_holds_the_bat_in_its_file_is_no_part_of_the_test() {
     file["grip"] = serde_json::json!({ "from": 0.0, "to": 0.2, "stiffness": 1e5 });
     file["supports"] = serde_json::json!([{ "x": 0.3, "type": "clamped" }]);
     let held = Bat::from_text("h", &file.to_string(), "".as_ref()).unwrap();
-    let [bare, held] = [&bat, &held].map(|bat| tested(bat).most().unwrap().bbcor.unwrap());
+    let [bare, held] = [&bat, &held].map(|bat| tested(bat).scan.largest.unwrap().bbcor);
     assert!((bare - held).abs() < 1e-4, "{bare} {held}");
 }
 
@@ -144,7 +146,7 @@ fn what_holds_the_bat_in_its_file_is_no_part_of_the_test() {
 #[test]
 fn a_corked_bat_loses_speed_at_equal_bbcor() {
     let [corked, solid] = corked_and_solid();
-    let most = |bat| tested(bat).most().unwrap().bbcor.unwrap();
+    let most = |bat| tested(bat).scan.largest.unwrap().bbcor;
     assert!((most(&corked) - most(&solid)).abs() < 2e-3);
     let inertia = |bat: &Bat| bat.inertia().about(STANDARD_PIVOT);
     let faster = (inertia(&solid) / inertia(&corked)).powf(0.25);

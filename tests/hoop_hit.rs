@@ -93,7 +93,7 @@ impl Shape {
 
 /// The ball of the reference.
 fn baseball() -> Ball {
-    Ball { mass: 0.145, ..Ball::baseball() }
+    Ball { mass_kg: 0.145, ..Ball::baseball() }
 }
 
 /// That accuracy of exit speeds, with shear.
@@ -197,7 +197,7 @@ fn thinner_walls_return_faster_balls_as_known() {
     ];
     const SOFTBALL: [[f64; 3]; 4] =
         [[1.4, 0.442, 0.672], [1.9, 0.447, 0.553], [2.4, 0.448, 0.501], [3.0, 0.448, 0.490]];
-    let soft = Ball { mass: 0.190, radius: 0.0485, cor: 0.44, ..Ball::softball() };
+    let soft = Ball { mass_kg: 0.190, radius_m: 0.0485, cor: 0.44, ..Ball::softball() };
     let soft = soft.linear(1.226e6).unwrap();
     let cases = [(&BASEBALL[..], baseball(), 60.8, 6.0), (&SOFTBALL[..], soft, 44.7, 7.0)];
     for (rows, ball, speed, inches) in cases {
@@ -234,7 +234,7 @@ fn energies_close_along_a_hollow_barrel() {
             let sum: f64 = energy.wall_by_harmonic.iter().map(|(_, energy)| energy).sum();
             assert!((sum - energy.wall).abs() <= 1e-12 * energy.initial);
             assert!(energy.wall >= 0.0 && energy.wall < energy.initial);
-            let ball = scene.ball.mass * (outcome.exit_speed + scene.ball_speed);
+            let ball = scene.ball.mass_kg * (outcome.exit_speed + scene.ball_speed);
             assert!((ball / outcome.impulse - 1.0).abs() < 1e-14);
         }
         let most = hits.impacts.iter().map(|i| i.outcome.as_ref().unwrap().energy.wall);
@@ -325,9 +325,10 @@ fn the_patch_leaves_open_what_it_does() {
     }
     assert!((wall.bbcor.with - bbcor(&hits)).abs() < 1e-5);
     assert!(
-        (wall.stiffness / 17.2e6 - 1.0).abs() < 0.02 && (wall.mass / 0.0605 - 1.0).abs() < 0.02
+        (wall.stiffness_n_m / 17.2e6 - 1.0).abs() < 0.02
+            && (wall.mass_kg / 0.0605 - 1.0).abs() < 0.02
     );
-    assert!(wall.is_deep() && (wall.dent - 1.8e-3).abs() < 2e-4, "{wall:?}");
+    assert!(wall.is_deep() && (wall.dent_m - 1.8e-3).abs() < 2e-4, "{wall:?}");
 }
 
 /// A ball with a patch of its own presses as one that is compressed so far.

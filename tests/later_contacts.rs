@@ -165,7 +165,7 @@ fn the_curve_has_no_jump_where_ball_and_bat_part_once() {
         let solution = solve(&bat, &Request { modes: 12, ..Request::plain() }).unwrap();
         let effort = Effort { accuracy: 1e-6, completed: true };
         for (swing, pitch, cor) in [(50.0, 40.2336, 0.5), (30.0, 40.2336, 0.5), (0.0, 60.0, 0.4)] {
-            let ball = Ball { mass: 0.1417, ..Ball::baseball() };
+            let ball = Ball { mass_kg: 0.1417, ..Ball::baseball() };
             let scene = Scene { swing, ball_speed: pitch, cor, ball, ..Scene::default() };
             let hitter = Hitter::new(Model::Contact, &scene, &bat, &solution, effort).unwrap();
             let mut last: Option<f64> = None;
@@ -281,7 +281,7 @@ fn a_hit_that_magnifies_what_is_small_is_estimated_by_itself() {
 /// A ball (145 g) as hard as that, that returns that share of its speed.
 fn ball(stiffness: f64, exponent: f64, cor: f64) -> Ball {
     let (stiffness, exponent) = (Some(stiffness), Some(exponent));
-    Ball { mass: 0.145, stiffness, exponent, cor, ..Ball::baseball() }
+    Ball { mass_kg: 0.145, stiffness, exponent, cor, ..Ball::baseball() }
 }
 
 /// Later touches make peaks of a millimetre: the best place is no worse than any of a grid of a fifth of that.

@@ -4,7 +4,7 @@ use std::fmt::Debug;
 
 use serde::Serialize;
 use sweetspot::bat::body::Inertia;
-use sweetspot::collision::bbcor::Tested;
+use sweetspot::collision::bbcor::Scan;
 use sweetspot::collision::figures::Figures;
 use sweetspot::collision::sweep::{Accuracy, sweep};
 use sweetspot::collision::{Hitter, Impact, Model, Outcome, Scene, Sweep, SweetSpot};
@@ -31,7 +31,7 @@ fn results_are_printed_written_and_shared() {
     is_a_result::<Outcome>();
     is_a_result::<SweetSpot>();
     is_a_result::<Figures>();
-    is_a_result::<Tested>();
+    is_a_result::<Scan>();
     goes_to_other_threads::<Bat>();
     goes_to_other_threads::<Scene>();
     goes_to_other_threads::<Error>();

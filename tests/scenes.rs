@@ -49,7 +49,7 @@ fn a_stiff_bat_on_a_pin_is_the_test_rig() {
     let inertia = bat.inertia().about(0.1524);
     for x in [0.5, 0.65, 0.8] {
         let outcome = hit(&bat, Model::Rigid, &scene, x);
-        let r = scene.ball.mass * (x - 0.1524).powi(2) / inertia;
+        let r = scene.ball.mass_kg * (x - 0.1524).powi(2) / inertia;
         let exact = (scene.cor - r) / (1.0 + r);
         assert!((outcome.collision_efficiency - exact).abs() < 1e-10, "{x}");
         assert!((outcome.bbcor_pivoted - scene.cor).abs() < 1e-10);
@@ -126,8 +126,8 @@ fn balls_are_within_the_rules() {
         (Ball::baseball(), 5.0..=5.25, 9.0..=9.25),
         (Ball::softball(), 6.25..=7.0, 11.875..=12.125),
     ] {
-        assert!(ounces.contains(&(ball.mass / 0.028_349_523_125)), "{}", ball.name);
-        let around = std::f64::consts::TAU * ball.radius / 0.0254;
+        assert!(ounces.contains(&(ball.mass_kg / 0.028_349_523_125)), "{}", ball.name);
+        let around = std::f64::consts::TAU * ball.radius_m / 0.0254;
         assert!(inches.contains(&around), "{}: {around}", ball.name);
     }
 }
@@ -151,7 +151,7 @@ fn a_ball_bounces_as_its_file_says_for_that_speed() {
     let body = bat.inertia();
     let arm = 0.7 - body.balance_point;
     let recoil = 1.0 / body.mass + arm * arm / body.about_balance;
-    let wall = 40.0 / (1.0 + scene.ball.mass * recoil).sqrt();
+    let wall = 40.0 / (1.0 + scene.ball.mass_kg * recoil).sqrt();
     let exact = 0.66 - 0.13 * (wall - 1.0) / 57.0;
     assert!((outcome.cor - exact).abs() < 1e-9, "{} {exact}", outcome.cor);
     assert!((outcome.bbcor - exact).abs() < 1e-9);

@@ -9,6 +9,9 @@ use crate::collision::bbcor::Protocol;
 use crate::collision::hit::{Model, Scene};
 use crate::collision::sweep::Trial;
 use crate::collision::wall_choice::WallChoice;
+use crate::files::schema::bbcor::BbcorFile;
+use crate::show::csv;
+use crate::show::parts::terminal;
 use crate::show::plot::bbcor as plot;
 use crate::show::report::bbcor as report;
 
@@ -23,10 +26,11 @@ use crate::cli::value::PLACE;
 /// BBCOR as laboratories measure it, computed
 ///
 /// The bat is at rest and turns about a pivot 6 in from the knob end; a ball at 136 mph meets it every
-/// half inch. For each place the table says how fast the ball comes back, the collision efficiency
-/// e_A, BBCOR and how far that may be off by the program's own errors; below it the largest, beside
-/// the limit. Supports, springs and hands of the bat file are taken away. What is computed is no
-/// certificate: it is as good as the ball's restitution and as the wall of a hollow barrel is known.
+/// half inch. For the places about the largest, with --full for every one, the table says how fast the
+/// ball comes back, the collision efficiency e_A, BBCOR and how far that may be off by the program's own
+/// errors; below it the largest, beside the limit. Supports, springs and hands of the bat file are taken
+/// away. What is computed is no certificate: it is as good as the ball's restitution and as the wall of a
+/// hollow barrel is known.
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES))]
 pub struct Args {
@@ -53,6 +57,10 @@ pub struct Args {
     #[arg(long, value_name = "WHEN", default_value = "auto", help_heading = "The test",
           value_parser = ["auto", "on", "off"], hide_possible_values = true)]
     wall: String,
+
+    /// Every place, every source, and what a hollow barrel's wall does
+    #[arg(long, help_heading = "Output")]
+    full: bool,
 
     #[command(flatten)]
     solve: SolveArgs,
@@ -95,11 +103,10 @@ pub fn run(args: &Args) -> Result<Done> {
             plot::picture(args.output.sheet(&tested.bat), &tested).into_iter().collect();
         pictures::write(folder, &picture, args.output.quiet)?;
     }
-    let source = report::cor_source(&tested, args.cannon.cor().is_some());
     let code = verdict(&args.solve, &tested.sweep, &args.output);
-    let table = report::text(&tested, &source, args.output.units(&tested.bat));
-    let out = args.output.deliver(table, || report::document(&tested, &source))?;
-    let text = args.csv.deliver(out, || report::csv(&tested))?;
+    let (title, parts) = report::report(&tested, args.output.units(&tested.bat), args.full);
+    let out = args.output.deliver(terminal::text(&title, &parts), || BbcorFile::of(&tested))?;
+    let text = args.csv.deliver(out, || csv::rows(&report::COLUMNS, &tested.scan.places))?;
     Ok(Done::new(text, code).with(warning))
 }
 
@@ -113,5 +120,6 @@ fn protocol(args: &Args, bat: &Bat) -> Result<Protocol> {
     let usual = Protocol::of(bat, shot.ball);
     let scan = [from.unwrap_or(usual.scan[0]), to.unwrap_or(usual.scan[1])];
     let (cor, wall) = (shot.cor.unwrap_or(usual.cor), WallChoice::named(&args.wall));
-    Protocol { ball_speed: shot.speed, cor, scan, wall, ..usual }.checked()
+    let cor_given = shot.cor.is_some();
+    Protocol { ball_speed: shot.speed, cor, cor_given, scan, wall, ..usual }.checked()
 }

@@ -42,11 +42,6 @@ pub struct Shot {
 }
 
 impl CannonArgs {
-    /// The coefficient of restitution that was given.
-    pub fn cor(&self) -> Option<f64> {
-        self.cor
-    }
-
     /// What is shot.
     ///
     /// # Errors

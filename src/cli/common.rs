@@ -17,10 +17,10 @@ use crate::modes::solve::{self, Request, Solution, Solver};
 use crate::modes::theory_choice::{self, Choice};
 use crate::modes::up_to::modes_up_to;
 use crate::proof::bundled;
+use crate::show::parts::terminal::wrapped;
+use crate::show::parts::units::Units;
 use crate::show::plot::sheet::Sheet;
 use crate::show::report::sketch::{self, Glyphs, SketchRow};
-use crate::show::report::text::wrapped;
-use crate::show::report::units::Units;
 use serde::Serialize;
 
 use crate::cli::done::{NOT_REACHED, printable};

@@ -10,9 +10,9 @@ use crate::collision::hitter::Hitter;
 use crate::collision::sweep::{Sweep, Trial, sweep_telling};
 use crate::files::schema::hit::HitFile;
 use crate::show::csv;
+use crate::show::parts::terminal::wrapped;
 use crate::show::plot::profile;
 use crate::show::plot::sets::Hits;
-use crate::show::report::text::wrapped;
 use crate::show::report::{hit_json, hit_text, sketch, trust};
 use crate::study::verdict::Verdict;
 

@@ -8,8 +8,8 @@ use crate::base::units::PSI;
 use crate::bat::material::{BUILT_IN, BuiltIn};
 use crate::files::schema;
 use crate::files::schema::materials::MaterialsFile;
-use crate::show::report::text::wrapped;
-use crate::show::report::units::Units;
+use crate::show::parts::terminal::wrapped;
+use crate::show::parts::units::Units;
 
 use crate::cli::done::Done;
 use crate::cli::style;

@@ -10,11 +10,11 @@ use crate::collision::hit::Model;
 use crate::collision::setup::Setup;
 use crate::modes::solve::{Request, solve};
 use crate::show::analysis::{Analysis, Task};
+use crate::show::parts::terminal::wrapped;
+use crate::show::parts::units::Units;
 use crate::show::report::sketch::{self, Places, SketchRow};
 use crate::show::report::text;
-use crate::show::report::text::wrapped;
 use crate::show::report::trust;
-use crate::show::report::units::Units;
 use crate::study::spread::Readings;
 
 use crate::cli::asking::ask::shown_density;

@@ -15,8 +15,8 @@ use crate::proof::proven_promise;
 use crate::proof::published::Answer;
 use crate::proof::validation::{KnownNumber, run as run_case};
 use crate::show::hit_figure;
+use crate::show::parts::terminal::wrapped;
 use crate::show::proof_page;
-use crate::show::report::text::wrapped;
 
 use crate::cli::done::{Done, FAILED};
 use crate::cli::progress::Progress;

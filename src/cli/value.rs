@@ -10,7 +10,7 @@ use crate::bat::theory::Theory;
 use crate::collision::ball::restitution;
 use crate::files::uff;
 use crate::modes::solve::Solver;
-use crate::show::report::units::Units;
+use crate::show::parts::units::Units;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 /// The unit of length of a universal file, such as `mm`, with the unit of force that goes with it.

@@ -82,7 +82,7 @@ impl Hitter<'_> {
     }
 
     fn empirical(&self, loss: EnergyLoss, x: f64, closing: f64, rigid: Answer) -> Option<Answer> {
-        let (incoming, ball) = (-self.scene.ball_speed, self.scene.ball.mass);
+        let (incoming, ball) = (-self.scene.ball_speed, self.scene.ball.mass_kg);
         let stiff = rigid.impulse / ball + incoming;
         let shapes = report_shapes(&self.solution.modes, self.bat.mass, x);
         let of = |vibration| EnergyLoss::exit_velocity(incoming, stiff, vibration);
@@ -98,7 +98,7 @@ impl Hitter<'_> {
     }
 
     fn pulsed(&self, pulse: Pulse, x: f64, closing: f64, restitution: f64) -> Option<Answer> {
-        let ball = self.scene.ball.mass;
+        let ball = self.scene.ball.mass_kg;
         let felt = self.struck.with_modes(x, ball, self.modes_used());
         let mu = 1.0 / felt.inverse_mass;
         let shares = pulse.shares(&self.modes, &felt.gains);
@@ -126,7 +126,7 @@ impl Hitter<'_> {
     }
 
     fn touched(&self, x: f64, closing: f64, cor: f64, known: Option<[f64; 3]>) -> Option<Answer> {
-        let (ball, count) = (self.scene.ball.mass, self.modes_used());
+        let (ball, count) = (self.scene.ball.mass_kg, self.modes_used());
         let Effort { accuracy, completed } = self.effort;
         let beyond = completed.then(|| self.struck.flexibility(x));
         let modes = self.by_modes(x);

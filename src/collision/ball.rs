@@ -1,5 +1,7 @@
 //! What ball: mass, size, bounce and stiffness.
 
+use serde::{Deserialize, Serialize};
+
 use crate::base::error::{Error, Result};
 use crate::collision::contact::collider::Law;
 use crate::collision::contact::power_law;
@@ -14,30 +16,41 @@ impl PartialEq for LawOf {
     }
 }
 
-/// A ball, compressed by `u` (m), pushes back with `stiffness · u^exponent` (N).
-#[derive(Debug, Clone, PartialEq)]
+impl Default for LawOf {
+    /// The power law.
+    fn default() -> Self {
+        Self(power_law::law)
+    }
+}
+
+/// The ball, which compressed by u (m) pushes back with stiffness·u^exponent (N).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
 pub struct Ball {
-    /// Name of the ball.
+    /// What the ball is called.
     pub name: String,
     /// Where the numbers of the ball come from.
     pub source: String,
     /// Mass (kg).
-    pub mass: f64,
+    pub mass_kg: f64,
     /// Radius (m).
-    pub radius: f64,
-    /// Radius (m) of the patch on which it presses against a flat wall in a hit; None for that of a ball that is
-    /// compressed by 8 mm. Only a wall that gives way by its hoop modes asks for it.
-    pub contact_radius: Option<f64>,
-    /// `k` of the force `k u^α` (N/m^α); not used by the `rigid` and `energy-loss` models.
+    pub radius_m: f64,
+    /// Radius (m) of its patch on a flat wall; left out where none was given.
+    // Else that of a ball that is compressed by 8 mm. Only a wall that gives way by its hoop modes asks for it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contact_radius_m: Option<f64>,
+    /// Stiffness (N/m^exponent); null where no force law is known.
     pub stiffness: Option<f64>,
-    /// `α` of the force `k u^α`.
+    /// Exponent of the force law; null where no force law is known.
     pub exponent: Option<f64>,
     /// The law of these two numbers and e₀ by which the ball springs back.
+    #[serde(skip)]
     pub law: LawOf,
-    /// Coefficient of restitution on a rigid wall, e₀.
+    /// Coefficient of restitution on a rigid wall.
     pub cor: f64,
-    /// Pairs of a speed (m/s) and the coefficient of restitution at it, by rising speed; replaces `cor`
-    /// where it is not empty.
+    /// Pairs of a speed (m/s) and the coefficient of restitution at it, by rising speed.
+    // They replace `cor` where there are some.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub cor_by_speed: Vec<[f64; 2]>,
 }
 
@@ -49,9 +62,9 @@ impl Ball {
             source: "mass: middle of the rules' 5 to 5.25 oz; radius, force law and e0 at game \
                      speed: A. M. Nathan, Am. J. Phys. 68, 979 (2000)"
                 .into(),
-            mass: 5.125 * 0.028_349_523_125,
-            radius: 0.0366,
-            contact_radius: None,
+            mass_kg: 5.125 * 0.028_349_523_125,
+            radius_m: 0.0366,
+            contact_radius_m: None,
             stiffness: Some(6.53e7),
             exponent: Some(1.84),
             law: LawOf(power_law::law),
@@ -72,7 +85,7 @@ impl Ball {
                  How humid the dry one was is not known: the difference of both counts",
                 dry.source
             ),
-            mass: 1.016 * dry.mass,
+            mass_kg: 1.016 * dry.mass_kg,
             cor: (1.0 - 0.037) * dry.cor,
             ..dry
         }
@@ -83,7 +96,7 @@ impl Ball {
     pub fn patch_compression(&self) -> f64 {
         /// Half of the largest of a baseball at game speed.
         const USUAL: f64 = 0.008;
-        self.contact_radius.map_or(USUAL, |contact| contact * contact / self.radius)
+        self.contact_radius_m.map_or(USUAL, |contact| contact * contact / self.radius_m)
     }
 
     /// The ball as a linear spring of that stiffness (N/m).
@@ -117,9 +130,9 @@ impl Ball {
                      around; e0: the common 0.44 ball (0.47 and 0.52 are approved too); no source \
                      of a force law was found"
                 .into(),
-            mass: 6.625 * 0.028_349_523_125,
-            radius: 12.0 * 0.0254 / std::f64::consts::TAU,
-            contact_radius: None,
+            mass_kg: 6.625 * 0.028_349_523_125,
+            radius_m: 12.0 * 0.0254 / std::f64::consts::TAU,
+            contact_radius_m: None,
             stiffness: None,
             exponent: None,
             law: LawOf(power_law::law),

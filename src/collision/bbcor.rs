@@ -10,7 +10,7 @@
 //! with Q from the pivot to the impact and I about the pivot. The error of `e_A` is that of the exit
 //! speed relative to the closing speed, so that BBCOR may be off by `1 + r` times as much.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::base::error::{Error, Result};
 use crate::base::telling::Tell;
@@ -21,7 +21,7 @@ use crate::collision::hit::{Impact, Model, Scene};
 use crate::collision::hitter::Hitter;
 use crate::collision::sweep::{Accuracy, Sweep, Trial, sweep_telling};
 use crate::collision::wall_choice::WallChoice;
-use crate::collision::wall_figures::WallFigures;
+use crate::collision::wall_figures::{WallBbcor, WallFigures};
 
 /// Speed of the ball in the test: 136 mph (m/s).
 pub const TEST_SPEED: f64 = 136.0 * 0.447_04;
@@ -55,66 +55,133 @@ pub struct Protocol {
     pub ball_speed: f64,
     /// Coefficient of restitution of the ball on a rigid wall, unless its own depends on the speed.
     pub cor: f64,
+    /// Whether that was given, in place of the ball's own.
+    pub cor_given: bool,
     /// First and last place of the scan (m from the knob end).
     pub scan: [f64; 2],
     /// Whether a hollow barrel's wall gives way.
     pub wall: WallChoice,
 }
 
-/// One place of the scan.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[non_exhaustive]
-pub struct Place {
-    /// The hit; its exit speed is the rebound.
-    pub impact: Impact,
-    /// BBCOR about the pivot; None where ball and bat do not meet.
-    pub bbcor: Option<f64>,
-    /// Error bound of [`Self::bbcor`].
-    pub error: Option<f64>,
+/// What was found: the members of a BBCOR document that are of the test.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+pub struct Scan {
+    /// Always false: a computed value is no certificate.
+    pub certified: bool,
+    /// The test: what was shot at the bat, and how it was held.
+    pub protocol: Conditions,
+    /// The scan, from the knob towards the tip.
+    pub places: Vec<Place>,
+    /// The largest BBCOR of the scan; null where no place has one.
+    pub largest: Option<Largest>,
+    /// What a hollow barrel's wall does at that place; left out where it does not give way by its hoop
+    /// modes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wall: Option<WallFigures>,
+    /// The largest BBCOR that the rules allow.
+    pub limit: f64,
+    /// Whether the largest is below the limit; null where its error does not tell.
+    // That of the patch on which a ball presses on a hollow barrel included.
+    pub within_limit: Option<bool>,
+    /// Whether every place is as accurate as was asked.
+    pub tolerance_met: bool,
 }
 
-impl Place {
-    /// Ball exit speed ratio of a bat at rest, `e_A + 1/2`; None where ball and bat do not meet.
-    ///
-    /// # Source
-    ///
-    /// [`MEASURES_SOURCE`].
-    pub fn besr(&self) -> Option<f64> {
-        Some(self.impact.outcome.as_ref()?.collision_efficiency + 0.5)
-    }
+/// What was shot at the bat, and how it was held.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+pub struct Conditions {
+    /// The pivot about which the bat turns (m).
+    pub pivot_m: f64,
+    /// Moment of inertia of the bat about the pivot (kg m²).
+    pub inertia_pivot_kg_m2: f64,
+    /// Speed of the ball (m/s).
+    pub ball_speed_m_s: f64,
+    /// Distance from one place to the next (m).
+    pub step_m: f64,
+    /// The ball, with its force law and its restitution.
+    pub ball: Ball,
+    /// Coefficient of restitution of the ball at the test speed, unless its own depends on the speed.
+    pub cor: f64,
+    /// Where the coefficient of restitution is from.
+    pub cor_source: String,
+    /// Where the limit is from.
+    pub limit_source: String,
+    /// Where the definitions of BESR and BPF are from.
+    #[serde(default)]
+    pub measures_source: String,
+}
 
-    /// Bat performance factor, BBCOR over the ball's coefficient of restitution; None where there is no
-    /// BBCOR, or the ball does not bounce.
-    ///
-    /// # Source
-    ///
-    /// [`MEASURES_SOURCE`].
-    pub fn bpf(&self, protocol: &Protocol) -> Option<f64> {
-        let cor = protocol.ball.restitution_at(protocol.ball_speed).unwrap_or(protocol.cor);
-        Some(self.bbcor? / cor).filter(|bpf| bpf.is_finite())
-    }
+/// One place of the scan. Most is null where ball and bat do not meet; `flags` says why.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+pub struct Place {
+    /// Where the ball meets the bat (m).
+    pub x_m: f64,
+    /// Distance of the impact point from the tip (m).
+    pub from_tip_m: f64,
+    /// Speed of the ball off the bat (m/s), negative where it follows through.
+    pub exit_speed_m_s: Option<f64>,
+    /// Collision efficiency e_A, the speed off the bat over the speed onto it.
+    pub collision_efficiency: Option<f64>,
+    /// BBCOR, e_A (1 + r) + r with r = m Q²/I about the pivot.
+    pub bbcor: Option<f64>,
+    /// Ball exit speed ratio, e_A + 1/2.
+    // Source: MEASURES_SOURCE.
+    #[serde(default)]
+    pub besr: Option<f64>,
+    /// Bat performance factor, BBCOR over the coefficient of restitution of the ball at the test speed.
+    // None where the ball does not bounce. Source: MEASURES_SOURCE.
+    #[serde(default)]
+    pub bpf: Option<f64>,
+    /// What is unusual in the hit, as in a hit file.
+    pub flags: Vec<String>,
+    /// How far the numbers above may be off.
+    pub error: PlaceError,
+}
+
+/// Estimated errors of a place.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+pub struct PlaceError {
+    /// Error of the exit speed (m/s).
+    pub exit_speed_m_s: Option<f64>,
+    /// Error of BBCOR.
+    pub bbcor: Option<f64>,
+}
+
+/// The largest BBCOR and its place.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+pub struct Largest {
+    /// The place (m).
+    pub x_m: f64,
+    /// Distance of that from the tip (m).
+    pub from_tip_m: f64,
+    /// BBCOR there.
+    pub bbcor: f64,
+    /// Ball exit speed ratio there, e_A + 1/2.
+    #[serde(default)]
+    pub besr: Option<f64>,
+    /// Bat performance factor there, BBCOR over the coefficient of restitution of the ball at the test
+    /// speed.
+    #[serde(default)]
+    pub bpf: Option<f64>,
+    /// Error of BBCOR there.
+    pub error: f64,
 }
 
 /// A bat that was tested.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Tested {
     /// The bat as it was held in the test.
-    #[serde(skip)]
     pub bat: Bat,
-    /// What was done.
-    #[serde(skip)]
-    pub protocol: Protocol,
     /// The scene of every hit.
-    #[serde(skip)]
     pub scene: Scene,
-    /// Every place, from the first to the last.
-    pub places: Vec<Place>,
-    /// The place with the largest BBCOR, among [`Self::places`].
-    pub largest: Option<usize>,
-    /// What a hollow barrel's wall does at that place; None where it does not give way by its hoop modes.
-    #[serde(skip)]
-    pub wall: Option<WallFigures>,
+    /// What was found.
+    pub scan: Scan,
     /// The hits as they were computed.
     pub sweep: Sweep,
 }
@@ -126,7 +193,7 @@ impl Protocol {
         let [from, to] = SCAN.map(|from_tip| bat.length() - from_tip);
         let scan = [from.max(0.5 * bat.length()), to.max(0.5 * bat.length())];
         let wall = WallChoice::Auto;
-        Self { cor: ball.cor, ball, ball_speed: TEST_SPEED, scan, wall }
+        Self { cor: ball.cor, cor_given: false, ball, ball_speed: TEST_SPEED, scan, wall }
     }
 
     /// This protocol with its force law and its places checked, before anything is computed.
@@ -181,21 +248,66 @@ impl Protocol {
         let scene = self.scene().with_wall(self.wall, &bat, Model::Contact, tolerance)?;
         let trial = Trial { model: Model::Contact, scene: &scene };
         let sweep = sweep_telling(&bat, trial, accuracy, &places, tell)?;
-        let inertia = bat.inertia().about(STANDARD_PIVOT);
-        let place = |impact: &Impact| {
-            let ratio = self.ball.mass * (impact.x - STANDARD_PIVOT).powi(2) / inertia;
-            let outcome = impact.outcome.as_ref();
-            let bbcor = outcome.map(|outcome| outcome.bbcor_pivoted);
-            let error = outcome.map(|outcome| (1.0 + ratio) * outcome.error);
-            Place { impact: impact.clone(), bbcor, error }
-        };
-        let places: Vec<Place> = sweep.impacts.iter().map(place).collect();
-        let known = places.iter().enumerate().filter_map(|(k, place)| Some((k, place.bbcor?)));
-        let largest = known.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(k, _)| k);
+        let places: Vec<Place> =
+            sweep.impacts.iter().map(|impact| self.place(&bat, impact)).collect();
+        let largest =
+            places.iter().filter_map(Largest::of).max_by(|a, b| a.bbcor.total_cmp(&b.bbcor));
         let hitter = Hitter::new(Model::Contact, &scene, &bat, &sweep.solution, sweep.effort)?;
-        let wall = largest.and_then(|k| hitter.wall_figures(places[k].impact.x));
+        let wall = largest.as_ref().and_then(|most| hitter.wall_figures(most.x_m));
+        let wall = wall.map(WallFigures::pivoted);
         drop(hitter);
-        Ok(Tested { bat, protocol: self, scene, places, largest, wall, sweep })
+        let scan = Scan {
+            certified: false,
+            within_limit: largest.as_ref().and_then(|most| most.within(wall.as_ref())),
+            protocol: self.conditions(&bat),
+            places,
+            largest,
+            wall,
+            limit: LIMIT,
+            tolerance_met: sweep.met,
+        };
+        Ok(Tested { bat, scene, scan, sweep })
+    }
+
+    fn place(&self, bat: &Bat, impact: &Impact) -> Place {
+        let ratio = self.ball.mass_kg * (impact.x - STANDARD_PIVOT).powi(2)
+            / bat.inertia().about(STANDARD_PIVOT);
+        let cor = self.ball.restitution_at(self.ball_speed).unwrap_or(self.cor);
+        let outcome = impact.outcome.as_ref();
+        let bbcor = outcome.map(|outcome| outcome.bbcor_pivoted);
+        Place {
+            x_m: impact.x,
+            from_tip_m: bat.length() - impact.x,
+            exit_speed_m_s: outcome.map(|o| o.exit_speed),
+            collision_efficiency: outcome.map(|o| o.collision_efficiency),
+            bbcor,
+            besr: outcome.map(|o| o.collision_efficiency + 0.5),
+            bpf: bbcor.map(|bbcor| bbcor / cor).filter(|bpf| bpf.is_finite()),
+            flags: impact.flags.iter().map(|flag| (*flag).to_owned()).collect(),
+            error: PlaceError {
+                exit_speed_m_s: outcome.map(|o| o.error * self.ball_speed),
+                bbcor: outcome.map(|o| (1.0 + ratio) * o.error),
+            },
+        }
+    }
+
+    fn conditions(self, bat: &Bat) -> Conditions {
+        let cor_source = match (self.cor_given, self.ball.name.as_str()) {
+            (true, _) => "given with --cor".to_owned(),
+            (false, "baseball") => COR_SOURCE.to_owned(),
+            (false, _) => format!("the ball's own ({})", self.ball.source),
+        };
+        Conditions {
+            pivot_m: STANDARD_PIVOT,
+            inertia_pivot_kg_m2: bat.inertia().about(STANDARD_PIVOT),
+            ball_speed_m_s: self.ball_speed,
+            step_m: STEP,
+            ball: self.ball,
+            cor: self.cor,
+            cor_source,
+            limit_source: LIMIT_SOURCE.to_owned(),
+            measures_source: MEASURES_SOURCE.to_owned(),
+        }
     }
 }
 
@@ -208,23 +320,24 @@ fn pivoted(bat: &Bat) -> Result<Bat> {
     })
 }
 
-impl Tested {
-    /// The largest BBCOR of the scan.
-    pub fn most(&self) -> Option<&Place> {
-        self.places.get(self.largest?)
+impl Largest {
+    fn of(place: &Place) -> Option<Self> {
+        Some(Self {
+            x_m: place.x_m,
+            from_tip_m: place.from_tip_m,
+            bbcor: place.bbcor?,
+            besr: place.besr,
+            bpf: place.bpf,
+            error: place.error.bbcor?,
+        })
     }
 
-    /// Whether it is within the limit: None where its error does not tell, that of the patch on which a
-    /// ball presses on a hollow barrel included.
-    pub fn within(&self) -> Option<bool> {
-        let most = self.most()?;
-        let (bbcor, error) = (most.bbcor?, most.error?);
-        let open = |wall: &WallFigures| {
-            let ends = wall.bbcor_pivoted.range.map(|end| (end - wall.bbcor_pivoted.with).abs());
-            ends[0].max(ends[1])
-        };
-        let error = error + self.wall.as_ref().map_or(0.0, open);
-        ((bbcor - LIMIT).abs() > error).then_some(bbcor < LIMIT)
+    /// Whether it is within the limit; None where its error does not tell.
+    fn within(&self, wall: Option<&WallFigures>) -> Option<bool> {
+        let WallBbcor { with, range, .. } = wall.map(|wall| wall.bbcor).unwrap_or_default();
+        let error =
+            self.error + range.map(|end| (end - with).abs()).into_iter().fold(0.0, f64::max);
+        ((self.bbcor - LIMIT).abs() > error).then_some(self.bbcor < LIMIT)
     }
 }
 
@@ -238,6 +351,7 @@ mod tests {
             ball: Ball::baseball(),
             ball_speed: TEST_SPEED,
             cor: 0.5,
+            cor_given: false,
             scan: [0.8382 - 0.3048, 0.8382 - 0.0254],
             wall: WallChoice::Auto,
         };

@@ -174,7 +174,7 @@ fn changes(scene: &Scene) -> Vec<(String, Scene)> {
         all.push(("ball 10 % harder".to_owned(), harder));
     }
     let mut heavier = scene.clone();
-    heavier.ball.mass *= 1.05;
+    heavier.ball.mass_kg *= 1.05;
     all.push(("ball 5 % heavier".to_owned(), heavier));
     all
 }

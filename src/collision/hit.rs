@@ -119,7 +119,7 @@ impl Scene {
     /// e₀ of a ball that is met with that energy (J, of the relative motion): that of the rigid
     /// wall on which it would have as much, and so be compressed as much.
     pub fn restitution(&self, energy: f64) -> f64 {
-        let speed = (2.0 * energy / self.ball.mass).sqrt();
+        let speed = (2.0 * energy / self.ball.mass_kg).sqrt();
         self.ball.restitution_at(speed).unwrap_or(self.cor)
     }
 

@@ -110,15 +110,15 @@ impl<'a> Hitter<'a> {
         let motion = rigid.swung(scene.swing, scene.pivot);
         let modes = struck.modes();
         let speed = rigid.speed_at(0.75 * bat.length(), motion).abs() + scene.ball_speed;
-        let mass = 1.0 / (1.0 / scene.ball.mass + 1.0 / rigid.mass);
+        let mass = 1.0 / (1.0 / scene.ball.mass_kg + 1.0 / rigid.mass);
         let law = scene.force_law(scene.cor);
         // How long the ball is pressed, more or less; not a number without a law or a speed.
         let pressed =
             law.as_ref().map_or(f64::NAN, |law| law.pressed_by(0.5 * mass * speed * speed) / speed);
         let turned = modes.first().map_or(f64::INFINITY, |[omega, _]| omega * pressed);
-        let share = rigid.mass / scene.ball.mass;
+        let share = rigid.mass / scene.ball.mass_kg;
         if model == Model::Contact && !held && share < CARRIED[0] && turned < CARRIED[1] {
-            return Err(carried(rigid.mass, scene.ball.mass, turned));
+            return Err(carried(rigid.mass, scene.ball.mass_kg, turned));
         }
         let (wall, wall_error) = felt_wall(scene.wall, pressed, effort.accuracy);
         let wall_error = wall_error + scene.hoop.error();
@@ -187,7 +187,7 @@ impl<'a> Hitter<'a> {
         let bat_speed = self.bat.speed_at(x, self.motion);
         let efficiency = (exit_speed - bat_speed) / (bat_speed + self.scene.ball_speed);
         let bbcor = |r: f64| efficiency * (1.0 + r) + r;
-        let ball = self.scene.ball.mass;
+        let ball = self.scene.ball.mass_kg;
         let pivoted = ball * (x - STANDARD_PIVOT).powi(2) / self.pivot_inertia;
         [efficiency, bbcor(ball / self.bat.recoil_mass(x)), bbcor(pivoted)]
     }
@@ -220,7 +220,7 @@ impl<'a> Hitter<'a> {
 
     /// μ (kg) and e₀ of a hit at `x` with that closing speed (m/s).
     pub(super) fn blow(&self, x: f64, closing: f64) -> [f64; 2] {
-        let mass = 1.0 / (1.0 / self.scene.ball.mass + self.recoil(x));
+        let mass = 1.0 / (1.0 / self.scene.ball.mass_kg + self.recoil(x));
         [mass, self.scene.restitution(0.5 * mass * closing * closing)]
     }
 
@@ -228,7 +228,7 @@ impl<'a> Hitter<'a> {
     pub(super) fn rigid_exit(&self, x: f64) -> Option<f64> {
         let closing = self.closing(x)?;
         let [mass, cor] = self.blow(x, closing);
-        Some(mass * (1.0 + cor) * closing / self.scene.ball.mass - self.scene.ball_speed)
+        Some(mass * (1.0 + cor) * closing / self.scene.ball.mass_kg - self.scene.ball_speed)
     }
 
     /// Whether there is something to hit at `x`: a point gives way without end.
@@ -244,7 +244,7 @@ impl<'a> Hitter<'a> {
 
     /// The bat as the ball feels it at `x` (m) by the modes and nothing else.
     pub(super) fn by_modes(&self, x: f64) -> Felt {
-        self.struck.with_modes(x, self.scene.ball.mass, self.modes_used())
+        self.struck.with_modes(x, self.scene.ball.mass_kg, self.modes_used())
     }
 
     /// A bat that is felt so at `x` (m), with its wall.

@@ -67,7 +67,7 @@ impl Hitter<'_> {
             velocity += energy * gain;
             acceleration += energy * gain * omega * omega;
         }
-        let exit = |impulse: f64| impulse / self.scene.ball.mass - self.scene.ball_speed;
+        let exit = |impulse: f64| impulse / self.scene.ball.mass_kg - self.scene.ball_speed;
         Some(Glance {
             x,
             exit_speed: exit(impulse),
@@ -120,8 +120,8 @@ impl Hitter<'_> {
     fn outcome(&self, x: f64, bat_speed: f64, answer: Answer) -> Outcome {
         let Scene { ball, ball_speed, .. } = self.scene;
         let impulse = answer.impulse;
-        let (closing, exit_speed) = (bat_speed + ball_speed, impulse / ball.mass - ball_speed);
-        let kinetic = |speed: f64| 0.5 * ball.mass * speed * speed;
+        let (closing, exit_speed) = (bat_speed + ball_speed, impulse / ball.mass_kg - ball_speed);
+        let kinetic = |speed: f64| 0.5 * ball.mass_kg * speed * speed;
         let [collision_efficiency, bbcor, bbcor_pivoted] = self.figures(x, exit_speed);
         let after = self.bat.kinetic_energy(self.bat.after(self.motion, impulse, x));
         let [initial, gone, bat_rigid] = match self.held {

@@ -57,7 +57,7 @@ impl Scene {
             _ if self.wall.is_some() => HoopInHit::None,
             (WallChoice::On, Model::Contact) => {
                 let request = hoop_request(tolerance.unwrap_or(USUAL));
-                HoopInHit::Counted(HoopWall::of(bat, self.ball.radius, &request)?)
+                HoopInHit::Counted(HoopWall::of(bat, self.ball.radius_m, &request)?)
             }
             (WallChoice::On, _) => {
                 let found = format!("on with `model` {}", model.name());
@@ -84,7 +84,7 @@ impl Scene {
         if rigid.error() <= SHARE * tolerance {
             return rigid;
         }
-        match HoopWall::of(bat, self.ball.radius, &hoop_request(tolerance)) {
+        match HoopWall::of(bat, self.ball.radius_m, &hoop_request(tolerance)) {
             Ok(wall) => HoopInHit::Counted(wall),
             Err(error) => HoopInHit::LeftOut(WhyRigid::Unsolved(error.to_string())),
         }
@@ -100,7 +100,7 @@ impl Scene {
         let body = bat.inertia();
         let arm = bat.length() - barrel.from_tip - body.balance_point;
         let recoil = 1.0 / body.mass + arm * arm / body.about_balance;
-        let energy = 0.5 * closing * closing / (1.0 / self.ball.mass + recoil);
+        let energy = 0.5 * closing * closing / (1.0 / self.ball.mass_kg + recoil);
         let stiff = self.restitution(energy);
         let pressed = self.force_law(stiff).ok()?.pressed_by(energy);
         let ball = stiffness * pressed.powf(exponent - 1.0);

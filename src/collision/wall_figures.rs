@@ -3,50 +3,59 @@
 //! The patch on which a ball presses is the largest error of the model: a hit with half and twice its
 //! compression says what it does to BBCOR.
 
+use serde::{Deserialize, Serialize};
+
 use crate::collision::contact::encounter::Encounter;
 use crate::collision::contact::touch::Felt;
 use crate::collision::hitter::Hitter;
 use crate::collision::strike::SMOOTH;
 
-/// The wall under a ball at one place, and BBCOR of the free bat there.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// The wall of a hollow barrel under the ball.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
 pub struct WallFigures {
-    /// Distance of the place from the knob end (m).
-    pub x: f64,
-    /// Half lengths of the patch, along the bat and around it (m).
-    pub patch: [f64; 2],
-    /// Static stiffness under the patch, `1/C` (N/m).
-    pub stiffness: f64,
-    /// Stiffness over that of the ball, its largest force over its largest compression on a stiff wall.
-    pub over_ball: f64,
-    /// Mass of one spring-mass with the same C and D, `D/C²` (kg).
-    pub mass: f64,
-    /// BBCOR of the free bat.
+    /// The place (m).
+    pub x_m: f64,
+    /// Half lengths of the patch on which the ball presses, along the bat and around it (m).
+    pub patch_half_lengths_m: [f64; 2],
+    /// Static stiffness under the patch (N/m).
+    pub stiffness_n_m: f64,
+    /// That stiffness over the ball's, its largest force over its largest compression on a stiff wall.
+    pub stiffness_over_ball: f64,
+    /// Mass (kg) of one spring-mass with the same answer to a slow force.
+    pub mass_kg: f64,
+    /// BBCOR there with the wall, with a stiff one, and how far the patch leaves it open.
     pub bbcor: WallBbcor,
-    /// BBCOR of the bat held 6 in from the knob.
+    /// The same of the bat held 6 in from the knob.
+    #[serde(skip)]
     pub bbcor_pivoted: WallBbcor,
-    /// How far the largest force dents the wall, as a slow one would (m).
-    pub dent: f64,
-    /// Thickness of the wall there (m).
-    pub thickness: f64,
+    /// How far the wall dents under the largest force (m).
+    pub dent_m: f64,
+    /// Thickness of the wall there (m); dents beyond half of it are beyond this theory.
+    pub thickness_m: f64,
 }
 
-/// What a wall makes of BBCOR.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// What the wall makes of BBCOR.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
 pub struct WallBbcor {
-    /// BBCOR with the wall.
+    /// With the wall.
     pub with: f64,
-    /// BBCOR with a stiff wall.
+    /// With a stiff wall.
     pub stiff: f64,
-    /// BBCOR with a patch of half and of twice the compression, the smaller first: between them the
-    /// modelling error of the patch.
+    /// With half and with twice the compression of the patch: the modelling error.
     pub range: [f64; 2],
 }
 
 impl WallFigures {
     /// Whether the dent is deeper than half the wall, where linear elasticity ends.
     pub fn is_deep(&self) -> bool {
-        self.dent > 0.5 * self.thickness
+        self.dent_m > 0.5 * self.thickness_m
+    }
+
+    /// With BBCOR of the bat held 6 in from the knob.
+    pub fn pivoted(self) -> Self {
+        Self { bbcor: self.bbcor_pivoted, ..self }
     }
 }
 
@@ -60,7 +69,7 @@ impl Hitter<'_> {
         let bent = || self.bent(x, self.by_modes(x), beyond);
         let hit = |felt: &Felt| Some(self.meet(x, felt, closing, SMOOTH)?.0);
         let bbcor = |met: &Encounter| {
-            let exit = met.impulse / self.scene.ball.mass - self.scene.ball_speed;
+            let exit = met.impulse / self.scene.ball.mass_kg - self.scene.ball_speed;
             let [_, free, pivoted] = self.figures(x, exit);
             [free, pivoted]
         };
@@ -88,15 +97,15 @@ impl Hitter<'_> {
         let patch = hoop.patch(x, compression);
         let section = self.profile.at(x);
         Some(WallFigures {
-            x,
-            patch: [patch.half_length, patch.half_width],
-            stiffness: 1.0 / under.soft,
-            over_ball: stiff.compression / (stiff.peak_force * under.soft),
-            mass: under.slow / (under.soft * under.soft),
+            x_m: x,
+            patch_half_lengths_m: [patch.half_length, patch.half_width],
+            stiffness_n_m: 1.0 / under.soft,
+            stiffness_over_ball: stiff.compression / (stiff.peak_force * under.soft),
+            mass_kg: under.slow / (under.soft * under.soft),
             bbcor: bbcor(0),
             bbcor_pivoted: bbcor(1),
-            dent: met.peak_force * under.soft,
-            thickness: section.outer - section.inner,
+            dent_m: met.peak_force * under.soft,
+            thickness_m: section.outer - section.inner,
         })
     }
 }

@@ -54,11 +54,11 @@ pub fn written(ball: &Ball) -> Value {
         "format": "sweetspot-ball/1",
         "name": ball.name,
         "source": ball.source,
-        "mass": ball.mass,
-        "radius": ball.radius,
+        "mass": ball.mass_kg,
+        "radius": ball.radius_m,
     });
     let optional = [
-        ("contact_radius", ball.contact_radius),
+        ("contact_radius", ball.contact_radius_m),
         ("stiffness", ball.stiffness),
         ("exponent", ball.exponent),
     ];
@@ -100,9 +100,9 @@ pub(crate) fn from_document(document: &Document) -> Result<Ball> {
     Ok(Ball {
         name: name.unwrap_or_else(|| "unnamed ball".to_owned()),
         source: source.unwrap_or_default(),
-        mass,
-        radius,
-        contact_radius,
+        mass_kg: mass,
+        radius_m: radius,
+        contact_radius_m: contact_radius,
         stiffness,
         exponent: if bounce.linear { Some(1.0) } else { exponent },
         law: LawOf(power_law::law),

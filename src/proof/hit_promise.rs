@@ -224,7 +224,7 @@ fn row(number: usize, bat: &Bat, hit: &Hit) -> Result<CheckedHit> {
 impl Hit {
     fn scene(&self) -> Scene {
         let ball = Ball {
-            mass: self.mass,
+            mass_kg: self.mass,
             stiffness: Some(self.stiffness),
             exponent: Some(self.exponent),
             cor: self.cor,

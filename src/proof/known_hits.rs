@@ -117,7 +117,7 @@ impl Throw {
         Ball {
             name: "ball".into(),
             source: String::new(),
-            mass: self.mass_kg,
+            mass_kg: self.mass_kg,
             stiffness: Some(self.stiffness),
             exponent: Some(self.exponent),
             cor: self.cor,

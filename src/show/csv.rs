@@ -1,60 +1,14 @@
 //! Tables for spreadsheets and other programs: one line of names, then numbers that read back to the
-//! same bits, with commas between them and nothing else. A text that a spreadsheet would compute has an apostrophe
-//! before it.
+//! same bits, with commas between them and nothing else.
 
 use csv::Writer;
 
-use crate::base::marks;
 use crate::collision::columns::{self, Column};
 use crate::collision::hit::Impact;
 use crate::modes::mode::ModeError;
 use crate::modes::solve::Solution;
-
-/// One cell, as it is written.
-pub struct Cell(String);
-
-impl Cell {
-    /// One that was written before, such as a number.
-    pub fn written(text: String) -> Self {
-        Self(text)
-    }
-}
-
-impl From<f64> for Cell {
-    fn from(value: f64) -> Self {
-        Self(crate::base::number::shortest(value))
-    }
-}
-
-impl From<usize> for Cell {
-    fn from(value: usize) -> Self {
-        Self(value.to_string())
-    }
-}
-
-impl From<bool> for Cell {
-    fn from(value: bool) -> Self {
-        Self(value.to_string())
-    }
-}
-
-impl From<&str> for Cell {
-    fn from(value: &str) -> Self {
-        Self(marks::cell(value))
-    }
-}
-
-impl From<String> for Cell {
-    fn from(value: String) -> Self {
-        value.as_str().into()
-    }
-}
-
-impl<T: Into<Self>> From<Option<T>> for Cell {
-    fn from(value: Option<T>) -> Self {
-        value.map_or(Self(String::new()), Into::into)
-    }
-}
+use crate::show::parts::cell::Cell;
+use crate::show::parts::table;
 
 /// A table that is being written.
 pub struct Csv(Writer<Vec<u8>>);
@@ -73,7 +27,7 @@ impl Csv {
     ///
     /// With more or fewer cells.
     pub fn row(&mut self, cells: impl IntoIterator<Item = Cell>) {
-        let cells = cells.into_iter().map(|cell| cell.0);
+        let cells = cells.into_iter().map(Cell::in_file);
         self.0.write_record(cells).expect("as many cells as there are columns");
     }
 
@@ -86,6 +40,15 @@ impl Csv {
         let bytes = self.0.into_inner().expect("memory can be written to");
         String::from_utf8(bytes).expect("it is made of strings")
     }
+}
+
+/// A line of the columns that files have for each row.
+pub fn rows<T>(columns: &[table::Column<T>], rows: &[T]) -> String {
+    let columns = columns.iter().map(table::Column::in_file);
+    let columns: Vec<_> = columns.filter(|(name, _)| !name.is_empty()).collect();
+    let mut out = Csv::new(columns.iter().map(|(name, _)| *name));
+    rows.iter().for_each(|row| out.row(columns.iter().map(|(_, of)| of(row))));
+    out.text()
 }
 
 /// A line of those columns for each impact; empty where there is no value.

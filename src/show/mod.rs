@@ -3,6 +3,7 @@
 //! | file | question |
 //! |---|---|
 //! | [`analysis`] | everything there is to say of one bat and its hits |
+//! | [`parts`] | what a report is made of |
 //! | [`report`], [`csv`] | tables for people and for spreadsheets, JSON for programs |
 //! | [`exchange`] | files for other programs |
 //! | [`many`] | the rows of a study and the folder of them |
@@ -12,6 +13,7 @@
 //! | [`hit_figure`], [`proof_page`] | the published hits as a picture; the page of proofs |
 //! | [`formats`] | every format that is read or written, with its schema |
 
+pub mod parts;
 pub mod csv;
 pub mod analysis;
 pub mod report;

@@ -463,7 +463,7 @@ impl Analysed<'_> {
                 // δ goes as the square of the patch's radius.
                 let ball = &mut scene.ball;
                 let compression = by.exp() * ball.patch_compression();
-                ball.contact_radius = Some((ball.radius * compression).sqrt());
+                ball.contact_radius_m = Some((ball.radius_m * compression).sqrt());
             }
             self.beside(&changed(self.bat, change, by)?, scene)
         });
@@ -495,7 +495,7 @@ impl Analysed<'_> {
         let hoop = match &scene.hoop {
             HoopInHit::Counted(_) => {
                 let request = hoop_request(WALL_TOLERANCE);
-                HoopInHit::Counted(HoopWall::of(bat, scene.ball.radius, &request)?)
+                HoopInHit::Counted(HoopWall::of(bat, scene.ball.radius_m, &request)?)
             }
             other => other.clone(),
         };

@@ -87,7 +87,7 @@ class Study:
         if not parquet:
             return self._core.kept(out, self.rows_per_part, k)
         path = part_path(out, k, parquet)
-        if not path.exists():
+        if not os.path.lexists(path):
             return None
         if not _core.fits_its_sum(path):
             self._check_parquet(path, k)

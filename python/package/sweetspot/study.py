@@ -13,7 +13,7 @@ from collections import Counter, deque
 from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import closing
+from contextlib import closing, contextmanager
 from datetime import timedelta
 from multiprocessing import get_context
 from multiprocessing.connection import Connection
@@ -80,7 +80,27 @@ def shared_out(pool: Pool, parts: list[int]) -> Parts:
                     raise Lost(f"part {k} ended its worker {DEATHS} times, with nothing beside it (memory, perhaps)")
                 again.append(k)
     finally:
-        pool.close()
+        with undisturbed():
+            pool.close()
+
+
+@contextmanager
+def undisturbed() -> Iterator[None]:
+    """Lets signals wait until an engine has started or ended: one that is interrupted leaves processes behind."""
+    heard: list[int] = []
+    known = {}
+    if threading.current_thread() is threading.main_thread():
+        numbers = [getattr(signal, name, None) for name in ("SIGINT", "SIGTERM", "SIGHUP")]
+        known = {number: signal.getsignal(number) for number in numbers if number is not None}
+        for number in known:
+            signal.signal(number, lambda number, _: heard.append(number))
+    try:
+        yield
+    finally:
+        for number, handler in known.items():
+            signal.signal(number, handler)
+        if heard:
+            signal.raise_signal(heard[0])
 
 
 class Local:
@@ -257,7 +277,8 @@ def run(
     rows = lambda k: min((k + 1) * study.rows_per_part, study.rows) - k * study.rows_per_part
     there = study.rows - sum(map(rows, parts))
     done, begun, said = there, time.monotonic(), time.monotonic()
-    pool = ENGINES[engine](study.shipped(), study.rows_per_part, workers, address)
+    with undisturbed():
+        pool = ENGINES[engine](study.shipped(), study.rows_per_part, workers, address)
     with closing(shared_out(pool, parts)) as made:
         for k, part in made:
             try:

@@ -7,7 +7,7 @@ use std::io::{BufRead, Read as _, Write};
 use std::path::Path;
 
 use crate::base::error::{Complaint, Error, Result};
-use crate::show::report::text::wrapped;
+use crate::show::parts::terminal::wrapped;
 
 use crate::cli::asking::draft::{Answers, Draft};
 use crate::cli::common::printed;

@@ -13,7 +13,8 @@ use crate::study::ignored::thinnest_wall;
 use crate::cli::common::{BatArgs, OutputArgs, SolveArgs, examples};
 use crate::cli::scene::SceneArgs;
 use crate::cli::value::{IMPULSE, PLACE, RINGING_TIME};
-use crate::show::csv::{Cell, Csv};
+use crate::show::csv::Csv;
+use crate::show::parts::cell::Cell;
 
 /// How the bat moves after a hit, a blow, a push or a release
 ///

@@ -8,9 +8,9 @@ use crate::collision::hit::{Effort, Model};
 use crate::collision::hitter::Hitter;
 use crate::collision::strength::breaking_swing;
 use crate::modes::solve::{Solution, solve};
+use crate::show::parts::terminal::wrapped;
 use crate::show::plot::ringing;
 use crate::show::report::aftermath::{self, AfterHit};
-use crate::show::report::text::wrapped;
 use crate::show::report::{hit_json, hit_text};
 use crate::study::ignored;
 

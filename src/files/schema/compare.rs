@@ -7,9 +7,10 @@ use serde::{Serialize, Serializer};
 
 use crate::bat::edit::Edit;
 use crate::bat::theory::Theory;
+use crate::collision::ball::Ball;
 use crate::files::schema::analysis::Doubt;
 use crate::files::schema::document::{Document, Format, Generator};
-use crate::files::schema::hit::{Ball, Wall};
+use crate::files::schema::hit::Wall;
 
 /// Several bats side by side: their figures, exit speeds at the same places, and where one hits harder
 /// than the first. SI, the unit in every name; what does not exist is null. Later versions of the same

@@ -4,6 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::bat::edit::Edit;
+use crate::collision::ball::Ball;
+use crate::collision::wall_figures::WallFigures;
 use crate::files::schema::document::{Document, Format, Generator};
 
 /// Hits along a bat: exit speeds, forces, energies and the sweet spot. SI, the unit in every name;
@@ -61,31 +63,6 @@ pub struct Scene {
     /// How the barrel gives way under the ball; left out where it does not.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wall: Option<Wall>,
-}
-
-/// The ball, which compressed by u (m) pushes back with stiffness·u^exponent (N).
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Ball {
-    /// What the ball is called.
-    pub name: String,
-    /// Where the numbers of the ball come from.
-    pub source: String,
-    /// Mass (kg).
-    pub mass_kg: f64,
-    /// Radius (m).
-    pub radius_m: f64,
-    /// Radius (m) of its patch on a flat wall; left out where none was given.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub contact_radius_m: Option<f64>,
-    /// Stiffness (N/m^exponent); null where no force law is known.
-    pub stiffness: Option<f64>,
-    /// Exponent of the force law; null where no force law is known.
-    pub exponent: Option<f64>,
-    /// Coefficient of restitution on a rigid wall.
-    pub cor: f64,
-    /// Pairs of a speed (m/s) and the coefficient of restitution at it, by rising speed.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub cor_by_speed: Vec<[f64; 2]>,
 }
 
 /// The barrel's wall as a spring-mass under the ball, where it gives way.
@@ -283,44 +260,12 @@ pub struct Figures {
     /// What a hollow barrel's wall does at the sweet spot; left out where it does not give way by its hoop
     /// modes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub wall: Option<WallUnderBall>,
+    pub wall: Option<WallFigures>,
     /// Swings of one batter with this bat, by several laws of swing; empty without a reference inertia.
     pub swings: Vec<Swung>,
     /// The sweet spot of scenes that differ in one thing each; empty where the fastest place lives on a later
     /// contact, and small changes move it far.
     pub moves: Vec<Moved>,
-}
-
-/// The wall of a hollow barrel under the ball.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct WallUnderBall {
-    /// The place (m).
-    pub x_m: f64,
-    /// Half lengths of the patch on which the ball presses, along the bat and around it (m).
-    pub patch_half_lengths_m: [f64; 2],
-    /// Static stiffness under the patch (N/m).
-    pub stiffness_n_m: f64,
-    /// That stiffness over the ball's, its largest force over its largest compression on a stiff wall.
-    pub stiffness_over_ball: f64,
-    /// Mass (kg) of one spring-mass with the same answer to a slow force.
-    pub mass_kg: f64,
-    /// BBCOR there with the wall, with a stiff one, and how far the patch leaves it open.
-    pub bbcor: WallBbcor,
-    /// How far the wall dents under the largest force (m).
-    pub dent_m: f64,
-    /// Thickness of the wall there (m); dents beyond half of it are beyond this theory.
-    pub thickness_m: f64,
-}
-
-/// What the wall makes of BBCOR.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct WallBbcor {
-    /// With the wall.
-    pub with: f64,
-    /// With a stiff wall.
-    pub stiff: f64,
-    /// With half and with twice the compression of the patch: the modelling error.
-    pub range: [f64; 2],
 }
 
 /// A swing of Ω₀ (I_ref/I)^exponent, and the fastest ball it gives.

@@ -4,8 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::bat::edit::Edit;
+use crate::collision::ball::Ball;
 use crate::files::schema::document::{Document, Format, Generator};
-use crate::files::schema::hit::Ball;
 
 /// How the barrel of a hollow bat rings, how its wall gives way under a ball, and what that does to the ball.
 /// SI, the unit in every name; positions count from the knob end; what does not exist is null. Later

@@ -1,7 +1,8 @@
 //! Mode shapes as a table for spreadsheets.
 
-use crate::show::csv::{Cell, Csv};
+use crate::show::csv::Csv;
 use crate::show::exchange::modes_file::ModeTable;
+use crate::show::parts::cell::Cell;
 
 /// A row for each place: `x_m`, both radii, and deflection and rotation of every mode. The header
 /// names the columns with their units, there are no comments, and numbers read back to the same

@@ -65,7 +65,7 @@ impl<'a> StudyFolder<'a> {
         let own = Division::of(&study.rows);
         let mut this = Self { path, study, division: own };
         let manifest = path.join(MANIFEST);
-        if manifest.exists() {
+        if sums::is_there(&manifest)? {
             let found = manifest_at(&manifest)?;
             let each = found.get("rows_per_part").map_or(Some(ROWS), Value::as_u64);
             // One that was begun with parts of the usual size goes on with them.
@@ -112,7 +112,7 @@ impl<'a> StudyFolder<'a> {
     /// [`Error::Value`] for one that does not fit its sum or, without one, is not as the study makes it.
     pub fn kept(&self, k: u64) -> Result<Option<Vec<u8>>> {
         let path = self.part(k);
-        if !path.exists() {
+        if !sums::is_there(&path)? {
             return Ok(None);
         }
         let part = file::read_plain(&path)?;
@@ -173,7 +173,7 @@ impl<'a> StudyFolder<'a> {
     /// Looks at the archive of a part that is there, or makes it on request.
     fn archive(&self, k: u64, npz: bool, part: &[u8]) -> Result<()> {
         let path = self.part(k).with_extension("npz");
-        if !path.exists() {
+        if !sums::is_there(&path)? {
             return if npz { sums::write(&path, &self.numbers(k, part)?) } else { Ok(()) };
         }
         let there = file::read_plain(&path)?;

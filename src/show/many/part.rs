@@ -10,9 +10,10 @@ use std::sync::atomic::Ordering::Relaxed;
 
 use crate::base::error::Result;
 use crate::files::study_rows::Rows;
-use crate::show::csv::{Cell, Csv};
+use crate::show::csv::Csv;
 use crate::show::many::source::Study;
 use crate::show::many::sums::{self, damaged};
+use crate::show::parts::cell::Cell;
 use crate::study::many::rows::in_groups;
 
 /// Rows of a part.
@@ -60,7 +61,7 @@ pub fn made(
     let mut table = Csv::new(study.rows.columns().into_iter().map(|[name, _]| name));
     let of = |some| if stop.load(Relaxed) { vec![] } else { study.rows.cells(some) };
     for cells in in_groups(rows, of, tell) {
-        table.row(cells.into_iter().map(Cell::written));
+        table.row(cells.into_iter().map(Cell::Written));
     }
     table.text()
 }

@@ -6,8 +6,8 @@ use crate::base::number::significant;
 use crate::files::study_rows::Rows;
 use crate::files::study_vary::Varied;
 use crate::show::many::table::{Column, Reason, Table};
+use crate::show::parts::terminal::wrapped;
 use crate::show::report::columns::{Columns, first, labels, numbers};
-use crate::show::report::text::wrapped;
 use crate::study::many::design::Axis;
 use crate::study::many::indices::{Indices, Share};
 

@@ -14,6 +14,19 @@ use crate::base::file;
 /// How the name of a sum ends.
 pub const END: &str = ".sha256";
 
+/// Whether a file is there.
+///
+/// # Errors
+///
+/// [`Error::Value`] for a link that leads nowhere: nothing is written where it leads.
+pub fn is_there(path: &Path) -> Result<bool> {
+    let is_link = path.symlink_metadata().is_ok_and(|is| is.is_symlink());
+    if is_link && !path.exists() {
+        return Err(damaged(path, "a link to nothing", "a part"));
+    }
+    Ok(path.exists())
+}
+
 /// Whether a file that was read fits its sum; false where it has none.
 ///
 /// # Errors

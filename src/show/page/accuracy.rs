@@ -6,10 +6,10 @@ use crate::modes::solve::Request;
 use crate::proof::promise::{ALWAYS, largest};
 use crate::show::analysis::Analysis;
 use crate::show::page::shown::{self, length, speed};
+use crate::show::parts::units::Units;
 use crate::show::report::advice;
 use crate::show::report::hit_text;
 use crate::show::report::trust;
-use crate::show::report::units::Units;
 use crate::study::ignored::{ignored, in_hit};
 use crate::study::trade::reference::solver_name;
 

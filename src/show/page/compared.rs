@@ -3,13 +3,13 @@
 use crate::base::error::Result;
 use crate::show::page::figure::Figure;
 use crate::show::page::html::Page;
-use crate::show::page::part::{Fold, Part, Section};
 use crate::show::page::shown;
-use crate::show::page::table::Table;
+use crate::show::parts::part::{Fold, Part, Section};
+use crate::show::parts::table::Table;
+use crate::show::parts::units::Units;
 use crate::show::plot::compared::pictures;
 use crate::show::report::comparison::{ALONG, FIRST, Row, letter, rows, swing, words};
 use crate::show::report::edits;
-use crate::show::report::units::Units;
 use crate::study::comparison::table::Comparison;
 
 /// The page of bats side by side, made by that command; `us` says which units are shown first.

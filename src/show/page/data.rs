@@ -124,7 +124,7 @@ impl<'a> Data<'a> {
             moments,
             tap,
             crack: crack.as_ref(),
-            ball_radius_mm: rounded(1e3 * analysis.task.scene.ball.radius, 2),
+            ball_radius_mm: rounded(1e3 * analysis.task.scene.ball.radius_m, 2),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! A picture of a page: in both systems of units, as wide as a page and as narrow as a telephone.
 
 use crate::base::error::Result;
-use crate::show::page::escape::html as escaped;
+use crate::show::parts::escape::html as escaped;
 use crate::show::plot::picture::Picture;
 use crate::show::plot::sheet::{Paper, Sheet};
 

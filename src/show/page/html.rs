@@ -5,12 +5,12 @@
 
 use std::fmt::Write;
 
-use crate::show::page::escape::{html as escaped, script};
 use crate::show::page::figure::Figure;
-use crate::show::page::inputs::Input;
-use crate::show::page::part::{Fold, Part, Section};
 use crate::show::page::players;
-use crate::show::page::summary::Fact;
+use crate::show::parts::escape::{html as escaped, script};
+use crate::show::parts::input::Input;
+use crate::show::parts::part::Fact;
+use crate::show::parts::part::{Fold, Part, Section};
 
 const STYLE: &str = include_str!("style.css");
 const SCRIPT: &str = include_str!("script.js");

@@ -1,74 +1,15 @@
 //! What was asked: the scene, the files as they were written, the bat as it was understood.
 
-use std::path::Path;
-
 use serde_json::Value;
 
-use crate::base::error::Result;
-use crate::base::file;
 use crate::collision::figures::BarrelSpeed;
 use crate::collision::hit::{Model, Scene};
 use crate::files::schema;
 use crate::show::analysis::Analysis;
 use crate::show::page::shown::{self, NONE, length, speed};
-use crate::show::page::table::Table;
+use crate::show::parts::table::Table;
+use crate::show::parts::units::Units;
 use crate::show::report::resolved::resolved;
-use crate::show::report::units::Units;
-
-/// A file as the user wrote it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Input {
-    /// Its path as it was given.
-    pub name: String,
-    /// What it holds, without a byte order mark.
-    pub text: String,
-}
-
-impl Input {
-    /// Longer ones are cut in a page.
-    pub const MOST: usize = 60_000;
-
-    /// Reads one that was read before, whatever it holds; nothing of a pipe, which is empty by now.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::Read`].
-    pub fn read(path: &Path) -> Result<Self> {
-        let bytes = if path.is_file() { file::read_plain(path)? } else { vec![] };
-        Ok(Self::new(path, &String::from_utf8_lossy(&bytes)))
-    }
-
-    /// One that was read.
-    pub fn new(path: &Path, text: &str) -> Self {
-        let text = text.trim_start_matches('\u{feff}').to_owned();
-        Self { name: path.display().to_string(), text }
-    }
-
-    /// A bat file that was read, and the columns that it names.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::Read`].
-    pub fn of_bat(path: &Path, text: &str) -> Result<Vec<Self>> {
-        let document: Value = serde_json::from_str(text).unwrap_or_default();
-        let mut all = vec![Self::new(path, text)];
-        if let Some(columns) = document["profile"]["csv"].as_str() {
-            all.push(Self::read(&path.with_file_name(columns))?);
-        }
-        Ok(all)
-    }
-
-    /// The text as a page shows it, and a remark if that is not all of it.
-    pub fn shown(&self) -> (&str, Option<&'static str>) {
-        match self.text.char_indices().nth(Self::MOST) {
-            Some((end, _)) => (&self.text[..end], Some("Only its beginning is shown.")),
-            None if self.text.is_empty() => {
-                ("", Some("Not shown: it can be read only once, as a pipe can."))
-            }
-            None => (&self.text, None),
-        }
-    }
-}
 
 /// Swing, pitch and ball.
 pub fn scene(analysis: &Analysis, units: Units) -> Table {
@@ -136,8 +77,8 @@ fn ball(scene: &Scene, units: Units) -> Vec<Line> {
     let ball = &scene.ball;
     let mut lines = vec![
         ("ball", ball.name.clone()),
-        ("  its mass", shown::mass(units, ball.mass)),
-        ("  its radius", length(units, ball.radius)),
+        ("  its mass", shown::mass(units, ball.mass_kg)),
+        ("  its radius", length(units, ball.radius_m)),
     ];
     if let (Some(stiffness), Some(exponent)) = (ball.stiffness, ball.exponent) {
         let [k, alpha] = [stiffness, exponent].map(shown::plain);

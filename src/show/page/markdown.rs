@@ -3,13 +3,13 @@
 use std::fmt::Write;
 
 use crate::show::page::content::Report;
-use crate::show::page::escape::{fence, markdown as escaped, markdown_line};
-use crate::show::page::inputs::Input;
-use crate::show::page::part::{Part, Section};
-use crate::show::page::summary::Fact;
-use crate::show::page::table::Table;
+use crate::show::parts::escape::{fence, markdown as escaped, markdown_line};
+use crate::show::parts::input::Input;
+use crate::show::parts::part::Fact;
+use crate::show::parts::part::{Part, Section};
+use crate::show::parts::table::Table;
+use crate::show::parts::units::Units;
 use crate::show::plot::picture::Picture;
-use crate::show::report::units::Units;
 
 /// In place of a section of which everything moves or sounds.
 const MOVES: &str = "What moves and sounds needs the page: write the report as HTML.\n\n";

@@ -82,7 +82,7 @@ fn moment(analysis: &Analysis, hitter: &Hitter, label: &str, x: f64) -> Option<M
     let flight = Flight {
         after: &after,
         touch: hitter.history(x, PARTS)?,
-        ball: task.scene.ball.mass,
+        ball: task.scene.ball.mass_kg,
         closing,
     };
     let frame = Frame::new(bat);

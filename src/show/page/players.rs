@@ -7,9 +7,9 @@ use crate::motion::sound::Sound;
 use crate::show::analysis::Analysis;
 use crate::show::page::barrel::moving;
 use crate::show::page::data::MOVING;
-use crate::show::page::escape::html as escaped;
 use crate::show::page::moment::Moment;
 use crate::show::page::shown::decimals;
+use crate::show::parts::escape::html as escaped;
 use crate::study::trampoline::barrel::Barrel;
 
 const NO_SCRIPT: &str = "<noscript><p class=\"missing\">What moves here needs JavaScript; everything \

@@ -2,7 +2,7 @@
 
 use crate::base::number::rounded;
 use crate::base::units::{POUND_FORCE, inches, miles_per_hour, ounce_square_inches, ounces};
-use crate::show::report::units::Units;
+use crate::show::parts::units::Units;
 
 /// What there is no number for.
 pub const NONE: &str = "–";

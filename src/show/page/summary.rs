@@ -6,8 +6,9 @@ use serde::Serialize;
 use crate::bat::body::STANDARD_PIVOT;
 use crate::show::analysis::Analysis;
 use crate::show::page::shown::{self, length};
+use crate::show::parts::part::Fact;
+use crate::show::parts::units::Units;
 use crate::show::report::trust::about;
-use crate::show::report::units::Units;
 use crate::study::spread::Answer;
 
 /// The numbers of the summary, in SI, as they stand in the page's data; None for an unknown number.
@@ -39,19 +40,6 @@ pub struct Summary {
     pub swing_rad_s: f64,
     /// Speed of the ball towards the bat (m/s).
     pub ball_speed_m_s: f64,
-}
-
-/// One number of the summary in one system of units, and what it is.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Fact {
-    /// What it is called in the page's data.
-    pub key: &'static str,
-    /// What people call it.
-    pub label: &'static str,
-    /// The number with its unit.
-    pub value: String,
-    /// A word more; may be empty.
-    pub note: String,
 }
 
 impl Summary {

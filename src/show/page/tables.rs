@@ -10,8 +10,8 @@ use crate::collision::hit::Outcome;
 use crate::collision::sweet_spot::{Peak, SweetSpot};
 use crate::show::analysis::Analysis;
 use crate::show::page::shown::{self, NONE, bare, decimals, length, length_unit, speed};
-use crate::show::page::table::Table;
-use crate::show::report::units::Units;
+use crate::show::parts::table::Table;
+use crate::show::parts::units::Units;
 use crate::study::trampoline::barrel::Barrel;
 
 /// So many modes have their nodes listed, and so many their energies.

@@ -15,7 +15,7 @@ const DIAGRAM: f64 = 230.0;
 
 /// BBCOR against place; picture `bbcor`. None without two places.
 pub fn picture(sheet: Sheet, tested: &Tested) -> Option<Picture> {
-    let points: Vec<_> = tested.places.iter().map(|at| Some([at.impact.x, at.bbcor?])).collect();
+    let points: Vec<_> = tested.scan.places.iter().map(|at| Some([at.x_m, at.bbcor?])).collect();
     let known: Vec<[f64; 2]> = points.iter().flatten().copied().collect();
     let (from, to) = (known.first()?[0], known.last()?[0]);
     if from >= to {
@@ -41,9 +41,12 @@ pub fn picture(sheet: Sheet, tested: &Tested) -> Option<Picture> {
     [&limit, &curve].into_iter().for_each(|series| series.draw(&mut svg, &plane));
     hover(&mut svg, &plane, &[&curve]);
     plane.below(&mut svg);
-    let most = tested.most().and_then(|most| Some((most.bbcor?, most.impact.x)));
-    let most = most.map_or(String::new(), |(bbcor, x)| {
-        format!(" Largest {bbcor:.3}, {}.", place::shown(sheet, x, tested.bat.length()))
+    let most = tested.scan.largest.as_ref().map_or(String::new(), |most| {
+        format!(
+            " Largest {:.3}, {}.",
+            most.bbcor,
+            place::shown(sheet, most.x_m, tested.bat.length())
+        )
     });
     let alt = format!("{}: BBCOR against place, {facts}.{most}", tested.bat.name());
     Some(Picture::new("bbcor", title, &alt, svg))

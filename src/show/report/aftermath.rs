@@ -10,10 +10,11 @@ use crate::collision::strength::{Limit, Load, Strength, nearest};
 use crate::files::schema::document::{Format, Generator};
 use crate::files::schema::hit::Impact;
 use crate::files::schema::ring as file;
-use crate::show::csv::{Cell, Csv};
+use crate::show::csv::Csv;
+use crate::show::parts::cell::Cell;
+use crate::show::parts::terminal::wrapped;
+use crate::show::parts::units::Units;
 use crate::show::report::columns::{Columns, numbers};
-use crate::show::report::text::wrapped;
-use crate::show::report::units::Units;
 
 /// All that is told of a hit's aftermath.
 pub struct AfterHit {

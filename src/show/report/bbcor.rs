@@ -1,230 +1,115 @@
-//! BBCOR along a bat: table, CSV and JSON.
+//! BBCOR along a bat: what is said of it, and its columns.
 
-use std::fmt::Write;
-
-use crate::base::units::{inches, miles_per_hour};
-use crate::bat::body::STANDARD_PIVOT;
-use crate::collision::bbcor::{
-    COR_SOURCE, LIMIT, LIMIT_SOURCE, MEASURES_SOURCE, Place, Protocol, STEP, Tested,
-};
-use crate::collision::columns::{BBCOR, EFFICIENCY, EXIT_SPEED, X};
-use crate::files::schema::bbcor as file;
-use crate::files::schema::document::{Format, Generator};
-use crate::show::csv::Csv;
-use crate::show::report::columns::{Columns, numbers};
-use crate::show::report::hit_json::{ball_out, wall_under_ball};
-use crate::show::report::text::{edited, wrapped};
-use crate::show::report::units::Units;
-use crate::show::report::wall_text::{wall_lines, wall_words};
+use crate::collision::bbcor::{LIMIT, LIMIT_SOURCE, Largest, MEASURES_SOURCE, Place, Scan, Tested};
+use crate::show::parts::cell::Quantity::{Error, Length, Ratio, Speed, Words};
+use crate::show::parts::part::Part;
+use crate::show::parts::table::{Column, Table};
+use crate::show::parts::units::Units;
+use crate::show::report::edits;
+use crate::show::report::wall_text::{wall_facts, wall_words};
 use crate::study::ignored;
 use crate::study::spread::of_frequencies;
 
-/// Where the ball's restitution is from: the source of the default, the ball's file, or who asked.
-pub fn cor_source(tested: &Tested, given: bool) -> String {
-    let ball = &tested.protocol.ball;
-    match (given, ball.name.as_str()) {
-        (true, _) => "given with --cor".to_owned(),
-        (false, "baseball") => COR_SOURCE.to_owned(),
-        (false, _) => format!("the ball's own ({})", ball.source),
-    }
-}
+/// The columns of the scan.
+pub const COLUMNS: [Column<Place>; 9] = [
+    Column::new("knob", "x_m", Length, |at| at.x_m.into()),
+    Column::both("tip", "from_tip_m", Length, |at| at.from_tip_m.into()),
+    Column::both("rebound", "exit_speed_m_s", Speed, |at| at.exit_speed_m_s.into()),
+    Column::new("e_A", "collision_efficiency", Ratio(4), |at| at.collision_efficiency.into()),
+    Column::new("BBCOR", "bbcor", Ratio(4), |at| at.bbcor.into()),
+    Column::new("within", "bbcor_error", Error, |at| at.error.bbcor.into()),
+    Column::in_files("besr", |at| at.besr.into()),
+    Column::in_files("bpf", |at| at.bpf.into()),
+    Column::new("why not", "", Words, |at| {
+        at.bbcor.map_or(Some(at.flags.join(" ")), |_| None).into()
+    }),
+];
 
-/// Everything for the terminal.
-pub fn text(tested: &Tested, cor_source: &str, units: Units) -> String {
-    let protocol = &tested.protocol;
-    let mut out = format!("BBCOR of {} (computed, not certified)\n", tested.bat.name());
-    out += &edited(&tested.bat, units);
-    let pivot = units.inline(units.length(STANDARD_PIVOT));
-    let speed = units.inline(units.speed(protocol.ball_speed));
-    let cor = match protocol.ball.cor_by_speed.is_empty() {
-        true => protocol.cor.to_string(),
-        false => "by its speed".to_owned(),
-    };
-    let scene = format!(
-        "  bat at rest on a pivot {pivot} from the knob end; {} at {speed}, cor {cor}: {cor_source}",
-        protocol.ball.name
-    );
-    out += &wrapped(&scene, 4);
-    if let Some(wall) = tested.scene.hoop.wall() {
-        out += &wrapped(&format!("  {}", wall_words(&tested.bat, &tested.scene, wall)), 4);
-    }
-    for effect in ignored::in_hit(&tested.bat, &tested.scene) {
-        out += &wrapped(&format!("  left out: {effect}"), 4);
-    }
-    out += &table(tested, units);
-    if let Some(wall) = &tested.wall {
-        out += "\nWhere it is largest\n";
-        for [what, value] in wall_lines(wall, wall.bbcor_pivoted, units) {
-            let _ = writeln!(out, "  {what:<40} {value}");
-        }
-    }
-    out + &verdict(tested, units)
-}
-
-fn table(tested: &Tested, units: Units) -> String {
-    let us = units.us_first();
-    let (near, fast) = if us { ("in", "mph") } else { ("cm", "m/s") };
-    let columns = Columns::new([
-        numbers(9, "knob"),
-        numbers(10, "tip"),
-        numbers(10, "rebound"),
-        numbers(10, ""),
-        numbers(9, "e_A"),
-        numbers(10, "BBCOR"),
-        numbers(10, "within"),
-    ]);
-    let [tip, second] = match units {
-        Units::Both => ["in", "mph"],
-        Units::BothUsFirst => ["in", "m/s"],
-        _ => [near, ""],
-    };
-    let mut out = String::from("\n");
-    out += &columns.heads();
-    out += &columns.row([near, tip, fast, second, "", "", ""]);
-    let length = |x: f64, unit: &str| {
-        format!("{:.2}", if unit == "in" { inches(x) } else { 100.0 * x } + 0.0)
-    };
-    for (k, place) in tested.places.iter().enumerate() {
-        let x = place.impact.x;
-        let outcome = place.impact.outcome.as_ref();
-        let shown = |v: f64| format!("{:.2}", if us { miles_per_hour(v) } else { v });
-        let other = |v: f64| match us {
-            true => format!("{v:.2}"),
-            false => format!("{:.1}", miles_per_hour(v)),
-        };
-        let line = columns.row([
-            length(x, near),
-            length(tested.bat.length() - x, tip),
-            outcome.map_or("no value".to_owned(), |o| shown(o.exit_speed)),
-            outcome.filter(|_| units.both()).map_or(String::new(), |o| other(o.exit_speed)),
-            outcome.map_or(String::new(), |o| format!("{:.4}", o.collision_efficiency)),
-            place.bbcor.map_or(String::new(), |bbcor| format!("{bbcor:.4}")),
-            place.error.map_or(String::new(), |error| format!("{error:.0e}")),
-        ]);
-        let mark = if tested.largest == Some(k) { "  largest" } else { "" };
-        let _ = writeln!(out, "{}{mark}", line.trim_end());
-    }
-    out
-}
-
+/// Places that a first screen has, half of them on either side of the largest.
+const FIRST: usize = 8;
 /// By so much two bats of one wood differ easily: three standard deviations of an R161's, whose stiffness differs by
 /// 22 % and whose density by 10 % (`sweetspot scatter r161`).
 const NEAR: f64 = 0.01;
 
-/// The largest against the limit, in a sentence.
-fn verdict(tested: &Tested, units: Units) -> String {
-    let Some((most, bbcor)) = tested.most().and_then(|most| Some((most, most.bbcor?))) else {
-        return "\nNo place of the scan has a figure.\n".to_owned();
+/// The title, and everything in order; `full` with every place and every source.
+pub fn report(tested: &Tested, units: Units, full: bool) -> (String, Vec<Part<'static>>) {
+    let Tested { bat, scene, scan, .. } = tested;
+    let Scan { protocol, places, largest, .. } = scan;
+    let speed = units.inline(units.speed(protocol.ball_speed_m_s));
+    let cor = if protocol.ball.cor_by_speed.is_empty() {
+        protocol.cor.to_string()
+    } else {
+        "by its speed".to_owned()
     };
-    let place = units.inline(units.length(tested.bat.length() - most.impact.x));
-    let against = match tested.within() {
-        Some(true) => format!("below the limit of {LIMIT:.2}"),
-        Some(false) => format!("above the limit of {LIMIT:.2}"),
-        None => format!("as near the limit of {LIMIT:.2} as its error"),
-    };
-    let text = format!(
-        "Largest {bbcor:.4}, {place} from the tip: {against} ({LIMIT_SOURCE}). It rises with the \
-         ball's cor by about as much; a laboratory's ball and limit decide, not this."
-    );
-    let deep = tested.wall.as_ref().filter(|wall| wall.is_deep()).map(|wall| {
-        let [low, high] = wall.bbcor.range;
-        let text = format!(
-            "The wall is dented by more than half of its thickness there, where the theory of it ends: the \
-             figure is rough, {low:.3} to {high:.3} by what balls squeezed twice to half as much do."
-        );
-        wrapped(&text, 0)
-    });
-    let figures = most.besr().zip(most.bpf(&tested.protocol)).map(|(besr, bpf)| {
-        let text = format!(
-            "There BESR, e_A + 1/2, is {besr:.4}, and BPF, BBCOR over the ball's cor, {bpf:.3} \
-             ({MEASURES_SOURCE})."
-        );
-        wrapped(&text, 0)
-    });
-    let open = of_frequencies(&tested.bat).map(|_| {
-        let text = "Trust: pieces of one wood differ by more than the last digits here, so that a bat this near the \
-                    limit may be on either side of it: sweetspot scatter";
-        wrapped(text, 7)
-    });
-    let open = open.filter(|_| (bbcor - LIMIT).abs() < NEAR);
-    let [deep, figures, open] = [deep, figures, open].map(Option::unwrap_or_default);
-    format!("\n{}{deep}{figures}{open}", wrapped(&text, 0))
-}
-
-/// A line for each place, SI.
-pub fn csv(tested: &Tested) -> String {
-    let [x, exit, efficiency, bbcor] = [X, EXIT_SPEED, EFFICIENCY, BBCOR].map(|c| c.name);
-    let mut table =
-        Csv::new([x, "from_tip_m", exit, efficiency, bbcor, "bbcor_error", "besr", "bpf"]);
-    for place in &tested.places {
-        table.row([
-            place.impact.x.into(),
-            (tested.bat.length() - place.impact.x).into(),
-            EXIT_SPEED.at(&place.impact).into(),
-            EFFICIENCY.at(&place.impact).into(),
-            place.bbcor.into(),
-            place.error.into(),
-            place.besr().into(),
-            place.bpf(&tested.protocol).into(),
+    let source = if full { format!(": {}", protocol.cor_source) } else { String::new() };
+    let pivot = units.inline(units.length(protocol.pivot_m));
+    let mut notes = vec![format!(
+        "bat at rest on a pivot {pivot} from the knob end; {} at {speed}, cor {cor}{source}",
+        protocol.ball.name
+    )];
+    let edits = edits::listed(bat, units);
+    notes.extend((!edits.is_empty()).then(|| format!("edited: {edits}")));
+    notes.extend(scene.hoop.wall().map(|wall| wall_words(bat, scene, wall)));
+    notes.extend(ignored::in_hit(bat, scene).iter().map(|effect| format!("left out: {effect}")));
+    let shown = if full { &places[..] } else { around(places, largest.as_ref()) };
+    let mut parts =
+        vec![Part::List(notes), Part::Table(Table::of("The scan", &COLUMNS, shown, units))];
+    let left = places.len() - shown.len();
+    parts.extend((left > 0).then(|| Part::List(vec![format!("and {left} places more: --full")])));
+    if let Some(wall) = scan.wall.as_ref().filter(|_| full) {
+        parts.extend([
+            Part::Heading("Where it is largest"),
+            Part::Facts("", wall_facts(wall, units)),
         ]);
     }
-    table.text()
+    parts.extend(verdict(tested, units, full).into_iter().map(Part::Text));
+    (format!("BBCOR of {} (computed, not certified)", bat.name()), parts)
 }
 
-/// The `sweetspot-bbcor/1` document.
-pub fn document(tested: &Tested, cor_source: &str) -> file::BbcorFile {
-    let (protocol, length) = (&tested.protocol, tested.bat.length());
-    let largest = |place: &Place| {
-        Some(file::Largest {
-            x_m: place.impact.x,
-            from_tip_m: length - place.impact.x,
-            bbcor: place.bbcor?,
-            besr: place.besr(),
-            bpf: place.bpf(protocol),
-            error: place.error?,
-        })
+/// The places about the largest, as many as a first screen has.
+fn around<'a>(places: &'a [Place], largest: Option<&Largest>) -> &'a [Place] {
+    let at =
+        largest.and_then(|most| places.iter().position(|place| place.x_m == most.x_m)).unwrap_or(0);
+    let from = at.saturating_sub(FIRST / 2).min(places.len().saturating_sub(FIRST + 1));
+    &places[from..places.len().min(from + FIRST + 1)]
+}
+
+/// The largest against the limit, in sentences.
+fn verdict(tested: &Tested, units: Units, full: bool) -> Vec<String> {
+    let scan = &tested.scan;
+    let Some(Largest { from_tip_m, bbcor, besr, bpf, .. }) = scan.largest else {
+        return vec!["No place of the scan has a figure.".to_owned()];
     };
-    file::BbcorFile {
-        format: Format::new(),
-        generator: Generator::this(),
-        bat_name: tested.bat.name().to_owned(),
-        edits: tested.bat.edits().to_vec(),
-        certified: false,
-        protocol: file::Protocol {
-            pivot_m: STANDARD_PIVOT,
-            inertia_pivot_kg_m2: tested.bat.inertia().about(STANDARD_PIVOT),
-            ball_speed_m_s: protocol.ball_speed,
-            step_m: STEP,
-            ball: ball_out(&protocol.ball),
-            cor: protocol.cor,
-            cor_source: cor_source.to_owned(),
-            limit_source: LIMIT_SOURCE.to_owned(),
-            measures_source: MEASURES_SOURCE.to_owned(),
-        },
-        places: tested.places.iter().map(|at| place(at, length, protocol)).collect(),
-        largest: tested.most().and_then(largest),
-        wall: tested.wall.map(|wall| wall_under_ball(&wall, wall.bbcor_pivoted)),
-        limit: LIMIT,
-        within_limit: tested.within(),
-        tolerance_met: tested.sweep.met,
-        ignored: ignored::in_hit(&tested.bat, &tested.scene),
+    let place = units.inline(units.length(from_tip_m));
+    let against = match scan.within_limit {
+        Some(true) => "below the limit of",
+        Some(false) => "above the limit of",
+        None => "as near as its error to the limit of",
+    };
+    let source = if full { format!(" ({LIMIT_SOURCE})") } else { String::new() };
+    let mut said = vec![format!(
+        "Largest {bbcor:.4}, {place} from the tip: {against} {LIMIT:.2}{source}. It rises with the ball's cor by \
+         about as much; a laboratory's ball and limit decide, not this."
+    )];
+    if let Some(wall) = scan.wall.as_ref().filter(|wall| wall.is_deep()) {
+        let [low, high] = wall.bbcor.range;
+        said.push(format!(
+            "The wall is dented by more than half of its thickness there, where the theory of it ends: the figure \
+             is rough, {low:.3} to {high:.3} by what balls squeezed twice to half as much do."
+        ));
     }
-}
-
-fn place(place: &Place, length: f64, protocol: &Protocol) -> file::Place {
-    let (impact, outcome) = (&place.impact, place.impact.outcome.as_ref());
-    file::Place {
-        x_m: impact.x,
-        from_tip_m: length - impact.x,
-        exit_speed_m_s: EXIT_SPEED.at(impact),
-        collision_efficiency: EFFICIENCY.at(impact),
-        bbcor: place.bbcor,
-        besr: place.besr(),
-        bpf: place.bpf(protocol),
-        flags: impact.flags.iter().map(|flag| (*flag).to_owned()).collect(),
-        error: file::PlaceError {
-            exit_speed_m_s: outcome.map(|o| o.error * protocol.ball_speed),
-            bbcor: place.error,
-        },
+    if let Some((besr, bpf)) = besr.zip(bpf) {
+        let source = if full { format!(" ({MEASURES_SOURCE})") } else { String::new() };
+        said.push(format!(
+            "There BESR, e_A + 1/2, is {besr:.4}, and BPF, BBCOR over the ball's cor, {bpf:.3}{source}."
+        ));
     }
+    if of_frequencies(&tested.bat).is_some() && (bbcor - LIMIT).abs() < NEAR {
+        said.push(
+            "Trust: pieces of one wood differ by more than the last digits here, so that a bat this near the limit \
+             may be on either side of it: sweetspot scatter"
+                .to_owned(),
+        );
+    }
+    said
 }

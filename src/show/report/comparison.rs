@@ -3,11 +3,11 @@
 use crate::base::number::significant;
 use crate::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
 use crate::collision::hit::Scene;
+use crate::show::parts::terminal::wrapped;
+use crate::show::parts::units::Units;
 use crate::show::report::columns::{Columns, first, numbers};
 use crate::show::report::edits;
-use crate::show::report::text::wrapped;
 use crate::show::report::trust::doubts;
-use crate::show::report::units::Units;
 use crate::study::comparison::contender::Figure;
 use crate::study::comparison::rows::{ComparedFigure, Difference, From, Unit, energies_compare};
 use crate::study::comparison::stretches::Stretch;

@@ -3,10 +3,10 @@
 use crate::files::schema::compare as file;
 use crate::files::schema::document::{Format, Generator};
 use crate::show::csv::Csv;
+use crate::show::parts::units::Units;
 use crate::show::report::comparison::{letter, words};
 use crate::show::report::hit_json::{scene_out, seen_from};
 use crate::show::report::trust::in_file;
-use crate::show::report::units::Units;
 use crate::study::comparison::contender::Contender;
 use crate::study::comparison::rows::ComparedFigure;
 use crate::study::comparison::stretches::Stretch;

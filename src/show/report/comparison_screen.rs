@@ -1,11 +1,11 @@
 //! Several bats side by side on two screens: what differs and matters, then where along the barrel.
 
+use crate::show::parts::terminal::wrapped;
+use crate::show::parts::units::Units;
 use crate::show::report::columns::{Columns, first, numbers};
 use crate::show::report::comparison::{FIRST, Row, along, figures, hit, letter, rows, swung};
 use crate::show::report::edits;
-use crate::show::report::text::wrapped;
 use crate::show::report::trust::doubts;
-use crate::show::report::units::Units;
 use crate::study::comparison::contender::Contender;
 use crate::study::comparison::rows::ComparedFigure;
 use crate::study::comparison::table::Comparison;

@@ -5,7 +5,7 @@ use crate::base::units::{self, ounces};
 use crate::bat::body::Bat;
 use crate::bat::edit::{Change, Edit};
 use crate::bat::material::Material;
-use crate::show::report::units::Units;
+use crate::show::parts::units::Units;
 
 /// Digits that are shown of a length or a mass.
 const DIGITS: usize = 4;

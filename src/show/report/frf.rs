@@ -10,9 +10,10 @@ use crate::files::schema::frf::{
 use crate::motion::frf::{Frf, Kind, Sample};
 use crate::motion::peaks::Peak;
 use crate::show::csv::Csv;
+use crate::show::parts::terminal::wrapped;
+use crate::show::parts::units::Units;
 use crate::show::report::columns::{Columns, numbers};
-use crate::show::report::text::{edited, wrapped};
-use crate::show::report::units::Units;
+use crate::show::report::text::edited;
 use crate::study::measured::response::{Laid, MeasuredResponse};
 
 /// A response that is told.

@@ -2,10 +2,11 @@
 
 use crate::bat::body::Bat;
 use crate::show::csv::Csv;
+use crate::show::parts::terminal::wrapped;
+use crate::show::parts::units::Units;
 use crate::show::report::columns::{Columns, numbers};
 use crate::show::report::frf::{FRAC, Told, damping};
-use crate::show::report::text::{edited, wrapped};
-use crate::show::report::units::Units;
+use crate::show::report::text::edited;
 use crate::study::measured::response::{Laid, MeasuredResponse};
 
 /// A measured response beside the computed one.

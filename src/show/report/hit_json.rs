@@ -1,12 +1,10 @@
 //! The JSON file of a hit, in SI, the unit in every key's name.
 
 use crate::bat::body::Bat;
-use crate::collision::ball::Ball;
 use crate::collision::columns;
 use crate::collision::figures::{BarrelSpeed, Figures, Swung};
 use crate::collision::hit::{Energy, Impact, Model, Scene, Separation, Wall, greater};
 use crate::collision::sweet_spot::{Peak, SweetSpot};
-use crate::collision::wall_figures::{WallBbcor, WallFigures};
 use crate::files::schema::document::{Format, Generator};
 use crate::files::schema::hit as file;
 use crate::study::ignored;
@@ -42,7 +40,7 @@ pub fn scene_out(bat: &Bat, scene: &Scene) -> file::Scene {
     file::Scene {
         bat_pivot_m: scene.pivot,
         swing_rad_s: scene.swing,
-        ball: ball_out(&scene.ball),
+        ball: scene.ball.clone(),
         ball_speed_m_s: scene.ball_speed,
         cor: scene.cor,
         hands_m: scene.hands,
@@ -71,21 +69,6 @@ fn wall(bat: &Bat, scene: &Scene) -> Option<file::Wall> {
             patch_compression_m: compression,
         }),
     })
-}
-
-/// The ball, with what its numbers come from.
-pub fn ball_out(ball: &Ball) -> file::Ball {
-    file::Ball {
-        name: ball.name.clone(),
-        source: ball.source.clone(),
-        mass_kg: ball.mass,
-        radius_m: ball.radius,
-        contact_radius_m: ball.contact_radius,
-        stiffness: ball.stiffness,
-        exponent: ball.exponent,
-        cor: ball.cor,
-        cor_by_speed: ball.cor_by_speed.clone(),
-    }
 }
 
 fn sweet_spot(spot: &SweetSpot) -> file::SweetSpot {
@@ -128,24 +111,9 @@ pub fn figures(figures: &Figures) -> file::Figures {
         bbcor_max: figures.bbcor_max.map(peak),
         bbcor_pivoted_max: figures.bbcor_pivoted_max.map(peak),
         rigid_exit_speed_max: figures.rigid_best.map(peak),
-        wall: figures.wall.map(|wall| wall_under_ball(&wall, wall.bbcor)),
+        wall: figures.wall,
         swings: figures.swings.iter().map(swung).collect(),
         moves: figures.moves.iter().map(moved).collect(),
-    }
-}
-
-/// The wall under the ball, and that BBCOR there.
-pub fn wall_under_ball(wall: &WallFigures, bbcor: WallBbcor) -> file::WallUnderBall {
-    let WallBbcor { with, stiff, range } = bbcor;
-    file::WallUnderBall {
-        x_m: wall.x,
-        patch_half_lengths_m: wall.patch,
-        stiffness_n_m: wall.stiffness,
-        stiffness_over_ball: wall.over_ball,
-        mass_kg: wall.mass,
-        bbcor: file::WallBbcor { with, stiff, range },
-        dent_m: wall.dent,
-        thickness_m: wall.thickness,
     }
 }
 

@@ -10,11 +10,11 @@ use crate::collision::figures::{BarrelSpeed, Figures};
 use crate::collision::hit::{Impact, Model, Scene};
 use crate::collision::sweep::Sweep;
 use crate::collision::sweet_spot::{Peak, SweetSpot};
+use crate::show::parts::terminal::wrapped;
+use crate::show::parts::units::Units;
 use crate::show::report::curve;
 use crate::show::report::edits;
-use crate::show::report::text::wrapped;
-use crate::show::report::units::Units;
-use crate::show::report::wall_text::{wall_lines, wall_words};
+use crate::show::report::wall_text::{wall_facts, wall_words};
 use crate::study::ignored;
 
 /// What the flags of hits mean, and the letters that stand for them in the table.
@@ -300,9 +300,7 @@ pub fn figures(figures: &Figures, units: Units) -> String {
         line("1 in off towards the tip", lost(tip));
     }
     if let Some(wall) = figures.wall {
-        wall_lines(&wall, wall.bbcor, units)
-            .into_iter()
-            .for_each(|[what, value]| line(&what, value));
+        wall_facts(&wall, units).into_iter().for_each(|fact| line(fact.label, fact.value));
     }
     for swung in &figures.swings {
         let what = match swung.exponent {

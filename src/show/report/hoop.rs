@@ -7,10 +7,11 @@ use crate::base::units::{POUND_FORCE, inches};
 use crate::bat::body::Bat;
 use crate::collision::wall_figures::WallBbcor;
 use crate::modes::hoop::{HoopMode, Share};
+use crate::show::parts::terminal::wrapped;
+use crate::show::parts::units::Units;
 use crate::show::report::columns::{Columns, first, labels, numbers};
 use crate::show::report::hoop_notes::notes;
-use crate::show::report::text::{edited, wrapped};
-use crate::show::report::units::Units;
+use crate::show::report::text::edited;
 use crate::study::trampoline::barrel::{Barrel, Rebound};
 use crate::study::trampoline::pressed::PressedWall;
 use crate::study::trampoline::thickness::{FACTORS, WallTried};
@@ -92,7 +93,7 @@ pub fn answers(bat: &Bat, barrel: &Barrel, units: Units) -> Vec<String> {
 /// How stiff the wall is.
 fn pressed(bat: &Bat, barrel: &Barrel, wall: &PressedWall, units: Units) -> String {
     let ball = barrel.struck.rebound.as_ref().map_or(String::new(), |rebound| {
-        format!(" ({} times the ball)", significant(rebound.figures.over_ball, 2))
+        format!(" ({} times the ball)", significant(rebound.figures.stiffness_over_ball, 2))
     });
     format!(
         "Wall under a {}, {} from the tip: {} MN/m{ball}; {} thick, patch {}.",
@@ -131,7 +132,7 @@ fn rebounded(rebound: &Rebound, units: Units) -> [String; 2] {
         format!(
             "The ball, with {}, dents the wall by about {}; {} stay in the wall.",
             units.energy(rebound.initial, 0),
-            small(units, rebound.figures.dent),
+            small(units, rebound.figures.dent_m),
             units.energy(rebound.left, 1)
         ),
     ]

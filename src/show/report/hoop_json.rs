@@ -8,9 +8,8 @@ use crate::files::schema::document::{Format, Generator};
 use crate::files::schema::hoop as file;
 use crate::modes::hoop::{HoopMode, Share};
 use crate::show::csv::Csv;
-use crate::show::report::hit_json::ball_out;
+use crate::show::parts::units::Units;
 use crate::show::report::hoop_notes::notes;
-use crate::show::report::units::Units;
 use crate::study::trampoline::barrel::{Barrel, Rebound};
 use crate::study::trampoline::pressed::PressedWall;
 use crate::study::trampoline::thickness::WallTried;
@@ -74,7 +73,11 @@ fn under_ball(bat: &Bat, barrel: &Barrel, wall: &PressedWall) -> file::PressedWa
         radius_m: wall.radius,
         thickness_m: wall.thickness,
         stiffness_n_m: wall.stiffness(),
-        over_ball: barrel.struck.rebound.as_ref().map(|rebound| rebound.figures.over_ball),
+        over_ball: barrel
+            .struck
+            .rebound
+            .as_ref()
+            .map(|rebound| rebound.figures.stiffness_over_ball),
         compression_m: barrel.test.ball.patch_compression(),
         patch_half_length_m: wall.patch.half_length,
         patch_half_width_m: wall.patch.half_width,
@@ -85,7 +88,7 @@ fn under_ball(bat: &Bat, barrel: &Barrel, wall: &PressedWall) -> file::PressedWa
 fn bbcor(barrel: &Barrel, rebound: &Rebound) -> file::BbcorOfWall {
     let WallBbcor { stiff, with, range } = rebound.bbcor();
     file::BbcorOfWall {
-        ball: ball_out(&barrel.test.ball),
+        ball: barrel.test.ball.clone(),
         ball_speed_m_s: barrel.test.ball_speed,
         cor: barrel.test.cor,
         stiff,
@@ -93,7 +96,7 @@ fn bbcor(barrel: &Barrel, rebound: &Rebound) -> file::BbcorOfWall {
         range,
         error: rebound.error,
         peak_force_n: rebound.peak_force,
-        dent_m: rebound.figures.dent,
+        dent_m: rebound.figures.dent_m,
         left_in_wall_j: rebound.left,
         initial_j: rebound.initial,
     }
@@ -111,7 +114,7 @@ fn thickness(tried: &WallTried) -> Option<file::WallThickness> {
         stiff,
         wall: with,
         range,
-        dent_m: rebound.figures.dent,
+        dent_m: rebound.figures.dent_m,
     })
 }
 

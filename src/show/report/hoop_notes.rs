@@ -4,7 +4,7 @@ use crate::base::number::significant;
 use crate::beam::wall::elastic::ASSUMED_POISSON_RATIO;
 use crate::collision::ball::Ball;
 use crate::modes::hoop::{Note, Patch};
-use crate::show::report::units::Units;
+use crate::show::parts::units::Units;
 use crate::study::trampoline::barrel::Barrel;
 
 /// A sentence each, without a capital and a full stop at its ends.
@@ -36,7 +36,7 @@ fn unpressed(barrel: &Barrel, units: Units) -> Option<String> {
     if !(hoop.from()..=hoop.to()).contains(&test.at) {
         return Some(format!("{ball} does not meet the stretch that is modelled"));
     }
-    let Ball { radius, .. } = test.ball;
+    let Ball { radius_m: radius, .. } = test.ball;
     let patch = Patch::under(test.at, radius, hoop.radius(test.at), test.ball.patch_compression());
     if hoop.covers(&patch) {
         return Some(format!("{ball} meets the bat where it is solid: no wall gives way there"));
@@ -70,7 +70,7 @@ fn alive(barrel: &Barrel) -> Option<String> {
 /// A dent that is too deep for small motions.
 fn dented(barrel: &Barrel) -> Option<String> {
     let (wall, rebound) = (barrel.struck.wall.as_ref()?, barrel.struck.rebound.as_ref()?);
-    let share = rebound.figures.dent / wall.thickness;
+    let share = rebound.figures.dent_m / wall.thickness;
     rebound.figures.is_deep().then(|| {
         format!(
             "the wall is dented by {} of its thickness: beyond half of it the dent is not small, as is \

@@ -2,8 +2,8 @@
 
 use crate::base::number::{rounded, signed};
 use crate::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
+use crate::show::parts::units::Units;
 use crate::show::report::columns::{Column, Columns, numbers};
-use crate::show::report::units::Units;
 use crate::study::lathe::map::{LatheMap, TurnedBand};
 use crate::study::many::answers::Answer;
 

@@ -8,7 +8,6 @@ pub mod curve;
 pub mod resolved;
 pub mod damped;
 pub mod json;
-pub mod units;
 pub mod edits;
 pub mod text;
 pub mod proven;

@@ -3,9 +3,9 @@
 use crate::base::units::inches;
 use crate::bat::body::Bat;
 use crate::modes::solve::Solution;
+use crate::show::parts::terminal::wrapped;
+use crate::show::parts::units::Units;
 use crate::show::report::columns::{Columns, numbers};
-use crate::show::report::text::wrapped;
-use crate::show::report::units::Units;
 
 /// Deflections (m) at places of a bat, a frame for every instant.
 pub struct Frames<'a> {

@@ -3,8 +3,8 @@
 use crate::files::schema::modes as file;
 use crate::modes::enclosure::guarantee::Guarantee;
 use crate::modes::enclosure::within::{Band, Within};
+use crate::show::parts::terminal::wrapped;
 use crate::show::report::columns::{Columns, first, numbers};
-use crate::show::report::text::wrapped;
 
 /// What is proven of a bat, and of every bat that is nearly it, where that was asked.
 pub struct Proven {

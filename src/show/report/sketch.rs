@@ -6,7 +6,7 @@ use crate::base::units::inches;
 use crate::bat::body::Bat;
 use crate::collision::sweet_spot::SweetSpot;
 use crate::modes::solve::Solution;
-use crate::show::report::units::Units;
+use crate::show::parts::units::Units;
 
 /// Columns left of the drawing, for what its rows are called.
 pub const GUTTER: usize = 12;

@@ -7,10 +7,11 @@ use crate::bat::body::{Bat, STANDARD_PIVOT};
 use crate::bat::theory::Theory;
 use crate::modes::mode::Mode;
 use crate::modes::solve::Solution;
+use crate::show::parts::terminal::wrapped;
+use crate::show::parts::units::Units;
 use crate::show::report::columns::{Columns, first, numbers};
 use crate::show::report::damped;
 use crate::show::report::edits;
-use crate::show::report::units::Units;
 use crate::study::ignored::ignored;
 use crate::study::trade::reference::solver_name;
 
@@ -174,18 +175,6 @@ pub fn model(bat: &Bat, solution: &Solution) -> String {
     for effect in ignored(bat, solution) {
         out += &wrapped(&format!("  left out: {effect}"), 12);
     }
-    out
-}
-
-/// Breaks a line at its last spaces before column 80, the rest indented; ends the line.
-pub fn wrapped(text: &str, indent: usize) -> String {
-    let (mut out, mut rest, mut lead) = (String::new(), text, 0);
-    while let Some((end, _)) = rest.char_indices().nth(80 - lead) {
-        let Some(space) = rest[..end].rfind(' ').filter(|at| *at > 0) else { break };
-        let _ = writeln!(out, "{:lead$}{}", "", rest[..space].trim_end());
-        (rest, lead) = (rest[space..].trim_start(), indent);
-    }
-    let _ = writeln!(out, "{:lead$}{rest}", "");
     out
 }
 

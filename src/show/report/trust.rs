@@ -9,9 +9,10 @@ use crate::collision::hit::Model;
 use crate::files::schema::analysis as file;
 use crate::modes::mode::Mode;
 use crate::show::analysis::Analysis;
+use crate::show::parts::terminal::wrapped;
+use crate::show::parts::units::Units;
 use crate::show::report::columns::{Columns, first};
-use crate::show::report::text::{edited, wrapped};
-use crate::show::report::units::Units;
+use crate::show::report::text::edited;
 use crate::study::read_to::diameters_read_to;
 use crate::study::spread::{Answer, Estimate, Input, Source, Spread, of_frequencies};
 use crate::study::verdict::{Doubt, Verdict};
@@ -229,8 +230,8 @@ fn doubted(doubt: &Doubt, units: Units) -> String {
             format!(
                 "The wall dents by {} of its {} {unit}: beyond half of it this theory ends; the ball's figures are \
                  rough, free BBCOR {:.3} ({:.3} stiff; {low:.3} to {high:.3}).",
-                deep(wall.dent),
-                deep(wall.thickness),
+                deep(wall.dent_m),
+                deep(wall.thickness_m),
                 wall.bbcor.with,
                 wall.bbcor.stiff
             )

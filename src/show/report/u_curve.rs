@@ -7,9 +7,10 @@ use crate::files::schema::document::{BatName, Format, Generator};
 use crate::files::schema::u_curve as file;
 use crate::modes::solve::Solver;
 use crate::show::csv::Csv;
+use crate::show::parts::terminal::wrapped;
+use crate::show::parts::units::Units;
 use crate::show::report::columns::{Columns, labels, numbers};
-use crate::show::report::text::{edited, wrapped};
-use crate::show::report::units::Units;
+use crate::show::report::text::edited;
 use crate::study::trade::reference::{Choice, Reference, solver_name};
 use crate::study::trade::u_curve::{Column, End, Way, best, loss};
 

@@ -5,8 +5,9 @@ use crate::base::units::inches;
 use crate::bat::body::Bat;
 use crate::collision::hit::Scene;
 use crate::collision::hoop_wall::HoopWall;
-use crate::collision::wall_figures::{WallBbcor, WallFigures};
-use crate::show::report::units::Units;
+use crate::collision::wall_figures::WallFigures;
+use crate::show::parts::part::Fact;
+use crate::show::parts::units::Units;
 
 /// What of the wall gives way, and why it is counted.
 pub fn wall_words(bat: &Bat, scene: &Scene, wall: &HoopWall) -> String {
@@ -22,24 +23,29 @@ pub fn wall_words(bat: &Bat, scene: &Scene, wall: &HoopWall) -> String {
     )
 }
 
-/// What a hollow barrel's wall does at a place, and to that BBCOR there: names and values.
-pub fn wall_lines(wall: &WallFigures, bbcor: WallBbcor, units: Units) -> Vec<[String; 2]> {
+/// What a hollow barrel's wall does at a place, and to BBCOR there.
+pub fn wall_facts(wall: &WallFigures, units: Units) -> Vec<Fact> {
     let short = |x: f64| units.inline(units.show(millimetres(x), format!("{:.2} in", inches(x))));
-    let [along, around] = wall.patch.map(|half| 2.0 * half);
-    let [low, high] = bbcor.range;
+    let [along, around] = wall.patch_half_lengths_m.map(|half| 2.0 * half);
+    let [low, high] = wall.bbcor.range;
     let deep =
         wall.is_deep().then(|| ("  more than half the wall", "this theory ends there".to_owned()));
     let lines = [
-        ("BBCOR with a stiff wall", format!("{:.3}", bbcor.stiff)),
+        ("BBCOR with a stiff wall", format!("{:.3}", wall.bbcor.stiff)),
         ("  ball squeezed twice to half as much", format!("{low:.3} to {high:.3}")),
         (
             "wall under the ball",
-            format!("{:.1} MN/m, {:.1} times the ball's", 1e-6 * wall.stiffness, wall.over_ball),
+            format!(
+                "{:.1} MN/m, {:.1} times the ball's",
+                1e-6 * wall.stiffness_n_m,
+                wall.stiffness_over_ball
+            ),
         ),
         ("  patch, along and around", format!("{} by {}", short(along), short(around))),
-        ("  it dents by", short(wall.dent)),
+        ("  it dents by", short(wall.dent_m)),
     ];
-    lines.into_iter().chain(deep).map(|(what, value)| [what.to_owned(), value]).collect()
+    let fact = |(label, value)| Fact { key: "", label, value, note: String::new() };
+    lines.into_iter().chain(deep).map(fact).collect()
 }
 
 fn millimetres(x: f64) -> String {

@@ -261,7 +261,7 @@ impl<'a> Sought<'a> {
         let here = energy(peak.x).unwrap_or(0.0);
         let apart = |x: f64| energy(x).map_or(0.0, |there| (there - here).abs());
         let beside = apart((peak.x - off).max(0.0)).max(apart((peak.x + off).min(self.length)));
-        let moved = self.hitter.scene.ball.mass * error * closing;
+        let moved = self.hitter.scene.ball.mass_kg * error * closing;
         [
             Figure::new(peak.value, error),
             Figure::new(peak.x, off),
@@ -272,7 +272,7 @@ impl<'a> Sought<'a> {
     /// Place and value of the least vibration.
     pub fn least(&self, peak: Peak) -> [Figure; 2] {
         let [error, closing] = self.speed_error(peak.x);
-        let moved = self.hitter.scene.ball.mass * error * closing;
+        let moved = self.hitter.scene.ball.mass_kg * error * closing;
         let upside_down = Peak { x: peak.x, value: -peak.value };
         let off = self.place_error(upside_down, moved, |seen| Some(-seen.vibration?));
         [Figure::new(peak.x, off), Figure::new(peak.value, moved)]

@@ -216,7 +216,7 @@ impl Ready {
 fn vibration(impact: &Impact, scene: &Scene) -> Option<Figure> {
     let outcome = impact.outcome.as_ref()?;
     let closing = impact.bat_speed + scene.ball_speed;
-    let moved = scene.ball.mass * outcome.error * closing * closing;
+    let moved = scene.ball.mass_kg * outcome.error * closing * closing;
     (!outcome.energy.vibration_by_mode.is_empty())
         .then(|| Figure::new(outcome.energy.vibration(), moved))
 }
@@ -308,7 +308,7 @@ impl Hands {
         let share = |impact: &Impact| {
             let outcome = impact.outcome.as_ref()?;
             let closing = impact.bat_speed + scene.ball_speed;
-            Some(outcome.error * closing * scene.ball.mass / outcome.impulse)
+            Some(outcome.error * closing * scene.ball.mass_kg / outcome.impulse)
         };
         let unsure = impacts.iter().filter_map(share).fold(0.0, greater);
         let places = impacts.iter().map(|impact| impact.x).chain(least.into_iter().flatten());

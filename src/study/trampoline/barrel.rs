@@ -184,7 +184,7 @@ impl BarrelStruck {
     pub fn of(bat: &Bat, test: &BarrelTest) -> Result<Self> {
         let solved = match &test.known {
             Some(known) => known.on(bat)?,
-            None => HoopWall::of(bat, test.ball.radius, &hoop_request(test.accuracy.exit_speed))?,
+            None => HoopWall::of(bat, test.ball.radius_m, &hoop_request(test.accuracy.exit_speed))?,
         };
         let wall = PressedWall::under(solved.hoop(), bat, &test.ball, test.at);
         let rebound = match (&wall, test.ball.stiffness) {

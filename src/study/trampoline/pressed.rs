@@ -34,7 +34,7 @@ impl PressedWall {
     /// the stretch that is modelled.
     pub fn under(hoop: &Hoop, bat: &Bat, ball: &Ball, x: f64) -> Option<Self> {
         let section = bat.profile().at(x);
-        let patch = Patch::under(x, ball.radius, section.outer, ball.patch_compression());
+        let patch = Patch::under(x, ball.radius_m, section.outer, ball.patch_compression());
         (section.inner > 0.0 && hoop.covers(&patch)).then(|| Self {
             radius: section.outer,
             thickness: section.outer - section.inner,
@@ -68,7 +68,7 @@ impl PressedWall {
 
     /// What a test of the barrel's compression takes for such a ball: the deflection (m) and the force (N).
     pub fn compressed(&self, ball: &Ball) -> [f64; 2] {
-        let deflection = DEFLECTIONS[usize::from(ball.radius >= SOFTBALL)];
+        let deflection = DEFLECTIONS[usize::from(ball.radius_m >= SOFTBALL)];
         [deflection, deflection * self.between_sides()]
     }
 }

@@ -1,8 +1,55 @@
-//! A table, as a page and as Markdown.
+//! A table: each column says once what it holds of a row, whatever the table is written as.
 
 use std::fmt::Write;
 
-use crate::show::page::escape;
+use crate::show::parts::cell::{Cell, Quantity};
+use crate::show::parts::escape;
+use crate::show::parts::units::Units;
+
+/// A column of a table whose rows are of one kind.
+#[derive(Debug, Clone, Copy)]
+pub struct Column<T> {
+    /// Above it for people; empty for one that files alone have.
+    head: &'static str,
+    /// Its name in files, which ends in its unit; empty for one that files do not have.
+    name: &'static str,
+    quantity: Quantity,
+    /// Whether it is shown in both systems of units where both are.
+    both: bool,
+    of: fn(&T) -> Cell,
+}
+
+impl<T> Column<T> {
+    /// A column that is shown and written.
+    pub const fn new(
+        head: &'static str,
+        name: &'static str,
+        quantity: Quantity,
+        of: fn(&T) -> Cell,
+    ) -> Self {
+        Self { head, name, quantity, both: false, of }
+    }
+
+    /// A column that files alone have.
+    pub const fn in_files(name: &'static str, of: fn(&T) -> Cell) -> Self {
+        Self::new("", name, Quantity::Ratio(0), of)
+    }
+
+    /// A column in both systems of units where both are shown.
+    pub const fn both(
+        head: &'static str,
+        name: &'static str,
+        quantity: Quantity,
+        of: fn(&T) -> Cell,
+    ) -> Self {
+        Self { both: true, ..Self::new(head, name, quantity, of) }
+    }
+
+    /// Its name in files, and what it holds of a row.
+    pub fn in_file(&self) -> (&'static str, fn(&T) -> Cell) {
+        (self.name, self.of)
+    }
+}
 
 /// What it shows, its columns, its rows; the first column names the rows.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -11,6 +58,8 @@ pub struct Table {
     pub caption: String,
     /// The columns' names, with units where they have one.
     pub head: Vec<String>,
+    /// The columns' units, where they stand apart from the names.
+    pub units: Vec<&'static str>,
     /// As many cells each as the head has.
     pub rows: Vec<Vec<String>>,
     /// Whether the other columns are words, not numbers.
@@ -18,6 +67,30 @@ pub struct Table {
 }
 
 impl Table {
+    /// The columns that people see of those rows, in those units, without such as hold nothing of any row.
+    pub fn of<T>(
+        caption: impl Into<String>,
+        columns: &[Column<T>],
+        rows: &[T],
+        units: Units,
+    ) -> Self {
+        let lines = vec![vec![]; rows.len()];
+        let mut table = Self { caption: caption.into(), rows: lines, ..Self::default() };
+        for column in columns.iter().filter(|column| !column.head.is_empty()) {
+            let cells: Vec<Cell> = rows.iter().map(column.of).collect();
+            if cells.iter().all(|cell| *cell == Cell::Empty) {
+                continue;
+            }
+            for us in if column.both { units.pick(false, true) } else { vec![units.us_first()] } {
+                table.head.push(column.head.to_owned());
+                table.units.push(column.quantity.unit(us));
+                let shown = cells.iter().map(|cell| column.quantity.shown(cell, us));
+                table.rows.iter_mut().zip(shown).for_each(|(row, cell)| row.push(cell));
+            }
+        }
+        table
+    }
+
     /// A table without rows.
     pub fn new(caption: impl Into<String>, head: &[&str]) -> Self {
         let head = head.iter().map(|cell| (*cell).to_owned()).collect();

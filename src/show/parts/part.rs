@@ -1,8 +1,7 @@
 //! What a page is put together from, whatever it is written as: sections of parts.
 
-use crate::show::page::inputs::Input;
-use crate::show::page::summary::Fact;
-use crate::show::page::table::Table;
+use crate::show::parts::input::Input;
+use crate::show::parts::table::Table;
 
 /// A part of the report under a heading.
 #[derive(Debug, Clone)]
@@ -55,4 +54,17 @@ pub enum Part<'a> {
     Folded(&'static str, Vec<Part<'a>>),
     /// What moves or sounds, where there is a script: HTML.
     Moving(String),
+}
+
+/// One number of the summary in one system of units, and what it is.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fact {
+    /// What it is called in the page's data.
+    pub key: &'static str,
+    /// What people call it.
+    pub label: &'static str,
+    /// The number with its unit.
+    pub value: String,
+    /// A word more; may be empty.
+    pub note: String,
 }
