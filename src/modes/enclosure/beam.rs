@@ -6,7 +6,7 @@
 use std::ops::Range;
 
 use crate::base::error::{Error, Result};
-use crate::base::interval::tables::GAUSS_24;
+use crate::base::interval::gauss::GAUSS_24;
 use crate::base::interval::{Interval, Series, Values};
 use crate::bat::body::Bat;
 use crate::bat::fixtures::{Absorber, Attachment, Fixtures, Joint};

@@ -32,7 +32,7 @@
 //! kernel is worked out here.
 
 use crate::base::error::{Error, Result};
-use crate::base::interval::tables::GAUSS_40;
+use crate::base::interval::gauss::GAUSS_40;
 use crate::base::interval::{Interval, Series, Values};
 use crate::bat::body::Bat;
 use crate::bat::theory::Theory;

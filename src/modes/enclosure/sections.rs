@@ -1,7 +1,6 @@
 //! What is a section worth along a cell: EI, ρA, ρI and κGA as polynomials, with bounds?
 
-use crate::base::interval::gauss::Gauss;
-use crate::base::interval::tables::GAUSS_40;
+use crate::base::interval::gauss::{GAUSS_40, Gauss};
 use crate::base::interval::{Interval, Series, Values, down, up};
 use crate::bat::layup::{Layer, Layup};
 use crate::bat::material::Material;
