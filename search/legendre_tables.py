@@ -1,14 +1,16 @@
-"""Writes src/base/interval/tables.rs: Gauss points and Legendre polynomials there, for intervals.
+"""Writes src/base/interval/gauss_24.txt and gauss_40.txt: Gauss points and Legendre polynomials there.
 
-    python3 search/legendre_tables.py > src/base/interval/tables.rs
+    python3 search/legendre_tables.py
 
 Everything is computed in 60 decimal digits and written as the nearest doubles.
 """
 
+import pathlib
 from decimal import Decimal, getcontext
 
 getcontext().prec = 60
 COUNTS = (24, 40)
+FOLDER = pathlib.Path(__file__).resolve().parent.parent / "src/base/interval"
 
 
 def legendre(x, count):
@@ -45,16 +47,9 @@ def gauss(n):
     return points
 
 
-def line(numbers, indent):
+def line(numbers):
     """Numbers as the shortest decimals that give the nearest doubles."""
-    out, row = [], " " * indent
-    for number in numbers:
-        text = repr(float(number)) + ","
-        if len(row) + 1 + len(text) > 100:
-            out.append(row)
-            row = " " * indent
-        row += (" " if row.strip() else "") + text
-    return "\n".join(out + [row])
+    return " ".join(repr(float(number)) for number in numbers)
 
 
 def table(n):
@@ -63,35 +58,17 @@ def table(n):
     assert abs(sum(w for _, w in points) - 2) < Decimal(10) ** -50
     points = points[n // 2 :]
     values = [legendre(x, n) for x, _ in points]
-    print("#[rustfmt::skip]")
-    print(f"const HALF_OF_{n}: Half<{n // 2}, {n}> = Half {{")
-    print("    points: [")
-    print(line([x for x, _ in points], 8))
-    print("    ],\n    weights: [")
-    print(line([w for _, w in points], 8))
-    print("    ],\n    legendre: [")
+    yield f"# {n} Gauss points on [-1, 1], written by search/legendre_tables.py from 60 digits: nearest doubles."
+    yield f"# A row holds the {n // 2} points x above 0, or what belongs to each of them. The rows: x; the weights w;"
+    yield f"# Legendre's P_j(x), j = 0 to {n - 1}; (2j + 1)/2 w P_j(x), j = 0 to {n - 1}."
+    yield line(x for x, _ in points)
+    yield line(w for _, w in points)
     for j in range(n):
-        print("        [")
-        print(line([v[j] for v in values], 12))
-        print("        ],")
-    print("    ],\n    to_series: [")
+        yield line(v[j] for v in values)
     for j in range(n):
-        print("        [")
         scale = Decimal(2 * j + 1) / 2
-        print(line([scale * w * v[j] for (_, w), v in zip(points, values)], 12))
-        print("        ],")
-    print("    ],\n};")
+        yield line(scale * w * v[j] for (_, w), v in zip(points, values))
 
 
-print("//! What are the Gauss points, and Legendre's polynomials there, to the last bit?")
-print("//!")
-print("//! Written by `search/legendre_tables.py` from 60 digits: every number is the double nearest to the")
-print("//! true one. Tests hold them against identities in twice the digits.")
-print()
-print("use super::gauss::{Gauss, Half};")
 for n in COUNTS:
-    print(f"\n/// {n} points.")
-    print(f"pub static GAUSS_{n}: Gauss<{n}> = HALF_OF_{n}.whole();")
-for n in COUNTS:
-    print()
-    table(n)
+    (FOLDER / f"gauss_{n}.txt").write_text("".join(row + "\n" for row in table(n)))

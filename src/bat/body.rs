@@ -406,9 +406,8 @@ impl Bat {
             };
             let Layup { outer, core, sleeves, .. } = &region.layup;
             let core = core.iter().map(move |core| (name("core"), core));
-            let layer = move |m: usize| match of_file {
-                true => name(&format!("layers[{m}].material")),
-                false => name("sleeve"),
+            let layer = move |m: usize| {
+                if of_file { name(&format!("layers[{m}].material")) } else { name("sleeve") }
             };
             let sleeves = sleeves.iter().enumerate().map(move |(m, own)| (layer(m), &own.material));
             std::iter::once((name("material"), outer)).chain(core).chain(sleeves)

@@ -148,12 +148,11 @@ fn check(change: &Change, path: &str, bat: &Bat) -> Result<()> {
         Change::Shorten(shorten) => {
             shorten.check(path, length)?;
             let off = shorten.knob.unwrap_or(0.0) + shorten.tip.unwrap_or(0.0);
-            match off < length * (1.0 - SAME_PLACE) && off > 0.0 {
-                true => Ok(()),
-                false => {
-                    let expected = format!("less than the bat's length, {}", place(length));
-                    Err(Error::value("", format!("{} sawn off", shown(off, "m")), expected))
-                }
+            if off < length * (1.0 - SAME_PLACE) && off > 0.0 {
+                Ok(())
+            } else {
+                let expected = format!("less than the bat's length, {}", place(length));
+                Err(Error::value("", format!("{} sawn off", shown(off, "m")), expected))
             }
         }
         Change::Wood(material) => material.check(),
@@ -184,12 +183,11 @@ fn any_layup(bat: &Bat, [from, to]: [f64; 2], such: impl Fn(&Layup) -> bool) -> 
 
 /// Nothing may be turned off where there is a sleeve.
 fn check_bare(bat: &Bat, stretch: [f64; 2]) -> Result<()> {
-    match any_layup(bat, stretch, |layup| !layup.sleeves.is_empty()) {
-        true => {
-            let expected = "wood at the surface: let this edit come before the sleeve";
-            Err(Error::value("", "a stretch with a sleeve around it", expected))
-        }
-        false => Ok(()),
+    if any_layup(bat, stretch, |layup| !layup.sleeves.is_empty()) {
+        let expected = "wood at the surface: let this edit come before the sleeve";
+        Err(Error::value("", "a stretch with a sleeve around it", expected))
+    } else {
+        Ok(())
     }
 }
 

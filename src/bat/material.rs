@@ -3,6 +3,8 @@
 //! [`Material::named`] takes one from [`BUILT_IN`], [`Material::new`] one of your own numbers; set
 //! `shear_modulus` to let it shear.
 
+use std::sync::LazyLock;
+
 use serde::{Deserialize, Serialize};
 
 use crate::base::error::Result;
@@ -266,7 +268,7 @@ impl Material {
 }
 
 /// One entry of the built-in list: SI values and where they come from.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Deserialize)]
 pub struct BuiltIn {
     /// What a bat file calls it.
     pub name: &'static str,
@@ -281,13 +283,11 @@ pub struct BuiltIn {
     /// Strain at which it breaks in a blow, if known.
     pub strain_to_failure: Option<f64>,
     /// Where strength and strain to failure come from; empty where neither is known.
+    #[serde(default)]
     pub strength_source: &'static str,
     /// Where the values come from.
     pub source: &'static str,
 }
-
-/// A pound-force per square inch (Pa).
-const PSI: f64 = 6_894.757_293_168_361;
 
 /// The built-in materials.
 ///
@@ -299,78 +299,14 @@ const PSI: f64 = 6_894.757_293_168_361;
 ///
 /// A strength is the modulus of rupture of small clear pieces at 12 % moisture, bent slowly until
 /// they break: the mean of a species. A strain to failure is of blows as fast as a hit.
-pub const BUILT_IN: &[BuiltIn] = &[
-    BuiltIn {
-        name: "white-ash",
-        density: 672.0,
-        youngs_modulus: 12.0e9,
-        shear_modulus: Some(1.116e9),
-        strength: Some(15_000.0 * PSI),
-        strain_to_failure: None,
-        strength_source: "modulus of rupture of white ash, 15,000 psi: oakbrookwoodturningsupply.com, species data",
-        source: "handbook: Wood Handbook FPL-GTR-282, tables 5-1 (G/E 0.109, 0.077) and 5-3a, in transcription",
-    },
-    BuiltIn {
-        name: "white-ash-dynamic",
-        density: 649.0,
-        youngs_modulus: 18.14e9,
-        shear_modulus: Some(1.05e9),
-        strength: Some(15_000.0 * PSI),
-        strain_to_failure: None,
-        strength_source: "modulus of rupture of white ash, 15,000 psi: oakbrookwoodturningsupply.com, species data",
-        source: "fit to the first frequency of an R161: A. M. Nathan, Am. J. Phys. 68, 979 (2000), table I",
-    },
-    BuiltIn {
-        name: "sugar-maple",
-        density: 705.6,
-        youngs_modulus: 12.6e9,
-        shear_modulus: Some(1.0962e9),
-        strength: Some(15_800.0 * PSI),
-        strain_to_failure: None,
-        strength_source: "modulus of rupture of sugar maple, 15,800 psi: Maple Flooring Manufacturers Association, maplefloor.org, physical properties",
-        source: "handbook: Wood Handbook FPL-GTR-282, tables 5-1 (G/E 0.111, 0.063) and 5-3a, in transcription",
-    },
-    BuiltIn {
-        name: "sugar-maple-dynamic",
-        density: 673.0,
-        youngs_modulus: 15.52e9,
-        shear_modulus: Some(1.72e9),
-        strength: Some(15_800.0 * PSI),
-        strain_to_failure: Some(0.0234),
-        strength_source: "modulus of rupture of sugar maple, 15,800 psi: Maple Flooring Manufacturers Association, maplefloor.org, physical properties; strain to failure of profile A: Appl. Sci. 12 (2022) 3494, appendix A",
-        source: "bat-grade maple, profile A: Appl. Sci. 12 (2022) 3494, appendix A",
-    },
-    BuiltIn {
-        name: "yellow-birch",
-        density: 694.4,
-        youngs_modulus: 13.9e9,
-        shear_modulus: Some(0.9869e9),
-        strength: Some(16_600.0 * PSI),
-        strain_to_failure: None,
-        strength_source: "modulus of rupture of yellow birch, 16,600 psi: rexlumber.com, species data",
-        source: "handbook: Wood Handbook FPL-GTR-282, tables 5-1 (G/E 0.074, 0.068) and 5-3a, in transcription",
-    },
-    BuiltIn {
-        name: "shagbark-hickory",
-        density: 806.4,
-        youngs_modulus: 14.9e9,
-        shear_modulus: None,
-        strength: None,
-        strain_to_failure: None,
-        strength_source: "",
-        source: "handbook-like strength table, specific gravity 0.72, 2.16e6 psi (synthmind.com); no shear modulus found",
-    },
-    BuiltIn {
-        name: "aluminium-7075",
-        density: 2810.0,
-        youngs_modulus: 71.7e9,
-        shear_modulus: Some(71.7e9 / (2.0 * 1.33)),
-        strength: None,
-        strain_to_failure: None,
-        strength_source: "",
-        source: "typical of 7075 (2.81 g/cm³, 71.7 GPa, Poisson 0.33); other 7xxx bat alloys differ by 1 to 2 %",
-    },
-];
+///
+/// # Source
+///
+/// Each names its own in `materials.json`. The numbers there are in SI: strengths in psi are times
+/// 6894.757293168361 Pa, the shear modulus of aluminium is E/(2 (1 + ν)).
+pub static BUILT_IN: LazyLock<Vec<BuiltIn>> = LazyLock::new(|| {
+    serde_json::from_str(include_str!("materials.json")).expect("the list of built-in materials")
+});
 
 #[cfg(test)]
 mod tests {
@@ -378,7 +314,7 @@ mod tests {
 
     #[test]
     fn every_built_in_material_is_possible_and_found_by_its_name() {
-        for built_in in BUILT_IN {
+        for built_in in BUILT_IN.iter() {
             let material = Material::named(built_in.name).expect(built_in.name);
             material.check().expect(built_in.name);
             assert!(!built_in.source.is_empty());
@@ -390,7 +326,7 @@ mod tests {
 
     #[test]
     fn every_wood_that_is_built_in_is_taken_for_wood_and_nothing_else_is() {
-        for built_in in BUILT_IN {
+        for built_in in BUILT_IN.iter() {
             let material = Material::named(built_in.name).expect(built_in.name);
             let wood = !built_in.name.starts_with("aluminium");
             assert_eq!(material.scatter().is_some(), wood, "{}", built_in.name);

@@ -204,10 +204,7 @@ impl Range {
             ),
             Self::NotNegative | Self::Positive => return Ok(()),
         };
-        match possible {
-            true => Ok(()),
-            false => Err(Error::value(field, shown(value, &unit), expected)),
-        }
+        if possible { Ok(()) } else { Err(Error::value(field, shown(value, &unit), expected)) }
     }
 }
 

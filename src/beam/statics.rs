@@ -134,10 +134,10 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
             let shear = if self.theory.shears() { count * points } else { 0 };
             self.shear_stiffness.resize(shear, zero);
         }
-        match over {
-            true => self.sample_over_stations(bats, meshes),
-            false if self.theory.turns() => self.sample_the_rest(bats, meshes),
-            false => {}
+        if over {
+            self.sample_over_stations(bats, meshes);
+        } else if self.theory.turns() {
+            self.sample_the_rest(bats, meshes);
         }
         let (mut mass, mut first) = (RunningSum::<R>::default(), RunningSum::<R>::default());
         let (mut greatest, mut stiffest) = (zero, 0.0);

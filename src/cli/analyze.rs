@@ -196,18 +196,13 @@ pub fn run(args: &Args) -> Result<Done> {
         None => args.solve.verdict(&analysis.solution, &args.output),
     };
     let code = code.max(hit_verdict(&args.solve, &analysis.hits, &args.output));
-    let table = match args.full {
-        true => {
-            let cuts =
-                lathe.map(|map| report::lathe::in_short(&map, args.output.units(&analysis.bat)));
-            let cuts = cuts.filter(|cuts| !cuts.is_empty()).map(|cuts| format!("\n{cuts}"));
-            table(&analysis, &args.output) + &cuts.unwrap_or_default()
-        }
-        false => {
-            let more = analysis.barrel.as_ref().and_then(report::hoop::in_a_line);
-            trust::screen(&analysis, args.output.units(&analysis.bat))
-                + more.as_deref().unwrap_or(MORE)
-        }
+    let table = if args.full {
+        let cuts = lathe.map(|map| report::lathe::in_short(&map, args.output.units(&analysis.bat)));
+        let cuts = cuts.filter(|cuts| !cuts.is_empty()).map(|cuts| format!("\n{cuts}"));
+        table(&analysis, &args.output) + &cuts.unwrap_or_default()
+    } else {
+        let more = analysis.barrel.as_ref().and_then(report::hoop::in_a_line);
+        trust::screen(&analysis, args.output.units(&analysis.bat)) + more.as_deref().unwrap_or(MORE)
     };
     let table = match &proven {
         Some(proven) => format!("{table}\n{}", proven::text(proven)),

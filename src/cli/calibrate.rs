@@ -257,13 +257,13 @@ fn readings(args: &Args, bat: &Bat) -> Result<Option<Told>> {
     };
     let name = path.file_name().map_or(printed(path), |name| printed(Path::new(name)));
     let beside = args.beside.read()?;
-    let readings = match measured::has_modes(path) {
-        true => of_modes(measured::read(path, &beside)?, bat, args.quiet)?,
-        false if beside != Beside::default() => {
-            let expected = "a universal file (.uff, .unv): readings have their units";
-            return Err(Error::value("--unit, --places or --frequency-unit", name, expected));
-        }
-        false => readings_file::from_file(path)?,
+    let readings = if measured::has_modes(path) {
+        of_modes(measured::read(path, &beside)?, bat, args.quiet)?
+    } else if beside != Beside::default() {
+        let expected = "a universal file (.uff, .unv): readings have their units";
+        return Err(Error::value("--unit, --places or --frequency-unit", name, expected));
+    } else {
+        readings_file::from_file(path)?
     };
     Ok(Some(Told { readings, name, person: None }))
 }

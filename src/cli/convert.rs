@@ -206,10 +206,8 @@ fn refuse_giants(args: &Args, table: &ModeTable) -> Result<()> {
     let Some(around) = args.surface.map(usize::from) else { return Ok(()) };
     let (modes, places) = (table.modes.len(), table.x.len());
     let points = places * around;
-    let bytes = match is_collection(args) {
-        false => vtu::size(points, modes),
-        true => modes * vtu::size(points, 1),
-    };
+    let bytes =
+        if is_collection(args) { modes * vtu::size(points, 1) } else { vtu::size(points, modes) };
     if bytes <= MOST {
         return Ok(());
     }

@@ -27,10 +27,8 @@ pub fn apart(named: &[(&str, &Option<PathBuf>)]) -> Result<()> {
         };
         let Some((first, other)) = named[..k].iter().find(alike) else { continue };
         let found = format!("{} beside {first} {}", path.display(), other.display());
-        let expected = match stdout {
-            true => "one of them on standard output",
-            false => "another name for one of them",
-        };
+        let expected =
+            if stdout { "one of them on standard output" } else { "another name for one of them" };
         return Err(Error::value(*second, found, expected));
     }
     Ok(())

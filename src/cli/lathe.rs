@@ -109,11 +109,10 @@ fn band(text: &str) -> std::result::Result<BandArg, String> {
         Some((from, to)) => {
             let [from, to] = [from, to].map(|end| PLACE.read(end.trim()));
             let [from, to] = [from?, to?];
-            match to > from {
-                true => Ok(BandArg::Stretch([from, to])),
-                false => {
-                    Err(format!("found a stretch from {from} m to {to} m, expected a rising one"))
-                }
+            if to > from {
+                Ok(BandArg::Stretch([from, to]))
+            } else {
+                Err(format!("found a stretch from {from} m to {to} m, expected a rising one"))
             }
         }
         None => SPACING.read(text).map(BandArg::Width),
@@ -191,13 +190,12 @@ fn stretches(args: &Args, bat: &Bat) -> Result<(Vec<[f64; 2]>, f64)> {
     if let ([width], true) = (&widths[..], all.is_empty()) {
         let width = *width;
         const NARROWEST: f64 = 1e-3;
-        match (NARROWEST..=length).contains(&width) {
-            true => all = bands(length, width),
-            false => {
-                let expected =
-                    format!("a width from 1 mm to the bat's length, {}", shown_length(length));
-                wrong.push(Error::value("--bands", shown_length(width), expected));
-            }
+        if (NARROWEST..=length).contains(&width) {
+            all = bands(length, width);
+        } else {
+            let expected =
+                format!("a width from 1 mm to the bat's length, {}", shown_length(length));
+            wrong.push(Error::value("--bands", shown_length(width), expected));
         }
     }
     if !(args.depth > 0.0 && args.depth <= 0.02) {

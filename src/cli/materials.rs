@@ -84,7 +84,7 @@ fn table(units: Units) -> String {
         columns.row([name].into_iter().chain(cells))
     };
     let mut out = line(None);
-    for material in BUILT_IN {
+    for material in BUILT_IN.iter() {
         out += &line(Some(material));
         out += &wrapped(&format!("  {}", material.source), 2);
         out += &strength(material, units);

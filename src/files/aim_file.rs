@@ -249,11 +249,10 @@ fn stretch(node: &Node) -> Result<[f64; 2]> {
     }
     let [from, to] = ends(&object, &mut mistakes).map(Option::unwrap_or_default);
     mistakes.end(())?;
-    match from >= 0.0 && from < to {
-        true => Ok([from, to]),
-        false => {
-            Err(node.error(format!("{from} m to {to} m"), "a stretch that ends after it begins"))
-        }
+    if from >= 0.0 && from < to {
+        Ok([from, to])
+    } else {
+        Err(node.error(format!("{from} m to {to} m"), "a stretch that ends after it begins"))
     }
 }
 
@@ -295,11 +294,10 @@ fn free(node: &Node) -> Result<FreeChoice> {
                 return Err(node.error(format!("{} values", items.len()), "[least, greatest]"));
             };
             let range = [from.quantity(quantity)?, to.quantity(quantity)?];
-            match range[0] > 0.0 && range[0] < range[1] {
-                true => Ok(range),
-                false => {
-                    Err(node.error("a range that does not rise", "[least, greatest], above 0"))
-                }
+            if range[0] > 0.0 && range[0] < range[1] {
+                Ok(range)
+            } else {
+                Err(node.error("a range that does not rise", "[least, greatest], above 0"))
             }
         });
         mistakes.note(read.transpose())

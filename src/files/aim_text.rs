@@ -64,10 +64,7 @@ pub fn goal(name: &str) -> Said<Goal> {
                             documents, such as modal_mass_mode_1_kg";
             let complaint =
                 Complaint { field: String::new(), expected: expected.to_owned(), ..complaint };
-            match complaint.hint.is_empty() {
-                true => complaint.or_nearest(&plain, &names),
-                false => complaint,
-            }
+            if complaint.hint.is_empty() { complaint.or_nearest(&plain, &names) } else { complaint }
         }
         other => Complaint::new("", other, "a name"),
     })

@@ -170,12 +170,11 @@ fn tone(node: &Node) -> Result<RingDown> {
 /// The number of a bending mode.
 fn order(node: &Node) -> Result<usize> {
     let value = node.number()?;
-    match value.fract() == 0.0 && (1.0..=MOST_MODES as f64).contains(&value) {
-        true => Ok(value as usize),
-        false => {
-            let expected = format!("the number of a bending mode, 1 to {MOST_MODES}");
-            Err(node.error(node.shown(), expected))
-        }
+    if value.fract() == 0.0 && (1.0..=MOST_MODES as f64).contains(&value) {
+        Ok(value as usize)
+    } else {
+        let expected = format!("the number of a bending mode, 1 to {MOST_MODES}");
+        Err(node.error(node.shown(), expected))
     }
 }
 

@@ -203,10 +203,7 @@ fn difference(key: &str, way: &'static str, node: &Node) -> Result<Difference> {
         object.require(way, &format!("\"{way}\": a standard deviation, such as {example}"));
     let length = |node: &Node, most: f64, said: &str| {
         let value = node.quantity(Quantity::Length)?;
-        match value > 0.0 && value <= most {
-            true => Ok(value),
-            false => Err(node.error(node.shown(), said)),
-        }
+        if value > 0.0 && value <= most { Ok(value) } else { Err(node.error(node.shown(), said)) }
     };
     let deviation = deviation.and_then(|node| match key {
         "turning" => length(node, 2e-3, "a length above 0 and up to 2 mm"),

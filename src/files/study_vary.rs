@@ -242,12 +242,11 @@ pub(crate) fn varied(node: &Node, wanted: &mut Wanted) -> Result<Vec<Varied>> {
         let (subject, inside) = led(path, &key)?;
         let other = all.iter().find(|(of, into, _)| *of == subject && one_within(into, &inside));
         if let Some((_, into, other)) = other {
-            return Err(match *into == inside {
-                true => key.error(format!("\"{path}\" a second time"), "it once"),
-                false => {
-                    let found = format!("\"{path}\" beside \"{other}\", one inside the other");
-                    key.error(found, "paths of which none lies inside another")
-                }
+            return Err(if *into == inside {
+                key.error(format!("\"{path}\" a second time"), "it once")
+            } else {
+                let found = format!("\"{path}\" beside \"{other}\", one inside the other");
+                key.error(found, "paths of which none lies inside another")
             });
         }
         all.push((subject, inside.clone(), path));

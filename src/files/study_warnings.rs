@@ -22,10 +22,10 @@ impl Rows {
         let varies = self.study.varies(Subject::Bat);
         let strange = self.bats.iter().enumerate().filter_map(|(k, bat)| {
             let own = own(bat).unwrap_or_default();
-            let all = match own.is_empty() && varies && k < TOLD {
-                true => self
-                    .first_strange(Subject::Bat, |row| Some(self.bat(bat, row).ok()?.warnings()))?,
-                false => own.join("; "),
+            let all = if own.is_empty() && varies && k < TOLD {
+                self.first_strange(Subject::Bat, |row| Some(self.bat(bat, row).ok()?.warnings()))?
+            } else {
+                own.join("; ")
             };
             (!all.is_empty()).then(|| format!("{}: {all}", bat.name))
         });

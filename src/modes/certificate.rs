@@ -46,13 +46,13 @@ pub fn lost(residual: f64, left: f64, ratio: f64, apart: bool) -> f64 {
     /// A frequency may lose three times the residual where both are a few ε, and no more than this.
     const CHANCE: f64 = 48.0 * f64::EPSILON;
     let beyond = ((residual - left) * (residual + left)).max(0.0).sqrt();
-    match apart {
-        true => 0.5 * beyond,
-        false if left > 0.1 * residual && residual > ARITHMETIC => 0.0,
-        false => {
-            let beyond = (beyond - USUAL * ratio * ratio).max(0.0);
-            0.5 * beyond + (2.5 * beyond).min(CHANCE)
-        }
+    if apart {
+        0.5 * beyond
+    } else if left > 0.1 * residual && residual > ARITHMETIC {
+        0.0
+    } else {
+        let beyond = (beyond - USUAL * ratio * ratio).max(0.0);
+        0.5 * beyond + (2.5 * beyond).min(CHANCE)
     }
 }
 

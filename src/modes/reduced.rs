@@ -137,9 +137,8 @@ impl Reduced {
         let (at, modes) = (self.members.len(), self.omega.len());
         self.members.push(new);
         let new = &self.members[at];
-        let both = |a: &[f64], b: &[f64], old: &Member, of_old: &[f64]| match b.is_empty() {
-            true => 0.0,
-            false => 0.5 * (dot(a, of_old) + dot(b, &old.strains)),
+        let both = |a: &[f64], b: &[f64], old: &Member, of_old: &[f64]| {
+            if b.is_empty() { 0.0 } else { 0.5 * (dot(a, of_old) + dot(b, &old.strains)) }
         };
         let mass = self.members.iter().enumerate().map(|(k, old)| match k < modes {
             true if k == at => self.omega[k].powi(-2),

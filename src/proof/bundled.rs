@@ -5,191 +5,77 @@ use std::path::Path;
 use crate::base::error::{Complaint, Error, Result};
 use crate::bat::body::Bat;
 
-/// The cases that travel with the program: file name and text.
-pub const CASES: &[(&str, &str)] = &[
-    ("absorber", include_str!("../../validation/absorber.json")),
-    ("clamped_clamped", include_str!("../../validation/clamped_clamped.json")),
-    ("clamped_free", include_str!("../../validation/clamped_free.json")),
-    ("clamped_pinned", include_str!("../../validation/clamped_pinned.json")),
-    ("clamped_tip_mass", include_str!("../../validation/clamped_tip_mass.json")),
-    ("cone_1_10", include_str!("../../validation/cone_1_10.json")),
-    ("cone_1_100", include_str!("../../validation/cone_1_100.json")),
-    ("cone_1_1000", include_str!("../../validation/cone_1_1000.json")),
-    ("cone_1_10000", include_str!("../../validation/cone_1_10000.json")),
-    ("cone_1_10_60", include_str!("../../validation/cone_1_10_60.json")),
-    ("cone_1_2p64", include_str!("../../validation/cone_1_2p64.json")),
-    ("cone_1_2p64_60", include_str!("../../validation/cone_1_2p64_60.json")),
-    ("cone_complete", include_str!("../../validation/cone_complete.json")),
-    ("cork", include_str!("../../validation/cork.json")),
-    ("damped_absorber", include_str!("../../validation/damped_absorber.json")),
-    ("damped_hands", include_str!("../../validation/damped_hands.json")),
-    ("dowel", include_str!("../../validation/dowel.json")),
-    ("dumbbell", include_str!("../../validation/dumbbell.json")),
-    ("end_springs", include_str!("../../validation/end_springs.json")),
-    ("exponential", include_str!("../../validation/exponential.json")),
-    ("grip_bed", include_str!("../../validation/grip_bed.json")),
-    ("grip_bed_cone_timo", include_str!("../../validation/grip_bed_cone_timo.json")),
-    ("handle_1mm", include_str!("../../validation/handle_1mm.json")),
-    ("heavy_free", include_str!("../../validation/heavy_free.json")),
-    ("heavy_tip", include_str!("../../validation/heavy_tip.json")),
-    ("hermite_01", include_str!("../../validation/hermite_01.json")),
-    ("hermite_02", include_str!("../../validation/hermite_02.json")),
-    ("hermite_04", include_str!("../../validation/hermite_04.json")),
-    ("hermite_08", include_str!("../../validation/hermite_08.json")),
-    ("hermite_16", include_str!("../../validation/hermite_16.json")),
-    ("hermite_32", include_str!("../../validation/hermite_32.json")),
-    ("hermite_64", include_str!("../../validation/hermite_64.json")),
-    ("hollow_linear", include_str!("../../validation/hollow_linear.json")),
-    ("house_reference", include_str!("../../validation/house_reference.json")),
-    ("interior_clamp", include_str!("../../validation/interior_clamp.json")),
-    ("interior_clamp_middle", include_str!("../../validation/interior_clamp_middle.json")),
-    ("joint", include_str!("../../validation/joint.json")),
-    ("linear_bat", include_str!("../../validation/linear_bat.json")),
-    ("lossy_dowel", include_str!("../../validation/lossy_dowel.json")),
-    ("mid_mass", include_str!("../../validation/mid_mass.json")),
-    ("nafems_fv2_clamped_pinned", include_str!("../../validation/nafems_fv2_clamped_pinned.json")),
-    ("nafems_fv2_pinned_pinned", include_str!("../../validation/nafems_fv2_pinned_pinned.json")),
-    ("nafems_fv5", include_str!("../../validation/nafems_fv5.json")),
-    ("northwestern_aluminium", include_str!("../../validation/northwestern_aluminium.json")),
-    ("northwestern_aluminium_09", include_str!("../../validation/northwestern_aluminium_09.json")),
-    ("northwestern_aluminium_20", include_str!("../../validation/northwestern_aluminium_20.json")),
-    ("northwestern_aluminium_40", include_str!("../../validation/northwestern_aluminium_40.json")),
-    ("northwestern_aluminium_80", include_str!("../../validation/northwestern_aluminium_80.json")),
-    (
-        "northwestern_aluminium_ansys",
-        include_str!("../../validation/northwestern_aluminium_ansys.json"),
-    ),
-    (
-        "northwestern_aluminium_fit",
-        include_str!("../../validation/northwestern_aluminium_fit.json"),
-    ),
-    (
-        "northwestern_aluminium_measured",
-        include_str!("../../validation/northwestern_aluminium_measured.json"),
-    ),
-    ("northwestern_wood", include_str!("../../validation/northwestern_wood.json")),
-    ("northwestern_wood_09", include_str!("../../validation/northwestern_wood_09.json")),
-    ("northwestern_wood_20", include_str!("../../validation/northwestern_wood_20.json")),
-    ("northwestern_wood_40", include_str!("../../validation/northwestern_wood_40.json")),
-    ("northwestern_wood_80", include_str!("../../validation/northwestern_wood_80.json")),
-    ("northwestern_wood_above", include_str!("../../validation/northwestern_wood_above.json")),
-    (
-        "northwestern_wood_misprint",
-        include_str!("../../validation/northwestern_wood_misprint.json"),
-    ),
-    ("northwestern_wood_side", include_str!("../../validation/northwestern_wood_side.json")),
-    ("offset_mass", include_str!("../../validation/offset_mass.json")),
-    ("pchip_bat", include_str!("../../validation/pchip_bat.json")),
-    ("pin_inside", include_str!("../../validation/pin_inside.json")),
-    ("pinned_pinned", include_str!("../../validation/pinned_pinned.json")),
-    ("r161_hit_cross", include_str!("../../validation/r161_hit_cross.json")),
-    ("r161_hit_fast", include_str!("../../validation/r161_hit_fast.json")),
-    ("r161_hit_nathan", include_str!("../../validation/r161_hit_nathan.json")),
-    ("r161_hit_slow", include_str!("../../validation/r161_hit_slow.json")),
-    ("r161_nathan", include_str!("../../validation/r161_nathan.json")),
-    ("r161_nathan_timoshenko", include_str!("../../validation/r161_nathan_timoshenko.json")),
-    ("r161_reference", include_str!("../../validation/r161_reference.json")),
-    ("r161_rest_free", include_str!("../../validation/r161_rest_free.json")),
-    ("r161_rest_pivoted", include_str!("../../validation/r161_rest_pivoted.json")),
-    ("r161_slices", include_str!("../../validation/r161_slices.json")),
-    ("r161_wolfish", include_str!("../../validation/r161_wolfish.json")),
-    ("rayleigh_cone", include_str!("../../validation/rayleigh_cone.json")),
-    ("rayleigh_dowel", include_str!("../../validation/rayleigh_dowel.json")),
-    ("receptance_dowel", include_str!("../../validation/receptance_dowel.json")),
-    ("receptance_timo", include_str!("../../validation/receptance_timo.json")),
-    ("russell_little_league", include_str!("../../validation/russell_little_league.json")),
-    ("russell_usual", include_str!("../../validation/russell_usual.json")),
-    ("sinusoidal", include_str!("../../validation/sinusoidal.json")),
-    ("sleeve", include_str!("../../validation/sleeve.json")),
-    ("soft_springs", include_str!("../../validation/soft_springs.json")),
-    ("squared_up_acuna", include_str!("../../validation/squared_up_acuna.json")),
-    ("squared_up_larnach", include_str!("../../validation/squared_up_larnach.json")),
-    ("step_1_3", include_str!("../../validation/step_1_3.json")),
-    ("step_1_3_60", include_str!("../../validation/step_1_3_60.json")),
-    ("steps_many", include_str!("../../validation/steps_many.json")),
-    ("stiff_springs", include_str!("../../validation/stiff_springs.json")),
-    ("struck_dowel", include_str!("../../validation/struck_dowel.json")),
-    ("struck_lossy_dowel", include_str!("../../validation/struck_lossy_dowel.json")),
-    ("tanh_bat", include_str!("../../validation/tanh_bat.json")),
-    ("taped_dowel", include_str!("../../validation/taped_dowel.json")),
-    ("thomson_table", include_str!("../../validation/thomson_table.json")),
-    ("three_supports", include_str!("../../validation/three_supports.json")),
-    ("timo_clamped_tip_mass", include_str!("../../validation/timo_clamped_tip_mass.json")),
-    ("timo_cone", include_str!("../../validation/timo_cone.json")),
-    ("timo_dowel", include_str!("../../validation/timo_dowel.json")),
-    ("timo_dowel_60", include_str!("../../validation/timo_dowel_60.json")),
-    ("timo_pinned_pinned", include_str!("../../validation/timo_pinned_pinned.json")),
-    ("timo_slender", include_str!("../../validation/timo_slender.json")),
-    ("timo_step", include_str!("../../validation/timo_step.json")),
-    ("timo_stubby", include_str!("../../validation/timo_stubby.json")),
-    ("timo_tube", include_str!("../../validation/timo_tube.json")),
-    ("torpedo_reference", include_str!("../../validation/torpedo_reference.json")),
-    ("torpedo_slices", include_str!("../../validation/torpedo_slices.json")),
-    ("torpedo_wolfish", include_str!("../../validation/torpedo_wolfish.json")),
-    ("torpedo_wolfish_later", include_str!("../../validation/torpedo_wolfish_later.json")),
-    ("two_materials", include_str!("../../validation/two_materials.json")),
-    ("van_zandt_computed", include_str!("../../validation/van_zandt_computed.json")),
-    ("van_zandt_measured", include_str!("../../validation/van_zandt_measured.json")),
-    ("wall_nathan", include_str!("../../validation/wall_nathan.json")),
-    ("wall_times", include_str!("../../validation/wall_times.json")),
-    ("weighed_dowel", include_str!("../../validation/weighed_dowel.json")),
-];
+/// Name and text of the JSON files of a folder, by their names without the ending.
+macro_rules! files {
+    ($folder:literal: $($name:literal)*) => {
+        &[$(($name, include_str!(concat!("../../", $folder, "/", $name, ".json")))),*]
+    };
+}
 
-/// The bats that travel with the program: path and text.
-pub const BATS: &[(&str, &str)] = &[
-    ("meshes/bbcor_made_up.json", include_str!("../../meshes/bbcor_made_up.json")),
-    ("meshes/bbcor_made_up_open.json", include_str!("../../meshes/bbcor_made_up_open.json")),
-    ("meshes/composite_made_up.json", include_str!("../../meshes/composite_made_up.json")),
-    ("meshes/cone.json", include_str!("../../meshes/cone.json")),
-    ("meshes/corked.json", include_str!("../../meshes/corked.json")),
-    ("meshes/dowel.json", include_str!("../../meshes/dowel.json")),
-    ("meshes/house.json", include_str!("../../meshes/house.json")),
-    (
-        "meshes/northwestern_aluminium.json",
-        include_str!("../../meshes/northwestern_aluminium.json"),
-    ),
-    ("meshes/northwestern_wood.json", include_str!("../../meshes/northwestern_wood.json")),
-    ("meshes/r161.json", include_str!("../../meshes/r161.json")),
-    ("meshes/softball_made_up.json", include_str!("../../meshes/softball_made_up.json")),
-    ("meshes/softball_made_up_open.json", include_str!("../../meshes/softball_made_up_open.json")),
-    ("meshes/tanh.json", include_str!("../../meshes/tanh.json")),
-    ("meshes/torpedo.json", include_str!("../../meshes/torpedo.json")),
-    ("meshes/two_piece.json", include_str!("../../meshes/two_piece.json")),
-];
+/// The cases that travel with the program: name and text.
+pub const CASES: &[(&str, &str)] = files! { "validation":
+    "absorber" "clamped_clamped" "clamped_free" "clamped_pinned" "clamped_tip_mass" "cone_1_10"
+    "cone_1_100" "cone_1_1000" "cone_1_10000" "cone_1_10_60" "cone_1_2p64" "cone_1_2p64_60"
+    "cone_complete" "cork" "damped_absorber" "damped_hands" "dowel" "dumbbell" "end_springs"
+    "exponential" "grip_bed" "grip_bed_cone_timo" "handle_1mm" "heavy_free" "heavy_tip" "hermite_01"
+    "hermite_02" "hermite_04" "hermite_08" "hermite_16" "hermite_32" "hermite_64" "hollow_linear"
+    "house_reference" "interior_clamp" "interior_clamp_middle" "joint" "linear_bat" "lossy_dowel"
+    "mid_mass" "nafems_fv2_clamped_pinned" "nafems_fv2_pinned_pinned" "nafems_fv5"
+    "northwestern_aluminium" "northwestern_aluminium_09" "northwestern_aluminium_20"
+    "northwestern_aluminium_40" "northwestern_aluminium_80" "northwestern_aluminium_ansys"
+    "northwestern_aluminium_fit" "northwestern_aluminium_measured" "northwestern_wood"
+    "northwestern_wood_09" "northwestern_wood_20" "northwestern_wood_40" "northwestern_wood_80"
+    "northwestern_wood_above" "northwestern_wood_misprint" "northwestern_wood_side" "offset_mass"
+    "pchip_bat" "pin_inside" "pinned_pinned" "r161_hit_cross" "r161_hit_fast" "r161_hit_nathan"
+    "r161_hit_slow" "r161_nathan" "r161_nathan_timoshenko" "r161_reference" "r161_rest_free"
+    "r161_rest_pivoted" "r161_slices" "r161_wolfish" "rayleigh_cone" "rayleigh_dowel"
+    "receptance_dowel" "receptance_timo" "russell_little_league" "russell_usual" "sinusoidal"
+    "sleeve" "soft_springs" "squared_up_acuna" "squared_up_larnach" "step_1_3" "step_1_3_60"
+    "steps_many" "stiff_springs" "struck_dowel" "struck_lossy_dowel" "tanh_bat" "taped_dowel"
+    "thomson_table" "three_supports" "timo_clamped_tip_mass" "timo_cone" "timo_dowel"
+    "timo_dowel_60" "timo_pinned_pinned" "timo_slender" "timo_step" "timo_stubby" "timo_tube"
+    "torpedo_reference" "torpedo_slices" "torpedo_wolfish" "torpedo_wolfish_later" "two_materials"
+    "van_zandt_computed" "van_zandt_measured" "wall_nathan" "wall_times" "weighed_dowel"
+};
 
-/// One of the bats that travel with the program.
+/// The bats that travel with the program: name and text.
+pub const BATS: &[(&str, &str)] = files! { "meshes":
+    "bbcor_made_up" "bbcor_made_up_open" "composite_made_up" "cone" "corked" "dowel" "house"
+    "northwestern_aluminium" "northwestern_wood" "r161" "softball_made_up" "softball_made_up_open"
+    "tanh" "torpedo" "two_piece"
+};
+
+/// One of the bats that travel with the program, by its path in the package.
 ///
 /// # Errors
 ///
 /// [`Error::Value`] if there is none of that name.
 pub fn bundled_bat(path: &str) -> Result<Bat> {
-    let (_, text) = BATS
-        .iter()
-        .find(|(name, _)| *name == path)
+    let name = path.strip_prefix("meshes/").and_then(|file| file.strip_suffix(".json"));
+    let text = name
+        .and_then(bat_text)
         .ok_or_else(|| Error::value("bat", path, "a bat that travels with the program"))?;
     Bat::from_text(path, text, Path::new(""))
 }
 
 /// The names of the bats that travel with the program: those of their files.
 pub fn bat_names() -> Vec<&'static str> {
-    BATS.iter().map(|(path, _)| stem(path)).collect()
+    BATS.iter().map(|(name, _)| *name).collect()
 }
 
 /// The text of the bat of that name, if it travels with the program.
 pub fn bat_text(name: &str) -> Option<&'static str> {
-    BATS.iter().find(|(path, _)| stem(path) == name).map(|(_, text)| *text)
+    of(BATS, name)
 }
 
-/// The name of a file without its folder and its ending.
-fn stem(path: &'static str) -> &'static str {
-    Path::new(path).file_stem().and_then(|stem| stem.to_str()).unwrap_or(path)
+/// The text of the file of that name, if it is among these.
+fn of(files: &[(&str, &'static str)], name: &str) -> Option<&'static str> {
+    files.iter().find(|(other, _)| *other == name).map(|(_, text)| *text)
 }
 
 /// The text of the case of that name.
 pub(crate) fn text(name: &str) -> Result<&'static str> {
-    let found = CASES.iter().find(|(case, _)| *case == name);
-    found
-        .map(|(_, text)| *text)
+    of(CASES, name)
         .ok_or_else(|| Error::value("case", name, "a case that travels with the program"))
 }
 
@@ -239,9 +125,9 @@ mod tests {
 
     #[test]
     fn every_file_of_the_folders_travels_with_the_program() {
-        let cases: Vec<String> = CASES.iter().map(|(name, _)| format!("{name}.json")).collect();
-        assert_eq!(cases, files("validation"));
-        let bats: Vec<String> = BATS.iter().map(|(name, _)| name.replace("meshes/", "")).collect();
-        assert_eq!(bats, files("meshes"));
+        for (known, folder) in [(CASES, "validation"), (BATS, "meshes")] {
+            let names: Vec<String> = known.iter().map(|(name, _)| format!("{name}.json")).collect();
+            assert_eq!(names, files(folder));
+        }
     }
 }

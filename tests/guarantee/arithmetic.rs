@@ -1,7 +1,7 @@
 //! Intervals, tables and series against arithmetic of twice the digits.
 
 use sweetspot::base::interval::gauss::Gauss;
-use sweetspot::base::interval::tables::{GAUSS_24, GAUSS_40};
+use sweetspot::base::interval::gauss::{GAUSS_24, GAUSS_40};
 use sweetspot::base::interval::{Interval, Series, Values, down, up};
 
 use crate::twofold::{Twofold, legendre, number, two_product, two_sum};

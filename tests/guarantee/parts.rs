@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use sweetspot::base::interval::tables::{GAUSS_24, GAUSS_40};
+use sweetspot::base::interval::gauss::{GAUSS_24, GAUSS_40};
 use sweetspot::base::interval::{Interval, Values};
 use sweetspot::bat::fixtures::{Absorber, Attachment, Fixtures, Grip, Held, Joint, Support};
 use sweetspot::bat::profile::{Interpolation, Stations};

@@ -2,6 +2,22 @@
 //!
 //! `n` Gauss points integrate polynomials of degree `2n − 1` exactly, so that the values at them of a
 //! polynomial of degree `d ≤ n − 1` give its coefficients `c_j = (2j + 1)/2 Σ_g w_g P_j(ξ_g) v_g`.
+//!
+//! # Source
+//!
+//! `search/legendre_tables.py`, which writes the numbers from 60 digits: each is the double nearest to the
+//! true one. Tests hold them against identities in twice the digits.
+
+use std::array::from_fn;
+use std::sync::LazyLock;
+
+/// 24 points.
+pub static GAUSS_24: LazyLock<Gauss<24>> =
+    LazyLock::new(|| Gauss::of(include_str!("gauss_24.txt")));
+
+/// 40 points.
+pub static GAUSS_40: LazyLock<Gauss<40>> =
+    LazyLock::new(|| Gauss::of(include_str!("gauss_40.txt")));
 
 /// Gauss points on [−1, 1] with all that depends on them alone; every number is the double nearest to
 /// the true one.
@@ -17,41 +33,22 @@ pub struct Gauss<const N: usize> {
     pub to_series: [[f64; N]; N],
 }
 
-/// [`Gauss`] at the points above 0; `H` is half of `N`.
-pub(super) struct Half<const H: usize, const N: usize> {
-    pub points: [f64; H],
-    pub weights: [f64; H],
-    pub legendre: [[f64; H]; N],
-    pub to_series: [[f64; H]; N],
-}
-
-impl<const H: usize, const N: usize> Half<H, N> {
-    /// All points: `P_j(−ξ) = (−1)^j P_j(ξ)`.
-    pub const fn whole(&self) -> Gauss<N> {
-        let zeros = [[0.0; N]; N];
-        let (mut legendre, mut to_series, mut j) = (zeros, zeros, 0);
-        while j < N {
-            legendre[j] = mirrored(&self.legendre[j], j % 2 == 1);
-            to_series[j] = mirrored(&self.to_series[j], j % 2 == 1);
-            j += 1;
-        }
-        Gauss {
-            points: mirrored(&self.points, true),
-            weights: mirrored(&self.weights, false),
-            legendre,
-            to_series,
+impl<const N: usize> Gauss<N> {
+    /// Of rows in the order of the fields, at the points above 0: `P_j(−ξ) = (−1)^j P_j(ξ)`.
+    fn of(text: &str) -> Self {
+        let mut rows = text.lines().filter(|line| !line.starts_with('#'));
+        let mut row = |odd: bool| {
+            let row = rows.next().expect("a row for each of them");
+            let above: Vec<f64> = row.split(' ').map(|x| x.parse().expect("a number")).collect();
+            assert_eq!(2 * above.len(), N, "half as many points");
+            let at = |k: usize| if k < N / 2 { N / 2 - 1 - k } else { k - N / 2 };
+            from_fn(|k| if odd && k < N / 2 { -above[at(k)] } else { above[at(k)] })
+        };
+        Self {
+            points: row(true),
+            weights: row(false),
+            legendre: from_fn(|j| row(j % 2 == 1)),
+            to_series: from_fn(|j| row(j % 2 == 1)),
         }
     }
-}
-
-/// Values at the points above 0 continued to those below it, with the opposite sign where they are odd.
-const fn mirrored<const H: usize, const N: usize>(above: &[f64; H], odd: bool) -> [f64; N] {
-    assert!(2 * H == N, "half as many points");
-    let (mut all, mut k) = ([0.0; N], 0);
-    while k < H {
-        all[H + k] = above[k];
-        all[H - 1 - k] = if odd { -above[k] } else { above[k] };
-        k += 1;
-    }
-    all
 }

@@ -14,7 +14,6 @@
 mod rectangle;
 mod jet;
 pub mod gauss;
-pub mod tables;
 pub mod series;
 
 pub use jet::Jet;

@@ -66,17 +66,12 @@ impl Extent {
         let walls = pieces.iter().enumerate().filter(|(_, piece)| is_wall(bat, piece));
         let barrel = walls.max_by(|(_, a), (_, b)| widest(a).total_cmp(&widest(b)));
         let Some((barrel, _)) = barrel else {
-            return Err(match pieces.iter().any(is_hollow) {
-                true => {
-                    let expected = "a wall of metal or of a composite: wood differs with the direction \
-                                    of its grain, so that its wall is no solid of revolution";
-                    Error::value("material", "a hollow bat of wood", expected)
-                }
-                false => Error::value(
-                    "profile",
-                    "a solid bat",
-                    "a hollow one: only a wall has hoop modes",
-                ),
+            return Err(if pieces.iter().any(is_hollow) {
+                let expected = "a wall of metal or of a composite: wood differs with the direction \
+                                of its grain, so that its wall is no solid of revolution";
+                Error::value("material", "a hollow bat of wood", expected)
+            } else {
+                Error::value("profile", "a solid bat", "a hollow one: only a wall has hoop modes")
             });
         };
         let (mut first, mut limit) = (0, Limit::Knob);

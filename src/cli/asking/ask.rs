@@ -285,12 +285,11 @@ pub fn material(text: &str) -> Read<String> {
 
 /// A density in the unit that goes with the ruler's.
 pub fn shown_density(density: f64, inches: bool) -> String {
-    match inches {
-        true => {
-            let pound = units::factor("lb/in^3", Quantity::Density).unwrap_or(1.0);
-            format!("{:.4} lb/in³", density / pound)
-        }
-        false => format!("{density:.0} kg/m³"),
+    if inches {
+        let pound = units::factor("lb/in^3", Quantity::Density).unwrap_or(1.0);
+        format!("{:.4} lb/in³", density / pound)
+    } else {
+        format!("{density:.0} kg/m³")
     }
 }
 

@@ -106,12 +106,11 @@ impl Draft {
     pub fn said(&self) -> String {
         let before = self.instead.as_ref();
         let before = before.map_or(String::new(), |what| format!("{what}: it stays as it is. "));
-        match self.place < PLACES {
-            true => {
-                let name = printed(&self.at(self.place));
-                format!("{before}Answers are kept in {name} until all is done.")
-            }
-            false => format!("{before}Nothing is kept."),
+        if self.place < PLACES {
+            let name = printed(&self.at(self.place));
+            format!("{before}Answers are kept in {name} until all is done.")
+        } else {
+            format!("{before}Nothing is kept.")
         }
     }
 

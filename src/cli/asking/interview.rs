@@ -174,12 +174,11 @@ fn measured_along<R: BufRead>(
 /// A name whose file is not there yet, unless the command names a file.
 fn free(args: &Args, name: &str) -> Read<String> {
     let path = called(name);
-    match args.file.is_some() || refuse_existing(&path, args.force).is_ok() {
-        true => Ok(name.to_owned()),
-        false => {
-            let found = format!("{}, which is there", printed(&path));
-            Err(Complaint::new("", found, "another name"))
-        }
+    if args.file.is_some() || refuse_existing(&path, args.force).is_ok() {
+        Ok(name.to_owned())
+    } else {
+        let found = format!("{}, which is there", printed(&path));
+        Err(Complaint::new("", found, "another name"))
     }
 }
 

@@ -81,12 +81,11 @@ fn within(
     };
     let value = units::parse(&said, quantity)?;
     let by = deviation(value, (&said, &second), quantity)?;
-    match by > 0.0 && by < value {
-        true => Ok(Some(format!("{said} ± {second}"))),
-        false => {
-            let expected = "an uncertainty above 0 and below the reading";
-            Err(Complaint::new("", format!("\"{text}\""), expected))
-        }
+    if by > 0.0 && by < value {
+        Ok(Some(format!("{said} ± {second}")))
+    } else {
+        let expected = "an uncertainty above 0 and below the reading";
+        Err(Complaint::new("", format!("\"{text}\""), expected))
     }
 }
 

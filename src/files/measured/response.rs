@@ -187,10 +187,8 @@ impl ResponseFile<'_> {
     /// are farthest apart; None where a node has no place.
     fn places(&self, dofs: [&Dof; 2]) -> [Option<f64>; 2] {
         let all: Vec<Vector> = self.nodes.values().copied().collect();
-        let along = match all.iter().any(|at| Some(at) != all.first()) {
-            true => axis(&all),
-            false => [1.0, 0.0, 0.0],
-        };
+        let along =
+            if all.iter().any(|at| Some(at) != all.first()) { axis(&all) } else { [1.0, 0.0, 0.0] };
         dofs.map(|dof| self.nodes.get(&dof.node).map(|at| dot(at, &along)))
     }
 }

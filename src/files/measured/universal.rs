@@ -450,15 +450,14 @@ fn deflection(motions: &[Motion], points: &[NodeGroup], axis: Vector) -> (Vec<c6
 fn said(directions: &[(String, f64)], modes: &[MeasuredMode]) -> Vec<String> {
     let Some((first, _)) = directions.first() else { return vec![] };
     let least = directions.iter().map(|(_, share)| *share).fold(1.0, f64::min);
-    let mut all = match directions.iter().all(|(direction, _)| direction == first) {
-        true => vec![format!("deflections are those along {first}")],
-        false => {
-            let one = |((direction, _), mode): (&(String, f64), &MeasuredMode)| {
-                format!("{} along {direction}", mode.name)
-            };
-            let list: Vec<String> = directions.iter().zip(modes).map(one).collect();
-            vec![format!("deflections: {}", list.join(", "))]
-        }
+    let mut all = if directions.iter().all(|(direction, _)| direction == first) {
+        vec![format!("deflections are those along {first}")]
+    } else {
+        let one = |((direction, _), mode): (&(String, f64), &MeasuredMode)| {
+            format!("{} along {direction}", mode.name)
+        };
+        let list: Vec<String> = directions.iter().zip(modes).map(one).collect();
+        vec![format!("deflections: {}", list.join(", "))]
     };
     if least < 0.9 {
         let poor = directions.iter().zip(modes).filter(|((_, share), _)| *share < 0.9);

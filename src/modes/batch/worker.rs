@@ -163,9 +163,8 @@ where
         // Of a bare bat whose sections do not turn the nodes tell.
         let statics = &self.pairs.statics;
         if modes > 0 && (statics.fixed.is_some() || statics.theory.turns()) {
-            let last = std::array::from_fn(|lane| match lane < R::LANES {
-                true => self.omegas[(lane + 1) * modes - 1],
-                false => 0.0,
+            let last = std::array::from_fn(|lane| {
+                if lane < R::LANES { self.omegas[(lane + 1) * modes - 1] } else { 0.0 }
             });
             self.count(modes, last);
         }

@@ -6,7 +6,7 @@
 use std::ops::Range;
 
 use crate::base::error::{Error, Result};
-use crate::base::interval::tables::GAUSS_24;
+use crate::base::interval::gauss::GAUSS_24;
 use crate::base::interval::{Interval, Series, Values};
 use crate::bat::body::Bat;
 use crate::bat::fixtures::{Absorber, Attachment, Fixtures, Joint};
@@ -366,14 +366,13 @@ fn cell(
         let found = format!("sections near {:.4} m that nothing bounds", origin + middle.middle());
         Error::value("profile", found, "a wall that is not thinner than round-off")
     };
-    let shear = match theory.shears() {
-        false => None,
-        true => {
-            let nearly = rings.shear().ok_or_else(unbounded)?;
-            let least = rings.shear_at_least().filter(|least| *least > 0.0);
-            let least = least.ok_or_else(unbounded)?;
-            Some(Shear { values: nearly.series.values(gauss), share: nearly.share, least })
-        }
+    let shear = if theory.shears() {
+        let nearly = rings.shear().ok_or_else(unbounded)?;
+        let least = rings.shear_at_least().filter(|least| *least > 0.0);
+        let least = least.ok_or_else(unbounded)?;
+        Some(Shear { values: nearly.series.values(gauss), share: nearly.share, least })
+    } else {
+        None
     };
     let bending_least = rings.bending_at_least();
     if !(bending_least > 0.0 && half.low > 0.0) {

@@ -81,10 +81,7 @@ fn below(Energies { quotient, residual, .. }: &Energies, b: f64) -> f64 {
 /// `h + ε²/(l − a)`, at least; ∞ where nothing follows.
 fn above(Energies { quotient, residual, .. }: &Energies, a: f64) -> f64 {
     let gap = down(quotient.low - a);
-    match gap > 0.0 {
-        true => up(quotient.high + up(residual / gap)),
-        false => f64::INFINITY,
-    }
+    if gap > 0.0 { up(quotient.high + up(residual / gap)) } else { f64::INFINITY }
 }
 
 /// What follows from trials, in any order; those of which nothing is known are None.

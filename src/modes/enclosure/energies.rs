@@ -19,7 +19,7 @@
 //! its place; for σ is the `z` for which the left side is least. Where κGA is within a share `β` of a polynomial `c`,
 //! `‖V + zκGAγ‖ ≤ ‖V + zcγ‖ + β z ‖cγ‖`.
 
-use crate::base::interval::tables::GAUSS_24;
+use crate::base::interval::gauss::GAUSS_24;
 use crate::base::interval::{Interval, Series, up};
 use crate::modes::enclosure::beam::{Cell, Mass, Proven};
 use crate::modes::enclosure::gives::{Give, Way};

@@ -19,7 +19,7 @@
 //! Of a bed of length ℓ the first few Legendre coefficients of its deflection are held, `c_j = (2j + 1)/ℓ ∫w P_j dx` by
 //! springs `k ℓ/(2j + 1)`: by Bessel's inequality it holds no less, so that no `τ_n` is less than the bat's.
 
-use crate::base::interval::tables::GAUSS_40;
+use crate::base::interval::gauss::GAUSS_40;
 use crate::base::interval::{Interval, Series, Values};
 use crate::modes::enclosure::contacts::{Bed, Contact};
 use crate::modes::enclosure::energies::{from_left, from_right};

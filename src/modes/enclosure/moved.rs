@@ -227,16 +227,13 @@ impl Proven {
             let (inner, outer) = if tipwards { (k, k + 1) } else { (k + 1, k) };
             let [w, theta] = borders[inner].map(Interval::point);
             let kink = self.kink(k, &gives);
-            let (line, end) = match tipwards {
-                true => {
-                    let theta = theta + kink;
-                    ([w, theta], [w + length * theta + lifts, theta + turns])
-                }
-                false => {
-                    let theta = theta - turns;
-                    let w = w - length * theta - lifts;
-                    ([w, theta], [w, theta - kink])
-                }
+            let (line, end) = if tipwards {
+                let theta = theta + kink;
+                ([w, theta], [w + length * theta + lifts, theta + turns])
+            } else {
+                let theta = theta - turns;
+                let w = w - length * theta - lifts;
+                ([w, theta], [w, theta - kink])
             };
             borders[outer] = end.map(Interval::middle);
             steps[outer] = std::array::from_fn(|i| end[i].distance(borders[outer][i]));

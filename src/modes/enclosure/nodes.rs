@@ -132,23 +132,18 @@ impl Looked<'_> {
 
 /// A place about half way between two; None where there is none.
 fn halfway((a, xi): Place, (b, eta): Place) -> Option<Place> {
-    match a == b {
-        true => {
-            let middle = 0.5 * (xi + eta);
-            (middle != xi && middle != eta).then_some((a, middle))
-        }
+    if a == b {
+        let middle = 0.5 * (xi + eta);
+        (middle != xi && middle != eta).then_some((a, middle))
+    } else if a < b && xi < 1.0 {
         // The border between two cells is the end of the one that is sure.
-        false if a < b && xi < 1.0 => {
-            Some((a, if xi > 1.0 - 1e-9 { 1.0 } else { 0.5 * (xi + 1.0) }))
-        }
-        false if a > b && xi > -1.0 => {
-            Some((a, if xi < -1.0 + 1e-9 { -1.0 } else { 0.5 * (xi - 1.0) }))
-        }
-        false => {
-            let next = if a < b { a + 1 } else { a - 1 };
-            let begin = if a < b { -1.0 } else { 1.0 };
-            if next == b && begin == eta { None } else { Some((next, begin)) }
-        }
+        Some((a, if xi > 1.0 - 1e-9 { 1.0 } else { 0.5 * (xi + 1.0) }))
+    } else if a > b && xi > -1.0 {
+        Some((a, if xi < -1.0 + 1e-9 { -1.0 } else { 0.5 * (xi - 1.0) }))
+    } else {
+        let next = if a < b { a + 1 } else { a - 1 };
+        let begin = if a < b { -1.0 } else { 1.0 };
+        if next == b && begin == eta { None } else { Some((next, begin)) }
     }
 }
 

@@ -32,7 +32,7 @@
 //! kernel is worked out here.
 
 use crate::base::error::{Error, Result};
-use crate::base::interval::tables::GAUSS_40;
+use crate::base::interval::gauss::GAUSS_40;
 use crate::base::interval::{Interval, Series, Values};
 use crate::bat::body::Bat;
 use crate::bat::theory::Theory;
@@ -121,10 +121,8 @@ impl Norms {
             let bed = Bed { borders: bed.borders.map(|piece| borders[piece]), ..bed };
             holds.extend((0..OF_A_BED).map(|term| Hold::Bed(bed, term)));
         }
-        let less = match holds.is_empty() {
-            true => [ZERO; 2],
-            false => holding.less(&holds).ok_or_else(unheld)?,
-        };
+        let less =
+            if holds.is_empty() { [ZERO; 2] } else { holding.less(&holds).ok_or_else(unheld)? };
         let count = stretches.len();
         let border = match stretches.get(split) {
             Some(stretch) => stretch.middle - stretch.half,
@@ -292,10 +290,8 @@ impl Sums {
         let mut reach = Values::constant(ZERO);
         for ((_, [v1, v2], soft), kinks) in strains.iter().zip([true, false]) {
             // Beyond the strain the bat lies on the other line, which differs by the unit strain's own motion.
-            let [w1, w2] = match kinks {
-                true => [v1.difference(&x), v2.sum(&one)],
-                false => [v1.sum(&one), *v2],
-            };
+            let [w1, w2] =
+                if kinks { [v1.difference(&x), v2.sum(&one)] } else { [v1.sum(&one), *v2] };
             let ends = [
                 v1.sum(&v2.times(-begin)),
                 v1.sum(&v2.product(&x)),

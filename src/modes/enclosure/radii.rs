@@ -74,9 +74,8 @@ pub fn curved(bat: &Bat) -> Result<Vec<Curved>> {
     let stations = &profile.stations;
     let turned = profile.turned.then(|| profile.length());
     let x: Vec<Interval> = stations.x.iter().map(|x| place(*x, turned)).collect();
-    let around = |r: f64, off: f64| match r == 0.0 {
-        true => Interval::point(0.0),
-        false => Interval::point(r) + Interval::within(up(off)),
+    let around = |r: f64, off: f64| {
+        if r == 0.0 { Interval::point(0.0) } else { Interval::point(r) + Interval::within(up(off)) }
     };
     let outer: Vec<_> = stations.outer.iter().map(|r| around(*r, LENGTH * r)).collect();
     let both = stations.inner.iter().zip(&stations.outer);

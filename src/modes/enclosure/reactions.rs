@@ -56,12 +56,11 @@ impl Proven {
                 None => self.at_support(contact, tried),
             };
             let reaction = Interval::point(if reaction.is_finite() { reaction } else { 0.0 });
-            match contact.turning {
-                true => moment = moment - reaction,
-                false => {
-                    force = force - reaction;
-                    moment = moment - reaction * arm(contact);
-                }
+            if contact.turning {
+                moment = moment - reaction;
+            } else {
+                force = force - reaction;
+                moment = moment - reaction * arm(contact);
             }
             all[k] = reaction;
         }

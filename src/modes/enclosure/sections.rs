@@ -1,7 +1,6 @@
 //! What is a section worth along a cell: EI, ρA, ρI and κGA as polynomials, with bounds?
 
-use crate::base::interval::gauss::Gauss;
-use crate::base::interval::tables::GAUSS_40;
+use crate::base::interval::gauss::{GAUSS_40, Gauss};
 use crate::base::interval::{Interval, Series, Values, down, up};
 use crate::bat::layup::{Layer, Layup};
 use crate::bat::material::Material;
@@ -223,15 +222,14 @@ impl<'a> Rings<'a> {
         let gauss = &GAUSS_40;
         let mut sum = Nearly { series: Series::exact(&[]), share: 0.0 };
         for ring in self.all() {
-            let part = match ring.even() {
-                true => {
-                    let modulus = data(ring.material.shear_modulus?) * Interval::pi();
-                    let area = ring.squares(gauss).times(modulus);
-                    let kappa = kappa(ring.material, number(0.0));
-                    let series = Series::through(gauss, &area.times(kappa));
-                    Nearly { series, share: 0.0 }
-                }
-                false => of_tube(ring)?,
+            let part = if ring.even() {
+                let modulus = data(ring.material.shear_modulus?) * Interval::pi();
+                let area = ring.squares(gauss).times(modulus);
+                let kappa = kappa(ring.material, number(0.0));
+                let series = Series::through(gauss, &area.times(kappa));
+                Nearly { series, share: 0.0 }
+            } else {
+                of_tube(ring)?
             };
             sum = Nearly { series: sum.series + part.series, share: sum.share.max(part.share) };
         }

@@ -5,7 +5,7 @@
 //! the bat's, whatever holds both.
 
 use crate::base::error::{Error, Result};
-use crate::base::interval::tables::GAUSS_40;
+use crate::base::interval::gauss::GAUSS_40;
 use crate::base::interval::{Interval, Series, Values};
 use crate::bat::body::Bat;
 use crate::bat::theory::Theory;
@@ -198,15 +198,14 @@ impl Stretch {
             Some(series.values(gauss).times(over))
         };
         let soft = of(&soft.series, soft.share)?;
-        let slip = match theory.shears() {
-            false => None,
-            true => {
-                let stiff = rings.shear()?;
-                let slip = inverse(&stiff.series.values(gauss), USELESS)?;
-                above = above.max(slip.share + stiff.share);
-                let over = (point(1.0) - point(stiff.share)).reciprocal()?;
-                Some(of(&slip.series, slip.share)?.times(over))
-            }
+        let slip = if theory.shears() {
+            let stiff = rings.shear()?;
+            let slip = inverse(&stiff.series.values(gauss), USELESS)?;
+            above = above.max(slip.share + stiff.share);
+            let over = (point(1.0) - point(stiff.share)).reciprocal()?;
+            Some(of(&slip.series, slip.share)?.times(over))
+        } else {
+            None
         };
         Some(Self {
             half,

@@ -92,10 +92,8 @@ fn hybrid(bat: &Bat, within: Within, fast: bool) -> Result<Bat> {
     if share <= 0.0 {
         return refused("all of the modulus", "less than 100 %");
     }
-    let (stiff, heavy) = match fast {
-        true => (share * (1.0 + ROOM), 1.0 - ROOM),
-        false => (share * (1.0 - ROOM), 1.0 + ROOM),
-    };
+    let (stiff, heavy) =
+        if fast { (share * (1.0 + ROOM), 1.0 - ROOM) } else { (share * (1.0 - ROOM), 1.0 + ROOM) };
     let wall = scaled(bat.material(), stiff, heavy);
     let sleeve = match fast {
         true => scaled(bat.material(), stiff, NOTHING),

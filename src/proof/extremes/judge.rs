@@ -27,10 +27,8 @@ pub fn against(asked: f64, solution: &Solution, exact: &[f64]) -> Outcome {
 /// A difference that must not be more than asked.
 pub fn difference(asked: f64, found: f64, stated: f64) -> Outcome {
     // NaN fails the comparison: an unknown difference counts as too large.
-    let verdict = match found <= asked {
-        true => Verdict::Right,
-        false => Verdict::Wrong("more than asked".into()),
-    };
+    let verdict =
+        if found <= asked { Verdict::Right } else { Verdict::Wrong("more than asked".into()) };
     Outcome { asked, found, stated, verdict, note: String::new() }
 }
 

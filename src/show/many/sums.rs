@@ -45,12 +45,11 @@ pub fn fits(path: &Path, bytes: &[u8]) -> Result<bool> {
     let read = found.trim_end_matches(['\r', '\n']).split_once([' ']);
     match read.and_then(|(sum, rest)| Some((sum, rest.strip_prefix([' ', '*'])?))) {
         Some((other, of)) if of == name.trim() && is_sum(other) => {
-            match other.eq_ignore_ascii_case(sum) {
-                true => Ok(true),
-                false => {
-                    let found = format!("other bytes than {} says", shown_name(&beside));
-                    Err(damaged(path, &found, "the part as it was written"))
-                }
+            if other.eq_ignore_ascii_case(sum) {
+                Ok(true)
+            } else {
+                let found = format!("other bytes than {} says", shown_name(&beside));
+                Err(damaged(path, &found, "the part as it was written"))
             }
         }
         _ => {

@@ -145,10 +145,7 @@ impl<'a> Report<'a> {
     }
 
     fn speed(&'a self) -> Vec<Part<'a>> {
-        match self.hits() {
-            true => vec![Part::Hovered("exit_speed")],
-            false => vec![Part::Missing(NOTHING)],
-        }
+        if self.hits() { vec![Part::Hovered("exit_speed")] } else { vec![Part::Missing(NOTHING)] }
     }
 
     fn bat(&'a self, units: Units) -> Vec<Part<'a>> {

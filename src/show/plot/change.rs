@@ -18,10 +18,8 @@ const PLACES: usize = 420;
 pub fn picture(sheet: Sheet, old: &Bat, new: &Bat) -> Picture {
     let length = sheet.length();
     // A thousandth of an inch is what a change in inches is counted in.
-    let small = match sheet.us {
-        true => Unit { name: "mil", per: 1e3 * sheet.small().per },
-        false => sheet.small(),
-    };
+    let small =
+        if sheet.us { Unit { name: "mil", per: 1e3 * sheet.small().per } } else { sheet.small() };
     let at = |k: usize| {
         let share = (k as f64 + 0.5) / PLACES as f64;
         let [was, is] = [old, new].map(|bat| bat.profile().at(share * bat.length()).outer);

@@ -194,11 +194,10 @@ fn around(subject: &Subject) -> Vec<Option<[f64; 2]>> {
 /// What is lost in the ball, bat by bat.
 fn lost(unit: Unit, subjects: &[Subject]) -> String {
     let energies: Vec<String> = subjects.iter().map(|s| digits(unit.per * s.lost, 3)).collect();
-    match energies.iter().all(|energy| energy == "0") {
-        true => "nothing is lost in the ball".to_owned(),
-        false => {
-            format!("lost in the ball: {} {}, the area inside", energies.join(", "), unit.name)
-        }
+    if energies.iter().all(|energy| energy == "0") {
+        "nothing is lost in the ball".to_owned()
+    } else {
+        format!("lost in the ball: {} {}, the area inside", energies.join(", "), unit.name)
     }
 }
 

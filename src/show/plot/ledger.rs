@@ -127,12 +127,11 @@ pub fn picture(
 fn books(unit: Unit, impacts: &[Impact], greatest: f64) -> String {
     let off = impacts.iter().filter_map(|i| Some(i.outcome.as_ref()?.energy.imbalance().abs()));
     let most = off.fold(0.0, f64::max);
-    match most < 1e-3 * greatest {
-        true => "all of it accounted for".into(),
-        false => {
-            let most = digits(unit.per * most, 3);
-            format!("the line; the model misplaces up to {most} {}", unit.name)
-        }
+    if most < 1e-3 * greatest {
+        "all of it accounted for".into()
+    } else {
+        let most = digits(unit.per * most, 3);
+        format!("the line; the model misplaces up to {most} {}", unit.name)
     }
 }
 

@@ -98,13 +98,13 @@ impl Lying<'_> {
             let x = stretch[0] + (stretch[1] - stretch[0]) * (k as f64 + 0.5) / count as f64;
             let Section { outer, inner } = bat.profile().at(x);
             let pen = Pen::new(if bore { SERIES[4] } else { FRAME }, 0.8);
-            match bore {
-                true => svg.line(&[self.at(x, inner), self.at(x, -inner)], pen),
-                false if inner <= 0.0 => svg.line(&[self.at(x, outer), self.at(x, -outer)], pen),
-                false => {
-                    svg.line(&[self.at(x, outer), self.at(x, inner)], pen);
-                    svg.line(&[self.at(x, -inner), self.at(x, -outer)], pen);
-                }
+            if bore {
+                svg.line(&[self.at(x, inner), self.at(x, -inner)], pen);
+            } else if inner <= 0.0 {
+                svg.line(&[self.at(x, outer), self.at(x, -outer)], pen);
+            } else {
+                svg.line(&[self.at(x, outer), self.at(x, inner)], pen);
+                svg.line(&[self.at(x, -inner), self.at(x, -outer)], pen);
             }
         }
     }

@@ -198,9 +198,8 @@ pub fn bat_text(outcome: &Outcome) -> String {
 /// What a maker should know before turning: a barrel that rules forbid, with the rule.
 pub fn warning(outcome: &Outcome, rules: Option<&RuleSet>, us: bool) -> Option<String> {
     let widest = outcome.widest();
-    let shown = |value: f64| match us {
-        true => format!("{:.2} in", inches(value)),
-        false => format!("{:.1} mm", 1e3 * value),
+    let shown = |value: f64| {
+        if us { format!("{:.2} in", inches(value)) } else { format!("{:.1} mm", 1e3 * value) }
     };
     // Rules that were asked for have a table of their own.
     if rules.is_some_and(|rules| rules.diameter().is_finite()) {

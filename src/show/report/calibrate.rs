@@ -217,11 +217,10 @@ fn labelled(found: &Calibration) -> Vec<String> {
         all.push(format!("The {taken} {}.", list(&identified.labels)));
     }
     if let Some(((labels, _), margin)) = identified.second.as_ref().zip(identified.margin) {
-        let unsure = match identified.is_sure() {
-            true => "",
-            false => {
-                " They may be the right ones, with another wood: tell the mode of a line that you know (\"mode\", or --mode \"HZ = N\")."
-            }
+        let unsure = if identified.is_sure() {
+            ""
+        } else {
+            " They may be the right ones, with another wood: tell the mode of a line that you know (\"mode\", or --mode \"HZ = N\")."
         };
         all.push(format!(
             "The next best labels are {}, with a chi2 that is {} larger.{unsure}",

@@ -256,10 +256,7 @@ pub fn rows(comparison: &Comparison, units: Units) -> Vec<Row> {
             pieces: {
                 let all = (1..bats).filter_map(|bat| comparison.between_pieces(&figure.key, bat));
                 let most = all.fold(0.0, f64::max) * scale.factor;
-                match most > 0.0 {
-                    true => format!("± {}", significant(most, 2)),
-                    false => String::new(),
-                }
+                if most > 0.0 { format!("± {}", significant(most, 2)) } else { String::new() }
             },
             differs: differences().flatten().any(|difference| difference.is_real()),
         }

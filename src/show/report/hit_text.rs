@@ -98,10 +98,7 @@ pub fn impacts(bat: &Bat, impacts: &[Impact], units: Units) -> String {
 
 /// Right-aligned cells, 76 columns: eight, or nine with that of the wall.
 fn row(cells: [String; 9], walls: bool) -> String {
-    let widths = match walls {
-        true => [8, 8, 9, 9, 8, 9, 8, 9, 8],
-        false => [9, 9, 10, 10, 9, 10, 9, 9, 0],
-    };
+    let widths = if walls { [8, 8, 9, 9, 8, 9, 8, 9, 8] } else { [9, 9, 10, 10, 9, 10, 9, 9, 0] };
     let line: String = cells
         .iter()
         .zip(widths)

@@ -49,10 +49,7 @@ impl TableUnits {
 
     /// A depth (m).
     pub fn depth(self, depth: f64) -> String {
-        match self.us {
-            true => format!("{:.3} in", inches(depth)),
-            false => format!("{:.2} mm", 1e3 * depth),
-        }
+        if self.us { format!("{:.3} in", inches(depth)) } else { format!("{:.2} mm", 1e3 * depth) }
     }
 
     /// How far the sweet spot moves (m).

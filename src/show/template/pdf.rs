@@ -38,10 +38,8 @@ fn content(page: &Page) -> String {
     for drawn in &page.drawn {
         match drawn {
             Drawn::Line { points, width, dash } => {
-                let dash = match *dash > 0.0 {
-                    true => format!("[{:.3}]", dash * PER_MM),
-                    false => "[]".to_owned(),
-                };
+                let dash =
+                    if *dash > 0.0 { format!("[{:.3}]", dash * PER_MM) } else { "[]".to_owned() };
                 let _ = write!(out, "{:.3} w {dash} 0 d ", width * PER_MM);
                 for (k, point) in points.iter().enumerate() {
                     let _ = write!(out, "{} {} ", at(*point), if k == 0 { "m" } else { "l" });

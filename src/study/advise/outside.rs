@@ -10,15 +10,12 @@ pub fn outside(bat: &Bat) -> Vec<String> {
         empty && [0.0, 0.5, 1.0].iter().any(|s| piece.at(*s).inner > 0.0)
     });
     let mut outside = vec![
-        match hollow {
-            true => {
-                "hoop modes: the wall of this hollow bat also rings as a ring and gives way under \
-                 the ball (trampoline effect); the sections of a beam stay round, but a hit counts \
-                 these modes (--wall) and sweetspot hoop shows them"
-            }
-            false => {
-                "hoop modes of hollow barrels: sections stay round; this bat has no empty bore"
-            }
+        if hollow {
+            "hoop modes: the wall of this hollow bat also rings as a ring and gives way under \
+             the ball (trampoline effect); the sections of a beam stay round, but a hit counts \
+             these modes (--wall) and sweetspot hoop shows them"
+        } else {
+            "hoop modes of hollow barrels: sections stay round; this bat has no empty bore"
         },
         "anisotropy beyond E and G: a material has one E and one G along the bat; grain that runs \
          off the axis, or bends differently along and across the rings, is not modelled",

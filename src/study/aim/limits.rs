@@ -166,9 +166,8 @@ impl<'a> Limits<'a> {
     /// The number of the stretch whose limit binds at `x`.
     fn blamed(&self, x: f64, least: bool) -> Option<usize> {
         let here = self.stretches.iter().enumerate().filter(|(_, l)| x >= l.from && x <= l.to);
-        let of = |limit: &DiameterLimit| match least {
-            true => limit.at_least,
-            false => limit.at_most.map(|most| -most),
+        let of = |limit: &DiameterLimit| {
+            if least { limit.at_least } else { limit.at_most.map(|most| -most) }
         };
         let bound = here.filter_map(|(k, limit)| Some((k, of(limit)?)));
         bound.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(k, _)| k)

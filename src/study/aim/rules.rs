@@ -113,10 +113,8 @@ impl RuleSet {
             };
             let limit = rule.limit().unwrap_or(f64::INFINITY);
             let slack = 1e-9 * limit.abs().max(1.0);
-            let kept = value.map(|value| match most {
-                true => value <= limit + slack,
-                false => value >= limit - slack,
-            });
+            let kept = value
+                .map(|value| if most { value <= limit + slack } else { value >= limit - slack });
             // Without a cup every rule of cups is kept.
             let of_cup = rule.name().starts_with("cup");
             (*rule, value, if of_cup { Some(kept.unwrap_or(true)) } else { kept })

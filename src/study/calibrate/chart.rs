@@ -57,14 +57,12 @@ impl Chart {
             false => vec![0.0],
         };
         let known = wood.shear_over_young();
-        let shear = match search.held.contains(&Unknown::ShearOverYoung) || known > ISOTROPIC {
-            true => vec![0.0],
+        let shear = if search.held.contains(&Unknown::ShearOverYoung) || known > ISOTROPIC {
+            vec![0.0]
+        } else {
             // The file's own value belongs to the stretch, whatever it is.
-            false => {
-                let ends =
-                    [SHEAR[0].min(known), SHEAR[1].max(known)].map(|ratio| (ratio / known).ln());
-                between(ends, SOLVED[0])
-            }
+            let ends = [SHEAR[0].min(known), SHEAR[1].max(known)].map(|ratio| (ratio / known).ln());
+            between(ends, SOLVED[0])
         };
         let count = stiffness.len() * shear.len();
         let solved = threads::map(count, |k| {

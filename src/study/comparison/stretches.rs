@@ -23,10 +23,7 @@ pub fn stretches(distances: &[f64], speeds: &[ComparedFigure], bat: usize) -> Ve
     let mut all: Vec<Stretch> = vec![];
     for (distance, row) in distances.iter().zip(speeds) {
         let Some(most) = row.difference(bat) else { continue };
-        let harder = match most.is_real() {
-            true => most.by.signum() as i8,
-            false => 0,
-        };
+        let harder = if most.is_real() { most.by.signum() as i8 } else { 0 };
         let here = Stretch { from: *distance, to: *distance, harder, most_at: *distance, most };
         match all.last_mut().filter(|last| last.harder == harder) {
             Some(last) => {

@@ -483,9 +483,8 @@ impl Workpiece {
             let scene = Scene { swing, ..hit.scene.clone() };
             let hitter = hit.hitter(bat, solution, &scene)?;
             let mut along = OuterHalf::new(&hitter, bat.length());
-            let of = |(answer, known): (&Answer, &Option<f64>)| match answer.of_a_hit() {
-                true => along.gauge(*answer).1,
-                false => *known,
+            let of = |(answer, known): (&Answer, &Option<f64>)| {
+                if answer.of_a_hit() { along.gauge(*answer).1 } else { *known }
             };
             Ok(self.answers.iter().zip(&still).map(of).collect())
         };

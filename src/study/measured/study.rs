@@ -157,10 +157,8 @@ impl Study {
         exactly: bool,
         told: Told,
     ) -> Result<Self> {
-        let solution = match exactly {
-            true => solve(bat, request)?,
-            false => reaching(bat, &measured, request)?,
-        };
+        let solution =
+            if exactly { solve(bat, request)? } else { reaching(bat, &measured, request)? };
         let first = solution.modes.first().map_or(0.0, |mode| mode.frequency());
         let slow = |k: &usize| {
             let mode = &measured.modes[*k];

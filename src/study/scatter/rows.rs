@@ -233,10 +233,8 @@ impl ScatterRows {
         // G goes with E, or has a factor of its own.
         let by_itself =
             self.plan.differences.all.iter().any(|one| one.what == Differs::ShearModulus);
-        let shear = match by_itself {
-            true => of(Differs::ShearModulus),
-            false => e + of(Differs::ShearOverYoung),
-        };
+        let shear =
+            if by_itself { of(Differs::ShearModulus) } else { e + of(Differs::ShearOverYoung) };
         let change = |material: &mut Material, stiffer: f64, heavier: f64| {
             material.name = None;
             material.density *= heavier.exp() * wet;
