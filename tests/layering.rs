@@ -1,6 +1,7 @@
 //! The order of chapters, and of files in a chapter, is the architecture: each uses only those declared
 //! above it. Chapters and files are taken from the tree itself.
 
+mod budgets;
 mod common;
 
 use std::fs;

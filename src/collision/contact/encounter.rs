@@ -30,8 +30,10 @@
 //! method. Exact motion under a polynomial load: variation of constants. Energy by projection: E. Hairer, C. Lubich,
 //! G. Wanner, Geometric Numerical Integration (2006), section IV.4.
 
-use crate::collision::contact::pressing::MOST_STEPS;
 use crate::collision::contact::touch::Felt;
+
+/// A meeting that needs more steps than this has failed.
+pub const MOST_STEPS: usize = 20_000;
 
 /// What a meeting of ball and bat left behind.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 use faer::c64;
 
 use crate::collision::contact::collocation::POINTS;
-use crate::collision::contact::encounter::Encounter;
+use crate::collision::contact::encounter::{Encounter, MOST_STEPS};
 use crate::collision::contact::energy::Limits;
 use crate::collision::contact::events::{CLOSED, Event, Stop};
 use crate::collision::contact::force_law::{ForceLaw, Top};
@@ -17,8 +17,6 @@ use crate::collision::contact::touch::{Felt, State, Touch};
 
 /// Halvings of the longest step.
 pub(super) const LEVELS: usize = 42;
-/// A meeting that needs more steps than this has failed.
-pub(super) const MOST_STEPS: usize = 20_000;
 /// Share of the largest compression by which its return may be missed.
 const MISSED: f64 = 1e-8;
 /// Share of the energy that the force may still give when it is let go.

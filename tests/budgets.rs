@@ -1,0 +1,138 @@
+//! How many lines each part of the house, each verb, file and function has: never more than `budgets.toml` says.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::files;
+
+/// What a budget allows now, and what it is on its way to.
+struct Budget {
+    name: String,
+    most: usize,
+    goal: usize,
+}
+
+/// The budgets under a heading of `budgets.toml`: lines `name = { most = 1, goal = 1 }`.
+fn budgets(heading: &str) -> Vec<Budget> {
+    let text = fs::read_to_string("budgets.toml").unwrap();
+    let after = text.split(&format!("[{heading}]\n")).nth(1).unwrap();
+    let lines = after.lines().take_while(|line| !line.starts_with('['));
+    let lines = lines.filter(|line| !line.is_empty() && !line.starts_with('#'));
+    let budget = |line: &str| {
+        let (name, rest) = line.split_once(" = ").unwrap();
+        let numbers: Vec<usize> =
+            rest.split(|c: char| !c.is_ascii_digit()).filter_map(|n| n.parse().ok()).collect();
+        let &[most, goal] = &numbers[..] else { panic!("{line}") };
+        Budget { name: name.trim_matches('"').to_owned(), most, goal }
+    };
+    lines.map(budget).collect()
+}
+
+/// A file of the source by its path below `src/`, and its code without the tests beside it.
+fn sources() -> Vec<(String, String)> {
+    let code = |path: PathBuf| {
+        let name = path.strip_prefix("src").unwrap().to_str().unwrap().replace('\\', "/");
+        let text = fs::read_to_string(&path).unwrap();
+        let code = text.split("#[cfg(test)]\nmod tests").next().unwrap_or_default();
+        (name, code.to_owned())
+    };
+    files(Path::new("src")).into_iter().map(code).collect()
+}
+
+/// The part of the house that a file belongs to.
+fn part(path: &str) -> &'static str {
+    /// The readers that the engine needs, and the list of the chapter; other files are read for studies.
+    const READERS: [&str; 16] = [
+        "bat_file",
+        "ball_file",
+        "balls",
+        "broken_json",
+        "csv_file",
+        "document",
+        "edits_file",
+        "fixtures_file",
+        "folder",
+        "json_node",
+        "mod",
+        "part_file",
+        "scene_file",
+        "sheet",
+        "sheet_number",
+        "station_table",
+    ];
+    let within = |chapters: &[&str]| chapters.iter().any(|chapter| path.starts_with(chapter));
+    let reader = path.strip_prefix("files/").and_then(|file| file.strip_suffix(".rs"));
+    match reader {
+        Some(file) if READERS.contains(&file) => "engine",
+        _ if within(&["proof/", "modes/enclosure", "base/interval"]) => "proof",
+        _ if within(&["files/uff"]) => "universal files",
+        _ if within(&["show/", "files/schema"]) => "reports",
+        _ if within(&["cli/", "main.rs"]) => "command line",
+        _ if within(&["study/", "files/"]) => "studies",
+        _ => "engine",
+    }
+}
+
+/// Whether a file beyond the engine belongs to a verb, by the words of its path.
+fn is_of(path: &str, words: &str) -> bool {
+    let beyond =
+        ["study/", "files/", "show/", "cli/"].iter().any(|chapter| path.starts_with(chapter));
+    let names = path.trim_end_matches(".rs").split(['/', '_']).collect::<BTreeSet<_>>();
+    beyond && words.split(' ').any(|word| names.contains(word))
+}
+
+/// Functions of more than 60 lines: from the line with `fn` to the bracket under its beginning.
+fn long_functions(code: &str) -> Vec<&str> {
+    let lines: Vec<&str> = code.lines().collect();
+    let begins = |line: &str| {
+        let line = line.trim_start();
+        ["fn ", "pub fn ", "pub(crate) fn ", "pub(super) fn ", "const fn ", "pub const fn "]
+            .iter()
+            .any(|start| line.starts_with(start))
+    };
+    let long = |k: usize| {
+        let indent = lines[k].len() - lines[k].trim_start().len();
+        let end = format!("{}}}", " ".repeat(indent));
+        lines[k..].iter().position(|line| *line == end).is_some_and(|length| length >= 60)
+    };
+    (0..lines.len()).filter(|k| begins(lines[*k]) && long(*k)).map(|k| lines[k]).collect()
+}
+
+/// Holds counts to a heading's budgets. A budget that is far above its count is to be lowered, so that what was gained
+/// stays gained.
+fn hold(heading: &str, slack: usize, count: impl Fn(&str) -> usize) {
+    let wrong = |Budget { name, most, goal }: Budget| {
+        let count = count(&name);
+        let told = format!("{name}: {count} lines, {most} at most, {goal} in the end");
+        let stale = most > goal && count + slack < most;
+        (count > most || stale).then_some(told)
+    };
+    let wrong: Vec<String> = budgets(heading).into_iter().filter_map(wrong).collect();
+    assert!(wrong.is_empty(), "{heading}:\n{}", wrong.join("\n"));
+}
+
+fn lines(of: impl Fn(&str) -> bool) -> usize {
+    let sources = sources();
+    sources.iter().filter(|(path, _)| of(path)).map(|(_, code)| code.lines().count()).sum()
+}
+
+#[test]
+fn parts_and_verbs_keep_their_budgets() {
+    hold("parts", 300, |name| lines(|path| part(path) == name));
+    hold("verbs", 100, |name| lines(|path| is_of(path, name)));
+}
+
+#[test]
+fn files_and_functions_keep_their_budgets() {
+    let known = budgets("long files");
+    for (path, code) in sources() {
+        let length = code.lines().count();
+        let most = known.iter().find(|budget| budget.name == path).map_or(500, |known| known.most);
+        assert!(length <= most, "{path}: {length} lines, {most} at most");
+    }
+    hold("long files", 50, |name| lines(|path| path == name));
+    hold("functions of more than 60 lines", 0, |_| {
+        sources().iter().map(|(_, code)| long_functions(code).len()).sum()
+    });
+}
