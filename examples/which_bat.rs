@@ -8,10 +8,10 @@
 use std::env;
 use sweetspot::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
 use sweetspot::bat::body::STANDARD_PIVOT;
-use sweetspot::collision::figures::{Figures, SwingLaw};
-use sweetspot::collision::sweep::{Accuracy, sweep};
-use sweetspot::collision::{Hitter, Model, Scene};
-use sweetspot::{Bat, Result};
+use sweetspot::collision::Scene;
+use sweetspot::collision::figures::SwingLaw;
+use sweetspot::collision::sweep::Accuracy;
+use sweetspot::{Bat, Hit, Result, Swing};
 
 /// Allowed error of an exit speed over the closing speed.
 const TOLERANCE: f64 = 1e-5;
@@ -28,23 +28,21 @@ fn from_tip(k: usize) -> f64 {
 fn try_out(name: &str, bat: &Bat, batter: SwingLaw) -> Result<(Vec<f64>, f64)> {
     let scene = Scene { swing: batter.swing(bat), ball_speed: PITCH, ..Scene::default() };
     let accuracy = Accuracy { exit_speed: TOLERANCE, ..Accuracy::default() };
-    let places: Vec<f64> = (0..POINTS).map(|k| bat.length() - from_tip(k)).collect();
-    let sweep = sweep(bat, Model::Contact, &scene, &accuracy, &places)?;
-
-    let hitter = Hitter::new(Model::Contact, &scene, bat, &sweep.solution, sweep.effort)?;
-    let spot = Figures::new(bat, &hitter, None)?.spot;
-    let best = spot.exit_speed_max.expect("a swung barrel meets the ball");
-    let [from, to] = spot.zone.expect("a best place has a zone");
+    let hit = Hit::of(bat, &Swing { scene, accuracy, ..Swing::default() })?;
+    let (scene, best) = (&hit.swing.scene, &hit.best);
+    let [from, to] = hit.spot.zone.expect("a best place has a zone");
     let body = bat.inertia();
     let swing_weight = ounce_square_inches(body.about(STANDARD_PIVOT));
     println!("{name}: {}", bat.name());
     print!("   {:.2} oz, swing weight {swing_weight:.0} oz in²,", ounces(body.mass));
     println!(" swung at {:.2} rad/s", scene.swing);
     let place = inches(bat.length() - best.x);
-    print!("   best {:.2} mph at {place:.2} in from the tip,", miles_per_hour(best.value));
+    print!("   best {:.2} mph at {place:.2} in from the tip,", miles_per_hour(best.exit_speed));
     println!(" within 1 % over {:.2} in", inches(to - from));
 
-    let met = sweep.impacts.iter().filter_map(|hit| Some((hit.bat_speed, hit.outcome.as_ref()?)));
+    let places: Vec<f64> = (0..POINTS).map(|k| bat.length() - from_tip(k)).collect();
+    let impacts = hit.at(&places)?;
+    let met = impacts.iter().filter_map(|hit| Some((hit.bat_speed, hit.outcome.as_ref()?)));
     let speed = |(bat_speed, outcome): (f64, _)| (bat_speed + scene.ball_speed, outcome);
     let (mut speeds, mut error) = (vec![], 0.0_f64);
     for (closing, outcome) in met.map(speed) {

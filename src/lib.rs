@@ -12,6 +12,23 @@
 //!
 //! Each arrow is one function that borrows what lies to its left and returns a new value.
 //!
+//! # A hit on a card
+//!
+//! ```
+//! use sweetspot::{Bat, Hit, Swing};
+//!
+//! # fn main() -> sweetspot::Result<()> {
+//! let bat = Bat::builtin("r161")?; // or Bat::from_file("mine.json")
+//! let hit = Hit::of(&bat, &Swing::default())?;
+//! println!("{:.2} m/s within {:.0e}, {:.3} m from the knob", hit.best.exit_speed, hit.best.error, hit.best.x);
+//! for mode in hit.modes() {
+//!     println!("{:.2} Hz", mode.frequency());
+//! }
+//! # assert!((hit.best.exit_speed / 48.21 - 1.0).abs() < 1e-3 && hit.reached == sweetspot::Reached::Asked);
+//! # Ok(())
+//! # }
+//! ```
+//!
 //! # From calipers to a hit
 //!
 //! Diameters along the bat, a material and a kitchen scale make a [`Bat`]; no file is needed.
@@ -205,5 +222,6 @@ pub use bat::body::Bat;
 pub use bat::material::Material;
 pub use bat::profile::Profile;
 pub use bat::theory::Theory;
+pub use collision::swing::{Hit, Reached, Swing};
 pub use modes::mode::Mode;
 pub use modes::solve::{Request, Solution, Solver, solve};

@@ -1343,11 +1343,16 @@ fn a_wrong_ball_is_refused() {
 fn a_wrong_command_line_is_refused() {
     let folder = Folder::new("options");
     folder.write("bat.json", BAT);
+    folder.write("study.json", r#"{ "format": "sweetspot-study/1" }"#);
+    folder.write("aim.json", r#"{ "format": "sweetspot-aim/1" }"#);
     let rows: &[(&[&str], &[&str])] = &[
         (&["mode", "bat.json"], &["unrecognized subcommand 'mode'", "modes"]),
         (&["anlyze", "bat.json"], &["unrecognized subcommand 'anlyze'", "'analyze'"]),
-        (&["bat.json"], &["expected a verb", "did you mean `sweetspot analyze bat.json`?"]),
-        (&["r161", "--units", "us"], &["did you mean `sweetspot analyze r161`?"]),
+        (&["r162"], &["expected a verb or a bat", "did you mean `sweetspot analyze r161`?"]),
+        (&["none.json"], &["none.json", "No such file"]),
+        (&["study.json"], &["which is a study", "`sweetspot study study.json --out FOLDER`"]),
+        (&["./aim.json", "--full"], &["which is a wish", "`sweetspot aim BAT ./aim.json`"]),
+        (&["zebra"], &["unrecognized subcommand 'zebra'"]),
         (
             &["modes", "r16"],
             &["r16, which is neither", "r161, softball_made_up", "did you mean r161?"],

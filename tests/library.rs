@@ -10,7 +10,7 @@ use sweetspot::collision::{Hitter, Model, Scene};
 use sweetspot::modes::batch::{self, Way};
 use sweetspot::modes::prepared::prepare;
 use sweetspot::modes::up_to::modes_up_to;
-use sweetspot::{Bat, Request, Theory, solve};
+use sweetspot::{Bat, Hit, Reached, Request, Swing, Theory, solve};
 
 use crate::common::folder::Folder;
 
@@ -192,4 +192,31 @@ fn the_numbers_of_the_library_page_are_those_of_the_program() {
         printed(&folder, &["modes", "tapped.json", "-n", "1", "--tol", "1e-8", "--json", "-"]);
     let line = format!("{:.2} Hz", tapped["modes"][0]["frequency_hz"].as_f64().unwrap());
     assert!(page.contains(&line), "docs/library.md does not say {line}");
+}
+
+/// A hit in one call is the program's: the same theory, the wall of a hollow barrel, the same best place.
+#[test]
+fn a_hit_in_one_call_is_that_of_the_program() {
+    let folder = Folder::new("library-hit");
+    for name in ["r161", "bbcor_made_up"] {
+        let hit = Hit::of(&Bat::builtin(name).unwrap(), &Swing::default()).unwrap();
+        let told: Value =
+            serde_json::from_str(&folder.text(&["hit", name, "--json", "-", "--quiet"])).unwrap();
+        let best = &told["sweet_spot"]["exit_speed_max"];
+        let off = (best["value"].as_f64().unwrap() - hit.best.exit_speed).abs();
+        assert!(off <= 2.0 * hit.best.error, "{name} {off} {}", hit.best.error);
+        assert!((best["x_m"].as_f64().unwrap() - hit.best.x).abs() < 1e-3, "{name}");
+        assert_eq!(hit.swing.scene.wall_gives_way(), name != "r161");
+        assert_eq!((hit.reached, hit.warning.is_none()), (Reached::Asked, true));
+        let again = &hit.at(&[hit.best.x]).unwrap()[0];
+        assert_eq!(again, &hit.best.impact);
+        assert!(hit.modes().iter().all(|mode| mode.frequency() > 0.0));
+    }
+    // With two modes and no more nobody says that they suffice.
+    let few = Accuracy { modes: Some(2), ..Accuracy::default() };
+    let swing = Swing { accuracy: few, ..Swing::default() };
+    let hit = Hit::of(&Bat::builtin("r161").unwrap(), &swing).unwrap();
+    assert_eq!(hit.modes().len(), 2);
+    let error = Bat::builtin("r116").unwrap_err().to_string();
+    assert!(error.contains("r161") && error.contains("torpedo"), "{error}");
 }

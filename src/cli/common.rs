@@ -10,13 +10,13 @@ use crate::base::units::shown_length;
 use crate::bat::body::Bat;
 use crate::bat::theory::Theory;
 use crate::files::bat_file::Named;
+use crate::files::built_in;
 use crate::files::schema;
 use crate::modes::prepared;
 use crate::modes::request::MOST_MODES;
 use crate::modes::solve::{self, Request, Solution, Solver};
 use crate::modes::theory_choice::{self, Choice};
 use crate::modes::up_to::modes_up_to;
-use crate::proof::bundled;
 use crate::show::parts::terminal::wrapped;
 use crate::show::parts::units::Units;
 use crate::show::plot::sheet::Sheet;
@@ -39,7 +39,7 @@ pub fn examples(commands: &str) -> String {
          such as --pitch 90 (m/s), is refused with what it may mean. Others carry their\n\
          unit, as people write it: \"28 in\", \"33 1/2 in\", \"31 oz\", \"90 mph\", \"0.75 ms\".\n\
          Places count from the knob end.\n\n{}",
-        wrapped(&format!("Built-in bats: {}.", bundled::bat_names().join(", ")), 0).trim_end()
+        wrapped(&format!("Built-in bats: {}.", built_in::bat_names().join(", ")), 0).trim_end()
     )
 }
 
@@ -344,7 +344,7 @@ pub fn read(path: &Path, edits: &EditArgs, quiet: bool) -> Result<Bat> {
 /// Reads a bat, edits it, passes its warnings on, and returns the text of its file too. A name without
 /// ending is that of a built-in bat, unless there is a file of it.
 pub fn read_with_text(path: &Path, edits: &EditArgs, quiet: bool) -> Result<(Bat, String)> {
-    let Named { bat, text, outside } = match bundled::named(path)? {
+    let Named { bat, text, outside } = match built_in::named(path)? {
         Some((name, text)) => {
             let bat = Bat::from_text(name, text, Path::new(""))?;
             Named { bat, text: text.to_owned(), outside: vec![] }

@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 
 use crate::base::error::{Complaint, Error, Result};
 use crate::base::file;
+use crate::files::built_in;
 use crate::files::document::Document;
 use crate::files::schema;
 use crate::files::uff::{self, Stamp};
 use crate::modes::solve::{self, Request};
-use crate::proof::bundled;
 use crate::show::exchange::modes_file::{self, ModeTable};
 use crate::show::exchange::{csv, modes_uff, npz, vtu};
 use crate::show::report::json::{self, ShapePoints};
@@ -133,7 +133,7 @@ struct Modes {
 
 /// The modes of a file, or of a bat that is solved for them.
 fn modes(path: &Path) -> Result<Modes> {
-    if bundled::named(path)?.is_some() {
+    if built_in::named(path)?.is_some() {
         return of_bat(path);
     }
     let document = Document::read(path)?;

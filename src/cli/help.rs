@@ -39,6 +39,35 @@ pub fn fitted(command: Command) -> Command {
     command.mut_subcommands(fitted)
 }
 
+/// The verbs by what people come for; all others stand under the last heading.
+const GROUPS: [(&str, &[&str]); 5] = [
+    ("Describe a bat", &["new"]),
+    ("Look at it", &["analyze", "modes", "hit"]),
+    ("Change it", &["lathe", "aim", "compare"]),
+    ("Many bats", &["study"]),
+    ("More", &[]),
+];
+
+/// The command with its verbs listed in groups.
+pub fn grouped(command: Command) -> Command {
+    let first: Vec<&str> = GROUPS.iter().flat_map(|(_, verbs)| *verbs).copied().collect();
+    let mut list = String::new();
+    for (heading, verbs) in GROUPS {
+        let verbs = command.get_subcommands().filter(|verb| match verbs {
+            [] => !first.contains(&verb.get_name()),
+            verbs => verbs.contains(&verb.get_name()),
+        });
+        let line = |verb: &Command| {
+            let about = verb.get_about().map(ToString::to_string).unwrap_or_default();
+            format!("  {:<12} {about}\n", verb.get_name())
+        };
+        list += &format!("{heading}:\n{}\n", verbs.map(line).collect::<String>());
+    }
+    command.help_template(format!(
+        "{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{list}Options:\n{{options}}{{after-help}}"
+    ))
+}
+
 /// Columns before what is said of an option beside its name: two blanks, both names, the value's,
 /// two blanks.
 fn columns(arg: &Arg) -> usize {

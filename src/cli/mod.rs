@@ -48,11 +48,13 @@ mod advise;
 mod convert;
 mod validate;
 mod materials;
+mod bats;
 mod schema;
 mod new;
 mod man;
 mod completions;
 mod licences;
+mod first_word;
 mod verbs;
 mod program;
 

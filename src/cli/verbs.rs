@@ -2,20 +2,19 @@
 
 use std::ffi::OsString;
 use std::io::IsTerminal;
-use std::path::Path;
 
 use crate::base::error::{Complaint, Error, Result, nearest};
 use crate::base::file;
-use crate::proof::bundled;
+use crate::files::built_in;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::parser::ValueSource;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::cli::done::{Done, printable};
 use crate::cli::{
-    advise, aim, analyze, bbcor, calibrate, compare, completions, convert, diagnostic, frf, help,
-    hit, hoop, lathe, licences, man, materials, modes, new, ring, scatter, scene, schema, stop,
-    study, style, trade, validate,
+    advise, aim, analyze, bats, bbcor, calibrate, compare, completions, convert, diagnostic,
+    first_word, frf, help, hit, hoop, lathe, licences, man, materials, modes, new, ring, scatter,
+    scene, schema, stop, study, style, trade, validate,
 };
 use crate::show::report::mistakes;
 
@@ -62,6 +61,7 @@ enum Verb {
     Advise(advise::Args),
     Convert(convert::Args),
     Validate(validate::Args),
+    Bats(bats::Args),
     Materials(materials::Args),
     Schema(schema::Args),
     New(new::Args),
@@ -77,7 +77,7 @@ const LATER_VERBS: &[&str] = &["fit", "tune", "sweep", "lab"];
 /// Parses the command line and runs the verb. Wrong usage ends the program here.
 pub fn run() -> Result<Done> {
     refuse_later(std::env::args_os().nth(1))?;
-    let verb = match parse() {
+    let verb = match parse(first_word::read(std::env::args_os().collect(), &Cli::command())?) {
         Ok(cli) => cli.verb,
         Err(said) => return say(&said),
     };
@@ -101,6 +101,7 @@ pub fn run() -> Result<Done> {
         Verb::Advise(args) => advise::run(&args),
         Verb::Convert(args) => convert::run(&args),
         Verb::Validate(args) => validate::run(&args),
+        Verb::Bats(args) => bats::run(&args),
         Verb::Materials(args) => materials::run(&args),
         Verb::Schema(args) => schema::run(&args),
         Verb::New(args) => new::run(&args),
@@ -112,10 +113,10 @@ pub fn run() -> Result<Done> {
 
 /// The command line, or what is to be said in its place. What sets the scene of a hit is for
 /// `ring --hit` alone in that verb.
-fn parse() -> std::result::Result<Cli, clap::Error> {
+fn parse(words: Vec<OsString>) -> std::result::Result<Cli, clap::Error> {
     let scene = scene::SceneArgs::augment_args(clap::Command::new("scene"));
-    let matches = help::fitted(Cli::command()).try_get_matches();
-    let matches = matches.map_err(|said| file_for_a_verb(near_tips(said)))?;
+    let matches = help::grouped(help::fitted(Cli::command())).try_get_matches_from(words);
+    let matches = matches.map_err(|said| bat_for_a_verb(near_tips(said)))?;
     if let Some(("ring", ring)) = matches.subcommand().filter(|(_, m)| !given(m, "hit")) {
         let stray = scene.get_arguments().find(|arg| given(ring, arg.get_id().as_str()));
         if let Some(name) = stray.and_then(clap::Arg::get_long) {
@@ -159,19 +160,22 @@ fn near_tips(mut said: clap::Error) -> clap::Error {
     said
 }
 
-/// What is said of a file or a built-in bat where a verb should stand; other mistakes as they are.
-fn file_for_a_verb(said: clap::Error) -> clap::Error {
+/// What is said of a word that is near the name of a built-in bat and of no verb; other mistakes as they are.
+fn bat_for_a_verb(said: clap::Error) -> clap::Error {
     let Some(ContextValue::String(word)) = said.get(ContextKind::InvalidSubcommand) else {
         return said;
     };
-    let path = Path::new(word);
-    let is_json = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
-    if !(is_json || path.is_file() || bundled::bat_text(word).is_some()) {
-        return said;
+    let near = nearest(word, &built_in::bat_names());
+    match near.filter(|_| said.get(ContextKind::SuggestedSubcommand).is_none()) {
+        Some(near) => {
+            let text = format!(
+                "found {}, expected a verb or a bat; did you mean `sweetspot analyze {near}`?",
+                printable(word)
+            );
+            Cli::command().error(ErrorKind::InvalidSubcommand, text)
+        }
+        None => said,
     }
-    let word = printable(word);
-    let text = format!("found {word}, expected a verb; did you mean `sweetspot analyze {word}`?");
-    Cli::command().error(ErrorKind::InvalidSubcommand, text)
 }
 
 /// Help and version, which are results as any other; wrong usage is told and answered with 2.

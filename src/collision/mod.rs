@@ -16,7 +16,7 @@
 //! | [`hit`], [`hitter`], [`strike`], [`along`], [`sweep`](mod@sweep) | what is a hit, at one place, along the barrel |
 //! | [`sweet_spot`], [`wall_figures`], [`figures`] | where is it best, what does the wall do, by which figures are bats compared |
 //! | [`stated`] | how far may an exit speed be off |
-//! | [`batch`] | how fast does a ball leave many bats |
+//! | [`swing`], [`batch`] | all of it in one call; how fast does a ball leave many bats |
 //! | [`bbcor`] | what would a laboratory's test say |
 //! | [`aftermath`], [`strength`] | what do the hands and the wood feel, does it break |
 
@@ -51,6 +51,7 @@ pub mod setup;
 pub mod along;
 pub mod sweep;
 pub mod batch;
+pub mod swing;
 pub mod bbcor;
 
 pub use ball::Ball;
@@ -58,3 +59,4 @@ pub use hit::{Effort, Impact, Model, Outcome, Scene};
 pub use hitter::Hitter;
 pub use sweep::Sweep;
 pub use sweet_spot::SweetSpot;
+pub use swing::{Hit, Swing};

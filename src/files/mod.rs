@@ -32,6 +32,7 @@ pub(crate) mod part_file;
 pub(crate) mod fixtures_file;
 pub(crate) mod edits_file;
 pub mod bat_file;
+pub mod built_in;
 pub mod ball_file;
 pub mod balls;
 pub mod scene_file;

@@ -1,19 +1,13 @@
-//! Which bats and cases travel with the program?
+//! Which cases travel with the program, and the built-in bats by their files?
 
 use std::path::Path;
 
-use crate::base::error::{Complaint, Error, Result};
+use crate::base::error::{Error, Result};
 use crate::bat::body::Bat;
-
-/// Name and text of the JSON files of a folder, by their names without the ending.
-macro_rules! files {
-    ($folder:literal: $($name:literal)*) => {
-        &[$(($name, include_str!(concat!("../../", $folder, "/", $name, ".json")))),*]
-    };
-}
+use crate::files::built_in::{bat_text, json_files};
 
 /// The cases that travel with the program: name and text.
-pub const CASES: &[(&str, &str)] = files! { "validation":
+pub const CASES: &[(&str, &str)] = json_files! { "validation":
     "absorber" "clamped_clamped" "clamped_free" "clamped_pinned" "clamped_tip_mass" "cone_1_10"
     "cone_1_100" "cone_1_1000" "cone_1_10000" "cone_1_10_60" "cone_1_2p64" "cone_1_2p64_60"
     "cone_complete" "cork" "damped_absorber" "damped_hands" "dowel" "dumbbell" "end_springs"
@@ -38,13 +32,6 @@ pub const CASES: &[(&str, &str)] = files! { "validation":
     "van_zandt_computed" "van_zandt_measured" "wall_nathan" "wall_times" "weighed_dowel"
 };
 
-/// The bats that travel with the program: name and text.
-pub const BATS: &[(&str, &str)] = files! { "meshes":
-    "bbcor_made_up" "bbcor_made_up_open" "composite_made_up" "cone" "corked" "dowel" "house"
-    "northwestern_aluminium" "northwestern_wood" "r161" "softball_made_up" "softball_made_up_open"
-    "tanh" "torpedo" "two_piece"
-};
-
 /// One of the bats that travel with the program, by its path in the package.
 ///
 /// # Errors
@@ -58,16 +45,6 @@ pub fn bundled_bat(path: &str) -> Result<Bat> {
     Bat::from_text(path, text, Path::new(""))
 }
 
-/// The names of the bats that travel with the program: those of their files.
-pub fn bat_names() -> Vec<&'static str> {
-    BATS.iter().map(|(name, _)| *name).collect()
-}
-
-/// The text of the bat of that name, if it travels with the program.
-pub fn bat_text(name: &str) -> Option<&'static str> {
-    of(BATS, name)
-}
-
 /// The text of the file of that name, if it is among these.
 fn of(files: &[(&str, &'static str)], name: &str) -> Option<&'static str> {
     files.iter().find(|(other, _)| *other == name).map(|(_, text)| *text)
@@ -79,30 +56,10 @@ pub(crate) fn text(name: &str) -> Result<&'static str> {
         .ok_or_else(|| Error::value("case", name, "a case that travels with the program"))
 }
 
-/// The name and the text of the built-in bat that is meant, if the path is no file's.
-///
-/// # Errors
-///
-/// [`Error::Value`] for a name that is neither a file nor built in.
-pub fn named(path: &Path) -> Result<Option<(&str, &'static str)>> {
-    let one_word = path.components().count() == 1 && path.extension().is_none();
-    let is_file = path.exists() && !path.is_dir();
-    let Some(name) = path.to_str().filter(|_| one_word && !is_file) else { return Ok(None) };
-    if let Some(text) = bat_text(name) {
-        return Ok(Some((name, text)));
-    }
-    if path.exists() {
-        return Ok(None);
-    }
-    let names = bat_names();
-    let expected = format!("a bat file, or a built-in bat: {}", names.join(", "));
-    let found = format!("{}, which is neither a file nor built in", path.display());
-    Err(Error::Value(Complaint::new("", found, expected).or_nearest(name, &names)))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::files::built_in::{BATS, bat_names};
 
     #[test]
     fn every_bat_is_found_by_its_name() {

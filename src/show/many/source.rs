@@ -13,12 +13,12 @@ use crate::collision::ball::Ball;
 use crate::files::ball_file::written;
 use crate::files::balls::{ball_in, built_in};
 use crate::files::bat_file::without_table;
+use crate::files::built_in;
 use crate::files::document::Document;
 use crate::files::folder::{Folder, Outside, json as json_at};
 use crate::files::study_file::StudyFile;
 use crate::files::study_rows::{BatText, Rows, reason};
 use crate::files::study_vary::Subject;
-use crate::proof::bundled;
 
 /// A file that a study was made from.
 #[derive(Debug, Clone)]
@@ -156,7 +156,7 @@ fn bats(folder: Folder, study: &StudyFile, sources: &mut Vec<Source>) -> Result<
     for name in &study.bats {
         let path = folder.find(name)?;
         // A folder that is called like a built-in bat is what was made of it.
-        let built_in = || bundled::named(Path::new(name)).is_ok_and(|found| found.is_some());
+        let built_in = || built_in::named(Path::new(name)).is_ok_and(|found| found.is_some());
         match path.is_dir() && !built_in() {
             false => all.push((name.clone(), path)),
             true => all.extend(files_of(name, folder.below(&path))?),
@@ -169,7 +169,7 @@ fn bats(folder: Folder, study: &StudyFile, sources: &mut Vec<Source>) -> Result<
         }
         // What is not there is a slip of the pen, not a bat that cannot exist.
         if !path.is_file() {
-            bundled::named(Path::new(name))?;
+            built_in::named(Path::new(name))?;
         }
     }
     let alone = all.len() == 1;
@@ -235,7 +235,7 @@ fn bat(
         sources.push(Source { name: name.to_owned(), text: text.to_owned() });
     };
     if !path.is_file()
-        && let Some((own, text)) = bundled::named(Path::new(name))?
+        && let Some((own, text)) = built_in::named(Path::new(name))?
     {
         read(own, text);
         return Ok(text.to_owned());

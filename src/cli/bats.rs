@@ -1,0 +1,36 @@
+//! `sweetspot bats`: what is built in.
+
+use crate::base::error::Result;
+use crate::bat::body::Bat;
+use crate::files::built_in::bat_names;
+use crate::show::parts::cell::Quantity::Words;
+use crate::show::parts::part::Part;
+use crate::show::parts::table::{Column, Table};
+use crate::show::parts::terminal;
+use crate::show::parts::units::Units;
+
+use crate::cli::done::Done;
+use crate::cli::style;
+
+/// The built-in bats
+///
+/// Each may stand wherever a bat file does. `meshes/` has their files, with the source of every number.
+#[derive(clap::Args)]
+#[command(after_long_help = EXAMPLES)]
+pub struct Args {}
+
+const EXAMPLES: &str = "\
+Examples:
+  sweetspot bats";
+
+const COLUMNS: [Column<(&str, Bat)>; 2] = [
+    Column::new("bat", "bat", Words, |(name, _)| (*name).into()),
+    Column::new("what it is", "name", Words, |(_, bat)| bat.name().into()),
+];
+
+pub fn run(_: &Args) -> Result<Done> {
+    let named = bat_names().into_iter().map(|name| Ok((name, Bat::builtin(name)?)));
+    let bats: Vec<_> = named.collect::<Result<_>>()?;
+    let table = Part::Table(Table::of("Built-in bats", &COLUMNS, &bats, Units::Si));
+    Ok(Done::new(style::table(&terminal::text("Built-in bats", &[table])), 0))
+}

@@ -1,0 +1,146 @@
+//! A swing at a bat in one call: theory, tap, modes, wall and accuracy are inside.
+
+use crate::base::error::{Error, Result};
+use crate::bat::body::Bat;
+use crate::collision::hit::{Impact, Model, Scene};
+use crate::collision::hitter::Hitter;
+use crate::collision::sweep::{Accuracy, Sweep, sweep};
+use crate::collision::sweet_spot::SweetSpot;
+use crate::collision::wall_choice::WallChoice;
+use crate::modes::mode::Mode;
+use crate::modes::prepared::{Prepared, prepare};
+
+/// How a bat is swung at what ball, and how well the exit speeds are to be known.
+#[derive(Debug, Clone)]
+pub struct Swing {
+    /// Swing, ball and pitch.
+    pub scene: Scene,
+    /// How the bat's bending is counted.
+    pub model: Model,
+    /// Whether a hollow barrel's wall gives way.
+    pub wall: WallChoice,
+    /// How accurate the exit speeds are to be, and what they may be computed from.
+    pub accuracy: Accuracy,
+}
+
+impl Default for Swing {
+    /// [`Scene::default`] by the contact model, the wall where it counts, [`Accuracy::default`].
+    fn default() -> Self {
+        let (scene, accuracy) = (Scene::default(), Accuracy::default());
+        Self { scene, model: Model::Contact, wall: WallChoice::Auto, accuracy }
+    }
+}
+
+/// Whether what was asked was reached.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[must_use]
+pub enum Reached {
+    /// Every exit speed that was looked at is within the tolerance, by its own estimate.
+    Asked,
+    /// It is not: the largest stated error (m/s) of those.
+    Within(f64),
+}
+
+/// Where the ball leaves fastest.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Best {
+    /// The place (m from the knob end).
+    pub x: f64,
+    /// Exit speed of the ball (m/s).
+    pub exit_speed: f64,
+    /// Error bound of the exit speed (m/s).
+    pub error: f64,
+    /// All of the hit there.
+    pub impact: Impact,
+}
+
+/// A bat that was swung at a ball.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Hit {
+    /// The bat, as stiff as it was tapped.
+    pub bat: Bat,
+    /// The swing, with the theory and the wall that were chosen.
+    pub swing: Swing,
+    /// The fastest hit.
+    pub best: Best,
+    /// The sweet spot by every definition.
+    pub spot: SweetSpot,
+    /// Whether what was asked was reached.
+    pub reached: Reached,
+    /// A warning that shear matters but no shear modulus is known; None otherwise.
+    pub warning: Option<String>,
+    sweep: Sweep,
+}
+
+/// Hits along the outer half by which the number of modes and the steps are found.
+const LOOKS: usize = 12;
+
+impl Hit {
+    /// Swings the bat and looks for the best place of its outer half.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`prepare`], of [`Scene::with_wall`], of [`sweep`], and [`Error::Value`] where the bat and the ball do
+    /// not meet.
+    pub fn of(bat: &Bat, swing: &Swing) -> Result<Self> {
+        let Swing { scene, model, wall, accuracy } = swing.clone();
+        let Prepared { bat, request, warning } = prepare(bat, &accuracy.request())?;
+        let bat = bat.into_owned();
+        let accuracy = Accuracy { theory: request.theory, ..accuracy };
+        let tolerance = accuracy.modes.is_none().then_some(accuracy.exit_speed);
+        let scene = scene.with_wall(wall, &bat, model, tolerance)?;
+        let look = |k: usize| bat.length() * (0.5 + 0.5 * (k as f64 + 0.5) / LOOKS as f64);
+        let places: Vec<f64> = (0..LOOKS).map(look).collect();
+        let sweep = sweep(&bat, model, &scene, &accuracy, &places)?;
+        let hitter = Hitter::new(model, &scene, &bat, &sweep.solution, sweep.effort)?;
+        let spot = SweetSpot::find(&hitter);
+        let best = spot.exit_speed_max.and_then(|peak| best_at(&hitter, peak.x));
+        let Some(best) = best else {
+            return Err(Error::value(
+                "swing",
+                "no place where ball and bat meet",
+                "a ball that the bat meets",
+            ));
+        };
+        let closing = best.impact.bat_speed + scene.ball_speed;
+        let worst =
+            sweep.worst().map_or(0.0, |(_, outcome)| outcome.error * closing).max(best.error);
+        let reached = match sweep.met && best.error <= accuracy.exit_speed * closing {
+            true => Reached::Asked,
+            false => Reached::Within(worst),
+        };
+        drop(hitter);
+        let swing = Swing { scene, model, wall, accuracy };
+        Ok(Self { bat, swing, best, spot, reached, warning, sweep })
+    }
+
+    /// The modes that the ball met.
+    pub fn modes(&self) -> &[Mode] {
+        &self.sweep.solution.modes
+    }
+
+    /// Hits at other places (m from the knob end) of the same bat, with the same modes.
+    ///
+    /// # Errors
+    ///
+    /// As [`Hitter::new`].
+    pub fn at(&self, places: &[f64]) -> Result<Vec<Impact>> {
+        let Swing { scene, model, .. } = &self.swing;
+        let Sweep { solution, effort, .. } = &self.sweep;
+        let hitter = Hitter::new(*model, scene, &self.bat, solution, *effort)?;
+        Ok(places.iter().map(|x| hitter.strike(*x)).collect())
+    }
+}
+
+fn best_at(hitter: &Hitter, x: f64) -> Option<Best> {
+    let impact = hitter.strike(x);
+    let outcome = impact.outcome.as_ref()?;
+    let closing = impact.bat_speed + hitter.scene.ball_speed;
+    Some(Best {
+        x,
+        exit_speed: outcome.exit_speed,
+        error: outcome.error * closing,
+        impact: impact.clone(),
+    })
+}
