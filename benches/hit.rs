@@ -14,7 +14,7 @@ use sweetspot::collision::contact::collider::Collider;
 use sweetspot::collision::contact::encounter::Encounter;
 use sweetspot::collision::contact::force_law::{ForceLaw, Top};
 use sweetspot::collision::contact::power_law::PowerLaw;
-use sweetspot::collision::contact::touch::Felt;
+use sweetspot::collision::contact::touch::DrivingPoint;
 use sweetspot::collision::hit::{Effort, Impact, Model, Scene};
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::struck::Struck;
@@ -29,7 +29,13 @@ const POINTS: usize = 100;
 /// The speed after the hit by the classical Runge-Kutta method with a fixed step (s): `z″ = −F/μ`,
 /// `y_n″ = −ω_n² y_n − c_n F`, `x = z + Σ y_n`. The branch is changed at the end of a step; the end
 /// is where the compression returns to zero, between two steps by a straight line.
-fn runge_kutta(modes: &[[f64; 2]], felt: &Felt, law: &PowerLaw, speed: f64, step: f64) -> f64 {
+fn runge_kutta(
+    modes: &[[f64; 2]],
+    felt: &DrivingPoint,
+    law: &PowerLaw,
+    speed: f64,
+    step: f64,
+) -> f64 {
     let n = felt.gains.len();
     // z, z′, impulse, then all y and all y′.
     let size = 3 + 2 * n;
@@ -176,7 +182,7 @@ fn compare(hit: &Hit) {
         errors.fold(0.0, f64::max)
     };
     let places = &places;
-    let felt_by = |struck: &Struck, count: usize, whole: bool| -> Vec<Felt> {
+    let felt_by = |struck: &Struck, count: usize, whole: bool| -> Vec<DrivingPoint> {
         let felt = |x: &f64| match whole {
             true => struck.felt(*x, mass, count),
             false => struck.with_modes(*x, mass, count),
@@ -195,7 +201,7 @@ fn compare(hit: &Hit) {
     let law = &law;
     // The same 18 modes in tight steps: what is left of an error then is the steps', where these modes alone do not
     // let ball and bat meet again either.
-    let tight = |(felt, x): (&Felt, &f64)| {
+    let tight = |(felt, x): (&DrivingPoint, &f64)| {
         let met = with_many.meet(felt, law, hit.closing(*x), 1e-11);
         (met.impulse, again(&met))
     };
@@ -211,15 +217,16 @@ fn compare(hit: &Hit) {
     let mut ways: Vec<Way> = Vec::new();
     for (count, step) in [(18, 5e-6), (18, 2e-6), (18, 1e-6), (40, 2e-6), (40, 1e-6)] {
         let (modes, felts) = if count == 18 { (modes, &plain) } else { (crowd, &more) };
-        let impulse =
-            move |(felt, x): (&Felt, &f64)| runge_kutta(modes, felt, law, hit.closing(*x), step);
+        let impulse = move |(felt, x): (&DrivingPoint, &f64)| {
+            runge_kutta(modes, felt, law, hit.closing(*x), step)
+        };
         let name = format!("Runge-Kutta, {count} modes, {:.0} us", 1e6 * step);
         let all = move || felts.iter().zip(places).map(impulse).collect();
         ways.push((name, Box::new(all)));
     }
     for (name, collider, felts) in cases {
         for tolerance in [1e-4, 1e-6, 1e-9] {
-            let impulse = move |(felt, x): (&Felt, &f64)| {
+            let impulse = move |(felt, x): (&DrivingPoint, &f64)| {
                 collider.meet(felt, law, hit.closing(*x), 10.0 * tolerance).impulse
             };
             let all = move || felts.iter().zip(places).map(impulse).collect();

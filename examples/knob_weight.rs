@@ -12,7 +12,7 @@ use sweetspot::bat::body::STANDARD_PIVOT;
 use sweetspot::bat::fixtures::Attachment;
 use sweetspot::collision::figures::SwingLaw;
 use sweetspot::collision::sweep::{Accuracy, Sweep, sweep};
-use sweetspot::collision::sweet_spot::{FINE, Looked};
+use sweetspot::collision::sweet_spot::{FINE, HitsAlong};
 use sweetspot::collision::{Hitter, Model, Scene};
 use sweetspot::modes::prepared::{Prepared, prepare};
 use sweetspot::{Bat, Request, Result};
@@ -34,7 +34,7 @@ fn weighted(bat: &Bat, mass: f64) -> Result<Bat> {
 fn best(bat: &Bat, swing: f64, sweep: &Sweep) -> Result<[f64; 3]> {
     let scene = Scene { swing, ball_speed: PITCH, ..Scene::default() };
     let hitter = Hitter::new(Model::Contact, &scene, bat, &sweep.solution, sweep.effort)?;
-    let looked = Looked::outer(FINE, &hitter);
+    let looked = HitsAlong::outer(FINE, &hitter);
     let peak = looked.greatest(|glance| Some(glance.exit_speed));
     let hit = hitter.strike(peak.expect("a swung barrel meets the ball").x);
     let closing = hit.bat_speed + scene.ball_speed;

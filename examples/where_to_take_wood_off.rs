@@ -14,7 +14,7 @@ use sweetspot::bat::body::STANDARD_PIVOT;
 use sweetspot::bat::profile::Radii;
 use sweetspot::collision::figures::SwingLaw;
 use sweetspot::collision::sweep::{Accuracy, sweep};
-use sweetspot::collision::sweet_spot::{FINE, Looked};
+use sweetspot::collision::sweet_spot::{FINE, HitsAlong};
 use sweetspot::collision::{Effort, Hitter, Model, Scene};
 use sweetspot::modes::prepared::{Prepared, prepare};
 use sweetspot::{Bat, Error, Request, Result, Solution, solve};
@@ -50,7 +50,7 @@ fn turned_down(bat: &Bat, from: f64, to: f64) -> Result<Bat> {
 fn best(bat: &Bat, swing: f64, solution: &Solution, effort: Effort) -> Result<[f64; 2]> {
     let scene = Scene { swing, ball_speed: PITCH, ..Scene::default() };
     let hitter = Hitter::new(Model::Contact, &scene, bat, solution, effort)?;
-    let looked = Looked::by([0.6 * bat.length(), bat.length()], FINE, &hitter);
+    let looked = HitsAlong::by([0.6 * bat.length(), bat.length()], FINE, &hitter);
     let peak = looked.greatest(|glance| Some(glance.exit_speed));
     let hit = hitter.strike(peak.expect("a swung barrel meets the ball").x);
     let closing = hit.bat_speed + scene.ball_speed;

@@ -11,7 +11,7 @@ use sweetspot::beam::dowel::{Ends, beta_l};
 use sweetspot::proof::bundled::{CASES, bundled_bat};
 use sweetspot::study::advise::advice::{Advice, advise};
 use sweetspot::study::advise::effect::{Effect, Switch};
-use sweetspot::study::advise::part::Part;
+use sweetspot::study::advise::part::ModelPart;
 use sweetspot::{Bat, Request, solve};
 
 fn read(document: &Value) -> Bat {
@@ -87,7 +87,7 @@ fn what_a_bat_does_not_have_has_no_row() {
     assert_eq!(advice.damping.dashpots.len(), 1);
     let weight = json!({ "attachments": [{ "x": 0.5, "mass": 0.1 }] });
     let advice = advise(&dowel("timo_dowel", weight), 3, 1e-2).unwrap();
-    assert_eq!(switches(&advice)[3..], [Switch::Part(Part::Weights)]);
+    assert_eq!(switches(&advice)[3..], [Switch::Part(ModelPart::Weights)]);
     // Shear that is not known is estimated and in no model.
     let unknown = advise(&bundled_bat("meshes/dowel.json").unwrap(), 3, 1e-2).unwrap();
     assert_eq!(switches(&unknown), [Switch::RotaryInertia, Switch::TypicalShear]);
@@ -115,27 +115,27 @@ fn everything_on_a_bat_has_its_row_and_its_sign() {
     let parts = switches(&advice)[3..].to_vec();
     let part = Switch::Part;
     let expected = [
-        part(Part::Materials),
-        part(Part::Weights),
-        part(Part::Tapes),
-        part(Part::Springs),
-        part(Part::Absorbers),
-        part(Part::Joints),
-        part(Part::Supports),
+        part(ModelPart::Materials),
+        part(ModelPart::Weights),
+        part(ModelPart::Tapes),
+        part(ModelPart::Springs),
+        part(ModelPart::Absorbers),
+        part(ModelPart::Joints),
+        part(ModelPart::Supports),
         Switch::Attachments,
-        part(Part::Grip),
+        part(ModelPart::Grip),
     ];
     assert_eq!(parts, expected);
-    assert_eq!(advice.full.model.parts, Part::ALL);
+    assert_eq!(advice.full.model.parts, ModelPart::ALL);
     // λ rises with every stiffness and falls with every mass: Rayleigh's quotient. An absorber far
     // above the modes is a mass.
     for (part, sign) in [
-        (Part::Weights, -1.0),
-        (Part::Tapes, -1.0),
-        (Part::Springs, 1.0),
-        (Part::Absorbers, -1.0),
-        (Part::Joints, -1.0),
-        (Part::Grip, 1.0),
+        (ModelPart::Weights, -1.0),
+        (ModelPart::Tapes, -1.0),
+        (ModelPart::Springs, 1.0),
+        (ModelPart::Absorbers, -1.0),
+        (ModelPart::Joints, -1.0),
+        (ModelPart::Grip, 1.0),
     ] {
         for shift in row(&advice, Switch::Part(part)).shifts.as_ref().unwrap() {
             assert!(sign * shift.frequency >= -shift.error, "{part:?}: {shift:?}");
@@ -148,14 +148,14 @@ fn everything_on_a_bat_has_its_row_and_its_sign() {
     }
     // Without its clamp the bat turns on spring and bed: other modes altogether? No: as few rigid
     // motions are free, and the clamp only stiffens.
-    let clamp = row(&advice, Switch::Part(Part::Supports));
+    let clamp = row(&advice, Switch::Part(ModelPart::Supports));
     assert_eq!(clamp.without.solution.rigid_modes, 0);
     assert!(clamp.shifts.as_ref().unwrap().iter().all(|shift| shift.frequency > 0.0));
     // The weights are 0.13 kg with the absorber and the tape.
     let body = |switch: Switch| row(&advice, switch).body[0];
-    assert!((body(Switch::Part(Part::Weights)) - 0.1).abs() < 1e-14);
+    assert!((body(Switch::Part(ModelPart::Weights)) - 0.1).abs() < 1e-14);
     assert!((body(Switch::Attachments) - 0.13).abs() < 1e-14);
-    assert_eq!(body(Switch::Part(Part::Grip)), 0.0);
+    assert_eq!(body(Switch::Part(ModelPart::Grip)), 0.0);
 }
 
 /// One mass, or one spring, moves a frequency at most to its neighbour (Cauchy, Weyl).
@@ -170,7 +170,7 @@ fn one_mass_and_one_spring_move_a_frequency_at_most_to_its_neighbour() {
     ] {
         let more = json!({ "attachments": [attachment], "supports": held });
         let advice = advise(&dowel("timo_dowel", more), 6, 1e-2).unwrap();
-        let part = if up { Part::Springs } else { Part::Weights };
+        let part = if up { ModelPart::Springs } else { ModelPart::Weights };
         let effect = row(&advice, Switch::Part(part));
         let [with, without] = [&effect.with, &effect.without].map(|solved| solved.frequencies());
         for k in 0..6 {
@@ -190,7 +190,7 @@ fn one_mass_and_one_spring_move_a_frequency_at_most_to_its_neighbour() {
 fn modes_of_a_bat_held_otherwise_are_not_paired() {
     let (grip, exact) = case("grip_bed");
     let advice = advise(&grip, 5, 0.5).unwrap();
-    let effect = row(&advice, Switch::Part(Part::Grip));
+    let effect = row(&advice, Switch::Part(ModelPart::Grip));
     assert!(effect.shifts.is_none() && effect.largest().is_none());
     assert_eq!(effect.with.solution.rigid_modes, 0);
     assert_eq!(effect.without.solution.rigid_modes, 2);
@@ -200,15 +200,15 @@ fn modes_of_a_bat_held_otherwise_are_not_paired() {
     }
     // Hands stay in the smallest model, however large the tolerance; rotary inertia does not.
     let smallest = &advice.smallest.solved;
-    assert_eq!(smallest.model.parts, [Part::Grip]);
+    assert_eq!(smallest.model.parts, [ModelPart::Grip]);
     assert_eq!(smallest.model.theory, Theory::EulerBernoulli);
     for (f, exact) in smallest.frequencies().iter().zip(&exact) {
         assert!((f / exact - 1.0).abs() < 3e-10, "{f} {exact}");
     }
     let (absorber, _) = case("absorber");
     let advice = advise(&absorber, 5, 0.9).unwrap();
-    assert!(row(&advice, Switch::Part(Part::Absorbers)).shifts.is_none());
-    assert_eq!(advice.smallest.solved.model.parts, [Part::Absorbers]);
+    assert!(row(&advice, Switch::Part(ModelPart::Absorbers)).shifts.is_none());
+    assert_eq!(advice.smallest.solved.model.parts, [ModelPart::Absorbers]);
     for name in ["clamped_free", "end_springs", "pin_inside"] {
         let advice = advise(&case(name).0, 3, 0.9).unwrap();
         let part = advice.full.model.parts[0];
@@ -259,13 +259,13 @@ fn parts_that_do_not_matter_go_and_those_that_do_stay() {
         "joints": [{ "x": 0.4, "rotational_stiffness": 1e9 }] });
     let advice = advise(&dowel("timo_dowel", doughnut), 3, 1e-3).unwrap();
     assert_eq!(advice.left_out(), ["joints"]);
-    assert_eq!(advice.smallest.solved.model.parts, [Part::Weights]);
+    assert_eq!(advice.smallest.solved.model.parts, [ModelPart::Weights]);
     // Rotary inertia lowers mode 3 by 1.5 % and the weight by about as much; both are too much for
     // 2 % though each is not.
     let weight = json!({ "attachments": [{ "x": 0.8, "mass": 0.012 }] });
     let bat = dowel("rayleigh_dowel", weight);
     let advice = advise(&bat, 3, 0.02).unwrap();
-    let alone = [Switch::RotaryInertia, Switch::Part(Part::Weights)];
+    let alone = [Switch::RotaryInertia, Switch::Part(ModelPart::Weights)];
     let alone = alone.map(|switch| row(&advice, switch).largest().unwrap());
     assert!(alone.iter().all(|shift| (0.01..0.019).contains(shift)), "{alone:?}");
     assert!(alone.iter().sum::<f64>() > 0.021, "{alone:?}");
@@ -277,8 +277,8 @@ fn parts_that_do_not_matter_go_and_those_that_do_stay() {
 fn without_its_regions_a_bat_is_of_its_own_material() {
     let (cork, exact) = case("cork");
     let advice = advise(&cork, 5, 1e-8).unwrap();
-    let effect = row(&advice, Switch::Part(Part::Materials));
-    let bare = cork.with(|parts| Part::Materials.take_off(&mut parts.fixtures)).unwrap();
+    let effect = row(&advice, Switch::Part(ModelPart::Materials));
+    let bare = cork.with(|parts| ModelPart::Materials.take_off(&mut parts.fixtures)).unwrap();
     let request =
         Request { modes: 5, tolerance: 1e-11, theory: Theory::Timoshenko, ..Request::default() };
     let modes = solve(&bare, &request).unwrap().modes;
@@ -291,7 +291,7 @@ fn without_its_regions_a_bat_is_of_its_own_material() {
         "material": { "density": 700, "youngs_modulus": 14e9 } }] });
     let advice = advise(&dowel("timo_dowel", unknown), 3, 0.9).unwrap();
     assert_eq!(advice.full.model.theory, Theory::Rayleigh);
-    let effect = row(&advice, Switch::Part(Part::Materials));
+    let effect = row(&advice, Switch::Part(ModelPart::Materials));
     assert_eq!(effect.without.model.theory, Theory::Rayleigh);
     // And the other way: the bat's own is not known, that of all its regions is.
     let known = json!({ "material": { "density": 700, "youngs_modulus": 14e9 },
@@ -299,7 +299,7 @@ fn without_its_regions_a_bat_is_of_its_own_material() {
             "density": 700, "youngs_modulus": 14e9, "shear_modulus": 1e9 } }] });
     let advice = advise(&dowel("timo_dowel", known), 3, 0.9).unwrap();
     assert_eq!(advice.full.model.theory, Theory::Timoshenko);
-    let effect = row(&advice, Switch::Part(Part::Materials));
+    let effect = row(&advice, Switch::Part(ModelPart::Materials));
     assert_eq!([effect.with.model.theory, effect.without.model.theory], [Theory::Rayleigh; 2]);
     let shifts = effect.shifts.as_ref().unwrap();
     assert!(shifts.iter().all(|shift| shift.frequency.abs() <= 1e-9), "{shifts:?}");
@@ -331,7 +331,7 @@ fn a_tapped_bat_keeps_its_stiffness_when_parts_are_taken_off() {
         "weighed": { "first_bending_hz": 170 } });
     let advice = advise(&dowel("timo_dowel", tapped), 2, 1e-4).unwrap();
     assert!((advice.full.frequencies()[0] / 170.0 - 1.0).abs() < 1e-8);
-    let effect = row(&advice, Switch::Part(Part::Weights));
+    let effect = row(&advice, Switch::Part(ModelPart::Weights));
     let stiffness = |bat: &Bat| bat.material().youngs_modulus;
     assert_eq!(stiffness(&effect.with.bat), stiffness(&effect.without.bat));
     assert!(effect.without.frequencies()[0] > 180.0);

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use sweetspot::collision::ball::{Ball, LawOf};
 use sweetspot::collision::contact::collider::Collider;
 use sweetspot::collision::contact::force_law::{ForceLaw, Top};
-use sweetspot::collision::contact::touch::Felt;
+use sweetspot::collision::contact::touch::DrivingPoint;
 use sweetspot::collision::hit::{Effort, Model, Scene};
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::proof::bundled::bundled_bat;
@@ -39,7 +39,7 @@ impl ForceLaw for Linear {
 fn a_linear_spring_on_a_rigid_free_bat_takes_half_a_period_and_loses_nothing() {
     let (ball, bat, stiffness) = (0.145, 0.9, 3e6);
     let reduced = 1.0 / (1.0 / ball + 1.0 / bat);
-    let felt = Felt { inverse_mass: 1.0 / reduced, ..Felt::default() };
+    let felt = DrivingPoint { inverse_mass: 1.0 / reduced, ..DrivingPoint::default() };
     let half_a_period = PI * (reduced / stiffness).sqrt();
     for speed in [1e-2, 1.0, 60.0] {
         let collider = Collider::new(&[], 0.1 * half_a_period);

@@ -16,7 +16,7 @@ use sweetspot::show::plot::sheet::Sheet;
 use sweetspot::show::plot::{self, compared};
 use sweetspot::study::comparison::contender::{Contender, Terms};
 use sweetspot::study::comparison::table::{Comparison, Entry};
-use sweetspot::study::measured::place::{End, Told};
+use sweetspot::study::measured::place::{End, ToldPoints};
 use sweetspot::study::measured::study::Study;
 use sweetspot::{Bat, Request, solve};
 
@@ -129,7 +129,7 @@ fn of_laboratory(bat: &Bat, hertz: &[f64], shapes: &[Vec<f64>]) -> Vec<Picture> 
     let folder = Folder::new("plots-measured");
     folder.write("measured.csv", text);
     let measured = measured::read(&folder.0.join("measured.csv"), &Default::default()).unwrap();
-    let told = Told { first: Some(End::Knob), origin: None };
+    let told = ToldPoints { first: Some(End::Knob), origin: None };
     let study = Study::new(bat, measured, &Request::plain(), false, told).unwrap();
     plot::measured::pictures(Sheet::file(false), bat.name(), &study)
 }

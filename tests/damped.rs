@@ -26,7 +26,7 @@ use sweetspot::bat::layup::Layup;
 use sweetspot::bat::material::Material;
 use sweetspot::bat::profile::{Interpolation, Profile, Stations};
 use sweetspot::bat::theory::Theory;
-use sweetspot::modes::damping::Kind;
+use sweetspot::modes::damping::DampingMethod;
 use sweetspot::motion::frf::Frf;
 use sweetspot::{Bat, Request, solve};
 
@@ -200,7 +200,11 @@ fn receptance(fixtures: &Fixtures, theory: Theory, frequency: f64, [from, to]: [
 
 fn assert_poles(bat: &Bat, theory: Theory, exact: &[[f64; 2]]) {
     let solution = solve(bat, &request(exact.len(), theory)).unwrap();
-    assert!(matches!(solution.damping.kind, Kind::Complex(_)), "{}", solution.damping.kind);
+    assert!(
+        matches!(solution.damping.kind, DampingMethod::Complex(_)),
+        "{}",
+        solution.damping.kind
+    );
     for (damped, [re, im]) in solution.damping.modes.iter().zip(exact) {
         let exact = c64::new(*re, *im);
         let root = missed(bat.fixtures(), theory, exact);
@@ -439,7 +443,7 @@ fn hands_all_over_have_the_closed_form() {
 fn loss_factors_are_weighted_with_strain_energies() {
     let ratios = |bat: &Bat, theory: Theory| -> Vec<f64> {
         let solution = solve(bat, &request(5, theory)).unwrap();
-        assert_eq!(solution.damping.kind, Kind::Materials);
+        assert_eq!(solution.damping.kind, DampingMethod::Materials);
         for (mode, damped) in solution.modes.iter().zip(&solution.damping.modes) {
             assert!((damped.natural / mode.omega - 1.0).abs() < 1e-12);
         }
@@ -492,11 +496,11 @@ fn complex_modes_are_used_where_they_matter() {
         solve(&bat, &request).unwrap().damping
     };
     let (weak, strong) = (kind(1.0, 1e-3), kind(300.0, 1e-3));
-    assert!(matches!(weak.kind, Kind::Modal(change) if change < 1e-3));
-    assert!(matches!(strong.kind, Kind::Complex(change) if change > 1e-3));
+    assert!(matches!(weak.kind, DampingMethod::Modal(change) if change < 1e-3));
+    assert!(matches!(strong.kind, DampingMethod::Complex(change) if change > 1e-3));
     // Weak dashpots by both ways: the damping ratios differ by the squares only.
     let fine = kind(1.0, 1e-9);
-    assert!(matches!(fine.kind, Kind::Complex(_)));
+    assert!(matches!(fine.kind, DampingMethod::Complex(_)));
     for (a, b) in weak.modes.iter().zip(&fine.modes) {
         assert!(
             (a.ratio / b.ratio - 1.0).abs() < 1e-2 && (a.natural / b.natural - 1.0).abs() < 1e-5

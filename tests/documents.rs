@@ -61,9 +61,10 @@ fn the_readme_is_short_and_begins_with_a_picture_both_commands_and_an_answer() {
 #[test]
 fn the_readme_has_every_verb() {
     let help = Folder::new("verbs").text(&["--help"]);
-    let verbs = help.lines().skip_while(|line| *line != "Commands:").skip(1);
-    let verbs = verbs.take_while(|line| !line.is_empty());
-    let verbs: Vec<&str> = verbs.filter_map(|line| line.split_whitespace().next()).collect();
+    let verbs = help.lines().skip_while(|line| *line != "Describe a bat:");
+    let verbs = verbs.take_while(|line| *line != "Options:");
+    let verbs = verbs.filter_map(|line| line.strip_prefix("  ")?.split_whitespace().next());
+    let verbs: Vec<&str> = verbs.collect();
     assert!(verbs.len() > 10, "{verbs:?}");
     let readme = page("README.md");
     let table: String = readme.lines().filter(|line| line.starts_with("| `")).collect();

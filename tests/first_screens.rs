@@ -171,3 +171,22 @@ fn diameters_read_to_a_sixteenth_are_off_by_its_share_and_a_person_may_say_other
     let told = folder.text(&["analyze", "bat.json", "--quiet", "--calipers", "0.05 mm"]);
     assert!(plain(&told).contains("calipers are off by 0.002 in"), "{told}");
 }
+
+/// A screen of `hit`, `modes` and `lathe` has at most 40 lines and says where the rest is; places that were asked for
+/// are all there.
+#[test]
+fn a_screen_is_a_screen_and_full_has_the_rest() {
+    let folder = Folder::new("screens");
+    let lines = |args: &[&str]| folder.text(args).lines().count();
+    for bat in ["r161", "bbcor_made_up"] {
+        for verb in ["hit", "modes", "lathe"] {
+            assert!(lines(&[verb, bat]) <= 40, "{verb} {bat}");
+            assert!(folder.text(&[verb, bat]).ends_with("Everything else: --full\n"), "{verb}");
+            assert!(lines(&[verb, bat, "--full"]) > 60, "{verb} {bat}");
+        }
+        assert!(lines(&["bbcor", bat]) <= 24 && lines(&["bbcor", bat, "--full"]) > 30, "{bat}");
+    }
+    assert!(lines(&["bats"]) <= 24);
+    let rows = |points: &str| lines(&["hit", "r161", "--points", points]);
+    assert_eq!(rows("90") - rows("80"), 10);
+}

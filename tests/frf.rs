@@ -11,7 +11,7 @@ use faer::c64;
 use serde_json::Value;
 use sweetspot::files::measured::{response, universal};
 use sweetspot::files::uff::{Dataset, parse, parse_in};
-use sweetspot::motion::frf::{Frf, Kind, Sample};
+use sweetspot::motion::frf::{Frf, ResponseKind, Sample};
 use sweetspot::{Bat, Request};
 
 /// A dowel with a loss factor of 2 %, so that every mode has a damping ratio of 1 %.
@@ -159,7 +159,7 @@ fn a_file_made_by_the_specification_is_read_with_its_units_places_and_directions
     // Accelerations in mm/s² per N, the answer against y.
     let text = nodes.clone() + &dataset_58((12, "mm/s^2"), 13, [(12, -2), (11, 2)], &five());
     let found = read(&text, Some("mm"));
-    assert_eq!((found.kind, found.at, found.to), (Kind::Accelerance, Some(0.1), Some(0.7)));
+    assert_eq!((found.kind, found.at, found.to), (ResponseKind::Accelerance, Some(0.1), Some(0.7)));
     assert_eq!(found.values.len(), 5);
     let (f, first) = found.values[0];
     assert!(f == 100.0 && (first - c64::new(-1.0, 0.02)).norm() < 1e-12, "{first}");
@@ -170,7 +170,7 @@ fn a_file_made_by_the_specification_is_read_with_its_units_places_and_directions
         &text.replace(&format!("{:<20} N", "Force"), &format!("{:<20} lbf", "Force")),
         Some("in"),
     );
-    assert_eq!((found.kind, found.at), (Kind::Mobility, None));
+    assert_eq!((found.kind, found.at), (ResponseKind::Mobility, None));
     let factor = 0.0254 / 4.448_221_615_260_5;
     assert!((found.values[0].1.re / (1000.0 * factor) - 1.0).abs() < 1e-12);
     // What an axis calls g is one, where no units are named.
@@ -279,7 +279,8 @@ fn a_set_of_responses_is_read_at_once_in_the_units_of_the_trade() {
         let one = |(to, at): (usize, usize)| {
             let mut frf = Frf::new(&bat, &request, places[at], places[to]).unwrap();
             let of = |s: &Sample| {
-                s.receptance * Kind::Accelerance.of(s.frequency) * 4.448_221_615_260_5 / 9.806_65
+                s.receptance * ResponseKind::Accelerance.of(s.frequency) * 4.448_221_615_260_5
+                    / 9.806_65
             };
             let values: Vec<c64> = frf.receptances(&hertz).unwrap().iter().map(of).collect();
             let [to, at] = [to, at].map(|k| (k as i64 + 1, 2));

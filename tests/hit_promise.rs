@@ -4,7 +4,7 @@
 use std::sync::LazyLock;
 
 use sweetspot::base::telling::nobody;
-use sweetspot::proof::hit_promise::{CheckedHit, Course, Summary, rows};
+use sweetspot::proof::hit_promise::{CheckedHit, ReferenceCourse, Summary, rows};
 
 static ROWS: LazyLock<Vec<CheckedHit>> = LazyLock::new(|| rows(&nobody).unwrap());
 
@@ -30,11 +30,11 @@ fn tolerances_are_met_or_missed_in_words() {
 /// The set has later touches and reloads in it, and the former change what the ball does.
 #[test]
 fn hits_of_all_kinds_are_looked_at() {
-    for (course, name) in Course::ALL {
+    for (course, name) in ReferenceCourse::ALL {
         let count = ROWS.iter().filter(|row| row.course == course).count();
         assert!(count >= 5, "{count} {name}");
     }
-    assert!(ROWS.iter().any(|row| row.course == Course::Later && row.later > 0.01));
+    assert!(ROWS.iter().any(|row| row.course == ReferenceCourse::Later && row.later > 0.01));
     let known = ROWS.iter().filter(|row| row.known_to < 1e-9).count();
     assert!(known >= 200, "{known}");
 }

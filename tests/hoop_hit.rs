@@ -13,7 +13,7 @@ use serde_json::Value;
 use sweetspot::collision::contact::collider::Collider;
 use sweetspot::collision::contact::encounter::Encounter;
 use sweetspot::collision::contact::power_law;
-use sweetspot::collision::contact::touch::Felt;
+use sweetspot::collision::contact::touch::DrivingPoint;
 use sweetspot::collision::hoop_wall::{HoopInHit, HoopWall, WallSeries};
 use sweetspot::collision::sweep::{Accuracy, Sweep, sweep};
 use sweetspot::collision::wall_choice::WallChoice;
@@ -127,7 +127,8 @@ fn wall(bat: &Bat, last: usize, tol: f64) -> Arc<HoopWall> {
 
 /// A ball of the reference on a bat that recoils with that mass (kg) and does not bend.
 fn met(wall: &HoopWall, series: &WallSeries, recoil: f64, speed: f64) -> Encounter {
-    let stiff = Felt { inverse_mass: 1.0 / 0.145 + 1.0 / recoil, ..Felt::default() };
+    let stiff =
+        DrivingPoint { inverse_mass: 1.0 / 0.145 + 1.0 / recoil, ..DrivingPoint::default() };
     let law = power_law::law(6.53e7, 1.84, 0.5);
     Collider::new(&wall.modes(), 8e-5).meet(&series.before(stiff), &*law, speed, 1e-7)
 }

@@ -7,7 +7,7 @@ use sweetspot::collision::contact::collider::Collider;
 use sweetspot::collision::contact::encounter::Encounter;
 use sweetspot::collision::contact::force_law::ForceLaw;
 use sweetspot::collision::contact::power_law::PowerLaw;
-use sweetspot::collision::contact::touch::Felt;
+use sweetspot::collision::contact::touch::DrivingPoint;
 use sweetspot::collision::energy_loss::{wpi_alpha, wpi_shape};
 use sweetspot::collision::hit::{Effort, Impact, Model, Scene};
 use sweetspot::collision::hitter::Hitter;
@@ -19,12 +19,12 @@ use sweetspot::{Request, solve};
 
 /// ω of a free uniform dowel with that first frequency (Hz) and how a ball (kg) feels it at a
 /// fraction of its length.
-fn dowel(first: f64, modes: usize, at: f64, ball: f64) -> (Vec<[f64; 2]>, Felt) {
+fn dowel(first: f64, modes: usize, at: f64, ball: f64) -> (Vec<[f64; 2]>, DrivingPoint) {
     let mass = 0.85;
     let beta = |n: usize| beta_l(Ends::FreeFree, n);
     let omega = |n: usize| std::f64::consts::TAU * first * (beta(n) / beta(1)).powi(2);
     let gain = |n: usize| (wpi_shape(n, at) / wpi_alpha(n)).powi(2) / mass;
-    let felt = Felt {
+    let felt = DrivingPoint {
         inverse_mass: 1.0 / ball + (1.0 + 12.0 * (at - 0.5).powi(2)) / mass,
         gains: (1..=modes).map(gain).collect(),
         rest: 0.0,
@@ -35,7 +35,7 @@ fn dowel(first: f64, modes: usize, at: f64, ball: f64) -> (Vec<[f64; 2]>, Felt) 
 /// Ball and modes by the classical Runge-Kutta method of fourth order in equal small steps.
 struct Reference<'a> {
     modes: &'a [[f64; 2]],
-    felt: &'a Felt,
+    felt: &'a DrivingPoint,
     law: PowerLaw,
 }
 
@@ -118,7 +118,13 @@ fn baseball(cor: f64) -> PowerLaw {
     PowerLaw::new(6.53e7, 1.84, cor)
 }
 
-fn meet(modes: &[[f64; 2]], felt: &Felt, law: &PowerLaw, speed: f64, accuracy: f64) -> Encounter {
+fn meet(
+    modes: &[[f64; 2]],
+    felt: &DrivingPoint,
+    law: &PowerLaw,
+    speed: f64,
+    accuracy: f64,
+) -> Encounter {
     let touching = law.compression(0.5 * speed * speed / felt.inverse_mass) / speed;
     Collider::new(modes, 0.28 * touching).meet(felt, law, speed, accuracy)
 }

@@ -16,7 +16,7 @@ use sweetspot::show::plot::{calibrate, change, many};
 use sweetspot::show::template::pages::pages;
 use sweetspot::show::template::sheet::{Drawn, PAPERS};
 use sweetspot::study::calibrate::calibration::{Calibration, CalibrationPlan};
-use sweetspot::study::many::indices::{Indices, Kind};
+use sweetspot::study::many::indices::{Indices, VariateKind};
 use sweetspot::study::many::sobol::Sobol;
 
 fn bat(name: &str) -> Bat {
@@ -84,7 +84,7 @@ fn spreads_of_many_bats_are_drawn_whole() {
     };
     let (f1, f2) = (column("f1_hz", &answer), column("f2_hz", &|x| 3.0 * answer(x) + x[2]));
     let of_rows: Vec<(Vec<f64>, f64)> = rows.iter().map(|x| (x.to_vec(), answer(x))).collect();
-    let indices = Indices::new(&[Kind::Share; 3], &of_rows).unwrap();
+    let indices = Indices::new(&[VariateKind::Share; 3], &of_rows).unwrap();
     let names = ["youngs_modulus given density", "density", "turning"].map(str::to_owned);
     let all = [
         many::histogram(&f1, &sorted(&f1), [171.0, 181.0, 193.0]).unwrap(),

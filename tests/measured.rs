@@ -20,7 +20,7 @@ use sweetspot::modes::solve::Request;
 use sweetspot::show::parts::units::Units;
 use sweetspot::show::report::measured;
 use sweetspot::study::measured::data::{Measured, MeasuredMode};
-use sweetspot::study::measured::place::{End, Told};
+use sweetspot::study::measured::place::{End, ToldPoints};
 use sweetspot::study::measured::study::Study;
 use sweetspot::study::measured::words::words;
 
@@ -50,7 +50,7 @@ fn free(count: usize, x: &[f64], change: impl Fn(usize, usize, c64) -> c64) -> M
     Measured { modes, along: x.to_vec(), from_knob: true, ..Measured::default() }
 }
 
-fn study(bat: &Bat, measured: Measured, told: Told) -> Study {
+fn study(bat: &Bat, measured: Measured, told: ToldPoints) -> Study {
     let request = Request { tolerance: 1e-9, ..Request::plain() };
     Study::new(bat, measured.sorted(), &request, false, told).unwrap()
 }
@@ -71,7 +71,7 @@ fn exact_shapes_are_paired_whatever_their_order_scale_and_sign() {
     // The points in another order, their values with them.
     measured.along.swap(2, 9);
     measured.modes.iter_mut().for_each(|mode| mode.shape.swap(2, 9));
-    let study = study(&dowel(), measured, Told::default());
+    let study = study(&dowel(), measured, ToldPoints::default());
     assert_eq!(study.pairs.len(), 5);
     for (k, pair) in study.pairs.iter().enumerate() {
         assert_eq!((pair.measured, pair.computed), (k, k));
@@ -90,7 +90,8 @@ fn exact_shapes_are_paired_whatever_their_order_scale_and_sign() {
 #[test]
 fn one_per_cent_of_noise_leaves_the_pairs_alone() {
     let x = points(12);
-    let study = study(&dowel(), free(5, &x, |n, k, v| v + 0.02 * noise(n, k)), Told::default());
+    let study =
+        study(&dowel(), free(5, &x, |n, k, v| v + 0.02 * noise(n, k)), ToldPoints::default());
     for (k, pair) in study.pairs.iter().enumerate() {
         assert_eq!((pair.measured, pair.computed), (k, k));
         // Σ noise² / Σ W² is 4e-4/3 over about 1.3.
@@ -104,7 +105,7 @@ fn one_per_cent_of_noise_leaves_the_pairs_alone() {
 #[test]
 fn a_phase_of_the_whole_shape_changes_nothing_and_a_part_out_of_phase_is_measured() {
     let (x, phase) = (points(30), c64::from_polar(3.0, 0.7));
-    let alone = study(&dowel(), free(3, &x, |_, _, v| v * phase), Told::default());
+    let alone = study(&dowel(), free(3, &x, |_, _, v| v * phase), ToldPoints::default());
     let shapes = alone.shapes.as_ref().unwrap();
     for (k, pair) in alone.pairs.iter().enumerate() {
         assert!(1.0 - pair.mac.unwrap() < 1e-12 && shapes.out_of_phase[k] < 1e-12);
@@ -114,7 +115,7 @@ fn a_phase_of_the_whole_shape_changes_nothing_and_a_part_out_of_phase_is_measure
     // A tenth of another shape, a quarter period later.
     let other = exact(Ends::FreeFree, 5, &x);
     let whirling = free(3, &x, |_, k, v| (v + c64::new(0.0, 0.1) * other[k]) * phase);
-    let study = study(&dowel(), whirling, Told::default());
+    let study = study(&dowel(), whirling, ToldPoints::default());
     let shapes = study.shapes.unwrap();
     for (n, share) in shapes.out_of_phase.iter().enumerate() {
         let size = |v: &[c64]| v.iter().map(|v| v.norm_sqr()).sum::<f64>();
@@ -130,7 +131,7 @@ fn rigid_motion_in_a_shape_is_found_as_large_as_it_is() {
     // ∫W² dX = 1: a shift by a has a² of the mass, a turn by b (X − ½) has b²/12.
     for (a, b) in [(0.2, 0.0), (0.0, 0.9), (0.1, -0.4)] {
         let shifted = free(4, &x, |_, k, v| v + a + b * (x[k] / LENGTH - 0.5));
-        let study = study(&dowel(), shifted, Told::default());
+        let study = study(&dowel(), shifted, ToldPoints::default());
         let shapes = study.shapes.as_ref().unwrap();
         let rigid: f64 = a * a + b * b / 12.0;
         let known = (rigid / (1.0 + rigid)).sqrt();
@@ -148,7 +149,7 @@ fn rigid_motion_in_a_shape_is_found_as_large_as_it_is() {
 #[test]
 fn exact_shapes_have_nothing_in_common_but_what_the_points_cost() {
     let worst = |count: usize| {
-        let study = study(&dowel(), free(4, &points(count), |_, _, v| v), Told::default());
+        let study = study(&dowel(), free(4, &points(count), |_, _, v| v), ToldPoints::default());
         let shapes = study.shapes.unwrap();
         let mut worst: f64 = 0.0;
         let common = shapes.common.unwrap();
@@ -177,7 +178,7 @@ fn slow_straight_motions_are_rigid_and_crooked_ones_are_told() {
     let mut crooked = line(1.0, 0.0);
     crooked[4] = c64::new(2.0, 0.0);
     measured.modes.push(mode("crooked", 4.0, crooked));
-    let study = study(&dowel(), measured, Told::default());
+    let study = study(&dowel(), measured, ToldPoints::default());
     assert_eq!(study.rigid.len(), 3);
     let [bounce, pitch, crooked] = [0, 1, 2].map(|k| study.rigid[k].bent);
     assert!(bounce < 1e-14 && pitch < 1e-14);
@@ -207,10 +208,10 @@ fn the_end_that_comes_first_is_found_and_so_is_the_origin() {
     };
     let from_tip: Vec<f64> = x.iter().map(|x| LENGTH - x).collect();
     let far: Vec<f64> = from_tip.iter().map(|x| x + 7.0).collect();
-    let told = Told { origin: Some(LENGTH), ..Told::default() };
+    let told = ToldPoints { origin: Some(LENGTH), ..ToldPoints::default() };
     for (along, told, first) in [
-        (&x, Told::default(), End::Knob),
-        (&from_tip, Told::default(), End::Tip),
+        (&x, ToldPoints::default(), End::Knob),
+        (&from_tip, ToldPoints::default(), End::Tip),
         (&far, told, End::Tip),
     ] {
         let measured = Measured { modes: modes(&x), along: along.clone(), ..Measured::default() };
@@ -229,7 +230,7 @@ fn the_end_that_comes_first_is_found_and_so_is_the_origin() {
     // Told wrong, it is taken as told, and said.
     let measured =
         Measured { modes: modes(&x), along: from_tip, from_knob: true, ..Measured::default() };
-    let wrong = study(&bat, measured, Told::default());
+    let wrong = study(&bat, measured, ToldPoints::default());
     assert!(wrong.shapes.as_ref().unwrap().placed.turned_fits_better);
     assert!(words(&wrong).iter().any(|line| line.starts_with("Turned end for end")));
 }
@@ -239,7 +240,7 @@ fn a_symmetric_bat_fits_both_ways_and_that_is_said() {
     let along: Vec<f64> = points(12).iter().map(|x| 0.9 * x - 3.0).collect();
     let inside: Vec<f64> = points(12).iter().map(|x| 0.05 * LENGTH + 0.9 * x).collect();
     let measured = Measured { along, from_knob: false, ..free(3, &inside, |_, _, v| v) };
-    let study = study(&dowel(), measured, Told::default());
+    let study = study(&dowel(), measured, ToldPoints::default());
     let placed = study.shapes.unwrap().placed;
     assert!(placed.x.iter().zip(&inside).all(|(a, b)| (a - b).abs() < 1e-12));
     let said = placed.assumed.join(" ");
@@ -252,7 +253,7 @@ fn a_mode_that_was_missed_and_one_measured_twice_stay_alone() {
     let mut measured = free(4, &x, |_, _, v| v);
     measured.modes[1] =
         mode("m1 again", 1.01 * dowel_frequency(1), measured.modes[0].shape.clone());
-    let study = study(&dowel(), measured, Told::default());
+    let study = study(&dowel(), measured, ToldPoints::default());
     let names: Vec<&str> = study.lone_measured.iter().map(|k| study.name(*k)).collect();
     assert_eq!(names, ["m1 again"]);
     assert_eq!(study.lone_computed, [1]);
@@ -268,7 +269,7 @@ fn a_mode_that_was_missed_and_one_measured_twice_stay_alone() {
 fn exact_shapes_of_modes_that_were_not_computed_are_no_fault() {
     let request = Request { modes: 2, tolerance: 1e-9, ..Request::plain() };
     let measured = free(4, &points(5), |_, _, v| v).sorted();
-    let study = Study::new(&dowel(), measured, &request, true, Told::default()).unwrap();
+    let study = Study::new(&dowel(), measured, &request, true, ToldPoints::default()).unwrap();
     let shapes = study.shapes.as_ref().unwrap();
     assert_eq!(study.pairs.len(), 2);
     // The spline through five points does give them what the exact shapes have not.
@@ -283,7 +284,7 @@ fn modes_more_than_an_octave_apart_are_not_paired() {
     let x = points(12);
     let mut measured = free(1, &x, |_, _, v| v);
     measured.modes.push(mode("far", 0.3 * dowel_frequency(4), exact(Ends::FreeFree, 4, &x)));
-    let study = study(&dowel(), measured, Told::default());
+    let study = study(&dowel(), measured, ToldPoints::default());
     assert_eq!(study.pairs.len(), 1);
     let text = measured::text(&dowel(), &study, Units::Si);
     assert!(text.contains("like no computed mode within an octave"), "{text}");
@@ -293,7 +294,7 @@ fn modes_more_than_an_octave_apart_are_not_paired() {
 #[test]
 fn what_shapes_have_in_common_is_judged_by_what_the_points_do() {
     let verdict = |measured: Measured| {
-        let study = study(&dowel(), measured, Told::default());
+        let study = study(&dowel(), measured, ToldPoints::default());
         let said = words(&study);
         said.iter().find(|line| line.contains("orthogonal in the bat's mass")).unwrap().clone()
     };
@@ -412,7 +413,7 @@ fn points_that_are_not_on_the_bat_are_told_by_numbers_that_were_given() {
             from_knob: false,
             ..free(2, &points(along.len()), |_, _, v| v)
         };
-        let told = Told { origin, ..Told::default() };
+        let told = ToldPoints { origin, ..ToldPoints::default() };
         let request = Request { tolerance: 1e-3, ..Request::plain() };
         Study::new(&dowel(), measured, &request, false, told).unwrap_err().to_string()
     };
@@ -468,9 +469,9 @@ fn shapes_that_are_like_no_mode_are_no_readings_of_the_wood() {
 
 #[test]
 fn few_points_that_do_not_tell_modes_apart_are_told() {
-    let few = study(&dowel(), free(4, &points(4), |_, _, v| v), Told::default());
+    let few = study(&dowel(), free(4, &points(4), |_, _, v| v), ToldPoints::default());
     assert!(words(&few).iter().any(|line| line.starts_with("At these 4 points")));
-    let enough = study(&dowel(), free(4, &points(12), |_, _, v| v), Told::default());
+    let enough = study(&dowel(), free(4, &points(12), |_, _, v| v), ToldPoints::default());
     assert!(!words(&enough).iter().any(|line| line.starts_with("At these")));
 }
 
@@ -691,7 +692,7 @@ fn a_universal_file_may_have_the_bat_in_any_direction() {
         for (ratio, known) in ratios.iter().zip([0.004, 0.01, 0.005]) {
             assert!((ratio - known).abs() < 1e-12);
         }
-        let study = study(&dowel(), measured, Told::default());
+        let study = study(&dowel(), measured, ToldPoints::default());
         for (k, pair) in study.pairs.iter().enumerate() {
             assert_eq!((pair.measured, pair.computed), (k, k));
             assert!(1.0 - pair.mac.unwrap() < 1e-9);
@@ -820,7 +821,8 @@ fn a_spoiled_table_is_read_or_refused() {
             }
             read += 1;
             let request = Request { tolerance: 1e-3, ..Request::plain() };
-            let Ok(study) = Study::new(&dowel(), measured, &request, false, Told::default()) else {
+            let Ok(study) = Study::new(&dowel(), measured, &request, false, ToldPoints::default())
+            else {
                 continue;
             };
             let text = format!("{:?}{:?}", study.pairs, words(&study));

@@ -12,7 +12,7 @@ use sweetspot::bat::theory::Theory;
 use sweetspot::collision::energy_loss::EnergyLoss;
 use sweetspot::collision::hit::{Effort, Model, Scene};
 use sweetspot::collision::hitter::Hitter;
-use sweetspot::collision::sweet_spot::{FEW, Looked, SweetSpot};
+use sweetspot::collision::sweet_spot::{FEW, HitsAlong, SweetSpot};
 use sweetspot::files::schema;
 use sweetspot::modes::solve::{self, Request, Solution};
 use sweetspot::show::report::hit_json;
@@ -242,7 +242,7 @@ fn hit(bat: &Bat, solution: &Solution, model: Model) -> Result<(), String> {
     let scene = Scene { pivot: 0.0635, swing: 50.0, ball_speed: 40.0, ..Scene::default() };
     let hitter =
         Hitter::new(model, &scene, bat, solution, Effort::default()).map_err(|e| e.to_string())?;
-    let looked = Looked::outer(FEW, &hitter);
+    let looked = HitsAlong::outer(FEW, &hitter);
     let spot = SweetSpot::within(&looked);
     let mut impacts = Vec::new();
     for share in [0.0, 0.5, 0.75, 1.0] {

@@ -19,7 +19,7 @@ use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::pulse::Pulse;
 use sweetspot::collision::sweep::{Accuracy, Sweep, sweep};
 use sweetspot::collision::sweet_spot::SweetSpot;
-use sweetspot::motion::frf::{Frf, Kind, Sample};
+use sweetspot::motion::frf::{Frf, ResponseKind, Sample};
 use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::show::plot::matrix::{FULL, Matrix};
 use sweetspot::show::plot::picture::Picture;
@@ -182,7 +182,7 @@ fn hoop_modes_and_walls_are_whole_in_every_form() {
 #[test]
 fn no_mark_of_a_row_hides_another() {
     let bats = ["r161", "r161", "r161", "torpedo"].map(bat);
-    let side = |bat| profile::Subject { name: "one of them", bat, swing_pivot: Some(0.06) };
+    let side = |bat| profile::MarkedBat { name: "one of them", bat, swing_pivot: Some(0.06) };
     let side: Vec<_> = bats.iter().map(side).collect();
     for paper in [Paper::File, Paper::Narrow] {
         let picture = profile::picture(Sheet { us: false, paper }, &side);
@@ -249,17 +249,17 @@ fn several_bats_fit_into_one_picture() {
     let all: Vec<Struck> = ["r161", "torpedo", "northwestern_aluminium"]
         .map(|name| struck(bat(name), Model::Contact, Scene::default()))
         .into();
-    let side = all.iter().map(|s| profile::Subject {
+    let side = all.iter().map(|s| profile::MarkedBat {
         name: s.bat.name(),
         bat: &s.bat,
         swing_pivot: Some(s.scene.pivot),
     });
-    let bent = all.iter().map(|s| shapes::Subject {
+    let bent = all.iter().map(|s| shapes::ShapeCurves {
         name: s.bat.name(),
         bat: &s.bat,
         solution: &s.solution,
     });
-    let along = all.iter().map(|s| exit_speed::Subject {
+    let along = all.iter().map(|s| exit_speed::SpeedCurves {
         name: s.bat.name(),
         bat: &s.bat,
         impacts: &s.sweep.impacts,
@@ -283,7 +283,7 @@ fn a_bat_of_less_than_six_inches_has_no_place_of_the_standards() {
         let bat = common::bat(&[0.0, length], &[0.01, 0.02], &[0.0; 2], ends);
         let picture = profile::picture(
             SHEET,
-            &[profile::Subject { name: "short", bat: &bat, swing_pivot: None }],
+            &[profile::MarkedBat { name: "short", bat: &bat, swing_pivot: None }],
         );
         check(&picture, "short");
         let document = Document::parse(&picture.svg).unwrap();
@@ -299,7 +299,7 @@ fn whoever_reads_the_curve_off_the_axes_finds_the_computed_speeds() {
     let struck = struck(bat("r161"), Model::Contact, Scene::default());
     let name = "R161";
     let (bat, impacts) = (&struck.bat, &struck.sweep.impacts);
-    let subject = exit_speed::Subject { name, bat, impacts, spot: &struck.spot };
+    let subject = exit_speed::SpeedCurves { name, bat, impacts, spot: &struck.spot };
     let picture = exit_speed::picture(SHEET, &[subject]).unwrap();
     let document = Document::parse(&picture.svg).unwrap();
     let height = number(document.root_element(), "height");
@@ -456,8 +456,8 @@ fn difference(one: &Pixmap, other: &Pixmap, below: u32) -> f64 {
 fn a_png_shows_what_others_draw_from_the_svg() {
     let names = ["r161", "torpedo", "northwestern_aluminium", "cone", "dowel", "house"];
     let bats = names.map(bat);
-    let side = |bat| profile::Subject { name: "beside others", bat, swing_pivot: Some(0.1) };
-    let side: Vec<profile::Subject> = bats.iter().map(side).collect();
+    let side = |bat| profile::MarkedBat { name: "beside others", bat, swing_pivot: Some(0.1) };
+    let side: Vec<profile::MarkedBat> = bats.iter().map(side).collect();
     let mut all = pictures(&struck(bat("house"), Model::Contact, Scene::default()), Model::Contact);
     all.push(profile::picture(SHEET, &side));
     all.push(matrix::picture(&table()));
@@ -626,9 +626,9 @@ fn responses_and_motions_are_whole_in_every_form() {
         let grid: Vec<f64> =
             [20.0].into_iter().chain(frf.around_modes([21.0, 2999.0])).chain([3000.0]).collect();
         let samples = frf.receptances(&grid).unwrap();
-        let peaks = frf.peaks(Kind::Mobility, &grid);
+        let peaks = frf.peaks(ResponseKind::Mobility, &grid);
         assert!(peaks.len() > 3);
-        let of = |s: &Sample| (s.frequency, s.receptance * Kind::Mobility.of(s.frequency));
+        let of = |s: &Sample| (s.frequency, s.receptance * ResponseKind::Mobility.of(s.frequency));
         let values: Vec<_> = samples.iter().map(of).collect();
         let solution = solve(&bat, &request).unwrap();
         let scene = Scene::default();
@@ -643,10 +643,10 @@ fn responses_and_motions_are_whole_in_every_form() {
             let name = bat.name();
             let mut all = vec![];
             for measured in [&[][..], &values[3..]] {
-                let (kind, at, to) = (Kind::Mobility, 0.7, 0.1);
+                let (kind, at, to) = (ResponseKind::Mobility, 0.7, 0.1);
                 let (values, peaks) = (&values[..], &peaks[..]);
                 let subject =
-                    response::Subject { bat: name, kind, at, to, values, peaks, measured };
+                    response::ResponseCurves { bat: name, kind, at, to, values, peaks, measured };
                 all.push(response::picture(sheet, &subject, "response").unwrap());
             }
             let hit = ringing::AfterHit {

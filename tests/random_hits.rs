@@ -6,7 +6,7 @@ use sweetspot::beam::dowel::{Ends, beta_l};
 use sweetspot::collision::contact::collider::Collider;
 use sweetspot::collision::contact::force_law::ForceLaw;
 use sweetspot::collision::contact::power_law::PowerLaw;
-use sweetspot::collision::contact::touch::Felt;
+use sweetspot::collision::contact::touch::DrivingPoint;
 use sweetspot::collision::struck::Struck;
 use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Request, solve};
@@ -45,7 +45,7 @@ impl Random {
 /// A bat at one place: ω, ζ of its modes, and how a ball feels it.
 struct Place {
     modes: Vec<[f64; 2]>,
-    felt: Felt,
+    felt: DrivingPoint,
     mass: f64,
 }
 
@@ -95,7 +95,7 @@ fn dowel(random: &mut Random, count: usize, ball: f64) -> Place {
     let all = |n: usize| gain(n) / omega(n).powi(2);
     let rest = if random.whether(0.5) { 0.0 } else { (count + 1..30).map(all).sum() };
     let inverse_mass = 1.0 / ball + (1.0 + 12.0 * (at - 0.5).powi(2)) / mass;
-    Place { modes, felt: Felt { inverse_mass, gains, rest }, mass }
+    Place { modes, felt: DrivingPoint { inverse_mass, gains, rest }, mass }
 }
 
 #[test]

@@ -4,7 +4,7 @@ use crate::common;
 
 use common::folder::Folder;
 use serde_json::Value;
-use sweetspot::study::many::indices::{Indices, Kind};
+use sweetspot::study::many::indices::{Indices, VariateKind};
 use sweetspot::study::many::sobol::Sobol;
 
 const R161: &str = include_str!("../meshes/r161.json");
@@ -89,7 +89,7 @@ fn s2_ishigamis_function_has_its_known_indices() {
         (shares, y)
     };
     let rows: Vec<(Vec<f64>, f64)> = (0..4096).map(row).collect();
-    let found = Indices::new(&[Kind::Share; 3], &rows).unwrap();
+    let found = Indices::new(&[VariateKind::Share; 3], &rows).unwrap();
     let known = [[0.3139, 0.4424, 0.0], [0.5576, 0.4424, 0.2437]];
     for (found, known) in [&found.first, &found.total].into_iter().zip(known) {
         for (found, known) in found.iter().zip(known) {
@@ -97,7 +97,7 @@ fn s2_ishigamis_function_has_its_known_indices() {
         }
     }
     // By groups: what the first and the last do together is theirs alone.
-    let groups = Indices::grouped(&[Kind::Share; 3], &[0, 1, 0], &rows).unwrap();
+    let groups = Indices::grouped(&[VariateKind::Share; 3], &[0, 1, 0], &rows).unwrap();
     assert_eq!(groups.first.len(), 2);
     assert!((groups.first[0].value - 0.5576).abs() < 2e-3, "{:?}", groups.first);
 }

@@ -8,9 +8,9 @@ use sweetspot::bat::profile::{Interpolation, Stations};
 use sweetspot::bat::weighed::Weighed;
 use sweetspot::collision::figures::Figures;
 use sweetspot::collision::sweep::{Accuracy, Sweep, sweep};
-use sweetspot::collision::sweet_spot::Looked;
+use sweetspot::collision::sweet_spot::HitsAlong;
 use sweetspot::collision::{Hitter, Model, Scene};
-use sweetspot::study::spread::{Analysed, Answer, Input, Readings, Spread};
+use sweetspot::study::spread::{Analysed, Input, Readings, Spread, SpreadAnswer};
 use sweetspot::study::tuned::tuned;
 use sweetspot::{Bat, Material, Profile, Request, Solution, Theory, solve};
 
@@ -83,10 +83,10 @@ fn a_dowel_s_spread_is_that_of_the_closed_form() {
     let frequency = [0.5 * 0.22, -0.5 * 0.10, thicker, -2.0 * longer];
     let mass = [0.0, 0.10, 2.0 * thicker, longer];
     for (answer, expected) in [
-        (Answer::Frequency1, frequency),
-        (Answer::Frequency2, frequency),
-        (Answer::Frequency3, frequency),
-        (Answer::Mass, mass),
+        (SpreadAnswer::Frequency1, frequency),
+        (SpreadAnswer::Frequency2, frequency),
+        (SpreadAnswer::Frequency3, frequency),
+        (SpreadAnswer::Mass, mass),
     ] {
         let found = spread.of(answer).unwrap();
         for (part, expected) in found.parts.iter().zip(expected) {
@@ -97,7 +97,7 @@ fn a_dowel_s_spread_is_that_of_the_closed_form() {
         let deviation = found.deviation.unwrap() / found.value;
         assert!((deviation / together - 1.0).abs() < 5e-4, "{answer:?} {deviation} {together}");
     }
-    let (most, share) = spread.mostly(Answer::Frequency1).unwrap();
+    let (most, share) = spread.mostly(SpreadAnswer::Frequency1).unwrap();
     assert!(most.input == Input::Stiffness && share > 0.8);
 }
 
@@ -116,16 +116,17 @@ fn a_scale_and_a_tap_take_the_place_of_the_wood() {
     assert_eq!(inputs, [Input::Diameters, Input::Length, Input::Mass, Input::Tap]);
     let deviation = |spread: &Spread, answer| spread.of(answer).unwrap().deviation.unwrap();
     // What was read is as exact as the reading, whatever the diameters are.
-    let read = deviation(&settled, Answer::Frequency1) / (0.01 * weighed.first_bending.unwrap());
+    let read =
+        deviation(&settled, SpreadAnswer::Frequency1) / (0.01 * weighed.first_bending.unwrap());
     assert!((read - 1.0).abs() < 1e-9, "{read}");
-    assert!((deviation(&settled, Answer::Mass) / 1e-3 - 1.0).abs() < 1e-9);
-    for answer in Answer::ALL {
+    assert!((deviation(&settled, SpreadAnswer::Mass) / 1e-3 - 1.0).abs() < 1e-9);
+    for answer in SpreadAnswer::ALL {
         let [open, settled] = [&open, &settled].map(|spread| deviation(spread, answer));
         // Nothing but the diameters and the length moves a balance point.
-        let less = if answer == Answer::BalancePoint { 1.001 } else { 0.3 };
+        let less = if answer == SpreadAnswer::BalancePoint { 1.001 } else { 0.3 };
         assert!(settled < less * open, "{answer:?} {settled} {open}");
     }
-    let (most, _) = settled.mostly(Answer::Frequency2).unwrap();
+    let (most, _) = settled.mostly(SpreadAnswer::Frequency2).unwrap();
     assert_eq!(most.input, Input::Tap);
 }
 
@@ -150,9 +151,9 @@ fn a_bat_that_was_weighed_and_tapped_before_its_edits_is_as_well_known_after_the
     assert!(after.left_out.is_empty(), "{:?}", after.left_out);
     let deviation = |spread: &Spread, answer| spread.of(answer).unwrap().deviation.unwrap();
     // The wood weighs as much as before.
-    let mass = deviation(&after, Answer::Mass) / deviation(&before, Answer::Mass);
+    let mass = deviation(&after, SpreadAnswer::Mass) / deviation(&before, SpreadAnswer::Mass);
     assert!((mass - 1.0).abs() < 1e-3, "{mass}");
-    for answer in [Answer::Frequency1, Answer::Frequency2, Answer::Frequency3] {
+    for answer in [SpreadAnswer::Frequency1, SpreadAnswer::Frequency2, SpreadAnswer::Frequency3] {
         let share = |spread: &Spread| deviation(spread, answer) / spread.of(answer).unwrap().value;
         let [before, after] = [share(&before), share(&after)];
         assert!((after / before - 1.0).abs() < 0.02, "{answer:?} {before} {after}");
@@ -179,14 +180,19 @@ fn found(bat: &Bat, scene: &Scene) -> [f64; 5] {
     let request = Request { modes: 12, tolerance: 1e-6, ..Request::plain() };
     let solution = solve(bat, &request).unwrap();
     let hitter = Hitter::new(Model::Contact, scene, bat, &solution, Default::default()).unwrap();
-    let looked = Looked::outer((24, 1e-4), &hitter);
+    let looked = HitsAlong::outer((24, 1e-4), &hitter);
     let best = looked.greatest(|seen| Some(seen.exit_speed)).unwrap();
     let [f1, f2] = [0, 1].map(|k| solution.modes[k].frequency());
     [bat.inertia().mass, f1, f2, best.x, best.value]
 }
 
-const SAMPLED: [Answer; 5] =
-    [Answer::Mass, Answer::Frequency1, Answer::Frequency2, Answer::BestPlace, Answer::ExitSpeed];
+const SAMPLED: [SpreadAnswer; 5] = [
+    SpreadAnswer::Mass,
+    SpreadAnswer::Frequency1,
+    SpreadAnswer::Frequency2,
+    SpreadAnswer::BestPlace,
+    SpreadAnswer::ExitSpeed,
+];
 
 /// Standard deviations of a sample.
 fn deviations(sample: &[[f64; 5]]) -> [f64; 5] {

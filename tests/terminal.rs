@@ -168,8 +168,8 @@ fn a_long_wait_shows_a_bar_with_the_time_left_and_takes_it_away() {
 fn the_sketch_is_ascii_where_the_locale_is() {
     let folder = Folder::new("locale");
     let sketch = |locale: &str| {
-        let mut command = folder.command(&["modes", &mesh("r161"), "-n", "1", "--units", "si"]);
-        let output = command.env("LC_ALL", locale).output().unwrap();
+        let args = ["modes", &mesh("r161"), "-n", "1", "--units", "si", "--full"];
+        let output = folder.command(&args).env("LC_ALL", locale).output().unwrap();
         String::from_utf8(output.stdout).unwrap()
     };
     assert!(sketch("en_GB.UTF-8").contains("██▄"));

@@ -5,15 +5,15 @@ use std::fs;
 use std::path::Path;
 
 use sweetspot::base::telling::nobody;
-use sweetspot::proof::published::Answer;
+use sweetspot::proof::published::PublishedCase;
 use sweetspot::show::hit_figure;
 use sweetspot::show::proof_page;
 
 #[test]
 fn every_known_answer_is_reproduced_and_the_page_says_so() {
-    let answers = Answer::all(&nobody).unwrap();
+    let answers = PublishedCase::all(&nobody).unwrap();
     let mut rows = 0;
-    for Answer { name, rows: table, .. } in &answers {
+    for PublishedCase { name, rows: table, .. } in &answers {
         assert!(!table.is_empty(), "{name} checks nothing");
         for row in table {
             let (expected, found) = (row.expected, row.found);

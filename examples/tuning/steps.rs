@@ -5,7 +5,7 @@
 use sweetspot::collision::contact::collider::Collider;
 use sweetspot::collision::contact::force_law::ForceLaw;
 use sweetspot::collision::contact::power_law::PowerLaw;
-use sweetspot::collision::contact::touch::{Felt, Tuning};
+use sweetspot::collision::contact::touch::{DrivingPoint, Tuning};
 use sweetspot::collision::struck::Struck;
 use sweetspot::{Bat, Request, Result, solve};
 
@@ -18,7 +18,7 @@ const BALL: f64 = 0.145;
 /// A bat and a ball: modes, and what the ball feels at every place.
 struct Hits {
     modes: Vec<[f64; 2]>,
-    places: Vec<Felt>,
+    places: Vec<DrivingPoint>,
     law: PowerLaw,
     speed: f64,
     pressed: f64,
@@ -31,12 +31,12 @@ impl Hits {
         let solution = solve(bat, &Request { modes: 18, ..Request::plain() })?;
         let struck = Struck::new(bat, &solution);
         let place = |k: usize| bat.length() * (0.5 + 0.5 * k as f64 / 40.0);
-        let places: Vec<Felt> = (0..40).map(|k| struck.felt(place(k), BALL, 18)).collect();
+        let places: Vec<DrivingPoint> = (0..40).map(|k| struck.felt(place(k), BALL, 18)).collect();
         let (law, speed) = (PowerLaw::new(6.53e7, 1.84, restitution), 60.0);
         let pressed = law.compression(0.5 * 0.12 * speed * speed) / speed;
         let modes = struck.modes();
         let fine = Collider::new(&modes, LONGEST * pressed);
-        let exact = |felt: &Felt| {
+        let exact = |felt: &DrivingPoint| {
             let met = fine.meet(felt, &law, speed, 1e-11);
             (met.reloads == 0 && !met.late && !met.again()).then_some(met.impulse)
         };

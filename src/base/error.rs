@@ -39,7 +39,7 @@ pub enum Error {
     #[error("{place}: {complaint}")]
     Input {
         /// Where it stands.
-        place: Box<Place>,
+        place: Box<FilePosition>,
         /// What is wrong with it.
         complaint: Complaint,
     },
@@ -158,7 +158,7 @@ fn said_together(shown: &[Error], more: usize) -> String {
 
 /// A place in an input file; line and column count from 1, the column in characters.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Place {
+pub struct FilePosition {
     /// Name of the file, as it was given.
     pub file: String,
     /// Line, counted from 1.
@@ -182,7 +182,7 @@ pub struct Excerpt {
     pub after: String,
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for FilePosition {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         write!(f, "{}:{}:{}", one_line(&self.file), self.line, self.column)
     }
@@ -320,7 +320,8 @@ mod tests {
     fn an_error_is_one_line_whatever_is_in_the_file() {
         let complaint = Complaint::new("a\nb", "\"\u{1b}[2J\"", "é").hinted("did you mean 7?");
         let excerpt = Excerpt::default();
-        let place = Box::new(Place { file: "my\tbat.json".into(), line: 3, column: 4, excerpt });
+        let place =
+            Box::new(FilePosition { file: "my\tbat.json".into(), line: 3, column: 4, excerpt });
         let one = || Error::Input { place: place.clone(), complaint: complaint.clone() };
         let said = "my\\tbat.json:3:4: a\\nb: found \"\\u{1b}[2J\", expected é; did you mean 7?";
         assert_eq!(one().to_string(), said);

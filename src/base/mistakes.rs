@@ -1,6 +1,6 @@
 //! All that is wrong with a file in one run, not the first thing only.
 
-use crate::base::error::{Error, Place, Result};
+use crate::base::error::{Error, FilePosition, Result};
 
 /// Mistakes that are shown: as many as a person can look at; more are only counted.
 const MOST: usize = 10;
@@ -87,7 +87,7 @@ pub(crate) fn all<T>(read: impl IntoIterator<Item = Result<T>>) -> Result<Vec<T>
     mistakes.end(right)
 }
 
-fn place(error: &Error) -> Option<&Place> {
+fn place(error: &Error) -> Option<&FilePosition> {
     match error {
         Error::Input { place, .. } => Some(place),
         _ => None,
@@ -112,7 +112,7 @@ mod tests {
 
     fn at(file: &str, line: usize) -> Error {
         let excerpt = Excerpt::default();
-        let place = Box::new(Place { file: file.to_owned(), line, column: 1, excerpt });
+        let place = Box::new(FilePosition { file: file.to_owned(), line, column: 1, excerpt });
         Error::Input { place, complaint: Complaint::new("", line, "none") }
     }
 

@@ -23,7 +23,7 @@ pub struct OwnFile {
 
 /// What is at a place.
 #[derive(Debug)]
-pub enum Place {
+pub enum AtPath {
     /// Nothing, not even a link that leads nowhere.
     Free,
     /// A file of this program that nobody holds, and what it says.
@@ -35,29 +35,29 @@ pub enum Place {
 }
 
 /// What is at a path; a file is one's own if it begins with that.
-pub fn look(path: &Path, begins: &str) -> Place {
+pub fn look(path: &Path, begins: &str) -> AtPath {
     let is = match fs::symlink_metadata(path) {
-        Err(error) if error.kind() == ErrorKind::NotFound => return Place::Free,
+        Err(error) if error.kind() == ErrorKind::NotFound => return AtPath::Free,
         Ok(is) if is.is_file() && is.len() <= MOST && !is.permissions().readonly() => is,
-        _ => return Place::Other,
+        _ => return AtPath::Other,
     };
     let Ok(held) = OpenOptions::new().read(true).write(true).open(path) else {
-        return Place::Other;
+        return AtPath::Other;
     };
     if held.metadata().is_ok_and(|opened| number(&opened) != number(&is)) {
-        return Place::Other;
+        return AtPath::Other;
     }
     // Where files cannot be locked the file is free.
     if let Err(TryLockError::WouldBlock) = held.try_lock() {
-        return Place::Held;
+        return AtPath::Held;
     }
     let mut text = String::new();
     match (&held).take(MOST).read_to_string(&mut text) {
         Ok(_) if text.starts_with(begins) => {
             note(path);
-            Place::Own(OwnFile { path: path.to_owned(), held }, text)
+            AtPath::Own(OwnFile { path: path.to_owned(), held }, text)
         }
-        _ => Place::Other,
+        _ => AtPath::Other,
     }
 }
 
@@ -124,26 +124,26 @@ mod tests {
         let folder = std::env::temp_dir().join(format!("sweetspot-own-{}", std::process::id()));
         fs::create_dir_all(&folder).unwrap();
         let [own, other] = ["own", "other"].map(|name| folder.join(name));
-        assert!(matches!(look(&own, "# mine"), Place::Free));
+        assert!(matches!(look(&own, "# mine"), AtPath::Free));
         let mut file = OwnFile::create(&own, b"# mine 1").unwrap();
-        assert!(matches!(look(&own, "# mine"), Place::Held));
+        assert!(matches!(look(&own, "# mine"), AtPath::Held));
         file.write(b"# mine 2").unwrap();
-        assert!(matches!(look(&own, "# mine"), Place::Held));
+        assert!(matches!(look(&own, "# mine"), AtPath::Held));
         let taken = OwnFile::create(&own, b"x").unwrap_err().kind();
         assert_eq!(taken, ErrorKind::AlreadyExists);
         drop(file);
-        let Place::Own(mut file, text) = look(&own, "# mine") else { panic!() };
+        let AtPath::Own(mut file, text) = look(&own, "# mine") else { panic!() };
         assert_eq!(text, "# mine 2");
         fs::remove_file(&own).unwrap();
         fs::write(&own, b"\xfftheirs").unwrap();
         assert_eq!(file.write(b"# mine 3").unwrap_err().kind(), ErrorKind::AlreadyExists);
         file.remove();
         assert_eq!(fs::read(&own).unwrap(), b"\xfftheirs");
-        assert!(matches!(look(&own, "# mine"), Place::Other));
+        assert!(matches!(look(&own, "# mine"), AtPath::Other));
         #[cfg(unix)]
         for target in ["/dev/zero", "nowhere", "own"] {
             std::os::unix::fs::symlink(target, &other).unwrap();
-            assert!(matches!(look(&other, ""), Place::Other), "{target}");
+            assert!(matches!(look(&other, ""), AtPath::Other), "{target}");
             assert!(OwnFile::create(&other, b"x").is_err() && !folder.join("nowhere").exists());
             fs::remove_file(&other).unwrap();
         }

@@ -12,7 +12,7 @@ use crate::bat::fixtures::{Absorber, Attachment, Grip, Joint, Region, Support, T
 use crate::bat::layup::Layer;
 use crate::bat::material::{Material, PoissonRatios, ShearModuli};
 use crate::bat::part::Slot::{self, Number, Unknown};
-use crate::bat::part::{Bound, Field, Instead, Kind, PLACE, Part, Range};
+use crate::bat::part::{Bound, Field, Instead, MemberKind, PLACE, Part, Range};
 use crate::bat::weighed::Weighed;
 
 impl Material {
@@ -60,11 +60,11 @@ impl Part for Material {
             Unknown(&mut m.radial_modulus)
         })
         .with("shear_moduli", "the \"shear_moduli\" of the composite"),
-        Field::<Self>::of_kind("shear_moduli", Kind::ShearModuli, |m| {
+        Field::<Self>::of_kind("shear_moduli", MemberKind::ShearModuli, |m| {
             Slot::ShearModuli(&mut m.shear_moduli)
         })
         .with("poisson_ratios", "the \"poisson_ratios\" of the composite"),
-        Field::<Self>::of_kind("poisson_ratios", Kind::PoissonRatios, |m| {
+        Field::<Self>::of_kind("poisson_ratios", MemberKind::PoissonRatios, |m| {
             Slot::PoissonRatios(&mut m.poisson_ratios)
         })
         .with("hoop_modulus", "the \"hoop_modulus\" of the composite, around the bat"),
@@ -152,11 +152,13 @@ impl Part for Region {
     const FIELDS: &'static [Field<Self>] = &[
         Field::<Self>::place("from", |region| Number(&mut region.from)),
         Field::<Self>::place("to", |region| Number(&mut region.to)),
-        Field::<Self>::of_kind("material", Kind::Material, |region| {
+        Field::<Self>::of_kind("material", MemberKind::Material, |region| {
             Slot::Material(&mut region.layup.outer)
         }),
-        Field::<Self>::of_kind("core", Kind::Material, |region| Slot::Core(&mut region.layup.core)),
-        Field::<Self>::of_kind("layers", Kind::Layers, |region| {
+        Field::<Self>::of_kind("core", MemberKind::Material, |region| {
+            Slot::Core(&mut region.layup.core)
+        }),
+        Field::<Self>::of_kind("layers", MemberKind::Layers, |region| {
             Slot::Layers(&mut region.layup.sleeves)
         }),
     ];
@@ -174,7 +176,7 @@ impl Part for Layer {
         })
         .needed("\"thickness\": how thick the layer is")
         .like("1 mm"),
-        Field::<Self>::of_kind("material", Kind::Material, |layer| {
+        Field::<Self>::of_kind("material", MemberKind::Material, |layer| {
             Slot::Material(&mut layer.material)
         })
         .needed("\"material\": what the layer is made of"),
@@ -184,7 +186,7 @@ impl Part for Layer {
 impl Part for Support {
     const FIELDS: &'static [Field<Self>] = &[
         Field::<Self>::place("x", |support| Number(&mut support.x)),
-        Field::<Self>::of_kind("type", Kind::Held, |support| Slot::Held(&mut support.kind))
+        Field::<Self>::of_kind("type", MemberKind::Held, |support| Slot::Held(&mut support.kind))
             .needed("\"type\": \"pinned\" or \"clamped\""),
     ];
 }
@@ -348,7 +350,7 @@ impl Part for Cork {
         })
         .needed(DIAMETER)
         .like("1 in"),
-        Field::<Self>::of_kind("material", Kind::Material, |cork| {
+        Field::<Self>::of_kind("material", MemberKind::Material, |cork| {
             Slot::Material(&mut cork.material)
         })
         .needed("\"material\": what fills the hole"),
@@ -368,7 +370,7 @@ impl Part for Sleeve {
         })
         .needed("\"thickness\": how thick the sleeve is")
         .like("1 mm"),
-        Field::<Self>::of_kind("material", Kind::Material, |sleeve| {
+        Field::<Self>::of_kind("material", MemberKind::Material, |sleeve| {
             Slot::Material(&mut sleeve.material)
         })
         .needed("\"material\": what the sleeve is made of"),

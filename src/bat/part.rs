@@ -19,7 +19,7 @@ pub(crate) const HEAVIEST: f64 = 1e8;
 /// A member of a part on the bat: how a bat file calls it, what it is, where it is kept.
 pub(crate) struct Field<P> {
     pub key: &'static str,
-    pub kind: Kind,
+    pub kind: MemberKind,
     /// What is expected where it is missing; without such words it may be missing.
     pub needed: Option<&'static str>,
     /// Another key that must be there beside it, and what is expected of that.
@@ -32,7 +32,7 @@ pub(crate) struct Field<P> {
 
 /// What a member is.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Kind {
+pub(crate) enum MemberKind {
     /// A number of a quantity, or a pure number, and how large it may be.
     Number(Option<Quantity>, Range),
     /// What a support holds.
@@ -111,14 +111,14 @@ impl<P> Field<P> {
         range: Range,
         of: fn(&mut P) -> Slot<'_>,
     ) -> Self {
-        Self::of_kind(key, Kind::Number(Some(quantity), range), of)
+        Self::of_kind(key, MemberKind::Number(Some(quantity), range), of)
     }
 
     pub const fn ratio(key: &'static str, range: Range, of: fn(&mut P) -> Slot<'_>) -> Self {
-        Self::of_kind(key, Kind::Number(None, range), of)
+        Self::of_kind(key, MemberKind::Number(None, range), of)
     }
 
-    pub const fn of_kind(key: &'static str, kind: Kind, of: fn(&mut P) -> Slot<'_>) -> Self {
+    pub const fn of_kind(key: &'static str, kind: MemberKind, of: fn(&mut P) -> Slot<'_>) -> Self {
         Self { key, kind, needed: None, with: None, example: None, of }
     }
 
@@ -140,16 +140,16 @@ impl<P> Field<P> {
 
     /// Whether it is a place on the bat.
     pub fn is_place(&self) -> bool {
-        matches!(self.kind, Kind::Number(_, Range::OnBat | Range::Inside))
+        matches!(self.kind, MemberKind::Number(_, Range::OnBat | Range::Inside))
     }
 
     /// Whether the value is possible on a bat of that length (m); `field` is its path in a bat file.
     fn check(&self, field: String, part: &mut P, length: f64) -> Result<()> {
         match (self.kind, (self.of)(part)) {
-            (Kind::Number(quantity, range), Slot::Number(value)) => {
+            (MemberKind::Number(quantity, range), Slot::Number(value)) => {
                 range.check(field, *value, quantity, length)
             }
-            (Kind::Number(quantity, range), Slot::Unknown(Some(value))) => {
+            (MemberKind::Number(quantity, range), Slot::Unknown(Some(value))) => {
                 range.check(field, *value, quantity, length)
             }
             (_, Slot::Material(material) | Slot::Core(Some(material))) => {

@@ -26,7 +26,7 @@ pub enum Depth {
 
 /// A change on its way outwards: deflection and rotation so far, force and moment about the balance point
 /// of their inertia over ω²; memory for one cell.
-struct Way<R> {
+struct RunningChange<R> {
     w: R,
     theta: R,
     force: R,
@@ -100,7 +100,8 @@ impl<R: Real> Motion<R> {
     {
         let zero = R::default();
         let [once, twice] = [[zero; MOST_POINTS]; 2];
-        let mut way = Way { w: zero, theta: zero, force: zero, moment: zero, once, twice };
+        let mut way =
+            RunningChange { w: zero, theta: zero, force: zero, moment: zero, once, twice };
         for Run { cells, stop } in view.runs(side) {
             for k in cells {
                 let at = view.at(k);
@@ -136,8 +137,12 @@ impl<R: Real> Motion<R> {
 
     /// One cell on the way outwards.
     #[inline(always)]
-    fn integrate_cell<S: Real>(&mut self, view: &View<S>, at: &Located<S>, way: &mut Way<R>)
-    where
+    fn integrate_cell<S: Real>(
+        &mut self,
+        view: &View<S>,
+        at: &Located<S>,
+        way: &mut RunningChange<R>,
+    ) where
         R: Over<S>,
     {
         let (rule, cell, h) = (view.rule, &at.cell, at.cell.length);

@@ -188,7 +188,7 @@ pub fn run(args: &Args) -> Result<Done> {
     apart(&written)?;
     let (bat, text) = read_with_text(&args.bat, &EditArgs::default(), args.quiet)?;
     let Some(told) = readings(args, &bat)? else { return Ok(Done::new(String::new(), 0)) };
-    let Told { mut readings, name, person } = told;
+    let MeasuredArgs { mut readings, name, person } = told;
     told_again(&mut readings.lines, &args.mode)?;
     let plan = CalibrationPlan { split: args.regions, held: args.hold.clone() };
     let found = Calibration::new(&bat, readings, &plan).map_err(as_told(args))?;
@@ -224,7 +224,7 @@ fn as_told(args: &Args) -> impl Fn(Error) -> Error + '_ {
 }
 
 /// What was measured.
-struct Told {
+struct MeasuredArgs {
     readings: BatReadings,
     /// What it is called.
     name: String,
@@ -239,7 +239,7 @@ fn draft(args: &Args) -> PathBuf {
 }
 
 /// Reads what was measured, or asks for it; None where who was asked left.
-fn readings(args: &Args, bat: &Bat) -> Result<Option<Told>> {
+fn readings(args: &Args, bat: &Bat) -> Result<Option<MeasuredArgs>> {
     let Some(path) = &args.measured else {
         if !args.ask && !stdin().is_terminal() {
             let expected = "a readings file, such as readings.json, or --ask to answer questions";
@@ -253,7 +253,11 @@ fn readings(args: &Args, bat: &Bat) -> Result<Option<Told>> {
         // Answers that say nothing must not be given again.
         let readings =
             readings_file::from_text("the answers", &text).inspect_err(|_| person.done())?;
-        return Ok(Some(Told { readings, name: "answers".to_owned(), person: Some(person) }));
+        return Ok(Some(MeasuredArgs {
+            readings,
+            name: "answers".to_owned(),
+            person: Some(person),
+        }));
     };
     let name = path.file_name().map_or(printed(path), |name| printed(Path::new(name)));
     let beside = args.beside.read()?;
@@ -265,7 +269,7 @@ fn readings(args: &Args, bat: &Bat) -> Result<Option<Told>> {
     } else {
         readings_file::from_file(path)?
     };
-    Ok(Some(Told { readings, name, person: None }))
+    Ok(Some(MeasuredArgs { readings, name, person: None }))
 }
 
 /// Measured modes as lines: their frequencies within 0.5 Hz, their damping as tones over one cycle.

@@ -13,7 +13,7 @@ use crate::show::{page, plot};
 use crate::study::comparison::contender::Terms;
 use crate::study::comparison::hidden::hidden;
 use crate::study::comparison::table::{Comparison, Entry};
-use crate::study::measured::place::{End, Told};
+use crate::study::measured::place::{End, ToldPoints};
 use crate::study::measured::study::Study;
 
 use crate::cli::beside::BesideArgs;
@@ -173,7 +173,7 @@ fn measured_beside(args: &Args, file: &Path) -> Result<Done> {
         (_, true) => Some(End::Tip),
         _ => None,
     };
-    let told = Told { first, origin: args.origin };
+    let told = ToldPoints { first, origin: args.origin };
     let study = Study::new(&bat, measured, &request, args.count.is_some(), told)?;
     args.solve.say_raised(&study.solution, &args.output);
     if let Some(folder) = &args.plots {

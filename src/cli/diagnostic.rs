@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use crate::base::error::{Complaint, Error, Excerpt, Place};
+use crate::base::error::{Complaint, Error, Excerpt, FilePosition};
 use crate::base::marks;
 use crate::files::schema;
 use crate::files::schema::mistakes::ErrorFile;
@@ -80,7 +80,7 @@ fn advised(text: &str, advice: &str) -> Group<'static> {
     titled(text).element(Level::HELP.message(footer("help", advice)))
 }
 
-fn input(place: &Place, complaint: &Complaint) -> Group<'static> {
+fn input(place: &FilePosition, complaint: &Complaint) -> Group<'static> {
     let Excerpt { before, marked, after } = &place.excerpt;
     let [before, marked, after] = [before, marked, after].map(|part| visible(part));
     let before = outdented(before);
@@ -104,7 +104,7 @@ fn input(place: &Place, complaint: &Complaint) -> Group<'static> {
 }
 
 /// Where, which field and what was found.
-fn headline(place: &Place, complaint: &Complaint) -> String {
+fn headline(place: &FilePosition, complaint: &Complaint) -> String {
     let one_line = Complaint { expected: String::new(), hint: String::new(), ..complaint.clone() };
     let said = one_line.to_string();
     format!("{place}: {}", said.trim_end_matches(", expected "))

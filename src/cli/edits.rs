@@ -12,12 +12,12 @@ use crate::base::units::{self, Quantity};
 use crate::bat::body::Bat;
 use crate::bat::edit::{Bore, Change, Cork, Cup, Cut, Edit, ScaleDiameter, Shorten, Sleeve};
 use crate::bat::material::{BUILT_IN, Material};
-use crate::bat::part::{Field, Kind, Part, Slot};
+use crate::bat::part::{Field, MemberKind, Part, Slot};
 
 use crate::cli::value::{DIAMETER, LITTLE, PART_MASS, PLACE, Use};
 
 /// What is told of an option: the change, what stands for its value in the help, what it does, a value that fits.
-struct Told {
+struct EditOption {
     verb: &'static str,
     long: &'static str,
     value: &'static str,
@@ -25,36 +25,36 @@ struct Told {
     example: &'static str,
 }
 
-const OPTIONS: [Told; 9] = [
-    Told {
+const OPTIONS: [EditOption; 9] = [
+    EditOption {
         verb: "cut",
         long: "cut",
         value: "WHERE, DEPTH",
         help: "Turn wood off a stretch; the depth is of the diameter, smooth at both ends",
         example: "24 in to 30 in, 1 mm",
     },
-    Told {
+    EditOption {
         verb: "knob",
         long: "knob",
         value: "kg",
         help: "Put a weight on the knob end",
         example: "2 oz",
     },
-    Told {
+    EditOption {
         verb: "cup",
         long: "cup",
         value: "DEEP, WIDE",
         help: "Cup the tip",
         example: "1 in deep, 1.5 in",
     },
-    Told {
+    EditOption {
         verb: "bore",
         long: "bore",
         value: "WHERE, WIDE",
         help: "Drill a stretch out",
         example: "26 in to 33 in, 1 in",
     },
-    Told {
+    EditOption {
         verb: "cork",
         long: "cork",
         value: "WHERE, WIDE, OF",
@@ -62,28 +62,28 @@ const OPTIONS: [Told; 9] = [
                Young's modulus (and shear modulus)",
         example: "26 in to 33 in, 1 in, 200 kg/m^3, 20 MPa",
     },
-    Told {
+    EditOption {
         verb: "sleeve",
         long: "sleeve",
         value: "WHERE, THICK, OF",
         help: "Put a layer around a stretch",
         example: "24 in to 30 in, 1 mm, aluminium-7075",
     },
-    Told {
+    EditOption {
         verb: "shorten",
         long: "shorten",
         value: "END, LENGTH",
         help: "Saw a length off the knob or the tip",
         example: "tip 0.5 in",
     },
-    Told {
+    EditOption {
         verb: "scale_diameter",
         long: "scale-diameter",
         value: "WHERE, BY",
         help: "Multiply the diameters of a stretch, smooth at both ends",
         example: "4 in to 12 in, 1.05",
     },
-    Told {
+    EditOption {
         verb: "wood",
         long: "wood",
         value: "NAME",
@@ -144,7 +144,7 @@ fn option(verb: &str) -> String {
 impl clap::Args for EditArgs {
     fn augment_args(command: Command) -> Command {
         OPTIONS.iter().fold(command, |command, told| {
-            let Told { verb, long, value, help, example } = *told;
+            let EditOption { verb, long, value, help, example } = *told;
             let arg = Arg::new(verb)
                 .long(long)
                 .value_name(value)
@@ -332,13 +332,13 @@ fn filled<P: Part>(start: P, text: &str) -> std::result::Result<P, String> {
         let field = fields.remove(k);
         let value = if said.is_some() { beside(item, field.key).unwrap_or(item) } else { item };
         match field.kind {
-            Kind::Material => {
+            MemberKind::Material => {
                 if let Slot::Material(slot) = (field.of)(&mut part) {
                     *slot = material(items)?;
                 }
                 return Ok(part);
             }
-            Kind::Number(None, _) => {
+            MemberKind::Number(None, _) => {
                 let number = typed::number(value);
                 let number =
                     number.ok_or(format!("found \"{value}\", expected a factor, such as 1.05"))?;

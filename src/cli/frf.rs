@@ -9,11 +9,11 @@ use crate::files::measured::response::{self, Known};
 use crate::files::schema::frf::FrfSetFile;
 use crate::files::uff::{self, Stamp};
 use crate::modes::solve::Request;
-use crate::motion::frf::{Frf, Kind, Sample};
+use crate::motion::frf::{Frf, ResponseKind, Sample};
 use crate::motion::peaks::Peak;
 use crate::show::exchange::frf_uff::{self, Measured};
 use crate::show::plot::{self, picture::Picture};
-use crate::show::report::frf::{self as report, Told};
+use crate::show::report::frf::{self as report, ToldResponse};
 use crate::show::report::frf_set::{self, RowOfSet};
 use crate::study::measured::response::{Laid, MeasuredResponse};
 
@@ -50,9 +50,9 @@ pub struct Args {
 
     /// What is answered: receptance (deflection), mobility (velocity) or accelerance [default: as
     /// measured, else receptance]
-    #[arg(long, value_name = "KIND", value_parser = named(Kind::ALL, Kind::name),
+    #[arg(long, value_name = "KIND", value_parser = named(ResponseKind::ALL, ResponseKind::name),
           hide_possible_values = true, help_heading = "The force")]
-    kind: Option<Kind>,
+    kind: Option<ResponseKind>,
 
     #[command(flatten)]
     grid: GridArgs,
@@ -170,7 +170,7 @@ struct Answered {
     rising: Vec<f64>,
     peaks: Vec<Peak>,
     laid: Option<Laid>,
-    kind: Kind,
+    kind: ResponseKind,
     places: [f64; 2],
 }
 
@@ -230,8 +230,8 @@ impl Answered {
         args: &Args,
         bat: &'a Bat,
         measured: Option<&'a MeasuredResponse>,
-    ) -> Told<'a> {
-        Told {
+    ) -> ToldResponse<'a> {
+        ToldResponse {
             bat,
             kind: self.kind,
             places: self.places,
@@ -254,7 +254,7 @@ impl Answered {
         });
         let mut values: Vec<_> = values.chain(laid_at).collect();
         values.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let subject = plot::response::Subject {
+        let subject = plot::response::ResponseCurves {
             bat: bat.name(),
             kind,
             at: self.places[0],

@@ -19,6 +19,7 @@ use crate::study::verdict::Verdict;
 use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples};
 use crate::cli::csv_option::CsvArgs;
 use crate::cli::done::{Done, NOT_REACHED};
+use crate::cli::full_option::FullArgs;
 use crate::cli::pictures;
 use crate::cli::scene::SceneArgs;
 use crate::cli::value::PLACE;
@@ -28,8 +29,9 @@ use crate::cli::value::PLACE;
 /// Sends a ball against the barrel at many places. The table says for each how fast the bat moves
 /// there, how fast the ball leaves, how fast it would leave a bat that does not bend, the collision
 /// efficiency e_A and the energy left in vibration. Below it are the sweet spot by every
-/// definition, why it is there, BBCOR, what an inch off costs, and how it moves with swing and
-/// pitch. --tol is here the error of an exit speed over the closing speed.
+/// definition and why it is there. With --full also: every place, a sketch, BBCOR, what an inch off
+/// costs, and how the sweet spot moves with swing and pitch. Places that were asked for are all shown.
+/// --tol is here the error of an exit speed over the closing speed.
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES))]
 pub struct Args {
@@ -49,6 +51,9 @@ pub struct Args {
     /// --at); force, compression and the hands' motion, of the hit --at or at the sweet spot
     #[arg(long, value_name = "DIR")]
     plots: Option<PathBuf>,
+
+    #[command(flatten)]
+    full: FullArgs,
 
     #[command(flatten)]
     csv: CsvArgs,
@@ -86,10 +91,10 @@ pub struct PlaceArgs {
           value_parser = |s: &str| PLACE.read(s), conflicts_with = "at")]
     to: Option<f64>,
 
-    /// Number of impact points, both ends included
-    #[arg(long, value_name = "N", default_value = "101", conflicts_with = "at",
+    /// Number of impact points, both ends included [default: 101]
+    #[arg(long, value_name = "N", conflicts_with = "at",
           value_parser = clap::value_parser!(u32).range(1..=100_000))]
-    points: u32,
+    points: Option<u32>,
 
     /// One impact point
     #[arg(long, value_name = "m", allow_hyphen_values = true,
@@ -119,9 +124,15 @@ impl PlaceArgs {
             let expected = format!("a place beyond --from, {}", shown_length(from));
             return Err(Error::value("--to", shown_length(to), expected));
         }
-        let last = f64::from(self.points.max(2) - 1);
+        let points = self.points.unwrap_or(101);
+        let last = f64::from(points.max(2) - 1);
         let place = |k: u32| (from + (to - from) * f64::from(k) / last).min(to);
-        Ok((0..self.points).map(place).collect())
+        Ok((0..points).map(place).collect())
+    }
+
+    /// Whether the places were asked for one by one.
+    fn asked(&self) -> bool {
+        self.points.is_some() || self.at.is_some()
     }
 }
 
@@ -148,30 +159,14 @@ pub fn run(args: &Args) -> Result<Done> {
     if let Some(folder) = &args.plots {
         let sheet = args.output.sheet(&bat);
         let subject =
-            profile::Subject { name: bat.name(), bat: &bat, swing_pivot: Some(scene.pivot) };
+            profile::MarkedBat { name: bat.name(), bat: &bat, swing_pivot: Some(scene.pivot) };
         let hits = Hits { bat: &bat, model, scene: &scene, sweep: &sweep, spot: &figures.spot };
         let mut pictures = vec![profile::picture(sheet, &[subject])];
         pictures.extend(hits.pictures(sheet, args.place.at)?);
         pictures::write(folder, &pictures, args.output.quiet)?;
     }
     drop(progress);
-    let units = args.output.units(&bat);
-    let known = Verdict::of((&bat, &scene), &sweep, figures.best.as_ref(), figures.wall);
-    let doubts = trust::doubts(&known, units);
-    let doubts: String = doubts.iter().map(|doubt| wrapped(doubt, 0)).collect();
-    let table = format!(
-        "{}{}\n{}\n{}\n{}{}{}{}\n{}\n{}",
-        hit_text::scene(&bat, &scene, model.name(), units),
-        hit_text::meaning(model),
-        hit_text::impacts(&bat, &sweep.impacts, units),
-        args.output.sketch(&bat, &sketch::of_hit(&bat, &figures.spot)),
-        hit_text::sweet_spot(&bat, &figures.spot, units),
-        hit_text::why(&figures, units),
-        hit_text::beyond(&sweep, &scene, units),
-        doubts + trust::IN_ANALYZE,
-        hit_text::figures(&figures, units),
-        hit_text::moves(&bat, &figures, units),
-    );
+    let table = table(args, &bat, trial, &sweep, &figures);
     let document = || HitFile {
         figures: Some(hit_json::figures(&figures)),
         ..hit_json::hit(&bat, model, &scene, &sweep.impacts, &figures.spot)
@@ -180,6 +175,39 @@ pub fn run(args: &Args) -> Result<Done> {
     let text = args.output.deliver(table, document)?;
     let text = args.csv.deliver(text, || csv::hits(&sweep.impacts))?;
     Ok(Done::new(text, code).with(warning))
+}
+
+/// What is printed: a screen, or everything.
+fn table(args: &Args, bat: &Bat, trial: Trial, sweep: &Sweep, figures: &Figures) -> String {
+    let Trial { model, scene } = trial;
+    let units = args.output.units(bat);
+    let known = Verdict::of((bat, scene), sweep, figures.best.as_ref(), figures.wall);
+    let doubts = trust::doubts(&known, units);
+    let doubts: String = doubts.iter().map(|doubt| wrapped(doubt, 0)).collect();
+    let above = hit_text::scene(bat, scene, model.name(), units) + hit_text::meaning(model);
+    let spot = [
+        hit_text::sweet_spot(bat, &figures.spot, units),
+        hit_text::why(figures, units),
+        hit_text::beyond(sweep, scene, units),
+        doubts + trust::IN_ANALYZE,
+    ]
+    .concat();
+    let all = hit_text::impacts(bat, &sweep.impacts, units);
+    args.full.screen(
+        || {
+            let best = figures.spot.exit_speed_max.map(|peak| peak.x);
+            let some = hit_text::some(&sweep.impacts, best);
+            let shown =
+                if args.place.asked() { all.clone() } else { hit_text::impacts(bat, &some, units) };
+            format!("{above}\n{shown}\n{spot}")
+        },
+        || {
+            let sketch = args.output.sketch(bat, &sketch::of_hit(bat, &figures.spot));
+            let more = hit_text::figures(figures, units);
+            let moves = hit_text::moves(bat, figures, units);
+            format!("{above}\n{all}\n{sketch}\n{spot}\n{more}\n{moves}")
+        },
+    )
 }
 
 /// The exit code, after a word about exit speeds that are less accurate than asked.

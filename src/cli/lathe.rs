@@ -15,6 +15,7 @@ use crate::study::many::answers::Answer;
 use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples, on_the_bat};
 use crate::cli::csv_option::CsvArgs;
 use crate::cli::done::{Done, NOT_REACHED};
+use crate::cli::full_option::FullArgs;
 use crate::cli::pictures;
 use crate::cli::scene::SceneArgs;
 use crate::cli::value::{LITTLE, PLACE, SPACING};
@@ -64,6 +65,9 @@ pub struct Args {
 
     #[command(flatten)]
     solve: SolveArgs,
+
+    #[command(flatten)]
+    full: FullArgs,
 
     #[command(flatten)]
     csv: CsvArgs,
@@ -147,7 +151,11 @@ pub fn run(args: &Args) -> Result<Done> {
         let picture: Vec<_> = plot::picture(args.output.sheet(&bat), &map).into_iter().collect();
         pictures::write(folder, &picture, args.output.quiet)?;
     }
-    let table = report::text(&map, &hit.scene, args.output.units(map.piece.bat()));
+    let units = args.output.units(map.piece.bat());
+    let table = args.full.screen(
+        || report::screen(&map, &hit.scene, units),
+        || report::text(&map, &hit.scene, units),
+    );
     let out = args.output.deliver(table, || report::document(&map, &hit.scene, model))?;
     let text = args.csv.deliver(out, || report::csv(&map))?;
     let code = if map.piece.met || !args.solve.enforced() { 0 } else { NOT_REACHED };

@@ -1,14 +1,12 @@
-//! What did the user type? One file a verb; no physics. A verb parses its options, calls the library and
-//! returns `Done`.
+//! What did the user type? One file a verb; no physics: options are parsed, the library is called, `Done` returned.
 //!
 //! | file | question |
 //! |---|---|
 //! | `done`, `style`, `diagnostic` | what a verb leaves; colours; how a mistake is shown, to people and to programs |
 //! | `value`, `help`, `stop`, `progress`, `edits` | values with units; help that fits; signals; how far a computation is; what-ifs |
-//! | `common`, `guarantee`, `delivered`, `csv_option`, `bat_text`, `pictures`, `scene`, `cannon` | options of several verbs: the bat, the tolerance, proofs, files and standard output, pictures, the scene of a hit, the ball of a test |
-//! | `frf_grid` | the frequencies of `frf` |
-//! | `asking`, `tables` | questions to the user; the promises as tables |
-//! | the rest | one verb each; `verbs` knows them all, `program` runs the one that was typed |
+//! | `common`, `guarantee`, `delivered`, `csv_option`, `full_option`, `bat_text`, `pictures`, `scene`, `cannon` | options of several verbs: the bat, the tolerance, proofs, files and standard output, pictures, the scene of a hit, the ball of a test |
+//! | `asking`, `tables`, `frf_grid` | questions to the user; the promises as tables; the frequencies of `frf` |
+//! | the rest | one verb each; `first_word` and `verbs` know which was typed, `program` runs it |
 
 mod done;
 mod style;
@@ -21,6 +19,7 @@ mod stop;
 mod edits;
 mod common;
 mod csv_option;
+mod full_option;
 mod guarantee;
 mod bat_text;
 mod pictures;

@@ -17,15 +17,17 @@ use crate::show::report::{sketch, text, trust};
 use crate::cli::common::{BatArgs, OutputArgs, SolveArgs, Solved, examples};
 use crate::cli::csv_option::CsvArgs;
 use crate::cli::done::Done;
+use crate::cli::full_option::FullArgs;
 use crate::cli::guarantee::{self, GuaranteeArgs};
 use crate::cli::pictures;
 
 /// How the bat rings: frequencies, nodes, shapes
 ///
 /// Which tones does the bat have, and where does it stand still in them? The table gives each
-/// bending mode's frequency, how far it may be off, its modal mass and its nodes, from knob and
-/// tip; the sketch shows the nodes on the bat. Below is what the answer was made with and what was
-/// left out of the model, with what that costs on this bat. The shapes are in the JSON.
+/// bending mode's frequency, how far it may be off, its modal mass and the nodes of the first two, from
+/// knob and tip. With --full also: the nodes of the others, a sketch of them on the bat, what the answer
+/// was made with and what was left out of the model, with what that costs on this bat. The shapes are in
+/// the JSON.
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES))]
 pub struct Args {
@@ -56,6 +58,9 @@ pub struct Args {
     reproducible: bool,
 
     #[command(flatten)]
+    full: FullArgs,
+
+    #[command(flatten)]
     csv: CsvArgs,
 
     #[command(flatten)]
@@ -76,6 +81,9 @@ Examples:
   sweetspot modes northwestern_aluminium --budget \"2 ms\"
       the best that two milliseconds give";
 
+/// Modes whose nodes a screen has.
+const FIRST_NODES: usize = 2;
+
 pub fn run(args: &Args) -> Result<Done> {
     args.csv.beside(&args.output.json)?;
     let progress = args.output.progress("modes");
@@ -93,14 +101,20 @@ pub fn run(args: &Args) -> Result<Done> {
             args.output.quiet,
         )?;
     }
-    let table = format!(
-        "{}\n{}\n{}\n{}{}",
-        text::summary(&bat, args.output.units(&bat)),
-        args.output.sketch(&bat, &sketch::of_modes(&bat, &solution)),
-        text::modes(&bat, &solution, solution.modes.len(), args.output.units(&bat))
-            + &proven.as_ref().map_or(String::new(), proven::text),
-        text::model(&bat, &solution),
-        trust::of_wood(&bat)
+    let units = args.output.units(&bat);
+    let summary = text::summary(&bat, units);
+    let modes = |nodes| {
+        text::modes(&bat, &solution, nodes, units)
+            + &proven.as_ref().map_or(String::new(), proven::text)
+    };
+    let trust = trust::of_wood(&bat);
+    let table = args.full.screen(
+        || format!("{summary}\n{}{trust}", modes(FIRST_NODES)),
+        || {
+            let sketch = args.output.sketch(&bat, &sketch::of_modes(&bat, &solution));
+            let (modes, model) = (modes(solution.modes.len()), text::model(&bat, &solution));
+            format!("{summary}\n{sketch}\n{modes}\n{model}{trust}")
+        },
     );
     let document = || {
         let mut document = json::modes(&bat, &solution, args.shape_points, !args.reproducible);

@@ -19,13 +19,13 @@ const STEPS: u64 = 10_000;
 
 /// One line on standard error, if that is a terminal, after half a second; gone at the end.
 pub struct Progress {
-    shown: Shown,
+    shown: ProgressLook,
     begun: Instant,
     /// How much of the work was done before, 0 to 1.
     before: f64,
 }
 
-enum Shown {
+enum ProgressLook {
     Not,
     Bar(ProgressBar, Waiting),
     Lines(Mutex<Line>),
@@ -48,7 +48,7 @@ impl Progress {
     pub fn new(quiet: bool, what: &str) -> Self {
         let dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
         let hidden = quiet || dumb || !std::io::stderr().is_terminal();
-        let shown = if hidden { Shown::Not } else { Shown::bar(what) };
+        let shown = if hidden { ProgressLook::Not } else { ProgressLook::bar(what) };
         Self { shown, begun: Instant::now(), before: 0.0 }
     }
 
@@ -59,15 +59,15 @@ impl Progress {
         let said =
             left.map_or(what.to_owned(), |left| format!("{} left  {what}", HumanDuration(left)));
         match &self.shown {
-            Shown::Not => {}
-            Shown::Bar(bar, _) => {
+            ProgressLook::Not => {}
+            ProgressLook::Bar(bar, _) => {
                 if bar.position() == 0 && share > 0.0 {
                     bar.set_style(style("{spinner} {bar:24} {percent:>3} %, {wide_msg}"));
                 }
                 bar.set_position((share * STEPS as f64) as u64);
                 bar.set_message(said);
             }
-            Shown::Lines(last) => {
+            ProgressLook::Lines(last) => {
                 let mut last = last.lock().unwrap_or_else(PoisonError::into_inner);
                 if last.at.elapsed() >= LINE || (last.any && share == 1.0) {
                     eprintln!("{:3.0} %  {said}", (100.0 * share).floor());
@@ -101,8 +101,9 @@ impl Counted {
         let mut progress = Progress::new(quiet, what);
         progress.before = before as f64 / all as f64;
         // It may take days: who looks into a log wants to know too.
-        if !quiet && matches!(progress.shown, Shown::Not) {
-            progress.shown = Shown::Lines(Mutex::new(Line { at: Instant::now(), any: false }));
+        if !quiet && matches!(progress.shown, ProgressLook::Not) {
+            progress.shown =
+                ProgressLook::Lines(Mutex::new(Line { at: Instant::now(), any: false }));
         }
         Self { progress, what, all, before, done: AtomicU64::new(before) }
     }
@@ -118,7 +119,7 @@ impl Counted {
     }
 }
 
-impl Shown {
+impl ProgressLook {
     fn bar(what: &str) -> Self {
         let bar = ProgressBar::with_draw_target(Some(STEPS), ProgressDrawTarget::hidden());
         bar.set_style(style("{spinner} {elapsed}  {wide_msg}"));
@@ -144,7 +145,7 @@ impl Shown {
 
 impl Drop for Progress {
     fn drop(&mut self) {
-        let Shown::Bar(bar, waiting) = &mut self.shown else { return };
+        let ProgressLook::Bar(bar, waiting) = &mut self.shown else { return };
         waiting.stop.take();
         if let Some(thread) = waiting.thread.take() {
             // The thread only draws: its failure is ignored.

@@ -12,7 +12,7 @@ use crate::proof::hit_promise;
 use crate::proof::hoop_promise::{self, CheckedHoop};
 use crate::proof::promise::{self, Summary};
 use crate::proof::proven_promise;
-use crate::proof::published::Answer;
+use crate::proof::published::PublishedCase;
 use crate::proof::validation::{KnownNumber, run as run_case};
 use crate::show::hit_figure;
 use crate::show::parts::terminal::wrapped;
@@ -124,9 +124,9 @@ fn case(name: &str) -> std::result::Result<String, Error> {
 
 /// Writes the page; what is left for standard output.
 fn page(path: &std::path::Path, tell: Tell) -> Result<Done> {
-    let answers = Answer::all(tell)?;
+    let answers = PublishedCase::all(tell)?;
     let text = proof_page::text(&answers)?;
-    let code = if answers.iter().any(Answer::missed) { FAILED } else { 0 };
+    let code = if answers.iter().any(PublishedCase::missed) { FAILED } else { 0 };
     if path.as_os_str() == "-" {
         return Ok(Done::new(text, code));
     }

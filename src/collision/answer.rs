@@ -4,7 +4,7 @@ use std::cell::Cell;
 
 use crate::collision::contact::encounter::Encounter;
 use crate::collision::contact::power_law::LEAST_RESTITUTION;
-use crate::collision::contact::touch::Felt;
+use crate::collision::contact::touch::DrivingPoint;
 use crate::collision::energy_loss::{EnergyLoss, wpi_alpha};
 use crate::collision::hit::{Effort, Model, Separation};
 use crate::collision::hitter::Hitter;
@@ -21,7 +21,7 @@ const LONGEST_MEASURED: f64 = 2e-3;
 const LEAST_MEASURED: f64 = 0.44;
 
 /// What a model says.
-pub(super) struct Answer {
+pub(super) struct HitAnswer {
     /// `J` (N s).
     pub impulse: f64,
     pub cor: f64,
@@ -41,7 +41,7 @@ pub(super) struct Answer {
     pub wall: f64,
 }
 
-impl Answer {
+impl HitAnswer {
     /// The answer of a model without modes and times.
     fn new(impulse: f64, cor: f64, lost_in_ball: f64) -> Self {
         // The models' own formulas are exact to a few roundings.
@@ -68,11 +68,11 @@ impl Answer {
 
 impl Hitter<'_> {
     /// What the model says of a hit at `x`, if it says anything.
-    pub(super) fn answer(&self, x: f64, known: Option<[f64; 3]>) -> Option<Answer> {
+    pub(super) fn answer(&self, x: f64, known: Option<[f64; 3]>) -> Option<HitAnswer> {
         let closing = self.closing(x).filter(|_| self.has_section(x))?;
         let [mass, cor] = self.blow(x, closing);
         let lost = 0.5 * mass * closing * closing * (1.0 - cor * cor);
-        let rigid = Answer::new(mass * (1.0 + cor) * closing, cor, lost);
+        let rigid = HitAnswer::new(mass * (1.0 + cor) * closing, cor, lost);
         match self.model {
             Model::Rigid => Some(rigid),
             Model::EnergyLoss(loss) => self.empirical(loss, x, closing, rigid),
@@ -81,14 +81,20 @@ impl Hitter<'_> {
         }
     }
 
-    fn empirical(&self, loss: EnergyLoss, x: f64, closing: f64, rigid: Answer) -> Option<Answer> {
+    fn empirical(
+        &self,
+        loss: EnergyLoss,
+        x: f64,
+        closing: f64,
+        rigid: HitAnswer,
+    ) -> Option<HitAnswer> {
         let (incoming, ball) = (-self.scene.ball_speed, self.scene.ball.mass_kg);
         let stiff = rigid.impulse / ball + incoming;
         let shapes = report_shapes(&self.solution.modes, self.bat.mass, x);
         let of = |vibration| EnergyLoss::exit_velocity(incoming, stiff, vibration);
         let exit = of(loss.vibration(&shapes))?;
         let impulse = ball * (exit - incoming);
-        let mut answer = Answer { impulse, ..rigid };
+        let mut answer = HitAnswer { impulse, ..rigid };
         answer.in_modes = loss.energies(&shapes, impulse, ball);
         let largest = largest_shapes(&self.solution.modes, self.bat.mass, x);
         // If the shapes cannot be bounded, neither can the loss.
@@ -97,7 +103,7 @@ impl Hitter<'_> {
         Some(answer)
     }
 
-    fn pulsed(&self, pulse: Pulse, x: f64, closing: f64, restitution: f64) -> Option<Answer> {
+    fn pulsed(&self, pulse: Pulse, x: f64, closing: f64, restitution: f64) -> Option<HitAnswer> {
         let ball = self.scene.ball.mass_kg;
         let felt = self.struck.with_modes(x, ball, self.modes_used());
         let mu = 1.0 / felt.inverse_mass;
@@ -109,7 +115,7 @@ impl Hitter<'_> {
         let left =
             0.5 * mu * closing * closing - pulse.loss_share * 0.5 * impulse * impulse * share;
         let lost = (1.0 - restitution * restitution) * left;
-        let mut answer = Answer::new(impulse, restitution, lost);
+        let mut answer = HitAnswer::new(impulse, restitution, lost);
         answer.in_modes = in_modes;
         // All modes beyond, and the mesh.
         let slow = self.struck.flexibility(x)[1] - self.struck.taken(&felt.gains)[1];
@@ -125,7 +131,13 @@ impl Hitter<'_> {
         Some(answer)
     }
 
-    fn touched(&self, x: f64, closing: f64, cor: f64, known: Option<[f64; 3]>) -> Option<Answer> {
+    fn touched(
+        &self,
+        x: f64,
+        closing: f64,
+        cor: f64,
+        known: Option<[f64; 3]>,
+    ) -> Option<HitAnswer> {
         let (ball, count) = (self.scene.ball.mass_kg, self.modes_used());
         let Effort { accuracy, completed } = self.effort;
         let beyond = completed.then(|| self.struck.flexibility(x));
@@ -133,16 +145,16 @@ impl Hitter<'_> {
         let few = if completed { fewer(count) } else { vec![] };
         let of = |count: usize| {
             let gains = modes.gains[..count].to_vec();
-            self.with_wall(x, self.bent(x, Felt { gains, ..modes }, beyond))
+            self.with_wall(x, self.bent(x, DrivingPoint { gains, ..modes }, beyond))
         };
         let felt = of(count);
         let beside = |few: &[usize], accuracy: f64| {
-            let others: Vec<Felt> = few.iter().map(|few| of(*few)).collect();
+            let others: Vec<DrivingPoint> = few.iter().map(|few| of(*few)).collect();
             self.meet_beside(x, &felt, &others, closing, accuracy)
         };
         let (met, accuracy) = beside(if known.is_none() { &few } else { &[] }, accuracy)?;
         // How far another answer is from this one in the end, and when the ball leaves for the first time.
-        let both = |felt: &Felt, accuracy: f64, faster: f64| {
+        let both = |felt: &DrivingPoint, accuracy: f64, faster: f64| {
             let other = self.meet(x, felt, faster * closing, accuracy);
             // One that comes to no end says nothing.
             other.map_or([1.0; 2], |(other, _)| {
@@ -151,9 +163,10 @@ impl Hitter<'_> {
                 [apart(other.impulse, met.impulse), first]
             })
         };
-        let from_other = |felt: &Felt, accuracy: f64, faster: f64| both(felt, accuracy, faster)[0];
+        let from_other =
+            |felt: &DrivingPoint, accuracy: f64, faster: f64| both(felt, accuracy, faster)[0];
         let first_error = Cell::new(0.0);
-        let counted = |felt: &Felt, accuracy: f64, share: f64| {
+        let counted = |felt: &DrivingPoint, accuracy: f64, share: f64| {
             let [all, first] = both(felt, accuracy, 1.0);
             first_error.set(first_error.get() + share * first);
             share * all
@@ -163,7 +176,7 @@ impl Hitter<'_> {
         let (of_ball, slow) = (mass / ball, self.slow_modes());
         let answered = Answered { met: &met, count, accuracy, rebound, of_ball, slow };
         let shears = self.solution.theory.shears();
-        let mut answer = Answer::new(met.impulse, cor, met.lost_in_ball);
+        let mut answer = HitAnswer::new(met.impulse, cor, met.lost_in_ball);
         [answer.truncation, answer.steps, answer.wall] =
             known.filter(|_| !answered.is_delicate()).unwrap_or_else(|| {
                 let again = known.and_then(|_| beside(&few, accuracy));
@@ -187,7 +200,7 @@ impl Hitter<'_> {
                 // A wall of fewer modes, and one softer by all that may be missing.
                 let wall = self.under(x).map_or(0.0, |under| {
                     let fewer = under.fewer.before(self.bent(x, modes.clone(), beyond));
-                    let softer = Felt { rest: felt.rest + under.unsure, ..felt.clone() };
+                    let softer = DrivingPoint { rest: felt.rest + under.unsure, ..felt.clone() };
                     counted(&fewer, accuracy, FEWER) + counted(&softer, accuracy, 1.0)
                 });
                 [left_out, steps, wall]

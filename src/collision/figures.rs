@@ -10,7 +10,7 @@ use crate::bat::body::{Bat, STANDARD_PIVOT};
 use crate::collision::answer::LATER;
 use crate::collision::hit::{Impact, Model, Scene};
 use crate::collision::hitter::Hitter;
-use crate::collision::sweet_spot::{FEW, FINE, Looked, Peak, SweetSpot};
+use crate::collision::sweet_spot::{FEW, FINE, HitsAlong, Peak, SweetSpot};
 use crate::collision::wall_figures::WallFigures;
 
 /// How fast this bat is swung by who swings a reference bat at the scene's speed: `Ω = Ω₀
@@ -113,11 +113,11 @@ impl Figures {
         let Hitter { scene, solution, effort, .. } = *hitter;
         let find = |scene: &Scene| -> Result<SweetSpot> {
             let hitter = hitter.in_scene(scene, bat)?;
-            Ok(SweetSpot::within(&Looked::outer(FEW, &hitter)))
+            Ok(SweetSpot::within(&HitsAlong::outer(FEW, &hitter)))
         };
         let rigid = Hitter::new(Model::Rigid, scene, bat, solution, effort)?;
-        let rigid_best = Looked::outer(FINE, &rigid).fastest();
-        let looked = Looked::outer(FINE, hitter);
+        let rigid_best = HitsAlong::outer(FINE, &rigid).fastest();
+        let looked = HitsAlong::outer(FINE, hitter);
         let mut swings = vec![];
         if let Some(law) = law {
             let mut exponents = vec![0.0, law.exponent, 0.5];

@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use crate::collision::contact::collocation::polynomial;
 use crate::collision::contact::table::Piece;
-use crate::collision::contact::touch::Felt;
+use crate::collision::contact::touch::DrivingPoint;
 
 /// The ball at an instant.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -29,7 +29,7 @@ pub struct Moment {
 /// each gain.
 pub fn history(
     pieces: &[Piece],
-    felt: &Felt,
+    felt: &DrivingPoint,
     modes: &[[f64; 2]],
     speed: f64,
     parts: usize,

@@ -11,7 +11,7 @@ use crate::bat::body::{Bat, STANDARD_PIVOT};
 use crate::bat::profile::Profile;
 use crate::collision::contact::collider::{Collider, Law};
 use crate::collision::contact::encounter::Encounter;
-use crate::collision::contact::touch::Felt;
+use crate::collision::contact::touch::DrivingPoint;
 use crate::collision::hit::{Effort, Model, Scene, Wall};
 use crate::collision::hoop_wall::{HoopWall, WallFelt};
 use crate::collision::rigid::{RigidBat, RigidVelocity};
@@ -237,18 +237,18 @@ impl<'a> Hitter<'a> {
     }
 
     /// The bat as the ball feels it at `x` (m), with as many modes as the effort takes.
-    pub(super) fn felt(&self, x: f64) -> Felt {
+    pub(super) fn felt(&self, x: f64) -> DrivingPoint {
         let beyond = self.effort.completed.then(|| self.struck.flexibility(x));
         self.with_wall(x, self.bent(x, self.by_modes(x), beyond))
     }
 
     /// The bat as the ball feels it at `x` (m) by the modes and nothing else.
-    pub(super) fn by_modes(&self, x: f64) -> Felt {
+    pub(super) fn by_modes(&self, x: f64) -> DrivingPoint {
         self.struck.with_modes(x, self.scene.ball.mass_kg, self.modes_used())
     }
 
     /// A bat that is felt so at `x` (m), with its wall.
-    pub(super) fn with_wall(&self, x: f64, mut felt: Felt) -> Felt {
+    pub(super) fn with_wall(&self, x: f64, mut felt: DrivingPoint) -> DrivingPoint {
         match self.wall {
             Some(wall) if wall.mass > 0.0 => felt.gains.insert(0, 1.0 / wall.mass),
             Some(wall) => felt.rest += 1.0 / wall.stiffness,
@@ -262,7 +262,12 @@ impl<'a> Hitter<'a> {
 
     /// The bat as the ball feels it at `x` (m) where its wall is stiff: by those modes, and by all
     /// beyond them where the flexibility of all there are is given.
-    pub(super) fn bent(&self, x: f64, modes: Felt, beyond: Option<[f64; 2]>) -> Felt {
+    pub(super) fn bent(
+        &self,
+        x: f64,
+        modes: DrivingPoint,
+        beyond: Option<[f64; 2]>,
+    ) -> DrivingPoint {
         match beyond {
             None => modes,
             Some(beyond) => self.struck.completed(x, modes, beyond),
@@ -284,7 +289,7 @@ impl<'a> Hitter<'a> {
     pub(super) fn meet(
         &self,
         x: f64,
-        felt: &Felt,
+        felt: &DrivingPoint,
         closing: f64,
         accuracy: f64,
     ) -> Option<(Encounter, f64)> {
@@ -295,8 +300,8 @@ impl<'a> Hitter<'a> {
     pub(super) fn meet_beside(
         &self,
         x: f64,
-        felt: &Felt,
-        others: &[Felt],
+        felt: &DrivingPoint,
+        others: &[DrivingPoint],
         closing: f64,
         accuracy: f64,
     ) -> Option<(Encounter, f64)> {
@@ -339,7 +344,7 @@ fn collider(modes: &[[f64; 2]], wall: &[[f64; 2]], pressed: f64) -> Result<Colli
 pub(super) fn resolved<T>(
     accuracy: f64,
     meet: impl Fn(f64) -> (Encounter, T),
-    felt: &Felt,
+    felt: &DrivingPoint,
     closing: f64,
 ) -> Option<(Encounter, T)> {
     const TRIES: i32 = 12;

@@ -20,7 +20,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::base::error::Result;
 use crate::bat::body::Bat;
-use crate::collision::contact::touch::Felt;
+use crate::collision::contact::touch::DrivingPoint;
 use crate::collision::struck::{complete, taken};
 use crate::collision::wall_table::WallTable;
 use crate::modes::hoop::{Hoop, HoopMode, HoopRequest, Patch, Share};
@@ -67,7 +67,7 @@ pub struct WallFelt {
 
 impl WallSeries {
     /// The bat with these modes before its own, and this flexibility.
-    pub fn before(&self, mut felt: Felt) -> Felt {
+    pub fn before(&self, mut felt: DrivingPoint) -> DrivingPoint {
         felt.gains.splice(0..0, self.gains.iter().copied());
         felt.rest += self.rest;
         felt

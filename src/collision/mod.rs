@@ -54,9 +54,6 @@ pub mod batch;
 pub mod swing;
 pub mod bbcor;
 
-pub use ball::Ball;
 pub use hit::{Effort, Impact, Model, Outcome, Scene};
-pub use hitter::Hitter;
-pub use sweep::Sweep;
-pub use sweet_spot::SweetSpot;
-pub use swing::{Hit, Swing};
+pub use {ball::Ball, hitter::Hitter};
+pub use {sweep::Sweep, sweet_spot::SweetSpot, swing::Hit, swing::Swing};

@@ -1,6 +1,6 @@
 //! A hit at one place: in full, at a glance, and in time.
 
-use crate::collision::answer::Answer;
+use crate::collision::answer::HitAnswer;
 use crate::collision::contact::table::Piece;
 use crate::collision::history::{Moment, history};
 use crate::collision::hit::{Energy, Impact, Model, Outcome, Scene};
@@ -117,7 +117,7 @@ impl Hitter<'_> {
         Some(history(&pieces, &felt, &modes, speed, parts))
     }
 
-    fn outcome(&self, x: f64, bat_speed: f64, answer: Answer) -> Outcome {
+    fn outcome(&self, x: f64, bat_speed: f64, answer: HitAnswer) -> Outcome {
         let Scene { ball, ball_speed, .. } = self.scene;
         let impulse = answer.impulse;
         let (closing, exit_speed) = (bat_speed + ball_speed, impulse / ball.mass_kg - ball_speed);

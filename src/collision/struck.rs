@@ -2,7 +2,7 @@
 
 use crate::base::linear::dot;
 use crate::bat::body::Bat;
-use crate::collision::contact::touch::Felt;
+use crate::collision::contact::touch::DrivingPoint;
 use crate::modes::compliance::{Flexible, RigidMotion};
 use crate::modes::mode::Mode;
 use crate::modes::solve::Solution;
@@ -58,10 +58,10 @@ impl<'a> Struck<'a> {
     }
 
     /// The bat as a ball of that mass (kg) feels it at `x` (m), with `count` modes and nothing else.
-    pub fn with_modes(&self, x: f64, ball: f64, count: usize) -> Felt {
+    pub fn with_modes(&self, x: f64, ball: f64, count: usize) -> DrivingPoint {
         let mut gains = self.gains(x);
         gains.truncate(count);
-        Felt { inverse_mass: 1.0 / ball + self.recoil(x), gains, rest: 0.0 }
+        DrivingPoint { inverse_mass: 1.0 / ball + self.recoil(x), gains, rest: 0.0 }
     }
 
     /// The bat as a ball of that mass (kg) feels it at `x` (m), with all modes.
@@ -75,14 +75,14 @@ impl<'a> Struck<'a> {
     ///
     /// In hands or on springs a bat has slow modes, whose C and D are so much greater than those of
     /// the fast ones that these are lost in their errors: what is not known then is left out.
-    pub fn felt(&self, x: f64, ball: f64, count: usize) -> Felt {
+    pub fn felt(&self, x: f64, ball: f64, count: usize) -> DrivingPoint {
         self.completed(x, self.with_modes(x, ball, count), self.flexibility(x))
     }
 
     /// What [`Self::felt`] returns, from [`Self::with_modes`] and [`Self::flexibility`] at `x` (m).
-    pub fn completed(&self, x: f64, mut felt: Felt, all: [f64; 2]) -> Felt {
+    pub fn completed(&self, x: f64, mut felt: DrivingPoint, all: [f64; 2]) -> DrivingPoint {
         let Some(last) = felt.gains.len().checked_sub(1) else {
-            return Felt { rest: all[0], ..felt };
+            return DrivingPoint { rest: all[0], ..felt };
         };
         let held = self.flexible.rigid.len() < 2;
         let unsure = if held { self.taken(&self.doubt(x)[..last]) } else { [0.0; 2] };

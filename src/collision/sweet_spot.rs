@@ -78,11 +78,11 @@ impl SweetSpot {
     /// # }
     /// ```
     pub fn find(hitter: &Hitter) -> Self {
-        Self::within(&Looked::outer(FINE, hitter))
+        Self::within(&HitsAlong::outer(FINE, hitter))
     }
 
     /// Searched on a stretch that was looked along.
-    pub fn within(looked: &Looked) -> Self {
+    pub fn within(looked: &HitsAlong) -> Self {
         let Hitter { scene, solution, .. } = *looked.hitter;
         let bat = looked.hitter.struck.bat;
         let exit_speed_max = looked.fastest();
@@ -112,7 +112,7 @@ impl SweetSpot {
 }
 
 /// A stretch of a bat after a first look along it.
-pub struct Looked<'a> {
+pub struct HitsAlong<'a> {
     ends: [f64; 2],
     /// How exactly places are located (m).
     width: f64,
@@ -124,7 +124,7 @@ pub struct Looked<'a> {
     seen: Vec<Option<Glance>>,
 }
 
-impl<'a> Looked<'a> {
+impl<'a> HitsAlong<'a> {
     /// Looks along the outer half of the bat, as [`Self::by`] does along any stretch.
     pub fn outer(look: (usize, f64), hitter: &'a Hitter<'a>) -> Self {
         let length = hitter.profile.length();

@@ -4,7 +4,7 @@ use crate::base::error::{Complaint, Error, nearest};
 use crate::base::typed;
 use crate::base::units::{self, Quantity};
 use crate::bat::material::{BUILT_IN, Material};
-use crate::files::wish_words::{self, Verb, Way, after, before};
+use crate::files::wish_words::{self, Verb, WishedChange, after, before};
 use crate::study::aim::wish::{Amount, Ask, DiameterLimit, FreeChoice, Goal, Target};
 use crate::study::many::answers::Answer;
 
@@ -144,9 +144,9 @@ pub fn value(text: &str, goal: Goal) -> Said<Amount> {
 pub fn change(text: &str, goal: Goal) -> Said<Amount> {
     let text = wish_words::figures(&wish_words::plain(text));
     match wish_words::way(&text) {
-        Way::More(size) => by(size, goal, 1.0),
-        Way::Less(size) => by(size, goal, -1.0),
-        Way::Same => Ok(Amount::Si(0.0)),
+        WishedChange::More(size) => by(size, goal, 1.0),
+        WishedChange::Less(size) => by(size, goal, -1.0),
+        WishedChange::Same => Ok(Amount::Si(0.0)),
         _ => match amount(&text, goal)? {
             Amount::FromTip(_) => Err(wrong(&text, "a change, such as \"1 cm outward\"")),
             found => Ok(found),
@@ -248,9 +248,12 @@ fn unnamed(verb: Option<Verb>, words: &str) -> Option<Goal> {
     }
     let way = wish_words::way(words);
     let (size, bare) = match way {
-        Way::Plain(size) => (size, true),
-        Way::AtMost(size) | Way::AtLeast(size) | Way::More(size) | Way::Less(size) => (size, false),
-        Way::To(_) | Way::Same => return None,
+        WishedChange::Plain(size) => (size, true),
+        WishedChange::AtMost(size)
+        | WishedChange::AtLeast(size)
+        | WishedChange::More(size)
+        | WishedChange::Less(size) => (size, false),
+        WishedChange::To(_) | WishedChange::Same => return None,
     };
     let signed = size.starts_with(['+', '-']);
     if bare && verb.is_none() && size.starts_with('-') && typed::number(size).is_some() {
@@ -270,38 +273,44 @@ fn unnamed(verb: Option<Verb>, words: &str) -> Option<Goal> {
 /// What is wished of a goal, by the verb and the other words.
 fn asked(text: &str, verb: Option<Verb>, rest: &str, goal: Goal) -> Said<Ask> {
     let way = wish_words::way(rest);
-    let none = Way::Plain("");
+    let none = WishedChange::Plain("");
     match (verb, way) {
-        (None, Way::Same) => Ok(Ask::Change(Amount::Si(0.0), None)),
-        (Some(Verb::Keep), way) if way == none || way == Way::Same => {
+        (None, WishedChange::Same) => Ok(Ask::Change(Amount::Si(0.0), None)),
+        (Some(Verb::Keep), way) if way == none || way == WishedChange::Same => {
             Ok(Ask::Change(Amount::Si(0.0), None))
         }
         (Some(Verb::NoLess), way) if way == none => {
             Ok(Ask::Between(Some(Amount::Share(1.0)), None))
         }
-        (None | Some(Verb::Keep), Way::AtMost(most)) => {
+        (None | Some(Verb::Keep), WishedChange::AtMost(most)) => {
             Ok(Ask::Between(None, Some(value(most, goal)?)))
         }
-        (None | Some(Verb::Keep), Way::AtLeast(least)) => {
+        (None | Some(Verb::Keep), WishedChange::AtLeast(least)) => {
             Ok(Ask::Between(Some(value(least, goal)?), None))
         }
-        (Some(Verb::Keep), Way::To(size)) | (None, Way::To(size)) => {
+        (Some(Verb::Keep), WishedChange::To(size)) | (None, WishedChange::To(size)) => {
             Ok(Ask::Value(value(size, goal)?, None))
         }
-        (Some(Verb::Less | Verb::More), Way::To(size)) => Ok(Ask::Value(value(size, goal)?, None)),
-        (Some(Verb::Less), Way::Plain(size) | Way::Less(size)) if !size.is_empty() => {
+        (Some(Verb::Less | Verb::More), WishedChange::To(size)) => {
+            Ok(Ask::Value(value(size, goal)?, None))
+        }
+        (Some(Verb::Less), WishedChange::Plain(size) | WishedChange::Less(size))
+            if !size.is_empty() =>
+        {
             Ok(Ask::Change(by(size, goal, -1.0)?, None))
         }
-        (Some(Verb::More), Way::Plain(size) | Way::More(size)) if !size.is_empty() => {
+        (Some(Verb::More), WishedChange::Plain(size) | WishedChange::More(size))
+            if !size.is_empty() =>
+        {
             Ok(Ask::Change(by(size, goal, 1.0)?, None))
         }
-        (None, Way::More(size)) if !size.is_empty() => {
+        (None, WishedChange::More(size)) if !size.is_empty() => {
             Ok(Ask::Change(moved(rest, size, goal, 1.0)?, None))
         }
-        (None, Way::Less(size)) if !size.is_empty() => {
+        (None, WishedChange::Less(size)) if !size.is_empty() => {
             Ok(Ask::Change(moved(rest, size, goal, -1.0)?, None))
         }
-        (None, Way::Plain(size)) if !size.is_empty() => {
+        (None, WishedChange::Plain(size)) if !size.is_empty() => {
             let share = size.ends_with('%');
             if !share && (goal == Goal::Drop || !size.starts_with(['+', '-'])) {
                 return Ok(Ask::Value(value(size, goal)?, None));

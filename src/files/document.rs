@@ -4,7 +4,7 @@ use std::cell::Cell;
 use std::ops::Range;
 use std::path::Path;
 
-use crate::base::error::{Complaint, Error, Excerpt, Place, Result};
+use crate::base::error::{Complaint, Error, Excerpt, FilePosition, Result};
 use crate::base::file;
 
 /// The text of one input file, a byte-order mark removed.
@@ -89,9 +89,9 @@ impl Document {
     }
 
     /// Where a stretch of the text stands, in bytes.
-    pub fn placed(&self, marked: Range<usize>) -> Box<Place> {
+    pub fn placed(&self, marked: Range<usize>) -> Box<FilePosition> {
         let (line, column) = self.place(marked.start);
-        Box::new(Place {
+        Box::new(FilePosition {
             file: self.file.clone(),
             line,
             column,

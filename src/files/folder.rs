@@ -8,7 +8,7 @@ use std::cell::RefCell;
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
-use crate::base::error::{Complaint, Error, Excerpt, Place, Result};
+use crate::base::error::{Complaint, Error, Excerpt, FilePosition, Result};
 use crate::base::file::read_plain;
 use crate::files::document::Document;
 use crate::files::sheet;
@@ -137,7 +137,7 @@ pub(crate) fn json(path: &Path, kind: &str) -> Result<Document> {
 /// An error about the beginning of a file, without a word of it.
 fn something_else(path: &Path, than: &str, expected: &str) -> Error {
     let (file, excerpt) = (path.display().to_string(), Excerpt::default());
-    let place = Box::new(Place { file, line: 1, column: 1, excerpt });
+    let place = Box::new(FilePosition { file, line: 1, column: 1, excerpt });
     let complaint = Complaint::new("", format!("something else than {than}"), expected);
     Error::Input { place, complaint }
 }

@@ -11,7 +11,7 @@ use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
 use serde_json::Value;
 use serde_json::value::RawValue;
 
-use crate::base::error::{Complaint, Error, Place, Result, nearest, shortened};
+use crate::base::error::{Complaint, Error, FilePosition, Result, nearest, shortened};
 use crate::base::mistakes::{self, Mistakes};
 use crate::base::units::{self, Quantity};
 use crate::files::broken_json;
@@ -74,7 +74,7 @@ impl<'a> Node<'a> {
     }
 
     /// Where it stands.
-    pub fn place(&self) -> Box<Place> {
+    pub fn place(&self) -> Box<FilePosition> {
         let offset = self.offset();
         self.document.placed(offset..offset + self.raw.len())
     }

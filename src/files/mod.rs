@@ -7,8 +7,7 @@
 //! | `document`, `broken_json`, `json_node` | the text and its places; JSON that does not parse; a value with its place |
 //! | `sheet_number`, `sheet`, `csv_file` | a number in a table; its cells; columns of numbers |
 //! | [`folder`] | which other files may a file name |
-//! | `station_table` | the stations of a profile |
-//! | `part_file`, `fixtures_file`, `edits_file`, [`bat_file`] | a bat |
+//! | `station_table`, `part_file`, `fixtures_file`, `edits_file`, [`bat_file`], [`built_in`] | a bat; which are built in |
 //! | [`ball_file`], [`balls`], [`scene_file`] | a ball; which ball is meant; how a bat is hit |
 //! | [`shape_file`], [`force_file`] | an initial shape; a force in time |
 //! | `amounts`, [`readings_file`] | shares and readings with their uncertainty; what was measured of a bat |

@@ -5,7 +5,7 @@ use crate::base::mistakes::{self, Mistakes};
 use crate::bat::fixtures::Held;
 use crate::bat::layup::Layer;
 use crate::bat::material::{BUILT_IN, Material, PoissonRatios, ShearModuli};
-use crate::bat::part::{Field, Instead, Kind, Part, Slot};
+use crate::bat::part::{Field, Instead, MemberKind, Part, Slot};
 use crate::files::json_node::{Node, Object};
 
 /// What a support may be called.
@@ -164,7 +164,7 @@ fn member<P>(object: &Object, field: &Field<P>, length: Option<f64>, part: &mut 
 
 /// A number; the tip in other digits than the profile's is the tip.
 fn number<P>(node: &Node, field: &Field<P>, length: Option<f64>) -> Result<f64> {
-    let Kind::Number(Some(quantity), _) = field.kind else { return node.number() };
+    let MemberKind::Number(Some(quantity), _) = field.kind else { return node.number() };
     let value = node.quantity(quantity)?;
     let near = |length: &f64| field.is_place() && (value - length).abs() <= 1e-12 * length;
     Ok(length.filter(near).unwrap_or(value))

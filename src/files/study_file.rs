@@ -4,13 +4,13 @@
 
 use serde_json::{Map, Value};
 
-use crate::base::error::{Complaint, Error, Place, Result};
+use crate::base::error::{Complaint, Error, FilePosition, Result};
 use crate::base::mistakes::{self, Mistakes};
 use crate::collision::ball::Ball;
 use crate::files::document::Document;
 use crate::files::json_node::{Node, Object};
 use crate::files::scene_file;
-use crate::files::study_vary::{Subject, Varied, varied};
+use crate::files::study_vary::{Varied, VariedFile, varied};
 use crate::study::many::answers::Answer;
 use crate::study::many::design::{Axis, Design, Spread, Wanted};
 use crate::study::many::rows::Asked;
@@ -58,9 +58,9 @@ pub struct StudyFile {
     /// Its members that say how numbers are drawn, where none is.
     pub idle: Vec<&'static str>,
     /// Where it says what varies, or else which bats there are.
-    place: Box<Place>,
+    place: Box<FilePosition>,
     /// Where it names its bats, and its ball.
-    naming: [Box<Place>; 2],
+    naming: [Box<FilePosition>; 2],
 }
 
 impl StudyFile {
@@ -74,15 +74,15 @@ impl StudyFile {
     }
 
     /// Whether anything varies in such a document.
-    pub fn varies(&self, subject: Subject) -> bool {
+    pub fn varies(&self, subject: VariedFile) -> bool {
         self.varied.iter().any(|varied| varied.subject == subject)
     }
 
     /// What is wrong with a bat or a ball that the study names: said where it does.
-    pub fn names_in_vain(&self, subject: Subject, error: Error) -> Error {
+    pub fn names_in_vain(&self, subject: VariedFile, error: Error) -> Error {
         let [of_bats, of_ball] = &self.naming;
         let (place, field, expected) = match subject {
-            Subject::Ball => (of_ball, "ball", "a ball file or the name of a built-in ball"),
+            VariedFile::Ball => (of_ball, "ball", "a ball file or the name of a built-in ball"),
             _ => (of_bats, "bat", "a bat file, a folder of them or the name of a built-in bat"),
         };
         let complaint = match error {

@@ -18,7 +18,7 @@ use crate::collision::setup::Setup;
 use crate::files::ball_file::written;
 use crate::files::scene_file;
 use crate::files::study_file::StudyFile;
-use crate::files::study_vary::Subject;
+use crate::files::study_vary::VariedFile;
 use crate::study::comparison::contender::Figure;
 use crate::study::many::answers::on_the_bat;
 use crate::study::many::design::{MOST_ROWS, Row};
@@ -77,8 +77,8 @@ impl Rows {
             Varying { name, document, model: None }
         };
         let bats = bats.into_iter().map(varying).collect();
-        let varied_ball = study.varies(Subject::Ball);
-        let varied_scene = study.varies(Subject::Scene);
+        let varied_ball = study.varies(VariedFile::Ball);
+        let varied_scene = study.varies(VariedFile::Scene);
         let setup = match varied_scene || varied_ball {
             true => Base::Varied(Value::Object(study.scene.clone())),
             false => Base::Same(scene_file::of(&study.scene, ball.clone())?),
@@ -301,7 +301,7 @@ impl Rows {
     }
 
     /// A document with what varies of it in a row.
-    fn document(&self, subject: Subject, base: &Value, row: &Row) -> Result<Value> {
+    fn document(&self, subject: VariedFile, base: &Value, row: &Row) -> Result<Value> {
         let mut document = base.clone();
         for varied in self.study.varied.iter().filter(|varied| varied.subject == subject) {
             varied.put(&mut document, row)?;
@@ -312,7 +312,7 @@ impl Rows {
     pub(super) fn bat(&self, bat: &Varying, row: &Row) -> Result<Bat> {
         let document = bat.document.as_ref();
         let document = document.map_err(|why| Error::value("bat", why, "a bat file"))?;
-        let text = self.document(Subject::Bat, document, row)?.to_string();
+        let text = self.document(VariedFile::Bat, document, row)?.to_string();
         Bat::from_text(&bat.name, &text, Path::new(""))
     }
 
@@ -320,7 +320,7 @@ impl Rows {
         match &self.ball {
             Base::Same(ball) => Ok(ball.clone()),
             Base::Varied(base) => {
-                Ball::from_text("ball", &self.document(Subject::Ball, base, row)?.to_string())
+                Ball::from_text("ball", &self.document(VariedFile::Ball, base, row)?.to_string())
             }
         }
     }
@@ -329,7 +329,7 @@ impl Rows {
         match &self.setup {
             Base::Same(setup) => Ok(setup.clone()),
             Base::Varied(base) => {
-                let members = self.document(Subject::Scene, base, row)?;
+                let members = self.document(VariedFile::Scene, base, row)?;
                 let none = Map::new();
                 scene_file::of(members.as_object().unwrap_or(&none), self.ball(row)?)
             }

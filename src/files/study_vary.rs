@@ -5,7 +5,7 @@
 
 use serde_json::{Value, json};
 
-use crate::base::error::{Complaint, Error, Place, Result};
+use crate::base::error::{Complaint, Error, FilePosition, Result};
 use crate::base::marks;
 use crate::base::mistakes::{self, Mistakes};
 use crate::base::number::shortest;
@@ -19,12 +19,12 @@ use crate::study::many::distribution::Distribution;
 /// How something varies.
 const WAYS: [&str; 6] = ["values", "grid", "uniform", "normal", "lognormal", "triangular"];
 /// The documents whose members may vary.
-const SUBJECTS: &[(&str, Subject)] =
-    &[("bat", Subject::Bat), ("ball", Subject::Ball), ("scene", Subject::Scene)];
+const SUBJECTS: &[(&str, VariedFile)] =
+    &[("bat", VariedFile::Bat), ("ball", VariedFile::Ball), ("scene", VariedFile::Scene)];
 
 /// Whose member varies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Subject {
+pub enum VariedFile {
     /// The bat file's.
     Bat,
     /// The ball file's.
@@ -39,12 +39,12 @@ pub struct Varied {
     /// Its path, with that of its document before it: `bat.material.density`.
     pub path: String,
     /// Whose it is.
-    pub subject: Subject,
+    pub subject: VariedFile,
     /// Its path in its document.
     inside: Vec<Step>,
-    way: Way,
+    way: Variation,
     /// Where the study names it.
-    place: Box<Place>,
+    place: Box<FilePosition>,
 }
 
 /// A step of a path into a document.
@@ -56,7 +56,7 @@ enum Step {
 
 /// How a member varies. The first number is that of its list, or of its distribution, in a row; units may be none.
 #[derive(Debug, Clone)]
-enum Way {
+enum Variation {
     /// By one of these.
     Listed(usize, Vec<Listed>),
     /// By one of these numbers in that unit.
@@ -82,18 +82,18 @@ impl Varied {
             unit => format!("{} {unit}", shortest(value)).into(),
         };
         match &self.way {
-            Way::Listed(k, values) => values[row.picks[*k] as usize].meant.clone(),
-            Way::Numbered(k, values, unit) => in_unit(values[row.picks[*k] as usize], unit),
-            Way::Drawn(k, unit) => in_unit(row.values[*k], unit),
+            Variation::Listed(k, values) => values[row.picks[*k] as usize].meant.clone(),
+            Variation::Numbered(k, values, unit) => in_unit(values[row.picks[*k] as usize], unit),
+            Variation::Drawn(k, unit) => in_unit(row.values[*k], unit),
         }
     }
 
     /// Its value in a row, as a table has it, written as a cell: a number in its unit, or what the list says.
     pub fn cell(&self, row: &Row) -> String {
         match &self.way {
-            Way::Drawn(k, _) => shortest(row.values[*k]),
-            Way::Numbered(k, values, _) => shortest(values[row.picks[*k] as usize]),
-            Way::Listed(k, values) => match &values[row.picks[*k] as usize].said {
+            Variation::Drawn(k, _) => shortest(row.values[*k]),
+            Variation::Numbered(k, values, _) => shortest(values[row.picks[*k] as usize]),
+            Variation::Listed(k, values) => match &values[row.picks[*k] as usize].said {
                 Value::String(text) => marks::cell(text),
                 other => other.to_string(),
             },
@@ -103,24 +103,24 @@ impl Varied {
     /// Where its value is in a row.
     pub fn axis(&self) -> Axis {
         match self.way {
-            Way::Listed(k, _) | Way::Numbered(k, ..) => Axis::List(k),
-            Way::Drawn(k, _) => Axis::Drawn(k),
+            Variation::Listed(k, _) | Variation::Numbered(k, ..) => Axis::List(k),
+            Variation::Drawn(k, _) => Axis::Drawn(k),
         }
     }
 
     /// Whether all its values are numbers.
     pub fn is_number(&self) -> bool {
         match &self.way {
-            Way::Drawn(..) | Way::Numbered(..) => true,
-            Way::Listed(_, values) => values.iter().all(|value| value.said.is_number()),
+            Variation::Drawn(..) | Variation::Numbered(..) => true,
+            Variation::Listed(_, values) => values.iter().all(|value| value.said.is_number()),
         }
     }
 
     /// The unit of its numbers, empty where they are bare and for what is listed.
     pub fn unit(&self) -> &str {
         match &self.way {
-            Way::Drawn(_, unit) | Way::Numbered(_, _, unit) => unit,
-            Way::Listed(..) => "",
+            Variation::Drawn(_, unit) | Variation::Numbered(_, _, unit) => unit,
+            Variation::Listed(..) => "",
         }
     }
 
@@ -130,8 +130,8 @@ impl Varied {
     ///
     /// Those of `of`, in the study.
     pub fn replace_tables(&mut self, mut of: impl FnMut(&Value) -> Result<Value>) -> Result<()> {
-        let is_profile = self.subject == Subject::Bat && self.inside == [member("profile")];
-        let Way::Listed(_, values) = &mut self.way else { return Ok(()) };
+        let is_profile = self.subject == VariedFile::Bat && self.inside == [member("profile")];
+        let Variation::Listed(_, values) = &mut self.way else { return Ok(()) };
         for Listed { meant, .. } in values.iter_mut().filter(|_| is_profile) {
             if meant.get("csv").is_some() {
                 let placed = |complaint| wrong(&self.path, &self.place, complaint);
@@ -191,7 +191,7 @@ impl Varied {
     }
 }
 
-fn wrong(path: &str, place: &Place, complaint: Complaint) -> Error {
+fn wrong(path: &str, place: &FilePosition, complaint: Complaint) -> Error {
     let complaint = Complaint { field: format!("vary.{path}"), ..complaint };
     Error::Input { place: Box::new(place.clone()), complaint }
 }
@@ -236,7 +236,7 @@ pub(crate) fn varied(node: &Node, wanted: &mut Wanted) -> Result<Vec<Varied>> {
     if paths.len() > MOST {
         return Err(node.error(format!("{} paths", paths.len()), format!("{MOST} at most")));
     }
-    let mut all: Vec<(Subject, Vec<Step>, &str)> = vec![];
+    let mut all: Vec<(VariedFile, Vec<Step>, &str)> = vec![];
     mistakes::all(paths.iter().map(|(path, node)| {
         let key = node.key();
         let (subject, inside) = led(path, &key)?;
@@ -256,7 +256,7 @@ pub(crate) fn varied(node: &Node, wanted: &mut Wanted) -> Result<Vec<Varied>> {
 }
 
 /// Whose member a path names, and where it is there.
-fn led(path: &str, key: &Node) -> Result<(Subject, Vec<Step>)> {
+fn led(path: &str, key: &Node) -> Result<(VariedFile, Vec<Step>)> {
     let found = format!("\"{path}\"");
     let subject = path.split_once('.').and_then(|(first, inside)| {
         let (_, subject) = SUBJECTS.iter().find(|(name, _)| *name == first)?;
@@ -267,12 +267,12 @@ fn led(path: &str, key: &Node) -> Result<(Subject, Vec<Step>)> {
                         \"bat.material.density\" or \"bat.profile.diameter[12]\"";
         return Err(key.error(found, expected));
     };
-    if subject == Subject::Scene && !Setup::MEMBERS.contains(&inside) {
+    if subject == VariedFile::Scene && !Setup::MEMBERS.contains(&inside) {
         let expected = format!("scene. and one of {}", Setup::MEMBERS.join(", "));
         let complaint = Complaint::new("", found, expected);
         return Err(key.complain(complaint.or_nearest(inside, &Setup::MEMBERS)));
     }
-    if subject == Subject::Bat && steps == [member("profile"), member("csv")] {
+    if subject == VariedFile::Bat && steps == [member("profile"), member("csv")] {
         let expected = "\"bat.profile\", with values such as {\"csv\": \"stations.csv\"}";
         return Err(key.error(found, expected));
     }
@@ -280,7 +280,7 @@ fn led(path: &str, key: &Node) -> Result<(Subject, Vec<Step>)> {
 }
 
 /// How a member varies, noted in what the design is made of.
-fn way(node: &Node, wanted: &mut Wanted) -> Result<Way> {
+fn way(node: &Node, wanted: &mut Wanted) -> Result<Variation> {
     let mut mistakes = Mistakes::default();
     let object = node.object(&WAYS, &mut mistakes)?;
     mistakes.end(())?;
@@ -299,10 +299,10 @@ fn way(node: &Node, wanted: &mut Wanted) -> Result<Way> {
         }
         let k = list(items.len());
         if let Some((numbers, unit)) = of_one_unit(&items) {
-            return Ok(Way::Numbered(k, numbers, unit));
+            return Ok(Variation::Numbered(k, numbers, unit));
         }
         let listed = items.iter().map(Node::value).map(|said| Listed { meant: said.clone(), said });
-        return Ok(Way::Listed(k, listed.collect()));
+        return Ok(Variation::Listed(k, listed.collect()));
     }
     let forms: [(&str, &str, usize); 5] = [
         ("grid", "[from, to, how many], such as [\"0 oz\", \"2 oz\", 9]", 3),
@@ -336,7 +336,7 @@ fn way(node: &Node, wanted: &mut Wanted) -> Result<Way> {
             let share = k as f64 / (count - 1) as f64;
             (1.0 - share) * numbers[0] + share * numbers[1]
         };
-        return Ok(Way::Numbered(list(count as usize), (0..count).map(at).collect(), unit));
+        return Ok(Variation::Numbered(list(count as usize), (0..count).map(at).collect(), unit));
     }
     let distribution = match way {
         "uniform" => Distribution::Uniform { from: numbers[0], to: numbers[1] },
@@ -353,7 +353,7 @@ fn way(node: &Node, wanted: &mut Wanted) -> Result<Way> {
         })
     })?;
     wanted.drawn.push(distribution);
-    Ok(Way::Drawn(wanted.drawn.len() - 1, unit))
+    Ok(Variation::Drawn(wanted.drawn.len() - 1, unit))
 }
 
 /// The numbers of values that all have the same unit, and that.

@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::base::threads;
 use crate::bat::body::Bat;
 use crate::files::study_rows::{Rows, Varying};
-use crate::files::study_vary::Subject;
+use crate::files::study_vary::VariedFile;
 use crate::study::many::design::{Axis, Row};
 use crate::study::many::rows::Found;
 
@@ -19,11 +19,13 @@ impl Rows {
             let document = bat.document.as_ref().ok()?.to_string();
             Some(Bat::from_text(&bat.name, &document, Path::new("")).ok()?.warnings())
         };
-        let varies = self.study.varies(Subject::Bat);
+        let varies = self.study.varies(VariedFile::Bat);
         let strange = self.bats.iter().enumerate().filter_map(|(k, bat)| {
             let own = own(bat).unwrap_or_default();
             let all = if own.is_empty() && varies && k < TOLD {
-                self.first_strange(Subject::Bat, |row| Some(self.bat(bat, row).ok()?.warnings()))?
+                self.first_strange(VariedFile::Bat, |row| {
+                    Some(self.bat(bat, row).ok()?.warnings())
+                })?
             } else {
                 own.join("; ")
             };
@@ -34,7 +36,7 @@ impl Rows {
             let more = told.split_off(TOLD).len();
             told.push(format!("{more} more bats are strange in some way"));
         }
-        told.extend(self.first_strange(Subject::Scene, |row| {
+        told.extend(self.first_strange(VariedFile::Scene, |row| {
             let strange = self.setup(row).ok()?.warnings().into_iter();
             Some(strange.map(|(member, strange)| format!("scene.{member} {strange}")).collect())
         }));
@@ -50,7 +52,7 @@ impl Rows {
     /// document, and which.
     fn first_strange(
         &self,
-        subject: Subject,
+        subject: VariedFile,
         strange: impl Fn(&Row) -> Option<Vec<String>>,
     ) -> Option<String> {
         /// Values of a list that are looked at, and characters of one that are told.

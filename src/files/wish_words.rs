@@ -19,7 +19,7 @@ pub enum Verb {
 
 /// What is wished, with the words of its amount.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Way<'a> {
+pub enum WishedChange<'a> {
     /// As it is.
     Same,
     /// No more than this.
@@ -245,11 +245,11 @@ fn of_verbs(text: &str) -> Option<(Verb, &str)> {
 }
 
 /// What is wished, of the words beside the name; numbers in figures.
-pub fn way(text: &str) -> Way<'_> {
+pub fn way(text: &str) -> WishedChange<'_> {
     let mut text = longest(&THAN_NOW, |word| before(text, word)).unwrap_or(text);
     let is = |text: &str, words: &[&str]| words.iter().any(|word| word.eq_ignore_ascii_case(text));
     if is(text, &SAME) {
-        return Way::Same;
+        return WishedChange::Same;
     }
     while let Some(rest) = longest(&LINKS, |word| after(text, word)) {
         text = rest;
@@ -258,24 +258,24 @@ pub fn way(text: &str) -> Way<'_> {
     let ends = |words: &[&str]| longest(words, |word| before(text, word));
     let by = |rest: &'_ str| after(rest, "by").map_or(0, |by| rest.len() - by.len());
     if let Some(rest) = begins(&AT_MOST).or_else(|| ends(&OR_LESS)) {
-        return Way::AtMost(rest);
+        return WishedChange::AtMost(rest);
     }
     if let Some(rest) = begins(&AT_LEAST).or_else(|| ends(&OR_MORE)) {
-        return Way::AtLeast(rest);
+        return WishedChange::AtLeast(rest);
     }
     if let Some(rest) = begins(&TO) {
         return match way(rest) {
-            Way::Plain(rest) => Way::To(rest),
+            WishedChange::Plain(rest) => WishedChange::To(rest),
             bound => bound,
         };
     }
     if let Some(rest) = ends(&MORE).or_else(|| begins(&MORE)) {
-        return Way::More(&rest[by(rest)..]);
+        return WishedChange::More(&rest[by(rest)..]);
     }
     match ends(&LESS).or_else(|| begins(&LESS)) {
-        Some(rest) => Way::Less(&rest[by(rest)..]),
-        None if is(text, &SAME) => Way::Same,
-        None => Way::Plain(text),
+        Some(rest) => WishedChange::Less(&rest[by(rest)..]),
+        None if is(text, &SAME) => WishedChange::Same,
+        None => WishedChange::Plain(text),
     }
 }
 
@@ -439,12 +439,12 @@ mod tests {
         assert_eq!(verb("make the bat lose 1 oz"), (Some(Verb::Less), "1 oz"));
         assert_eq!(verb("keep the balance"), (Some(Verb::Keep), "the balance"));
         assert_eq!(verb("no less than 30 oz"), (None, "no less than 30 oz"));
-        assert_eq!(way("1 oz lighter"), Way::Less("1 oz"));
-        assert_eq!(way("lighter by 1 oz"), Way::Less("1 oz"));
-        assert_eq!(way("out 1 in"), Way::More("1 in"));
-        assert_eq!(way("should be at most 30 oz"), Way::AtMost("30 oz"));
-        assert_eq!(way("to 30 oz"), Way::To("30 oz"));
-        assert_eq!(way("stays the same"), Way::Same);
+        assert_eq!(way("1 oz lighter"), WishedChange::Less("1 oz"));
+        assert_eq!(way("lighter by 1 oz"), WishedChange::Less("1 oz"));
+        assert_eq!(way("out 1 in"), WishedChange::More("1 in"));
+        assert_eq!(way("should be at most 30 oz"), WishedChange::AtMost("30 oz"));
+        assert_eq!(way("to 30 oz"), WishedChange::To("30 oz"));
+        assert_eq!(way("stays the same"), WishedChange::Same);
         assert_eq!(after("drop3", "drop"), Some("3"));
         assert_eq!(after("node 12", "node 1"), None);
         assert_eq!(after("mass_kg", "mass"), None);

@@ -63,7 +63,7 @@ impl Shares<'_> {
 /// Nodes (m) that are there, an error that holds for those in doubtful stretches, and the stretches where nodes
 /// cannot be told.
 #[derive(Debug, Default, PartialEq)]
-pub struct Told {
+pub struct CertainNodes {
     /// Certain nodes (m).
     pub nodes: Vec<f64>,
     /// Error (m) of the worst of those whose slope does not tell it; 0 if all do.
@@ -81,18 +81,18 @@ struct Side {
 }
 
 /// One part of a bat between clamps or ends, on the way along it.
-struct Way<'a> {
+struct SpanWalk<'a> {
     doubt: &'a Doubt,
     shape: &'a Shape,
     shares: Shares<'a>,
     nodes: &'a [f64],
-    told: Told,
+    told: CertainNodes,
 }
 
 impl Doubt {
     /// Which of a shape's nodes are certain where other motions may have these shares in it.
-    pub fn tell(&self, shape: &Shape, nodes: &[f64], shares: Shares) -> Told {
-        let mut way = Way { doubt: self, shape, shares, nodes, told: Told::default() };
+    pub fn tell(&self, shape: &Shape, nodes: &[f64], shares: Shares) -> CertainNodes {
+        let mut way = SpanWalk { doubt: self, shape, shares, nodes, told: CertainNodes::default() };
         let [clamps, _] = &self.held;
         let mut borders: Vec<f64> = clamps.clone();
         borders.sort_by(f64::total_cmp);
@@ -121,7 +121,7 @@ impl Doubt {
     }
 }
 
-impl Way<'_> {
+impl SpanWalk<'_> {
     /// Tells the nodes among these places.
     fn part(&mut self, places: std::ops::Range<usize>) {
         let [clamps, pins] = &self.doubt.held;
@@ -262,7 +262,7 @@ mod tests {
     fn a_node_is_told_where_both_signs_beside_it_are_certain() {
         let (shape, doubt) = line(1.0, 0.42, 1e-3);
         let told = doubt.tell(&shape, &[0.42], Shares::default());
-        assert_eq!(told, Told { nodes: vec![0.42], error: 0.0, untold: vec![] });
+        assert_eq!(told, CertainNodes { nodes: vec![0.42], error: 0.0, untold: vec![] });
         // Even where a point lies beside the node, in its error.
         let (shape, doubt) = line(1.0, 0.401, 1e-3);
         assert_eq!(doubt.tell(&shape, &[0.401], Shares::default()).nodes, [0.401]);

@@ -141,7 +141,7 @@ struct Known {
 
 /// How much of another motion may be in one.
 #[derive(Clone, Copy)]
-struct Part {
+struct SharedMotion {
     /// Number of the other.
     other: usize,
     /// `|1 − λ/λ_j|`.
@@ -153,13 +153,13 @@ struct Part {
 }
 
 /// What motion `other` may have to do with motion `k` where the iteration left that residual.
-fn part(all: &[Known], k: usize, other: usize, residual: f64) -> Part {
+fn part(all: &[Known], k: usize, other: usize, residual: f64) -> SharedMotion {
     let (own, its) = (all[k], all[other]);
     let gap = (1.0 - (own.omega / its.omega).powi(2)).abs().max(f64::EPSILON);
     let certain = (gap - 2.0 * UNSURE * all[k.max(other)].error).max(f64::EPSILON);
     let mesh = 2.0 * (own.error * its.error).sqrt() / certain;
     let turn = (mesh + residual / gap.min(1.0)).min(1.0);
-    Part { other, gap, turn, share: turn * (own.mass / its.mass).sqrt() }
+    SharedMotion { other, gap, turn, share: turn * (own.mass / its.mass).sqrt() }
 }
 
 /// What other modes add to a mode's errors; `beyond` is ω (rad/s) of the first mode above the list,
@@ -191,21 +191,22 @@ pub fn add_neighbours(modes: &mut [Mode], beyond: Option<f64>, left: &[f64], fac
         let residual = if factored { 0.0 } else { modes[k].error.residual };
         let below = (k > 0).then(|| part(&all, k, k - 1, residual));
         let above = (k + 1 < all.len()).then(|| part(&all, k, k + 1, residual));
-        let both: Vec<Part> = [below.or(above), above.or(below)].into_iter().flatten().collect();
+        let both: Vec<SharedMotion> =
+            [below.or(above), above.or(below)].into_iter().flatten().collect();
         let far = (0..all.len()).filter(|j| j.abs_diff(k) > 1).map(|j| {
             let part = part(&all, k, j, 0.0);
             let unseen = (1.0 - part.gap).max(0.0);
-            Part { turn: part.turn * unseen, share: part.share * unseen, ..part }
+            SharedMotion { turn: part.turn * unseen, share: part.share * unseen, ..part }
         });
-        let parts: Vec<Part> = both.iter().copied().chain(far).collect();
+        let parts: Vec<SharedMotion> = both.iter().copied().chain(far).collect();
         let alone = if parts.is_empty() { 4.0 * all[k].error + residual } else { 0.0 };
         let mixed = alone + parts.iter().map(|part| part.share).sum::<f64>();
         let lost = parts.iter().map(|part| part.turn.powi(2)).sum::<f64>().min(1.0);
         let beside = 1.0 / (1.0 - lost).max(f64::EPSILON).sqrt();
-        let beside_or_near = |part: &&Part| part.other.abs_diff(k) == 1 || part.gap < NEAR;
+        let beside_or_near = |part: &&SharedMotion| part.other.abs_diff(k) == 1 || part.gap < NEAR;
         let near = parts.iter().filter(beside_or_near).filter(|part| part.other < modes.len());
         let nodes = modes[k].shape.slopes(&modes[k].nodes);
-        let shift = |part: &Part| part.share * modes[part.other].shape.shift(&nodes);
+        let shift = |part: &SharedMotion| part.share * modes[part.other].shape.shift(&nodes);
         let moved: f64 = near.map(shift).sum();
         let of: Vec<(usize, f64)> = parts.iter().map(|part| (part.other, part.share)).collect();
         let shares = Shares { of: &of, motions: &doubts };

@@ -98,12 +98,12 @@ pub struct Damping {
     /// Decay rates (1/s) of the rigid motions that only dashpots hold.
     pub rigid: Vec<f64>,
     /// How the modes were found.
-    pub kind: Kind,
+    pub kind: DampingMethod,
 }
 
 impl Damping {
     /// Each mode by itself.
-    fn by_modes(modes: Vec<Damped>, rigid: Vec<f64>, kind: Kind) -> Self {
+    fn by_modes(modes: Vec<Damped>, rigid: Vec<f64>, kind: DampingMethod) -> Self {
         let alone = modes.iter().map(|damped| damped.ratio).collect();
         Self { modes, alone, rigid, kind }
     }
@@ -112,7 +112,7 @@ impl Damping {
 /// How it was found.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 #[non_exhaustive]
-pub enum Kind {
+pub enum DampingMethod {
     /// Nothing damps the bat.
     #[default]
     None,
@@ -124,7 +124,7 @@ pub enum Kind {
     Complex(f64),
 }
 
-impl fmt::Display for Kind {
+impl fmt::Display for DampingMethod {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
             Self::None => write!(f, "none"),
@@ -179,7 +179,7 @@ pub fn damping(bat: &Bat, elements: Elements, modes: &[Mode], tolerance: f64) ->
     if alike && bat.fixtures().none_moving() && !dashpots {
         let damped = |mode: &Mode| Damped::new(mode.omega, 0.5 * own, 0.5 * own);
         let modes = modes.iter().map(damped).collect();
-        return Ok(Damping::by_modes(modes, vec![], Kind::Materials));
+        return Ok(Damping::by_modes(modes, vec![], DampingMethod::Materials));
     }
     let mut reduced = Reduced::new(bat, elements, modes.len())?;
     let of_materials: Vec<f64> = (0..modes.len()).map(|k| 0.5 * reduced.mode_loss(k)).collect();
@@ -189,7 +189,7 @@ pub fn damping(bat: &Bat, elements: Elements, modes: &[Mode], tolerance: f64) ->
     };
     let mut alone: Vec<Damped> = (0..modes.len()).map(alone).collect();
     if !dashpots {
-        return Ok(Damping::by_modes(alone, vec![], Kind::Materials));
+        return Ok(Damping::by_modes(alone, vec![], DampingMethod::Materials));
     }
     let together = Together::new(&mut reduced, tolerance, &of_materials)?;
     let change = |(a, b): (&Damped, &Damped)| {
@@ -202,12 +202,12 @@ pub fn damping(bat: &Bat, elements: Elements, modes: &[Mode], tolerance: f64) ->
     }
     let within = alone.iter().all(|damped| damped.error <= tolerance) || largest == 0.0;
     if within || changes.len() < alone.len() {
-        return Ok(Damping::by_modes(alone, together.rigid, Kind::Modal(largest)));
+        return Ok(Damping::by_modes(alone, together.rigid, DampingMethod::Modal(largest)));
     }
     let together = together.refined(bat, elements, tolerance, &of_materials)?;
     let (modes, rigid) = (together.motions, together.rigid);
     let alone = alone.iter().map(|damped| damped.ratio).collect();
-    Ok(Damping { modes, alone, rigid, kind: Kind::Complex(largest) })
+    Ok(Damping { modes, alone, rigid, kind: DampingMethod::Complex(largest) })
 }
 
 /// Relative round-off of the small eigenproblem after its vectors are polished.

@@ -7,7 +7,7 @@ use crate::base::linear::dot;
 use crate::modes::reduced::Reduced;
 
 /// Strains under a force as `e^{iωt}`.
-pub struct Answer {
+pub struct DrivenStrains {
     /// Parts of the rigid motions, where they are coupled.
     pub rigid: Vec<c64>,
     /// Parts of the strains.
@@ -18,7 +18,7 @@ pub struct Answer {
 
 /// A force of 1 N somewhere, and the deflection there.
 #[derive(Debug, Clone)]
-pub struct Place {
+pub struct UnitForce {
     /// Deflection by the free rigid motions (m).
     pub rigid: Vec<f64>,
     /// Deflection by every strain of the reduced bat (m); those that join later have none.
@@ -41,15 +41,15 @@ struct Apart {
 
 impl Reduced {
     /// A force or a deflection at x; its static strains join the others.
-    pub fn place(&mut self, x: f64) -> Place {
+    pub fn place(&mut self, x: f64) -> UnitForce {
         let row = self.flexible.row(x);
         self.add(row.clone());
         let rigid = self.flexible.rigid.iter().map(|rigid| rigid.deflection(x)).collect();
-        Place { rigid, row: (0..self.len()).map(|k| dot(self.strains(k), &row)).collect() }
+        UnitForce { rigid, row: (0..self.len()).map(|k| dot(self.strains(k), &row)).collect() }
     }
 
     /// `Σ |q_i| |M_ij| |q_j′|` (s² by the square of a strain's unit) of two answers.
-    pub fn inertia_of(&self, [one, other]: &[Answer; 2]) -> f64 {
+    pub fn inertia_of(&self, [one, other]: &[DrivenStrains; 2]) -> f64 {
         let row = |i: usize, j: usize| self.mass[i.max(j)][i.min(j)].abs();
         let by = |i: usize| -> f64 {
             other.parts.iter().enumerate().map(|(j, part)| row(i, j) * part.norm()).sum()
@@ -81,17 +81,17 @@ impl Reduced {
 
     /// The strains under a force of `e^{iωt}` newtons at a place, the materials' stiffness times
     /// `1 + iη`; `driven` is [`Self::driven`].
-    pub fn answer(&self, driven: &Driven, place: &Place, omega: f64) -> Answer {
+    pub fn answer(&self, driven: &Driven, place: &UnitForce, omega: f64) -> DrivenStrains {
         let (rigid, parts) = match &driven.apart {
             Some(apart) => (vec![], self.one_by_one(apart, place, omega)),
             None => self.together(&driven.damping, place, omega),
         };
         let residual = self.residual(c64::new(0.0, omega), true, &rigid, &parts);
-        Answer { rigid, parts, residual }
+        DrivenStrains { rigid, parts, residual }
     }
 
     /// The parts of strains that nothing couples.
-    fn one_by_one(&self, apart: &Apart, place: &Place, omega: f64) -> Vec<c64> {
+    fn one_by_one(&self, apart: &Apart, place: &UnitForce, omega: f64) -> Vec<c64> {
         let (n, modes) = (self.len(), self.omega.len());
         let force = |i: usize| place.row.get(i).copied().unwrap_or(0.0) / self.flexible.energy_unit;
         let along = |k: usize| match k < modes {
@@ -109,7 +109,7 @@ impl Reduced {
     }
 
     /// The parts of rigid motions and strains that dashpots and losses couple.
-    fn together(&self, damping: &Mat<f64>, place: &Place, omega: f64) -> (Vec<c64>, Vec<c64>) {
+    fn together(&self, damping: &Mat<f64>, place: &UnitForce, omega: f64) -> (Vec<c64>, Vec<c64>) {
         let (n, r) = (self.len(), self.rigid_unknowns());
         let (square, unit) = (omega * omega, self.flexible.energy_unit);
         let z = Mat::from_fn(r + n, r + n, |i, j| {
@@ -132,9 +132,9 @@ impl Reduced {
     }
 }
 
-impl Answer {
+impl DrivenStrains {
     /// The deflection at a place (m), without the rigid motions that dashpots leave alone.
-    pub fn at(&self, place: &Place) -> c64 {
+    pub fn at(&self, place: &UnitForce) -> c64 {
         let strains = self.parts.iter().zip(&place.row).map(|(part, w)| *part * *w);
         let rigid = self.rigid.iter().zip(&place.rigid).map(|(part, w)| *part * *w);
         strains.chain(rigid).sum()
@@ -190,7 +190,7 @@ mod tests {
                 let short = reduced.one_by_one(apart, &at, omega);
                 let (_, long) = reduced.together(&driven.damping, &at, omega);
                 let at_place = |parts: Vec<c64>| {
-                    Answer { rigid: vec![], parts, residual: [vec![], vec![]] }.at(&to)
+                    DrivenStrains { rigid: vec![], parts, residual: [vec![], vec![]] }.at(&to)
                 };
                 let [short, long] = [short, long].map(at_place);
                 assert!((short - long).norm() < 1e-10 * long.norm(), "{frequency} {short} {long}");

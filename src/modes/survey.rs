@@ -148,7 +148,7 @@ fn ratios_at(bat: &Bat, piece: &Piece, s: f64, thin: f64, theory: Theory) -> Rat
 
 /// What a sample is made from.
 #[derive(Clone, Copy)]
-struct Place {
+struct SamplePoint {
     s: f64,
     /// Outer radius (m).
     radius: f64,
@@ -174,7 +174,7 @@ fn take(bat: &Bat, piece: &Piece, thin: f64, pieces: usize, samples: &mut Vec<Sa
             Radii::Cubic(cubics) => Some(taper(cubics, s, radius)),
             Radii::Formula(_) => None,
         };
-        Place { s, radius, wave: ratio.sqrt().sqrt(), taper }
+        SamplePoint { s, radius, wave: ratio.sqrt().sqrt(), taper }
     };
     samples.push(Sample::default());
     let parts = match &piece.radii {
@@ -196,7 +196,7 @@ fn take(bat: &Bat, piece: &Piece, thin: f64, pieces: usize, samples: &mut Vec<Sa
     }
 }
 
-/// [`Place::taper`] of stations.
+/// [`SamplePoint::taper`] of stations.
 ///
 /// The series of `(1 + c s^j)⁻⁴` has every j-th term of the cone's, with smaller coefficients: the
 /// first is `4/(j+3 choose 3)` of it, 0.4 and 0.2 for j = 2 and 3, the next 0.29² and 0.12². The
@@ -219,9 +219,9 @@ fn taper(cubics: &Cubics, s: f64, radius: f64) -> [f64; 2] {
 }
 
 fn between(
-    at: &dyn Fn(f64) -> Place,
+    at: &dyn Fn(f64) -> SamplePoint,
     length: f64,
-    [left, right]: [Place; 2],
+    [left, right]: [SamplePoint; 2],
     samples: &mut Vec<Sample>,
     depth: usize,
 ) {

@@ -26,7 +26,7 @@ use crate::modes::request::{AT_ONCE, CONVERGED, LARGE, Request};
 use crate::modes::solution::{Solution, Timing};
 
 /// Modes on one mesh.
-pub struct Answer {
+pub struct MeshModes {
     /// The modes, rising.
     pub modes: Vec<Mode>,
     /// [`Solution::steps`].
@@ -39,7 +39,7 @@ pub struct Answer {
     pub rigid_modes: usize,
 }
 
-impl Answer {
+impl MeshModes {
     /// The solution, and each element's part in its worst defect.
     pub fn solution(self, plan: Plan, request: &Request, timing: Timing) -> (Solution, Vec<f64>) {
         let within = |mode: &Mode| mode.error.total() <= request.tolerance;
@@ -77,7 +77,7 @@ pub struct Task<'a> {
 
 impl Task<'_> {
     /// The modes on the mesh, whatever accuracy that gives.
-    pub fn run(&self, timing: &mut Timing) -> Result<Answer> {
+    pub fn run(&self, timing: &mut Timing) -> Result<MeshModes> {
         let Self { bat, plan, request, .. } = *self;
         let started = Clock::start();
         let mut pairs = pairs_of(bat, plan.degree, request.theory);
@@ -98,7 +98,7 @@ impl Task<'_> {
         modes.truncate(request.modes);
         timing.solve += assembled.elapsed();
         let (steps, rigid_modes) = (found.steps, pairs.view().rigid_modes());
-        Ok(Answer { modes, steps, defects, none_missing, rigid_modes })
+        Ok(MeshModes { modes, steps, defects, none_missing, rigid_modes })
     }
 
     /// Modes of strains, each with its own errors, and each element's part in the worst defect.

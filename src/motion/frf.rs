@@ -1,6 +1,6 @@
 //! How does a bat answer a force that swings: receptance, mobility, accelerance?
 //!
-//! [`Frf::new`] for two points, then [`Frf::receptances`] at the frequencies; [`Kind::of`] makes
+//! [`Frf::new`] for two points, then [`Frf::receptances`] at the frequencies; [`ResponseKind::of`] makes
 //! the others of them.
 //!
 //! ```text
@@ -22,7 +22,7 @@ use crate::base::error::{Error, Result};
 use crate::base::linear::dot;
 use crate::bat::body::Bat;
 use crate::beam::degree::Elements;
-use crate::modes::driven::{Answer, Driven, Place};
+use crate::modes::driven::{Driven, DrivenStrains, UnitForce};
 use crate::modes::prepared::{Prepared, prepare};
 use crate::modes::reduced::Reduced;
 use crate::modes::solve::{Request, Solution, solve};
@@ -30,7 +30,7 @@ use crate::motion::peaks::{self, Peak};
 
 /// What is answered to a force.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum Kind {
+pub enum ResponseKind {
     /// Deflection (m/N).
     #[default]
     Receptance,
@@ -40,7 +40,7 @@ pub enum Kind {
     Accelerance,
 }
 
-impl Kind {
+impl ResponseKind {
     /// All of them.
     pub const ALL: [Self; 3] = [Self::Receptance, Self::Mobility, Self::Accelerance];
 
@@ -98,7 +98,7 @@ pub struct Frf {
     pub solution: Solution,
     reduced: Reduced,
     /// Forced and watched point.
-    places: [Place; 2],
+    places: [UnitForce; 2],
     points: [f64; 2],
     /// Damping ratios of the modes in place of the bat's; empty where they are the bat's.
     ratios: Vec<f64>,
@@ -216,7 +216,7 @@ impl Frf {
 
     /// The peaks between the ends of a rising grid of frequencies (Hz), their sizes in the unit of
     /// that kind, by the strains that are there: [`Self::receptances`] adds those that are missed.
-    pub fn peaks(&self, kind: Kind, grid: &[f64]) -> Vec<Peak> {
+    pub fn peaks(&self, kind: ResponseKind, grid: &[f64]) -> Vec<Peak> {
         let driven = self.reduced.driven();
         let size = |f: f64| (self.receptance(&driven, f) * kind.of(f)).norm();
         peaks::of(grid, &self.modes(), &size)
@@ -250,7 +250,7 @@ impl Frf {
         let probes: Vec<f64> = (0..count).map(probe).collect();
         for _ in 0..MOST_ROUNDS {
             let driven = self.reduced.driven();
-            let mut worst: Option<(f64, [Answer; 2])> = None;
+            let mut worst: Option<(f64, [DrivenStrains; 2])> = None;
             for f in &probes {
                 let answers = self.answers(&driven, *f);
                 let missing = self.missing(&answers) / self.scale(&answers, *f);
@@ -282,19 +282,19 @@ impl Frf {
         Ok(frequencies.iter().map(sample).collect())
     }
 
-    fn answers(&self, driven: &Driven, frequency: f64) -> [Answer; 2] {
+    fn answers(&self, driven: &Driven, frequency: f64) -> [DrivenStrains; 2] {
         let omega = TAU * frequency;
         [0, 1].map(|k| self.reduced.answer(driven, &self.places[k], omega))
     }
 
     /// How much of the receptance the strains miss (m/N).
-    fn missing(&self, answers: &[Answer; 2]) -> f64 {
+    fn missing(&self, answers: &[DrivenStrains; 2]) -> f64 {
         self.reduced.flexible.energy_unit * answers[0].missed() * answers[1].missed()
     }
 
     /// What the errors of the modes may make of the receptance (m/N): a change δM of the inertia changes it by
     /// `ω² qᵀ δM q′`.
-    fn blurred(&self, answers: &[Answer; 2], frequency: f64) -> f64 {
+    fn blurred(&self, answers: &[DrivenStrains; 2], frequency: f64) -> f64 {
         let inertia = (TAU * frequency).powi(2) * self.reduced.inertia_of(answers);
         let unit = self.reduced.flexible.energy_unit;
         let rigid =
@@ -304,7 +304,7 @@ impl Frf {
 
     /// The mean size of both points' own receptances (m/N), which one between them may be far
     /// below.
-    fn scale(&self, answers: &[Answer; 2], frequency: f64) -> f64 {
+    fn scale(&self, answers: &[DrivenStrains; 2], frequency: f64) -> f64 {
         let omega = (TAU * frequency).powi(2);
         let own = |k: usize| {
             let place = &self.places[k];

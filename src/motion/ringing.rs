@@ -17,7 +17,7 @@ use crate::base::error::Result;
 use crate::base::quadrature::gauss;
 use crate::bat::body::Bat;
 use crate::modes::compliance::RigidMotion;
-use crate::modes::damping::{Kind, accuracy};
+use crate::modes::damping::{DampingMethod, accuracy};
 use crate::modes::mode::Shape;
 use crate::modes::pole::Pole;
 use crate::modes::reduced::Reduced;
@@ -117,7 +117,7 @@ impl Ringing {
                 motions.push(ModeInTime { clock: Clock::Oscillator(clock), forms: vec![form] });
             }
         }
-        if matches!(solution.damping.kind, Kind::Complex(_)) || reduced.coupled {
+        if matches!(solution.damping.kind, DampingMethod::Complex(_)) || reduced.coupled {
             let free = reduced.free_motions(wanted, accuracy(tolerance))?;
             let groups = free.groups.into_iter().flat_map(|group| group.poles);
             let mut poles: Vec<Pole> = groups.chain(free.others).collect();

@@ -14,7 +14,7 @@ use crate::files::schema::bat::BatFile;
 use crate::files::schema::document::{Document, Format};
 use crate::modes::solve::Request;
 use crate::proof::bundled::{bundled_bat, text};
-use crate::proof::known_hits::{Seen, Throw};
+use crate::proof::known_hits::{KnownFigure, Throw};
 
 /// One bat, or a rigid wall for a ball, and what is known about it, with the sources of the numbers and
 /// how near ours must be. SI, the unit in every name; positions count from the knob end.
@@ -66,7 +66,7 @@ pub struct Published {
     /// Cases of one bat stand in one table.
     pub bat: String,
     /// How the numbers were found.
-    pub kind: Kind,
+    pub kind: Provenance,
     /// Which of several meshes, where the bat has more than one.
     pub row: Option<String>,
 }
@@ -74,7 +74,7 @@ pub struct Published {
 /// Where a published number is from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum Kind {
+pub enum Provenance {
     /// By somebody, on the bat.
     Measured,
     /// By somebody else's program.
@@ -166,7 +166,7 @@ pub enum Known {
     InertiaPivotOzIn2,
     /// Something of a hit.
     #[serde(untagged)]
-    Hit(Seen),
+    Hit(KnownFigure),
 }
 
 /// One of the cases that travel with the program.

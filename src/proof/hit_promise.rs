@@ -74,7 +74,7 @@ struct Hit {
 
 /// What happens in a hit, as the reference has it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Course {
+pub enum ReferenceCourse {
     /// Ball and bat touch once.
     Single,
     /// The ball is compressed anew before it leaves.
@@ -83,7 +83,7 @@ pub enum Course {
     Later,
 }
 
-impl Course {
+impl ReferenceCourse {
     /// All of them, with their names.
     pub const ALL: [(Self, &str); 3] =
         [(Self::Single, "one touch"), (Self::Reload, "reload"), (Self::Later, "later touches")];
@@ -97,7 +97,7 @@ pub struct CheckedHit {
     /// Name of the bat.
     pub bat: String,
     /// How ball and bat meet.
-    pub course: Course,
+    pub course: ReferenceCourse,
     /// Wanted accuracy of the exit speed, relative to the closing speed.
     pub tolerance: f64,
     /// Whether the tolerance is claimed.
@@ -207,9 +207,9 @@ fn row(number: usize, bat: &Bat, hit: &Hit) -> Result<CheckedHit> {
         number,
         bat: bat.name().to_owned(),
         course: match (hit.contacts, hit.reloads) {
-            (1, 0) => Course::Single,
-            (1, _) => Course::Reload,
-            _ => Course::Later,
+            (1, 0) => ReferenceCourse::Single,
+            (1, _) => ReferenceCourse::Reload,
+            _ => ReferenceCourse::Later,
         },
         tolerance: hit.tolerance,
         met: swept.met,
@@ -258,7 +258,7 @@ mod tests {
         CheckedHit {
             number: 0,
             bat: "dowel".into(),
-            course: Course::Single,
+            course: ReferenceCourse::Single,
             tolerance: 1e-3,
             met: true,
             truth,

@@ -15,7 +15,7 @@ use crate::collision::contact::collocation::{POINTS, polynomial};
 use crate::collision::contact::force_law::ForceLaw;
 use crate::collision::contact::power_law::PowerLaw;
 use crate::collision::contact::table::Piece;
-use crate::collision::contact::touch::Felt;
+use crate::collision::contact::touch::DrivingPoint;
 use crate::collision::energy_loss::EnergyLoss;
 use crate::collision::hit::{Effort, Model, Outcome, Scene};
 use crate::collision::hitter::Hitter;
@@ -52,7 +52,7 @@ pub struct Throw {
 /// What is known of a hit, with its unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum Seen {
+pub enum KnownFigure {
     /// Speed of the ball off the bat (m/s).
     ExitSpeedMPerS,
     /// Speed of the ball off the bat if the bat did not bend (m/s).
@@ -85,7 +85,7 @@ pub enum Seen {
     WallRestitution,
 }
 
-impl Seen {
+impl KnownFigure {
     /// Its name in a table, of a hit at a place (m) or of a ball at a speed (m/s).
     pub fn label(self, at: f64, speed: f64) -> String {
         let place = format!("{} cm", (1e5 * at).round() / 1e3);
@@ -155,15 +155,15 @@ impl Throw {
         &self,
         bat: &Bat,
         solution: &Solution,
-        wanted: &[(Seen, f64)],
+        wanted: &[(KnownFigure, f64)],
     ) -> Result<Vec<f64>> {
         let scene = self.scene(bat)?;
         let effort = Effort { accuracy: STEPS, completed: !self.modes_alone };
         let hitter = Hitter::new(Model::Contact, &scene, bat, solution, effort)?;
-        let seen = |&(seen, at): &(Seen, f64)| {
-            if matches!(seen, Seen::BestPlaceM | Seen::BestExitSpeedMPerS) {
+        let seen = |&(seen, at): &(KnownFigure, f64)| {
+            if matches!(seen, KnownFigure::BestPlaceM | KnownFigure::BestExitSpeedMPerS) {
                 let best = SweetSpot::find(&hitter).exit_speed_max?;
-                return Some(if seen == Seen::BestPlaceM { best.x } else { best.value });
+                return Some(if seen == KnownFigure::BestPlaceM { best.x } else { best.value });
             }
             let impact = hitter.strike(at);
             let rigid = impact.rigid_exit_speed?;
@@ -173,18 +173,18 @@ impl Throw {
     }
 
     /// What the contact finds on a rigid wall at a speed (m/s); NaN for what only a bat has.
-    pub fn on_wall(&self, seen: Seen, speed: f64) -> f64 {
+    pub fn on_wall(&self, seen: KnownFigure, speed: f64) -> f64 {
         let law = PowerLaw::new(self.stiffness, self.exponent, self.cor);
-        let felt = Felt { inverse_mass: 1.0 / self.mass_kg, ..Felt::default() };
+        let felt = DrivingPoint { inverse_mass: 1.0 / self.mass_kg, ..DrivingPoint::default() };
         let deepest = law.compression(0.5 * self.mass_kg * speed * speed);
         let collider = Collider::new(&[], 0.25 * deepest / speed);
         let (met, pieces) = collider.meet_recorded(&felt, &law, speed, STEPS);
         match seen {
-            Seen::WallTimeMs => 1e3 * time_of(&pieces, 0.99 * met.impulse),
-            Seen::WallContactMs => 1e3 * met.time,
-            Seen::WallCompressionMm => 1e3 * met.compression,
-            Seen::WallForceKn => 1e-3 * met.peak_force,
-            Seen::WallRestitution => met.impulse / (self.mass_kg * speed) - 1.0,
+            KnownFigure::WallTimeMs => 1e3 * time_of(&pieces, 0.99 * met.impulse),
+            KnownFigure::WallContactMs => 1e3 * met.time,
+            KnownFigure::WallCompressionMm => 1e3 * met.compression,
+            KnownFigure::WallForceKn => 1e-3 * met.peak_force,
+            KnownFigure::WallRestitution => met.impulse / (self.mass_kg * speed) - 1.0,
             _ => f64::NAN,
         }
     }
@@ -218,18 +218,18 @@ impl Throw {
     }
 }
 
-fn of_hit(seen: Seen, outcome: &Outcome, rigid: f64) -> Option<f64> {
+fn of_hit(seen: KnownFigure, outcome: &Outcome, rigid: f64) -> Option<f64> {
     let energy = &outcome.energy;
     let share = |part: f64| Some(part / energy.initial);
     match seen {
-        Seen::ExitSpeedMPerS => Some(outcome.exit_speed),
-        Seen::RigidExitSpeedMPerS => Some(rigid),
-        Seen::ShareBelowRigid => Some(1.0 - outcome.exit_speed / rigid),
-        Seen::EffectiveRestitution => Some(outcome.bbcor),
-        Seen::BallShare => share(energy.ball),
-        Seen::LostInBallShare => share(energy.dissipated_ball),
-        Seen::RecoilShare => share(energy.bat_rigid),
-        Seen::VibrationShare => share(energy.vibration()),
+        KnownFigure::ExitSpeedMPerS => Some(outcome.exit_speed),
+        KnownFigure::RigidExitSpeedMPerS => Some(rigid),
+        KnownFigure::ShareBelowRigid => Some(1.0 - outcome.exit_speed / rigid),
+        KnownFigure::EffectiveRestitution => Some(outcome.bbcor),
+        KnownFigure::BallShare => share(energy.ball),
+        KnownFigure::LostInBallShare => share(energy.dissipated_ball),
+        KnownFigure::RecoilShare => share(energy.bat_rigid),
+        KnownFigure::VibrationShare => share(energy.vibration()),
         _ => None,
     }
 }

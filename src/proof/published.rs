@@ -1,6 +1,6 @@
 //! How do published numbers of real bats compare with ours?
 //!
-//! [`Answer::all`] computes every case anew, [`side_by_side`] tells those of one bat.
+//! [`PublishedCase::all`] computes every case anew, [`side_by_side`] tells those of one bat.
 
 use std::fmt::Write;
 
@@ -10,12 +10,12 @@ use crate::base::units::inches;
 use crate::bat::theory::Theory;
 use crate::modes::solve::{Request, solve};
 use crate::proof::bundled::CASES;
-use crate::proof::case::{Case, Check, Kind, Known};
+use crate::proof::case::{Case, Check, Known, Provenance};
 use crate::proof::validation::{KnownNumber, run};
 
 /// A case with its rows, one for each check.
 #[derive(Debug)]
-pub struct Answer {
+pub struct PublishedCase {
     /// Name of the case: its file in `validation/`, without the ending.
     pub name: &'static str,
     /// The case.
@@ -24,7 +24,7 @@ pub struct Answer {
     pub rows: Vec<KnownNumber>,
 }
 
-impl Answer {
+impl PublishedCase {
     /// All cases that travel with the program, computed anew.
     ///
     /// # Errors
@@ -56,7 +56,7 @@ impl Answer {
 }
 
 /// The published bats, those with most numbers checked first.
-pub fn bats(answers: &[Answer]) -> Vec<&str> {
+pub fn bats(answers: &[PublishedCase]) -> Vec<&str> {
     let mut bats: Vec<(usize, &str)> = Vec::new();
     for answer in answers {
         let Some(published) = &answer.case.published else { continue };
@@ -120,7 +120,7 @@ struct Line<'a> {
 /// # Errors
 ///
 /// What the bats and their solutions raise.
-pub fn side_by_side(answers: &[&Answer]) -> Result<String> {
+pub fn side_by_side(answers: &[&PublishedCase]) -> Result<String> {
     let lines = lines(answers);
     if lines.is_empty() {
         return Ok(String::new());
@@ -155,7 +155,7 @@ const HEADINGS: [&str; 9] = [
 ];
 
 /// Every mode that a case has a frequency, a ratio or a node of.
-fn lines<'a>(answers: &[&'a Answer]) -> Vec<Line<'a>> {
+fn lines<'a>(answers: &[&'a PublishedCase]) -> Vec<Line<'a>> {
     let mut lines: Vec<Line> = Vec::new();
     for answer in answers {
         let ratio = answer.case.checks.iter().any(|check| check.quantity == Known::FrequencyRatio);
@@ -172,17 +172,20 @@ fn lines<'a>(answers: &[&'a Answer]) -> Vec<Line<'a>> {
     lines
 }
 
-fn row_of(answer: &Answer) -> Option<&str> {
+fn row_of(answer: &PublishedCase) -> Option<&str> {
     answer.case.published.as_ref()?.row.as_deref()
 }
 
 /// What stands in a line of the table, a cell for each heading.
-fn line_of_cells(answers: &[&Answer], line: &Line) -> Result<[String; 9]> {
+fn line_of_cells(answers: &[&PublishedCase], line: &Line) -> Result<[String; 9]> {
     let here = || answers.iter().copied().filter(|answer| row_of(answer) == line.row);
-    let measured = here().find_map(|answer| given(answer, line, |kind, _| kind == Kind::Measured));
+    let measured =
+        here().find_map(|answer| given(answer, line, |kind, _| kind == Provenance::Measured));
     let computed = |shears: bool| {
         here().find_map(|answer| {
-            given(answer, line, |kind, theory| kind == Kind::Computed && theory.shears() == shears)
+            given(answer, line, |kind, theory| {
+                kind == Provenance::Computed && theory.shears() == shears
+            })
         })
     };
     let (plain, sheared) = (computed(false), computed(true));
@@ -228,7 +231,11 @@ fn line_of_cells(answers: &[&Answer], line: &Line) -> Result<[String; 9]> {
 }
 
 /// The published frequency or ratio of a line, where the case's kind and theory are `wanted`.
-fn given(answer: &Answer, line: &Line, wanted: impl Fn(Kind, Theory) -> bool) -> Option<f64> {
+fn given(
+    answer: &PublishedCase,
+    line: &Line,
+    wanted: impl Fn(Provenance, Theory) -> bool,
+) -> Option<f64> {
     let kind = answer.case.published.as_ref()?.kind;
     let theory = answer.case.request().ok()?.theory;
     let quantity = if line.ratio { Known::FrequencyRatio } else { Known::FrequencyHz };
@@ -253,7 +260,7 @@ struct Ours {
 }
 
 /// The mode of that line by that theory, with the case's own mesh if it asks for one.
-fn ours(answer: &Answer, line: &Line, theory: Theory) -> Result<Option<Ours>> {
+fn ours(answer: &PublishedCase, line: &Line, theory: Theory) -> Result<Option<Ours>> {
     let request = Request { theory, modes: line.mode, ..answer.case.request()? };
     let modes = solve(&answer.case.bat()?, &request)?.modes;
     let (Some(first), Some(mode)) = (modes.first(), modes.last()) else { return Ok(None) };
@@ -318,10 +325,10 @@ mod tests {
     fn a_table_has_a_line_for_each_mesh_and_mode_and_only_columns_that_are_filled() {
         let names = ["northwestern_wood_09", "northwestern_wood_20"];
         let cases = CASES.iter().filter(|(name, _)| names.contains(name));
-        let answers: Vec<Answer> = cases
+        let answers: Vec<PublishedCase> = cases
             .map(|&(name, text)| {
                 let (case, rows) = run(name, text).unwrap();
-                Answer { name, case, rows }
+                PublishedCase { name, case, rows }
             })
             .collect();
         assert_eq!(bats(&answers), ["Northwestern wood bat, their finite elements"]);

@@ -18,7 +18,7 @@ use crate::motion::frf::Frf;
 use crate::motion::ringing::Ringing;
 use crate::proof::bundled::bundled_bat;
 use crate::proof::case::{Case, Check, Known, bundled_case, read};
-use crate::proof::known_hits::Seen;
+use crate::proof::known_hits::KnownFigure;
 
 /// A known number beside ours.
 #[derive(Debug, Clone)]
@@ -272,7 +272,7 @@ fn all_found(case: &Case) -> Result<Vec<f64>> {
     let solution = solve(&bat, &request)?;
     if let Some(throw) = &case.hit {
         let wanted = |check: &Check| Some((seen(check)?, check.at.unwrap_or(f64::NAN)));
-        let wanted: Option<Vec<(Seen, f64)>> = case.checks.iter().map(wanted).collect();
+        let wanted: Option<Vec<(KnownFigure, f64)>> = case.checks.iter().map(wanted).collect();
         let expected = "checks of hits only, where something is thrown";
         let wanted = wanted.ok_or_else(|| Error::value(&case.name, "others", expected))?;
         return throw.on_bat(&bat, &solution, &wanted);

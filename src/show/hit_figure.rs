@@ -5,7 +5,7 @@
 use crate::base::error::Result;
 use crate::modes::solve::{Request, solve};
 use crate::proof::case::{Case, Known, bundled_case};
-use crate::proof::known_hits::Seen;
+use crate::proof::known_hits::KnownFigure;
 use crate::show::plot::axis::Axis;
 use crate::show::plot::plane::{Frame, Plane};
 use crate::show::plot::series::{Series, legend_between};
@@ -89,7 +89,7 @@ fn curves(case: &Case) -> Result<Vec<Series>> {
 
 /// The exit speeds that the case knows.
 fn known(case: &Case, name: &str, error: f64) -> Series {
-    let wanted = Known::Hit(Seen::ExitSpeedMPerS);
+    let wanted = Known::Hit(KnownFigure::ExitSpeedMPerS);
     let checks = case.checks.iter().filter(|check| check.quantity == wanted);
     let points = checks.filter_map(|check| Some(Some([100.0 * check.at?, check.expected])));
     let points = Series::curve(name, 1, points.collect());

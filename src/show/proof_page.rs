@@ -8,12 +8,12 @@
 use std::fmt::Write;
 
 use crate::base::error::Result;
-use crate::proof::published::{self, Answer, decimals, number, percent, signed};
+use crate::proof::published::{self, PublishedCase, decimals, number, percent, signed};
 use crate::proof::validation::KnownNumber;
 use crate::show::hit_figure;
 
 /// How many numbers were compared, and how many are missed, in one sentence.
-pub fn verdict(answers: &[Answer]) -> String {
+pub fn verdict(answers: &[PublishedCase]) -> String {
     let rows = || answers.iter().flat_map(|answer| &answer.rows);
     let information = rows().filter(|row| row.information).count();
     let counted = rows().count() - information;
@@ -31,9 +31,9 @@ pub fn verdict(answers: &[Answer]) -> String {
 /// # Errors
 ///
 /// What the solutions that stand side by side raise.
-pub fn text(answers: &[Answer]) -> Result<String> {
+pub fn text(answers: &[PublishedCase]) -> Result<String> {
     let bats = published::bats(answers);
-    let (known, exact): (Vec<&Answer>, Vec<&Answer>) =
+    let (known, exact): (Vec<&PublishedCase>, Vec<&PublishedCase>) =
         answers.iter().partition(|answer| answer.case.published.is_some());
     let mut out = format!("# Known answers beside ours\n\n**{}**\n\n{START}\n", verdict(answers));
     verdicts(&known, &bats, &mut out);
@@ -43,7 +43,7 @@ pub fn text(answers: &[Answer]) -> Result<String> {
     let _ = write!(out, "\n## The hit\n\n![{PICTURE}]({})\n\n{HIT}", hit_figure::FILE);
     let _ = write!(out, "\n## Published bats\n\n{PUBLISHED}");
     for bat in bats {
-        let of_bat: Vec<&Answer> = known.iter().copied().filter(|a| named(a, bat)).collect();
+        let of_bat: Vec<&PublishedCase> = known.iter().copied().filter(|a| named(a, bat)).collect();
         let table = published::side_by_side(&of_bat)?;
         let gap = if table.is_empty() { "" } else { "\n" };
         let _ = write!(out, "\n### {bat}\n{gap}{table}");
@@ -105,12 +105,12 @@ the truths besides is in the case files.
 ";
 
 /// Whether the case is of that bat.
-fn named(answer: &Answer, bat: &str) -> bool {
+fn named(answer: &PublishedCase, bat: &str) -> bool {
     answer.case.published.as_ref().is_some_and(|published| published.bat == bat)
 }
 
 /// A line for each bat: how many of its numbers are within their tolerance, and how far off.
-fn verdicts(known: &[&Answer], bats: &[&str], out: &mut String) {
+fn verdicts(known: &[&PublishedCase], bats: &[&str], out: &mut String) {
     for bat in bats {
         let rows: Vec<&KnownNumber> =
             known.iter().filter(|a| named(a, bat)).flat_map(|a| a.counted()).collect();
@@ -127,7 +127,7 @@ fn verdicts(known: &[&Answer], bats: &[&str], out: &mut String) {
 }
 
 /// How many exact answers there are and the worst of them.
-fn exact_verdict(exact: &[&Answer]) -> String {
+fn exact_verdict(exact: &[&PublishedCase]) -> String {
     let all = exact.iter().map(|answer| answer.counted().count()).sum::<usize>();
     let within = exact.iter().flat_map(|answer| answer.counted()).filter(|row| row.passes());
     let worst = exact.iter().map(|answer| answer.worst()).fold(0.0, f64::max);
@@ -151,7 +151,7 @@ fn anchor(title: &str) -> String {
 }
 
 /// Every number of a case with its tolerance, and the reasons below.
-fn details(answer: &Answer, out: &mut String) {
+fn details(answer: &PublishedCase, out: &mut String) {
     let case = &answer.case;
     let _ = write!(out, "\n#### {} (`{}`)\n\nSource: ", case.name, answer.name);
     let _ = writeln!(out, "{}\n\nOur bat: {}\n", sentence(&case.source), case.bat_source());
@@ -226,7 +226,7 @@ fn tolerance(row: &KnownNumber) -> String {
 }
 
 /// One line for every exact case, and where the truths come from.
-fn exact_table(exact: &[&Answer], out: &mut String) {
+fn exact_table(exact: &[&PublishedCase], out: &mut String) {
     let _ = write!(out, "\n## Exact answers\n\n{EXACT}\n");
     *out += "| case | what | numbers | worst error | truth |\n|---|---|--:|--:|--:|\n";
     let mut sources: Vec<&str> = Vec::new();

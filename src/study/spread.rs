@@ -33,7 +33,7 @@ use crate::collision::hit::{Model, Scene};
 use crate::collision::hitter::Hitter;
 use crate::collision::hoop_wall::{HoopInHit, HoopWall, barrel_walls};
 use crate::collision::sweep::Sweep;
-use crate::collision::sweet_spot::{FEW, Looked, SweetSpot};
+use crate::collision::sweet_spot::{FEW, HitsAlong, SweetSpot};
 use crate::collision::wall_choice::hoop_request;
 use crate::modes::solve::{Request, Solution, solve};
 use crate::study::bat_changes::{Change, PATCH_FACTOR, Property, changed};
@@ -129,7 +129,7 @@ pub struct Source {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
-pub enum Answer {
+pub enum SpreadAnswer {
     /// Mass (kg).
     Mass,
     /// Balance point from the knob end (m).
@@ -152,7 +152,7 @@ pub enum Answer {
     ZoneTo,
 }
 
-impl Answer {
+impl SpreadAnswer {
     /// All answers, in the order in which they are counted.
     pub const ALL: [Self; 10] = [
         Self::Mass,
@@ -173,7 +173,7 @@ impl Answer {
 #[non_exhaustive]
 pub struct Estimate {
     /// Which answer.
-    pub answer: Answer,
+    pub answer: SpreadAnswer,
     /// As it is computed, in the unit of the answer.
     pub value: f64,
     /// Standard deviation, in the same unit; None where a bat that differs in one of the sources has no
@@ -227,9 +227,9 @@ pub struct Analysed<'a> {
 const TOLERANCE: f64 = 1e-6;
 /// Accuracy of exit speeds for which the walls of these bats are solved.
 const WALL_TOLERANCE: f64 = 1e-3;
-const ANSWERS: usize = Answer::ALL.len();
+const ANSWERS: usize = SpreadAnswer::ALL.len();
 
-/// The answers of one bat, or what a source makes of them, in the order of [`Answer::ALL`]; None where
+/// The answers of one bat, or what a source makes of them, in the order of [`SpreadAnswer::ALL`]; None where
 /// there is none, as of a place that no ball is hit at.
 type Answers = [Option<f64>; ANSWERS];
 
@@ -238,7 +238,7 @@ struct Settled {
     property: Property,
     source: Source,
     /// What was read; None of a bat that was edited since, whose answer is another one.
-    answer: Option<Answer>,
+    answer: Option<SpreadAnswer>,
     /// Standard deviation of the reading, in the unit of the answer; without one, of the property that
     /// it settled, relative.
     size: f64,
@@ -301,12 +301,12 @@ impl Spread {
     }
 
     /// What is open of an answer, if there is that answer.
-    pub fn of(&self, answer: Answer) -> Option<&Estimate> {
+    pub fn of(&self, answer: SpreadAnswer) -> Option<&Estimate> {
         self.estimates.iter().find(|estimate| estimate.answer == answer)
     }
 
     /// The source that moves an answer most, and its share of the variance; None where nothing does.
-    pub fn mostly(&self, answer: Answer) -> Option<(&Source, f64)> {
+    pub fn mostly(&self, answer: SpreadAnswer) -> Option<(&Source, f64)> {
         let estimate = self.of(answer)?;
         let squares = estimate.parts.iter().map(|part| part * part);
         let (most, square) = squares.enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
@@ -326,7 +326,7 @@ fn settled(analysed: &Analysed, readings: &Readings, left_out: &mut Vec<String>)
     let scale = weighed.mass.map(|mass| Settled {
         property: Property::Density,
         source: whole(Input::Mass, readings.mass),
-        answer: (!edited).then_some(Answer::Mass),
+        answer: (!edited).then_some(SpreadAnswer::Mass),
         size: if edited { readings.mass / mass } else { readings.mass },
     });
     let tap = weighed.first_bending.and_then(|note| {
@@ -410,7 +410,7 @@ fn materials(bat: &Bat) -> Vec<(String, Material)> {
 /// Holds a reading while a property of the whole bat gives way: takes from every row what moves the
 /// answer that was read, and returns what a change of that reading by 1 does. None if the property does
 /// not move it.
-fn settle(rows: &mut [Row], factor: &Answers, answer: Answer) -> Option<Answers> {
+fn settle(rows: &mut [Row], factor: &Answers, answer: SpreadAnswer) -> Option<Answers> {
     let of_reading = factor[answer as usize].filter(|slope| *slope != 0.0)?;
     let by = factor.map(|slope| Some(slope? / of_reading));
     for (_, parts) in rows {
@@ -424,7 +424,7 @@ fn settle(rows: &mut [Row], factor: &Answers, answer: Answer) -> Option<Answers>
 
 /// The answers with what all sources together make of them.
 fn estimates(values: &Answers, rows: &[Row]) -> Vec<Estimate> {
-    let of = |(answer, value): (Answer, &Option<f64>)| {
+    let of = |(answer, value): (SpreadAnswer, &Option<f64>)| {
         let parts: Option<Vec<f64>> =
             rows.iter().map(|(_, parts)| parts[answer as usize]).collect();
         let size = |parts: &Vec<f64>| parts.iter().map(|part| part * part).sum::<f64>().sqrt();
@@ -432,7 +432,7 @@ fn estimates(values: &Answers, rows: &[Row]) -> Vec<Estimate> {
         let deviation = parts.as_ref().map(size);
         Some(Estimate { answer, value: (*value)?, deviation, parts: parts.unwrap_or_default() })
     };
-    Answer::ALL.into_iter().zip(values).filter_map(of).collect()
+    SpreadAnswer::ALL.into_iter().zip(values).filter_map(of).collect()
 }
 
 impl Analysed<'_> {
@@ -443,12 +443,15 @@ impl Analysed<'_> {
     }
 
     /// Which frequency is the tapped note (Hz), up to what a rough accuracy leaves of it.
-    fn tapped(&self, note: f64) -> Option<Answer> {
-        let same = |answer: &&Answer| {
+    fn tapped(&self, note: f64) -> Option<SpreadAnswer> {
+        let same = |answer: &&SpreadAnswer| {
             let found = self.answers()[**answer as usize];
             found.is_some_and(|found| (found / note - 1.0).abs() < 0.01)
         };
-        [Answer::Frequency1, Answer::Frequency2, Answer::Frequency3].iter().find(same).copied()
+        [SpreadAnswer::Frequency1, SpreadAnswer::Frequency2, SpreadAnswer::Frequency3]
+            .iter()
+            .find(same)
+            .copied()
     }
 
     /// What a change by 1 makes of every answer, by central differences; None where a bat that differs
@@ -501,7 +504,7 @@ impl Analysed<'_> {
         };
         let scene = Scene { swing, hoop, ..scene };
         let hitter = Hitter::new(self.model, &scene, bat, &solution, self.hits.effort)?;
-        let looked = Looked::outer(FEW, &hitter);
+        let looked = HitsAlong::outer(FEW, &hitter);
         let peak = looked.fastest();
         let hit = peak.map(|peak| ([peak.x, peak.value], looked.zone(peak)));
         let hit = answers(bat, &solution, hit);
@@ -515,19 +518,19 @@ fn answers(bat: &Bat, solution: &Solution, hit: Option<([f64; 2], [f64; 2])>) ->
     let inertia = bat.inertia();
     let frequency = |k: usize| solution.modes.get(k).map(|mode| mode.omega / TAU);
     let ([best, speed], [from, to]) = hit.unwrap_or(([f64::NAN; 2], [f64::NAN; 2]));
-    let of = |answer: Answer| match answer {
-        Answer::Mass => Some(inertia.mass),
-        Answer::BalancePoint => Some(inertia.balance_point),
-        Answer::SwingWeight => Some(inertia.about(STANDARD_PIVOT)),
-        Answer::Frequency1 => frequency(0),
-        Answer::Frequency2 => frequency(1),
-        Answer::Frequency3 => frequency(2),
-        Answer::BestPlace => hit.map(|_| best),
-        Answer::ExitSpeed => hit.map(|_| speed),
-        Answer::ZoneFrom => hit.map(|_| from),
-        Answer::ZoneTo => hit.map(|_| to),
+    let of = |answer: SpreadAnswer| match answer {
+        SpreadAnswer::Mass => Some(inertia.mass),
+        SpreadAnswer::BalancePoint => Some(inertia.balance_point),
+        SpreadAnswer::SwingWeight => Some(inertia.about(STANDARD_PIVOT)),
+        SpreadAnswer::Frequency1 => frequency(0),
+        SpreadAnswer::Frequency2 => frequency(1),
+        SpreadAnswer::Frequency3 => frequency(2),
+        SpreadAnswer::BestPlace => hit.map(|_| best),
+        SpreadAnswer::ExitSpeed => hit.map(|_| speed),
+        SpreadAnswer::ZoneFrom => hit.map(|_| from),
+        SpreadAnswer::ZoneTo => hit.map(|_| to),
     };
-    Answer::ALL.map(of)
+    SpreadAnswer::ALL.map(of)
 }
 
 /// Relative standard deviation of every frequency of a bat of one wood by the wood alone, without a

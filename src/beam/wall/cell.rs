@@ -20,7 +20,7 @@
 use pulp::{Simd, WithSimd};
 
 use crate::base::lanes::widest;
-use crate::beam::wall::columns::Part;
+use crate::beam::wall::columns::LayerElement;
 use crate::beam::wall::elastic::Elastic;
 use crate::beam::wall::shapes::Shapes;
 
@@ -101,7 +101,7 @@ const MATRICES: usize = 7;
 
 impl Cell {
     /// The integrals over a part of a column of length `h` (m).
-    pub fn new(part: &Part, rule: &Rule, h: f64) -> Self {
+    pub fn new(part: &LayerElement, rule: &Rule, h: f64) -> Self {
         widest(Integration { part, rule, h })
     }
 
@@ -155,7 +155,7 @@ impl Cell {
 
 /// The integrals over one part.
 struct Integration<'a> {
-    part: &'a Part,
+    part: &'a LayerElement,
     rule: &'a Rule,
     h: f64,
 }
@@ -215,7 +215,7 @@ impl WithSimd for Integration<'_> {
 
 /// The sums across at point `k` along, for all pairs of functions across.
 #[inline(always)]
-fn across(part: &Part, rule: &Rule, h: f64, k: usize, kinds: &mut [f64]) {
+fn across(part: &LayerElement, rule: &Rule, h: f64, k: usize, kinds: &mut [f64]) {
     let q = rule.across.count;
     let square = q * q;
     let xi = rule.along.places[k];
@@ -252,7 +252,7 @@ fn across(part: &Part, rule: &Rule, h: f64, k: usize, kinds: &mut [f64]) {
 /// Strain energy and mass that a motion of an element has, from its strains at the points: twice the strain
 /// energy, and the integral of `ρ|u|²`, both without the factor π. `motion` is U, V, W in all functions.
 pub fn energies(
-    part: &Part,
+    part: &LayerElement,
     rule: &Rule,
     h: f64,
     of: &Elastic,

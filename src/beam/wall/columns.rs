@@ -38,7 +38,7 @@ pub struct Grading {
 
 /// A layer of a column, or a part of one: an element.
 #[derive(Debug, Clone)]
-pub struct Part {
+pub struct LayerElement {
     /// Index of its material.
     pub material: usize,
     /// Radius inside, along the column.
@@ -55,7 +55,7 @@ pub struct Column {
     /// Where it ends (m).
     pub to: f64,
     /// The elements, from the inside out.
-    pub parts: Vec<Part>,
+    pub parts: Vec<LayerElement>,
 }
 
 impl Column {
@@ -211,7 +211,7 @@ fn divide(
                     false => radii[k].towards(&radii[k + 1], *share),
                 };
                 let next = outer.clone();
-                parts.push(Part { material: *material, inner, outer });
+                parts.push(LayerElement { material: *material, inner, outer });
                 inner = next;
             }
         }

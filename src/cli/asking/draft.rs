@@ -8,7 +8,7 @@ use std::env;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use crate::base::own_file::{OwnFile, Place, look};
+use crate::base::own_file::{AtPath, OwnFile, look};
 
 use crate::cli::common::printed;
 use crate::cli::done::printable;
@@ -65,13 +65,13 @@ impl Draft {
             let path = draft.at(place);
             let name = printed(&path);
             let instead = match look(&path, &draft.header) {
-                Place::Free => {
+                AtPath::Free => {
                     draft.place = draft.place.min(place);
                     continue;
                 }
-                Place::Held => format!("{name} is another dialogue's"),
-                Place::Other => format!("{name} is another file"),
-                Place::Own(file, text) => match read(&text[draft.header.len()..]) {
+                AtPath::Held => format!("{name} is another dialogue's"),
+                AtPath::Other => format!("{name} is another file"),
+                AtPath::Own(file, text) => match read(&text[draft.header.len()..]) {
                     Some(found) if draft.is_of(&found) => {
                         (draft.place, draft.file) = (place, Some(file));
                         return (draft, Some(found));

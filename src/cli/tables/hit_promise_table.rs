@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use crate::base::number::percent;
-use crate::proof::hit_promise::{CheckedHit, Course, Summary};
+use crate::proof::hit_promise::{CheckedHit, ReferenceCourse, Summary};
 use crate::show::report::columns::{Columns, first, labels, numbers};
 
 const TITLE: &str = "Errors of exit speeds on random hits, relative to the closing speed:
@@ -19,7 +19,7 @@ pub fn summary(rows: &[CheckedHit]) -> String {
     for bat in bats {
         line(&mut out, bat, rows.iter().filter(|row| row.bat == bat));
     }
-    for (course, name) in Course::ALL {
+    for (course, name) in ReferenceCourse::ALL {
         line(&mut out, name, rows.iter().filter(|row| row.course == course));
     }
     line(&mut out, "all", rows.iter());
@@ -57,8 +57,10 @@ pub fn table(rows: &[CheckedHit]) -> String {
         "hit  bat        what happens      tol     true   stated  known to  ratio  met\n",
     );
     for row in rows {
-        let (_, course) =
-            Course::ALL.into_iter().find(|(c, _)| *c == row.course).unwrap_or(Course::ALL[0]);
+        let (_, course) = ReferenceCourse::ALL
+            .into_iter()
+            .find(|(c, _)| *c == row.course)
+            .unwrap_or(ReferenceCourse::ALL[0]);
         let _ = writeln!(
             out,
             "{:>3}  {:<9}  {course:<13}  {:>5.0e}  {:>7.1e}  {:>7.1e}   {:>7.1e}  {:>5.2}  {}",

@@ -10,10 +10,10 @@ use crate::collision::contact::collocation::{LANES, Lobatto, POINTS};
 use crate::collision::contact::encounter::Encounter;
 use crate::collision::contact::flight::Landing;
 use crate::collision::contact::force_law::ForceLaw;
-use crate::collision::contact::pressing::{LEVELS, Means, Run, USUAL};
+use crate::collision::contact::pressing::{LEVELS, Run, StepTables, USUAL};
 use crate::collision::contact::table::{Piece, StepTable};
 use crate::collision::contact::tangent::Tangent;
-use crate::collision::contact::touch::{Felt, State, Swings, Touch, Tuning};
+use crate::collision::contact::touch::{DrivingPoint, State, Swings, Touch, Tuning};
 
 /// A bat's modes in time, for any impact point: the tables are shared.
 #[derive(Debug, Clone)]
@@ -61,7 +61,7 @@ impl Collider {
 
     /// The encounter at that place, ball and bat nearing at `speed` (m/s), with as many modes as there
     /// are gains, in steps whose force is off by about `accuracy`, relative.
-    pub fn meet(&self, felt: &Felt, law: &dyn Law, speed: f64, accuracy: f64) -> Encounter {
+    pub fn meet(&self, felt: &DrivingPoint, law: &dyn Law, speed: f64, accuracy: f64) -> Encounter {
         self.meet_beside(felt, &[], law, speed, accuracy)
     }
 
@@ -69,8 +69,8 @@ impl Collider {
     /// modes.
     pub fn meet_beside(
         &self,
-        felt: &Felt,
-        others: &[Felt],
+        felt: &DrivingPoint,
+        others: &[DrivingPoint],
         law: &dyn Law,
         speed: f64,
         accuracy: f64,
@@ -81,7 +81,7 @@ impl Collider {
     /// The encounter, and its force in time, piece by piece, from the first touch to the last.
     pub fn meet_recorded(
         &self,
-        felt: &Felt,
+        felt: &DrivingPoint,
         law: &dyn Law,
         speed: f64,
         accuracy: f64,
@@ -96,15 +96,15 @@ impl Collider {
 /// A ball about to meet a bat.
 pub struct Meeting<'a> {
     collider: &'a Collider,
-    felt: &'a Felt,
-    others: &'a [Felt],
+    felt: &'a DrivingPoint,
+    others: &'a [DrivingPoint],
     speed: f64,
     accuracy: f64,
     history: Option<&'a mut Vec<Piece>>,
 }
 
 /// A meeting of ball and bat by the ball's law.
-struct Struck<'a, L> {
+struct Touches<'a, L> {
     law: L,
     meeting: Meeting<'a>,
 }
@@ -121,7 +121,7 @@ pub trait Law: Send + Sync {
 
 impl<L: ForceLaw> Law for L {
     fn meet(&self, meeting: Meeting<'_>) -> Encounter {
-        widest(Struck { law: *self, meeting })
+        widest(Touches { law: *self, meeting })
     }
 
     fn pressed_by(&self, energy: f64) -> f64 {
@@ -129,7 +129,7 @@ impl<L: ForceLaw> Law for L {
     }
 }
 
-impl<L: ForceLaw> WithSimd for Struck<'_, L> {
+impl<L: ForceLaw> WithSimd for Touches<'_, L> {
     type Output = Encounter;
 
     #[inline(always)]
@@ -158,7 +158,7 @@ impl<L: ForceLaw> WithSimd for Struck<'_, L> {
             accuracy,
             tuning: *tuning,
         };
-        touch.go(Means { all, tables, longest: *longest, history, others })
+        touch.go(StepTables { all, tables, longest: *longest, history, others })
     }
 }
 
@@ -181,7 +181,7 @@ fn deepest(law: &impl ForceLaw, rest: f64, energy: f64) -> f64 {
 impl<L: ForceLaw> Touch<'_, L> {
     /// Touch by touch until the ball is gone for good.
     #[inline(always)]
-    fn go(&self, mut means: Means) -> Encounter {
+    fn go(&self, mut means: StepTables) -> Encounter {
         let mut met = Encounter { touches: 1, ..Encounter::default() };
         let [now, next, between] =
             [0, 1, 2].map(|_| State::at_first(self.swings.len(), self.speed));
@@ -233,7 +233,7 @@ impl<L: ForceLaw> Touch<'_, L> {
     }
 
     /// Lets ball and bat move while there is next to no force; whether it comes back.
-    fn glide(&self, run: &mut Run, means: &mut Means, between: [f64; 2]) -> bool {
+    fn glide(&self, run: &mut Run, means: &mut StepTables, between: [f64; 2]) -> bool {
         let start = run.now.time;
         let landing = self.fly(run, between, f64::INFINITY);
         let length = run.now.time - start;
@@ -277,7 +277,7 @@ mod tests {
 
     /// ω, ζ = 0 and `c_n` of a free uniform dowel, 238.9 Hz, 0.85 kg, 0.838 m, struck at the
     /// fraction `at` of its length; all modes and the ball's and the rigid dowel's 1/μ.
-    fn dowel(modes: usize, at: f64, ball: f64) -> (Vec<[f64; 2]>, Felt) {
+    fn dowel(modes: usize, at: f64, ball: f64) -> (Vec<[f64; 2]>, DrivingPoint) {
         let mass = 0.850_416;
         let first = dowel::beta_l(Ends::FreeFree, 1);
         let omega = |n: usize| {
@@ -285,7 +285,7 @@ mod tests {
         };
         let gain =
             |n: usize| (energy_loss::wpi_shape(n, at) / energy_loss::wpi_alpha(n)).powi(2) / mass;
-        let felt = Felt {
+        let felt = DrivingPoint {
             inverse_mass: 1.0 / ball + (1.0 + 12.0 * (at - 0.5).powi(2)) / mass,
             gains: (1..=modes).map(gain).collect(),
             rest: 0.0,
@@ -295,7 +295,7 @@ mod tests {
 
     fn meet(
         modes: &[[f64; 2]],
-        felt: &Felt,
+        felt: &DrivingPoint,
         law: &PowerLaw,
         speed: f64,
         accuracy: f64,
@@ -310,7 +310,7 @@ mod tests {
         for restitution in [0.1, 0.5, 0.9, 1.0] {
             for speed in [1e-3, 1.0, 60.0] {
                 let law = PowerLaw::new(6.53e7, 1.84, restitution);
-                let felt = Felt { inverse_mass: 1.0 / BALL, ..Felt::default() };
+                let felt = DrivingPoint { inverse_mass: 1.0 / BALL, ..DrivingPoint::default() };
                 let met = meet(&[], &felt, &law, speed, 1e-4);
                 let back = met.impulse / BALL - speed;
                 assert!((back / speed - restitution).abs() < 1e-12, "{restitution} {speed} {back}");

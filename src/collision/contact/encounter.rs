@@ -30,7 +30,7 @@
 //! method. Exact motion under a polynomial load: variation of constants. Energy by projection: E. Hairer, C. Lubich,
 //! G. Wanner, Geometric Numerical Integration (2006), section IV.4.
 
-use crate::collision::contact::touch::Felt;
+use crate::collision::contact::touch::DrivingPoint;
 
 /// A meeting that needs more steps than this has failed.
 pub const MOST_STEPS: usize = 20_000;
@@ -91,7 +91,7 @@ impl Encounter {
 
     /// Whether the steps came to an end and the energies close, ball and bat having neared at `speed`
     /// (m/s): what is left of the rigid motions' energy is all that is not lost or in the modes.
-    pub fn is_sound(&self, felt: &Felt, speed: f64) -> bool {
+    pub fn is_sound(&self, felt: &DrivingPoint, speed: f64) -> bool {
         /// Share of the energy that may be missing or too much.
         const BOUND: f64 = 1e-9;
         let after = speed - self.impulse * felt.inverse_mass;

@@ -3,7 +3,7 @@
 use crate::collision::contact::collocation::{LANES, Lanes, POINTS, sum};
 use crate::collision::contact::energy::Limits;
 use crate::collision::contact::force_law::{ForceLaw, Top};
-use crate::collision::contact::step::{Course, Step};
+use crate::collision::contact::step::{CompressionPath, Step};
 use crate::collision::contact::table::StepTable;
 use crate::collision::contact::touch::{State, Touch};
 use crate::motion::phi::moments;
@@ -116,7 +116,7 @@ impl<L: ForceLaw> Touch<'_, L> {
             let (mut last, mut end) = (*step, time);
             for _ in 0..4 {
                 let table = StepTable::new(self.rule, self.poles, end);
-                let course = Course { from: 0.0, ..self.course(step) };
+                let course = CompressionPath { from: 0.0, ..self.course(step) };
                 (last, _) = self.solve(&table, &self.coupling(&table), now, top, Some(&course));
                 self.advance(&table, now, &last, next);
                 let [x, rate] = self.distance(event, next, top);

@@ -158,7 +158,7 @@ mod tests {
     use crate::base::golden;
     use crate::collision::contact::collocation::Lobatto;
     use crate::collision::contact::power_law::PowerLaw;
-    use crate::collision::contact::touch::{Felt, Swings, Tuning};
+    use crate::collision::contact::touch::{DrivingPoint, Swings, Tuning};
 
     #[test]
     fn a_growth_takes_at_least_that_long() {
@@ -189,7 +189,7 @@ mod tests {
             let poles: Vec<c64> = (0..MODES.next_multiple_of(LANES)).map(pole).collect();
             let gain = |n: usize| if n < MODES { 1.0 } else { 0.0 };
             let lanes = (0..poles.len()).step_by(LANES);
-            let felt = Felt { inverse_mass: 8.0, gains: vec![1.0; MODES], rest: 0.0 };
+            let felt = DrivingPoint { inverse_mass: 8.0, gains: vec![1.0; MODES], rest: 0.0 };
             let touch = Touch {
                 rule: &rule,
                 poles: &poles,

@@ -10,10 +10,10 @@ use crate::collision::contact::encounter::{Encounter, MOST_STEPS};
 use crate::collision::contact::energy::Limits;
 use crate::collision::contact::events::{CLOSED, Event, Stop};
 use crate::collision::contact::force_law::{ForceLaw, Top};
-use crate::collision::contact::step::{Coupling, Course, Step};
+use crate::collision::contact::step::{CompressionPath, Coupling, Step};
 use crate::collision::contact::table::{Piece, StepTable};
 use crate::collision::contact::tangent::{Tangent, Walked};
-use crate::collision::contact::touch::{Felt, State, Touch};
+use crate::collision::contact::touch::{DrivingPoint, State, Touch};
 
 /// Halvings of the longest step.
 pub(super) const LEVELS: usize = 42;
@@ -33,7 +33,7 @@ pub(super) struct Run {
     /// The largest compression of this touch, once the ball is on its way back.
     pub top: Option<Top>,
     /// The last step's compression.
-    pub last: Option<Course>,
+    pub last: Option<CompressionPath>,
     /// Level of the next step, whose length is `longest/2^level`.
     pub level: usize,
     /// Whether the force has almost gone.
@@ -58,16 +58,16 @@ enum Taken {
 }
 
 /// Tables of steps, made when first needed, and who wants to know the force.
-pub(super) struct Means<'a> {
+pub(super) struct StepTables<'a> {
     pub all: &'a [c64],
     pub tables: &'a [OnceLock<StepTable>],
     pub longest: f64,
     pub history: Option<&'a mut Vec<Piece>>,
     /// Bats beside it.
-    pub others: &'a [Felt],
+    pub others: &'a [DrivingPoint],
 }
 
-impl Means<'_> {
+impl StepTables<'_> {
     pub(super) fn record(&mut self, piece: Piece) {
         self.history.iter_mut().for_each(|history| history.push(piece));
     }
@@ -75,10 +75,10 @@ impl Means<'_> {
 
 /// A part of the force that is done: what the energy was off by, relative, the force, and how the
 /// compression went.
-struct Part {
+struct DoneStep {
     off: f64,
     piece: Piece,
-    course: Course,
+    course: CompressionPath,
 }
 
 impl<L: ForceLaw> Touch<'_, L> {
@@ -92,7 +92,7 @@ impl<L: ForceLaw> Touch<'_, L> {
 
     /// Steps until the ball has left or its force has gone; whether they come to an end.
     #[inline(always)]
-    pub(super) fn press(&self, run: &mut Run, means: &mut Means, met: &mut Encounter) -> bool {
+    pub(super) fn press(&self, run: &mut Run, means: &mut StepTables, met: &mut Encounter) -> bool {
         while run.steps < MOST_STEPS && met.corrected <= 1.0 {
             run.steps += 1;
             met.steps = run.steps;
@@ -107,7 +107,7 @@ impl<L: ForceLaw> Touch<'_, L> {
     }
 
     #[inline(always)]
-    fn step(&self, run: &mut Run, means: &mut Means, met: &mut Encounter) -> Taken {
+    fn step(&self, run: &mut Run, means: &mut StepTables, met: &mut Encounter) -> Taken {
         let Run { now, next, top, last, level, .. } = run;
         let length = means.longest * 0.5_f64.powi(*level as i32);
         let (all, tables) = (means.all, means.tables);
@@ -140,7 +140,7 @@ impl<L: ForceLaw> Touch<'_, L> {
             None => self.complete(limits, step, table, run),
             Some(event) => self.stop_short(event, limits, step, run),
         };
-        let Some(Part { off, piece, course }) = taken else { return Taken::Finer };
+        let Some(DoneStep { off, piece, course }) = taken else { return Taken::Finer };
         if !run.tangents.is_empty() {
             let Run { now, next, top, tangents, between, .. } = &mut *run;
             let (top, coupling, step) = (*top, &coupling, &step);
@@ -164,11 +164,11 @@ impl<L: ForceLaw> Touch<'_, L> {
         step: Step,
         table: &StepTable,
         run: &mut Run,
-    ) -> Option<Part> {
+    ) -> Option<DoneStep> {
         let Run { now, next, .. } = run;
         let off = self.correct(next, table.length, &table.bump, limits)?;
         let piece = step.until(now, next);
-        (!limits.pulls(&piece)).then(|| Part { off, piece, course: self.course(&step) })
+        (!limits.pulls(&piece)).then(|| DoneStep { off, piece, course: self.course(&step) })
     }
 
     /// A step to an event in it; None where it is to be shorter.
@@ -179,7 +179,7 @@ impl<L: ForceLaw> Touch<'_, L> {
         limits: Limits,
         mut step: Step,
         run: &mut Run,
-    ) -> Option<Part> {
+    ) -> Option<DoneStep> {
         let Run { now, next, .. } = run;
         let top = limits.top;
         let off = self.stop(Stop { event, limits }, now, &mut step, next)?;
@@ -193,7 +193,11 @@ impl<L: ForceLaw> Touch<'_, L> {
             _ => false,
         };
         let from = piece.length / step.length;
-        (!missed).then(|| Part { off, piece, course: Course { from, ..self.course(&step) } })
+        (!missed).then(|| DoneStep {
+            off,
+            piece,
+            course: CompressionPath { from, ..self.course(&step) },
+        })
     }
 
     /// From a step's end to the next step, which may be longer.

@@ -24,7 +24,7 @@ pub struct Step {
 
 /// A step's compression as a polynomial of the time over the length, and where the next step begins.
 #[derive(Debug, Clone, Copy)]
-pub struct Course {
+pub struct CompressionPath {
     /// How long the step is (s).
     pub length: f64,
     /// Where the next step begins, in lengths of this one.
@@ -88,7 +88,7 @@ impl<L: ForceLaw> Touch<'_, L> {
         coupling: &Coupling,
         now: &State,
         top: Option<Top>,
-        last: Option<&Course>,
+        last: Option<&CompressionPath>,
     ) -> (Step, bool) {
         const ROUNDS: usize = 16;
         let length = table.length;
@@ -168,7 +168,7 @@ impl<L: ForceLaw> Touch<'_, L> {
         free: &[f64; AHEAD],
         now: &State,
         top: Option<Top>,
-        last: Option<&Course>,
+        last: Option<&CompressionPath>,
     ) -> [f64; AHEAD] {
         let most = match top {
             Some(_) => now.compression * (1.0 + RISE * self.law.fine(top)),
@@ -216,8 +216,12 @@ impl<L: ForceLaw> Touch<'_, L> {
 
     /// The compression of a step, to go on from its end.
     #[inline(always)]
-    pub fn course(&self, step: &Step) -> Course {
-        Course { length: step.length, from: 1.0, powers: self.rule.through(&step.compression) }
+    pub fn course(&self, step: &Step) -> CompressionPath {
+        CompressionPath {
+            length: step.length,
+            from: 1.0,
+            powers: self.rule.through(&step.compression),
+        }
     }
 
     /// How far the force is from a polynomial: the impulse of its last term, relative, or of what the

@@ -24,7 +24,7 @@ use crate::collision::contact::events::Event;
 use crate::collision::contact::force_law::{ForceLaw, Top};
 use crate::collision::contact::step::{AHEAD, Coupling, Step, eliminate};
 use crate::collision::contact::table::StepTable;
-use crate::collision::contact::touch::{Felt, State, Swings, Touch};
+use crate::collision::contact::touch::{DrivingPoint, State, Swings, Touch};
 
 /// A bat that gives way a little differently, and how ball and bat differ for it.
 pub(super) struct Tangent {
@@ -68,7 +68,7 @@ pub(super) struct Walked<'a> {
 
 impl<L: ForceLaw> Touch<'_, L> {
     /// The difference of another bat, with no more modes, at the moment of the first touch.
-    pub(super) fn tangent(&self, other: &Felt) -> Tangent {
+    pub(super) fn tangent(&self, other: &DrivingPoint) -> Tangent {
         let mut gains = other.gains.iter().copied().chain(std::iter::repeat(0.0));
         let mut change = |weight: f64, swing: f64| gains.next().map_or(0.0, |c| c / swing - weight);
         let of = |of: &Swings| std::array::from_fn(|l| change(of.weight[l], of.swing[l]));
@@ -159,12 +159,16 @@ mod tests {
 
     const MODES: [[f64; 2]; 3] = [[1100.0, 0.0], [3700.0, 0.02], [8000.0, 0.0]];
 
-    fn bat() -> Felt {
-        Felt { inverse_mass: 1.0 / 0.145 + 1.0 / 0.8, gains: vec![0.5, 0.8, 1.0], rest: 2e-8 }
+    fn bat() -> DrivingPoint {
+        DrivingPoint {
+            inverse_mass: 1.0 / 0.145 + 1.0 / 0.8,
+            gains: vec![0.5, 0.8, 1.0],
+            rest: 2e-8,
+        }
     }
 
     /// Another bat, the gain of a mode or (of none) the flexibility larger by that share.
-    fn other(which: usize, share: f64) -> Felt {
+    fn other(which: usize, share: f64) -> DrivingPoint {
         let mut other = bat();
         match other.gains.get_mut(which) {
             Some(gain) => *gain *= 1.0 + share,
@@ -180,7 +184,7 @@ mod tests {
         for restitution in [0.4, 0.55, 0.8, 1.0] {
             let law = PowerLaw::new(6.53e7, 1.84, restitution);
             let collider = Collider::new(&MODES, 8e-5);
-            let others: Vec<Felt> = (0..4).map(|which| other(which, SHARE)).collect();
+            let others: Vec<DrivingPoint> = (0..4).map(|which| other(which, SHARE)).collect();
             let met = collider.meet_beside(&bat(), &others, &law, 60.0, 1e-6);
             assert_eq!(met.impulse, collider.meet(&bat(), &law, 60.0, 1e-6).impulse);
             assert_eq!([met.reloads, met.touches], [0, 1], "{restitution}");
@@ -201,7 +205,7 @@ mod tests {
     fn a_mode_fewer_is_a_gain_of_zero() {
         let law = PowerLaw::new(6.53e7, 1.84, 0.5);
         let none = other(2, -1.0);
-        let fewer = Felt { gains: none.gains[..2].to_vec(), ..none.clone() };
+        let fewer = DrivingPoint { gains: none.gains[..2].to_vec(), ..none.clone() };
         let met = Collider::new(&MODES, 8e-5).meet_beside(&bat(), &[none, fewer], &law, 60.0, 1e-3);
         assert_eq!(met.changes[0], met.changes[1]);
         assert!(met.changes[0].abs() > 1e-5 * met.impulse);
@@ -220,10 +224,10 @@ mod tests {
             let struck = |which, share| {
                 let felt = other(which, share);
                 let gains = felt.gains.iter().zip(by).map(|(c, by)| c * by).collect();
-                Felt { gains, ..felt }
+                DrivingPoint { gains, ..felt }
             };
             let collider = Collider::new(&MODES, 8e-5);
-            let others: Vec<Felt> = (0..4).map(|which| struck(which, SHARE)).collect();
+            let others: Vec<DrivingPoint> = (0..4).map(|which| struck(which, SHARE)).collect();
             let met = collider.meet_beside(&struck(4, 0.0), &others, &law, 60.0, 1e-9);
             anew += usize::from(met.reloads > 0);
             again += usize::from(met.again());

@@ -8,7 +8,7 @@ use crate::collision::contact::force_law::{ForceLaw, Top};
 
 /// The bat as the ball feels it at one place.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Felt {
+pub struct DrivingPoint {
     /// `1/μ` (1/kg): the ball's own mass and the rigid bat's.
     pub inverse_mass: f64,
     /// `c_n = φ_n(a)²/m_n` (1/kg).
@@ -130,7 +130,7 @@ pub struct Touch<'a, L> {
     /// The modes by lanes.
     pub swings: Vec<Swings>,
     /// The bat as the ball feels it there.
-    pub felt: &'a Felt,
+    pub felt: &'a DrivingPoint,
     /// Whether any mode dies out.
     pub damped: bool,
     /// The ball's law.

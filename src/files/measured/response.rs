@@ -13,7 +13,7 @@ use crate::base::units::{INCH, POUND_FORCE, Quantity, factor};
 use crate::files::measured::direction::{Vector, axis};
 use crate::files::measured::places::Places;
 use crate::files::uff::{self, Dataset, Dof, Function, Units, Universal, Values, at_line};
-use crate::motion::frf::Kind;
+use crate::motion::frf::ResponseKind;
 use crate::study::measured::response::MeasuredResponse;
 
 /// Standard gravity (m/s²): some programs call their accelerations `g` and mean it.
@@ -22,8 +22,8 @@ const GRAVITY: f64 = 9.80665;
 const RESPONSE: i64 = 4;
 /// Kinds of data of an axis: frequency; displacement, velocity, acceleration; forces.
 const FREQUENCY: i64 = 18;
-const ANSWERS: [(i64, Kind); 3] =
-    [(8, Kind::Receptance), (11, Kind::Mobility), (12, Kind::Accelerance)];
+const ANSWERS: [(i64, ResponseKind); 3] =
+    [(8, ResponseKind::Receptance), (11, ResponseKind::Mobility), (12, ResponseKind::Accelerance)];
 const FORCES: [i64; 2] = [9, 13];
 
 /// What is known of a file of responses that it does not say.
@@ -36,7 +36,7 @@ pub struct Known {
     /// The unit of the answers, with that of the force, as axes name them: `g/lbf`.
     pub label: Option<String>,
     /// The kind of an answer whose axis does not say it.
-    pub kind: Option<Kind>,
+    pub kind: Option<ResponseKind>,
     /// Where the nodes of a file without geometry are.
     pub places: Option<Places>,
     /// Whether the places of the force and of the answer are given beside the file.
@@ -113,7 +113,7 @@ impl ResponseFile<'_> {
     fn units(
         &self,
         function: &Function,
-        kind: Kind,
+        kind: ResponseKind,
         wrong: &impl Fn(usize, String, &str) -> Error,
     ) -> Result<(f64, Vec<String>)> {
         let labels = Labels::of(function, kind);
@@ -240,17 +240,17 @@ struct Labels {
 }
 
 impl Labels {
-    fn of(function: &Function, kind: Kind) -> Self {
+    fn of(function: &Function, kind: ResponseKind) -> Self {
         Self::read(&function.axes[1].unit, &function.axes[2].unit, kind)
     }
 
-    fn read(own: &str, below: &str, kind: Kind) -> Self {
+    fn read(own: &str, below: &str, kind: ResponseKind) -> Self {
         let [own, below] = [own, below].map(plain);
         let force = force_unit(&below);
         if let Some(answer) = answer_unit(&own, kind) {
             return Self { answer: Some(answer), force, torn: false };
         }
-        if own == "1/kg" && kind == Kind::Accelerance {
+        if own == "1/kg" && kind == ResponseKind::Accelerance {
             return Self { answer: Some(1.0), force: Some(1.0), torn: false };
         }
         // The whole unit on one axis, the force at any place below a line: g/lbf, m/s2/N, 1/N*m/s2, m/Ns2.
@@ -286,9 +286,9 @@ impl Labels {
     }
 
     /// What other units than SI are taken, for people.
-    fn words(&self, kind: Kind) -> Option<String> {
+    fn words(&self, kind: ResponseKind) -> Option<String> {
         let said = match (kind, self.answer) {
-            (Kind::Accelerance, Some(f)) if f == GRAVITY => {
+            (ResponseKind::Accelerance, Some(f)) if f == GRAVITY => {
                 "accelerations are taken in g".to_owned()
             }
             (_, Some(f)) if f != 1.0 => {
@@ -313,28 +313,28 @@ fn plain(unit: &str) -> String {
 }
 
 /// How the unit of an answer per force is most often written.
-fn example(kind: Kind) -> &'static str {
+fn example(kind: ResponseKind) -> &'static str {
     match kind {
-        Kind::Receptance => "m/N or in/lbf",
-        Kind::Mobility => "(m/s)/N or (in/s)/lbf",
-        Kind::Accelerance => "(m/s^2)/N or g/lbf",
+        ResponseKind::Receptance => "m/N or in/lbf",
+        ResponseKind::Mobility => "(m/s)/N or (in/s)/lbf",
+        ResponseKind::Accelerance => "(m/s^2)/N or g/lbf",
     }
 }
 
-fn answer_unit(unit: &str, kind: Kind) -> Option<f64> {
+fn answer_unit(unit: &str, kind: ResponseKind) -> Option<f64> {
     let gravity = ["g", "gs", "gn", "g0", "g_n", "gee", "grav"].contains(&unit);
-    if kind == Kind::Accelerance && gravity {
+    if kind == ResponseKind::Accelerance && gravity {
         return Some(GRAVITY);
     }
     let length = match (kind, unit) {
-        (Kind::Mobility, "ips") => "in",
-        (Kind::Mobility, "fps") => "ft",
-        (Kind::Accelerance, "ips2") => "in",
-        (Kind::Accelerance, "fps2") => "ft",
-        (Kind::Accelerance, "gal") => "cm",
-        (Kind::Receptance, unit) => unit,
-        (Kind::Mobility, unit) => unit.strip_suffix("/s")?,
-        (Kind::Accelerance, unit) => {
+        (ResponseKind::Mobility, "ips") => "in",
+        (ResponseKind::Mobility, "fps") => "ft",
+        (ResponseKind::Accelerance, "ips2") => "in",
+        (ResponseKind::Accelerance, "fps2") => "ft",
+        (ResponseKind::Accelerance, "gal") => "cm",
+        (ResponseKind::Receptance, unit) => unit,
+        (ResponseKind::Mobility, unit) => unit.strip_suffix("/s")?,
+        (ResponseKind::Accelerance, unit) => {
             unit.strip_suffix("/s2").or_else(|| unit.strip_suffix("/s/s"))?
         }
     };
@@ -400,9 +400,9 @@ fn shown(dof: &Dof) -> String {
 /// directions, 8 to 10 the axes.
 fn meaning(
     function: &Function,
-    told: Option<Kind>,
+    told: Option<ResponseKind>,
     wrong: &impl Fn(usize, String, &str) -> Error,
-) -> Result<(Kind, f64)> {
+) -> Result<(ResponseKind, f64)> {
     let Function { reference, response, axes, .. } = function;
     let directions = [reference.direction, response.direction];
     let lateral = |d: &i64| (0..=3).contains(&d.abs());
@@ -493,7 +493,7 @@ mod tests {
     /// Units as laboratories' programs name them, on one axis or on two.
     #[test]
     fn units_are_known_in_every_usual_spelling() {
-        use Kind::{Accelerance, Mobility, Receptance};
+        use ResponseKind::{Accelerance, Mobility, Receptance};
         let g = GRAVITY;
         for (kind, own, below, answer, force) in [
             (Accelerance, "g", "lbf", g, POUND_FORCE),

@@ -44,7 +44,7 @@ pub struct Open {
     /// What is open.
     pub sources: Vec<Source>,
     /// How far each answer may be off.
-    pub answers: Vec<Answer>,
+    pub answers: Vec<BoundedAnswer>,
     /// What could not be counted, a phrase each.
     pub left_out: Vec<String>,
     /// Why the answers are less certain than that; left out where nothing is known against them.
@@ -80,7 +80,7 @@ pub struct Source {
 
 /// An answer and how far that of the bat in hand may be from it.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct Answer {
+pub struct BoundedAnswer {
     /// Which answer, its unit at the end.
     #[schemars(extend("enum" = [
         "mass_kg", "balance_point_m", "inertia_pivot_kg_m2", "frequency_1_hz", "frequency_2_hz",

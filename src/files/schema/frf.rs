@@ -42,7 +42,7 @@ pub struct FrfFile {
     pub frequency_hz: Vec<f64>,
     /// The answer at every frequency.
     #[serde(flatten)]
-    pub answer: Answer,
+    pub answer: ResponseValues,
     /// The peaks between the lowest and the highest frequency.
     pub peaks: Vec<PeakLine>,
     /// A measured response beside it, where one was given.
@@ -88,7 +88,7 @@ impl FrfSetFile {
 /// The answer at every frequency, in the unit of its kind.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
-pub enum Answer {
+pub enum ResponseValues {
     /// Deflection per force.
     Receptance {
         /// Real part (m/N).

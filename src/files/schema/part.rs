@@ -12,7 +12,7 @@ use crate::bat::edit::{self, Change, Edit};
 use crate::bat::fixtures::Held;
 use crate::bat::layup::Layer;
 use crate::bat::material::{self as bat, BUILT_IN, BuiltIn};
-use crate::bat::part::{Bound, Field, HEAVIEST, Instead, Kind, MOST, Part, Range, SOFTEST};
+use crate::bat::part::{Bound, Field, HEAVIEST, Instead, MOST, MemberKind, Part, Range, SOFTEST};
 use crate::files::schema::amount::{Amount, Measures};
 
 /// A remark for people: a text or a list of texts, which programs pass over.
@@ -204,15 +204,17 @@ impl JsonSchema for EditInFile {
 /// The schema of a member of which the part says so much.
 fn member<P>(field: &Field<P>, said: &str, generator: &mut SchemaGenerator) -> Schema {
     match field.kind {
-        Kind::Number(quantity, range) => number(field, (quantity, range), said, generator),
-        Kind::Held => described(generator.subschema_for::<Held>(), said),
-        Kind::Material => {
+        MemberKind::Number(quantity, range) => number(field, (quantity, range), said, generator),
+        MemberKind::Held => described(generator.subschema_for::<Held>(), said),
+        MemberKind::Material => {
             let mut member = described(generator.subschema_for::<Material>(), said);
             member.insert("allOf".to_owned(), json!([whole()]));
             member
         }
-        Kind::ShearModuli => described(generator.subschema_for::<InFile<bat::ShearModuli>>(), said),
-        Kind::Layers => {
+        MemberKind::ShearModuli => {
+            described(generator.subschema_for::<InFile<bat::ShearModuli>>(), said)
+        }
+        MemberKind::Layers => {
             let layer = generator.subschema_for::<InFile<Layer>>();
             json_schema!({
                 "description": said,
@@ -221,7 +223,7 @@ fn member<P>(field: &Field<P>, said: &str, generator: &mut SchemaGenerator) -> S
                 "items": layer,
             })
         }
-        Kind::PoissonRatios => {
+        MemberKind::PoissonRatios => {
             described(generator.subschema_for::<InFile<bat::PoissonRatios>>(), said)
         }
     }

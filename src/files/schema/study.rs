@@ -40,7 +40,7 @@ pub struct StudyForm {
     /// bat.material.density. Lists are gone through in every combination; what is drawn shares one set of
     /// points. Without it each bat as it is.
     #[schemars(extend("minProperties" = 1))]
-    pub vary: Option<BTreeMap<String, Way>>,
+    pub vary: Option<BTreeMap<String, VariationForm>>,
     /// Triples of two paths that are drawn and the correlation of their normal scores.
     pub correlations: Option<Vec<(String, String, f64)>>,
     /// How points are spread. Without it sobol.
@@ -89,7 +89,7 @@ impl Document for StudyForm {
 /// How a member varies: one of these. Numbers of one way are all bare or all in the same unit.
 #[derive(Debug, Clone, PartialEq, JsonSchema)]
 #[schemars(deny_unknown_fields, extend("minProperties" = 1, "maxProperties" = 1))]
-pub struct Way {
+pub struct VariationForm {
     /// These values, one after the other.
     #[schemars(length(min = 1))]
     pub values: Option<Vec<Value>>,

@@ -1,7 +1,7 @@
 //! The lines of a universal file, their fields, and where each stands.
 
 use super::number::{real, whole};
-use crate::base::error::{Complaint, Error, Excerpt, Place, Result, shortened};
+use crate::base::error::{Complaint, Error, Excerpt, FilePosition, Result, shortened};
 
 /// Columns of a line of numbers in single precision.
 pub(super) const SINGLES: [usize; 6] = [13; 6];
@@ -267,7 +267,7 @@ impl<'a> Line<'a> {
         expected: impl Into<String>,
     ) -> Error {
         let (file, line) = (self.file.to_owned(), self.number);
-        let place = Place { file, line, column: column + 1, excerpt: self.excerpt(column) };
+        let place = FilePosition { file, line, column: column + 1, excerpt: self.excerpt(column) };
         Error::Input { place: Box::new(place), complaint: Complaint::new("", found, expected) }
     }
 

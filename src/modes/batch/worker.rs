@@ -20,7 +20,7 @@ use crate::modes::mode::Mode;
 use crate::modes::plan::Plan;
 use crate::modes::request::{Request, stop_at};
 use crate::modes::solution::{Solution, Timing};
-use crate::modes::task::{Account, Answer};
+use crate::modes::task::{Account, MeshModes};
 
 /// The modes of one bat of many. The slices hold until the next bat.
 #[derive(Debug, Clone, Copy)]
@@ -229,7 +229,7 @@ where
             (self.pairs.lanczos.steps, self.pairs.statics.view().rigid_modes());
         let solution = |(lane, modes): (usize, Vec<Mode>)| {
             let none_missing = self.counted[lane].then_some(true);
-            let answer = Answer { modes, steps, defects: vec![], none_missing, rigid_modes };
+            let answer = MeshModes { modes, steps, defects: vec![], none_missing, rigid_modes };
             let plan = Plan { mesh: self.meshes[lane].clone(), ..self.plan.clone() };
             let solution = answer.solution(plan, request, Timing::default()).0;
             solution.met.then_some(solution)

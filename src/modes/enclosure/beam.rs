@@ -14,7 +14,7 @@ use crate::bat::profile::Piece;
 use crate::bat::theory::Theory;
 use crate::beam::mesh::Mesh;
 use crate::modes::enclosure::contacts::{Bed, Contact, base, bed, contacts};
-use crate::modes::enclosure::gives::{Give, Way, stretch};
+use crate::modes::enclosure::gives::{Give, YieldingPart, stretch};
 use crate::modes::enclosure::radii::{Curved, NUMBER, curved, place};
 use crate::modes::enclosure::sections::Rings;
 
@@ -209,12 +209,12 @@ impl Layout {
         // Strains are counted as the solver does: joints, then springs that masses hang on.
         let hung = |(number, absorber): (usize, &Absorber)| {
             let Absorber { x, mass, stiffness, .. } = *absorber;
-            let give = Give { number, way: Way::Hung, stiffness: data(stiffness) };
+            let give = Give { number, way: YieldingPart::Hung, stiffness: data(stiffness) };
             placed(&Attachment { x, mass, ..Attachment::default() }, Some(give))
         };
         let joint = |(number, joint): (usize, &Joint)| {
             let stiffness = data(joint.rotational_stiffness);
-            let give = Give { number, way: Way::Joint, stiffness };
+            let give = Give { number, way: YieldingPart::Joint, stiffness };
             placed(&Attachment { x: joint.x, ..Attachment::default() }, Some(give))
         };
         let fixed = attachments.iter().map(|on| placed(on, None));

@@ -22,7 +22,7 @@
 use crate::base::interval::gauss::GAUSS_24;
 use crate::base::interval::{Interval, Series, up};
 use crate::modes::enclosure::beam::{Cell, Mass, Proven};
-use crate::modes::enclosure::gives::{Give, Way};
+use crate::modes::enclosure::gives::{Give, YieldingPart};
 use crate::modes::enclosure::moved::{Moved, Trial, Tried};
 use crate::modes::enclosure::reactions::Reactions;
 
@@ -250,8 +250,8 @@ impl Mass {
     fn residual(&self, moved: &Moved, moment: Interval, drift: [f64; 2], z: f64) -> f64 {
         let Some(Give { number, way, stiffness }) = self.give else { return 0.0 };
         let load = match way {
-            Way::Joint => moment,
-            Way::Hung => self.mass * self.at(self.drifting(moved, drift), &moved.gives),
+            YieldingPart::Joint => moment,
+            YieldingPart::Hung => self.mass * self.at(self.drifting(moved, drift), &moved.gives),
         };
         let off = load - Interval::point(z) * stiffness * moved.gives[number];
         up(off.square().high / stiffness.low)

@@ -14,7 +14,7 @@ use crate::base::interval::Interval;
 
 /// What gives way.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Way {
+pub enum YieldingPart {
     /// A joint, to bending.
     Joint,
     /// The spring that a mass hangs on.
@@ -27,7 +27,7 @@ pub struct Give {
     /// Number of its strain among those of their kind in a trial.
     pub number: usize,
     /// What gives way.
-    pub way: Way,
+    pub way: YieldingPart,
     /// Stiffness of the spring (N m/rad of a joint, else N/m).
     pub stiffness: Interval,
 }
@@ -35,7 +35,7 @@ pub struct Give {
 /// By how much a mass is beyond the bat (m), its spring's stretch among these strains.
 pub fn stretch(give: Option<Give>, strains: &[Interval]) -> Interval {
     match give {
-        Some(Give { number, way: Way::Hung, .. }) => strains[number],
+        Some(Give { number, way: YieldingPart::Hung, .. }) => strains[number],
         _ => Interval::point(0.0),
     }
 }
@@ -43,7 +43,7 @@ pub fn stretch(give: Option<Give>, strains: &[Interval]) -> Interval {
 /// The kink of a joint (rad) among these strains.
 pub fn kink(give: Option<Give>, strains: &[Interval]) -> Interval {
     match give {
-        Some(Give { number, way: Way::Joint, .. }) => strains[number],
+        Some(Give { number, way: YieldingPart::Joint, .. }) => strains[number],
         _ => Interval::point(0.0),
     }
 }

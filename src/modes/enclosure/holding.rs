@@ -23,7 +23,7 @@ use crate::base::interval::gauss::GAUSS_40;
 use crate::base::interval::{Interval, Series, Values};
 use crate::modes::enclosure::contacts::{Bed, Contact};
 use crate::modes::enclosure::energies::{from_left, from_right};
-use crate::modes::enclosure::gives::{Give, Way, kink, softness, stretch};
+use crate::modes::enclosure::gives::{Give, YieldingPart, kink, softness, stretch};
 use crate::modes::enclosure::stretches::{Met, Rigid, Stretch};
 
 /// How many Legendre coefficients of a bed's deflection are held.
@@ -284,8 +284,8 @@ impl Holding<'_> {
         let mut gives = vec![ZERO; self.gives().count()];
         for (k, mass, Give { number, way, .. }) in self.gives() {
             gives[number] = match way {
-                Way::Joint => moments[mass.before],
-                Way::Hung => loads.masses[k],
+                YieldingPart::Joint => moments[mass.before],
+                YieldingPart::Hung => loads.masses[k],
             };
         }
         Forces { cells: left, gives }

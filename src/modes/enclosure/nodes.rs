@@ -57,13 +57,14 @@ impl Nodes<'_> {
         if angle >= 1.0 {
             return vec![];
         }
-        let looked = Looked { proven: self.proven, moved: &moved, off: up(reach * angle) };
+        let looked =
+            BoundedDeflection { proven: self.proven, moved: &moved, off: up(reach * angle) };
         looked.nodes()
     }
 }
 
 /// A deflection that is known to within a bound.
-struct Looked<'a> {
+struct BoundedDeflection<'a> {
     proven: &'a Proven,
     moved: &'a Moved,
     off: f64,
@@ -72,7 +73,7 @@ struct Looked<'a> {
 /// A place: a cell and where on it, from −1 to 1.
 type Place = (usize, f64);
 
-impl Looked<'_> {
+impl BoundedDeflection<'_> {
     /// The sign of the mode's deflection there, up to a common one; None where it is not sure.
     fn sign(&self, (k, xi): Place) -> Option<bool> {
         let value = at(&self.moved.cells[k][0], xi);

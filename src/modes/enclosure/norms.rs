@@ -38,7 +38,7 @@ use crate::bat::body::Bat;
 use crate::bat::theory::Theory;
 use crate::modes::enclosure::beam::Layout;
 use crate::modes::enclosure::contacts::{Bed, Contact};
-use crate::modes::enclosure::gives::{Give, Way, softness};
+use crate::modes::enclosure::gives::{Give, YieldingPart, softness};
 use crate::modes::enclosure::holding::{Hold, Holding, OF_A_BED};
 use crate::modes::enclosure::stretches::{Met, Rigid, Stretch, rigid, stretches};
 
@@ -217,12 +217,12 @@ impl Sums {
         let [g11, g12, g22] = rigid.inverse(at);
         // Counted from the place itself.
         let (u, own) = match give.way {
-            Way::Joint => (self.kink, [ZERO, point(-1.0)]),
-            Way::Hung => ([met.mass, met.mass * (met.centre - at)], [ZERO; 2]),
+            YieldingPart::Joint => (self.kink, [ZERO, point(-1.0)]),
+            YieldingPart::Hung => ([met.mass, met.mass * (met.centre - at)], [ZERO; 2]),
         };
         let v = [own[0] - g11 * u[0] - g12 * u[1], own[1] - g12 * u[0] - g22 * u[1]];
         // What the stretch of a spring moves by itself, without the rigid motion, is the mass alone.
-        let alone = if give.way == Way::Hung { met.mass } else { ZERO };
+        let alone = if give.way == YieldingPart::Hung { met.mass } else { ZERO };
         let soft = softness(&give);
         let trace = soft * (alone + u[0] * v[0] + u[1] * v[1]);
         let [o11, o12, o22] = self.outer;

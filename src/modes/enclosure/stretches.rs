@@ -71,7 +71,7 @@ pub fn stretches(bat: &Bat, layout: &Layout, theory: Theory) -> Result<(Vec<Stre
     for (piece, curve) in layout.curves.iter().enumerate() {
         borders.push(stretches.len());
         let before = f64::INFINITY;
-        let part = Part { piece, curve, of_piece: [0.0, 1.0], halvings: 0, before };
+        let part = PiecePart { piece, curve, of_piece: [0.0, 1.0], halvings: 0, before };
         halved(bat, layout, theory, part, &mut stretches)?;
     }
     borders.push(stretches.len());
@@ -139,7 +139,7 @@ impl Rigid {
 
 /// A part of a piece of the profile.
 #[derive(Clone, Copy)]
-struct Part<'a> {
+struct PiecePart<'a> {
     piece: usize,
     curve: &'a Curved,
     /// Where in the piece it begins and ends, in [0, 1].
@@ -155,10 +155,10 @@ fn halved(
     bat: &Bat,
     layout: &Layout,
     theory: Theory,
-    part: Part,
+    part: PiecePart,
     all: &mut Vec<Stretch>,
 ) -> Result<()> {
-    let Part { piece, curve, of_piece: [from, to], halvings, before } = part;
+    let PiecePart { piece, curve, of_piece: [from, to], halvings, before } = part;
     let whole = curve.part(from, to);
     let short = whole.length.high <= LONGEST * layout.length.low;
     let stretch = short.then(|| Stretch::of(bat, layout, theory, piece, &whole)).flatten();
@@ -175,7 +175,7 @@ fn halved(
     }
     let middle = 0.5 * (from + to);
     [[from, middle], [middle, to]].into_iter().try_for_each(|of_piece| {
-        let part = Part { of_piece, halvings: halvings + 1, before: above, ..part };
+        let part = PiecePart { of_piece, halvings: halvings + 1, before: above, ..part };
         halved(bat, layout, theory, part, all)
     })
 }

@@ -3,7 +3,7 @@
 use crate::files::uff::{
     Abscissa, Axis, Complex, Dataset, Dof, Function, Node, Nodes, Stamp, Units, Values, six_digits,
 };
-use crate::motion::frf::{Kind, Sample};
+use crate::motion::frf::{ResponseKind, Sample};
 use crate::show::exchange::modes_uff::header;
 
 /// What was forced and watched, in which answer, where.
@@ -12,7 +12,7 @@ pub struct Measured<'a> {
     /// Name of the bat.
     pub bat: &'a str,
     /// Whether the answer is a displacement, a velocity or an acceleration.
-    pub kind: Kind,
+    pub kind: ResponseKind,
     /// Where the force is (m from the knob end).
     pub at: f64,
     /// Where the answer is watched (m from the knob end).
@@ -75,7 +75,7 @@ fn function(measured: &Measured, samples: &[Sample], node: i64) -> Function {
 }
 
 /// Frequency, answer, force, and no third axis.
-fn axes(kind: Kind) -> [Axis; 4] {
+fn axes(kind: ResponseKind) -> [Axis; 4] {
     let axis = |quantity, label: &str, unit: &str| Axis {
         quantity,
         exponents: [0; 3],
@@ -83,9 +83,9 @@ fn axes(kind: Kind) -> [Axis; 4] {
         unit: unit.into(),
     };
     let (quantity, unit) = match kind {
-        Kind::Receptance => (8, "m"),
-        Kind::Mobility => (11, "m/s"),
-        Kind::Accelerance => (12, "m/s^2"),
+        ResponseKind::Receptance => (8, "m"),
+        ResponseKind::Mobility => (11, "m/s"),
+        ResponseKind::Accelerance => (12, "m/s^2"),
     };
     let answer = axis(quantity, kind.name(), unit);
     [axis(18, "frequency", "Hz"), answer, axis(13, "force", "N"), Axis::default()]

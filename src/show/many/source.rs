@@ -18,7 +18,7 @@ use crate::files::document::Document;
 use crate::files::folder::{Folder, Outside, json as json_at};
 use crate::files::study_file::StudyFile;
 use crate::files::study_rows::{BatText, Rows, reason};
-use crate::files::study_vary::Subject;
+use crate::files::study_vary::VariedFile;
 
 /// A file that a study was made from.
 #[derive(Debug, Clone)]
@@ -86,14 +86,14 @@ impl Study {
         let own = Path::new(name).file_name().map_or(name.into(), |own| own.to_string_lossy());
         let mut sources = vec![Source { name: own.into_owned(), text: text.to_owned() }];
         let bats = bats(folder, &study, &mut sources)
-            .map_err(|error| study.names_in_vain(Subject::Bat, error))?;
+            .map_err(|error| study.names_in_vain(VariedFile::Bat, error))?;
         let tables = tables(folder, &mut study, &mut sources)?;
         let name = study.ball.as_deref().unwrap_or("baseball");
         let (ball, own_ball) = match built_in(name) {
             Some(ball) => (ball, None),
             None => {
                 let ball = ball_in(name, &folder)
-                    .map_err(|error| study.names_in_vain(Subject::Ball, error))?;
+                    .map_err(|error| study.names_in_vain(VariedFile::Ball, error))?;
                 let text = written(&ball).to_string();
                 sources.push(Source { name: name.to_owned(), text: text.clone() });
                 (ball, Some(text))

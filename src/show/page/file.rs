@@ -11,14 +11,14 @@ use crate::show::plot::sheet::Sheet;
 
 /// What a report is written as.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum PageFormat {
     /// One page that needs nothing beside it.
     Html,
     /// Text, and a folder of pictures beside it.
     Markdown,
 }
 
-impl Kind {
+impl PageFormat {
     /// What that name asks for.
     ///
     /// # Errors
@@ -42,9 +42,9 @@ impl Kind {
 ///
 /// # Errors
 ///
-/// Those of [`Kind::of`], and [`Error::Write`] where there is no such folder.
-pub fn expected(path: &Path, made: &[&Option<PathBuf>]) -> Result<Kind> {
-    let kind = Kind::of(path)?;
+/// Those of [`PageFormat::of`], and [`Error::Write`] where there is no such folder.
+pub fn expected(path: &Path, made: &[&Option<PathBuf>]) -> Result<PageFormat> {
+    let kind = PageFormat::of(path)?;
     let folder = path.parent().filter(|folder| *folder != Path::new(""));
     // `./a` and `a` are one.
     let plain = |path: &Path| path.strip_prefix(".").unwrap_or(path).to_owned();
@@ -63,8 +63,8 @@ pub fn expected(path: &Path, made: &[&Option<PathBuf>]) -> Result<Kind> {
 /// As [`expected`], and [`Error::Value`] for a name of Markdown.
 pub fn expected_page(path: &Path, made: &[&Option<PathBuf>]) -> Result<()> {
     match expected(path, made)? {
-        Kind::Html => Ok(()),
-        Kind::Markdown => {
+        PageFormat::Html => Ok(()),
+        PageFormat::Markdown => {
             Err(Error::value("--report", path.display(), "a file name that ends in .html"))
         }
     }
@@ -80,9 +80,9 @@ pub fn pictures_of(path: &Path) -> PathBuf {
 ///
 /// # Errors
 ///
-/// [`Error::Write`], and those of [`Kind::of`].
+/// [`Error::Write`], and those of [`PageFormat::of`].
 pub fn write(path: &Path, report: &Report) -> Result<()> {
-    if Kind::of(path)? == Kind::Html {
+    if PageFormat::of(path)? == PageFormat::Html {
         return file::write(path, report.page().as_bytes());
     }
     let us = report.us;

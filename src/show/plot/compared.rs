@@ -34,13 +34,13 @@ pub fn pictures(sheet: Sheet, comparison: &Comparison) -> Result<Vec<Picture>> {
     let names: Vec<String> = (0..bats.len()).map(|k| name(comparison, k)).collect();
     let both = || bats.iter().zip(&names);
     let side: Vec<_> = both()
-        .map(|(c, name)| profile::Subject { name, bat: &c.bat, swing_pivot: Some(c.scene.pivot) })
+        .map(|(c, name)| profile::MarkedBat { name, bat: &c.bat, swing_pivot: Some(c.scene.pivot) })
         .collect();
     let bent: Vec<_> = both()
-        .map(|(c, name)| shapes::Subject { name, bat: &c.bat, solution: &c.sweep.solution })
+        .map(|(c, name)| shapes::ShapeCurves { name, bat: &c.bat, solution: &c.sweep.solution })
         .collect();
     let along: Vec<_> = both()
-        .map(|(c, name)| exit_speed::Subject {
+        .map(|(c, name)| exit_speed::SpeedCurves {
             name,
             bat: &c.bat,
             impacts: &c.sweep.impacts,
@@ -48,7 +48,7 @@ pub fn pictures(sheet: Sheet, comparison: &Comparison) -> Result<Vec<Picture>> {
         })
         .collect();
     let spotted: Vec<_> =
-        both().map(|(c, name)| spot::Subject { name, bat: &c.bat, spot: &c.spot }).collect();
+        both().map(|(c, name)| spot::SpotMarks { name, bat: &c.bat, spot: &c.spot }).collect();
     let mut all: Vec<Picture> = spot::picture(sheet, &spotted).into_iter().collect();
     all.push(profile::picture(sheet, &side));
     all.extend(shapes::picture(sheet, &bent, MODES));
@@ -77,10 +77,10 @@ fn touches(sheet: Sheet, comparison: &Comparison, names: &[String]) -> Result<Ve
     for (Contender { bat, scene, sweep, spot, .. }, name) in comparison.bats.iter().zip(names) {
         let Some(Peak { x, .. }) = spot.exit_speed_max else { continue };
         let hitter = Hitter::new(model, scene, bat, &sweep.solution, sweep.effort)?;
-        touched.extend(contact::Subject::new(name, &hitter, x));
+        touched.extend(contact::ContactCurves::new(name, &hitter, x));
         felt.extend(hitter.force(x).map(|force| {
             let after = Aftermath::new(bat, &sweep.solution, x, force);
-            hands::Subject { name, after, x: scene.hands }
+            hands::HandCurves { name, after, x: scene.hands }
         }));
     }
     let mut all = contact::pictures(sheet, &touched);

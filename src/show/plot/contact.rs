@@ -23,7 +23,7 @@ const BETWEEN: f64 = 32.0;
 
 /// A hit in time, and what the bat is called.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Subject<'a> {
+pub struct ContactCurves<'a> {
     /// What the bat is called.
     pub name: &'a str,
     /// Where it is hit (m from the knob end).
@@ -34,7 +34,7 @@ pub struct Subject<'a> {
     pub lost: f64,
 }
 
-impl<'a> Subject<'a> {
+impl<'a> ContactCurves<'a> {
     /// The hit at `x` (m); None where ball and bat do not touch in the hitter's model.
     pub fn new(name: &'a str, hitter: &Hitter, x: f64) -> Option<Self> {
         let moments = hitter.history(x, PARTS)?;
@@ -50,7 +50,7 @@ impl<'a> Subject<'a> {
 
 /// Force and compression against time (`contact`), and force against compression (`hysteresis`); none
 /// without a hit.
-pub fn pictures(sheet: Sheet, subjects: &[Subject]) -> Vec<Picture> {
+pub fn pictures(sheet: Sheet, subjects: &[ContactCurves]) -> Vec<Picture> {
     match subjects {
         [] => vec![],
         _ => vec![in_time(sheet, subjects), hysteresis(sheet, subjects)],
@@ -59,7 +59,7 @@ pub fn pictures(sheet: Sheet, subjects: &[Subject]) -> Vec<Picture> {
 
 /// What a picture's second line says: of one bat where it is hit, of several that each is hit at its
 /// own place.
-fn second<'a>(sheet: Sheet, subjects: &[Subject<'a>]) -> [Cow<'a, str>; 2] {
+fn second<'a>(sheet: Sheet, subjects: &[ContactCurves<'a>]) -> [Cow<'a, str>; 2] {
     match subjects {
         [one] => [one.name.into(), format!("hit {} from the knob end", along(sheet, one.x)).into()],
         _ => ["".into(), "each hit at its own sweet spot".into()],
@@ -67,18 +67,18 @@ fn second<'a>(sheet: Sheet, subjects: &[Subject<'a>]) -> [Cow<'a, str>; 2] {
 }
 
 /// The names of several bats and where each is hit; where they end (px).
-fn names(svg: &mut Svg, subjects: &[Subject]) -> f64 {
+fn names(svg: &mut Svg, subjects: &[ContactCurves]) -> f64 {
     let sheet = svg.sheet;
-    let name = |s: &Subject| format!("{}, {}", s.name, along(sheet, s.x));
+    let name = |s: &ContactCurves| format!("{}, {}", s.name, along(sheet, s.x));
     let names: Vec<String> = subjects.iter().map(name).collect();
     bats(svg, &names.iter().map(String::as_str).collect::<Vec<_>>())
 }
 
 /// Force and compression, one below the other.
-fn in_time(sheet: Sheet, subjects: &[Subject]) -> Picture {
+fn in_time(sheet: Sheet, subjects: &[ContactCurves]) -> Picture {
     let mut svg = Svg::on(sheet);
     let title = "The ball on the bat";
-    let end = subjects.iter().map(Subject::end).fold(0.0, f64::max);
+    let end = subjects.iter().map(ContactCurves::end).fold(0.0, f64::max);
     let [name, mut facts] = second(sheet, subjects);
     if subjects.len() == 1 {
         facts = format!("{facts}, over after {} ms", digits(end, 3)).into();
@@ -103,11 +103,11 @@ fn in_time(sheet: Sheet, subjects: &[Subject]) -> Picture {
 fn diagram(
     svg: &mut Svg,
     (frame, x): (Frame, &Axis),
-    subjects: &[Subject],
+    subjects: &[ContactCurves],
     (what, unit, of): (&str, Unit, fn(&Moment) -> f64),
 ) -> String {
     let alone = subjects.len() == 1;
-    let curve = |(k, s): (usize, &Subject)| {
+    let curve = |(k, s): (usize, &ContactCurves)| {
         let points = s.moments.iter().map(|m| Some([1e3 * m.time, of(m)])).collect();
         let series =
             Series::curve(if alone { what } else { s.name }, k, points).units("ms", unit.name);
@@ -144,7 +144,7 @@ fn diagram(
 }
 
 /// Force against compression.
-fn hysteresis(sheet: Sheet, subjects: &[Subject]) -> Picture {
+fn hysteresis(sheet: Sheet, subjects: &[ContactCurves]) -> Picture {
     const HEIGHT: f64 = 320.0;
     let mut svg = Svg::on(sheet);
     let title = "What the ball takes and gives back";
@@ -183,7 +183,7 @@ fn hysteresis(sheet: Sheet, subjects: &[Subject]) -> Picture {
 }
 
 /// The loop of a hit: compression (m) and force (N).
-fn around(subject: &Subject) -> Vec<Option<[f64; 2]>> {
+fn around(subject: &ContactCurves) -> Vec<Option<[f64; 2]>> {
     let at = |m: &Moment| [m.compression, m.force];
     let last = subject.moments.last().map(at).filter(|[_, force]| *force > 0.0);
     // A ball that gives nothing back lets go at once.
@@ -192,7 +192,7 @@ fn around(subject: &Subject) -> Vec<Option<[f64; 2]>> {
 }
 
 /// What is lost in the ball, bat by bat.
-fn lost(unit: Unit, subjects: &[Subject]) -> String {
+fn lost(unit: Unit, subjects: &[ContactCurves]) -> String {
     let energies: Vec<String> = subjects.iter().map(|s| digits(unit.per * s.lost, 3)).collect();
     if energies.iter().all(|energy| energy == "0") {
         "nothing is lost in the ball".to_owned()

@@ -14,7 +14,7 @@ use crate::show::plot::theme::{SERIES, series};
 
 /// A bat, the name it has in the picture, its hits and its sweet spot.
 #[derive(Debug, Clone, Copy)]
-pub struct Subject<'a> {
+pub struct SpeedCurves<'a> {
     /// What the bat is called.
     pub name: &'a str,
     /// The bat.
@@ -30,7 +30,7 @@ const DIAGRAM: f64 = 230.0;
 
 /// Exit speed against place, exit speed of bats that do not bend, and rows of sweet spots; picture
 /// `exit_speed`. None without two places.
-pub fn picture(sheet: Sheet, subjects: &[Subject]) -> Option<Picture> {
+pub fn picture(sheet: Sheet, subjects: &[SpeedCurves]) -> Option<Picture> {
     let places = subjects.iter().flat_map(|s| s.impacts.iter().map(|i| i.x));
     let [from, to] = places
         .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [f64::min(a, x), f64::max(b, x)]);
@@ -68,7 +68,7 @@ pub fn picture(sheet: Sheet, subjects: &[Subject]) -> Option<Picture> {
 }
 
 /// The curves, and the fastest ball on each.
-fn diagram(svg: &mut Svg, plane: &Plane, (subjects, curves): (&[Subject], &[Series])) {
+fn diagram(svg: &mut Svg, plane: &Plane, (subjects, curves): (&[SpeedCurves], &[Series])) {
     plane.draw(svg);
     curves.iter().rev().for_each(|curve| curve.draw(svg, plane));
     for (k, subject) in subjects.iter().enumerate() {
@@ -81,7 +81,7 @@ fn diagram(svg: &mut Svg, plane: &Plane, (subjects, curves): (&[Subject], &[Seri
     hover(svg, plane, &curves.iter().collect::<Vec<_>>());
 }
 
-fn words<'a>(sheet: Sheet, subjects: &[Subject<'a>]) -> (&'static str, &'a str, String) {
+fn words<'a>(sheet: Sheet, subjects: &[SpeedCurves<'a>]) -> (&'static str, &'a str, String) {
     let title = "Exit speed along the bat";
     let [one] = subjects else {
         return (title, "", "each bat as it bends, and if it did not".to_owned());
@@ -94,7 +94,7 @@ fn words<'a>(sheet: Sheet, subjects: &[Subject<'a>]) -> (&'static str, &'a str, 
     (title, one.name, most.unwrap_or_default())
 }
 
-fn described(subjects: &[Subject], rows: &[PlaceRow]) -> String {
+fn described(subjects: &[SpeedCurves], rows: &[PlaceRow]) -> String {
     let names: Vec<&str> = subjects.iter().map(|s| s.name).collect();
     let places: Vec<&str> = rows.iter().map(|row| row.label.as_str()).collect();
     format!(
@@ -106,7 +106,7 @@ fn described(subjects: &[Subject], rows: &[PlaceRow]) -> String {
 }
 
 /// As the bat is, and if it did not bend; the wall of a hollow one may give way too.
-fn curves(sheet: Sheet, k: usize, subject: &Subject, alone: bool) -> Vec<Series> {
+fn curves(sheet: Sheet, k: usize, subject: &SpeedCurves, alone: bool) -> Vec<Series> {
     let curve = |name: &str, of: &dyn Fn(&Impact) -> Option<f64>| {
         let points = subject.impacts.iter().map(|i| Some([i.x, of(i)?])).collect();
         Series::curve(name, k, points).units(sheet.length().name, sheet.speed().name)
@@ -140,7 +140,7 @@ fn keys(curves: &[Series], alone: bool) -> Vec<Series> {
 }
 
 /// Where a single bat's exit speed is within 1 % of its best.
-fn zone(svg: &mut Svg, plane: &Plane, subjects: &[Subject]) {
+fn zone(svg: &mut Svg, plane: &Plane, subjects: &[SpeedCurves]) {
     let [one] = subjects else { return };
     if let Some(zone) = one.spot.zone {
         plane.band(svg, zone, SERIES[0]);
@@ -148,8 +148,8 @@ fn zone(svg: &mut Svg, plane: &Plane, subjects: &[Subject]) {
 }
 
 /// A row for every definition that has a place.
-fn sweet_spots(sheet: Sheet, subjects: &[Subject]) -> Vec<PlaceRow> {
-    type Of = fn(&Subject) -> Option<f64>;
+fn sweet_spots(sheet: Sheet, subjects: &[SpeedCurves]) -> Vec<PlaceRow> {
+    type Of = fn(&SpeedCurves) -> Option<f64>;
     let all: [(&str, Of); 7] = [
         ("fastest ball", |s| s.spot.exit_speed_max.map(|p| p.x)),
         ("least vibration", |s| s.spot.vibration_min.map(|p| p.x)),
@@ -178,9 +178,9 @@ fn sweet_spots(sheet: Sheet, subjects: &[Subject]) -> Vec<PlaceRow> {
 
 fn row(
     sheet: Sheet,
-    subjects: &[Subject],
+    subjects: &[SpeedCurves],
     what: &str,
-    of: impl Fn(&Subject) -> Option<f64>,
+    of: impl Fn(&SpeedCurves) -> Option<f64>,
 ) -> Option<PlaceRow> {
     let places: Vec<(usize, f64)> =
         subjects.iter().enumerate().filter_map(|(k, s)| Some((k, of(s)?))).collect();

@@ -26,7 +26,7 @@ fn unit_of(sheet: Sheet, kind: usize) -> Unit {
 }
 
 /// A bat after a hit, and where it is held.
-pub struct Subject<'a> {
+pub struct HandCurves<'a> {
     /// What the bat is called.
     pub name: &'a str,
     /// The bat under the ball's force.
@@ -36,7 +36,7 @@ pub struct Subject<'a> {
 }
 
 /// Displacement and velocity at the hands against time; picture `hands`. None where there is no force.
-pub fn picture(sheet: Sheet, subjects: &[Subject]) -> Option<Picture> {
+pub fn picture(sheet: Sheet, subjects: &[HandCurves]) -> Option<Picture> {
     let until = subjects.iter().map(|s| span(&s.after, s.x)).fold(0.0, f64::max);
     if until <= 0.0 {
         return None;
@@ -74,7 +74,7 @@ pub fn picture(sheet: Sheet, subjects: &[Subject]) -> Option<Picture> {
 }
 
 /// What the second line says.
-fn words<'a>(sheet: Sheet, subjects: &[Subject<'a>]) -> (&'a str, String) {
+fn words<'a>(sheet: Sheet, subjects: &[HandCurves<'a>]) -> (&'a str, String) {
     match subjects {
         [one] => {
             let [held, hit] = [one.x, one.after.place].map(|x| along(sheet, x));
@@ -85,7 +85,7 @@ fn words<'a>(sheet: Sheet, subjects: &[Subject<'a>]) -> (&'a str, String) {
 }
 
 /// What the curves are.
-fn told(subjects: &[Subject]) -> &'static str {
+fn told(subjects: &[HandCurves]) -> &'static str {
     match subjects {
         [_] => {
             "against the undisturbed swing, whose way is upwards; tinted: the ball is on the bat"
@@ -99,7 +99,7 @@ fn diagram(
     svg: &mut Svg,
     plane: &Plane,
     kind: usize,
-    (subjects, motions): (&[Subject], &[Vec<[f64; 3]>]),
+    (subjects, motions): (&[HandCurves], &[Vec<[f64; 3]>]),
 ) {
     let (what, unit) = (KINDS[kind], unit_of(svg.sheet, kind));
     if let [one] = subjects {
@@ -108,7 +108,7 @@ fn diagram(
     plane.draw(svg);
     let zero = [plane.x.from, plane.x.to].map(|t| plane.at([t, 0.0]));
     svg.line(&zero, Pen::new(FRAME, 1.2));
-    let curve = |(k, (s, motions)): (usize, (&Subject, &Vec<[f64; 3]>))| {
+    let curve = |(k, (s, motions)): (usize, (&HandCurves, &Vec<[f64; 3]>))| {
         let points = motions.iter().map(|m| Some([m[0], m[kind + 1]])).collect();
         match subjects.len() {
             1 => Series::curve(what, kind, points).pen(Pen::new(SERIES[kind], 1.7)),

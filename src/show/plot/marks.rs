@@ -10,7 +10,7 @@ use crate::show::plot::sheet::Sheet;
 
 /// A bat, the name it has in the picture, and where its swing turns.
 #[derive(Debug, Clone, Copy)]
-pub struct Subject<'a> {
+pub struct MarkedBat<'a> {
     /// What the bat is called.
     pub name: &'a str,
     /// The bat.
@@ -20,8 +20,8 @@ pub struct Subject<'a> {
 }
 
 /// Balance points, pivots, centres of percussion; what one bat is made of and bears.
-pub fn marked(sheet: Sheet, subjects: &[Subject]) -> Vec<PlaceRow> {
-    let of = |what: &str, place: &dyn Fn(&Subject) -> Option<f64>| {
+pub fn marked(sheet: Sheet, subjects: &[MarkedBat]) -> Vec<PlaceRow> {
+    let of = |what: &str, place: &dyn Fn(&MarkedBat) -> Option<f64>| {
         let places: Vec<(usize, f64)> =
             subjects.iter().enumerate().filter_map(|(k, s)| Some((k, place(s)?))).collect();
         let label = match (subjects, places.as_slice()) {
@@ -32,9 +32,9 @@ pub fn marked(sheet: Sheet, subjects: &[Subject]) -> Vec<PlaceRow> {
         };
         (!places.is_empty()).then(|| PlaceRow::of_places(label, places))
     };
-    let on_bat = |s: &Subject| (STANDARD_PIVOT <= s.bat.length()).then_some(STANDARD_PIVOT);
-    let standard = |s: &Subject| s.bat.inertia().center_of_percussion(on_bat(s)?);
-    let swung = |s: &Subject| s.bat.inertia().center_of_percussion(-s.swing_pivot?);
+    let on_bat = |s: &MarkedBat| (STANDARD_PIVOT <= s.bat.length()).then_some(STANDARD_PIVOT);
+    let standard = |s: &MarkedBat| s.bat.inertia().center_of_percussion(on_bat(s)?);
+    let swung = |s: &MarkedBat| s.bat.inertia().center_of_percussion(-s.swing_pivot?);
     let mut rows: Vec<PlaceRow> = [
         of("balance point", &|s| Some(s.bat.inertia().balance_point)),
         of("pivot of standards", &on_bat),

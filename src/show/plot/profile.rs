@@ -14,7 +14,7 @@ use crate::show::plot::svg::{Pen, Svg};
 use crate::show::plot::theme::series;
 use crate::show::plot::words::{Anchor, SMALL};
 
-pub use crate::show::plot::marks::Subject;
+pub use crate::show::plot::marks::MarkedBat;
 
 /// Of the diameters' diagram (px).
 const DIAGRAM: f64 = 130.0;
@@ -22,7 +22,7 @@ const DIAGRAM: f64 = 130.0;
 const THICK: [f64; 2] = [14.0, 84.0];
 
 /// The bats in one picture, `profile`.
-pub fn picture(sheet: Sheet, subjects: &[Subject]) -> Picture {
+pub fn picture(sheet: Sheet, subjects: &[MarkedBat]) -> Picture {
     let longest = subjects.iter().map(|s| s.bat.length()).fold(0.0, f64::max);
     let rows: Vec<PlaceRow> = marked(sheet, subjects);
     let lengths: Vec<(&str, f64)> = subjects.iter().map(|s| (s.name, s.bat.length())).collect();
@@ -60,7 +60,7 @@ pub fn picture(sheet: Sheet, subjects: &[Subject]) -> Picture {
 }
 
 /// The diameters along the bats.
-fn diameters(svg: &mut Svg, plane: Plane, subjects: &[Subject]) {
+fn diameters(svg: &mut Svg, plane: Plane, subjects: &[MarkedBat]) {
     let (sheet, unit) = (svg.sheet, svg.sheet.length());
     let all = subjects.iter().map(|s| 2.0 * unit.per * widest(s.bat)).chain([0.0]);
     let plane =
@@ -73,9 +73,9 @@ fn diameters(svg: &mut Svg, plane: Plane, subjects: &[Subject]) {
 }
 
 /// What the pictures' first two lines say.
-fn words(sheet: Sheet, subjects: &[Subject]) -> (String, String) {
+fn words(sheet: Sheet, subjects: &[MarkedBat]) -> (String, String) {
     match subjects {
-        [Subject { name, bat, .. }] => {
+        [MarkedBat { name, bat, .. }] => {
             let (mass, length) = (bat.inertia().mass, bat.length());
             let thick = 2.0 * widest(bat);
             let unit = sheet.length();
@@ -95,7 +95,7 @@ fn words(sheet: Sheet, subjects: &[Subject]) -> (String, String) {
     }
 }
 
-fn described(subjects: &[Subject], rows: &[PlaceRow]) -> String {
+fn described(subjects: &[MarkedBat], rows: &[PlaceRow]) -> String {
     let names: Vec<&str> = subjects.iter().map(|s| s.name).collect();
     let places: Vec<&str> = rows.iter().map(|row| row.label.as_str()).collect();
     format!(
@@ -137,7 +137,7 @@ fn proportions(svg: &mut Svg, times: f64, at: [f64; 2]) {
 }
 
 /// The outer diameter, and the inner one where there is a bore.
-fn curves(sheet: Sheet, k: usize, Subject { name, bat, .. }: &Subject) -> Vec<Series> {
+fn curves(sheet: Sheet, k: usize, MarkedBat { name, bat, .. }: &MarkedBat) -> Vec<Series> {
     const MOST: usize = 300;
     let (unit, all) = (sheet.length().name, sections(bat.profile(), MOST));
     let outer = all.iter().map(|(x, at)| Some([*x, 2.0 * at.outer])).collect();

@@ -2,7 +2,7 @@
 
 use faer::c64;
 
-use crate::motion::frf::Kind;
+use crate::motion::frf::ResponseKind;
 use crate::motion::peaks::Peak;
 use crate::show::plot::axis::Axis;
 use crate::show::plot::picture::Picture;
@@ -24,11 +24,11 @@ const DRAWN: usize = 4000;
 
 /// A response, and what it is of.
 #[derive(Debug, Clone, Copy)]
-pub struct Subject<'a> {
+pub struct ResponseCurves<'a> {
     /// What the bat is called.
     pub bat: &'a str,
     /// Deflection, velocity or acceleration.
-    pub kind: Kind,
+    pub kind: ResponseKind,
     /// Where the force is (m from the knob end).
     pub at: f64,
     /// Where the answer is watched (m from the knob end).
@@ -42,8 +42,8 @@ pub struct Subject<'a> {
 }
 
 /// Size and phase against frequency; a picture of that name. None without two frequencies.
-pub fn picture(sheet: Sheet, subject: &Subject, name: &str) -> Option<Picture> {
-    let Subject { bat, kind, at, to, values, peaks, measured } = *subject;
+pub fn picture(sheet: Sheet, subject: &ResponseCurves, name: &str) -> Option<Picture> {
+    let ResponseCurves { bat, kind, at, to, values, peaks, measured } = *subject;
     let (low, high) = (values.first()?.0, values.last()?.0);
     if low >= high {
         return None;

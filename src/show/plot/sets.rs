@@ -26,8 +26,9 @@ pub fn of_modes(
     swing_pivot: Option<f64>,
 ) -> Vec<Picture> {
     let name = bat.name();
-    let side = profile::picture(sheet, &[profile::Subject { name, bat, swing_pivot }]);
-    let bent = shapes::picture(sheet, &[shapes::Subject { name, bat, solution }], shapes::MODES);
+    let side = profile::picture(sheet, &[profile::MarkedBat { name, bat, swing_pivot }]);
+    let bent =
+        shapes::picture(sheet, &[shapes::ShapeCurves { name, bat, solution }], shapes::MODES);
     std::iter::once(side).chain(bent).collect()
 }
 
@@ -56,14 +57,14 @@ impl Hits<'_> {
     pub fn pictures(&self, sheet: Sheet, at: Option<f64>) -> Result<Vec<Picture>> {
         let Self { bat, model, scene, sweep, spot } = *self;
         let (name, impacts) = (bat.name(), &sweep.impacts);
-        let along = exit_speed::Subject { name, bat, impacts, spot };
+        let along = exit_speed::SpeedCurves { name, bat, impacts, spot };
         let mut all: Vec<Picture> = exit_speed::picture(sheet, &[along]).into_iter().collect();
         all.extend(ledger::picture(sheet, name, bat, impacts, 0.0));
         if let Some(x) = at.or(spot.exit_speed_max.map(|peak| peak.x)) {
             let hitter = Hitter::new(model, scene, bat, &sweep.solution, sweep.effort)?;
-            let touch = contact::Subject::new(name, &hitter, x);
+            let touch = contact::ContactCurves::new(name, &hitter, x);
             all.extend(contact::pictures(sheet, touch.as_slice()));
-            let felt = hitter.force(x).map(|force| hands::Subject {
+            let felt = hitter.force(x).map(|force| hands::HandCurves {
                 name,
                 after: Aftermath::new(bat, &sweep.solution, x, force),
                 x: scene.hands,
@@ -86,7 +87,7 @@ pub fn of_analysis(
     map: Option<&LatheMap>,
 ) -> Result<Vec<Picture>> {
     let Analysis { bat, solution, task, hits, figures, .. } = analysis;
-    let subject = spot::Subject { name: bat.name(), bat, spot: &figures.spot };
+    let subject = spot::SpotMarks { name: bat.name(), bat, spot: &figures.spot };
     let mut pictures: Vec<Picture> = spot::picture(sheet, &[subject]).into_iter().collect();
     pictures.extend(of_modes(sheet, bat, solution, Some(task.scene.pivot)));
     let (model, scene, spot) = (task.model, &task.scene, &figures.spot);

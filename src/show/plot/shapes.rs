@@ -18,7 +18,7 @@ use crate::show::plot::words::{Anchor, LABEL, SMALL, width};
 
 /// A bat, the name it has in the picture, and its modes.
 #[derive(Debug, Clone, Copy)]
-pub struct Subject<'a> {
+pub struct ShapeCurves<'a> {
     /// What the bat is called.
     pub name: &'a str,
     /// The bat.
@@ -37,7 +37,7 @@ const THICK: f64 = 10.0;
 const RIGHT: f64 = 96.0;
 
 /// The first modes, at most so many, a row each; picture `shapes`. None where there are no modes.
-pub fn picture(sheet: Sheet, subjects: &[Subject], most: usize) -> Option<Picture> {
+pub fn picture(sheet: Sheet, subjects: &[ShapeCurves], most: usize) -> Option<Picture> {
     let count = subjects.iter().map(|s| s.solution.modes.len()).max()?.min(most);
     if count == 0 {
         return None;
@@ -63,11 +63,11 @@ pub fn picture(sheet: Sheet, subjects: &[Subject], most: usize) -> Option<Pictur
     Some(Picture::new("shapes", title, &described(sheet, subjects, count), svg))
 }
 
-fn words<'a>(sheet: Sheet, subjects: &[Subject<'a>]) -> (&'static str, &'a str, String) {
+fn words<'a>(sheet: Sheet, subjects: &[ShapeCurves<'a>]) -> (&'static str, &'a str, String) {
     let title = "Bending modes and their nodes";
     let drawn = "not to scale";
     match subjects {
-        [Subject { name, bat, .. }] => {
+        [ShapeCurves { name, bat, .. }] => {
             let held = if bat.fixtures().holding() { "held" } else { "free" };
             (
                 title,
@@ -82,7 +82,7 @@ fn words<'a>(sheet: Sheet, subjects: &[Subject<'a>]) -> (&'static str, &'a str, 
     }
 }
 
-fn described(sheet: Sheet, subjects: &[Subject], count: usize) -> String {
+fn described(sheet: Sheet, subjects: &[ShapeCurves], count: usize) -> String {
     let unit = sheet.length();
     let told = |mode: &Mode| {
         let node = |x: &f64| format!("{:.1}", unit.per * x);
@@ -90,7 +90,7 @@ fn described(sheet: Sheet, subjects: &[Subject], count: usize) -> String {
         let (order, hertz, nodes) = (mode.order, mode.frequency(), nodes.join(", "));
         format!("mode {order} at {hertz:.1} Hz, nodes at {nodes} {} from the knob end", unit.name)
     };
-    let of = |s: &Subject| {
+    let of = |s: &ShapeCurves| {
         let modes: Vec<String> = s.solution.modes.iter().take(count).map(told).collect();
         format!("{}: {}.", s.name, modes.join("; "))
     };
@@ -98,7 +98,7 @@ fn described(sheet: Sheet, subjects: &[Subject], count: usize) -> String {
 }
 
 /// One mode of every bat around an axis at that height (px).
-fn mode_row(svg: &mut Svg, plane: &Plane, axis: f64, (subjects, order): (&[Subject], usize)) {
+fn mode_row(svg: &mut Svg, plane: &Plane, axis: f64, (subjects, order): (&[ShapeCurves], usize)) {
     let Frame { left, right, .. } = plane.frame;
     svg.line(&[[left, axis], [right, axis]], Pen::new(FRAME, 1.0).dashed("2 3"));
     let alone = subjects.len() == 1;

@@ -15,7 +15,7 @@ use crate::show::plot::words::{Anchor, LABEL, Type, fitted, width};
 
 /// A bat, the name it has in the picture, and its sweet spot.
 #[derive(Debug, Clone, Copy)]
-pub struct Subject<'a> {
+pub struct SpotMarks<'a> {
     /// What the bat is called.
     pub name: &'a str,
     /// The bat.
@@ -36,7 +36,7 @@ const LARGE: Type = Type { size: 15.0, ..LABEL };
 
 /// The bats one below the other, to one scale and as thick as they are; picture `sweet_spot`. None where
 /// no bat has a sweet spot.
-pub fn picture(sheet: Sheet, subjects: &[Subject]) -> Option<Picture> {
+pub fn picture(sheet: Sheet, subjects: &[SpotMarks]) -> Option<Picture> {
     subjects.iter().find_map(|s| s.spot.exit_speed_max)?;
     let longest = subjects.iter().map(|s| s.bat.length()).fold(0.0, f64::max);
     let lengths: Vec<(&str, f64)> = subjects.iter().map(|s| (s.name, s.bat.length())).collect();
@@ -68,12 +68,12 @@ pub fn picture(sheet: Sheet, subjects: &[Subject]) -> Option<Picture> {
     Some(Picture::new("sweet_spot", title, &alt, svg))
 }
 
-fn names(subjects: &[Subject]) -> String {
+fn names(subjects: &[SpotMarks]) -> String {
     subjects.iter().map(|s| s.name).collect::<Vec<_>>().join(", ")
 }
 
-fn words<'a>(sheet: Sheet, subjects: &[Subject<'a>]) -> (&'a str, String) {
-    let told = |s: &Subject| {
+fn words<'a>(sheet: Sheet, subjects: &[SpotMarks<'a>]) -> (&'a str, String) {
+    let told = |s: &SpotMarks| {
         let x = s.spot.exit_speed_max?.x;
         Some(format!("{} from the knob end", place::along(sheet, x)))
     };
@@ -85,7 +85,7 @@ fn words<'a>(sheet: Sheet, subjects: &[Subject<'a>]) -> (&'a str, String) {
 
 impl Lying<'_> {
     /// The bat with its zone darker, a dot on its sweet spot, the place above and the zone below.
-    fn spotted(&self, svg: &mut Svg, (k, subject): (usize, &Subject)) {
+    fn spotted(&self, svg: &mut Svg, (k, subject): (usize, &SpotMarks)) {
         let (bat, ink) = (subject.bat, series(k).0);
         self.draw(svg, bat, ink);
         let (radius, sheet) = (self.per_metre * widest(bat), svg.sheet);

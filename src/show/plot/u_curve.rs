@@ -8,7 +8,7 @@ use crate::show::plot::sheet::Sheet;
 use crate::show::plot::svg::{MARKS, Pen, Svg};
 use crate::show::plot::theme::SERIES;
 use crate::study::trade::reference::solver_name;
-use crate::study::trade::u_curve::{Column, Way};
+use crate::study::trade::u_curve::{Column, SolverFrequency};
 
 /// Height of the diagram (px).
 const DIAGRAM: f64 = 320.0;
@@ -51,15 +51,16 @@ pub fn picture(name: &str, columns: &[Column], mode: usize) -> Option<Picture> {
     Some(Picture::new(&file, &title, &alt, svg))
 }
 
-fn curve(column: &Column, way: Way, (k, mode): (usize, usize)) -> Series {
+fn curve(column: &Column, way: SolverFrequency, (k, mode): (usize, usize)) -> Series {
     let name = match (column.ways().len(), way) {
         (1, _) => solver_name(column.solver).to_owned(),
-        (_, Way::Own) => format!("{}, own", solver_name(column.solver)),
-        (_, Way::Recomputed) => format!("{}, again", solver_name(column.solver)),
+        (_, SolverFrequency::Own) => format!("{}, own", solver_name(column.solver)),
+        (_, SolverFrequency::Recomputed) => format!("{}, again", solver_name(column.solver)),
     };
     let points = column.series(way, mode).into_iter();
     let points = points.map(|(n, error)| Some([n as f64, error.max(NOTHING)])).collect();
-    let dash = if way == Way::Recomputed && column.ways().len() > 1 { "4 3" } else { "" };
+    let dash =
+        if way == SolverFrequency::Recomputed && column.ways().len() > 1 { "4 3" } else { "" };
     let pen = Pen::new(SERIES[k % 6], 1.6).dashed(dash);
     let series = Series::curve(&name, k, points).pen(pen).units("elements", "");
     Series { mark: Some(MARKS[k % MARKS.len()]), ..series }

@@ -26,7 +26,7 @@ pub const COLUMNS: [Column<Place>; 9] = [
 ];
 
 /// Places that a first screen has, half of them on either side of the largest.
-const FIRST: usize = 8;
+const FIRST: usize = 4;
 /// By so much two bats of one wood differ easily: three standard deviations of an R161's, whose stiffness differs by
 /// 22 % and whose density by 10 % (`sweetspot scatter r161`).
 const NEAR: f64 = 0.01;

@@ -11,7 +11,7 @@ use crate::show::parts::terminal::wrapped;
 use crate::show::parts::units::in_trade;
 use crate::show::report::columns::{Columns, first, labels, numbers};
 use crate::study::calibrate::calibration::{Calibration, Estimated, Property, Verdict};
-use crate::study::calibrate::fit::{Kind, Residual};
+use crate::study::calibrate::fit::{DatumKind, Residual};
 use crate::study::calibrate::next::Proposal;
 
 /// Parameters, data and words, 80 columns wide.
@@ -286,12 +286,12 @@ fn mismatch(found: &Calibration) -> Option<String> {
 }
 
 /// What a datum is called in a sentence.
-fn called(kind: Kind) -> String {
+fn called(kind: DatumKind) -> String {
     match kind {
-        Kind::Mass => "the mass".to_owned(),
-        Kind::BalancePoint => "the balance point".to_owned(),
-        Kind::Period => "the period as a pendulum".to_owned(),
-        Kind::Frequency(order) => format!("the frequency of mode {order}"),
+        DatumKind::Mass => "the mass".to_owned(),
+        DatumKind::BalancePoint => "the balance point".to_owned(),
+        DatumKind::Period => "the period as a pendulum".to_owned(),
+        DatumKind::Frequency(order) => format!("the frequency of mode {order}"),
     }
 }
 

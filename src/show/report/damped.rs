@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use crate::base::number::significant;
 use crate::files::schema::modes as file;
-use crate::modes::damping::Kind;
+use crate::modes::damping::DampingMethod;
 use crate::modes::solve::Solution;
 use crate::show::report::columns::{Columns, numbers};
 
@@ -56,7 +56,7 @@ pub fn of_mode(solution: &Solution, k: usize) -> Option<file::Damped> {
         q_half_power: damped.q_half_power(),
         q_amplitude: damped.q_amplitude(),
         material_damping_ratio: damped.of_materials,
-        complex: matches!(solution.damping.kind, Kind::Complex(_)),
+        complex: matches!(solution.damping.kind, DampingMethod::Complex(_)),
         error: damped.error,
     })
 }

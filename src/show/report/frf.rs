@@ -5,9 +5,9 @@ use std::fmt::Write;
 use crate::bat::body::Bat;
 use crate::files::schema::document::{Format, Generator};
 use crate::files::schema::frf::{
-    Answer, FrfFile, Height, MeasuredAnswer, MeasuredValues, PeakBeside, PeakLine,
+    FrfFile, Height, MeasuredAnswer, MeasuredValues, PeakBeside, PeakLine, ResponseValues,
 };
-use crate::motion::frf::{Frf, Kind, Sample};
+use crate::motion::frf::{Frf, ResponseKind, Sample};
 use crate::motion::peaks::Peak;
 use crate::show::csv::Csv;
 use crate::show::parts::terminal::wrapped;
@@ -17,11 +17,11 @@ use crate::show::report::text::edited;
 use crate::study::measured::response::{Laid, MeasuredResponse};
 
 /// A response that is told.
-pub struct Told<'a> {
+pub struct ToldResponse<'a> {
     /// The bat that answers.
     pub bat: &'a Bat,
     /// Deflection, velocity or acceleration.
-    pub kind: Kind,
+    pub kind: ResponseKind,
     /// Where the force is, and where the answer is watched (m from the knob end).
     pub places: [f64; 2],
     /// What answers.
@@ -39,8 +39,8 @@ pub struct Told<'a> {
 }
 
 /// The `sweetspot-frf/1` document.
-pub fn document(told: &Told) -> FrfFile {
-    let Told { bat, kind, places: [at, to], frf, samples, peaks, .. } = *told;
+pub fn document(told: &ToldResponse) -> FrfFile {
+    let ToldResponse { bat, kind, places: [at, to], frf, samples, peaks, .. } = *told;
     let of = |part: &dyn Fn(&Sample) -> f64| samples.iter().map(part).collect::<Vec<f64>>();
     let value = |s: &Sample| s.receptance * kind.of(s.frequency);
     let (real, imaginary) = (of(&|s| value(s).re), of(&|s| value(s).im));
@@ -59,9 +59,11 @@ pub fn document(told: &Told) -> FrfFile {
         rigid_modes: frf.solution.rigid_modes,
         frequency_hz: of(&|s| s.frequency),
         answer: match kind {
-            Kind::Receptance => Answer::Receptance { real, imaginary, truncation },
-            Kind::Mobility => Answer::Mobility { real, imaginary, truncation },
-            Kind::Accelerance => Answer::Accelerance { real, imaginary, truncation },
+            ResponseKind::Receptance => ResponseValues::Receptance { real, imaginary, truncation },
+            ResponseKind::Mobility => ResponseValues::Mobility { real, imaginary, truncation },
+            ResponseKind::Accelerance => {
+                ResponseValues::Accelerance { real, imaginary, truncation }
+            }
         },
         peaks: peaks.iter().map(|peak| line(kind, peak)).collect(),
         measured: told.measured.map(|(response, laid)| beside(kind, response, laid)),
@@ -71,23 +73,23 @@ pub fn document(told: &Told) -> FrfFile {
 }
 
 /// A peak as it stands in a document.
-pub fn line(kind: Kind, peak: &Peak) -> PeakLine {
+pub fn line(kind: ResponseKind, peak: &Peak) -> PeakLine {
     let magnitude = peak.height;
     PeakLine {
         mode: peak.mode,
         natural_frequency_hz: peak.natural,
         frequency_hz: peak.frequency,
         height: match kind {
-            Kind::Receptance => Height::Receptance { magnitude },
-            Kind::Mobility => Height::Mobility { magnitude },
-            Kind::Accelerance => Height::Accelerance { magnitude },
+            ResponseKind::Receptance => Height::Receptance { magnitude },
+            ResponseKind::Mobility => Height::Mobility { magnitude },
+            ResponseKind::Accelerance => Height::Accelerance { magnitude },
         },
         damping_ratio: peak.damping_ratio(),
         half_power_hz: peak.half_power,
     }
 }
 
-fn beside(kind: Kind, response: &MeasuredResponse, laid: &Laid) -> MeasuredAnswer {
+fn beside(kind: ResponseKind, response: &MeasuredResponse, laid: &Laid) -> MeasuredAnswer {
     let real = laid.measured.iter().map(|(_, value)| value.re).collect();
     let imaginary = laid.measured.iter().map(|(_, value)| value.im).collect();
     let pair = |(computed, measured): &(Peak, Option<Peak>)| PeakBeside {
@@ -101,9 +103,9 @@ fn beside(kind: Kind, response: &MeasuredResponse, laid: &Laid) -> MeasuredAnswe
         assumed: response.assumed.clone(),
         frequency_hz: laid.measured.iter().map(|(f, _)| *f).collect(),
         answer: match kind {
-            Kind::Receptance => MeasuredValues::Receptance { real, imaginary },
-            Kind::Mobility => MeasuredValues::Mobility { real, imaginary },
-            Kind::Accelerance => MeasuredValues::Accelerance { real, imaginary },
+            ResponseKind::Receptance => MeasuredValues::Receptance { real, imaginary },
+            ResponseKind::Mobility => MeasuredValues::Mobility { real, imaginary },
+            ResponseKind::Accelerance => MeasuredValues::Accelerance { real, imaginary },
         },
         frac: laid.frac,
         mean_level_difference_db: laid.level,
@@ -119,7 +121,7 @@ fn level(computed: &Peak, measured: &Peak) -> Option<f64> {
 }
 
 /// A row for every frequency.
-pub fn csv(kind: Kind, samples: &[Sample]) -> String {
+pub fn csv(kind: ResponseKind, samples: &[Sample]) -> String {
     let unit = kind.unit();
     let mut table = Csv::new([
         "frequency_hz".to_owned(),
@@ -155,17 +157,18 @@ pub fn phase(re: f64, im: f64) -> f64 {
 }
 
 /// The unit of an answer, for people.
-pub fn unit(kind: Kind) -> &'static str {
+pub fn unit(kind: ResponseKind) -> &'static str {
     match kind {
-        Kind::Receptance => "m/N",
-        Kind::Mobility => "m/(s N)",
-        Kind::Accelerance => "1/kg",
+        ResponseKind::Receptance => "m/N",
+        ResponseKind::Mobility => "m/(s N)",
+        ResponseKind::Accelerance => "1/kg",
     }
 }
 
 /// The answer at the asked frequencies, the peaks, and what it was made of.
-pub fn text(told: &Told) -> String {
-    let Told { bat, kind, places: [at, to], frf, samples, asked, peaks, measured, units } = *told;
+pub fn text(told: &ToldResponse) -> String {
+    let ToldResponse { bat, kind, places: [at, to], frf, samples, asked, peaks, measured, units } =
+        *told;
     let name = kind.name();
     let title = format!(
         "Frequency response: {name} from a force at {} to {}",
@@ -291,7 +294,7 @@ fn differences(bat: &Bat, frf: &Frf, response: &MeasuredResponse, laid: &Laid) -
 }
 
 /// The peaks, with the damping that their widths tell.
-fn listed(kind: Kind, peaks: &[Peak]) -> String {
+fn listed(kind: ResponseKind, peaks: &[Peak]) -> String {
     if peaks.is_empty() {
         return String::new();
     }

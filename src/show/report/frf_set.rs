@@ -5,7 +5,7 @@ use crate::show::csv::Csv;
 use crate::show::parts::terminal::wrapped;
 use crate::show::parts::units::Units;
 use crate::show::report::columns::{Columns, numbers};
-use crate::show::report::frf::{FRAC, Told, damping};
+use crate::show::report::frf::{FRAC, ToldResponse, damping};
 use crate::show::report::text::edited;
 use crate::study::measured::response::{Laid, MeasuredResponse};
 
@@ -30,7 +30,7 @@ pub struct RowOfSet {
 
 impl RowOfSet {
     /// None where nothing is laid over it.
-    pub fn new(number: usize, told: &Told) -> Option<Self> {
+    pub fn new(number: usize, told: &ToldResponse) -> Option<Self> {
         let (MeasuredResponse { assumed, .. }, laid) = told.measured?;
         let Laid { frac, level, apart, peaks, .. } = laid;
         let pairs =

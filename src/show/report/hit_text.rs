@@ -38,6 +38,16 @@ fn legend(impacts: &[Impact]) -> String {
     FLAGS.iter().filter(has).map(line).collect()
 }
 
+/// Some of many impacts: a few at equal distances, and the nearest to the best place.
+pub fn some(impacts: &[Impact], best: Option<f64>) -> Vec<Impact> {
+    const FEW: usize = 7;
+    let step = impacts.len().div_ceil(FEW);
+    let off = |k: &usize| best.map_or(f64::INFINITY, |best| (impacts[*k].x - best).abs());
+    let near = (0..impacts.len()).min_by(|a, b| off(a).total_cmp(&off(b)));
+    let shown = |k: &usize| k.is_multiple_of(step) || best.is_some() && near == Some(*k);
+    (0..impacts.len()).filter(shown).map(|k| impacts[k].clone()).collect()
+}
+
 /// Exit speed along the barrel: positions from knob and tip, speeds, efficiency, vibration, and what
 /// is unusual.
 pub fn impacts(bat: &Bat, impacts: &[Impact], units: Units) -> String {

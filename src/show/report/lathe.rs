@@ -21,11 +21,13 @@ use crate::study::many::answers::Answer;
 
 const MM: f64 = 1e-3;
 
-/// Everything for the terminal.
-pub fn text(map: &LatheMap, scene: &Scene, units: Units) -> String {
+/// Bands of which a screen has the table.
+const FEW: usize = 8;
+
+/// The title, and how the bat is swung.
+fn title(map: &LatheMap, scene: &Scene, units: Units) -> String {
     let bat = map.piece.bat();
     let shown = TableUnits::of(units, bat.inches());
-    let mut out = format!("What a cut does to {}\n{}", bat.name(), edited(bat, units));
     let swing = format!(
         "  swung at {} rad/s about a point {} beyond the knob, {} at {}; per {} taken off the diameter of \
          each band, the curve between stations unchanged",
@@ -35,12 +37,34 @@ pub fn text(map: &LatheMap, scene: &Scene, units: Units) -> String {
         units.inline(units.speed(scene.ball_speed)),
         shown.per_name(),
     );
-    out += &wrapped(&swing, 4);
-    let slopes = |band: &TurnedBand, exponent: f64, k: usize| {
-        let found = band.slopes.as_ref()?.by_law(exponent);
-        found[k].map(|figure| figure.value)
-    };
-    out += &table(map, shown, &slopes);
+    format!("What a cut does to {}\n{}{}", bat.name(), edited(bat, units), wrapped(&swing, 4))
+}
+
+/// What a screen holds: where a cut does most, or the table of a few bands, and what stands below the tables.
+pub fn screen(map: &LatheMap, scene: &Scene, units: Units) -> String {
+    let shown = TableUnits::of(units, map.piece.bat().inches());
+    let mut out = title(map, scene, units);
+    if map.bands.len() <= FEW {
+        out += &table(map, shown, &derivative);
+        out += &format!("\n{}", wrapped(&legend(map, shown), 2));
+    } else {
+        out += "\nWhere a cut does most\n";
+        strongest(map, units).iter().for_each(|line| out += &wrapped(&format!("  {line}"), 4));
+    }
+    out + "\n" + &below(map, shown)
+}
+
+/// The change of answer k by the derivative.
+fn derivative(band: &TurnedBand, exponent: f64, k: usize) -> Option<f64> {
+    let found = band.slopes.as_ref()?.by_law(exponent);
+    found[k].map(|figure| figure.value)
+}
+
+/// Everything for the terminal.
+pub fn text(map: &LatheMap, scene: &Scene, units: Units) -> String {
+    let shown = TableUnits::of(units, map.piece.bat().inches());
+    let mut out = title(map, scene, units);
+    out += &table(map, shown, &derivative);
     let depth = if shown.us() {
         format!("{} in", significant(map.terms.cut / 0.0254, 3))
     } else {
@@ -56,7 +80,7 @@ pub fn text(map: &LatheMap, scene: &Scene, units: Units) -> String {
         band.finite.as_ref()?[law][k]
     };
     out += &table(map, shown, &finite);
-    out + &words(map, shown)
+    out + &format!("\n{}\n", wrapped(&legend(map, shown), 2)) + &below(map, shown)
 }
 
 /// Where a cut does most, in three lines.
@@ -96,8 +120,8 @@ pub fn per(map: &LatheMap, units: Units) -> &'static str {
 }
 
 /// What stands below the tables.
-fn words(map: &LatheMap, shown: TableUnits) -> String {
-    let mut out = format!("\n{}\n", wrapped(&legend(map, shown), 2));
+fn below(map: &LatheMap, shown: TableUnits) -> String {
+    let mut out = String::new();
     for line in recipes(map, shown) {
         out += &wrapped(&line, 2);
     }

@@ -79,7 +79,7 @@ impl TableUnits {
 }
 
 /// A column: its head in two lines, width, decimals, what it means, and what is shown of a band's change per metre.
-struct Shown {
+struct LatheColumn {
     head: [String; 2],
     means: &'static str,
     width: usize,
@@ -90,7 +90,7 @@ struct Shown {
     scale: f64,
 }
 
-impl Shown {
+impl LatheColumn {
     fn column(&self) -> Column {
         numbers(self.width, self.head[0].clone())
     }
@@ -120,7 +120,7 @@ fn meaning(answer: Answer, exponent: f64) -> &'static str {
 /// What the columns of the table are, and what a mil is.
 pub fn legend(map: &LatheMap, units: TableUnits) -> String {
     let columns = shown(map, units);
-    let part = |column: &Shown| format!("{}: {}", column.head[0], column.means);
+    let part = |column: &LatheColumn| format!("{}: {}", column.head[0], column.means);
     let mut parts = vec!["from: where the band begins, from the knob end".to_owned()];
     parts.extend(columns.iter().map(part));
     if columns.iter().any(|column| column.head[1] == "mil") {
@@ -130,7 +130,7 @@ pub fn legend(map: &LatheMap, units: TableUnits) -> String {
 }
 
 /// The columns that the map has answers for.
-fn shown(map: &LatheMap, units: TableUnits) -> Vec<Shown> {
+fn shown(map: &LatheMap, units: TableUnits) -> Vec<LatheColumn> {
     let answers = &map.terms.answers;
     let mut all = vec![];
     let us = units.us;
@@ -142,7 +142,7 @@ fn shown(map: &LatheMap, units: TableUnits) -> Vec<Shown> {
             let means = meaning(answer, exponent);
             let head = [head.to_owned(), unit.0.to_owned()];
             let (scale, decimals) = (unit.1, unit.2);
-            all.push(Shown { head, means, width, decimals, answer: k, exponent, scale });
+            all.push(LatheColumn { head, means, width, decimals, answer: k, exponent, scale });
         }
     };
     let length = pick(("mm", 1e3, 2), ("mil", 1.0 / THOU, 1));
@@ -180,7 +180,7 @@ pub fn table(
 ) -> String {
     let shown = shown(map, units);
     let place = numbers(6, "from");
-    let columns = Columns::new([place].into_iter().chain(shown.iter().map(Shown::column)));
+    let columns = Columns::new([place].into_iter().chain(shown.iter().map(LatheColumn::column)));
     let mut out = columns.heads();
     let unit = if units.us { "in" } else { "cm" };
     let second = shown.iter().map(|shown| shown.head[1].clone());
@@ -188,7 +188,7 @@ pub fn table(
     for band in &map.bands {
         let x = band.ends[0];
         let x = if units.us { inches(x) } else { 100.0 * x };
-        let cell = |shown: &Shown| {
+        let cell = |shown: &LatheColumn| {
             let mut value = value(band, shown.exponent, shown.answer)? * units.per() * shown.scale;
             if shown.head[1] == "%" {
                 // Of the hands' acceleration as it is.

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::base::error::{Complaint, Error, Place};
+use crate::base::error::{Complaint, Error, FilePosition};
 use crate::files::schema::document::{Format, Generator};
 use crate::files::schema::mistakes::{ErrorFile, Mistake};
 
@@ -27,7 +27,7 @@ fn mistake(error: &Error) -> Mistake {
     let of_file = |path: &Path| Some(path.display().to_string());
     match error {
         Error::Input { place, complaint } => {
-            let Place { file, line, column, .. } = &**place;
+            let FilePosition { file, line, column, .. } = &**place;
             let (file, line, column) = (Some(file.clone()), Some(*line), Some(*column));
             Mistake { file, line, column, ..complained(complaint) }
         }

@@ -14,7 +14,7 @@ use crate::show::parts::units::Units;
 use crate::show::report::columns::{Columns, first};
 use crate::show::report::text::edited;
 use crate::study::read_to::diameters_read_to;
-use crate::study::spread::{Answer, Estimate, Input, Source, Spread, of_frequencies};
+use crate::study::spread::{Estimate, Input, Source, Spread, SpreadAnswer, of_frequencies};
 use crate::study::verdict::{Doubt, Verdict};
 
 /// The bat, the answers, and how far to trust them: 24 lines at most.
@@ -30,24 +30,25 @@ pub fn screen(analysis: &Analysis, units: Units) -> String {
 /// The sweet spot in a sentence, with what there is to doubt of it.
 pub fn in_short(analysis: &Analysis, units: Units) -> String {
     let Analysis { bat, spread, task, verdict, .. } = analysis;
-    let [Some(place), Some(speed)] = [Answer::BestPlace, Answer::ExitSpeed].map(|of| spread.of(of))
+    let [Some(place), Some(speed)] =
+        [SpreadAnswer::BestPlace, SpreadAnswer::ExitSpeed].map(|of| spread.of(of))
     else {
         return "Sweet spot: ball and bat do not meet.\n".to_owned();
     };
-    let open = |answer: Answer| {
+    let open = |answer: SpreadAnswer| {
         about(analysis, answer, units).map_or(String::new(), |open| format!(", {open},"))
     };
-    let shown = |kind: Kind, value: f64| kind.shown(units, value);
+    let shown = |kind: AnswerUnit, value: f64| kind.shown(units, value);
     let told = format!(
         "Sweet spot: {} from the knob{} {} from the tip; there the ball leaves at {}{} after a swing of {} and a \
          pitch of {}.",
-        shown(Kind::Length, place.value),
-        open(Answer::BestPlace),
-        shown(Kind::Length, bat.length() - place.value),
-        shown(Kind::Speed, speed.value),
-        open(Answer::ExitSpeed),
-        shown(Kind::Speed, BarrelSpeed::of(bat, &task.scene, BarrelSpeed::BROADCAST).speed),
-        shown(Kind::Speed, task.scene.ball_speed)
+        shown(AnswerUnit::Length, place.value),
+        open(SpreadAnswer::BestPlace),
+        shown(AnswerUnit::Length, bat.length() - place.value),
+        shown(AnswerUnit::Speed, speed.value),
+        open(SpreadAnswer::ExitSpeed),
+        shown(AnswerUnit::Speed, BarrelSpeed::of(bat, &task.scene, BarrelSpeed::BROADCAST).speed),
+        shown(AnswerUnit::Speed, task.scene.ball_speed)
     );
     [told].into_iter().chain(doubts(verdict, units)).map(|text| wrapped(&text, 0)).collect()
 }
@@ -76,15 +77,15 @@ fn scene(analysis: &Analysis, units: Units) -> String {
     };
     format!(
         "  {}; swing {}, pitch {}{model}",
-        Kind::Length.shown(units, bat.length()),
-        Kind::Speed.shown(units, barrel.speed),
-        Kind::Speed.shown(units, scene.ball_speed)
+        AnswerUnit::Length.shown(units, bat.length()),
+        AnswerUnit::Speed.shown(units, barrel.speed),
+        AnswerUnit::Speed.shown(units, scene.ball_speed)
     )
 }
 
 /// What an answer counts in.
 #[derive(Clone, Copy)]
-enum Kind {
+enum AnswerUnit {
     Length,
     Speed,
     Mass,
@@ -92,13 +93,15 @@ enum Kind {
     Frequency,
 }
 
-impl Kind {
-    fn of(answer: Answer) -> Self {
+impl AnswerUnit {
+    fn of(answer: SpreadAnswer) -> Self {
         match answer {
-            Answer::Mass => Self::Mass,
-            Answer::SwingWeight => Self::Inertia,
-            Answer::Frequency1 | Answer::Frequency2 | Answer::Frequency3 => Self::Frequency,
-            Answer::ExitSpeed => Self::Speed,
+            SpreadAnswer::Mass => Self::Mass,
+            SpreadAnswer::SwingWeight => Self::Inertia,
+            SpreadAnswer::Frequency1 | SpreadAnswer::Frequency2 | SpreadAnswer::Frequency3 => {
+                Self::Frequency
+            }
+            SpreadAnswer::ExitSpeed => Self::Speed,
             _ => Self::Length,
         }
     }
@@ -168,30 +171,30 @@ pub fn table(analysis: &Analysis, units: Units) -> String {
     let columns =
         Columns::new([first(15, ""), first(28, "computed"), first(28, head[0]), first(9, head[1])]);
     let mut out = columns.heads();
-    let mut row = |what: &str, answer: Answer| {
+    let mut row = |what: &str, answer: SpreadAnswer| {
         let Some(estimate) = spread.of(answer) else { return };
-        let kind = Kind::of(answer);
+        let kind = AnswerUnit::of(answer);
         let mostly = spread.mostly(answer).map_or("", |(source, _)| word(source));
         let open = about(analysis, answer, units).unwrap_or_default();
         let value = kind.shown(units, estimate.value);
         out += &columns.row([&format!("  {what}"), &value, &open, mostly]);
-        if answer == Answer::BestPlace {
+        if answer == SpreadAnswer::BestPlace {
             let tip = kind.shown(units, analysis.bat.length() - estimate.value);
             out += &columns.row(["    from tip", &tip, "", ""]);
         }
     };
-    row("sweet spot", Answer::BestPlace);
-    row("fastest ball", Answer::ExitSpeed);
+    row("sweet spot", SpreadAnswer::BestPlace);
+    row("fastest ball", SpreadAnswer::ExitSpeed);
     // Around a later contact speeds come and go within a millimetre.
     if !analysis.verdict.doubts.contains(&Doubt::LaterContact) {
-        row("1 % less at", Answer::ZoneFrom);
-        row("     and at", Answer::ZoneTo);
+        row("1 % less at", SpreadAnswer::ZoneFrom);
+        row("     and at", SpreadAnswer::ZoneTo);
     }
-    row("swing weight", Answer::SwingWeight);
-    row("mass", Answer::Mass);
-    row("f1", Answer::Frequency1);
-    row("f2", Answer::Frequency2);
-    row("f3", Answer::Frequency3);
+    row("swing weight", SpreadAnswer::SwingWeight);
+    row("mass", SpreadAnswer::Mass);
+    row("f1", SpreadAnswer::Frequency1);
+    row("f2", SpreadAnswer::Frequency2);
+    row("f3", SpreadAnswer::Frequency3);
     out
 }
 
@@ -256,22 +259,28 @@ fn doubted(doubt: &Doubt, units: Units) -> String {
 /// How far an answer may be from that of the bat in hand, `± 0.54 cm`; None where that is not open. What the ball
 /// does has more to it where the wall is beyond its theory or left out, and everything where the bat is not what its
 /// file says.
-pub fn about(analysis: &Analysis, answer: Answer, units: Units) -> Option<String> {
+pub fn about(analysis: &Analysis, answer: SpreadAnswer, units: Units) -> Option<String> {
     let spread = &analysis.spread;
     spread.mostly(answer)?;
     let deviation = spread.of(answer)?.deviation?;
     // No slope tells how far it jumps.
-    if answer == Answer::BestPlace && analysis.verdict.doubts.contains(&Doubt::LaterContact) {
+    if answer == SpreadAnswer::BestPlace && analysis.verdict.doubts.contains(&Doubt::LaterContact) {
         return Some("may jump far".to_owned());
     }
-    let of_ball = [Answer::BestPlace, Answer::ExitSpeed, Answer::ZoneFrom, Answer::ZoneTo];
+    let of_ball = [
+        SpreadAnswer::BestPlace,
+        SpreadAnswer::ExitSpeed,
+        SpreadAnswer::ZoneFrom,
+        SpreadAnswer::ZoneTo,
+    ];
     let ball = analysis.verdict.ball_is_open() && of_ball.contains(&answer);
-    let stiff = [Answer::Mass, Answer::BalancePoint, Answer::SwingWeight].contains(&answer);
+    let stiff = [SpreadAnswer::Mass, SpreadAnswer::BalancePoint, SpreadAnswer::SwingWeight]
+        .contains(&answer);
     let bent = analysis.verdict.bending_is_open() && !stiff;
     let more = ball || bent || analysis.verdict.bat_is_open();
     // Of what is a lower limit one unit is enough.
     let (more, units) = if more { (" or more", units.first()) } else { ("", units) };
-    Some(format!("± {}{more}", Kind::of(answer).about(units, deviation)))
+    Some(format!("± {}{more}", AnswerUnit::of(answer).about(units, deviation)))
 }
 
 /// What is open of the bat, and what that makes of its first frequency.
@@ -318,7 +327,8 @@ fn bat_first(analysis: &Analysis, units: Units) -> String {
     if told.is_empty() {
         return format!("The bat first: nothing of it was counted as open.{left_out}");
     }
-    let range = spread.of(Answer::Frequency1).and_then(|open| Some((open.value, open.range()?)));
+    let range =
+        spread.of(SpreadAnswer::Frequency1).and_then(|open| Some((open.value, open.range()?)));
     let range = range.map_or(String::new(), |(value, [low, high])| {
         let digits = decimals(0.5 * (high - low));
         format!(
@@ -355,26 +365,26 @@ fn settled_by(analysis: &Analysis, units: Units) -> Option<String> {
     /// From this share of the variance on it is worth a tap.
     const MOST: f64 = 0.5;
     let Analysis { bat, solution, spread, task, .. } = analysis;
-    let by = |answer: Answer, input: Input| {
+    let by = |answer: SpreadAnswer, input: Input| {
         spread.mostly(answer).is_some_and(|(of, share)| of.input == input && share > MOST)
     };
     // A note that is known no better than the answer settles nothing.
-    let frequency = spread.of(Answer::Frequency1);
+    let frequency = spread.of(SpreadAnswer::Frequency1);
     let open = frequency.and_then(|of| Some(of.deviation? / of.value)).unwrap_or(0.0);
-    if by(Answer::Frequency1, Input::Stiffness) && open > 2.0 * task.readings.tap {
+    if by(SpreadAnswer::Frequency1, Input::Stiffness) && open > 2.0 * task.readings.tap {
         let known = percent(task.readings.tap, 0);
         let free = bat.fixtures().rigid_modes() == 2;
         let node = solution.modes.first().and_then(|mode| mode.nodes.first()).filter(|_| free);
         let hold = node.map_or("Tap it".to_owned(), |x| {
-            format!("Tap it, held loosely {} from the knob", Kind::Length.shown(units, *x))
+            format!("Tap it, held loosely {} from the knob", AnswerUnit::Length.shown(units, *x))
         });
         return Some(format!(
             "{hold}, type the note into its file, \"weighed\": {{ \"first_bending_hz\": ... }}, and f1 is \
              known to {known}."
         ));
     }
-    by(Answer::Mass, Input::Density).then(|| {
-        let known = Kind::Mass.about(units, task.readings.mass);
+    by(SpreadAnswer::Mass, Input::Density).then(|| {
+        let known = AnswerUnit::Mass.about(units, task.readings.mass);
         format!(
             "Weigh it, type the \"mass\" into \"weighed\" of its file, and it is known to {known}."
         )
@@ -412,17 +422,18 @@ fn computation(analysis: &Analysis) -> String {
 fn far_more_exact(analysis: &Analysis) -> bool {
     const SMALL: f64 = 0.1;
     let Analysis { solution, hits, spread, verdict, .. } = analysis;
-    let open = |answer: Answer| {
+    let open = |answer: SpreadAnswer| {
         spread.of(answer).map(|of| of.deviation.filter(|_| !spread.sources.is_empty()))
     };
-    let frequencies = [Answer::Frequency1, Answer::Frequency2, Answer::Frequency3];
-    let frequency = |(answer, mode): (Answer, &Mode)| match open(answer) {
+    let frequencies =
+        [SpreadAnswer::Frequency1, SpreadAnswer::Frequency2, SpreadAnswer::Frequency3];
+    let frequency = |(answer, mode): (SpreadAnswer, &Mode)| match open(answer) {
         None => true,
         Some(open) => {
             open.is_some_and(|open| mode.error.total() * mode.frequency() <= SMALL * open)
         }
     };
-    let speed = match (open(Answer::ExitSpeed), hits.worst()) {
+    let speed = match (open(SpreadAnswer::ExitSpeed), hits.worst()) {
         (Some(open), Some((impact, outcome))) => {
             let closing = impact.bat_speed + analysis.task.scene.ball_speed;
             open.is_some_and(|open| outcome.error * closing <= SMALL * open)
@@ -458,7 +469,7 @@ pub fn open(analysis: &Analysis) -> file::Open {
         material: source.material.clone(),
         standard_deviation: source.deviation,
     };
-    let answer = |estimate: &Estimate| file::Answer {
+    let answer = |estimate: &Estimate| file::BoundedAnswer {
         answer: key(estimate.answer),
         value: estimate.value,
         standard_deviation: estimate.deviation,
@@ -485,17 +496,17 @@ pub fn in_file(verdict: &Verdict) -> Vec<file::Doubt> {
 }
 
 /// The name of an answer in JSON, its unit at the end.
-fn key(answer: Answer) -> &'static str {
+fn key(answer: SpreadAnswer) -> &'static str {
     match answer {
-        Answer::Mass => "mass_kg",
-        Answer::BalancePoint => "balance_point_m",
-        Answer::SwingWeight => "inertia_pivot_kg_m2",
-        Answer::Frequency1 => "frequency_1_hz",
-        Answer::Frequency2 => "frequency_2_hz",
-        Answer::Frequency3 => "frequency_3_hz",
-        Answer::BestPlace => "best_place_m",
-        Answer::ExitSpeed => "exit_speed_m_s",
-        Answer::ZoneFrom => "zone_from_m",
-        Answer::ZoneTo => "zone_to_m",
+        SpreadAnswer::Mass => "mass_kg",
+        SpreadAnswer::BalancePoint => "balance_point_m",
+        SpreadAnswer::SwingWeight => "inertia_pivot_kg_m2",
+        SpreadAnswer::Frequency1 => "frequency_1_hz",
+        SpreadAnswer::Frequency2 => "frequency_2_hz",
+        SpreadAnswer::Frequency3 => "frequency_3_hz",
+        SpreadAnswer::BestPlace => "best_place_m",
+        SpreadAnswer::ExitSpeed => "exit_speed_m_s",
+        SpreadAnswer::ZoneFrom => "zone_from_m",
+        SpreadAnswer::ZoneTo => "zone_to_m",
     }
 }

@@ -12,7 +12,7 @@ use crate::show::parts::units::Units;
 use crate::show::report::columns::{Columns, labels, numbers};
 use crate::show::report::text::edited;
 use crate::study::trade::reference::{Choice, Reference, solver_name};
-use crate::study::trade::u_curve::{Column, End, Way, best, loss};
+use crate::study::trade::u_curve::{Column, End, SolverFrequency, best, loss};
 
 /// What was measured against what.
 pub fn heading(what: &str, bat: &Bat, reference: &Reference) -> String {
@@ -70,16 +70,16 @@ pub fn text(bat: &Bat, reference: &Reference, columns: &[Column]) -> String {
 }
 
 /// Columns in the order of the table.
-fn ways(columns: &[Column]) -> Vec<(&Column, Way)> {
+fn ways(columns: &[Column]) -> Vec<(&Column, SolverFrequency)> {
     columns.iter().flat_map(|column| column.ways().iter().map(move |way| (column, *way))).collect()
 }
 
-fn name(column: &Column, way: Way) -> String {
+fn name(column: &Column, way: SolverFrequency) -> String {
     let name = solver_name(column.solver);
     match (column.solver, way) {
         (Solver::Statics, _) => name.to_owned(),
-        (_, Way::Own) => format!("{name}, own λ"),
-        (_, Way::Recomputed) => format!("{name}, again"),
+        (_, SolverFrequency::Own) => format!("{name}, own λ"),
+        (_, SolverFrequency::Recomputed) => format!("{name}, again"),
     }
 }
 
@@ -87,8 +87,8 @@ fn table(columns: &[Column], mode: usize) -> String {
     let ways = ways(columns);
     let second = ways.iter().map(|(column, way)| match (column.solver, way) {
         (Solver::Statics, _) => "",
-        (_, Way::Own) => "own λ",
-        (_, Way::Recomputed) => "again",
+        (_, SolverFrequency::Own) => "own λ",
+        (_, SolverFrequency::Recomputed) => "again",
     });
     // Over both of its columns, if it has two.
     let over = |column: &Column| numbers(10 * column.ways().len(), solver_name(column.solver));
@@ -102,7 +102,7 @@ fn table(columns: &[Column], mode: usize) -> String {
     counts.sort_unstable();
     counts.dedup();
     for n in counts {
-        let cell = |(column, way): &(&Column, Way)| {
+        let cell = |(column, way): &(&Column, SolverFrequency)| {
             let series = column.series(*way, mode);
             let here = series.iter().find(|(elements, _)| *elements == n);
             here.map_or("-".to_owned(), |(_, error)| format!("{error:.1e}"))
@@ -204,13 +204,13 @@ fn of_column(column: &Column) -> file::Column {
         solver: solver_name(column.solver),
         points: points.collect(),
         end: end.map(|(elements, reason)| file::End { elements, reason: reason.to_owned() }),
-        own_lost_at: of_losses(column, Way::Own),
-        recomputed_lost_at: of_losses(column, Way::Recomputed),
+        own_lost_at: of_losses(column, SolverFrequency::Own),
+        recomputed_lost_at: of_losses(column, SolverFrequency::Recomputed),
     }
 }
 
 /// The numbers of elements at which mode 1 is lost.
-fn of_losses(column: &Column, way: Way) -> Option<file::Losses> {
+fn of_losses(column: &Column, way: SolverFrequency) -> Option<file::Losses> {
     let series = column.series(way, 0);
     let (best_elements, least_error) = best(&series)?;
     let [eight_digits, four_digits, nothing] =
@@ -222,9 +222,9 @@ fn of_losses(column: &Column, way: Way) -> Option<file::Losses> {
 pub fn csv(columns: &[Column]) -> String {
     let mut table = Csv::new(["solver", "frequency", "elements", "mode", "error"]);
     for (column, way) in ways(columns) {
-        let whose = if way == Way::Own { "own" } else { "recomputed" };
+        let whose = if way == SolverFrequency::Own { "own" } else { "recomputed" };
         for point in &column.points {
-            let errors = if way == Way::Own { &point.own } else { &point.recomputed };
+            let errors = if way == SolverFrequency::Own { &point.own } else { &point.recomputed };
             for (k, error) in errors.iter().enumerate() {
                 table.row([
                     solver_name(column.solver).into(),

@@ -2,7 +2,7 @@
 
 use crate::bat::body::Bat;
 use crate::bat::material::Material;
-use crate::study::advise::part::Part;
+use crate::study::advise::part::ModelPart;
 
 /// The damping that the materials make, and what else takes energy.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,7 +21,9 @@ impl Damping {
     /// What damps that bat.
     pub fn of(bat: &Bat) -> Self {
         let lossless =
-            [Part::Springs, Part::Absorbers, Part::Joints, Part::Grip].iter().any(|p| p.is_on(bat));
+            [ModelPart::Springs, ModelPart::Absorbers, ModelPart::Joints, ModelPart::Grip]
+                .iter()
+                .any(|p| p.is_on(bat));
         let mut losses: Vec<f64> = materials(bat).map(|material| material.loss_factor).collect();
         if lossless {
             losses.push(0.0);

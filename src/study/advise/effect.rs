@@ -7,7 +7,7 @@ use crate::bat::body::STANDARD_PIVOT;
 use crate::bat::theory::Theory;
 use crate::modes::mode::Mode;
 use crate::study::advise::model::{Bench, Model, Solved};
-use crate::study::advise::part::Part;
+use crate::study::advise::part::ModelPart;
 use crate::study::ignored::with_typical_shear;
 
 /// What is switched.
@@ -23,8 +23,8 @@ pub enum Switch {
     /// Both: from Euler–Bernoulli to Timoshenko.
     Theory,
     /// One kind of thing on the bat.
-    Part(Part),
-    /// All of [`Part::ATTACHED`] together.
+    Part(ModelPart),
+    /// All of [`ModelPart::ATTACHED`] together.
     Attachments,
 }
 
@@ -124,20 +124,26 @@ pub fn effects(bench: &mut Bench, full: &Model) -> Result<Vec<Effect>> {
         let shearing = bench.solve_instead(&full.by(Theory::Timoshenko), typical)?;
         effects.push(Effect::new(Switch::TypicalShear, Rc::new(shearing), turning));
     }
-    for part in Part::ALL.into_iter().filter(|part| full.parts.contains(part)) {
+    for part in ModelPart::ALL.into_iter().filter(|part| full.parts.contains(part)) {
         effects.push(taken_off(bench, full, Switch::Part(part), &[part])?);
         let last_attached =
-            full.parts.iter().rev().find(|part| Part::ATTACHED.contains(part)) == Some(&part);
-        let several = full.parts.iter().filter(|part| Part::ATTACHED.contains(part)).count() > 1;
+            full.parts.iter().rev().find(|part| ModelPart::ATTACHED.contains(part)) == Some(&part);
+        let several =
+            full.parts.iter().filter(|part| ModelPart::ATTACHED.contains(part)).count() > 1;
         if last_attached && several {
-            effects.push(taken_off(bench, full, Switch::Attachments, &Part::ATTACHED)?);
+            effects.push(taken_off(bench, full, Switch::Attachments, &ModelPart::ATTACHED)?);
         }
     }
     Ok(effects)
 }
 
 /// By the full model's theory, or without shear where what is left has no known shear modulus.
-fn taken_off(bench: &mut Bench, full: &Model, switch: Switch, parts: &[Part]) -> Result<Effect> {
+fn taken_off(
+    bench: &mut Bench,
+    full: &Model,
+    switch: Switch,
+    parts: &[ModelPart],
+) -> Result<Effect> {
     let mut without = full.without(parts);
     let known = without.bat(bench.bat())?.knows_shear();
     if without.theory.shears() && !known {

@@ -6,27 +6,27 @@ use crate::base::error::{Error, Result};
 use crate::bat::body::{Bat, Inertia};
 use crate::bat::theory::Theory;
 use crate::modes::solve::{Request, Solution, solve};
-use crate::study::advise::part::Part;
+use crate::study::advise::part::ModelPart;
 
 /// What of a bat is in a model.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Model {
     /// The beam theory.
     pub theory: Theory,
-    /// The parts that it has, in the order of [`Part::ALL`].
-    pub parts: Vec<Part>,
+    /// The parts that it has, in the order of [`ModelPart::ALL`].
+    pub parts: Vec<ModelPart>,
 }
 
 impl Model {
     /// Everything that is known of the bat: with shear if it is known.
     pub fn full(bat: &Bat) -> Self {
         let theory = if bat.knows_shear() { Theory::Timoshenko } else { Theory::Rayleigh };
-        let parts = Part::ALL.into_iter().filter(|part| part.is_on(bat)).collect();
+        let parts = ModelPart::ALL.into_iter().filter(|part| part.is_on(bat)).collect();
         Self { theory, parts }
     }
 
     /// This model without some parts.
-    pub fn without(&self, parts: &[Part]) -> Self {
+    pub fn without(&self, parts: &[ModelPart]) -> Self {
         let kept = self.parts.iter().copied().filter(|part| !parts.contains(part));
         Self { theory: self.theory, parts: kept.collect() }
     }
@@ -47,8 +47,8 @@ impl Model {
     ///
     /// What is left is no bat that can be solved: without its supports it may hang on springs too weak.
     pub fn bat(&self, bat: &Bat) -> Result<Bat> {
-        let missing = Part::ALL.into_iter().filter(|part| !self.parts.contains(part));
-        let missing: Vec<Part> = missing.filter(|part| part.is_on(bat)).collect();
+        let missing = ModelPart::ALL.into_iter().filter(|part| !self.parts.contains(part));
+        let missing: Vec<ModelPart> = missing.filter(|part| part.is_on(bat)).collect();
         let left =
             bat.with(|parts| missing.iter().for_each(|part| part.take_off(&mut parts.fixtures)));
         let names: Vec<&str> = missing.iter().map(|part| part.name()).collect();

@@ -6,7 +6,7 @@ use crate::bat::fixtures::{Attachment, Fixtures};
 /// A kind of thing that a model of a bat may have or leave out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
-pub enum Part {
+pub enum ModelPart {
     /// The materials of `regions`; without them the bat's own is everywhere and bores are empty.
     Materials,
     /// Masses of `attachments`, with their offset and rotary inertia.
@@ -25,7 +25,7 @@ pub enum Part {
     Grip,
 }
 
-impl Part {
+impl ModelPart {
     /// All of them, in the order in which they are shown.
     pub const ALL: [Self; 8] = [
         Self::Materials,

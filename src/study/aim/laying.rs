@@ -52,7 +52,7 @@ pub struct Laying<'a> {
 /// A place where a station is to stand (m), another on the same piece of the bat, and how many times finer than
 /// others its diameter is rounded.
 #[derive(Debug, Clone, Copy)]
-struct Place {
+struct StationPlace {
     x: f64,
     inside: f64,
     finer: f64,
@@ -119,7 +119,7 @@ impl Laying<'_> {
     /// Those of [`Profile::new`].
     pub fn stations(&self) -> Result<Vec<Station>> {
         let mut places = self.places();
-        let stations = |places: &[Place]| -> Vec<Station> {
+        let stations = |places: &[StationPlace]| -> Vec<Station> {
             places.iter().map(|place| self.station(*place)).collect()
         };
         for _ in 0..HALVINGS {
@@ -144,7 +144,7 @@ impl Laying<'_> {
     }
 
     /// The bat's own stations, and even places where it changes.
-    fn places(&self) -> Vec<Place> {
+    fn places(&self) -> Vec<StationPlace> {
         let profile = self.bat.profile();
         let own = &profile.stations;
         let mut places = vec![];
@@ -152,7 +152,7 @@ impl Laying<'_> {
             // At a step the first is of the piece to its left; a bat that is cut has several between two stations.
             let left = k > 0 && (k + 1 == own.x.len() || own.x[k + 1] == *x);
             let to = if left { own.x[k - 1] } else { own.x[(k + 1).min(own.x.len() - 1)] };
-            places.push(Place { x: *x, inside: x + BESIDE * (to - x), finer: 1.0 });
+            places.push(StationPlace { x: *x, inside: x + BESIDE * (to - x), finer: 1.0 });
         }
         let length = profile.length();
         let near = |x: f64| own.x.iter().any(|y| (y - x).abs() < NEAR * self.grid.every);
@@ -161,7 +161,7 @@ impl Laying<'_> {
             let x = k as f64 * self.grid.every;
             let wanted = self.change(x) != 0.0 || !self.is_of_stations();
             if wanted && !near(x) && x < length {
-                places.push(Place { x, inside: x, finer: 1.0 });
+                places.push(StationPlace { x, inside: x, finer: 1.0 });
             }
         }
         sort(&mut places);
@@ -169,7 +169,7 @@ impl Laying<'_> {
     }
 
     /// Places between two stations from which the curve through them runs beside the changed one.
-    fn between(&self, laid: &[Station]) -> Result<Vec<Place>> {
+    fn between(&self, laid: &[Station]) -> Result<Vec<StationPlace>> {
         let through = self.profile(laid, |station| station.exact)?;
         let far = |from: f64, to: f64| {
             (1..4).any(|k| {
@@ -186,13 +186,13 @@ impl Laying<'_> {
             let (from, to) = (ends[0].x, ends[1].x);
             let x = 0.5 * (from + to);
             let wanted = to - from > 2.0 * CLOSEST && far(from, to);
-            wanted.then_some(Place { x, inside: x, finer: FINER })
+            wanted.then_some(StationPlace { x, inside: x, finer: FINER })
         };
         Ok(laid.windows(2).filter_map(middle).collect())
     }
 
-    fn station(&self, place: Place) -> Station {
-        let Place { x, inside, finer } = place;
+    fn station(&self, place: StationPlace) -> Station {
+        let StationPlace { x, inside, finer } = place;
         let at = section(self.bat.profile(), x, inside);
         let (old, kept) = (2.0 * at.outer, !self.is_free(x));
         let room = self.limits.room(x, at);
@@ -241,6 +241,6 @@ impl Laying<'_> {
 }
 
 /// From the knob on; at a step the one to the left first.
-fn sort(places: &mut [Place]) {
+fn sort(places: &mut [StationPlace]) {
     places.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.inside.total_cmp(&b.inside)));
 }

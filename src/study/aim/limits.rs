@@ -246,7 +246,7 @@ impl<'a> Limits<'a> {
             let inside = 0.5 * (ends[0] + ends[1]);
             let at = |x: f64| {
                 let room = self.room(x, section(profile, x, inside));
-                Seen { room, change: change(x, inside) }
+                LimitedChange { room, change: change(x, inside) }
             };
             broken.extend(worst([ends[0], ends[1]], at));
         }
@@ -271,12 +271,12 @@ pub fn section(profile: &Profile, x: f64, inside: f64) -> Section {
 
 /// A change at a place and what it may be.
 #[derive(Clone, Copy)]
-struct Seen {
+struct LimitedChange {
     room: Room,
     change: f64,
 }
 
-impl Seen {
+impl LimitedChange {
     /// By how much it is beyond the nearer limit, below 0 inside (m).
     fn beyond(&self) -> f64 {
         (self.change - self.room.high).max(self.room.low - self.change)
@@ -290,14 +290,15 @@ impl Seen {
 }
 
 /// The worst places of a stretch: local maxima of what is broken, each sought between the places around it.
-fn worst([from, to]: [f64; 2], at: impl Fn(f64) -> Seen) -> Vec<Broken> {
+fn worst([from, to]: [f64; 2], at: impl Fn(f64) -> LimitedChange) -> Vec<Broken> {
     /// What is farther inside is not near a limit (m).
     const FAR: f64 = -1e-5;
     let count = ((to - from) / CLOSE).ceil().max(4.0) as usize;
     let place = |k: usize| from + (to - from) * k as f64 / count as f64;
-    let seen: Vec<Seen> = (0..=count).map(|k| at(place(k))).collect();
-    let beyond =
-        |k: Option<usize>| k.and_then(|k| seen.get(k)).map_or(f64::NEG_INFINITY, Seen::beyond);
+    let seen: Vec<LimitedChange> = (0..=count).map(|k| at(place(k))).collect();
+    let beyond = |k: Option<usize>| {
+        k.and_then(|k| seen.get(k)).map_or(f64::NEG_INFINITY, LimitedChange::beyond)
+    };
     let mut found = vec![];
     for (k, here) in seen.iter().enumerate() {
         let (before, value, after) = (beyond(k.checked_sub(1)), here.beyond(), beyond(Some(k + 1)));

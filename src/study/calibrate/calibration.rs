@@ -8,7 +8,7 @@ use crate::base::error::{Error, Result};
 use crate::bat::body::Bat;
 use crate::study::calibrate::fit::{Fit, Residual, Search};
 use crate::study::calibrate::labels::{
-    Labelled, Labels, MOST_MODES, Told, best, contradict, strangers,
+    LabelChoice, Labelled, Labels, MOST_MODES, best, contradict, strangers,
 };
 use crate::study::calibrate::next::{BEYOND, Proposal, proposals};
 use crate::study::calibrate::posterior::Posterior;
@@ -430,14 +430,14 @@ fn labelled(search: &Search) -> Result<(Labelled, Identified)> {
     let searched = modes.max(told.len() + 4).max(8);
     let kept = match told.iter().all(Option::is_some) {
         true => vec![Labelled::new(search, told.clone(), modes, &[0.0; UNKNOWNS])?],
-        false => best(search, Told::Stays(&told), searched)?,
+        false => best(search, LabelChoice::Stays(&told), searched)?,
     };
     let fits = |one: &Labelled| is_near(&one.fit) && 2 * strangers(&one.labels) < told.len().max(2);
     let nothing_told = told.iter().all(Option::is_none);
     if kept.first().is_some_and(fits) || told.is_empty() || nothing_told {
         return taken(search, kept, None);
     }
-    let other = best(search, Told::Changes(&told), searched)?;
+    let other = best(search, LabelChoice::Changes(&told), searched)?;
     match (kept.first(), other.first()) {
         // Other labels are taken only where they explain what was measured, and nearly all of it.
         (None, Some(_)) => taken(search, other, None),

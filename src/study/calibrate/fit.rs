@@ -21,7 +21,7 @@ use crate::base::error::Result;
 use crate::base::linear::{dot, inverse};
 use crate::study::calibrate::readings::{BatReadings, Reading};
 use crate::study::calibrate::unknowns::{Logs, Unknown, covariance, form};
-use crate::study::calibrate::wood::{Shown, Slopes, WoodenBat};
+use crate::study::calibrate::wood::{BatObservations, Slopes, WoodenBat};
 
 /// The largest change of a logarithm in one step.
 const LARGEST_STEP: f64 = 0.3;
@@ -36,7 +36,7 @@ const RUNAWAY: [f64; 2] = [4.0, 8.0];
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
-pub enum Kind {
+pub enum DatumKind {
     /// Mass (kg).
     Mass,
     /// Balance point (m).
@@ -47,7 +47,7 @@ pub enum Kind {
     Frequency(usize),
 }
 
-impl Kind {
+impl DatumKind {
     /// Its name, that of an output of the program where there is one.
     pub fn name(self) -> String {
         match self {
@@ -59,7 +59,7 @@ impl Kind {
     }
 
     /// What a bat shows of it.
-    pub fn of(self, shown: &Shown) -> Slopes {
+    pub fn of(self, shown: &BatObservations) -> Slopes {
         match self {
             Self::Mass => shown.mass,
             Self::BalancePoint => shown.balance_point,
@@ -73,7 +73,7 @@ impl Kind {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Datum {
     /// What.
-    pub kind: Kind,
+    pub kind: DatumKind,
     /// Which of the lines it is; None for what is no line.
     pub line: Option<usize>,
     /// The reading.
@@ -85,16 +85,15 @@ pub struct Datum {
 /// The data of these readings, the lines taken for those modes; None where a line is of none of them.
 pub fn data(readings: &BatReadings, modes: &[Option<usize>]) -> Vec<Datum> {
     let rigid = [
-        (Kind::Mass, readings.mass),
-        (Kind::BalancePoint, readings.balance_point),
-        (Kind::Period, readings.pendulum.map(|pendulum| pendulum.period)),
+        (DatumKind::Mass, readings.mass),
+        (DatumKind::BalancePoint, readings.balance_point),
+        (DatumKind::Period, readings.pendulum.map(|pendulum| pendulum.period)),
     ];
     let rigid = rigid.into_iter().filter_map(|(kind, reading)| Some((kind, None, reading?)));
-    let lines =
-        readings.lines.iter().zip(modes).enumerate().filter_map(|(k, (line, mode))| {
-            Some((Kind::Frequency((*mode)?), Some(k), line.frequency))
-        });
-    let datum = |(kind, line, reading): (Kind, Option<usize>, Reading)| {
+    let lines = readings.lines.iter().zip(modes).enumerate().filter_map(|(k, (line, mode))| {
+        Some((DatumKind::Frequency((*mode)?), Some(k), line.frequency))
+    });
+    let datum = |(kind, line, reading): (DatumKind, Option<usize>, Reading)| {
         let model = if line.is_some() { readings.model * reading.value } else { 0.0 };
         Datum { kind, line, reading, sigma: reading.deviation.hypot(model) }
     };
@@ -143,7 +142,7 @@ pub struct Fit {
     /// The data beside what the bat shows.
     pub residuals: Vec<Residual>,
     /// Everything that the bat shows.
-    pub shown: Shown,
+    pub shown: BatObservations,
 }
 
 impl Fit {
@@ -222,7 +221,7 @@ impl Search<'_> {
     fn ended(
         &self,
         data: &[Datum],
-        shown: Shown,
+        shown: BatObservations,
         (logs, linear): (Logs, Linear),
         (steps, settled): (usize, bool),
     ) -> Fit {
@@ -245,7 +244,7 @@ impl Search<'_> {
     }
 
     /// χ², half its downward gradient and the covariance, of the free unknowns.
-    fn linear(&self, data: &[Datum], shown: &Shown, logs: &Logs) -> Linear {
+    fn linear(&self, data: &[Datum], shown: &BatObservations, logs: &Logs) -> Linear {
         // Unknowns that are held count in what was known before, where they are not as the file has them.
         let known = inverse(&self.prior()).unwrap_or_default();
         let away: Vec<f64> = logs.iter().zip(&self.about).map(|(log, mean)| log - mean).collect();

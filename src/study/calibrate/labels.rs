@@ -34,7 +34,7 @@ pub type Labels = Vec<Option<usize>>;
 
 /// What the labels of a search may be.
 #[derive(Debug, Clone, Copy)]
-pub enum Told<'a> {
+pub enum LabelChoice<'a> {
     /// Labels that stay; None where nothing was told.
     Stays(&'a Labels),
     /// Labels that may be changed, at a price.
@@ -84,7 +84,7 @@ pub fn contradict(a: &Labels, b: &Labels) -> bool {
 /// # Errors
 ///
 /// Those of [`Chart::of`].
-pub fn best(search: &Search, told: Told, modes: usize) -> Result<Vec<Labelled>> {
+pub fn best(search: &Search, told: LabelChoice, modes: usize) -> Result<Vec<Labelled>> {
     let chart = Chart::of(search, modes)?;
     let mut cheapest: BTreeMap<Labels, (f64, Logs)> = BTreeMap::new();
     let lines = Lines::of(search.readings, told);
@@ -167,10 +167,10 @@ struct Line {
 struct Lines(Vec<Line>);
 
 impl Lines {
-    fn of(readings: &BatReadings, told: Told) -> Self {
+    fn of(readings: &BatReadings, told: LabelChoice) -> Self {
         let (labels, other) = match told {
-            Told::Stays(labels) => (labels, f64::INFINITY),
-            Told::Changes(labels) => (labels, CHANGED),
+            LabelChoice::Stays(labels) => (labels, f64::INFINITY),
+            LabelChoice::Changes(labels) => (labels, CHANGED),
         };
         let line = |(place, line): (usize, &SpectralLine)| {
             let value = line.frequency.value;

@@ -8,7 +8,7 @@
 //!
 //! so that no bat need be solved to say what it would be worth.
 
-use crate::study::calibrate::fit::{Fit, Kind, Search};
+use crate::study::calibrate::fit::{DatumKind, Fit, Search};
 use crate::study::calibrate::unknowns::form;
 use crate::study::calibrate::wood::Slopes;
 
@@ -19,7 +19,7 @@ pub const BEYOND: usize = 2;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Proposal {
     /// What would be measured.
-    pub kind: Kind,
+    pub kind: DatumKind,
     /// Standard deviation that it is thought to have, in the unit of the datum.
     pub sigma: f64,
     /// Factor on the standard deviation of every parameter, in their order.
@@ -28,20 +28,21 @@ pub struct Proposal {
 
 /// Every measurement that is missing, with what it would do to these parameters (each a sum of unknowns).
 pub fn proposals(search: &Search, fit: &Fit, parameters: &[Vec<f64>]) -> Vec<Proposal> {
-    let made = |kind: Kind| fit.residuals.iter().any(|residual| residual.datum.kind == kind);
-    let rigid = [(Kind::Mass, 1e-3), (Kind::BalancePoint, 1e-3), (Kind::Period, 1e-3)];
+    let made = |kind: DatumKind| fit.residuals.iter().any(|residual| residual.datum.kind == kind);
+    let rigid =
+        [(DatumKind::Mass, 1e-3), (DatumKind::BalancePoint, 1e-3), (DatumKind::Period, 1e-3)];
     let tone = |k: usize| {
         let frequency = fit.shown.frequencies[k].value;
-        (Kind::Frequency(k + 1), f64::hypot(0.5, search.readings.model * frequency))
+        (DatumKind::Frequency(k + 1), f64::hypot(0.5, search.readings.model * frequency))
     };
-    let order = |kind: Kind| match kind {
-        Kind::Frequency(order) => order,
+    let order = |kind: DatumKind| match kind {
+        DatumKind::Frequency(order) => order,
         _ => 0,
     };
     let highest = fit.residuals.iter().map(|residual| order(residual.datum.kind)).max();
     let tones = (0..fit.shown.frequencies.len().min(highest.unwrap_or(0) + 1)).map(tone);
     let all = rigid.into_iter().chain(tones).filter(|(kind, _)| !made(*kind));
-    let proposal = |(kind, sigma): (Kind, f64)| {
+    let proposal = |(kind, sigma): (DatumKind, f64)| {
         let Slopes { by, .. } = kind.of(&fit.shown);
         let by = &by[..fit.covariance.len()];
         let whole = sigma * sigma + form(&fit.covariance, by, by);

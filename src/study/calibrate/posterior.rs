@@ -34,7 +34,7 @@ const SHEAR: usize = 1;
 
 /// A Gaussian, and its weight.
 #[derive(Debug, Clone)]
-struct Part {
+struct Component {
     weight: f64,
     mean: Vec<f64>,
     covariance: Vec<Vec<f64>>,
@@ -42,7 +42,7 @@ struct Part {
 
 /// What is known of the logarithms of the unknowns: a sum of Gaussians.
 #[derive(Debug, Clone)]
-pub struct Posterior(Vec<Part>);
+pub struct Posterior(Vec<Component>);
 
 impl Posterior {
     /// What these data, which that fit shows best, and what was known before say.
@@ -53,7 +53,7 @@ impl Posterior {
     pub fn of(search: &Search, data: &[Datum], fit: &Fit) -> Result<Self> {
         let own = fit.covariance[SHEAR][SHEAR].sqrt();
         let unknowns = fit.covariance.len();
-        let part = |weight: f64, fit: &Fit| Part {
+        let part = |weight: f64, fit: &Fit| Component {
             weight,
             mean: fit.logs[..unknowns].to_vec(),
             covariance: fit.covariance.clone(),
@@ -77,7 +77,7 @@ impl Posterior {
         // A wood that cannot be solved is none that the bat may be of.
         let fits: Vec<Fit> = fits.into_iter().filter_map(|fit| fit.ok()).collect();
         let best = fits.iter().map(|fit| fit.chi2).fold(f64::INFINITY, f64::min);
-        let mut parts: Vec<Part> =
+        let mut parts: Vec<Component> =
             fits.windows(2).flat_map(|pair| between(pair, best, unknowns)).collect();
         let all: f64 = parts.iter().map(|part| part.weight).sum();
         parts.iter_mut().for_each(|part| part.weight /= all);
@@ -90,7 +90,7 @@ impl Posterior {
         let mean = |i: usize| self.0.iter().map(|part| part.weight * part.mean[i]).sum::<f64>();
         let means: Vec<f64> = (0..unknowns).map(mean).collect();
         let entry = |i: usize, j: usize| {
-            let of = |part: &Part| {
+            let of = |part: &Component| {
                 let apart = (part.mean[i] - means[i]) * (part.mean[j] - means[j]);
                 part.weight * (part.covariance[i][j] + apart)
             };
@@ -101,8 +101,8 @@ impl Posterior {
 
     /// The value below which a sum of unknowns lies with that probability; `more` is a variance that is added.
     pub fn quantile(&self, parts: &[f64], more: f64, probability: f64) -> f64 {
-        let mean = |part: &Part| part.mean.iter().zip(parts).map(|(m, p)| m * p).sum::<f64>();
-        let normal = |part: &Part| {
+        let mean = |part: &Component| part.mean.iter().zip(parts).map(|(m, p)| m * p).sum::<f64>();
+        let normal = |part: &Component| {
             let variance = form(&part.covariance, parts, parts) + more;
             (part.weight, mean(part), variance.max(0.0).sqrt())
         };
@@ -126,14 +126,14 @@ impl Posterior {
 }
 
 /// Gaussians from one value of G/E to the next, between which means and covariances go straight, and χ² as well.
-fn between(pair: &[Fit], best: f64, unknowns: usize) -> Vec<Part> {
+fn between(pair: &[Fit], best: f64, unknowns: usize) -> Vec<Component> {
     let [from, to] = [&pair[0], &pair[1]];
     let at = |k: usize| {
         let share = (k as f64 + 0.5) / BETWEEN as f64;
         let mix = |a: f64, b: f64| (1.0 - share) * a + share * b;
         let row =
             |(a, b): (&Vec<f64>, &Vec<f64>)| a.iter().zip(b).map(|(a, b)| mix(*a, *b)).collect();
-        Part {
+        Component {
             weight: (-0.5 * (mix(from.chi2, to.chi2) - best)).exp(),
             mean: (0..unknowns).map(|i| mix(from.logs[i], to.logs[i])).collect(),
             covariance: from.covariance.iter().zip(&to.covariance).map(row).collect(),

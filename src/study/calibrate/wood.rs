@@ -46,7 +46,7 @@ pub struct Slopes {
 
 /// What a bat shows.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Shown {
+pub struct BatObservations {
     /// Mass (kg).
     pub mass: Slopes,
     /// Balance point (m).
@@ -161,7 +161,7 @@ impl WoodenBat {
     /// # Errors
     ///
     /// Those of [`Self::of`] and of [`solve`].
-    pub fn shown(&self, logs: &Logs, modes: usize) -> Result<Shown> {
+    pub fn shown(&self, logs: &Logs, modes: usize) -> Result<BatObservations> {
         let bat = self.of(logs)?;
         let theory = Theory::Timoshenko;
         let request = Request { modes, tolerance: TOLERANCE, theory, ..Request::default() };
@@ -169,7 +169,7 @@ impl WoodenBat {
         let wood = self.materials(logs);
         let [mass, balance_point, period] = self.rigid(&bat, &wood);
         let frequencies = self.frequencies(&bat, &solution, &wood);
-        Ok(Shown { mass, balance_point, period, frequencies })
+        Ok(BatObservations { mass, balance_point, period, frequencies })
     }
 
     fn borders(&self) -> Vec<f64> {
@@ -262,7 +262,7 @@ mod tests {
                     wooden.shown(&logs, 3).unwrap()
                 };
                 let (up, down) = (moved(step), moved(-step));
-                let all = |shown: &Shown| {
+                let all = |shown: &BatObservations| {
                     let rigid = [shown.mass, shown.balance_point, shown.period];
                     rigid.into_iter().chain(shown.frequencies.clone()).collect::<Vec<_>>()
                 };

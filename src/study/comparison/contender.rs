@@ -22,7 +22,7 @@ use crate::collision::hit::{Impact, Model, Scene};
 use crate::collision::hitter::Hitter;
 use crate::collision::strike::Glance;
 use crate::collision::sweep::{Sweep, Trial, sweep};
-use crate::collision::sweet_spot::{Looked, Peak, SweetSpot};
+use crate::collision::sweet_spot::{HitsAlong, Peak, SweetSpot};
 use crate::modes::solve::Request;
 use crate::study::verdict::Verdict;
 
@@ -220,7 +220,7 @@ pub fn exit_speed(impact: &Impact, scene: &Scene) -> Option<Figure> {
 /// What is found by search on the outer half of a bat, with its errors.
 pub struct Sought<'a> {
     /// The outer half, looked along.
-    pub looked: Looked<'a>,
+    pub looked: HitsAlong<'a>,
     length: f64,
     /// The share of the bat to which a place is located.
     located: f64,
@@ -230,7 +230,7 @@ pub struct Sought<'a> {
 impl<'a> Sought<'a> {
     /// Looks along the outer half of that hitter's bat, in so many steps; places are located to that share of it.
     pub fn new(hitter: &'a Hitter<'a>, look: (usize, f64)) -> Self {
-        let looked = Looked::outer(look, hitter);
+        let looked = HitsAlong::outer(look, hitter);
         let length = hitter.profile.length();
         Self { looked, length, located: LOCATED.max(0.5 * look.1), hitter }
     }

@@ -15,10 +15,10 @@ use crate::bat::body::Bat;
 use crate::bat::edit::Change;
 use crate::collision::hit::Model;
 use crate::study::comparison::contender::Contender;
-use crate::study::spread::{Analysed, Answer, Input, Readings, Spread};
+use crate::study::spread::{Analysed, Input, Readings, Spread, SpreadAnswer};
 
-/// Standard deviations by the wood alone, in the order of [`Answer::ALL`]; None where there is none known.
-pub type ByWood = [Option<f64>; Answer::ALL.len()];
+/// Standard deviations by the wood alone, in the order of [`SpreadAnswer::ALL`]; None where there is none known.
+pub type ByWood = [Option<f64>; SpreadAnswer::ALL.len()];
 
 /// What the wood leaves open of every answer of a bat.
 pub fn by_wood(contender: &Contender, model: Model) -> ByWood {
@@ -34,9 +34,9 @@ pub fn by_wood(contender: &Contender, model: Model) -> ByWood {
     let spread = Spread::new(&analysed, &Readings::default());
     let wood = |k: usize| matches!(spread.sources[k].input, Input::Stiffness | Input::Density);
     if !(0..spread.sources.len()).any(wood) {
-        return [None; Answer::ALL.len()];
+        return [None; SpreadAnswer::ALL.len()];
     }
-    Answer::ALL.map(|answer| {
+    SpreadAnswer::ALL.map(|answer| {
         let estimate = spread.of(answer)?;
         estimate.deviation?;
         let parts = estimate.parts.iter().enumerate().filter(|(k, _)| wood(*k));
@@ -45,18 +45,18 @@ pub fn by_wood(contender: &Contender, model: Model) -> ByWood {
 }
 
 /// The answer that a row of figures is, by its key.
-pub fn answer(key: &str) -> Option<Answer> {
+pub fn answer(key: &str) -> Option<SpreadAnswer> {
     Some(match key {
-        "mass" => Answer::Mass,
-        "balance_point" => Answer::BalancePoint,
-        "swing_weight" => Answer::SwingWeight,
-        "frequency_1" => Answer::Frequency1,
-        "frequency_2" => Answer::Frequency2,
-        "frequency_3" => Answer::Frequency3,
-        "best_exit_speed" => Answer::ExitSpeed,
-        "best_place" => Answer::BestPlace,
-        "zone_from" => Answer::ZoneFrom,
-        "zone_to" => Answer::ZoneTo,
+        "mass" => SpreadAnswer::Mass,
+        "balance_point" => SpreadAnswer::BalancePoint,
+        "swing_weight" => SpreadAnswer::SwingWeight,
+        "frequency_1" => SpreadAnswer::Frequency1,
+        "frequency_2" => SpreadAnswer::Frequency2,
+        "frequency_3" => SpreadAnswer::Frequency3,
+        "best_exit_speed" => SpreadAnswer::ExitSpeed,
+        "best_place" => SpreadAnswer::BestPlace,
+        "zone_from" => SpreadAnswer::ZoneFrom,
+        "zone_to" => SpreadAnswer::ZoneTo,
         _ => return None,
     })
 }

@@ -19,7 +19,7 @@
 
 use crate::collision::hitter::Hitter;
 use crate::collision::strike::Glance;
-use crate::collision::sweet_spot::{Looked, Peak};
+use crate::collision::sweet_spot::{HitsAlong, Peak};
 use crate::study::many::answers::Answer;
 
 /// What is read of a hit.
@@ -183,7 +183,7 @@ impl Gauge {
     }
 
     /// The sum on a bat that is hit, of hits seen at those places.
-    pub fn read(&self, hitter: &Hitter, seen: &Seen) -> Option<f64> {
+    pub fn read(&self, hitter: &Hitter, seen: &GaugeHits) -> Option<f64> {
         let of = |&(x, probe, factor): &(f64, Probe, f64)| {
             Some(factor * probe.read(hitter, seen.at(x))?)
         };
@@ -192,12 +192,12 @@ impl Gauge {
 }
 
 /// The hits at the places that gauges read.
-pub struct Seen {
+pub struct GaugeHits {
     places: Vec<f64>,
     hits: Vec<Option<Glance>>,
 }
 
-impl Seen {
+impl GaugeHits {
     /// Hits the bat at every place that a gauge reads, once.
     pub fn new<'a>(hitter: &Hitter, gauges: impl Iterator<Item = &'a Gauge>) -> Self {
         let mut places: Vec<f64> = gauges.flat_map(|g| g.terms.iter().map(|term| term.0)).collect();
@@ -215,7 +215,7 @@ impl Seen {
 
 /// The outer half of a bat after a look along it, from which gauges are made.
 pub struct OuterHalf<'a> {
-    looked: Looked<'a>,
+    looked: HitsAlong<'a>,
     hitter: &'a Hitter<'a>,
     ends: [f64; 2],
     /// What was found of a probe.
@@ -255,7 +255,7 @@ impl<'a> OuterHalf<'a> {
     /// Looks along the outer half of a bat of that length (m).
     pub fn new(hitter: &'a Hitter<'a>, length: f64) -> Self {
         let ends = [0.5 * length, length];
-        let looked = Looked::by(ends, (STEPS, LOCATED), hitter);
+        let looked = HitsAlong::by(ends, (STEPS, LOCATED), hitter);
         Self { looked, hitter, ends, found: vec![], rivals: vec![] }
     }
 

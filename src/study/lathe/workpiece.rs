@@ -16,7 +16,7 @@ use crate::collision::sweep::{Trial, sweep};
 use crate::collision::sweet_spot::Peak;
 use crate::modes::solve::{Request, Solution};
 use crate::study::comparison::contender::Figure;
-use crate::study::lathe::gauges::{Gauge, OuterHalf, Rivals, Seen};
+use crate::study::lathe::gauges::{Gauge, GaugeHits, OuterHalf, Rivals};
 use crate::study::lathe::same_plan::SamePlan;
 use crate::study::lathe::samples::{BodySlope, SectionSlopes};
 use crate::study::many::answers::{Answer, figure, on_the_bat};
@@ -235,7 +235,7 @@ impl Workpiece {
         hitter: &Hitter,
         gauges: [&[Option<Gauge>]; N],
     ) -> [Vec<Option<f64>>; N] {
-        let seen = Seen::new(hitter, gauges.iter().copied().flatten().flatten());
+        let seen = GaugeHits::new(hitter, gauges.iter().copied().flatten().flatten());
         let read = |gauge: &Option<Gauge>| gauge.as_ref()?.read(hitter, &seen);
         gauges.map(|gauges| gauges.iter().map(read).collect())
     }

@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 use crate::base::error::{Error, Result};
 use crate::study::many::distribution::{Distribution, share_below, standard_normal};
 use crate::study::many::hash::{of, shuffled};
-use crate::study::many::indices::Kind;
+use crate::study::many::indices::VariateKind;
 use crate::study::many::sobol::{MOST_COORDINATES, Sobol, between};
 
 /// How points are spread.
@@ -182,19 +182,19 @@ impl Design {
     }
 
     /// The independent numbers behind the values that are drawn, and what each of them is.
-    pub fn kinds(&self) -> Vec<Kind> {
+    pub fn kinds(&self) -> Vec<VariateKind> {
         let kind = |distribution: &Distribution| match distribution {
-            Distribution::Normal { .. } | Distribution::Lognormal { .. } => Kind::Score,
-            Distribution::Uniform { .. } | Distribution::Triangular { .. } => Kind::Share,
+            Distribution::Normal { .. } | Distribution::Lognormal { .. } => VariateKind::Score,
+            Distribution::Uniform { .. } | Distribution::Triangular { .. } => VariateKind::Share,
         };
         self.drawn.iter().map(kind).collect()
     }
 
     /// Those of row k; of correlated values each has what the earlier ones leave open.
     pub fn numbers(&self, k: u64) -> Vec<f64> {
-        let number = |(c, kind): (usize, Kind)| match kind {
-            Kind::Share => self.share(k % self.points, c),
-            Kind::Score => standard_normal(self.share(k % self.points, c)),
+        let number = |(c, kind): (usize, VariateKind)| match kind {
+            VariateKind::Share => self.share(k % self.points, c),
+            VariateKind::Score => standard_normal(self.share(k % self.points, c)),
         };
         self.kinds().into_iter().enumerate().map(number).collect()
     }

@@ -32,7 +32,7 @@ const GROUPS: usize = 16;
 
 /// What is drawn, seen as an independent number ξ with its own polynomials.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum VariateKind {
     /// A normal score; Hermite's polynomials.
     Score,
     /// A share between 0 and 1; Legendre's polynomials.
@@ -66,13 +66,17 @@ pub struct Indices {
 impl Indices {
     /// Of rows of independent numbers with their answer; None where there are too few for a plane, or where
     /// the answer does not vary.
-    pub fn new(kinds: &[Kind], rows: &[(Vec<f64>, f64)]) -> Option<Self> {
+    pub fn new(kinds: &[VariateKind], rows: &[(Vec<f64>, f64)]) -> Option<Self> {
         Self::grouped(kinds, &(0..kinds.len()).collect::<Vec<_>>(), rows)
     }
 
     /// As [`Self::new`], by groups of numbers, 0, 1, … for each number: what they do within their group alone is of first
     /// order.
-    pub fn grouped(kinds: &[Kind], groups: &[usize], rows: &[(Vec<f64>, f64)]) -> Option<Self> {
+    pub fn grouped(
+        kinds: &[VariateKind],
+        groups: &[usize],
+        rows: &[(Vec<f64>, f64)],
+    ) -> Option<Self> {
         let of_each = groups;
         let degree = (1..=MOST_DEGREE).rev().find(|degree| {
             let terms = terms(kinds.len(), *degree);
@@ -133,7 +137,12 @@ fn exponents(count: usize, degree: usize) -> Vec<Vec<usize>> {
 }
 
 /// Every polynomial at a row.
-fn values(kinds: &[Kind], numbers: &[f64], exponents: &[Vec<usize>], degree: usize) -> Vec<f64> {
+fn values(
+    kinds: &[VariateKind],
+    numbers: &[f64],
+    exponents: &[Vec<usize>],
+    degree: usize,
+) -> Vec<f64> {
     let each = kinds.iter().zip(numbers).map(|(kind, x)| orthonormal(*kind, *x, degree));
     let each: Vec<Vec<f64>> = each.collect();
     let product = |one: &Vec<usize>| one.iter().zip(&each).map(|(k, of)| of[*k]).product();
@@ -141,22 +150,22 @@ fn values(kinds: &[Kind], numbers: &[f64], exponents: &[Vec<usize>], degree: usi
 }
 
 /// ψ₀ to ψ_d: `He_k/√(k!)` of a score, `√(2k + 1) P_k(2u − 1)` of a share.
-fn orthonormal(kind: Kind, x: f64, degree: usize) -> Vec<f64> {
-    let x = if kind == Kind::Share { 2.0 * x - 1.0 } else { x };
+fn orthonormal(kind: VariateKind, x: f64, degree: usize) -> Vec<f64> {
+    let x = if kind == VariateKind::Share { 2.0 * x - 1.0 } else { x };
     let (mut all, mut scale) = (vec![1.0, x], 1.0);
     for k in 1..degree {
         let n = k as f64;
         let (a, b) = (all[k], all[k - 1]);
         all.push(match kind {
-            Kind::Score => x * a - n * b,
-            Kind::Share => ((2.0 * n + 1.0) * x * a - n * b) / (n + 1.0),
+            VariateKind::Score => x * a - n * b,
+            VariateKind::Share => ((2.0 * n + 1.0) * x * a - n * b) / (n + 1.0),
         });
     }
     for (k, value) in all.iter_mut().enumerate() {
         let n = k as f64;
         match kind {
-            Kind::Score => scale *= n.max(1.0),
-            Kind::Share => scale = 1.0 / (2.0 * n + 1.0),
+            VariateKind::Score => scale *= n.max(1.0),
+            VariateKind::Share => scale = 1.0 / (2.0 * n + 1.0),
         }
         *value /= f64::sqrt(scale);
     }
@@ -258,7 +267,11 @@ mod tests {
     use super::*;
     use crate::study::many::sobol::Sobol;
 
-    fn rows(count: usize, of: impl Fn(&[f64]) -> f64, kinds: &[Kind]) -> Vec<(Vec<f64>, f64)> {
+    fn rows(
+        count: usize,
+        of: impl Fn(&[f64]) -> f64,
+        kinds: &[VariateKind],
+    ) -> Vec<(Vec<f64>, f64)> {
         let sobol = Sobol::new(kinds.len(), 3);
         let row = |k: usize| {
             let shares = (0..kinds.len()).map(|c| sobol.at(k as u64, c));
@@ -276,7 +289,7 @@ mod tests {
             let x = [0, 1, 2].map(|k| PI * (2.0 * u[k] - 1.0));
             x[0].sin() + 7.0 * x[1].sin().powi(2) + 0.1 * x[2].powi(4) * x[0].sin()
         };
-        let kinds = [Kind::Share; 3];
+        let kinds = [VariateKind::Share; 3];
         let (a, b, pi4) = (7.0_f64, 0.1, PI.powi(4));
         let v1 = 0.5 * (1.0 + b * pi4 / 5.0).powi(2);
         let (v2, v13) = (a * a / 8.0, b * b * pi4 * pi4 * (1.0 / 18.0 - 1.0 / 50.0));
@@ -295,7 +308,7 @@ mod tests {
     /// `y = 3 z₁ + 4 z₂ + z₁ z₂` of normal scores has the variances 9, 16 and 1.
     #[test]
     fn a_product_of_scores_is_shared_by_both() {
-        let kinds = [Kind::Score; 2];
+        let kinds = [VariateKind::Score; 2];
         let score = crate::study::many::distribution::standard_normal;
         let mut rows = rows(512, |_| 0.0, &kinds);
         for (numbers, y) in &mut rows {
@@ -315,7 +328,7 @@ mod tests {
 
     #[test]
     fn too_few_rows_and_what_does_not_vary_have_no_indices() {
-        let kinds = [Kind::Share; 3];
+        let kinds = [VariateKind::Share; 3];
         assert!(Indices::new(&kinds, &rows(15, |u| u[0], &kinds)).is_none());
         assert!(Indices::new(&kinds, &rows(64, |_| 0.3, &kinds)).is_none());
         assert!(Indices::new(&[], &[]).is_none());

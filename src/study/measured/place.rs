@@ -32,7 +32,7 @@ impl End {
 
 /// What was told about the points.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Told {
+pub struct ToldPoints {
     /// The end that the first point is near, the one with the lowest coordinate.
     pub first: Option<End>,
     /// Where that point is (m from the knob end).
@@ -70,12 +70,12 @@ const BETTER: f64 = 0.02;
 pub fn place(
     measured: &Measured,
     length: f64,
-    told: Told,
+    told: ToldPoints,
     fit: impl Fn(&[f64], &[Vec<c64>]) -> f64,
 ) -> Result<Placed> {
     fits_on(measured, length)?;
     let shapes: Vec<Vec<c64>> = measured.modes.iter().map(|mode| mode.shape.clone()).collect();
-    let way = |first: End| -> Result<Way> {
+    let way = |first: End| -> Result<DirectionPoints> {
         let (places, how) = places(measured, length, told.origin, first);
         let mut x = on_the_bat(places, length)?;
         let mut shapes = shapes.clone();
@@ -83,7 +83,7 @@ pub fn place(
             x.reverse();
             shapes.iter_mut().for_each(|shape| shape.reverse());
         }
-        Ok(Way { fit: fit(&x, &shapes), x, shapes, first, how })
+        Ok(DirectionPoints { fit: fit(&x, &shapes), x, shapes, first, how })
     };
     let wanted = told.first.or(measured.from_knob.then_some(End::Knob));
     let (knob, tip) = (way(End::Knob), way(End::Tip));
@@ -104,7 +104,7 @@ pub fn place(
 }
 
 /// The points in one direction.
-struct Way {
+struct DirectionPoints {
     x: Vec<f64>,
     shapes: Vec<Vec<c64>>,
     first: End,
@@ -114,12 +114,16 @@ struct Way {
 
 /// One of two ways, how well the other fits if it can be, and why it is this one if nobody said so.
 struct Choice {
-    chosen: Way,
+    chosen: DirectionPoints,
     other: Option<f64>,
     reason: Option<&'static str>,
 }
 
-fn choose(wanted: Option<End>, knob: Result<Way>, tip: Result<Way>) -> Result<Choice> {
+fn choose(
+    wanted: Option<End>,
+    knob: Result<DirectionPoints>,
+    tip: Result<DirectionPoints>,
+) -> Result<Choice> {
     let fits = [&knob, &tip].map(|way| way.as_ref().ok().map(|way| way.fit));
     let (chosen, other, reason) = match (wanted, knob, tip) {
         (Some(End::Knob), knob, _) => (knob?, fits[1], None),

@@ -3,7 +3,7 @@
 use faer::c64;
 
 use crate::base::error::{Error, Result};
-use crate::motion::frf::{Frf, Kind};
+use crate::motion::frf::{Frf, ResponseKind};
 use crate::motion::peaks::{self, Peak};
 
 /// A frequency response as a laboratory measured it.
@@ -12,7 +12,7 @@ pub struct MeasuredResponse {
     /// The file it is from, for people.
     pub source: String,
     /// Deflection, velocity or acceleration.
-    pub kind: Kind,
+    pub kind: ResponseKind,
     /// Where the force was (m), in the file's own direction and from its own origin; None where the
     /// file does not tell.
     pub at: Option<f64>,
@@ -67,7 +67,7 @@ impl Laid {
     pub fn new(
         frf: &mut Frf,
         response: &MeasuredResponse,
-        kind: Kind,
+        kind: ResponseKind,
         (peaks, [low, high]): (&[Peak], [f64; 2]),
     ) -> Result<Self> {
         let within = |f: f64| (low..=high).contains(&f);

@@ -9,7 +9,7 @@ use crate::modes::solve::{Request, Solution, solve};
 use crate::study::measured::data::{Measured, MeasuredMode};
 use crate::study::measured::mac;
 use crate::study::measured::pairing::{by_order, by_shape, octaves};
-use crate::study::measured::place::{Placed, Told, place};
+use crate::study::measured::place::{Placed, ToldPoints, place};
 use crate::study::measured::weigh::{Curve, Scale};
 
 /// Measured modes beside computed ones.
@@ -117,7 +117,7 @@ impl Study {
         measured: Measured,
         request: &Request,
         exactly: bool,
-        told: Told,
+        told: ToldPoints,
     ) -> Result<Self> {
         let Some(otherwise) = measured.otherwise else {
             return Self::as_read(bat, measured, request, exactly, told);
@@ -155,7 +155,7 @@ impl Study {
         measured: Measured,
         request: &Request,
         exactly: bool,
-        told: Told,
+        told: ToldPoints,
     ) -> Result<Self> {
         let solution =
             if exactly { solve(bat, request)? } else { reaching(bat, &measured, request)? };
@@ -168,7 +168,7 @@ impl Study {
         };
         let (slowest, bending): (Vec<usize>, Vec<usize>) =
             (0..measured.modes.len()).partition(slow);
-        if !measured.has_shapes() && told != Told::default() {
+        if !measured.has_shapes() && told != ToldPoints::default() {
             let expected =
                 "a file with shapes, or nothing said of where they begin and which end comes first";
             return Err(Error::value("measured modes", "frequencies alone", expected));
@@ -204,13 +204,13 @@ impl Study {
     }
 
     /// The modes at the measured points.
-    fn seen(&self, placed: Placed) -> Seen {
+    fn seen(&self, placed: Placed) -> MatchedShapes {
         let rows: Vec<_> = self.bending.iter().map(|k| placed.shapes[*k].clone()).collect();
         let computed = sampled(&self.solution, &placed.x);
-        Seen { mac: mac::matrix(&rows, &computed), computed, placed }
+        MatchedShapes { mac: mac::matrix(&rows, &computed), computed, placed }
     }
 
-    fn pair(&mut self, seen: Option<&Seen>) {
+    fn pair(&mut self, seen: Option<&MatchedShapes>) {
         let computed: Vec<f64> = self.solution.modes.iter().map(|mode| mode.frequency()).collect();
         let frequency = |k: &usize| self.measured.modes[*k].frequency;
         let measured: Vec<f64> = self.bending.iter().map(frequency).collect();
@@ -224,8 +224,9 @@ impl Study {
         let one = |(row, column): &(usize, usize)| {
             let mode = &self.solution.modes[*column];
             let number = self.bending[*row];
-            let scale =
-                |seen: &Seen| mac::scale(&seen.placed.shapes[number], &seen.computed[*column]);
+            let scale = |seen: &MatchedShapes| {
+                mac::scale(&seen.placed.shapes[number], &seen.computed[*column])
+            };
             let difference = mode.frequency() / measured[*row] - 1.0;
             Pair {
                 measured: number,
@@ -246,8 +247,8 @@ impl Study {
     }
 
     /// What the shapes say.
-    fn look(&self, bat: &Bat, seen: Seen) -> Shapes {
-        let Seen { placed, computed, mac } = seen;
+    fn look(&self, bat: &Bat, seen: MatchedShapes) -> Shapes {
+        let MatchedShapes { placed, computed, mac } = seen;
         let whole = bat.fixtures().absorbers.is_empty();
         let scale = Scale::new(bat, self.solution.theory, &placed.x);
         let shape = |k: &usize| placed.shapes[*k].as_slice();
@@ -281,7 +282,7 @@ impl Study {
 
 /// Both at the measured points: the measured shapes where they are on the bat, the computed ones,
 /// and the MAC of each with each.
-struct Seen {
+struct MatchedShapes {
     placed: Placed,
     computed: Vec<Vec<c64>>,
     mac: Vec<Vec<f64>>,

@@ -12,13 +12,13 @@ use crate::bat::material::Material;
 use crate::collision::hitter::Hitter;
 use crate::collision::setup::Setup;
 use crate::collision::sweep::{Trial as Hit, sweep};
-use crate::collision::sweet_spot::{FEW, Looked};
+use crate::collision::sweet_spot::{FEW, HitsAlong};
 use crate::modes::prepared::prepare;
 use crate::modes::solve::Request;
 use crate::study::comparison::contender::Figure;
 use crate::study::many::answers::Answer;
 use crate::study::many::design::Design;
-use crate::study::many::indices::Kind;
+use crate::study::many::indices::VariateKind;
 use crate::study::many::rows::{Asked, Found, Trial};
 use crate::study::scatter::spreads::{Differences, Differs, SCRAMBLES, softened};
 
@@ -126,7 +126,7 @@ impl ScatterRows {
     }
 
     /// What each of those numbers is.
-    pub fn kinds(&self) -> Vec<Kind> {
+    pub fn kinds(&self) -> Vec<VariateKind> {
         self.designs[0].kinds()
     }
 
@@ -311,7 +311,7 @@ fn fastest(bat: &Bat, plan: &ScatterPlan) -> Result<f64> {
     let accuracy = Hit { model, scene: &scene }.accuracy(&request, false);
     let sweep = sweep(bat, model, &scene, &accuracy, &[0.8 * bat.length()])?;
     let hitter = Hitter::new(model, &scene, bat, &sweep.solution, sweep.effort)?;
-    let looked = Looked::outer(FEW, &hitter);
+    let looked = HitsAlong::outer(FEW, &hitter);
     looked.fastest().map(|peak| peak.x).ok_or_else(|| {
         Error::value(
             "impact.at",

@@ -69,7 +69,7 @@ pub struct MeshErrors {
 
 /// Which of a solver's two frequencies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Way {
+pub enum SolverFrequency {
     /// The eigenvalue that the solver found.
     Own,
     /// Strain energy over kinetic energy of its shape.
@@ -78,19 +78,19 @@ pub enum Way {
 
 impl Column {
     /// Number of elements and error of one mode (from 0).
-    pub fn series(&self, way: Way, mode: usize) -> Vec<(usize, f64)> {
+    pub fn series(&self, way: SolverFrequency, mode: usize) -> Vec<(usize, f64)> {
         let error = |point: &MeshErrors| match way {
-            Way::Own => point.own.get(mode).copied(),
-            Way::Recomputed => point.recomputed.get(mode).copied(),
+            SolverFrequency::Own => point.own.get(mode).copied(),
+            SolverFrequency::Recomputed => point.recomputed.get(mode).copied(),
         };
         self.points.iter().filter_map(|point| Some((point.elements, error(point)?))).collect()
     }
 
     /// The ways in which this solver gives a frequency.
-    pub fn ways(&self) -> &'static [Way] {
+    pub fn ways(&self) -> &'static [SolverFrequency] {
         match self.solver {
-            Solver::Statics => &[Way::Recomputed],
-            _ => &[Way::Own, Way::Recomputed],
+            Solver::Statics => &[SolverFrequency::Recomputed],
+            _ => &[SolverFrequency::Own, SolverFrequency::Recomputed],
         }
     }
 }
@@ -233,7 +233,7 @@ mod tests {
     fn running_sums_lose_no_digit_up_to_a_hundred_thousand_elements() {
         let columns = dowel(&[Solver::Statics], 100_000);
         for mode in [0, 4] {
-            let series = columns[0].series(Way::Recomputed, mode);
+            let series = columns[0].series(SolverFrequency::Recomputed, mode);
             assert_eq!(series.last().map(|(n, _)| *n), Some(100_000));
             // (βL/n)⁴/1440 is the discretisation's part.
             let beta = [4.73, 17.28][usize::from(mode > 0)];
@@ -252,9 +252,12 @@ mod tests {
                 series.into_iter().find(|(n, _)| *n == elements).unwrap().1
             };
             // The mesh's part of mode 1 falls from 2e-8 to 5e-12.
-            assert!(at(Way::Recomputed, 512) < 6e-12, "{column:?}");
-            assert!(at(Way::Own, 512) > 100.0 * at(Way::Recomputed, 512), "{column:?}");
-            let (least, _) = best(&column.series(Way::Own, 0)).unwrap();
+            assert!(at(SolverFrequency::Recomputed, 512) < 6e-12, "{column:?}");
+            assert!(
+                at(SolverFrequency::Own, 512) > 100.0 * at(SolverFrequency::Recomputed, 512),
+                "{column:?}"
+            );
+            let (least, _) = best(&column.series(SolverFrequency::Own, 0)).unwrap();
             assert!(least < 512 && column.end.is_none(), "{column:?}");
         }
     }

@@ -3,7 +3,7 @@
 use crate::modes::solve::Solver;
 use crate::study::trade::front::{Run, fastest};
 use crate::study::trade::reference::solver_name;
-use crate::study::trade::u_curve::{Column, End, Way, best};
+use crate::study::trade::u_curve::{Column, End, SolverFrequency, best};
 
 /// Digits that are asked for, from the second on.
 const DIGITS: std::ops::RangeInclusive<i32> = 2..=15;
@@ -92,14 +92,14 @@ pub fn hurts(columns: &[Column]) -> Vec<String> {
     lines.collect()
 }
 
-fn hurt(column: &Column, way: Way) -> Option<String> {
+fn hurt(column: &Column, way: SolverFrequency) -> Option<String> {
     let series = column.series(way, 0);
     let ((least, error), (last, _)) = (best(&series)?, *series.last()?);
     let name = solver_name(column.solver);
     let whose = match (column.solver, way) {
         (Solver::Statics, _) => name.to_owned(),
-        (_, Way::Own) => format!("{name}, its own λ"),
-        (_, Way::Recomputed) => format!("{name}, recomputed"),
+        (_, SolverFrequency::Own) => format!("{name}, its own λ"),
+        (_, SolverFrequency::Recomputed) => format!("{name}, recomputed"),
     };
     // Below this the error goes up and down by itself.
     let limit = HURTS * error.max(1e-14);

@@ -1,0 +1,18 @@
+//! `--full`: everything, where one screen is not all.
+
+#[derive(clap::Args)]
+pub struct FullArgs {
+    /// Everything, not one screen alone
+    #[arg(long, help_heading = "Output")]
+    pub full: bool,
+}
+
+/// The last line of a screen that is not all.
+pub const MORE: &str = "Everything else: --full\n";
+
+impl FullArgs {
+    /// What is printed: all there is, or what a screen holds.
+    pub fn screen(&self, first: impl FnOnce() -> String, all: impl FnOnce() -> String) -> String {
+        if self.full { all() } else { first() + MORE }
+    }
+}
