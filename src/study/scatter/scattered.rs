@@ -89,7 +89,8 @@ impl Scattered {
         let (count, asked) = (rows.count(), rows.plan.outputs.len());
         let mut values: Vec<Vec<Option<f64>>> = vec![vec![]; asked];
         let (mut reasons, mut met) = (vec![], 0);
-        for found in in_groups(0..count, |some| rows.answers(some), tell) {
+        let walls = rows.plan.setup.may_solve_wall(&rows.bat);
+        for found in in_groups(0..count, walls, |some| rows.answers(some), tell) {
             let (all, why, good) = match found {
                 Ok(found) => {
                     let all: Vec<_> = found.figures.iter().map(value).collect();
