@@ -37,8 +37,14 @@ STUDY = {
     "tol": 0.01,
     "outputs": ["mass_kg", "f1_hz"],
 }
-CAST = {"format": "sweetspot-study/1", "bat": "r161", "vary": {"scene.pitch": {"uniform": [30, 40]}}, "points": 20,
-        "outputs": ["exit_speed_m_s@0.70"], "ball": "ball.json"}
+CAST = {
+    "format": "sweetspot-study/1",
+    "bat": "r161",
+    "vary": {"scene.pitch": {"uniform": [30, 40]}},
+    "points": 20,
+    "outputs": ["exit_speed_m_s@0.70"],
+    "ball": "ball.json",
+}
 BALL = '{ "format": "sweetspot-ball/1", "mass": "5.125 oz", "circumference": "9.125 in", "cor": 0.5 }'
 TABLE = {"format": "sweetspot-bat/1", "material": "white-ash", "profile": {"csv": "table.csv"}}
 
@@ -110,7 +116,7 @@ class Search:
     def flag(kind):
         return [] if kind == "csv" else [f"--{kind}"]
 
-    def folder(self, chance):
+    def folder(self):
         folder = self.place / "trial"
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir()
@@ -159,7 +165,7 @@ def damage(chance, path, others):
 def damaged(search, chance):
     """A folder of which one file was damaged is made whole, or refused by the file's name; nothing else changes."""
     kind = chance.choice(list(search.whole))
-    folder = search.folder(chance)
+    folder = search.folder()
     out = folder / "out"
     out.mkdir()
     whole = search.whole[kind]
@@ -207,7 +213,7 @@ def damaged(search, chance):
 
 def hostile(search, chance):
     """A study that names what it should not, or is no study: an answer or an error, without a word of other files."""
-    folder = search.folder(chance)
+    folder = search.folder()
     secret = search.place / "secret.csv"
     secret.write_text(f"{SECRET},{SECRET}\n{SECRET}\n")
     (folder / "ball.json").write_text(BALL)
@@ -293,7 +299,7 @@ def alive(pid):
 
 def killed(search, chance):
     """A maker is killed or stopped, or one of its workers is; whoever goes on makes the folder whole."""
-    folder = search.folder(chance)
+    folder = search.folder()
     makers = [chance.choice(search.makers) for _ in range(chance.randint(1, 2))]
     say = []
     for maker in makers:
@@ -344,7 +350,7 @@ def without(search, chance):
     engine = chance.choice([maker.name for maker in search.makers if maker.name in ("dask", "ray")] or [None])
     if engine is None:
         return "no engine"
-    folder = search.folder(chance)
+    folder = search.folder()
     hidden = folder / "hidden" / "sweetspot"
     hidden.mkdir(parents=True)
     (hidden / "__init__.py").write_text("raise ModuleNotFoundError(\"No module named 'sweetspot'\", name='sweetspot')\n")

@@ -43,11 +43,12 @@ fn sources() -> Vec<(String, String)> {
 /// The part of the house that a file belongs to.
 fn part(path: &str) -> &'static str {
     /// The readers that the engine needs, and the list of the chapter; other files are read for studies.
-    const READERS: [&str; 16] = [
+    const READERS: [&str; 17] = [
         "bat_file",
         "ball_file",
         "balls",
         "broken_json",
+        "built_in",
         "csv_file",
         "document",
         "edits_file",

@@ -14,7 +14,8 @@ use crate::cli::style;
 
 /// The built-in bats
 ///
-/// Each may stand wherever a bat file does. `meshes/` has their files, with the source of every number.
+/// Each may stand wherever a bat file does. The folder meshes of the source has their files, with where every
+/// number is from.
 #[derive(clap::Args)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Args {}

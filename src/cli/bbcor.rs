@@ -19,6 +19,7 @@ use crate::cli::cannon::CannonArgs;
 use crate::cli::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples, on_the_bat};
 use crate::cli::csv_option::CsvArgs;
 use crate::cli::done::Done;
+use crate::cli::full_option::FullArgs;
 use crate::cli::hit::verdict;
 use crate::cli::pictures;
 use crate::cli::value::PLACE;
@@ -58,9 +59,8 @@ pub struct Args {
           value_parser = ["auto", "on", "off"], hide_possible_values = true)]
     wall: String,
 
-    /// Every place, every source, and what a hollow barrel's wall does
-    #[arg(long, help_heading = "Output")]
-    full: bool,
+    #[command(flatten)]
+    full: FullArgs,
 
     #[command(flatten)]
     solve: SolveArgs,
@@ -104,8 +104,12 @@ pub fn run(args: &Args) -> Result<Done> {
         pictures::write(folder, &picture, args.output.quiet)?;
     }
     let code = verdict(&args.solve, &tested.sweep, &args.output);
-    let (title, parts) = report::report(&tested, args.output.units(&tested.bat), args.full);
-    let out = args.output.deliver(terminal::text(&title, &parts), || BbcorFile::of(&tested))?;
+    let said = |full| {
+        let (title, parts) = report::report(&tested, args.output.units(&tested.bat), full);
+        terminal::text(&title, &parts)
+    };
+    let table = args.full.screen(|| said(false), || said(true));
+    let out = args.output.deliver(table, || BbcorFile::of(&tested))?;
     let text = args.csv.deliver(out, || csv::rows(&report::COLUMNS, &tested.scan.places))?;
     Ok(Done::new(text, code).with(warning))
 }

@@ -27,13 +27,12 @@ pub fn read(mut words: Vec<OsString>, command: &Command) -> Result<Vec<OsString>
         return Ok(words);
     }
     if let Some((kind, verb)) = reader(path) {
-        let file = path.display();
+        let file = path.display().to_string();
         let found = format!("{file}, which is {kind}, and no verb");
-        return Err(Error::value(
-            "",
-            found,
-            format!("`sweetspot {}`", verb.replace('@', &file.to_string())),
-        ));
+        // What a shell takes apart is not repeated in a command.
+        let is_plain = file.chars().all(|c| c.is_alphanumeric() || "./\\_-:".contains(c));
+        let command = verb.replace('@', if is_plain { &file } else { "FILE" });
+        return Err(Error::value("", found, format!("`sweetspot {command}`")));
     }
     words.insert(1, "analyze".into());
     Ok(words)

@@ -30,7 +30,8 @@ use crate::cli::value::PLACE;
 /// there, how fast the ball leaves, how fast it would leave a bat that does not bend, the collision
 /// efficiency e_A and the energy left in vibration. Below it are the sweet spot by every
 /// definition and why it is there. With --full also: every place, a sketch, BBCOR, what an inch off
-/// costs, and how the sweet spot moves with swing and pitch. Places that were asked for are all shown.
+/// costs, and how the sweet spot moves with swing and pitch. Places asked for with --points or --at
+/// are all shown.
 /// --tol is here the error of an exit speed over the closing speed.
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES))]
@@ -130,7 +131,7 @@ impl PlaceArgs {
         Ok((0..points).map(place).collect())
     }
 
-    /// Whether the places were asked for one by one.
+    /// Whether so many places or one were asked for.
     fn asked(&self) -> bool {
         self.points.is_some() || self.at.is_some()
     }

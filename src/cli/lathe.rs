@@ -22,12 +22,12 @@ use crate::cli::value::{LITTLE, PLACE, SPACING};
 
 /// What a millimetre off the diameter does, inch by inch
 ///
-/// For every inch of the bat the table says what happens per millimetre (or 1/32 in) of diameter that is
-/// turned off there: mass, balance point, swing weight, frequencies, node, the fastest ball for the same
-/// swing (n=0) and for the same energy of rotation (n=1/2), which differ in sign, the sweet spot, and what
-/// the hands feel. Frequencies and the rigid body by formula, all else by differences of whole bats. Below
-/// it the same for a cut that is not small, what the least cut for a wish is, and knob weight, cup, hole
-/// and cork, solved.
+/// Says where a millimetre (or 1/32 in) off the diameter does most, what the least cut for a wish is, and
+/// knob weight, cup, hole and cork, solved. With --full, or where --bands names a stretch, or with --outputs
+/// or --depth, also a table of every band: mass, balance point, swing weight, frequencies, node, the fastest
+/// ball for the same swing (n=0) and for the same energy of rotation (n=1/2), which differ in sign, the sweet
+/// spot, and what the hands feel; and a second table of the same for a cut that is not small. Frequencies and
+/// the rigid body by formula, all else by differences of whole bats.
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES))]
 pub struct Args {
@@ -44,10 +44,10 @@ pub struct Args {
           value_parser = |s: &str| PLACE.read(s))]
     at: Option<f64>,
 
-    /// Depth of the finite cut that stands beside every derivative, of the diameter
-    #[arg(long, value_name = "m", default_value = "0.5 mm", help_heading = "The map",
+    /// Depth of the finite cut that stands beside every derivative, of the diameter [default: 0.5 mm]
+    #[arg(long, value_name = "m", help_heading = "The map",
           allow_hyphen_values = true, value_parser = |s: &str| LITTLE.read(s))]
-    depth: f64,
+    depth: Option<f64>,
 
     /// Look at these alone, such as f1_hz,mass_kg,exit_speed_max.value
     ///
@@ -83,7 +83,7 @@ pub struct Args {
 const EXAMPLES: &str = "\
 Examples:
   sweetspot lathe r161
-      every inch of a wooden bat
+      where a cut does most to a wooden bat; --full for every inch
 
   sweetspot lathe r161 --bands \"22 in to 24 in\" --depth \"2 mm\"
       one stretch, and two millimetres off it
@@ -91,6 +91,9 @@ Examples:
   sweetspot lathe r161 --reference-inertia \"10000 oz in2\" \\
       --swing-exponent 0.25 --bands \"3 in\" --json -
       by a batter who swings a lighter bat faster, as JSON";
+
+/// Depth of a cut that is solved whole (m).
+const DEPTH: f64 = 0.5e-3;
 
 /// What `--bands` says: a width, or a stretch (m).
 #[derive(Debug, Clone, Copy)]
@@ -152,10 +155,15 @@ pub fn run(args: &Args) -> Result<Done> {
         pictures::write(folder, &picture, args.output.quiet)?;
     }
     let units = args.output.units(map.piece.bat());
-    let table = args.full.screen(
-        || report::screen(&map, &hit.scene, units),
-        || report::text(&map, &hit.scene, units),
-    );
+    let all = || report::text(&map, &hit.scene, units);
+    // Who asks for outputs, a depth or a stretch wants the tables of them.
+    let asked = args.outputs.is_some()
+        || args.depth.is_some()
+        || args.bands.iter().any(|band| band.width().is_none());
+    let table = match report::screen(&map, &hit.scene, units).filter(|_| !asked) {
+        Some(screen) => args.full.screen(|| screen, all),
+        None => all(),
+    };
     let out = args.output.deliver(table, || report::document(&map, &hit.scene, model))?;
     let text = args.csv.deliver(out, || report::csv(&map))?;
     let code = if map.piece.met || !args.solve.enforced() { 0 } else { NOT_REACHED };
@@ -206,12 +214,13 @@ fn stretches(args: &Args, bat: &Bat) -> Result<(Vec<[f64; 2]>, f64)> {
             wrong.push(Error::value("--bands", shown_length(width), expected));
         }
     }
-    if !(args.depth > 0.0 && args.depth <= 0.02) {
-        let found = format!("{} mm", 1e3 * args.depth);
+    let depth = args.depth.unwrap_or(DEPTH);
+    if !(depth > 0.0 && depth <= 0.02) {
+        let found = format!("{} mm", 1e3 * depth);
         wrong.push(Error::value("--depth", found, "a depth above 0 and up to 20 mm"));
     }
     match wrong.len() {
-        0 => Ok((all, args.depth)),
+        0 => Ok((all, depth)),
         1 => Err(wrong.remove(0)),
         _ => Err(Error::Several { shown: wrong, more: 0 }),
     }

@@ -33,8 +33,8 @@ const AFTER: &str = "\
 Start here:
   sweetspot new
       writes a bat file from what you measured
-  sweetspot analyze r161
-      everything about a bat on one screen
+  sweetspot r161
+      a bat on one screen: a built-in one, or a file of yours
   sweetspot hit --help
       what a verb answers, with examples
 
@@ -172,6 +172,10 @@ fn bat_for_a_verb(said: clap::Error) -> clap::Error {
                 "found {}, expected a verb or a bat; did you mean `sweetspot analyze {near}`?",
                 printable(word)
             );
+            Cli::command().error(ErrorKind::InvalidSubcommand, text)
+        }
+        None if printable(word) != *word => {
+            let text = format!("unrecognized subcommand '{}'", printable(word));
             Cli::command().error(ErrorKind::InvalidSubcommand, text)
         }
         None => said,

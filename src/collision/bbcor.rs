@@ -82,7 +82,7 @@ pub struct Scan {
     /// The largest BBCOR that the rules allow.
     pub limit: f64,
     /// Whether the largest is below the limit; null where its error does not tell.
-    // That of the patch on which a ball presses on a hollow barrel included.
+    // The error includes that of the patch on which a ball presses on a hollow barrel.
     pub within_limit: Option<bool>,
     /// Whether every place is as accurate as was asked.
     pub tolerance_met: bool,

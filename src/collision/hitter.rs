@@ -49,8 +49,8 @@ pub struct Hitter<'a> {
     pub(super) wall_modes: Vec<[f64; 2]>,
 }
 
-/// A bat lighter than this share of the ball's mass, whose first mode turns by less than that angle while the ball is
-/// pressed, is not hit: the ball carries it along, and it rings against the ball for seconds of computing at each place.
+/// A bat lighter than this share of the ball's mass, whose first mode goes through less than that phase (rad) while
+/// the ball is pressed, is not hit: the ball carries it along, and each place takes seconds to compute.
 const CARRIED: [f64; 2] = [0.1, 0.1];
 /// Longest usual step of a contact, as a share of the time for which the ball is pressed: about a
 /// quarter of the way to the deepest compression. By the example `tuning_steps` half of it takes half as many
@@ -312,10 +312,10 @@ impl<'a> Hitter<'a> {
     }
 }
 
-/// The error about a bat (kg) that a ball (kg) carries along, whose first mode turns by that angle meanwhile.
+/// The error about a bat (kg) that a ball (kg) carries along, whose first mode goes through that phase (rad) meanwhile.
 fn carried(bat: f64, ball: f64, turned: f64) -> Error {
     let found = format!(
-        "a bat of {bat:.2e} kg, whose first mode turns by {turned:.0e} while the ball is pressed"
+        "a bat of {bat:.2e} kg, whose first mode goes through {turned:.0e} rad while the ball is pressed"
     );
     let expected = format!(
         "one of {:.2e} kg at least, a tenth of the ball's mass, or a stiffer one: the ball carries this one along; \

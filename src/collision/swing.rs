@@ -103,9 +103,12 @@ impl Hit {
                 "a ball that the bat meets",
             ));
         };
+        let error = |impact: &Impact| {
+            let closing = impact.bat_speed + scene.ball_speed;
+            impact.outcome.as_ref().map_or(0.0, |outcome| outcome.error * closing)
+        };
         let closing = best.impact.bat_speed + scene.ball_speed;
-        let worst =
-            sweep.worst().map_or(0.0, |(_, outcome)| outcome.error * closing).max(best.error);
+        let worst = sweep.impacts.iter().map(error).fold(best.error, f64::max);
         let reached = match sweep.met && best.error <= accuracy.exit_speed * closing {
             true => Reached::Asked,
             false => Reached::Within(worst),

@@ -86,20 +86,31 @@ def shared_out(pool: Pool, parts: list[int]) -> Parts:
 
 @contextmanager
 def undisturbed() -> Iterator[None]:
-    """Lets signals wait until an engine has started or ended: one that is interrupted leaves processes behind."""
+    """Lets a signal wait until an engine has started or ended: one that is interrupted leaves processes behind.
+
+    A second one does not wait.
+    """
     heard: list[int] = []
-    known = {}
+    known: dict[int, Any] = {}
+
+    def hear(number: int, _: Any) -> None:
+        heard.append(number)
+        if len(heard) > 1:
+            signal.signal(number, known[number])
+            signal.raise_signal(number)
+
     if threading.current_thread() is threading.main_thread():
         numbers = [getattr(signal, name, None) for name in ("SIGINT", "SIGTERM", "SIGHUP")]
         known = {number: signal.getsignal(number) for number in numbers if number is not None}
+        known = {number: handler for number, handler in known.items() if handler is not None}
         for number in known:
-            signal.signal(number, lambda number, _: heard.append(number))
+            signal.signal(number, hear)
     try:
         yield
     finally:
         for number, handler in known.items():
             signal.signal(number, handler)
-        if heard:
+        if len(heard) == 1:
             signal.raise_signal(heard[0])
 
 

@@ -40,11 +40,11 @@ pub struct StudyFolder<'a> {
     division: Division,
 }
 
-/// The manifest of some study.
+/// The manifest of a study, whichever it is.
 ///
 /// # Errors
 ///
-/// [`Error::Value`] where it is none; [`Error::Read`].
+/// [`Error::Value`] for a file that is no study's manifest; [`Error::Read`].
 pub(super) fn manifest_at(path: &Path) -> Result<Value> {
     let found: Value = serde_json::from_slice(&file::read_plain(path)?).unwrap_or_default();
     if found["format"].as_str().is_some_and(|of| of.starts_with("sweetspot-study-manifest/")) {

@@ -22,7 +22,7 @@ pub const END: &str = ".sha256";
 pub fn is_there(path: &Path) -> Result<bool> {
     let is_link = path.symlink_metadata().is_ok_and(|is| is.is_symlink());
     if is_link && !path.exists() {
-        return Err(damaged(path, "a link to nothing", "a part"));
+        return Err(damaged(path, "a link to nothing", "a file of the study"));
     }
     Ok(path.exists())
 }

@@ -1,7 +1,7 @@
 //! The report: everything about a bat on one page, for whoever makes or swings it.
 //!
-//! What it says of one bat ([`content`]) or of several ([`compared`]) is a list of [parts](crate::show::parts), the same
-//! whether it is written as a page ([`html`]) or as Markdown ([`markdown`]). The page is one file that
+//! What it says of one bat ([`content`]) or of several ([`compared`]) is a list of [parts](crate::show::parts),
+//! the same whether it is written as a page ([`html`]) or as Markdown ([`markdown`]). The page is one file that
 //! fetches nothing and is told in both systems of units; what moves on it is drawn by its own script
 //! from the numbers in [`data`], and all the rest is there without.
 

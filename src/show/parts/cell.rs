@@ -11,7 +11,7 @@ pub enum Cell {
     Number(f64),
     /// A word or more.
     Words(String),
-    /// What was written before, such as a number of a study.
+    /// What stands as it is: a count, a yes or no, a number that was written before.
     Written(String),
     /// Nothing that is known.
     Empty,

@@ -1,8 +1,9 @@
 //! What is a report made of, and how is it written?
 //!
-//! A report is a list of [`part`]s: headings, sentences, facts, [`table`]s of columns that say of a row what they
-//! hold ([`cell`]) and in which [`units`]. It is said once and written by a syntax: [`terminal`], the page's HTML
-//! and Markdown ([`crate::show::page`]), CSV ([`crate::show::csv`]).
+//! A report is a list of [`part`]s: headings, sentences, facts, files of the user ([`input`]), and [`table`]s of columns
+//! that say of a row what they hold ([`cell`]) and in which [`units`]. It is said once and written by a syntax:
+//! [`terminal`], the page's HTML and Markdown ([`crate::show::page`], their signs by [`escape`]), CSV
+//! ([`crate::show::csv`]).
 
 pub mod escape;
 pub mod units;

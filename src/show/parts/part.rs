@@ -1,4 +1,4 @@
-//! What a page is put together from, whatever it is written as: sections of parts.
+//! What a report is put together from, whatever it is written as: parts, and sections of them.
 
 use crate::show::parts::input::Input;
 use crate::show::parts::table::Table;
@@ -56,7 +56,7 @@ pub enum Part<'a> {
     Moving(String),
 }
 
-/// One number of the summary in one system of units, and what it is.
+/// One number with its unit, and what it is.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fact {
     /// What it is called in the page's data.

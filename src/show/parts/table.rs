@@ -107,6 +107,16 @@ impl Table {
         self.rows.push(cells.into_iter().map(Into::into).collect());
     }
 
+    /// The columns' names with their units.
+    fn heads(&self) -> Vec<String> {
+        let unit = |k: usize| self.units.get(k).filter(|unit| !unit.is_empty());
+        let named = |(k, head): (usize, &String)| match unit(k) {
+            Some(unit) => format!("{head}, {unit}"),
+            None => head.clone(),
+        };
+        self.head.iter().enumerate().map(named).collect()
+    }
+
     /// For a page: it scrolls by itself where it is too wide, by keyboard too. Nothing without rows.
     pub fn html(&self) -> String {
         if self.rows.is_empty() {
@@ -123,7 +133,7 @@ impl Table {
             "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{caption}\">\n\
              <table class=\"{kind}\">\n<caption>{caption}</caption>\n<thead><tr>"
         );
-        for cell in &self.head {
+        for cell in &self.heads() {
             let _ = write!(out, "<th scope=\"col\">{}</th>", escape::html(cell));
         }
         out += "</tr></thead>\n<tbody>\n";
@@ -151,7 +161,7 @@ impl Table {
             .map(|k| if k == 0 || self.words { "---" } else { "---:" })
             .collect();
         let mut out = format!("{}:\n\n", escape::markdown(&self.caption));
-        out += &line(&self.head);
+        out += &line(&self.heads());
         let _ = writeln!(out, "| {} |", rule.join(" | "));
         self.rows.iter().for_each(|row| out += &line(row));
         out.push('\n');
@@ -162,6 +172,20 @@ impl Table {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn columns_say_their_units_whatever_they_are_written_as() {
+        let columns: [Column<[f64; 2]>; 3] = [
+            Column::both("place", "x_m", Quantity::Length, |at| at[0].into()),
+            Column::new("e_A", "e", Quantity::Ratio(2), |at| at[1].into()),
+            Column::new("why", "", Quantity::Words, |_| Cell::Empty),
+        ];
+        let table = Table::of("t", &columns, &[[0.254, 0.125], [0.508, -0.5]], Units::Both);
+        let told = table.markdown();
+        assert!(told.contains("| place, cm | place, in | e\\_A |\n"), "{told}");
+        assert!(told.contains("| 25.40 | 10.00 | 0.13 |") && told.contains("-0.50"), "{told}");
+        assert!(table.html().contains(">place, in</th>"));
+    }
 
     #[test]
     fn a_table_is_escaped_and_empty_without_rows() {

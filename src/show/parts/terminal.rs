@@ -1,4 +1,4 @@
-//! A report on a terminal, at most 80 columns wide.
+//! A report on a terminal: sentences of at most 80 columns, tables as wide as they are.
 
 use std::fmt::Write;
 
@@ -27,7 +27,7 @@ pub fn text(title: &str, parts: &[Part]) -> String {
             Part::Table(one) => out += &table(one),
             Part::Command(command) => out += &wrapped(command, 2),
             Part::Folded(title, parts) => out += &text(title, parts),
-            // What is drawn, moves or was the user's needs a page.
+            // Pictures, players and the user's files need a page.
             Part::Picture(_) | Part::Hovered(_) | Part::File(_) | Part::Moving(_) => {}
         }
     }

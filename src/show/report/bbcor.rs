@@ -25,8 +25,8 @@ pub const COLUMNS: [Column<Place>; 9] = [
     }),
 ];
 
-/// Places that a first screen has, half of them on either side of the largest.
-const FIRST: usize = 4;
+/// Places on either side of the largest that a screen has.
+const BESIDE: usize = 2;
 /// By so much two bats of one wood differ easily: three standard deviations of an R161's, whose stiffness differs by
 /// 22 % and whose density by 10 % (`sweetspot scatter r161`).
 const NEAR: f64 = 0.01;
@@ -55,7 +55,7 @@ pub fn report(tested: &Tested, units: Units, full: bool) -> (String, Vec<Part<'s
     let mut parts =
         vec![Part::List(notes), Part::Table(Table::of("The scan", &COLUMNS, shown, units))];
     let left = places.len() - shown.len();
-    parts.extend((left > 0).then(|| Part::List(vec![format!("and {left} places more: --full")])));
+    parts.extend((left > 0).then(|| Part::List(vec![format!("and {left} places more")])));
     if let Some(wall) = scan.wall.as_ref().filter(|_| full) {
         parts.extend([
             Part::Heading("Where it is largest"),
@@ -70,8 +70,8 @@ pub fn report(tested: &Tested, units: Units, full: bool) -> (String, Vec<Part<'s
 fn around<'a>(places: &'a [Place], largest: Option<&Largest>) -> &'a [Place] {
     let at =
         largest.and_then(|most| places.iter().position(|place| place.x_m == most.x_m)).unwrap_or(0);
-    let from = at.saturating_sub(FIRST / 2).min(places.len().saturating_sub(FIRST + 1));
-    &places[from..places.len().min(from + FIRST + 1)]
+    let from = at.saturating_sub(BESIDE).min(places.len().saturating_sub(2 * BESIDE + 1));
+    &places[from..places.len().min(from + 2 * BESIDE + 1)]
 }
 
 /// The largest against the limit, in sentences.

@@ -21,9 +21,6 @@ use crate::study::many::answers::Answer;
 
 const MM: f64 = 1e-3;
 
-/// Bands of which a screen has the table.
-const FEW: usize = 8;
-
 /// The title, and how the bat is swung.
 fn title(map: &LatheMap, scene: &Scene, units: Units) -> String {
     let bat = map.piece.bat();
@@ -40,18 +37,15 @@ fn title(map: &LatheMap, scene: &Scene, units: Units) -> String {
     format!("What a cut does to {}\n{}{}", bat.name(), edited(bat, units), wrapped(&swing, 4))
 }
 
-/// What a screen holds: where a cut does most, or the table of a few bands, and what stands below the tables.
-pub fn screen(map: &LatheMap, scene: &Scene, units: Units) -> String {
-    let shown = TableUnits::of(units, map.piece.bat().inches());
-    let mut out = title(map, scene, units);
-    if map.bands.len() <= FEW {
-        out += &table(map, shown, &derivative);
-        out += &format!("\n{}", wrapped(&legend(map, shown), 2));
-    } else {
-        out += "\nWhere a cut does most\n";
-        strongest(map, units).iter().for_each(|line| out += &wrapped(&format!("  {line}"), 4));
+/// What a screen holds: where a cut does most, and what stands below the tables; None where nothing of that is known.
+pub fn screen(map: &LatheMap, scene: &Scene, units: Units) -> Option<String> {
+    let most = strongest(map, units);
+    if most.is_empty() {
+        return None;
     }
-    out + "\n" + &below(map, shown)
+    let mut out = title(map, scene, units) + "\nWhere a cut does most\n";
+    most.iter().for_each(|line| out += &wrapped(&format!("  {line}"), 4));
+    Some(out + &below(map, TableUnits::of(units, map.piece.bat().inches())))
 }
 
 /// The change of answer k by the derivative.
@@ -80,7 +74,7 @@ pub fn text(map: &LatheMap, scene: &Scene, units: Units) -> String {
         band.finite.as_ref()?[law][k]
     };
     out += &table(map, shown, &finite);
-    out + &format!("\n{}\n", wrapped(&legend(map, shown), 2)) + &below(map, shown)
+    out + "\n" + &wrapped(&legend(map, shown), 2) + &below(map, shown)
 }
 
 /// Where a cut does most, in three lines.
@@ -122,7 +116,8 @@ pub fn per(map: &LatheMap, units: Units) -> &'static str {
 /// What stands below the tables.
 fn below(map: &LatheMap, shown: TableUnits) -> String {
     let mut out = String::new();
-    for line in recipes(map, shown) {
+    for (k, line) in recipes(map, shown).into_iter().enumerate() {
+        out += if k == 0 { "\n" } else { "" };
         out += &wrapped(&line, 2);
     }
     out += &wholes(map, shown);
