@@ -23,7 +23,7 @@ use sweetspot::collision::Hitter;
 use sweetspot::collision::figures::Figures;
 use sweetspot::collision::sweep::{Trial, sweep};
 use sweetspot::files::balls::ball;
-use sweetspot::files::built_in;
+use sweetspot::files::built_in as bats;
 use sweetspot::files::scene_file;
 use sweetspot::files::schema;
 use sweetspot::files::schema::hit::HitFile;
@@ -248,14 +248,14 @@ impl Bat {
 /// The text of a bat file that is built in.
 #[pyfunction]
 fn built_in(py: Python<'_>, name: &str) -> PyResult<Option<&'static str>> {
-    let found = built_in::named(Path::new(name)).map_err(|error| raised(py, &error))?;
+    let found = bats::named(Path::new(name)).map_err(|error| raised(py, &error))?;
     Ok(found.map(|(_, text)| text))
 }
 
 /// The names of the bats that are built in.
 #[pyfunction]
 fn built_in_names() -> Vec<&'static str> {
-    built_in::bat_names()
+    bats::bat_names()
 }
 
 /// A study: its rows are functions of their numbers.
