@@ -186,7 +186,7 @@ fn a_screen_is_a_screen_and_full_has_the_rest() {
         }
         assert!(lines(&["bbcor", bat]) <= 24 && lines(&["bbcor", bat, "--full"]) > 30, "{bat}");
     }
-    assert!(lines(&["bats"]) <= 24);
+    assert!(lines(&["bats"]) <= 24 && lines(&["lathe", "two_piece"]) <= 40);
     let rows = |points: &str| lines(&["hit", "r161", "--points", points]);
     assert_eq!(rows("90") - rows("80"), 10);
 }

@@ -74,7 +74,14 @@ pub fn text(map: &LatheMap, scene: &Scene, units: Units) -> String {
         band.finite.as_ref()?[law][k]
     };
     out += &table(map, shown, &finite);
-    out + "\n" + &wrapped(&legend(map, shown), 2) + &below(map, shown)
+    out += &("\n".to_owned() + &wrapped(&legend(map, shown), 2) + &below(map, shown));
+    if let Some(check) = map.check {
+        let line = format!(
+            "Check: formula and whole bats agree on the frequencies to {check:.0e} of the largest change."
+        );
+        out += &wrapped(&line, 2);
+    }
+    out
 }
 
 /// Where a cut does most, in three lines.
@@ -117,8 +124,7 @@ pub fn per(map: &LatheMap, units: Units) -> &'static str {
 fn below(map: &LatheMap, shown: TableUnits) -> String {
     let mut out = String::new();
     for (k, line) in recipes(map, shown).into_iter().enumerate() {
-        out += if k == 0 { "\n" } else { "" };
-        out += &wrapped(&line, 2);
+        out += &(if k == 0 { "\n" } else { "" }.to_owned() + &wrapped(&line, 2));
     }
     out += &wholes(map, shown);
     if map.piece.has_rigid_wall() {
@@ -149,12 +155,6 @@ fn below(map: &LatheMap, shown: TableUnits) -> String {
         let [from, to] = band.ends.map(|x| shown.place(x));
         let reason = band.reason.as_deref().unwrap_or_default();
         out += &wrapped(&format!("{from} to {to}: {reason}."), 2);
-    }
-    if let Some(check) = map.check {
-        let line = format!(
-            "Check: formula and whole bats agree on the frequencies to {check:.0e} of the largest change."
-        );
-        out += &wrapped(&line, 2);
     }
     out
 }
