@@ -323,3 +323,35 @@ fn a_stiff_ball_meets_as_many_modes_as_are_quick_beside_its_contact() {
         assert!(off <= outcome.error + digits / speed, "{}: {off} {}", bat.name(), outcome.error);
     }
 }
+
+/// A ball that the bat's vibration hits again everywhere would take seconds: the work is bounded, which is said of the
+/// exit speeds and of the places tried, and what is stated holds against hits that were given all the work they need.
+/// A usual ball is nowhere near the bound.
+#[test]
+fn a_hit_that_takes_too_much_work_stops_and_says_so() {
+    let bat = bundled_bat("meshes/r161.json").unwrap();
+    let spot = |scene: &Scene, places: usize| {
+        let place = |k: usize| bat.length() * (0.5 + 0.5 * k as f64 / (places - 1) as f64);
+        let places: Vec<f64> = (0..places).map(place).collect();
+        let hits = sweep(&bat, Model::Contact, scene, &Accuracy::default(), &places).unwrap();
+        let hitter = Hitter::new(Model::Contact, scene, &bat, &hits.solution, hits.effort).unwrap();
+        let every = SweetSpot::find(&hitter).looked_every;
+        (hits, every)
+    };
+    let usual = Scene { swing: 43.0, ball_speed: 37.1, ..Scene::default() };
+    let (hits, every) = spot(&usual, 41);
+    assert!(hits.met && !hits.stopped && every.is_none());
+    let (stiffness, exponent, cor) = (Some(1e10), Some(1.84), 0.1);
+    let ball = Ball { stiffness, exponent, cor, ..Ball::baseball() };
+    let stiff = Scene { ball, cor, ..usual };
+    let (hits, every) = spot(&stiff, 101);
+    assert!(!hits.met && hits.stopped, "{:?}", hits.effort);
+    assert!(every.is_some_and(|every| every > 7e-4 && every < 4e-3), "{every:?}");
+    for impact in hits.impacts.iter().skip(7).step_by(31) {
+        let one = sweep(&bat, Model::Contact, &stiff, &Accuracy::default(), &[impact.x]).unwrap();
+        let [rough, fine] = [impact, &one.impacts[0]].map(|hit| hit.outcome.as_ref().unwrap());
+        let off = (rough.exit_speed - fine.exit_speed).abs() / (impact.bat_speed + 37.1);
+        assert!(!one.stopped && fine.error <= rough.error, "{} {}", fine.error, rough.error);
+        assert!(off <= rough.error + fine.error, "{}: {off} {}", impact.x, rough.error);
+    }
+}

@@ -805,6 +805,14 @@ fn a_part_without_a_sum_is_checked_by_its_rows() {
             assert!(told.contains("part-000000.csv") && told.contains("row"), "{k} {other} {told}");
         }
     }
+    let quoted = part.replacen("\n0,", "\n\"0\",", 1);
+    let broken =
+        [format!("{part}\n"), part.replace('\n', "\r\n"), quoted, format!("\u{feff}{part}")];
+    for other in broken {
+        folder.write("out/part-000000.csv", &other);
+        let told = refused(&folder, "study.json");
+        assert!(told.contains("part-000000.csv") && told.contains("makes it anew"), "{told}");
+    }
     folder.write("out/part-000000.csv", &part);
     without("part-000000.npz.sha256");
     for damage in [&[][..], &archive[..100], b"old"] {

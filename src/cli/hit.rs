@@ -223,6 +223,10 @@ pub fn verdict(solve: &SolveArgs, sweep: &Sweep, output: &OutputArgs) -> u8 {
             _ if outcome.wall > 0.5 * outcome.error => {
                 ": how far the wall gives way under the ball is known no better"
             }
+            true if sweep.stopped => {
+                ": stopped there, as a better one would take more than ten times as long as a usual hit; fewer \
+                 places get better ones"
+            }
             true => "",
             false => {
                 ": the hit there magnifies small changes, and neither more modes nor finer \

@@ -5,6 +5,7 @@
 //! impulse is the same for both.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::base::error::{Error, Result};
 use crate::bat::body::{Bat, STANDARD_PIVOT};
@@ -47,6 +48,8 @@ pub struct Hitter<'a> {
     pub(super) hoop: Option<Arc<HoopWall>>,
     /// ω (rad/s) and damping ratio of the modes of either, which a contact takes first.
     pub(super) wall_modes: Vec<[f64; 2]>,
+    /// Steps times modes of all contacts so far.
+    work: AtomicUsize,
 }
 
 /// A bat lighter than this share of the ball's mass, whose first mode goes through less than that phase (rad) while
@@ -154,7 +157,13 @@ impl<'a> Hitter<'a> {
             wall_error,
             hoop,
             wall_modes,
+            work: AtomicUsize::new(0),
         })
+    }
+
+    /// Steps times modes of all contacts so far.
+    pub(super) fn work(&self) -> usize {
+        self.work.load(Ordering::Relaxed)
     }
 
     /// Number of bending modes that the model counts.
@@ -306,8 +315,11 @@ impl<'a> Hitter<'a> {
         accuracy: f64,
     ) -> Option<(Encounter, f64)> {
         let (collider, law) = (self.collider.as_ref()?, self.law_at(x, closing)?);
-        let meet =
-            |accuracy| (collider.meet_beside(felt, others, &*law, closing, accuracy), accuracy);
+        let meet = |accuracy| {
+            let met = collider.meet_beside(felt, others, &*law, closing, accuracy);
+            self.work.fetch_add(met.work(), Ordering::Relaxed);
+            (met, accuracy)
+        };
         resolved(accuracy, meet, felt, closing)
     }
 }

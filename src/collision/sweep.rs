@@ -9,7 +9,7 @@ use crate::base::telling::{Tell, nobody};
 use crate::bat::body::Bat;
 use crate::bat::theory::Theory;
 use crate::collision::along::strikes;
-use crate::collision::hit::{Effort, Impact, Model, Outcome, Scene, greater};
+use crate::collision::hit::{Effort, Impact, MOST_WORK, Model, Outcome, Scene, greater};
 use crate::collision::hitter::Hitter;
 use crate::collision::strike::UNRESOLVED;
 use crate::modes::prepared::{Prepared, prepare};
@@ -33,6 +33,8 @@ pub struct Sweep {
     /// Whether more modes and finer steps made the answers better; where they do not, the hit magnifies
     /// what is small, and its exit speed is not defined better than stated.
     pub settles: bool,
+    /// Whether they would have taken more work than is done for a hit ([`MOST_WORK`]): the answers stand as they were.
+    pub stopped: bool,
 }
 
 impl Sweep {
@@ -234,6 +236,7 @@ impl Round {
         let mut now = self;
         let mut impacts: Vec<Impact> = vec![];
         let mut before = [f64::INFINITY; 2];
+        let (mut work, most) = (0, MOST_WORK.max(MOST_WORK / 100 * places.len()));
         loop {
             let hitter = Hitter::new(trial.model, trial.scene, bat, &solution, now.effort)?;
             // A mode that is slow beside the contact must not be among those that are left out.
@@ -250,6 +253,7 @@ impl Round {
             let open = open(&impacts, request.tolerance, places.len());
             let struck: Vec<f64> = open.iter().map(|k| places[*k]).collect();
             let struck = strikes(&hitter, bat.length(), &struck, tell);
+            work += hitter.work();
             drop(hitter);
             keep_better(&mut impacts, &open, struck);
             let worst = Worst::of(open.iter().filter_map(|k| impacts[*k].outcome.as_ref()));
@@ -259,7 +263,8 @@ impl Round {
                 false => worst.error <= IDLE * before[0],
             };
             before = [before[1], worst.error];
-            if !met && settles && request.elements.is_none() {
+            let stopped = !met && settles && work > most;
+            if !met && settles && !stopped && request.elements.is_none() {
                 let next = now.finer(&worst, request.tolerance, planned);
                 if next.request != now.request && now.request.tolerance >= 1e-13 {
                     // Where more cannot be had, this answer stands.
@@ -273,9 +278,21 @@ impl Round {
                 }
                 now.effort = next.effort;
             }
+            if stopped {
+                let open = impacts.iter_mut().filter(|impact| doubt(impact) > request.tolerance);
+                open.filter_map(|impact| impact.outcome.as_mut()).for_each(Outcome::unsettled);
+            }
             let all = impacts.iter().filter_map(|impact| impact.outcome.as_ref());
             let truncation = planned.then(|| all.map(|o| o.truncation).fold(0.0, greater));
-            return Ok(Sweep { solution, effort: now.effort, impacts, truncation, met, settles });
+            return Ok(Sweep {
+                solution,
+                effort: now.effort,
+                impacts,
+                truncation,
+                met,
+                settles,
+                stopped,
+            });
         }
     }
 
@@ -283,7 +300,10 @@ impl Round {
     fn finer(&self, worst: &Worst, tolerance: f64, planned: bool) -> Self {
         let Self { mut request, mut effort } = *self;
         if planned && worst.truncation > 0.3 * tolerance {
-            request.modes = (request.modes + request.modes / 2).min(MOST);
+            // As the error falls in the mean (`enough`), half as many again at least.
+            let rate = if request.theory.shears() { 3.2 } else { 6.5 };
+            let more = (worst.truncation / (0.3 * tolerance)).powf(1.0 / rate).clamp(1.5, 3.0);
+            request.modes = ((more * request.modes as f64) as usize).min(MOST);
         }
         // What is compared differs by its steps too.
         let blurred =

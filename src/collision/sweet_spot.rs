@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use crate::base::golden;
 use crate::base::threads;
+use crate::collision::hit::MOST_WORK;
 use crate::collision::hitter::Hitter;
 use crate::collision::strike::Glance;
 
@@ -41,6 +42,9 @@ pub struct SweetSpot {
     pub zone: Option<[f64; 2]>,
     /// Exit speeds (m/s) an inch from the best place, towards the knob and towards the tip.
     pub inch_off: Option<[Option<f64>; 2]>,
+    /// Distance (m) between the places that were looked at, where the bat catches up with the ball late or again and
+    /// to look as closely as usual would have taken more than [`MOST_WORK`]: peaks as narrow may be missed.
+    pub looked_every: Option<f64>,
 }
 
 /// Steps of a first look along the outer half, and the share of it to which a place is located then.
@@ -107,6 +111,7 @@ impl SweetSpot {
             node_mode_1: last_node(0),
             node_mode_2: last_node(1),
             center_of_percussion: body.center_of_percussion(-scene.pivot),
+            looked_every: looked.looked_every,
         }
     }
 }
@@ -122,6 +127,8 @@ pub struct HitsAlong<'a> {
     /// Places (m), rising, and the hits there.
     places: Vec<f64>,
     seen: Vec<Option<Glance>>,
+    /// As [`SweetSpot::looked_every`].
+    looked_every: Option<f64>,
 }
 
 impl<'a> HitsAlong<'a> {
@@ -144,12 +151,21 @@ impl<'a> HitsAlong<'a> {
             first.iter().copied().zip(look(&first)).collect();
         let later = |glance: &Option<Glance>| glance.is_some_and(|glance| glance.later);
         let unsettled = seen.windows(2).filter(|pair| later(&pair[0].1) || later(&pair[1].1));
-        let between: Vec<usize> = unsettled.flat_map(|pair| pair[0].0 + 1..pair[1].0).collect();
+        let unsettled: Vec<usize> = unsettled.map(|pair| pair[0].0).collect();
+        let work: usize = seen.iter().filter_map(|(_, glance)| Some(glance.as_ref()?.work)).sum();
+        let affordable = |apart: &usize| {
+            let looks = unsettled.len() * (BETWEEN_LATER / apart - 1);
+            looks * work <= MOST_WORK * first.len()
+        };
+        let apart = [1, 2, 4].into_iter().find(affordable).unwrap_or(BETWEEN_LATER);
+        let within = |from: &usize| (from + apart..from + BETWEEN_LATER).step_by(apart);
+        let between: Vec<usize> = unsettled.iter().flat_map(within).collect();
+        let looked_every = (apart > 1).then(|| length * apart as f64 / parts as f64);
         seen.extend(between.iter().copied().zip(look(&between)));
         seen.sort_by_key(|(part, _)| *part);
         let (parts, seen): (Vec<usize>, _) = seen.into_iter().unzip();
         let places = parts.into_iter().map(place).collect();
-        Self { ends, width: share * length, hitter, steps, places, seen }
+        Self { ends, width: share * length, hitter, steps, places, seen, looked_every }
     }
 
     /// The last place's number.

@@ -84,6 +84,11 @@ impl Encounter {
         self.endless && self.steps >= MOST_STEPS
     }
 
+    /// Steps times modes.
+    pub fn work(&self) -> usize {
+        self.steps * self.in_modes.len().max(1)
+    }
+
     /// Whether the bat's surface caught the ball again after it had left.
     pub fn again(&self) -> bool {
         self.touches > 1

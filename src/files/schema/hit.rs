@@ -236,6 +236,10 @@ pub struct SweetSpot {
     /// Exit speeds (m/s) an inch from the best place, towards the knob and towards the tip; null
     /// beyond the tip.
     pub inch_off_m_s: Option<[Option<f64>; 2]>,
+    /// How far apart the places were that were looked at (m), where the bat catches up with the ball late or again and
+    /// a closer look would have taken too long: narrower peaks may be missed. Left out elsewhere.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub looked_every_m: Option<f64>,
 }
 
 /// The figures by which bats are compared, computed from this model.

@@ -2,7 +2,6 @@
 //!
 //! Part k is a function of the study, the rows of a part and k alone.
 
-use std::io::Read;
 use std::ops::Range;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -70,11 +69,11 @@ pub fn made(
 ///
 /// # Errors
 ///
-/// [`Error::Value`](crate::Error) for a part that is not as the study makes it.
+/// [`Error::Value`](crate::Error) for a part that is not as the study makes it, to the last line break.
 pub fn read(
     rows: &Rows,
     wanted: Range<u64>,
-    (path, part): (&Path, impl Read),
+    (path, part): (&Path, &[u8]),
     mut each: impl FnMut(&csv::StringRecord),
 ) -> Result<()> {
     let damaged = |found: String, expected: String| damaged(path, &found, &expected);
@@ -85,6 +84,7 @@ pub fn read(
     if reader.headers().map_err(table)? != names {
         return Err(damaged("other columns".to_owned(), names.join(", ")));
     }
+    let mut anew = Csv::new(names.iter().copied());
     let Range { start: mut row, end } = wanted;
     for cells in reader.records() {
         let cells = cells.map_err(table)?;
@@ -96,13 +96,19 @@ pub fn read(
             let found = format!("\"{}\" as {} of row {row}", &cells[column], names[column]);
             return Err(damaged(found, expected));
         }
+        anew.row(cells.iter().map(|cell| Cell::Written(cell.to_owned())));
         each(&cells);
         row += 1;
     }
-    match row == end {
-        true => Ok(()),
-        false => Err(damaged(format!("no row {row}"), format!("rows to {}", end - 1))),
+    if row < end {
+        return Err(damaged(format!("no row {row}"), format!("rows to {}", end - 1)));
     }
+    if anew.text().as_bytes() != part {
+        let found =
+            "its rows, and other line breaks, quotes or empty lines than it was written with";
+        return Err(damaged(found.to_owned(), "the file as it was written".to_owned()));
+    }
+    Ok(())
 }
 
 /// The columns of a part that are numbers in every row.

@@ -80,7 +80,7 @@ impl Table {
         for k in 0..division.parts() {
             let path = folder.part(k);
             let part = file::read_plain(&path)?;
-            read(rows, division.part(k), (&path, &part[..]), |row| table.add(row, &numbers))?;
+            read(rows, division.part(k), (&path, &part), |row| table.add(row, &numbers))?;
         }
         Ok(table)
     }

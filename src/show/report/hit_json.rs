@@ -83,6 +83,7 @@ fn sweet_spot(spot: &SweetSpot) -> file::SweetSpot {
         hands_velocity_min: spot.hands_velocity_min.map(peak),
         hands_acceleration_min: spot.hands_acceleration_min.map(peak),
         inch_off_m_s: spot.inch_off,
+        looked_every_m: spot.looked_every,
     }
 }
 

@@ -270,6 +270,15 @@ pub fn sweet_spot(bat: &Bat, spot: &SweetSpot, units: Units) -> String {
         line("within 1 % of the best: from", Some(from), None);
         line("                        to", Some(to), None);
     }
+    if let Some(apart) = spot.looked_every {
+        let [apart, inch] = [1e3 * apart, inches(apart)];
+        let apart = units.inline(units.show(format!("{apart:.1} mm"), format!("{inch:.2} in")));
+        let text = format!(
+            "Places were tried every {apart} only: the bat hits the ball again there, and all places would take more \
+             than about ten times as long as a usual hit. A narrower peak may be missed."
+        );
+        out.push_str(&wrapped(&text, 2));
+    }
     out
 }
 
