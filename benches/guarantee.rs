@@ -5,14 +5,14 @@
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use sweetspot::modes::enclosure::beam::{Layout, Proven};
-use sweetspot::modes::enclosure::conclude::conclude;
-use sweetspot::modes::enclosure::guarantee::guarantee;
-use sweetspot::modes::enclosure::norms::Norms;
-use sweetspot::modes::enclosure::trials::trials;
 use sweetspot::modes::plan::Plan;
-use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Request, Theory, solve};
+use sweetspot_proof::bundled::bundled_bat;
+use sweetspot_proof::enclosure::beam::{Layout, Proven};
+use sweetspot_proof::enclosure::conclude::conclude;
+use sweetspot_proof::enclosure::guarantee::guarantee;
+use sweetspot_proof::enclosure::norms::Norms;
+use sweetspot_proof::enclosure::trials::trials;
 
 /// The best time over batches, the jobs taken in turn so that all meet the same machine.
 fn side_by_side<const N: usize>(jobs: [&dyn Fn(); N]) -> [Duration; N] {

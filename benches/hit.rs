@@ -18,8 +18,8 @@ use sweetspot::collision::contact::touch::DrivingPoint;
 use sweetspot::collision::hit::{Effort, Impact, Model, Scene};
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::struck::Struck;
-use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Bat, Request, Solution, solve};
+use sweetspot_proof::bundled::bundled_bat;
 
 /// Impact points of a barrel sweep, over the length.
 const FROM: f64 = 0.5;

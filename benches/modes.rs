@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 
 use criterion::{Criterion, criterion_group};
 use sweetspot::bat::theory::Theory;
-use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Bat, Request, Solution, Solver, solve};
+use sweetspot_proof::bundled::bundled_bat;
 
 /// Assembly, eigenpairs, shapes, nodes, modal masses and error estimates.
 fn job(bat: &Bat, request: &Request) -> Solution {

@@ -15,8 +15,8 @@ use sweetspot::collision::batch::{Blow, each as strike_each};
 use sweetspot::collision::sweep::{Accuracy, Sweep, Trial, sweep};
 use sweetspot::collision::{Model, Scene};
 use sweetspot::modes::batch::{Way, all, each};
-use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Bat, Request, Theory};
+use sweetspot_proof::bundled::bundled_bat;
 
 const BATS: usize = 10_000;
 const TURNS: usize = 15;

@@ -9,10 +9,10 @@ use std::path::{Path, PathBuf};
 use sweetspot::bat::formula::Formula;
 use sweetspot::collision::ball::Ball;
 use sweetspot::files::force_file;
-use sweetspot::files::measured;
 use sweetspot::files::shape_file;
-use sweetspot::show::exchange::modes_file;
 use sweetspot::{Bat, Error, Request, Result, solve};
+use sweetspot_report::exchange::modes_file;
+use sweetspot_study::files::measured;
 
 /// A reader: whether it took the bytes.
 pub type Reader = fn(&[u8]) -> bool;

@@ -1,4 +1,4 @@
-"""Writes src/base/interval/gauss_24.txt and gauss_40.txt: Gauss points and Legendre polynomials there.
+"""Writes crates/proof/src/gauss_24.txt and gauss_40.txt: Gauss points and Legendre polynomials there.
 
     python3 search/legendre_tables.py
 
@@ -10,7 +10,7 @@ from decimal import Decimal, getcontext
 
 getcontext().prec = 60
 COUNTS = (24, 40)
-FOLDER = pathlib.Path(__file__).resolve().parent.parent / "src/base/interval"
+FOLDER = pathlib.Path(__file__).resolve().parent.parent / "crates/proof/src"
 
 
 def legendre(x, count):

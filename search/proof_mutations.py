@@ -14,7 +14,7 @@ import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent.parent
 INTERVAL = "src/base/interval/"
-PROOF = "src/modes/enclosure/"
+PROOF = "crates/proof/src/enclosure/"
 
 # Name, file, what stands there, what is put there, the test that finds it.
 MUTATIONS = [
@@ -25,17 +25,17 @@ MUTATIONS = [
      "false => Self { low: down(a * b), high: up(a * b) },",
      "false => Self { low: down(a * b), high: down(a * b) },",
      "every_operation_of_intervals_holds_the_exact_result"),
-    ("a number of a table is off by two units in the last place", INTERVAL + "gauss_24.txt",
+    ("a number of a table is off by two units in the last place", "crates/proof/src/gauss_24.txt",
      None, None,
      "every_number_of_the_tables_is_the_nearest_double"),
-    ("too few points for a degree", INTERVAL + "series.rs",
+    ("too few points for a degree", "crates/proof/src/series.rs",
      "assert!(self.degree < 2 * N,", "assert!(self.degree < 2 * N + 2,",
      "points_do_not_integrate_what_is_beyond_them"),
-    ("values without their rounding", INTERVAL + "series.rs",
+    ("values without their rounding", "crates/proof/src/series.rs",
      "Values { at, radius: bound(self.radius + rounding), degree: self.degree() }",
      "Values { at, radius: bound(self.radius + 0.0 * rounding), degree: self.degree() }",
      "every_operation_of_series_holds_the_exact_polynomial"),
-    ("a product of values without the other's radius", INTERVAL + "series.rs",
+    ("a product of values without the other's radius", "crates/proof/src/series.rs",
      "let off = own * other.radius + (its + other.radius) * self.radius + UNIT * own * its;",
      "let off = own * other.radius + UNIT * own * its;",
      "radii_go_through_every_operation"),
@@ -118,7 +118,7 @@ MUTATIONS = [
     ("the bed's line left out of the residual", PROOF + "energies.rs",
      "up(beyond / bed.stiffness.low)", "up(0.0 * beyond / bed.stiffness.low)",
      "tens_of_thousands_of_lies_prove_nothing_false"),
-    ("printed decimals rounded to nearest", "src/show/report/proven.rs",
+    ("printed decimals rounded to nearest", "crates/report/src/report/proven.rs",
      "let step = 0.6 * 10f64.powf(-places);", "let step = 0.0 * 10f64.powf(-places);",
      "decimals_are_never_inside_of_the_ends"),
 ]
@@ -150,7 +150,7 @@ def main():
             path = copy / file
             text = path.read_text()
             path.write_text(spoil(text, old, new))
-            target = ["--lib"] if file.startswith("src/show") else ["--test", "guarantee"]
+            target = ["-p", "sweetspot-report", "--lib"] if file.startswith("crates/report") else ["--test", "guarantee"]
             run = ["cargo", "test", "--offline", *target, test]
             found = subprocess.run(run, cwd=copy, capture_output=True, text=True)
             path.write_text(text)

@@ -17,14 +17,14 @@
 //! ```
 //! use sweetspot::{Bat, Hit, Swing};
 //!
-//! # fn main() -> sweetspot::Result<()> {
+//! # fn main() -> crate::Result<()> {
 //! let bat = Bat::builtin("r161")?; // or Bat::from_file("mine.json")
 //! let hit = Hit::of(&bat, &Swing::default())?;
 //! println!("{:.2} m/s within {:.0e}, {:.3} m from the knob", hit.best.exit_speed, hit.best.error, hit.best.x);
 //! for mode in hit.modes() {
 //!     println!("{:.2} Hz", mode.frequency());
 //! }
-//! # assert!((hit.best.exit_speed / 48.21 - 1.0).abs() < 1e-3 && hit.reached == sweetspot::Reached::Asked);
+//! # assert!((hit.best.exit_speed / 48.21 - 1.0).abs() < 1e-3 && hit.reached == crate::Reached::Asked);
 //! # Ok(())
 //! # }
 //! ```
@@ -34,12 +34,12 @@
 //! Diameters along the bat, a material and a kitchen scale make a [`Bat`]; no file is needed.
 //!
 //! ```
-//! use sweetspot::collision::sweep::{Accuracy, sweep};
-//! use sweetspot::collision::{Hitter, Model, Scene, SweetSpot};
-//! use sweetspot::bat::profile::{Interpolation, Stations};
+//! use crate::collision::sweep::{Accuracy, sweep};
+//! use crate::collision::{Hitter, Model, Scene, SweetSpot};
+//! use crate::bat::profile::{Interpolation, Stations};
 //! use sweetspot::{Bat, Material, Profile, Request, solve};
 //!
-//! # fn main() -> sweetspot::Result<()> {
+//! # fn main() -> crate::Result<()> {
 //! let inches = [0.0, 0.5, 1.25, 3.0, 6.0, 12.0, 18.0, 24.0, 30.0, 33.5];
 //! let diameters = [1.85, 1.95, 1.2, 0.98, 0.95, 1.05, 1.5, 2.3, 2.6, 2.45];
 //! let x = inches.map(|x| 0.0254 * x).to_vec();
@@ -102,19 +102,16 @@
 //! | [`modes`] | how does the bat ring, as accurately as asked |
 //! | [`motion`] | how does it move after a blow, under a force, at a frequency |
 //! | [`collision`] | what do ball and bat do when they meet; where is the sweet spot |
-//! | [`study`] | what follows for a person who asks |
 //! | [`files`] | how do people and programs write it down |
-//! | [`proof`] | is it true |
-//! | [`show`] | how is it said, drawn and exchanged |
-//! | [`cli`] | what did the user type |
 //!
-//! What this documentation passes over, from [`eigen`] and [`beam`] to [`show`] and [`cli`], is how the
-//! library works inside: open to the tests and the program, and no part of what a version promises.
+//! What this documentation passes over, [`eigen`] and [`beam`] among it, is how the library works inside: open to the
+//! tests and to the crates beside this one (`crates/`: studies, proofs, reports, the program), and no part of what a
+//! version promises.
 //!
 //! # What is promised
 //!
 //! True errors of frequencies, nodes, modal masses and exit speeds are within three times the stated ones,
-//! always; the stated are within thirty times the true in nine cases of ten, and [`proof::promise`] checks
+//! always; the stated are within thirty times the true in nine cases of ten, and `sweetspot validate --promise` checks
 //! both. Where an accuracy cannot be reached the best answer comes with [`Solution::met`] false.
 //!
 //! # Conventions
@@ -205,17 +202,7 @@ pub mod beam;
 pub mod modes;
 pub mod motion;
 pub mod collision;
-pub mod study;
 pub mod files;
-#[cfg(feature = "show")]
-#[doc(hidden)]
-pub mod proof;
-#[cfg(feature = "show")]
-#[doc(hidden)]
-pub mod show;
-#[cfg(feature = "cli")]
-#[doc(hidden)]
-pub mod cli;
 
 pub use base::error::{Error, Result};
 pub use bat::body::Bat;

@@ -7,9 +7,9 @@ use std::time::Duration;
 use common::{LENGTH, beta, cone, dowel, dowel_frequency};
 use sweetspot::modes::mode::Mode;
 use sweetspot::modes::solve::solve_within;
-use sweetspot::proof::bundled::{CASES, bundled_bat};
-use sweetspot::proof::validation::Truth;
 use sweetspot::{Bat, Request, Solver, Theory, solve};
+use sweetspot_proof::bundled::{CASES, bundled_bat};
+use sweetspot_proof::validation::Truth;
 
 fn on(elements: usize, modes: usize) -> Request {
     Request { modes, elements: Some(elements), ..Request::plain() }

@@ -8,11 +8,11 @@ use common::folder::Folder;
 use serde_json::{Value, json};
 use sweetspot::bat::theory::Theory;
 use sweetspot::beam::dowel::{Ends, beta_l};
-use sweetspot::proof::bundled::{CASES, bundled_bat};
-use sweetspot::study::advise::advice::{Advice, advise};
-use sweetspot::study::advise::effect::{Effect, Switch};
-use sweetspot::study::advise::part::ModelPart;
 use sweetspot::{Bat, Request, solve};
+use sweetspot_proof::bundled::{CASES, bundled_bat};
+use sweetspot_study::advise::advice::{Advice, advise};
+use sweetspot_study::advise::effect::{Effect, Switch};
+use sweetspot_study::advise::part::ModelPart;
 
 fn read(document: &Value) -> Bat {
     Bat::from_text("bat.json", &document.to_string(), Path::new("")).unwrap()
@@ -342,9 +342,9 @@ fn advice_is_printed_80_columns_wide_and_written_as_json_without_holes() {
     let folder = Folder::new("advice");
     let everything = json!({ "grip": { "from": 0, "to": 0.15, "stiffness": 4e5, "damping": 300 },
         "absorbers": [{ "x": 0.1, "mass": 0.03, "frequency": 170, "damping": 2 }] });
-    let resolved = sweetspot::show::report::resolved::resolved(&dowel("timo_dowel", everything));
-    folder.write("held.json", sweetspot::files::schema::text(&resolved));
-    let mesh = |name: &str| format!("{}/meshes/{name}.json", env!("CARGO_MANIFEST_DIR"));
+    let resolved = sweetspot_report::report::resolved::resolved(&dowel("timo_dowel", everything));
+    folder.write("held.json", sweetspot_report::schema::text(&resolved));
+    let mesh = |name: &str| format!("{}/meshes/{name}.json", env!("SWEETSPOT_TOP"));
     let bats = ["dowel", "r161", "corked", "two_piece"]
         .map(mesh)
         .into_iter()
@@ -383,7 +383,7 @@ fn advice_is_printed_80_columns_wide_and_written_as_json_without_holes() {
 #[test]
 fn a_tolerance_beyond_round_off_is_answered_with_the_full_model_and_exit_code_3() {
     let folder = Folder::new("beyond");
-    let bat = format!("{}/meshes/r161.json", env!("CARGO_MANIFEST_DIR"));
+    let bat = format!("{}/meshes/r161.json", env!("SWEETSPOT_TOP"));
     let output = folder.run(&["advise", &bat, "--tol", "1e-16", "--json", "-"]);
     assert_eq!(output.status.code(), Some(3));
     let told = String::from_utf8(output.stderr).unwrap();

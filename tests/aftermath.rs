@@ -4,8 +4,8 @@ use sweetspot::bat::theory::Theory;
 use sweetspot::collision::aftermath::Aftermath;
 use sweetspot::collision::hit::{Effort, Model, Scene};
 use sweetspot::collision::hitter::Hitter;
-use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Bat, Request, Solution, solve};
+use sweetspot_proof::bundled::bundled_bat;
 
 const EXACTLY: Effort = Effort { accuracy: 1e-3, completed: false };
 
@@ -125,7 +125,7 @@ fn a_slow_push_strains_as_statics_says() {
 /// What was found in a short look is found in a long one.
 #[test]
 fn a_longer_look_finds_no_less() {
-    use sweetspot::show::report::aftermath::AfterHit;
+    use sweetspot_report::report::aftermath::AfterHit;
     let (bat, solution) = r161();
     let scene = Scene::default();
     let hitter = Hitter::new(Model::Contact, &scene, &bat, &solution, Effort::default()).unwrap();

@@ -1,6 +1,5 @@
 //! The least changes of a bat that meet a wish: the numbers of three tasks, found first by an independent
 //! prototype.
-#![cfg(feature = "cli")]
 
 use crate::common;
 
@@ -10,22 +9,22 @@ use common::folder::Folder;
 use sweetspot::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
 use sweetspot::bat::theory::Theory;
 use sweetspot::collision::hit::{Model, Scene};
-use sweetspot::show::report::aimed;
-use sweetspot::show::template::pages::pages;
-use sweetspot::show::template::sheet::{Drawn, PAPERS, Page};
-use sweetspot::study::aim::bench::Terms;
-use sweetspot::study::aim::outcome::Outcome;
-use sweetspot::study::aim::wish::{Amount, Ask, DiameterLimit, FreeChoice, Goal, Target, Wish};
-use sweetspot::study::lathe::workpiece::HitTerms;
-use sweetspot::study::many::answers::Answer;
-use sweetspot::study::many::rows::{Asked, Trial};
 use sweetspot::{Bat, Material, Request};
+use sweetspot_report::report::aimed;
+use sweetspot_report::template::pages::pages;
+use sweetspot_report::template::sheet::{Drawn, PAPERS, Page};
+use sweetspot_study::aim::bench::Terms;
+use sweetspot_study::aim::outcome::Outcome;
+use sweetspot_study::aim::wish::{Amount, Ask, DiameterLimit, FreeChoice, Goal, Target, Wish};
+use sweetspot_study::lathe::workpiece::HitTerms;
+use sweetspot_study::many::answers::Answer;
+use sweetspot_study::many::rows::{Asked, Trial};
 
 const OZ_IN2: f64 = 0.028_349_523_125 * 0.0254 * 0.0254;
 const INCH: f64 = 0.0254;
 
 fn r161() -> Bat {
-    Bat::from_file(Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/r161.json")).unwrap()
+    Bat::from_file(Path::new(env!("SWEETSPOT_TOP")).join("meshes/r161.json")).unwrap()
 }
 
 /// 50 rad/s about a point 2.5 in beyond the knob, 90 mph.
@@ -407,7 +406,7 @@ fn a_bat_of_a_formula_keeps_its_handle() {
 /// bats, bats of formulas: had by taking wood off, and the file has nothing added anywhere, its handle what it was.
 #[test]
 fn every_bat_is_aimed_with_its_limits_kept_by_its_file() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes");
+    let folder = Path::new(env!("SWEETSPOT_TOP")).join("meshes");
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         let bat = Bat::from_file(&path).unwrap();

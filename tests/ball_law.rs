@@ -8,8 +8,8 @@ use sweetspot::collision::contact::force_law::{ForceLaw, Top};
 use sweetspot::collision::contact::touch::DrivingPoint;
 use sweetspot::collision::hit::{Effort, Model, Scene};
 use sweetspot::collision::hitter::Hitter;
-use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Request, solve};
+use sweetspot_proof::bundled::bundled_bat;
 
 /// A linear spring without loss, of that stiffness (N/m).
 #[derive(Clone, Copy)]

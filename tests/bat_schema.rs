@@ -12,8 +12,8 @@ use serde_json::{Value, json};
 use sweetspot::collision::ball::Ball;
 use sweetspot::files::schema::ball::BallFile;
 use sweetspot::files::schema::bat::BatFile;
-use sweetspot::files::schema::of;
 use sweetspot::{Bat, Material};
+use sweetspot_report::schema::of;
 
 /// A bat with everything on it and under it.
 const FULL: &str = r#"{
@@ -143,7 +143,7 @@ fn with(bat: &Value, path: &str, value: Value) -> Value {
 #[test]
 fn every_bat_of_this_project_is_valid() {
     let reader = Reader::new("project");
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let root = Path::new(env!("SWEETSPOT_TOP"));
     let files = |folder: &str| {
         let entries = fs::read_dir(root.join(folder)).unwrap().map(|entry| entry.unwrap().path());
         let json = entries.filter(|path| path.extension().is_some_and(|e| e == "json"));

@@ -5,8 +5,8 @@ use crate::common;
 use common::{cone, dowel};
 use sweetspot::bat::fixtures::Attachment;
 use sweetspot::modes::batch::{Found, Way, all, each};
-use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Bat, Mode, Request, Result, Theory, solve};
+use sweetspot_proof::bundled::bundled_bat;
 
 const WAYS: [Way; 2] = [Way::OneByOne, Way::SideBySide];
 

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use super::files;
+use super::{CRATES, files, source, top};
 
 /// What a budget allows now, and what it is on its way to.
 struct Budget {
@@ -15,7 +15,7 @@ struct Budget {
 
 /// The budgets under a heading of `budgets.toml`: lines `name = { most = 1, goal = 1 }`.
 fn budgets(heading: &str) -> Vec<Budget> {
-    let text = fs::read_to_string("budgets.toml").unwrap();
+    let text = fs::read_to_string(top().join("budgets.toml")).unwrap();
     let after = text.split(&format!("[{heading}]\n")).nth(1).unwrap();
     let lines = after.lines().take_while(|line| !line.starts_with('['));
     let lines = lines.filter(|line| !line.is_empty() && !line.starts_with('#'));
@@ -29,58 +29,26 @@ fn budgets(heading: &str) -> Vec<Budget> {
     lines.map(budget).collect()
 }
 
-/// A file of the source by its path below `src/`, and its code without the tests beside it.
+/// A file of the source by its path in the project, and its code without the tests beside it.
 fn sources() -> Vec<(String, String)> {
     let code = |path: PathBuf| {
-        let name = path.strip_prefix("src").unwrap().to_str().unwrap().replace('\\', "/");
+        let name = path.strip_prefix(top()).unwrap().to_str().unwrap().replace('\\', "/");
         let text = fs::read_to_string(&path).unwrap();
         let code = text.split("#[cfg(test)]\nmod tests").next().unwrap_or_default();
         (name, code.to_owned())
     };
-    files(Path::new("src")).into_iter().map(code).collect()
-}
-
-/// The part of the house that a file belongs to.
-fn part(path: &str) -> &'static str {
-    /// The readers that the engine needs, and the list of the chapter; other files are read for studies.
-    const READERS: [&str; 17] = [
-        "bat_file",
-        "ball_file",
-        "balls",
-        "broken_json",
-        "built_in",
-        "csv_file",
-        "document",
-        "edits_file",
-        "fixtures_file",
-        "folder",
-        "json_node",
-        "mod",
-        "part_file",
-        "scene_file",
-        "sheet",
-        "sheet_number",
-        "station_table",
-    ];
-    let within = |chapters: &[&str]| chapters.iter().any(|chapter| path.starts_with(chapter));
-    let reader = path.strip_prefix("files/").and_then(|file| file.strip_suffix(".rs"));
-    match reader {
-        Some(file) if READERS.contains(&file) => "engine",
-        _ if within(&["proof/", "modes/enclosure", "base/interval"]) => "proof",
-        _ if within(&["files/uff"]) => "universal files",
-        _ if within(&["show/", "files/schema"]) => "reports",
-        _ if within(&["cli/", "main.rs"]) => "command line",
-        _ if within(&["study/", "files/"]) => "studies",
-        _ => "engine",
-    }
+    let crates = CRATES.map(|name| top().join("crates").join(name).join("src"));
+    [source()].iter().chain(&crates).flat_map(|source| files(source)).map(code).collect()
 }
 
 /// Whether a file beyond the engine belongs to a verb, by the words of its path.
 fn is_of(path: &str, words: &str) -> bool {
-    let beyond =
-        ["study/", "files/", "show/", "cli/"].iter().any(|chapter| path.starts_with(chapter));
-    let names = path.trim_end_matches(".rs").split(['/', '_']).collect::<BTreeSet<_>>();
-    beyond && words.split(' ').any(|word| names.contains(word))
+    let beyond = ["study", "report", "cli"].map(|name| format!("crates/{name}/src/"));
+    let Some(within) = beyond.iter().find_map(|start| path.strip_prefix(start)) else {
+        return false;
+    };
+    let names = within.trim_end_matches(".rs").split(['/', '_']).collect::<BTreeSet<_>>();
+    words.split(' ').any(|word| names.contains(word))
 }
 
 /// Functions of more than 60 lines: from the line with `fn` to the bracket under its beginning.
@@ -120,7 +88,7 @@ fn lines(of: impl Fn(&str) -> bool) -> usize {
 
 #[test]
 fn parts_and_verbs_keep_their_budgets() {
-    hold("parts", 300, |name| lines(|path| part(path) == name));
+    hold("parts", 300, |name| lines(|path| path.starts_with(name)));
     hold("verbs", 100, |name| lines(|path| is_of(path, name)));
 }
 

@@ -7,16 +7,16 @@ use std::process::Stdio;
 
 use common::folder::Folder;
 use sweetspot::modes::shares::Shares;
-use sweetspot::study::calibrate::calibration::{
+use sweetspot::{Bat, Request, Theory, solve};
+use sweetspot_study::calibrate::calibration::{
     Calibration, CalibrationPlan, Estimated, Property, Verdict,
 };
-use sweetspot::study::calibrate::fit::{Search, data};
-use sweetspot::study::calibrate::readings::{
+use sweetspot_study::calibrate::fit::{Search, data};
+use sweetspot_study::calibrate::readings::{
     BatReadings, Pendulum, Priors, Reading, ShearPrior, SpectralLine,
 };
-use sweetspot::study::calibrate::unknowns::{UNKNOWNS, Unknown};
-use sweetspot::study::calibrate::wood::WoodenBat;
-use sweetspot::{Bat, Request, Theory, solve};
+use sweetspot_study::calibrate::unknowns::{UNKNOWNS, Unknown};
+use sweetspot_study::calibrate::wood::WoodenBat;
 
 const R161: &str = include_str!("../meshes/r161.json");
 
@@ -215,7 +215,7 @@ fn one_tap_alone_gives_the_factor_of_the_bat_file() {
         "weighed": { "mass": "31 oz", "first_bending_hz": 170 },
         "profile": { "unit": "in", "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5] } }"#;
     let file = Bat::from_text("bat.json", text, "".as_ref()).unwrap();
-    let tapped = sweetspot::study::tuned::tuned(file.clone(), Theory::Timoshenko, 1e-9).unwrap();
+    let tapped = sweetspot::modes::tuned::tuned(file.clone(), Theory::Timoshenko, 1e-9).unwrap();
     let bare =
         Bat::from_text("bat.json", &text.replace(", \"first_bending_hz\": 170", ""), "".as_ref());
     let mut readings =

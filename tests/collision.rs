@@ -5,8 +5,8 @@ use sweetspot::collision::energy_loss::EnergyLoss;
 use sweetspot::collision::hit::{Effort, Model, Scene};
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::sweet_spot::SweetSpot;
-use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Bat, Request, Solution, solve};
+use sweetspot_proof::bundled::bundled_bat;
 
 fn solved(path: &str) -> (Bat, Solution) {
     let bat = bundled_bat(path).unwrap();

@@ -33,7 +33,7 @@ enum Instead {
 /// A folder in which the documents' commands find what they name.
 fn furnished(name: &str) -> Folder {
     let folder = Folder::new(name);
-    let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes");
+    let meshes = Path::new(env!("SWEETSPOT_TOP")).join("meshes");
     fs::create_dir_all(folder.0.join("meshes")).unwrap();
     fs::create_dir_all(folder.0.join("docs")).unwrap();
     for entry in fs::read_dir(meshes).unwrap() {
@@ -117,7 +117,7 @@ fn all_succeed(folder: &Folder, commands: &[String]) {
 #[test]
 fn every_command_of_the_readme_and_the_documents_runs() {
     let folder = furnished("readme");
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let root = Path::new(env!("SWEETSPOT_TOP"));
     let documents = fs::read_dir(root.join("docs")).unwrap().map(|entry| entry.unwrap().path());
     let pages = documents.filter(|path| path.extension().is_some_and(|end| end == "md"));
     let mut pages: Vec<_> = pages.collect();

@@ -13,9 +13,9 @@ use sweetspot::collision::hit::{Model, Scene};
 use sweetspot::collision::pulse::Pulse;
 use sweetspot::collision::sweet_spot::FINE;
 use sweetspot::modes::solve::Request;
-use sweetspot::study::comparison::contender::Terms;
-use sweetspot::study::comparison::rows::{ComparedFigure, Unit};
-use sweetspot::study::comparison::table::{Comparison, Entry};
+use sweetspot_study::comparison::contender::Terms;
+use sweetspot_study::comparison::rows::{ComparedFigure, Unit};
+use sweetspot_study::comparison::table::{Comparison, Entry};
 
 const INCH: f64 = 0.0254;
 

@@ -3,22 +3,22 @@
 
 use crate::common;
 
+use crate::pictures::{check, number, scale, texts, ticks};
 use common::folder::Folder;
-use common::pictures::{check, number, scale, texts, ticks};
 use resvg::usvg::roxmltree::Document;
 use sweetspot::bat::profile::Interpolation;
 use sweetspot::collision::hit::{Impact, Model, Scene};
 use sweetspot::collision::sweet_spot::FINE;
-use sweetspot::files::measured;
-use sweetspot::proof::bundled::bundled_bat;
-use sweetspot::show::plot::picture::Picture;
-use sweetspot::show::plot::sheet::Sheet;
-use sweetspot::show::plot::{self, compared};
-use sweetspot::study::comparison::contender::{Contender, Terms};
-use sweetspot::study::comparison::table::{Comparison, Entry};
-use sweetspot::study::measured::place::{End, ToldPoints};
-use sweetspot::study::measured::study::Study;
 use sweetspot::{Bat, Request, solve};
+use sweetspot_proof::bundled::bundled_bat;
+use sweetspot_report::plot::picture::Picture;
+use sweetspot_report::plot::sheet::Sheet;
+use sweetspot_report::plot::{self, compared};
+use sweetspot_study::comparison::contender::{Contender, Terms};
+use sweetspot_study::comparison::table::{Comparison, Entry};
+use sweetspot_study::files::measured;
+use sweetspot_study::measured::place::{End, ToldPoints};
+use sweetspot_study::measured::study::Study;
 
 fn bat(name: &str) -> Bat {
     bundled_bat(&format!("meshes/{name}.json")).unwrap()

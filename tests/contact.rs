@@ -11,8 +11,8 @@ use sweetspot::collision::pulse::Pulse;
 use sweetspot::collision::struck::Struck;
 use sweetspot::collision::sweep::{Accuracy, Sweep, sweep};
 use sweetspot::collision::sweet_spot::SweetSpot;
-use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Bat, Request, Solution, solve};
+use sweetspot_proof::bundled::bundled_bat;
 
 /// Swing and pitch of the WPI report, a ball of 5 oz with k = 1e7 N/m^1.5.
 fn scene(swing: f64, cor: f64) -> Scene {

@@ -1,7 +1,7 @@
 //! Elements of degree p gain `2(p − 1)` powers of their number, station or not.
 
-use sweetspot::proof::validation::Truth;
 use sweetspot::{Request, solve};
+use sweetspot_proof::validation::Truth;
 
 /// Errors above are before the asymptote; within 30 times the round-off they are not the mesh's.
 const LARGEST: f64 = 1e-5;

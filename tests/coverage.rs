@@ -2,12 +2,12 @@
 //! for known before, and read with the errors that they state. The first seed counts.
 
 use sweetspot::Bat;
-use sweetspot::study::calibrate::calibration::{Calibration, CalibrationPlan, Property};
-use sweetspot::study::calibrate::readings::{
+use sweetspot_study::calibrate::calibration::{Calibration, CalibrationPlan, Property};
+use sweetspot_study::calibrate::readings::{
     BatReadings, Pendulum, Priors, Reading, ShearPrior, SpectralLine,
 };
-use sweetspot::study::calibrate::unknowns::{Logs, UNKNOWNS, covariance};
-use sweetspot::study::calibrate::wood::WoodenBat;
+use sweetspot_study::calibrate::unknowns::{Logs, UNKNOWNS, covariance};
+use sweetspot_study::calibrate::wood::WoodenBat;
 
 const R161: &str = include_str!("../meshes/r161.json");
 const PIVOT: f64 = 0.1524;

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use common::folder::Folder;
 
 fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
+    Path::new(env!("SWEETSPOT_TOP"))
 }
 
 fn page(name: &str) -> String {

@@ -5,8 +5,8 @@ use crate::common;
 use common::folder::Folder;
 use sweetspot::bat::body::STANDARD_PIVOT;
 use sweetspot::bat::edit::{Bore, Change, Cork, Cup, Cut, Edit, ScaleDiameter, Shorten, Sleeve};
-use sweetspot::show::report::resolved::resolved;
 use sweetspot::{Bat, Material, Request, Theory, solve};
+use sweetspot_report::report::resolved::resolved;
 
 const INCH: f64 = 0.0254;
 const OUNCE: f64 = 0.028_349_523_125;
@@ -414,7 +414,7 @@ fn a_tapped_bat_is_tuned_before_it_is_edited() {
     let first = |edits: &str| {
         let bat = Bat::from_text("bat.json", &text(edits), "".as_ref()).unwrap();
         let theory = sweetspot::bat::theory::Theory::EulerBernoulli;
-        let bat = sweetspot::study::tuned::tuned(bat, theory, 1e-8).unwrap();
+        let bat = sweetspot::modes::tuned::tuned(bat, theory, 1e-8).unwrap();
         (frequencies(&bat)[0], bat)
     };
     let (plain, bat) = first("");

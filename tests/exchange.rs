@@ -14,12 +14,12 @@ use proptest::test_runner::RngSeed;
 use serde_json::{Value, json};
 use sweetspot::Bat;
 use sweetspot::base::error::Error;
-use sweetspot::files::uff::{self, Abscissa, Analysis, Dataset, Values, six_digits};
-use sweetspot::show::exchange::modes_file;
-use sweetspot::show::exchange::vtu;
+use sweetspot_report::exchange::modes_file;
+use sweetspot_report::exchange::vtu;
+use uff58::{Abscissa, Analysis, Dataset, Values, six_digits};
 
 fn mesh(name: &str) -> String {
-    format!("{}/meshes/{name}.json", env!("CARGO_MANIFEST_DIR"))
+    format!("{}/meshes/{name}.json", env!("SWEETSPOT_TOP"))
 }
 
 /// A folder with `bat.json`, three modes of the R161.
@@ -53,7 +53,7 @@ fn a_universal_file_holds_the_modes() {
     assert!(said.starts_with("bat.uff: 3 modes at 7 places, "), "{said}");
     folder.text(&["convert", "bat.json", "--to", "uff", "--legacy", "--out", "old.uff"]);
     for (name, legacy) in [("bat.uff", false), ("old.uff", true)] {
-        let read = uff::read(&folder.0.join(name)).unwrap();
+        let read = uff58::read(&folder.0.join(name)).unwrap();
         assert!(read.converted_from.is_none() && read.datasets.len() == 7);
         let [
             Dataset::Header(header),
@@ -268,7 +268,7 @@ fn a_strange_name_breaks_no_file() {
         document["bat"]["name"] = json!(name);
         folder.write("bat.json", document.to_string());
         folder.text(&["convert", "bat.json", "--to", "uff"]);
-        let read = uff::read(&folder.0.join("bat.uff")).unwrap();
+        let read = uff58::read(&folder.0.join("bat.uff")).unwrap();
         let Dataset::Header(header) = &read.datasets[0] else { panic!("{read:?}") };
         assert_eq!((read.datasets.len(), &*header.model), (7, model));
         folder.text(&["convert", "bat.json", "--to", "vtu"]);
@@ -288,7 +288,7 @@ fn a_universal_file_keeps_every_place_and_a_line_from_each_to_the_next() {
         let (folder, document) = modes("convert-many", &count.to_string());
         let said = folder.text(&["convert", "bat.json", "--to", "uff"]);
         assert!(said.contains(&format!("3 modes at {count} places")), "{said}");
-        let read = uff::read(&folder.0.join("bat.uff")).unwrap();
+        let read = uff58::read(&folder.0.join("bat.uff")).unwrap();
         let Dataset::Nodes(nodes) = &read.datasets[2] else { panic!("{read:?}") };
         let x: Vec<f64> = nodes.nodes.iter().map(|node| node.at[0]).collect();
         assert_eq!(x, list(&document["modes"][0]["shape"]["x_m"]));
@@ -357,7 +357,7 @@ fn a_response_is_written_at_the_frequencies_that_the_file_can_hold() {
         let args =
             ["frf", &bat, "--at", "28 in", "--kind", kind, "--uff", "out.uff", "--json", "-"];
         let document = folder.json(&[&args[..], options].concat());
-        let read = uff::read(&folder.0.join("out.uff")).unwrap();
+        let read = uff58::read(&folder.0.join("out.uff")).unwrap();
         let Some(Dataset::Function(function)) = read.datasets.last() else { panic!("{read:?}") };
         assert_eq!(function.axes.each_ref().map(|axis| axis.quantity), [18, numerator, 13, 0]);
         assert_eq!(matches!(function.abscissa, Abscissa::Even { .. }), kind == "accelerance");
@@ -384,7 +384,7 @@ fn a_response_is_written_at_the_frequencies_that_the_file_can_hold() {
     let listed = ["--frequencies", "500,100,300", "--json", "-", "--uff", "out.uff"];
     let document = folder.json(&[&["frf", &bat, "--at", "28 in"], &listed[..]].concat());
     assert_eq!(list(&document["frequency_hz"]), [100.0, 300.0, 500.0]);
-    let read = uff::read(&folder.0.join("out.uff")).unwrap();
+    let read = uff58::read(&folder.0.join("out.uff")).unwrap();
     let Some(Dataset::Function(function)) = read.datasets.last() else { panic!("{read:?}") };
     assert_eq!(function.abscissa, Abscissa::Uneven(vec![100.0, 300.0, 500.0]));
     let narrow = ["--from-hz", "170", "--to-hz", "170.001", "--points", "20"];
@@ -397,7 +397,7 @@ fn a_response_is_written_at_the_frequencies_that_the_file_can_hold() {
     }
     let even = [&args[..4], &narrow, &["--linear", "--uff", "out.uff"]].concat();
     folder.text(&even);
-    let read = uff::read(&folder.0.join("out.uff")).unwrap();
+    let read = uff58::read(&folder.0.join("out.uff")).unwrap();
     let Some(Dataset::Function(function)) = read.datasets.last() else { panic!("{read:?}") };
     let places: Vec<f64> = (0..20).map(|k| function.abscissa.at(k)).collect();
     assert!(places.windows(2).all(|pair| pair[0] < pair[1]), "{places:?}");
@@ -573,7 +573,7 @@ fn unknown_members_are_passed_over() {
 #[test]
 fn modes_of_every_bat_are_read_back() {
     let folder = Folder::new("convert-bats");
-    for entry in std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes")).unwrap() {
+    for entry in std::fs::read_dir(Path::new(env!("SWEETSPOT_TOP")).join("meshes")).unwrap() {
         let path = entry.unwrap().path();
         if path.extension().is_none_or(|ending| ending != "json") {
             continue;

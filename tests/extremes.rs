@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use sweetspot::proof::extremes::{EXTREMES, Verdict};
+use sweetspot_proof::extremes::{EXTREMES, Verdict};
 
 /// All but the slow rows, which `sweetspot validate --extremes` runs.
 #[test]

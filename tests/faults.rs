@@ -568,9 +568,9 @@ fn files_outside_of_the_folder_are_read_of_a_named_file_alone_and_said() {
             assert!(!String::from_utf8_lossy(&quiet.stderr).contains("outside"), "{text}");
             let path = folder.0.join("in/file.json");
             let wrong = match verb {
-                "study" => sweetspot::show::many::source::Study::read(&path).err(),
-                "scatter" => sweetspot::files::scatter_file::from_file(&path).err(),
-                _ => sweetspot::files::aim_file::AimFile::read(&path).err(),
+                "study" => sweetspot_report::many::source::Study::read(&path).err(),
+                "scatter" => sweetspot_study::files::scatter_file::from_file(&path).err(),
+                _ => sweetspot_study::files::aim_file::AimFile::read(&path).err(),
             };
             assert_eq!(wrong.is_some(), outside, "{text}");
             let said = wrong.map_or(String::new(), |error| error.to_string());
@@ -581,7 +581,7 @@ fn files_outside_of_the_folder_are_read_of_a_named_file_alone_and_said() {
 
 #[test]
 fn a_study_that_was_sent_reads_no_file() {
-    use sweetspot::show::many::source::Study;
+    use sweetspot_report::many::source::Study;
     let folder = folder("sent");
     let study = r#"{ "format": "sweetspot-study/1", "bat": "bat.json", "outputs": ["f1_hz"] }"#;
     let sent = Study::of("study", study, &folder.0).unwrap().alone();

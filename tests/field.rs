@@ -17,8 +17,8 @@ use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::strength::{Limit, breaking_swing, nearest};
 use sweetspot::collision::sweep::{Accuracy, Sweep, sweep};
 use sweetspot::collision::{Ball, SweetSpot};
-use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Bat, Request, solve};
+use sweetspot_proof::bundled::bundled_bat;
 
 fn accuracy() -> Accuracy {
     Accuracy { exit_speed: 1e-4, theory: Theory::Timoshenko, ..Accuracy::default() }

@@ -6,8 +6,8 @@ use sweetspot::collision::figures::{BarrelSpeed, Figures, SwingLaw};
 use sweetspot::collision::hit::{Effort, Model, Scene};
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::sweet_spot::SweetSpot;
-use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Bat, Request, Solution, solve};
+use sweetspot_proof::bundled::bundled_bat;
 
 const STANDARD_PIVOT: f64 = 0.1524;
 

@@ -3,13 +3,13 @@
 use sweetspot::bat::theory::Theory;
 use sweetspot::collision::hit::{Model, Scene, Wall};
 use sweetspot::collision::hitter::Hitter;
-use sweetspot::show::analysis::{Analysis, Task};
-use sweetspot::show::page::content::Report;
-use sweetspot::show::page::moment::Moment;
 use sweetspot::{Bat, Request, solve};
+use sweetspot_report::analysis::{Analysis, Task};
+use sweetspot_report::page::content::Report;
+use sweetspot_report::page::moment::Moment;
 
 fn mesh(name: &str) -> String {
-    format!("{}/meshes/{name}.json", env!("CARGO_MANIFEST_DIR"))
+    format!("{}/meshes/{name}.json", env!("SWEETSPOT_TOP"))
 }
 
 fn analysed(bat: Bat, scene: Scene) -> Analysis {

@@ -9,7 +9,7 @@ const EXACT: &str = "far more exact";
 
 /// The built-in bats by their names.
 fn built_in() -> Vec<String> {
-    let meshes = concat!(env!("CARGO_MANIFEST_DIR"), "/meshes");
+    let meshes = concat!(env!("SWEETSPOT_TOP"), "/meshes");
     let name = |entry: std::io::Result<std::fs::DirEntry>| {
         entry.unwrap().path().file_stem().unwrap().to_str().unwrap().to_owned()
     };

@@ -7,9 +7,9 @@ use serde_json::{Value, json};
 use std::path::Path;
 use sweetspot::bat::material::Material;
 use sweetspot::bat::profile::{Interpolation, Profile, Stations};
-use sweetspot::proof::bundled::bundled_bat;
-use sweetspot::show::report::json::{ShapePoints, modes};
 use sweetspot::{Bat, Request, solve};
+use sweetspot_proof::bundled::bundled_bat;
+use sweetspot_report::report::json::{ShapePoints, modes};
 
 const REQUEST: Request = Request {
     modes: 8,
@@ -220,7 +220,7 @@ fn the_bat_in_a_report_is_a_bat_file_of_the_same_bat() {
         ] }));
         let solution = solve(&original, &REQUEST).unwrap();
         let report = modes(&original, &solution, ShapePoints::Even(0), false);
-        let report = sweetspot::files::schema::value(&report);
+        let report = sweetspot_report::schema::value(&report);
         assert_eq!(report["bat"]["profile"]["measured_from"], from);
         assert_eq!(report["bat"]["profile"]["pieces"][0]["inner_formula"], "0.01");
         let again = Bat::from_text("echo", &report["bat"].to_string(), Path::new("")).unwrap();

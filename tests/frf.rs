@@ -9,10 +9,10 @@ use common::diagnostic::in_lines;
 use common::folder::Folder;
 use faer::c64;
 use serde_json::Value;
-use sweetspot::files::measured::{response, universal};
-use sweetspot::files::uff::{Dataset, parse, parse_in};
 use sweetspot::motion::frf::{Frf, ResponseKind, Sample};
 use sweetspot::{Bat, Request};
+use sweetspot_study::files::measured::{response, universal};
+use uff58::{Dataset, parse, parse_in};
 
 /// A dowel with a loss factor of 2 %, so that every mode has a damping ratio of 1 %.
 const LOSSY: &str = r#"{ "format": "sweetspot-bat/1", "profile": { "x": [0, 0.8], "radius": [0.02, 0.02] },
@@ -123,7 +123,7 @@ fn dataset_58(answer: (i64, &str), per: i64, [to, at]: [(i64, i64); 2], values: 
 }
 
 fn fortran(value: f64) -> String {
-    sweetspot::files::uff::number::scientific(value, 5, 'E')
+    uff58::number::scientific(value, 5, 'E')
 }
 
 /// Dataset 2411: label, systems and colour, FORMAT(4I10), then 1P3D25.16.
@@ -131,8 +131,7 @@ fn dataset_2411(nodes: &[(i64, [f64; 3])]) -> String {
     let mut text = "    -1\n  2411\n".to_owned();
     for (label, at) in nodes {
         let _ = writeln!(text, "{label:>10}{:>10}{:>10}{:>10}", 0, 0, 0);
-        let cells =
-            at.map(|x| format!("{:>25}", sweetspot::files::uff::number::scientific(x, 16, 'D')));
+        let cells = at.map(|x| format!("{:>25}", uff58::number::scientific(x, 16, 'D')));
         text += &(cells.concat() + "\n");
     }
     text + "    -1\n"
@@ -151,7 +150,7 @@ fn a_file_made_by_the_specification_is_read_with_its_units_places_and_directions
         std::fs::write(&path, text).unwrap();
         let units = unit.map(|unit| {
             let metre = if unit == "mm" { 1e-3 } else { 0.0254 };
-            sweetspot::files::uff::Units::of_length(metre, unit)
+            uff58::Units::of_length(metre, unit)
         });
         let known = response::Known { unit: units, ..Default::default() };
         response::read(&path, &known).unwrap().remove(0).1
@@ -182,7 +181,7 @@ fn a_file_made_by_the_specification_is_read_with_its_units_places_and_directions
                1.00000000000000000D+00  1.00000000000000000D+00\n  2.73149999999999980D+02\n    -1\n";
     let text = own.to_owned() + &dataset_58((8, "mm"), 13, [(1, 2), (1, 2)], &five());
     assert_eq!(read(&text, None).values[1].1, c64::new(2.0, -0.02));
-    let metre = sweetspot::files::uff::Units::of_length(1e-3, "mm");
+    let metre = uff58::Units::of_length(1e-3, "mm");
     let error = parse_in("tap.uff", text.as_bytes(), Some(&metre)).unwrap_err().to_string();
     assert!(error.starts_with("tap.uff:2:") && error.contains("dataset 164"), "{error}");
 }

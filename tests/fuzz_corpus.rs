@@ -10,7 +10,7 @@ mod readers;
 /// anywhere or belongs to another reader.
 #[test]
 fn every_reader_takes_or_refuses_every_seed() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/corpus");
+    let root = Path::new(env!("SWEETSPOT_TOP")).join("fuzz/corpus");
     let seeds = |name: &str| -> Vec<Vec<u8>> {
         let files = fs::read_dir(root.join(name)).unwrap();
         files.map(|file| fs::read(file.unwrap().path()).unwrap()).collect()

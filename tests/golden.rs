@@ -66,7 +66,7 @@ fn cut(value: &mut Value) {
 }
 
 fn golden(name: &str) -> Value {
-    let path = format!("{}/tests/golden/{name}-1.json", env!("CARGO_MANIFEST_DIR"));
+    let path = format!("{}/tests/golden/{name}-1.json", env!("SWEETSPOT_TOP"));
     serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
 }
 

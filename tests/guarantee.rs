@@ -15,11 +15,11 @@ mod again;
 
 use common::folder::Folder;
 use sweetspot::bat::fixtures::{Attachment, Fixtures, Held, Support, Tape};
-use sweetspot::modes::enclosure::guarantee::{Guarantee, guarantee};
-use sweetspot::modes::enclosure::within::{Within, band};
-use sweetspot::proof::promise::{BATS, KNOWN_TO};
-use sweetspot::proof::validation::Truth;
 use sweetspot::{Bat, Request, Theory};
+use sweetspot_proof::enclosure::guarantee::{Guarantee, guarantee};
+use sweetspot_proof::enclosure::within::{Within, band};
+use sweetspot_proof::promise::{BATS, KNOWN_TO};
+use sweetspot_proof::validation::Truth;
 
 fn proven(bat: &Bat, modes: usize, tolerance: f64, theory: Theory) -> Guarantee {
     let request = Request { modes, tolerance, theory, ..Request::default() };
@@ -27,7 +27,7 @@ fn proven(bat: &Bat, modes: usize, tolerance: f64, theory: Theory) -> Guarantee 
 }
 
 fn mesh_bat(name: &str) -> Bat {
-    Bat::from_file(format!("{}/meshes/{name}.json", env!("CARGO_MANIFEST_DIR"))).unwrap()
+    Bat::from_file(format!("{}/meshes/{name}.json", env!("SWEETSPOT_TOP"))).unwrap()
 }
 
 /// Whether a known frequency, right to half a unit in its last place, may be between the two.

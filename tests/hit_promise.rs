@@ -4,7 +4,7 @@
 use std::sync::LazyLock;
 
 use sweetspot::base::telling::nobody;
-use sweetspot::proof::hit_promise::{CheckedHit, ReferenceCourse, Summary, rows};
+use sweetspot_proof::hit_promise::{CheckedHit, ReferenceCourse, Summary, rows};
 
 static ROWS: LazyLock<Vec<CheckedHit>> = LazyLock::new(|| rows(&nobody).unwrap());
 

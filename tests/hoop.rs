@@ -18,8 +18,8 @@ use sweetspot::beam::wall::elastic::Elastic;
 use sweetspot::beam::wall::unknowns::EndHold;
 use sweetspot::modes::hoop::spectrum::count_below;
 use sweetspot::modes::hoop::{Hoop, HoopRequest, KnobSide, Note, Patch, rings};
-use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Bat, Material};
+use sweetspot_proof::bundled::bundled_bat;
 
 /// No geometric steps.
 const EVEN: Grading = Grading { knob: 0, tip: 0, kink: 0, least_kink: 0.0, corner: 0 };
@@ -408,7 +408,7 @@ fn a_barrel_is_answered_to_its_tolerance() {
 /// On the published barrels and on some random ones; `sweetspot validate --promise` has twenty.
 #[test]
 fn no_true_error_is_more_than_three_times_the_stated_one() {
-    for row in sweetspot::proof::hoop_promise::rows(&|_, _| {}, 4).unwrap() {
+    for row in sweetspot_proof::hoop_promise::rows(&|_, _| {}, 4).unwrap() {
         assert!(row.holds() && row.met, "{row:?}");
     }
 }

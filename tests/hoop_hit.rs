@@ -19,8 +19,8 @@ use sweetspot::collision::sweep::{Accuracy, Sweep, sweep};
 use sweetspot::collision::wall_choice::WallChoice;
 use sweetspot::collision::{Ball, Hitter, Model, Scene};
 use sweetspot::modes::hoop::{Hoop, HoopRequest, Patch};
-use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Bat, Theory};
+use sweetspot_proof::bundled::bundled_bat;
 
 /// Of a usual ball (m).
 const COMPRESSION: f64 = 0.008;

@@ -6,11 +6,11 @@ use common::folder::Folder;
 use serde_json::{Value, json};
 use sweetspot::collision::Ball;
 use sweetspot::collision::sweep::Accuracy;
-use sweetspot::files::uff::{self, Analysis, Dataset};
-use sweetspot::proof::bundled::bundled_bat;
-use sweetspot::study::trampoline::barrel::{Barrel, BarrelStruck, BarrelTest};
-use sweetspot::study::trampoline::thickness::with_wall;
 use sweetspot::{Bat, Theory};
+use sweetspot_proof::bundled::bundled_bat;
+use sweetspot_study::trampoline::barrel::{Barrel, BarrelStruck, BarrelTest};
+use sweetspot_study::trampoline::thickness::with_wall;
+use uff58::{Analysis, Dataset};
 
 const INCH: f64 = 0.0254;
 
@@ -373,7 +373,7 @@ fn the_files_of_other_programs_hold_the_modes_on_a_cylinder() {
     );
     let document: Value = serde_json::from_str(&folder.read("b.json")).unwrap();
     let modes = document["modes"].as_array().unwrap();
-    let read = uff::read(&folder.0.join("b.uff")).unwrap();
+    let read = uff58::read(&folder.0.join("b.uff")).unwrap();
     let mut shapes = 0;
     let mut points: Vec<[f64; 3]> = vec![];
     for dataset in &read.datasets {

@@ -4,9 +4,9 @@ use crate::common;
 
 use sweetspot::bat::material::Material;
 use sweetspot::bat::theory::Theory;
-use sweetspot::study::ignored::shift;
-use sweetspot::study::theory_choice;
+use sweetspot::modes::theory_choice;
 use sweetspot::{Bat, Request, solve};
+use sweetspot_study::ignored::shift;
 
 /// The integrals in both shifts of a free uniform dowel in closed form, with the shape `φ = cosh βξ +
 /// cos βξ − σ (sinh βξ + sin βξ)`, ξ = x/L:
@@ -16,7 +16,7 @@ use sweetspot::{Bat, Request, solve};
 /// ```
 #[test]
 fn the_first_order_shifts_of_a_dowel_are_their_closed_forms() {
-    let dowel = sweetspot::proof::bundled::bundled_bat("meshes/dowel.json").unwrap();
+    let dowel = sweetspot_proof::bundled::bundled_bat("meshes/dowel.json").unwrap();
     let (length, radius) = (dowel.length(), dowel.profile().at(0.0).outer);
     // I/A over L².
     let slenderness = (radius / (2.0 * length)).powi(2);
@@ -48,7 +48,7 @@ fn the_first_order_shifts_of_a_dowel_are_their_closed_forms() {
 #[test]
 fn the_chosen_theory_is_as_accurate_as_asked() {
     for file in ["meshes/r161.json", "meshes/torpedo.json", "meshes/house.json"] {
-        let bat = sweetspot::proof::bundled::bundled_bat(file).unwrap();
+        let bat = sweetspot_proof::bundled::bundled_bat(file).unwrap();
         for modes in [1, 3] {
             let solved = |theory| {
                 let request = Request { modes, tolerance: 1e-9, theory, ..Request::default() };

@@ -9,8 +9,8 @@ use sweetspot::bat::profile::{Interpolation, Profile};
 use sweetspot::bat::theory::Theory;
 use sweetspot::beam::assembly::{Pencil, write_matrix_market};
 use sweetspot::beam::mesh::Mesh;
-use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Bat, Request, solve};
+use sweetspot_proof::bundled::bundled_bat;
 
 fn frequencies(bat: &Bat) -> Vec<f64> {
     let request = Request { modes: 6, elements: Some(48), ..Request::plain() };

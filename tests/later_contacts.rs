@@ -14,8 +14,8 @@ use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::strike::Glance;
 use sweetspot::collision::sweep::{Accuracy, sweep};
 use sweetspot::collision::sweet_spot::SweetSpot;
-use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Request, solve};
+use sweetspot_proof::bundled::bundled_bat;
 
 /// ω of a free uniform dowel with that first frequency (Hz) and how a ball (kg) feels it at a
 /// fraction of its length.

@@ -14,19 +14,19 @@ use sweetspot::bat::turned::DiameterChange;
 use sweetspot::collision::sweep::{Accuracy, sweep};
 use sweetspot::collision::{Hitter, Model, Scene, SweetSpot};
 use sweetspot::modes::solve::Solution;
-use sweetspot::study::comparison::contender::Figure;
-use sweetspot::study::lathe::map::{LatheMap, LatheTerms, bands};
-use sweetspot::study::lathe::recipe::least_wood;
-use sweetspot::study::lathe::samples::{SectionSlopes, by_added_mass};
-use sweetspot::study::lathe::workpiece::{Care, HitTerms, Slopes, Workpiece};
-use sweetspot::study::many::answers::Answer;
 use sweetspot::{Bat, Request, Theory, solve};
+use sweetspot_study::comparison::contender::Figure;
+use sweetspot_study::lathe::map::{LatheMap, LatheTerms, bands};
+use sweetspot_study::lathe::recipe::least_wood;
+use sweetspot_study::lathe::samples::{SectionSlopes, by_added_mass};
+use sweetspot_study::lathe::workpiece::{Care, HitTerms, Slopes, Workpiece};
+use sweetspot_study::many::answers::Answer;
 
 const MM: f64 = 1e-3;
 const INCH: f64 = 0.0254;
 
 fn mesh(name: &str) -> Bat {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes").join(format!("{name}.json"));
+    let path = Path::new(env!("SWEETSPOT_TOP")).join("meshes").join(format!("{name}.json"));
     Bat::from_file(&path).unwrap()
 }
 

@@ -14,7 +14,7 @@ use sweetspot::{Bat, Hit, Reached, Request, Swing, Theory, solve};
 
 use crate::common::folder::Folder;
 
-const MESHES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/meshes");
+const MESHES: &str = concat!(env!("SWEETSPOT_TOP"), "/meshes");
 /// The frequency (Hz) that an R161 is said to have been tapped at; by its file it has 174.5 Hz.
 const TAPPED: f64 = 140.0;
 
@@ -180,7 +180,7 @@ fn modes_up_to_a_frequency_are_counted_by_the_theory_that_solves_them() {
 
 #[test]
 fn the_numbers_of_the_library_page_are_those_of_the_program() {
-    let page = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/library.md");
+    let page = concat!(env!("SWEETSPOT_TOP"), "/docs/library.md");
     let page = fs::read_to_string(page).unwrap();
     let (folder, _) = bats();
     let said = printed(&folder, &["modes", "r161.json", "-n", "5", "--tol", "1e-8", "--json", "-"]);

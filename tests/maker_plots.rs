@@ -1,23 +1,21 @@
 //! Pictures of the verbs for makers of bats: each can be read, and shows what was found.
 #![cfg(feature = "png")]
 
-use crate::common;
-
-use common::pictures::{check, number, texts};
+use crate::pictures::{check, number, texts};
 use resvg::usvg::roxmltree::Document;
 use sweetspot::Bat;
 use sweetspot::bat::turned::DiameterChange;
-use sweetspot::files::readings_file;
-use sweetspot::proof::bundled::bundled_bat;
-use sweetspot::show::many::summary::sorted;
-use sweetspot::show::many::table::Column;
-use sweetspot::show::plot::sheet::{Paper, Sheet};
-use sweetspot::show::plot::{calibrate, change, many};
-use sweetspot::show::template::pages::pages;
-use sweetspot::show::template::sheet::{Drawn, PAPERS};
-use sweetspot::study::calibrate::calibration::{Calibration, CalibrationPlan};
-use sweetspot::study::many::indices::{Indices, VariateKind};
-use sweetspot::study::many::sobol::Sobol;
+use sweetspot_proof::bundled::bundled_bat;
+use sweetspot_report::many::summary::sorted;
+use sweetspot_report::many::table::Column;
+use sweetspot_report::plot::sheet::{Paper, Sheet};
+use sweetspot_report::plot::{calibrate, change, many};
+use sweetspot_report::template::pages::pages;
+use sweetspot_report::template::sheet::{Drawn, PAPERS};
+use sweetspot_study::calibrate::calibration::{Calibration, CalibrationPlan};
+use sweetspot_study::files::readings_file;
+use sweetspot_study::many::indices::{Indices, VariateKind};
+use sweetspot_study::many::sobol::Sobol;
 
 fn bat(name: &str) -> Bat {
     bundled_bat(&format!("meshes/{name}.json")).unwrap()

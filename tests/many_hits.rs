@@ -5,8 +5,8 @@ use sweetspot::collision::batch::{Blow, each};
 use sweetspot::collision::sweep::{Accuracy, Sweep, Trial, sweep};
 use sweetspot::collision::{Model, Scene};
 use sweetspot::modes::batch::{Way, solutions};
-use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Bat, Request, Theory, solve};
+use sweetspot_proof::bundled::bundled_bat;
 
 const WAYS: [Way; 2] = [Way::OneByOne, Way::SideBySide];
 

@@ -14,15 +14,15 @@ use sweetspot::Bat;
 use sweetspot::bat::fixtures::{Fixtures, Held, Support};
 use sweetspot::bat::material::Material;
 use sweetspot::beam::dowel::{Dowel, Ends, UniformMode};
-use sweetspot::files::measured::{table, universal};
-use sweetspot::files::uff::{self, Analysis, Dataset, NodalData, Node, Nodes, Universal, parse};
 use sweetspot::modes::solve::Request;
-use sweetspot::show::parts::units::Units;
-use sweetspot::show::report::measured;
-use sweetspot::study::measured::data::{Measured, MeasuredMode};
-use sweetspot::study::measured::place::{End, ToldPoints};
-use sweetspot::study::measured::study::Study;
-use sweetspot::study::measured::words::words;
+use sweetspot_report::parts::units::Units;
+use sweetspot_report::report::measured;
+use sweetspot_study::files::measured::{table, universal};
+use sweetspot_study::measured::data::{Measured, MeasuredMode};
+use sweetspot_study::measured::place::{End, ToldPoints};
+use sweetspot_study::measured::study::Study;
+use sweetspot_study::measured::words::words;
+use uff58::{Analysis, Dataset, NodalData, Node, Nodes, Universal, parse};
 
 /// Even points from end to end.
 fn points(count: usize) -> Vec<f64> {
@@ -719,9 +719,9 @@ fn what_is_assumed_of_a_universal_file_is_said() {
             _ => {}
         }
     }
-    let mm = uff::Units { length: 1000.0, description: "mm".into(), ..uff::Units::si() };
+    let mm = uff58::Units { length: 1000.0, description: "mm".into(), ..uff58::Units::si() };
     file.datasets.insert(0, Dataset::Units(mm));
-    let text = uff::write(&file.datasets).unwrap() + "    -1\n  2420\nany\n    -1\n";
+    let text = uff58::write(&file.datasets).unwrap() + "    -1\n  2420\nany\n    -1\n";
     let measured = universal::of(&parse("m.uff", text.as_bytes()).unwrap(), "m.uff").unwrap();
     for said in [
         "dataset 2420 is left out",

@@ -13,10 +13,10 @@ use sweetspot::collision::energy_loss::EnergyLoss;
 use sweetspot::collision::hit::{Effort, Model, Scene};
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::sweet_spot::{FEW, HitsAlong, SweetSpot};
-use sweetspot::files::schema;
 use sweetspot::modes::solve::{self, Request, Solution};
-use sweetspot::show::report::hit_json;
-use sweetspot::show::report::json::{self, ShapePoints};
+use sweetspot_report::report::hit_json;
+use sweetspot_report::report::json::{self, ShapePoints};
+use sweetspot_report::schema;
 
 /// A bat with everything on it and under it.
 const HELD: &str = r#"{

@@ -11,13 +11,13 @@ use std::process::{Output, Stdio};
 use common::diagnostic::diagnostics;
 use common::folder::Folder;
 use serde_json::Value;
-use sweetspot::files::schema;
-use sweetspot::proof::validation::Truth;
-use sweetspot::show::report::resolved::resolved;
 use sweetspot::{Bat, Request, solve};
+use sweetspot_proof::validation::Truth;
+use sweetspot_report::report::resolved::resolved;
+use sweetspot_report::schema;
 
 fn mesh(name: &str) -> String {
-    format!("{}/meshes/{name}.json", env!("CARGO_MANIFEST_DIR"))
+    format!("{}/meshes/{name}.json", env!("SWEETSPOT_TOP"))
 }
 
 /// Exit code and standard error of a failed run, that for people.

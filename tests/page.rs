@@ -8,7 +8,7 @@ use common::folder::Folder;
 use serde_json::{Value, json};
 
 fn mesh(name: &str) -> String {
-    format!("{}/meshes/{name}.json", env!("CARGO_MANIFEST_DIR"))
+    format!("{}/meshes/{name}.json", env!("SWEETSPOT_TOP"))
 }
 
 /// The page of a bat, and standard output.

@@ -3,8 +3,8 @@
 
 use crate::common;
 
+use crate::pictures::{check, number, scale, texts, ticks};
 use common::folder::Folder;
-use common::pictures::{check, number, scale, texts, ticks};
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::roxmltree::Document;
 use resvg::usvg::{Options, Tree};
@@ -20,26 +20,26 @@ use sweetspot::collision::pulse::Pulse;
 use sweetspot::collision::sweep::{Accuracy, Sweep, sweep};
 use sweetspot::collision::sweet_spot::SweetSpot;
 use sweetspot::motion::frf::{Frf, ResponseKind, Sample};
-use sweetspot::proof::bundled::bundled_bat;
-use sweetspot::show::plot::matrix::{FULL, Matrix};
-use sweetspot::show::plot::picture::Picture;
-use sweetspot::show::plot::png::png;
-use sweetspot::show::plot::sets::{self, Hits};
-use sweetspot::show::plot::sheet::{Paper, Sheet};
-use sweetspot::show::plot::svg::Shape;
-use sweetspot::show::plot::theme::{FRAME, GRID, Ink, MUTED, PAPER, SERIES, TEXT, TINT};
-use sweetspot::show::plot::{
+use sweetspot::{Bat, Request, Solution, solve};
+use sweetspot_proof::bundled::bundled_bat;
+use sweetspot_report::plot::matrix::{FULL, Matrix};
+use sweetspot_report::plot::picture::Picture;
+use sweetspot_report::plot::png::png;
+use sweetspot_report::plot::sets::{self, Hits};
+use sweetspot_report::plot::sheet::{Paper, Sheet};
+use sweetspot_report::plot::svg::Shape;
+use sweetspot_report::plot::theme::{FRAME, GRID, Ink, MUTED, PAPER, SERIES, TEXT, TINT};
+use sweetspot_report::plot::{
     exit_speed, front, hoop, lathe, ledger, matrix, profile, response, ringing, shapes,
     wall_sweep as thickness,
 };
-use sweetspot::show::report::aftermath::AfterHit;
-use sweetspot::study::lathe::map::{LatheMap, LatheTerms, bands};
-use sweetspot::study::lathe::workpiece::HitTerms;
-use sweetspot::study::many::answers::Answer;
-use sweetspot::study::trade::measure::measure;
-use sweetspot::study::trampoline::barrel::{Barrel, BarrelTest};
-use sweetspot::study::trampoline::thickness::wall_sweep;
-use sweetspot::{Bat, Request, Solution, solve};
+use sweetspot_report::report::aftermath::AfterHit;
+use sweetspot_study::lathe::map::{LatheMap, LatheTerms, bands};
+use sweetspot_study::lathe::workpiece::HitTerms;
+use sweetspot_study::many::answers::Answer;
+use sweetspot_study::trade::measure::measure;
+use sweetspot_study::trampoline::barrel::{Barrel, BarrelTest};
+use sweetspot_study::trampoline::thickness::wall_sweep;
 
 const SHEET: Sheet = Sheet::file(false);
 
@@ -573,7 +573,7 @@ fn the_front_shows_the_solvers_and_the_planners_choices() {
 #[test]
 fn the_program_draws_into_a_folder() {
     let folder = Folder::new("plots");
-    let mesh = |name: &str| format!("{}/meshes/{name}.json", env!("CARGO_MANIFEST_DIR"));
+    let mesh = |name: &str| format!("{}/meshes/{name}.json", env!("SWEETSPOT_TOP"));
     let files = |of: &str| Folder(folder.0.join(of)).names();
     let both = |names: &[&str]| {
         let mut all: Vec<String> =

@@ -1,6 +1,9 @@
 //! Tests of files, of what the program says and of what it writes, as one program.
 
 mod common;
+#[cfg(feature = "png")]
+#[path = "common/pictures.rs"]
+mod pictures;
 
 mod advise;
 mod aim;

@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use sweetspot::base::telling::nobody;
-use sweetspot::proof::promise::{BATS, CheckedBat, DIGITS, Summary, rows};
+use sweetspot_proof::promise::{BATS, CheckedBat, DIGITS, Summary, rows};
 
 static ROWS: LazyLock<Vec<CheckedBat>> = LazyLock::new(|| rows(&nobody).unwrap());
 

@@ -8,8 +8,8 @@ use sweetspot::collision::contact::force_law::ForceLaw;
 use sweetspot::collision::contact::power_law::PowerLaw;
 use sweetspot::collision::contact::touch::DrivingPoint;
 use sweetspot::collision::struck::Struck;
-use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Request, solve};
+use sweetspot_proof::bundled::bundled_bat;
 
 /// Numbers that look random, the same in every run.
 ///

@@ -11,16 +11,16 @@ use sweetspot::collision::{Hitter, Impact, Model, Outcome, Scene, Sweep, SweetSp
 use sweetspot::modes::damping::Damping;
 use sweetspot::motion::frf::{Frf, Sample};
 use sweetspot::motion::ringing::Ringing;
-use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Bat, Error, Mode, Request, Solution, solve};
+use sweetspot_proof::bundled::bundled_bat;
 
 fn is_a_result<T: Debug + Serialize + Send + Sync>() {}
 fn goes_to_other_threads<T: Send + Sync>() {}
 
 #[test]
 fn results_are_printed_written_and_shared() {
-    is_a_result::<sweetspot::study::spread::Spread>();
-    is_a_result::<sweetspot::study::spread::Readings>();
+    is_a_result::<sweetspot_study::spread::Spread>();
+    is_a_result::<sweetspot_study::spread::Readings>();
     is_a_result::<Inertia>();
     is_a_result::<Solution>();
     is_a_result::<Mode>();

@@ -4,8 +4,8 @@ use crate::common;
 
 use common::folder::Folder;
 use serde_json::Value;
-use sweetspot::study::many::indices::{Indices, VariateKind};
-use sweetspot::study::many::sobol::Sobol;
+use sweetspot_study::many::indices::{Indices, VariateKind};
+use sweetspot_study::many::sobol::Sobol;
 
 const R161: &str = include_str!("../meshes/r161.json");
 

@@ -7,8 +7,8 @@ use sweetspot::bat::theory::Theory;
 use sweetspot::collision::ball::Ball;
 use sweetspot::collision::hit::{Effort, Model, Outcome, Scene, Wall};
 use sweetspot::collision::hitter::Hitter;
-use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Bat, Request, Solution, solve};
+use sweetspot_proof::bundled::bundled_bat;
 
 const FINE: Effort = Effort { accuracy: 1e-8, completed: true };
 

@@ -20,15 +20,15 @@ use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::pulse::Pulse;
 use sweetspot::collision::sweep::{Accuracy, sweep};
 use sweetspot::files::schema::bat::BatFile;
-use sweetspot::files::schema::hit::HitFile;
-use sweetspot::files::schema::modes::ModesFile;
-use sweetspot::files::schema::{self, of};
 use sweetspot::modes::solve::Solver;
-use sweetspot::proof::bundled::CASES;
-use sweetspot::show::formats::{self, FileKind};
-use sweetspot::show::report::hit_json;
-use sweetspot::show::report::json::{self, ShapePoints};
 use sweetspot::{Bat, Request, solve};
+use sweetspot_proof::bundled::CASES;
+use sweetspot_report::formats::{self, FileKind};
+use sweetspot_report::report::hit_json;
+use sweetspot_report::report::json::{self, ShapePoints};
+use sweetspot_report::schema::hit::HitFile;
+use sweetspot_report::schema::modes::ModesFile;
+use sweetspot_report::schema::{self, of};
 
 /// A bat with everything on it and under it, damped by all that damps.
 const FULL: &str = include_str!("golden/bat-1.json");
@@ -84,7 +84,7 @@ fn assert_typed<T: Serialize + DeserializeOwned>(document: &Value, what: &str) {
 }
 
 fn bats() -> Vec<(String, Bat)> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes");
+    let folder = Path::new(env!("SWEETSPOT_TOP")).join("meshes");
     let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let mut bats: Vec<(String, Bat)> =
         files.map(|path| (path.display().to_string(), Bat::from_file(&path).unwrap())).collect();
@@ -274,7 +274,7 @@ fn every_case_of_known_answers_ball_and_study_of_this_project_is_valid() {
     assert_valid(&validator(&kind("study").schema()), &study, "study");
     let aim = serde_json::from_str(include_str!("golden/aim-1.json")).unwrap();
     assert_valid(&validator(&kind("aim").schema()), &aim, "aim");
-    for (name, text) in sweetspot::files::rules_file::BUILT_IN {
+    for (name, text) in sweetspot_study::files::rules_file::BUILT_IN {
         let rules = serde_json::from_str(text).unwrap();
         assert_valid(&validator(&kind("rules").schema()), &rules, name);
     }
@@ -294,7 +294,7 @@ fn outputs_may_grow_but_not_lose_a_member_change_a_type_or_be_of_another_version
     let written = WRITTEN.map(|document| (document.0, document.1));
     let others = ["error", "study-manifest"].map(|name| (name, name));
     for (name, format) in written.into_iter().chain(others) {
-        let path = format!("{}/tests/golden/{name}-1.json", env!("CARGO_MANIFEST_DIR"));
+        let path = format!("{}/tests/golden/{name}-1.json", env!("SWEETSPOT_TOP"));
         let document: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
         let validator = validator(&kind(format).schema());
         assert_valid(&validator, &document, name);

@@ -9,9 +9,9 @@ use common::folder::Folder;
 use common::{DENSITY, LENGTH, MODULUS, RADIUS, beta, dowel_frequency};
 use serde_json::{Value, json};
 use sweetspot::bat::theory::Theory;
-use sweetspot::proof::bundled::CASES;
-use sweetspot::study::tuned::tuned;
+use sweetspot::modes::tuned::tuned;
 use sweetspot::{Bat, Request, Solution, solve};
+use sweetspot_proof::bundled::CASES;
 
 const BOTH: [Theory; 2] = [Theory::EulerBernoulli, Theory::Timoshenko];
 
@@ -435,7 +435,7 @@ fn the_disagreement_of_a_weighed_balance_point_is_a_number_in_table_and_json() {
     );
     folder.write(
         "bat.json",
-        sweetspot::files::schema::text(&sweetspot::show::report::resolved::resolved(&bat)),
+        sweetspot_report::schema::text(&sweetspot_report::report::resolved::resolved(&bat)),
     );
     let document = folder.json(&["modes", "bat.json", "--json", "-"]);
     let weighed = &document["summary"]["weighed"];

@@ -10,8 +10,8 @@ use sweetspot::beam::{assembly::Pencil, mesh::Mesh};
 use sweetspot::eigen::shift_invert::{Pairs, multiply};
 use sweetspot::eigen::{dense, shift_invert};
 use sweetspot::modes::solve::own_and_recomputed;
-use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Bat, Error, Request, Result, Solver, solve};
+use sweetspot_proof::bundled::bundled_bat;
 
 type Solve = fn(&CscMatrix<f64>, &CscMatrix<f64>, f64, usize, f64) -> Result<Pairs>;
 

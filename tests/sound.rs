@@ -8,7 +8,7 @@ use common::folder::Folder;
 use serde_json::Value;
 
 fn mesh(name: &str) -> String {
-    format!("{}/meshes/{name}.json", env!("CARGO_MANIFEST_DIR"))
+    format!("{}/meshes/{name}.json", env!("SWEETSPOT_TOP"))
 }
 
 /// The samples of a WAV file, after a look at its header.

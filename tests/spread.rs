@@ -10,9 +10,9 @@ use sweetspot::collision::figures::Figures;
 use sweetspot::collision::sweep::{Accuracy, Sweep, sweep};
 use sweetspot::collision::sweet_spot::HitsAlong;
 use sweetspot::collision::{Hitter, Model, Scene};
-use sweetspot::study::spread::{Analysed, Input, Readings, Spread, SpreadAnswer};
-use sweetspot::study::tuned::tuned;
+use sweetspot::modes::tuned::tuned;
 use sweetspot::{Bat, Material, Profile, Request, Solution, Theory, solve};
+use sweetspot_study::spread::{Analysed, Input, Readings, Spread, SpreadAnswer};
 
 const ASH: [f64; 2] = [649.0, 18.14e9];
 
@@ -261,7 +261,7 @@ fn a_sample_of_bats_that_were_weighed_and_tapped_scatters_as_the_first_order_say
 #[test]
 fn an_analysis_is_one_screen_of_24_lines_and_80_columns() {
     let folder = Folder::new("screen");
-    let meshes = concat!(env!("CARGO_MANIFEST_DIR"), "/meshes");
+    let meshes = concat!(env!("SWEETSPOT_TOP"), "/meshes");
     for entry in std::fs::read_dir(meshes).unwrap() {
         let path = entry.unwrap().path();
         for units in ["both", "si", "us"] {

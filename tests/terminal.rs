@@ -10,7 +10,7 @@ use common::commands::wider;
 use common::folder::Folder;
 use sweetspot::Bat;
 
-const MESHES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/meshes");
+const MESHES: &str = concat!(env!("SWEETSPOT_TOP"), "/meshes");
 
 fn mesh(name: &str) -> String {
     format!("{MESHES}/{name}.json")

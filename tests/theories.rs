@@ -9,9 +9,9 @@ use common::{LENGTH, MODULUS, bat};
 use sweetspot::bat::material::Material;
 use sweetspot::bat::profile::{Interpolation, Profile, Stations};
 use sweetspot::bat::theory::Theory;
-use sweetspot::proof::bundled::bundled_bat;
-use sweetspot::proof::validation::Truth;
 use sweetspot::{Bat, Request, Solution, solve};
+use sweetspot_proof::bundled::bundled_bat;
+use sweetspot_proof::validation::Truth;
 
 /// A bat with the shear modulus of wood.
 fn sheared(bat: Bat) -> Bat {

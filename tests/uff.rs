@@ -6,14 +6,14 @@ use std::path::Path;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use sweetspot::base::error::Error;
-use sweetspot::files::uff::{
+use uff58::{
     Abscissa, Analysis, Axis, Complex, Dataset, Dof, Function, Header, NodalData, Node, Nodes,
     Stamp, TraceLine, Units, Universal, Values, parse, read, six_digits, write,
 };
 
 /// A file that `tests/foreign/make_samples.py` made with pyuff.
 fn sample(name: &str) -> Universal {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/foreign");
+    let folder = Path::new(env!("SWEETSPOT_TOP")).join("tests/foreign");
     read(&folder.join(format!("{name}.uff"))).unwrap()
 }
 
@@ -550,7 +550,7 @@ fn factors_of_units_are_above_zero() {
 
 /// Good files to be spoilt.
 fn samples() -> Vec<Vec<u8>> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/foreign");
+    let folder = Path::new(env!("SWEETSPOT_TOP")).join("tests/foreign");
     let names = ["nodes", "shapes", "functions", "singles", "binary", "feet"];
     names.map(|name| std::fs::read(folder.join(format!("{name}.uff"))).unwrap()).to_vec()
 }

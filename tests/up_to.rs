@@ -54,7 +54,7 @@ fn a_free_dowel_and_a_clamped_one_have_as_many_modes_as_theory_says() {
 
 #[test]
 fn what_is_counted_is_what_is_solved() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes");
+    let folder = Path::new(env!("SWEETSPOT_TOP")).join("meshes");
     let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let mut bats: Vec<Bat> = files.map(|path| Bat::from_file(path).unwrap()).collect();
     let spring = Attachment { x: 0.2, stiffness: 1e3, mass: 0.1, ..Attachment::default() };
@@ -116,7 +116,7 @@ fn four_hundred_modes_are_the_most() {
 #[test]
 fn the_program_lists_and_uses_the_modes_up_to_there() {
     let folder = Folder::new("up-to");
-    let bat = format!("{}/meshes/r161.json", env!("CARGO_MANIFEST_DIR"));
+    let bat = format!("{}/meshes/r161.json", env!("SWEETSPOT_TOP"));
     // Its fourth mode is at 1855 Hz, its fifth at 2571 Hz.
     for (verb, more) in [
         ("modes", &["--reproducible", "--json", "-"][..]),

@@ -5,9 +5,9 @@ use std::fs;
 use std::path::Path;
 
 use sweetspot::base::telling::nobody;
-use sweetspot::proof::published::PublishedCase;
-use sweetspot::show::hit_figure;
-use sweetspot::show::proof_page;
+use sweetspot_proof::published::PublishedCase;
+use sweetspot_report::hit_figure;
+use sweetspot_report::proof_page;
 
 #[test]
 fn every_known_answer_is_reproduced_and_the_page_says_so() {
@@ -25,7 +25,7 @@ fn every_known_answer_is_reproduced_and_the_page_says_so() {
     }
     assert!(rows > 500, "{rows}");
 
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/validation.md");
+    let path = Path::new(env!("SWEETSPOT_TOP")).join("docs/validation.md");
     let committed = fs::read_to_string(path).unwrap().replace("\r\n", "\n");
     let stale = first_difference(&committed, &proof_page::text(&answers).unwrap());
     let again = "run: sweetspot validate --page docs/validation.md";
@@ -35,7 +35,7 @@ fn every_known_answer_is_reproduced_and_the_page_says_so() {
 /// The committed picture is today's, but for a pixel where a number was just about to round.
 #[test]
 fn the_picture_of_the_page_is_todays() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs").join(hit_figure::FILE);
+    let path = Path::new(env!("SWEETSPOT_TOP")).join("docs").join(hit_figure::FILE);
     let committed = fs::read_to_string(path).unwrap();
     let now = hit_figure::svg().unwrap();
     let words = |text: &str| -> Vec<String> {

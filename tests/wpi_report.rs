@@ -23,7 +23,7 @@ struct Reference {
 
 impl Reference {
     fn read(name: &str) -> Self {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("validation/wpi");
+        let folder = Path::new(env!("SWEETSPOT_TOP")).join("validation/wpi");
         let text = std::fs::read_to_string(folder.join(format!("{name}.csv"))).unwrap();
         let mut lines =
             text.lines().map(|line| line.split(',').map(String::from).collect::<Vec<_>>());

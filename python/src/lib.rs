@@ -25,21 +25,21 @@ use sweetspot::collision::sweep::{Trial, sweep};
 use sweetspot::files::balls::ball;
 use sweetspot::files::built_in as bats;
 use sweetspot::files::scene_file;
-use sweetspot::files::schema;
-use sweetspot::files::schema::hit::HitFile;
 use sweetspot::modes::prepared::{Prepared, prepare};
 use sweetspot::modes::request::MOST_MODES;
-use sweetspot::show::exchange::npz;
-use sweetspot::show::many::folder::StudyFolder;
-use sweetspot::show::many::part::{Division, made};
-use sweetspot::show::many::source::Study as Source;
-use sweetspot::show::many::sums;
-use sweetspot::show::plot::picture::Picture;
-use sweetspot::show::plot::sets::{Hits, of_modes};
-use sweetspot::show::plot::sheet::Sheet;
-use sweetspot::show::report::json::{self, ShapePoints};
-use sweetspot::show::report::{hit_json, mistakes};
 use sweetspot::{Error, Request, Solution, Theory, solve};
+use sweetspot_report::exchange::npz;
+use sweetspot_report::many::folder::StudyFolder;
+use sweetspot_report::many::part::{Division, made};
+use sweetspot_report::many::source::Study as Source;
+use sweetspot_report::many::sums;
+use sweetspot_report::plot::picture::Picture;
+use sweetspot_report::plot::sets::{Hits, of_modes};
+use sweetspot_report::plot::sheet::Sheet;
+use sweetspot_report::report::json::{self, ShapePoints};
+use sweetspot_report::report::{hit_json, mistakes};
+use sweetspot_report::schema;
+use sweetspot_report::schema::hit::HitFile;
 
 /// The package's exception about an error, with its `sweetspot-error/1` document.
 fn raised(py: Python<'_>, error: &Error) -> PyErr {

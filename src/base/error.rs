@@ -132,7 +132,7 @@ impl Error {
     }
 
     /// This error, with every complaint about a value turned into one about its place by `place`.
-    pub(crate) fn placed(self, place: impl Fn(Complaint) -> Self) -> Self {
+    pub fn placed(self, place: impl Fn(Complaint) -> Self) -> Self {
         let one = |error| match error {
             Self::Value(complaint) => place(complaint),
             other => other,
@@ -218,7 +218,7 @@ impl Complaint {
     }
 
     /// This complaint with every name that stands `` `so` `` written as is usual where it is told.
-    pub(crate) fn naming(self, written: impl Fn(&str) -> String) -> Self {
+    pub fn naming(self, written: impl Fn(&str) -> String) -> Self {
         let told = |text: String| {
             let parts = text.split('`').enumerate();
             parts
@@ -250,7 +250,7 @@ impl fmt::Display for Complaint {
 }
 
 /// The beginning of a text that may be a megabyte of somebody's file.
-pub(crate) fn shortened(text: &str, most: usize) -> String {
+pub fn shortened(text: &str, most: usize) -> String {
     match text.char_indices().nth(most) {
         Some((end, _)) => format!("{}…", &text[..end]),
         None => text.to_owned(),

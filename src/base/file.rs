@@ -90,7 +90,7 @@ fn up_to(path: &Path, most: u64) -> io::Result<Vec<u8>> {
 }
 
 /// A file, if it is one, is kept from now on.
-pub(crate) fn note(path: &Path) {
+pub fn note(path: &Path) {
     if let (Some(file), Some(kept)) = (Identity::of(path), locked(&KEPT).as_mut()) {
         kept.push(file);
     }
@@ -211,7 +211,7 @@ impl<'a> Descriptor<'a> {
     }
 
     /// Linux opens the file anew, at its beginning; only a duplicate goes on where it stands.
-    #[cfg(all(target_os = "linux", feature = "show"))]
+    #[cfg(all(target_os = "linux", feature = "descriptors"))]
     fn open(&self) -> io::Result<File> {
         use rustix::process::{PidfdFlags, PidfdGetfdFlags, getpid, pidfd_getfd, pidfd_open};
         let duplicate = |number| {
@@ -225,7 +225,7 @@ impl<'a> Descriptor<'a> {
         }
     }
 
-    #[cfg(not(all(target_os = "linux", feature = "show")))]
+    #[cfg(not(all(target_os = "linux", feature = "descriptors")))]
     fn open(&self) -> io::Result<File> {
         OpenOptions::new().append(true).open(self.path)
     }
@@ -233,7 +233,7 @@ impl<'a> Descriptor<'a> {
 
 /// Whether a descriptor was open when the program began: what it has opened since, under a number
 /// that was free, is closed on exec.
-#[cfg(all(target_os = "linux", feature = "show"))]
+#[cfg(all(target_os = "linux", feature = "descriptors"))]
 fn inherited(number: i32) -> bool {
     const CLOSED_ON_EXEC: u32 = 0o2_000_000;
     let told = fs::read_to_string(format!("/proc/self/fdinfo/{number}")).unwrap_or_default();
@@ -291,7 +291,7 @@ fn write_beside(target: &Path, old: Option<&Metadata>, contents: &[u8]) -> io::R
 
 /// Writes a part in the folder of the target, as `old` in owner and permissions, and lets `put` take it to its
 /// place: the file, which is locked where files can be.
-pub(crate) fn beside(
+pub fn beside(
     target: &Path,
     old: Option<&Metadata>,
     contents: &[u8],
@@ -382,7 +382,7 @@ fn names(_: &Metadata) -> u64 {
 
 /// Disk and number of a file.
 #[cfg(unix)]
-pub(crate) fn number(file: &Metadata) -> Option<(u64, u64)> {
+pub fn number(file: &Metadata) -> Option<(u64, u64)> {
     use std::os::unix::fs::MetadataExt;
     Some((file.dev(), file.ino()))
 }

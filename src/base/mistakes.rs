@@ -10,7 +10,7 @@ const MOST: usize = 10;
 /// A reader goes on with a stand-in for what it could not read, so that the rest is looked at too;
 /// [`Self::end`] then sees to it that nothing made of stand-ins is taken for an answer.
 #[derive(Debug, Default)]
-pub(crate) struct Mistakes {
+pub struct Mistakes {
     found: Vec<Error>,
     /// How many were counted only.
     more: usize,
@@ -74,7 +74,7 @@ impl Mistakes {
 
 /// All of many things that were read, or what is wrong with the first ten wrong ones, and how many
 /// more are.
-pub(crate) fn all<T>(read: impl IntoIterator<Item = Result<T>>) -> Result<Vec<T>> {
+pub fn all<T>(read: impl IntoIterator<Item = Result<T>>) -> Result<Vec<T>> {
     let (mut right, mut mistakes) = (Vec::new(), Mistakes::default());
     for one in read {
         match one {

@@ -20,15 +20,14 @@
 #[doc(hidden)]
 pub mod marks;
 pub mod error;
-pub(crate) mod mistakes;
+#[doc(hidden)]
+pub mod mistakes;
 pub mod telling;
 pub(crate) mod clock;
 #[doc(hidden)]
 pub mod threads;
 #[doc(hidden)]
 pub mod file;
-#[cfg(feature = "cli")]
-pub(crate) mod own_file;
 #[doc(hidden)]
 pub mod typed;
 pub mod units;

@@ -12,7 +12,6 @@ std::thread_local! {
 }
 
 /// The most threads that may be asked for.
-#[cfg(feature = "show")]
 pub const MOST: u16 = 1024;
 
 /// What is in the cell, made by `make` if nothing is.
@@ -54,7 +53,6 @@ pub(crate) fn map_each<S: Send, T: Send>(
 }
 
 /// Does something with so many threads, as many as there are processors if none are named.
-#[cfg(feature = "show")]
 pub fn with<T: Send>(threads: Option<usize>, work: impl FnOnce() -> T + Send) -> T {
     #[cfg(feature = "parallel")]
     if let Some(threads) = threads
@@ -67,7 +65,6 @@ pub fn with<T: Send>(threads: Option<usize>, work: impl FnOnce() -> T + Send) ->
 }
 
 /// How many threads share work here.
-#[cfg(feature = "show")]
 pub fn count() -> usize {
     #[cfg(feature = "parallel")]
     if pool::is_there() {

@@ -22,7 +22,8 @@
 use crate::base::error::{Complaint, nearest};
 use crate::base::typed::{mixed, number, plain, readings, split, terms};
 
-pub(crate) const INCH: f64 = 0.0254;
+/// An inch (m).
+pub const INCH: f64 = 0.0254;
 const FOOT: f64 = 0.3048;
 const MILE: f64 = 1609.344;
 const POUND: f64 = 0.453_592_37;
@@ -134,12 +135,12 @@ impl Quantity {
     }
 
     /// The SI unit of this quantity, and the factor to it, 1.
-    pub(crate) fn si(self) -> (&'static str, f64) {
+    pub fn si(self) -> (&'static str, f64) {
         (self.facts().2, 1.0)
     }
 
     /// The SI unit as a person writes it: "kg m²".
-    pub(crate) fn unit(self) -> String {
+    pub fn unit(self) -> String {
         self.facts().2.replace("^2", "²").replace("^3", "³")
     }
 
@@ -416,7 +417,7 @@ pub fn inches(length: f64) -> f64 {
 }
 
 /// A length as messages say it, whichever unit it came in.
-pub(crate) fn shown_length(length: f64) -> String {
+pub fn shown_length(length: f64) -> String {
     let rounded = |text: String| text.parse().unwrap_or(f64::NAN);
     let meters: f64 = rounded(format!("{length:.11e}"));
     let inches: f64 = rounded(format!("{:.5e}", inches(length)));

@@ -45,10 +45,10 @@ pub struct Bat {
 /// What a bat is made of, before it is one.
 ///
 /// ```
-/// use sweetspot::bat::profile::{Interpolation, Stations};
+/// use crate::bat::profile::{Interpolation, Stations};
 /// use sweetspot::{Bat, Material, Profile};
 ///
-/// # fn main() -> sweetspot::Result<()> {
+/// # fn main() -> crate::Result<()> {
 /// let (x, outer, inner) = (vec![0.0, 0.84], vec![0.0152; 2], vec![0.0; 2]);
 /// let dowel = Profile::new(Stations { x, outer, inner, interpolation: Interpolation::Linear })?;
 /// let maple = Material::named("sugar-maple-dynamic").expect("it is built in");
@@ -332,7 +332,7 @@ impl Bat {
     }
 
     /// One factor on every density and one on every modulus of the bat.
-    pub(crate) fn scale(&mut self, density: f64, modulus: f64) {
+    pub fn scale(&mut self, density: f64, modulus: f64) {
         self.layups.iter_mut().for_each(|layup| layup.scaled(density, modulus));
         for region in &mut self.fixtures.regions {
             region.layup.scaled(density, modulus);

@@ -10,7 +10,7 @@ use crate::bat::material::Material;
 
 /// One change of a bat, with a name if it has one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Edit {
     /// What the edit is called.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -22,9 +22,8 @@ pub struct Edit {
 
 /// What an edit changes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
-#[non_exhaustive]
 pub enum Change {
     /// Wood is turned off a stretch.
     Cut(Cut),
@@ -49,7 +48,7 @@ pub enum Change {
 
 /// Wood turned off a stretch of the outside.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Cut {
     /// Where the cut begins (m).
     pub from: f64,
@@ -69,7 +68,7 @@ pub struct Cut {
 /// `a (1 − (1 − v)³)`: round at the bottom, with walls along the axis at the rim. It holds 9/14 of
 /// the cylinder around it, where half an ellipsoid holds 2/3.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Cup {
     /// How deep the cup goes into the bat (m).
     pub depth: f64,
@@ -79,7 +78,7 @@ pub struct Cup {
 
 /// A hole along the axis.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Bore {
     /// Where the hole begins (m).
     pub from: f64,
@@ -91,7 +90,7 @@ pub struct Bore {
 
 /// A hole along the axis and what fills it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Cork {
     /// Where the hole begins (m).
     pub from: f64,
@@ -105,7 +104,7 @@ pub struct Cork {
 
 /// A layer around a stretch, which bends with it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Sleeve {
     /// Where the sleeve begins (m).
     pub from: f64,
@@ -119,7 +118,7 @@ pub struct Sleeve {
 
 /// What is sawn off the ends.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Shorten {
     /// Length that is sawn off at the knob (m).
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -131,7 +130,7 @@ pub struct Shorten {
 
 /// A factor on all outer diameters of a stretch.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ScaleDiameter {
     /// Where the stretch begins (m).
     pub from: f64,

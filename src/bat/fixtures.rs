@@ -10,7 +10,7 @@ use crate::bat::profile::SAME_PLACE;
 
 /// Everything that a bat may have beside its shape and its material.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Fixtures {
     /// Stretches of other materials.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -37,7 +37,7 @@ pub struct Fixtures {
 
 /// A stretch of other materials.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Region {
     /// Where the region begins (m).
     pub from: f64,
@@ -50,7 +50,7 @@ pub struct Region {
 
 /// A point mass and springs to ground.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Attachment {
     /// Where the attachment is fixed (m).
     pub x: f64,
@@ -68,7 +68,7 @@ pub struct Attachment {
 
 /// A mass spread evenly on the surface of a stretch, which bears nothing: bat tape.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Tape {
     /// Where the tape begins (m).
     pub from: f64,
@@ -80,7 +80,7 @@ pub struct Tape {
 
 /// A mass on a spring and a dashpot, which hang on the bat: a tuned absorber.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Absorber {
     /// Where the absorber hangs (m).
     pub x: f64,
@@ -94,7 +94,7 @@ pub struct Absorber {
 
 /// Where two parts of a bat are joined by a spring that gives way to bending.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Joint {
     /// Where the joint is (m).
     pub x: f64,
@@ -104,7 +104,7 @@ pub struct Joint {
 
 /// A place that is held.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Support {
     /// Position of the support (m).
     pub x: f64,
@@ -115,9 +115,9 @@ pub struct Support {
 
 /// What a support holds: the deflection, or the rotation too.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
-#[cfg_attr(feature = "show", schemars(inline))]
+#[cfg_attr(feature = "schema", schemars(inline))]
 pub enum Held {
     /// The bat does not move at the support but may turn.
     Pinned,
@@ -127,7 +127,7 @@ pub enum Held {
 
 /// Hands as an elastic bed.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Grip {
     /// Where the hands begin (m).
     pub from: f64,
@@ -226,7 +226,7 @@ impl Fixtures {
     }
 
     /// Every place that is given (m), in no order.
-    pub(crate) fn places(&mut self) -> impl Iterator<Item = &mut f64> {
+    pub fn places(&mut self) -> impl Iterator<Item = &mut f64> {
         let regions = self.regions.iter_mut().flat_map(|region| [&mut region.from, &mut region.to]);
         let tapes = self.tapes.iter_mut().flat_map(|tape| [&mut tape.from, &mut tape.to]);
         let grip = self.grip.iter_mut().flat_map(|grip| [&mut grip.from, &mut grip.to]);

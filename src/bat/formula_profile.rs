@@ -41,11 +41,11 @@ impl Profile {
     /// These bounds also show that both radii are possible everywhere.
     ///
     /// ```
-    /// use sweetspot::Profile;
-    /// use sweetspot::bat::formula::Formula;
-    /// use sweetspot::bat::profile::FormulaPiece;
+    /// use crate::Profile;
+    /// use crate::bat::formula::Formula;
+    /// use crate::bat::profile::FormulaPiece;
     ///
-    /// # fn main() -> sweetspot::Result<()> {
+    /// # fn main() -> crate::Result<()> {
     /// let outer = Formula::parse("0.012 + 0.025*x").expect("it is a formula");
     /// let cone = Profile::from_formulas(vec![FormulaPiece { from: 0.0, to: 0.84, outer, inner: None }])?;
     /// assert!((cone.at(0.84).outer - 0.033).abs() < 1e-15);

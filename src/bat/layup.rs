@@ -11,7 +11,7 @@ use crate::bat::profile::Section;
 
 /// The materials of a stretch of the bat: a tube, or a solid rod, and what fills the bore.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Layup {
     /// Material of the wall, from the bore to the surface.
     #[serde(rename = "material")]
@@ -37,7 +37,7 @@ pub(super) struct Hole {
 
 /// A layer around the wall, bonded to what is below it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Layer {
     /// Thickness of the layer (m).
     pub thickness: f64,

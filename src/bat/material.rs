@@ -13,7 +13,7 @@ use crate::base::number::significant;
 
 /// A material, along the bat's axis where it is wood.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Material {
     /// The built-in name, if it has one.
     #[serde(skip)]
@@ -55,7 +55,7 @@ pub struct Material {
 
 /// Shear moduli of a composite in the planes of the bat's directions.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ShearModuli {
     /// Shear modulus between the directions along and around the bat (Pa).
     pub along_around: f64,
@@ -68,7 +68,7 @@ pub struct ShearModuli {
 /// Poisson's ratios of a composite: how far it contracts in the second direction when it is pulled in the
 /// first, against its stretch in the first.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PoissonRatios {
     /// Contraction around the bat when pulled along it.
     pub along_around: f64,
@@ -109,7 +109,7 @@ impl Material {
     }
 
     /// Poisson's ratio for κ: the material's own, of a composite that of the plane of its wall, else 0.3.
-    pub(crate) fn poisson(&self) -> f64 {
+    pub fn poisson(&self) -> f64 {
         let of_wall = self.poisson_ratios.map(|ratios| ratios.along_around);
         self.poisson_ratio.or(of_wall).unwrap_or(0.3)
     }
@@ -157,7 +157,7 @@ impl Material {
     /// The built-in material of that name.
     ///
     /// ```
-    /// use sweetspot::Material;
+    /// use crate::Material;
     ///
     /// let ash = Material::named("white-ash-dynamic").expect("it is built in");
     /// assert!(ash.shear_modulus.is_some() && Material::named("willow").is_none());
@@ -183,7 +183,6 @@ impl Material {
 
 /// How much a kind of material differs from piece to piece, as relative standard deviations.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[non_exhaustive]
 pub struct Scatter {
     /// Of Young's modulus, and of G with it.
     pub youngs_modulus: f64,

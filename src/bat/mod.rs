@@ -32,7 +32,8 @@ pub(crate) mod slopes;
 pub mod fixtures;
 pub mod weighed;
 pub mod edit;
-pub(crate) mod part;
+#[doc(hidden)]
+pub mod part;
 mod members;
 pub(crate) mod fixtures_check;
 pub mod body;

@@ -17,7 +17,7 @@ pub(crate) const SOFTEST: f64 = 1e-12;
 pub(crate) const HEAVIEST: f64 = 1e8;
 
 /// A member of a part on the bat: how a bat file calls it, what it is, where it is kept.
-pub(crate) struct Field<P> {
+pub struct Field<P> {
     pub key: &'static str,
     pub kind: MemberKind,
     /// What is expected where it is missing; without such words it may be missing.
@@ -25,14 +25,14 @@ pub(crate) struct Field<P> {
     /// Another key that must be there beside it, and what is expected of that.
     pub with: Option<(&'static str, &'static str)>,
     /// A value in units of the trade, where that of the quantity is another size.
-    #[cfg_attr(not(feature = "show"), expect(dead_code, reason = "the schema says it"))]
+    #[cfg_attr(not(feature = "schema"), expect(dead_code, reason = "the schema says it"))]
     pub example: Option<&'static str>,
     pub of: fn(&mut P) -> Slot<'_>,
 }
 
 /// What a member is.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum MemberKind {
+pub enum MemberKind {
     /// A number of a quantity, or a pure number, and how large it may be.
     Number(Option<Quantity>, Range),
     /// What a support holds.
@@ -48,7 +48,7 @@ pub(crate) enum MemberKind {
 }
 
 /// Where the value of a member is kept.
-pub(crate) enum Slot<'a> {
+pub enum Slot<'a> {
     /// A number that is always there.
     Number(&'a mut f64),
     /// A number that may be unknown.
@@ -69,7 +69,7 @@ pub(crate) enum Slot<'a> {
 
 /// How large a number may be.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Range {
+pub enum Range {
     /// A place on the bat, its ends included.
     OnBat,
     /// A place inside the bat.
@@ -94,7 +94,7 @@ pub(crate) enum Range {
 
 /// An end of a range.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Bound {
+pub enum Bound {
     /// The end belongs to the range.
     At(f64),
     /// The end does not.
@@ -225,11 +225,11 @@ impl Bound {
 }
 
 /// Something above 0 that a bat file may give in place of a number.
-pub(crate) struct Instead<P> {
+pub struct Instead<P> {
     pub key: &'static str,
     pub quantity: Quantity,
     /// What it is, for the schema.
-    #[cfg_attr(not(feature = "show"), expect(dead_code, reason = "the schema says it"))]
+    #[cfg_attr(not(feature = "schema"), expect(dead_code, reason = "the schema says it"))]
     pub said: &'static str,
     /// The number that it replaces.
     pub of: &'static str,
@@ -239,7 +239,7 @@ pub(crate) struct Instead<P> {
 }
 
 /// A part that is a list of numbers: reading, checking and the schema follow from it.
-pub(crate) trait Part: Clone + 'static {
+pub trait Part: Clone + 'static {
     /// Its members.
     const FIELDS: &'static [Field<Self>];
     /// Keys of which one at least must be there.

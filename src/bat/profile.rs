@@ -16,7 +16,7 @@ pub const SAME_PLACE: f64 = 1e-12;
 
 /// How the radius runs between stations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "show", derive(schemars::JsonSchema), schemars(inline))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(inline))]
 #[serde(rename_all = "lowercase")]
 pub enum Interpolation {
     /// A smooth curve without overshoot: the monotone cubic of Fritsch and Butland, split at steps.
@@ -171,10 +171,10 @@ impl Profile {
     /// The profile through the stations.
     ///
     /// ```
-    /// use sweetspot::Profile;
-    /// use sweetspot::bat::profile::{Interpolation, Stations};
+    /// use crate::Profile;
+    /// use crate::bat::profile::{Interpolation, Stations};
     ///
-    /// # fn main() -> sweetspot::Result<()> {
+    /// # fn main() -> crate::Result<()> {
     /// let (x, outer) = (vec![0.0, 0.4, 0.84], vec![0.012, 0.015, 0.033]); // in m
     /// let (inner, interpolation) = (vec![0.0; 3], Interpolation::Pchip);
     /// let profile = Profile::new(Stations { x, outer, inner, interpolation })?;

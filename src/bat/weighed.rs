@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// What a scale and a tap said, where they were asked.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Weighed {
     /// Mass with everything attached (kg).
     #[serde(skip_serializing_if = "Option::is_none")]

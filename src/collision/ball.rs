@@ -25,7 +25,7 @@ impl Default for LawOf {
 
 /// The ball, which compressed by u (m) pushes back with stiffness·u^exponent (N).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Ball {
     /// What the ball is called.
     pub name: String,

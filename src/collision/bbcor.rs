@@ -65,7 +65,7 @@ pub struct Protocol {
 
 /// What was found: the members of a BBCOR document that are of the test.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Scan {
     /// Always false: a computed value is no certificate.
     pub certified: bool,
@@ -90,7 +90,7 @@ pub struct Scan {
 
 /// What was shot at the bat, and how it was held.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Conditions {
     /// The pivot about which the bat turns (m).
     pub pivot_m: f64,
@@ -115,7 +115,7 @@ pub struct Conditions {
 
 /// One place of the scan. Most is null where ball and bat do not meet; `flags` says why.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Place {
     /// Where the ball meets the bat (m).
     pub x_m: f64,
@@ -143,7 +143,7 @@ pub struct Place {
 
 /// Estimated errors of a place.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PlaceError {
     /// Error of the exit speed (m/s).
     pub exit_speed_m_s: Option<f64>,
@@ -153,7 +153,7 @@ pub struct PlaceError {
 
 /// The largest BBCOR and its place.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Largest {
     /// The place (m).
     pub x_m: f64,

@@ -12,7 +12,6 @@ use crate::collision::pulse::Pulse;
 
 /// How the bat's bending is counted; each model is a limit of the last.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
 pub enum Model {
     /// The bat does not bend.
     Rigid,
@@ -281,6 +280,6 @@ impl Energy {
 }
 
 /// The greater of two errors; one that is not a number is greater than all, where `f64::max` drops it.
-pub(crate) fn greater(a: f64, b: f64) -> f64 {
+pub fn greater(a: f64, b: f64) -> f64 {
     if a.is_nan() || a > b { a } else { b }
 }

@@ -24,9 +24,11 @@ use crate::modes::solve::Solution;
 /// A bat about to be hit: all that is the same for every impact point.
 pub struct Hitter<'a> {
     pub(super) model: Model,
-    pub(crate) scene: &'a Scene,
+    /// How it is hit.
+    pub scene: &'a Scene,
     pub(super) solution: &'a Solution,
-    pub(crate) profile: &'a Profile,
+    /// Its radii along it.
+    pub profile: &'a Profile,
     pub(super) bat: RigidBat,
     pub(super) motion: RigidVelocity,
     pub(super) held: bool,

@@ -282,7 +282,6 @@ pub enum HoopInHit {
 
 /// Why a wall that could give way is taken as rigid.
 #[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
 pub enum WhyRigid {
     /// So it was asked.
     Asked,

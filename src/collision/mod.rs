@@ -38,7 +38,8 @@ pub mod columns;
 #[doc(hidden)]
 pub mod stated;
 pub mod hitter;
-pub(crate) mod answer;
+#[doc(hidden)]
+pub mod answer;
 #[doc(hidden)]
 pub mod strike;
 pub mod strength;

@@ -162,7 +162,7 @@ impl Setup {
     }
 
     /// Whether a hit on that bat may ask for the modes of its wall.
-    pub(crate) fn may_solve_wall(&self, bat: &Bat) -> bool {
+    pub fn may_solve_wall(&self, bat: &Bat) -> bool {
         let asked = self.wall != WallChoice::Off && self.wall_stiffness.is_none();
         asked && self.model == Model::Contact && rings(bat)
     }

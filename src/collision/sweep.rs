@@ -112,11 +112,11 @@ impl Accuracy {
 /// Strikes the bat at all places (m from the knob end).
 ///
 /// ```
-/// use sweetspot::Bat;
-/// use sweetspot::collision::sweep::{Accuracy, sweep};
-/// use sweetspot::collision::{Model, Scene};
+/// use crate::Bat;
+/// use crate::collision::sweep::{Accuracy, sweep};
+/// use crate::collision::{Model, Scene};
 ///
-/// # fn main() -> sweetspot::Result<()> {
+/// # fn main() -> crate::Result<()> {
 /// # let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
 /// #     "profile": { "unit": "in", "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5] } }"#;
 /// # let bat = Bat::from_text("bat.json", text, "".as_ref())?;
@@ -239,29 +239,23 @@ impl Round {
         let (mut work, most) = (0, MOST_WORK.max(MOST_WORK / 100 * places.len()));
         loop {
             let hitter = Hitter::new(trial.model, trial.scene, bat, &solution, now.effort)?;
-            // A mode that is slow beside the contact must not be among those that are left out.
-            let more = hitter.modes_for_contact().filter(|_| planned && request.elements.is_none());
-            let more = more.map(|more| Request { modes: more.min(MOST), ..now.request });
-            let more = more.filter(|more| more.modes > now.request.modes);
-            // Where more cannot be had, these stand.
-            if let Some((more, found)) = more.and_then(|more| Some((more, solve(bat, &more).ok()?)))
-            {
+            let more = planned && request.elements.is_none();
+            if let Some((request, found)) = more.then(|| now.slow_modes(&hitter, bat)).flatten() {
                 drop(hitter);
-                (solution, now.request) = (found, more);
+                (solution, now.request) = (found, request);
                 continue;
             }
             let open = open(&impacts, request.tolerance, places.len());
-            let struck: Vec<f64> = open.iter().map(|k| places[*k]).collect();
-            let struck = strikes(&hitter, bat.length(), &struck, tell);
+            let now_struck: Vec<f64> = open.iter().map(|k| places[*k]).collect();
+            let struck = strikes(&hitter, bat.length(), &now_struck, tell);
             work += hitter.work();
             drop(hitter);
             keep_better(&mut impacts, &open, struck);
             let worst = Worst::of(open.iter().filter_map(|k| impacts[*k].outcome.as_ref()));
             let met = impacts.iter().all(|impact| doubt(impact) <= request.tolerance);
-            let settles = match trial.scene.cor < DEAD {
-                true => worst.error <= IDLE_DEAD * before[1],
-                false => worst.error <= IDLE * before[0],
-            };
+            let dead = trial.scene.cor < DEAD;
+            let most_left = if dead { IDLE_DEAD * before[1] } else { IDLE * before[0] };
+            let settles = worst.error <= most_left;
             before = [before[1], worst.error];
             let stopped = !met && settles && work > most;
             if !met && settles && !stopped && request.elements.is_none() {
@@ -278,22 +272,22 @@ impl Round {
                 }
                 now.effort = next.effort;
             }
-            if stopped {
-                let open = impacts.iter_mut().filter(|impact| doubt(impact) > request.tolerance);
-                open.filter_map(|impact| impact.outcome.as_mut()).for_each(Outcome::unsettled);
-            }
+            let open =
+                impacts.iter_mut().filter(|impact| stopped && doubt(impact) > request.tolerance);
+            open.filter_map(|impact| impact.outcome.as_mut()).for_each(Outcome::unsettled);
             let all = impacts.iter().filter_map(|impact| impact.outcome.as_ref());
             let truncation = planned.then(|| all.map(|o| o.truncation).fold(0.0, greater));
-            return Ok(Sweep {
-                solution,
-                effort: now.effort,
-                impacts,
-                truncation,
-                met,
-                settles,
-                stopped,
-            });
+            let effort = now.effort;
+            return Ok(Sweep { solution, effort, impacts, truncation, met, settles, stopped });
         }
+    }
+
+    /// More modes, where one that is slow beside the contact is among those that are left out, and what they are;
+    /// None where more cannot be had.
+    fn slow_modes(&self, hitter: &Hitter, bat: &Bat) -> Option<(Request, Solution)> {
+        let modes = hitter.modes_for_contact()?.min(MOST);
+        let more = Request { modes, ..self.request };
+        (modes > self.request.modes).then(|| Some((more, solve(bat, &more).ok()?))).flatten()
     }
 
     /// Those of the next round: more modes, finer steps, better modes, as the errors call for them.

@@ -12,7 +12,7 @@ use crate::collision::strike::SMOOTH;
 
 /// The wall of a hollow barrel under the ball.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct WallFigures {
     /// The place (m).
     pub x_m: f64,
@@ -37,7 +37,7 @@ pub struct WallFigures {
 
 /// What the wall makes of BBCOR.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct WallBbcor {
     /// With the wall.
     pub with: f64,

@@ -86,9 +86,9 @@ impl Bat {
     /// Reads a bat from text; `file` is what messages call it, a `csv` is sought in `folder`.
     ///
     /// ```
-    /// use sweetspot::Bat;
+    /// use crate::Bat;
     ///
-    /// # fn main() -> sweetspot::Result<()> {
+    /// # fn main() -> crate::Result<()> {
     /// let text = r#"{ "format": "sweetspot-bat/1", "name": "dowel", "material": "white-ash",
     ///     "profile": { "unit": "in", "x": [0, 33], "diameter": [1.7, 1.7] } }"#;
     /// let bat = Bat::from_text("dowel.json", text, "".as_ref())?;
@@ -108,7 +108,7 @@ impl Bat {
     }
 
     /// Reads a bat from text, as [`Self::from_text`], its `csv` sought in a folder that it may be led out of.
-    pub(crate) fn from_text_in(file: &str, text: &str, folder: &Folder) -> Result<Self> {
+    pub fn from_text_in(file: &str, text: &str, folder: &Folder) -> Result<Self> {
         from_document(&Document::new(file.to_owned(), text), folder)
     }
 }

@@ -5,17 +5,17 @@ use std::path::Path;
 use crate::base::error::{Complaint, Error, Result};
 use crate::bat::body::Bat;
 
-/// Name and text of the JSON files of a folder, by their names without the ending.
+/// Name and text of the JSON files of a folder, which is seen from the file that asks, by their names without the ending.
+#[doc(hidden)]
+#[macro_export]
 macro_rules! json_files {
     ($folder:literal: $($name:literal)*) => {
-        &[$(($name, include_str!(concat!("../../", $folder, "/", $name, ".json")))),*]
+        &[$(($name, include_str!(concat!($folder, "/", $name, ".json")))),*]
     };
 }
-#[cfg(feature = "show")]
-pub(crate) use json_files;
 
 /// The bats that are built in: name and text.
-pub const BATS: &[(&str, &str)] = json_files! { "meshes":
+pub const BATS: &[(&str, &str)] = json_files! { "../../meshes":
     "bbcor_made_up" "bbcor_made_up_open" "composite_made_up" "cone" "corked" "dowel" "house"
     "northwestern_aluminium" "northwestern_wood" "r161" "softball_made_up" "softball_made_up_open"
     "tanh" "torpedo" "two_piece"

@@ -9,7 +9,7 @@ use crate::base::file;
 
 /// The text of one input file, a byte-order mark removed.
 #[derive(Debug)]
-pub(crate) struct Document {
+pub struct Document {
     pub file: String,
     pub text: String,
     /// Offset, line and column of the last place asked for: the next is most often close behind.

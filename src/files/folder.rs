@@ -92,7 +92,7 @@ impl<'a> Folder<'a> {
     ///
     /// As [`Self::find`]; [`Error::Read`]; [`Error::Input`] without a word of a file that does not begin as such a
     /// document does.
-    pub(crate) fn json(&self, name: &str, kind: &str) -> Result<Document> {
+    pub fn json(&self, name: &str, kind: &str) -> Result<Document> {
         json(&self.find(name)?, kind)
     }
 
@@ -121,7 +121,7 @@ impl<'a> Folder<'a> {
 /// # Errors
 ///
 /// Those of [`Folder::json`].
-pub(crate) fn json(path: &Path, kind: &str) -> Result<Document> {
+pub fn json(path: &Path, kind: &str) -> Result<Document> {
     // One of another kind is told by its format.
     let begins = |text: &str| text.trim_start().starts_with('{') && text.contains("\"sweetspot-");
     match Document::named(path, false)? {

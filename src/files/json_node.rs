@@ -22,7 +22,7 @@ const MOST_MEMBERS: usize = 1000;
 
 /// One JSON value and where it stands.
 #[derive(Clone)]
-pub(crate) struct Node<'a> {
+pub struct Node<'a> {
     document: &'a Document,
     /// Path from the root, such as `profile.x[3]`.
     pub path: String,
@@ -272,7 +272,7 @@ impl<'a> Node<'a> {
 }
 
 /// The members of one JSON object, in the order of the file.
-pub(crate) struct Object<'a> {
+pub struct Object<'a> {
     pub node: Node<'a>,
     members: Vec<(String, Node<'a>)>,
     /// Whether a key was told that is not known.

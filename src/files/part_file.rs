@@ -74,7 +74,7 @@ pub(crate) fn material(node: &Node, density: Without, modulus: Without) -> Resul
 }
 
 /// A material for which nothing that was measured stands in.
-pub(crate) fn whole_material(node: &Node) -> Result<Material> {
+pub fn whole_material(node: &Node) -> Result<Material> {
     let density = Err("\"density\", such as \"0.6 g/cm^3\"");
     let modulus = Err("\"youngs_modulus\", such as \"18.1 GPa\"");
     material(node, density, modulus)

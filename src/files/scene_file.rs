@@ -29,7 +29,7 @@ const APART: [[&str; 2]; 2] = [["swing_speed", "bat_speed"], ["reference_inertia
 /// # Errors
 ///
 /// [`crate::Error::Input`] with line and column, or several of them.
-pub(crate) fn read(node: &Node, ball: Ball) -> Result<Setup> {
+pub fn read(node: &Node, ball: Ball) -> Result<Setup> {
     let mut mistakes = Mistakes::default();
     let object = node.object(&Setup::MEMBERS, &mut mistakes)?;
     for pair in &APART {

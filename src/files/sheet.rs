@@ -16,7 +16,7 @@ use crate::files::document::Document;
 use crate::files::sheet_number::{self, Decimal};
 
 /// A header and the rows below it.
-pub(crate) struct Sheet<'a> {
+pub struct Sheet<'a> {
     document: &'a Document,
     pub header: SheetRow<'a>,
     /// Rows below the header, each as wide as the header.
@@ -25,7 +25,7 @@ pub(crate) struct Sheet<'a> {
 }
 
 /// One row: its cells without the spaces and quotes around them.
-pub(crate) struct SheetRow<'a> {
+pub struct SheetRow<'a> {
     start: usize,
     pub cells: Vec<&'a str>,
 }
@@ -144,7 +144,6 @@ impl<'a> Sheet<'a> {
 }
 
 /// Cell by cell, for tables whose rows mean different things: those of measured modes.
-#[cfg(feature = "show")]
 impl Sheet<'_> {
     /// An error about a cell.
     pub fn wrong(
@@ -216,7 +215,7 @@ pub(crate) fn factor(unit: &str, quantity: Quantity) -> std::result::Result<f64,
 }
 
 /// A column's name in small letters, its unit after `_`: `Inner Diameter [mm]` is `inner_diameter_mm`.
-pub(crate) fn normal(name: &str) -> String {
+pub fn normal(name: &str) -> String {
     let small = name.trim().to_lowercase();
     let bracket = small.ends_with([')', ']', '}']).then(|| small.rfind(['(', '[', '{'])).flatten();
     let (stem, unit) = match (bracket, small.split_once([',', '/'])) {

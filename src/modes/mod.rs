@@ -12,7 +12,7 @@
 //! | `memory`, [`request`], [`solution`], [`task`], `refine` | what is asked and how much memory it takes; what is answered; the modes on one mesh, and of a bat as it is |
 //! | [`shifts`], [`theory_choice`], [`tuned`], [`prepared`] | what do rotary inertia and shear do to the frequencies; which theory does a bat need; how stiff is the wood, by a tap; both at once |
 //! | [`solve`](mod@solve), [`up_to`], [`batch`] | solve to a tolerance; up to a frequency; many bats |
-//! | [`enclosure`], [`compliance`] | between which numbers do frequencies lie, proven; how the bat gives way at a place |
+//! | [`compliance`] | how the bat gives way at a place |
 //! | [`pole`], [`reduced`], `driven`, `free_motions`, [`damping`] | few modes with dashpots, how they follow a force, and how they die out |
 //! | [`hoop`] | how the wall of a hollow bat rings |
 
@@ -56,5 +56,4 @@ pub mod prepared;
 pub mod solve;
 pub mod up_to;
 pub mod batch;
-pub mod enclosure;
 pub mod hoop;

@@ -20,7 +20,6 @@ type Sparse = nalgebra_sparse::CscMatrix<f64>;
 
 /// How the eigenvalues are found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[non_exhaustive]
 pub enum Solver {
     /// Lanczos on the compliance by running sums: any size, round-off of order ε.
     Statics,

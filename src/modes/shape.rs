@@ -115,7 +115,7 @@ impl Shape {
 
     /// What a section feels at ξ in [−1, 1] of element `k`, for a largest deflection of 1: deflection w,
     /// rotation θ (1/m), curvature θ′ (1/m²) and shear strain w′ − θ (1/m).
-    pub(crate) fn strains(&self, k: usize, xi: f64) -> [f64; 4] {
+    pub fn strains(&self, k: usize, xi: f64) -> [f64; 4] {
         let scale = 2.0 / self.stretches[k].1;
         let [w, slope, bend] = self.derivatives(k, xi);
         if self.turns.is_empty() {
@@ -147,7 +147,7 @@ impl Shape {
     }
 
     /// Element and its coordinate ξ in [−1, 1] at `x`.
-    pub(crate) fn locate(&self, x: f64) -> (usize, f64) {
+    pub fn locate(&self, x: f64) -> (usize, f64) {
         let k = self.stretches.partition_point(|(middle, length)| middle + 0.5 * length <= x);
         let k = k.min(self.stretches.len() - 1);
         let (middle, length) = self.stretches[k];

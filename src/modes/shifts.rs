@@ -93,7 +93,7 @@ pub fn solved_shifts(bat: &Bat, modes: usize, tolerance: f64) -> Option<Vec<Shif
 
 /// What a typical material of that kind has for G/E, where it is not known: wood between 0.058 and
 /// 0.111 ([`crate::bat::material::BUILT_IN`]), an isotropic metal `1/(2 (1 + ν))`.
-pub(crate) fn typical_shear(material: &Material) -> f64 {
+pub fn typical_shear(material: &Material) -> f64 {
     const LIGHT: f64 = 1200.0;
     if material.density < LIGHT { 0.08 } else { 1.0 / (2.0 * 1.33) }
 }

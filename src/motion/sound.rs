@@ -20,7 +20,7 @@ use crate::modes::solve::Solution;
 
 /// A mode that is heard.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Tone {
     /// How often it swings in a second (Hz).
     pub frequency_hz: f64,
@@ -32,7 +32,7 @@ pub struct Tone {
 
 /// A struck bat as it sounds.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "show", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Sound {
     /// The modes that are heard, by rising frequency.
     pub tones: Vec<Tone>,
@@ -128,8 +128,8 @@ fn half_sine(omega_t: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bat::body::Bat;
     use crate::modes::solve::{Request, solve};
-    use crate::proof::bundled::bundled_bat;
 
     /// The spectrum by its integral, `∫ sin(πt/T) e^{−iωt} dt · π/(2T)`.
     #[test]
@@ -150,7 +150,7 @@ mod tests {
 
     #[test]
     fn a_tone_has_its_mode_and_dies_out_with_its_damping() {
-        let bat = bundled_bat("meshes/r161.json").unwrap();
+        let bat = Bat::builtin("r161").unwrap();
         let solution = solve(&bat, &Request::plain()).unwrap();
         let sound = Sound::of_tap(&solution);
         assert_eq!(sound.assumed_loss_factor, Some(ASSUMED_LOSS));
@@ -167,7 +167,7 @@ mod tests {
 
     #[test]
     fn a_mode_is_silent_where_it_is_struck_at_its_node() {
-        let bat = bundled_bat("meshes/r161.json").unwrap();
+        let bat = Bat::builtin("r161").unwrap();
         let solution = solve(&bat, &Request::plain()).unwrap();
         let sound = Sound::of_blow(&solution, solution.modes[0].nodes[1], [1.0, 0.0]);
         let [first, second] = [0, 1].map(|k| sound.tones[k].amplitude_m_s2);

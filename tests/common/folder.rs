@@ -10,6 +10,11 @@ use serde_json::Value;
 /// A folder of its own for one test, removed afterwards.
 pub struct Folder(pub PathBuf);
 
+/// The program, as cargo built it for tests of its crate.
+pub fn program() -> &'static str {
+    option_env!("CARGO_BIN_EXE_sweetspot").expect("a test of the program's crate")
+}
+
 impl Folder {
     pub fn new(name: &str) -> Self {
         static COUNT: AtomicUsize = AtomicUsize::new(0);
@@ -42,7 +47,7 @@ impl Folder {
     }
 
     pub fn command(&self, args: &[&str]) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_sweetspot"));
+        let mut command = Command::new(program());
         command.args(args).current_dir(&self.0);
         command
     }
@@ -53,7 +58,7 @@ impl Folder {
             return self.command(args);
         }
         let mut command = Command::new("env");
-        command.args(["--default-signal", env!("CARGO_BIN_EXE_sweetspot")]);
+        command.args(["--default-signal", program()]);
         command.args(args).current_dir(&self.0);
         command
     }

@@ -5,8 +5,6 @@ pub mod diagnostic;
 pub mod commands;
 pub mod documents;
 pub mod folder;
-#[cfg(feature = "png")]
-pub mod pictures;
 
 use std::f64::consts::{PI, TAU};
 

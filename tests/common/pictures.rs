@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use resvg::usvg::roxmltree::{Document, Node};
-use sweetspot::show::plot::picture::Picture;
-use sweetspot::show::plot::words::{LABEL, Type};
-use sweetspot::show::plot::{theme, words};
+use sweetspot_report::plot::picture::Picture;
+use sweetspot_report::plot::words::{LABEL, Type};
+use sweetspot_report::plot::{theme, words};
 
 /// A rectangle that holds a text: left, top, right, bottom.
 pub type Box = [f64; 4];

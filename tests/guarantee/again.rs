@@ -2,11 +2,11 @@
 //! is straight between stations.
 
 use sweetspot::beam::mesh::Mesh;
-use sweetspot::modes::enclosure::beam::{Layout, Proven};
-use sweetspot::modes::enclosure::moved::Trial;
-use sweetspot::modes::enclosure::trials::trials;
 use sweetspot::modes::plan::Plan;
 use sweetspot::{Bat, Theory};
+use sweetspot_proof::enclosure::beam::{Layout, Proven};
+use sweetspot_proof::enclosure::moved::Trial;
+use sweetspot_proof::enclosure::trials::trials;
 
 use crate::arithmetic::{Random, gauss_in_two};
 use crate::common::bat;

@@ -1,8 +1,9 @@
 //! Intervals, tables and series against arithmetic of twice the digits.
 
-use sweetspot::base::interval::gauss::Gauss;
-use sweetspot::base::interval::gauss::{GAUSS_24, GAUSS_40};
-use sweetspot::base::interval::{Interval, Series, Values, down, up};
+use sweetspot::base::interval::{Interval, down, up};
+use sweetspot_proof::gauss::Gauss;
+use sweetspot_proof::gauss::{GAUSS_24, GAUSS_40};
+use sweetspot_proof::series::{Series, Values};
 
 use crate::twofold::{Twofold, legendre, number, two_product, two_sum};
 

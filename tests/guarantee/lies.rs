@@ -3,14 +3,14 @@
 use sweetspot::bat::fixtures::{Absorber, Attachment, Fixtures, Grip, Held, Joint, Support};
 use sweetspot::bat::profile::{Interpolation, Stations};
 use sweetspot::beam::mesh::Mesh;
-use sweetspot::modes::enclosure::beam::{Layout, Proven};
-use sweetspot::modes::enclosure::conclude::conclude;
-use sweetspot::modes::enclosure::moved::Trial;
-use sweetspot::modes::enclosure::norms::Norms;
-use sweetspot::modes::enclosure::trials::trials;
 use sweetspot::modes::plan::Plan;
-use sweetspot::proof::validation::Truth;
 use sweetspot::{Bat, Profile, Theory};
+use sweetspot_proof::enclosure::beam::{Layout, Proven};
+use sweetspot_proof::enclosure::conclude::conclude;
+use sweetspot_proof::enclosure::moved::Trial;
+use sweetspot_proof::enclosure::norms::Norms;
+use sweetspot_proof::enclosure::trials::trials;
+use sweetspot_proof::validation::Truth;
 
 use crate::arithmetic::Random;
 use crate::holds;

@@ -2,19 +2,20 @@
 
 use std::f64::consts::TAU;
 
-use sweetspot::base::interval::gauss::{GAUSS_24, GAUSS_40};
-use sweetspot::base::interval::{Interval, Values};
+use sweetspot::base::interval::Interval;
 use sweetspot::bat::fixtures::{Absorber, Attachment, Fixtures, Grip, Held, Joint, Support};
 use sweetspot::bat::profile::{Interpolation, Stations};
-use sweetspot::modes::enclosure::beam::{Layout, Proven};
-use sweetspot::modes::enclosure::conclude::conclude;
-use sweetspot::modes::enclosure::energies::Energies;
-use sweetspot::modes::enclosure::norms::Norms;
-use sweetspot::modes::enclosure::radii::curved;
-use sweetspot::modes::enclosure::sections::{Rings, inverse};
-use sweetspot::proof::bundled::bundled_bat;
-use sweetspot::proof::validation::Truth;
 use sweetspot::{Bat, Material, Profile, Theory};
+use sweetspot_proof::bundled::bundled_bat;
+use sweetspot_proof::enclosure::beam::{Layout, Proven};
+use sweetspot_proof::enclosure::conclude::conclude;
+use sweetspot_proof::enclosure::energies::Energies;
+use sweetspot_proof::enclosure::norms::Norms;
+use sweetspot_proof::enclosure::radii::curved;
+use sweetspot_proof::enclosure::sections::{Rings, inverse};
+use sweetspot_proof::gauss::{GAUSS_24, GAUSS_40};
+use sweetspot_proof::series::Values;
+use sweetspot_proof::validation::Truth;
 
 use crate::arithmetic;
 use crate::common::{DENSITY, LENGTH, MODULUS, RADIUS, cone, dowel};

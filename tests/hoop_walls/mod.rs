@@ -14,8 +14,8 @@ use sweetspot::beam::wall::layers::Layers;
 use sweetspot::beam::wall::unknowns::{EndHold, WallMesh};
 use sweetspot::modes::hoop::spectrum::Spectrum;
 use sweetspot::modes::hoop::system::Wall;
-use sweetspot::proof::bundled::bundled_bat;
 use sweetspot::{Bat, Material, Profile};
+use sweetspot_proof::bundled::bundled_bat;
 
 /// Nothing holds the wall.
 pub const FREE: [EndHold; 2] = [EndHold::Free; 2];

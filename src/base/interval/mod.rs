@@ -13,12 +13,9 @@
 
 mod rectangle;
 mod jet;
-pub mod gauss;
-pub mod series;
 
 pub use jet::Jet;
 pub use rectangle::Rectangle;
-pub use series::{Series, Values};
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::iter::Sum;

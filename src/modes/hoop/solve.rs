@@ -54,7 +54,6 @@ pub struct Outline {
 
 /// What was assumed, or is worth a warning.
 #[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
 pub enum Note {
     /// The wall is so thin that rounding counts.
     ThinWall {

@@ -1,0 +1,76 @@
+//! `sweetspot advise BAT`: which physics this bat needs.
+
+use std::path::PathBuf;
+
+use sweetspot::base::error::Result;
+use sweetspot_report::report::advice;
+use sweetspot_study::advise::advice::{Advice, MOST_MODES, advise_telling};
+
+use crate::common::{OutputArgs, examples, read};
+use crate::done::{Done, NOT_REACHED};
+use crate::edits::EditArgs;
+use crate::value::tolerance;
+
+/// Which physics this bat needs, and which it can do without
+///
+/// Rotary inertia, shear, tape, hands, a cork: what does each do to the frequencies and nodes of
+/// this bat? The table gives the shift that each makes, with how far that may be off. Below it is
+/// the smallest model whose frequencies are still within --tol of the full one's, and what no beam
+/// model has.
+#[derive(clap::Args)]
+#[command(after_long_help = examples(EXAMPLES))]
+pub struct Args {
+    /// Bat file (JSON), or the name of a built-in bat such as r161
+    #[arg(help_heading = "The bat")]
+    bat: PathBuf,
+
+    #[command(flatten)]
+    edits: EditArgs,
+
+    /// Number of bending modes
+    #[arg(short = 'n', long = "modes", value_name = "N", default_value = "5", help_heading = "The bat",
+          value_parser = clap::value_parser!(u16).range(1..=MOST_MODES as i64))]
+    count: u16,
+
+    /// How near to the full model's frequencies is near enough, such as 1%
+    #[arg(long, value_name = "T", default_value = "1e-4", value_parser = tolerance,
+          help_heading = "Accuracy")]
+    tol: f64,
+
+    #[command(flatten)]
+    output: OutputArgs,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  sweetspot advise r161 --tol 1%
+      shear matters to a wooden bat, even at one per cent
+
+  sweetspot advise two_piece -n 3 --json advice.json
+      the same figures as JSON";
+
+pub fn run(args: &Args) -> Result<Done> {
+    let bat = read(&args.bat, &args.edits, args.output.quiet)?;
+    let progress = args.output.progress("the full model");
+    let tell = |share, what: &str| progress.say(share, what);
+    let advice = advise_telling(&bat, args.count.into(), args.tol, &tell)?;
+    drop(progress);
+    let code = verdict(args, &advice);
+    let table = advice::text(&advice, args.output.units(&bat));
+    Ok(Done::new(args.output.deliver(table, || advice::document(&advice))?, code))
+}
+
+/// The exit code, after a word about frequencies that are less accurate than the tolerance.
+fn verdict(args: &Args, advice: &Advice) -> u8 {
+    if advice.met() {
+        return 0;
+    }
+    let solution = &advice.full.solution;
+    args.output.warn(&format!(
+        "accuracy not reached: asked {:e}, the full model is within {:.1e}; {}",
+        args.tol,
+        solution.worst(),
+        solution.shortfall(args.tol)
+    ));
+    NOT_REACHED
+}

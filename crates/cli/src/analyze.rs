@@ -1,0 +1,352 @@
+//! `sweetspot analyze BAT`: everything about a bat on one screen.
+
+use std::path::{Path, PathBuf};
+
+use sweetspot::base::error::{Error, Result};
+use sweetspot::base::file;
+use sweetspot::collision::columns;
+use sweetspot::files::schema::document::{Format, Generator};
+use sweetspot::modes::solve::Request;
+use sweetspot_report::analysis::{Analysis, Proof, Task};
+use sweetspot_report::csv;
+use sweetspot_report::page;
+use sweetspot_report::page::content::Report;
+use sweetspot_report::parts::input::Input;
+use sweetspot_report::parts::units::Units;
+use sweetspot_report::plot::sets;
+use sweetspot_report::report::json::{self, ShapePoints};
+use sweetspot_report::report::proven::{self, Proven};
+use sweetspot_report::report::sketch::{self, SketchRow};
+use sweetspot_report::report::text;
+use sweetspot_report::report::{self, advice, aftermath, hit_json, hit_text, hoop_json, trust};
+use sweetspot_report::schema;
+use sweetspot_report::schema::analysis::AnalysisFile;
+use sweetspot_report::schema::hit::HitFile;
+use sweetspot_report::schema::hoop::HoopFile;
+use sweetspot_report::schema::modes::ModesFile;
+use sweetspot_study::lathe::map::LatheMap;
+use sweetspot_study::lathe::workpiece::HitTerms;
+use sweetspot_study::spread::Readings;
+
+use crate::common::{BatArgs, OutputArgs, SolveArgs, Solved, command_line, examples, printed};
+use crate::delivered::apart;
+use crate::done::Done;
+use crate::guarantee::{self, GuaranteeArgs};
+use crate::hit::verdict as hit_verdict;
+use crate::pictures;
+use crate::scene::SceneArgs;
+use crate::value::{READING, SCALE, Use};
+
+/// A bat on one screen
+///
+/// Where is its sweet spot, how fast does the ball leave there, how wide is the zone, what does the
+/// bat weigh in the swing, how does it ring? Beside every answer stands how far that of the bat in
+/// hand may be from it, and what does most of that: the wood, which differs from piece to piece, or
+/// what it was measured with. Then what would settle it, and what the computation adds.
+///
+/// With --full also: a sketch with the nodes of the modes and the zone of the best exit speeds; ten
+/// modes, how far they may be off and what the model left out; the solver's proof on a dowel whose
+/// frequencies are known exactly; what this bat's model needs; exit speeds along the barrel, the
+/// sweet spot by every definition, why it is there, and the figures by which bats are compared.
+#[derive(clap::Args)]
+#[command(after_long_help = examples(EXAMPLES))]
+pub struct Args {
+    #[command(flatten)]
+    bat: BatArgs,
+
+    #[command(flatten)]
+    solve: SolveArgs,
+
+    #[command(flatten)]
+    guarantee: GuaranteeArgs,
+
+    #[command(flatten)]
+    scene: SceneArgs,
+
+    /// How far the calipers may be off, one standard deviation [default: 0.1 mm; of diameters that
+    /// all lie on a step of 1/16, 1/32 or 1/64 in or of 1 mm its share, 1/16 in 0.46 mm]
+    #[arg(long, value_name = "m", help_heading = "How it was measured",
+          value_parser = |s: &str| reading(&READING, s))]
+    calipers: Option<f64>,
+
+    /// How far the rule may be off, one standard deviation
+    #[arg(long, value_name = "m", default_value = "1 mm", help_heading = "How it was measured",
+          value_parser = |s: &str| reading(&READING, s))]
+    rule: f64,
+
+    /// How far the scale may be off, one standard deviation; for a bat that was weighed
+    #[arg(long, value_name = "kg", default_value = "1 g", help_heading = "How it was measured",
+          value_parser = |s: &str| reading(&SCALE, s))]
+    scale: f64,
+
+    /// Everything, on several screens: a sketch, ten modes, the hits along the barrel, what the model
+    /// needs, figures
+    #[arg(long, help_heading = "Output")]
+    full: bool,
+
+    /// Write modes.json, hit.json and curve.csv into this folder, of a hollow bat also hoop.json
+    #[arg(long, value_name = "DIR", help_heading = "Output")]
+    out: Option<PathBuf>,
+
+    /// Draw everything into this folder, as SVG and PNG
+    #[arg(long, value_name = "DIR", help_heading = "Output")]
+    plots: Option<PathBuf>,
+
+    /// Write a report for people into this file: a page of its own (.html), or Markdown (.md) with
+    /// its pictures in a folder beside it
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    report: Option<PathBuf>,
+
+    /// Leave the timing out of the JSON, so that equal input gives equal bytes
+    #[arg(long, help_heading = "Output")]
+    reproducible: bool,
+
+    #[command(flatten)]
+    output: OutputArgs,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  sweetspot analyze r161
+      a wooden bat of the major leagues, with an average swing at a 90 mph pitch
+
+  sweetspot analyze r161 --full
+      and everything else there is to say
+
+  sweetspot analyze r161 --report r161.html
+      and a report as a page of its own, to look at, to print and to send
+
+  sweetspot analyze torpedo --units us --swing-speed \"55 rad/s\"
+      in inches, ounces and miles an hour, with a faster swing
+
+  sweetspot analyze r161 --out r161 --plots r161
+      and modes.json, hit.json, curve.csv and pictures in the folder r161
+
+  sweetspot analyze r161 --guarantee
+      and two numbers between which each frequency of the beam is proven to lie";
+
+/// Modes that hits are computed by at first.
+const MODES: usize = 10;
+
+pub fn run(args: &Args) -> Result<Done> {
+    let model = args.scene.model()?;
+    // A report that cannot be written is told before it is computed.
+    let made = [&args.out, &args.plots];
+    args.report.as_deref().map(|path| page::file::expected(path, &made)).transpose()?;
+    apart(&[("--json", &args.output.json), ("--report", &args.report)])?;
+    args.solve.refuse_budget("analyze")?;
+    let (bat, text) = args.bat.read_with_text(&args.output)?;
+    for off in bat.balance_off().into_iter().chain(bat.swing_weight_off()) {
+        args.output.warn(&format!("note: {off}"));
+    }
+    let progress = args.output.progress("modes");
+    let modes = args.solve.modes_within(MODES, bat.profile().pieces.len());
+    // Fewer are shown than hits need.
+    let (solve, of_theory) = match args.bat.count() < MODES {
+        true => args.solve.of_hits(&bat, modes)?,
+        false => (args.solve.clone(), None),
+    };
+    let (Solved { bat, solution, warning }, proven) =
+        args.guarantee.solve_for(bat, &args.bat, &solve, &args.output)?;
+    let (scene, law) = args.scene.scene(&bat, Some(args.solve.tol))?;
+    args.scene.warn(&args.output);
+    let inputs = args.report.as_ref().map(|_| inputs(args, &text)).transpose()?;
+    let hits = Request { theory: solution.theory, ..args.solve.request(modes) };
+    let proof = args.solve.request(args.solve.modes_within(solution.modes.len().max(MODES), 1));
+    let readings = Readings::of(&bat);
+    let readings = Readings {
+        diameter: args.calipers.unwrap_or(readings.diameter),
+        length: args.rule,
+        mass: args.scale,
+        ..readings
+    };
+    let task = Task { model, scene, law, hits, proof, readings };
+    let tell = |share: f64, what: &str| progress.say(share, what);
+    let analysis = Analysis::telling(bat, solution, task, &tell)?;
+    let lathe = match args.full || args.plots.is_some() || args.report.is_some() {
+        true => lathe(args, &analysis)?,
+        false => None,
+    };
+    drop(progress);
+    if let Some(folder) = &args.out {
+        write_out(args, &analysis, proven.as_ref(), folder)?;
+    }
+    if let Some(folder) = &args.plots {
+        let sheet = args.output.sheet(&analysis.bat);
+        let pictures = sets::of_analysis(sheet, &analysis, lathe.as_ref())?;
+        pictures::write(folder, &pictures, args.output.quiet)?;
+    }
+    if let Some((path, inputs)) = args.report.as_ref().zip(inputs) {
+        let us = args.output.sheet(&analysis.bat).us;
+        let report =
+            Report { us, ..Report::new(&analysis, command_line(), inputs, lathe.as_ref())? };
+        page::file::write(path, &report)?;
+    }
+    let all = || AnalysisFile {
+        format: Format::new(),
+        generator: Generator::this(),
+        modes: modes_file(args, &analysis, proven.as_ref()),
+        hit: hit_file(&analysis),
+        strength: aftermath::strengths_file(&analysis.strength),
+        open: trust::open(&analysis),
+        hoop: hoop_file(&analysis),
+    };
+    let code = match &proven {
+        Some(proven) => guarantee::verdict(proven, &args.solve, &args.output),
+        None => args.solve.verdict(&analysis.solution, &args.output),
+    };
+    let code = code.max(hit_verdict(&args.solve, &analysis.hits, &args.output));
+    let table = if args.full {
+        let cuts = lathe.map(|map| report::lathe::in_short(&map, args.output.units(&analysis.bat)));
+        let cuts = cuts.filter(|cuts| !cuts.is_empty()).map(|cuts| format!("\n{cuts}"));
+        table(&analysis, &args.output) + &cuts.unwrap_or_default()
+    } else {
+        let more = analysis.barrel.as_ref().and_then(report::hoop::in_a_line);
+        trust::screen(&analysis, args.output.units(&analysis.bat)) + more.as_deref().unwrap_or(MORE)
+    };
+    let table = match &proven {
+        Some(proven) => format!("{table}\n{}", proven::text(proven)),
+        None => table,
+    };
+    let table = table + &written(args);
+    let text = args.output.deliver(table, all)?;
+    let warning = warning.or(of_theory.filter(|_| !args.output.quiet));
+    Ok(Done::new(text, code).with(warning))
+}
+
+/// The barrel of a hollow bat, in short.
+fn barrel(analysis: &Analysis, units: Units) -> String {
+    let told = |barrel| format!("\n{}", report::hoop::in_short(&analysis.bat, barrel, units));
+    analysis.barrel.as_ref().map_or(String::new(), told)
+}
+
+/// What a short answer ends with.
+const MORE: &str = "Everything else: --full; on a page to look at: --report FILE.html\n";
+
+/// What a cut does, in wide bands, for the same hits.
+fn lathe(args: &Args, analysis: &Analysis) -> Result<Option<LatheMap>> {
+    let Task { model, scene, hits, .. } = &analysis.task;
+    let hit = HitTerms { scene: scene.clone(), model: *model, exactly: args.bat.asked() };
+    LatheMap::in_short(&analysis.bat, hits, &hit)
+}
+
+/// How far a reading may be off.
+fn reading(of: &Use, text: &str) -> std::result::Result<f64, String> {
+    let value = of.read(text)?;
+    match value >= 0.0 && of.has(value) {
+        true => Ok(value),
+        false => Err(format!("found {text}, expected {}", of.range())),
+    }
+}
+
+/// What was written for people to look at, and where.
+fn written(args: &Args) -> String {
+    let report = args.report.iter().map(|path| printed(path));
+    let folders = [&args.plots, &args.out].into_iter().flatten().map(|path| printed(path));
+    let all: Vec<String> = report.chain(folders).map(|path| format!("  {path}\n")).collect();
+    if all.is_empty() { String::new() } else { format!("\nWrote:\n{}", all.concat()) }
+}
+
+/// The files as the report shows them.
+fn inputs(args: &Args, bat: &str) -> Result<Vec<Input>> {
+    let mut all = Input::of_bat(args.bat.path(), bat)?;
+    all.extend(args.scene.ball_file().map(Input::read).transpose()?);
+    Ok(all)
+}
+
+/// The nodes of the first three modes and the sweet spot.
+fn rows(analysis: &Analysis) -> Vec<SketchRow> {
+    let mut rows = sketch::of_modes(&analysis.bat, &analysis.solution);
+    // The balance point is the last of them.
+    rows.drain(3.min(rows.len() - 1)..rows.len() - 1);
+    rows.extend(sketch::of_sweet_spot(&analysis.figures.spot));
+    rows
+}
+
+/// Everything, on several screens.
+fn table(analysis: &Analysis, output: &OutputArgs) -> String {
+    let Analysis { bat, solution, task, hits, figures, .. } = analysis;
+    let units = output.units(bat);
+    let few: Vec<_> = hits.impacts.iter().step_by(10).cloned().collect();
+    format!(
+        "{}\n{}\n{}\n{}{}{}{}\n{}{}\n{}\n{}\n{}{}{}\n{}\n{}",
+        text::summary(bat, units),
+        output.sketch(bat, &rows(analysis)),
+        text::modes(bat, solution, 3, units),
+        trust::text(analysis, units),
+        text::model(bat, solution),
+        proof(analysis),
+        advice(analysis),
+        hit_text::scene(bat, &task.scene, task.model.name(), units),
+        hit_text::meaning(task.model),
+        hit_text::impacts(bat, &few, units),
+        hit_text::curve(&hits.impacts, units),
+        hit_text::sweet_spot(bat, &figures.spot, units),
+        hit_text::why(figures, units),
+        hit_text::beyond(hits, &task.scene, units),
+        hit_text::figures(figures, units),
+        aftermath::strengths(&analysis.strength, units)
+    ) + &barrel(analysis, units)
+}
+
+fn modes_file(args: &Args, analysis: &Analysis, proven: Option<&Proven>) -> ModesFile {
+    let shapes = ShapePoints::Even(101);
+    let mut document = json::modes(&analysis.bat, &analysis.solution, shapes, !args.reproducible);
+    proven.iter().for_each(|proven| proven::write(&mut document, proven));
+    document
+}
+
+fn hit_file(analysis: &Analysis) -> HitFile {
+    let Analysis { bat, task, hits, figures, .. } = analysis;
+    HitFile {
+        figures: Some(hit_json::figures(figures)),
+        ..hit_json::hit(bat, task.model, &task.scene, &hits.impacts, &figures.spot)
+    }
+}
+
+fn hoop_file(analysis: &Analysis) -> Option<HoopFile> {
+    const SAMPLES: usize = 41;
+    let barrel = analysis.barrel.as_ref()?;
+    Some(hoop_json::document(&analysis.bat, barrel, &[], SAMPLES))
+}
+
+fn write_out(
+    args: &Args,
+    analysis: &Analysis,
+    proven: Option<&Proven>,
+    folder: &Path,
+) -> Result<()> {
+    let failed = |source| Error::Write { path: folder.to_owned(), source };
+    std::fs::create_dir_all(folder).map_err(failed)?;
+    let modes = schema::text(&modes_file(args, analysis, proven));
+    file::write(&folder.join("modes.json"), modes.as_bytes())?;
+    file::write(&folder.join("hit.json"), schema::text(&hit_file(analysis)).as_bytes())?;
+    if let Some(hoop) = hoop_file(analysis) {
+        file::write(&folder.join("hoop.json"), schema::text(&hoop).as_bytes())?;
+    }
+    file::write(
+        &folder.join("curve.csv"),
+        csv::impacts(&columns::CURVE, &analysis.hits.impacts).as_bytes(),
+    )
+}
+
+/// What the model needs, in short.
+fn advice(analysis: &Analysis) -> String {
+    match &analysis.advice {
+        Some(found) => advice::short(found),
+        None => "Advice: sweetspot advise has it\n".to_owned(),
+    }
+}
+
+/// Accuracy of the solver on the uniform dowel, whose frequencies are known in closed form.
+fn proof(analysis: &Analysis) -> String {
+    let Proof { modes, truth, stated } = analysis.proof;
+    let here = match analysis.solution.modes.is_empty() {
+        true => String::new(),
+        false => format!("; on this bat it states {:.1e}", analysis.solution.worst()),
+    };
+    format!(
+        "Proof: on the uniform dowel the solver finds the exact modes 1 to {modes} within\n       \
+         {truth:.1e} and states {stated:.1e}{here}\n"
+    )
+}

@@ -1,0 +1,319 @@
+//! Questions to a person, answer by answer; one may go back, and come back another day.
+//!
+//! A dialogue is a function of its answers. To go back is to leave the last answer out and to ask from
+//! the beginning, passing over what is known; a draft is a file of the answers.
+
+use std::io::{BufRead, Read as _, Write};
+use std::path::Path;
+
+use sweetspot::base::error::{Complaint, Error, Result};
+use sweetspot_report::parts::terminal::wrapped;
+
+use crate::asking::draft::{Answers, Draft};
+use crate::common::printed;
+use crate::done::printable;
+
+/// A person gives up sooner, and a program that answers without end is stopped.
+const MOST_TRIES: usize = 50;
+/// The longest line that is read at once (bytes).
+const LONGEST: u64 = 1 << 16;
+
+/// What an answer means, or why it is invalid.
+pub type Read<T> = std::result::Result<T, Complaint>;
+
+/// Why a question has no answer.
+pub enum Halt {
+    /// The person wants to answer the question before it anew.
+    Back,
+    /// The person wants to leave; the answers are kept.
+    Left,
+    /// The answers have ended, or were wrong too often.
+    Failed(Error),
+}
+
+impl From<Error> for Halt {
+    fn from(error: Error) -> Self {
+        Self::Failed(error)
+    }
+}
+
+/// The answer to a question, or why there is none.
+pub type Asked<T> = std::result::Result<T, Halt>;
+
+/// A question.
+pub struct Question<'a> {
+    /// The word by which its answer stands in a draft.
+    pub name: &'static str,
+    /// What is asked.
+    pub text: &'a str,
+    /// What an empty line means.
+    pub usual: Option<&'a str>,
+    /// What a question mark is answered with.
+    pub help: &'a str,
+}
+
+/// Whoever answers, line by line; questions go to standard error.
+pub struct Dialogue<R> {
+    answers: R,
+    /// Right answers, each after the name of its question.
+    given: Vec<[String; 2]>,
+    /// How many of them have been passed over since the beginning.
+    passed: usize,
+    draft: Option<Draft>,
+    /// A draft of before, until somebody says whether to go on with it.
+    before: Option<Answers>,
+}
+
+/// Words that leave a dialogue.
+const LEAVING: [&str; 3] = ["quit", "exit", "q"];
+
+impl<R: BufRead> Dialogue<R> {
+    /// A dialogue that is kept nowhere.
+    #[cfg(test)]
+    pub fn new(answers: R) -> Self {
+        Self { answers, given: vec![], passed: 0, draft: None, before: None }
+    }
+
+    /// A dialogue about that bat, which may not have a name yet, that is kept in a draft. Where there is one of this
+    /// bat, [`Self::hold`] asks whether to go on with it.
+    pub fn kept(answers: R, draft: (&str, &Path), of: &str) -> Self {
+        let (draft, before) = Draft::of(draft, of);
+        let dialogue = Self { answers, given: vec![], passed: 0, draft: Some(draft), before };
+        if let (Some(draft), None) = (&dialogue.draft, &dialogue.before) {
+            dialogue.tell(&draft.said());
+        }
+        dialogue
+    }
+
+    /// Asks until there is a result, from the beginning each time that somebody goes back; None where the person
+    /// leaves before. A draft of before is asked about first.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::ask`].
+    pub fn hold<T>(&mut self, dialogue: impl Fn(&mut Self) -> Asked<T>) -> Result<Option<T>> {
+        match self.resume() {
+            Ok(()) => {}
+            Err(Halt::Failed(error)) => return Err(error),
+            Err(Halt::Back | Halt::Left) => return Ok(self.left()),
+        }
+        loop {
+            self.passed = 0;
+            match dialogue(self) {
+                Ok(result) => return Ok(Some(result)),
+                Err(Halt::Failed(error)) => return Err(error),
+                Err(Halt::Left) => return Ok(self.left()),
+                Err(Halt::Back) => {}
+            }
+        }
+    }
+
+    /// Asks whether to go on with a draft of before, by the name of its bat.
+    fn resume(&mut self) -> Asked<()> {
+        let Some(before) = self.before.take() else { return Ok(()) };
+        let draft = self.kept_in().unwrap_or_default();
+        let of = if before.of.is_empty() { "a bat without a name" } else { &before.of };
+        let count = before.given.len();
+        let answers = if count == 1 { "answer" } else { "answers" };
+        let text =
+            format!("Go on with the draft of '{of}' ({count} {answers} in {draft}), yes or no");
+        let help = "Yes goes on after its last answer. No begins anew: the draft is written over by the \
+                    next answer.";
+        let question = Question { name: "go on", text: &text, usual: None, help };
+        if self.answered(&question, yes_or_no)?.1 {
+            self.given = before.given;
+            self.tell(&format!("Going on after the {count} {answers} in {draft}."));
+        }
+        Ok(())
+    }
+
+    /// Says where the answers are once somebody has left.
+    fn left<T>(&self) -> Option<T> {
+        self.tell(&match self.kept_in() {
+            Some(draft) => format!(
+                "Left, and nothing is written. The answers are kept in {draft}; the same command asks whether to \
+                 go on with them."
+            ),
+            None => "Left, and nothing is written.".to_owned(),
+        });
+        None
+    }
+
+    /// Removes the draft, once what it is for is done.
+    pub fn done(&mut self) {
+        self.given.clear();
+        self.keep();
+    }
+
+    /// Prints a line that asks nothing, unless it was printed before the answers that are known.
+    pub fn say(&self, text: &str) {
+        if self.passed == self.given.len() {
+            self.tell(text);
+        }
+    }
+
+    fn tell(&self, text: &str) {
+        let lines: Vec<String> = wrapped(text, 2).trim_end().split('\n').map(printable).collect();
+        // Without standard error the questions are not seen; the answers may come all the same.
+        let _ = writeln!(std::io::stderr(), "{}", lines.join("\n"));
+    }
+
+    /// Where answers are kept, if there are any.
+    fn kept_in(&self) -> Option<String> {
+        self.draft.as_ref().and_then(Draft::path).map(printed)
+    }
+
+    /// Asks until the answer is one.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] at the end of the answers, or after too many wrong ones.
+    pub fn ask<T>(&mut self, question: &Question, read: impl Fn(&str) -> Read<T>) -> Asked<T> {
+        if let Some(value) = self.known(question, &read) {
+            return Ok(value);
+        }
+        let (answer, value) = self.answered(question, read)?;
+        self.given.push([question.name.to_owned(), answer]);
+        self.passed += 1;
+        self.keep();
+        Ok(value)
+    }
+
+    /// An answer as it was typed, and what it means.
+    fn answered<T>(
+        &mut self,
+        question: &Question,
+        read: impl Fn(&str) -> Read<T>,
+    ) -> Asked<(String, T)> {
+        for _ in 0..MOST_TRIES {
+            let line = match self.line(question)? {
+                Ok(line) => line,
+                Err(complaint) => {
+                    self.tell(&format!("  {complaint}"));
+                    continue;
+                }
+            };
+            let answer = if line.is_empty() { question.usual.unwrap_or("") } else { &line };
+            match (answer, read(answer)) {
+                ("?", _) => self.tell(&format!("  {}", question.help)),
+                ("back", _) if self.given.is_empty() => self.tell("  This is the first question."),
+                ("back", _) => {
+                    self.given.pop();
+                    self.keep();
+                    return Err(Halt::Back);
+                }
+                (word, _) if LEAVING.contains(&word.to_lowercase().as_str()) => {
+                    return Err(Halt::Left);
+                }
+                (_, Ok(value)) => return Ok((answer.to_owned(), value)),
+                (_, Err(complaint)) => self.tell(&format!("  {complaint}")),
+            }
+        }
+        let found = format!("{MOST_TRIES} wrong answers, one after the other");
+        Err(self.ended(question, &found))
+    }
+
+    /// The answer to this question that was given before. Others than this one may not follow it: they
+    /// are forgotten.
+    fn known<T>(&mut self, question: &Question, read: impl Fn(&str) -> Read<T>) -> Option<T> {
+        let [name, answer] = self.given.get(self.passed)?;
+        let value = if name == question.name { read(answer).ok() } else { None };
+        match value {
+            Some(_) => self.passed += 1,
+            None => self.given.truncate(self.passed),
+        }
+        value
+    }
+
+    /// The next line, without blanks around it, or why it is no text.
+    fn line(&mut self, question: &Question) -> Asked<Read<String>> {
+        let hint = question.usual.filter(|usual| !usual.is_empty());
+        let hint = hint.map_or(String::new(), |usual| format!(" [{usual}]"));
+        let text: Vec<String> = question.text.split('\n').map(printable).collect();
+        let _ = write!(std::io::stderr(), "{}{}: ", text.join("\n"), printable(&hint));
+        let mut line = vec![];
+        let failed = |source| Error::Read { path: "standard input".into(), source };
+        let mut answers = (&mut self.answers).take(LONGEST);
+        if answers.read_until(b'\n', &mut line).map_err(failed)? == 0 {
+            let _ = writeln!(std::io::stderr());
+            return Err(self.ended(question, "the end of the answers"));
+        }
+        Ok(match String::from_utf8(line) {
+            Ok(line) => Ok(line.trim().to_owned()),
+            Err(_) => {
+                let expected = "UTF-8: type it without accents, or set the terminal to UTF-8";
+                Err(Complaint::new("", "letters in another encoding than UTF-8", expected))
+            }
+        })
+    }
+
+    fn ended(&self, question: &Question, found: &str) -> Halt {
+        let kept = self.kept_in().map_or("nothing was written".to_owned(), |draft| {
+            format!("the others are kept in {draft}, and the same command asks whether to go on with them")
+        });
+        Halt::Failed(Error::value(question.text.trim(), found, format!("an answer; {kept}")))
+    }
+
+    /// Writes the draft, or removes it where there is nothing to keep.
+    fn keep(&mut self) {
+        let moved = self.draft.as_mut().and_then(|draft| draft.keep(&self.given));
+        if let Some(said) = moved {
+            self.tell(&said);
+        }
+    }
+}
+
+fn yes_or_no(text: &str) -> Read<bool> {
+    match text.to_lowercase().as_str() {
+        "y" | "yes" => Ok(true),
+        "n" | "no" => Ok(false),
+        _ => Err(Complaint::new("", format!("\"{text}\""), "yes or no")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::asking::ask::mass;
+
+    const MASS: Question =
+        Question { name: "mass", text: "Mass", usual: None, help: "On a scale." };
+
+    #[test]
+    fn a_wrong_answer_is_asked_again_and_the_end_of_answers_is_an_error() {
+        let mut dialogue = Dialogue::new("31\nheavy\n?\nback\n31.5 oz\n".as_bytes());
+        let mass = |dialogue: &mut Dialogue<&[u8]>| dialogue.ask(&MASS, mass);
+        assert_eq!(dialogue.hold(mass).unwrap().unwrap().as_deref(), Some("31.5 oz"));
+        let two = |dialogue: &mut Dialogue<&[u8]>| mass(dialogue).and_then(|_| mass(dialogue));
+        assert!(dialogue.hold(two).is_err());
+    }
+
+    #[test]
+    fn who_quits_is_asked_nothing_more() {
+        for word in ["quit", "exit", "q", "Quit"] {
+            let answers = format!("30 oz\n{word}\n31 oz\n");
+            let mut dialogue = Dialogue::new(answers.as_bytes());
+            let two = |dialogue: &mut Dialogue<&[u8]>| -> Asked<_> {
+                Ok([dialogue.ask(&MASS, mass)?, dialogue.ask(&MASS, mass)?])
+            };
+            assert!(dialogue.hold(two).unwrap().is_none(), "{word}");
+        }
+    }
+
+    #[test]
+    fn who_goes_back_answers_the_question_before_anew() {
+        let mut dialogue = Dialogue::new("30 oz\n31 oz\nback\nback\n32 oz\n33 oz\n".as_bytes());
+        let two = |dialogue: &mut Dialogue<&[u8]>| -> Asked<_> {
+            Ok([dialogue.ask(&MASS, mass)?, dialogue.ask(&MASS, mass)?])
+        };
+        let three = |dialogue: &mut Dialogue<&[u8]>| {
+            let both = two(dialogue)?;
+            if dialogue.given.len() == 2 && both[0].as_deref() == Some("30 oz") {
+                dialogue.ask(&MASS, mass)?;
+            }
+            Ok(both)
+        };
+        let found = dialogue.hold(three).unwrap().unwrap();
+        assert_eq!(found.map(Option::unwrap), ["32 oz", "33 oz"]);
+    }
+}

@@ -1,0 +1,192 @@
+//! What do the options of `sweetspot new` say?
+
+use std::path::{Path, PathBuf};
+
+use sweetspot::base::error::{Complaint, Error, Result};
+use sweetspot::base::units::inches;
+use sweetspot_proof::bundled::bundled_bat;
+
+use crate::asking::ask;
+use crate::bat_text::Measured;
+
+/// Write a bat file, by asking or from options
+///
+/// All it needs is a ruler, calipers and a scale: the length, the mass, the material, and the
+/// diameter at the knob, along the handle and every few inches from there. At a terminal it asks
+/// for what the options do not say, and asks again where an answer cannot be right: ? explains a
+/// question, back goes to the one before, quit leaves. Answers are kept in a draft beside the file
+/// until it is written; the next time it asks whether to go on with them. The file is commented and
+/// meant to be edited. In the end it draws the bat, says how dense its material must be to weigh
+/// that much, which tells a slip of the calipers, and where its sweet spot is.
+#[derive(clap::Args)]
+#[command(after_long_help = EXAMPLES)]
+pub struct Args {
+    /// Where to write it (- = standard output) [default: after the name]
+    pub file: Option<PathBuf>,
+
+    /// Read answers from standard input, one per line, even when it is not a terminal
+    #[arg(long)]
+    pub ask: bool,
+
+    /// Replace a file that is there
+    #[arg(long)]
+    pub force: bool,
+
+    /// What it is called
+    #[arg(long, value_name = "TEXT", help_heading = "The bat")]
+    pub name: Option<String>,
+
+    /// Unit of the file's lengths: in or cm
+    #[arg(long, value_name = "in|cm", help_heading = "The bat",
+          value_parser = ["in", "cm"], hide_possible_values = true)]
+    pub unit: Option<String>,
+
+    /// Length, such as "33.5 in"; a bare number is in the file's unit
+    #[arg(long, help_heading = "The bat")]
+    pub length: Option<String>,
+
+    /// Mass on the scale, such as "31.5 oz"
+    #[arg(long, value_name = "MASS", help_heading = "The bat", value_parser = |s: &str| ask::weighed(s).map_err(|complaint| complaint.to_string()))]
+    pub mass: Option<String>,
+
+    /// A name of: sweetspot materials
+    #[arg(long, value_name = "NAME", help_heading = "The bat", value_parser = |s: &str| ask::material(s).map_err(|complaint| complaint.to_string()))]
+    pub material: Option<String>,
+
+    /// A place from the knob end and the diameter there, such as "3 in, 0.98 in"; bare numbers are
+    /// in the file's unit. Give it as often as you measured, from knob to tip
+    #[arg(long = "station", value_name = "X, D", help_heading = "The bat")]
+    pub stations: Vec<String>,
+
+    /// Thickness of the wall of a hollow bat, such as "3 mm"; a bare number is in the file's unit
+    #[arg(long, value_name = "THICKNESS", help_heading = "The bat", conflicts_with = "cup")]
+    pub wall: Option<String>,
+
+    /// Cup in the tip: its depth and its diameter, such as "1 in, 1.6 in"
+    #[arg(long, value_name = "DEPTH, D", help_heading = "The bat")]
+    pub cup: Option<String>,
+
+    /// The diameters of a bat that is built in, stretched to the length: r161 or torpedo
+    #[arg(long, value_name = "BAT", help_heading = "The bat", conflicts_with = "stations",
+          value_parser = ["r161", "torpedo"], hide_possible_values = true)]
+    pub like: Option<String>,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  sweetspot new
+      asks for everything and writes a file called after the bat
+
+  sweetspot new mine.json --like r161 --length \"34 in\" --mass \"31.5 oz\" \\
+      --material white-ash-dynamic
+      a longer R161
+
+  sweetspot new metal.json --length \"33 in\" --mass \"30 oz\" --wall \"3 mm\" \\
+      --material aluminium-7075 --station \"0, 0.9\" --station \"12, 0.9\" \\
+      --station \"23, 2.6\" --station \"33, 2.6\"
+      a hollow bat
+
+  sweetspot new fungo.json --length \"35 in\" --mass \"22 oz\" \\
+      --material white-ash-dynamic --station \"0 in, 1.7 in\" \\
+      --station \"1.5 in, 0.9 in\" --station \"14 in, 1.1 in\" \\
+      --station \"35 in, 2.2 in\"
+      from four diameters; sweetspot analyze fungo.json says what it does";
+
+const SOURCE: &str = "measured with ruler, calipers and scale";
+
+/// From options alone; what is missing is said.
+pub fn given(args: &Args) -> Result<Measured> {
+    let missing =
+        |what: &str| Error::value("new", "none", format!("{what}, or --ask to answer questions"));
+    let unit = unit(args.unit.as_deref());
+    let stations = match (&args.like, args.stations.is_empty()) {
+        (None, true) => return Err(missing("--station or --like")),
+        (Some(name), _) => like(name, length(args, unit)?, unit)?,
+        (None, false) => stations(args, unit)?,
+    };
+    let wall = args.wall.as_ref().map(|wall| ask::wall(wall, &stations, unit));
+    let cup = args.cup.as_ref().map(|cup| ask::cup(cup, &stations, unit));
+    Ok(Measured {
+        wall: wall.transpose().map_err(of_option("--wall"))?.flatten(),
+        cup: cup.transpose().map_err(of_option("--cup"))?.flatten(),
+        name: args.name.clone().unwrap_or_else(|| "My bat".to_owned()),
+        source: source(args),
+        material: args.material.clone().ok_or_else(|| missing("--material"))?,
+        mass: Some(args.mass.clone().ok_or_else(|| missing("--mass"))?),
+        unit,
+        stations,
+        balance: None,
+        tap: None,
+        tape: None,
+    })
+}
+
+/// What is wrong with the value of an option.
+pub fn of_option(name: &str) -> impl Fn(Complaint) -> Error {
+    move |complaint| Error::Value(Complaint { field: name.to_owned(), ..complaint })
+}
+
+pub fn unit(name: Option<&str>) -> &'static str {
+    if name == Some("cm") { "cm" } else { "in" }
+}
+
+pub fn source(args: &Args) -> String {
+    let of =
+        |like: &String| format!("the diameters of {like} as built in, stretched to the length");
+    args.like.as_ref().map_or(SOURCE.to_owned(), of)
+}
+
+/// `--length` in the file's unit.
+pub fn length(args: &Args, unit: &str) -> Result<Option<f64>> {
+    let read = |text: &String| ask::length(text, unit).map_err(of_option("--length"));
+    args.length.as_ref().map(read).transpose()
+}
+
+/// The stations of the options; the last must be the tip.
+pub fn stations(args: &Args, unit: &str) -> Result<Vec<[f64; 2]>> {
+    let length = length(args, unit)?;
+    let mut stations: Vec<[f64; 2]> = Vec::new();
+    for text in &args.stations {
+        let end = length.unwrap_or(f64::INFINITY);
+        let measured = ask::station(text, None, &stations, end, unit);
+        // An empty text is not a station.
+        let missing = || Error::value("--station", "nothing", "a place and its diameter");
+        stations.push(measured.map_err(of_option("--station"))?.ok_or_else(missing)?);
+    }
+    let last = stations.last().map_or(0.0, |s| s[0]);
+    if let Some(length) = length.filter(|length| *length > last) {
+        let found = format!("the last one at {last} {unit}");
+        return Err(Error::value("--station", found, format!("one at the tip, {length} {unit}")));
+    }
+    Ok(stations)
+}
+
+/// The stations of a built-in bat, as long as that; lengths in `unit`.
+pub fn like(name: &str, length: Option<f64>, unit: &str) -> Result<Vec<[f64; 2]>> {
+    let bat = bundled_bat(&format!("meshes/{name}.json"))?;
+    let of_metres = if unit == "in" { inches(1.0) } else { 100.0 };
+    let longer = length.map_or(1.0, |length| length / (bat.length() * of_metres));
+    let stations = bat.profile().stations.x.iter().zip(&bat.profile().stations.outer);
+    Ok(stations.map(|(x, r)| [x * of_metres * longer, 2.0 * r * of_metres]).collect())
+}
+
+/// Letters of a file's name that is made of the bat's.
+const LETTERS: usize = 60;
+
+/// A file of the name, for a file that has none.
+pub fn called(name: &str) -> PathBuf {
+    let plain = |c: char| if c.is_alphanumeric() { c } else { ' ' };
+    let words: String = name.to_lowercase().chars().map(plain).collect();
+    let words: Vec<&str> = words.split_whitespace().collect();
+    let stem: String = words.join("-").chars().take(LETTERS).collect();
+    let stem = if words.is_empty() { "bat".to_owned() } else { stem };
+    PathBuf::from(format!("{stem}.json"))
+}
+
+pub fn refuse_existing(path: &Path, force: bool) -> Result<()> {
+    if !force && path.as_os_str() != "-" && path.exists() {
+        let expected = "another name, or --force to replace it";
+        return Err(Error::value("new", format!("{}, which is there", path.display()), expected));
+    }
+    Ok(())
+}

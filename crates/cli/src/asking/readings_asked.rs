@@ -1,0 +1,150 @@
+//! What `sweetspot calibrate` asks, in its order: a readings file of the answers.
+
+use std::io::BufRead;
+
+use serde_json::{Value, json};
+
+use sweetspot::base::error::Complaint;
+use sweetspot::base::number::rounded;
+use sweetspot::base::typed;
+use sweetspot::base::units::{self, Quantity, inches};
+use sweetspot::bat::body::Bat;
+use sweetspot_report::schema;
+use sweetspot_study::files::amounts::{deviation, with_deviation};
+
+use crate::asking::ask;
+use crate::asking::dialogue::{Asked, Dialogue, Question, Read};
+
+const WELCOME: &str = "What was measured of the bat. An empty line takes what stands in [ ]; ? explains a \
+                       question, back goes to the one before, quit leaves.";
+const ON_MASS: &str = "As the scale shows it, with all that is on the bat; taken as within 1 g, or as 31 oz ± \
+                       0.1 oz says.";
+const ON_BALANCE: &str = "Where the bat balances on an edge, from the knob end; taken as within 1 mm, or as 22.8 \
+                          in ± 1/32 in says.";
+const ON_SWINGS: &str = "Hang the bat on a pin or an edge 6 in from the knob end, let it swing a few degrees \
+                         and time ten swings there and back; ten of them are taken as within 10 ms.";
+const ON_TONES: &str = "Hold the bat loosely some 6 in from the knob, tap the barrel, and read the peaks off \
+                        a spectrum on a telephone, such as: 174.5, 581.3, 1187. They are taken as within 0.5 \
+                        Hz; which mode each is is found out.";
+const ON_RING: &str = "How many cycles of the lowest tone pass until it is half as loud (half the amplitude). \
+                       It tells the loss factor.";
+const UNKNOWN: Option<&str> = Some("don't know");
+
+/// The answers as the text of a readings file.
+pub fn asked<R: BufRead>(person: &mut Dialogue<R>, bat: &Bat) -> Asked<String> {
+    person.say(WELCOME);
+    let unit = if bat.inches() { "in" } else { "cm" };
+    let length = if bat.inches() { inches(bat.length()) } else { 100.0 * bat.length() };
+    let text = "Mass on the scale, with its unit";
+    let question = Question { name: "mass", text, usual: UNKNOWN, help: ON_MASS };
+    let mass = person.ask(&question, |text| within(text, "oz", Quantity::Mass, ask::mass))?;
+    let text = format!("Balance point from the knob end, {unit}");
+    let question = Question { name: "balance", text: &text, usual: UNKNOWN, help: ON_BALANCE };
+    let place = |text: &str| ask::balance(text, length, unit);
+    let balance = person.ask(&question, |text| within(text, unit, Quantity::Length, place))?;
+    let text = "Ten swings, hung 6 in from the knob end, seconds";
+    let question = Question { name: "swings", text, usual: UNKNOWN, help: ON_SWINGS };
+    let swings = person.ask(&question, |text| number(text, "s", [3.0, 50.0]))?;
+    let text = "Tones of a tap, Hz, the lowest first";
+    let question = Question { name: "tones", text, usual: UNKNOWN, help: ON_TONES };
+    let tones = person.ask(&question, tones)?;
+    let text = "Cycles of the lowest tone until half the amplitude";
+    let question = Question { name: "ring", text, usual: UNKNOWN, help: ON_RING };
+    let cycles = person.ask(&question, |text| number(text, "", [1.0, 10_000.0]))?;
+    let mut file = json!({ "format": "sweetspot-readings/1" });
+    let mut put = |key: &str, value: Option<Value>| {
+        if let Some(value) = value {
+            file[key] = value;
+        }
+    };
+    put("mass", mass.map(Value::from));
+    put("balance_point", balance.map(Value::from));
+    put("pendulum", swings.map(|ten| json!({ "pivot": "6 in", "period": rounded(0.1 * ten, 9) })));
+    let lines: Vec<Value> = tones.into_iter().map(|hz| json!({ "hz": hz })).collect();
+    put("lines", (!lines.is_empty()).then(|| Value::from(lines)));
+    put("ring_down", cycles.map(|n| json!([{ "mode": 1, "cycles": n, "ratio": 0.5 }])));
+    Ok(schema::text(&file))
+}
+
+/// A reading, which how far it may be off may follow: `22.8 in ± 1/32 in`. Bare numbers are in `unit`.
+fn within(
+    text: &str,
+    unit: &str,
+    quantity: Quantity,
+    read: impl Fn(&str) -> Read<Option<String>>,
+) -> Read<Option<String>> {
+    let Some((first, second)) = with_deviation(text) else { return read(text) };
+    let Some(said) = read(first)? else { return Ok(None) };
+    let second = match typed::number(second) {
+        Some(_) if typed::split(&typed::plain(first)).1.is_empty() => format!("{second} {unit}"),
+        _ => second.to_owned(),
+    };
+    let value = units::parse(&said, quantity)?;
+    let by = deviation(value, (&said, &second), quantity)?;
+    if by > 0.0 && by < value {
+        Ok(Some(format!("{said} ± {second}")))
+    } else {
+        let expected = "an uncertainty above 0 and below the reading";
+        Err(Complaint::new("", format!("\"{text}\""), expected))
+    }
+}
+
+/// A number in that range with or without its unit; None where it is not known.
+fn number(text: &str, unit: &str, [low, high]: [f64; 2]) -> Read<Option<f64>> {
+    if ask::unknown(text) {
+        return Ok(None);
+    }
+    let bare = text.strip_suffix(unit).unwrap_or(text);
+    match typed::number(bare).filter(|value| (low..=high).contains(value)) {
+        Some(value) => Ok(Some(value)),
+        None => {
+            let expected = format!("a number from {low} to {high} {unit}");
+            Err(Complaint::new("", format!("\"{text}\""), expected.trim_end()))
+        }
+    }
+}
+
+/// Rising frequencies (Hz); none where they are not known.
+fn tones(text: &str) -> Read<Vec<f64>> {
+    if ask::unknown(text) {
+        return Ok(vec![]);
+    }
+    let parts = text.trim_end_matches("Hz").split([' ', ';', ',']).filter(|part| !part.is_empty());
+    let values: Option<Vec<f64>> = parts.map(|part| part.parse().ok()).collect();
+    let possible = |values: &Vec<f64>| {
+        values.iter().all(|hz| (10.0..20e3).contains(hz)) && values.is_sorted_by(|a, b| a < b)
+    };
+    values.filter(|values| !values.is_empty() && possible(values)).ok_or_else(|| {
+        let expected = "rising frequencies from 10 to 20000 Hz, such as: 174.5, 581.3, 1187";
+        Complaint::new("", format!("\"{text}\""), expected)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use sweetspot_study::files::readings_file::from_text;
+
+    #[test]
+    fn answers_are_a_readings_file() {
+        let bat = r#"{ "format": "sweetspot-bat/1", "material": "white-ash",
+            "profile": { "unit": "in", "x": [0, 33], "diameter": [1.7, 1.7] } }"#;
+        let bat = Bat::from_text("bat.json", bat, "".as_ref()).unwrap();
+        let answers =
+            "31 oz ± 0.1\n?\n16.5 in ± 1/32 in\nlong\n14.7 s\n581, 174\n174.5, 581.3\n40\n";
+        let text =
+            Dialogue::new(answers.as_bytes()).hold(|person| asked(person, &bat)).unwrap().unwrap();
+        let read = from_text("answers", &text).unwrap();
+        assert!((read.pendulum.unwrap().period.value - 1.47).abs() < 1e-12);
+        assert_eq!(read.lines.len(), 2);
+        assert_eq!(read.ring_down[0].cycles, 40.0);
+        let balance = read.balance_point.unwrap();
+        assert!((balance.value - 16.5 * 0.0254).abs() < 1e-12);
+        assert!((balance.deviation - 0.0254 / 32.0).abs() < 1e-12);
+        assert!((read.mass.unwrap().deviation - 0.1 * 0.028_349_523_125).abs() < 1e-12);
+        let nothing = "\n\n\n\n\n";
+        let text =
+            Dialogue::new(nothing.as_bytes()).hold(|person| asked(person, &bat)).unwrap().unwrap();
+        assert_eq!(from_text("answers", &text).unwrap(), Default::default());
+    }
+}

@@ -1,0 +1,37 @@
+//! `sweetspot bats`: what is built in.
+
+use sweetspot::base::error::Result;
+use sweetspot::bat::body::Bat;
+use sweetspot::files::built_in::bat_names;
+use sweetspot_report::parts::cell::Quantity::Words;
+use sweetspot_report::parts::part::Part;
+use sweetspot_report::parts::table::{Column, Table};
+use sweetspot_report::parts::terminal;
+use sweetspot_report::parts::units::Units;
+
+use crate::done::Done;
+use crate::style;
+
+/// The built-in bats
+///
+/// Each may stand wherever a bat file does. The folder meshes of the source has their files, with where every
+/// number is from.
+#[derive(clap::Args)]
+#[command(after_long_help = EXAMPLES)]
+pub struct Args {}
+
+const EXAMPLES: &str = "\
+Examples:
+  sweetspot bats";
+
+const COLUMNS: [Column<(&str, Bat)>; 2] = [
+    Column::new("bat", "bat", Words, |(name, _)| (*name).into()),
+    Column::new("what it is", "name", Words, |(_, bat)| bat.name().into()),
+];
+
+pub fn run(_: &Args) -> Result<Done> {
+    let named = bat_names().into_iter().map(|name| Ok((name, Bat::builtin(name)?)));
+    let bats: Vec<_> = named.collect::<Result<_>>()?;
+    let table = Part::Table(Table::of("Built-in bats", &COLUMNS, &bats, Units::Si));
+    Ok(Done::new(style::table(&terminal::text("Built-in bats", &[table])), 0))
+}

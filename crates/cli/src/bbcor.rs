@@ -1,0 +1,129 @@
+//! `sweetspot bbcor BAT`: the laboratories' test, computed.
+
+use std::path::PathBuf;
+
+use sweetspot::base::error::Result;
+use sweetspot::base::mistakes::Mistakes;
+use sweetspot::bat::body::Bat;
+use sweetspot::collision::bbcor::Protocol;
+use sweetspot::collision::hit::{Model, Scene};
+use sweetspot::collision::sweep::Trial;
+use sweetspot::collision::wall_choice::WallChoice;
+use sweetspot_report::csv;
+use sweetspot_report::parts::terminal;
+use sweetspot_report::plot::bbcor as plot;
+use sweetspot_report::report::bbcor as report;
+use sweetspot_report::schema::bbcor::BbcorFile;
+
+use crate::cannon::CannonArgs;
+use crate::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples, on_the_bat};
+use crate::csv_option::CsvArgs;
+use crate::done::Done;
+use crate::full_option::FullArgs;
+use crate::hit::verdict;
+use crate::pictures;
+use crate::value::PLACE;
+
+/// BBCOR as laboratories measure it, computed
+///
+/// The bat is at rest and turns about a pivot 6 in from the knob end; a ball at 136 mph meets it every
+/// half inch. For the places about the largest, with --full for every one, the table says how fast the
+/// ball comes back, the collision efficiency e_A, BBCOR and how far that may be off by the program's own
+/// errors; below it the largest, beside the limit. Supports, springs and hands of the bat file are taken
+/// away. What is computed is no certificate: it is as good as the ball's restitution and as the wall of a
+/// hollow barrel is known.
+#[derive(clap::Args)]
+#[command(after_long_help = examples(EXAMPLES))]
+pub struct Args {
+    #[command(flatten)]
+    bat: BatArgs,
+
+    #[command(flatten)]
+    cannon: CannonArgs,
+
+    /// Where the scan begins, from the knob end [default: 12 in from the tip]
+    #[arg(long, value_name = "m", help_heading = "The test", allow_hyphen_values = true,
+          value_parser = |s: &str| PLACE.read(s))]
+    from: Option<f64>,
+
+    /// Where the scan ends, from the knob end [default: 1 in from the tip]
+    #[arg(long, value_name = "m", help_heading = "The test", allow_hyphen_values = true,
+          value_parser = |s: &str| PLACE.read(s))]
+    to: Option<f64>,
+
+    /// Whether a hollow barrel's wall gives way by its own hoop modes: auto, on or off
+    ///
+    /// auto: where that changes BBCOR by more than 0.15 of --tol, by estimate, and not with a number of modes of
+    /// your own.
+    #[arg(long, value_name = "WHEN", default_value = "auto", help_heading = "The test",
+          value_parser = ["auto", "on", "off"], hide_possible_values = true)]
+    wall: String,
+
+    #[command(flatten)]
+    full: FullArgs,
+
+    #[command(flatten)]
+    solve: SolveArgs,
+
+    #[command(flatten)]
+    csv: CsvArgs,
+
+    /// Draw BBCOR along the bat into this folder, as SVG and PNG
+    #[arg(long, value_name = "DIR", help_heading = "Output")]
+    plots: Option<PathBuf>,
+
+    #[command(flatten)]
+    output: OutputArgs,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  sweetspot bbcor r161
+      a wooden bat, every half inch from 12 in to 1 in from the tip
+
+  sweetspot bbcor r161 --cor 0.53 --json -
+      with a livelier ball, as JSON";
+
+pub fn run(args: &Args) -> Result<Done> {
+    args.csv.beside(&args.output.json)?;
+    args.solve.refuse_budget("bbcor")?;
+    let bat = args.bat.read(&args.output)?;
+    let protocol = protocol(args, &bat)?;
+    let prepared = args.bat.prepare(bat, args.bat.count(), &args.solve, &args.output)?;
+    let Prepared { bat, request, warning } = prepared;
+    let progress = args.output.progress("modes");
+    let tell = |share, what: &str| progress.say(share, what);
+    let trial = Trial { model: Model::Contact, scene: &Scene::default() };
+    let accuracy = trial.accuracy(&request, args.bat.asked());
+    let tested = protocol.test(&bat, &accuracy, &tell)?;
+    drop(progress);
+    args.solve.say_raised(&tested.sweep.solution, &args.output);
+    if let Some(folder) = &args.plots {
+        let picture: Vec<_> =
+            plot::picture(args.output.sheet(&tested.bat), &tested).into_iter().collect();
+        pictures::write(folder, &picture, args.output.quiet)?;
+    }
+    let code = verdict(&args.solve, &tested.sweep, &args.output);
+    let said = |full| {
+        let (title, parts) = report::report(&tested, args.output.units(&tested.bat), full);
+        terminal::text(&title, &parts)
+    };
+    let table = args.full.screen(|| said(false), || said(true));
+    let out = args.output.deliver(table, || BbcorFile::of(&tested))?;
+    let text = args.csv.deliver(out, || csv::rows(&report::COLUMNS, &tested.scan.places))?;
+    Ok(Done::new(text, code).with(warning))
+}
+
+/// What is asked of that bat, all that is wrong with it at once.
+fn protocol(args: &Args, bat: &Bat) -> Result<Protocol> {
+    let mut mistakes = Mistakes::default();
+    let mut end =
+        |name: &str, x: Option<f64>| mistakes.note(x.map(|x| on_the_bat(bat, name, x)).transpose());
+    let [from, to] = [end("--from", args.from), end("--to", args.to)];
+    let shot = mistakes.and(args.cannon.shot())?;
+    let usual = Protocol::of(bat, shot.ball);
+    let scan = [from.unwrap_or(usual.scan[0]), to.unwrap_or(usual.scan[1])];
+    let (cor, wall) = (shot.cor.unwrap_or(usual.cor), WallChoice::named(&args.wall));
+    let cor_given = shot.cor.is_some();
+    Protocol { ball_speed: shot.speed, cor, cor_given, scan, wall, ..usual }.checked()
+}

@@ -1,0 +1,318 @@
+//! `sweetspot calibrate BAT [MEASURED]`: what the wood is, by what was measured.
+
+use std::io::{IsTerminal, StdinLock, stdin};
+use std::path::{Path, PathBuf};
+
+use sweetspot::base::error::{Complaint, Error, Result};
+use sweetspot::base::file;
+use sweetspot::bat::body::Bat;
+use sweetspot::modes::solve::Request;
+use sweetspot_report::plot::calibrate as pictures_of;
+use sweetspot_report::report::{calibrate, calibrated_bat};
+use sweetspot_report::schema;
+use sweetspot_study::calibrate::calibration::{Calibration, CalibrationPlan};
+use sweetspot_study::calibrate::labels::MOST_MODES;
+use sweetspot_study::calibrate::readings::{BatReadings, Reading, RingDown, SpectralLine};
+use sweetspot_study::calibrate::unknowns::Unknown;
+use sweetspot_study::files::measured::{self, Beside};
+use sweetspot_study::files::readings_file;
+use sweetspot_study::measured::data::Measured;
+use sweetspot_study::measured::pairing::LEAST;
+use sweetspot_study::measured::study::{ALIKE, Shapes, Study};
+
+use crate::asking::dialogue::Dialogue;
+use crate::asking::draft;
+use crate::asking::readings_asked::asked;
+use crate::beside::BesideArgs;
+use crate::common::{Prepared, examples, prepare, printed, read_with_text, warn};
+use crate::delivered::{apart, put};
+use crate::done::{Done, FAILED};
+use crate::edits::EditArgs;
+use crate::value::{PLACE, TheoryChoice, choice};
+use crate::{pictures, style};
+
+/// What a bat's wood is: E, G and density from scale, ruler, pendulum and tap
+///
+/// Reads what was measured of a bat and finds the wood that shows it, each property with its 95 % interval, how much
+/// of it the readings say and how much was known before. It tells readings that do not fit and lines that were taken
+/// for another mode, and names the measurement that would tell most. Without a file of readings it asks. A mismatch
+/// is told, not fitted away: the exit code is then 1.
+#[derive(clap::Args)]
+#[command(after_long_help = examples(EXAMPLES))]
+pub struct Args {
+    /// Bat file (JSON), or the name of a built-in bat such as r161
+    #[arg(help_heading = "The bat")]
+    bat: PathBuf,
+
+    /// Readings file (JSON), or a table of measured modes as for compare --measured [without it: asked]
+    #[arg(help_heading = "The bat")]
+    measured: Option<PathBuf>,
+
+    /// Two regions of wood, the barrel's from this place on, such as "42 cm"
+    #[arg(long, value_name = "m", value_parser = |s: &str| PLACE.read(s), help_heading = "The bat")]
+    regions: Option<f64>,
+
+    /// Keep as the file has it: E, G (its share of E), density, density-barrel or ratio; may be repeated
+    #[arg(long, value_name = "NAME", value_parser = held(), hide_possible_values = true,
+          help_heading = "The bat")]
+    hold: Vec<Unknown>,
+
+    /// Which bending mode a line is, such as "1187 = 3", or "1187 = none"; may be repeated
+    #[arg(long, value_name = "HZ = N", value_parser = label, allow_hyphen_values = true,
+          help_heading = "The bat")]
+    mode: Vec<(f64, Option<usize>)>,
+
+    #[command(flatten)]
+    beside: BesideArgs,
+
+    /// Read answers from standard input, one per line, even when it is not a terminal
+    #[arg(long, conflicts_with = "measured", help_heading = "The bat")]
+    ask: bool,
+
+    /// Write the answers as a readings file
+    #[arg(long, value_name = "FILE", conflicts_with = "measured", help_heading = "Output")]
+    readings: Option<PathBuf>,
+
+    /// Write the bat of the wood that was found to this file (- = standard output, and no table then)
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    out: Option<PathBuf>,
+
+    /// Write JSON to this file (- = standard output, and no table then)
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    json: Option<PathBuf>,
+
+    /// Write the properties as CSV to this file (- = standard output, and no table then)
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    csv: Option<PathBuf>,
+
+    /// Draw what was known before and after, and what does not fit, into this folder, as SVG and PNG
+    #[arg(long, value_name = "DIR", help_heading = "Output")]
+    plots: Option<PathBuf>,
+
+    /// No warnings on standard error
+    #[arg(long, help_heading = "Output")]
+    quiet: bool,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  sweetspot calibrate r161 readings.json
+      what the wood is, and how well the readings say it
+
+  sweetspot calibrate r161 readings.json --out found.json --json wood.json
+      the bat of that wood, and the result with its covariance
+
+  sweetspot calibrate r161 readings.json --regions \"42 cm\" --hold G
+      another density and stiffness in the barrel; G/E as the file has it";
+
+/// Unknowns by their names on the command line.
+fn held() -> impl clap::builder::TypedValueParser<Value = Unknown> {
+    choice(&["E", "G", "density", "density-barrel", "ratio"], |name| match name {
+        "E" => Unknown::YoungsModulus,
+        "G" => Unknown::ShearOverYoung,
+        "density" => Unknown::Density,
+        "density-barrel" => Unknown::BarrelDensity,
+        _ => Unknown::ModulusRatio,
+    })
+}
+
+/// A line by its frequency (Hz), and the mode that it is.
+fn label(text: &str) -> std::result::Result<(f64, Option<usize>), String> {
+    let expected = || {
+        format!(
+            "expected a frequency in Hz and the number of its bending mode, 1 to {MOST_MODES} or none, such as \"1187 = 3\""
+        )
+    };
+    let (hz, mode) = text.split_once('=').ok_or_else(expected)?;
+    let hz = hz.trim().trim_end_matches("Hz").trim().parse().map_err(|_| expected())?;
+    let mode = match mode.trim() {
+        "none" => None,
+        mode => {
+            let number = mode.parse().ok().filter(|mode| (1..=MOST_MODES).contains(mode));
+            Some(number.ok_or_else(expected)?)
+        }
+    };
+    Ok((hz, mode))
+}
+
+/// The lines with the labels of `--mode`; a line that is told as none is left out.
+fn told_again(lines: &mut Vec<SpectralLine>, told: &[(f64, Option<usize>)]) -> Result<()> {
+    /// A line may be named by a rounded frequency.
+    const NEAR: f64 = 0.01;
+    for (hz, mode) in told {
+        let far = |line: &SpectralLine| (line.frequency.value / hz).ln().abs();
+        let near = (0..lines.len()).min_by(|a, b| far(&lines[*a]).total_cmp(&far(&lines[*b])));
+        let Some(k) = near.filter(|k| far(&lines[*k]) < NEAR) else {
+            let all: Vec<String> =
+                lines.iter().map(|line| line.frequency.value.to_string()).collect();
+            let expected = format!("one of the lines: {} Hz", all.join(", "));
+            return Err(Error::value("--mode", format!("{hz} Hz"), expected));
+        };
+        match mode {
+            None => drop(lines.remove(k)),
+            Some(order) => {
+                if lines.iter().enumerate().any(|(j, line)| j != k && line.mode == *mode) {
+                    let found = format!("mode {order} for a second line");
+                    return Err(Error::value("--mode", found, "every mode once"));
+                }
+                lines[k].mode = *mode;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The command with the labels that fit, where those that were told do not.
+fn relabelled(args: &Args, found: &Calibration) -> Option<String> {
+    let measured = args.measured.as_deref().map_or("readings.json".to_owned(), printed);
+    let label = |k: &usize| {
+        let mode = found.identified.labels[*k].map_or("none".to_owned(), |mode| mode.to_string());
+        format!(" --mode \"{} = {mode}\"", found.readings.lines[*k].frequency.value)
+    };
+    let labels: String = found.identified.changed().iter().map(label).collect();
+    (!labels.is_empty()).then(|| {
+        format!(
+            "With these labels:\n  sweetspot calibrate {} {measured}{labels}\n",
+            printed(&args.bat)
+        )
+    })
+}
+
+pub fn run(args: &Args) -> Result<Done> {
+    let written = [
+        ("--json", &args.json),
+        ("--csv", &args.csv),
+        ("--out", &args.out),
+        ("--readings", &args.readings),
+    ];
+    apart(&written)?;
+    let (bat, text) = read_with_text(&args.bat, &EditArgs::default(), args.quiet)?;
+    let Some(told) = readings(args, &bat)? else { return Ok(Done::new(String::new(), 0)) };
+    let MeasuredArgs { mut readings, name, person } = told;
+    told_again(&mut readings.lines, &args.mode)?;
+    let plan = CalibrationPlan { split: args.regions, held: args.hold.clone() };
+    let found = Calibration::new(&bat, readings, &plan).map_err(as_told(args))?;
+    let table = calibrate::text(&bat, &found) + &relabelled(args, &found).unwrap_or_default();
+    if let Some(folder) = &args.plots {
+        pictures::write(folder, &pictures_of::pictures(bat.name(), &found), args.quiet)?;
+    }
+    let file = || calibrated_bat::text((&bat, &text), &found, &name, args.regions);
+    let out = put(&args.csv, style::table(&table), || Ok(calibrate::csv(&found)))?;
+    let out = put(&args.out, out, file)?;
+    let out = put(&args.json, out, || {
+        Ok(schema::text(&calibrate::document(&bat, &found, args.regions)))
+    })?;
+    if let Some(mut person) = person {
+        person.done();
+    }
+    Ok(Done::new(out, if found.fits() { 0 } else { FAILED }))
+}
+
+/// An error about a reading or an option, by the name that it has for the user.
+fn as_told(args: &Args) -> impl Fn(Error) -> Error + '_ {
+    let file = args.measured.as_deref().map_or("the answers".to_owned(), printed);
+    move |error| {
+        error.placed(|complaint| {
+            let field = match &*complaint.field {
+                "regions" => "--regions".to_owned(),
+                "--hold" | "bat" | "edits" => complaint.field.clone(),
+                field => format!("{file}: {field}"),
+            };
+            Error::Value(Complaint { field, ..complaint })
+        })
+    }
+}
+
+/// What was measured.
+struct MeasuredArgs {
+    readings: BatReadings,
+    /// What it is called.
+    name: String,
+    /// Who was asked, if somebody was: the answers are kept until all is done.
+    person: Option<Dialogue<StdinLock<'static>>>,
+}
+
+/// Where answers are kept: they are of one bat.
+fn draft(args: &Args) -> PathBuf {
+    let bat = args.bat.file_stem().unwrap_or_default().to_string_lossy();
+    draft::stem(args.readings.as_deref(), &format!("{bat}-calibrate"))
+}
+
+/// Reads what was measured, or asks for it; None where who was asked left.
+fn readings(args: &Args, bat: &Bat) -> Result<Option<MeasuredArgs>> {
+    let Some(path) = &args.measured else {
+        if !args.ask && !stdin().is_terminal() {
+            let expected = "a readings file, such as readings.json, or --ask to answer questions";
+            return Err(Error::value("MEASURED", "none", expected));
+        }
+        let mut person = Dialogue::kept(stdin().lock(), ("calibrate", &draft(args)), bat.name());
+        let Some(text) = person.hold(|person| asked(person, bat))? else { return Ok(None) };
+        if let Some(path) = &args.readings {
+            file::write(path, text.as_bytes())?;
+        }
+        // Answers that say nothing must not be given again.
+        let readings =
+            readings_file::from_text("the answers", &text).inspect_err(|_| person.done())?;
+        return Ok(Some(MeasuredArgs {
+            readings,
+            name: "answers".to_owned(),
+            person: Some(person),
+        }));
+    };
+    let name = path.file_name().map_or(printed(path), |name| printed(Path::new(name)));
+    let beside = args.beside.read()?;
+    let readings = if measured::has_modes(path) {
+        of_modes(measured::read(path, &beside)?, bat, args.quiet)?
+    } else if beside != Beside::default() {
+        let expected = "a universal file (.uff, .unv): readings have their units";
+        return Err(Error::value("--unit, --places or --frequency-unit", name, expected));
+    } else {
+        readings_file::from_file(path)?
+    };
+    Ok(Some(MeasuredArgs { readings, name, person: None }))
+}
+
+/// Measured modes as lines: their frequencies within 0.5 Hz, their damping as tones over one cycle.
+fn of_modes(measured: Measured, bat: &Bat, quiet: bool) -> Result<BatReadings> {
+    /// Standard deviation of a frequency in a table (Hz).
+    const WITHIN: f64 = 0.5;
+    let (measured, labels, unlike) = by_shape(bat, measured)?;
+    measured.assumed.iter().for_each(|text| warn(&format!("note: {text}"), quiet));
+    let settled = labels.iter().any(Option::is_some);
+    let mut readings = BatReadings { unlike, ..BatReadings::default() };
+    for (mode, label) in measured.modes.iter().zip(labels) {
+        if settled && label.is_none() {
+            let text = "is like no bending mode of this bat, or another is more so: left out";
+            warn(&format!("note: {} {text}", mode.name), quiet);
+            continue;
+        }
+        let order = mode.order.or(label);
+        let frequency = Reading { value: mode.frequency, deviation: WITHIN };
+        readings.lines.push(SpectralLine { frequency, mode: order });
+        let damped = mode.damping_ratio.filter(|ratio| *ratio > 0.0);
+        if let (Some(order), Some(damped)) = (order, damped) {
+            let ratio = (-std::f64::consts::TAU * damped).exp();
+            readings.ring_down.push(RingDown { mode: order, cycles: 1.0, ratio });
+        }
+    }
+    Ok(readings)
+}
+
+/// Measured modes, the number of the computed mode whose shape each has, None where its shape does not tell; and how
+/// many have a shape that is like no mode's.
+fn by_shape(bat: &Bat, measured: Measured) -> Result<(Measured, Vec<Option<usize>>, usize)> {
+    let mut labels = vec![None; measured.modes.len()];
+    if !measured.has_shapes() {
+        return Ok((measured, labels, 0));
+    }
+    let request = Request { modes: 10, ..Request::default() };
+    let Prepared { bat, request, .. } = prepare(bat.clone(), TheoryChoice(None), request, true)?;
+    let study = Study::new(&bat, measured, &request, false, Default::default())?;
+    for pair in study.pairs.iter().filter(|pair| pair.mac.is_some_and(|mac| mac >= ALIKE)) {
+        labels[pair.measured] = Some(pair.computed + 1);
+    }
+    let best = |row: &Vec<f64>| row.iter().fold(0.0_f64, |most, mac| most.max(*mac));
+    let unlike = |shapes: &Shapes| shapes.mac.iter().filter(|row| best(row) < LEAST).count();
+    let unlike = study.shapes.as_ref().map_or(0, unlike);
+    Ok((study.measured, labels, unlike))
+}

@@ -1,0 +1,65 @@
+//! What a laboratory's cannon shoots at a bat at rest.
+
+use sweetspot::base::error::{Error, Result};
+use sweetspot::base::mistakes::Mistakes;
+use sweetspot::collision::ball::Ball;
+use sweetspot::collision::bbcor::TEST_SPEED;
+use sweetspot::files::balls::ball;
+
+use crate::value::{CANNON_SPEED, STIFFNESS, cor};
+
+/// The ball and its speed.
+#[derive(clap::Args)]
+#[command(next_help_heading = "The test")]
+pub struct CannonArgs {
+    /// Ball: baseball, humid-baseball, softball or a ball file
+    #[arg(long, value_name = "BALL", default_value = "baseball")]
+    ball: String,
+
+    /// The ball is a linear spring of this stiffness, in place of its own force law
+    #[arg(long, value_name = "N/m", allow_hyphen_values = true,
+          value_parser = |s: &str| STIFFNESS.read(s))]
+    ball_stiffness: Option<f64>,
+
+    /// The ball's coefficient of restitution at the test speed, in place of its own
+    #[arg(long, value_name = "E", allow_hyphen_values = true, value_parser = cor)]
+    cor: Option<f64>,
+
+    /// Speed of the ball [default: 136 mph]
+    #[arg(long, value_name = "m/s", allow_hyphen_values = true,
+          value_parser = |s: &str| CANNON_SPEED.read(s))]
+    speed: Option<f64>,
+}
+
+/// A ball on its way to a bat at rest.
+pub struct Shot {
+    /// The ball; without a restitution by its speed where one was given.
+    pub ball: Ball,
+    /// Its speed (m/s).
+    pub speed: f64,
+    /// The coefficient of restitution that was given.
+    pub cor: Option<f64>,
+}
+
+impl CannonArgs {
+    /// What is shot.
+    ///
+    /// # Errors
+    ///
+    /// Those of the ball and of its speed, all at once.
+    pub fn shot(&self) -> Result<Shot> {
+        let mut mistakes = Mistakes::default();
+        let ball = mistakes.some(ball(&self.ball, self.ball_stiffness));
+        let speed = self.speed.unwrap_or(TEST_SPEED);
+        if !(speed > 0.0 && speed < 1e6) {
+            let found = format!("{speed:?} m/s");
+            mistakes.add(Error::value("--speed", found, "above 0 and below 1e6 m/s"));
+        }
+        mistakes.end(())?;
+        let mut ball = ball.expect("what could not be read was noted");
+        if self.cor.is_some() {
+            ball.cor_by_speed.clear();
+        }
+        Ok(Shot { ball, speed, cor: self.cor })
+    }
+}

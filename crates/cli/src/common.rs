@@ -1,0 +1,424 @@
+//! Options that several verbs share.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use serde::Serialize;
+use sweetspot::base::error::{Complaint, Error, Result};
+use sweetspot::base::file;
+use sweetspot::base::units::shown_length;
+use sweetspot::bat::body::Bat;
+use sweetspot::bat::theory::Theory;
+use sweetspot::files::bat_file::Named;
+use sweetspot::files::built_in;
+use sweetspot::modes::prepared;
+use sweetspot::modes::request::MOST_MODES;
+use sweetspot::modes::solve::{self, Request, Solution, Solver};
+use sweetspot::modes::theory_choice::{self, Choice};
+use sweetspot::modes::up_to::modes_up_to;
+use sweetspot_report::parts::terminal::wrapped;
+use sweetspot_report::parts::units::Units;
+use sweetspot_report::plot::sheet::Sheet;
+use sweetspot_report::report::sketch::{self, Glyphs, SketchRow};
+use sweetspot_report::schema;
+
+use crate::done::{NOT_REACHED, printable};
+use crate::edits::EditArgs;
+use crate::progress::{self, Progress};
+use crate::style;
+use crate::value::{TOP_FREQUENCY, TheoryChoice, budget, solver, theory, tolerance, unit_system};
+
+/// The end of a verb's help: commands to try, how values are written, and the bats that are built in.
+pub fn examples(commands: &str) -> String {
+    format!(
+        "{commands}\n\n\
+         A bare number is in the unit that stands between < >. One that is absurd in it,\n\
+         such as --pitch 90 (m/s), is refused with what it may mean. Others carry their\n\
+         unit, as people write it: \"28 in\", \"33 1/2 in\", \"31 oz\", \"90 mph\", \"0.75 ms\".\n\
+         Places count from the knob end.\n\n{}",
+        wrapped(&format!("Built-in bats: {}.", built_in::bat_names().join(", ")), 0).trim_end()
+    )
+}
+
+/// Which bat, and how many of its modes.
+#[derive(clap::Args)]
+#[command(next_help_heading = "The bat")]
+pub struct BatArgs {
+    /// Bat file (JSON), or the name of a built-in bat such as r161
+    bat: PathBuf,
+
+    /// Number of bending modes [default: 10; in a hit as many as it needs]
+    #[arg(short = 'n', long = "modes", value_name = "N",
+          value_parser = clap::value_parser!(u16).range(0..=MOST_MODES as i64))]
+    count: Option<u16>,
+
+    /// All bending modes up to this frequency, such as 2000 or "2 kHz", in place of a number
+    #[arg(long, value_name = "HZ", conflicts_with = "count", allow_hyphen_values = true,
+          value_parser = |s: &str| TOP_FREQUENCY.read(s))]
+    up_to: Option<f64>,
+
+    #[command(flatten)]
+    edits: EditArgs,
+}
+
+impl BatArgs {
+    /// Number of bending modes where no frequency was given.
+    pub fn count(&self) -> usize {
+        self.count.unwrap_or(10).into()
+    }
+
+    /// Whether a number or a frequency was asked for.
+    pub fn asked(&self) -> bool {
+        self.count.is_some() || self.up_to.is_some()
+    }
+
+    /// The bat's file.
+    pub fn path(&self) -> &Path {
+        &self.bat
+    }
+
+    /// Reads the bat and passes its warnings on.
+    pub fn read(&self, output: &OutputArgs) -> Result<Bat> {
+        self.read_with_text(output).map(|(bat, _)| bat)
+    }
+
+    /// Reads the bat, passes its warnings on, and returns the text of its file too.
+    pub fn read_with_text(&self, output: &OutputArgs) -> Result<(Bat, String)> {
+        read_with_text(&self.bat, &self.edits, output.quiet)
+    }
+
+    /// Finds the modes of a bat that was read.
+    pub fn solve_for(&self, bat: Bat, solve: &SolveArgs, output: &OutputArgs) -> Result<Solved> {
+        let prepared = self.prepare(bat, self.count(), solve, output)?;
+        let Prepared { bat, request, warning } = prepared;
+        let solution = match solve.budget {
+            Some(budget) => solve::solve_within(&bat, &request, budget)?,
+            None => solve::solve(&bat, &request)?,
+        };
+        solve.say_raised(&solution, output);
+        Ok(Solved { bat, solution, warning })
+    }
+
+    /// The bat and what is asked of it: so many modes, or all up to the frequency that was given.
+    pub fn prepare(
+        &self,
+        bat: Bat,
+        mut modes: usize,
+        solve: &SolveArgs,
+        output: &OutputArgs,
+    ) -> Result<Prepared> {
+        let Some(limit) = self.up_to else { return solve.prepare(bat, modes, output) };
+        // More modes may need a richer theory, and a richer theory has more modes up to there: the
+        // number stays after as many rounds as there are theories.
+        for _ in 0..=Theory::ALL.len() {
+            let prepared = solve.prepare(bat.clone(), modes, output)?;
+            let found = modes_up_to(&prepared.bat, &prepared.request, limit);
+            let found = found.map_err(|error| named("--up-to", error))?;
+            if found == modes {
+                return Ok(prepared);
+            }
+            if found == 0 {
+                let one = solve.prepare(bat.clone(), 1, output)?;
+                let first = solve::solve(&one.bat, &one.request)?.modes[0].frequency();
+                output.warn(&format!(
+                    "note: no bending mode up to {limit} Hz: the first is at {first:.1} Hz"
+                ));
+                return solve.prepare(bat, 0, output);
+            }
+            modes = found;
+        }
+        solve.prepare(bat, modes, output)
+    }
+}
+
+/// An error about a value, by the option that gave it.
+fn named(option: &str, error: Error) -> Error {
+    match error {
+        Error::Value(complaint) if complaint.field == "frequency limit" => {
+            Error::Value(Complaint { field: option.to_owned(), ..complaint })
+        }
+        other => other,
+    }
+}
+
+/// How the modes are found.
+#[derive(Clone, clap::Args)]
+#[command(next_help_heading = "Accuracy")]
+pub struct SolveArgs {
+    /// Wanted relative accuracy, such as 1e-6 or 0.01%
+    #[arg(long, value_name = "T", default_value = "1e-4", value_parser = tolerance)]
+    pub tol: f64,
+
+    /// Beam theory
+    ///
+    /// auto takes the simplest whose estimated shift of every frequency is within --tol. The others:
+    /// euler-bernoulli (bending alone), rayleigh (and rotary inertia), timoshenko (and shear, which
+    /// needs the material's shear modulus).
+    #[arg(long, value_name = "THEORY", default_value = "auto", value_parser = theory(),
+          hide_possible_values = true)]
+    theory: TheoryChoice,
+
+    /// Total number of elements; the tolerance is then not enforced
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    elements: Option<u32>,
+
+    /// Degree of the elements, 3 to 12
+    ///
+    /// Alone, there are as many elements as the tolerance needs; with --elements the default is 3.
+    #[arg(long, value_name = "P", value_parser = clap::value_parser!(u8).range(3..=12))]
+    degree: Option<u8>,
+
+    /// The most accurate answer within this time, in place of --tol
+    #[arg(long, value_name = "s", conflicts_with_all = ["tol", "elements"],
+          value_parser = budget)]
+    pub budget: Option<Duration>,
+
+    /// Eigensolver: auto (statics), statics, dense, shift-invert or arpack
+    #[arg(long, value_name = "NAME", default_value = "auto", value_parser = solver(),
+          hide_possible_values = true)]
+    solver: Solver,
+}
+
+impl SolveArgs {
+    pub fn request(&self, modes: usize) -> Request {
+        let elements = self.elements.map(|n| n as usize);
+        let degree = self.degree.map(usize::from);
+        let theory = self.theory.0.unwrap_or_default();
+        Request { modes, tolerance: self.tol, elements, degree, solver: self.solver, theory }
+    }
+
+    /// These arguments with the theory that so many modes need, where none was named, and what is to be said of it.
+    pub fn of_hits(&self, bat: &Bat, modes: usize) -> Result<(Self, Option<String>)> {
+        let Choice { theory, warning } = match self.theory.0 {
+            Some(theory) => Choice { theory, warning: None },
+            None => theory_choice::theory(bat, &self.request(modes))?,
+        };
+        Ok((Self { theory: TheoryChoice(Some(theory)), ..self.clone() }, warning))
+    }
+
+    /// Prepares a bat to be solved: chooses the theory for it and makes it as stiff as it was tapped.
+    pub fn prepare(&self, bat: Bat, modes: usize, output: &OutputArgs) -> Result<Prepared> {
+        prepare(bat, self.theory, self.request(modes), output.quiet)
+    }
+
+    /// Refuses `--budget`: a time for the modes alone does not limit a whole hit.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] if a budget was given.
+    pub fn refuse_budget(&self, verb: &str) -> Result<()> {
+        match self.budget {
+            None => Ok(()),
+            Some(budget) => {
+                let expected = "it with modes or ring; here --tol sets the accuracy";
+                Err(Error::value("--budget", format!("{budget:?} with {verb}"), expected))
+            }
+        }
+    }
+
+    /// Says where more elements were needed than asked for.
+    pub fn say_raised(&self, solution: &Solution, output: &OutputArgs) {
+        if let Some(asked) = self.elements.filter(|asked| (*asked as usize) < solution.mesh.len()) {
+            output.warn(&format!(
+                "note: --elements {asked} raised to {}: one per smooth piece of the profile at least",
+                solution.mesh.len()
+            ));
+        }
+    }
+
+    /// As many modes as wanted, or as the asked elements can bend in, one at least on every piece
+    /// of the profile.
+    pub fn modes_within(&self, wanted: usize, pieces: usize) -> usize {
+        let degree = self.degree.map_or(3, usize::from);
+        let ways = |asked: u32| (degree - 1) * pieces.max(asked as usize);
+        self.elements.map_or(wanted, |asked| wanted.min(ways(asked)))
+    }
+
+    /// Whether an accuracy was asked for: asked elements are the user's own choice of it.
+    pub fn enforced(&self) -> bool {
+        self.elements.is_none()
+    }
+
+    /// The exit code, after a word about an answer that is less accurate than asked or later.
+    pub fn verdict(&self, solution: &Solution, output: &OutputArgs) -> u8 {
+        if solution.met || !self.enforced() {
+            return 0;
+        }
+        let asked = match self.budget {
+            Some(budget) => format!("budget not kept: asked {budget:?}"),
+            None => format!("accuracy not reached: asked {:e}", self.tol),
+        };
+        output.warn(&format!(
+            "{asked}, the best answer is within {:.1e} ({} elements of degree {}); {}",
+            solution.worst(),
+            solution.mesh.len(),
+            solution.degree,
+            solution.shortfall(self.tol)
+        ));
+        NOT_REACHED
+    }
+}
+
+/// What is printed, and where.
+#[derive(clap::Args)]
+#[command(next_help_heading = "Output")]
+pub struct OutputArgs {
+    /// Write JSON to this file (- = standard output, and no table then)
+    #[arg(long, value_name = "FILE")]
+    pub json: Option<PathBuf>,
+
+    /// Units of the tables, and of pictures and reports, which count in one: si, us or both (the bat
+    /// file's first; pictures and reports in it)
+    #[arg(long, value_name = "SYSTEM", default_value = "both", value_parser = unit_system(),
+          hide_possible_values = true)]
+    units: Units,
+
+    /// No warnings and no progress on standard error
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+impl OutputArgs {
+    /// The units that a bat is answered in: those asked for, and of both those of its file first.
+    pub fn units(&self, bat: &Bat) -> Units {
+        self.units.of(bat)
+    }
+
+    /// Writes the JSON where it was asked for; what is left for standard output.
+    pub fn deliver<D: Serialize>(
+        &self,
+        table: String,
+        document: impl FnOnce() -> D,
+    ) -> Result<String> {
+        let text = || schema::text(&document());
+        match &self.json {
+            Some(path) if path.as_os_str() == "-" => Ok(text()),
+            Some(path) => file::write(path, text().as_bytes()).map(|()| style::table(&table)),
+            None => Ok(style::table(&table)),
+        }
+    }
+
+    /// What the pictures of a bat are drawn on: the units asked for, else those of its file.
+    pub fn sheet(&self, bat: &Bat) -> Sheet {
+        Sheet::file(self.units(bat).us_first())
+    }
+
+    /// The bat and its places drawn with what this terminal can show.
+    pub fn sketch(&self, bat: &Bat, rows: &[SketchRow]) -> String {
+        sketch::draw(bat, rows, self.units(bat), glyphs())
+    }
+
+    /// Says something on standard error.
+    pub fn warn(&self, text: &str) {
+        warn(text, self.quiet);
+    }
+
+    /// What takes so long, for a person at a terminal.
+    pub fn progress(&self, what: &str) -> Progress {
+        Progress::new(self.quiet, what)
+    }
+}
+
+/// Block elements where the locale says that characters are UTF-8.
+pub fn glyphs() -> Glyphs {
+    let set = |name| std::env::var(name).ok().filter(|value| !value.is_empty());
+    // The first of them that is set is the one that counts.
+    let locale = ["LC_ALL", "LC_CTYPE", "LANG"].into_iter().find_map(set).unwrap_or_default();
+    let locale = locale.to_ascii_lowercase();
+    if locale.contains("utf-8") || locale.contains("utf8") { Glyphs::Blocks } else { Glyphs::Ascii }
+}
+
+/// What a file is called, as text.
+pub fn printed(path: &Path) -> String {
+    printable(&path.display().to_string())
+}
+
+/// Reads a bat, edits it and passes its warnings on.
+pub fn read(path: &Path, edits: &EditArgs, quiet: bool) -> Result<Bat> {
+    read_with_text(path, edits, quiet).map(|(bat, _)| bat)
+}
+
+/// Reads a bat, edits it, passes its warnings on, and returns the text of its file too. A name without
+/// ending is that of a built-in bat, unless there is a file of it.
+pub fn read_with_text(path: &Path, edits: &EditArgs, quiet: bool) -> Result<(Bat, String)> {
+    let Named { bat, text, outside } = match built_in::named(path)? {
+        Some((name, text)) => {
+            let bat = Bat::from_text(name, text, Path::new(""))?;
+            Named { bat, text: text.to_owned(), outside: vec![] }
+        }
+        None => Bat::named_by_a_person(path)?,
+    };
+    note_outside(path, &outside, quiet);
+    let file = path.display();
+    let bat = edits.edit(bat)?;
+    bat.warnings().iter().for_each(|w| warn(&format!("warning: {file}: {w}"), quiet));
+    Ok((bat, text))
+}
+
+/// Says which files a file has named that are outside of its folder.
+pub fn note_outside(file: &Path, outside: &[PathBuf], quiet: bool) {
+    for other in outside {
+        let (file, other) = (file.display(), other.display());
+        warn(&format!("note: {file} names {other}, which is outside of its folder"), quiet);
+    }
+}
+
+/// An error about members of a scene, which are options here.
+pub fn as_options(error: Error) -> Error {
+    let option = |name: &str| format!("--{}", name.replace('_', "-"));
+    error.placed(|complaint| Error::Value(complaint.naming(option)))
+}
+
+/// A bat to be solved, how, and the warning to print at the end.
+pub struct Prepared {
+    pub bat: Bat,
+    pub request: Request,
+    pub warning: Option<String>,
+}
+
+/// A solved bat, and the warning to print at the end.
+pub struct Solved {
+    pub bat: Bat,
+    pub solution: Solution,
+    pub warning: Option<String>,
+}
+
+/// A request with the theory chosen for this bat, if none was asked for, and the bat as stiff as it
+/// was tapped.
+pub fn prepare(bat: Bat, asked: TheoryChoice, request: Request, quiet: bool) -> Result<Prepared> {
+    let theory = asked.0.unwrap_or_default();
+    let prepared = prepared::prepare(&bat, &Request { theory, ..request })?;
+    let (request, warning) = (prepared.request, prepared.warning.filter(|_| !quiet));
+    Ok(Prepared { bat: prepared.bat.into_owned(), request, warning })
+}
+
+/// Says something on standard error, unless nothing is to be said.
+pub fn warn(text: &str, quiet: bool) {
+    if !quiet {
+        // A closed standard error is no reason to stop.
+        progress::beside(|| {
+            let _ = writeln!(std::io::stderr(), "{}", printable(text));
+        });
+    }
+}
+
+/// The command as it was typed, so that a shell reads it again.
+pub fn command_line() -> String {
+    let plain = |c: char| c.is_alphanumeric() || "-_./=:,%+".contains(c);
+    let quoted = |arg: String| match !arg.is_empty() && arg.chars().all(plain) {
+        true => arg,
+        false => format!("'{}'", arg.replace('\'', "'\\''")),
+    };
+    let typed = std::env::args_os().skip(1).map(|arg| quoted(arg.to_string_lossy().into_owned()));
+    std::iter::once("sweetspot".to_owned()).chain(typed).collect::<Vec<_>>().join(" ")
+}
+
+/// A place on that bat (m); a tip given in inches may be a rounding beyond it.
+pub fn on_the_bat(bat: &Bat, name: &str, x: f64) -> Result<f64> {
+    if (0.0..=bat.length() * (1.0 + 4.0 * f64::EPSILON)).contains(&x) {
+        return Ok(x.min(bat.length()));
+    }
+    let expected = format!("a place on the bat, 0 to {}", shown_length(bat.length()));
+    Err(Error::value(name, shown_length(x), expected))
+}

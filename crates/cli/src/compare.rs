@@ -1,0 +1,290 @@
+//! `sweetspot compare A B …`: several bats side by side.
+
+use std::path::{Path, PathBuf};
+
+use sweetspot::base::error::{Error, Result};
+use sweetspot::base::file;
+use sweetspot::bat::body::Bat;
+use sweetspot::collision::sweet_spot::FINE;
+use sweetspot::modes::request::MOST_MODES;
+use sweetspot_report::report::{self, comparison, comparison_data, comparison_screen};
+use sweetspot_report::{page, plot};
+use sweetspot_study::comparison::contender::Terms;
+use sweetspot_study::comparison::hidden::hidden;
+use sweetspot_study::comparison::table::{Comparison, Entry};
+use sweetspot_study::files::measured;
+use sweetspot_study::measured::place::{End, ToldPoints};
+use sweetspot_study::measured::study::Study;
+
+use crate::beside::BesideArgs;
+use crate::common::{OutputArgs, Prepared, SolveArgs, command_line, examples, printed, read};
+use crate::delivered::{apart, put};
+use crate::done::{Done, NOT_REACHED};
+use crate::edits::{EditArgs, WhatIf, edited, what_if};
+use crate::pictures;
+use crate::scene::SceneArgs;
+use crate::value::{PLACE, SPACING};
+
+/// Bats side by side, or one beside its measured modes
+///
+/// Swings two to six bats alike and says what differs and matters: the best exit speed and where, the
+/// zone, swing weight, mass, the first frequency, BBCOR, and where along the barrel which bat is
+/// faster. The first bat is the one the others are measured by; a difference within the errors is
+/// none. With --full also: every frequency and node, vibration, and the exit speed at the same places
+/// from the tip and from the knob, each difference beside how far it may be off.
+///
+/// With --measured FILE one bat's computed modes stand beside measured ones: which is which, how far
+/// apart, MAC, damping, and whether the measured shapes are sound: rigid motion in them, their mass
+/// orthogonality, and what the few points cost.
+#[derive(clap::Args)]
+#[command(after_long_help = examples(EXAMPLES))]
+pub struct Args {
+    /// Bat files (JSON) or names of built-in bats, two to six; one with --edit or --measured
+    #[arg(required = true, value_name = "BAT")]
+    bats: Vec<PathBuf>,
+
+    /// What if: the first bat changed so, as a bat of its own beside it; once for each
+    ///
+    /// Edits with semicolons between them, and a name before a colon: "thin: cut 24 in to 30 in, 1 mm;
+    /// knob 2 oz". An edit is written as the option of its name in the other verbs: cut, knob, cup, bore,
+    /// cork, sleeve, shorten, scale-diameter, wood. Edits come after the bat was weighed, and after those of
+    /// its file.
+    #[arg(long = "edit", value_name = "EDITS", value_parser = what_if, conflicts_with = "measured")]
+    edits: Vec<WhatIf>,
+
+    /// Measured modes (CSV or UFF) to stand beside the bat's own
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["SceneArgs", "every", "csv"])]
+    measured: Option<PathBuf>,
+
+    /// The first measured point, the one with the lowest coordinate, is the nearest to the knob
+    #[arg(long, requires = "measured", conflicts_with = "tip_first")]
+    knob_first: bool,
+
+    /// The first measured point is the nearest to the tip
+    #[arg(long, requires = "measured")]
+    tip_first: bool,
+
+    /// Where the first measured point is, from the knob end [default: by its coordinate]
+    #[arg(long, value_name = "m", requires = "measured", allow_hyphen_values = true,
+          value_parser = |s: &str| PLACE.read(s))]
+    origin: Option<f64>,
+
+    #[command(flatten)]
+    beside: BesideArgs,
+
+    /// Number of bending modes that count in a hit [default: as many as it needs]
+    #[arg(short = 'n', long = "modes", value_name = "N",
+          value_parser = clap::value_parser!(u16).range(0..=MOST_MODES as i64))]
+    count: Option<u16>,
+
+    /// Distance of the places where exit speeds are compared
+    #[arg(long, value_name = "m", default_value = "1 in", allow_hyphen_values = true,
+          value_parser = |s: &str| SPACING.read(s))]
+    every: f64,
+
+    /// Write CSV to this file (- = standard output, and no table then)
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+
+    /// Draw into this folder, as SVG and PNG: profiles, modes, exit speeds and their differences,
+    /// energies (ledger_A and so on), force and compression, the hands' motion; of measured modes the
+    /// MAC, the mass orthogonality, and the shapes on each other
+    #[arg(long, value_name = "DIR")]
+    plots: Option<PathBuf>,
+
+    /// Write all of it on one page for people into this file (.html): what differs first
+    #[arg(long, value_name = "FILE", conflicts_with = "measured")]
+    report: Option<PathBuf>,
+
+    /// Every figure of every bat beside the first one's, and the exit speeds place by place
+    #[arg(long, conflicts_with = "measured")]
+    full: bool,
+
+    #[command(flatten)]
+    scene: SceneArgs,
+
+    #[command(flatten)]
+    solve: SolveArgs,
+
+    #[command(flatten)]
+    output: OutputArgs,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  sweetspot compare r161 torpedo --units us
+      which hits harder, and where
+
+  sweetspot compare r161 --edit \"knob 2 oz\" \\
+      --edit \"slim: cut 24 in to 30 in, 1 mm\"
+      what a knob weight does, and what a thinner barrel
+
+  sweetspot compare r161 torpedo --report bats.html
+      and on a page of its own, to look at, to print and to send
+
+  sweetspot compare r161 house \\
+      --reference-inertia \"0.19 kg m^2\" --swing-exponent 0.3 --plots compared
+      swung by a batter who swings the heavier one slower, with pictures
+
+  sweetspot modes r161 --json modes.json
+  sweetspot convert modes.json --to uff --out modes.uff
+  sweetspot compare r161 --measured modes.uff
+      as a laboratory's universal file is compared: datasets 15 or 2411, and 55
+
+Measured shapes may be typed into a spreadsheet and saved as CSV, places from
+the knob end downwards, modes side by side, frequencies and damping in lines of
+their own:
+
+  x_in,           mode_1,  mode_2
+  frequency_hz,   178.2,   583.0
+  damping_ratio,  0.004,   0.005
+  0,              1.00,    0.90
+  3,              0.55,    0.12
+  33,             0.41,    0.37
+
+damping_percent will do too, and # begins a remark. Where there are no shapes
+the columns are mode,frequency_hz,damping_ratio, a line for each mode.";
+
+/// More bats do not fit beside each other.
+const MOST: usize = 6;
+
+pub fn run(args: &Args) -> Result<Done> {
+    let json = ("--json", &args.output.json);
+    apart(&[json, ("--csv", &args.csv), ("--report", &args.report)])?;
+    args.solve.refuse_budget("compare")?;
+    match &args.measured {
+        Some(file) => measured_beside(args, file),
+        None => bats_beside(args),
+    }
+}
+
+/// Measured modes beside those of one bat.
+fn measured_beside(args: &Args, file: &Path) -> Result<Done> {
+    let [path] = args.bats.as_slice() else {
+        let found = format!("{} bats beside measured modes", args.bats.len());
+        return Err(Error::value("compare", found, "one bat file"));
+    };
+    let measured = measured::read(file, &args.beside.read()?)?;
+    let bat = read(path, &EditArgs::default(), args.output.quiet)?;
+    let modes = args.count.map_or(10, usize::from);
+    let Prepared { bat, request, warning } = args.solve.prepare(bat, modes, &args.output)?;
+    let first = match (args.knob_first, args.tip_first) {
+        (true, _) => Some(End::Knob),
+        (_, true) => Some(End::Tip),
+        _ => None,
+    };
+    let told = ToldPoints { first, origin: args.origin };
+    let study = Study::new(&bat, measured, &request, args.count.is_some(), told)?;
+    args.solve.say_raised(&study.solution, &args.output);
+    if let Some(folder) = &args.plots {
+        pictures::write(
+            folder,
+            &plot::measured::pictures(args.output.sheet(&bat), bat.name(), &study),
+            args.output.quiet,
+        )?;
+    }
+    let text = report::measured::text(&bat, &study, args.output.units(&bat));
+    let name = path.display().to_string();
+    let text = args.output.deliver(text, || report::measured::document(&bat, &name, &study))?;
+    let code = args.solve.verdict(&study.solution, &args.output);
+    Ok(Done::new(text, code).with(warning))
+}
+
+fn bats_beside(args: &Args) -> Result<Done> {
+    let count = args.bats.len() + args.edits.len();
+    if !(2..=MOST).contains(&count) {
+        let found = match count {
+            1 => "1 bat".to_owned(),
+            count => format!("{count} bats"),
+        };
+        return Err(Error::value(
+            "compare",
+            found,
+            format!("2 to {MOST} that can be compared: files, or --edit of the first"),
+        ));
+    }
+    if let Some(path) = &args.report {
+        page::file::expected_page(path, &[&args.plots])?;
+    }
+    let model = args.scene.model()?;
+    let mut warnings = vec![];
+    let mut entries = vec![];
+    let bats = bats(args)?;
+    let files: Vec<String> = bats.iter().map(|(path, _)| path.display().to_string()).collect();
+    for (path, bat) in bats {
+        let modes = args.count.map_or(10, usize::from);
+        let prepared = args.solve.prepare(bat, modes, &args.output)?;
+        let tolerance = args.count.is_none().then_some(prepared.request.tolerance);
+        let (scene, law) = args.scene.scene(&prepared.bat, tolerance)?;
+        warnings.extend(prepared.warning.map(|w| format!("{}: {w}", path.display())));
+        entries.push(Entry { bat: prepared.bat, scene, law, request: prepared.request });
+    }
+    args.scene.warn(&args.output);
+    let terms = Terms {
+        model,
+        exactly: args.count.is_some(),
+        every: args.every,
+        look: FINE,
+        barrel: args.scene.barrel_speed(),
+    };
+    let compared = Comparison::new(entries, terms)?;
+    for_people(args, &compared)?;
+    let units = args.output.units(&compared.bats[0].bat);
+    let table = match args.full {
+        true => comparison::text(&compared, units),
+        false => comparison_screen::screen(&compared, units),
+    };
+    let text = put(&args.csv, table, || Ok(comparison_data::csv(&compared)))?;
+    let text = args.output.deliver(text, || comparison_data::document(&compared, &files))?;
+    let warning = (!warnings.is_empty()).then(|| warnings.join("; "));
+    Ok(Done::new(text, verdict(args, &compared)).with(warning))
+}
+
+/// The bats of the files, then the first of them with each set of edits; and a word about a change that
+/// a weighed mass hides.
+fn bats(args: &Args) -> Result<Vec<(&Path, Bat)>> {
+    let mut bats: Vec<(&Path, Bat)> = vec![];
+    for path in &args.bats {
+        bats.push((path, read(path, &EditArgs::default(), args.output.quiet)?));
+    }
+    let (path, first) = bats[0].clone();
+    for (file, other) in &bats[1..] {
+        let called = [path, *file].map(printed);
+        if let Some(said) = hidden((&called[0], &first), (&called[1], other)) {
+            args.output.warn(&format!("warning: {said}"));
+        }
+    }
+    for what_if in &args.edits {
+        let WhatIf { name, edits } = what_if;
+        let bat = edited(&first, edits, |k| format!("--edit {name}, {}", edits[k].change.verb()))?;
+        bats.push((path, bat.with(|parts| parts.name = format!("{}: {name}", first.name()))?));
+    }
+    Ok(bats)
+}
+
+/// Pictures and the page, where they were asked for.
+fn for_people(args: &Args, compared: &Comparison) -> Result<()> {
+    let sheet = args.output.sheet(&compared.bats[0].bat);
+    if let Some(folder) = &args.plots {
+        pictures::write(folder, &plot::compared::pictures(sheet, compared)?, args.output.quiet)?;
+    }
+    if let Some(path) = &args.report {
+        let page = page::compared::page(compared, &command_line(), sheet.us)?;
+        file::write(path, page.as_bytes())?;
+    }
+    Ok(())
+}
+
+/// The exit code, after a word about bats whose exit speeds are less accurate than asked.
+fn verdict(args: &Args, compared: &Comparison) -> u8 {
+    let short = compared.bats.iter().filter(|bat| !bat.sweep.met && args.solve.enforced());
+    let names: Vec<&str> = short.map(|bat| bat.bat.name()).collect();
+    if names.is_empty() {
+        return 0;
+    }
+    args.output.warn(&format!(
+        "accuracy of the exit speeds not reached for {}: see the errors",
+        names.join(", ")
+    ));
+    NOT_REACHED
+}

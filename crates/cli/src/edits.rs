@@ -1,0 +1,411 @@
+//! What-ifs on the command line: a bat that was weighed, and then changed.
+//!
+//! `--cut "24 in to 30 in, 1 mm"` and `--edit "cut 24 in to 30 in, 1 mm"` are read by one grammar: a
+//! stretch of the bat, then what else the change has, in the order of a bat file or with a word that says
+//! which it is.
+
+use clap::{Arg, ArgAction, ArgMatches, Command, FromArgMatches};
+
+use sweetspot::base::error::{Complaint, Error, Result, nearest};
+use sweetspot::base::typed;
+use sweetspot::base::units::{self, Quantity};
+use sweetspot::bat::body::Bat;
+use sweetspot::bat::edit::{Bore, Change, Cork, Cup, Cut, Edit, ScaleDiameter, Shorten, Sleeve};
+use sweetspot::bat::material::{BUILT_IN, Material};
+use sweetspot::bat::part::{Field, MemberKind, Part, Slot};
+
+use crate::value::{DIAMETER, LITTLE, PART_MASS, PLACE, Use};
+
+/// What is told of an option: the change, what stands for its value in the help, what it does, a value that fits.
+struct EditOption {
+    verb: &'static str,
+    long: &'static str,
+    value: &'static str,
+    help: &'static str,
+    example: &'static str,
+}
+
+const OPTIONS: [EditOption; 9] = [
+    EditOption {
+        verb: "cut",
+        long: "cut",
+        value: "WHERE, DEPTH",
+        help: "Turn wood off a stretch; the depth is of the diameter, smooth at both ends",
+        example: "24 in to 30 in, 1 mm",
+    },
+    EditOption {
+        verb: "knob",
+        long: "knob",
+        value: "kg",
+        help: "Put a weight on the knob end",
+        example: "2 oz",
+    },
+    EditOption {
+        verb: "cup",
+        long: "cup",
+        value: "DEEP, WIDE",
+        help: "Cup the tip",
+        example: "1 in deep, 1.5 in",
+    },
+    EditOption {
+        verb: "bore",
+        long: "bore",
+        value: "WHERE, WIDE",
+        help: "Drill a stretch out",
+        example: "26 in to 33 in, 1 in",
+    },
+    EditOption {
+        verb: "cork",
+        long: "cork",
+        value: "WHERE, WIDE, OF",
+        help: "Drill a stretch out and fill it, with a built-in material or one of this density and \
+               Young's modulus (and shear modulus)",
+        example: "26 in to 33 in, 1 in, 200 kg/m^3, 20 MPa",
+    },
+    EditOption {
+        verb: "sleeve",
+        long: "sleeve",
+        value: "WHERE, THICK, OF",
+        help: "Put a layer around a stretch",
+        example: "24 in to 30 in, 1 mm, aluminium-7075",
+    },
+    EditOption {
+        verb: "shorten",
+        long: "shorten",
+        value: "END, LENGTH",
+        help: "Saw a length off the knob or the tip",
+        example: "tip 0.5 in",
+    },
+    EditOption {
+        verb: "scale_diameter",
+        long: "scale-diameter",
+        value: "WHERE, BY",
+        help: "Multiply the diameters of a stretch, smooth at both ends",
+        example: "4 in to 12 in, 1.05",
+    },
+    EditOption {
+        verb: "wood",
+        long: "wood",
+        value: "NAME",
+        help: "Make the bat of another wood",
+        example: "white-ash-dynamic",
+    },
+];
+
+/// What is changed about the bat after it was weighed, in the order typed.
+#[derive(Debug, Clone, Default)]
+pub struct EditArgs(Vec<Change>);
+
+impl EditArgs {
+    /// The bat after these edits.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] that names the option of what does not fit the bat.
+    pub fn edit(&self, bat: Bat) -> Result<Bat> {
+        if self.0.is_empty() {
+            return Ok(bat);
+        }
+        let edits: Vec<Edit> =
+            self.0.iter().map(|change| Edit { name: None, change: change.clone() }).collect();
+        let called = |k: usize| format!("--{}", option(edits[k].change.verb()));
+        edited(&bat, &edits, called)
+    }
+}
+
+/// The bat after these edits; what does not fit is told of edit k as it is called.
+pub fn edited(bat: &Bat, edits: &[Edit], called: impl Fn(usize) -> String) -> Result<Bat> {
+    let before = bat.edits().len();
+    bat.edited(edits).map_err(|error| {
+        error.placed(|mut complaint| {
+            let of = complaint.field.strip_prefix("edits[").and_then(|rest| rest.split_once(']'));
+            let Some((k, key)) = of.and_then(|(k, key)| Some((k.parse::<usize>().ok()?, key)))
+            else {
+                return Error::Value(complaint);
+            };
+            // After the change's own name.
+            let key = key.trim_start_matches('.').split_once('.').map_or("", |(_, key)| key);
+            let key = if key.is_empty() { String::new() } else { format!(", {key}") };
+            let of = match edits.len() {
+                1 => String::new(),
+                count => format!("edit {} of {count}, ", k + 1 - before),
+            };
+            complaint.field = format!("{of}{}{key}", called(k - before));
+            Error::Value(complaint)
+        })
+    })
+}
+
+/// How the command line writes what a change is called.
+fn option(verb: &str) -> String {
+    verb.replace('_', "-")
+}
+
+impl clap::Args for EditArgs {
+    fn augment_args(command: Command) -> Command {
+        OPTIONS.iter().fold(command, |command, told| {
+            let EditOption { verb, long, value, help, example } = *told;
+            let arg = Arg::new(verb)
+                .long(long)
+                .value_name(value)
+                .help(help)
+                .long_help(format!("{help}, such as \"{example}\""))
+                .help_heading(
+                    "What if (edits of the bat, after it was weighed, in the order typed)",
+                )
+                .action(ArgAction::Append)
+                .allow_hyphen_values(true)
+                .hide_short_help(true)
+                .value_parser(move |text: &str| read(verb, text));
+            command.arg(arg)
+        })
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
+}
+
+impl FromArgMatches for EditArgs {
+    fn from_arg_matches(matches: &ArgMatches) -> std::result::Result<Self, clap::Error> {
+        let mut typed: Vec<(usize, Change)> = vec![];
+        for verb in Change::VERBS {
+            let places = matches.indices_of(verb).into_iter().flatten();
+            let changes = matches.get_many::<Change>(verb).into_iter().flatten().cloned();
+            typed.extend(places.zip(changes));
+        }
+        typed.sort_by_key(|(place, _)| *place);
+        Ok(Self(typed.into_iter().map(|(_, change)| change).collect()))
+    }
+
+    fn update_from_arg_matches(
+        &mut self,
+        matches: &ArgMatches,
+    ) -> std::result::Result<(), clap::Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
+}
+
+/// Edits that make one other bat, with a name if they have one: `NAME: knob 2 oz; cut 24 in to 30 in,
+/// 1 mm`.
+#[derive(Debug, Clone)]
+pub struct WhatIf {
+    /// What the bat is called: the name, else the edits as they were typed.
+    pub name: String,
+    /// The edits.
+    pub edits: Vec<Edit>,
+}
+
+/// Reads `--edit`.
+pub fn what_if(text: &str) -> std::result::Result<WhatIf, String> {
+    let (name, list) = match text.split_once(':') {
+        Some((name, list)) => (Some(name.trim().to_owned()), list),
+        None => (None, text),
+    };
+    if name.as_ref().is_some_and(String::is_empty) {
+        return Err("found no name before the colon, expected \"NAME: EDIT; EDIT\"".to_owned());
+    }
+    let edit = |one: &str| {
+        let one = one.trim();
+        let (verb, rest) = one.split_once(char::is_whitespace).unwrap_or((one, ""));
+        let known = Change::VERBS.into_iter().find(|known| *known == verb.replace('-', "_"));
+        let change = match known {
+            Some(known) => read(known, rest)?,
+            None => {
+                let verbs = Change::VERBS.map(option);
+                let verbs: Vec<&str> = verbs.iter().map(String::as_str).collect();
+                let hint = nearest(verb, &verbs)
+                    .map_or(String::new(), |near| format!("; did you mean {near}?"));
+                let expected = verbs.join(", ");
+                return Err(format!("found \"{verb}\", expected one of {expected}{hint}"));
+            }
+        };
+        Ok(Edit { name: name.clone(), change })
+    };
+    let edits: std::result::Result<Vec<Edit>, String> =
+        list.split(';').filter(|one| !one.trim().is_empty()).map(edit).collect();
+    let edits = edits?;
+    match edits.is_empty() {
+        true => Err("found no edit, expected \"knob 2 oz; cut 24 in to 30 in, 1 mm\"".to_owned()),
+        false => Ok(WhatIf { name: name.unwrap_or_else(|| list.trim().to_owned()), edits }),
+    }
+}
+
+/// A change from its words.
+fn read(verb: &str, text: &str) -> std::result::Result<Change, String> {
+    let blank = || Material::new(1.0, 1.0).expect("both are above 0");
+    let change = match verb {
+        "cut" => filled(Cut::default(), text).map(Change::Cut),
+        "cup" => filled(Cup::default(), text).map(Change::Cup),
+        "bore" => filled(Bore::default(), text).map(Change::Bore),
+        "cork" => {
+            let (from, to, diameter, material) = (0.0, 0.0, 0.0, blank());
+            filled(Cork { from, to, diameter, material }, text).map(Change::Cork)
+        }
+        "sleeve" => {
+            let (from, to, thickness, material) = (0.0, 0.0, 0.0, blank());
+            filled(Sleeve { from, to, thickness, material }, text).map(Change::Sleeve)
+        }
+        "shorten" => filled(Shorten::default(), text).map(Change::Shorten),
+        "scale_diameter" => filled(ScaleDiameter::default(), text).map(Change::ScaleDiameter),
+        "wood" => material(&items(text)).map(Change::Wood),
+        _ => PART_MASS.read(text).map(Change::Knob),
+    };
+    let of = OPTIONS.iter().find(|option| option.verb == verb);
+    let example = of.map_or("", |option| option.example);
+    change.map_err(|said| format!("{said}; written as \"{example}\""))
+}
+
+/// What stands between commas; one between two digits is a decimal comma.
+fn items(text: &str) -> Vec<&str> {
+    let digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
+    let apart =
+        |at: &usize| !(digit(text[..*at].chars().last()) && digit(text[at + 1..].chars().next()));
+    let commas = text.match_indices(',').map(|(at, _)| at).filter(apart);
+    let (mut items, mut start) = (vec![], 0);
+    for at in commas.chain([text.len()]) {
+        items.push(text[start..at].trim());
+        start = at + 1;
+    }
+    items
+}
+
+/// Words beside a value that say which member it is.
+fn words_of(key: &str) -> &'static [&'static str] {
+    match key {
+        "depth" => &["deep", "off", "depth"],
+        "diameter" => &["wide", "across", "diameter"],
+        "thickness" => &["thick", "thickness"],
+        "blend" => &["blend"],
+        "by" => &["by", "times"],
+        "knob" => &["off the knob", "at the knob", "knob"],
+        "tip" => &["off the tip", "at the tip", "tip"],
+        _ => &[],
+    }
+}
+
+/// The value beside such a word, if the item has one of them.
+fn beside<'a>(item: &'a str, key: &str) -> Option<&'a str> {
+    let apart = |rest: &&str| rest.is_empty() || rest.starts_with(' ') || rest.ends_with(' ');
+    words_of(key).iter().find_map(|word| {
+        let rest = item.strip_suffix(word).or_else(|| item.strip_prefix(word));
+        rest.filter(apart).map(str::trim)
+    })
+}
+
+/// A part from its words: the stretch first, then its other members.
+fn filled<P: Part>(start: P, text: &str) -> std::result::Result<P, String> {
+    let (mut part, items) = (start, items(text));
+    let mut items = items.as_slice();
+    let stretch = P::FIELDS.iter().filter(|field| field.is_place());
+    let mut fields: Vec<&Field<P>> = P::FIELDS.iter().filter(|field| !field.is_place()).collect();
+    if stretch.clone().next().is_some() {
+        let ends = items.first().and_then(|first| first.split_once(" to "));
+        let Some((from, to)) = ends else {
+            let found = items.first().copied().unwrap_or_default();
+            return Err(format!(
+                "found \"{found}\", expected a stretch, such as \"24 in to 30 in\""
+            ));
+        };
+        // Of 24 to 30 in both are in inches.
+        let from = match (typed::split(from.trim()), typed::split(to.trim())) {
+            ((number, ""), (_, unit)) if !number.is_empty() => &format!("{number} {unit}"),
+            _ => from,
+        };
+        for (field, text) in stretch.zip([from, to]) {
+            set(field, PLACE.read(text)?, &mut part);
+        }
+        items = &items[1..];
+    }
+    while let Some((item, rest)) = items.split_first() {
+        let said = fields.iter().position(|field| beside(item, field.key).is_some());
+        // Which end of a bat is meant must be said.
+        let in_order = P::SOME.is_empty() && !fields.is_empty();
+        let k = said.or(in_order.then_some(0));
+        let Some(k) = k.filter(|_| !item.is_empty()) else {
+            let left: Vec<&str> = fields.iter().map(|field| field.key).collect();
+            let expected =
+                if left.is_empty() { "nothing more".to_owned() } else { left.join(" or ") };
+            return Err(format!("found \"{item}\", expected {expected}"));
+        };
+        let field = fields.remove(k);
+        let value = if said.is_some() { beside(item, field.key).unwrap_or(item) } else { item };
+        match field.kind {
+            MemberKind::Material => {
+                if let Slot::Material(slot) = (field.of)(&mut part) {
+                    *slot = material(items)?;
+                }
+                return Ok(part);
+            }
+            MemberKind::Number(None, _) => {
+                let number = typed::number(value);
+                let number =
+                    number.ok_or(format!("found \"{value}\", expected a factor, such as 1.05"))?;
+                set(field, number, &mut part);
+            }
+            _ => set(field, plausible(field.key).read(value)?, &mut part),
+        }
+        items = rest;
+    }
+    let missing = fields.iter().find_map(|field| field.needed);
+    let some = P::SOME.is_empty() || fields.len() < P::FIELDS.len();
+    match missing {
+        Some(expected) => Err(format!("found nothing more, expected {expected}")),
+        None if !some => Err("found nothing, expected a length off the knob or the tip".to_owned()),
+        None => Ok(part),
+    }
+}
+
+fn set<P>(field: &Field<P>, value: f64, part: &mut P) {
+    match (field.of)(part) {
+        Slot::Number(number) => *number = value,
+        Slot::Unknown(number) => *number = Some(value),
+        Slot::Held(_)
+        | Slot::Material(_)
+        | Slot::Core(_)
+        | Slot::ShearModuli(_)
+        | Slot::PoissonRatios(_)
+        | Slot::Layers(_) => {}
+    }
+}
+
+/// Which values are plausible for a length of that name.
+fn plausible(key: &str) -> &'static Use {
+    match key {
+        "diameter" => &DIAMETER,
+        "depth" | "thickness" => &LITTLE,
+        _ => &PLACE,
+    }
+}
+
+/// A material by its built-in name, or by density, Young's modulus and, if known, shear modulus.
+fn material(items: &[&str]) -> std::result::Result<Material, String> {
+    let said = |complaint: Complaint| complaint.to_string();
+    match items {
+        [name] => Material::named(name).ok_or_else(|| {
+            let names: Vec<&str> = BUILT_IN.iter().map(|known| known.name).collect();
+            let hint = nearest(name, &names)
+                .map_or(String::new(), |near| format!("; did you mean {near}?"));
+            format!(
+                "found \"{name}\", expected a built-in material ({}) or a density and a Young's \
+                 modulus{hint}",
+                names.join(", ")
+            )
+        }),
+        [density, modulus] | [density, modulus, _] => {
+            let density = units::parse_or_si(density, Quantity::Density).map_err(said)?;
+            let modulus = units::parse_or_si(modulus, Quantity::Pressure).map_err(said)?;
+            let shear = items.get(2).map(|shear| units::parse_or_si(shear, Quantity::Pressure));
+            let shear_modulus = shear.transpose().map_err(said)?;
+            let material = Material::new(density, modulus).map_err(|error| error.to_string())?;
+            let material = Material { shear_modulus, ..material };
+            material.check().map_err(|error| error.to_string())?;
+            Ok(material)
+        }
+        _ => {
+            Err("found no material, expected a built-in one or a density and a Young's modulus"
+                .into())
+        }
+    }
+}

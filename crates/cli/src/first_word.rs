@@ -1,0 +1,53 @@
+//! What the first word is: a verb, or a bat that is analysed.
+
+use std::ffi::OsString;
+use std::path::Path;
+
+use clap::Command;
+use serde_json::Value;
+
+use sweetspot::base::error::{Error, Result};
+use sweetspot::base::file;
+use sweetspot::files::built_in;
+
+/// The command line with the verb `analyze` before a bat that stands alone: a word that ends in .json, has a separator
+/// of paths or is the name of a built-in bat, and is no verb.
+///
+/// # Errors
+///
+/// [`Error::Value`] for a file that another verb reads.
+pub fn read(mut words: Vec<OsString>, command: &Command) -> Result<Vec<OsString>> {
+    let Some(first) = words.get(1) else { return Ok(words) };
+    let (path, text) = (Path::new(first), first.to_string_lossy());
+    let is_verb = command.find_subcommand(first).is_some() || text == "help";
+    let is_json = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
+    let is_path = text.contains(std::path::is_separator);
+    let is_bat = is_json || is_path || built_in::bat_text(&text).is_some();
+    if is_verb || text.starts_with('-') || !is_bat {
+        return Ok(words);
+    }
+    if let Some((kind, verb)) = reader(path) {
+        let file = path.display().to_string();
+        let found = format!("{file}, which is {kind}, and no verb");
+        // What a shell takes apart is not repeated in a command.
+        let is_plain = file.chars().all(|c| c.is_alphanumeric() || "./\\_-:".contains(c));
+        let command = verb.replace('@', if is_plain { &file } else { "FILE" });
+        return Err(Error::value("", found, format!("`sweetspot {command}`")));
+    }
+    words.insert(1, "analyze".into());
+    Ok(words)
+}
+
+/// What a file is that no bat is in, and the command that reads it.
+fn reader(path: &Path) -> Option<(&'static str, &'static str)> {
+    const READERS: [(&str, &str, &str); 4] = [
+        ("study", "a study", "study @ --out FOLDER"),
+        ("scatter", "a scatter file", "scatter BAT @"),
+        ("aim", "a wish", "aim BAT @"),
+        ("readings", "a file of readings", "calibrate BAT @"),
+    ];
+    let text = if path.is_file() { file::read_plain(path).ok()? } else { vec![] };
+    let document: Value = serde_json::from_slice(&text).ok()?;
+    let format = document["format"].as_str()?.strip_prefix("sweetspot-")?.split('/').next()?;
+    READERS.iter().find(|(name, ..)| *name == format).map(|(_, kind, verb)| (*kind, *verb))
+}

@@ -1,0 +1,400 @@
+//! `sweetspot frf BAT`: the answer to a force that swings, over frequency.
+
+use std::path::PathBuf;
+
+use sweetspot::base::error::{Complaint, Error, Result};
+use sweetspot::bat::body::Bat;
+use sweetspot::bat::theory::Theory;
+use sweetspot::modes::solve::Request;
+use sweetspot::motion::frf::{Frf, ResponseKind, Sample};
+use sweetspot::motion::peaks::Peak;
+use sweetspot_report::exchange::frf_uff::{self, Measured};
+use sweetspot_report::plot::{self, picture::Picture};
+use sweetspot_report::report::frf::{self as report, ToldResponse};
+use sweetspot_report::report::frf_set::{self, RowOfSet};
+use sweetspot_report::schema::frf::FrfSetFile;
+use sweetspot_study::files::measured::response::{self, Known};
+use sweetspot_study::measured::response::{Laid, MeasuredResponse};
+use uff58::Stamp;
+
+use crate::beside::PlacesArgs;
+use crate::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples, on_the_bat};
+use crate::delivered::{apart, put};
+use crate::done::Done;
+use crate::frf_grid::{Grid, GridArgs};
+use crate::pictures;
+use crate::value::{PLACE, choice, file_unit, named};
+
+/// How the bat answers a shaker or a tap, over frequency
+///
+/// What would an accelerometer at one place see if a force swings at another? The table gives size
+/// and phase of the deflection (receptance), velocity (mobility) or acceleration (accelerance) for
+/// a unit force, the peaks with their damping, and how much of it the modes left out may be. The
+/// grid has every natural frequency in its range and the points around it that its peak needs.
+/// Undamped bats peak without bound at their frequencies: give the material a loss_factor.
+#[derive(clap::Args)]
+#[command(after_long_help = examples(EXAMPLES))]
+pub struct Args {
+    #[command(flatten)]
+    bat: BatArgs,
+
+    /// Where the force is, from the knob end [default: as measured]
+    #[arg(long, value_name = "m", help_heading = "The force", allow_hyphen_values = true,
+          required_unless_present = "measured", value_parser = |s: &str| PLACE.read(s))]
+    at: Option<f64>,
+
+    /// Where the answer is looked at [default: as measured, else where the force is]
+    #[arg(long, value_name = "m", help_heading = "The force", allow_hyphen_values = true,
+          value_parser = |s: &str| PLACE.read(s))]
+    to: Option<f64>,
+
+    /// What is answered: receptance (deflection), mobility (velocity) or accelerance [default: as
+    /// measured, else receptance]
+    #[arg(long, value_name = "KIND", value_parser = named(ResponseKind::ALL, ResponseKind::name),
+          hide_possible_values = true, help_heading = "The force")]
+    kind: Option<ResponseKind>,
+
+    #[command(flatten)]
+    grid: GridArgs,
+
+    /// Measured frequency responses (UFF, dataset 58) to lay over the computed ones
+    ///
+    /// Their places are those of their nodes (datasets 15, 2411), from the knob end, unless --at and --to
+    /// say others of one; the range is that of the answer. Of several there is a row for each.
+    #[arg(long, value_name = "FILE", help_heading = "A measured response")]
+    measured: Option<PathBuf>,
+
+    /// One of the file's frequency responses, from 1, with all there is to say of it [default: all]
+    #[arg(long, value_name = "N", requires = "measured", help_heading = "A measured response")]
+    function: Option<usize>,
+
+    /// Unit of a file whose axes and datasets name none that is known: of the answer per force, such as
+    /// g/lbf, or of length, with N, or lbf for in and ft
+    #[arg(long, value_name = "UNIT", requires = "measured", help_heading = "A measured response")]
+    unit: Option<String>,
+
+    #[command(flatten)]
+    places: PlacesArgs,
+
+    /// Damping of the computed modes: material, or measured: that of the measured peaks, mode by mode
+    #[arg(long, value_name = "WHOSE", requires = "measured", default_value = "material",
+          help_heading = "A measured response", hide_possible_values = true,
+          value_parser = choice(&["material", "measured"], |name| match name {
+              "measured" => DampedBy::Measured,
+              _ => DampedBy::Material,
+          }))]
+    damping: DampedBy,
+
+    /// Write CSV to this file (- = standard output, and no table then)
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    csv: Option<PathBuf>,
+
+    /// Write a universal file, datasets 151, 164, 2411 and 58, to this file (- = standard output,
+    /// and no table then). It has six digits for a frequency, so that all are rounded to that many
+    /// first, and they rise; with --linear it has the even steps alone
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    uff: Option<PathBuf>,
+
+    /// 1 January 1970 for the date in the universal file, so that equal input gives equal bytes
+    #[arg(long, requires = "uff", help_heading = "Output")]
+    reproducible: bool,
+
+    /// Draw size and phase, with the peaks, into this folder, as SVG and PNG
+    #[arg(long, value_name = "DIR", help_heading = "Output")]
+    plots: Option<PathBuf>,
+
+    #[command(flatten)]
+    solve: SolveArgs,
+
+    #[command(flatten)]
+    output: OutputArgs,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  sweetspot frf r161 --at \"28 in\" --to \"2 in\" --kind mobility
+      struck on the barrel, felt at the handle
+
+  sweetspot frf meshes/r161.json --at \"28 in\" --to-hz \"2 kHz\" --plots frf
+      the peaks up to 2 kHz, drawn
+
+  sweetspot frf dowel --at 0.3 --frequencies \"100,200,300\" --csv -
+      three frequencies as CSV
+
+  sweetspot frf r161 --at \"28 in\" --to \"2 in\" --points 200 --uff tap.uff
+  sweetspot frf r161 --measured tap.uff
+      a laboratory's universal file laid over the computed response";
+
+/// Whose damping the computed modes have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum DampedBy {
+    Material,
+    Measured,
+}
+
+pub fn run(args: &Args) -> Result<Done> {
+    args.solve.refuse_budget("frf")?;
+    let files = [("--json", &args.output.json), ("--csv", &args.csv), ("--uff", &args.uff)];
+    apart(&files)?;
+    let bat = args.bat.read(&args.output)?;
+    let known = known(args)?;
+    let measured = args.measured.as_ref().map(|path| response::read(path, &known)).transpose()?;
+    let measured = measured.unwrap_or_default();
+    args.grid.check(bat.fixtures().rigid_modes() > 0)?;
+    match measured.as_slice() {
+        [] => one(args, bat, None),
+        [(_, measured)] => one(args, bat, Some(measured)),
+        several => all(args, bat, several),
+    }
+}
+
+/// What the options say of a file of responses.
+fn known(args: &Args) -> Result<Known> {
+    let unit = args.unit.as_deref().map(|text| (file_unit(text), text));
+    let (unit, label) = match unit {
+        None => (None, None),
+        Some((Ok(unit), _)) => (Some(unit), None),
+        Some((Err(_), text)) => (None, Some(text.to_owned())),
+    };
+    let places = args.places.read()?;
+    let told = [args.at.is_some(), args.to.is_some()];
+    Ok(Known { which: args.function, unit, label, kind: args.kind, places, told })
+}
+
+/// A response that was computed.
+struct Answered {
+    frf: Frf,
+    samples: Vec<Sample>,
+    grid: Grid,
+    /// The frequencies of the grid, rising.
+    rising: Vec<f64>,
+    peaks: Vec<Peak>,
+    laid: Option<Laid>,
+    kind: ResponseKind,
+    places: [f64; 2],
+}
+
+impl Answered {
+    fn new(
+        args: &Args,
+        (bat, request): (&Bat, &Request),
+        measured: Option<&MeasuredResponse>,
+    ) -> Result<Self> {
+        let places = places(args, bat, measured)?;
+        let own = Self::damped(args, (bat, request), measured, (places, None))?;
+        let Some(laid) = own.laid.as_ref().filter(|_| args.damping == DampedBy::Measured) else {
+            return Ok(own);
+        };
+        let mut ratios = vec![None; own.frf.solution.modes.len()];
+        for (computed, measured) in &laid.peaks {
+            if let Some(ratio) = measured.and_then(|peak| peak.damping_ratio()) {
+                ratios[computed.mode - 1] = Some(ratio);
+            }
+        }
+        if ratios.iter().all(Option::is_none) {
+            let source = measured.map_or("--damping", |m| &m.source);
+            let found = "no measured peak whose width tells its damping";
+            return Err(Error::value(source, found, "--damping material, or finer frequencies"));
+        }
+        Self::damped(args, (&bat.lossless()?, request), measured, (places, Some(&ratios)))
+    }
+
+    /// With these damping ratios of the modes in place of the materials'.
+    fn damped(
+        args: &Args,
+        (bat, request): (&Bat, &Request),
+        measured: Option<&MeasuredResponse>,
+        (places, ratios): ([f64; 2], Option<&[Option<f64>]>),
+    ) -> Result<Self> {
+        let asked = asked(args, measured);
+        let kind = args.kind.or(measured.map(|m| m.kind)).unwrap_or_default();
+        let mut frf = Frf::new(bat, request, places[0], places[1])?;
+        if let Some(ratios) = ratios {
+            frf = frf.damped_as(ratios);
+        }
+        let grid = asked.grid(&frf, args.uff.is_some())?;
+        // What the strains miss is looked for where it was asked; then the peaks are those of all of it.
+        frf.receptances(&grid.asked)?;
+        let samples = frf.receptances(&grid.all)?;
+        let mut rising = grid.all.clone();
+        rising.sort_by(f64::total_cmp);
+        let peaks = frf.peaks(kind, &rising);
+        let ends = [rising[0], rising[rising.len() - 1]];
+        let lay = |measured| Laid::new(&mut frf, measured, kind, (&peaks, ends));
+        let laid = measured.map(lay).transpose()?;
+        Ok(Self { frf, samples, grid, rising, peaks, laid, kind, places })
+    }
+
+    fn told<'a>(
+        &'a self,
+        args: &Args,
+        bat: &'a Bat,
+        measured: Option<&'a MeasuredResponse>,
+    ) -> ToldResponse<'a> {
+        ToldResponse {
+            bat,
+            kind: self.kind,
+            places: self.places,
+            frf: &self.frf,
+            samples: &self.samples,
+            asked: &self.grid.asked,
+            peaks: &self.peaks,
+            measured: measured.zip(self.laid.as_ref()),
+            units: args.output.units(bat),
+        }
+    }
+
+    fn picture(&mut self, args: &Args, bat: &Bat, name: &str) -> Result<Option<Picture>> {
+        // After what is said: looking at more frequencies may add to the modes.
+        let drawn = self.frf.receptances(&args.grid.drawn(&self.rising))?;
+        let kind = self.kind;
+        let values = drawn.iter().map(|s| (s.frequency, s.receptance * kind.of(s.frequency)));
+        let laid_at = self.laid.iter().flat_map(|laid| {
+            laid.measured.iter().zip(&laid.computed).map(|((f, _), value)| (*f, *value))
+        });
+        let mut values: Vec<_> = values.chain(laid_at).collect();
+        values.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let subject = plot::response::ResponseCurves {
+            bat: bat.name(),
+            kind,
+            at: self.places[0],
+            to: self.places[1],
+            values: &values,
+            peaks: &self.peaks,
+            measured: self.laid.as_ref().map_or(&[], |laid| &laid.measured),
+        };
+        Ok(plot::response::picture(args.output.sheet(bat), &subject, name))
+    }
+
+    /// The exit code, after a word where an accuracy was not reached.
+    fn verdict(&self, args: &Args) -> u8 {
+        match self.frf.solution.worst() <= args.solve.tol {
+            true => 0,
+            false => args.solve.verdict(&self.frf.solution, &args.output),
+        }
+    }
+}
+
+/// The frequencies that are asked for, those of a measured response where nothing else is said.
+fn asked(args: &Args, measured: Option<&MeasuredResponse>) -> GridArgs {
+    match measured {
+        Some(measured) => args.grid.as_measured(&measured.values),
+        None => args.grid.clone(),
+    }
+}
+
+/// The bat and what is asked of it, with modes up to the highest frequency of any response, and the theory that
+/// those need.
+fn prepared(args: &Args, bat: Bat, measured: &[&MeasuredResponse]) -> Result<Prepared> {
+    let prepare = |modes| args.bat.prepare(bat.clone(), modes, &args.solve, &args.output);
+    let mut modes = args.bat.count().max(1);
+    // Another theory has other frequencies: the number stays after as many rounds as there are theories.
+    for _ in 0..Theory::ALL.len() {
+        let Prepared { bat, request, warning } = prepare(modes)?;
+        let request = Request { modes: request.modes.max(1), ..request };
+        let grids = measured.iter().map(|measured| asked(args, Some(measured)));
+        let own = measured.is_empty().then(|| asked(args, None));
+        let reached = grids.chain(own).map(|grid| grid.reaching(&bat, &request));
+        let reached = reached.collect::<Result<Vec<_>>>()?.into_iter().max().unwrap_or(modes);
+        if reached <= modes {
+            return Ok(Prepared { bat, request, warning });
+        }
+        modes = reached;
+    }
+    prepare(modes)
+}
+
+/// One response, and a measured one laid over it.
+fn one(args: &Args, bat: Bat, measured: Option<&MeasuredResponse>) -> Result<Done> {
+    let Prepared { bat, request, warning } = prepared(args, bat, measured.as_slice())?;
+    let progress = args.output.progress("modes and answers");
+    let mut answered = Answered::new(args, (&bat, &request), measured)?;
+    drop(progress);
+    let told = answered.told(args, &bat, measured);
+    let (table, document) = (report::text(&told), report::document(&told));
+    if let Some(folder) = &args.plots {
+        let picture = answered.picture(args, &bat, "response")?;
+        pictures::write(folder, picture.as_slice(), args.output.quiet)?;
+    }
+    let Answered { samples, grid, kind, places: [at, to], .. } = &answered;
+    let text = args.output.deliver(table, || document)?;
+    let text = put(&args.csv, text, || Ok(report::csv(*kind, samples)))?;
+    let text = put(&args.uff, text, || {
+        let (kind, at, to, even) = (*kind, *at, *to, grid.even);
+        let measured = Measured { bat: bat.name(), kind, at, to, even };
+        let stamp = if args.reproducible { Stamp::fixed() } else { Stamp::now() };
+        let held = |s: &&Sample| grid.even.is_none() || grid.asked.contains(&s.frequency);
+        let held: Vec<Sample> = samples.iter().filter(held).copied().collect();
+        uff58::write(&frf_uff::response(&measured, &held, &stamp))
+    })?;
+    Ok(Done::new(text, answered.verdict(args)).with(warning))
+}
+
+/// Every response of a file, a row each.
+fn all(args: &Args, bat: Bat, measured: &[(usize, MeasuredResponse)]) -> Result<Done> {
+    let of_one =
+        [("--at", args.at.is_some()), ("--to", args.to.is_some()), ("--uff", args.uff.is_some())];
+    if let Some((option, _)) = of_one.into_iter().find(|(_, given)| *given) {
+        let found = format!("it beside {} responses", measured.len());
+        return Err(Error::value(option, found, "one of them: --function N"));
+    }
+    let responses: Vec<&MeasuredResponse> = measured.iter().map(|(_, measured)| measured).collect();
+    let Prepared { bat, request, warning } = prepared(args, bat, &responses)?;
+    let progress = args.output.progress("modes and answers");
+    let (mut rows, mut pictures, mut code) = (vec![], vec![], 0);
+    let mut answers = vec![];
+    for (number, measured) in measured {
+        let named = |error: Error| {
+            error.placed(|complaint| {
+                let field = format!("{}, response {number}", complaint.field);
+                Error::Value(Complaint { field, ..complaint })
+            })
+        };
+        let mut answered = Answered::new(args, (&bat, &request), Some(measured)).map_err(named)?;
+        code = code.max(answered.verdict(args));
+        let told = answered.told(args, &bat, Some(measured));
+        rows.extend(RowOfSet::new(*number, &told));
+        answers.push(report::document(&told));
+        if args.plots.is_some() {
+            pictures.extend(answered.picture(args, &bat, &format!("response_{number}"))?);
+        }
+    }
+    drop(progress);
+    if let Some(folder) = &args.plots {
+        pictures::write(folder, &pictures, args.output.quiet)?;
+    }
+    let source = &measured[0].1.source;
+    let table = frf_set::text(&bat, source, &rows, args.output.units(&bat));
+    let numbers = rows.iter().map(|row| row.number).collect();
+    let text = args.output.deliver(table, || FrfSetFile::new(numbers, answers))?;
+    let text = put(&args.csv, text, || Ok(frf_set::csv(&rows)))?;
+    Ok(Done::new(text, code).with(warning))
+}
+
+/// Where the force is and where the answer is watched (m): as told, else as measured.
+fn places(args: &Args, bat: &Bat, measured: Option<&MeasuredResponse>) -> Result<[f64; 2]> {
+    let [at, to] = [measured.and_then(|m| m.at), measured.and_then(|m| m.to)];
+    let Some(at) = args.at.or(at) else {
+        let source = measured.map_or(String::new(), |m| m.source.clone());
+        let expected = "its node in a dataset 15 or 2411, or --places, or --at and --to";
+        return Err(Error::value(source, "no place of the force", expected));
+    };
+    let here = measured.is_none_or(|m| m.drive_point);
+    let Some(to) = args.to.or(to).or(here.then_some(at)) else {
+        let source = measured.map_or(String::new(), |m| m.source.clone());
+        let expected = "its node in a dataset 15 or 2411, or --places, or --to";
+        return Err(Error::value(source, "no place of the answer", expected));
+    };
+    // A place of the file's own is told as that.
+    let named = |option: Option<f64>, name: &str, what: &str| match (option, measured) {
+        (None, Some(measured)) => {
+            format!("{}: {what}, in its unit of length (--unit)", measured.source)
+        }
+        _ => name.to_owned(),
+    };
+    let [force, answer] = [
+        named(args.at, "--at", "place of the force"),
+        named(args.to, "--to", "place of the answer"),
+    ];
+    Ok([on_the_bat(bat, &force, at)?, on_the_bat(bat, &answer, to)?])
+}

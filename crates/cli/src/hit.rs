@@ -1,0 +1,244 @@
+//! `sweetspot hit BAT`: the collision along the barrel.
+
+use std::path::PathBuf;
+
+use sweetspot::base::error::{Error, Result};
+use sweetspot::base::units::{inches, shown_length};
+use sweetspot::bat::body::Bat;
+use sweetspot::collision::figures::Figures;
+use sweetspot::collision::hitter::Hitter;
+use sweetspot::collision::sweep::{Sweep, Trial, sweep_telling};
+use sweetspot_report::csv;
+use sweetspot_report::parts::terminal::wrapped;
+use sweetspot_report::plot::profile;
+use sweetspot_report::plot::sets::Hits;
+use sweetspot_report::report::{hit_json, hit_text, sketch, trust};
+use sweetspot_report::schema::hit::HitFile;
+use sweetspot_study::verdict::Verdict;
+
+use crate::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples};
+use crate::csv_option::CsvArgs;
+use crate::done::{Done, NOT_REACHED};
+use crate::full_option::FullArgs;
+use crate::pictures;
+use crate::scene::SceneArgs;
+use crate::value::PLACE;
+
+/// How fast the ball leaves, place by place, and the sweet spot
+///
+/// Sends a ball against the barrel at many places. The table says for each how fast the bat moves
+/// there, how fast the ball leaves, how fast it would leave a bat that does not bend, the collision
+/// efficiency e_A and the energy left in vibration. Below it are the sweet spot by every
+/// definition and why it is there. With --full also: every place, a sketch, BBCOR, what an inch off
+/// costs, and how the sweet spot moves with swing and pitch. Places asked for with --points or --at
+/// are all shown.
+/// --tol is here the error of an exit speed over the closing speed.
+#[derive(clap::Args)]
+#[command(after_long_help = examples(EXAMPLES))]
+pub struct Args {
+    #[command(flatten)]
+    bat: BatArgs,
+
+    #[command(flatten)]
+    scene: SceneArgs,
+
+    #[command(flatten)]
+    place: PlaceArgs,
+
+    #[command(flatten)]
+    solve: SolveArgs,
+
+    /// Draw into this folder, as SVG and PNG: the bat, exit speed and energies along it (without
+    /// --at); force, compression and the hands' motion, of the hit --at or at the sweet spot
+    #[arg(long, value_name = "DIR")]
+    plots: Option<PathBuf>,
+
+    #[command(flatten)]
+    full: FullArgs,
+
+    #[command(flatten)]
+    csv: CsvArgs,
+
+    #[command(flatten)]
+    output: OutputArgs,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  sweetspot hit r161 --swing-speed \"45 rad/s\" --points 11
+      eleven places from the middle to the tip
+
+  sweetspot hit torpedo --at \"27 in\" --json -
+      one place, every figure of it as JSON
+
+  sweetspot hit r161 --bat-speed \"75 mph\" --pitch \"87 mph\"
+      a faster swing, as broadcasts state it: 6 in from the tip
+
+  sweetspot hit r161 --reference-inertia \"10000 oz in2\" \\
+      --swing-exponent 0.25
+      by a batter who swings a lighter bat at 43 rad/s and heavier ones slower";
+
+/// Where the ball meets the bat; all positions from the knob end.
+#[derive(clap::Args)]
+#[command(next_help_heading = "The hit")]
+pub struct PlaceArgs {
+    /// First impact point [default: half the length]
+    #[arg(long, value_name = "m", allow_hyphen_values = true,
+          value_parser = |s: &str| PLACE.read(s), conflicts_with = "at")]
+    from: Option<f64>,
+
+    /// Last impact point [default: the tip]
+    #[arg(long, value_name = "m", allow_hyphen_values = true,
+          value_parser = |s: &str| PLACE.read(s), conflicts_with = "at")]
+    to: Option<f64>,
+
+    /// Number of impact points, both ends included [default: 101]
+    #[arg(long, value_name = "N", conflicts_with = "at",
+          value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    points: Option<u32>,
+
+    /// One impact point
+    #[arg(long, value_name = "m", allow_hyphen_values = true,
+          value_parser = |s: &str| PLACE.read(s))]
+    at: Option<f64>,
+}
+
+impl PlaceArgs {
+    /// The impact points on this bat (m).
+    fn places(&self, bat: &Bat) -> Result<Vec<f64>> {
+        let length = bat.length();
+        let on_the_bat = |name: &str, x: f64| {
+            // A tip given in inches may be a rounding beyond the last station.
+            if (0.0..=length * (1.0 + 4.0 * f64::EPSILON)).contains(&x) {
+                Ok(x.min(length))
+            } else {
+                let expected = format!("a place on the bat, 0 to {}", shown_length(length));
+                Err(Error::value(name, shown_length(x), expected))
+            }
+        };
+        if let Some(x) = self.at {
+            return Ok(vec![on_the_bat("--at", x)?]);
+        }
+        let from = on_the_bat("--from", self.from.unwrap_or(0.5 * length))?;
+        let to = on_the_bat("--to", self.to.unwrap_or(length))?;
+        if to < from {
+            let expected = format!("a place beyond --from, {}", shown_length(from));
+            return Err(Error::value("--to", shown_length(to), expected));
+        }
+        let points = self.points.unwrap_or(101);
+        let last = f64::from(points.max(2) - 1);
+        let place = |k: u32| (from + (to - from) * f64::from(k) / last).min(to);
+        Ok((0..points).map(place).collect())
+    }
+
+    /// Whether so many places or one were asked for.
+    fn asked(&self) -> bool {
+        self.points.is_some() || self.at.is_some()
+    }
+}
+
+pub fn run(args: &Args) -> Result<Done> {
+    args.csv.beside(&args.output.json)?;
+    let bat = args.bat.read(&args.output)?;
+    let model = args.scene.model()?;
+    args.solve.refuse_budget("hit")?;
+    let prepared = args.bat.prepare(bat, args.bat.count(), &args.solve, &args.output)?;
+    let Prepared { bat, request, warning } = prepared;
+    let tolerance = (!args.bat.asked()).then_some(request.tolerance);
+    let (scene, law) = args.scene.scene(&bat, tolerance)?;
+    args.scene.warn(&args.output);
+    let places = args.place.places(&bat)?;
+    let progress = args.output.progress("modes");
+    let tell = |share, what: &str| progress.say(share, what);
+    let trial = Trial { model, scene: &scene };
+    let accuracy = trial.accuracy(&request, args.bat.asked());
+    let sweep = sweep_telling(&bat, trial, &accuracy, &places, &tell)?;
+    args.solve.say_raised(&sweep.solution, &args.output);
+    progress.say(1.0, "the sweet spot");
+    let hitter = Hitter::new(model, &scene, &bat, &sweep.solution, sweep.effort)?;
+    let figures = Figures::new(&bat, &hitter, law)?;
+    if let Some(folder) = &args.plots {
+        let sheet = args.output.sheet(&bat);
+        let subject =
+            profile::MarkedBat { name: bat.name(), bat: &bat, swing_pivot: Some(scene.pivot) };
+        let hits = Hits { bat: &bat, model, scene: &scene, sweep: &sweep, spot: &figures.spot };
+        let mut pictures = vec![profile::picture(sheet, &[subject])];
+        pictures.extend(hits.pictures(sheet, args.place.at)?);
+        pictures::write(folder, &pictures, args.output.quiet)?;
+    }
+    drop(progress);
+    let table = table(args, &bat, trial, &sweep, &figures);
+    let document = || HitFile {
+        figures: Some(hit_json::figures(&figures)),
+        ..hit_json::hit(&bat, model, &scene, &sweep.impacts, &figures.spot)
+    };
+    let code = verdict(&args.solve, &sweep, &args.output);
+    let text = args.output.deliver(table, document)?;
+    let text = args.csv.deliver(text, || csv::hits(&sweep.impacts))?;
+    Ok(Done::new(text, code).with(warning))
+}
+
+/// What is printed: a screen, or everything.
+fn table(args: &Args, bat: &Bat, trial: Trial, sweep: &Sweep, figures: &Figures) -> String {
+    let Trial { model, scene } = trial;
+    let units = args.output.units(bat);
+    let known = Verdict::of((bat, scene), sweep, figures.best.as_ref(), figures.wall);
+    let doubts = trust::doubts(&known, units);
+    let doubts: String = doubts.iter().map(|doubt| wrapped(doubt, 0)).collect();
+    let above = hit_text::scene(bat, scene, model.name(), units) + hit_text::meaning(model);
+    let spot = [
+        hit_text::sweet_spot(bat, &figures.spot, units),
+        hit_text::why(figures, units),
+        hit_text::beyond(sweep, scene, units),
+        doubts + trust::IN_ANALYZE,
+    ]
+    .concat();
+    let all = hit_text::impacts(bat, &sweep.impacts, units);
+    args.full.screen(
+        || {
+            let best = figures.spot.exit_speed_max.map(|peak| peak.x);
+            let some = hit_text::some(&sweep.impacts, best);
+            let shown =
+                if args.place.asked() { all.clone() } else { hit_text::impacts(bat, &some, units) };
+            format!("{above}\n{shown}\n{spot}")
+        },
+        || {
+            let sketch = args.output.sketch(bat, &sketch::of_hit(bat, &figures.spot));
+            let more = hit_text::figures(figures, units);
+            let moves = hit_text::moves(bat, figures, units);
+            format!("{above}\n{all}\n{sketch}\n{spot}\n{more}\n{moves}")
+        },
+    )
+}
+
+/// The exit code, after a word about exit speeds that are less accurate than asked.
+pub fn verdict(solve: &SolveArgs, sweep: &Sweep, output: &OutputArgs) -> u8 {
+    if sweep.met || !solve.enforced() {
+        return 0;
+    }
+    let modes = sweep.solution.shortfall(solve.tol);
+    let reason = if modes.is_empty() { String::new() } else { format!(" ({modes})") };
+    let worst = sweep.worst().map_or(String::new(), |(impact, outcome)| {
+        let limit = match sweep.settles {
+            _ if outcome.wall > 0.5 * outcome.error => {
+                ": how far the wall gives way under the ball is known no better"
+            }
+            true if sweep.stopped => {
+                ": stopped there, as a better one would take more than ten times as long as a usual hit; fewer \
+                 places get better ones"
+            }
+            true => "",
+            false => {
+                ": the hit there magnifies small changes, and neither more modes nor finer \
+                 steps settle it"
+            }
+        };
+        let place = format!("{:.1} cm ({:.1} in)", 100.0 * impact.x, inches(impact.x));
+        format!("; the worst is known to {:.1e}, at {place} from the knob{limit}", outcome.error)
+    });
+    output.warn(&format!(
+        "accuracy of the exit speeds not reached{reason}{worst}; error.exit_speed of every impact says \
+         how far it is known"
+    ));
+    NOT_REACHED
+}

@@ -1,0 +1,188 @@
+//! `sweetspot hoop BAT`: how does a hollow barrel ring, and what does its wall do to the ball?
+
+use std::path::PathBuf;
+
+use sweetspot::base::error::Result;
+use sweetspot::base::mistakes::Mistakes;
+use sweetspot::bat::body::Bat;
+use sweetspot::collision::hit::{Model, Scene};
+use sweetspot::collision::sweep::Trial;
+use sweetspot::modes::solve::Request;
+use sweetspot_report::exchange::barrel::BarrelGrid;
+use sweetspot_report::exchange::hoop_files;
+use sweetspot_report::plot::{hoop as plot, wall_sweep};
+use sweetspot_report::report::{hoop as report, hoop_json};
+use sweetspot_study::trampoline::barrel::{Barrel, BarrelTest};
+use sweetspot_study::trampoline::thickness::wall_sweep as thicknesses;
+use uff58::Stamp;
+
+use crate::cannon::CannonArgs;
+use crate::common::{OutputArgs, Prepared, examples, on_the_bat, prepare, read};
+use crate::delivered::{apart, put};
+use crate::done::{Done, NOT_REACHED};
+use crate::edits::EditArgs;
+use crate::pictures;
+use crate::value::{PLACE, TheoryChoice, tolerance};
+
+/// How the barrel of a hollow bat rings, and what its wall does to the ball
+///
+/// Which tones does the wall have, how stiff is it under a ball, and how much faster does the ball come
+/// back for it? The wall is computed as an elastic solid from the bat file's own drawing. The table gives
+/// each hoop mode's frequency, how far it may be off, and where it moves most; below it the wall under the
+/// ball, BBCOR without and with it, how much of that the size of the ball's patch leaves open, and the
+/// force that a test of the barrel's compression takes. For bats of metal or of composites; wood is refused.
+#[derive(clap::Args)]
+#[command(after_long_help = examples(EXAMPLES))]
+pub struct Args {
+    /// Bat file (JSON), or the name of a built-in bat such as bbcor_made_up
+    #[arg(help_heading = "The bat")]
+    bat: PathBuf,
+
+    #[command(flatten)]
+    edits: EditArgs,
+
+    /// Number of hoop modes in the table and the pictures
+    #[arg(short = 'n', long = "modes", value_name = "N", default_value_t = 10,
+          value_parser = clap::value_parser!(u16).range(1..=100), help_heading = "The bat")]
+    count: u16,
+
+    /// Where the ball meets the bat, from the knob end [default: 6 in from the tip]
+    #[arg(long, value_name = "m", help_heading = "The test", allow_hyphen_values = true,
+          value_parser = |s: &str| PLACE.read(s))]
+    at: Option<f64>,
+
+    #[command(flatten)]
+    cannon: CannonArgs,
+
+    /// BBCOR of the same bat with thinner and thicker walls
+    #[arg(long, help_heading = "The test")]
+    wall_sweep: bool,
+
+    /// Wanted relative accuracy of every frequency, such as 1e-6 or 0.01%
+    #[arg(long, value_name = "T", default_value = "1e-4", value_parser = tolerance,
+          help_heading = "Accuracy")]
+    tol: f64,
+
+    /// Samples of each mode's shape in the JSON
+    #[arg(long, value_name = "N", help_heading = "Output", default_value_t = 41,
+          value_parser = clap::value_parser!(u16).range(0..=10_000))]
+    shape_points: u16,
+
+    /// Write CSV to this file (- = standard output, and no table then)
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    csv: Option<PathBuf>,
+
+    /// Write the modes to this universal file, on a cylinder of points
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    uff: Option<PathBuf>,
+
+    /// 1 January 1970 for the date of the universal file, so that equal input gives equal bytes
+    #[arg(long, requires = "uff", help_heading = "Output")]
+    reproducible: bool,
+
+    /// Write the modes to this VTK file (.vtu), on a cylinder of points
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    vtu: Option<PathBuf>,
+
+    /// Points around the barrel in these files
+    #[arg(long, value_name = "N", default_value_t = 48, help_heading = "Output",
+          value_parser = clap::value_parser!(u16).range(3..=360))]
+    around: u16,
+
+    /// Draw into this folder, as SVG and PNG: the modes around and along the barrel; with --wall-sweep
+    /// also BBCOR against the wall's thickness
+    #[arg(long, value_name = "DIR", help_heading = "Output")]
+    plots: Option<PathBuf>,
+
+    #[command(flatten)]
+    output: OutputArgs,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  sweetspot hoop bbcor_made_up
+      the tones of an aluminium barrel, and what its wall gives the ball
+
+  sweetspot hoop softball_made_up --wall-sweep --ball softball \\
+      --ball-stiffness \"7000 lbf/in\" --speed \"100 mph\" --at \"27 in\"
+      a softball bat, and with other walls
+
+  sweetspot hoop bbcor_made_up --vtu barrel.vtu --plots barrel
+      to look at: in ParaView Warp By Vector with hoop_2_1, and pictures";
+
+/// Modes in a picture: more would be too long to look at.
+const MOST_DRAWN: usize = 12;
+/// Places along the barrel in the files of other programs.
+const ALONG: usize = 61;
+
+pub fn run(args: &Args) -> Result<Done> {
+    apart(&[
+        ("--json", &args.output.json),
+        ("--csv", &args.csv),
+        ("--uff", &args.uff),
+        ("--vtu", &args.vtu),
+    ])?;
+    let bat = read(&args.bat, &args.edits, args.output.quiet)?;
+    let progress = args.output.progress("the barrel");
+    let request = Request { tolerance: args.tol, ..Request::default() };
+    let Prepared { bat, request, warning } =
+        prepare(bat, TheoryChoice(None), request, args.output.quiet)?;
+    let barrel = Barrel::of(&bat, test(args, &bat, &request)?)?;
+    let tried = match args.wall_sweep {
+        true => thicknesses(&bat, &barrel, &|share| progress.say(share, "other walls")),
+        false => vec![],
+    };
+    drop(progress);
+    let count = usize::from(args.count);
+    if let Some(folder) = &args.plots {
+        let sheet = args.output.sheet(&bat);
+        let mut all: Vec<_> =
+            plot::picture(sheet, &bat, &barrel, count.min(MOST_DRAWN)).into_iter().collect();
+        all.extend(wall_sweep::picture(sheet, bat.name(), &tried));
+        pictures::write(folder, &all, args.output.quiet)?;
+    }
+    let mut table = report::text(&bat, &barrel, count, args.output.units(&bat));
+    if args.wall_sweep {
+        table += &report::sweep(&tried, args.output.units(&bat));
+    }
+    let samples = usize::from(args.shape_points);
+    let text =
+        args.output.deliver(table, || hoop_json::document(&bat, &barrel, &tried, samples))?;
+    let text = put(&args.csv, text, || Ok(hoop_json::csv(&bat, &barrel)))?;
+    let text = exchanged(args, &bat, &barrel, text)?;
+    let unmet = barrel.unmet();
+    if let Some(unmet) = &unmet {
+        args.output.warn(&format!("accuracy not reached: {unmet}"));
+    }
+    let code = if unmet.is_none() { 0 } else { NOT_REACHED };
+    Ok(Done::new(text, code).with(warning))
+}
+
+/// What is asked of the barrel, all that is wrong with it at once.
+fn test(args: &Args, bat: &Bat, request: &Request) -> Result<BarrelTest> {
+    let mut mistakes = Mistakes::default();
+    let at = mistakes.note(args.at.map(|x| on_the_bat(bat, "--at", x)).transpose());
+    let shot = mistakes.and(args.cannon.shot())?;
+    let trial = Trial { model: Model::Contact, scene: &Scene::default() };
+    let usual = BarrelTest::of(bat, shot.ball, trial.accuracy(request, false));
+    Ok(BarrelTest {
+        modes: args.count.into(),
+        at: at.unwrap_or(usual.at),
+        ball_speed: shot.speed,
+        cor: shot.cor.unwrap_or(usual.cor),
+        ..usual
+    })
+}
+
+/// Writes the files of other programs; what goes to standard output then.
+fn exchanged(args: &Args, bat: &Bat, barrel: &Barrel, text: String) -> Result<String> {
+    if args.uff.is_none() && args.vtu.is_none() {
+        return Ok(text);
+    }
+    let grid = BarrelGrid::of(bat, barrel.hoop(), ALONG, args.around.into());
+    let text = put(&args.uff, text, || {
+        let stamp = if args.reproducible { Stamp::fixed() } else { Stamp::now() };
+        uff58::write(&hoop_files::uff(bat.name(), &grid, &stamp))
+    })?;
+    put(&args.vtu, text, || Ok(hoop_files::vtu(&grid)))
+}

@@ -1,0 +1,251 @@
+//! `sweetspot lathe BAT`: where does a cut do what?
+
+use std::path::PathBuf;
+
+use sweetspot::base::error::{Error, Result};
+use sweetspot::base::units::shown_length;
+use sweetspot::bat::body::Bat;
+use sweetspot::modes::solve::Request;
+use sweetspot_report::plot::lathe as plot;
+use sweetspot_report::report::lathe as report;
+use sweetspot_study::lathe::map::{LatheMap, LatheTerms, bands, best_place};
+use sweetspot_study::lathe::workpiece::HitTerms;
+use sweetspot_study::many::answers::Answer;
+
+use crate::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples, on_the_bat};
+use crate::csv_option::CsvArgs;
+use crate::done::{Done, NOT_REACHED};
+use crate::full_option::FullArgs;
+use crate::pictures;
+use crate::scene::SceneArgs;
+use crate::value::{LITTLE, PLACE, SPACING};
+
+/// What a millimetre off the diameter does, inch by inch
+///
+/// Says where a millimetre (or 1/32 in) off the diameter does most, what the least cut for a wish is, and
+/// knob weight, cup, hole and cork, solved. With --full, or where --bands names a stretch, or with --outputs
+/// or --depth, also a table of every band: mass, balance point, swing weight, frequencies, node, the fastest
+/// ball for the same swing (n=0) and for the same energy of rotation (n=1/2), which differ in sign, the sweet
+/// spot, and what the hands feel; and a second table of the same for a cut that is not small. Frequencies and
+/// the rigid body by formula, all else by differences of whole bats.
+#[derive(clap::Args)]
+#[command(after_long_help = examples(EXAMPLES))]
+pub struct Args {
+    #[command(flatten)]
+    bat: BatArgs,
+
+    /// Width of the bands, or one band such as "60 cm to 63 cm"; several bands by several options
+    #[arg(long, value_name = "m", default_value = "1 in", help_heading = "The map",
+          allow_hyphen_values = true, value_parser = band)]
+    bands: Vec<BandArg>,
+
+    /// Where the ball is hit for vibration and hands [default: the sweet spot]
+    #[arg(long, value_name = "m", help_heading = "The map", allow_hyphen_values = true,
+          value_parser = |s: &str| PLACE.read(s))]
+    at: Option<f64>,
+
+    /// Depth of the finite cut that stands beside every derivative, of the diameter [default: 0.5 mm]
+    #[arg(long, value_name = "m", help_heading = "The map",
+          allow_hyphen_values = true, value_parser = |s: &str| LITTLE.read(s))]
+    depth: Option<f64>,
+
+    /// Look at these alone, such as f1_hz,mass_kg,exit_speed_max.value
+    ///
+    /// Names are those of the JSON documents: mass_kg, balance_point_m, inertia_pivot_kg_m2,
+    /// center_of_percussion_m, f1_hz, node_mode_1_m, modal_mass_mode_1_kg, exit_speed_max.value,
+    /// exit_speed_max.x_m, zone_m[0], zone_m[1], vibration_min.value, vibration_min.x_m, bbcor_max,
+    /// hands_velocity_min.value, hands_acceleration_min.value, and, of a hit at a place,
+    /// exit_speed_m_s@0.70, vibration_j@0.70, hands_velocity_m_s@0.70, hands_acceleration_m_s2@0.70.
+    #[arg(long, value_name = "NAMES", help_heading = "The map", value_delimiter = ',',
+          value_parser = |s: &str| Answer::named(s.trim()).map_err(|error| error.to_string()))]
+    outputs: Option<Vec<Answer>>,
+
+    #[command(flatten)]
+    scene: SceneArgs,
+
+    #[command(flatten)]
+    solve: SolveArgs,
+
+    #[command(flatten)]
+    full: FullArgs,
+
+    #[command(flatten)]
+    csv: CsvArgs,
+
+    /// Draw into this folder, as SVG and PNG: the bat coloured by what a cut does, a strip for each output
+    #[arg(long, value_name = "DIR", help_heading = "Output")]
+    plots: Option<PathBuf>,
+
+    #[command(flatten)]
+    output: OutputArgs,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  sweetspot lathe r161
+      where a cut does most to a wooden bat; --full for every inch
+
+  sweetspot lathe r161 --bands \"22 in to 24 in\" --depth \"2 mm\"
+      one stretch, and two millimetres off it
+
+  sweetspot lathe r161 --reference-inertia \"10000 oz in2\" \\
+      --swing-exponent 0.25 --bands \"3 in\" --json -
+      by a batter who swings a lighter bat faster, as JSON";
+
+/// Depth of a cut that is solved whole (m).
+const DEPTH: f64 = 0.5e-3;
+
+/// What `--bands` says: a width, or a stretch (m).
+#[derive(Debug, Clone, Copy)]
+enum BandArg {
+    Width(f64),
+    Stretch([f64; 2]),
+}
+
+impl BandArg {
+    fn width(&self) -> Option<f64> {
+        match self {
+            Self::Width(width) => Some(*width),
+            Self::Stretch(_) => None,
+        }
+    }
+}
+
+fn band(text: &str) -> std::result::Result<BandArg, String> {
+    match text.split_once(" to ") {
+        Some((from, to)) => {
+            let [from, to] = [from, to].map(|end| PLACE.read(end.trim()));
+            let [from, to] = [from?, to?];
+            if to > from {
+                Ok(BandArg::Stretch([from, to]))
+            } else {
+                Err(format!("found a stretch from {from} m to {to} m, expected a rising one"))
+            }
+        }
+        None => SPACING.read(text).map(BandArg::Width),
+    }
+}
+
+pub fn run(args: &Args) -> Result<Done> {
+    args.csv.beside(&args.output.json)?;
+    args.solve.refuse_budget("lathe")?;
+    let bat = args.bat.read(&args.output)?;
+    let model = args.scene.model()?;
+    let prepared = args.bat.prepare(bat, args.bat.count(), &args.solve, &args.output)?;
+    let Prepared { bat, request, warning } = prepared;
+    let tolerance = (!args.bat.asked()).then_some(request.tolerance);
+    let (scene, law) = args.scene.scene(&bat, tolerance)?;
+    args.scene.warn(&args.output);
+    let (bands, cut) = stretches(args, &bat)?;
+    let at = args.at.map(|x| on_the_bat(&bat, "--at", x)).transpose()?;
+    let hit = HitTerms { scene, model, exactly: args.bat.asked() };
+    let progress = args.output.progress("lathe");
+    progress.say(0.0, "the sweet spot");
+    let answers = match &args.outputs {
+        Some(asked) => asked.clone(),
+        None => answers(&bat, &request, &hit, at)?,
+    };
+    let exponent = law.map_or(0.0, |law| law.exponent);
+    let terms = LatheTerms { bands, cut, exponent, answers };
+    progress.say(0.0, "bats with a cut");
+    let map = LatheMap::new(&bat, &request, Some(&hit), terms)?;
+    drop(progress);
+    if let Some(folder) = &args.plots {
+        let picture: Vec<_> = plot::picture(args.output.sheet(&bat), &map).into_iter().collect();
+        pictures::write(folder, &picture, args.output.quiet)?;
+    }
+    let units = args.output.units(map.piece.bat());
+    let all = || report::text(&map, &hit.scene, units);
+    // Who asks for outputs, a depth or a stretch wants the tables of them.
+    let asked = args.outputs.is_some()
+        || args.depth.is_some()
+        || args.bands.iter().any(|band| band.width().is_none());
+    let table = match report::screen(&map, &hit.scene, units).filter(|_| !asked) {
+        Some(screen) => args.full.screen(|| screen, all),
+        None => all(),
+    };
+    let out = args.output.deliver(table, || report::document(&map, &hit.scene, model))?;
+    let text = args.csv.deliver(out, || report::csv(&map))?;
+    let code = if map.piece.met || !args.solve.enforced() { 0 } else { NOT_REACHED };
+    if code != 0 {
+        args.output.warn("accuracy not reached: error of every change says how far it is known");
+    }
+    Ok(Done::new(text, code).with(warning))
+}
+
+/// The bands and the depth of the finite cut, all that is wrong with them at once.
+fn stretches(args: &Args, bat: &Bat) -> Result<(Vec<[f64; 2]>, f64)> {
+    let mut wrong: Vec<Error> = vec![];
+    let length = bat.length();
+    let stretches = args.bands.iter().filter_map(|band| match band {
+        BandArg::Stretch(ends) => Some(*ends),
+        BandArg::Width(_) => None,
+    });
+    let mut all: Vec<[f64; 2]> = stretches.collect();
+    let widths: Vec<f64> = args.bands.iter().filter_map(BandArg::width).collect();
+    if !(widths.is_empty() || widths.len() == 1 && all.is_empty()) {
+        let found = format!("{} width(s) and {} stretch(es)", widths.len(), all.len());
+        wrong.push(Error::value("--bands", found, "one width, or stretches alone"));
+    }
+    for ends in &mut all {
+        let x = on_the_bat(bat, "--bands", ends[1]);
+        match x {
+            Ok(x) => ends[1] = x,
+            Err(error) => wrong.push(error),
+        }
+    }
+    all.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    if let Some(two) = all.windows(2).find(|two| two[1][0] < two[0][1] - 1e-12) {
+        let found = format!("a band that begins at {}", shown_length(two[1][0]));
+        let expected = format!(
+            "bands that do not overlap: the one before ends at {}",
+            shown_length(two[0][1])
+        );
+        wrong.push(Error::value("--bands", found, expected));
+    }
+    if let ([width], true) = (&widths[..], all.is_empty()) {
+        let width = *width;
+        const NARROWEST: f64 = 1e-3;
+        if (NARROWEST..=length).contains(&width) {
+            all = bands(length, width);
+        } else {
+            let expected =
+                format!("a width from 1 mm to the bat's length, {}", shown_length(length));
+            wrong.push(Error::value("--bands", shown_length(width), expected));
+        }
+    }
+    let depth = args.depth.unwrap_or(DEPTH);
+    if !(depth > 0.0 && depth <= 0.02) {
+        let found = format!("{} mm", 1e3 * depth);
+        wrong.push(Error::value("--depth", found, "a depth above 0 and up to 20 mm"));
+    }
+    match wrong.len() {
+        0 => Ok((all, depth)),
+        1 => Err(wrong.remove(0)),
+        _ => Err(Error::Several { shown: wrong, more: 0 }),
+    }
+}
+
+/// What is looked at where nothing is named.
+fn answers(bat: &Bat, request: &Request, hit: &HitTerms, at: Option<f64>) -> Result<Vec<Answer>> {
+    /// So many frequencies.
+    const FREQUENCIES: usize = 5;
+    let mut answers =
+        vec![Answer::Mass, Answer::BalancePoint, Answer::Inertia, Answer::CenterOfPercussion];
+    answers.extend((1..=FREQUENCIES).map(Answer::Frequency));
+    answers.extend([1, 2].map(Answer::Node));
+    answers.extend([1, 2].map(Answer::ModalMass));
+    answers.extend([Answer::ExitSpeed, Answer::ExitSpeedPlace]);
+    answers.extend([Answer::Zone(false), Answer::Zone(true)]);
+    answers.extend([Answer::Vibration, Answer::VibrationPlace, Answer::Bbcor]);
+    answers.extend([Answer::HandsVelocity, Answer::HandsAcceleration]);
+    let at = match at {
+        Some(at) => Some(at),
+        None => best_place(bat, request, hit)?.map(|x| (1e4 * x).round() / 1e4),
+    };
+    if let Some(x) = at {
+        answers.extend([Answer::ExitSpeedAt(x), Answer::VibrationAt(x)]);
+        answers.extend([Answer::HandsVelocityAt(x), Answer::HandsAccelerationAt(x)]);
+    }
+    Ok(answers)
+}

@@ -1,0 +1,27 @@
+//! `sweetspot licences`: whose work is in the program, and on what terms.
+
+use sweetspot::base::error::Result;
+
+use crate::done::Done;
+
+/// Print the licences of this program and of everything in it
+///
+/// Its own two, either of which may be chosen, then every package and the font of the pictures with
+/// their texts.
+#[derive(clap::Args)]
+#[command(after_long_help = EXAMPLES)]
+pub struct Args {}
+
+const EXAMPLES: &str = "\
+Examples:
+  sweetspot licences > LICENCES.md";
+
+const OWN: [&str; 2] =
+    [include_str!("../../../LICENSE-MIT"), include_str!("../../../LICENSE-APACHE")];
+const OTHERS: &str = include_str!("../../../THIRD-PARTY.md");
+
+pub fn run(_: &Args) -> Result<Done> {
+    let [mit, apache] = OWN.map(str::trim);
+    let own = format!("# sweetspot\n\nMIT or Apache-2.0.\n\n{mit}\n\n{apache}\n");
+    Ok(Done::new(format!("{own}\n{OTHERS}"), 0))
+}

@@ -1,0 +1,68 @@
+//! What did the user type? One file a verb; no physics: options are parsed, the library is called, `Done` returned.
+//!
+//! | file | question |
+//! |---|---|
+//! | `own_file`, `memory` | files of a user's own; the system's memory |
+//! | `done`, `style`, `diagnostic` | what a verb leaves; colours; how a mistake is shown, to people and to programs |
+//! | `value`, `help`, `stop`, `progress`, `edits` | values with units; help that fits; signals; how far a computation is; what-ifs |
+//! | `common`, `guarantee`, `delivered`, `csv_option`, `full_option`, `bat_text`, `pictures`, `scene`, `cannon` | options of several verbs: the bat, the tolerance, proofs, files and standard output, pictures, the scene of a hit, the ball of a test |
+//! | `asking`, `tables`, `frf_grid` | questions to the user; the promises as tables; the frequencies of `frf` |
+//! | the rest | one verb each; `first_word` and `verbs` know which was typed, `program` runs it |
+
+#![deny(unsafe_code)]
+
+mod own_file;
+mod done;
+mod style;
+mod diagnostic;
+mod delivered;
+mod value;
+mod help;
+mod progress;
+mod stop;
+#[allow(unsafe_code)]
+mod memory;
+mod edits;
+mod common;
+mod csv_option;
+mod full_option;
+mod guarantee;
+mod bat_text;
+mod pictures;
+mod scene;
+mod cannon;
+mod asking;
+mod tables;
+mod modes;
+mod hit;
+mod ring;
+mod bbcor;
+mod hoop;
+mod analyze;
+mod beside;
+mod compare;
+mod calibrate;
+mod frf_grid;
+mod frf;
+mod trade;
+mod lathe;
+mod study;
+mod aim;
+mod scatter;
+mod advise;
+mod convert;
+mod validate;
+mod materials;
+mod bats;
+mod schema;
+mod new;
+mod man;
+mod completions;
+mod licences;
+mod first_word;
+mod verbs;
+mod program;
+
+fn main() -> std::process::ExitCode {
+    program::run()
+}

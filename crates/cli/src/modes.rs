@@ -1,0 +1,156 @@
+//! `sweetspot modes BAT`: natural frequencies, shapes, nodes.
+
+use std::path::{Path, PathBuf};
+
+use sweetspot::base::error::{Error, Result};
+use sweetspot::base::file;
+use sweetspot::bat::body::Bat;
+use sweetspot::beam::assembly::{Pencil, write_matrix_market};
+use sweetspot::modes::solve::Solution;
+use sweetspot_report::csv;
+use sweetspot_report::exchange::npz;
+use sweetspot_report::plot::sets;
+use sweetspot_report::report::json::{self, ShapePoints};
+use sweetspot_report::report::proven;
+use sweetspot_report::report::{sketch, text, trust};
+
+use crate::common::{BatArgs, OutputArgs, SolveArgs, Solved, examples};
+use crate::csv_option::CsvArgs;
+use crate::done::Done;
+use crate::full_option::FullArgs;
+use crate::guarantee::{self, GuaranteeArgs};
+use crate::pictures;
+
+/// How the bat rings: frequencies, nodes, shapes
+///
+/// Which tones does the bat have, and where does it stand still in them? The table gives each
+/// bending mode's frequency, how far it may be off, its modal mass and the nodes of the first two, from
+/// knob and tip. With --full also: the nodes of the others, a sketch of them on the bat, what the answer
+/// was made with and what was left out of the model, with what that costs on this bat. The shapes are in
+/// the JSON.
+#[derive(clap::Args)]
+#[command(after_long_help = examples(EXAMPLES))]
+pub struct Args {
+    #[command(flatten)]
+    bat: BatArgs,
+
+    #[command(flatten)]
+    solve: SolveArgs,
+
+    #[command(flatten)]
+    guarantee: GuaranteeArgs,
+
+    /// Samples of each shape in the JSON: a number, or "nodes" for the mesh's
+    #[arg(long, value_name = "N", help_heading = "Output", default_value = "101", value_parser = shape_points)]
+    shape_points: ShapePoints,
+
+    /// Write K and M of the mesh into this folder: stiffness.mtx and mass.mtx (Matrix Market), and
+    /// bat.npz (NumPy, SciPy's CSC parts) with the modes at the nodes
+    #[arg(long, value_name = "DIR", help_heading = "Output")]
+    matrices: Option<PathBuf>,
+
+    /// Draw the bat and its mode shapes into this folder, as SVG and PNG
+    #[arg(long, value_name = "DIR", help_heading = "Output")]
+    plots: Option<PathBuf>,
+
+    /// Leave the timing out of the JSON, so that equal input gives equal bytes
+    #[arg(long, help_heading = "Output")]
+    reproducible: bool,
+
+    #[command(flatten)]
+    full: FullArgs,
+
+    #[command(flatten)]
+    csv: CsvArgs,
+
+    #[command(flatten)]
+    output: OutputArgs,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  sweetspot modes r161 -n 5
+      the first five modes, within 0.01 %
+
+  sweetspot modes r161 -n 3 --tol 1e-10 --json modes.json
+      to ten digits, with the shapes as JSON
+
+  sweetspot modes r161 -n 5 --tol 1e-9 --guarantee --within \"0.1 mm, 2 %\"
+      two numbers that the frequencies cannot leave, and of every bat so near
+
+  sweetspot modes northwestern_aluminium --budget \"2 ms\"
+      the best that two milliseconds give";
+
+/// Modes whose nodes a screen has.
+const FIRST_NODES: usize = 2;
+
+pub fn run(args: &Args) -> Result<Done> {
+    args.csv.beside(&args.output.json)?;
+    let progress = args.output.progress("modes");
+    let bat = args.bat.read(&args.output)?;
+    let (Solved { bat, solution, warning }, proven) =
+        args.guarantee.solve_for(bat, &args.bat, &args.solve, &args.output)?;
+    drop(progress);
+    if let Some(folder) = &args.matrices {
+        write_matrices(folder, &bat, &solution)?;
+    }
+    if let Some(folder) = &args.plots {
+        pictures::write(
+            folder,
+            &sets::of_modes(args.output.sheet(&bat), &bat, &solution, None),
+            args.output.quiet,
+        )?;
+    }
+    let units = args.output.units(&bat);
+    let summary = text::summary(&bat, units);
+    let modes = |nodes| {
+        text::modes(&bat, &solution, nodes, units)
+            + &proven.as_ref().map_or(String::new(), proven::text)
+    };
+    let trust = trust::of_wood(&bat);
+    let table = args.full.screen(
+        || format!("{summary}\n{}{trust}", modes(FIRST_NODES)),
+        || {
+            let sketch = args.output.sketch(&bat, &sketch::of_modes(&bat, &solution));
+            let (modes, model) = (modes(solution.modes.len()), text::model(&bat, &solution));
+            format!("{summary}\n{sketch}\n{modes}\n{model}{trust}")
+        },
+    );
+    let document = || {
+        let mut document = json::modes(&bat, &solution, args.shape_points, !args.reproducible);
+        proven.iter().for_each(|proven| proven::write(&mut document, proven));
+        document
+    };
+    let code = match &proven {
+        Some(proven) => guarantee::verdict(proven, &args.solve, &args.output),
+        None => args.solve.verdict(&solution, &args.output),
+    };
+    let text = args.csv.deliver(args.output.deliver(table, document)?, || csv::modes(&solution))?;
+    Ok(Done::new(text, code).with(warning))
+}
+
+fn write_matrices(folder: &Path, bat: &Bat, solution: &Solution) -> Result<()> {
+    if !bat.fixtures().none_moving() {
+        let found = "a bat with attachments, joints or supports";
+        let expected = "a bare bat: K and M are those of its body";
+        return Err(Error::value("--matrices", found, expected));
+    }
+    let pencil = Pencil::of(bat, &solution.mesh, solution.degree, solution.theory);
+    let failed = |source| Error::Write { path: folder.to_owned(), source };
+    std::fs::create_dir_all(folder).map_err(failed)?;
+    for (name, matrix) in [("stiffness.mtx", &pencil.stiffness), ("mass.mtx", &pencil.mass)] {
+        let mut text = Vec::new();
+        write_matrix_market(matrix, &mut text).map_err(failed)?;
+        file::write(&folder.join(name), &text)?;
+    }
+    let archive = npz::matrices(&pencil, solution).map_err(failed)?;
+    file::write(&folder.join("bat.npz"), &archive)
+}
+
+fn shape_points(text: &str) -> std::result::Result<ShapePoints, String> {
+    match text.parse::<usize>() {
+        _ if text == "nodes" => Ok(ShapePoints::Nodes),
+        Ok(n) if n <= 100_000 => Ok(ShapePoints::Even(n)),
+        _ => Err("expected \"nodes\" or a number up to 100000".into()),
+    }
+}

@@ -1,0 +1,111 @@
+//! `ring --hit`: how the bat moves and what it bears after a hit.
+
+use sweetspot::base::error::{Error, Result};
+use sweetspot::base::units::shown_length;
+use sweetspot::bat::body::Bat;
+use sweetspot::collision::aftermath::{Aftermath, Instant};
+use sweetspot::collision::hit::{Effort, Model};
+use sweetspot::collision::hitter::Hitter;
+use sweetspot::collision::strength::breaking_swing;
+use sweetspot::modes::solve::{Solution, solve};
+use sweetspot_report::parts::terminal::wrapped;
+use sweetspot_report::plot::ringing;
+use sweetspot_report::report::aftermath::{self, AfterHit};
+use sweetspot_report::report::{hit_json, hit_text};
+use sweetspot_study::ignored;
+
+use crate::common::{Prepared, on_the_bat};
+use crate::delivered::put;
+use crate::done::Done;
+use crate::pictures;
+use crate::ring::args::{Args, csv, times, write_sound};
+
+/// A hit, and what comes of it.
+pub fn run(args: &Args, bat: Bat, x: f64) -> Result<Done> {
+    /// Modes whose sum is a bat's strain to a few per cent.
+    const ENOUGH: usize = 40;
+    let x = on_the_bat(&bat, "--hit", x)?;
+    let count = if args.bat.asked() { args.bat.count() } else { ENOUGH };
+    let count = args.solve.modes_within(count, bat.profile().pieces.len());
+    if let Some(place) = args.watch.iter().find(|x| !(0.0..=bat.length()).contains(*x)) {
+        on_the_bat(&bat, "--watch", *place)?;
+    }
+    args.solve.refuse_budget("ring --hit")?;
+    let model = args.scene.model()?;
+    if model != Model::Contact {
+        let expected = "contact, the model with a force in time";
+        return Err(Error::value("--model", model.name(), expected));
+    }
+    let prepared = args.bat.prepare(bat, count, &args.solve, &args.output)?;
+    let Prepared { bat, request, warning } = prepared;
+    let tolerance = (!args.bat.asked()).then_some(request.tolerance);
+    let (scene, _) = args.scene.scene(&bat, tolerance)?;
+    args.scene.warn(&args.output);
+    let solution = solve(&bat, &request)?;
+    args.solve.say_raised(&solution, &args.output);
+    let effort = Effort { completed: !args.bat.asked(), ..Effort::default() };
+    let hitter = Hitter::new(model, &scene, &bat, &solution, effort)?;
+    let impact = hitter.strike(x);
+    let Some(force) = hitter.force(x) else {
+        let found = format!("no contact at {} ({})", shown_length(x), impact.flags.join(", "));
+        return Err(Error::value("--hit", found, "a place where ball and bat meet"));
+    };
+    let after = Aftermath::new(&bat, &solution, x, force);
+    let period = solution.modes.first().map_or(0.01, |mode| 1.0 / mode.frequency());
+    let until = args.until.unwrap_or(3.0 * period);
+    if !(until > 0.0 && until < 1e3) {
+        return Err(Error::value("--until", format!("{until:?} s"), "above 0 and below 1000 s"));
+    }
+    let watched = if args.watch.is_empty() { vec![scene.hands] } else { args.watch.clone() };
+    let mut report = AfterHit::new(&bat, &after, &watched, until);
+    for (load, swing) in &mut report.loads {
+        *swing = breaking_swing(&bat, &solution, (&scene, effort), (x, until), load.limit);
+    }
+    let units = args.output.units(&bat);
+    let mut text = format!(
+        "{}{}{}",
+        hit_text::scene(&bat, &scene, model.name(), units),
+        aftermath::impact(&impact, units),
+        aftermath::text(&report, units)
+    );
+    if let Some(path) = &args.wav {
+        for told in write_sound(path, &bat, &after.sound(&solution))? {
+            text += &wrapped(&format!("Sound: {told}"), 2);
+        }
+    }
+    if let Some(folder) = &args.plots {
+        let seen = report.watched.iter().map(|(x, _, lines)| (*x, &lines[..])).collect();
+        let picture = ringing::AfterHit {
+            bat: bat.name(),
+            length: bat.length(),
+            after: &after,
+            watched: seen,
+            until: report.until,
+            envelope: &report.envelope,
+            damped: report.damped,
+        };
+        let pictures = picture.pictures(args.output.sheet(&bat));
+        pictures::write(folder, &pictures, args.output.quiet)?;
+    }
+    let code = args.solve.verdict(&solution, &args.output);
+    let document = || {
+        let ignored = ignored::in_hit(&bat, &scene);
+        aftermath::document(&after, &report, hit_json::impact(&bat, &impact), ignored)
+    };
+    let text = args.output.deliver(text, document)?;
+    let text = put(&args.history, text, || Ok(aftermath::history(&after, &report)))?;
+    let text = put(&args.csv, text, || Ok(frames_after(args, &bat, &solution, &after)))?;
+    Ok(Done::new(text, code).with(warning))
+}
+
+/// The bat's deflections after a hit as CSV, the instants in their order.
+fn frames_after(args: &Args, bat: &Bat, solution: &Solution, after: &Aftermath) -> String {
+    let last = f64::from(args.shape_points - 1);
+    let places = (0..args.shape_points).map(|k| bat.length() * f64::from(k) / last);
+    let places: Vec<f64> = places.collect();
+    let mut times = times(args, solution);
+    times.sort_by(f64::total_cmp);
+    let deflections = |now: &Instant| places.iter().map(|x| after.motion(*x, now)[0]).collect();
+    let frames: Vec<Vec<f64>> = after.at(&times).iter().map(deflections).collect();
+    csv(&places, &times, &frames)
+}

@@ -1,0 +1,187 @@
+//! `sweetspot scatter BAT SCATTER`: how much bats of one model differ.
+
+use std::path::PathBuf;
+
+use sweetspot::base::error::{Complaint, Error, Result};
+use sweetspot::base::{file, threads};
+use sweetspot_report::many::summary::sorted;
+use sweetspot_report::many::table::Column;
+use sweetspot_report::plot::many;
+use sweetspot_report::plot::picture::Picture;
+use sweetspot_report::report::{resolved, scatter};
+use sweetspot_report::schema;
+use sweetspot_study::files::scatter_file::{self, ScatterFile};
+use sweetspot_study::scatter::rows::{ScatterPlan, ScatterRows};
+use sweetspot_study::scatter::scattered::{SHARES, Scattered, WRITTEN};
+
+use crate::common::{examples, note_outside, printed, read};
+use crate::delivered::{apart, put};
+use crate::done::Done;
+use crate::edits::EditArgs;
+use crate::progress::Counted;
+use crate::{pictures, style};
+
+/// How much bats of one model, and swings of one batter, differ
+///
+/// Draws bats by what differs between them (density, stiffness, what the lathe misses, moisture) and hits by what
+/// differs between swings (speed, pitch, ball, place): percentiles of every output, each with its own error, and what
+/// makes it vary. The same seed gives the same bytes, on any number of threads.
+#[derive(clap::Args)]
+#[command(after_long_help = examples(EXAMPLES))]
+pub struct Args {
+    /// Bat file (JSON), or the name of a built-in bat such as r161
+    #[arg(help_heading = "The bat")]
+    bat: PathBuf,
+
+    /// Scatter file (JSON): what differs [without it: the wood, by 22 % in stiffness and 10 % in density]
+    #[arg(help_heading = "The bat")]
+    scatter: Option<PathBuf>,
+
+    #[command(flatten)]
+    edits: EditArgs,
+
+    /// Bats that are drawn, a power of two from 64 to 1048576
+    #[arg(long, value_name = "N", default_value = "1024")]
+    points: u64,
+
+    /// Another seed draws other bats
+    #[arg(long, value_name = "N", default_value = "1")]
+    seed: u64,
+
+    /// Threads [default: as many as there are processors]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=i64::from(threads::MOST)))]
+    jobs: Option<u16>,
+
+    /// Write the bats nearest to the 5th, 50th and 95th percentile into this folder, as bat files
+    #[arg(long, value_name = "DIR", help_heading = "Output")]
+    bats: Option<PathBuf>,
+
+    /// The output whose percentiles these bats are nearest to [default: the first]
+    #[arg(long, value_name = "NAME", requires = "bats", help_heading = "Output")]
+    of: Option<String>,
+
+    /// Write JSON to this file (- = standard output, and no table then)
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    json: Option<PathBuf>,
+
+    /// Write every bat as a line of CSV to this file (- = standard output, and no table then)
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    csv: Option<PathBuf>,
+
+    /// Draw a histogram of every output and what makes it vary into this folder, as SVG and PNG
+    #[arg(long, value_name = "DIR", help_heading = "Output")]
+    plots: Option<PathBuf>,
+
+    /// No warnings and no progress on standard error
+    #[arg(long, help_heading = "Output")]
+    quiet: bool,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  sweetspot scatter r161 --points 64
+      how much bats of one model differ by the wood alone, from few bats
+
+  sweetspot scatter r161 bats.json --points 64
+      how much they differ by what bats.json says
+
+  sweetspot scatter r161 bats.json --points 64 --bats spread --plots spread
+      the bats nearest to the 5th, 50th and 95th percentile, and pictures";
+
+pub fn run(args: &Args) -> Result<Done> {
+    apart(&[("--json", &args.json), ("--csv", &args.csv)])?;
+    let said = args.scatter.as_deref().map(scatter_file::named_by_a_person).transpose()?;
+    let said = said.map(|(said, outside)| {
+        args.scatter.iter().for_each(|file| note_outside(file, &outside, args.quiet));
+        said
+    });
+    let bat = read(&args.bat, &args.edits, args.quiet)?;
+    let said = match said {
+        Some(said) => said,
+        None => scatter_file::of_wood(&bat).ok_or_else(|| {
+            let expected = "a scatter file that says what differs, such as bats.json: how much pieces of \
+                            what this bat is made of differ is not known here";
+            Error::value("SCATTER", "none", expected)
+        })?,
+    };
+    let ScatterFile { differences, setup, impact, outputs, tolerance } = said;
+    let (points, seed) = (args.points, args.seed);
+    let plan = ScatterPlan { differences, setup, impact, outputs, tolerance, points, seed };
+    let of = output(args, &plan)?;
+    let rows = ScatterRows::new(&bat, plan).map_err(|error| named(args, error))?;
+    let progress = Counted::new(args.quiet, "bats", points, 0);
+    let tell = |some| progress.more(some);
+    let found = threads::with(args.jobs.map(usize::from), || Scattered::new(&rows, &tell));
+    drop(progress);
+    if found.answered() == 0 {
+        let why = found.reasons.first().cloned().unwrap_or_default();
+        return Err(Error::value(said_by(args), why, "bats that can be"));
+    }
+    if let Some(folder) = &args.plots {
+        pictures::write(folder, &drawn(&rows, &found), args.quiet)?;
+    }
+    if let Some(folder) = &args.bats {
+        let failed = |source| Error::Write { path: folder.clone(), source };
+        std::fs::create_dir_all(folder).map_err(failed)?;
+        for percentile in WRITTEN {
+            let Some(row) = found.nearest(of, percentile) else { continue };
+            let share = SHARES[percentile];
+            let source = scatter::told(&rows, &found, (row, of), share);
+            let Some(bat) = scatter::bat(&rows.bat_of(row as u64)?, &source, share) else {
+                continue;
+            };
+            let path = folder.join(format!("p{:02.0}.json", 100.0 * share));
+            file::write(&path, schema::text(&resolved::resolved(&bat)).as_bytes())?;
+        }
+    }
+    let text = put(&args.csv, style::table(&scatter::text(&rows, &found)), || {
+        Ok(scatter::csv(&rows, &found))
+    })?;
+    let text = put(&args.json, text, || Ok(schema::text(&scatter::document(&rows, &found))))?;
+    Ok(Done::new(text, 0))
+}
+
+/// The output whose percentiles the written bats are of, by its place.
+fn output(args: &Args, plan: &ScatterPlan) -> Result<usize> {
+    let Some(name) = &args.of else { return Ok(0) };
+    let names: Vec<String> = plan.outputs.iter().map(|output| output.name()).collect();
+    names.iter().position(|other| other == name).ok_or_else(|| {
+        let known: Vec<&str> = names.iter().map(String::as_str).collect();
+        let complaint = Complaint::new("--of", format!("\"{name}\""), known.join(", "));
+        Error::Value(complaint.or_nearest(name, &known))
+    })
+}
+
+/// What messages call what differs.
+fn said_by(args: &Args) -> String {
+    args.scatter.as_deref().map_or("the wood".to_owned(), printed)
+}
+
+/// An error about the rows, by the name that its cause has for the user.
+fn named(args: &Args, error: Error) -> Error {
+    let file = said_by(args);
+    error.placed(|complaint| {
+        let field = match &*complaint.field {
+            "points" => "--points".to_owned(),
+            field => format!("{file}: {}", field.trim_matches('`')),
+        };
+        Error::Value(Complaint { field, ..complaint })
+    })
+}
+
+fn drawn(rows: &ScatterRows, found: &Scattered) -> Vec<Picture> {
+    let names: Vec<String> =
+        rows.plan.differences.all.iter().map(|one| one.what.name().to_owned()).collect();
+    let of_one = |one: &sweetspot_study::scatter::scattered::OutputSpread| {
+        let column = Column {
+            name: one.name.clone(),
+            unit: one.unit.to_owned(),
+            values: one.values.iter().map(|value| value.unwrap_or(f64::NAN)).collect(),
+        };
+        let at = |k: usize| one.percentiles.get(k).map_or(f64::NAN, |one| one.value);
+        let histogram = many::histogram(&column, &sorted(&column), WRITTEN.map(at));
+        let tornado = one.indices.as_ref().map(|indices| many::tornado(&one.name, &names, indices));
+        [histogram, tornado].into_iter().flatten()
+    };
+    found.outputs.iter().flat_map(of_one).collect()
+}

@@ -1,0 +1,80 @@
+//! What happens when somebody stops the program: no half file stays, and no half line on the terminal.
+
+use std::io::{IsTerminal, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+use sweetspot::base::file;
+
+use crate::progress;
+
+/// Takes away what is half done and ends the program, as shells count a signal of that number.
+fn stop(signal: i32) -> ! {
+    file::abandon();
+    progress::clear();
+    std::process::exit(128 + signal)
+}
+
+/// Ends the program where there is no memory left. Nothing in here asks for more.
+pub fn end_without_memory() -> ! {
+    const SAID: &[u8] =
+        b"error: memory: found none left, of this machine or of a limit such as ulimit -v, \
+        expected more for this bat; no half file was left\n";
+    static ENDING: AtomicBool = AtomicBool::new(false);
+    if ENDING.swap(true, Ordering::Relaxed) {
+        // Another thread is at it. If it is this one, words have been said.
+        std::thread::sleep(Duration::from_secs(2));
+        std::process::abort();
+    }
+    let mut errors = std::io::stderr();
+    // A line that shows progress ends first.
+    let line: &[u8] = if errors.is_terminal() { b"\n" } else { b"" };
+    let _ = errors.write_all(line).and_then(|()| errors.write_all(SAID));
+    file::abandon_at_once();
+    std::process::exit(2)
+}
+
+/// From now on a signal that ends a program ends this one [cleanly](stop), except where whoever
+/// started it had it ignored, as `nohup` does. A limit on the size of files is an error of writing.
+#[cfg(unix)]
+pub fn cleanly() {
+    use std::sync::mpsc::channel;
+
+    use signal_hook::consts::*;
+    use signal_hook::iterator::Signals;
+
+    const ENDING: [i32; 10] =
+        [SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGALRM, SIGUSR1, SIGUSR2, SIGXCPU, SIGVTALRM, SIGPROF];
+    // Without this the program stops at the limit, and may leave a part beside a file.
+    let _ = signal_hook::flag::register(SIGXFSZ, std::sync::Arc::default());
+    let ignored = ignored();
+    let (ready, heard) = channel();
+    let wait = move || {
+        let heeded = ENDING.iter().filter(|signal| ignored >> (*signal - 1) & 1 == 0);
+        let Ok(mut signals) = Signals::new(heeded) else { return };
+        let _ = ready.send(());
+        if let Some(signal) = signals.forever().next() {
+            stop(signal);
+        }
+    };
+    // Where no thread can be started, signals end the program as they end any other.
+    if std::thread::Builder::new().spawn(wait).is_ok() {
+        let _ = heard.recv();
+    }
+}
+
+/// Signals that were ignored when the program began, a bit for each; 0 where the system does not tell.
+#[cfg(unix)]
+fn ignored() -> u64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    line.and_then(|bits| u64::from_str_radix(bits.trim(), 16).ok()).unwrap_or(0)
+}
+
+/// From now on an interrupt ends the program [cleanly](stop).
+#[cfg(not(unix))]
+pub fn cleanly() {
+    const INTERRUPT: i32 = 2;
+    // Without a handler the program stops all the same, and may leave a part beside a file.
+    let _ = ctrlc::set_handler(|| stop(INTERRUPT));
+}

@@ -1,0 +1,165 @@
+//! `sweetspot study FILE`: many bats, one row each.
+
+use std::io::{IsTerminal, Write};
+use std::path::{Path, PathBuf};
+
+use sweetspot::base::error::{Complaint, Error, Result};
+use sweetspot::base::threads;
+use sweetspot_report::many::folder::StudyFolder;
+use sweetspot_report::many::fresh;
+use sweetspot_report::many::source::Study;
+use sweetspot_report::many::summary::{self, answers, names, percentile, sorted};
+use sweetspot_report::many::table::{Column, Table};
+use sweetspot_report::plot::many;
+use sweetspot_report::plot::picture::Picture;
+use sweetspot_study::files::study_rows::Rows;
+
+use crate::common::{examples, note_outside};
+use crate::done::{Done, NOT_REACHED, warn};
+use crate::pictures;
+use crate::progress::Counted;
+use crate::style;
+
+/// Many bats: what varies from bat to bat, and what comes of it
+///
+/// A study names a bat, a ball and a scene, what of them varies (lists, grids, distributions, with
+/// correlations) and what is asked of every bat. Each row is a bat, with its errors or the reason why there is
+/// no answer. Rows are written in parts of 4096, of 64 where walls of hollow barrels are solved, each a function of
+/// the study and its number alone: started again, it goes on where it was.
+#[derive(clap::Args)]
+#[command(after_long_help = examples(EXAMPLES))]
+pub struct Args {
+    /// Study file (JSON)
+    study: PathBuf,
+
+    /// Folder of the parts and their manifest, made if it is not there
+    #[arg(long, value_name = "DIR", help_heading = "Output")]
+    out: PathBuf,
+
+    /// Say also what makes the answers vary: Sobol indices of first order and total, with their errors
+    #[arg(long)]
+    summary: bool,
+
+    /// Numbers of every part also as a NumPy archive
+    #[arg(long, help_heading = "Output")]
+    npz: bool,
+
+    /// Draw histograms, what makes answers vary, and scatters into this folder, as SVG and PNG
+    #[arg(long, value_name = "DIR", help_heading = "Output")]
+    plots: Option<PathBuf>,
+
+    /// Two columns to draw against each other, may be repeated [with --plots]
+    #[arg(long, num_args = 2, value_names = ["X", "Y"], requires = "plots", help_heading = "Output")]
+    scatter: Vec<String>,
+
+    /// Threads [default: as many as there are processors]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=i64::from(threads::MOST)))]
+    jobs: Option<u16>,
+
+    /// Remove the parts that are in the folder, after asking, and make all anew
+    #[arg(long, help_heading = "Output")]
+    fresh: bool,
+
+    /// Do not ask [with --fresh]
+    #[arg(long, requires = "fresh", help_heading = "Output")]
+    yes: bool,
+
+    /// No progress on standard error
+    #[arg(long, help_heading = "Output")]
+    quiet: bool,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  sweetspot study scatter.json --out scatter
+      the bats of scatter.json, in parts in the folder scatter
+  sweetspot study scatter.json --out scatter --summary --plots scatter/plots
+      what makes the answers vary, with pictures; rows that are there stay";
+
+pub fn run(args: &Args) -> Result<Done> {
+    let (study, outside) = Study::named_by_a_person(&args.study)?;
+    note_outside(&args.study, &outside, args.quiet);
+    let rows = &study.rows;
+    let pairs = pairs(rows, &args.scatter)?;
+    if args.fresh {
+        clear(&args.out, args.yes)?;
+    }
+    let folder = StudyFolder::open(&args.out, &study)?;
+    // Before the work, which may take hours.
+    rows.warnings().iter().for_each(|warning| warn(warning));
+    let jobs = args.jobs.map(usize::from);
+    let missing = threads::with(jobs, || folder.missing(args.npz))?;
+    let division = folder.division();
+    let left: u64 =
+        missing.iter().map(|k| division.part(*k)).map(|rows| rows.end - rows.start).sum();
+    let progress = Counted::new(args.quiet, "bats", division.rows, division.rows - left);
+    let tell = |some| progress.more(some);
+    threads::with(jobs, || folder.make(&missing, args.npz, &tell))?;
+    drop(progress);
+    let table = Table::read(&folder, rows)?;
+    if let Some(folder) = &args.plots {
+        pictures::write(folder, &drawn(&table, rows, &pairs), args.quiet)?;
+    }
+    let mut text = summary::text(&table, rows);
+    if args.summary {
+        text += &summary::shares(&table, rows);
+    }
+    // A row without an answer is a row; where all are, nothing that was asked was reached.
+    Ok(Done::new(style::table(&text), if table.met == 0 { NOT_REACHED } else { 0 }))
+}
+
+/// Removes what studies have written into a folder, if the person wants that.
+fn clear(out: &Path, yes: bool) -> Result<()> {
+    let files = fresh::files(out)?;
+    if files.is_empty() {
+        return Ok(());
+    }
+    let there = format!("{} files of a study in {}", files.len(), out.display());
+    if !yes {
+        let refused = |found: String| {
+            let expected = "y to the question whether they may be removed, or --yes";
+            let complaint = Complaint::new("--fresh", found, expected);
+            Error::Value(complaint.hinted("nothing there was changed"))
+        };
+        if !std::io::stdin().is_terminal() || !std::io::stderr().is_terminal() {
+            return Err(refused(format!("{there}, and nobody to ask")));
+        }
+        let mut said = String::new();
+        let mut errors = std::io::stderr();
+        // Where nothing can be shown, nothing is answered.
+        let _ = write!(errors, "Remove {there}? [y/N] ").and_then(|()| errors.flush());
+        let _ = std::io::stdin().read_line(&mut said);
+        if !["y", "yes"].contains(&&*said.trim().to_lowercase()) {
+            return Err(refused(format!("{there}, and no")));
+        }
+    }
+    fresh::remove(&files)
+}
+
+/// The columns to draw against each other.
+fn pairs(rows: &Rows, asked: &[String]) -> Result<Vec<[String; 2]>> {
+    let columns = rows.columns();
+    let known: Vec<&str> = rows.numbers().into_iter().map(|k| columns[k][0].as_str()).collect();
+    if let Some(other) = asked.iter().find(|name| !known.contains(&name.as_str())) {
+        let expected = format!("columns of numbers: {}", known.join(", "));
+        let complaint = Complaint::new("--scatter", format!("\"{other}\""), expected);
+        return Err(Error::Value(complaint.or_nearest(other, &known)));
+    }
+    Ok(asked.chunks_exact(2).map(|pair| [pair[0].clone(), pair[1].clone()]).collect())
+}
+
+fn drawn(table: &Table, rows: &Rows, pairs: &[[String; 2]]) -> Vec<Picture> {
+    let varied = names(rows);
+    let histogram = |column: &Column| {
+        let values = sorted(column);
+        let marks = [0.05, 0.5, 0.95].map(|share| percentile(&values, share).unwrap_or(f64::NAN));
+        many::histogram(column, &values, marks)
+    };
+    let tornado = |column: &Column| {
+        let indices = table.shares(rows, &column.name).ok()?;
+        Some(many::tornado(&column.name, &varied, &indices))
+    };
+    let of_one = |column| [histogram(column), tornado(column)].into_iter().flatten();
+    let scatter = |[a, b]: &[String; 2]| many::scatter(table.column(a)?, table.column(b)?);
+    answers(table, rows).flat_map(of_one).chain(pairs.iter().filter_map(scatter)).collect()
+}

@@ -1,0 +1,125 @@
+//! `sweetspot trade BAT`: speed against accuracy, measured on this bat.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use sweetspot::base::error::Result;
+use sweetspot::modes::solve::Request;
+use sweetspot_report::plot::{front, sets};
+use sweetspot_report::report::{trade, u_curve};
+use sweetspot_report::schema;
+use sweetspot_study::trade::measure::measure;
+use sweetspot_study::trade::reference::Reference;
+use sweetspot_study::trade::u_curve as curve;
+
+use crate::common::{Prepared, examples, prepare, read};
+use crate::delivered::{apart, put};
+use crate::done::Done;
+use crate::edits::EditArgs;
+use crate::progress::Progress;
+use crate::value::{TheoryChoice, budget, theory};
+use crate::{pictures, style};
+
+/// What accuracy costs on this bat, measured here and now
+///
+/// How many elements of which degree, and which solver, for how many digits? It solves the bat in
+/// many ways, compares each with a reference known to 1e-13 and prints those that no other beats in
+/// both time and error, beside what the program would have chosen by itself. With --u-curve it adds
+/// cubic elements up to a million and shows where factoring solvers begin to lose digits.
+#[derive(clap::Args)]
+#[command(after_long_help = examples(EXAMPLES))]
+pub struct Args {
+    /// Bat file (JSON), or the name of a built-in bat such as r161
+    #[arg(help_heading = "The bat")]
+    bat: PathBuf,
+
+    #[command(flatten)]
+    edits: EditArgs,
+
+    /// Number of bending modes
+    #[arg(short = 'n', long = "modes", value_name = "N", default_value = "5", help_heading = "The bat",
+          value_parser = clap::value_parser!(u16).range(1..=200))]
+    count: u16,
+
+    /// Beam theory: auto, euler-bernoulli, rayleigh or timoshenko
+    ///
+    /// auto is the simplest whose estimated shift of every frequency is within 1e-4.
+    #[arg(long, value_name = "THEORY", default_value = "auto", value_parser = theory(),
+          hide_possible_values = true,
+          help_heading = "Accuracy")]
+    theory: TheoryChoice,
+
+    /// Error against the number of cubic elements, for every solver, instead
+    #[arg(long, help_heading = "Accuracy")]
+    u_curve: bool,
+
+    /// About how long to measure [default: 5 s, with --u-curve 120 s]
+    #[arg(long, value_name = "s", value_parser = budget, help_heading = "Accuracy")]
+    budget: Option<Duration>,
+
+    /// Write JSON to this file (- = standard output, and no table then)
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    json: Option<PathBuf>,
+
+    /// Write CSV to this file (- = standard output, and no table then)
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    csv: Option<PathBuf>,
+
+    /// Draw the front, or the U-curves of the first and the last mode, into this folder, as SVG and PNG
+    #[arg(long, value_name = "DIR", help_heading = "Output")]
+    plots: Option<PathBuf>,
+
+    /// No warnings and no progress on standard error
+    #[arg(long, help_heading = "Output")]
+    quiet: bool,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  sweetspot trade r161 -n 5
+      five modes, for five seconds
+
+  sweetspot trade dowel --u-curve --budget \"20 s\" --csv u-curve.csv
+      where more elements begin to hurt, as rows for a plot";
+
+/// Seconds that the measurement takes if nothing is said.
+const TRADE: u64 = 5;
+const U_CURVE: u64 = 120;
+/// Elements of the last mesh of a U-curve.
+const MOST: usize = 1_000_000;
+
+pub fn run(args: &Args) -> Result<Done> {
+    apart(&[("--json", &args.json), ("--csv", &args.csv)])?;
+    let modes = usize::from(args.count);
+    let theory = args.theory.0.unwrap_or_default();
+    let request = Request { modes, theory, ..Request::default() };
+    let bat = read(&args.bat, &args.edits, args.quiet)?;
+    let Prepared { bat, request, warning } = prepare(bat, args.theory, request, args.quiet)?;
+    let theory = request.theory;
+    let progress = Progress::new(args.quiet, "the reference");
+    let tell = |share, what: &str| progress.say(share, what);
+    let time = |seconds| args.budget.unwrap_or(Duration::from_secs(seconds));
+    let (table, document, rows, pictures) = if args.u_curve {
+        let reference = Reference::of(&bat, modes, theory)?;
+        let (solvers, time) = (curve::SOLVERS, time(U_CURVE));
+        let columns = curve::measure(&bat, &reference, solvers, MOST, time, &tell);
+        let document = schema::text(&u_curve::document(&bat, &reference, &columns));
+        let pictures = sets::of_u_curve(bat.name(), &columns, modes);
+        (u_curve::text(&bat, &reference, &columns), document, u_curve::csv(&columns), pictures)
+    } else {
+        let trade = measure(&bat, modes, theory, time(TRADE), &tell)?;
+        let pictures = front::picture(bat.name(), &trade).into_iter().collect();
+        (
+            trade::text(&bat, &trade),
+            schema::text(&trade::document(&bat, &trade)),
+            trade::csv(&trade),
+            pictures,
+        )
+    };
+    if let Some(folder) = &args.plots {
+        pictures::write(folder, &pictures, args.quiet)?;
+    }
+    let text = put(&args.csv, style::table(&table), || Ok(rows))?;
+    let text = put(&args.json, text, || Ok(document))?;
+    Ok(Done::new(text, 0).with(warning))
+}

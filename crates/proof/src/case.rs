@@ -1,0 +1,255 @@
+//! What is known of a bat or of a hit, as the files of `validation/` say it?
+
+use std::path::Path;
+
+use schemars::JsonSchema;
+use schemars::generate::Contract;
+use serde::Deserialize;
+use serde_json::Value;
+
+use crate::bundled::{bundled_bat, text};
+use crate::known_hits::{KnownFigure, Throw};
+use sweetspot::base::error::{Error, Result};
+use sweetspot::bat::body::Bat;
+use sweetspot::bat::theory::Theory;
+use sweetspot::files::schema::bat::BatFile;
+use sweetspot::files::schema::document::{Document, Format};
+use sweetspot::modes::solve::Request;
+
+/// One bat, or a rigid wall for a ball, and what is known about it, with the sources of the numbers and
+/// how near ours must be. SI, the unit in every name; positions count from the knob end.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(title = "Case of known answers of sweetspot, sweetspot-validation/1")]
+pub struct Case {
+    /// Name of the format and its version: sweetspot-validation/1.
+    pub format: Format<Case>,
+    /// What it is about.
+    pub name: String,
+    /// Where the expected numbers come from.
+    pub source: String,
+    /// Whose numbers they are; a case without it has an exact answer.
+    pub published: Option<Published>,
+    /// The bat, or the name of a file that travels with the program; none where a wall is hit.
+    #[serde(default)]
+    #[schemars(with = "Option<CaseBat>")]
+    pub(super) bat: Value,
+    /// What is asked of the bat's modes.
+    #[serde(default)]
+    solve: Solve,
+    /// What is thrown at the bat, or at the wall, where all checks are of hits.
+    pub hit: Option<Throw>,
+    /// The known numbers.
+    pub checks: Vec<Check>,
+}
+
+impl Document for Case {
+    const NAME: &'static str = "validation";
+    const CONTRACT: Contract = Contract::Deserialize;
+}
+
+/// A bat in a case.
+#[derive(JsonSchema)]
+#[schemars(untagged)]
+#[expect(dead_code, reason = "the form of a value that is read as what it turns out to be")]
+enum CaseBat {
+    /// The name of a bat file that travels with the program.
+    File(String),
+    /// A bat file in its own right.
+    Bat(Box<BatFile>),
+}
+
+/// Which published numbers a case holds, and where they stand when set side by side.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Published {
+    /// Cases of one bat stand in one table.
+    pub bat: String,
+    /// How the numbers were found.
+    pub kind: Provenance,
+    /// Which of several meshes, where the bat has more than one.
+    pub row: Option<String>,
+}
+
+/// Where a published number is from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Provenance {
+    /// By somebody, on the bat.
+    Measured,
+    /// By somebody else's program.
+    Computed,
+}
+
+/// What is asked of the bat's modes.
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Solve {
+    /// Number of modes.
+    modes: usize,
+    /// Relative error of a frequency that is asked for.
+    tolerance: Option<f64>,
+    /// Number of elements; the planner's own choice if absent.
+    elements: Option<usize>,
+    /// Name of the beam theory; the plain beam if absent.
+    theory: Option<String>,
+}
+
+/// One known number.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Check {
+    /// What is known.
+    pub quantity: Known,
+    /// Number of the mode, from 1.
+    pub mode: Option<usize>,
+    /// Number of the node of that mode, from 1 at the knob.
+    pub node: Option<usize>,
+    /// Where a ball hits, or a force acts (m).
+    pub at: Option<f64>,
+    /// Where the deflection under the force is seen (m).
+    pub(super) to: Option<f64>,
+    /// How fast the force swings (Hz).
+    pub(super) frequency_hz: Option<f64>,
+    /// How long after a blow (s).
+    pub(super) time_s: Option<f64>,
+    /// How fast the ball flies at a wall (m/s).
+    pub(super) speed_m_per_s: Option<f64>,
+    /// The known number, in the quantity's unit.
+    pub expected: f64,
+    /// How large the relative error may be.
+    pub(super) relative: Option<f64>,
+    /// How large the error may be, in the quantity's unit.
+    pub(super) absolute: Option<f64>,
+    /// Shown with its difference and neither passed nor missed; the note says why.
+    #[serde(default)]
+    pub(super) information: bool,
+    /// Why the tolerance is what it is; a check without it has the note above.
+    pub note: Option<String>,
+}
+
+/// What is known, with its unit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Known {
+    /// Natural frequency (Hz).
+    FrequencyHz,
+    /// Ratio of a frequency to the first one.
+    FrequencyRatio,
+    /// Position of a node from the knob end (m).
+    NodeM,
+    /// Modal mass for a largest deflection of 1 (kg).
+    ModalMassKg,
+    /// How fast a damped mode dies out and how fast it swings.
+    #[serde(rename = "decay_1_per_s")]
+    Decay,
+    /// How fast a damped mode swings (Hz).
+    DampedFrequencyHz,
+    /// Real part of deflection per force at a frequency (m/N), with time as `e^{+iωt}`.
+    ReceptanceRealMPerN,
+    /// Imaginary part of deflection per force at a frequency (m/N), with time as `e^{+iωt}`.
+    ReceptanceImaginaryMPerN,
+    /// Deflection after an impulse of 1 N s, by the rigid motions and the modes of the case.
+    DeflectionAfterBlowM,
+    /// Mass (kg).
+    MassKg,
+    /// Balance point from the knob end (m).
+    BalancePointM,
+    /// Moment of inertia about the balance point (kg m²).
+    InertiaBalanceKgM2,
+    /// Moment of inertia about the point 6 in from the knob (kg m²).
+    #[serde(rename = "inertia_pivot_kg_m2")]
+    InertiaPivotKgM2,
+    /// Centre of percussion for a pivot 6 in from the knob, from the knob end (m).
+    CenterOfPercussionM,
+    /// Swing weight: moment of inertia about the point 6 in from the knob (oz in²).
+    InertiaPivotOzIn2,
+    /// Something of a hit.
+    #[serde(untagged)]
+    Hit(KnownFigure),
+}
+
+/// One of the cases that travel with the program.
+///
+/// # Errors
+///
+/// [`Error::Value`] if there is none of that name.
+pub fn bundled_case(name: &str) -> Result<Case> {
+    read(name, text(name)?)
+}
+
+/// A case.
+pub(crate) fn read(name: &str, text: &str) -> Result<Case> {
+    serde_json::from_str(text)
+        .map_err(|error| Error::value(name, error, "a sweetspot-validation/1 case"))
+}
+
+impl Case {
+    /// The case's bat.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] for an unknown name, and whatever its file raises.
+    pub fn bat(&self) -> Result<Bat> {
+        match &self.bat {
+            Value::String(path) => bundled_bat(path),
+            Value::Null => Err(Error::value(&self.name, "no bat", "a bat")),
+            inline => Bat::from_text(&self.name, &inline.to_string(), Path::new("")),
+        }
+    }
+
+    /// Where the case's bat is from: the file that travels with the program, or what it says.
+    pub fn bat_source(&self) -> String {
+        match &self.bat {
+            Value::String(path) => format!("`{path}`."),
+            Value::Null => "none, the ball meets a rigid wall.".to_owned(),
+            inline => format!("{}.", inline["source"].as_str().unwrap_or("of the case")),
+        }
+    }
+
+    /// What the case asks of its bat.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] for an unknown theory.
+    pub fn request(&self) -> Result<Request> {
+        let known = |name: &String| Theory::ALL.into_iter().find(|theory| theory.name() == name);
+        let theory = match &self.solve.theory {
+            None => Theory::EulerBernoulli,
+            Some(name) => known(name).ok_or_else(|| Error::value("theory", name, "a theory"))?,
+        };
+        Ok(Request {
+            theory,
+            modes: self.solve.modes,
+            tolerance: self.solve.tolerance.unwrap_or(Request::default().tolerance),
+            elements: self.solve.elements,
+            ..Request::default()
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bundled::CASES;
+
+    /// Checks that no reader could take for a pass: every tolerance is one, every reason is there.
+    #[test]
+    fn every_check_has_a_tolerance_and_a_reason_or_is_for_information() {
+        for (name, text) in CASES {
+            let case = read(name, text).unwrap();
+            assert!(!case.source.is_empty(), "{name}");
+            let reason = case.checks.first().and_then(|check| check.note.as_ref());
+            assert!(reason.is_some(), "{name}: the first check has no note");
+            let mut information = false;
+            for check in &case.checks {
+                let tolerances = [check.relative, check.absolute];
+                let given = tolerances.iter().flatten().filter(|t| **t > 0.0).count();
+                assert_eq!(given, usize::from(!check.information), "{name}: {check:?}");
+                // A case either counts or has a reason not to, never both.
+                assert!(check.note.is_some() || check.information == information, "{name}");
+                information = check.information;
+            }
+        }
+    }
+}

@@ -1,0 +1,52 @@
+//! Right, refused or wrong.
+
+use crate::extremes::{Outcome, Verdict};
+use crate::promise::{ALWAYS, KNOWN_TO, largest};
+use sweetspot::base::error::{Error, Result};
+use sweetspot::modes::solve::Solution;
+
+/// A solution for a tolerance beside the exact frequencies (Hz): right, or refused with the reason
+/// that the solution gives, if every error is within three times the stated one.
+pub fn against(asked: f64, solution: &Solution, exact: &[f64]) -> Outcome {
+    let errors = solution.modes.iter().zip(exact).map(|(mode, f)| mode.frequency() / f - 1.0);
+    let found = largest(errors.clone().map(f64::abs));
+    let beyond = |(error, stated): (f64, f64)| error.abs() > ALWAYS * stated + KNOWN_TO;
+    let stated = solution.modes.iter().map(|mode| mode.error.total());
+    let verdict = if solution.modes.len() > exact.len() || errors.zip(stated).any(beyond) {
+        Verdict::Wrong("an error beyond three times the stated one".into())
+    } else if !solution.met {
+        Verdict::Refused(solution.shortfall(asked))
+    } else if found > ALWAYS * asked {
+        Verdict::Wrong("the claim is false".into())
+    } else {
+        Verdict::Right
+    };
+    Outcome { asked, found, stated: solution.worst(), verdict, note: String::new() }
+}
+
+/// A difference that must not be more than asked.
+pub fn difference(asked: f64, found: f64, stated: f64) -> Outcome {
+    // NaN fails the comparison: an unknown difference counts as too large.
+    let verdict =
+        if found <= asked { Verdict::Right } else { Verdict::Wrong("more than asked".into()) };
+    Outcome { asked, found, stated, verdict, note: String::new() }
+}
+
+/// Largest relative difference of two solutions' frequencies, the second's times `factor`.
+pub fn apart(a: &Solution, b: &Solution, factor: f64) -> f64 {
+    if a.modes.len() != b.modes.len() {
+        return f64::INFINITY;
+    }
+    let pairs = a.modes.iter().zip(&b.modes);
+    largest(pairs.map(|(a, b)| (b.omega * factor / a.omega - 1.0).abs()))
+}
+
+/// What must be refused: right answers to it are wrong.
+pub fn refusal<T>(asked: f64, answer: Result<T>) -> Outcome {
+    let verdict = match answer {
+        Err(error @ Error::NotConverged { .. }) => Verdict::Wrong(error.to_string()),
+        Err(error) => Verdict::Refused(error.to_string()),
+        Ok(_) => Verdict::Wrong("an answer where none is possible".into()),
+    };
+    Outcome { asked, found: f64::NAN, stated: f64::NAN, verdict, note: String::new() }
+}

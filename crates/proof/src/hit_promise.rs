@@ -1,0 +1,287 @@
+//! Do the stated errors of exit speeds hold?
+//!
+//! [`rows`] sweeps the random hits of `validation/hits/hits.json`, drawn and followed in time by
+//! `search/hits/` (Taylor series, no code in common with [`sweetspot::collision`]), and
+//! sets what each says of its error beside what it is. The promise is that of frequencies:
+//!
+//! ```text
+//! true error ≤ 3 × stated error                                always
+//! stated error ≤ 30 × true error, where that is visible        in nine cases of ten
+//! ```
+//!
+//! relative to the closing speed. Visible is what is above 1e-13 and above three times what the
+//! reference itself may be off by.
+
+use std::path::Path;
+
+use serde::Deserialize;
+use serde_json::Value;
+
+use crate::promise::{ALWAYS, MOSTLY, VISIBLE};
+use sweetspot::base::error::{Error, Result};
+use sweetspot::base::telling::Tell;
+use sweetspot::base::threads;
+use sweetspot::bat::body::Bat;
+use sweetspot::bat::theory::Theory;
+use sweetspot::collision::ball::Ball;
+use sweetspot::collision::hit::{Model, Scene, Wall};
+use sweetspot::collision::sweep::{Trial, sweep};
+use sweetspot::modes::solve::Request;
+
+/// Where the hits stand, in the project.
+const FILE: &str = "validation/hits/hits.json";
+/// What stands there.
+const TEXT: &str = include_str!("../../../validation/hits/hits.json");
+
+/// Bats and hits of them (SI).
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Drawn {
+    #[serde(rename = "source")]
+    _source: String,
+    bats: Vec<Value>,
+    hits: Vec<Hit>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Hit {
+    bat: usize,
+    theory: String,
+    x: f64,
+    swing: f64,
+    pivot: f64,
+    pitch: f64,
+    mass: f64,
+    stiffness: f64,
+    exponent: f64,
+    cor: f64,
+    tolerance: f64,
+    /// So many modes and nothing else.
+    modes: Option<usize>,
+    wall_stiffness: Option<f64>,
+    wall_mass: Option<f64>,
+    /// Once the ball is gone for good.
+    exit_speed: f64,
+    first_exit_speed: f64,
+    /// What the reference may be off by, of the closing speed.
+    known_to: f64,
+    /// What a relative change of the closing speed does beyond what is proportional to it.
+    sensitivity: f64,
+    contacts: usize,
+    reloads: usize,
+}
+
+/// What happens in a hit, as the reference has it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ReferenceCourse {
+    /// Ball and bat touch once.
+    Single,
+    /// The ball is compressed anew before it leaves.
+    Reload,
+    /// The bat catches up with the ball.
+    Later,
+}
+
+impl ReferenceCourse {
+    /// All of them, with their names.
+    pub const ALL: [(Self, &str); 3] =
+        [(Self::Single, "one touch"), (Self::Reload, "reload"), (Self::Later, "later touches")];
+}
+
+/// One hit: what was promised and what is true.
+#[derive(Debug, Clone)]
+pub struct CheckedHit {
+    /// Position of the hit in the file, from 0.
+    pub number: usize,
+    /// Name of the bat.
+    pub bat: String,
+    /// How ball and bat meet.
+    pub course: ReferenceCourse,
+    /// Wanted accuracy of the exit speed, relative to the closing speed.
+    pub tolerance: f64,
+    /// Whether the tolerance is claimed.
+    pub met: bool,
+    /// The true error.
+    pub truth: f64,
+    /// The stated error; infinite where there is no answer.
+    pub stated: f64,
+    /// Error bound of the reference.
+    pub known_to: f64,
+    /// Factor by which the answer says that changes of the closing speed are magnified.
+    pub sensitivity: f64,
+    /// Change of the exit speed by later touches, relative to the closing speed.
+    pub later: f64,
+}
+
+impl CheckedHit {
+    /// True over stated error, as far as the truth is known.
+    pub fn ratio(&self) -> f64 {
+        // An error that is not a number is as bad as can be.
+        let off = if self.truth.is_nan() { f64::INFINITY } else { self.truth - self.known_to };
+        if self.stated.is_infinite() { 0.0 } else { off.max(0.0) / self.stated }
+    }
+
+    /// Whether the true error can be told from the reference's own.
+    pub fn visible(&self) -> bool {
+        self.stated.is_finite() && self.truth > VISIBLE.max(ALWAYS * self.known_to)
+    }
+
+    /// Whether the error is stated within 30 times.
+    pub fn close(&self) -> bool {
+        self.stated <= MOSTLY * self.truth
+    }
+
+    /// Whether every stated error and every claim of the tolerance is true.
+    pub fn holds(&self) -> bool {
+        self.ratio() <= ALWAYS && !(self.met && self.stated > self.tolerance)
+    }
+}
+
+/// The promise over several hits.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Summary {
+    /// Number of hits.
+    pub hits: usize,
+    /// The worst true over stated error.
+    pub ratio: f64,
+    /// Hits whose true error is visible.
+    pub visible: usize,
+    /// Visible errors that are stated within 30 times the true error.
+    pub close: usize,
+    /// Hits that claim their tolerance.
+    pub met: usize,
+    /// Hits with a false claim.
+    pub broken: usize,
+}
+
+impl Summary {
+    /// The summary of those rows.
+    pub fn of<'a>(rows: impl IntoIterator<Item = &'a CheckedHit>) -> Self {
+        rows.into_iter().fold(Self::default(), |sum, row| Self {
+            hits: sum.hits + 1,
+            ratio: sum.ratio.max(row.ratio()),
+            visible: sum.visible + usize::from(row.visible()),
+            close: sum.close + usize::from(row.visible() && row.close()),
+            met: sum.met + usize::from(row.met),
+            broken: sum.broken + usize::from(!row.holds()),
+        })
+    }
+
+    /// The share of visible errors that are stated within 30 times.
+    pub fn share_close(&self) -> f64 {
+        if self.visible == 0 { 1.0 } else { self.close as f64 / self.visible as f64 }
+    }
+
+    /// Whether both lines of the promise hold.
+    pub fn holds(&self) -> bool {
+        self.broken == 0 && 10 * self.close >= 9 * self.visible
+    }
+}
+
+/// All hits, in the file's order.
+///
+/// # Errors
+///
+/// [`Error::Input`] for a file that is not one of hits, and as [`sweep`].
+pub fn rows(tell: Tell) -> Result<Vec<CheckedHit>> {
+    tell(0.0, "random hits");
+    let drawn: Drawn = serde_json::from_str(TEXT).map_err(|error| {
+        Error::value(FILE, error.to_string(), "hits as search/hits writes them")
+    })?;
+    let read = |bat: &Value| Bat::from_text(FILE, &bat.to_string(), Path::new(""));
+    let bats: Vec<Bat> = drawn.bats.iter().map(read).collect::<Result<_>>()?;
+    let checked = |k: usize| row(k, &bats[drawn.hits[k].bat], &drawn.hits[k]);
+    threads::map(drawn.hits.len(), checked).into_iter().collect()
+}
+
+fn row(number: usize, bat: &Bat, hit: &Hit) -> Result<CheckedHit> {
+    let scene = hit.scene();
+    let trial = Trial { model: Model::Contact, scene: &scene };
+    let accuracy = trial.accuracy(&hit.request()?, hit.modes.is_some());
+    let swept = sweep(bat, Model::Contact, &scene, &accuracy, &[hit.x])?;
+    let closing = hit.swing * (hit.x + hit.pivot) + hit.pitch;
+    let outcome = swept.impacts[0].outcome.as_ref();
+    let off = |speed: f64| (speed - hit.exit_speed).abs() / closing;
+    Ok(CheckedHit {
+        number,
+        bat: bat.name().to_owned(),
+        course: match (hit.contacts, hit.reloads) {
+            (1, 0) => ReferenceCourse::Single,
+            (1, _) => ReferenceCourse::Reload,
+            _ => ReferenceCourse::Later,
+        },
+        tolerance: hit.tolerance,
+        met: swept.met,
+        truth: outcome.map_or(0.0, |outcome| off(outcome.exit_speed)),
+        stated: outcome.map_or(f64::INFINITY, |outcome| outcome.error),
+        known_to: hit.known_to,
+        sensitivity: hit.sensitivity,
+        later: off(hit.first_exit_speed),
+    })
+}
+
+impl Hit {
+    fn scene(&self) -> Scene {
+        let ball = Ball {
+            mass_kg: self.mass,
+            stiffness: Some(self.stiffness),
+            exponent: Some(self.exponent),
+            cor: self.cor,
+            ..Ball::baseball()
+        };
+        let wall = |stiffness: f64| Wall { stiffness, mass: self.wall_mass.unwrap_or_default() };
+        Scene {
+            pivot: self.pivot,
+            swing: self.swing,
+            ball,
+            ball_speed: self.pitch,
+            cor: self.cor,
+            wall: self.wall_stiffness.map(wall),
+            ..Scene::default()
+        }
+    }
+
+    fn request(&self) -> Result<Request> {
+        let known = Theory::ALL.into_iter().find(|theory| theory.name() == self.theory);
+        let theory = known.ok_or_else(|| Error::value("theory", &self.theory, "a theory"))?;
+        let asked = Request { tolerance: self.tolerance, theory, ..Request::default() };
+        Ok(Request { modes: self.modes.unwrap_or(asked.modes), ..asked })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(truth: f64, stated: f64) -> CheckedHit {
+        CheckedHit {
+            number: 0,
+            bat: "dowel".into(),
+            course: ReferenceCourse::Single,
+            tolerance: 1e-3,
+            met: true,
+            truth,
+            stated,
+            known_to: 1e-12,
+            sensitivity: 1.0,
+            later: 0.0,
+        }
+    }
+
+    #[test]
+    fn a_false_statement_breaks_the_promise() {
+        assert!(row(2e-6, 1e-6).holds() && row(0.0, f64::INFINITY).stated.is_infinite());
+        assert!(!row(4e-6, 1e-6).holds());
+        assert!(!row(f64::NAN, 1e-6).holds());
+        assert!(!row(1e-6, 2e-3).holds(), "a claim beyond the stated error");
+    }
+
+    #[test]
+    fn estimates_from_far_above_break_the_second_line() {
+        let far = [row(1e-6, 4e-5)];
+        assert!(far[0].holds() && !Summary::of(&far).holds());
+        let unseen = [row(2e-12, 4e-5)];
+        assert!(Summary::of(&unseen).holds());
+    }
+}

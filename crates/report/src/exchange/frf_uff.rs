@@ -1,0 +1,92 @@
+//! A frequency response as a universal file.
+
+use crate::exchange::modes_uff::header;
+use sweetspot::motion::frf::{ResponseKind, Sample};
+use uff58::{
+    Abscissa, Axis, Complex, Dataset, Dof, Function, Node, Nodes, Stamp, Units, Values, six_digits,
+};
+
+/// What was forced and watched, in which answer, where.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measured<'a> {
+    /// Name of the bat.
+    pub bat: &'a str,
+    /// Whether the answer is a displacement, a velocity or an acceleration.
+    pub kind: ResponseKind,
+    /// Where the force is (m from the knob end).
+    pub at: f64,
+    /// Where the answer is watched (m from the knob end).
+    pub to: f64,
+    /// Start and step of the frequencies (Hz) where they are even.
+    pub even: Option<[f64; 2]>,
+}
+
+/// The datasets of a frequency response: 151, 164 (SI), 2411 with the places of force (node 1) and
+/// answer (node 2, or 1 if it is the same place), and 58: answer in +y over force in +y, complex,
+/// in double precision, with time as `e^{+iωt}`.
+///
+/// Frequencies have six digits in the file: ask for such ones
+/// ([`uff58::six_digits`]), for near a resonance the seventh matters.
+pub fn response(measured: &Measured, samples: &[Sample], stamp: &Stamp) -> Vec<Dataset> {
+    let same = measured.at == measured.to;
+    let mut nodes = vec![Node::new(1, [measured.at, 0.0, 0.0])];
+    if !same {
+        nodes.push(Node::new(2, [measured.to, 0.0, 0.0]));
+    }
+    let function = function(measured, samples, if same { 1 } else { 2 });
+    vec![
+        Dataset::Header(header(measured.bat, "frequency response of a bat", stamp)),
+        Dataset::Units(Units::si()),
+        Dataset::Nodes(Nodes { nodes, legacy: false }),
+        Dataset::Function(Box::new(function)),
+    ]
+}
+
+fn function(measured: &Measured, samples: &[Sample], node: i64) -> Function {
+    let value = |sample: &Sample| -> Complex {
+        let value = sample.receptance * measured.kind.of(sample.frequency);
+        [value.re, value.im]
+    };
+    let dof = |node| Dof { entity: String::new(), node, direction: 2 };
+    let name = measured.kind.name();
+    Function {
+        ids: [
+            measured.bat.into(),
+            format!("{name} from a force at {} m", six_digits(measured.at)),
+            String::new(),
+            format!("watched at {} m from the knob end", six_digits(measured.to)),
+            String::new(),
+        ],
+        kind: 4,
+        number: 1,
+        version: 1,
+        load_case: 0,
+        response: dof(node),
+        reference: dof(1),
+        abscissa: match measured.even {
+            Some([start, step]) => Abscissa::Even { start, step },
+            None => Abscissa::Uneven(samples.iter().map(|sample| sample.frequency).collect()),
+        },
+        values: Values::Complex(samples.iter().map(value).collect()),
+        double: true,
+        z: 0.0,
+        axes: axes(measured.kind),
+    }
+}
+
+/// Frequency, answer, force, and no third axis.
+fn axes(kind: ResponseKind) -> [Axis; 4] {
+    let axis = |quantity, label: &str, unit: &str| Axis {
+        quantity,
+        exponents: [0; 3],
+        label: label.into(),
+        unit: unit.into(),
+    };
+    let (quantity, unit) = match kind {
+        ResponseKind::Receptance => (8, "m"),
+        ResponseKind::Mobility => (11, "m/s"),
+        ResponseKind::Accelerance => (12, "m/s^2"),
+    };
+    let answer = axis(quantity, kind.name(), unit);
+    [axis(18, "frequency", "Hz"), answer, axis(13, "force", "N"), Axis::default()]
+}

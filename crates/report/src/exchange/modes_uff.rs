@@ -1,0 +1,81 @@
+//! Modes as a universal file for modal test programs.
+
+use crate::exchange::modes_file::{ModeTable, SampledMode};
+use uff58::{Analysis, Complex, Dataset, Header, NodalData, Node, Nodes, Stamp, TraceLine, Units};
+
+/// The datasets of a bat's modes: 151, 164 (SI), 2411 or, for older programs, 15, 82, and 55 for
+/// each mode, its values being translations x, y, z and rotations about them, with the deflection
+/// in y and the rotation about z.
+///
+/// A trace line has at most 250 nodes: through more places there are several, each from where the
+/// one before it ends. All damping stands as viscous, nothing as hysteretic: a reader that adds the
+/// two has it once.
+pub fn modes(table: &ModeTable, legacy: bool, stamp: &Stamp) -> Vec<Dataset> {
+    let nodes = (1..).zip(&table.x).map(|(label, x)| Node::new(label, [*x, 0.0, 0.0])).collect();
+    let mut datasets = vec![
+        Dataset::Header(header(table.bat.name(), "bending modes of a bat", stamp)),
+        Dataset::Units(Units::si()),
+        Dataset::Nodes(Nodes { nodes, legacy }),
+    ];
+    datasets.extend(axis(table.x.len()).map(Dataset::TraceLine));
+    let shapes = table.modes.iter().map(|mode| shape(table.bat.name(), mode));
+    datasets.extend(shapes.map(Dataset::NodalData));
+    datasets
+}
+
+/// Lines through nodes 1 to `count`.
+fn axis(count: usize) -> impl Iterator<Item = TraceLine> {
+    let step = TraceLine::MOST - 1;
+    let starts = (1..count).step_by(step).map(move |start| start..=(start + step).min(count));
+    (1..).zip(starts).map(|(number, nodes)| TraceLine {
+        number,
+        color: 0,
+        name: "axis of the bat, knob to tip".into(),
+        nodes: nodes.map(|label| label as i64).collect(),
+    })
+}
+
+/// The head of a universal file that this program writes.
+pub(crate) fn header(model: &str, description: &str, stamp: &Stamp) -> Header {
+    let program = concat!("sweetspot ", env!("CARGO_PKG_VERSION"));
+    Header {
+        model: model.into(),
+        description: description.into(),
+        made_by: program.into(),
+        created: stamp.clone(),
+        saved: stamp.clone(),
+        written: stamp.clone(),
+        version: [0; 2],
+        written_by: program.into(),
+    }
+}
+
+fn shape(name: &str, mode: &SampledMode) -> NodalData {
+    let number = i64::from(mode.order);
+    let motion = |(w, turn): (&f64, &f64)| -> Vec<Complex> {
+        [0.0, *w, 0.0, 0.0, 0.0, *turn].map(|value| [value, 0.0]).to_vec()
+    };
+    NodalData {
+        ids: [
+            name.into(),
+            format!("bending mode {number}"),
+            "largest deflection 1".into(),
+            "y: deflection, rotation about z: rad per m of deflection".into(),
+            format!("Mode {number}, frequency {} Hz", mode.frequency),
+        ],
+        model: 1,
+        analysis: Analysis::NormalMode {
+            load_case: 1,
+            mode: number,
+            frequency: mode.frequency,
+            modal_mass: mode.modal_mass,
+            viscous: mode.damping_ratio,
+            hysteretic: 0.0,
+        },
+        characteristic: NodalData::MOTIONS,
+        quantity: 8,
+        complex: false,
+        per_node: 6,
+        values: (1..).zip(mode.deflection.iter().zip(&mode.rotation).map(motion)).collect(),
+    }
+}

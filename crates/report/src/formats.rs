@@ -1,0 +1,114 @@
+//! Every format that is read or written, with its schema.
+
+use serde_json::{Map, Value, json};
+
+use crate::page::data::Data;
+use crate::schema::advice::AdviceFile;
+use crate::schema::aim::{AimForm, RulesForm};
+use crate::schema::aimed::AimedFile;
+use crate::schema::analysis::AnalysisFile;
+use crate::schema::bbcor::BbcorFile;
+use crate::schema::calibrate::CalibrateFile;
+use crate::schema::compare::CompareFile;
+use crate::schema::frf::{FrfFile, FrfSetFile};
+use crate::schema::hit::HitFile;
+use crate::schema::hoop::HoopFile;
+use crate::schema::lathe::LatheFile;
+use crate::schema::materials::MaterialsFile;
+use crate::schema::measured::MeasuredFile;
+use crate::schema::mistakes::ErrorFile;
+use crate::schema::modes::ModesFile;
+use crate::schema::readings::ReadingsForm;
+use crate::schema::ring::RingFile;
+use crate::schema::scatter::{ScatterForm, ScatterResult};
+use crate::schema::study::{StudyForm, StudyManifest};
+use crate::schema::trade::TradeFile;
+use crate::schema::u_curve::UCurveFile;
+use crate::schema::{DRAFT, id, of};
+use sweetspot::files::schema::ball::BallFile;
+use sweetspot::files::schema::bat::BatFile;
+use sweetspot::files::schema::document::{Document, format};
+use sweetspot_proof::case::Case;
+
+/// A kind of file that has a schema.
+#[derive(Debug, Clone, Copy)]
+pub struct FileKind {
+    name: &'static str,
+    schema: fn() -> Value,
+}
+
+impl FileKind {
+    /// What is read first, then what is written.
+    pub const ALL: [Self; 29] = [
+        Self::of::<BatFile>(),
+        Self::of::<BallFile>(),
+        Self::of::<StudyForm>(),
+        Self::of::<AimForm>(),
+        Self::of::<RulesForm>(),
+        Self::of::<ReadingsForm>(),
+        Self::of::<ScatterForm>(),
+        Self::of::<Case>(),
+        Self::of::<ModesFile>(),
+        Self::of::<HitFile>(),
+        Self::of::<AnalysisFile>(),
+        Self::of::<BbcorFile>(),
+        Self::of::<HoopFile>(),
+        Self::of::<LatheFile>(),
+        Self::of::<CompareFile>(),
+        Self::of::<MeasuredFile>(),
+        Self::of::<RingFile>(),
+        Self::of::<FrfFile>(),
+        Self::of::<FrfSetFile>(),
+        Self::of::<AdviceFile>(),
+        Self::of::<CalibrateFile>(),
+        Self::of::<ScatterResult>(),
+        Self::of::<StudyManifest>(),
+        Self::of::<AimedFile>(),
+        Self::of::<TradeFile>(),
+        Self::of::<UCurveFile>(),
+        Self::of::<MaterialsFile>(),
+        Self::of::<ErrorFile>(),
+        Self::of::<Data>(),
+    ];
+
+    const fn of<D: Document>() -> Self {
+        Self { name: D::NAME, schema: of::<D> }
+    }
+
+    /// Its name on the command line.
+    pub fn name(self) -> &'static str {
+        self.name
+    }
+
+    /// The `format` by which such a file is known.
+    pub fn format(self) -> String {
+        format(self.name)
+    }
+
+    /// Its schema.
+    pub fn schema(self) -> Value {
+        (self.schema)()
+    }
+}
+
+/// One schema of all of them, each by its `format`, with the schema of each inside.
+pub fn all() -> Value {
+    let by_format = |file: FileKind| {
+        json!({
+            "if": { "properties": { "format": { "const": file.format() } } },
+            "then": { "$ref": id(file.name) },
+        })
+    };
+    let definition = |file: FileKind| (file.name.to_owned(), file.schema());
+    json!({
+        "$schema": DRAFT,
+        "$id": "urn:sweetspot:1",
+        "title": "A file of sweetspot",
+        "description": "A bat, a ball, or what was found of them, told apart by the member \"format\".",
+        "type": "object",
+        "properties": { "format": { "enum": FileKind::ALL.map(FileKind::format) } },
+        "required": ["format"],
+        "allOf": FileKind::ALL.map(by_format),
+        "$defs": FileKind::ALL.map(definition).into_iter().collect::<Map<_, _>>(),
+    })
+}

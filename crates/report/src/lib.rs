@@ -1,0 +1,31 @@
+//! How is it said, drawn and exchanged?
+//!
+//! | file | question |
+//! |---|---|
+//! | [`analysis`] | everything there is to say of one bat and its hits |
+//! | [`parts`] | what a report is made of |
+//! | [`report`], [`csv`] | tables for people and for spreadsheets, JSON for programs |
+//! | [`exchange`] | files for other programs |
+//! | [`many`] | the rows of a study and the folder of them |
+//! | [`plot`] | pictures |
+//! | [`page`] | all of it on one page |
+//! | [`template`] | a bat in its own size, to be printed |
+//! | [`hit_figure`], [`proof_page`] | the published hits as a picture; the page of proofs |
+//! | [`formats`] | every format that is read or written, with its schema |
+
+#![forbid(unsafe_code)]
+#![allow(clippy::needless_range_loop)]
+
+pub mod schema;
+pub mod parts;
+pub mod csv;
+pub mod analysis;
+pub mod report;
+pub mod exchange;
+pub mod many;
+pub mod plot;
+pub mod page;
+pub mod template;
+pub mod hit_figure;
+pub mod proof_page;
+pub mod formats;

@@ -1,0 +1,264 @@
+//! Where do the rows of a study go, and which of them are there?
+//!
+//! A folder holds a manifest and parts of so many rows. Both are written whole, and a part depends on the study
+//! and its number alone: so whatever is there is right, and what is missing can be made at any time.
+
+use std::env::consts::{ARCH, OS};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
+
+use serde_json::Value;
+
+use crate::exchange::npz;
+use crate::many::part::{self, Division, ROWS};
+use crate::many::source::Study;
+use crate::many::sums;
+use crate::schema;
+use crate::schema::study::{ColumnNamed, FileRead, StudyManifest};
+use sweetspot::base::error::{Complaint, Error, Result};
+use sweetspot::base::{file, threads};
+use sweetspot::files::schema::document::{Format, Generator};
+use sweetspot_study::many::hash::of_text;
+use sweetspot_study::many::rows::TOGETHER;
+
+/// The name of the manifest.
+pub const MANIFEST: &str = "manifest.json";
+/// The program ends where it stops.
+static NEVER: AtomicBool = AtomicBool::new(false);
+/// The C library, whose elementary functions another may round in another way.
+const LIBRARY: &str = match () {
+    () if cfg!(target_env = "gnu") => "gnu",
+    () if cfg!(target_env = "musl") => "musl",
+    () if cfg!(target_env = "msvc") => "msvc",
+    () => "own",
+};
+
+/// The folder of a study.
+pub struct StudyFolder<'a> {
+    path: &'a Path,
+    study: &'a Study,
+    division: Division,
+}
+
+/// The manifest of a study, whichever it is.
+///
+/// # Errors
+///
+/// [`Error::Value`] for a file that is no study's manifest; [`Error::Read`].
+pub(super) fn manifest_at(path: &Path) -> Result<Value> {
+    let found: Value = serde_json::from_slice(&file::read_plain(path)?).unwrap_or_default();
+    if found["format"].as_str().is_some_and(|of| of.starts_with("sweetspot-study-manifest/")) {
+        return Ok(found);
+    }
+    let what = "something else than the manifest of a study";
+    let expected = "the manifest that was written there, or another folder";
+    Err(Error::value(path.display().to_string(), what, expected))
+}
+
+impl<'a> StudyFolder<'a> {
+    /// The folder, made if it is not there, with the manifest of this study.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] for a folder of another study or with parts of an unknown one; [`Error::Write`].
+    pub fn open(path: &'a Path, study: &'a Study) -> Result<Self> {
+        let own = Division::of(&study.rows);
+        let mut this = Self { path, study, division: own };
+        let manifest = path.join(MANIFEST);
+        if sums::is_there(&manifest)? {
+            let found = manifest_at(&manifest)?;
+            let each = found.get("rows_per_part").map_or(Some(ROWS), Value::as_u64);
+            // One that was begun with parts of the usual size goes on with them.
+            if each == Some(ROWS) {
+                this.division.rows_per_part = ROWS;
+            }
+            this.same(found)?;
+            file::remove_lost(path);
+            return Ok(this);
+        }
+        let entries = std::fs::read_dir(path).into_iter().flatten().flatten();
+        let is_part = |name: &str| part::is_of_one(name) && !name.ends_with(sums::END);
+        if entries.into_iter().any(|entry| entry.file_name().to_str().is_some_and(is_part)) {
+            let expected = "another folder, or its manifest.json beside the parts";
+            let found = "parts of a study that is not known";
+            return Err(Error::value(path.display().to_string(), found, expected));
+        }
+        let failed = |source| Error::Write { path: path.to_owned(), source };
+        std::fs::create_dir_all(path).map_err(failed)?;
+        file::remove_lost(path);
+        file::write(&manifest, schema::text(&this.manifest()).as_bytes())?;
+        Ok(this)
+    }
+
+    /// The folder that was opened before with that division.
+    pub fn again(path: &'a Path, study: &'a Study, division: Division) -> Self {
+        Self { path, study, division }
+    }
+
+    /// How the rows are shared out.
+    pub fn division(&self) -> Division {
+        self.division
+    }
+
+    /// Path of a part.
+    pub fn part(&self, k: u64) -> PathBuf {
+        self.path.join(format!("part-{k:06}.csv"))
+    }
+
+    /// Part k if it is there.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] for one that does not fit its sum or, without one, is not as the study makes it.
+    pub fn kept(&self, k: u64) -> Result<Option<Vec<u8>>> {
+        let path = self.part(k);
+        if !sums::is_there(&path)? {
+            return Ok(None);
+        }
+        let part = file::read_plain(&path)?;
+        if !sums::fits(&path, &part)? {
+            part::read(&self.study.rows, self.division.part(k), (&path, &part), |_| ())?;
+            sums::add(&path, &part)?;
+        }
+        Ok(Some(part))
+    }
+
+    /// The parts that are missing. On request each that is there gets its numbers as a NumPy archive.
+    ///
+    /// # Errors
+    ///
+    /// [`Self::kept`]; [`Error::Write`].
+    pub fn missing(&self, npz: bool) -> Result<Vec<u64>> {
+        let look = |k: usize| {
+            let k = k as u64;
+            let Some(part) = self.kept(k)? else { return Ok(Some(k)) };
+            self.archive(k, npz, &part)?;
+            Ok(None)
+        };
+        let missing = threads::map(self.division.parts() as usize, look);
+        missing.into_iter().filter_map(Result::transpose).collect()
+    }
+
+    /// Makes those parts, on request with their numbers as a NumPy archive; `tell` is told of rows that are
+    /// done, how many more there are.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Write`].
+    pub fn make(&self, parts: &[u64], npz: bool, tell: &(impl Fn(u64) + Sync)) -> Result<()> {
+        for some in parts.chunks(self.at_once()) {
+            let made = threads::map(some.len(), |k| self.make_one(some[k], npz, tell));
+            made.into_iter().collect::<Result<()>>()?;
+        }
+        Ok(())
+    }
+
+    /// Parts that are made together, so that every thread has some groups of rows.
+    fn at_once(&self) -> usize {
+        let rows = 4 * TOGETHER * threads::count() as u64;
+        rows.div_ceil(self.division.rows_per_part) as usize
+    }
+
+    fn make_one(&self, k: u64, npz: bool, tell: &(impl Fn(u64) + Sync)) -> Result<()> {
+        let path = self.part(k);
+        let made = part::made(self.study, self.division.part(k), &NEVER, tell);
+        let archive = path.with_extension("npz");
+        // One that is there is of the part that is lost.
+        if npz || archive.exists() {
+            sums::write(&archive, &self.numbers(k, made.as_bytes())?)?;
+        }
+        sums::write(&path, made.as_bytes())
+    }
+
+    /// Looks at the archive of a part that is there, or makes it on request.
+    fn archive(&self, k: u64, npz: bool, part: &[u8]) -> Result<()> {
+        let path = self.part(k).with_extension("npz");
+        if !sums::is_there(&path)? {
+            return if npz { sums::write(&path, &self.numbers(k, part)?) } else { Ok(()) };
+        }
+        let there = file::read_plain(&path)?;
+        if sums::fits(&path, &there)? {
+            return Ok(());
+        }
+        match there == self.numbers(k, part)? {
+            true => sums::add(&path, &there),
+            false => Err(sums::damaged(&path, "another archive", "the numbers of the part")),
+        }
+    }
+
+    /// The numbers of a part as a NumPy archive.
+    fn numbers(&self, k: u64, part: &[u8]) -> Result<Vec<u8>> {
+        let path = self.part(k);
+        let columns = part::columns(&self.study.rows, self.division.part(k), (&path, part))?;
+        npz::columns(&columns)
+            .map_err(|source| Error::Write { path: path.with_extension("npz"), source })
+    }
+
+    fn manifest(&self) -> StudyManifest {
+        let hash = |text: &str| format!("{:016x}", of_text(text));
+        let files = self.study.sources.iter();
+        let files = files.map(|file| FileRead { name: file.name.clone(), hash: hash(&file.text) });
+        let columns = self.study.rows.columns().into_iter();
+        let columns = columns.map(|[name, unit]| ColumnNamed { name, unit });
+        StudyManifest {
+            format: Format::new(),
+            generator: Generator::this(),
+            target: format!("{ARCH}-{OS}-{LIBRARY}"),
+            files: files.collect(),
+            columns: columns.collect(),
+            rows: self.study.rows.count(),
+            rows_per_part: self.division.rows_per_part,
+            parts: self.division.parts(),
+        }
+    }
+
+    /// An error that says what has changed since a manifest was written.
+    fn same(&self, mut found: Value) -> Result<()> {
+        let wanted = serde_json::to_value(self.manifest()).unwrap_or_default();
+        // Every part had as many before manifests said so.
+        if let Some(found) = found.as_object_mut() {
+            found.entry("rows_per_part").or_insert(ROWS.into());
+        }
+        // Under any name it is the same study.
+        let own = "/files/0/name";
+        if let Some((there, here)) = found.pointer_mut(own).zip(wanted.pointer(own)) {
+            there.clone_from(here);
+        }
+        if found == wanted {
+            return Ok(());
+        }
+        let mut changed = vec![];
+        for (key, value) in wanted.as_object().into_iter().flatten() {
+            if found[key] == *value {
+                continue;
+            }
+            match key.as_str() {
+                "files" => {
+                    let files = |of: &Value| of.as_array().cloned().unwrap_or_default();
+                    let (there, now) = (files(&found[key]), files(value));
+                    let other = now.iter().filter(|file| !there.contains(file));
+                    let gone = there.iter().filter(|file| !now.contains(file));
+                    for file in other.chain(gone) {
+                        let name = file["name"].as_str().unwrap_or_default().to_owned();
+                        if !changed.contains(&name) {
+                            changed.push(name);
+                        }
+                    }
+                }
+                "generator" => changed.push("the program's version".to_owned()),
+                "target" => changed.push("the machine".to_owned()),
+                other => changed.push(format!("the {}", other.replace('_', " "))),
+            }
+        }
+        let what = match changed.is_empty() {
+            true => "a manifest that is not this study's".to_owned(),
+            false => format!("the parts of a study that differs in {}", changed.join(", ")),
+        };
+        let complaint = Complaint::new(
+            self.path.display().to_string(),
+            what,
+            "the parts of this study, or a new folder",
+        );
+        Err(Error::Value(complaint.hinted("nothing there was changed")))
+    }
+}

@@ -1,0 +1,128 @@
+//! What came of many bats, on one screen.
+
+use std::fmt::Write;
+
+use crate::many::table::{Column, Reason, Table};
+use crate::parts::terminal::wrapped;
+use crate::report::columns::{Columns, first, labels, numbers};
+use sweetspot::base::number::significant;
+use sweetspot_study::files::study_rows::Rows;
+use sweetspot_study::files::study_vary::Varied;
+use sweetspot_study::many::design::Axis;
+use sweetspot_study::many::indices::{Indices, Share};
+
+/// Reasons that are shown.
+const REASONS: usize = 5;
+/// Shares below this are told together.
+const LITTLE: f64 = 0.005;
+
+/// How many rows there are, why some have no answer, and percentiles of every answer.
+pub fn text(table: &Table, rows: &Rows) -> String {
+    let mut out = format!("{} bats, {} of them as accurate as asked\n", table.rows, table.met);
+    let mut reasons: Vec<&Reason> = table.reasons.values().collect();
+    reasons.sort_by_key(|reason| (std::cmp::Reverse(reason.rows), reason.first));
+    for Reason { rows, first, said } in reasons.iter().take(REASONS) {
+        out += &wrapped(&format!("  {rows}, such as row {first}: {said}"), 4);
+    }
+    if reasons.len() > REASONS {
+        let _ = writeln!(out, "  and {} other reasons", reasons.len() - REASONS);
+    }
+    let columns = Columns::new([
+        first(24, ""),
+        numbers(12, "5 %"),
+        numbers(12, "half"),
+        numbers(12, "95 %"),
+        labels(8, ""),
+    ]);
+    out += &columns.heads();
+    for column in answers(table, rows) {
+        let values = sorted(column);
+        let at =
+            |share: f64| percentile(&values, share).map_or("-".to_owned(), |v| significant(v, 6));
+        let cells = [column.name.clone(), at(0.05), at(0.5), at(0.95), column.unit.clone()];
+        out += &columns.row(&cells);
+    }
+    if table.every > 1 {
+        let _ = writeln!(out, "Percentiles of one row in {}", table.every);
+    }
+    out
+}
+
+/// What makes every answer vary, where that can be told.
+pub fn shares(table: &Table, rows: &Rows) -> String {
+    let design = &rows.study.design;
+    if rows.several() || design.combinations() > 1 || design.kinds().is_empty() {
+        let here = match design.kinds().is_empty() {
+            true => "here nothing is drawn",
+            false => "here bats or lists differ too",
+        };
+        let why = format!(
+            "What makes answers vary is told of one bat of which nothing varies but what is drawn \
+             (uniform, normal, lognormal, triangular): {here}."
+        );
+        return format!("\n{}", wrapped(&why, 0));
+    }
+    let mut out = String::new();
+    for column in answers(table, rows) {
+        let name = &column.name;
+        match table.shares(rows, name) {
+            Ok(indices) => out += &of_one(name, &names(rows), &indices),
+            Err(why) => out += &wrapped(&format!("\nWhat makes {name} vary is not told: {why}"), 0),
+        }
+    }
+    out + &wrapped(
+        "\nShares of the variance with one standard deviation of sampling; of numbers that depend on each \
+         other the later one has what the earlier ones leave open.",
+        0,
+    )
+}
+
+fn of_one(name: &str, varied: &[String], indices: &Indices) -> String {
+    let columns = Columns::new([first(44, ""), labels(16, "alone"), labels(16, "with others")]);
+    let shown = |share: &Share| format!("{:.3} ± {:.3}", share.value, share.deviation);
+    let mut out =
+        format!("\nWhat makes {name} vary (degree {}, {} rows)\n", indices.degree, indices.rows);
+    out += &columns.heads();
+    let mut order: Vec<usize> = (0..varied.len()).collect();
+    order.sort_by(|a, b| indices.total[*b].value.total_cmp(&indices.total[*a].value));
+    let (told, little): (Vec<usize>, Vec<usize>) =
+        order.into_iter().partition(|k| indices.total[*k].value >= LITTLE);
+    for k in told {
+        let cells = [varied[k].clone(), shown(&indices.first[k]), shown(&indices.total[k])];
+        out += &columns.row(&cells);
+    }
+    if !little.is_empty() {
+        let names: Vec<&str> = little.iter().map(|k| varied[*k].as_str()).collect();
+        out += &wrapped(&format!("less than {LITTLE} each: {}", names.join(", ")), 2);
+    }
+    let rest = [String::from("what no polynomial follows"), shown(&indices.unexplained)];
+    out + &columns.row(&rest)
+}
+
+/// The columns of the answers, without their errors.
+pub fn answers<'a>(table: &'a Table, rows: &'a Rows) -> impl Iterator<Item = &'a Column> {
+    rows.study.outputs.iter().filter_map(|name| table.column(name))
+}
+
+/// What is drawn, in the order of the indices.
+pub fn names(rows: &Rows) -> Vec<String> {
+    let is_drawn = |varied: &&Varied| matches!(varied.axis(), Axis::Drawn(_));
+    let drawn = rows.study.varied.iter().filter(is_drawn);
+    drawn.map(|varied| varied.path.clone()).collect()
+}
+
+/// The numbers of a column, rising.
+pub fn sorted(column: &Column) -> Vec<f64> {
+    let mut values: Vec<f64> = column.values.iter().copied().filter(|v| v.is_finite()).collect();
+    values.sort_by(f64::total_cmp);
+    values
+}
+
+/// The value below which a share of sorted ones lies, straight between neighbours; None of none.
+pub fn percentile(sorted: &[f64], share: f64) -> Option<f64> {
+    let last = sorted.len().checked_sub(1)?;
+    let place = share * last as f64;
+    let below = place.floor() as usize;
+    let above = (below + 1).min(last);
+    Some(sorted[below] + (place - below as f64) * (sorted[above] - sorted[below]))
+}

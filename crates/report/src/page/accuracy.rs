@@ -1,0 +1,209 @@
+//! How far the numbers may be trusted: what is certified, what was left out and what that costs.
+
+use crate::analysis::Analysis;
+use crate::page::shown::{self, length, speed};
+use crate::parts::units::Units;
+use crate::report::advice;
+use crate::report::hit_text;
+use crate::report::trust;
+use sweetspot::bat::theory::Theory;
+use sweetspot::modes::solve::Request;
+use sweetspot_proof::enclosure::guarantee::guarantee;
+use sweetspot_proof::promise::{ALWAYS, largest};
+use sweetspot_study::ignored::{ignored, in_hit};
+use sweetspot_study::trade::reference::solver_name;
+
+/// What wood, scale and calipers leave open of the bat in hand, and what would settle it.
+pub fn open(analysis: &Analysis, units: Units) -> Vec<String> {
+    trust::of_bat(analysis, units).iter().map(|text| shown::sentence(text)).collect()
+}
+
+/// What is certified, a sentence each.
+pub fn certified(analysis: &Analysis, units: Units) -> Vec<String> {
+    let Analysis { solution, task, .. } = analysis;
+    let tolerance = task.hits.tolerance;
+    let mut told = vec![];
+    if !solution.modes.is_empty() {
+        let count = solution.modes.len();
+        let worst = shown::error(solution.worst());
+        told.push(match (task.hits.elements, solution.met) {
+            (Some(_), _) => format!(
+                "Frequencies: the elements were asked for and no tolerance; each of the {count} is \
+                 within {worst} of itself."
+            ),
+            (None, true) => format!(
+                "Frequencies: asked within {}, and met; each of the {count} is within {worst} of \
+                 itself, by an estimate made for each.",
+                shown::error(tolerance)
+            ),
+            (None, false) => format!(
+                "Frequencies: asked within {}, NOT met ({}); each of the {count} is within {worst} \
+                 of itself.",
+                shown::error(tolerance),
+                solution.shortfall(tolerance)
+            ),
+        });
+        told.push(count_of_modes(analysis).to_owned());
+        told.extend(proven(analysis));
+    }
+    let proof = &analysis.proof;
+    told.push(format!(
+        "Proof: on the uniform dowel, whose frequencies are known exactly, the same solver finds \
+         modes 1 to {} within {} and states {}.",
+        proof.modes,
+        shown::error(proof.truth),
+        shown::error(proof.stated)
+    ));
+    told.extend(exit_speeds(analysis, units));
+    told.extend(one_line(&hit_text::beyond(&analysis.hits, &task.scene, units)));
+    told.iter().map(|text| shown::sentence(text)).collect()
+}
+
+/// A bat of more pieces than this is not proven in a report: it would take long.
+const MOST_PIECES: usize = 300;
+/// So many modes are proven in a report.
+const MOST_MODES: usize = 10;
+/// Intervals are this narrow as a share of the frequency.
+const WIDTH: f64 = 1e-9;
+
+/// What is proven of the frequencies' stated errors; None where nothing is, or where a stated error is smaller
+/// than the proof tells.
+fn proven(analysis: &Analysis) -> Option<String> {
+    let Analysis { bat, solution, .. } = analysis;
+    if bat.profile().pieces.len() > MOST_PIECES {
+        return None;
+    }
+    let modes = solution.modes.len().min(MOST_MODES);
+    let theory = solution.theory;
+    let request = Request { modes, tolerance: WIDTH, theory, ..Request::default() };
+    let (_, found) = guarantee(bat, &request).ok()?;
+    let off = solution.modes.iter().zip(&found.modes).map(|(mode, known)| {
+        let [lower, upper] = known.hertz;
+        let frequency = mode.frequency();
+        f64::max(frequency / lower - 1.0, 1.0 - frequency / upper) / mode.error.total()
+    });
+    // Rounded up to what is printed.
+    let worst = (100.0 * largest(off)).ceil() / 100.0;
+    (found.met && worst <= ALWAYS).then(|| {
+        format!(
+            "Proven, rounding included (modes --guarantee): modes 1 to {modes} of this beam, none \
+             missing between them; each frequency above is off by at most {worst:.2} times what is \
+             stated for it."
+        )
+    })
+}
+
+/// Whether it is certain that no mode is missing.
+fn count_of_modes(analysis: &Analysis) -> &'static str {
+    let solution = &analysis.solution;
+    let by_nodes = analysis.bat.fixtures().none_moving() && !solution.theory.shears();
+    match (solution.complete(), by_nodes) {
+        (true, true) => "No mode is missing: mode n has its n + 1 nodes.",
+        (true, false) => "No mode is missing, by an inertia count.",
+        (false, true) => "A MODE MAY BE MISSING: not every mode n has n + 1 nodes.",
+        (false, false) => "A MODE MAY BE MISSING: the inertia count differs from the modes found.",
+    }
+}
+
+/// The largest error of an exit speed, as the model has it.
+fn exit_speeds(analysis: &Analysis, units: Units) -> Option<String> {
+    let hits = &analysis.hits;
+    let fastest = hits.impacts.iter().map(|i| i.bat_speed + analysis.task.scene.ball_speed);
+    let fastest = fastest.fold(0.0, f64::max);
+    let outcomes = hits.impacts.iter().filter_map(|impact| impact.outcome.as_ref());
+    let worst = outcomes.map(|outcome| outcome.error).reduce(f64::max)?;
+    let verdict = match (analysis.task.hits.elements, hits.met) {
+        (Some(_), _) => "",
+        (None, true) => "; asked and met",
+        (None, false) => "; NOT met",
+    };
+    Some(format!(
+        "Exit speeds: each within {} of the closing speed, {} at most, by estimate, as this model \
+         has them{verdict}.",
+        shown::error(worst),
+        small(units, worst * fastest),
+    ))
+}
+
+/// A small speed: one digit.
+fn small(units: Units, value: f64) -> String {
+    let mph = sweetspot::base::units::miles_per_hour(value);
+    if value >= 0.01 {
+        return speed(units, value);
+    }
+    units.show(format!("{} m/s", shown::error(value)), format!("{} mph", shown::error(mph)))
+}
+
+/// How it was computed, a sentence each.
+pub fn method(analysis: &Analysis) -> Vec<String> {
+    let solution = &analysis.solution;
+    let theory = match solution.theory {
+        Theory::EulerBernoulli | Theory::Auto => "Euler–Bernoulli's theory",
+        Theory::Rayleigh => "Rayleigh's theory (with rotary inertia)",
+        Theory::Timoshenko => "Timoshenko's theory (with rotary inertia and shear)",
+    };
+    let mut told = vec![format!(
+        "The bat is a beam by {theory}: {} elements of degree {}, solver {} ({}).",
+        solution.mesh.len(),
+        solution.degree,
+        solver_name(solution.solver),
+        solution.reason
+    )];
+    if !solution.damping.modes.is_empty() {
+        told.push(format!("Damping: {}.", solution.damping.kind));
+    }
+    let meaning = one_line(hit_text::meaning(analysis.task.model));
+    told.extend(meaning.map(|meaning| format!("The hit: {meaning}.")));
+    told.iter().map(|text| shown::sentence(text)).collect()
+}
+
+/// What the model left out and what that costs.
+pub fn left_out(analysis: &Analysis) -> Vec<String> {
+    let ignored = ignored(&analysis.bat, &analysis.solution);
+    let mut told: Vec<String> = ignored.iter().map(|text| shown::sentence(text)).collect();
+    told.extend(left_out_of_hit(analysis));
+    told
+}
+
+/// What the hits left out, of which the modes know nothing.
+pub fn left_out_of_hit(analysis: &Analysis) -> Vec<String> {
+    let ignored = in_hit(&analysis.bat, &analysis.task.scene);
+    ignored.iter().map(|text| shown::sentence(&format!("Left out: {text}"))).collect()
+}
+
+/// What the model needs on this bat.
+pub fn needed(analysis: &Analysis) -> Vec<String> {
+    let told = analysis.advice.as_ref().map_or(vec![], advice::recommendation);
+    told.iter().map(|text| shown::sentence(text)).collect()
+}
+
+/// Why the ball leaves fastest where it does.
+pub fn why(analysis: &Analysis, units: Units) -> Option<String> {
+    let figures = &analysis.figures;
+    let (peak, rigid) = (figures.spot.exit_speed_max?, figures.rigid_best?);
+    if let Some(text) = hit_text::lives_on_later(figures, units) {
+        return Some(text);
+    }
+    let here = figures.best.as_ref().and_then(|best| best.outcome.as_ref());
+    let (Some(there), Some(here)) = (figures.vibration_at_rigid_best, here) else {
+        return Some("Further out the bat gives way more than its speed makes up for.".to_owned());
+    };
+    let wall = match here.energy.wall {
+        0.0 => String::new(),
+        kept => format!(", and {} to its wall", units.energy(kept, 0)),
+    };
+    Some(format!(
+        "A bat that does not bend would be best at {}, but there this one loses {} to vibration, and \
+         at its sweet spot, {} from there, {}{wall}.",
+        length(units, rigid.x),
+        units.energy(there, 0),
+        length(units, (peak.x - rigid.x).abs()),
+        units.energy(here.energy.vibration(), 0),
+    ))
+}
+
+/// A text made for a terminal as one line; None if it is empty.
+fn one_line(text: &str) -> Option<String> {
+    let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    (!line.is_empty()).then_some(line)
+}

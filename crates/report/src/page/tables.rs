@@ -1,0 +1,255 @@
+//! The tables of results: modes, sweet spots, energies, figures.
+
+use std::f64::consts::TAU;
+
+use crate::analysis::Analysis;
+use crate::page::shown::{self, NONE, bare, decimals, length, length_unit, speed};
+use crate::parts::table::Table;
+use crate::parts::units::Units;
+use sweetspot::base::number;
+use sweetspot::base::units::{gravities, inches, ounces};
+use sweetspot::bat::body::Bat;
+use sweetspot::collision::figures::Swung;
+use sweetspot::collision::hit::Outcome;
+use sweetspot::collision::sweet_spot::{Peak, SweetSpot};
+use sweetspot_study::trampoline::barrel::Barrel;
+
+/// So many modes have their nodes listed, and so many their energies.
+const LISTED: usize = 6;
+const LARGEST: usize = 3;
+
+/// Frequencies with their errors, modal masses, damping where there is any.
+pub fn modes(analysis: &Analysis, units: Units) -> Table {
+    let solution = &analysis.solution;
+    let damped = &solution.damping.modes;
+    let mass = if units == Units::Us { "Modal mass, oz" } else { "Modal mass, g" };
+    let mut head = vec!["Mode", "Frequency, Hz", "f/f₁", "Relative error", mass];
+    if !damped.is_empty() {
+        head.extend(["Damped frequency, Hz", "Damping ratio, %"]);
+    }
+    let mut table = Table::new("Bending modes", &head);
+    let first = solution.modes.first().map_or(1.0, |mode| mode.omega);
+    for (k, mode) in solution.modes.iter().enumerate() {
+        let mut row = vec![
+            mode.order.to_string(),
+            decimals(mode.frequency(), 2),
+            decimals(mode.omega / first, 3),
+            format!("≤ {}", shown::error(mode.error.total())),
+            units.show(decimals(1e3 * mode.modal_mass, 1), decimals(ounces(mode.modal_mass), 2)),
+        ];
+        if let Some(damped) = damped.get(k) {
+            row.extend([decimals(damped.swinging() / TAU, 2), decimals(100.0 * damped.ratio, 3)]);
+        }
+        table.row(row);
+    }
+    table
+}
+
+/// The lowest hoop modes of a barrel: waves around and number along, frequencies with their errors, and where
+/// they move most.
+pub fn hoop_modes(bat: &Bat, barrel: &Barrel, units: Units) -> Table {
+    const MOST: usize = 10;
+    let largest = format!("Largest, from the tip, {}", length_unit(units));
+    let head = ["n around", "m along", "Frequency, Hz", "Relative error", &largest];
+    let mut table = Table::new("Hoop modes: the wall as an elastic solid", &head);
+    for mode in barrel.hoop().lowest(MOST) {
+        table.row([
+            mode.harmonic.to_string(),
+            mode.order.to_string(),
+            decimals(mode.frequency(), 2),
+            format!("≤ {}", shown::error(mode.error)),
+            bare(units, (bat.length() - mode.largest_at).max(0.0)),
+        ]);
+    }
+    table
+}
+
+/// Where the first modes are at rest.
+pub fn nodes(analysis: &Analysis, units: Units) -> Table {
+    let place = format!("From the knob, {}", length_unit(units));
+    let mut table = Table::new("Nodes: where a mode is at rest", &["Mode", &place]);
+    for mode in analysis.solution.modes.iter().take(LISTED) {
+        let nodes: Vec<String> = mode.nodes.iter().map(|x| bare(units, *x)).collect();
+        let nodes = if nodes.is_empty() { "none".to_owned() } else { nodes.join(", ") };
+        table.row([mode.order.to_string(), nodes]);
+    }
+    table
+}
+
+/// The sweet spot by each of its definitions.
+pub fn sweet_spots(analysis: &Analysis, units: Units) -> Table {
+    let unit = length_unit(units);
+    let [knob, tip] = ["knob", "tip"].map(|end| format!("From the {end}, {unit}"));
+    let head = ["Sweet spot by", &knob, &tip, "There"];
+    let mut table = Table::new("The sweet spot by each of its definitions", &head);
+    let (spot, whole) = (&analysis.figures.spot, analysis.bat.length());
+    let mut line = |what: &str, x: Option<f64>, value: String| {
+        let Some(x) = x else { return };
+        table.row([what.to_owned(), bare(units, x), bare(units, whole - x), value]);
+    };
+    let mut peak = |what: &str, peak: Option<Peak>, value: &dyn Fn(f64) -> String| {
+        line(what, peak.map(|p| p.x), peak.map_or(String::new(), |p| value(p.value)));
+    };
+    peak("fastest ball", spot.exit_speed_max, &|v| speed(units, v));
+    peak("least vibration", spot.vibration_min, &|energy| units.energy(energy, 2));
+    peak("least hand speed (rms, undamped)", spot.hands_velocity_min, &|v| speed(units, v));
+    if analysis.bat.damped() {
+        peak("least hand shaking (rms)", spot.hands_acceleration_min, &|a| {
+            format!("{:.0} times gravity", gravities(a))
+        });
+    }
+    line("node of mode 1", spot.node_mode_1, NONE.to_owned());
+    line("node of mode 2", spot.node_mode_2, NONE.to_owned());
+    line("centre of percussion of this swing", spot.center_of_percussion, NONE.to_owned());
+    if let Some([from, to]) = spot.zone {
+        line("within 1 % of the best speed, from", Some(from), NONE.to_owned());
+        line("and to", Some(to), NONE.to_owned());
+    }
+    table
+}
+
+/// Where the energy of the best hit goes; empty where no ball is hit.
+pub fn ledger(analysis: &Analysis, units: Units) -> Table {
+    let (unit, per) = units.of_energy();
+    let mut table = Table::new("Energy of the hit at the sweet spot", &["Energy", unit, "%"]);
+    let best = analysis.figures.best.as_ref();
+    let Some(energy) = best.and_then(|best| best.outcome.as_ref()).map(|outcome| &outcome.energy)
+    else {
+        return table;
+    };
+    let mut line = |what: &str, value: f64| {
+        let share = 100.0 * value / energy.initial;
+        let hundredths = |value: f64| format!("{:.2}", value + 0.0).replace('-', "−");
+        let share = if share.is_finite() { hundredths(share) } else { NONE.to_owned() };
+        table.row([what.to_owned(), hundredths(per * value), share]);
+    };
+    line("before: ball and bat together", energy.initial);
+    line("after: the ball flies on with", energy.ball);
+    line("the bat's swing keeps", energy.bat_rigid);
+    line("the bat's vibration takes", energy.vibration());
+    let (first, others) =
+        energy.vibration_by_mode.split_at(energy.vibration_by_mode.len().min(LARGEST));
+    for (k, mode) in first.iter().enumerate() {
+        line(&format!("  of it mode {}", k + 1), *mode);
+    }
+    if !others.is_empty() {
+        line("  of it all others", others.iter().sum());
+    }
+    line("lost in the ball", energy.dissipated_ball);
+    line("lost by the bat's damping", energy.dissipated_damping);
+    if energy.wall != 0.0 {
+        line("in the barrel's wall", energy.wall);
+    }
+    // An empirical model loses some: what is round-off in all others is not for people to read.
+    if energy.imbalance().abs() > 1e-6 * energy.initial {
+        line("not accounted for by this model", energy.imbalance());
+    }
+    table
+}
+
+/// The figures by which bats are compared; empty where no ball is hit.
+pub fn figures(analysis: &Analysis, units: Units) -> Table {
+    let figures = &analysis.figures;
+    let mut table =
+        Table::new("Figures at the sweet spot (computed, not certified)", &["Figure", "Value"]);
+    let Some(best) = &figures.best else { return table };
+    let Some(outcome) = &best.outcome else { return table };
+    let mut line = |what: &str, value: String| table.row([what.to_owned(), value]);
+    line("bat speed there", speed(units, best.bat_speed));
+    of_the_hit(outcome, units).into_iter().for_each(|(what, value)| line(what, value));
+    for (what, peak) in [
+        ("largest BBCOR, of a free bat", figures.bbcor_max),
+        ("largest BBCOR, of a bat held 6 in from the knob", figures.bbcor_pivoted_max),
+    ] {
+        let Some(peak) = peak else { continue };
+        line(what, format!("{:.3} at {}", peak.value, length(units, peak.x)));
+    }
+    if let Some([knob, tip]) = figures.spot.inch_off {
+        let lost = |v: Option<f64>| {
+            v.map_or("no hit".to_owned(), |v| signed(units, v - outcome.exit_speed))
+        };
+        line("1 in off towards the knob", lost(knob));
+        line("1 in off towards the tip", lost(tip));
+    }
+    for swung in &figures.swings {
+        let (what, value) = swung_by(swung, units);
+        line(&what, value);
+    }
+    table
+}
+
+fn of_the_hit(outcome: &Outcome, units: Units) -> Vec<(&'static str, String)> {
+    let three = |value: f64| format!("{value:.3}");
+    let mut lines = vec![
+        ("exit speed of the ball", speed(units, outcome.exit_speed)),
+        ("collision efficiency e_A", three(outcome.collision_efficiency)),
+        ("BBCOR, of a free bat", three(outcome.bbcor)),
+        ("BBCOR, of a bat held 6 in from the knob", three(outcome.bbcor_pivoted)),
+        ("impulse on the ball", shown::impulse(units, outcome.impulse)),
+    ];
+    if let Some(time) = outcome.contact_time {
+        lines.push(("time of contact", format!("{:.3} ms", 1e3 * time)));
+    }
+    if let Some(force) = outcome.peak_force {
+        lines.push(("largest force", shown::force(units, force)));
+    }
+    lines
+}
+
+/// The fastest ball of a batter who swings bats by that law.
+fn swung_by(swung: &Swung, units: Units) -> (String, String) {
+    let what = match swung.exponent {
+        0.0 => "swung at the same angular speed".to_owned(),
+        0.5 => "swung with the same energy of rotation".to_owned(),
+        n => format!("swung at a speed as (swing weight)^{}", -n),
+    };
+    let best = swung.best.map_or("no hit".into(), |best| speed(units, best.value));
+    (format!("{what}, {:.2} rad/s", swung.swing), best)
+}
+
+/// A change of speed.
+fn signed(units: Units, change: f64) -> String {
+    let us = with_sign(sweetspot::base::units::miles_per_hour(change), 1);
+    units.show(format!("{} m/s", with_sign(change, 2)), format!("{us} mph"))
+}
+
+/// A change, to so many decimals.
+fn with_sign(value: f64, decimals: usize) -> String {
+    number::signed(value, decimals).replace('-', "−")
+}
+
+/// How the sweet spots and the best speed move with the scene; empty where no ball is hit.
+pub fn moves(analysis: &Analysis, units: Units) -> Table {
+    let (unit, per, digits) =
+        if units == Units::Us { ("in", inches(1.0), 2) } else { ("mm", 1e3, 1) };
+    let caption = format!("How the sweet spots move towards the tip, {unit}");
+    let damped = analysis.bat.damped();
+    let mut head = vec!["If …", "fastest ball", "least vibration", "least hand speed"];
+    head.extend(damped.then_some("least hand shaking"));
+    head.push("best speed");
+    let mut table = Table::new(caption, &head);
+    let spot = &analysis.figures.spot;
+    if spot.exit_speed_max.is_none() {
+        return table;
+    }
+    for (what, moved) in &analysis.figures.moves {
+        let by = |of: fn(&SweetSpot) -> Option<Peak>| match (of(spot), of(moved)) {
+            (Some(before), Some(after)) => with_sign(per * (after.x - before.x), digits),
+            _ => NONE.to_owned(),
+        };
+        let faster = match (spot.exit_speed_max, moved.exit_speed_max) {
+            (Some(before), Some(after)) => signed(units, after.value - before.value),
+            _ => NONE.to_owned(),
+        };
+        let mut cells = vec![
+            what.clone(),
+            by(|s| s.exit_speed_max),
+            by(|s| s.vibration_min),
+            by(|s| s.hands_velocity_min),
+        ];
+        cells.extend(damped.then(|| by(|s| s.hands_acceleration_min)));
+        cells.push(faster);
+        table.row(cells);
+    }
+    table
+}

@@ -1,0 +1,74 @@
+//! A report on a terminal: sentences of at most 80 columns, tables as wide as they are.
+
+use std::fmt::Write;
+
+use crate::parts::part::{Fact, Part};
+use crate::parts::table::Table;
+
+/// A title and what follows it.
+pub fn text(title: &str, parts: &[Part]) -> String {
+    let mut out = wrapped(title, 2);
+    let mut told = false;
+    for part in parts {
+        // Sentences stand apart from what is above them.
+        let tells = matches!(part, Part::Text(_) | Part::Missing(_));
+        out += if tells && !told { "\n" } else { "" };
+        told = tells;
+        match part {
+            Part::Heading(title) => {
+                let _ = write!(out, "\n{title}\n");
+            }
+            Part::Text(text) => out += &wrapped(text, 0),
+            Part::Missing(why) => out += &wrapped(why, 0),
+            Part::List(items) => {
+                items.iter().for_each(|item| out += &wrapped(&format!("  {item}"), 4))
+            }
+            Part::Facts(_, facts) => facts.iter().for_each(|fact| out += &line(fact)),
+            Part::Table(one) => out += &table(one),
+            Part::Command(command) => out += &wrapped(command, 2),
+            Part::Folded(title, parts) => out += &text(title, parts),
+            // Pictures, players and the user's files need a page.
+            Part::Picture(_) | Part::Hovered(_) | Part::File(_) | Part::Moving(_) => {}
+        }
+    }
+    out
+}
+
+fn line(Fact { label, value, note, .. }: &Fact) -> String {
+    wrapped(format!("  {label:<38} {value}  {note}").trim_end(), 41)
+}
+
+/// An empty line, the heads and their units, the rows: numbers end where their heads do.
+fn table(table: &Table) -> String {
+    let units = table.units.iter().map(|unit| (*unit).to_owned()).collect::<Vec<_>>();
+    let above =
+        [&table.head, &units].into_iter().filter(|line| line.iter().any(|cell| !cell.is_empty()));
+    let lines: Vec<&Vec<String>> = above.chain(&table.rows).collect();
+    let long = |cell: Option<&String>| cell.map_or(0, |cell| cell.chars().count());
+    let width = |k: usize| lines.iter().map(|line| long(line.get(k))).max().unwrap_or(0);
+    let is_number =
+        |k: usize| !table.rows.iter().any(|row| row[k].starts_with(char::is_alphabetic));
+    let columns: Vec<_> = (0..table.head.len()).map(|k| (width(k), is_number(k))).collect();
+    let mut out = String::from("\n");
+    for line in lines {
+        let cells = line.iter().zip(&columns).map(|(cell, &(width, number))| match number {
+            true => format!("  {cell:>width$}"),
+            false => format!("  {cell:<width$}"),
+        });
+        out += cells.collect::<String>().trim_end();
+        out.push('\n');
+    }
+    out
+}
+
+/// Breaks a line at its last spaces before column 80, the rest indented; ends the line.
+pub fn wrapped(text: &str, indent: usize) -> String {
+    let (mut out, mut rest, mut lead) = (String::new(), text, 0);
+    while let Some((end, _)) = rest.char_indices().nth(80 - lead) {
+        let Some(space) = rest[..end].rfind(' ').filter(|at| *at > 0) else { break };
+        let _ = writeln!(out, "{:lead$}{}", "", rest[..space].trim_end());
+        (rest, lead) = (rest[space..].trim_start(), indent);
+    }
+    let _ = writeln!(out, "{:lead$}{rest}", "");
+    out
+}

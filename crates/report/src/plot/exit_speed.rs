@@ -1,0 +1,195 @@
+//! How fast the ball leaves along the bat, and where the sweet spot is by each definition.
+
+use crate::plot::axis::Axis;
+use crate::plot::picture::Picture;
+use crate::plot::place::{self, PlaceRow};
+use crate::plot::plane::{Frame, NUMBERS, Plane, head, ticks_up};
+use crate::plot::series::{Series, hover, legend};
+use crate::plot::sheet::Sheet;
+use crate::plot::svg::{Pen, Svg};
+use crate::plot::theme::{SERIES, series};
+use sweetspot::bat::body::Bat;
+use sweetspot::collision::hit::Impact;
+use sweetspot::collision::sweet_spot::{Peak, SweetSpot};
+
+/// A bat, the name it has in the picture, its hits and its sweet spot.
+#[derive(Debug, Clone, Copy)]
+pub struct SpeedCurves<'a> {
+    /// What the bat is called.
+    pub name: &'a str,
+    /// The bat.
+    pub bat: &'a Bat,
+    /// Impacts, by rising place.
+    pub impacts: &'a [Impact],
+    /// Sweet spot by every definition.
+    pub spot: &'a SweetSpot,
+}
+
+/// Height of the curves' diagram (px).
+const DIAGRAM: f64 = 230.0;
+
+/// Exit speed against place, exit speed of bats that do not bend, and rows of sweet spots; picture
+/// `exit_speed`. None without two places.
+pub fn picture(sheet: Sheet, subjects: &[SpeedCurves]) -> Option<Picture> {
+    let places = subjects.iter().flat_map(|s| s.impacts.iter().map(|i| i.x));
+    let [from, to] = places
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [f64::min(a, x), f64::max(b, x)]);
+    let alone = subjects.len() == 1;
+    let all = subjects.iter().enumerate();
+    let curves: Vec<Series> = all.flat_map(|(k, s)| curves(sheet, k, s, alone)).collect();
+    let values = || curves.iter().flat_map(|c| c.points.iter().flatten().map(|[_, v]| *v));
+    if from >= to || values().next().is_none() {
+        return None;
+    }
+    let rows = sweet_spots(sheet, subjects);
+    let mut svg = Svg::on(sheet);
+    let (title, name, facts) = words(sheet, subjects);
+    head(&mut svg, title, [name, &facts]);
+    let keys = keys(&curves, alone);
+    let keys: Vec<&Series> = keys.iter().collect();
+    let top = legend(&mut svg, &keys) + 12.0 + NUMBERS;
+    let side = top + DIAGRAM;
+    let bottom = side + 6.0 + place::height(sheet, &rows);
+    svg.height = bottom + NUMBERS + 4.0;
+    let bats: Vec<(&str, f64)> = subjects.iter().map(|s| (s.name, s.bat.length())).collect();
+    let [x, tip] = place::axes(sheet, [from, to], &bats);
+    let fast = sheet.speed();
+    let y = Axis::around("exit speed", values().map(|v| fast.per * v), ticks_up(DIAGRAM));
+    let frame = Frame::across(sheet, [top, side]);
+    let plane = Plane { frame, x, y: y.counted_in(fast) };
+    svg.read_off = Some([frame.left, top, frame.right, side]);
+    let strip = Plane { frame: Frame { top: side + 6.0, bottom, ..frame }, ..plane.clone() };
+    zone(&mut svg, &plane, subjects);
+    plane.above(&mut svg, &tip);
+    diagram(&mut svg, &plane, (subjects, &curves));
+    place::rows(&mut svg, &strip, &rows);
+    strip.below(&mut svg);
+    Some(Picture::new("exit_speed", title, &described(subjects, &rows), svg))
+}
+
+/// The curves, and the fastest ball on each.
+fn diagram(svg: &mut Svg, plane: &Plane, (subjects, curves): (&[SpeedCurves], &[Series])) {
+    plane.draw(svg);
+    curves.iter().rev().for_each(|curve| curve.draw(svg, plane));
+    for (k, subject) in subjects.iter().enumerate() {
+        let peak = subject.spot.exit_speed_max.map(|peak| [peak.x, peak.value]);
+        let seen = |at: &[f64; 2]| plane.x.holds(at[0]) && plane.y.holds(at[1]);
+        if let Some(at) = peak.filter(seen) {
+            place::mark(svg, k, plane.at(at));
+        }
+    }
+    hover(svg, plane, &curves.iter().collect::<Vec<_>>());
+}
+
+fn words<'a>(sheet: Sheet, subjects: &[SpeedCurves<'a>]) -> (&'static str, &'a str, String) {
+    let title = "Exit speed along the bat";
+    let [one] = subjects else {
+        return (title, "", "each bat as it bends, and if it did not".to_owned());
+    };
+    let most = one.spot.exit_speed_max.map(|Peak { x, value }| {
+        let unit = sheet.speed();
+        let place = place::shown(sheet, x, one.bat.length());
+        format!("at most {:.1} {}, {place}", unit.per * value, unit.name)
+    });
+    (title, one.name, most.unwrap_or_default())
+}
+
+fn described(subjects: &[SpeedCurves], rows: &[PlaceRow]) -> String {
+    let names: Vec<&str> = subjects.iter().map(|s| s.name).collect();
+    let places: Vec<&str> = rows.iter().map(|row| row.label.as_str()).collect();
+    format!(
+        "Exit speed of the ball against where it meets the bat, of {}, with the same if the bat did \
+         not bend. Sweet spots: {}.",
+        names.join(", "),
+        places.join("; ")
+    )
+}
+
+/// As the bat is, and if it did not bend; the wall of a hollow one may give way too.
+fn curves(sheet: Sheet, k: usize, subject: &SpeedCurves, alone: bool) -> Vec<Series> {
+    let curve = |name: &str, of: &dyn Fn(&Impact) -> Option<f64>| {
+        let points = subject.impacts.iter().map(|i| Some([i.x, of(i)?])).collect();
+        Series::curve(name, k, points).units(sheet.length().name, sheet.speed().name)
+    };
+    let wall = |impact: &Impact| impact.outcome.as_ref().is_some_and(|o| o.energy.wall > 0.0);
+    let rings = subject.impacts.iter().any(wall);
+    let [name, stiff] = match (alone, rings) {
+        (true, false) => ["as it bends", "if it did not bend"].map(str::to_owned),
+        (true, true) => ["as bat and wall give way", "if both were stiff"].map(str::to_owned),
+        (false, _) => [subject.name.to_owned(), format!("{}, if it did not bend", subject.name)],
+    };
+    let rigid = curve(&stiff, &|i| i.rigid_exit_speed);
+    let pen = if alone { Pen::new(SERIES[5], 1.4) } else { Pen::new(series(k).0, 1.2) };
+    let bent = curve(&name, &|i| i.outcome.as_ref().map(|o| o.exit_speed));
+    // A bat that does not bend in the model has one curve.
+    let rigid =
+        if bent.points == rigid.points { vec![] } else { vec![rigid.pen(pen.dashed("5 4"))] };
+    let seen = |curve: &Series| curve.points.iter().any(Option::is_some);
+    std::iter::once(bent).chain(rigid).filter(seen).collect()
+}
+
+/// What is named of the curves: of several bats that do not bend, one.
+fn keys(curves: &[Series], alone: bool) -> Vec<Series> {
+    let stiff = |curve: &&Series| !alone && curve.pen.width < 2.0;
+    let mut named: Vec<Series> = curves.iter().filter(|c| !stiff(c)).cloned().collect();
+    if let Some(one) = curves.iter().find(stiff) {
+        let name = "thin: if it did not bend".to_owned();
+        named.push(Series { name, ..one.clone().pen(Pen { ink: SERIES[5], ..one.pen }) });
+    }
+    named
+}
+
+/// Where a single bat's exit speed is within 1 % of its best.
+fn zone(svg: &mut Svg, plane: &Plane, subjects: &[SpeedCurves]) {
+    let [one] = subjects else { return };
+    if let Some(zone) = one.spot.zone {
+        plane.band(svg, zone, SERIES[0]);
+    }
+}
+
+/// A row for every definition that has a place.
+fn sweet_spots(sheet: Sheet, subjects: &[SpeedCurves]) -> Vec<PlaceRow> {
+    type Of = fn(&SpeedCurves) -> Option<f64>;
+    let all: [(&str, Of); 7] = [
+        ("fastest ball", |s| s.spot.exit_speed_max.map(|p| p.x)),
+        ("least vibration", |s| s.spot.vibration_min.map(|p| p.x)),
+        ("node of mode 1", |s| s.spot.node_mode_1),
+        ("node of mode 2", |s| s.spot.node_mode_2),
+        ("centre of percussion of the swing", |s| s.spot.center_of_percussion),
+        ("slowest at the hands", |s| s.spot.hands_velocity_min.map(|p| p.x)),
+        // Nobody feels the shaking of a bat that nothing damps, which has no end.
+        ("least shaken at the hands", |s| {
+            s.spot.hands_acceleration_min.filter(|_| s.bat.damped()).map(|p| p.x)
+        }),
+    ];
+    let mut rows: Vec<PlaceRow> =
+        all.iter().filter_map(|(what, of)| row(sheet, subjects, what, *of)).collect();
+    let zones: Vec<(usize, [f64; 2])> =
+        subjects.iter().enumerate().filter_map(|(k, s)| Some((k, s.spot.zone?))).collect();
+    if let [(_, [from, to])] = zones.as_slice() {
+        let (from, to) = (sheet.length().per * from, place::along(sheet, *to));
+        let label = format!("within 1 %: {} to {to}", place::tenths(from));
+        rows.insert(1.min(rows.len()), PlaceRow::of_stretches(label, zones));
+    } else if !zones.is_empty() {
+        rows.insert(1.min(rows.len()), PlaceRow::of_stretches("within 1 %".into(), zones));
+    }
+    rows
+}
+
+fn row(
+    sheet: Sheet,
+    subjects: &[SpeedCurves],
+    what: &str,
+    of: impl Fn(&SpeedCurves) -> Option<f64>,
+) -> Option<PlaceRow> {
+    let places: Vec<(usize, f64)> =
+        subjects.iter().enumerate().filter_map(|(k, s)| Some((k, of(s)?))).collect();
+    let label = match (subjects, places.as_slice()) {
+        (_, []) => return None,
+        ([one], [(_, x)]) => format!("{what}: {}", place::shown(sheet, *x, one.bat.length())),
+        _ => {
+            format!("{what}: {}", place::listed(sheet, &places))
+        }
+    };
+    Some(PlaceRow::of_places(label, places))
+}

@@ -1,0 +1,193 @@
+//! The bat coloured by what a cut does there, a strip for each output.
+
+use crate::plot::axis::Axis;
+use crate::plot::outline::Lying;
+use crate::plot::picture::Picture;
+use crate::plot::place;
+use crate::plot::plane::{Frame, NUMBERS, Plane, head};
+use crate::plot::profile::widest;
+use crate::plot::series::digits;
+use crate::plot::sheet::Sheet;
+use crate::plot::svg::{Pen, Svg};
+use crate::plot::theme::{FRAME, SERIES};
+use crate::plot::words::{Anchor, LABEL, SMALL, fitted};
+use sweetspot::base::number::signed;
+use sweetspot::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
+use sweetspot::bat::body::Bat;
+use sweetspot::bat::profile::Section;
+use sweetspot_study::lathe::map::{LatheMap, TurnedBand};
+use sweetspot_study::many::answers::Answer;
+
+/// Height of a strip's bat and of the words above it (px).
+const BAT: f64 = 34.0;
+const WORDS: f64 = 19.0;
+/// Evenly spaced sections of an outline.
+const OUTLINE: usize = 40;
+/// Bands that say their change where a pointer is.
+const MOST_TOLD: usize = 70;
+/// Opacity of the largest change of a strip.
+const FULL: f64 = 0.85;
+/// A millimetre of diameter; what the picture is per in US units.
+const MM: f64 = 1e-3;
+const THIRTY_SECOND: f64 = 0.0254 / 32.0;
+
+/// What a strip shows: its name, the unit, how many of it are one SI unit, and a band's change per metre.
+struct Strip {
+    name: String,
+    unit: &'static str,
+    scale: f64,
+    decimals: i32,
+    changes: Vec<Option<f64>>,
+}
+
+/// The bat in strips; picture `lathe`. None where no band has a change to be shown.
+pub fn picture(sheet: Sheet, map: &LatheMap) -> Option<Picture> {
+    let strips = strips(sheet, map);
+    if strips.is_empty() {
+        return None;
+    }
+    let bat = map.piece.bat();
+    let length = bat.length();
+    let [knob, tip] = place::axes(sheet, [0.0, length], &[(bat.name(), length)]);
+    let per = if sheet.us { "1/32 in" } else { "mm" };
+    let title = "What a cut does";
+    let facts = format!("per {per} taken off the diameter there; blue rises, red falls");
+    let mut svg = Svg::on(sheet);
+    head(&mut svg, title, [bat.name(), &facts]);
+    let top = sheet.head() + NUMBERS;
+    let each = WORDS + BAT + 9.0;
+    let frame = Frame::across(sheet, [top, top + each * strips.len() as f64 + 4.0]);
+    svg.height = frame.bottom + NUMBERS + 4.0;
+    let plane = Plane { frame, x: knob, y: Axis::new("", [0.0, 1.0]) };
+    plane.above(&mut svg, &tip);
+    let per_metre = 0.5 * BAT / widest(bat);
+    let outline = few_sections(bat);
+    let mut told = vec![];
+    for (k, strip) in strips.iter().enumerate() {
+        let upper = top + each * k as f64;
+        let axis = upper + WORDS + 0.5 * BAT;
+        let lying = Lying { plane: &plane, axis, per_metre };
+        let most = strip.most();
+        label(&mut svg, frame, upper, strip);
+        for (band, change) in map.bands.iter().zip(&strip.changes) {
+            let Some(change) = change else { continue };
+            let share = if most > 0.0 { change.abs() / most } else { 0.0 };
+            let ink = if *change >= 0.0 { SERIES[0] } else { SERIES[1] };
+            let opacity = rounded(FULL * share);
+            if opacity > 0.0 {
+                lying.filled(&mut svg, &between(bat, &outline, band.ends), (ink, opacity));
+            }
+            let middle = plane.across(0.5 * (band.ends[0] + band.ends[1]));
+            told.push(([middle, axis], strip.of(sheet, band, *change)));
+        }
+        lying.outline(&mut svg, &outline, Pen::new(FRAME, 0.9));
+    }
+    svg.hover(&told, MOST_TOLD);
+    plane.below(&mut svg);
+    let named: Vec<String> = strips.iter().map(Strip::range).collect();
+    let alt =
+        format!("{}: what a cut does along the bat, {facts}. {}.", bat.name(), named.join("; "));
+    Some(Picture::new("lathe", title, &alt, svg))
+}
+
+/// Few sections that tell the bat's shape: evenly spaced ones, and its stations with both sides of steps.
+fn few_sections(bat: &Bat) -> Vec<(f64, Section)> {
+    let (profile, stations) = (bat.profile(), &bat.profile().stations);
+    let even = (0..=OUTLINE).map(|k| bat.length() * k as f64 / OUTLINE as f64);
+    let mut all: Vec<(f64, Section)> = even.map(|x| (x, profile.at(x))).collect();
+    if stations.x.len() <= 2 * OUTLINE {
+        // A place that is a station has the station's two sides.
+        all.retain(|(x, _)| !stations.x.contains(x));
+        let radii = stations.outer.iter().zip(&stations.inner);
+        let sections = radii.map(|(outer, inner)| Section { outer: *outer, inner: *inner });
+        all.extend(stations.x.iter().copied().zip(sections));
+    }
+    all.sort_by(|a, b| a.0.total_cmp(&b.0));
+    all
+}
+
+/// The sections of a band: those of the outline, and its ends.
+fn between(bat: &Bat, outline: &[(f64, Section)], [from, to]: [f64; 2]) -> Vec<(f64, Section)> {
+    let just_before = to - 1e-9 * bat.length();
+    let ends = [(from, bat.profile().at(from)), (to, bat.profile().at(just_before))];
+    let inside = outline.iter().copied().filter(|(x, _)| *x > from && *x < just_before);
+    [ends[0]].into_iter().chain(inside).chain([ends[1]]).collect()
+}
+
+fn rounded(opacity: f64) -> f64 {
+    (100.0 * opacity).round() / 100.0
+}
+
+fn label(svg: &mut Svg, frame: Frame, top: f64, strip: &Strip) {
+    let range = strip.range();
+    let (name, numbers) = range.split_once(": ").unwrap_or((&range, ""));
+    let y = top + WORDS - 4.0;
+    let wide = frame.right - frame.left;
+    svg.text([frame.left, y], LABEL, &fitted(name, LABEL, 0.55 * wide));
+    svg.text([frame.right, y], SMALL.at(Anchor::End), &fitted(numbers, SMALL, 0.45 * wide));
+}
+
+impl Strip {
+    fn most(&self) -> f64 {
+        self.changes.iter().flatten().fold(0.0, |most: f64, change| most.max(change.abs()))
+    }
+
+    /// Its name and how far the changes go.
+    fn range(&self) -> String {
+        let all = self.changes.iter().flatten();
+        let [low, high] = all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], change| {
+            [low.min(*change), high.max(*change)]
+        });
+        let [low, high] = [low, high].map(|value| self.shown(value));
+        format!("{}: {low} to {high} {}", self.name, self.unit).trim_end().to_owned()
+    }
+
+    fn shown(&self, change: f64) -> String {
+        let value = self.scale * change;
+        match self.decimals {
+            0.. => signed(value, self.decimals as usize).replace('-', "−"),
+            _ => digits(value, 3),
+        }
+    }
+
+    fn of(&self, sheet: Sheet, band: &TurnedBand, change: f64) -> String {
+        let [from, to] = band.ends.map(|x| place::along(sheet, x));
+        format!("{}, {from} to {to}: {} {}", self.name, self.shown(change), self.unit)
+    }
+}
+
+/// The strips of what was looked at.
+fn strips(sheet: Sheet, map: &LatheMap) -> Vec<Strip> {
+    let us = sheet.us;
+    let per = if us { THIRTY_SECOND } else { MM };
+    let answers = &map.terms.answers;
+    let mut all = vec![];
+    let mut add = |answer: Answer, name: &str, unit: (&'static str, f64, i32), exponent: f64| {
+        let Some(k) = answers.iter().position(|known| *known == answer) else { return };
+        let of = |band: &TurnedBand| band.slopes.as_ref()?.by_law(exponent)[k].map(|f| f.value);
+        let changes: Vec<Option<f64>> = map.bands.iter().map(of).collect();
+        if changes.iter().any(Option::is_some) {
+            let (unit, scale, decimals) = (unit.0, unit.1 * per, unit.2);
+            all.push(Strip { name: name.to_owned(), unit, scale, decimals, changes });
+        }
+    };
+    let length = if us { ("in", inches(1.0), 4) } else { ("mm", 1e3, 2) };
+    let speed = if us { ("mph", miles_per_hour(1.0), 3) } else { ("m/s", 1.0, 3) };
+    let inertia = if us { ("oz in²", ounce_square_inches(1.0), 1) } else { ("kg cm²", 1e4, 2) };
+    add(Answer::Mass, "mass", if us { ("oz", ounces(1.0), 3) } else { ("g", 1e3, 2) }, 0.0);
+    add(Answer::Inertia, "swing weight", inertia, 0.0);
+    add(Answer::Frequency(1), "frequency of mode 1", ("Hz", 1.0, 2), 0.0);
+    add(Answer::Frequency(2), "frequency of mode 2", ("Hz", 1.0, 2), 0.0);
+    add(Answer::Node(1), "node of mode 1, outward", length, 0.0);
+    add(Answer::ExitSpeedPlace, "sweet spot, outward", length, 0.0);
+    add(Answer::ExitSpeed, "fastest ball, same swing", speed, 0.0);
+    if let Some(own) = map.exponents().get(2) {
+        add(Answer::ExitSpeed, &format!("fastest ball, swing law n = {own}"), speed, *own);
+    }
+    add(Answer::ExitSpeed, "fastest ball, same energy of the swing", speed, 0.5);
+    let hands = answers.iter().copied().find(|a| matches!(a, Answer::HandsAccelerationAt(_)));
+    if let Some(answer) = hands {
+        add(answer, "acceleration that the hands feel", ("m/s²", 1.0, 0), 0.0);
+    }
+    all
+}

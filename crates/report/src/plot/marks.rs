@@ -1,0 +1,105 @@
+//! The places of a bat that matter, and what it is made of and bears, as rows.
+
+use crate::plot::place::{self, PlaceRow};
+use crate::plot::series::{digits, short};
+use crate::plot::sheet::Sheet;
+use sweetspot::base::units::ounces;
+use sweetspot::bat::body::{Bat, STANDARD_PIVOT};
+use sweetspot::bat::fixtures::{Held, Region};
+use sweetspot::bat::material::Material;
+
+/// A bat, the name it has in the picture, and where its swing turns.
+#[derive(Debug, Clone, Copy)]
+pub struct MarkedBat<'a> {
+    /// What the bat is called.
+    pub name: &'a str,
+    /// The bat.
+    pub bat: &'a Bat,
+    /// Rotation centre beyond the knob end (m), negative inside the handle; none if nobody swings.
+    pub swing_pivot: Option<f64>,
+}
+
+/// Balance points, pivots, centres of percussion; what one bat is made of and bears.
+pub fn marked(sheet: Sheet, subjects: &[MarkedBat]) -> Vec<PlaceRow> {
+    let of = |what: &str, place: &dyn Fn(&MarkedBat) -> Option<f64>| {
+        let places: Vec<(usize, f64)> =
+            subjects.iter().enumerate().filter_map(|(k, s)| Some((k, place(s)?))).collect();
+        let label = match (subjects, places.as_slice()) {
+            ([one], [(_, x)]) => format!("{what}: {}", place::shown(sheet, *x, one.bat.length())),
+            _ => {
+                format!("{what}: {}", place::listed(sheet, &places))
+            }
+        };
+        (!places.is_empty()).then(|| PlaceRow::of_places(label, places))
+    };
+    let on_bat = |s: &MarkedBat| (STANDARD_PIVOT <= s.bat.length()).then_some(STANDARD_PIVOT);
+    let standard = |s: &MarkedBat| s.bat.inertia().center_of_percussion(on_bat(s)?);
+    let swung = |s: &MarkedBat| s.bat.inertia().center_of_percussion(-s.swing_pivot?);
+    let mut rows: Vec<PlaceRow> = [
+        of("balance point", &|s| Some(s.bat.inertia().balance_point)),
+        of("pivot of standards", &on_bat),
+        of("centre of percussion of that pivot", &standard),
+        of("pivot of the swing", &|s| s.swing_pivot.map(|beyond| -beyond)),
+        of("centre of percussion of the swing", &swung),
+    ]
+    .into_iter()
+    .flatten()
+    .collect();
+    if let [subject] = subjects {
+        rows.extend(fastened(sheet, subject.bat));
+    }
+    rows
+}
+
+/// Other materials, weights, joints, supports and hands, as rows; more than a dozen would
+/// crowd the picture.
+fn fastened(sheet: Sheet, bat: &Bat) -> Vec<PlaceRow> {
+    const MOST: usize = 12;
+    let fixtures = bat.fixtures();
+    let stretch = |label: String, from, to| PlaceRow::of_stretches(label, vec![(0, [from, to])]);
+    let place = |label: String, x| PlaceRow::of_places(label, vec![(0, x)]);
+    let made =
+        fixtures.regions.iter().filter_map(|r| Some(stretch(made_of(bat, r)?, r.from, r.to)));
+    let taped = fixtures
+        .tapes
+        .iter()
+        .map(|tape| stretch(weight(sheet, "tape", tape.mass), tape.from, tape.to));
+    let held = fixtures.grip.iter().map(|grip| stretch("hands".into(), grip.from, grip.to));
+    let joints = fixtures.joints.iter().map(|joint| place("joint".into(), joint.x));
+    let attached = fixtures.attachments.iter().map(|a| {
+        let spring = a.mass == 0.0;
+        place(if spring { "spring".into() } else { weight(sheet, "weight", a.mass) }, a.x)
+    });
+    let absorbers =
+        fixtures.absorbers.iter().map(|a| place(weight(sheet, "absorber", a.mass), a.x));
+    let supports = fixtures.supports.iter().map(|support| {
+        let label = if support.kind == Held::Pinned { "pinned" } else { "clamped" };
+        place(label.into(), support.x)
+    });
+    let all = made.chain(taped).chain(held).chain(joints);
+    all.chain(attached).chain(absorbers).chain(supports).take(MOST).collect()
+}
+
+fn weight(sheet: Sheet, what: &str, mass: f64) -> String {
+    match sheet.us {
+        true => format!("{what} of {} oz", digits(ounces(mass), 2)),
+        false => format!("{what} of {} g", digits(1e3 * mass, 3)),
+    }
+}
+
+/// What a region is made of where the rest of the bat is not.
+fn made_of(bat: &Bat, region: &Region) -> Option<String> {
+    let name = |material: &Material| match &material.name {
+        Some(name) => name.clone(),
+        None => format!("{} kg/m³", short(material.density)),
+    };
+    let outer = &region.layup.outer;
+    let wall = (outer != bat.material()).then(|| name(outer));
+    let core = region.layup.core.as_ref().map(|core| format!("core of {}", name(core)));
+    let sleeves =
+        region.layup.sleeves.iter().map(|sleeve| format!("sleeve of {}", name(&sleeve.material)));
+    let parts: Vec<String> = wall.into_iter().chain(core).chain(sleeves).collect();
+    let (first, others) = parts.split_first()?;
+    let others: Vec<String> = others.iter().map(|part| format!(" with a {part}")).collect();
+    Some(format!("hatched: {first}{}", others.concat()))
+}

@@ -1,0 +1,161 @@
+//! Measured modes beside computed ones: how alike they are, and the shapes on each other.
+
+use crate::plot::axis::Axis;
+use crate::plot::matrix::{self, Matrix};
+use crate::plot::picture::Picture;
+use crate::plot::place;
+use crate::plot::plane::{Frame, NUMBERS, Plane, head};
+use crate::plot::series::{Series, digits, hover, legend};
+use crate::plot::sheet::Sheet;
+use crate::plot::svg::{MARKS, Pen, Svg};
+use crate::plot::theme::{FRAME, SERIES};
+use crate::plot::words::{LABEL, SMALL, fitted};
+use sweetspot_study::measured::study::{Pair, Shapes, Study};
+
+/// Shapes in one picture.
+const MOST: usize = 8;
+/// Height of a shape's diagram (px), and between two.
+const ROW: f64 = 76.0;
+const BETWEEN: f64 = 10.0;
+/// Right of the frame, where a mode is named.
+const RIGHT: f64 = 150.0;
+/// Points of a computed curve, and measured ones that are drawn at most.
+const POINTS: usize = 160;
+const DRAWN: usize = 400;
+
+/// `mac`, `mass_orthogonality` and `measured_shapes`; none where frequencies are all there is, or no
+/// measured mode bends.
+pub fn pictures(sheet: Sheet, bat: &str, study: &Study) -> Vec<Picture> {
+    let Some(shapes) = &study.shapes else { return vec![] };
+    if study.bending.is_empty() {
+        return vec![];
+    }
+    let mut all = vec![mac(bat, study, shapes)];
+    if let Some(own) = shapes.common.as_ref().filter(|rows| rows.len() > 1) {
+        all.push(common(bat, study, own, &shapes.sampled_common));
+    }
+    all.extend(on_each_other(sheet, bat, study, shapes));
+    all
+}
+
+fn names(study: &Study) -> Vec<String> {
+    let name = |k: &usize| {
+        format!("{}, {} Hz", study.name(*k), digits(study.measured.modes[*k].frequency, 4))
+    };
+    study.bending.iter().map(name).collect()
+}
+
+fn mac(bat: &str, study: &Study, shapes: &Shapes) -> Picture {
+    let modes = &study.solution.modes;
+    matrix::picture(&Matrix {
+        name: "mac".into(),
+        title: "Measured shapes beside computed ones".into(),
+        second: format!("{bat}: modal assurance criterion at {} points", shapes.placed.x.len()),
+        sides: ["measured mode".into(), "computed mode".into()],
+        rows: names(study),
+        columns: modes.iter().map(|mode| mode.order.to_string()).collect(),
+        values: shapes.mac.iter().map(|row| row.iter().map(|v| Some(*v)).collect()).collect(),
+        scale: "MAC".into(),
+    })
+}
+
+/// Measured below the diagonal and on it, above it what the points cost.
+fn common(bat: &str, study: &Study, own: &[Vec<f64>], sampled: &[Vec<Option<f64>>]) -> Picture {
+    let count = own.len();
+    let value = |i: usize, j: usize| if j > i { sampled[i][j] } else { Some(own[i][j]) };
+    let row = |i: usize| (0..count).map(|j| value(i, j)).collect();
+    // Names are too long for columns: both sides have numbers.
+    let numbers = || study.bending.iter().map(|k| (k + 1).to_string());
+    let numbered = |(number, name)| format!("{number}: {name}");
+    matrix::picture(&Matrix {
+        name: "mass_orthogonality".into(),
+        title: "Mass orthogonality of the measured shapes".into(),
+        second: format!("{bat}: measured below the diagonal, computed at the same points above it"),
+        sides: ["mode".into(), "mode".into()],
+        rows: numbers().zip(names(study)).map(numbered).collect(),
+        columns: numbers().collect(),
+        values: (0..count).map(row).collect(),
+        scale: "share".into(),
+    })
+}
+
+/// Every pair's computed curve and the measured points, scaled to it.
+fn on_each_other(sheet: Sheet, bat: &str, study: &Study, shapes: &Shapes) -> Option<Picture> {
+    let pairs: Vec<&Pair> = study.pairs.iter().take(MOST).collect();
+    if pairs.is_empty() {
+        return None;
+    }
+    let length = study.solution.modes[pairs[0].computed].shape.length();
+    let [knob, tip] = place::axes(sheet, [0.0, length], &[(bat, length)]);
+    let top = sheet.head() + 20.0 + NUMBERS;
+    let frame = |k: usize| {
+        let top = top + (ROW + BETWEEN) * k as f64;
+        Frame { right: sheet.width() - RIGHT, ..Frame::across(sheet, [top, top + ROW]) }
+    };
+    let last = frame(pairs.len() - 1).bottom;
+    let mut svg = Svg::on(sheet);
+    svg.height = last + NUMBERS + 4.0;
+    let title = "Measured shapes on computed ones";
+    head(&mut svg, title, [bat, "the measured ones scaled to the computed"]);
+    for (k, pair) in pairs.iter().enumerate() {
+        let [curve, points] = series(sheet, study, shapes, pair);
+        let both = curve.points.iter().chain(&points.points).flatten().map(|[_, w]| w.abs());
+        // A little more than the largest, so that numbers of two diagrams do not meet.
+        let high = 1.2 * both.fold(1.0, f64::max);
+        let plane = Plane { frame: frame(k), x: knob.clone(), y: Axis::new("", [-high, high]) };
+        plane.draw(&mut svg);
+        let zero = [plane.x.from, plane.x.to].map(|x| plane.at([x, 0.0]));
+        svg.line(&zero, Pen::new(FRAME, 1.0));
+        if k == 0 {
+            legend(&mut svg, &[&curve, &points]);
+            plane.above(&mut svg, &tip);
+        }
+        for series in [&curve, &points] {
+            series.draw(&mut svg, &plane);
+            hover(&mut svg, &plane, &[series]);
+        }
+        beside(&mut svg, plane.frame, study, pair);
+        if k + 1 == pairs.len() {
+            plane.below(&mut svg);
+        }
+    }
+    let told = |pair: &&Pair| {
+        let mac = pair.mac.unwrap_or(0.0);
+        format!(
+            "{} on computed mode {}, MAC {mac:.3}",
+            study.name(pair.measured),
+            pair.computed + 1
+        )
+    };
+    let all: Vec<String> = pairs.iter().map(told).collect();
+    let alt = format!("Measured deflections as points on computed curves: {}.", all.join("; "));
+    Some(Picture::new("measured_shapes", title, &alt, svg))
+}
+
+/// A computed curve, and the measured points over the scale between them.
+fn series(sheet: Sheet, study: &Study, shapes: &Shapes, pair: &Pair) -> [Series; 2] {
+    let shape = &study.solution.modes[pair.computed].shape;
+    let at = |k: usize| shape.length() * k as f64 / POINTS as f64;
+    let computed = (0..=POINTS).map(|k| Some([at(k), shape.deflection(at(k))])).collect();
+    let scale = pair.scale.filter(|scale| scale.norm() > 0.0);
+    let values = shapes.placed.x.iter().zip(&shapes.placed.shapes[pair.measured]);
+    // Of very many, points beside each other are one on paper.
+    let values = values.step_by(shapes.placed.x.len().div_ceil(DRAWN));
+    let measured = values.map(|(x, w)| Some([*x, (w / scale?).re])).collect();
+    let points = Series::curve("measured", 1, measured).units(sheet.length().name, "");
+    let points = Series { joined: false, mark: Some(MARKS[0]), ..points };
+    [Series::curve("computed", 0, computed).pen(Pen::new(SERIES[0], 1.7)), points]
+}
+
+/// Which modes, their frequencies, and the MAC.
+fn beside(svg: &mut Svg, frame: Frame, study: &Study, pair: &Pair) {
+    let (x, y) = (frame.right + 12.0, frame.top + 16.0);
+    let room = RIGHT - 20.0;
+    let measured = &study.measured.modes[pair.measured];
+    let computed = &study.solution.modes[pair.computed];
+    svg.text([x, y], LABEL, &fitted(&measured.name, LABEL, room));
+    let hertz = |f: f64| format!("{} Hz", digits(f, 5));
+    svg.text([x, y + 17.0], SMALL, &format!("measured {}", hertz(measured.frequency)));
+    svg.text([x, y + 33.0], SMALL, &format!("computed {}", hertz(computed.frequency())));
+    svg.text([x, y + 49.0], SMALL, &format!("MAC {:.3}", pair.mac.unwrap_or(0.0)));
+}

@@ -1,0 +1,65 @@
+//! Results as pictures: SVG that reads on light and on dark paper, and PNG.
+//!
+//! A picture is a function of plain results, and [`picture::write`] makes files of pictures. Those of
+//! one command are gathered in [`sets`]. The ones that take several subjects lay bats over each
+//! other, one colour, dash and mark each. A [`sheet`] says in which units a picture counts and how wide it
+//! is. All are drawn from the same parts, with which others can be
+//! made: a [`plane::Plane`] has two axes ([`axis`]) and takes [`series`], [`place`] has the axes and
+//! rows of positions, [`matrix`] a table as a map of colours. A position is read off twice: from the
+//! knob end at the bottom, and from the tip at the top.
+//!
+//! ```
+//! use crate::plot::sheet::Sheet;
+//! use crate::plot::{picture, sets};
+//! use sweetspot::{Bat, Request, solve};
+//!
+//! # fn main() -> sweetspot::Result<()> {
+//! let bat = Bat::from_file("meshes/r161.json")?;
+//! let solution = solve(&bat, &Request::default())?;
+//! let pictures = sets::of_modes(Sheet::of(&bat), &bat, &solution, None);
+//! assert!(pictures[1].alt.contains("mode 1 at"));
+//! # let folder = std::env::temp_dir().join(format!("sweetspot-plot-{}", std::process::id()));
+//! picture::write(&folder, &pictures)?;
+//! # std::fs::remove_dir_all(&folder).unwrap();
+//! # Ok(())
+//! # }
+//! ```
+
+pub mod theme;
+pub mod words;
+pub mod sheet;
+pub mod route;
+pub mod svg;
+#[cfg(feature = "png")]
+pub mod font;
+#[cfg(feature = "png")]
+pub mod png;
+pub mod picture;
+pub mod axis;
+pub mod plane;
+pub mod series;
+pub mod place;
+pub mod outline;
+pub mod marks;
+pub mod profile;
+pub mod spot;
+pub mod shapes;
+pub mod exit_speed;
+pub mod bbcor;
+pub mod ledger;
+pub mod contact;
+pub mod hands;
+pub mod response;
+pub mod ringing;
+pub mod front;
+pub mod u_curve;
+pub mod matrix;
+pub mod lathe;
+pub mod hoop;
+pub mod wall_sweep;
+pub mod sets;
+pub mod compared;
+pub mod change;
+pub mod measured;
+pub mod many;
+pub mod calibrate;

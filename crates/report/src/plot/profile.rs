@@ -1,0 +1,163 @@
+//! Bats from the side, their diameter along them, and the places that matter.
+
+use crate::plot::axis::Axis;
+use crate::plot::marks::marked;
+use crate::plot::outline::{Lying, sections};
+use crate::plot::picture::Picture;
+use crate::plot::place::{self, PlaceRow};
+use crate::plot::plane::{Frame, NUMBERS, Plane, head, ticks_up};
+use crate::plot::series::{Series, bats, digits, hover, short};
+use crate::plot::sheet::Sheet;
+use crate::plot::svg::{Pen, Svg};
+use crate::plot::theme::series;
+use crate::plot::words::{Anchor, SMALL};
+use sweetspot::base::units::ounces;
+use sweetspot::bat::body::Bat;
+
+pub use crate::plot::marks::MarkedBat;
+
+/// Of the diameters' diagram (px).
+const DIAGRAM: f64 = 130.0;
+/// Heights that a bat from the side may have (px).
+const THICK: [f64; 2] = [14.0, 84.0];
+
+/// The bats in one picture, `profile`.
+pub fn picture(sheet: Sheet, subjects: &[MarkedBat]) -> Picture {
+    let longest = subjects.iter().map(|s| s.bat.length()).fold(0.0, f64::max);
+    let rows: Vec<PlaceRow> = marked(sheet, subjects);
+    let lengths: Vec<(&str, f64)> = subjects.iter().map(|s| (s.name, s.bat.length())).collect();
+    let ends = ends(longest, &rows);
+    let [knob, tip] = place::axes(sheet, ends, &lengths);
+    let thickest = subjects.iter().map(|s| widest(s.bat)).fold(0.0, f64::max);
+    let Frame { left, right, .. } = Frame::across(sheet, [0.0; 2]);
+    let [times, per_metre] = thickness(thickest, (right - left) / (ends[1] - ends[0]));
+    let each = 2.0 * thickest * per_metre + 26.0;
+    let mut svg = Svg::on(sheet);
+    let top = bats(&mut svg, &subjects.iter().map(|s| s.name).collect::<Vec<_>>()) + NUMBERS;
+    let side = top + each * subjects.len() as f64 + 6.0;
+    let below = side + DIAGRAM + 6.0;
+    let bottom = below + place::height(sheet, &rows);
+    let plane = |top, bottom| {
+        let frame = Frame::across(sheet, [top, bottom]);
+        Plane { frame, x: knob.clone(), y: Axis::new("", [0.0, 1.0]) }
+    };
+    let (lying, strip) = (plane(top, side), plane(below, bottom));
+    svg.height = bottom + NUMBERS + 6.0;
+    let (title, facts) = words(sheet, subjects);
+    head(&mut svg, &title, ["", &facts]);
+    lying.above(&mut svg, &tip);
+    for (k, subject) in subjects.iter().enumerate() {
+        let axis = top + each * (k as f64 + 0.5) + 4.0;
+        let lying = Lying { plane: &lying, axis, per_metre };
+        lying.draw(&mut svg, subject.bat, series(k).0);
+    }
+    proportions(&mut svg, times, [right, top + 14.0]);
+    diameters(&mut svg, plane(side, side + DIAGRAM), subjects);
+    let told = place::rows(&mut svg, &strip, &rows);
+    place::guides(&mut svg, &strip, (&rows, &told), top + 0.5 * each + 4.0);
+    strip.below(&mut svg);
+    Picture::new("profile", &title, &described(subjects, &rows), svg)
+}
+
+/// The diameters along the bats.
+fn diameters(svg: &mut Svg, plane: Plane, subjects: &[MarkedBat]) {
+    let (sheet, unit) = (svg.sheet, svg.sheet.length());
+    let all = subjects.iter().map(|s| 2.0 * unit.per * widest(s.bat)).chain([0.0]);
+    let plane =
+        Plane { y: Axis::around("diameter", all, ticks_up(DIAGRAM)).counted_in(unit), ..plane };
+    plane.draw(svg);
+    let curves: Vec<Series> =
+        subjects.iter().enumerate().flat_map(|(k, s)| curves(sheet, k, s)).collect();
+    curves.iter().for_each(|curve| curve.draw(svg, &plane));
+    hover(svg, &plane, &curves.iter().collect::<Vec<_>>());
+}
+
+/// What the pictures' first two lines say.
+fn words(sheet: Sheet, subjects: &[MarkedBat]) -> (String, String) {
+    match subjects {
+        [MarkedBat { name, bat, .. }] => {
+            let (mass, length) = (bat.inertia().mass, bat.length());
+            let thick = 2.0 * widest(bat);
+            let unit = sheet.length();
+            let [length, thick] = [short(unit.per * length), digits(unit.per * thick, 3)];
+            let mass = match sheet.us {
+                true => format!("{} oz", digits(ounces(mass), 3)),
+                false => format!("{} g", digits(1e3 * mass, 3)),
+            };
+            let mut second =
+                format!("{length} {0} long, {mass}, at most {thick} {0} thick", unit.name);
+            if bat.profile().stations.inner.iter().any(|r| *r > 0.0) {
+                second += "; thin line: the bore";
+            }
+            ((*name).to_owned(), second)
+        }
+        _ => ("Profiles".to_owned(), "outer diameter solid or dashed, bore thin".to_owned()),
+    }
+}
+
+fn described(subjects: &[MarkedBat], rows: &[PlaceRow]) -> String {
+    let names: Vec<&str> = subjects.iter().map(|s| s.name).collect();
+    let places: Vec<&str> = rows.iter().map(|row| row.label.as_str()).collect();
+    format!(
+        "{} from the side with the diameter along it. Marked: {}.",
+        names.join(", "),
+        places.join("; ")
+    )
+}
+
+/// The largest radius (m).
+pub fn widest(bat: &Bat) -> f64 {
+    let stations = &bat.profile().stations;
+    stations.outer.iter().fold(0.0_f64, |most, r| most.max(*r))
+}
+
+/// How many times as thick as long a bat of that radius (m) is drawn, 1 wherever it can be seen so,
+/// and what a metre of radius is then high; from what a metre is long (px).
+fn thickness(radius: f64, along: f64) -> [f64; 2] {
+    let natural = 2.0 * radius * along;
+    let round = |wanted: f64| {
+        let power = 10f64.powf(wanted.log10().floor());
+        let digit = [5.0, 2.0, 1.0].into_iter().find(|d| d * power <= wanted * (1.0 + 1e-9));
+        digit.unwrap_or(1.0) * power
+    };
+    let times = match natural {
+        thick if thick > THICK[1] => round(THICK[1] / thick),
+        // Rounded up: twice as much is still a bat.
+        thin if thin < THICK[0] => 1.0 / round(thin / THICK[0]),
+        _ => 1.0,
+    };
+    [times, times * along]
+}
+
+fn proportions(svg: &mut Svg, times: f64, at: [f64; 2]) {
+    if times != 1.0 {
+        let words = format!("drawn {} times as thick", short(times));
+        svg.text(at, SMALL.at(Anchor::End), &words);
+    }
+}
+
+/// The outer diameter, and the inner one where there is a bore.
+fn curves(sheet: Sheet, k: usize, MarkedBat { name, bat, .. }: &MarkedBat) -> Vec<Series> {
+    const MOST: usize = 300;
+    let (unit, all) = (sheet.length().name, sections(bat.profile(), MOST));
+    let outer = all.iter().map(|(x, at)| Some([*x, 2.0 * at.outer])).collect();
+    let mut curves = vec![Series::curve(name, k, outer).units(unit, unit)];
+    if all.iter().any(|(_, at)| at.inner > 0.0) {
+        let bore = |(x, at): &(f64, sweetspot::bat::profile::Section)| {
+            (at.inner > 0.0).then_some([*x, 2.0 * at.inner])
+        };
+        let inner = Series::curve(&format!("{name}, bore"), k, all.iter().map(bore).collect());
+        let pen = Pen { width: 1.2, ..inner.pen };
+        curves.push(inner.pen(pen).units(unit, unit));
+    }
+    curves
+}
+
+/// The positions to be shown: the bats, and what is marked near them (m).
+fn ends(longest: f64, rows: &[PlaceRow]) -> [f64; 2] {
+    /// Of the length: marks farther off are at the edge.
+    const BEYOND: f64 = 0.15;
+    let places = rows.iter().flat_map(|row| row.places.iter().map(|(_, x)| *x));
+    let near = places.filter(|x| (-BEYOND * longest..=(1.0 + BEYOND) * longest).contains(x));
+    near.fold([0.0, longest], |[from, to], x| [from.min(x), to.max(x)])
+}

@@ -1,0 +1,134 @@
+//! A frequency response: size and phase over frequency, with its peaks.
+
+use faer::c64;
+
+use crate::plot::axis::Axis;
+use crate::plot::picture::Picture;
+use crate::plot::place::along;
+use crate::plot::plane::{Frame, NUMBERS, Plane, head};
+use crate::plot::series::{Series, hover, legend, short};
+use crate::plot::sheet::Sheet;
+use crate::plot::svg::{MARKS, Pen, Svg};
+use crate::plot::theme::SERIES;
+use crate::report::frf::{phase, unit};
+use sweetspot::motion::frf::ResponseKind;
+use sweetspot::motion::peaks::Peak;
+
+/// Heights of size and phase, and between them (px).
+const DIAGRAMS: [f64; 2] = [230.0, 150.0];
+const BETWEEN: f64 = 18.0;
+/// What is less than that share of the largest is not drawn: an antiresonance may be 0.
+const LEAST: f64 = 1e-8;
+/// Points of a curve in a picture.
+const DRAWN: usize = 4000;
+
+/// A response, and what it is of.
+#[derive(Debug, Clone, Copy)]
+pub struct ResponseCurves<'a> {
+    /// What the bat is called.
+    pub bat: &'a str,
+    /// Deflection, velocity or acceleration.
+    pub kind: ResponseKind,
+    /// Where the force is (m from the knob end).
+    pub at: f64,
+    /// Where the answer is watched (m from the knob end).
+    pub to: f64,
+    /// Rising frequencies (Hz) and the answer per force there, in SI.
+    pub values: &'a [(f64, c64)],
+    /// Its peaks.
+    pub peaks: &'a [Peak],
+    /// Measured answers to lay over it, likewise; empty without.
+    pub measured: &'a [(f64, c64)],
+}
+
+/// Size and phase against frequency; a picture of that name. None without two frequencies.
+pub fn picture(sheet: Sheet, subject: &ResponseCurves, name: &str) -> Option<Picture> {
+    let ResponseCurves { bat, kind, at, to, values, peaks, measured } = *subject;
+    let (low, high) = (values.first()?.0, values.last()?.0);
+    if low >= high {
+        return None;
+    }
+    let sizes = || values.iter().chain(measured).map(|(_, value)| value.norm());
+    let most = sizes().filter(|size| size.is_finite()).fold(0.0, f64::max);
+    if most <= 0.0 {
+        return None;
+    }
+    let size = curve("computed", 0, sized(values)).units("Hz", unit(kind));
+    let other = curve("measured", 1, sized(measured)).units("Hz", unit(kind));
+    let tops = peaks.iter().filter_map(|peak| Some(Some([peak.frequency, peak.height?])));
+    let tops = Series::curve("peaks", 2, tops.collect()).units("Hz", unit(kind));
+    let tops = Series { joined: false, mark: Some(MARKS[0]), ..tops };
+    let title = format!("{} over frequency", capital(kind.name()));
+    let [forced, watched] = [at, to].map(|x| along(sheet, x));
+    let facts = format!("force at {forced}, answer at {watched} from the knob end");
+    let mut svg = Svg::on(sheet);
+    head(&mut svg, &title, [bat, &facts]);
+    let named: Vec<&Series> =
+        [&other, &size, &tops].into_iter().filter(|s| !s.points.is_empty()).collect();
+    let top = legend(&mut svg, &named) + 14.0;
+    let first = Frame::across(sheet, [top, top + DIAGRAMS[0]]);
+    let below = first.bottom + BETWEEN;
+    let second = Frame::across(sheet, [below, below + DIAGRAMS[1]]);
+    svg.height = second.bottom + NUMBERS + 4.0;
+    // A number at the very end would leave a narrow picture.
+    let x = Axis::new("frequency (Hz)", [low, low + 1.02 * (high - low)]);
+    let drawn = sizes().filter(|size| *size >= LEAST * most).chain([most]);
+    let y = Axis::logarithmic(&format!("{} ({})", kind.name(), unit(kind)), drawn);
+    let plane = Plane { frame: first, x: x.clone(), y };
+    plane.draw(&mut svg);
+    named.iter().for_each(|series| series.draw(&mut svg, &plane));
+    hover(&mut svg, &plane, &named);
+    let turn = Axis::of_a_turn("phase (deg)");
+    let plane = Plane { frame: second, x, y: turn };
+    plane.draw(&mut svg);
+    let turns = curve("phase, computed", 0, turned(values)).units("Hz", "deg");
+    let others = curve("phase, measured", 1, turned(measured)).units("Hz", "deg");
+    let named: Vec<&Series> =
+        [&others, &turns].into_iter().filter(|s| !s.points.is_empty()).collect();
+    named.iter().for_each(|series| series.draw(&mut svg, &plane));
+    hover(&mut svg, &plane, &named);
+    plane.below(&mut svg);
+    let told = peaks.iter().map(|peak| {
+        let height = peak.height.map_or("without bound".into(), short);
+        format!("mode {} at {} Hz, {height}", peak.mode, short(peak.frequency))
+    });
+    let told: Vec<String> = told.collect();
+    let peaks = if told.is_empty() { "none".to_owned() } else { told.join("; ") };
+    let alt = format!("{title} of {bat}: {facts}. Peaks ({}): {peaks}.", unit(kind));
+    Some(Picture::new(name, &title, &alt, svg))
+}
+
+fn curve(name: &str, k: usize, points: Vec<Option<[f64; 2]>>) -> Series {
+    Series::curve(name, k, points).pen(Pen::new(SERIES[k], 1.7 - 0.4 * k as f64))
+}
+
+/// As many of them as a picture shows.
+fn kept(values: &[(f64, c64)]) -> impl Iterator<Item = &(f64, c64)> {
+    values.iter().step_by(values.len().div_ceil(DRAWN).max(1))
+}
+
+fn sized(values: &[(f64, c64)]) -> Vec<Option<[f64; 2]>> {
+    kept(values).map(|(f, value)| Some([*f, value.norm()])).collect()
+}
+
+fn turned(values: &[(f64, c64)]) -> Vec<Option<[f64; 2]>> {
+    unbroken(kept(values).map(|(f, value)| [*f, phase(value.re, value.im)]))
+}
+
+/// Points with a gap where the phase turns from one end to the other.
+fn unbroken(points: impl Iterator<Item = [f64; 2]>) -> Vec<Option<[f64; 2]>> {
+    let mut all: Vec<Option<[f64; 2]>> = vec![];
+    for point in points {
+        if all.last().copied().flatten().is_some_and(|last| (last[1] - point[1]).abs() > 180.0) {
+            all.push(None);
+        }
+        all.push(Some(point));
+    }
+    all
+}
+
+fn capital(word: &str) -> String {
+    let mut letters = word.chars();
+    let first = letters.next().map(|c| c.to_uppercase().to_string()).unwrap_or_default();
+    first + letters.as_str()
+}

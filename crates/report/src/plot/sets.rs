@@ -1,0 +1,106 @@
+//! The pictures that belong to a result.
+
+use crate::analysis::Analysis;
+use crate::plot::picture::Picture;
+use crate::plot::sheet::Sheet;
+use crate::plot::{
+    contact, exit_speed, hands, hoop, lathe, ledger, profile, shapes, spot, u_curve,
+};
+use sweetspot::base::error::Result;
+use sweetspot::bat::body::Bat;
+use sweetspot::collision::aftermath::Aftermath;
+use sweetspot::collision::hit::{Model, Scene};
+use sweetspot::collision::hitter::Hitter;
+use sweetspot::collision::sweep::Sweep;
+use sweetspot::collision::sweet_spot::SweetSpot;
+use sweetspot::modes::solve::Solution;
+use sweetspot_study::lathe::map::LatheMap;
+use sweetspot_study::trade::u_curve::Column;
+
+/// The bat and its modes: `profile`, `shapes`. With a swing, its pivot beyond the knob end (m) is
+/// marked.
+pub fn of_modes(
+    sheet: Sheet,
+    bat: &Bat,
+    solution: &Solution,
+    swing_pivot: Option<f64>,
+) -> Vec<Picture> {
+    let name = bat.name();
+    let side = profile::picture(sheet, &[profile::MarkedBat { name, bat, swing_pivot }]);
+    let bent =
+        shapes::picture(sheet, &[shapes::ShapeCurves { name, bat, solution }], shapes::MODES);
+    std::iter::once(side).chain(bent).collect()
+}
+
+/// Hits along a bat, and how they came about.
+#[derive(Debug, Clone, Copy)]
+pub struct Hits<'a> {
+    /// The bat that is hit.
+    pub bat: &'a Bat,
+    /// How ball and bat meet.
+    pub model: Model,
+    /// The swing, the pitch and the ball.
+    pub scene: &'a Scene,
+    /// The hits along it.
+    pub sweep: &'a Sweep,
+    /// Its sweet spot by every definition.
+    pub spot: &'a SweetSpot,
+}
+
+impl Hits<'_> {
+    /// `exit_speed` and `ledger` along the bat; `contact`, `hysteresis` and `hands` of the hit at one
+    /// place (m), without one at the sweet spot. What the model does not tell is not among them.
+    ///
+    /// # Errors
+    ///
+    /// As [`Hitter::new`].
+    pub fn pictures(&self, sheet: Sheet, at: Option<f64>) -> Result<Vec<Picture>> {
+        let Self { bat, model, scene, sweep, spot } = *self;
+        let (name, impacts) = (bat.name(), &sweep.impacts);
+        let along = exit_speed::SpeedCurves { name, bat, impacts, spot };
+        let mut all: Vec<Picture> = exit_speed::picture(sheet, &[along]).into_iter().collect();
+        all.extend(ledger::picture(sheet, name, bat, impacts, 0.0));
+        if let Some(x) = at.or(spot.exit_speed_max.map(|peak| peak.x)) {
+            let hitter = Hitter::new(model, scene, bat, &sweep.solution, sweep.effort)?;
+            let touch = contact::ContactCurves::new(name, &hitter, x);
+            all.extend(contact::pictures(sheet, touch.as_slice()));
+            let felt = hitter.force(x).map(|force| hands::HandCurves {
+                name,
+                after: Aftermath::new(bat, &sweep.solution, x, force),
+                x: scene.hands,
+            });
+            all.extend(hands::picture(sheet, felt.as_slice()));
+        }
+        Ok(all)
+    }
+}
+
+/// All that belong to an analysis: the bat with its sweet spot (`sweet_spot`), its modes, its hits, the
+/// barrel of a hollow bat (`hoop`), and what cuts do (`lathe`) if that is known.
+///
+/// # Errors
+///
+/// As [`Hits::pictures`].
+pub fn of_analysis(
+    sheet: Sheet,
+    analysis: &Analysis,
+    map: Option<&LatheMap>,
+) -> Result<Vec<Picture>> {
+    let Analysis { bat, solution, task, hits, figures, .. } = analysis;
+    let subject = spot::SpotMarks { name: bat.name(), bat, spot: &figures.spot };
+    let mut pictures: Vec<Picture> = spot::picture(sheet, &[subject]).into_iter().collect();
+    pictures.extend(of_modes(sheet, bat, solution, Some(task.scene.pivot)));
+    let (model, scene, spot) = (task.model, &task.scene, &figures.spot);
+    pictures.extend(Hits { bat, model, scene, sweep: hits, spot }.pictures(sheet, None)?);
+    let barrel = analysis.barrel.as_ref();
+    pictures.extend(barrel.and_then(|barrel| hoop::picture(sheet, bat, barrel, hoop::MODES)));
+    pictures.extend(map.and_then(|map| lathe::picture(sheet, map)));
+    Ok(pictures)
+}
+
+/// The error of the first and of the last mode of a U-curve.
+pub fn of_u_curve(name: &str, columns: &[Column], modes: usize) -> Vec<Picture> {
+    let last = modes.saturating_sub(1);
+    let which = [0, last].into_iter().take(1 + usize::from(last > 0));
+    which.filter_map(|mode| u_curve::picture(name, columns, mode)).collect()
+}

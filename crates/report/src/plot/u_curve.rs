@@ -1,0 +1,67 @@
+//! Error against the number of elements, solver by solver.
+
+use crate::plot::axis::Axis;
+use crate::plot::picture::Picture;
+use crate::plot::plane::{Frame, NUMBERS, Plane, head};
+use crate::plot::series::{Series, hover, legend};
+use crate::plot::sheet::Sheet;
+use crate::plot::svg::{MARKS, Pen, Svg};
+use crate::plot::theme::SERIES;
+use sweetspot_study::trade::reference::solver_name;
+use sweetspot_study::trade::u_curve::{Column, SolverFrequency};
+
+/// Height of the diagram (px).
+const DIAGRAM: f64 = 320.0;
+/// An error of 0 is drawn as this one.
+const NOTHING: f64 = 1e-17;
+
+/// The error of one mode (from 0), as the solver's own eigenvalue says and as recomputed from its
+/// shape; picture `u_curve`, of another mode than the first `u_curve_mode_N`. None without points.
+pub fn picture(name: &str, columns: &[Column], mode: usize) -> Option<Picture> {
+    let mut curves = vec![];
+    for (k, column) in columns.iter().enumerate() {
+        for way in column.ways() {
+            let curve = curve(column, *way, (k, mode));
+            curves.extend(Some(curve).filter(|curve| !curve.points.is_empty()));
+        }
+    }
+    let points = || curves.iter().flat_map(|c: &Series| c.points.iter().flatten());
+    points().next()?;
+    let x = Axis::logarithmic("number of cubic elements", points().map(|at| at[0]));
+    let y = Axis::logarithmic("relative error of the frequency", points().map(|at| at[1]));
+    let title = format!("Error against elements, mode {}", mode + 1);
+    let facts = "own: as the solver's eigenvalue says; again: from the energies of its shape";
+    let sheet = Sheet::file(false);
+    let mut svg = Svg::on(sheet);
+    head(&mut svg, &title, [name, facts]);
+    let top = legend(&mut svg, &curves.iter().collect::<Vec<_>>()) + 16.0;
+    let frame = Frame::across(sheet, [top, top + DIAGRAM]);
+    svg.height = frame.bottom + NUMBERS + 4.0;
+    let plane = Plane { frame, x, y };
+    plane.draw(&mut svg);
+    curves.iter().for_each(|curve| curve.draw(&mut svg, &plane));
+    plane.below(&mut svg);
+    hover(&mut svg, &plane, &curves.iter().collect::<Vec<_>>());
+    let file = match mode {
+        0 => "u_curve".to_owned(),
+        _ => format!("u_curve_mode_{}", mode + 1),
+    };
+    let names: Vec<&str> = curves.iter().map(|curve| curve.name.as_str()).collect();
+    let alt = format!("{title} of {name}; {facts}. Curves: {}.", names.join(", "));
+    Some(Picture::new(&file, &title, &alt, svg))
+}
+
+fn curve(column: &Column, way: SolverFrequency, (k, mode): (usize, usize)) -> Series {
+    let name = match (column.ways().len(), way) {
+        (1, _) => solver_name(column.solver).to_owned(),
+        (_, SolverFrequency::Own) => format!("{}, own", solver_name(column.solver)),
+        (_, SolverFrequency::Recomputed) => format!("{}, again", solver_name(column.solver)),
+    };
+    let points = column.series(way, mode).into_iter();
+    let points = points.map(|(n, error)| Some([n as f64, error.max(NOTHING)])).collect();
+    let dash =
+        if way == SolverFrequency::Recomputed && column.ways().len() > 1 { "4 3" } else { "" };
+    let pen = Pen::new(SERIES[k % 6], 1.6).dashed(dash);
+    let series = Series::curve(&name, k, points).pen(pen).units("elements", "");
+    Series { mark: Some(MARKS[k % MARKS.len()]), ..series }
+}

@@ -1,0 +1,367 @@
+//! What comes of a hit: hands, strain and stress, spectrum; as text, CSV and JSON.
+
+use std::fmt::Write;
+
+use crate::csv::Csv;
+use crate::parts::cell::Cell;
+use crate::parts::terminal::wrapped;
+use crate::parts::units::Units;
+use crate::report::columns::{Columns, numbers};
+use crate::schema::hit::Impact;
+use crate::schema::ring as file;
+use sweetspot::base::units::{gravities, inches, miles_per_hour};
+use sweetspot::bat::body::Bat;
+use sweetspot::collision::aftermath::{Aftermath, Instant, Line, Sting, Strained};
+use sweetspot::collision::hit;
+use sweetspot::collision::strength::{Limit, Load, Strength, nearest};
+use sweetspot::files::schema::document::{Format, Generator};
+
+/// All that is told of a hit's aftermath.
+pub struct AfterHit {
+    /// How long was looked (s).
+    pub until: f64,
+    /// Watched places (m), what each feels, and the modes as they ring there.
+    pub watched: Vec<(f64, Sting, Vec<Line>)>,
+    /// The largest strain while the ball is there.
+    pub during: Option<Strained>,
+    /// The largest strain of the whole time.
+    pub after: Option<Strained>,
+    /// The largest strain of every place in the whole time.
+    pub envelope: Vec<Strained>,
+    /// Where the bat comes nearest to what its materials bear, and the swing (rad/s) that takes it
+    /// there, by every limit that is known.
+    pub loads: Vec<(Load, Option<f64>)>,
+    /// Whether anything damps the bat: else its shaking has no end, and no size that a hand feels.
+    pub damped: bool,
+    /// How far the largest strain changes where a quarter of the modes is left out, relative.
+    pub strain_error: f64,
+    instants: Vec<Instant>,
+}
+
+/// Points along the bat at which strain is looked for.
+const PLACES: usize = 200;
+
+impl AfterHit {
+    /// Looks from the first touch until that time (s), or until the ball leaves if that is later.
+    pub fn new(bat: &Bat, after: &Aftermath, watched: &[f64], until: f64) -> Self {
+        const WITHIN: usize = 200;
+        /// Steps as short as while the ball is there; then they grow with the time.
+        const SHORT: usize = 2000;
+        let end = after.end();
+        let until = until.max(end);
+        let step = end / WITHIN as f64;
+        // The same instants however long it is looked: what was found stays found.
+        let later = |t: &f64| Some(t + step * (t / (step * SHORT as f64)).max(1.0));
+        let within = (0..=WITHIN).map(|k| end * k as f64 / WITHIN as f64);
+        let beyond = std::iter::successors(later(&end), later).take_while(|t| *t <= until);
+        let times: Vec<f64> = within.chain(beyond).collect();
+        let instants = after.at(&times);
+        let places: Vec<f64> =
+            (0..=PLACES).map(|k| bat.length() * k as f64 / PLACES as f64).collect();
+        let all = after.count();
+        let during = after.worst(&places, &instants[..=WITHIN], all);
+        let envelope = after.envelope(&places, &instants, all);
+        let whole = after.worst(&places, &instants, all);
+        let loads = Limit::ALL.iter().filter_map(|limit| nearest(bat, &envelope, *limit));
+        let loads = loads.map(|load| (load, None)).collect();
+        let fewer = after.worst(&places, &instants, all - all / 4);
+        let change = whole.zip(fewer).map(|(a, b)| (b.strain / a.strain - 1.0).abs());
+        let seen = |x: &f64| (*x, after.sting(*x, &instants), after.lines(*x));
+        Self {
+            until,
+            watched: watched.iter().map(seen).collect(),
+            during,
+            after: whole,
+            envelope,
+            loads,
+            damped: bat.damped(),
+            strain_error: change.filter(|change| change.is_finite()).unwrap_or(1.0),
+            instants,
+        }
+    }
+}
+
+/// One line of the hit itself.
+pub fn impact(impact: &hit::Impact, units: Units) -> String {
+    let Some(outcome) = &impact.outcome else { return String::new() };
+    format!(
+        "     at {}\n     the ball leaves at {}, after {:.2} ms, {:.1} kN at most\n",
+        place(impact.x, units),
+        units.inline(units.speed(outcome.exit_speed)),
+        1e3 * outcome.contact_time.unwrap_or(0.0),
+        1e-3 * outcome.peak_force.unwrap_or(0.0)
+    )
+}
+
+fn place(x: f64, units: Units) -> String {
+    units.inline(units.show(format!("{:.2} cm", 100.0 * x), format!("{:.2} in", inches(x))))
+}
+
+/// The tables for the terminal.
+pub fn text(report: &AfterHit, units: Units) -> String {
+    let mut out = format!(
+        "\nMotion against the swing, {:.1} ms from the first touch, hands without mass\n",
+        1e3 * report.until
+    );
+    for (x, sting, _) in &report.watched {
+        out += &motion(*x, sting, report.damped, units);
+    }
+    out += &strains(report, units);
+    out += &strength(report, units);
+    out += &report
+        .watched
+        .first()
+        .map_or(String::new(), |(x, _, lines)| spectrum(*x, lines, report.damped, units));
+    out
+}
+
+/// When a place begins to move, and its largest displacement, velocity and acceleration.
+fn motion(x: f64, sting: &Sting, damped: bool, units: Units) -> String {
+    let [moved, speed, acceleration] = sting.peak;
+    let [a, b, c] = sting.when.map(|t| format!("at {:.2} ms", 1e3 * t));
+    let (place, begins) = (place(x, units), 1e3 * sting.begins);
+    let mut out = format!("  at {place}, which begins to move after {begins:.2} ms\n");
+    let mut line = |what: &str, size: String, when: String| {
+        let _ = writeln!(out, "{}", format!("    {what:<36} {size} {when}").trim_end());
+    };
+    let moved = units.show(format!("{:.2} mm", 1e3 * moved), format!("{:.3} in", inches(moved)));
+    line("largest displacement", units.inline(moved), a);
+    let speed = units.show(format!("{speed:.2} m/s"), format!("{:.1} mph", miles_per_hour(speed)));
+    line("largest velocity", units.inline(speed), b);
+    if damped {
+        let shaken = format!("{acceleration:.0} m/s² ({:.0} g)", gravities(acceleration));
+        line("largest acceleration", shaken, c);
+    } else {
+        let how = "without end: nothing damps the bat";
+        line("largest acceleration", how.to_owned(), String::new());
+    }
+    out
+}
+
+/// The largest bending strain while the ball is there and in the whole time.
+fn strains(report: &AfterHit, units: Units) -> String {
+    let (Some(during), Some(after)) = (report.during, report.after) else { return String::new() };
+    let mut out = format!(
+        "\nBending strain at the outermost fibre (within {:.0} % as a quarter fewer modes say)\n",
+        (100.0 * report.strain_error).max(1.0)
+    );
+    for (what, worst) in [("while the ball is there", during), ("in the whole time", after)] {
+        let _ = writeln!(
+            out,
+            "  {what:<24} {:.3} %, {} at {}, {:.2} ms",
+            100.0 * worst.strain,
+            units.first().stress(worst.stress, 1),
+            place(worst.x, units),
+            1e3 * worst.time
+        );
+    }
+    out
+}
+
+/// The modes that a place hears, once the ball has left.
+fn spectrum(x: f64, lines: &[Line], damped: bool, units: Units) -> String {
+    let place = place(x, units);
+    let mut out =
+        format!("\nSpectrum at {place} when the ball has left: amplitude of every mode\n");
+    let us = units.us_first();
+    let (length, velocity) = if us { ("in", "mph") } else { ("mm", "m/s") };
+    let columns = Columns::new(
+        [numbers(9, "Hz"), numbers(10, length), numbers(10, velocity)]
+            .into_iter()
+            .chain(damped.then(|| numbers(10, "g"))),
+    );
+    out += &columns.heads();
+    let largest = lines.iter().map(|line| line.amplitude[1]).fold(0.0, f64::max);
+    for line in lines.iter().filter(|line| line.amplitude[1] >= 0.01 * largest) {
+        let [moved, speed, acceleration] = line.amplitude;
+        let [moved, speed] = match us {
+            true => [format!("{:.4}", inches(moved)), format!("{:.3}", miles_per_hour(speed))],
+            false => [format!("{:.3}", 1e3 * moved), format!("{speed:.3}")],
+        };
+        let cells = [format!("{:.1}", line.frequency), moved, speed];
+        let shaken = damped.then(|| format!("{:.0}", gravities(acceleration)));
+        out += &columns.row(cells.into_iter().chain(shaken));
+    }
+    out
+}
+
+/// What the bat bears of it, and along it.
+fn strength(report: &AfterHit, units: Units) -> String {
+    let mut out = String::from("\nAlong the bat, the largest in the whole time\n");
+    let every = (report.envelope.len() / 10).max(1);
+    for at in report.envelope.iter().step_by(every) {
+        let place = format!("at {}", place(at.x, units));
+        let stress = units.first().stress(at.stress, 1);
+        let _ = writeln!(out, "  {place:<24} {:.3} %, {stress}", 100.0 * at.strain);
+    }
+    out += "\nStrength (clear wood along the grain; grain, knots, dents not known)\n";
+    if report.loads.is_empty() {
+        let unknown = "  no material has a known strength: \"strength\" and \"strain_to_failure\" of \
+                       the material in the bat file say what it bears";
+        return out + &wrapped(unknown, 4);
+    }
+    for (load, swing) in &report.loads {
+        out += &wrapped(&format!("  {}", reached(load, *swing, units)), 4);
+    }
+    out + &beyond(report.loads.iter().map(|(load, _)| load))
+}
+
+/// What a share above 100 % means; empty where there is none.
+fn beyond<'a>(mut loads: impl Iterator<Item = &'a Load>) -> String {
+    match loads.any(|load| load.share > 1.0) {
+        true => wrapped(
+            "  More than 100 %: the stress is above what a small clear piece of the material bears in a slow \
+             test, so that such a piece would break there. Whether this bat does is not said: pieces differ, \
+             and so does what a short blow does.",
+            4,
+        ),
+        false => String::new(),
+    }
+}
+
+/// How near a hit takes the bat to a limit, where, and the swing (rad/s) that takes it there.
+pub fn reached(load: &Load, swing: Option<f64>, units: Units) -> String {
+    let (bears, most, test) = match load.limit {
+        Limit::Stress => (
+            units.stress(load.bears, 0),
+            units.stress(load.at.stress, 1),
+            "published for slow bending (how much more a blow bears is not known)",
+        ),
+        Limit::Strain => (
+            format!("{:.2} %", 100.0 * load.bears),
+            format!("a strain of {:.3} %", 100.0 * load.at.strain),
+            "published, at which it breaks in a blow",
+        ),
+    };
+    let swing = match swing {
+        Some(0.0) => "reached by the pitch alone, without a swing".to_owned(),
+        Some(swing) => format!("reached at a swing of about {swing:.1} rad/s"),
+        None => "not reached by any swing up to 200 rad/s".to_owned(),
+    };
+    format!(
+        "{most} at {}: {:.0} % of the {bears} {test}; {swing}",
+        place(load.at.x, units),
+        100.0 * load.share
+    )
+}
+
+/// What hits at some places ask of the bat, for a screen.
+pub fn strengths(all: &[Strength], units: Units) -> String {
+    if all.iter().all(|at| at.loads.is_empty()) {
+        return String::new();
+    }
+    let mut out = String::from(
+        "Strength (clear wood along the grain; slope of grain, knots and dents not known)\n",
+    );
+    for at in all {
+        for (load, swing) in &at.loads {
+            let text = reached(load, *swing, units);
+            out += &wrapped(&format!("  hit at {}: {text}", place(at.x, units)), 4);
+        }
+    }
+    out + &beyond(all.iter().flat_map(|at| &at.loads).map(|(load, _)| load))
+}
+
+/// What hits at some places ask of the bat, for a document.
+pub fn strengths_file(all: &[Strength]) -> Vec<file::Strength> {
+    let of = |at: &Strength| file::Strength { x_m: at.x, limits: loads(&at.loads) };
+    all.iter().map(of).collect()
+}
+
+/// Force, and motion and strain at the watched places, in time.
+pub fn history(after: &Aftermath, report: &AfterHit) -> String {
+    let places: Vec<f64> = report.watched.iter().map(|(x, ..)| *x).collect();
+    let columns = places.iter().flat_map(|x| {
+        ["displacement_m", "velocity_m_s", "acceleration_m_s2", "strain"]
+            .map(|what| format!("{what}_at_{x}_m"))
+    });
+    let mut table = Csv::new(["t_s", "force_n"].map(str::to_owned).into_iter().chain(columns));
+    for now in &report.instants {
+        let strains = after.strains(&places, now, after.count());
+        let at_places = places.iter().zip(strains).flat_map(|(x, strain)| {
+            let [moved, speed, acceleration] = after.motion(*x, now);
+            [moved, speed, acceleration, strain]
+        });
+        table.row([now.time, now.force].into_iter().chain(at_places).map(Cell::from));
+    }
+    table.text()
+}
+
+/// The `sweetspot-ring/1` document of a hit, with what was left out of it.
+pub fn document(
+    after: &Aftermath,
+    report: &AfterHit,
+    impact: Impact,
+    ignored: Vec<String>,
+) -> file::RingFile {
+    let along = |of: fn(&Strained) -> f64| report.envelope.iter().map(of).collect::<Vec<_>>();
+    file::RingFile::Hit(Box::new(file::AfterHit {
+        format: Format::new(),
+        generator: Generator::this(),
+        edits: after.bat().edits().to_vec(),
+        modes: after.count(),
+        at_m: after.place,
+        contact_s: after.end(),
+        times_s: report.instants.iter().map(|now| now.time).collect(),
+        force_n: report.instants.iter().map(|now| now.force).collect(),
+        watched: report.watched.iter().map(|seen| watched(after, report, seen)).collect(),
+        strain_max_in_contact: report.during.as_ref().map(strained),
+        strain_max: report.after.as_ref().map(strained),
+        strain_error: report.strain_error,
+        along: file::Along {
+            x_m: along(|at| at.x),
+            strain_max: along(|at| at.strain),
+            stress_max_pa: along(|at| at.stress),
+        },
+        strength: loads(&report.loads),
+        impact,
+        ignored,
+    }))
+}
+
+fn watched(
+    after: &Aftermath,
+    report: &AfterHit,
+    (x, sting, lines): &(f64, Sting, Vec<Line>),
+) -> file::Watched {
+    let motions: Vec<[f64; 3]> = report.instants.iter().map(|now| after.motion(*x, now)).collect();
+    let column = |k: usize| motions.iter().map(|motion| motion[k]).collect::<Vec<_>>();
+    let strain = |now: &Instant| after.strains(&[*x], now, after.count())[0];
+    let [displacement_m, velocity_m_s, acceleration_m_s2] = sting.peak;
+    file::Watched {
+        x_m: *x,
+        begins_s: sting.begins,
+        peak: file::Peak { displacement_m, velocity_m_s, acceleration_m_s2 },
+        spectrum: lines.iter().map(line).collect(),
+        displacement_m: column(0),
+        velocity_m_s: column(1),
+        acceleration_m_s2: column(2),
+        strain: report.instants.iter().map(strain).collect(),
+    }
+}
+
+fn line(line: &Line) -> file::Line {
+    let [displacement_m, velocity_m_s, acceleration_m_s2] = line.amplitude;
+    file::Line { frequency_hz: line.frequency, displacement_m, velocity_m_s, acceleration_m_s2 }
+}
+
+fn strained(at: &Strained) -> file::Strained {
+    file::Strained { x_m: at.x, time_s: at.time, strain: at.strain, stress_pa: at.stress }
+}
+
+/// How near the bat comes to each limit.
+fn loads(loads: &[(Load, Option<f64>)]) -> Vec<file::Load> {
+    let bears = |load: &Load, limit: Limit| (load.limit == limit).then_some(load.bears);
+    let of = |(load, swing): &(Load, Option<f64>)| file::Load {
+        limit: match load.limit {
+            Limit::Stress => "stress",
+            Limit::Strain => "strain",
+        },
+        strength_pa: bears(load, Limit::Stress),
+        strain_to_failure: bears(load, Limit::Strain),
+        at: strained(&load.at),
+        share: load.share,
+        reached_at_swing_rad_s: *swing,
+    };
+    loads.iter().map(of).collect()
+}

@@ -1,0 +1,375 @@
+//! The bat that meets a wish: its file, its document, its cut list.
+
+use serde_json::{Value, json};
+
+use crate::csv::Csv;
+use crate::schema;
+use crate::schema::aimed as file;
+use sweetspot::base::number::{rounded, shortest, signed, significant};
+use sweetspot::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
+use sweetspot::bat::body::Bat;
+use sweetspot::bat::profile::Interpolation;
+use sweetspot::files::schema::document::{BatName, Format, Generator};
+use sweetspot::files::schema::resolved::{Columns, Profile, ResolvedBat};
+use sweetspot_study::aim::bench::ExtraKind;
+use sweetspot_study::aim::conflict::Conflict;
+use sweetspot_study::aim::cuts::cuts;
+use sweetspot_study::aim::outcome::Outcome;
+use sweetspot_study::aim::rules::RuleSet;
+use sweetspot_study::aim::wish::{Band, Goal};
+use sweetspot_study::files::rules_file;
+use sweetspot_study::many::answers::Answer;
+
+/// A value of a goal with its unit, in one system of units.
+pub fn shown(goal: Goal, value: f64, us: bool) -> String {
+    if !value.is_finite() {
+        return "none".to_owned();
+    }
+    match (goal.unit(), us) {
+        ("kg", false) => format!("{:.1} g", 1e3 * value),
+        ("kg", true) => format!("{:.2} oz", ounces(value)),
+        ("m", false) => format!("{:.2} cm", 1e2 * value),
+        ("m", true) => format!("{:.3} in", inches(value)),
+        ("kg m²", false) => format!("{value:.5} kg m²"),
+        ("kg m²", true) => format!("{:.0} oz in²", ounce_square_inches(value)),
+        ("Hz", _) => format!("{value:.2} Hz"),
+        ("m/s", false) => format!("{value:.2} m/s"),
+        ("m/s", true) => format!("{:.1} mph", miles_per_hour(value)),
+        // As the trade writes it: three ounces fewer than inches are -3.
+        _ if goal == Goal::Drop => signed(-value, 2),
+        (unit, _) => format!("{} {unit}", significant(value, 4)).trim_end().to_owned(),
+    }
+}
+
+/// The size of a difference of a goal's values, without a sign.
+pub fn size(goal: Goal, value: f64, us: bool) -> String {
+    match goal {
+        Goal::Drop => shortest(rounded(value.abs(), 3)),
+        goal => shown(goal, value.abs(), us),
+    }
+}
+
+/// What people call a goal.
+pub fn called(goal: Goal) -> String {
+    match goal {
+        Goal::Drop => "drop".to_owned(),
+        Goal::Answer(answer) => match answer {
+            Answer::Mass => "mass".to_owned(),
+            Answer::Inertia => "swing weight".to_owned(),
+            Answer::BalancePoint => "balance point".to_owned(),
+            Answer::CenterOfPercussion => "centre of percussion".to_owned(),
+            Answer::ExitSpeed => "best ball".to_owned(),
+            Answer::ExitSpeedPlace => "sweet spot".to_owned(),
+            Answer::Bbcor => "BBCOR".to_owned(),
+            Answer::Frequency(order) => format!("frequency {order}"),
+            Answer::Node(order) => format!("node of mode {order}"),
+            other => other.name(),
+        },
+    }
+}
+
+/// What a band asks, in words.
+pub fn asked(band: &Band, us: bool) -> String {
+    let said = |value: f64| shown(band.goal, value, us);
+    if band.goal == Goal::Drop && !(band.low.is_finite() && band.high.is_finite()) {
+        // A limit of a drop is of ounces fewer than inches, without the sign.
+        let (word, limit) =
+            if band.high.is_finite() { ("at most", band.high) } else { ("at least", band.low) };
+        return format!("{word} {} fewer", shortest(rounded(limit, 3)));
+    }
+    match (band.low.is_finite(), band.high.is_finite()) {
+        (true, true) => {
+            let (middle, half) = (0.5 * (band.low + band.high), 0.5 * (band.high - band.low));
+            format!(
+                "{} ± {}",
+                said(middle),
+                size(band.goal, half, us).split(' ').next().unwrap_or_default()
+            )
+        }
+        (true, false) => format!("at least {}", said(band.low)),
+        _ => format!("at most {}", said(band.high)),
+    }
+}
+
+/// What cannot be had, in words.
+pub fn conflict_words(conflict: &Conflict, bands: &[Band], us: bool) -> String {
+    let wish = |k: usize| format!("{} {}", called(bands[k].goal), asked(&bands[k], us));
+    let reach = |k: usize, value: f64| {
+        format!("{} comes to {}", called(bands[k].goal), shown(bands[k].goal, value, us))
+    };
+    match conflict.members.as_slice() {
+        [] => "the search has not met the targets, though no smaller set of them was found that cannot be had"
+            .to_owned(),
+        members => {
+            let all: Vec<String> = members.iter().map(|member| wish(member.band)).collect();
+            let mut words = match members.len() {
+                1 => format!("{} cannot be had under these limits", all[0]),
+                2 => format!("{} cannot both be had", all.join(" and ")),
+                _ => format!("{} cannot all be had", all.join(" and ")),
+            };
+            // Only what a bat shows that meets the others.
+            for member in members.iter().filter(|member| member.others_met) {
+                let rest = members.iter().filter(|other| other.band != member.band);
+                let rest: Vec<String> = rest.map(|other| wish(other.band)).collect();
+                let with = match rest.is_empty() {
+                    true => String::new(),
+                    false => format!("with {}, ", rest.join(" and ")),
+                };
+                let sure = if member.settled { "at best" } else { "as far as was searched" };
+                words += &format!("; {with}{} {sure}", reach(member.band, member.value));
+            }
+            if !conflict.aside.is_empty() {
+                let aside: Vec<String> = conflict.aside.iter().map(|k| wish(*k)).collect();
+                words += &format!("; {} left aside there", aside.join(" and "));
+            }
+            words
+        }
+    }
+}
+
+/// The bat as a bat file in its own right, its edits made.
+pub fn resolved(bat: &Bat, source: &str) -> ResolvedBat {
+    let stations = &bat.profile().stations;
+    let hollow = stations.inner.iter().any(|r| *r > 0.0);
+    let profile = Profile::Columns(Columns {
+        interpolation: stations.interpolation,
+        unit: "m".to_owned(),
+        x: stations.x.clone(),
+        radius: stations.outer.clone(),
+        inner_radius: hollow.then(|| stations.inner.clone()),
+    });
+    ResolvedBat {
+        format: Format::new(),
+        name: bat.name().to_owned(),
+        source: source.to_owned(),
+        material: bat.material().clone(),
+        profile,
+        fixtures: bat.fixtures().clone(),
+        weighed: None,
+        edits: vec![],
+    }
+}
+
+/// Where the new bat's numbers are from.
+pub fn source(outcome: &Outcome) -> String {
+    let wishes =
+        outcome.bands.iter().map(|band| format!("{} {}", called(band.goal), asked(band, false)));
+    let wishes: Vec<String> = wishes.collect();
+    format!(
+        "{}, changed by sweetspot aim for: {}. Stations where it was changed are rounded to {} mm, with more digits \
+         where the change runs out.",
+        outcome.start.name(),
+        wishes.join("; "),
+        shortest(rounded(1e3 * outcome.grid.round, 6))
+    )
+}
+
+/// The text of the new bat's file: columns in mm, or in inches as the old one.
+pub fn bat_text(outcome: &Outcome) -> String {
+    let bat = &outcome.bat;
+    let mut value = schema::value(&resolved(bat, &source(outcome)));
+    let (unit, per) = if bat.inches() { ("in", inches(1.0)) } else { ("mm", 1e3) };
+    let stations = &bat.profile().stations;
+    let column = |values: &[f64], factor: f64| {
+        let all = values.iter().map(|value| shortest(rounded(factor * per * value, 9)));
+        format!("[{}]", all.collect::<Vec<_>>().join(", "))
+    };
+    let hollow = stations.inner.iter().any(|r| *r > 0.0);
+    let interpolation = match stations.interpolation {
+        Interpolation::Pchip => "pchip",
+        _ => "linear",
+    };
+    let mut profile = json!({
+        "interpolation": interpolation, "unit": unit, "x": "@x", "diameter": "@diameter",
+    });
+    if hollow {
+        profile["inner_diameter"] = Value::from("@inner");
+    }
+    value["profile"] = profile;
+    let columns = [
+        ("\"@x\"", column(&stations.x, 1.0)),
+        ("\"@diameter\"", column(&stations.outer, 2.0)),
+        ("\"@inner\"", column(&stations.inner, 2.0)),
+    ];
+    let text = format!("{value:#}\n");
+    columns.iter().fold(text, |text, (mark, column)| text.replace(mark, column))
+}
+
+/// What a maker should know before turning: a barrel that rules forbid, with the rule.
+pub fn warning(outcome: &Outcome, rules: Option<&RuleSet>, us: bool) -> Option<String> {
+    let widest = outcome.widest();
+    let shown = |value: f64| {
+        if us { format!("{:.2} in", inches(value)) } else { format!("{:.1} mm", 1e3 * value) }
+    };
+    // Rules that were asked for have a table of their own.
+    if rules.is_some_and(|rules| rules.diameter().is_finite()) {
+        return None;
+    }
+    let known = |name: &str| rules_file::named(name).ok();
+    let games = [
+        ("mlb", "rule 3.02 of Major League Baseball"),
+        (
+            "nfhs",
+            "the high schools' (NFHS) and, but for wood, the \
+        colleges' (NCAA) rule",
+        ),
+    ];
+    let broken = games.iter().filter_map(|(name, game)| {
+        let most = known(name)?.diameter();
+        (widest > most + 1e-6).then(|| format!("{game} allows {}", shown(most)))
+    });
+    let broken: Vec<String> = broken.collect();
+    (!broken.is_empty()).then(|| {
+        format!(
+            "the new bat is {} across: {}; --rules mlb, or that of another game, keeps to it",
+            shown(widest),
+            broken.join(", ")
+        )
+    })
+}
+
+/// The cut list as CSV: a line for each pass at each station, in mm and in inches; where wood is added one of pass 0,
+/// less than nothing off.
+pub fn cuts_csv(outcome: &Outcome, pass: f64) -> String {
+    let mut table = Csv::new([
+        "x_mm",
+        "from_mm",
+        "to_mm",
+        "pass",
+        "off_diameter_mm",
+        "diameter_mm",
+        "x_in",
+        "from_in",
+        "diameter_in",
+    ]);
+    let mm = |value: f64| rounded(1e3 * value, 6);
+    let inch = |value: f64| rounded(inches(value), 6);
+    for cut in cuts(&outcome.stations, pass) {
+        // Wood that is added is no pass: 0, and less than nothing off.
+        let added = cut.adds().then(|| (0, cut.off()));
+        let passes = cut.passes.iter().enumerate().map(|(k, off)| (k + 1, *off));
+        for (number, off) in added.into_iter().chain(passes) {
+            table.row([
+                mm(cut.x).into(),
+                mm(cut.from).into(),
+                mm(cut.to).into(),
+                number.into(),
+                mm(off).into(),
+                mm(cut.from - off).into(),
+                inch(cut.x).into(),
+                inch(cut.from).into(),
+                inch(cut.from - off).into(),
+            ]);
+        }
+    }
+    table.text()
+}
+
+/// The `sweetspot-aimed/1` document.
+pub fn document(outcome: &Outcome, rules: Option<&RuleSet>, pass: f64) -> file::AimedFile {
+    let [cut, added] = outcome.largest();
+    let us = outcome.start.inches();
+    let words = |conflict: &Conflict| conflict_words(conflict, &outcome.bands, us);
+    let number = |value: f64| value.is_finite().then_some(value);
+    let reach = |reach: &sweetspot_study::aim::conflict::Reach| file::AimedReach {
+        name: outcome.bands[reach.band].goal.name(),
+        target: reach.band,
+        reaches: number(reach.value),
+        others_met: reach.others_met,
+    };
+    let conflict = outcome.conflict.as_ref().map(|conflict| file::AimedConflict {
+        members: conflict.members.iter().map(reach).collect(),
+        words: words(conflict),
+    });
+    let choice = |(extra, found): &(sweetspot_study::aim::bench::Extra, f64)| {
+        let name = match extra.what {
+            ExtraKind::Length => "length_m",
+            ExtraKind::Density => "density_kg_m3",
+            ExtraKind::KnobWeight => "knob_weight_kg",
+        };
+        file::AimedChoice { name: name.to_owned(), start: extra.start, found: *found }
+    };
+    file::AimedFile {
+        format: Format::new(),
+        generator: Generator::this(),
+        bat: BatName::of(&outcome.start),
+        met: outcome.met,
+        targets: targets(outcome),
+        conflict,
+        rules: rules.map(|set| of_rules(outcome, set)),
+        norm_mm: outcome.norm,
+        largest_cut_m: cut,
+        largest_added_m: added,
+        limits_broken_m: if outcome.broken <= 1e-9 { 0.0 } else { outcome.broken },
+        kept_within_m: outcome.kept_within,
+        steeper_by: outcome
+            .slope
+            .map(|_| if outcome.steeper <= 1e-9 { 0.0 } else { outcome.steeper }),
+        iterations: outcome.iterations,
+        bats_solved: outcome.bats,
+        stopped: outcome.stopped.map(str::to_owned),
+        free: outcome.extras.iter().map(choice).collect(),
+        wood: outcome.wood.clone(),
+        outputs: outputs(outcome),
+        change: outcome.stations.iter().map(station).collect(),
+        cuts: cuts(&outcome.stations, pass).into_iter().map(of_cut).collect(),
+        warnings: warning(outcome, rules, us)
+            .into_iter()
+            .chain(outcome.rigid_wall.clone())
+            .collect(),
+        new_bat: resolved(&outcome.bat, &source(outcome)),
+    }
+}
+
+fn targets(outcome: &Outcome) -> Vec<file::AimedTarget> {
+    let number = |value: f64| value.is_finite().then_some(value);
+    let of = |(k, band): (usize, &Band)| file::AimedTarget {
+        name: band.goal.name(),
+        rule: band.rule.map(str::to_owned),
+        at_least: number(band.low),
+        at_most: number(band.high),
+        start: band.start,
+        found: number(outcome.values[k]),
+        met: band.has(outcome.values[k]),
+        price_mm: outcome.prices[k].filter(|_| band.has(outcome.values[k])),
+    };
+    outcome.bands.iter().enumerate().map(of).collect()
+}
+
+fn outputs(outcome: &Outcome) -> Vec<file::AimedOutput> {
+    let of = |(answer, [start, found]): &(Answer, [Option<f64>; 2])| file::AimedOutput {
+        name: answer.name(),
+        start: *start,
+        found: *found,
+    };
+    outcome.answers.iter().map(of).collect()
+}
+
+fn of_rules(outcome: &Outcome, set: &RuleSet) -> file::AimedRules {
+    let rule =
+        |(rule, value, kept): &(sweetspot_study::aim::rules::Rule, Option<f64>, Option<bool>)| {
+            file::AimedRule {
+                rule: rule.name().to_owned(),
+                limit: rule.limit(),
+                value: *value,
+                kept: *kept,
+            }
+        };
+    file::AimedRules {
+        name: set.name.clone(),
+        game: set.game.clone(),
+        source: set.source.clone(),
+        date: set.date.clone(),
+        certified: false,
+        limits: outcome.rules.iter().map(rule).collect(),
+        ask: set.ask.clone(),
+    }
+}
+
+fn station(station: &sweetspot_study::aim::laying::Station) -> file::AimedStation {
+    file::AimedStation { x_m: station.x, old_m: station.old, new_m: station.new }
+}
+
+fn of_cut(cut: sweetspot_study::aim::cuts::StationCut) -> file::AimedCut {
+    file::AimedCut { x_m: cut.x, from_m: cut.from, to_m: cut.to, passes_m: cut.passes }
+}

@@ -1,0 +1,360 @@
+//! The bat that meets a wish, for people: 80 columns wide.
+
+use std::fmt::Write;
+
+use crate::parts::terminal::wrapped;
+use crate::report::aimed::{asked, called, conflict_words, shown, size, warning};
+use crate::report::columns::{Columns, first, labels, numbers};
+use sweetspot::base::number::{rounded, shortest, signed, significant};
+use sweetspot::base::units::{inches, ounce_square_inches, ounces};
+use sweetspot::bat::weighed::Weighed;
+use sweetspot_study::aim::cuts::{StationCut, cuts};
+use sweetspot_study::aim::limits::KEPT;
+use sweetspot_study::aim::outcome::Outcome;
+use sweetspot_study::aim::rules::{Rule, RuleSet};
+use sweetspot_study::aim::wish::{Band, Goal};
+use sweetspot_study::many::answers::Answer;
+
+/// A section that has less of its strength left is told.
+const WEAK: f64 = 0.5;
+/// Stations of the cut list that are shown.
+const SHOWN: usize = 24;
+
+/// Everything there is to say, in one system of units.
+pub fn text(outcome: &Outcome, rules: Option<&RuleSet>, pass: f64, us: bool) -> String {
+    let mut out = head(outcome, rules, us);
+    out += &targets(outcome, us);
+    if let Some(conflict) = &outcome.conflict {
+        out += &wrapped(&format!("Conflict: {}.", conflict_words(conflict, &outcome.bands, us)), 0);
+        out += "\n";
+    }
+    out += &before_and_after(outcome, us);
+    if let Some(set) = rules {
+        out += &of_rules(outcome, set, us);
+    }
+    out += &choices(outcome, us);
+    out += &cut_list(outcome, pass, us);
+    out
+}
+
+/// The norm of a change (mm), in the maker's unit.
+fn norm(value: f64, us: bool) -> String {
+    if us { format!("{:.4} in", inches(1e-3 * value)) } else { format!("{value:.3} mm") }
+}
+
+/// A diameter, in the maker's unit.
+fn across(value: f64, us: bool) -> String {
+    if us { format!("{:.3} in", inches(value)) } else { format!("{:.2} mm", 1e3 * value) }
+}
+
+fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+}
+
+/// A place on the bat, in the maker's unit.
+fn place(x: f64, us: bool) -> String {
+    match us {
+        true => format!("{:.2} in", inches(x)),
+        false => format!("{} mm", shortest(rounded(1e3 * x, 1))),
+    }
+}
+
+fn head(outcome: &Outcome, rules: Option<&RuleSet>, us: bool) -> String {
+    let limits = outcome.broken > KEPT || outcome.steeper > KEPT;
+    let verdict = match (outcome.targets_met(), outcome.broken_rules() > 0, limits) {
+        (true, false, false) => "the new bat meets every target",
+        (true, true, _) => "the new bat meets every target, but breaks a rule",
+        (true, _, true) => "the new bat meets every target, but breaks a limit",
+        _ if outcome.conflict.is_some() => {
+            "the targets cannot all be had; the new bat comes nearest"
+        }
+        _ => "the new bat does not meet every target; it comes nearest",
+    };
+    let mut out = wrapped(&format!("{}: {verdict}", outcome.start.name()), 2);
+    let [cut, added] = outcome.largest();
+    let added = if added > 1e-9 {
+        format!("at most {} added", across(added, us))
+    } else {
+        "nothing added".into()
+    };
+    let line = format!(
+        "of its diameter at most {} off, {added}; norm of the change {}; {}, {}",
+        across(cut, us),
+        norm(outcome.norm, us),
+        counted(outcome.iterations, "step"),
+        counted(outcome.bats, "bat")
+    );
+    out += &wrapped(&line, 2);
+    if let Some(line) = warning(outcome, rules, us) {
+        out += &wrapped(&format!("Warning: {line}"), 2);
+    }
+    if let Some(why) = &outcome.rigid_wall {
+        out += &wrapped(&format!("Left out: {why}"), 2);
+    }
+    if outcome.remove_only && outcome.start.weighed() != Weighed::default() {
+        let line = "the bat was weighed, so that it exists: wood is only taken off; --add lets it be added, for a \
+                    new bat";
+        out += &wrapped(line, 2);
+    }
+    if outcome.finer > 1.0 {
+        let line = format!(
+            "stations are rounded to {}: coarser ones would miss a target",
+            match us {
+                true => format!("{} in", significant(inches(outcome.grid.round), 2)),
+                false => format!("{} mm", shortest(rounded(1e3 * outcome.grid.round, 9))),
+            }
+        );
+        out += &wrapped(&line, 2);
+    }
+    if let Some((x, left)) = outcome.weakest().filter(|(_, left)| *left < WEAK) {
+        let line = format!(
+            "at {} the section has {} % of its strength in bending left: --diameter \"at least ...\" and --keep \
+             set limits",
+            place(x, us),
+            significant(100.0 * left, 2)
+        );
+        out += &wrapped(&line, 2);
+    }
+    if outcome.broken > KEPT {
+        let by = match us {
+            true => format!("{:.5} in", inches(outcome.broken)),
+            false => format!("{:.4} mm", 1e3 * outcome.broken),
+        };
+        let line = format!("a limit of the diameter is broken by {by}");
+        out += &wrapped(&line, 2);
+    }
+    if let Some(slope) = outcome.slope {
+        let kept = match outcome.steeper > KEPT {
+            true => format!("is broken by {:.4}", outcome.steeper),
+            false => "is kept".to_owned(),
+        };
+        out += &wrapped(&format!("the limit {} of the slope {kept}", shortest(slope)), 2);
+    }
+    if outcome.kept_within > 5e-8 {
+        let line = format!(
+            "where the bat is kept, the curve through its stations moves by {} at most",
+            match us {
+                true => format!("{} in", significant(inches(outcome.kept_within), 2)),
+                false => format!("{:.1} μm", 1e6 * outcome.kept_within),
+            }
+        );
+        out += &wrapped(&line, 2);
+    }
+    out + "\n"
+}
+
+fn targets(outcome: &Outcome, us: bool) -> String {
+    let columns = Columns::new([
+        first(21, "Target"),
+        labels(24, "asked"),
+        labels(15, "before"),
+        labels(14, "after"),
+    ]);
+    let mut out = columns.heads();
+    for (band, value) in outcome.bands.iter().zip(&outcome.values) {
+        let name = match band.rule {
+            Some(_) => format!("{} (rule)", called(band.goal)),
+            None => called(band.goal),
+        };
+        out += &columns.row([
+            name,
+            asked(band, us),
+            shown(band.goal, band.start, us),
+            shown(band.goal, *value, us),
+        ]);
+        if !band.has(*value) {
+            out += &format!("  missed by {}\n", missed_by(band, *value, us));
+        }
+    }
+    let priced: Vec<String> = outcome
+        .bands
+        .iter()
+        .zip(&outcome.prices)
+        .filter_map(|(band, price)| priced(band, *price, us))
+        .collect();
+    if !priced.is_empty() {
+        out += &wrapped(&format!("Price: {}.", priced.join("; ")), 2);
+    }
+    out + "\n"
+}
+
+/// By how much a target is missed, with digits of its own where that is little.
+fn missed_by(band: &Band, value: f64, us: bool) -> String {
+    let limit = if value > band.high { band.high } else { band.low };
+    let by = (value - limit).abs();
+    match size(band.goal, by, us) {
+        little if little == size(band.goal, 0.0, us) => {
+            format!("{} {}", significant(by, 2), band.goal.unit()).trim_end().to_owned()
+        }
+        said => said,
+    }
+}
+
+/// What a little more of a target that binds would cost.
+fn priced(band: &Band, price: Option<f64>, us: bool) -> Option<String> {
+    let price = price.filter(|price| *price > 0.0)?;
+    let (step, words) = match (band.goal.unit(), us) {
+        ("kg", false) => (1e-3, "1 g".to_owned()),
+        ("kg", true) => (0.1 / ounces(1.0), "0.1 oz".to_owned()),
+        ("m", false) => (1e-3, "1 mm".to_owned()),
+        ("m", true) => (0.1 / inches(1.0), "0.1 in".to_owned()),
+        ("kg m²", false) => (1e-3, "0.001 kg m²".to_owned()),
+        ("kg m²", true) => (100.0 / ounce_square_inches(1.0), "100 oz in²".to_owned()),
+        ("", _) => (0.1, "0.1".to_owned()),
+        (unit, _) => (1.0, format!("1 {unit}")),
+    };
+    let cost = match us {
+        true => format!("{} in", significant(inches(1e-3 * price * step), 2)),
+        false => format!("{} mm", significant(price * step, 2)),
+    };
+    Some(format!("{words} more of the {} changes the norm by {cost}", called(band.goal)))
+}
+
+fn before_and_after(outcome: &Outcome, us: bool) -> String {
+    let columns = Columns::new([
+        first(21, "Before and after"),
+        labels(17, "before"),
+        labels(17, "after"),
+        labels(15, "change"),
+    ]);
+    let mut out = columns.heads();
+    for (answer, [before, after]) in &outcome.answers {
+        let goal = Goal::Answer(*answer);
+        let said =
+            |value: &Option<f64>| value.map_or("none".to_owned(), |value| shown(goal, value, us));
+        let change = before.zip(*after).map_or(String::new(), |(a, b)| match answer {
+            Answer::Node(_) | Answer::ExitSpeedPlace | Answer::BalancePoint => {
+                let way = if b >= a { "outward" } else { "inward" };
+                format!("{} {way}", across((b - a).abs(), us))
+            }
+            _ => format!("{} %", signed(100.0 * (b / a - 1.0), 2)),
+        });
+        out += &columns.row([called(goal), said(before), said(after), change]);
+    }
+    out + "\n"
+}
+
+fn of_rules(outcome: &Outcome, set: &RuleSet, us: bool) -> String {
+    let mut out = wrapped(
+        &format!("Rules: {} ({}, {}). Computed, not certified.", set.game, set.name, set.date),
+        2,
+    );
+    let columns =
+        Columns::new([first(24, ""), labels(18, "limit"), labels(18, "this bat"), labels(10, "")]);
+    for (rule, value, kept) in &outcome.rules {
+        let said =
+            |value: Option<f64>| value.map_or(String::new(), |value| of_rule(*rule, value, us));
+        let kept = match kept {
+            Some(true) => "kept",
+            Some(false) => "broken",
+            None => "not known",
+        };
+        let name = rule.name().replace('_', " ");
+        out += &columns.row([name, said(rule.limit()), said(*value), kept.to_owned()]);
+    }
+    for ask in &set.ask {
+        out += &wrapped(&format!("  not computed: {ask}"), 4);
+    }
+    out + "\n"
+}
+
+/// A value of a rule.
+fn of_rule(rule: Rule, value: f64, us: bool) -> String {
+    let goal = match rule {
+        Rule::BbcorAtMost(_) => Goal::Answer(Answer::Bbcor),
+        Rule::MassAtMost(_) => Goal::Answer(Answer::Mass),
+        Rule::InertiaAtLeast(_) => Goal::Answer(Answer::Inertia),
+        Rule::LengthAtMost(_) => Goal::Answer(Answer::BalancePoint),
+        Rule::DropAtMost(_) => Goal::Drop,
+        _ => return across(value, us),
+    };
+    shown(goal, value, us)
+}
+
+fn choices(outcome: &Outcome, us: bool) -> String {
+    use sweetspot_study::aim::bench::ExtraKind;
+    let mut out = String::new();
+    if let Some(wood) = &outcome.wood {
+        let _ = writeln!(out, "Wood: {wood}");
+    }
+    for (extra, found) in &outcome.extras {
+        let said = |value: f64| match extra.what {
+            ExtraKind::Length => shown(Goal::Answer(Answer::BalancePoint), value, us),
+            ExtraKind::Density => format!("{value:.1} kg/m³"),
+            ExtraKind::KnobWeight => shown(Goal::Answer(Answer::Mass), value, us),
+        };
+        let name = match extra.what {
+            ExtraKind::Length => "Length",
+            ExtraKind::Density => "Density",
+            ExtraKind::KnobWeight => "Weight on the knob",
+        };
+        let _ = writeln!(out, "{name}: {}, was {}", said(*found), said(extra.start));
+    }
+    if out.is_empty() { out } else { out + "\n" }
+}
+
+fn cut_list(outcome: &Outcome, pass: f64, us: bool) -> String {
+    let every = cuts(&outcome.stations, pass);
+    // What would be shown as nothing.
+    let least = if us { 1.27e-5 } else { 5e-6 };
+    let (all, little): (Vec<StationCut>, Vec<StationCut>) =
+        every.into_iter().partition(|cut| cut.off().abs() >= least);
+    let mut out = String::new();
+    let added = all.iter().filter(|cut| cut.adds()).count();
+    if all.is_empty() {
+        out += "Nothing is turned off.\n";
+    } else {
+        out += &cut_rows(&all, us);
+    }
+    if added > 0 {
+        let line = format!(
+            "Wood is added at {}: that is a bat to be turned anew, from a thicker billet. --remove-only only cuts.",
+            counted(added, "station")
+        );
+        out += &wrapped(&line, 0);
+    }
+    if all.len() > SHOWN {
+        let line =
+            format!("{} stations in all; --cuts FILE writes every one with its passes.", all.len());
+        out += &wrapped(&line, 0);
+    }
+    if !little.is_empty() {
+        let line = format!(
+            "{} more change by less than {}, as --cuts FILE has them.",
+            counted(little.len(), "station"),
+            if us { "0.0005 in" } else { "0.005 mm" }
+        );
+        out += &wrapped(&line, 0);
+    }
+    out
+}
+
+/// The rows that are shown: every so many where there are more.
+fn cut_rows(all: &[StationCut], us: bool) -> String {
+    let adds = all.iter().any(StationCut::adds);
+    let columns = Columns::new([
+        first(12, if adds { "Change at" } else { "Cut at" }),
+        numbers(12, "from"),
+        numbers(12, "to"),
+        numbers(12, if adds { "change" } else { "off" }),
+        labels(26, "after each pass"),
+    ]);
+    let mut out = columns.heads();
+    for cut in all.iter().step_by(all.len().div_ceil(SHOWN)) {
+        let passes: Vec<String> = cut.passes.iter().map(|off| across(cut.from - off, us)).collect();
+        let passes = match passes.len() {
+            0 => "wood added".to_owned(),
+            1 => "one pass".to_owned(),
+            count if count > 3 => format!("{count} passes"),
+            _ => passes.join(", "),
+        };
+        let [from, to, by] = [cut.from, cut.to, cut.off().abs()].map(|value| across(value, us));
+        let by = match (adds, cut.adds()) {
+            (false, _) => by,
+            (true, true) => format!("+{by}"),
+            (true, false) => format!("-{by}"),
+        };
+        out += &columns.row([place(cut.x, us), from, to, by, passes]);
+    }
+    out
+}

@@ -1,0 +1,117 @@
+//! BBCOR along a bat: what is said of it, and its columns.
+
+use crate::parts::cell::Quantity::{Error, Length, Ratio, Speed, Words};
+use crate::parts::part::Part;
+use crate::parts::table::{Column, Table};
+use crate::parts::units::Units;
+use crate::report::edits;
+use crate::report::wall_text::{wall_facts, wall_words};
+use sweetspot::collision::bbcor::{
+    LIMIT, LIMIT_SOURCE, Largest, MEASURES_SOURCE, Place, Scan, Tested,
+};
+use sweetspot_study::ignored;
+use sweetspot_study::spread::of_frequencies;
+
+/// The columns of the scan.
+pub const COLUMNS: [Column<Place>; 9] = [
+    Column::new("knob", "x_m", Length, |at| at.x_m.into()),
+    Column::both("tip", "from_tip_m", Length, |at| at.from_tip_m.into()),
+    Column::both("rebound", "exit_speed_m_s", Speed, |at| at.exit_speed_m_s.into()),
+    Column::new("e_A", "collision_efficiency", Ratio(4), |at| at.collision_efficiency.into()),
+    Column::new("BBCOR", "bbcor", Ratio(4), |at| at.bbcor.into()),
+    Column::new("within", "bbcor_error", Error, |at| at.error.bbcor.into()),
+    Column::in_files("besr", |at| at.besr.into()),
+    Column::in_files("bpf", |at| at.bpf.into()),
+    Column::new("why not", "", Words, |at| {
+        at.bbcor.map_or(Some(at.flags.join(" ")), |_| None).into()
+    }),
+];
+
+/// Places on either side of the largest that a screen has.
+const BESIDE: usize = 2;
+/// By so much two bats of one wood differ easily: three standard deviations of an R161's, whose stiffness differs by
+/// 22 % and whose density by 10 % (`sweetspot scatter r161`).
+const NEAR: f64 = 0.01;
+
+/// The title, and everything in order; `full` with every place and every source.
+pub fn report(tested: &Tested, units: Units, full: bool) -> (String, Vec<Part<'static>>) {
+    let Tested { bat, scene, scan, .. } = tested;
+    let Scan { protocol, places, largest, .. } = scan;
+    let speed = units.inline(units.speed(protocol.ball_speed_m_s));
+    let cor = if protocol.ball.cor_by_speed.is_empty() {
+        protocol.cor.to_string()
+    } else {
+        "by its speed".to_owned()
+    };
+    let source = if full { format!(": {}", protocol.cor_source) } else { String::new() };
+    let pivot = units.inline(units.length(protocol.pivot_m));
+    let mut notes = vec![format!(
+        "bat at rest on a pivot {pivot} from the knob end; {} at {speed}, cor {cor}{source}",
+        protocol.ball.name
+    )];
+    let edits = edits::listed(bat, units);
+    notes.extend((!edits.is_empty()).then(|| format!("edited: {edits}")));
+    notes.extend(scene.hoop.wall().map(|wall| wall_words(bat, scene, wall)));
+    notes.extend(ignored::in_hit(bat, scene).iter().map(|effect| format!("left out: {effect}")));
+    let shown = if full { &places[..] } else { around(places, largest.as_ref()) };
+    let mut parts =
+        vec![Part::List(notes), Part::Table(Table::of("The scan", &COLUMNS, shown, units))];
+    let left = places.len() - shown.len();
+    parts.extend((left > 0).then(|| Part::List(vec![format!("and {left} places more")])));
+    if let Some(wall) = scan.wall.as_ref().filter(|_| full) {
+        parts.extend([
+            Part::Heading("Where it is largest"),
+            Part::Facts("", wall_facts(wall, units)),
+        ]);
+    }
+    parts.extend(verdict(tested, units, full).into_iter().map(Part::Text));
+    (format!("BBCOR of {} (computed, not certified)", bat.name()), parts)
+}
+
+/// The places about the largest, as many as a first screen has.
+fn around<'a>(places: &'a [Place], largest: Option<&Largest>) -> &'a [Place] {
+    let at =
+        largest.and_then(|most| places.iter().position(|place| place.x_m == most.x_m)).unwrap_or(0);
+    let from = at.saturating_sub(BESIDE).min(places.len().saturating_sub(2 * BESIDE + 1));
+    &places[from..places.len().min(from + 2 * BESIDE + 1)]
+}
+
+/// The largest against the limit, in sentences.
+fn verdict(tested: &Tested, units: Units, full: bool) -> Vec<String> {
+    let scan = &tested.scan;
+    let Some(Largest { from_tip_m, bbcor, besr, bpf, .. }) = scan.largest else {
+        return vec!["No place of the scan has a figure.".to_owned()];
+    };
+    let place = units.inline(units.length(from_tip_m));
+    let against = match scan.within_limit {
+        Some(true) => "below the limit of",
+        Some(false) => "above the limit of",
+        None => "as near as its error to the limit of",
+    };
+    let source = if full { format!(" ({LIMIT_SOURCE})") } else { String::new() };
+    let mut said = vec![format!(
+        "Largest {bbcor:.4}, {place} from the tip: {against} {LIMIT:.2}{source}. It rises with the ball's cor by \
+         about as much; a laboratory's ball and limit decide, not this."
+    )];
+    if let Some(wall) = scan.wall.as_ref().filter(|wall| wall.is_deep()) {
+        let [low, high] = wall.bbcor.range;
+        said.push(format!(
+            "The wall is dented by more than half of its thickness there, where the theory of it ends: the figure \
+             is rough, {low:.3} to {high:.3} by what balls squeezed twice to half as much do."
+        ));
+    }
+    if let Some((besr, bpf)) = besr.zip(bpf) {
+        let source = if full { format!(" ({MEASURES_SOURCE})") } else { String::new() };
+        said.push(format!(
+            "There BESR, e_A + 1/2, is {besr:.4}, and BPF, BBCOR over the ball's cor, {bpf:.3}{source}."
+        ));
+    }
+    if of_frequencies(&tested.bat).is_some() && (bbcor - LIMIT).abs() < NEAR {
+        said.push(
+            "Trust: pieces of one wood differ by more than the last digits here, so that a bat this near the limit \
+             may be on either side of it: sweetspot scatter"
+                .to_owned(),
+        );
+    }
+    said
+}

@@ -1,0 +1,431 @@
+//! What a bat's wood is: table, JSON, words.
+
+use std::fmt::Write;
+
+use crate::csv::Csv;
+use crate::parts::terminal::wrapped;
+use crate::parts::units::in_trade;
+use crate::report::columns::{Columns, first, labels, numbers};
+use crate::schema::calibrate as file;
+use sweetspot::base::number::{percent, significant};
+use sweetspot::bat::body::Bat;
+use sweetspot::files::schema::document::{BatName, Format, Generator};
+use sweetspot_study::calibrate::calibration::{Calibration, Estimated, Property, Verdict};
+use sweetspot_study::calibrate::fit::{DatumKind, Residual};
+use sweetspot_study::calibrate::next::Proposal;
+
+/// Parameters, data and words, 80 columns wide.
+pub fn text(bat: &Bat, found: &Calibration) -> String {
+    let mut out = format!("What the wood of {} is\n", bat.name());
+    out += &parameters(&found.parameters);
+    out += &data(found, bat.inches());
+    for tone in &found.readings.ring_down {
+        let _ = writeln!(
+            out,
+            "Mode {} dies out with a loss factor of {} (damping ratio {})",
+            tone.mode,
+            significant(tone.loss_factor(), 3),
+            significant(tone.damping_ratio(), 3)
+        );
+    }
+    out += "In words\n";
+    words(found).iter().for_each(|line| out += &wrapped(&format!("  {line}"), 4));
+    out
+}
+
+fn parameters(all: &[Estimated]) -> String {
+    let columns = Columns::new([
+        first(14, "property"),
+        numbers(13, "value"),
+        numbers(13, "95 %"),
+        numbers(13, "before"),
+        numbers(8, "learned"),
+        labels(17, "the readings"),
+    ]);
+    let mut out = columns.heads();
+    for one in all {
+        out += &columns.row([
+            short(one.property).to_owned(),
+            shown(one.property, one.value),
+            within(one),
+            shown(one.property, one.prior.value),
+            percent(one.learned.max(0.0), 0),
+            verdict(one),
+        ]);
+    }
+    out
+}
+
+/// The 95 % interval about the value, in per cent.
+fn within(one: &Estimated) -> String {
+    let [low, high] = one.interval.map(|end| 100.0 * (end / one.value - 1.0));
+    match format!("{:.1}", -low) == format!("{high:.1}") {
+        true => format!("± {high:.1} %"),
+        false => format!("{low:+.1}/{high:+.1} %"),
+    }
+}
+
+fn data(found: &Calibration, us: bool) -> String {
+    let columns = Columns::new([
+        first(18, "reading"),
+        numbers(10, "measured"),
+        numbers(10, "computed"),
+        numbers(11, "off by"),
+        numbers(10, "left out"),
+        labels(16, ""),
+    ]);
+    let mut out = format!(
+        "Readings beside the bat of that wood: chi2 {} of {} data\n",
+        significant(found.fit.misfit(), 3),
+        found.data()
+    );
+    out += &columns.heads();
+    for one in &found.fit.residuals {
+        let sd = |value: f64| format!("{value:+.1} sd");
+        let flag = if one.is_outlier() { "does not fit" } else { "" };
+        let name = one.datum.kind.name();
+        let ending = ["_kg_m2", "_kg", "_m"].into_iter().find(|ending| name.ends_with(ending));
+        let (name, per) = match ending.filter(|_| us) {
+            None => (name, 1.0),
+            Some(ending) => {
+                let (unit, per) = in_trade(&ending[1..], us);
+                (format!("{}, {unit}", name.trim_end_matches(ending)), per)
+            }
+        };
+        out += &columns.row([
+            name,
+            significant(per * one.datum.reading.value, 5),
+            significant(per * one.computed, 5),
+            sd(one.deviations),
+            sd(one.left_out),
+            flag.to_owned(),
+        ]);
+    }
+    let lines = found.readings.lines.iter().zip(&found.identified.labels);
+    for (line, _) in lines.filter(|(_, label)| label.is_none()) {
+        let hz = significant(line.frequency.value, 5);
+        let _ = writeln!(out, "{hz} Hz is no bending mode of this bat");
+    }
+    out
+}
+
+/// What a parameter is called in a table.
+pub fn short(property: Property) -> &'static str {
+    match property {
+        Property::YoungsModulus => "E",
+        Property::ShearModulus => "G",
+        Property::Density => "density",
+        Property::BarrelDensity => "barrel density",
+        Property::ModulusRatio => "E ratio",
+    }
+}
+
+/// A value in the unit that people use for it.
+pub fn shown(property: Property, value: f64) -> String {
+    match property {
+        Property::YoungsModulus => format!("{:.2} GPa", 1e-9 * value),
+        Property::ShearModulus => format!("{:.3} GPa", 1e-9 * value),
+        Property::Density | Property::BarrelDensity => format!("{value:.1} kg/m³"),
+        Property::ModulusRatio => format!("{value:.3}"),
+    }
+}
+
+fn verdict(one: &Estimated) -> String {
+    match one.verdict {
+        Verdict::Determined => "determine it".to_owned(),
+        Verdict::Partly => "say it in part".to_owned(),
+        Verdict::OnlyTogether => {
+            let with = one.correlated.map_or("another", |(other, _)| short(other));
+            format!("only with {with}")
+        }
+        Verdict::NotDetermined => "do not say it".to_owned(),
+        Verdict::Held => "held".to_owned(),
+    }
+}
+
+/// What follows, a sentence each.
+pub fn words(found: &Calibration) -> Vec<String> {
+    let mut all = vec![];
+    all.extend(labelled(found));
+    all.extend(mismatch(found));
+    all.extend(found.parameters.iter().filter_map(|one| foreign(found, one)));
+    if found.typical_shear {
+        all.push(
+            "The bat file has no shear modulus: one that is typical of the kind was the start."
+                .to_owned(),
+        );
+    }
+    for one in found.parameters.iter().filter(|one| one.verdict == Verdict::OnlyTogether) {
+        let Some((other, r)) = one.correlated else { continue };
+        let sign = if r > 0.0 { "quotient" } else { "product" };
+        all.push(format!(
+            "{} and {} are known only together (correlation {r:.2}): the readings say a {sign}.",
+            short(one.property),
+            short(other)
+        ));
+    }
+    let silent = |one: &&Estimated| matches!(one.verdict, Verdict::NotDetermined | Verdict::Held);
+    let name = |one: &Estimated| match one.property {
+        // G goes with E: what is sought is their quotient.
+        Property::ShearModulus => "G over E",
+        other => short(other),
+    };
+    let silent: Vec<&str> = found.parameters.iter().filter(silent).map(name).collect();
+    if !silent.is_empty() {
+        all.push(format!(
+            "Of {} the readings say nothing: what stands there is what was taken for known before.",
+            silent.join(" and ")
+        ));
+    }
+    all.push(advice(found));
+    all
+}
+
+fn list(labels: &[Option<usize>]) -> String {
+    let one = |label: &Option<usize>| label.map_or("none".to_owned(), |mode| mode.to_string());
+    labels.iter().map(one).collect::<Vec<_>>().join(", ")
+}
+
+/// What the labels were taken for, where they were sought.
+fn labelled(found: &Calibration) -> Vec<String> {
+    let identified = &found.identified;
+    let mut all = vec![];
+    if let Some((told, chi2)) = &identified.told {
+        let changed = |k: &usize| {
+            let name =
+                |label: Option<usize>| label.map_or("no mode".to_owned(), |m| format!("mode {m}"));
+            format!(
+                "{} Hz was told as {} and fits as {}",
+                found.readings.lines[*k].frequency.value,
+                name(told[*k]),
+                name(identified.labels[*k])
+            )
+        };
+        let changed: Vec<String> = identified.changed().iter().map(changed).collect();
+        all.push(format!(
+            "As modes {} the lines do not fit this bat in any wood (chi2 {}). {}: the wood above is that of \
+             these labels.",
+            list(told),
+            significant(*chi2, 3),
+            changed.join("; ")
+        ));
+    } else if found.readings.lines.iter().any(|line| line.mode.is_none()) {
+        let taken = match identified.labels.len() {
+            1 => "line was taken for mode",
+            _ => "lines were taken for modes",
+        };
+        all.push(format!("The {taken} {}.", list(&identified.labels)));
+    }
+    if let Some(((labels, _), margin)) = identified.second.as_ref().zip(identified.margin) {
+        let unsure = if identified.is_sure() {
+            ""
+        } else {
+            " They may be the right ones, with another wood: tell the mode of a line that you know (\"mode\", or --mode \"HZ = N\")."
+        };
+        all.push(format!(
+            "The next best labels are {}, with a chi2 that is {} larger.{unsure}",
+            list(labels),
+            significant(margin, 3)
+        ));
+    }
+    if identified.is_mostly_discarded() {
+        all.push(
+            "Half of what was measured or more is no bending mode of this bat, of wood from a quarter to four times \
+             as stiff as the file's: the wood above rests on what is left, and may be wrong. The profile, the \
+             readings or their unit are others than was told."
+                .to_owned(),
+        );
+    }
+    all
+}
+
+/// A wood that is another one than the file names.
+fn foreign(found: &Calibration, one: &Estimated) -> Option<String> {
+    let times = one.foreign()?;
+    let kind = found.material.as_deref().unwrap_or("the file's material");
+    let what = match one.property {
+        Property::Density => {
+            "the wall is thicker than the file says, or something inside weighs that is not in it"
+        }
+        _ => "the bat is of another material, or its profile or a reading is wrong",
+    };
+    Some(format!(
+        "{} of {} is {} times that of {kind} ({}), more than pieces of one material differ by: {what}.",
+        match one.property {
+            Property::Density => "A density",
+            _ => "E",
+        },
+        shown(one.property, one.value),
+        significant(times, 3),
+        shown(one.property, one.prior.value)
+    ))
+}
+
+fn mismatch(found: &Calibration) -> Option<String> {
+    if found.readings_agree() {
+        return None;
+    }
+    let name = |residual: &Residual| {
+        format!("{} ({:+.1} sd)", residual.datum.kind.name(), residual.left_out)
+    };
+    let outliers: Vec<String> =
+        found.outliers.iter().map(|k| name(&found.fit.residuals[*k])).collect();
+    let which = match outliers.is_empty() {
+        true => "No one reading stands out".to_owned(),
+        false => format!("Beside all others these are far off: {}", outliers.join(", ")),
+    };
+    let without = found.without.as_ref().map_or(String::new(), |(_, chi2, data)| {
+        format!(" Without them chi2 is {} of {data}.", significant(*chi2, 3))
+    });
+    Some(format!(
+        "The readings do not fit this bat: errors would have to be {} times larger. {which}: the \
+         profile, the label or the reading is another one than the file says, and no wood mends \
+         that.{without}",
+        significant(found.birge(), 2)
+    ))
+}
+
+/// What a datum is called in a sentence.
+fn called(kind: DatumKind) -> String {
+    match kind {
+        DatumKind::Mass => "the mass".to_owned(),
+        DatumKind::BalancePoint => "the balance point".to_owned(),
+        DatumKind::Period => "the period as a pendulum".to_owned(),
+        DatumKind::Frequency(order) => format!("the frequency of mode {order}"),
+    }
+}
+
+/// What to measure next.
+fn advice(found: &Calibration) -> String {
+    match found.advice() {
+        Some((least, Proposal { kind, .. }, factor)) if factor < 0.95 => format!(
+            "Measure {} next: of all that is missing it tells most of {}, whose interval it would \
+             make {} times as wide.",
+            called(*kind),
+            short(least.property),
+            significant(factor, 2)
+        ),
+        _ => "No further measurement of these kinds would tell much more.".to_owned(),
+    }
+}
+
+/// The `sweetspot-calibrate/1` document.
+pub fn document(bat: &Bat, found: &Calibration, split: Option<f64>) -> file::CalibrateFile {
+    let identified = &found.identified;
+    let residuals = &found.fit.residuals;
+    file::CalibrateFile {
+        format: Format::new(),
+        generator: Generator::this(),
+        bat: BatName::of(bat),
+        regions_at_m: split,
+        parameters: found.parameters.iter().map(parameter).collect(),
+        covariance: found.covariance.clone(),
+        data: residuals.iter().map(datum).collect(),
+        chi2: found.fit.chi2,
+        expected: found.data(),
+        errors_larger_by: found.birge(),
+        model: found.readings.model,
+        fits: found.fits(),
+        steps: found.fit.steps,
+        labels: file::LabelsFound {
+            lines_hz: found.readings.lines.iter().map(|line| line.frequency.value).collect(),
+            taken: identified.labels.clone(),
+            chi2: identified.chi2,
+            told: identified.told.as_ref().map(|(labels, _)| labels.clone()),
+            told_chi2: identified.told.as_ref().map(|(_, chi2)| *chi2),
+            second: identified.second.as_ref().map(|(labels, _)| labels.clone()),
+            second_chi2: identified.second.as_ref().map(|(_, chi2)| *chi2),
+            margin: identified.margin,
+        },
+        outliers: found.outliers.iter().map(|k| residuals[*k].datum.kind.name()).collect(),
+        without_outliers: found.without.as_ref().map(|(parameters, chi2, expected)| {
+            let parameters = parameters.iter().map(parameter).collect();
+            file::WithoutOutliers { parameters, chi2: *chi2, expected: *expected }
+        }),
+        loss_factors: found
+            .readings
+            .ring_down
+            .iter()
+            .map(|tone| file::LossFound {
+                mode: tone.mode,
+                damping_ratio: tone.damping_ratio(),
+                loss_factor: tone.loss_factor(),
+            })
+            .collect(),
+        next: found
+            .proposals
+            .iter()
+            .map(|one| file::NextMeasurement {
+                name: one.kind.name(),
+                sd: one.sigma,
+                factors: one.factors.clone(),
+            })
+            .collect(),
+        advice: advice(found),
+        words: words(found),
+    }
+}
+
+fn parameter(one: &Estimated) -> file::ParameterFound {
+    file::ParameterFound {
+        name: one.property.name(),
+        unit: one.property.unit(),
+        value: one.value,
+        interval95: one.interval,
+        relative_sd: one.deviation,
+        prior: one.prior.value,
+        prior_relative_sd: one.prior.deviation,
+        learned: one.learned,
+        correlated_with: one.correlated.map(|(other, _)| other.name()),
+        correlation: one.correlated.map(|(_, r)| r),
+        verdict: match one.verdict {
+            Verdict::Determined => "determined",
+            Verdict::Partly => "partly",
+            Verdict::OnlyTogether => "only_together",
+            Verdict::NotDetermined => "not_determined",
+            Verdict::Held => "held",
+        },
+    }
+}
+
+fn datum(one: &Residual) -> file::DatumFound {
+    file::DatumFound {
+        name: one.datum.kind.name(),
+        measured: one.datum.reading.value,
+        reading_sd: one.datum.reading.deviation,
+        sd: one.datum.sigma,
+        computed: one.computed,
+        residual_sd: one.deviations,
+        left_out_sd: one.left_out,
+    }
+}
+
+/// Every parameter as a line of CSV.
+pub fn csv(found: &Calibration) -> String {
+    let mut table = Csv::new([
+        "name",
+        "unit",
+        "value",
+        "low95",
+        "high95",
+        "relative_sd",
+        "prior",
+        "prior_relative_sd",
+        "learned",
+    ]);
+    for one in &found.parameters {
+        let [low, high] = one.interval;
+        table.row([
+            one.property.name().into(),
+            one.property.unit().into(),
+            one.value.into(),
+            low.into(),
+            high.into(),
+            one.deviation.into(),
+            one.prior.value.into(),
+            one.prior.deviation.into(),
+            one.learned.into(),
+        ]);
+    }
+    table.text()
+}

@@ -1,0 +1,120 @@
+//! The bat file of a wood that was found: the file as it was, with another material.
+
+use serde_json::{Map, Value, json};
+
+use crate::report::calibrate::shown;
+use crate::report::resolved;
+use crate::schema;
+use sweetspot::base::error::Result;
+use sweetspot::base::number::percent;
+use sweetspot::bat::body::Bat;
+use sweetspot::bat::material::Material;
+use sweetspot::files::document::Document;
+use sweetspot::files::json_node::Node;
+use sweetspot_study::calibrate::calibration::{Calibration, Verdict};
+
+/// Members that a calibrated file has anew, or no more: densities and moduli are known now.
+const ANEW: [&str; 4] = ["source", "comment", "material", "weighed"];
+
+/// The text of the file. `before` is the bat and what its file says, `measured` the name of the readings, `split`
+/// where the barrel begins (m), if there are two regions.
+///
+/// # Errors
+///
+/// [`sweetspot::Error::Input`] where the text is no JSON object.
+pub fn text(
+    (bat, before): (&Bat, &str),
+    found: &Calibration,
+    measured: &str,
+    split: Option<f64>,
+) -> Result<String> {
+    Node::root(&Document::new("bat".to_owned(), before))?.members()?;
+    let before = before.trim_start_matches('\u{feff}');
+    let old: Map<String, Value> = serde_json::from_str(before).unwrap_or_default();
+    let mut new = Map::new();
+    new.insert("format".to_owned(), json!("sweetspot-bat/1"));
+    new.insert("name".to_owned(), json!(bat.name()));
+    new.insert("comment".to_owned(), json!(intervals(found)));
+    let from = bat.source();
+    let source =
+        format!("Calibrated by {measured} (sweetspot {}). {from}", env!("CARGO_PKG_VERSION"));
+    new.insert("source".to_owned(), json!(source.trim_end()));
+    new.insert("material".to_owned(), json!(material(found, found.bat.material())));
+    if let Some(from) = split {
+        let barrel = found.bat.fixtures().regions.first().map(|region| &region.layup.outer);
+        let barrel = material(found, barrel.unwrap_or(found.bat.material()));
+        new.insert(
+            "regions".to_owned(),
+            json!([{ "from": from, "to": bat.length(), "material": barrel }]),
+        );
+    }
+    // What a scale says is said of a bat before its edits.
+    if !old.contains_key("edits") {
+        new.extend(weighed(found).map(|weighed| ("weighed".to_owned(), weighed)));
+    }
+    for (key, value) in old {
+        if !ANEW.contains(&key.as_str()) && !new.contains_key(&key) {
+            new.insert(key, value);
+        }
+    }
+    regions(&mut new, found, split);
+    // The new file may lie in another folder than the table that the old one names.
+    if new.get("profile").is_some_and(|profile| profile.get("csv").is_some()) {
+        new["profile"] = json!(resolved::profile(bat.unedited().profile()));
+    }
+    Ok(schema::text(&Value::Object(new)))
+}
+
+/// What the scale and the tap came to, so that whatever reads the bat knows how well its density and its stiffness
+/// are known: mass and first frequency of the wood that was found. None where neither was read.
+fn weighed(found: &Calibration) -> Option<Value> {
+    let mut weighed = Map::new();
+    if found.readings.mass.is_some() {
+        weighed.insert("mass".to_owned(), json!(found.bat.unedited().inertia().mass));
+    }
+    let first = found.fit.shown.frequencies.first();
+    if let Some(first) = first.filter(|_| found.identified.labels.contains(&Some(1))) {
+        weighed.insert("first_bending_hz".to_owned(), json!(first.value));
+    }
+    (!weighed.is_empty()).then_some(Value::Object(weighed))
+}
+
+/// Regions whose material is written out and was that of the bat have the new one too.
+fn regions(file: &mut Map<String, Value>, found: &Calibration, split: Option<f64>) {
+    let wood = found.bat.material();
+    let known = found.bat.unedited().fixtures().regions.iter();
+    let listed = file.get_mut("regions").and_then(Value::as_array_mut).filter(|_| split.is_none());
+    for (region, listed) in known.zip(listed.into_iter().flatten()) {
+        if region.layup.outer == *wood && listed.get("material").is_some() {
+            listed["material"] = json!(material(found, wood));
+        }
+    }
+}
+
+/// The material with the loss factor that was heard.
+fn material(found: &Calibration, own: &Material) -> Material {
+    let loss_factor = found.loss_factor().unwrap_or(own.loss_factor);
+    Material { loss_factor, ..own.clone() }
+}
+
+/// Values with their intervals, a line each.
+fn intervals(found: &Calibration) -> Vec<String> {
+    let line = |one: &sweetspot_study::calibrate::calibration::Estimated| {
+        let [low, high] = one.interval.map(|value| shown(one.property, value));
+        let unsaid = match one.verdict {
+            Verdict::NotDetermined | Verdict::Held => "; the readings do not say it",
+            _ => "",
+        };
+        format!(
+            "{}: {}, 95 % from {low} to {high} (standard deviation {}){unsaid}",
+            one.property.name(),
+            shown(one.property, one.value),
+            percent(one.deviation, 2)
+        )
+    };
+    let mut all: Vec<String> = found.parameters.iter().map(line).collect();
+    if !found.fits() {
+        all.push("The readings do not fit this bat: the intervals are too narrow.".to_owned());
+    }
+    all
+}

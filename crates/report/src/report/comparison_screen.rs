@@ -1,0 +1,132 @@
+//! Several bats side by side on two screens: what differs and matters, then where along the barrel.
+
+use crate::parts::terminal::wrapped;
+use crate::parts::units::Units;
+use crate::report::columns::{Columns, first, numbers};
+use crate::report::comparison::{FIRST, Row, along, figures, hit, letter, rows, swung};
+use crate::report::edits;
+use crate::report::trust::doubts;
+use sweetspot_study::comparison::contender::Contender;
+use sweetspot_study::comparison::rows::ComparedFigure;
+use sweetspot_study::comparison::table::Comparison;
+use sweetspot_study::ignored::thinnest_wall;
+
+/// What a short answer ends with.
+const MORE: &str =
+    "Every figure and every place: --full; on a page to look at: --report FILE.html\n";
+
+/// What differs, and where along the barrel: of five bats 48 lines at most. Several bats count in one
+/// system of units, that of the first one's file unless another is asked for.
+pub fn screen(comparison: &Comparison, units: Units) -> String {
+    let one = units.first();
+    let mut out = bats(comparison, one) + &hit(comparison, units);
+    let (differing, same) = ordered(comparison, one);
+    out += &match (comparison.bats.len(), differing.is_empty()) {
+        (_, true) => String::new(),
+        (2, _) => {
+            let keyed = |row: &Row| comparison.figures.iter().find(|figure| figure.key == row.key);
+            let all: Vec<&ComparedFigure> = differing.iter().filter_map(keyed).collect();
+            figures(&all, 1, units)
+        }
+        _ => table(comparison, &differing),
+    };
+    if !same.is_empty() {
+        let name = |row: &Row| row.label.split(", ").next().unwrap_or_default().to_owned();
+        let same: Vec<String> = same.iter().map(name).collect();
+        out += &wrapped(&format!("No difference beyond the errors: {}", same.join(", ")), 2);
+    }
+    out += "\nIn words, by distance from the tip\n";
+    for bat in 1..comparison.bats.len() {
+        let parts = along(comparison, bat, one);
+        let hit = if parts.is_empty() { "one of the two hits no ball".to_owned() } else { parts };
+        let swung = swung(comparison, bat).map_or(String::new(), |swung| format!(" {swung}"));
+        out += &wrapped(&format!("  {}: {hit}.{swung}", letter(bat)), 4);
+    }
+    out + &doubted(comparison, one) + &beside_pieces(comparison, one) + MORE
+}
+
+/// Figures whose scatter is told.
+const OF_WOOD: [&str; 4] = ["best_exit_speed", "swing_weight", "mass", "frequency_1"];
+
+/// What there is to doubt of each bat's hits.
+pub fn doubted(comparison: &Comparison, units: Units) -> String {
+    let of = |(k, bat): (usize, &Contender)| {
+        let all = doubts(&bat.verdict, units).into_iter();
+        all.map(|text| wrapped(&format!("Trust, {}: {text}", letter(k)), 7)).collect::<String>()
+    };
+    comparison.bats.iter().enumerate().map(of).collect()
+}
+
+/// The differences beside what two pieces of one wood differ by; of one piece that this cancels.
+fn beside_pieces(comparison: &Comparison, units: Units) -> String {
+    let others = 1..comparison.bats.len();
+    let same = others.clone().filter(|bat| comparison.one_piece(*bat));
+    let same: Vec<String> = same.map(|bat| letter(bat).to_string()).collect();
+    let mut out = String::new();
+    if !same.is_empty() {
+        let text = format!(
+            "Trust: {} and A are one and the same piece, so that what pieces of one wood differ by cancels.",
+            same.join(", ")
+        );
+        out += &wrapped(&text, 7);
+    }
+    let known = rows(comparison, units).into_iter();
+    let told = known.filter(|row| OF_WOOD.contains(&row.key.as_str()) && !row.pieces.is_empty());
+    let told: Vec<String> = told
+        .map(|row| match row.label.rsplit_once(", ") {
+            Some((name, unit)) => format!("{name} {} {unit}", row.pieces),
+            None => format!("{} {}", row.label, row.pieces),
+        })
+        .collect();
+    if !told.is_empty() {
+        let text = format!(
+            "Trust: two pieces of one wood differ too (one standard deviation): {}. A difference that is less \
+             may be either way of two bats from a shelf; \"within\" is the computation alone.",
+            told.join("; ")
+        );
+        out += &wrapped(&text, 7);
+    }
+    if same.len() < others.len() && told.is_empty() {
+        let text = "Trust: how much two pieces of these materials differ is not known here; \"within\" is the \
+                    computation alone.";
+        out += &wrapped(text, 7);
+    }
+    out
+}
+
+/// The bats, each in a line.
+fn bats(comparison: &Comparison, units: Units) -> String {
+    let mut out = String::from("Bats compared; A is the one the others are measured by\n");
+    for (k, contender) in comparison.bats.iter().enumerate() {
+        let hollow = thinnest_wall(&contender.bat).filter(|_| !contender.scene.wall_gives_way());
+        let hollow = if hollow.is_some() { " (hollow, its wall taken as rigid)" } else { "" };
+        out += &wrapped(&format!("  {}  {}{hollow}", letter(k), contender.bat.name()), 5);
+        let edits = edits::listed(&contender.bat, units);
+        if !edits.is_empty() {
+            out += &wrapped(&format!("     edited: {edits}"), 5);
+        }
+    }
+    out
+}
+
+/// What matters, in order: what differs of some bat, and what does of none.
+fn ordered(comparison: &Comparison, units: Units) -> (Vec<Row>, Vec<Row>) {
+    let mut all = rows(comparison, units);
+    all.retain(|row| FIRST.contains(&row.key.as_str()));
+    all.sort_by_key(|row| FIRST.iter().position(|key| row.key == *key));
+    all.into_iter().partition(|row| row.differs)
+}
+
+/// The values of all bats, and below them what each other one has more than the first.
+fn table(comparison: &Comparison, differing: &[Row]) -> String {
+    let width = (48 / comparison.bats.len()).min(10);
+    let bats = (0..comparison.bats.len()).map(|k| numbers(width, letter(k)));
+    let heads = first(32, "What differs, and by how much");
+    let columns = Columns::new([heads].into_iter().chain(bats));
+    let mut out = format!("\n{}", columns.heads());
+    for Row { label, values, differences, .. } in differing {
+        out += &columns.row([format!("  {label}")].iter().chain(values));
+        out += &columns.row([String::new(), String::new()].iter().chain(differences));
+    }
+    out
+}

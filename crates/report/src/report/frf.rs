@@ -1,0 +1,324 @@
+//! A frequency response and its peaks, as table, CSV and JSON.
+
+use std::fmt::Write;
+
+use crate::csv::Csv;
+use crate::parts::terminal::wrapped;
+use crate::parts::units::Units;
+use crate::report::columns::{Columns, numbers};
+use crate::report::text::edited;
+use crate::schema::frf::{
+    FrfFile, Height, MeasuredAnswer, MeasuredValues, PeakBeside, PeakLine, ResponseValues,
+};
+use sweetspot::bat::body::Bat;
+use sweetspot::files::schema::document::{Format, Generator};
+use sweetspot::motion::frf::{Frf, ResponseKind, Sample};
+use sweetspot::motion::peaks::Peak;
+use sweetspot_study::measured::response::{Laid, MeasuredResponse};
+
+/// A response that is told.
+pub struct ToldResponse<'a> {
+    /// The bat that answers.
+    pub bat: &'a Bat,
+    /// Deflection, velocity or acceleration.
+    pub kind: ResponseKind,
+    /// Where the force is, and where the answer is watched (m from the knob end).
+    pub places: [f64; 2],
+    /// What answers.
+    pub frf: &'a Frf,
+    /// The answers.
+    pub samples: &'a [Sample],
+    /// The frequencies that were asked for (Hz); the others show the peaks.
+    pub asked: &'a [f64],
+    /// The peaks of the answer.
+    pub peaks: &'a [Peak],
+    /// In which units places are said.
+    pub units: Units,
+    /// A measured response, laid over it.
+    pub measured: Option<(&'a MeasuredResponse, &'a Laid)>,
+}
+
+/// The `sweetspot-frf/1` document.
+pub fn document(told: &ToldResponse) -> FrfFile {
+    let ToldResponse { bat, kind, places: [at, to], frf, samples, peaks, .. } = *told;
+    let of = |part: &dyn Fn(&Sample) -> f64| samples.iter().map(part).collect::<Vec<f64>>();
+    let value = |s: &Sample| s.receptance * kind.of(s.frequency);
+    let (real, imaginary) = (of(&|s| value(s).re), of(&|s| value(s).im));
+    let truncation = of(&|s| s.truncation * kind.of(s.frequency).norm());
+    FrfFile {
+        format: Format::new(),
+        generator: Generator::this(),
+        edits: bat.edits().to_vec(),
+        kind: kind.name(),
+        at_m: at,
+        to_m: to,
+        theory: frf.solution.theory.name(),
+        modes: frf.solution.modes.len(),
+        strains: frf.strains(),
+        static_compliance_m_per_n: frf.static_compliance(),
+        rigid_modes: frf.solution.rigid_modes,
+        frequency_hz: of(&|s| s.frequency),
+        answer: match kind {
+            ResponseKind::Receptance => ResponseValues::Receptance { real, imaginary, truncation },
+            ResponseKind::Mobility => ResponseValues::Mobility { real, imaginary, truncation },
+            ResponseKind::Accelerance => {
+                ResponseValues::Accelerance { real, imaginary, truncation }
+            }
+        },
+        peaks: peaks.iter().map(|peak| line(kind, peak)).collect(),
+        measured: told.measured.map(|(response, laid)| beside(kind, response, laid)),
+        damping_ratios_as_measured: frf.damping_ratios().to_vec(),
+        frequencies_within: frf.solution.worst(),
+    }
+}
+
+/// A peak as it stands in a document.
+pub fn line(kind: ResponseKind, peak: &Peak) -> PeakLine {
+    let magnitude = peak.height;
+    PeakLine {
+        mode: peak.mode,
+        natural_frequency_hz: peak.natural,
+        frequency_hz: peak.frequency,
+        height: match kind {
+            ResponseKind::Receptance => Height::Receptance { magnitude },
+            ResponseKind::Mobility => Height::Mobility { magnitude },
+            ResponseKind::Accelerance => Height::Accelerance { magnitude },
+        },
+        damping_ratio: peak.damping_ratio(),
+        half_power_hz: peak.half_power,
+    }
+}
+
+fn beside(kind: ResponseKind, response: &MeasuredResponse, laid: &Laid) -> MeasuredAnswer {
+    let real = laid.measured.iter().map(|(_, value)| value.re).collect();
+    let imaginary = laid.measured.iter().map(|(_, value)| value.im).collect();
+    let pair = |(computed, measured): &(Peak, Option<Peak>)| PeakBeside {
+        computed: line(kind, computed),
+        measured: measured.as_ref().map(|peak| line(kind, peak)),
+        frequency_difference: measured.map(|m| computed.frequency / m.frequency - 1.0),
+        level_difference_db: measured.as_ref().and_then(|m| level(computed, m)),
+    };
+    MeasuredAnswer {
+        source: response.source.clone(),
+        assumed: response.assumed.clone(),
+        frequency_hz: laid.measured.iter().map(|(f, _)| *f).collect(),
+        answer: match kind {
+            ResponseKind::Receptance => MeasuredValues::Receptance { real, imaginary },
+            ResponseKind::Mobility => MeasuredValues::Mobility { real, imaginary },
+            ResponseKind::Accelerance => MeasuredValues::Accelerance { real, imaginary },
+        },
+        frac: laid.frac,
+        mean_level_difference_db: laid.level,
+        mean_absolute_level_difference_db: laid.apart,
+        peaks: laid.peaks.iter().map(pair).collect(),
+    }
+}
+
+/// By how much a computed peak is higher than a measured one (dB).
+fn level(computed: &Peak, measured: &Peak) -> Option<f64> {
+    let level = 20.0 * (computed.height? / measured.height?).log10();
+    Some(level).filter(|level| level.is_finite())
+}
+
+/// A row for every frequency.
+pub fn csv(kind: ResponseKind, samples: &[Sample]) -> String {
+    let unit = kind.unit();
+    let mut table = Csv::new([
+        "frequency_hz".to_owned(),
+        format!("real_{unit}"),
+        format!("imaginary_{unit}"),
+        format!("magnitude_{unit}"),
+        "phase_deg".to_owned(),
+        format!("truncation_{unit}"),
+    ]);
+    for sample in samples {
+        let factor = kind.of(sample.frequency);
+        let value = sample.receptance * factor;
+        table.row([
+            sample.frequency.into(),
+            value.re.into(),
+            value.im.into(),
+            value.norm().into(),
+            phase(value.re, value.im).into(),
+            (sample.truncation * factor.norm()).into(),
+        ]);
+    }
+    table.text()
+}
+
+fn place(x: f64, units: Units) -> String {
+    units.inline(units.length(x))
+}
+
+/// Degrees; 0 of nothing.
+pub fn phase(re: f64, im: f64) -> f64 {
+    // A zero without a sign: on the negative axis it would turn the phase over.
+    (im + 0.0).atan2(re + 0.0).to_degrees()
+}
+
+/// The unit of an answer, for people.
+pub fn unit(kind: ResponseKind) -> &'static str {
+    match kind {
+        ResponseKind::Receptance => "m/N",
+        ResponseKind::Mobility => "m/(s N)",
+        ResponseKind::Accelerance => "1/kg",
+    }
+}
+
+/// The answer at the asked frequencies, the peaks, and what it was made of.
+pub fn text(told: &ToldResponse) -> String {
+    let ToldResponse { bat, kind, places: [at, to], frf, samples, asked, peaks, measured, units } =
+        *told;
+    let name = kind.name();
+    let title = format!(
+        "Frequency response: {name} from a force at {} to {}",
+        place(at, units),
+        place(to, units)
+    );
+    let mut out = wrapped(&title, 4) + &edited(bat, units);
+    let columns = Columns::new([
+        numbers(16, "frequency, Hz"),
+        numbers(19, format!("size, {}", unit(kind))),
+        numbers(15, "phase, deg"),
+    ]);
+    out += &columns.heads();
+    for sample in samples.iter().filter(|sample| asked.contains(&sample.frequency)) {
+        let value = sample.receptance * kind.of(sample.frequency);
+        let phase = phase(value.re, value.im);
+        out += &columns.row([
+            format!("{:.3}", sample.frequency),
+            format!("{:.5e}", value.norm()),
+            format!("{phase:.2}"),
+        ]);
+    }
+    out += &listed(kind, peaks);
+    let between = samples.len().saturating_sub(asked.len());
+    if between > 0 {
+        let so = format!(
+            "  {between} more frequencies, at and around the natural ones, show the peaks in files \
+             and pictures"
+        );
+        out += &wrapped(&so, 2);
+    }
+    let share = |s: &Sample| s.truncation / s.receptance.norm().max(f64::MIN_POSITIVE);
+    let missing = samples.iter().map(share).fold(0.0, f64::max);
+    let bending = if frf.solution.rigid_modes > 0 { ", of bending alone" } else { "" };
+    let _ = writeln!(out, "  under a constant force {:.6e} m/N{bending}", frf.static_compliance());
+    let modes = frf.solution.modes.len();
+    let made = format!(
+        "  made of {modes} modes and {} shapes for those above; at most {missing:.0e} of a value \
+         is missing, and the modes' frequencies are within {:.0e}",
+        frf.strains() - modes.min(frf.strains()),
+        frf.solution.worst()
+    );
+    out += &wrapped(&made, 2);
+    if let Some((response, laid)) = measured {
+        out += &differences(bat, frf, response, laid);
+    }
+    out
+}
+
+/// What the criterion means.
+pub const FRAC: &str = "  FRAC: 1 where both responses are alike but for a factor, 0 where they have nothing in common; peaks \
+    that lie apart by more than their width already bring it near 0";
+
+/// A word about damping as measured, or a bat without any beside a measured one; empty for another.
+pub fn damping(bat: &Bat, frf: &Frf) -> String {
+    if !frf.damping_ratios().is_empty() {
+        let all = frf.damping_ratios().iter().map(|ratio| format!("{:.2}", 100.0 * ratio));
+        let all: Vec<String> = all.collect();
+        let said = format!(
+            "  The computed modes are damped as the measured ones, {} %; those without a measured peak have the \
+             mean of the others",
+            all.join(", ")
+        );
+        return wrapped(&said, 2);
+    }
+    if bat.damped() {
+        return String::new();
+    }
+    let undamped = "  The computed bat has no damping and its peaks no height: beside a measured one its level and \
+                    FRAC say nothing of the bat. Take the damping of the measured peaks, --damping measured, or give \
+                    the material a \"loss_factor\", twice their damping ratio.";
+    wrapped(undamped, 2)
+}
+
+/// What a measured response says of the computed one: peaks, and both as a whole.
+fn differences(bat: &Bat, frf: &Frf, response: &MeasuredResponse, laid: &Laid) -> String {
+    let title = format!("\nMeasured, {}, at {} frequencies", response.source, laid.measured.len());
+    let mut out = wrapped(&title, 4);
+    out += &damping(bat, frf);
+    let columns = Columns::new([
+        numbers(6, "mode"),
+        numbers(14, "computed, Hz"),
+        numbers(14, "measured, Hz"),
+        numbers(10, "apart, %"),
+        numbers(12, "higher, dB"),
+        numbers(11, "damping, %"),
+        numbers(11, "measured"),
+    ]);
+    out += &columns.heads();
+    let percent = |peak: &Peak| match peak.damping_ratio() {
+        Some(ratio) => format!("{:.3}", 100.0 * ratio),
+        None => "-".to_owned(),
+    };
+    for (computed, measured) in &laid.peaks {
+        let none = || "-".to_owned();
+        let of = |text: &dyn Fn(&Peak) -> String| measured.as_ref().map_or_else(none, text);
+        let apart = |m: &Peak| format!("{:+.2}", 100.0 * (computed.frequency / m.frequency - 1.0));
+        let higher = |m: &Peak| level(computed, m).map_or_else(none, |db| format!("{db:+.1}"));
+        let cells = [
+            computed.mode.to_string(),
+            format!("{:.2}", computed.frequency),
+            of(&|m| format!("{:.2}", m.frequency)),
+            of(&apart),
+            of(&higher),
+            percent(computed),
+            of(&percent),
+        ];
+        out += &columns.row(cells);
+    }
+    let Laid { frac, level, apart, .. } = laid;
+    let side = if *level < 0.0 { "below" } else { "above" };
+    let whole = format!(
+        "  FRAC {frac:.3}; on average the computed response is {:.1} dB {side} the measured one, and \
+         {apart:.1} dB from it",
+        level.abs()
+    );
+    out += &wrapped(&whole, 2);
+    out += &wrapped(FRAC, 2);
+    for assumed in &response.assumed {
+        out += &wrapped(&format!("  {assumed}"), 2);
+    }
+    out
+}
+
+/// The peaks, with the damping that their widths tell.
+fn listed(kind: ResponseKind, peaks: &[Peak]) -> String {
+    if peaks.is_empty() {
+        return String::new();
+    }
+    let columns = Columns::new([
+        numbers(16, "peak, Hz"),
+        numbers(19, format!("size, {}", unit(kind))),
+        numbers(15, "damping, %"),
+        numbers(8, "mode"),
+    ]);
+    let mut out = columns.heads();
+    for peak in peaks {
+        let ratio = peak.damping_ratio().map(|ratio| format!("{:.3}", 100.0 * ratio));
+        out += &columns.row([
+            format!("{:.3}", peak.frequency),
+            peak.height.map_or("no bound".into(), |height| format!("{height:.5e}")),
+            ratio.unwrap_or_else(|| "-".into()),
+            peak.mode.to_string(),
+        ]);
+    }
+    if peaks.iter().any(|peak| peak.height.is_none()) {
+        out += "  no bound: nothing damps the bat; give the material a loss_factor\n";
+    }
+    if peaks.iter().any(|peak| peak.half_power.is_some()) {
+        out += "  damping by the half-power points of the peak, as a share of critical damping\n";
+    }
+    out
+}

@@ -1,0 +1,128 @@
+//! The measured responses of one file beside the computed ones: a row each.
+
+use crate::csv::Csv;
+use crate::parts::terminal::wrapped;
+use crate::parts::units::Units;
+use crate::report::columns::{Columns, numbers};
+use crate::report::frf::{FRAC, ToldResponse, damping};
+use crate::report::text::edited;
+use sweetspot::bat::body::Bat;
+use sweetspot_study::measured::response::{Laid, MeasuredResponse};
+
+/// A measured response beside the computed one.
+pub struct RowOfSet {
+    /// Its number in its file, from 1.
+    pub number: usize,
+    /// Where the force is, and where the answer is watched (m from the knob end).
+    places: [f64; 2],
+    frac: f64,
+    /// By how much the computed one is larger, and how far they are apart (dB).
+    level: f64,
+    apart: f64,
+    /// How many of the computed peaks have a measured one, and by how much their frequencies are apart on
+    /// average, as a share; None without any.
+    pairs: [usize; 2],
+    frequencies: Option<f64>,
+    /// What there is to say of the computed modes' damping.
+    damping: String,
+    assumed: Vec<String>,
+}
+
+impl RowOfSet {
+    /// None where nothing is laid over it.
+    pub fn new(number: usize, told: &ToldResponse) -> Option<Self> {
+        let (MeasuredResponse { assumed, .. }, laid) = told.measured?;
+        let Laid { frac, level, apart, peaks, .. } = laid;
+        let pairs =
+            peaks.iter().filter_map(|(computed, measured)| Some((computed, measured.as_ref()?)));
+        let all: Vec<f64> =
+            pairs.map(|(computed, m)| (computed.frequency / m.frequency - 1.0).abs()).collect();
+        let mean = all.iter().sum::<f64>() / all.len().max(1) as f64;
+        Some(Self {
+            number,
+            places: told.places,
+            frac: *frac,
+            level: *level,
+            apart: *apart,
+            pairs: [all.len(), peaks.len()],
+            frequencies: (!all.is_empty()).then_some(mean),
+            damping: damping(told.bat, told.frf),
+            assumed: assumed.clone(),
+        })
+    }
+}
+
+/// The rows for people.
+pub fn text(bat: &Bat, source: &str, rows: &[RowOfSet], units: Units) -> String {
+    let units = units.first();
+    let title = format!("Measured frequency responses of {source} beside {}", bat.name());
+    let mut out = wrapped(&title, 4) + &edited(bat, units);
+    out += &rows.first().map_or(String::new(), |row| row.damping.clone());
+    let columns = Columns::new([
+        numbers(4, "no."),
+        numbers(10, "force at"),
+        numbers(10, "answer at"),
+        numbers(7, "FRAC"),
+        numbers(11, "higher, dB"),
+        numbers(10, "apart, dB"),
+        numbers(9, "peaks"),
+        numbers(13, "frequency, %"),
+    ]);
+    out += &columns.heads();
+    for row in rows {
+        let [at, to] = row.places.map(|x| units.length(x));
+        let frequencies = row.frequencies.map(|apart| format!("{:.2}", 100.0 * apart));
+        out += &columns.row([
+            row.number.to_string(),
+            at,
+            to,
+            format!("{:.3}", row.frac),
+            format!("{:+.1}", row.level),
+            format!("{:.1}", row.apart),
+            format!("{} of {}", row.pairs[0], row.pairs[1]),
+            frequencies.unwrap_or_else(|| "-".to_owned()),
+        ]);
+    }
+    out += &wrapped(FRAC, 2);
+    let rest = "  no.: its number in the file; higher: the computed response above the measured one on average; apart: the mean size of that \
+                difference; peaks: those of the computed response that have a measured one, and by how much their \
+                frequencies are apart on average. --function N tells all of one, --plots draws them";
+    out += &wrapped(rest, 2);
+    let mut said: Vec<&String> = vec![];
+    for assumed in rows.iter().flat_map(|row| &row.assumed) {
+        if !said.contains(&assumed) {
+            out += &wrapped(&format!("  {assumed}"), 2);
+            said.push(assumed);
+        }
+    }
+    out
+}
+
+/// A row for each response.
+pub fn csv(rows: &[RowOfSet]) -> String {
+    let mut table = Csv::new([
+        "response".to_owned(),
+        "at_m".to_owned(),
+        "to_m".to_owned(),
+        "frac".to_owned(),
+        "level_db".to_owned(),
+        "apart_db".to_owned(),
+        "peaks_measured".to_owned(),
+        "peaks".to_owned(),
+        "frequencies_apart".to_owned(),
+    ]);
+    for row in rows {
+        table.row([
+            row.number.into(),
+            row.places[0].into(),
+            row.places[1].into(),
+            row.frac.into(),
+            row.level.into(),
+            row.apart.into(),
+            row.pairs[0].into(),
+            row.pairs[1].into(),
+            row.frequencies.into(),
+        ]);
+    }
+    table.text()
+}

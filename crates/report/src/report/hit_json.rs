@@ -1,0 +1,196 @@
+//! The JSON file of a hit, in SI, the unit in every key's name.
+
+use crate::schema::hit as file;
+use sweetspot::bat::body::Bat;
+use sweetspot::collision::columns;
+use sweetspot::collision::figures::{BarrelSpeed, Figures, Swung};
+use sweetspot::collision::hit::{Energy, Impact, Model, Scene, Separation, Wall, greater};
+use sweetspot::collision::sweet_spot::{Peak, SweetSpot};
+use sweetspot::files::schema::document::{Format, Generator};
+use sweetspot_study::ignored;
+
+/// The `sweetspot-hit/1` document, without the figures.
+pub fn hit(
+    bat: &Bat,
+    model: Model,
+    scene: &Scene,
+    impacts: &[Impact],
+    spot: &SweetSpot,
+) -> file::HitFile {
+    file::HitFile {
+        format: Format::new(),
+        generator: Generator::this(),
+        edits: bat.edits().to_vec(),
+        model: model.name().to_owned(),
+        scene: scene_out(bat, scene),
+        impacts: impacts.iter().map(|at| impact(bat, at)).collect(),
+        sweet_spot: sweet_spot(spot),
+        ignored: ignored::in_hit(bat, scene),
+        figures: None,
+    }
+}
+
+/// From where the energies of hits on that bat are seen.
+pub fn seen_from(bat: &Bat) -> &'static str {
+    if bat.fixtures().holding() { "hands" } else { "ground" }
+}
+
+/// Swing, pitch and ball.
+pub fn scene_out(bat: &Bat, scene: &Scene) -> file::Scene {
+    file::Scene {
+        bat_pivot_m: scene.pivot,
+        swing_rad_s: scene.swing,
+        ball: scene.ball.clone(),
+        ball_speed_m_s: scene.ball_speed,
+        cor: scene.cor,
+        hands_m: scene.hands,
+        energies_seen_from: seen_from(bat).to_owned(),
+        wall: wall(bat, scene),
+    }
+}
+
+/// How the wall gives way, if it does.
+fn wall(bat: &Bat, scene: &Scene) -> Option<file::Wall> {
+    if let Some(Wall { stiffness, mass }) = scene.wall {
+        return Some(file::Wall { stiffness_n_m: stiffness, mass_kg: mass, hoop: None });
+    }
+    let wall = scene.hoop.wall()?;
+    let (hoop, x) = (wall.hoop(), bat.length() - BarrelSpeed::BROADCAST);
+    let compression = scene.ball.patch_compression();
+    let [soft, slow] = wall.somewhere(x, compression);
+    Some(file::Wall {
+        stiffness_n_m: 1.0 / soft,
+        mass_kg: slow / (soft * soft),
+        hoop: Some(file::HoopInHit {
+            harmonics: wall.request().harmonics.clone(),
+            modes: hoop.modes().len(),
+            frequency_error: hoop.modes().iter().map(|mode| mode.error).fold(0.0, greater),
+            stretch_m: [hoop.from(), hoop.to()],
+            patch_compression_m: compression,
+        }),
+    })
+}
+
+fn sweet_spot(spot: &SweetSpot) -> file::SweetSpot {
+    file::SweetSpot {
+        exit_speed_max: spot.exit_speed_max.map(peak),
+        first_separation_max: spot.first_separation_max.map(peak),
+        vibration_min: spot.vibration_min.map(peak),
+        node_mode_1_m: spot.node_mode_1,
+        node_mode_2_m: spot.node_mode_2,
+        center_of_percussion_m: spot.center_of_percussion,
+        zone_m: spot.zone,
+        hands_velocity_min: spot.hands_velocity_min.map(peak),
+        hands_acceleration_min: spot.hands_acceleration_min.map(peak),
+        inch_off_m_s: spot.inch_off,
+        looked_every_m: spot.looked_every,
+    }
+}
+
+fn peak(peak: Peak) -> file::Peak {
+    file::Peak { x_m: peak.x, value: peak.value }
+}
+
+/// The standard figures, beside the impacts in the same document.
+pub fn figures(figures: &Figures) -> file::Figures {
+    let best = figures.best.as_ref().and_then(|best| best.outcome.as_ref());
+    let swung = |swung: &Swung| file::Swung {
+        exponent: swung.exponent,
+        swing_rad_s: swung.swing,
+        exit_speed_max: swung.best.map(peak),
+    };
+    let moved = |(change, spot): &(String, SweetSpot)| file::Moved {
+        sweet_spot: sweet_spot(spot),
+        change: change.clone(),
+    };
+    file::Figures {
+        certified: false,
+        bat_ball_speed_m_s: best.map(|o| o.exit_speed),
+        collision_efficiency: best.map(|o| o.collision_efficiency),
+        bbcor: best.map(|o| o.bbcor),
+        bbcor_pivoted: best.map(|o| o.bbcor_pivoted),
+        bbcor_max: figures.bbcor_max.map(peak),
+        bbcor_pivoted_max: figures.bbcor_pivoted_max.map(peak),
+        rigid_exit_speed_max: figures.rigid_best.map(peak),
+        wall: figures.wall,
+        swings: figures.swings.iter().map(swung).collect(),
+        moves: figures.moves.iter().map(moved).collect(),
+    }
+}
+
+/// One impact.
+pub fn impact(bat: &Bat, impact: &Impact) -> file::Impact {
+    let outcome = impact.outcome.as_ref();
+    file::Impact {
+        x_m: impact.x,
+        from_tip_m: bat.length() - impact.x,
+        bat_speed_m_s: impact.bat_speed,
+        exit_speed_m_s: columns::EXIT_SPEED.at(impact),
+        rigid_exit_speed_m_s: columns::RIGID_EXIT_SPEED.at(impact),
+        cor: columns::COR.at(impact),
+        impulse_n_s: columns::IMPULSE.at(impact),
+        contact_time_s: columns::CONTACT_TIME.at(impact),
+        first_separation: outcome.and_then(|o| o.first_separation).map(separation),
+        peak_force_n: columns::PEAK_FORCE.at(impact),
+        peak_compression_m: columns::PEAK_COMPRESSION.at(impact),
+        collision_efficiency: columns::EFFICIENCY.at(impact),
+        bbcor: columns::BBCOR.at(impact),
+        bbcor_pivoted: columns::BBCOR_PIVOTED.at(impact),
+        modes_used: outcome.map(|o| o.energy.vibration_by_mode.len()),
+        flags: impact.flags.iter().map(|flag| (*flag).to_owned()).collect(),
+        energy_j: outcome.map(|o| energy_out(&o.energy)),
+        error: file::HitError { exit_speed: outcome.map(|o| o.error) },
+    }
+}
+
+fn separation(first: Separation) -> file::FirstSeparation {
+    file::FirstSeparation {
+        time_s: first.time,
+        exit_speed_m_s: first.exit_speed,
+        exit_speed_error: first.error,
+    }
+}
+
+fn energy_out(energy: &Energy) -> file::Energy {
+    let harmonic =
+        |&(harmonic, energy_j): &(usize, f64)| file::HarmonicEnergy { harmonic, energy_j };
+    file::Energy {
+        initial: energy.initial,
+        ball: energy.ball,
+        bat_rigid: energy.bat_rigid,
+        vibration: energy.vibration(),
+        vibration_by_mode: energy.vibration_by_mode.clone(),
+        dissipated_ball: energy.dissipated_ball,
+        dissipated_damping: energy.dissipated_damping,
+        wall: energy.wall,
+        wall_by_harmonic: energy.wall_by_harmonic.iter().map(harmonic).collect(),
+        imbalance: energy.imbalance(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::schema;
+    use sweetspot::collision::hit::Effort;
+    use sweetspot::collision::hitter::Hitter;
+    use sweetspot::{Request, solve};
+    use sweetspot_proof::bundled::bundled_bat;
+
+    /// A document's members are the columns, by their names; of the energies those of the ledger.
+    #[test]
+    fn every_column_is_a_member_of_an_impact() {
+        let bat = bundled_bat("meshes/r161.json").unwrap();
+        let solution = solve(&bat, &Request { modes: 6, ..Request::plain() }).unwrap();
+        let scene = Scene::default();
+        let effort = Effort::default();
+        let hitter = Hitter::new(Model::Contact, &scene, &bat, &solution, effort).unwrap();
+        let hit = hitter.strike(0.7);
+        let mut document = schema::value(&impact(&bat, &hit));
+        document["vibration_j"] = document["energy_j"]["vibration"].clone();
+        for column in columns::ALL {
+            assert!(column.at(&hit).is_some(), "{}", column.name);
+            assert_eq!(document[column.name].as_f64(), column.at(&hit), "{}", column.name);
+        }
+    }
+}

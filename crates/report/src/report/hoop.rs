@@ -1,0 +1,226 @@
+//! How a barrel rings and what its wall does to a ball: the table, in sentences, and in short.
+
+use std::fmt::Write;
+
+use crate::parts::terminal::wrapped;
+use crate::parts::units::Units;
+use crate::report::columns::{Columns, first, labels, numbers};
+use crate::report::hoop_notes::notes;
+use crate::report::text::edited;
+use sweetspot::base::number::{rounded, significant};
+use sweetspot::base::units::{POUND_FORCE, inches};
+use sweetspot::bat::body::Bat;
+use sweetspot::collision::wall_figures::WallBbcor;
+use sweetspot::modes::hoop::{HoopMode, Share};
+use sweetspot_study::trampoline::barrel::{Barrel, Rebound};
+use sweetspot_study::trampoline::pressed::PressedWall;
+use sweetspot_study::trampoline::thickness::{FACTORS, WallTried};
+
+const MM: f64 = 1e-3;
+const MEGA: f64 = 1e6;
+
+/// Everything for the terminal, with the lowest modes, at most so many.
+pub fn text(bat: &Bat, barrel: &Barrel, most: usize, units: Units) -> String {
+    let mut out = format!("Hoop modes of {}\n{}", bat.name(), edited(bat, units));
+    let [from, to] = [barrel.hoop().from(), barrel.hoop().to()];
+    let stretch = format!(
+        "  the wall as an elastic solid from {} to {} from the knob end; n waves around, m along",
+        units.inline(units.length(from)),
+        units.inline(units.length(to))
+    );
+    out += &wrapped(&stretch, 2);
+    out += &modes(bat, barrel, most, units);
+    out += &sentences(bat, barrel, units);
+    out
+}
+
+/// The lowest modes of two and more waves around.
+fn modes(bat: &Bat, barrel: &Barrel, most: usize, units: Units) -> String {
+    let columns = Columns::new([
+        numbers(5, "n"),
+        numbers(4, "m"),
+        numbers(15, "frequency"),
+        numbers(3, ""),
+        first(17, "relative error"),
+        labels(24, "largest at, from tip"),
+    ]);
+    let mut out = columns.heads();
+    for mode in barrel.hoop().lowest(most) {
+        out += &columns.row([
+            mode.harmonic.to_string(),
+            mode.order.to_string(),
+            format!("{:.2} Hz", mode.frequency()),
+            String::new(),
+            format!("within {:.0e}", mode.error),
+            units.inline(units.length((bat.length() - mode.largest_at).max(0.0))),
+        ]);
+    }
+    out
+}
+
+/// The wall under the ball, the rebound, the compression and what is to be known, each broken into lines.
+fn sentences(bat: &Bat, barrel: &Barrel, units: Units) -> String {
+    let mut out = String::from("\n");
+    for line in answers(bat, barrel, units) {
+        out += &wrapped(&line, 2);
+    }
+    for note in notes(barrel, units) {
+        out += &wrapped(&format!("note: {note}"), 2);
+    }
+    out
+}
+
+/// The wall under the ball, the rebound and the compression, a sentence each.
+pub fn answers(bat: &Bat, barrel: &Barrel, units: Units) -> Vec<String> {
+    let Some(wall) = &barrel.struck.wall else { return vec![] };
+    let mut all = vec![pressed(bat, barrel, wall, units), harmonics(wall)];
+    match &barrel.struck.rebound {
+        Some(rebound) => all.extend(rebounded(rebound, units)),
+        None => all.push(format!(
+            "BBCOR there: not known, for {} has no force law; --ball-stiffness gives it one.",
+            barrel.test.ball.name
+        )),
+    }
+    let [deflection, force] = wall.compressed(&barrel.test.ball);
+    all.push(format!(
+        "Barrel compression: {} for {} between two opposite sides.",
+        forces(units, force),
+        small(units, deflection)
+    ));
+    all
+}
+
+/// How stiff the wall is.
+fn pressed(bat: &Bat, barrel: &Barrel, wall: &PressedWall, units: Units) -> String {
+    let ball = barrel.struck.rebound.as_ref().map_or(String::new(), |rebound| {
+        format!(" ({} times the ball)", significant(rebound.figures.stiffness_over_ball, 2))
+    });
+    format!(
+        "Wall under a {}, {} from the tip: {} MN/m{ball}; {} thick, patch {}.",
+        barrel.test.ball.name,
+        units.inline(units.length(bat.length() - wall.patch.x)),
+        significant(wall.stiffness() / MEGA, 3),
+        small(units, wall.thickness),
+        patch(units, wall),
+    )
+}
+
+/// What the harmonics have of the wall's giving way, those with half a per cent and more by name.
+fn harmonics(wall: &PressedWall) -> String {
+    const LEAST: f64 = 0.5;
+    let percent = |share: &Share| 100.0 * share.flexibility / wall.flexibility();
+    let (named, others): (Vec<&Share>, Vec<&Share>) =
+        wall.shares.iter().partition(|share| percent(share) >= LEAST);
+    let told =
+        |share: &&Share| format!("n = {} has {} %", share.harmonic, significant(percent(share), 2));
+    let mut all: Vec<String> = named.iter().map(told).collect();
+    if !others.is_empty() {
+        let rest: f64 = others.into_iter().map(percent).sum();
+        all.push(format!("all others {} %", significant(rest, 1)));
+    }
+    format!("Of how far it gives way {}.", all.join(", "))
+}
+
+/// How the ball comes back.
+fn rebounded(rebound: &Rebound, units: Units) -> [String; 2] {
+    let WallBbcor { stiff, with, range: [low, high] } = rebound.bbcor();
+    [
+        format!(
+            "BBCOR there: {stiff:.3} stiff, {with:.3} with the wall; {low:.3} to {high:.3} with the patch of a \
+             ball squeezed twice or half as much."
+        ),
+        format!(
+            "The ball, with {}, dents the wall by about {}; {} stay in the wall.",
+            units.energy(rebound.initial, 0),
+            small(units, rebound.figures.dent_m),
+            units.energy(rebound.left, 1)
+        ),
+    ]
+}
+
+/// Length and width of the patch.
+fn patch(units: Units, wall: &PressedWall) -> String {
+    let sides = [wall.patch.half_length, wall.patch.half_width].map(|half| 2.0 * half);
+    let [long, wide] = sides.map(|side| format!("{:.0}", side / MM));
+    let [long_in, wide_in] = sides.map(|side| format!("{:.2}", inches(side)));
+    units.beside(format!("{long} by {wide} mm"), format!("{long_in} by {wide_in} in"))
+}
+
+/// A small length (m).
+fn small(units: Units, length: f64) -> String {
+    let si = format!("{} mm", significant(length / MM, 3));
+    let us = format!("{} in", rounded(inches(length), 3));
+    units.beside(si, us)
+}
+
+/// A force (N).
+fn forces(units: Units, force: f64) -> String {
+    let si = format!("{} kN", significant(1e-3 * force, 3));
+    let us = format!("{:.0} lbf", force / POUND_FORCE);
+    units.beside(si, us)
+}
+
+/// What a short answer of a hollow bat ends with, the first hoop mode in it; None where there is none.
+pub fn in_a_line(barrel: &Barrel) -> Option<String> {
+    let lowest = barrel.hoop().lowest(1);
+    let hertz = lowest.first()?.frequency();
+    Some(format!(
+        "Hoop modes from {hertz:.0} Hz: sweetspot hoop. All else: --full or --report FILE.html\n"
+    ))
+}
+
+/// The first hoop modes, the wall and the rebound, as a part of more.
+pub fn in_short(bat: &Bat, barrel: &Barrel, units: Units) -> String {
+    const FEW: usize = 3;
+    let named = |mode: &&HoopMode| {
+        format!("{:.0} Hz (n = {}, m = {})", mode.frequency(), mode.harmonic, mode.order)
+    };
+    let lowest: Vec<String> = barrel.hoop().lowest(FEW).iter().map(named).collect();
+    let mut out = String::from("How the barrel rings\n");
+    out += &wrapped(&format!("  hoop modes: {}", lowest.join(", ")), 4);
+    for line in answers(bat, barrel, units) {
+        out += &wrapped(&format!("  {line}"), 4);
+    }
+    out + "  More: sweetspot hoop\n"
+}
+
+/// The bat with other walls, a line for each.
+pub fn sweep(tried: &[WallTried], units: Units) -> String {
+    let columns = Columns::new([
+        labels(18, "wall under the ball"),
+        numbers(7, "times"),
+        numbers(11, "n=2, m=1"),
+        numbers(11, "stiffness"),
+        numbers(7, "stiff"),
+        numbers(7, "BBCOR"),
+        labels(15, "range"),
+    ]);
+    let mut out = String::from("\nBBCOR against wall thickness, the surface where it is\n");
+    out += &columns.heads();
+    for WallTried { factor, struck, .. } in tried {
+        let (Some(wall), Some(rebound)) = (&struck.wall, &struck.rebound) else { continue };
+        let hertz = struck
+            .first
+            .map_or(String::new(), |omega| format!("{:.0} Hz", omega / std::f64::consts::TAU));
+        let WallBbcor { stiff, with, range: [low, high] } = rebound.bbcor();
+        let _ = write!(
+            out,
+            "{}",
+            columns.row([
+                small(units, wall.thickness),
+                format!("{factor:.1}"),
+                hertz,
+                format!("{} MN/m", significant(wall.stiffness() / MEGA, 3)),
+                format!("{stiff:.3}"),
+                format!("{with:.3}"),
+                format!("{low:.3} to {high:.3}"),
+            ])
+        );
+    }
+    if tried.len() < FACTORS.len() {
+        let missing = "Walls of the other thicknesses cannot be made of this bat: its layers or its bore \
+                       leave no room for them.";
+        out += &wrapped(missing, 0);
+    }
+    out
+}

@@ -1,0 +1,110 @@
+//! What was assumed of a barrel and where its model ends, in sentences.
+
+use crate::parts::units::Units;
+use sweetspot::base::number::significant;
+use sweetspot::beam::wall::elastic::ASSUMED_POISSON_RATIO;
+use sweetspot::collision::ball::Ball;
+use sweetspot::modes::hoop::{Note, Patch};
+use sweetspot_study::trampoline::barrel::Barrel;
+
+/// A sentence each, without a capital and a full stop at its ends.
+pub fn notes(barrel: &Barrel, units: Units) -> Vec<String> {
+    let mut all: Vec<String> = barrel.hoop().notes().iter().map(|note| said(note, units)).collect();
+    if let Some([less, more]) = barrel.by_poisson {
+        let [less, more] = [less, more].map(|change| significant(100.0 * change, 2));
+        all.push(format!(
+            "Poisson's ratio is not known and taken as {ASSUMED_POISSON_RATIO}; one that is 0.05 smaller or larger changes the \
+             first hoop mode by {less} or {more} % (\"poisson_ratio\" in the bat file, of every material: without it \
+             the beam is computed without shear, which moves BBCOR too)"
+        ));
+    }
+    all.extend(alive(barrel));
+    all.extend(dented(barrel));
+    all.extend(unpressed(barrel, units));
+    all
+}
+
+/// Why the wall under the ball is not computed: the ball misses the modelled stretch, or its patch is
+/// wider than what there is of the stretch on the knob side.
+fn unpressed(barrel: &Barrel, units: Units) -> Option<String> {
+    if barrel.struck.wall.is_some() {
+        return None;
+    }
+    let (hoop, test) = (barrel.hoop(), &barrel.test);
+    let place = |x: f64| units.inline(units.length(x));
+    let ball = format!("the ball at {} from the knob end", place(test.at));
+    if !(hoop.from()..=hoop.to()).contains(&test.at) {
+        return Some(format!("{ball} does not meet the stretch that is modelled"));
+    }
+    let Ball { radius_m: radius, .. } = test.ball;
+    let patch = Patch::under(test.at, radius, hoop.radius(test.at), test.ball.patch_compression());
+    if hoop.covers(&patch) {
+        return Some(format!("{ball} meets the bat where it is solid: no wall gives way there"));
+    }
+    let half = patch.half_length;
+    let first = hoop.from() + half;
+    let needs = match first <= hoop.to() {
+        true => format!("a ball from {} on is computed (--at)", place(first)),
+        false => format!(
+            "the stretch of {} is too short for any place of the ball",
+            place(hoop.to() - hoop.from())
+        ),
+    };
+    Some(format!(
+        "the wall under {ball} is not computed: the ball presses on {} to either side of it, beyond the \
+         beginning of the stretch that is modelled; {needs}",
+        place(half)
+    ))
+}
+
+/// A first mode that reaches the beginning of the stretch.
+fn alive(barrel: &Barrel) -> Option<String> {
+    let change = barrel.clamped_change.filter(|change| change.abs() > barrel.test.tol)?;
+    Some(format!(
+        "the first hoop mode is not dead where the model begins: clamped there it is {} % higher, and the \
+         true one lies between",
+        significant(100.0 * change, 2)
+    ))
+}
+
+/// A dent that is too deep for small motions.
+fn dented(barrel: &Barrel) -> Option<String> {
+    let (wall, rebound) = (barrel.struck.wall.as_ref()?, barrel.struck.rebound.as_ref()?);
+    let share = rebound.figures.dent_m / wall.thickness;
+    rebound.figures.is_deep().then(|| {
+        format!(
+            "the wall is dented by {} of its thickness: beyond half of it the dent is not small, as is \
+             assumed here, and a metal may yield",
+            significant(share, 2)
+        )
+    })
+}
+
+/// What the solver of the modes noted.
+fn said(note: &Note, units: Units) -> String {
+    let place = |x: f64| units.inline(units.length(x));
+    match note {
+        Note::ThinWall { at, thickness, radius } => format!(
+            "the wall is {} mm thin on a radius of {} mm, {} from the knob end: below 1/300 of the radius \
+             digits are lost",
+            significant(1e3 * thickness, 2),
+            significant(1e3 * radius, 3),
+            place(*at)
+        ),
+        Note::BeginsBeyondStep { at } => format!(
+            "the model begins at {} from the knob end: the walls on both sides of the step there do not meet",
+            place(*at)
+        ),
+        Note::BeginsBeyondWood { at } => format!(
+            "the model begins at {} from the knob end, where the wood ends: in its grain it is no solid of \
+             revolution",
+            place(*at)
+        ),
+        Note::WithoutMasses => "tape and weights on the barrel are left out of its wall: bonded to it, they would make \
+                                the hoop modes slower by half their share of its mass"
+            .to_owned(),
+        Note::OpenTip => "the tip is open: a plug in it (a \"core\" in a region of the last 12 mm) raises the \
+                          first hoop mode by about 5 % and moves its largest motion from the tip to the barrel"
+            .to_owned(),
+    }
+}

@@ -1,0 +1,62 @@
+//! The bat in the JSON files: as it was understood, and a bat file in its own right.
+
+use sweetspot::bat::body::Bat;
+use sweetspot::bat::profile::{FormulaPiece, Formulas, Interpolation, Profile, Stations};
+use sweetspot::bat::weighed::Weighed;
+use sweetspot::files::schema::document::Format;
+use sweetspot::files::schema::resolved as file;
+use sweetspot::files::schema::resolved::ResolvedBat;
+
+/// The bat as it was understood: SI, defaults filled in, materials as they were weighed. Read as a
+/// bat file it is the same bat.
+pub fn resolved(bat: &Bat) -> ResolvedBat {
+    let edits = bat.edits().to_vec();
+    let name = bat.name().to_owned();
+    let bat = bat.unedited();
+    ResolvedBat {
+        format: Format::new(),
+        name,
+        source: bat.source().to_owned(),
+        material: bat.material().clone(),
+        profile: profile(bat.profile()),
+        fixtures: bat.fixtures().clone(),
+        weighed: Some(bat.weighed()).filter(|weighed| *weighed != Weighed::default()),
+        edits,
+    }
+}
+
+/// A profile as it was understood, which names no other file.
+pub fn profile(profile: &Profile) -> file::Profile {
+    match &profile.formulas {
+        Some(formulas) => file::Profile::Pieces(pieces(formulas)),
+        None => file::Profile::Columns(columns(&profile.stations)),
+    }
+}
+
+fn columns(stations: &Stations) -> file::Columns {
+    let hollow = stations.inner.iter().any(|r| *r > 0.0);
+    file::Columns {
+        interpolation: match stations.interpolation {
+            // It has become steps between straight lines.
+            Interpolation::Constant => Interpolation::Linear,
+            other => other,
+        },
+        unit: "m".to_owned(),
+        x: stations.x.clone(),
+        radius: stations.outer.clone(),
+        inner_radius: hollow.then(|| stations.inner.clone()),
+    }
+}
+
+fn pieces(formulas: &Formulas) -> file::Pieces {
+    let piece = |piece: &FormulaPiece| file::Piece {
+        from: piece.from,
+        to: piece.to,
+        formula: piece.outer.text().to_owned(),
+        inner_formula: piece.inner.as_ref().map(|inner| inner.text().to_owned()),
+    };
+    file::Pieces {
+        measured_from: if formulas.from_tip { file::End::Tip } else { file::End::Knob },
+        pieces: formulas.pieces.iter().map(piece).collect(),
+    }
+}

@@ -1,0 +1,512 @@
+//! The answers on one screen, each beside how far that of the bat in hand may be from it, and why.
+
+use crate::analysis::Analysis;
+use crate::parts::terminal::wrapped;
+use crate::parts::units::Units;
+use crate::report::columns::{Columns, first};
+use crate::report::text::edited;
+use crate::schema::analysis as file;
+use sweetspot::base::number::{percent, significant};
+use sweetspot::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
+use sweetspot::bat::body::Bat;
+use sweetspot::bat::material::{Material, Scatter};
+use sweetspot::collision::figures::BarrelSpeed;
+use sweetspot::collision::hit::Model;
+use sweetspot::modes::mode::Mode;
+use sweetspot_study::read_to::diameters_read_to;
+use sweetspot_study::spread::{Estimate, Input, Source, Spread, SpreadAnswer, of_frequencies};
+use sweetspot_study::verdict::{Doubt, Verdict};
+
+/// The bat, the answers, and how far to trust them: 24 lines at most.
+pub fn screen(analysis: &Analysis, units: Units) -> String {
+    let name = analysis.bat.name();
+    let mut out = format!("{}\n", name.chars().take(WIDE).collect::<String>());
+    out += &edited(&analysis.bat, units);
+    out += &wrapped(&scene(analysis, units), 2);
+    out += &table(analysis, units);
+    out + &reasons(analysis, units)
+}
+
+/// The sweet spot in a sentence, with what there is to doubt of it.
+pub fn in_short(analysis: &Analysis, units: Units) -> String {
+    let Analysis { bat, spread, task, verdict, .. } = analysis;
+    let [Some(place), Some(speed)] =
+        [SpreadAnswer::BestPlace, SpreadAnswer::ExitSpeed].map(|of| spread.of(of))
+    else {
+        return "Sweet spot: ball and bat do not meet.\n".to_owned();
+    };
+    let open = |answer: SpreadAnswer| {
+        about(analysis, answer, units).map_or(String::new(), |open| format!(", {open},"))
+    };
+    let shown = |kind: AnswerUnit, value: f64| kind.shown(units, value);
+    let told = format!(
+        "Sweet spot: {} from the knob{} {} from the tip; there the ball leaves at {}{} after a swing of {} and a \
+         pitch of {}.",
+        shown(AnswerUnit::Length, place.value),
+        open(SpreadAnswer::BestPlace),
+        shown(AnswerUnit::Length, bat.length() - place.value),
+        shown(AnswerUnit::Speed, speed.value),
+        open(SpreadAnswer::ExitSpeed),
+        shown(AnswerUnit::Speed, BarrelSpeed::of(bat, &task.scene, BarrelSpeed::BROADCAST).speed),
+        shown(AnswerUnit::Speed, task.scene.ball_speed)
+    );
+    [told].into_iter().chain(doubts(verdict, units)).map(|text| wrapped(&text, 0)).collect()
+}
+
+/// The answers and how far to trust them, as a part of more.
+pub fn text(analysis: &Analysis, units: Units) -> String {
+    format!("\nAnswers\n{}{}\n", table(analysis, units), reasons(analysis, units))
+}
+
+fn reasons(analysis: &Analysis, units: Units) -> String {
+    let told = trust(analysis, units);
+    let lines = told.iter().map(|text| wrapped(&format!("  {text}"), 2));
+    format!("How far to trust it\n{}", lines.collect::<String>())
+}
+
+/// Columns of a terminal.
+const WIDE: usize = 80;
+
+/// The hit in a line.
+fn scene(analysis: &Analysis, units: Units) -> String {
+    let (bat, scene) = (&analysis.bat, &analysis.task.scene);
+    let barrel = BarrelSpeed::of(bat, scene, BarrelSpeed::BROADCAST);
+    let model = match analysis.task.model {
+        Model::Contact => String::new(),
+        other => format!("; model {}", other.name()),
+    };
+    format!(
+        "  {}; swing {}, pitch {}{model}",
+        AnswerUnit::Length.shown(units, bat.length()),
+        AnswerUnit::Speed.shown(units, barrel.speed),
+        AnswerUnit::Speed.shown(units, scene.ball_speed)
+    )
+}
+
+/// What an answer counts in.
+#[derive(Clone, Copy)]
+enum AnswerUnit {
+    Length,
+    Speed,
+    Mass,
+    Inertia,
+    Frequency,
+}
+
+impl AnswerUnit {
+    fn of(answer: SpreadAnswer) -> Self {
+        match answer {
+            SpreadAnswer::Mass => Self::Mass,
+            SpreadAnswer::SwingWeight => Self::Inertia,
+            SpreadAnswer::Frequency1 | SpreadAnswer::Frequency2 | SpreadAnswer::Frequency3 => {
+                Self::Frequency
+            }
+            SpreadAnswer::ExitSpeed => Self::Speed,
+            _ => Self::Length,
+        }
+    }
+
+    /// Units with their factors and the decimals of a value, in SI and in US units.
+    fn scales(self) -> [(f64, usize, &'static str); 2] {
+        match self {
+            Self::Length => [(100.0, 2, "cm"), (inches(1.0), 2, "in")],
+            Self::Speed => [(1.0, 2, "m/s"), (miles_per_hour(1.0), 1, "mph")],
+            Self::Mass => [(1e3, 1, "g"), (ounces(1.0), 2, "oz")],
+            Self::Inertia => [(1.0, 4, "kg m²"), (ounce_square_inches(1.0), 0, "oz in²")],
+            Self::Frequency => [(1.0, 1, "Hz"), (1.0, 1, "Hz")],
+        }
+    }
+
+    /// In both systems of units, or in one.
+    fn said(self, units: Units, say: impl Fn(f64, usize) -> String) -> String {
+        let [si, us] = self.scales();
+        let told = |(factor, decimals, name): (f64, usize, &str)| {
+            format!("{} {name}", say(factor, decimals))
+        };
+        match self {
+            Self::Frequency => told(si),
+            _ => units.beside(told(si), told(us)),
+        }
+    }
+
+    fn shown(self, units: Units, value: f64) -> String {
+        self.said(units, |factor, decimals| format!("{:.decimals$}", factor * value + 0.0))
+    }
+
+    /// A deviation to two digits.
+    fn about(self, units: Units, value: f64) -> String {
+        self.said(units, |factor, _| two_digits(factor * value))
+    }
+}
+
+/// Two significant digits, the last of them also where it is 0.
+fn two_digits(value: f64) -> String {
+    let rounded: f64 = format!("{value:.1e}").parse().unwrap_or(value);
+    format!("{rounded:.*}", decimals(value))
+}
+
+/// Decimals that show two significant digits of a value.
+fn decimals(value: f64) -> usize {
+    let rounded: f64 = format!("{value:.1e}").parse().unwrap_or(value);
+    let power = if rounded > 0.0 { rounded.log10().floor() as i32 } else { 0 };
+    (1 - power).clamp(0, 9) as usize
+}
+
+/// What moves an answer, in a word.
+fn word(source: &Source) -> &'static str {
+    match source.input {
+        Input::Diameters => "diameters",
+        Input::Patch => "wall",
+        Input::Length => "rule",
+        Input::Mass => "scale",
+        other => other.name(),
+    }
+}
+
+/// The answers, how far each may be off, and by what most.
+pub fn table(analysis: &Analysis, units: Units) -> String {
+    let spread = &analysis.spread;
+    let head =
+        if spread.sources.is_empty() { [""; 2] } else { ["± (two bats in three)", "most by"] };
+    let columns =
+        Columns::new([first(15, ""), first(28, "computed"), first(28, head[0]), first(9, head[1])]);
+    let mut out = columns.heads();
+    let mut row = |what: &str, answer: SpreadAnswer| {
+        let Some(estimate) = spread.of(answer) else { return };
+        let kind = AnswerUnit::of(answer);
+        let mostly = spread.mostly(answer).map_or("", |(source, _)| word(source));
+        let open = about(analysis, answer, units).unwrap_or_default();
+        let value = kind.shown(units, estimate.value);
+        out += &columns.row([&format!("  {what}"), &value, &open, mostly]);
+        if answer == SpreadAnswer::BestPlace {
+            let tip = kind.shown(units, analysis.bat.length() - estimate.value);
+            out += &columns.row(["    from tip", &tip, "", ""]);
+        }
+    };
+    row("sweet spot", SpreadAnswer::BestPlace);
+    row("fastest ball", SpreadAnswer::ExitSpeed);
+    // Around a later contact speeds come and go within a millimetre.
+    if !analysis.verdict.doubts.contains(&Doubt::LaterContact) {
+        row("1 % less at", SpreadAnswer::ZoneFrom);
+        row("     and at", SpreadAnswer::ZoneTo);
+    }
+    row("swing weight", SpreadAnswer::SwingWeight);
+    row("mass", SpreadAnswer::Mass);
+    row("f1", SpreadAnswer::Frequency1);
+    row("f2", SpreadAnswer::Frequency2);
+    row("f3", SpreadAnswer::Frequency3);
+    out
+}
+
+/// How far to trust the answers: the bat first, what would settle it, then the computation.
+pub fn trust(analysis: &Analysis, units: Units) -> Vec<String> {
+    let mut told = of_bat(analysis, units);
+    told.push(computation(analysis));
+    told
+}
+
+/// What is open of the bat in hand, what there is to doubt, and what would settle it.
+pub fn of_bat(analysis: &Analysis, units: Units) -> Vec<String> {
+    let doubts = doubts(&analysis.verdict, units);
+    let failed = analysis.failed.iter().map(|text| format!("{text}."));
+    let bat = [bat_first(analysis, units)].into_iter().chain(doubts).chain(failed);
+    bat.chain(settled_by(analysis, units)).collect()
+}
+
+/// What there is to doubt of a hit, a sentence each.
+pub fn doubts(verdict: &Verdict, units: Units) -> Vec<String> {
+    verdict.doubts.iter().map(|doubt| doubted(doubt, units)).collect()
+}
+
+/// A doubt in a sentence.
+fn doubted(doubt: &Doubt, units: Units) -> String {
+    match doubt {
+        Doubt::Density(text) => format!("Look at the file: {text}"),
+        Doubt::Shear(text) => format!("Shear is left out: {text}."),
+        Doubt::Dent(wall) => {
+            let deep = |length: f64| match units {
+                Units::Us => format!("{:.2}", inches(length)),
+                _ => format!("{:.1}", 1e3 * length),
+            };
+            let unit = if units == Units::Us { "in" } else { "mm" };
+            let [low, high] = wall.bbcor.range;
+            format!(
+                "The wall dents by {} of its {} {unit}: beyond half of it this theory ends; the ball's figures are \
+                 rough, free BBCOR {:.3} ({:.3} stiff; {low:.3} to {high:.3}).",
+                deep(wall.dent_m),
+                deep(wall.thickness_m),
+                wall.bbcor.with,
+                wall.bbcor.stiff
+            )
+        }
+        Doubt::RigidWall(_) => {
+            "Left out: how the hollow barrel's wall gives way, which lets the ball leave \
+                                faster (why: hit, or --full)."
+                .to_owned()
+        }
+        Doubt::LaterContact => {
+            "The fastest ball is struck again as it leaves: small changes move that far.".to_owned()
+        }
+        Doubt::BallLaw => {
+            "Beyond the ball's measured law: over 2 ms in touch, or under 0.44 returned.".to_owned()
+        }
+        Doubt::ExitSpeeds { error } => format!(
+            "Exit speeds are less accurate than was asked: the worst within {error:.0e} of the closing speed."
+        ),
+    }
+}
+
+/// How far an answer may be from that of the bat in hand, `± 0.54 cm`; None where that is not open. What the ball
+/// does has more to it where the wall is beyond its theory or left out, and everything where the bat is not what its
+/// file says.
+pub fn about(analysis: &Analysis, answer: SpreadAnswer, units: Units) -> Option<String> {
+    let spread = &analysis.spread;
+    spread.mostly(answer)?;
+    let deviation = spread.of(answer)?.deviation?;
+    // No slope tells how far it jumps.
+    if answer == SpreadAnswer::BestPlace && analysis.verdict.doubts.contains(&Doubt::LaterContact) {
+        return Some("may jump far".to_owned());
+    }
+    let of_ball = [
+        SpreadAnswer::BestPlace,
+        SpreadAnswer::ExitSpeed,
+        SpreadAnswer::ZoneFrom,
+        SpreadAnswer::ZoneTo,
+    ];
+    let ball = analysis.verdict.ball_is_open() && of_ball.contains(&answer);
+    let stiff = [SpreadAnswer::Mass, SpreadAnswer::BalancePoint, SpreadAnswer::SwingWeight]
+        .contains(&answer);
+    let bent = analysis.verdict.bending_is_open() && !stiff;
+    let more = ball || bent || analysis.verdict.bat_is_open();
+    // Of what is a lower limit one unit is enough.
+    let (more, units) = if more { (" or more", units.first()) } else { ("", units) };
+    Some(format!("± {}{more}", AnswerUnit::of(answer).about(units, deviation)))
+}
+
+/// What is open of the bat, and what that makes of its first frequency.
+fn bat_first(analysis: &Analysis, units: Units) -> String {
+    let Analysis { bat, spread, .. } = analysis;
+    let mut told: Vec<String> = vec![];
+    let find = |input: Input| spread.sources.iter().find(|source| source.input == input);
+    let share = |source: &Source| format!("{} %", significant(100.0 * source.deviation, 2));
+    told.extend(materials(bat, spread));
+    let small = |si: (f64, &str), us: (f64, &str), value: f64| {
+        let (factor, unit) = if units.us_first() { us } else { si };
+        format!("{} {unit}", significant(factor * value, 2))
+    };
+    let length = |source: &Source| small((1e3, "mm"), (inches(1.0), "in"), source.deviation);
+    let readings = match (diameters_read_to(bat), bat.profile().formulas.is_some()) {
+        // Unless calipers were told that are worse, or better.
+        (Some(read), _)
+            if Some(read.deviation()) == find(Input::Diameters).map(|of| of.deviation) =>
+        {
+            format!("diameters read to {} are off by", read.name)
+        }
+        (_, true) => "bats are made to a formula within".to_owned(),
+        _ => "calipers are off by".to_owned(),
+    };
+    let times = |source: &Source| significant(source.deviation.exp(), 2);
+    let read = [
+        (Input::Diameters, &*readings, &length as &dyn Fn(&Source) -> String),
+        (Input::Length, "a rule by", &length),
+        (Input::Mass, "a scale by", &|source| {
+            small((1e3, "g"), (ounces(1.0), "oz"), source.deviation)
+        }),
+        (Input::Tap, "a tapped note by", &share),
+        (Input::Patch, "the ball's patch by a factor of", &times),
+    ];
+    let read = read.into_iter().filter_map(|(input, what, size)| {
+        find(input).map(|source| format!("{what} {}", size(source)))
+    });
+    told.extend(read);
+    let left_out = match &spread.left_out[..] {
+        [] => String::new(),
+        [one] => format!(" Not counted: {one}."),
+        [one, others @ ..] => format!(" Not counted: {one}; {} more in the JSON.", others.len()),
+    };
+    if told.is_empty() {
+        return format!("The bat first: nothing of it was counted as open.{left_out}");
+    }
+    let range =
+        spread.of(SpreadAnswer::Frequency1).and_then(|open| Some((open.value, open.range()?)));
+    let range = range.map_or(String::new(), |(value, [low, high])| {
+        let digits = decimals(0.5 * (high - low));
+        format!(
+            "; f1, {value:.1} Hz here, is {low:.digits$} to {high:.digits$} Hz in two bats of three"
+        )
+    });
+    format!("The bat first: {}{range}.{left_out}", told.join(", "))
+}
+
+/// By how much the bat's materials differ, a phrase for wood and one for metals.
+fn materials(bat: &Bat, spread: &Spread) -> Vec<String> {
+    let all: Vec<&Material> = bat.layups().iter().flat_map(|layup| layup.materials()).collect();
+    let wood = all.iter().find_map(|material| material.scatter());
+    let metal = all.iter().filter(|material| material.is_metal());
+    let metal = metal.filter_map(|material| material.differs()).next();
+    let told = |(kind, scatter): (&str, Option<Scatter>)| {
+        let Scatter { youngs_modulus, density, .. } = scatter?;
+        let of =
+            [(Input::Stiffness, youngs_modulus, "stiffness"), (Input::Density, density, "density")];
+        let open = of.into_iter().filter(|(input, size, _)| {
+            spread.sources.iter().any(|source| source.input == *input && source.deviation == *size)
+        });
+        let open: Vec<String> = open
+            .map(|(_, size, what)| format!("{} % in {what}", significant(100.0 * size, 2)))
+            .collect();
+        (!open.is_empty()).then(|| format!("{kind} by {}", open.join(" and ")))
+    };
+    let kinds = [("clear wood of one kind differs", wood), ("alloys differ", metal)];
+    kinds.into_iter().filter_map(told).collect()
+}
+
+/// What would settle most of it, where a note or a scale would.
+fn settled_by(analysis: &Analysis, units: Units) -> Option<String> {
+    /// From this share of the variance on it is worth a tap.
+    const MOST: f64 = 0.5;
+    let Analysis { bat, solution, spread, task, .. } = analysis;
+    let by = |answer: SpreadAnswer, input: Input| {
+        spread.mostly(answer).is_some_and(|(of, share)| of.input == input && share > MOST)
+    };
+    // A note that is known no better than the answer settles nothing.
+    let frequency = spread.of(SpreadAnswer::Frequency1);
+    let open = frequency.and_then(|of| Some(of.deviation? / of.value)).unwrap_or(0.0);
+    if by(SpreadAnswer::Frequency1, Input::Stiffness) && open > 2.0 * task.readings.tap {
+        let known = percent(task.readings.tap, 0);
+        let free = bat.fixtures().rigid_modes() == 2;
+        let node = solution.modes.first().and_then(|mode| mode.nodes.first()).filter(|_| free);
+        let hold = node.map_or("Tap it".to_owned(), |x| {
+            format!("Tap it, held loosely {} from the knob", AnswerUnit::Length.shown(units, *x))
+        });
+        return Some(format!(
+            "{hold}, type the note into its file, \"weighed\": {{ \"first_bending_hz\": ... }}, and f1 is \
+             known to {known}."
+        ));
+    }
+    by(SpreadAnswer::Mass, Input::Density).then(|| {
+        let known = AnswerUnit::Mass.about(units, task.readings.mass);
+        format!(
+            "Weigh it, type the \"mass\" into \"weighed\" of its file, and it is known to {known}."
+        )
+    })
+}
+
+/// What the computation adds.
+fn computation(analysis: &Analysis) -> String {
+    let Analysis { solution, hits, .. } = analysis;
+    let mut told = vec![];
+    let shown = solution.modes.iter().take(3).map(|mode| mode.error.total());
+    if let Some(worst) = shown.reduce(f64::max) {
+        told.push(format!("frequencies within {worst:.0e}"));
+    }
+    if let Some((_, outcome)) = hits.worst() {
+        told.push(format!("exit speeds within {:.0e}", outcome.error));
+    }
+    let asked = analysis.task.hits.tolerance;
+    let verdict = match (analysis.task.hits.elements, solution.met && hits.met) {
+        (None, true) if far_more_exact(analysis) => " itself is far more exact than that",
+        (None, true) => "",
+        (None, false) => &format!(" was asked within {asked:.0e}, NOT met"),
+        (Some(_), _) => ", with the elements that were asked for",
+    };
+    let told =
+        if told.is_empty() { "masses and lengths are exact".to_owned() } else { told.join(", ") };
+    // Beside a doubt nobody asks what an exit speed is counted in.
+    let of = if analysis.verdict.doubts.is_empty() { " of the closing speed" } else { "" };
+    let of = if told.contains("exit") { of } else { "" };
+    format!("The computation{verdict}: {told}{of}.")
+}
+
+/// Whether the errors of the computation are a tenth at most of what is open of every answer that has one. Of a hit
+/// that is in doubt nobody knows how much is open.
+fn far_more_exact(analysis: &Analysis) -> bool {
+    const SMALL: f64 = 0.1;
+    let Analysis { solution, hits, spread, verdict, .. } = analysis;
+    let open = |answer: SpreadAnswer| {
+        spread.of(answer).map(|of| of.deviation.filter(|_| !spread.sources.is_empty()))
+    };
+    let frequencies =
+        [SpreadAnswer::Frequency1, SpreadAnswer::Frequency2, SpreadAnswer::Frequency3];
+    let frequency = |(answer, mode): (SpreadAnswer, &Mode)| match open(answer) {
+        None => true,
+        Some(open) => {
+            open.is_some_and(|open| mode.error.total() * mode.frequency() <= SMALL * open)
+        }
+    };
+    let speed = match (open(SpreadAnswer::ExitSpeed), hits.worst()) {
+        (Some(open), Some((impact, outcome))) => {
+            let closing = impact.bat_speed + analysis.task.scene.ball_speed;
+            open.is_some_and(|open| outcome.error * closing <= SMALL * open)
+        }
+        _ => true,
+    };
+    verdict.doubts.is_empty()
+        && !spread.sources.is_empty()
+        && speed
+        && frequencies.into_iter().zip(&solution.modes).all(frequency)
+}
+
+/// How far the wood alone leaves every frequency open, in a line; empty where that is not known.
+pub fn of_wood(bat: &Bat) -> String {
+    let Some(open) = of_frequencies(bat) else { return String::new() };
+    let text = format!(
+        "Trust: wood differs from piece to piece, and by it every frequency by {} (one standard \
+         deviation). A tapped note in the bat file settles that: \"weighed\": {{ \"first_bending_hz\" }}",
+        percent(open, 0)
+    );
+    wrapped(&text, 7)
+}
+
+/// Where what is open of a hit is told.
+pub const IN_ANALYZE: &str =
+    "Trust: what wood, scale and calipers leave open of this: sweetspot analyze\n";
+
+/// The member `open` of the `sweetspot-analysis/1` document.
+pub fn open(analysis: &Analysis) -> file::Open {
+    let Analysis { spread, verdict, .. } = analysis;
+    let source = |source: &Source| file::Source {
+        input: source.input.name(),
+        material: source.material.clone(),
+        standard_deviation: source.deviation,
+    };
+    let answer = |estimate: &Estimate| file::BoundedAnswer {
+        answer: key(estimate.answer),
+        value: estimate.value,
+        standard_deviation: estimate.deviation,
+        by_source: estimate.parts.clone(),
+    };
+    file::Open {
+        sources: spread.sources.iter().map(source).collect(),
+        answers: spread.estimates.iter().map(answer).collect(),
+        left_out: spread.left_out.clone(),
+        doubts: in_file(verdict),
+    }
+}
+
+/// What there is to doubt of a hit, as documents have it.
+pub fn in_file(verdict: &Verdict) -> Vec<file::Doubt> {
+    let doubt = |doubt: &Doubt| file::Doubt {
+        about: doubt.about(),
+        text: match doubt {
+            Doubt::RigidWall(why) => why.clone(),
+            other => doubted(other, Units::Si),
+        },
+    };
+    verdict.doubts.iter().map(doubt).collect()
+}
+
+/// The name of an answer in JSON, its unit at the end.
+fn key(answer: SpreadAnswer) -> &'static str {
+    match answer {
+        SpreadAnswer::Mass => "mass_kg",
+        SpreadAnswer::BalancePoint => "balance_point_m",
+        SpreadAnswer::SwingWeight => "inertia_pivot_kg_m2",
+        SpreadAnswer::Frequency1 => "frequency_1_hz",
+        SpreadAnswer::Frequency2 => "frequency_2_hz",
+        SpreadAnswer::Frequency3 => "frequency_3_hz",
+        SpreadAnswer::BestPlace => "best_place_m",
+        SpreadAnswer::ExitSpeed => "exit_speed_m_s",
+        SpreadAnswer::ZoneFrom => "zone_from_m",
+        SpreadAnswer::ZoneTo => "zone_to_m",
+    }
+}

@@ -1,0 +1,53 @@
+//! What a hollow barrel's wall does in a hit, in words.
+
+use crate::parts::part::Fact;
+use crate::parts::units::Units;
+use sweetspot::base::number::significant;
+use sweetspot::base::units::inches;
+use sweetspot::bat::body::Bat;
+use sweetspot::collision::hit::Scene;
+use sweetspot::collision::hoop_wall::HoopWall;
+use sweetspot::collision::wall_figures::WallFigures;
+
+/// What of the wall gives way, and why it is counted.
+pub fn wall_words(bat: &Bat, scene: &Scene, wall: &HoopWall) -> String {
+    let modes = wall.hoop().modes();
+    let last = modes.iter().map(|mode| mode.harmonic).max().unwrap_or(0);
+    let why = scene.gain_by_wall(bat).map_or(String::new(), |gain| {
+        format!(": by estimate that is {} of BBCOR", significant(gain, 1))
+    });
+    format!(
+        "the barrel's wall gives way by {} hoop modes of its own, of harmonics 0 and 2 to {last} around \
+         it{why}",
+        modes.len()
+    )
+}
+
+/// What a hollow barrel's wall does at a place, and to BBCOR there.
+pub fn wall_facts(wall: &WallFigures, units: Units) -> Vec<Fact> {
+    let short = |x: f64| units.inline(units.show(millimetres(x), format!("{:.2} in", inches(x))));
+    let [along, around] = wall.patch_half_lengths_m.map(|half| 2.0 * half);
+    let [low, high] = wall.bbcor.range;
+    let deep =
+        wall.is_deep().then(|| ("  more than half the wall", "this theory ends there".to_owned()));
+    let lines = [
+        ("BBCOR with a stiff wall", format!("{:.3}", wall.bbcor.stiff)),
+        ("  ball squeezed twice to half as much", format!("{low:.3} to {high:.3}")),
+        (
+            "wall under the ball",
+            format!(
+                "{:.1} MN/m, {:.1} times the ball's",
+                1e-6 * wall.stiffness_n_m,
+                wall.stiffness_over_ball
+            ),
+        ),
+        ("  patch, along and around", format!("{} by {}", short(along), short(around))),
+        ("  it dents by", short(wall.dent_m)),
+    ];
+    let fact = |(label, value)| Fact { key: "", label, value, note: String::new() };
+    lines.into_iter().chain(deep).map(fact).collect()
+}
+
+fn millimetres(x: f64) -> String {
+    format!("{:.1} mm", 1e3 * x)
+}

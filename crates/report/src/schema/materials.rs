@@ -1,0 +1,62 @@
+//! The list of built-in materials, `sweetspot-materials/1`.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use sweetspot::bat::material::BUILT_IN;
+use sweetspot::files::schema::document::{Document, Format, Generator};
+
+/// The materials that a bat file may name, with where their numbers come from. SI, the unit in every
+/// name; what is not known is null. Later versions of the same number may have more members.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[schemars(title = "Materials file of sweetspot, sweetspot-materials/1")]
+pub struct MaterialsFile {
+    /// Name of the format and its version: sweetspot-materials/1.
+    pub format: Format<MaterialsFile>,
+    /// The program that wrote the file.
+    pub generator: Generator,
+    /// The built-in materials.
+    pub materials: Vec<Listed>,
+}
+
+impl Document for MaterialsFile {
+    const NAME: &'static str = "materials";
+}
+
+/// A built-in material, along the axis where it is wood.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct Listed {
+    /// What a bat file calls it.
+    pub name: &'static str,
+    /// Density (kg/m³).
+    pub density_kg_m3: f64,
+    /// Young's modulus (Pa).
+    pub youngs_modulus_pa: f64,
+    /// Shear modulus (Pa), if known.
+    pub shear_modulus_pa: Option<f64>,
+    /// Stress at which it breaks in bending (Pa), if known.
+    pub strength_pa: Option<f64>,
+    /// Strain at which it breaks in a blow, if known.
+    pub strain_to_failure: Option<f64>,
+    /// Where strength and strain to failure come from; empty where neither is known.
+    pub strength_source: &'static str,
+    /// Where the other numbers come from.
+    pub source: &'static str,
+}
+
+impl MaterialsFile {
+    /// All there are.
+    pub fn built_in() -> Self {
+        let materials = BUILT_IN.iter().map(|m| Listed {
+            name: m.name,
+            density_kg_m3: m.density,
+            youngs_modulus_pa: m.youngs_modulus,
+            shear_modulus_pa: m.shear_modulus,
+            strength_pa: m.strength,
+            strain_to_failure: m.strain_to_failure,
+            strength_source: m.strength_source,
+            source: m.source,
+        });
+        Self { format: Format::new(), generator: Generator::this(), materials: materials.collect() }
+    }
+}

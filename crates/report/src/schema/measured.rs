@@ -1,0 +1,149 @@
+//! Measured modes beside computed ones, `sweetspot-measured/1`.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use sweetspot::bat::edit::Edit;
+use sweetspot::bat::theory::Theory;
+use sweetspot::files::schema::document::{Document, Format, Generator};
+
+/// The measured modes of a bat beside the computed ones: which is which, how far they differ, and how
+/// alike their shapes are. SI, the unit in every name; positions count from the knob end; what does
+/// not exist is null. Later versions of the same number may have more members.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[schemars(title = "Measured modes file of sweetspot, sweetspot-measured/1")]
+pub struct MeasuredFile {
+    /// Name of the format and its version: sweetspot-measured/1.
+    pub format: Format<MeasuredFile>,
+    /// The program that wrote the file.
+    pub generator: Generator,
+    /// The bat of the computed modes.
+    pub bat: ComputedBat,
+    /// The file of the measured modes.
+    pub source: String,
+    /// What had to be assumed to read it, a sentence each.
+    pub assumed: Vec<String>,
+    /// Measured modes, by rising frequency.
+    pub measured: Vec<MeasuredMode>,
+    /// Computed modes, by rising frequency.
+    pub computed: Vec<ComputedMode>,
+    /// A measured and a computed mode that are the same.
+    pub pairs: Vec<Pair>,
+    /// The least MAC of a pair.
+    pub least_mac: f64,
+    /// Names of the measured bending modes without a computed partner.
+    pub unpaired_measured: Vec<String>,
+    /// Numbers of the computed modes without a measured partner, up to the highest measured frequency.
+    pub unpaired_computed: Vec<usize>,
+    /// What follows, in sentences.
+    pub words: Vec<String>,
+    /// What the shapes say; left out where none were measured.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shapes: Option<Shapes>,
+}
+
+impl Document for MeasuredFile {
+    const NAME: &'static str = "measured";
+}
+
+/// The bat of the computed modes.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct ComputedBat {
+    /// What the bat is called.
+    pub name: String,
+    /// The bat's file.
+    pub file: String,
+    /// What was changed about the bat after it was weighed; left out where nothing was.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub edits: Vec<Edit>,
+    /// Beam theory.
+    #[schemars(extend("enum" = Theory::ALL.map(Theory::name)))]
+    pub theory: &'static str,
+}
+
+/// A measured mode; what follows from a shape is null where that was not measured.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct MeasuredMode {
+    /// What the file calls it.
+    pub name: String,
+    /// Measured frequency (Hz).
+    pub frequency_hz: f64,
+    /// Damping ratio, if it was measured.
+    pub damping_ratio: Option<f64>,
+    /// Whether the bat bends, or moves as a rigid body on its supports.
+    #[schemars(extend("enum" = ["bending", "rigid"]))]
+    pub kind: &'static str,
+    /// How far a rigid mode's shape is from a straight line, as a share of its size.
+    pub off_a_straight_line: Option<f64>,
+    /// How nearly all points move in phase or against it, 1 if all do.
+    pub phase_collinearity: Option<f64>,
+    /// Share of the shape that is out of phase.
+    pub out_of_phase: Option<f64>,
+    /// Rigid motion in the shape, as a share of its size.
+    pub rigid_share: Option<f64>,
+    /// Rigid motion in its computed partner as the same points see it.
+    pub rigid_share_of_computed: Option<f64>,
+}
+
+/// A computed mode.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct ComputedMode {
+    /// Number of the mode, from 1.
+    pub order: usize,
+    /// Undamped natural frequency (Hz).
+    pub frequency_hz: f64,
+    /// Damping ratio; 0 without damping.
+    pub damping_ratio: f64,
+    /// Relative error of the frequency.
+    pub error: Option<f64>,
+}
+
+/// A measured and a computed mode that are the same.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct Pair {
+    /// Name of the measured mode.
+    pub measured: String,
+    /// Number of the computed mode, from 1.
+    pub computed: usize,
+    /// Modal assurance criterion of both shapes; null without measured shapes.
+    pub mac: Option<f64>,
+    /// Computed over measured frequency, less 1; null for a measured 0 Hz.
+    pub frequency_difference: Option<f64>,
+    /// Relative error of the computed frequency.
+    pub computed_within: f64,
+    /// Whether the difference is no larger than that error.
+    pub within_errors: Option<bool>,
+    /// The factor from the computed shape (largest deflection 1) to the measured one.
+    pub scale: Option<Complex>,
+}
+
+/// A complex number.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct Complex {
+    /// Real part.
+    pub real: f64,
+    /// Imaginary part.
+    pub imaginary: f64,
+}
+
+/// What measured shapes say of themselves and of the computed ones.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct Shapes {
+    /// What was assumed to place the points on the bat, a sentence each.
+    pub assumed: Vec<String>,
+    /// The end that the first point of the file is near.
+    #[schemars(extend("enum" = ["knob", "tip"]))]
+    pub first_end: &'static str,
+    /// Positions of the points (m).
+    pub x_m: Vec<f64>,
+    /// Names of the measured bending modes, the rows of the tables.
+    pub rows: Vec<String>,
+    /// MAC of measured (rows) with computed modes (columns).
+    pub mac: Vec<Vec<f64>>,
+    /// MAC of the computed modes among themselves as the same points see them.
+    pub mac_of_computed: Vec<Vec<f64>>,
+    /// Mass orthogonality of every two measured modes; null for a bat with absorbers.
+    pub common_in_mass: Option<Vec<Vec<f64>>>,
+    /// Mass orthogonality of their computed partners as the same points see them; null without one.
+    pub common_in_mass_of_computed: Vec<Vec<Option<f64>>>,
+}

@@ -1,0 +1,45 @@
+//! The document of what is wrong, `sweetspot-error/1`: what is written is this type, and so is its schema.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use sweetspot::files::schema::document::{Document, Format, Generator};
+
+/// Why there is no answer: every mistake that was found, with its place and what to do. With `--json` it is
+/// the last line on standard error, after the same for people; the exit code is 2, or 3 where an accuracy
+/// was not reached. Later versions of the same number may have more members.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(title = "What is wrong, by sweetspot, sweetspot-error/1")]
+pub struct ErrorFile {
+    /// Name of the format and its version: sweetspot-error/1.
+    pub format: Format<ErrorFile>,
+    /// The program that wrote the document.
+    pub generator: Generator,
+    /// The mistakes in the order of the file, one at least.
+    pub mistakes: Vec<Mistake>,
+    /// How many more were found that are not listed.
+    pub more: usize,
+}
+
+impl Document for ErrorFile {
+    const NAME: &'static str = "error";
+}
+
+/// One mistake. What does not exist is null: a mistake on the command line has no file and no line.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Mistake {
+    /// The file, as it was given.
+    pub file: Option<String>,
+    /// The line of the file, counted from 1.
+    pub line: Option<usize>,
+    /// The column in that line, counted in characters from 1.
+    pub column: Option<usize>,
+    /// The value that is wrong: its path in the file such as profile.x\[3\], or its option.
+    pub place: Option<String>,
+    /// What was found there; where it is no value, what is wrong.
+    pub found: String,
+    /// What was expected there.
+    pub expected: Option<String>,
+    /// What to do about it.
+    pub hint: Option<String>,
+}

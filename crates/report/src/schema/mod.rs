@@ -1,0 +1,129 @@
+//! What the files look like: each a type whose JSON Schema follows from it (draft 2020-12).
+//!
+//! The documents that are written, such as [`modes::ModesFile`] and [`hit::HitFile`], are these types
+//! themselves. They may grow: who reads them passes over members he does not know. The files that are
+//! read, [`BatFile`](sweetspot::files::schema::bat::BatFile) and [`BallFile`](sweetspot::files::schema::ball::BallFile), have no members but their own, as their readers. A
+//! document whose name ends in another number than `/1` fits none of these types.
+//!
+//! # Source
+//!
+//! JSON Schema, draft 2020-12: json-schema.org/draft/2020-12/schema; several schemas in one
+//! document: its core, section 9.3.1 (bundling).
+
+pub mod materials;
+pub mod modes;
+pub mod hit;
+pub mod bbcor;
+pub mod hoop;
+pub mod measured;
+pub mod ring;
+pub mod analysis;
+pub mod compare;
+pub mod frf;
+pub mod advice;
+pub mod u_curve;
+pub mod trade;
+pub mod readings;
+pub mod calibrate;
+pub mod mistakes;
+pub mod study;
+pub mod lathe;
+pub mod aim;
+pub mod aimed;
+pub mod scatter;
+
+use schemars::Schema;
+use schemars::generate::SchemaSettings;
+use schemars::transform::{RecursiveTransform, Transform};
+use serde::Serialize;
+use serde_json::{Map, Value, json};
+
+use sweetspot::base::marks;
+use sweetspot::files::schema::document::Document;
+
+/// The schema of a kind of document.
+pub fn of<D: Document>() -> Value {
+    let settings = SchemaSettings::draft2020_12().with(|settings| settings.contract = D::CONTRACT);
+    finished(settings.into_generator().into_root_schema_for::<D>(), &id(D::NAME))
+}
+
+/// The name of the schema of documents of that name, wherever it is kept.
+pub fn id(name: &str) -> String {
+    format!("urn:sweetspot:{name}:1")
+}
+
+/// A document as it is written, in lines.
+pub fn text<T: Serialize>(document: &T) -> String {
+    marks::json(&format!("{:#}\n", value(document)))
+}
+
+/// A document as JSON.
+pub fn value<T: Serialize>(document: &T) -> Value {
+    serde_json::to_value(document).expect("these types have text keys and no maps of other keys")
+}
+
+/// The draft of JSON Schema that all of them follow.
+pub const DRAFT: &str = "https://json-schema.org/draft/2020-12/schema";
+
+/// The schema with its name first, descriptions in whole lines, and no null where a member is left
+/// out instead.
+fn finished(mut schema: Schema, id: &str) -> Value {
+    RecursiveTransform(absent_not_null).transform(&mut schema);
+    RecursiveTransform(plain).transform(&mut schema);
+    let mut named = json!({ "$schema": DRAFT, "$id": id });
+    for key in ["title", "description"] {
+        if let Some(text) = schema.remove(key) {
+            named[key] = text;
+        }
+    }
+    let others = schema.as_object_mut().map(std::mem::take).unwrap_or_default();
+    others.into_iter().for_each(|(key, value)| named[key] = value);
+    named
+}
+
+/// A member that may be absent is never null: only what must be there can say that it has no value.
+fn absent_not_null(schema: &mut Schema) {
+    let required = schema.get("required").cloned().unwrap_or(json!([]));
+    let must = |key: &str| required.as_array().is_some_and(|all| all.contains(&json!(key)));
+    let Some(Value::Object(properties)) = schema.get_mut("properties") else { return };
+    for (_, property) in properties.iter_mut().filter(|(key, _)| !must(key)) {
+        if let Some(member) = property.as_object_mut() {
+            without_null(member);
+        }
+    }
+}
+
+fn without_null(member: &mut Map<String, Value>) {
+    if let Some(Value::Array(values)) = member.get_mut("enum") {
+        values.retain(|value| !value.is_null());
+    }
+    if let Some(Value::Array(types)) = member.get_mut("type") {
+        types.retain(|name| name != "null");
+        if let [one] = &types[..] {
+            let one = one.clone();
+            member.insert("type".to_owned(), one);
+        }
+    }
+    // Of two alternatives, one of them null, the other one is the schema.
+    let Some(Value::Array(alternatives)) = member.get_mut("anyOf") else { return };
+    alternatives.retain(|alternative| *alternative != json!({ "type": "null" }));
+    if let [Value::Object(one)] = &alternatives[..] {
+        let one = one.clone();
+        member.remove("anyOf");
+        // What is said of the member itself stands before what is said of its type.
+        for (key, value) in one {
+            member.entry(key).or_insert(value);
+        }
+    }
+}
+
+/// Comments are broken into lines for the source alone, and how wide a number is in this program is
+/// nobody's concern.
+fn plain(schema: &mut Schema) {
+    if let Some(Value::String(text)) = schema.get_mut("description") {
+        *text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    }
+    if schema.get("format").is_some_and(Value::is_string) {
+        schema.remove("format");
+    }
+}

@@ -1,0 +1,282 @@
+//! The modes document, `sweetspot-modes/1`: what is written is this type, and so is its schema.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use sweetspot::bat::theory::Theory;
+use sweetspot::files::schema::document::{Document, Format, Generator};
+use sweetspot::files::schema::resolved::ResolvedBat;
+
+/// The bending modes of a bat: frequencies, shapes, nodes and how far they may be trusted. SI, the
+/// unit in every name; positions count from the knob end; what does not exist is null. Later
+/// versions of the same number may have more members.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(title = "Modes file of sweetspot, sweetspot-modes/1")]
+pub struct ModesFile {
+    /// Name of the format and its version: sweetspot-modes/1.
+    pub format: Format<ModesFile>,
+    /// The program that wrote the file.
+    pub generator: Generator,
+    /// The bat as it was understood, a bat file in its own right.
+    pub bat: ResolvedBat,
+    /// The bat as a rigid body: length, mass, balance point, moments of inertia.
+    pub summary: Summary,
+    /// What was computed, and how.
+    pub model: Model,
+    /// How many motions of the bat are rigid, at 0 Hz: 2 of a free bat. They are not among `modes`.
+    #[schemars(range(max = 2))]
+    pub rigid_modes: usize,
+    /// The elastic modes, rising in frequency.
+    pub modes: Vec<Mode>,
+    /// What the proven frequencies rest on; only where they were asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub proof: Option<Proof>,
+    /// Left out where equal input was to give equal bytes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub timing: Option<Timing>,
+}
+
+impl Document for ModesFile {
+    const NAME: &'static str = "modes";
+}
+
+/// The bat as a rigid body. Moments of inertia are transverse, with the sections' own and
+/// everything attached, as a pendulum measures them.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Summary {
+    /// Length from the knob end to the tip (m).
+    pub length_m: f64,
+    /// Mass (kg) with everything attached.
+    pub mass_kg: f64,
+    /// Distance of the centre of mass from the knob end (m).
+    pub balance_point_m: f64,
+    /// Moment of inertia about the balance point (kg m²).
+    pub inertia_balance_kg_m2: f64,
+    /// Where standards hold a bat: 6 in from the knob end (m).
+    pub pivot_m: f64,
+    /// Moment of inertia about that pivot (kg m²): the swing weight.
+    pub inertia_pivot_kg_m2: f64,
+    /// Centre of percussion for that pivot (m); null if the pivot is the balance point.
+    pub center_of_percussion_m: Option<f64>,
+    /// What the weighed and tapped values changed; absent for a bat without such values.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub weighed: Option<WeighedFactors>,
+}
+
+/// What came of what was weighed and tapped; only of a bat of which something was.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct WeighedFactors {
+    /// Factor on all densities that the weighed mass led to.
+    pub density_factor: f64,
+    /// Factor on all moduli that the tapped frequency led to.
+    pub modulus_factor: f64,
+    /// The balance point that was measured (m).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub balance_point_m: Option<f64>,
+    /// Computed balance point less the measured one (m).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub balance_point_difference_m: Option<f64>,
+    /// The swing weight that was measured, about 6 in from the knob end, as such or by a pendulum (kg m²).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub inertia_pivot_kg_m2: Option<f64>,
+    /// Computed swing weight less the measured one (kg m²).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub inertia_pivot_difference_kg_m2: Option<f64>,
+}
+
+/// What was computed, and how.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Model {
+    /// Beam theory.
+    #[schemars(extend("enum" = Theory::ALL.map(Theory::name)))]
+    pub theory: String,
+    /// Number of finite elements.
+    pub elements: usize,
+    /// Degree of the deflection in each element.
+    pub degree: usize,
+    /// How the eigenvalues were found.
+    #[schemars(extend("enum" = ["statics", "dense", "shift-invert", "arpack"]))]
+    pub solver: String,
+    /// Unknowns of the assembled matrices.
+    pub degrees_of_freedom: usize,
+    /// Products with the compliance or the inverse; 0 for the dense solver.
+    pub lanczos_steps: usize,
+    /// Why this mesh and this degree, in words.
+    pub plan: String,
+    /// Whether every frequency is within the wanted tolerance by its own estimate.
+    pub tolerance_met: bool,
+    /// Whether it is certain that no mode is missing from the list.
+    pub no_mode_missing: bool,
+    /// Effects that were left out and what they cost, a sentence each.
+    pub ignored: Vec<String>,
+    /// How the damping was found; only of a damped bat.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub damping: Option<Damping>,
+}
+
+/// How the damping was found; only of a damped bat.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Damping {
+    /// How the damping was found, in words.
+    pub method: String,
+    /// Decay rates (1/s) of rigid motions that only dashpots hold.
+    pub rigid_decay_1_per_s: Vec<f64>,
+}
+
+/// One elastic mode. Its shape is scaled to a largest deflection of 1 along the bat, positive at the
+/// barrel end, or at the knob end if the barrel end is at rest.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Mode {
+    /// Number of the mode, from 1.
+    #[schemars(range(min = 1))]
+    pub order: usize,
+    /// Undamped natural frequency (Hz).
+    pub frequency_hz: f64,
+    /// Undamped natural angular frequency (rad/s).
+    pub omega_rad_s: f64,
+    /// Damping ratio, half the loss factor; 0 without damping.
+    pub damping_ratio: f64,
+    /// Modal mass (kg) under the shape's scaling.
+    pub modal_mass_kg: f64,
+    /// Isolated interior zeros of the deflection (m), from the knob: those that are certainly there.
+    pub nodes_m: Vec<f64>,
+    /// Stretches (m), from the knob, where the deflection is below its own error, so that no node beside those of
+    /// `nodes_m` can be told there; only of a mode that has such a stretch.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub nodes_untold_m: Option<Vec<[f64; 2]>>,
+    /// Between which numbers the exact beam's frequency lies; only of a mode of which that was asked and is
+    /// proven.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub proven: Option<ProvenFrequency>,
+    /// Intervals (m), from the knob, with a node of the mode in each; only where they were asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub proven_nodes_m: Option<Vec<[f64; 2]>>,
+    /// Between which numbers this frequency of every bat lies that is within the asked tolerances of this one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub proven_within: Option<ProvenFrequency>,
+    /// How far the numbers above may be off.
+    pub error: ModeError,
+    /// The deflection along the bat.
+    pub shape: Shape,
+    /// How the mode dies out; only of a damped bat.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub damping: Option<Damped>,
+}
+
+/// Two numbers between which a frequency is proven to lie, rounded outwards.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ProvenFrequency {
+    /// The frequency is not below this (Hz).
+    pub lower_hz: f64,
+    /// The frequency is not above this (Hz).
+    pub upper_hz: f64,
+}
+
+/// What proven frequencies rest on: numbers from which the bounds of `τ = 1/ω²` follow by Temple's theorem and
+/// from which it follows that no mode is missing.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Proof {
+    /// Whether every asked mode is proven and its interval is as narrow as asked.
+    pub met: bool,
+    /// How many modes are proven, from the first on, none missing.
+    pub proven: usize,
+    /// How many motions were tried.
+    pub trials: usize,
+    /// On so many stretches the trials are polynomials.
+    pub cells: usize,
+    /// Degree of the trials' deflection.
+    pub degree: usize,
+    /// The sum of all τ is at most this (s²).
+    pub trace_s2: f64,
+    /// The sum of all τ² is at most this (s⁴).
+    pub norm_squared_s4: f64,
+    /// No τ beside those of the trials' intervals is above this (s²).
+    pub others_s2: f64,
+    /// What is known of the trial of each proven mode, in their order.
+    pub trial: Vec<ProofOfTrial>,
+    /// Every bat within this of the file's was looked at for `proven_within`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub within: Option<ProofWithin>,
+}
+
+/// What is known of a trial.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ProofOfTrial {
+    /// Rayleigh's quotient σ of the compliance lies between these (s²).
+    pub quotient_s2: [f64; 2],
+    /// Its residual ε², the square of `|Tk − σk|/|k|`, is at most this (s⁴).
+    pub residual_s4: f64,
+}
+
+/// How far a bat may be from what its file says.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ProofWithin {
+    /// Every radius, everywhere along the bat (m).
+    pub radius_m: f64,
+    /// Young's and the shear modulus, as a share of what they are.
+    pub modulus: f64,
+    /// Whether every asked mode has a band, each end as sharp as asked.
+    pub met: bool,
+}
+
+/// Estimated errors; null where none could be made. Those of the frequency are relative to it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ModeError {
+    /// Relative error of the frequency, by the finite elements.
+    pub discretization: Option<f64>,
+    /// Relative error of the frequency, by arithmetic.
+    pub round_off: Option<f64>,
+    /// Relative residual of the eigenpair.
+    pub residual: Option<f64>,
+    /// Error of a node's position (m).
+    pub nodes_m: Option<f64>,
+    /// Relative error of the modal mass.
+    pub modal_mass: Option<f64>,
+    /// Error of the shape, where its largest deflection is 1.
+    pub shape: Option<f64>,
+}
+
+/// Samples of a shape; as many places as deflections and rotations.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Shape {
+    /// Places at which the shape is sampled (m).
+    pub x_m: Vec<f64>,
+    /// Deflection at each place, 1 at the largest.
+    pub deflection: Vec<f64>,
+    /// Rotation of the section at each place (rad per m of deflection).
+    pub rotation: Vec<f64>,
+}
+
+/// How a mode dies out; only of a damped bat.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Damped {
+    /// Modulus of the damped motion's pole (Hz).
+    pub natural_frequency_hz: f64,
+    /// Frequency of the damped motion (Hz).
+    pub damped_frequency_hz: f64,
+    /// Rate at which the amplitude falls (1/s).
+    pub decay_1_per_s: f64,
+    /// Twice the damping ratio.
+    pub loss_factor: f64,
+    /// Sharpness of the resonance, 1/(2 ratio); null without damping.
+    pub q_half_power: Option<f64>,
+    /// Quality factor as papers on bats count it, 1/ratio; null without damping.
+    pub q_amplitude: Option<f64>,
+    /// Part of the damping ratio that comes from the materials.
+    pub material_damping_ratio: f64,
+    /// Whether it is a complex mode, not one mode by itself.
+    pub complex: bool,
+    /// Estimated error, relative to the frequency.
+    pub error: f64,
+}
+
+/// Where the time went.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Timing {
+    /// Time for planning (s).
+    pub plan_s: f64,
+    /// Time for assembling (s).
+    pub assemble_s: f64,
+    /// Time for solving (s).
+    pub solve_s: f64,
+}

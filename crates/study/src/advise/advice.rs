@@ -1,0 +1,122 @@
+//! The advice: effects, damping, the smallest model, and what is out of scope.
+
+use std::rc::Rc;
+
+use crate::advise::damping::Damping;
+use crate::advise::effect::{Effect, Switch, effects};
+use crate::advise::model::{Bench, Model, Solved};
+use crate::advise::outside::outside;
+use crate::advise::smallest::{Smallest, smallest};
+use sweetspot::base::error::{Error, Result};
+use sweetspot::base::telling::{Tell, nobody};
+use sweetspot::bat::body::Bat;
+use sweetspot::modes::tuned::tuned;
+
+/// What a bat's model needs.
+#[derive(Debug, Clone)]
+pub struct Advice {
+    /// How near to the full model's frequencies is near enough, relative.
+    pub tolerance: f64,
+    /// Everything that is known of the bat.
+    pub full: Rc<Solved>,
+    /// One for everything that can be switched.
+    pub effects: Vec<Effect>,
+    /// What the bat's materials and dashpots damp.
+    pub damping: Damping,
+    /// The smallest model that will do.
+    pub smallest: Smallest,
+    /// The physics that no model here has.
+    pub outside: Vec<String>,
+}
+
+impl Advice {
+    /// What the smallest model leaves out of the full one, in words.
+    pub fn left_out(&self) -> Vec<&'static str> {
+        let (full, kept) = (&self.full.model, &self.smallest.solved.model);
+        let mut left_out = Vec::new();
+        if full.theory.turns() && !kept.theory.turns() {
+            left_out.push("rotary inertia");
+        }
+        if full.theory.shears() && !kept.theory.shears() {
+            left_out.push("shear");
+        }
+        let parts = full.parts.iter().filter(|part| !kept.parts.contains(part));
+        left_out.extend(parts.map(|part| part.name()));
+        left_out
+    }
+
+    /// Whether the full model's own frequencies are known to the tolerance.
+    pub fn met(&self) -> bool {
+        self.full.solution.worst() <= self.tolerance && self.full.solution.complete()
+    }
+
+    /// The largest shift that shear would typically make, where it is not known.
+    pub fn unknown_shear(&self) -> Option<f64> {
+        let row = self.effects.iter().find(|effect| effect.switch == Switch::TypicalShear)?;
+        row.largest()
+    }
+}
+
+/// Most modes that are advised on.
+pub const MOST_MODES: usize = 100;
+
+/// What each part of a bat's model does to its first modes, and the smallest model whose
+/// frequencies are within `tolerance` of those of everything together.
+///
+/// Every model is solved to an accuracy far below the tolerance and the effects. The stiffness that
+/// a tapped frequency gives is found once, with everything on, and kept when parts are taken off.
+///
+/// ```
+/// use sweetspot::Bat;
+/// use crate::advise::advice::advise;
+///
+/// # fn main() -> sweetspot::Result<()> {
+/// # let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
+/// #     "profile": { "unit": "in", "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5] } }"#;
+/// # let bat = Bat::from_text("bat.json", text, "".as_ref())?;
+/// let advice = advise(&bat, 3, 0.01)?;
+/// println!("within 1 % without {:?}", advice.left_out());
+/// # Ok(())
+/// # }
+/// ```
+///
+/// # Errors
+///
+/// [`Error::Value`] for a number of modes that is not 1 to [`MOST_MODES`] or a tolerance that is
+/// not between 0 and 1; those of [`sweetspot::modes::solve::solve`].
+pub fn advise(bat: &Bat, modes: usize, tolerance: f64) -> Result<Advice> {
+    advise_telling(bat, modes, tolerance, &nobody)
+}
+
+/// Advises as [`advise`] does, and tells how many of the smaller models have been tried.
+///
+/// # Errors
+///
+/// As [`advise`].
+pub fn advise_telling(bat: &Bat, modes: usize, tolerance: f64, tell: Tell) -> Result<Advice> {
+    if !(1..=MOST_MODES).contains(&modes) {
+        return Err(Error::value("modes", modes, format!("1 to {MOST_MODES}")));
+    }
+    if !(tolerance > 0.0 && tolerance < 1.0) {
+        let expected = "a number between 0 and 1, such as 1e-6 or 0.01";
+        return Err(Error::value("tolerance", tolerance, expected));
+    }
+    /// Round-off of a bat is a few times that.
+    const FINEST: f64 = 1e-13;
+    const FINE: f64 = 1e-10;
+    let accuracy = (0.01 * tolerance).clamp(FINEST, FINE);
+    let full = Model::full(bat);
+    tell(0.0, "everything on the bat, and each of it taken off");
+    let bat = tuned(bat.clone(), full.theory, accuracy)?;
+    let mut bench = Bench::new(&bat, modes, accuracy);
+    let effects = effects(&mut bench, &full)?;
+    let smallest = smallest(&mut bench, &full, tolerance, tell)?;
+    Ok(Advice {
+        tolerance,
+        full: bench.solve(&full)?,
+        effects,
+        damping: Damping::of(&bat),
+        smallest,
+        outside: outside(&bat),
+    })
+}

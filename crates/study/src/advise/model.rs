@@ -1,0 +1,153 @@
+//! A model of a bat: a theory and the parts that it has; solved once, whoever asks.
+
+use std::rc::Rc;
+
+use crate::advise::part::ModelPart;
+use sweetspot::base::error::{Error, Result};
+use sweetspot::bat::body::{Bat, Inertia};
+use sweetspot::bat::theory::Theory;
+use sweetspot::modes::solve::{Request, Solution, solve};
+
+/// What of a bat is in a model.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Model {
+    /// The beam theory.
+    pub theory: Theory,
+    /// The parts that it has, in the order of [`ModelPart::ALL`].
+    pub parts: Vec<ModelPart>,
+}
+
+impl Model {
+    /// Everything that is known of the bat: with shear if it is known.
+    pub fn full(bat: &Bat) -> Self {
+        let theory = if bat.knows_shear() { Theory::Timoshenko } else { Theory::Rayleigh };
+        let parts = ModelPart::ALL.into_iter().filter(|part| part.is_on(bat)).collect();
+        Self { theory, parts }
+    }
+
+    /// This model without some parts.
+    pub fn without(&self, parts: &[ModelPart]) -> Self {
+        let kept = self.parts.iter().copied().filter(|part| !parts.contains(part));
+        Self { theory: self.theory, parts: kept.collect() }
+    }
+
+    /// This model by another theory.
+    pub fn by(&self, theory: Theory) -> Self {
+        Self { theory, ..self.clone() }
+    }
+
+    /// How many switches are on: rotary inertia, shear, and one for each kind of part.
+    pub fn size(&self) -> usize {
+        usize::from(self.theory.turns()) + usize::from(self.theory.shears()) + self.parts.len()
+    }
+
+    /// The bat as this model sees it.
+    ///
+    /// # Errors
+    ///
+    /// What is left is no bat that can be solved: without its supports it may hang on springs too weak.
+    pub fn bat(&self, bat: &Bat) -> Result<Bat> {
+        let missing = ModelPart::ALL.into_iter().filter(|part| !self.parts.contains(part));
+        let missing: Vec<ModelPart> = missing.filter(|part| part.is_on(bat)).collect();
+        let left =
+            bat.with(|parts| missing.iter().for_each(|part| part.take_off(&mut parts.fixtures)));
+        let names: Vec<&str> = missing.iter().map(|part| part.name()).collect();
+        let hint = format!("that is the bat without {}", names.join(", "));
+        left.map_err(|error| error.placed(|found| Error::Value(found.hinted(hint.clone()))))
+    }
+}
+
+/// A model and its modes.
+#[derive(Debug, Clone)]
+pub struct Solved {
+    /// The model: a theory and the parts of the bat it includes.
+    pub model: Model,
+    /// The bat as the model sees it.
+    pub bat: Bat,
+    /// Modes of the model.
+    pub solution: Solution,
+}
+
+impl Solved {
+    /// A bat, solved by a theory.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`solve`].
+    pub fn new(model: Model, bat: Bat, request: &Request) -> Result<Self> {
+        let solution = solve(&bat, &Request { theory: model.theory, ..*request })?;
+        Ok(Self { model, bat, solution })
+    }
+
+    /// Frequencies (Hz).
+    pub fn frequencies(&self) -> Vec<f64> {
+        self.solution.modes.iter().map(|mode| mode.frequency()).collect()
+    }
+
+    /// What it swings with as a rigid body: a line of mass without rotary inertia.
+    pub fn inertia(&self) -> Inertia {
+        let body = self.bat.inertia();
+        if self.model.theory.turns() { body } else { body.as_line() }
+    }
+
+    /// Whether mode k of this is mode k of that, as a part comes on or goes off little by little.
+    ///
+    /// Frequencies in their order go continuously then, but only together with the rigid motions at
+    /// 0 Hz: with as many of them the orders agree. An absorber brings a mode of its own; below its
+    /// own frequency it is a weight, and the orders agree there.
+    pub fn pairs_with(&self, that: &Self) -> bool {
+        let highest = |solved: &Self| solved.solution.modes.last().map_or(0.0, |mode| mode.omega);
+        let top = f64::max(highest(self), highest(that));
+        let [few, many] = match (&self.bat.fixtures().absorbers, &that.bat.fixtures().absorbers) {
+            (a, b) if a.len() < b.len() => [a, b],
+            (a, b) => [b, a],
+        };
+        let slow = many.iter().any(|a| (a.stiffness / a.mass).sqrt() <= top);
+        let added = many.len() > few.len() && slow;
+        self.solution.rigid_modes == that.solution.rigid_modes && !added
+    }
+}
+
+/// The models of one bat that were solved so far.
+#[derive(Debug)]
+pub struct Bench<'a> {
+    bat: &'a Bat,
+    request: Request,
+    solved: Vec<Rc<Solved>>,
+}
+
+impl<'a> Bench<'a> {
+    /// For so many modes, every frequency to that tolerance.
+    pub fn new(bat: &'a Bat, modes: usize, tolerance: f64) -> Self {
+        let request = Request { modes, tolerance, ..Request::plain() };
+        Self { bat, request, solved: Vec::new() }
+    }
+
+    /// The bat with everything on it.
+    pub fn bat(&self) -> &'a Bat {
+        self.bat
+    }
+
+    /// The modes of a model.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`solve`].
+    pub fn solve(&mut self, model: &Model) -> Result<Rc<Solved>> {
+        if let Some(known) = self.solved.iter().find(|known| known.model == *model) {
+            return Ok(Rc::clone(known));
+        }
+        let solved = Rc::new(Solved::new(model.clone(), model.bat(self.bat)?, &self.request)?);
+        self.solved.push(Rc::clone(&solved));
+        Ok(solved)
+    }
+
+    /// The modes of another bat in a model's place; not kept.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`solve`].
+    pub fn solve_instead(&self, model: &Model, bat: Bat) -> Result<Solved> {
+        Solved::new(model.clone(), bat, &self.request)
+    }
+}

@@ -1,0 +1,33 @@
+//! The physics of bats that no model here has.
+
+use sweetspot::bat::body::Bat;
+use sweetspot::collision::hoop_wall::CUP;
+
+/// What is out of scope, a sentence each, as far as it can matter to this bat.
+pub fn outside(bat: &Bat) -> Vec<String> {
+    let hollow = bat.profile().pieces.iter().any(|piece| {
+        let empty = bat.layup(piece).core.is_none() && piece.start < bat.length() - CUP;
+        empty && [0.0, 0.5, 1.0].iter().any(|s| piece.at(*s).inner > 0.0)
+    });
+    let mut outside = vec![
+        if hollow {
+            "hoop modes: the wall of this hollow bat also rings as a ring and gives way under \
+             the ball (trampoline effect); the sections of a beam stay round, but a hit counts \
+             these modes (--wall) and sweetspot hoop shows them"
+        } else {
+            "hoop modes of hollow barrels: sections stay round; this bat has no empty bore"
+        },
+        "anisotropy beyond E and G: a material has one E and one G along the bat; grain that runs \
+         off the axis, or bends differently along and across the rings, is not modelled",
+        "motion in other directions: the bat bends in one plane; twist and axial waves are left out",
+        "hands as a person: a grip is a bed of springs and dashpots; arms, their mass and muscles \
+         are not modelled",
+        "large motion: bending is linear in small deflections; the pull of the swing, which would \
+         change ω² by the order of the swing's own rate squared, is left out",
+        "contact: how knob and hand touch, and how wood dents under the ball, is not modelled",
+    ];
+    if !bat.fixtures().joints.is_empty() {
+        outside.push("joints with play: a joint is a linear spring without slack or friction");
+    }
+    outside.into_iter().map(str::to_owned).collect()
+}

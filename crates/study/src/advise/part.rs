@@ -1,0 +1,104 @@
+//! What is on a bat, kind by kind, and the bat without it.
+
+use sweetspot::bat::body::Bat;
+use sweetspot::bat::fixtures::{Attachment, Fixtures};
+
+/// A kind of thing that a model of a bat may have or leave out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum ModelPart {
+    /// The materials of `regions`; without them the bat's own is everywhere and bores are empty.
+    Materials,
+    /// Masses of `attachments`, with their offset and rotary inertia.
+    Weights,
+    /// Mass spread on the surface of a stretch.
+    Tapes,
+    /// Springs of `attachments` to the ground.
+    Springs,
+    /// Masses that hang on springs.
+    Absorbers,
+    /// Places that give way to bending.
+    Joints,
+    /// Pins and clamps.
+    Supports,
+    /// Hands, as the springs of an elastic bed.
+    Grip,
+}
+
+impl ModelPart {
+    /// All of them, in the order in which they are shown.
+    pub const ALL: [Self; 8] = [
+        Self::Materials,
+        Self::Weights,
+        Self::Tapes,
+        Self::Springs,
+        Self::Absorbers,
+        Self::Joints,
+        Self::Supports,
+        Self::Grip,
+    ];
+
+    /// The kinds that are attached to the bat or hold it in a rig.
+    pub const ATTACHED: [Self; 6] =
+        [Self::Weights, Self::Tapes, Self::Springs, Self::Absorbers, Self::Joints, Self::Supports];
+
+    /// What people and files call it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Materials => "other materials",
+            Self::Weights => "weights",
+            Self::Tapes => "tape",
+            Self::Springs => "springs to ground",
+            Self::Absorbers => "absorbers",
+            Self::Joints => "joints",
+            Self::Supports => "supports",
+            Self::Grip => "grip",
+        }
+    }
+
+    /// Whether the bat has any.
+    pub fn is_on(self, bat: &Bat) -> bool {
+        let fixtures = bat.fixtures();
+        match self {
+            Self::Materials => !fixtures.regions.is_empty(),
+            Self::Weights => fixtures.attachments.iter().any(weighs),
+            Self::Tapes => fixtures.tapes.iter().any(|tape| tape.mass > 0.0),
+            Self::Springs => fixtures.attachments.iter().any(springs),
+            Self::Absorbers => !fixtures.absorbers.is_empty(),
+            Self::Joints => !fixtures.joints.is_empty(),
+            Self::Supports => !fixtures.supports.is_empty(),
+            Self::Grip => fixtures.grip.is_some_and(|grip| grip.stiffness > 0.0),
+        }
+    }
+
+    /// Takes all of them off the bat; density and stiffness of the rest stay as they are.
+    pub fn take_off(self, fixtures: &mut Fixtures) {
+        match self {
+            Self::Materials => fixtures.regions.clear(),
+            Self::Tapes => fixtures.tapes.clear(),
+            Self::Weights => {
+                for a in &mut fixtures.attachments {
+                    (a.mass, a.offset, a.rotary_inertia) = (0.0, 0.0, 0.0);
+                }
+            }
+            Self::Springs => {
+                for a in &mut fixtures.attachments {
+                    (a.stiffness, a.rotational_stiffness) = (0.0, 0.0);
+                }
+            }
+            Self::Absorbers => fixtures.absorbers.clear(),
+            Self::Joints => fixtures.joints.clear(),
+            Self::Supports => fixtures.supports.clear(),
+            Self::Grip => fixtures.grip = None,
+        }
+        fixtures.attachments.retain(|a| weighs(a) || springs(a));
+    }
+}
+
+fn weighs(a: &Attachment) -> bool {
+    a.mass > 0.0 || a.rotary_inertia > 0.0
+}
+
+fn springs(a: &Attachment) -> bool {
+    a.stiffness > 0.0 || a.rotational_stiffness > 0.0
+}

@@ -1,0 +1,384 @@
+//! The bat that is to be changed: what does it become, and what are its goals then?
+//!
+//! The unknowns are the coefficients of the change of the diameter (mm), then one for each free choice besides
+//! the shape, in units of its own (see [`Extra`]).
+
+use crate::aim::limits::Limits;
+use crate::aim::spline::Splines;
+use crate::aim::wish::{FreeChoice, Goal, Wish};
+use crate::lathe::workpiece::{Care, HitTerms, Workpiece};
+use crate::many::answers::Answer;
+use crate::verdict::rigid_wall;
+use sweetspot::base::error::{Error, Result};
+use sweetspot::base::units::shown_length;
+use sweetspot::bat::body::Bat;
+use sweetspot::bat::fixtures::{Attachment, Fixtures};
+use sweetspot::bat::profile::SAME_PLACE;
+use sweetspot::bat::turned::DiameterChange;
+use sweetspot::collision::figures::SwingLaw;
+use sweetspot::collision::hit::Scene;
+use sweetspot::modes::solve::Request;
+
+/// How bats are computed: modes, hit, and the law by which a batter swings another bat.
+#[derive(Debug, Clone)]
+pub struct Terms {
+    /// Theory, and the accuracy of frequencies and exit speeds.
+    pub request: Request,
+    /// Swing, ball and model.
+    pub hit: HitTerms,
+    /// Where the swing of another bat is from; without it the swing is the same.
+    pub law: Option<SwingLaw>,
+}
+
+/// A free choice besides the shape. A change by one unit counts as much as so many millimetres of diameter all
+/// along the bat: less than what it does to the goals, so that it is taken before the shape is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Extra {
+    /// What may change.
+    pub what: ExtraKind,
+    /// One unit, in SI.
+    pub unit: f64,
+    /// What a unit counts as (mm).
+    pub cost: f64,
+    /// What it is now, in SI.
+    pub start: f64,
+    /// Least and greatest value, in SI.
+    pub range: [f64; 2],
+}
+
+/// What may change besides the shape.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ExtraKind {
+    /// Length of the bat (m), everything on it moving with it.
+    Length,
+    /// Density of the bat's own material (kg/m³).
+    Density,
+    /// A weight on the knob end (kg).
+    KnobWeight,
+}
+
+/// A bat, what of it may change, and what is asked of it.
+#[derive(Debug, Clone)]
+pub struct Bench {
+    bat: Bat,
+    terms: Terms,
+    splines: Splines,
+    extras: Vec<Extra>,
+    goals: Vec<Goal>,
+    changes: Vec<DiameterChange>,
+}
+
+/// A changed bat and its goals.
+pub struct Look {
+    /// Value of every goal; NaN where the bat has none.
+    pub values: Vec<f64>,
+    piece: Workpiece,
+    p: Vec<f64>,
+}
+
+impl Bench {
+    /// The bat with what a wish leaves free. Diameters are held to the limits where nothing may change.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] about a wish that leaves nothing free, or whose limits the bat breaks where it stays.
+    pub fn new(bat: &Bat, wish: &Wish, terms: Terms) -> Result<Self> {
+        let length = bat.length();
+        for (k, keep) in wish.keep.iter().enumerate() {
+            if !(keep[0] < keep[1] && keep[1] <= length * (1.0 + SAME_PLACE)) {
+                let found = format!("{} to {}", shown_length(keep[0]), shown_length(keep[1]));
+                let expected = format!("a stretch of the bat, 0 to {}", shown_length(length));
+                return Err(Error::value(format!("keep[{k}]"), found, expected));
+            }
+        }
+        let pointed = [0.0, length].map(|x| bat.profile().at(x).outer == 0.0);
+        let splines = Splines::beside(&wish.keep, length, pointed);
+        let extras = extras(&wish.free, bat);
+        if splines.is_empty() && extras.is_empty() {
+            let expected = "a stretch of more than 2 cm that may change";
+            return Err(Error::value("keep", "all of the bat", expected));
+        }
+        let free = |x: f64| splines.stretches().iter().any(|s| x > s[0] && x < s[1]);
+        let end = |x: f64| {
+            let at = |end: f64| splines.stretches().iter().any(|s| s.contains(&end));
+            (x == 0.0 && at(0.0)) || (x >= length && at(length))
+        };
+        Limits::new(wish, bat).check(|x| !(free(x) || end(x)))?;
+        let change = |curve: &super::spline::BSpline| {
+            DiameterChange::through(&curve.knots(), |x| 1e-3 * curve.at(x))
+        };
+        let changes = splines.basis().iter().map(change).collect();
+        let goals = wish.goals().into_iter().map(|(goal, _)| goal).collect();
+        Ok(Self { bat: bat.clone(), terms, splines, extras, goals, changes })
+    }
+
+    /// The bat as it is.
+    pub fn bat(&self) -> &Bat {
+        &self.bat
+    }
+
+    /// How bats are computed.
+    pub fn terms(&self) -> &Terms {
+        &self.terms
+    }
+
+    /// The curves that the diameter may change by.
+    pub fn splines(&self) -> &Splines {
+        &self.splines
+    }
+
+    /// What else may change.
+    pub fn extras(&self) -> &[Extra] {
+        &self.extras
+    }
+
+    /// What is asked.
+    pub fn goals(&self) -> &[Goal] {
+        &self.goals
+    }
+
+    /// How many unknowns there are.
+    pub fn unknowns(&self) -> usize {
+        self.splines.len() + self.extras.len()
+    }
+
+    /// Bats that a look with its slopes computes.
+    pub fn bats_of_slopes(&self) -> usize {
+        let of_hit = |goal: &Goal| match goal.answer() {
+            Answer::Node(_) | Answer::ModalMass(_) => true,
+            answer => answer.of_a_hit(),
+        };
+        let shape = if self.goals.iter().any(of_hit) { 2 * self.splines.len() } else { 0 };
+        shape + 2 * self.extras.len()
+    }
+
+    /// The value of a free choice, in SI.
+    pub fn extra(&self, p: &[f64], k: usize) -> f64 {
+        /// Nearer to its start than this share of a unit it is there: the program knows it no better.
+        const NEAR: f64 = 1e-6;
+        let (extra, by) = (&self.extras[k], p[self.splines.len() + k]);
+        let by = if by.abs() < NEAR { 0.0 } else { by };
+        (extra.start + by * extra.unit).clamp(extra.range[0], extra.range[1])
+    }
+
+    /// The bat with other free choices, its shape but for its length as it is.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Bat::with`].
+    pub fn rechosen(&self, bat: &Bat, p: &[f64]) -> Result<Bat> {
+        let mut made = bat.clone();
+        for (k, extra) in self.extras.iter().enumerate() {
+            let value = self.extra(p, k);
+            made = match extra.what {
+                ExtraKind::Density => made.with(|parts| parts.material.density = value)?,
+                ExtraKind::KnobWeight if value <= 0.0 => made,
+                ExtraKind::KnobWeight => made.with(|parts| {
+                    let weight = Attachment { mass: value, ..Attachment::default() };
+                    parts.fixtures.attachments.push(weight);
+                })?,
+                ExtraKind::Length => stretched(&made, value / extra.start)?,
+            };
+        }
+        Ok(made)
+    }
+
+    /// How much longer the bat is by its free choices, as a factor.
+    pub fn stretch(&self, p: &[f64]) -> f64 {
+        let length = self.extras.iter().position(|extra| extra.what == ExtraKind::Length);
+        length.map_or(1.0, |k| self.extra(p, k) / self.extras[k].start)
+    }
+
+    /// The changed bat.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Bat::turned`] and [`Bat::with`].
+    pub fn changed(&self, p: &[f64]) -> Result<Bat> {
+        let change = self.change(p);
+        let turned = match change.stretches().is_empty() {
+            true => self.bat.clone(),
+            false => self.bat.turned(&change)?,
+        };
+        self.rechosen(&turned, p)
+    }
+
+    /// The change of the diameter (m), on the bat in its own length.
+    pub fn change(&self, p: &[f64]) -> DiameterChange {
+        let parts: Vec<(f64, &DiameterChange)> =
+            p.iter().copied().zip(&self.changes).filter(|(p, _)| *p != 0.0).collect();
+        DiameterChange::sum(&parts)
+    }
+
+    /// The changed bat with its goals.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Workpiece::new`].
+    pub fn look(&self, p: &[f64]) -> Result<Look> {
+        let bat = self.changed(p)?;
+        let answers: Vec<Answer> = self.goals.iter().map(|goal| goal.answer()).collect();
+        let piece = self.workpiece(&bat, &answers, self.stretch(p))?;
+        let values = self.values(&piece);
+        Ok(Look { values, piece, p: p.to_vec() })
+    }
+
+    /// The goals of a bat that was not made by the unknowns, such as one that was written.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::look`].
+    pub fn of(&self, bat: &Bat) -> Result<Vec<f64>> {
+        let answers: Vec<Answer> = self.goals.iter().map(|goal| goal.answer()).collect();
+        Ok(self.values(&self.piece_of(bat, &answers)?))
+    }
+
+    /// Any answers of any bat, swung as the terms say.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::look`].
+    pub fn piece_of(&self, bat: &Bat, answers: &[Answer]) -> Result<Workpiece> {
+        Workpiece::new(bat, &[], &self.terms.request, Some(&self.swung(bat)), answers)
+    }
+
+    fn workpiece(&self, bat: &Bat, answers: &[Answer], stretch: f64) -> Result<Workpiece> {
+        let borders: Vec<f64> = self.splines.knots().iter().map(|x| x * stretch).collect();
+        Workpiece::new(bat, &borders, &self.terms.request, Some(&self.swung(bat)), answers)
+    }
+
+    /// Why the wall of a hollow barrel is rigid in the hits of that bat; None where it would change little.
+    pub fn rigid_wall(&self, bat: &Bat) -> Option<String> {
+        let scene = &self.terms.hit.scene;
+        rigid_wall(bat, &Scene { hoop: scene.hoop.left_out(), ..scene.clone() })
+    }
+
+    /// How that bat is swung.
+    fn swung(&self, bat: &Bat) -> HitTerms {
+        let mut hit = self.terms.hit.clone();
+        if let Some(law) = self.terms.law {
+            hit.scene.swing = law.swing(bat);
+        }
+        hit
+    }
+
+    fn values(&self, piece: &Workpiece) -> Vec<f64> {
+        let length = piece.bat().length();
+        let value = |(goal, figure): (&Goal, &Option<_>)| {
+            let figure: &Option<crate::comparison::contender::Figure> = figure;
+            goal.of(figure.map_or(f64::NAN, |figure| figure.value), length)
+        };
+        self.goals.iter().zip(piece.values()).map(value).collect()
+    }
+
+    /// How the goals change with the unknowns: a row for each goal.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Workpiece::slopes`].
+    pub fn slopes(&self, look: &Look) -> Result<Vec<Vec<f64>>> {
+        let stretch = self.stretch(&look.p);
+        let along = |curve: &super::spline::BSpline| {
+            let knots: Vec<f64> = curve.knots().iter().map(|x| x * stretch).collect();
+            DiameterChange::through(&knots, |x| 1e-3 * curve.at(x / stretch))
+        };
+        let changes: Vec<DiameterChange> = match stretch == 1.0 {
+            true => self.changes.clone(),
+            false => self.splines.basis().iter().map(along).collect(),
+        };
+        let exponent = self.terms.law.map_or(0.0, |law| law.exponent);
+        let mut rows = vec![vec![]; self.goals.len()];
+        for slopes in look.piece.slopes(&changes, Care::OneStep)? {
+            for ((row, goal), slope) in
+                rows.iter_mut().zip(&self.goals).zip(slopes.by_law(exponent))
+            {
+                row.push(goal.slope() * slope.map_or(0.0, |slope| slope.value));
+            }
+        }
+        for k in 0..self.extras.len() {
+            for (row, slope) in rows.iter_mut().zip(self.slope_of_extra(look, k)?) {
+                row.push(slope);
+            }
+        }
+        Ok(rows)
+    }
+
+    /// A difference of two bats with another free choice.
+    fn slope_of_extra(&self, look: &Look, k: usize) -> Result<Vec<f64>> {
+        /// Step, in units of the choice.
+        const STEP: f64 = 0.02;
+        let at = self.splines.len() + k;
+        let moved = |by: f64| -> Result<(f64, Vec<f64>)> {
+            let mut p = look.p.clone();
+            p[at] += by;
+            let extra = &self.extras[k];
+            // A choice at the end of its range is left to one side.
+            let value = self.extra(&p, k);
+            p[at] = (value - extra.start) / extra.unit;
+            let bat = self.changed(&p)?;
+            Ok((p[at], self.of(&bat)?))
+        };
+        let ((from, behind), (to, ahead)) = (moved(-STEP)?, moved(STEP)?);
+        let slope = |(a, b): (f64, f64)| if to > from { (b - a) / (to - from) } else { 0.0 };
+        let finite = |slope: f64| if slope.is_finite() { slope } else { 0.0 };
+        Ok(behind.into_iter().zip(ahead).map(slope).map(finite).collect())
+    }
+}
+
+/// What else may change, of that bat.
+fn extras(free: &FreeChoice, bat: &Bat) -> Vec<Extra> {
+    /// An inch, a twentieth of the density, an ounce; what each counts as.
+    const COSTS: [f64; 3] = [0.2, 0.1, 0.1];
+    let density = bat.material().density;
+    let length = free.length.map(|range| Extra {
+        what: ExtraKind::Length,
+        unit: 0.0254,
+        cost: COSTS[0],
+        start: bat.length(),
+        range,
+    });
+    let density = free.density.map(|range| Extra {
+        what: ExtraKind::Density,
+        unit: 0.05 * density,
+        cost: COSTS[1],
+        start: density,
+        range,
+    });
+    let knob = free.knob_weight.map(|most| Extra {
+        what: ExtraKind::KnobWeight,
+        unit: 0.028_349_523_125,
+        cost: COSTS[2],
+        start: 0.0,
+        range: [0.0, most],
+    });
+    // The length last: what is on the bat moves with it.
+    density.into_iter().chain(knob).chain(length).collect()
+}
+
+/// The bat made longer by a factor, everything on it moving with it.
+fn stretched(bat: &Bat, by: f64) -> Result<Bat> {
+    if by == 1.0 {
+        return Ok(bat.clone());
+    }
+    bat.with(|parts| {
+        let profile = &mut parts.profile;
+        for piece in &mut profile.pieces {
+            piece.start *= by;
+            piece.length *= by;
+        }
+        profile.stations.x.iter_mut().for_each(|x| *x *= by);
+        profile.formulas = None;
+        let Fixtures { regions, attachments, tapes, absorbers, joints, supports, grip } =
+            &mut parts.fixtures;
+        let ends = regions.iter_mut().flat_map(|r| [&mut r.from, &mut r.to]);
+        let taped = tapes.iter_mut().flat_map(|t| [&mut t.from, &mut t.to]);
+        let places = attachments.iter_mut().map(|a| &mut a.x);
+        let hung = absorbers.iter_mut().map(|a| &mut a.x);
+        let joined = joints.iter_mut().map(|j| &mut j.x);
+        let held = supports.iter_mut().map(|s| &mut s.x);
+        let gripped = grip.iter_mut().map(|g| &mut g.to);
+        let all =
+            ends.chain(taped).chain(places).chain(hung).chain(joined).chain(held).chain(gripped);
+        all.for_each(|x| *x *= by);
+    })
+}

@@ -1,0 +1,124 @@
+//! Which of the targets cannot be had together, and how near can each come?
+//!
+//! Judged from the bat as it is: linearised far from it, what can be had looks impossible. One band after the
+//! other is left out; those without which the others still cannot be met stay out. What remains is a smallest
+//! conflict: without any of its members the others can be met.
+
+use crate::aim::search::{Found, MISSED, Search, Weights};
+use crate::aim::wish::Band;
+use sweetspot::base::error::Result;
+use sweetspot::base::threads;
+
+/// A smallest set of bands that cannot be met together.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Conflict {
+    /// How near each member comes.
+    pub members: Vec<Reach>,
+    /// Numbers of the bands that are no part of it and are missed where a member comes nearest.
+    pub aside: Vec<usize>,
+    /// Bats that were computed for it.
+    pub bats: usize,
+}
+
+/// How near a band comes, the other members met.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reach {
+    /// Number of the band.
+    pub band: usize,
+    /// The nearest value, in SI.
+    pub value: f64,
+    /// Whether the others are met there.
+    pub others_met: bool,
+    /// Whether the search stood still there: nothing nearer is beside it.
+    pub settled: bool,
+}
+
+/// Whether a search has missed one of these bands.
+pub fn missed(found: &Found, bands: &[Band], of: &[bool]) -> bool {
+    let misses = bands.iter().zip(&found.values).zip(of).filter(|(_, of)| **of);
+    misses.into_iter().any(|((band, value), _)| band.miss(*value) > MISSED)
+}
+
+impl Conflict {
+    /// The conflict of bands that a search has missed, and the bats in which each member comes nearest.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Search::from`].
+    pub fn of(search: &Search, bands: &[Band], found: &Found) -> Result<(Self, Vec<Found>)> {
+        let start = vec![0.0; found.p.len()];
+        let mut stay = vec![true; bands.len()];
+        let mut nearest_yet = found.p.clone();
+        let mut bats = 0;
+        // What neither binds nor is missed is no part of it, most likely: it is left out first.
+        let mut order: Vec<usize> = (0..bands.len()).collect();
+        let idle =
+            |k: &usize| found.prices[*k].abs() > 1e-6 || bands[*k].miss(found.values[*k]) > 0.0;
+        order.sort_by_key(idle);
+        for k in order {
+            let mut without = stay.clone();
+            without[k] = false;
+            if without.iter().any(|stays| *stays) {
+                let weights = some(&Weights::met(bands.len()), &without);
+                let tried = search.meets(&start, bands, &weights)?;
+                bats += tried.bats;
+                if missed(&tried, bands, &without) {
+                    (stay, nearest_yet) = (without, tried.p);
+                }
+            }
+        }
+        let members: Vec<usize> = (0..bands.len()).filter(|k| stay[*k]).collect();
+        // How near each comes is sought from where all of them come nearest together.
+        let reached = threads::map(members.len(), |j| {
+            search.from(&nearest_yet, bands, &nearest(&stay, members[j]))
+        });
+        let reached: Vec<Found> = reached.into_iter().collect::<Result<_>>()?;
+        let reach = |(k, reached): (&usize, &Found)| {
+            bats += reached.bats;
+            let mut others = stay.clone();
+            others[*k] = false;
+            let others_met = !missed(reached, bands, &others);
+            let (value, settled) = (reached.values[*k], reached.stopped.is_none());
+            Reach { band: *k, value, others_met, settled }
+        };
+        let members = members.iter().zip(&reached).map(reach).collect();
+        let out = |k: &usize| {
+            let missed = |found: &Found| bands[*k].miss(found.values[*k]) > MISSED;
+            !stay[*k] && reached.iter().any(missed)
+        };
+        let aside = (0..bands.len()).filter(out).collect();
+        Ok((Self { members, aside, bats }, reached))
+    }
+
+    /// Weights by which everything else is met and the members come as near as they can together, each by its
+    /// tolerance.
+    pub fn nearest(&self, bands: usize) -> Weights {
+        const OTHERS: f64 = 100.0;
+        let mut weights = Weights::met(bands);
+        for (k, price) in weights.miss.iter_mut().enumerate() {
+            if self.members.iter().all(|member| member.band != k) {
+                *price *= OTHERS;
+            }
+        }
+        weights
+    }
+}
+
+/// Those weights for some of the bands only.
+fn some(weights: &Weights, of: &[bool]) -> Weights {
+    let price = |(price, of): (&f64, &bool)| if *of { *price } else { 0.0 };
+    Weights { miss: weights.miss.iter().zip(of).map(price).collect(), ..*weights }
+}
+
+/// Weights by which the others are met first, then band k comes as near as it can, and the size of the change
+/// hardly counts.
+fn nearest(of: &[bool], k: usize) -> Weights {
+    const SIZE: f64 = 1e-6;
+    const OTHERS: f64 = 1e3;
+    let price = |(j, of): (usize, &bool)| match *of {
+        _ if j == k => 1.0,
+        true => OTHERS,
+        false => 0.0,
+    };
+    Weights { size: SIZE, miss: of.iter().enumerate().map(price).collect() }
+}

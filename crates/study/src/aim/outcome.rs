@@ -1,0 +1,482 @@
+//! The bat that meets a wish, or comes nearest to it.
+//!
+//! [`Outcome::of`] searches the least change, writes it with rounded stations and computes the goals of the bat
+//! that is written. A least change lies on the edge of its tolerances, so that rounding may take it out: the
+//! stations are then rounded anew, aside by what the last ones were off, and if that does not do, the search is
+//! made anew with bands that are moved by as much.
+
+use crate::aim::bench::{Bench, Extra, Terms};
+use crate::aim::conflict::{Conflict, missed};
+use crate::aim::laying::Station;
+use crate::aim::limits::{KEPT, Limits, section};
+use crate::aim::rounding::{Rounded, Rounding};
+use crate::aim::rules::{Rule, Ruled};
+use crate::aim::search::{Found, MISSED, Search, Weights};
+use crate::aim::wish::{Band, Grid, Wish};
+use crate::many::answers::Answer;
+use sweetspot::base::error::{Error, Result};
+use sweetspot::base::golden;
+use sweetspot::bat::body::Bat;
+
+/// What came of a wish.
+#[derive(Debug, Clone)]
+pub struct Outcome {
+    /// The bat as it was.
+    pub start: Bat,
+    /// The bat as it is written.
+    pub bat: Bat,
+    /// The stations of the bat that is written.
+    pub stations: Vec<Station>,
+    /// How they were laid.
+    pub grid: Grid,
+    /// How many times finer than it was wished they are rounded, so that every goal is met.
+    pub finer: f64,
+    /// What each goal may be.
+    pub bands: Vec<Band>,
+    /// What each goal is, of the bat that is written.
+    pub values: Vec<f64>,
+    /// How much the norm of the change (mm) would be less if the goal's bound gave way by one SI unit; 0 where
+    /// it does not bind, None where the change is not a least one that meets all goals.
+    pub prices: Vec<Option<f64>>,
+    /// Whether every goal is met and every limit and rule kept by the bat that is written.
+    pub met: bool,
+    /// The targets that cannot be had together.
+    pub conflict: Option<Conflict>,
+    /// Root of `mean(d²) + ℓ⁴ mean(d″²)` of the change d of the diameter (mm).
+    pub norm: f64,
+    /// Quadratic programs of the search.
+    pub iterations: usize,
+    /// Bats that were computed, all in all.
+    pub bats: usize,
+    /// Why the search ended before it stood still.
+    pub stopped: Option<&'static str>,
+    /// How far a limit of the diameter is broken (m); 0 where all are kept.
+    pub broken: f64,
+    /// How far the diameter moved where the bat is kept (m).
+    pub kept_within: f64,
+    /// Greatest slope of the surface where it is changed, if that is limited: radius over length.
+    pub slope: Option<f64>,
+    /// How much steeper the surface is anywhere than it may be, radius over length; 0 where it is not, or
+    /// nothing limits it.
+    pub steeper: f64,
+    /// Whether wood was only taken off.
+    pub remove_only: bool,
+    /// What else was chosen, with its value in SI.
+    pub extras: Vec<(Extra, f64)>,
+    /// The wood that was chosen.
+    pub wood: Option<String>,
+    /// Main answers before and after.
+    pub answers: Vec<(Answer, [Option<f64>; 2])>,
+    /// The rules, with what the bat has, and whether it keeps them.
+    pub rules: Vec<Ruled>,
+    /// Why the wall of a hollow barrel is rigid in the hits; None where it matters to none.
+    pub rigid_wall: Option<String>,
+}
+
+/// What is told of every bat before and after.
+const TOLD: [Answer; 10] = [
+    Answer::Mass,
+    Answer::BalancePoint,
+    Answer::Inertia,
+    Answer::Frequency(1),
+    Answer::Frequency(2),
+    Answer::Frequency(3),
+    Answer::Node(1),
+    Answer::Node(2),
+    Answer::ExitSpeed,
+    Answer::ExitSpeedPlace,
+];
+/// How often the search is made anew at most, where rounding has taken the bat out of its bands.
+const ANEW: usize = 4;
+/// How many times finer the stations are rounded where no rounding as it was wished leaves the goals in their bands:
+/// two that bind at once may leave less room than a tenth of a millimetre takes.
+const FINER: [f64; 4] = [1.0, 10.0, 100.0, 1000.0];
+
+/// The least change of one bat, before it is written.
+struct Least {
+    bench: Bench,
+    found: Found,
+    /// Worst miss, in tolerances.
+    miss: f64,
+    norm: f64,
+    wood: Option<String>,
+}
+
+impl Outcome {
+    /// The least change of the bat that meets the wish, written with rounded stations.
+    ///
+    /// ```
+    /// use sweetspot::bat::theory::Theory;
+    /// use sweetspot::collision::{Model, Scene};
+    /// use crate::aim::bench::Terms;
+    /// use crate::aim::outcome::Outcome;
+    /// use crate::aim::wish::{Amount, Ask, Goal, Target, Wish};
+    /// use crate::lathe::workpiece::HitTerms;
+    /// use crate::many::answers::Answer;
+    /// use sweetspot::{Bat, Request};
+    ///
+    /// # fn main() -> sweetspot::Result<()> {
+    /// # let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
+    /// #     "profile": { "unit": "in", "x": [0, 1.5, 3, 6, 12, 18, 24, 30, 33],
+    /// #                  "diameter": [1.8, 1.0, 0.95, 0.95, 1.1, 1.5, 2.2, 2.5, 2.5] } }"#;
+    /// # let bat = Bat::from_text("bat.json", text, "".as_ref())?;
+    /// let request = Request { theory: Theory::Timoshenko, ..Request::default() };
+    /// let hit = HitTerms { scene: Scene::default(), model: Model::Contact, exactly: false };
+    /// let terms = Terms { request, hit, law: None };
+    /// // 3 % less swing weight, and the first frequency within half a hertz of what it was.
+    /// let lighter = Ask::Change(Amount::Share(-0.03), Some(Amount::Share(0.001)));
+    /// let same = Ask::Change(Amount::Si(0.0), Some(Amount::Si(0.5)));
+    /// let targets = vec![
+    ///     Target { goal: Goal::Answer(Answer::Inertia), ask: lighter },
+    ///     Target { goal: Goal::Answer(Answer::Frequency(1)), ask: same },
+    /// ];
+    /// let wish = Wish { targets, remove_only: true, ..Wish::default() };
+    /// let outcome = Outcome::of(&bat, &wish, &terms)?;
+    /// assert!(outcome.met && outcome.conflict.is_none());
+    /// assert!(outcome.bat.inertia().about(0.1524) < 0.972 * bat.inertia().about(0.1524));
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] about a wish that contradicts itself or the bat; those of [`sweetspot::solve()`] and of a
+    /// hit.
+    pub fn of(bat: &Bat, wish: &Wish, terms: &Terms) -> Result<Self> {
+        if wish.goals().is_empty() {
+            let expected = "one target at least, such as \"swing weight -3 %\"";
+            return Err(Error::value("targets", "no target", expected));
+        }
+        let wish = &wish.of_bat(bat);
+        let bench = Bench::new(bat, wish, terms.clone())?;
+        let start = bench.look(&vec![0.0; bench.unknowns()])?.values;
+        if let Some(k) = start.iter().position(|value| !value.is_finite()) {
+            let found = format!("{}, which this bat has not", bench.goals()[k].name());
+            return Err(Error::value(format!("targets[{k}].name"), found, "what this bat has"));
+        }
+        let bands = wish.bands(&start, bat)?;
+        let mut least = least(bench, wish, &bands, None)?;
+        for wood in &wish.free.woods {
+            let other = bat.with(|parts| parts.material = wood.clone())?;
+            let bench = Bench::new(&other, wish, terms.clone())?;
+            let tried = self::least(bench, wish, &bands, wood.name.clone())?;
+            let better =
+                (tried.miss.max(MISSED), tried.norm) < (least.miss.max(MISSED), least.norm);
+            if better {
+                least = tried;
+            }
+        }
+        Writing { wish, bands, bat, grid: wish.grid(bat) }.outcome(least)
+    }
+
+    /// Takes the bat as it was read from the file that was written, and computes its goals anew.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Bench::of`].
+    pub fn read_back(mut self, written: Bat, wish: &Wish, terms: &Terms) -> Result<Self> {
+        let bench = Bench::new(&self.start, wish, terms.clone())?;
+        self.values = bench.of(&written)?;
+        self.bat = written;
+        self.answers = told(&bench, &self.start, &self.bat)?;
+        self.rules = rules(wish, &self.bat, &bench)?;
+        self.judge();
+        Ok(self)
+    }
+
+    fn is_met(&self) -> bool {
+        self.targets_met()
+            && self.broken <= KEPT
+            && self.steeper <= KEPT
+            && self.broken_rules() == 0
+    }
+
+    /// Says whether it is met; targets that are met are in no conflict.
+    fn judge(&mut self) {
+        self.met = self.is_met();
+        if self.targets_met() {
+            self.conflict = None;
+        }
+    }
+
+    /// Whether every target, and every rule that is one, is met.
+    pub fn targets_met(&self) -> bool {
+        self.bands.iter().zip(&self.values).all(|(band, value)| band.has(*value))
+    }
+
+    /// How many rules are broken.
+    pub fn broken_rules(&self) -> usize {
+        self.rules.iter().filter(|(.., kept)| *kept == Some(false)).count()
+    }
+
+    /// Where a section that was cut has least of its strength in bending left, and the share that is left: the
+    /// section modulus `π (d⁴ − d_i⁴) / (32 d)` of a round section of that diameter and bore, after over before.
+    pub fn weakest(&self) -> Option<(f64, f64)> {
+        let modulus = |across: f64, bore: f64| (across.powi(4) - bore.powi(4)) / across;
+        let left = |station: &Station| {
+            let [old, new] = [station.old, station.new].map(|d| modulus(d, 2.0 * station.inner));
+            new / old
+        };
+        let cut = self.stations.iter().filter(|station| station.new < station.old);
+        cut.map(|station| (station.x, left(station))).min_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// The greatest diameter of the bat that is written (m).
+    pub fn widest(&self) -> f64 {
+        let radii = &self.bat.profile().stations.outer;
+        2.0 * radii.iter().fold(0.0_f64, |a, b| a.max(*b))
+    }
+
+    /// The largest amount taken off a diameter, and the largest put on (m).
+    pub fn largest(&self) -> [f64; 2] {
+        let changes = self.stations.iter().map(|station| station.new - station.old);
+        changes.fold([0.0, 0.0], |[off, on]: [f64; 2], by| [off.max(-by), on.max(by)])
+    }
+}
+
+/// The least change on that bench.
+fn least(bench: Bench, wish: &Wish, bands: &[Band], wood: Option<String>) -> Result<Least> {
+    let limits = Limits::new(wish, bench.bat());
+    let search = Search::new(&bench, &limits);
+    let start = vec![0.0; bench.unknowns()];
+    let found = search.from(&start, bands, &Weights::met(bands.len()))?;
+    let norm = search.norm(&found.p);
+    let misses = bands.iter().zip(&found.values).map(|(band, value)| band.miss(*value));
+    let miss = misses.fold(0.0, f64::max);
+    drop(search);
+    Ok(Least { bench: bench.clone(), found, miss, norm, wood })
+}
+
+/// What is needed to write a change.
+struct Writing<'a> {
+    wish: &'a Wish,
+    bands: Vec<Band>,
+    bat: &'a Bat,
+    grid: Grid,
+}
+
+/// A least change that is to be rounded, and whether once will do.
+#[derive(Clone, Copy)]
+struct Tries<'a> {
+    bench: &'a Bench,
+    limits: &'a Limits<'a>,
+    first: &'a Found,
+    once: bool,
+}
+
+impl Writing<'_> {
+    fn outcome(self, least: Least) -> Result<Outcome> {
+        let Least { bench, mut found, wood, .. } = least;
+        let all = vec![true; self.bands.len()];
+        let limits = Limits::new(self.wish, bench.bat());
+        let search = Search::new(&bench, &limits);
+        let mut conflict = None;
+        if missed(&found, &self.bands, &all) {
+            (found, conflict) = self.nearest(&bench, &search, found)?;
+        }
+        let norm = search.norm(&found.p);
+        let prices = self.prices(&found, norm);
+        let mut bats = found.bats + conflict.as_ref().map_or(0, |conflict| conflict.bats);
+        let iterations = found.iterations;
+        let first = found;
+        let (mut best, mut stopped) = (None::<Rounded>, first.stopped);
+        for finer in FINER {
+            if best.as_ref().is_some_and(|best| best.worst <= 1e-9 || conflict.is_some()) {
+                break;
+            }
+            let tries =
+                Tries { bench: &bench, limits: &limits, first: &first, once: conflict.is_some() };
+            let (rounded, by, tried) = self.rounded(&tries, finer)?;
+            bats += tried;
+            if best.as_ref().is_none_or(|best| best.worst > rounded.worst) {
+                (best, stopped) = (Some(rounded), by);
+            }
+        }
+        let rounded = best.expect("one draft at least was made");
+        let Rounded { draft, grid, values, p, norm: written, steeper, .. } = rounded;
+        let extras = bench.extras().iter().enumerate();
+        let extras = extras.map(|(k, extra)| (*extra, bench.extra(&p, k))).collect();
+        let stretch = bench.stretch(&p);
+        let free = bench.splines().stretches().iter().map(|s| s.map(|end| end * stretch));
+        let kept_within =
+            moved_beside(&free.collect::<Vec<_>>(), &bench.rechosen(bench.bat(), &p)?, &draft.bat);
+        let broken = draft.broken.iter().map(|broken| broken.by.abs()).fold(0.0, f64::max);
+        let bat = draft.bat.with(|parts| self.name(parts))?;
+        let mut outcome = Outcome {
+            start: self.bat.clone(),
+            answers: told(&bench, self.bat, &bat)?,
+            rules: rules(self.wish, &bat, &bench)?,
+            rigid_wall: bench.rigid_wall(&bat),
+            bat,
+            stations: draft.stations,
+            grid,
+            finer: self.grid.round / grid.round,
+            bands: self.bands,
+            values,
+            prices,
+            met: false,
+            conflict,
+            norm: written,
+            iterations,
+            bats,
+            stopped,
+            broken,
+            kept_within,
+            slope: self.wish.slope,
+            steeper,
+            remove_only: self.wish.remove_only,
+            extras,
+            wood,
+        };
+        outcome.judge();
+        Ok(outcome)
+    }
+
+    /// The best rounding of a least change so many times finer than it was wished, why its search stopped, and the
+    /// bats that were computed. Where a rounding takes a goal out, the change is sought anew in narrower bands.
+    fn rounded(&self, tries: &Tries, finer: f64) -> Result<(Rounded, Option<&'static str>, usize)> {
+        /// So far inside its band a goal is sought anew, in tolerances.
+        const INSIDE: f64 = 0.25;
+        let Tries { bench, limits, first, once } = *tries;
+        let (wanted, grid) = (&self.bands, Grid { round: self.grid.round / finer, ..self.grid });
+        let rounding = Rounding { bench, limits, bands: wanted, grid, finer };
+        let (mut bands, mut gentler) = (wanted.clone(), limits.clone());
+        let (mut found, mut bats) = (first.clone(), 0);
+        let mut best: Option<(Rounded, Option<&'static str>)> = None;
+        for again in 1..=ANEW {
+            let search = Search::new(bench, &gentler);
+            let (rounded, off) = rounding.of(&found, search.norm(&found.p))?;
+            bats += rounded.drafts;
+            gentler.gentler_by(1.2 * rounded.steeper);
+            if best.as_ref().is_none_or(|(best, _)| best.worst > rounded.worst) {
+                best = Some((rounded, found.stopped));
+            }
+            if again == ANEW || once || best.as_ref().is_some_and(|(best, _)| best.worst <= 1e-9) {
+                break;
+            }
+            // The search anew, for goals that rounding then puts where they are to be.
+            for ((band, of), off) in bands.iter_mut().zip(wanted).zip(&off) {
+                let by = off * of.scale;
+                // Finer digits need a part of what they moved the goal by, then more of it.
+                let share = again as f64 / ANEW as f64;
+                let room = match finer > 1.0 {
+                    true => (share * share * off.abs()).min(INSIDE / finer),
+                    false => INSIDE,
+                };
+                let inside = (room * of.scale).min(INSIDE * (of.high - of.low));
+                band.low = of.low - by + inside;
+                band.high = of.high - by - inside;
+            }
+            let search = Search::new(bench, &gentler);
+            found = search.from(&found.p, &bands, &Weights::met(bands.len()))?;
+            bats += found.bats;
+        }
+        let (rounded, stopped) = best.expect("one draft at least was made");
+        Ok((rounded, stopped, bats))
+    }
+
+    /// The nearest bat to bands that a search has missed, and their conflict: None where the bat that is found
+    /// beside it meets them all.
+    fn nearest(
+        &self,
+        bench: &Bench,
+        search: &Search,
+        found: Found,
+    ) -> Result<(Found, Option<Conflict>)> {
+        let bands = &self.bands;
+        let (conflict, mut known) = Conflict::of(search, bands, &found)?;
+        let before = found.bats;
+        if conflict.members.len() < bands.len() {
+            let start = vec![0.0; bench.unknowns()];
+            let weighted = search.from(&start, bands, &conflict.nearest(bands.len()))?;
+            known.insert(0, Found { bats: before + weighted.bats, ..weighted });
+        }
+        known.insert(0, found);
+        let nearest = |a: &Found, b: &Found| total(bands, a).total_cmp(&total(bands, b));
+        let bats = known.iter().map(|found| found.bats).max().unwrap_or(0);
+        let best = known.into_iter().min_by(nearest).expect("one was found");
+        let all = vec![true; bands.len()];
+        if missed(&best, bands, &all) {
+            return Ok((Found { bats, ..best }, Some(conflict)));
+        }
+        let least = search.from(&best.p, bands, &Weights::met(bands.len()))?;
+        let bats = bats + conflict.bats + least.bats;
+        Ok((Found { bats, ..least }, None))
+    }
+
+    fn name(&self, parts: &mut sweetspot::bat::body::Parts) {
+        parts.name = format!("{}, aimed", self.bat.name());
+    }
+
+    /// What the norm would be less by, per SI unit of each goal: of a least change only, which a bat that misses
+    /// something, one that is hardly changed and one at which the search stopped short are not.
+    fn prices(&self, found: &Found, norm: f64) -> Vec<Option<f64>> {
+        /// A change of less than that (mm) is none.
+        const NONE: f64 = 1e-3;
+        let all = vec![true; self.bands.len()];
+        let least = !missed(found, &self.bands, &all) && found.stopped.is_none() && norm > NONE;
+        let of = |(k, band): (usize, &Band)| {
+            let price = found.prices[k].abs() / (2.0 * norm) / band.scale;
+            least.then_some(if found.prices[k].abs() > 1e-6 { price } else { 0.0 })
+        };
+        self.bands.iter().enumerate().map(of).collect()
+    }
+}
+
+/// All that a bat misses, in tolerances: of two bats the one with less of it is nearer.
+fn total(bands: &[Band], found: &Found) -> f64 {
+    bands.iter().zip(&found.values).map(|(band, value)| band.miss(*value)).sum()
+}
+
+/// The largest difference of two bats' diameters beside the stretches that may change (m): between any two stations of
+/// either the two curves are cubics, and the largest is sought between the nearest places of a close look.
+fn moved_beside(free: &[[f64; 2]], old: &Bat, new: &Bat) -> f64 {
+    const PLACES: usize = 16;
+    let length = old.length();
+    let mut borders =
+        [old.profile().borders(), new.profile().borders(), vec![0.0, length]].concat();
+    borders.extend(free.iter().flatten());
+    borders.retain(|x| (0.0..=length).contains(x));
+    borders.sort_by(f64::total_cmp);
+    let kept = |x: f64| !free.iter().any(|s| x > s[0] && x < s[1]);
+    let mut most: f64 = 0.0;
+    for ends in borders.windows(2).filter(|ends| ends[1] > ends[0]) {
+        let (from, to) = (ends[0], ends[1]);
+        let inside = 0.5 * (from + to);
+        if !kept(inside) {
+            continue;
+        }
+        let by = |x: f64| {
+            let [a, b] = [old, new].map(|bat| section(bat.profile(), x, inside).outer);
+            2.0 * (a - b).abs()
+        };
+        let place = |k: usize| from + (to - from) * k as f64 / PLACES as f64;
+        let nearest = (0..=PLACES).max_by(|a, b| by(place(*a)).total_cmp(&by(place(*b))));
+        let k = nearest.unwrap_or_default();
+        let around = [place(k.saturating_sub(1)), place((k + 1).min(PLACES))];
+        let top = golden::least(around[0], around[1], |x| -by(x));
+        most = most.max(by(top)).max(by(place(k)));
+    }
+    most
+}
+
+/// The main answers of both bats, swung alike.
+fn told(bench: &Bench, start: &Bat, bat: &Bat) -> Result<Vec<(Answer, [Option<f64>; 2])>> {
+    let of = |bat: &Bat| -> Result<Vec<Option<f64>>> {
+        let piece = bench.piece_of(bat, &TOLD)?;
+        Ok(piece.values().iter().map(|figure| figure.map(|figure| figure.value)).collect())
+    };
+    let (before, after) = (of(start)?, of(bat)?);
+    let both = before.into_iter().zip(after).map(|(a, b)| [a, b]);
+    Ok(TOLD.into_iter().zip(both).collect())
+}
+
+/// The rules, with what the bat has of the matter of each.
+fn rules(wish: &Wish, bat: &Bat, bench: &Bench) -> Result<Vec<Ruled>> {
+    let Some(set) = &wish.rules else { return Ok(vec![]) };
+    let bbcor = match set.rules.iter().any(|rule| matches!(rule, Rule::BbcorAtMost(_))) {
+        true => bench.piece_of(bat, &[Answer::Bbcor])?.values()[0].map(|figure| figure.value),
+        false => None,
+    };
+    Ok(set.judged(bat, bbcor))
+}

@@ -1,0 +1,174 @@
+//! Which diameters is the changed bat written with?
+//!
+//! They are rounded up or down so that the goals stay where they are: what one station moves, the next ones
+//! take back. Stations where nothing changes keep their digits.
+//!
+//! The curve between rounded stations is a new one. Where it breaks a limit (on a bat of which wood is only
+//! taken off it bulges before the first station that is lower, by some 7 µm for 0.1 mm) the station beside it
+//! gives way, by as many digits more as that takes; one of a stretch that is kept by some µm at most.
+
+use crate::aim::laying::{Laying, Station};
+use crate::aim::limits::Broken;
+use sweetspot::base::error::Result;
+use sweetspot::bat::body::Bat;
+use sweetspot::bat::profile::SAME_PLACE;
+
+/// The new stations, and the bat with them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Draft {
+    /// Stations, from the knob on; two at a step.
+    pub stations: Vec<Station>,
+    /// The bat.
+    pub bat: Bat,
+    /// Limits that are still broken, as the stations beside them may not move.
+    pub broken: Vec<Broken>,
+}
+
+/// A change of a bat's diameter that is to be written.
+pub struct Drafting<'a> {
+    laying: Laying<'a>,
+    stations: Vec<Station>,
+    /// How much each goal moves, in tolerances, per mm of diameter and m of length, as coefficients of the
+    /// change's curves.
+    densities: &'a [Vec<f64>],
+}
+
+/// So far a station of a stretch that is kept gives way to a limit (m).
+const GIVES_WAY: f64 = 1e-5;
+/// What a station is taken to move the curve by at least, as a share of its own move.
+const LEAST_FELT: f64 = 1e-2;
+/// Rounds of giving way to limits.
+const ROUNDS: usize = 60;
+
+impl<'a> Drafting<'a> {
+    /// Lays the stations of a change. The goals move by these densities, in tolerances per mm of diameter and m
+    /// of length, as coefficients of the change's curves.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Laying::stations`].
+    pub fn new(laying: Laying<'a>, densities: &'a [Vec<f64>]) -> Result<Self> {
+        let stations = laying.stations()?;
+        Ok(Self { laying, stations, densities })
+    }
+
+    /// The bat as it is written, the goals moved by `aside` (in tolerances) on purpose: what an earlier draft
+    /// was off by.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Laying::profile`] and [`Bat::with`].
+    pub fn draft(&self, aside: &[f64]) -> Result<Draft> {
+        let mut stations = self.stations.clone();
+        let mut finest = f64::INFINITY;
+        let mut best: Option<Draft> = None;
+        for _ in 0..ROUNDS {
+            self.round(&mut stations, aside);
+            let new = self.laying.profile(&stations, |station| station.new)?;
+            let bat = self.laying.bat.with(|parts| parts.profile = new)?;
+            let broken = self.laying.limits.broken_by(&bat);
+            let worst = broken.iter().map(|b| b.by.abs()).fold(0.0, f64::max);
+            if best.is_none() || worst < finest {
+                finest = worst;
+                let (stations, broken) = (stations.clone(), broken.clone());
+                best = Some(Draft { stations, bat, broken });
+            }
+            let mut moved = false;
+            for broken in &broken {
+                moved |= self.give_way(&mut stations, broken);
+            }
+            if !moved {
+                break;
+            }
+        }
+        Ok(best.expect("the first draft is one"))
+    }
+
+    /// Moves the limit of the station beside a broken one; false where none may move.
+    fn give_way(&self, stations: &mut [Station], broken: &Broken) -> bool {
+        // Only the stations at both ends of the piece: those beyond would make it worse.
+        let x = broken.room.x;
+        let left = stations.iter().map(|s| s.x).filter(|s| *s <= x).fold(0.0, f64::max);
+        let right = stations.iter().map(|s| s.x).filter(|s| *s >= x).fold(f64::INFINITY, f64::min);
+        let middle = (x - left - (right - x)).abs() <= 1e-9 * (right - left);
+        let nearest = if x - left < right - x { [left, right] } else { [right, left] };
+        let mut moved = false;
+        for end in nearest {
+            // The other end where the nearer one may not, and both for a place in the middle.
+            if !moved || middle {
+                // A station moves the curve beside it the less the farther from it, by nothing at the next one.
+                let felt = 1.0 - (x - end).abs() / (right - left).max(SAME_PLACE);
+                let by = broken.by / felt.max(LEAST_FELT);
+                for station in stations.iter_mut().filter(|station| station.x == end) {
+                    moved |= gives_way(station, by, self.laying.grid.round);
+                }
+            }
+        }
+        moved
+    }
+
+    /// Rounds the diameters, each so that the goals are off least up to there.
+    fn round(&self, stations: &mut [Station], aside: &[f64]) {
+        let spacing: Vec<f64> = (0..stations.len())
+            .map(|k| {
+                let before = stations[k.saturating_sub(1)].x;
+                let after = stations[(k + 1).min(stations.len() - 1)].x;
+                0.5 * (after - before)
+            })
+            .collect();
+        let mut off: Vec<f64> = aside.to_vec();
+        for (station, spacing) in stations.iter_mut().zip(spacing) {
+            let (splines, _, stretch) = self.laying.change;
+            let effect: Vec<f64> = self
+                .densities
+                .iter()
+                .map(|of| 1e3 * spacing * splines.at(of, station.x / stretch))
+                .collect();
+            let cost = |new: f64| {
+                let off = off.iter().zip(&effect).map(|(off, g)| off + g * (new - station.exact));
+                // Where no goal feels it, the nearest.
+                off.map(|off| off * off).sum::<f64>() + 1e3 * (new - station.exact).abs()
+            };
+            let candidates = candidates(station);
+            let best = candidates.into_iter().min_by(|a, b| cost(*a).total_cmp(&cost(*b)));
+            station.new = best.unwrap_or(station.old);
+            for (off, g) in off.iter_mut().zip(&effect) {
+                *off += g * (station.new - station.exact);
+            }
+        }
+    }
+}
+
+/// Moves the limit of a station at which the curve is so much (m) too thick, or below 0 too thin; false where it
+/// may not move. What it is rounded to becomes as fine as that takes.
+fn gives_way(station: &mut Station, by: f64, round: f64) -> bool {
+    let needed = 1.2 * by.abs();
+    let step = round * 10.0_f64.powf((needed / round).log10().floor().min(0.0));
+    let away = (needed / step).ceil() * step;
+    let new = station.new - away.copysign(by);
+    let stays = station.kept && (new - station.old).abs() > GIVES_WAY;
+    if stays || new < station.low || new > station.high {
+        return false;
+    }
+    if by > 0.0 {
+        station.high = new;
+    } else {
+        station.low = new;
+    }
+    station.round = station.round.min(step);
+    true
+}
+
+/// The diameters that a station may have.
+fn candidates(station: &Station) -> Vec<f64> {
+    let Station { old, exact, low, high, round, .. } = *station;
+    let clamped = exact.clamp(low.min(high), high);
+    if exact == old {
+        return vec![clamped];
+    }
+    let below = (clamped / round + 1e-9).floor();
+    let both = [below * round, (below + 1.0) * round];
+    let allowed = |new: &f64| *new >= low - 1e-12 && *new <= high + 1e-12;
+    let some: Vec<f64> = both.into_iter().filter(allowed).collect();
+    if some.is_empty() { vec![clamped] } else { some }
+}

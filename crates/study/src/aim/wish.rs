@@ -1,0 +1,468 @@
+//! What does somebody want of a bat?
+//!
+//! A [`Wish`] is what is written down: targets, rules, limits of the diameter, what may change besides the
+//! shape. [`Wish::bands`] makes of its targets what each answer may be, in SI, of the bat in hand.
+
+use crate::aim::rules::{Rule, RuleSet};
+use crate::many::answers::Answer;
+use sweetspot::base::error::{Complaint, Error, Result};
+use sweetspot::base::number::significant;
+use sweetspot::base::units::{self, Quantity, inches, ounces};
+use sweetspot::bat::body::Bat;
+use sweetspot::bat::material::Material;
+use sweetspot::bat::weighed::Weighed;
+
+/// Something that can be aimed at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Goal {
+    /// An answer of the bat.
+    Answer(Answer),
+    /// The drop: length in inches less mass in ounces.
+    Drop,
+}
+
+/// A number as it is wished.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Amount {
+    /// In SI.
+    Si(f64),
+    /// A share of what the bat has now: 0.97 is 97 %.
+    Share(f64),
+    /// A place this far from the tip (m).
+    FromTip(f64),
+}
+
+/// What is wished of a goal.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Ask {
+    /// So much more than now; a share is of what the bat has now.
+    Change(Amount, Option<Amount>),
+    /// This value.
+    Value(Amount, Option<Amount>),
+    /// Between these, one of which may be missing.
+    Between(Option<Amount>, Option<Amount>),
+}
+
+/// A target: a goal, and what is wished of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Target {
+    /// What is aimed at.
+    pub goal: Goal,
+    /// What is wished of it.
+    pub ask: Ask,
+}
+
+/// What the diameter may be on a stretch (m).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DiameterLimit {
+    /// Where the stretch begins.
+    pub from: f64,
+    /// Where it ends; infinite for the tip.
+    pub to: f64,
+    /// Least diameter.
+    pub at_least: Option<f64>,
+    /// Greatest diameter.
+    pub at_most: Option<f64>,
+}
+
+/// What may change besides the shape.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct FreeChoice {
+    /// Length, from and to (m): every place on the bat moves with it.
+    pub length: Option<[f64; 2]>,
+    /// Density of the bat's own material, from and to (kg/m³), moduli as they are.
+    pub density: Option<[f64; 2]>,
+    /// Woods, of which the one that needs the least change is taken.
+    pub woods: Vec<Material>,
+    /// Greatest weight on the knob (kg).
+    pub knob_weight: Option<f64>,
+}
+
+/// All that is wished.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Wish {
+    /// Targets.
+    pub targets: Vec<Target>,
+    /// Rules of a game.
+    pub rules: Option<RuleSet>,
+    /// Whether wood may only be taken off.
+    pub remove_only: bool,
+    /// Whether wood may be added to a bat that was weighed: one that exists can only be cut.
+    pub add: bool,
+    /// Stretches that stay as they are (m).
+    pub keep: Vec<[f64; 2]>,
+    /// Limits of the diameter.
+    pub diameter: Vec<DiameterLimit>,
+    /// Distance of the stations that are written (m); None for 10 mm, or ½ in of a bat in inches.
+    pub stations: Option<f64>,
+    /// What diameters are rounded to (m); None for 0.1 mm, or 0.005 in of a bat in inches.
+    pub round: Option<f64>,
+    /// Greatest slope of the surface where it is changed: radius over length.
+    pub slope: Option<f64>,
+    /// What else may change.
+    pub free: FreeChoice,
+}
+
+/// How the stations of the new bat are laid and rounded.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grid {
+    /// Distance of the stations (m).
+    pub every: f64,
+    /// What diameters are rounded to (m).
+    pub round: f64,
+}
+
+/// What a goal may be, in SI, and what it is now.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Band {
+    /// What is aimed at.
+    pub goal: Goal,
+    /// Least value, which may be minus infinity.
+    pub low: f64,
+    /// Greatest value, which may be infinity.
+    pub high: f64,
+    /// What a miss is measured by: the tolerance.
+    pub scale: f64,
+    /// What the bat has now.
+    pub start: f64,
+    /// The rule it is of; None for a target.
+    pub rule: Option<&'static str>,
+}
+
+/// The knob, which stays as it is where nothing is said (m).
+pub const KNOB: [f64; 2] = [0.0, 0.03];
+
+/// Slopes that a limit may have: radius over length.
+pub const SLOPES: std::ops::RangeInclusive<f64> = 0.01..=10.0;
+
+impl Default for Wish {
+    fn default() -> Self {
+        Self {
+            targets: vec![],
+            rules: None,
+            remove_only: false,
+            add: false,
+            keep: vec![KNOB],
+            diameter: vec![],
+            stations: None,
+            round: None,
+            slope: None,
+            free: FreeChoice::default(),
+        }
+    }
+}
+
+impl Goal {
+    /// The goal of that name: an answer's, or `drop`.
+    ///
+    /// # Errors
+    ///
+    /// As [`Answer::named`].
+    pub fn named(name: &str) -> Result<Self> {
+        match name {
+            "drop" => Ok(Self::Drop),
+            name => Answer::named(name).map(Self::Answer),
+        }
+    }
+
+    /// What it is called.
+    pub fn name(self) -> String {
+        match self {
+            Self::Answer(answer) => answer.name(),
+            Self::Drop => "drop".to_owned(),
+        }
+    }
+
+    /// Its unit in SI; empty for the drop and other pure numbers.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Answer(answer) => answer.unit(),
+            Self::Drop => "",
+        }
+    }
+
+    /// The quantity it is; None of energies, accelerations and pure numbers, which have no unit but SI.
+    pub fn quantity(self) -> Option<Quantity> {
+        match self.unit() {
+            "kg" => Some(Quantity::Mass),
+            "m" => Some(Quantity::Length),
+            "kg m²" => Some(Quantity::Inertia),
+            "Hz" => Some(Quantity::Frequency),
+            "m/s" => Some(Quantity::Speed),
+            _ => None,
+        }
+    }
+
+    /// Its value, of the answer it is made from and the bat.
+    pub fn of(self, answer: f64, length: f64) -> f64 {
+        match self {
+            Self::Answer(_) => answer,
+            Self::Drop => units::inches(length) - units::ounces(answer),
+        }
+    }
+
+    /// The answer it is made from.
+    pub fn answer(self) -> Answer {
+        match self {
+            Self::Answer(answer) => answer,
+            Self::Drop => Answer::Mass,
+        }
+    }
+
+    /// How much more it is where its answer is 1 more.
+    pub fn slope(self) -> f64 {
+        match self {
+            Self::Answer(_) => 1.0,
+            Self::Drop => -units::ounces(1.0),
+        }
+    }
+
+    /// The tolerance of a target that names none.
+    pub fn tolerance(self, start: f64) -> f64 {
+        const THOUSANDTH: f64 = 1e-3;
+        match self.unit() {
+            "kg" => 1e-3,
+            "m" => 5e-4,
+            "m/s" => 0.05,
+            "" if self == Self::Drop => 0.05,
+            "" => THOUSANDTH,
+            _ => THOUSANDTH * start.abs().max(1e-6),
+        }
+    }
+}
+
+impl Amount {
+    /// The value of a bat that has `start` now, and that length (m).
+    pub fn of(self, start: f64, length: f64) -> f64 {
+        match self {
+            Self::Si(value) => value,
+            Self::Share(share) => share * start,
+            Self::FromTip(from_tip) => length - from_tip,
+        }
+    }
+
+    /// The size of a change or a tolerance.
+    fn size(self, start: f64) -> f64 {
+        match self {
+            Self::Si(value) | Self::FromTip(value) => value,
+            Self::Share(share) => share * start.abs(),
+        }
+    }
+}
+
+impl Target {
+    /// What the goal may be, of a bat that has `start` now, and that length (m).
+    pub fn band(&self, start: f64, length: f64) -> Band {
+        let tolerance = |within: Option<Amount>| {
+            within.map_or_else(|| self.goal.tolerance(start), |within| within.size(start).abs())
+        };
+        let (low, high, scale) = match self.ask {
+            Ask::Change(by, within) => {
+                let (value, within) = (start + by.size(start), tolerance(within));
+                (value - within, value + within, within)
+            }
+            Ask::Value(value, within) => {
+                let (value, within) = (value.of(start, length), tolerance(within));
+                (value - within, value + within, within)
+            }
+            Ask::Between(low, high) => {
+                let of = |amount: Option<Amount>, without: f64| {
+                    amount.map_or(without, |amount| amount.of(start, length))
+                };
+                (of(low, f64::NEG_INFINITY), of(high, f64::INFINITY), tolerance(None))
+            }
+        };
+        Band { goal: self.goal, low, high, scale, start, rule: None }
+    }
+}
+
+impl Band {
+    /// How far a value is outside, in tolerances; 0 inside.
+    pub fn miss(&self, value: f64) -> f64 {
+        let over = (value - self.high).max(self.low - value).max(0.0);
+        // NaN must count as missed; `f64::max` would drop it.
+        if value.is_finite() { over / self.scale } else { f64::INFINITY }
+    }
+
+    /// Whether a value is inside, but for rounding.
+    pub fn has(&self, value: f64) -> bool {
+        self.miss(value) <= 1e-9
+    }
+}
+
+impl Wish {
+    /// This wish of a bat: one that was weighed exists, and wood is only taken off it unless it may be added.
+    pub fn of_bat(&self, bat: &Bat) -> Self {
+        let exists = bat.weighed() != Weighed::default();
+        Self { remove_only: self.remove_only || exists && !self.add, ..self.clone() }
+    }
+
+    /// Every goal that is asked of the bat: those of the targets, then those of the rules, each with its
+    /// rule.
+    pub fn goals(&self) -> Vec<(Goal, Option<Rule>)> {
+        let of_rule = |rule: &Rule| {
+            let goal = match rule {
+                Rule::MassAtMost(_) => Goal::Answer(Answer::Mass),
+                Rule::DropAtMost(_) => Goal::Drop,
+                Rule::BbcorAtMost(_) => Goal::Answer(Answer::Bbcor),
+                Rule::InertiaAtLeast(_) => Goal::Answer(Answer::Inertia),
+                _ => return None,
+            };
+            Some((goal, Some(*rule)))
+        };
+        let rules = self.rules.iter().flat_map(|set| &set.rules).filter_map(of_rule);
+        self.targets.iter().map(|target| (target.goal, None)).chain(rules).collect()
+    }
+
+    /// The grid of the new bat's stations.
+    pub fn grid(&self, bat: &Bat) -> Grid {
+        const INCH: f64 = 0.0254;
+        let (every, round) = if bat.inches() { (0.5 * INCH, 0.005 * INCH) } else { (0.01, 1e-4) };
+        Grid { every: self.stations.unwrap_or(every), round: self.round.unwrap_or(round) }
+    }
+
+    /// What each goal of [`Self::goals`] may be, of a bat whose goals are these now.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`], its field `targets[k]`, about targets that contradict each other or themselves.
+    pub fn bands(&self, starts: &[f64], bat: &Bat) -> Result<Vec<Band>> {
+        let length = bat.length();
+        let goals = self.goals();
+        let band = |(k, start): (usize, &f64)| match goals[k] {
+            (goal, Some(rule)) => {
+                let limit = rule.limit().unwrap_or(f64::INFINITY);
+                let (low, high) = match rule {
+                    Rule::InertiaAtLeast(_) => (limit, f64::INFINITY),
+                    _ => (f64::NEG_INFINITY, limit),
+                };
+                let scale = goal.tolerance(*start);
+                Band { goal, low, high, scale, start: *start, rule: Some(rule.name()) }
+            }
+            (..) => self.targets[k].band(*start, length),
+        };
+        let bands: Vec<Band> = starts.iter().enumerate().map(band).collect();
+        for k in 0..self.targets.len() {
+            self.check(k, &bands, bat)?;
+        }
+        Ok(bands)
+    }
+
+    /// Whether target k can be met beside those before it.
+    fn check(&self, k: usize, bands: &[Band], bat: &Bat) -> Result<()> {
+        let (band, field) = (&bands[k], format!("targets[{k}]"));
+        let said = |value: f64| shown(band.goal, value);
+        if band.scale.is_nan() || band.scale <= 0.0 {
+            let expected = "a tolerance above 0";
+            return Err(Error::value(format!("{field}.within"), said(band.scale), expected));
+        }
+        if band.low > band.high {
+            let found = format!("at least {} and at most {}", said(band.low), said(band.high));
+            return Err(Error::value(field, found, "limits that leave something between them"));
+        }
+        // Masses, swing weights and frequencies are more than nothing.
+        let positive = matches!(band.goal.unit(), "kg" | "kg m²" | "Hz");
+        if positive && band.high <= band.scale {
+            let found = format!("{} {}", band.goal.name(), range(band));
+            return Err(Error::value(field, found, "more than nothing"));
+        }
+        let same = bands[..k].iter().position(|other| other.goal == band.goal);
+        let apart = |other: &Band| band.low > other.high || other.low > band.high;
+        if let Some(other) = same.filter(|other| apart(&bands[*other])) {
+            let found = format!("{}, {}", band.goal.name(), range(band));
+            let expected = format!("what targets[{other}] leaves, {}", range(&bands[other]));
+            return Err(Error::Value(Complaint::new(field, found, expected)));
+        }
+        let place = matches!(band.goal.unit(), "m");
+        if place && (band.low > bat.length() || band.high < 0.0) {
+            let expected = format!("a place on the bat, 0 to {}", said(bat.length()));
+            return Err(Error::value(field, range(band), expected));
+        }
+        // Without anything that could add it, what is turned off weighs nothing less than nothing.
+        let free = &self.free;
+        let heavier =
+            free.knob_weight.is_some() || free.density.is_some() || !free.woods.is_empty();
+        let gains = matches!(band.goal, Goal::Answer(Answer::Mass | Answer::Inertia));
+        if self.remove_only && gains && band.low > band.start && !heavier && free.length.is_none() {
+            let found = format!("{} {}", band.goal.name(), range(band));
+            let expected =
+                format!("at most the {} that there is: wood is only taken off", said(band.start));
+            let complaint = Complaint::new(field, found, expected);
+            return Err(Error::Value(match bat.weighed() == Weighed::default() || self.add {
+                true => complaint,
+                false => complaint.hinted("a weighed bat is only cut; --add lets wood be added"),
+            }));
+        }
+        Ok(())
+    }
+}
+
+/// A value with its unit, and in the trade's.
+fn shown(goal: Goal, value: f64) -> String {
+    let said = significant(value, 7);
+    match goal.unit() {
+        "kg" => format!("{said} kg ({} oz)", significant(ounces(value), 5)),
+        "m" => format!("{said} m ({} in)", significant(inches(value), 5)),
+        unit => format!("{said} {unit}").trim_end().to_owned(),
+    }
+}
+
+/// What a band allows, in words.
+fn range(band: &Band) -> String {
+    let said = |value: f64| shown(band.goal, value);
+    match (band.low.is_finite(), band.high.is_finite()) {
+        (true, true) => format!("{} to {}", said(band.low), said(band.high)),
+        (true, false) => format!("at least {}", said(band.low)),
+        _ => format!("at most {}", said(band.high)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn dowel() -> Bat {
+        let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash",
+            "profile": { "unit": "m", "x": [0, 0.8], "diameter": [0.04, 0.04] } }"#;
+        Bat::from_text("dowel.json", text, "".as_ref()).unwrap()
+    }
+
+    fn mass(ask: Ask) -> Target {
+        Target { goal: Goal::Answer(Answer::Mass), ask }
+    }
+
+    #[test]
+    fn shares_changes_and_places_from_the_tip_are_what_they_say() {
+        let less = mass(Ask::Change(Amount::Share(-0.03), Some(Amount::Si(0.001))));
+        let band = less.band(1.0, 0.8);
+        assert_eq!([band.low, band.high, band.scale], [0.969, 0.971, 0.001]);
+        assert!(band.has(0.97) && !band.has(0.9715) && band.miss(f64::NAN).is_infinite());
+        let most = mass(Ask::Between(None, Some(Amount::Share(0.995)))).band(2.0, 0.8);
+        assert_eq!([most.low, most.high], [f64::NEG_INFINITY, 1.99]);
+        let node = Goal::Answer(Answer::Node(1));
+        let at =
+            Target { goal: node, ask: Ask::Value(Amount::FromTip(0.1), Some(Amount::Si(0.01))) };
+        let band = at.band(0.6, 0.8);
+        assert!((band.low - 0.69).abs() < 1e-15 && (band.high - 0.71).abs() < 1e-15);
+    }
+
+    #[test]
+    fn targets_that_contradict_are_told() {
+        let wish = |targets: Vec<Target>, remove_only| {
+            let wish = Wish { targets, remove_only, ..Wish::default() };
+            let starts = vec![0.6; wish.targets.len()];
+            wish.bands(&starts, &dowel()).unwrap_err().to_string()
+        };
+        let least = mass(Ask::Between(Some(Amount::Si(0.5)), None));
+        let most = mass(Ask::Between(None, Some(Amount::Si(0.4))));
+        assert!(
+            wish(vec![least, most], false).starts_with("targets[1]: found mass_kg, at most 0.4")
+        );
+        let both = mass(Ask::Between(Some(Amount::Si(0.5)), Some(Amount::Si(0.4))));
+        assert!(wish(vec![both], false).contains("leave something between"));
+        let more = mass(Ask::Change(Amount::Si(0.1), None));
+        assert!(wish(vec![more], true).contains("only taken off"));
+        let none = mass(Ask::Change(Amount::Si(-0.1), Some(Amount::Si(0.0))));
+        assert!(wish(vec![none], false).contains("a tolerance above 0"));
+    }
+}

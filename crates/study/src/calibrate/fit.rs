@@ -1,0 +1,268 @@
+//! Which wood shows what was measured?
+//!
+//! Gauss-Newton on
+//!
+//! ```text
+//! χ² = Σ ((y − y(θ))/σ)² + θᵀ P⁻¹ θ
+//! ```
+//!
+//! θ the logarithms of the unknowns over what the file says, P what was known of them before. σ² is that of the
+//! reading and, of a frequency, `(model · y)²` for what a beam leaves out. A step changes no logarithm by more than
+//! 0.3, and is halved until χ² falls.
+//!
+//! # Source
+//!
+//! A. Tarantola, Inverse Problem Theory (SIAM, 2005), section 3.4.1: the least-squares criterion with a Gaussian
+//! prior, its quasi-Newton step and posterior covariance.
+
+use serde::Serialize;
+
+use crate::calibrate::readings::{BatReadings, Reading};
+use crate::calibrate::unknowns::{Logs, Unknown, covariance, form};
+use crate::calibrate::wood::{BatObservations, Slopes, WoodenBat};
+use sweetspot::base::error::Result;
+use sweetspot::base::linear::{dot, inverse};
+
+/// The largest change of a logarithm in one step.
+const LARGEST_STEP: f64 = 0.3;
+/// A fit that has not ended by then runs away.
+const MOST_STEPS: usize = 40;
+/// Steps of this size change nothing that anybody reads.
+const SETTLED: f64 = 1e-7;
+/// Beyond so many standard deviations of what was known before, and that factor, a fit has run away.
+const RUNAWAY: [f64; 2] = [4.0, 8.0];
+
+/// What a datum is of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum DatumKind {
+    /// Mass (kg).
+    Mass,
+    /// Balance point (m).
+    BalancePoint,
+    /// Period of the pendulum (s).
+    Period,
+    /// Frequency of that bending mode, from 1 (Hz).
+    Frequency(usize),
+}
+
+impl DatumKind {
+    /// Its name, that of an output of the program where there is one.
+    pub fn name(self) -> String {
+        match self {
+            Self::Mass => "mass_kg".to_owned(),
+            Self::BalancePoint => "balance_point_m".to_owned(),
+            Self::Period => "pendulum_period_s".to_owned(),
+            Self::Frequency(order) => format!("f{order}_hz"),
+        }
+    }
+
+    /// What a bat shows of it.
+    pub fn of(self, shown: &BatObservations) -> Slopes {
+        match self {
+            Self::Mass => shown.mass,
+            Self::BalancePoint => shown.balance_point,
+            Self::Period => shown.period,
+            Self::Frequency(order) => shown.frequencies[order - 1],
+        }
+    }
+}
+
+/// Something that was measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Datum {
+    /// What.
+    pub kind: DatumKind,
+    /// Which of the lines it is; None for what is no line.
+    pub line: Option<usize>,
+    /// The reading.
+    pub reading: Reading,
+    /// σ of reading and model together.
+    pub sigma: f64,
+}
+
+/// The data of these readings, the lines taken for those modes; None where a line is of none of them.
+pub fn data(readings: &BatReadings, modes: &[Option<usize>]) -> Vec<Datum> {
+    let rigid = [
+        (DatumKind::Mass, readings.mass),
+        (DatumKind::BalancePoint, readings.balance_point),
+        (DatumKind::Period, readings.pendulum.map(|pendulum| pendulum.period)),
+    ];
+    let rigid = rigid.into_iter().filter_map(|(kind, reading)| Some((kind, None, reading?)));
+    let lines = readings.lines.iter().zip(modes).enumerate().filter_map(|(k, (line, mode))| {
+        Some((DatumKind::Frequency((*mode)?), Some(k), line.frequency))
+    });
+    let datum = |(kind, line, reading): (DatumKind, Option<usize>, Reading)| {
+        let model = if line.is_some() { readings.model * reading.value } else { 0.0 };
+        Datum { kind, line, reading, sigma: reading.deviation.hypot(model) }
+    };
+    rigid.chain(lines).map(datum).collect()
+}
+
+/// What is sought, and from where.
+#[derive(Debug, Clone, Copy)]
+pub struct Search<'a> {
+    /// The bat.
+    pub wood: &'a WoodenBat,
+    /// What was measured and known before.
+    pub readings: &'a BatReadings,
+    /// Unknowns that stay as the file has them.
+    pub held: &'a [Unknown],
+    /// The wood that what was known before is about: that of the file, all 0, or one far from it.
+    pub about: Logs,
+}
+
+/// A datum beside what the fitted bat shows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Residual {
+    /// The datum.
+    pub datum: Datum,
+    /// What the bat shows.
+    pub computed: f64,
+    /// `(y − y(θ))/σ`.
+    pub deviations: f64,
+    /// Residual from the fit to all other data, `z/√(1 − h)`.
+    pub left_out: f64,
+}
+
+/// A fit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fit {
+    /// The unknowns.
+    pub logs: Logs,
+    /// Their covariance; 0 for what was held.
+    pub covariance: Vec<Vec<f64>>,
+    /// χ², what was known before included.
+    pub chi2: f64,
+    /// Steps that were taken.
+    pub steps: usize,
+    /// Whether it ended where it should, and not too far from what was known before.
+    pub settled: bool,
+    /// The data beside what the bat shows.
+    pub residuals: Vec<Residual>,
+    /// Everything that the bat shows.
+    pub shown: BatObservations,
+}
+
+impl Fit {
+    /// χ² of the data alone: how far the bat is from what was measured, whatever was known before.
+    pub fn misfit(&self) -> f64 {
+        self.residuals.iter().map(|residual| residual.deviations.powi(2)).sum()
+    }
+}
+
+fn times(matrix: &[Vec<f64>], vector: &[f64]) -> Vec<f64> {
+    let product = |row: &Vec<f64>| row.iter().zip(vector).map(|(a, b)| a * b).sum();
+    matrix.iter().map(product).collect()
+}
+
+/// One place of the search, linearised.
+struct Linear {
+    chi2: f64,
+    gradient: Vec<f64>,
+    covariance: Vec<Vec<f64>>,
+}
+
+impl Search<'_> {
+    /// The covariance of the unknowns before anything was measured.
+    pub fn prior(&self) -> Vec<Vec<f64>> {
+        covariance(&self.readings.priors, self.wood.regions())
+    }
+
+    /// Which unknowns are free, by their places.
+    pub fn free(&self) -> Vec<usize> {
+        let unknowns = Unknown::of(self.wood.regions()).iter().enumerate();
+        unknowns.filter(|(_, unknown)| !self.held.contains(unknown)).map(|(k, _)| k).collect()
+    }
+
+    /// The wood that shows these data, sought from that one on, of which what is held stays; frequencies up to `modes`
+    /// are looked at.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`WoodenBat::shown`] at the beginning; a bat that cannot be solved on the way ends the search.
+    pub fn fit(&self, data: &[Datum], modes: usize, from: &Logs) -> Result<Fit> {
+        let free = self.free();
+        let prior = self.prior();
+        let mut logs = *from;
+        let mut shown = self.wood.shown(&logs, modes)?;
+        let mut here = self.linear(data, &shown, &logs);
+        let (mut steps, mut settled) = (0, false);
+        while steps < MOST_STEPS && !settled {
+            let step = times(&here.covariance, &here.gradient);
+            let largest = step.iter().fold(0.0_f64, |most, step| most.max(step.abs()));
+            let mut share = (LARGEST_STEP / largest).min(1.0);
+            let downhill = loop {
+                let mut next = logs;
+                free.iter().zip(&step).for_each(|(k, step)| next[*k] += share * step);
+                if let Ok(there) = self.wood.shown(&next, modes) {
+                    let linear = self.linear(data, &there, &next);
+                    if linear.chi2 <= here.chi2 || largest < SETTLED {
+                        break Some((next, there, linear));
+                    }
+                }
+                share *= 0.5;
+                if share * largest < SETTLED {
+                    break None;
+                }
+            };
+            let Some((next, there, linear)) = downhill else { break };
+            (logs, shown, here, steps) = (next, there, linear, steps + 1);
+            settled = largest < SETTLED;
+        }
+        let [deviations, factor] = RUNAWAY;
+        let near = |k: &usize| logs[*k].abs() <= factor.ln().max(deviations * prior[*k][*k].sqrt());
+        settled &= free.iter().all(near);
+        Ok(self.ended(data, shown, (logs, here), (steps, settled)))
+    }
+
+    /// The fit that ended there.
+    fn ended(
+        &self,
+        data: &[Datum],
+        shown: BatObservations,
+        (logs, linear): (Logs, Linear),
+        (steps, settled): (usize, bool),
+    ) -> Fit {
+        let Linear { chi2, covariance: of_free, .. } = linear;
+        let (free, unknowns) = (self.free(), Unknown::of(self.wood.regions()).len());
+        let mut covariance = vec![vec![0.0; unknowns]; unknowns];
+        for (i, row) in free.iter().zip(&of_free) {
+            free.iter().zip(row).for_each(|(j, entry)| covariance[*i][*j] = *entry);
+        }
+        let residual = |datum: &Datum| {
+            let Slopes { value, by } = datum.kind.of(&shown);
+            let z = (datum.reading.value - value) / datum.sigma;
+            let by = &by[..unknowns];
+            let leverage = form(&covariance, by, by) / datum.sigma.powi(2);
+            let left_out = z / (1.0 - leverage).max(1e-9).sqrt();
+            Residual { datum: *datum, computed: value, deviations: z, left_out }
+        };
+        let residuals = data.iter().map(residual).collect();
+        Fit { logs, covariance, chi2, steps, settled, residuals, shown }
+    }
+
+    /// χ², half its downward gradient and the covariance, of the free unknowns.
+    fn linear(&self, data: &[Datum], shown: &BatObservations, logs: &Logs) -> Linear {
+        // Unknowns that are held count in what was known before, where they are not as the file has them.
+        let known = inverse(&self.prior()).unwrap_or_default();
+        let away: Vec<f64> = logs.iter().zip(&self.about).map(|(log, mean)| log - mean).collect();
+        let (free, at) = (self.free(), &away[..known.len()]);
+        let mut chi2 = form(&known, at, at);
+        let mut gradient: Vec<f64> = free.iter().map(|k| -dot(&known[*k], at)).collect();
+        let mut weights: Vec<Vec<f64>> =
+            free.iter().map(|i| free.iter().map(|j| known[*i][*j]).collect()).collect();
+        for datum in data {
+            let Slopes { value, by } = datum.kind.of(shown);
+            let z = (datum.reading.value - value) / datum.sigma;
+            chi2 += z * z;
+            let slopes: Vec<f64> = free.iter().map(|k| by[*k] / datum.sigma).collect();
+            for (i, slope) in slopes.iter().enumerate() {
+                gradient[i] += slope * z;
+                weights[i].iter_mut().zip(&slopes).for_each(|(w, other)| *w += slope * other);
+            }
+        }
+        let covariance = inverse(&weights).unwrap_or_default();
+        Linear { chi2, gradient, covariance }
+    }
+}

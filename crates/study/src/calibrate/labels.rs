@@ -1,0 +1,240 @@
+//! Which line is which mode?
+//!
+//! Lines rise with the modes. They are compared with the modes of every wood that the bat may be of
+//! ([`Chart`]), not with those of the file's alone: over all of it the best labelling at each wood is found, and the
+//! best few of these are fitted. A line may be a stranger, no bending mode at all (hum, torsion, a hoop of a hollow
+//! barrel, the second of two planes of the grain), at a price; so may modes be that were not heard.
+
+use std::collections::BTreeMap;
+
+use crate::calibrate::chart::Chart;
+use crate::calibrate::fit::{Fit, Search, data};
+use crate::calibrate::readings::{BatReadings, Priors, ShearPrior, SpectralLine};
+use crate::calibrate::unknowns::Logs;
+use sweetspot::base::error::Result;
+use sweetspot::base::threads;
+
+/// χ² of a line that is no bending mode.
+pub const STRANGER: f64 = 12.0;
+/// χ² of a label that was told and is taken for another.
+const CHANGED: f64 = 12.0;
+/// χ² of a mode below the highest heard that no line is; the first one is often too faint to be heard.
+const UNHEARD: [f64; 2] = [1.0, 2.5];
+/// How far a computed tone may be off in the search, relative: the beam, and the two planes of the grain.
+const SEARCHED: f64 = 4e-3;
+/// How open E and G/E are in the search alone, as standard deviations of natural logarithms.
+const OPEN: f64 = 0.35;
+/// Labellings that are fitted: the cheapest, and the cheapest that contradict the first.
+const MOST_FITTED: [usize; 2] = [6, 3];
+/// The highest mode that a line may be.
+pub const MOST_MODES: usize = 20;
+
+/// Which mode each line is; None for a line of none of them.
+pub type Labels = Vec<Option<usize>>;
+
+/// What the labels of a search may be.
+#[derive(Debug, Clone, Copy)]
+pub enum LabelChoice<'a> {
+    /// Labels that stay; None where nothing was told.
+    Stays(&'a Labels),
+    /// Labels that may be changed, at a price.
+    Changes(&'a Labels),
+}
+
+/// A labelling, and what it comes to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Labelled {
+    /// The labels.
+    pub labels: Labels,
+    /// The fit.
+    pub fit: Fit,
+    /// χ² and what lines of no mode cost.
+    pub chi2: f64,
+    /// What the search made of it: χ² with E and G/E wide open, and the prices of strangers, of modes that were not
+    /// heard and of labels that were changed.
+    pub price: f64,
+}
+
+impl Labelled {
+    /// The fit to these labels, begun at that wood.
+    ///
+    /// # Errors
+    ///
+    /// As [`Search::fit`].
+    pub fn new(search: &Search, labels: Labels, modes: usize, from: &Logs) -> Result<Self> {
+        let fit = search.fit(&data(search.readings, &labels), modes, from)?;
+        let chi2 = fit.chi2 + STRANGER * strangers(&labels) as f64;
+        Ok(Self { labels, fit, chi2, price: chi2 })
+    }
+}
+
+/// How many lines are no bending mode.
+pub fn strangers(labels: &Labels) -> usize {
+    labels.iter().filter(|label| label.is_none()).count()
+}
+
+/// Whether labels say something else of a line, not only less: two modes for one line, or no line in common.
+pub fn contradict(a: &Labels, b: &Labels) -> bool {
+    let pairs = || a.iter().zip(b).filter_map(|(a, b)| Some(((*a)?, (*b)?)));
+    pairs().any(|(a, b)| a != b) || pairs().count() == 0
+}
+
+/// The labellings that fit best over all wood, the cheapest first.
+///
+/// # Errors
+///
+/// Those of [`Chart::of`].
+pub fn best(search: &Search, told: LabelChoice, modes: usize) -> Result<Vec<Labelled>> {
+    let chart = Chart::of(search, modes)?;
+    let mut cheapest: BTreeMap<Labels, (f64, Logs)> = BTreeMap::new();
+    let lines = Lines::of(search.readings, told);
+    chart.each(|logs, tones| {
+        let (labels, price) = lines.cheapest(tones);
+        let price = price + prior(search, &logs);
+        let entry = cheapest.entry(labels).or_insert((f64::INFINITY, logs));
+        if price < entry.0 {
+            *entry = (price, logs);
+        }
+    });
+    cheapest.retain(|labels, _| labels.iter().any(Option::is_some));
+    let mut ordered: Vec<(Labels, (f64, Logs))> = cheapest.into_iter().collect();
+    ordered.sort_by(|a, b| a.1.0.total_cmp(&b.1.0));
+    let [most, others] = MOST_FITTED;
+    let first = ordered.first().map(|(labels, _)| labels.clone()).unwrap_or_default();
+    let mut other = 0;
+    let mut place = 0;
+    ordered.retain(|(labels, _)| {
+        let contradicts = contradict(labels, &first);
+        (place, other) = (place + 1, other + usize::from(contradicts));
+        place <= most || (contradicts && other <= others)
+    });
+    let open = opened(search.readings);
+    let wide = Search { readings: &open, ..*search };
+    let fitted = threads::map(ordered.len(), |k| {
+        let (labels, (_, from)) = &ordered[k];
+        let open = Labelled::new(&wide, labels.clone(), modes, from)?;
+        let more = lines.told_price(labels) + unheard(labels);
+        let one = Labelled::new(search, labels.clone(), modes, &open.fit.logs)?;
+        Ok::<_, sweetspot::Error>(Labelled { price: open.chi2 + more, ..one })
+    });
+    let mut fitted: Vec<Labelled> = fitted.into_iter().filter_map(|one| one.ok()).collect();
+    fitted.sort_by(|a, b| a.price.total_cmp(&b.price));
+    Ok(fitted)
+}
+
+/// The readings with wood that is as open as in a search: E and G/E each by itself.
+fn opened(readings: &BatReadings) -> BatReadings {
+    let known = readings.priors;
+    let own = match known.shear {
+        ShearPrior::OverYoung(deviation) | ShearPrior::Alone(deviation) => deviation,
+    };
+    let shear = ShearPrior::OverYoung(own.max(OPEN));
+    let youngs_modulus = known.youngs_modulus.max(OPEN);
+    let priors = Priors { youngs_modulus, shear, correlation: 0.0, ..known };
+    BatReadings { priors, ..readings.clone() }
+}
+
+/// χ² of a wood in the search, before anything was heard.
+fn prior(search: &Search, logs: &Logs) -> f64 {
+    let free = search.free();
+    free.iter().filter(|k| **k < 2).map(|k| (logs[*k] / OPEN).powi(2)).sum()
+}
+
+/// Price of the modes that no line is.
+fn unheard(labels: &Labels) -> f64 {
+    let highest = labels.iter().flatten().max().copied().unwrap_or(0);
+    (1..highest).filter(|mode| !labels.contains(&Some(*mode))).map(gap).sum()
+}
+
+/// Price of a mode that no line is.
+fn gap(mode: usize) -> f64 {
+    UNHEARD[usize::from(mode > 1)]
+}
+
+/// A line to be labelled.
+struct Line {
+    /// Its place in the readings.
+    place: usize,
+    /// Logarithm of its frequency, and how far that may be off.
+    log: f64,
+    sigma: f64,
+    /// What was told, and what another label costs.
+    told: Option<usize>,
+    other: f64,
+}
+
+/// The lines by rising frequency, so that labels rise with them.
+struct Lines(Vec<Line>);
+
+impl Lines {
+    fn of(readings: &BatReadings, told: LabelChoice) -> Self {
+        let (labels, other) = match told {
+            LabelChoice::Stays(labels) => (labels, f64::INFINITY),
+            LabelChoice::Changes(labels) => (labels, CHANGED),
+        };
+        let line = |(place, line): (usize, &SpectralLine)| {
+            let value = line.frequency.value;
+            let sigma = (line.frequency.deviation / value).hypot(readings.model.max(SEARCHED));
+            Line { place, log: value.ln(), sigma, told: labels[place], other }
+        };
+        let mut all: Vec<Line> = readings.lines.iter().enumerate().map(line).collect();
+        all.sort_by(|a, b| a.log.total_cmp(&b.log));
+        Self(all)
+    }
+
+    /// Price of the labels that differ from those told.
+    fn told_price(&self, labels: &Labels) -> f64 {
+        let changed = |line: &&Line| line.told.is_some() && line.told != labels[line.place];
+        self.0.iter().filter(changed).map(|line| line.other).sum()
+    }
+
+    /// Whether a mode is the label of a line that keeps it.
+    fn is_kept(&self, mode: usize) -> bool {
+        self.0.iter().any(|line| line.told == Some(mode) && line.other.is_infinite())
+    }
+
+    /// The cheapest rising labels beside tones of these logarithms, and their price: χ² of lines within reach, of
+    /// strangers, of modes that were not heard and of changed labels. From line to line the cheapest way to every
+    /// last mode is kept.
+    fn cheapest(&self, tones: &[f64]) -> (Labels, f64) {
+        let count = tones.len();
+        // Price and choices by the last mode so far, 0 for none.
+        let mut ways: Vec<Option<(f64, Labels)>> = vec![None; count + 1];
+        ways[0] = Some((0.0, vec![None; self.0.len()]));
+        for line in &self.0 {
+            let mut next: Vec<Option<(f64, Labels)>> = vec![None; count + 1];
+            for (last, way) in ways.iter().enumerate() {
+                let Some((price, labels)) = way else { continue };
+                let mut offer = |mode: Option<usize>, more: f64| {
+                    let told =
+                        if line.told.is_some() && line.told != mode { line.other } else { 0.0 };
+                    let (to, whole) = (mode.unwrap_or(last), price + more + told);
+                    if whole.is_finite() && next[to].as_ref().is_none_or(|(best, _)| whole < *best)
+                    {
+                        let mut labels = labels.clone();
+                        labels[line.place] = mode;
+                        next[to] = Some((whole, labels));
+                    }
+                };
+                offer(None, STRANGER);
+                let mut skipped = 0.0;
+                // A label that stays is kept even where it does not rise.
+                let first = match line.told {
+                    Some(mode) if line.other.is_infinite() => mode.min(last + 1),
+                    _ => last + 1,
+                };
+                for mode in first..=count {
+                    let chi2 = ((line.log - tones[mode - 1]) / line.sigma).powi(2);
+                    let stays = line.told == Some(mode);
+                    if stays || (chi2 < STRANGER && !self.is_kept(mode)) {
+                        offer(Some(mode), chi2.min(10.0 * STRANGER) + skipped);
+                    }
+                    skipped += gap(mode);
+                }
+            }
+            ways = next;
+        }
+        let best = ways.into_iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0));
+        best.map_or((vec![None; self.0.len()], f64::INFINITY), |(price, labels)| (labels, price))
+    }
+}

@@ -1,0 +1,110 @@
+//! Which properties of the wood are sought, and how far were they open?
+//!
+//! In natural logarithms of what they are over what the bat file says, so that a step never makes a property
+//! negative and all of them are of one size.
+
+use serde::Serialize;
+
+use crate::calibrate::readings::{Priors, ShearPrior};
+
+/// A property that is sought.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum Unknown {
+    /// E, of the handle where there are two regions.
+    YoungsModulus,
+    /// G over E, the same all along the bat.
+    ShearOverYoung,
+    /// Density, of the handle where there are two regions.
+    Density,
+    /// Density of the barrel.
+    BarrelDensity,
+    /// E of the barrel over E of the handle.
+    ModulusRatio,
+}
+
+/// How many there are at most.
+pub const UNKNOWNS: usize = 5;
+
+impl Unknown {
+    /// All of them, in their order.
+    pub const ALL: [Self; UNKNOWNS] = [
+        Self::YoungsModulus,
+        Self::ShearOverYoung,
+        Self::Density,
+        Self::BarrelDensity,
+        Self::ModulusRatio,
+    ];
+
+    /// Those of so many regions, one or two.
+    pub fn of(regions: usize) -> &'static [Self] {
+        if regions == 1 { &Self::ALL[..3] } else { &Self::ALL }
+    }
+}
+
+/// Logarithms of all properties over those of the bat file; those of one region are the first three.
+pub type Logs = [f64; UNKNOWNS];
+
+/// The covariance of the unknowns of so many regions before anything was measured.
+pub fn covariance(priors: &Priors, regions: usize) -> Vec<Vec<f64>> {
+    let unknowns = Unknown::of(regions);
+    unknowns.iter().map(|a| unknowns.iter().map(|b| entry(priors, *a, *b)).collect()).collect()
+}
+
+fn entry(priors: &Priors, a: Unknown, b: Unknown) -> f64 {
+    use Unknown::{BarrelDensity, Density, ModulusRatio, ShearOverYoung, YoungsModulus};
+    match (a, b) {
+        (YoungsModulus, YoungsModulus) => priors.youngs_modulus.powi(2),
+        (ShearOverYoung, ShearOverYoung) => match priors.shear {
+            ShearPrior::OverYoung(deviation) => deviation.powi(2),
+            ShearPrior::Alone(deviation) => deviation.powi(2) + priors.youngs_modulus.powi(2),
+        },
+        // G by itself does not go with E, so that G/E goes against it.
+        (ShearOverYoung, other) | (other, ShearOverYoung) => match priors.shear {
+            ShearPrior::OverYoung(_) => 0.0,
+            ShearPrior::Alone(_) => -entry(priors, YoungsModulus, other),
+        },
+        (Density, Density) | (BarrelDensity, BarrelDensity) => priors.density.powi(2),
+        (ModulusRatio, ModulusRatio) => priors.modulus_ratio.powi(2),
+        (Density, BarrelDensity) | (BarrelDensity, Density) => {
+            priors.densities_together * priors.density.powi(2)
+        }
+        (YoungsModulus, Density | BarrelDensity) | (Density | BarrelDensity, YoungsModulus) => {
+            priors.correlation * priors.youngs_modulus * priors.density
+        }
+        _ => 0.0,
+    }
+}
+
+/// The sum `Σ a_i b_j C_ij`.
+pub fn form(covariance: &[Vec<f64>], a: &[f64], b: &[f64]) -> f64 {
+    let row = |(row, a): (&Vec<f64>, &f64)| {
+        a * row.iter().zip(b).map(|(entry, b)| entry * b).sum::<f64>()
+    };
+    covariance.iter().zip(a).map(row).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use sweetspot::base::linear::inverse;
+
+    #[test]
+    fn what_was_known_before_is_a_covariance_that_can_be() {
+        for regions in [1, 2] {
+            for shear in [ShearPrior::OverYoung(0.35), ShearPrior::Alone(0.35)] {
+                let all = covariance(&Priors { shear, ..Priors::default() }, regions);
+                assert!(inverse(&all).is_some());
+                assert_eq!(all.len(), Unknown::of(regions).len());
+                let sum = form(&all, &vec![1.0; all.len()], &vec![1.0; all.len()]);
+                assert!((sum - all.iter().flatten().sum::<f64>()).abs() < 1e-15);
+                if let ShearPrior::Alone(own) = shear {
+                    // ln G is the sum of the first two.
+                    let sum = all[0][0] + 2.0 * all[0][1] + all[1][1];
+                    assert!((sum - own * own).abs() < 1e-15);
+                }
+            }
+        }
+    }
+}

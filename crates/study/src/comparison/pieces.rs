@@ -1,0 +1,71 @@
+//! By how much do two pieces of one wood differ in what is compared?
+//!
+//! Two bats are two pieces of wood, whose E and density differ from the species' mean by the published
+//! scatter, each on its own. A figure whose standard deviation by the wood alone is `σ_A` of the first bat
+//! and `σ_B` of the other is then different by
+//!
+//! ```text
+//! ± √(σ_A² + σ_B²),   √2 σ where both are of one model
+//! ```
+//!
+//! between two that are picked from the shelf. A bat beside itself with an edit is one piece: its wood
+//! scatters both alike.
+
+use crate::comparison::contender::Contender;
+use crate::spread::{Analysed, Input, Readings, Spread, SpreadAnswer};
+use sweetspot::bat::body::Bat;
+use sweetspot::bat::edit::Change;
+use sweetspot::collision::hit::Model;
+
+/// Standard deviations by the wood alone, in the order of [`SpreadAnswer::ALL`]; None where there is none known.
+pub type ByWood = [Option<f64>; SpreadAnswer::ALL.len()];
+
+/// What the wood leaves open of every answer of a bat.
+pub fn by_wood(contender: &Contender, model: Model) -> ByWood {
+    let analysed = Analysed {
+        bat: &contender.bat,
+        solution: &contender.sweep.solution,
+        model,
+        scene: &contender.scene,
+        law: contender.law,
+        hits: &contender.sweep,
+        spot: &contender.spot,
+    };
+    let spread = Spread::new(&analysed, &Readings::default());
+    let wood = |k: usize| matches!(spread.sources[k].input, Input::Stiffness | Input::Density);
+    if !(0..spread.sources.len()).any(wood) {
+        return [None; SpreadAnswer::ALL.len()];
+    }
+    SpreadAnswer::ALL.map(|answer| {
+        let estimate = spread.of(answer)?;
+        estimate.deviation?;
+        let parts = estimate.parts.iter().enumerate().filter(|(k, _)| wood(*k));
+        Some(parts.map(|(_, part)| part * part).sum::<f64>().sqrt())
+    })
+}
+
+/// The answer that a row of figures is, by its key.
+pub fn answer(key: &str) -> Option<SpreadAnswer> {
+    Some(match key {
+        "mass" => SpreadAnswer::Mass,
+        "balance_point" => SpreadAnswer::BalancePoint,
+        "swing_weight" => SpreadAnswer::SwingWeight,
+        "frequency_1" => SpreadAnswer::Frequency1,
+        "frequency_2" => SpreadAnswer::Frequency2,
+        "frequency_3" => SpreadAnswer::Frequency3,
+        "best_exit_speed" => SpreadAnswer::ExitSpeed,
+        "best_place" => SpreadAnswer::BestPlace,
+        "zone_from" => SpreadAnswer::ZoneFrom,
+        "zone_to" => SpreadAnswer::ZoneTo,
+        _ => return None,
+    })
+}
+
+/// Whether two bats are one piece of wood: one is the other with edits, none of which changes the wood.
+pub fn one_piece(first: &Bat, other: &Bat) -> bool {
+    let wood = |bat: &Bat| bat.edits().iter().any(|edit| matches!(edit.change, Change::Wood(_)));
+    let [a, b] = [first, other].map(Bat::unedited);
+    let edited = !(first.edits().is_empty() && other.edits().is_empty());
+    let same = a.profile() == b.profile() && a.material() == b.material();
+    edited && same && a.regional().eq(b.regional()) && !wood(first) && !wood(other)
+}

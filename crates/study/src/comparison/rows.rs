@@ -1,0 +1,199 @@
+//! The figures of several bats side by side, and their differences.
+
+use crate::comparison::contender::{Contender, Figure};
+use sweetspot::bat::body::STANDARD_PIVOT;
+
+/// What a row is measured in, in SI.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unit {
+    /// Metres (m).
+    Metres,
+    /// Kilograms (kg).
+    Kilograms,
+    /// Kilograms times square metres (kg m²).
+    KilogramSquareMetres,
+    /// Hertz (Hz).
+    Hertz,
+    /// Radians per second (rad/s).
+    RadiansPerSecond,
+    /// Metres per second (m/s).
+    MetresPerSecond,
+    /// Joules (J).
+    Joules,
+    /// A pure number.
+    One,
+}
+
+impl Unit {
+    /// As keys of JSON and CSV end with it; empty for a pure number.
+    pub fn suffix(self) -> &'static str {
+        match self {
+            Self::Metres => "_m",
+            Self::Kilograms => "_kg",
+            Self::KilogramSquareMetres => "_kg_m2",
+            Self::Hertz => "_hz",
+            Self::RadiansPerSecond => "_rad_s",
+            Self::MetresPerSecond => "_m_s",
+            Self::Joules => "_j",
+            Self::One => "",
+        }
+    }
+}
+
+/// Where a place is measured from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum From {
+    /// The value is not a position.
+    Nowhere,
+    /// The knob end.
+    Knob,
+    /// The tip.
+    Tip,
+}
+
+/// One figure of all the bats.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ComparedFigure {
+    /// Key in JSON and CSV without the unit, such as `node_1_of_mode_2`.
+    pub key: String,
+    /// Name for people, without the unit.
+    pub name: String,
+    /// Unit of the values.
+    pub unit: Unit,
+    /// Where places are measured from, if the values are places.
+    pub from: From,
+    /// A value for each bat that has one.
+    pub values: Vec<Option<Figure>>,
+}
+
+/// How a bat differs from the reference.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Difference {
+    /// The other value less the first.
+    pub by: f64,
+    /// Error bound of the difference: the errors of both values added.
+    pub within: f64,
+}
+
+impl Difference {
+    /// Whether the difference exceeds the errors.
+    pub fn is_real(&self) -> bool {
+        self.by.abs() > self.within
+    }
+}
+
+impl ComparedFigure {
+    /// Difference of a bat from the first; None where one of them has no value.
+    pub fn difference(&self, bat: usize) -> Option<Difference> {
+        let (one, other) = (self.values[0]?, self.values[bat]?);
+        Some(Difference { by: other.value - one.value, within: one.error + other.error })
+    }
+}
+
+/// Modes whose frequencies and nodes are compared.
+const MODES: usize = 3;
+
+/// All rows, the bat's body first. Places are there twice: from the knob end and from the tip.
+pub fn figures(bats: &[Contender]) -> Vec<ComparedFigure> {
+    let mut rows = Rows { bats, all: vec![] };
+    rows.exact("length", "length", Unit::Metres, |c| c.bat.length());
+    rows.exact("mass", "mass", Unit::Kilograms, |c| c.inertia.mass);
+    rows.place("balance_point", "balance point", |c| Some(Figure::exact(c.inertia.balance_point)));
+    rows.exact("swing_weight", "swing weight (6 in)", Unit::KilogramSquareMetres, |c| {
+        c.swing_weight()
+    });
+    rows.place("center_of_percussion", "percussion centre (6 in)", |c| {
+        c.inertia.center_of_percussion(STANDARD_PIVOT).map(Figure::exact)
+    });
+    for order in 1..=MODES {
+        let name = format!("frequency of mode {order}");
+        rows.add(&format!("frequency_{order}"), &name, Unit::Hertz, |c| c.frequency(order));
+    }
+    for order in 1..=MODES {
+        let count =
+            |c: &Contender| c.sweep.solution.modes.get(order - 1).map_or(0, |m| m.nodes.len());
+        for node in 1..=bats.iter().map(count).max().unwrap_or(0) {
+            let name = format!("mode {order}, node {node}");
+            rows.place(&format!("node_{node}_of_mode_{order}"), &name, |c| c.node(order, node));
+        }
+    }
+    rows.exact("swing", "swing", Unit::RadiansPerSecond, |c| c.scene.swing);
+    rows.add("best_exit_speed", "best exit speed", Unit::MetresPerSecond, |c| c.best_speed);
+    rows.place("best_place", "  where", |c| c.best_place);
+    rows.place("zone_from", "  within 1 % of it from", |c| Some(c.zone?[0]));
+    rows.place("zone_to", "  to", |c| Some(c.zone?[1]));
+    rows.energy("vibration_at_best", "vibration at the best place", |c| c.vibration);
+    rows.energy("least_vibration", "least vibration", |c| c.least_vibration);
+    rows.place("least_vibration_place", "  where", |c| c.least_place);
+    rows.add("largest_bbcor", "largest BBCOR, free bat", Unit::One, |c| c.bbcor[0]);
+    let name = "largest BBCOR, held at 6 in";
+    rows.add("largest_bbcor_pivoted", name, Unit::One, |c| c.bbcor[1]);
+    rows.all
+}
+
+/// Whether energies of all bats are seen from the ground, or all as hands or a clamp see them: others
+/// are of different motions.
+pub fn energies_compare(bats: &[Contender]) -> bool {
+    let held = |c: &Contender| c.bat.fixtures().holding();
+    bats.windows(2).all(|pair| held(&pair[0]) == held(&pair[1]))
+}
+
+/// The exit speeds at the same distances (m) from the tip, or from the knob end.
+pub fn speeds(bats: &[Contender], from: From, distances: &[f64]) -> Vec<ComparedFigure> {
+    let row = |distance: &f64| {
+        let place = |c: &Contender| match from {
+            From::Tip => c.bat.length() - distance,
+            _ => *distance,
+        };
+        ComparedFigure {
+            key: "exit_speed".into(),
+            name: "exit speed".into(),
+            unit: Unit::MetresPerSecond,
+            from,
+            values: bats.iter().map(|c| c.speed(place(c))).collect(),
+        }
+    };
+    distances.iter().map(row).collect()
+}
+
+struct Rows<'a> {
+    bats: &'a [Contender],
+    all: Vec<ComparedFigure>,
+}
+
+impl Rows<'_> {
+    fn add(
+        &mut self,
+        key: &str,
+        name: &str,
+        unit: Unit,
+        of: impl Fn(&Contender) -> Option<Figure>,
+    ) {
+        let values: Vec<_> = self.bats.iter().map(of).collect();
+        let (key, name) = (key.to_owned(), name.to_owned());
+        self.all.push(ComparedFigure { key, name, unit, from: From::Nowhere, values });
+    }
+
+    fn exact(&mut self, key: &str, name: &str, unit: Unit, of: impl Fn(&Contender) -> f64) {
+        self.add(key, name, unit, |c| Some(Figure::exact(of(c))));
+    }
+
+    /// An energy, where all bats' energies are seen from the same place.
+    fn energy(&mut self, key: &str, name: &str, of: impl Fn(&Contender) -> Option<Figure>) {
+        let same = energies_compare(self.bats);
+        self.add(key, name, Unit::Joules, |c| of(c).filter(|_| same));
+    }
+
+    /// A place, given from the knob end; and the same from the tip.
+    fn place(&mut self, key: &str, name: &str, of: impl Fn(&Contender) -> Option<Figure>) {
+        self.add(key, name, Unit::Metres, &of);
+        self.add(&format!("{key}_from_tip"), name, Unit::Metres, |c| {
+            let figure = of(c)?;
+            let error = figure.error + Figure::exact(c.bat.length()).error;
+            Some(Figure::new(c.bat.length() - figure.value, error))
+        });
+        let last = self.all.len() - 1;
+        self.all[last - 1].from = From::Knob;
+        self.all[last].from = From::Tip;
+    }
+}

@@ -1,0 +1,114 @@
+//! Bats hit at the same places, and everything that is compared of them.
+
+use crate::comparison::contender::{Contender, Terms, multiples, places};
+use crate::comparison::pieces::{ByWood, answer, by_wood, one_piece};
+use crate::comparison::rows::{ComparedFigure, From, figures, speeds};
+use crate::comparison::stretches::{Stretch, stretches};
+use sweetspot::base::error::{Error, Result};
+use sweetspot::bat::body::Bat;
+use sweetspot::collision::figures::SwingLaw;
+use sweetspot::collision::hit::Scene;
+use sweetspot::modes::solve::Request;
+
+/// A bat with its own swing and its own request: theories may differ.
+#[derive(Debug, Clone)]
+pub struct Entry {
+    /// The bat.
+    pub bat: Bat,
+    /// The scene with this bat's swing.
+    pub scene: Scene,
+    /// Where that swing is from, if one batter swings all bats.
+    pub law: Option<SwingLaw>,
+    /// What is asked of its modes; the tolerance is that of the exit speeds.
+    pub request: Request,
+}
+
+/// All figures of several bats; the first is the one the others are compared with.
+#[derive(Debug, Clone)]
+pub struct Comparison {
+    /// How all of them are hit.
+    pub terms: Terms,
+    /// The bats, the first the one the others are compared with.
+    pub bats: Vec<Contender>,
+    /// Everything but the exit speeds by place.
+    pub figures: Vec<ComparedFigure>,
+    /// Distances from the tip (m), a quarter of the asked one apart.
+    pub from_tip: Vec<f64>,
+    /// The exit speeds there.
+    pub by_tip: Vec<ComparedFigure>,
+    /// Distances from the knob end (m) where all bats have a place, the asked one apart.
+    pub from_knob: Vec<f64>,
+    /// The exit speeds there.
+    pub by_knob: Vec<ComparedFigure>,
+    /// What the wood alone leaves open of every bat.
+    by_wood: Vec<ByWood>,
+}
+
+/// How much of the shortest bat is compared, from the tip on.
+const COMPARED: f64 = 0.4;
+
+impl Comparison {
+    /// Hits all bats.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] for places too close or too far apart, and those of
+    /// [`Contender::new`].
+    pub fn new(entries: Vec<Entry>, terms: Terms) -> Result<Self> {
+        let lengths = || entries.iter().map(|entry| entry.bat.length());
+        let shortest = lengths().fold(f64::INFINITY, f64::min);
+        let longest = lengths().fold(0.0, f64::max);
+        let reach = COMPARED * shortest;
+        if !(terms.every >= reach / 250.0 && terms.every <= reach) {
+            let found = format!("{:?} m", terms.every);
+            let expected = format!("{:.2e} to {:.2e} m on these bats", reach / 250.0, reach);
+            return Err(Error::value("every", found, expected));
+        }
+        let mut bats = vec![];
+        for Entry { bat, scene, law, request } in entries {
+            let places = places(&bat, terms.every, reach);
+            bats.push(Contender::new(bat, (scene, law), &request, &terms, &places)?);
+        }
+        let from_tip = multiples([0.0, reach], 0.25 * terms.every);
+        let from_knob = multiples([longest - reach, shortest], terms.every);
+        let by_wood = bats.iter().map(|bat| by_wood(bat, terms.model)).collect();
+        Ok(Self {
+            terms,
+            by_wood,
+            figures: figures(&bats),
+            by_tip: speeds(&bats, From::Tip, &from_tip),
+            by_knob: speeds(&bats, From::Knob, &from_knob),
+            from_tip,
+            from_knob,
+            bats,
+        })
+    }
+
+    /// Whether all bats are equally long.
+    pub fn same_length(&self) -> bool {
+        !self.figures[0].values.iter().flatten().any(|length| {
+            let first = self.bats[0].bat.length();
+            (length.value - first).abs() > 1e-9 * first
+        })
+    }
+
+    /// By how much that figure of another piece of that bat's wood and of another of the first's differ,
+    /// one standard deviation, in the unit of the figure; None where no scatter is known, or where both bats
+    /// are one piece.
+    pub fn between_pieces(&self, key: &str, bat: usize) -> Option<f64> {
+        let answer = answer(key.trim_end_matches("_from_tip"))? as usize;
+        let [a, b] = [self.by_wood[0][answer]?, self.by_wood[bat][answer]?];
+        let by = a.hypot(b);
+        (!self.one_piece(bat) && by > 0.0).then_some(by)
+    }
+
+    /// Whether that bat is the first one with edits, or the first is: one and the same piece of wood.
+    pub fn one_piece(&self, bat: usize) -> bool {
+        one_piece(&self.bats[0].bat, &self.bats[bat].bat)
+    }
+
+    /// Where that bat hits harder than the first.
+    pub fn stretches(&self, bat: usize) -> Vec<Stretch> {
+        stretches(&self.from_tip, &self.by_tip, bat)
+    }
+}

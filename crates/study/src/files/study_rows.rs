@@ -1,0 +1,355 @@
+//! Which bat and which hit is row k of a study, and what came of them?
+//!
+//! What [`Rows::answers`] gives of a row is a function of the study, its bats, its ball and k alone. Of several
+//! bats each has every row of the design, one bat after the other.
+
+use std::ops::Range;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+
+use crate::comparison::contender::Figure;
+use crate::files::study_file::StudyFile;
+use crate::files::study_vary::VariedFile;
+use crate::many::answers::on_the_bat;
+use crate::many::design::{MOST_ROWS, Row};
+use crate::many::rows::{Asked, Found, Trial};
+use sweetspot::base::error::{Error, Result};
+use sweetspot::base::marks;
+use sweetspot::base::number::shortest;
+use sweetspot::bat::body::Bat;
+use sweetspot::collision::ball::Ball;
+use sweetspot::collision::setup::Setup;
+use sweetspot::files::ball_file::written;
+use sweetspot::files::scene_file;
+
+/// Combinations of lists, and rows, that are tried.
+const TRIED: u64 = 32;
+
+/// A bat as a file has it.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct BatText {
+    /// What tables call it.
+    pub name: String,
+    /// What the file says, which names no other file; or why it is no bat.
+    pub text: std::result::Result<String, String>,
+}
+
+/// A study with the documents that it varies.
+pub struct Rows {
+    /// The study.
+    pub study: StudyFile,
+    pub(super) bats: Vec<Varying>,
+    ball: Base<Ball>,
+    setup: Base<Setup>,
+}
+
+/// A bat that is varied.
+pub(super) struct Varying {
+    /// What tables call it.
+    pub name: String,
+    /// Its document, or why it is no bat.
+    pub document: std::result::Result<Value, String>,
+    /// A row of which it is a bat, as a model of the others, and that bat; if there is such a row.
+    pub model: Option<(Row, Bat)>,
+}
+
+/// What a row's own is made of: a document, or the thing itself where no row differs in it.
+enum Base<T> {
+    Varied(Value),
+    Same(T),
+}
+
+impl Rows {
+    /// Looks whether what varies of a bat and a ball can be varied.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Input`] where no row that was tried is a bat that can be asked, of no bat, so where a path leads
+    /// nowhere; [`Error::Value`] for no bat at all and for more rows than [`MOST_ROWS`].
+    pub fn new(study: StudyFile, bats: Vec<BatText>, ball: Ball) -> Result<Self> {
+        let varying = |BatText { name, text }: BatText| {
+            let document = text.and_then(|text| {
+                let text = text.trim_start_matches('\u{feff}');
+                serde_json::from_str(text).map_err(|error| error.to_string())
+            });
+            Varying { name, document, model: None }
+        };
+        let bats = bats.into_iter().map(varying).collect();
+        let varied_ball = study.varies(VariedFile::Ball);
+        let varied_scene = study.varies(VariedFile::Scene);
+        let setup = match varied_scene || varied_ball {
+            true => Base::Varied(Value::Object(study.scene.clone())),
+            false => Base::Same(scene_file::of(&study.scene, ball.clone())?),
+        };
+        let ball = if varied_ball { Base::Varied(written(&ball)) } else { Base::Same(ball) };
+        let mut rows = Self { study, bats, ball, setup };
+        if rows.bats.len() as u64 > MOST_ROWS / rows.study.design.rows() {
+            let found =
+                format!("{} bats, each with {} rows", rows.bats.len(), rows.study.design.rows());
+            return Err(Error::value("points", found, format!("{MOST_ROWS} rows at most")));
+        }
+        let (mut wrong, mut right) = (None, false);
+        for k in 0..rows.bats.len() {
+            if rows.bats[k].document.is_ok() {
+                // One that can be asked is enough.
+                let (model, why) = rows.model(&rows.bats[k], right);
+                right |= why.is_none();
+                (rows.bats[k].model, wrong) = (model, wrong.or(why));
+            }
+        }
+        if right {
+            return Ok(rows);
+        }
+        let unread =
+            |bat: &Varying| Some(Error::value("bat", bat.document.as_ref().err()?, "a bat file"));
+        let none = || Error::value("bat", "none", "one bat at least");
+        let wrong = wrong.map(|error| rows.study.comes_to_nothing(error));
+        Err(wrong.or_else(|| rows.bats.iter().find_map(unread)).unwrap_or_else(none))
+    }
+
+    /// A row of which a bat can be asked, and that bat. Where none that was tried can be, one that is a bat at
+    /// least, and what was wrong with the first.
+    fn model(
+        &self,
+        varying: &Varying,
+        without_asking: bool,
+    ) -> (Option<(Row, Bat)>, Option<Error>) {
+        let (mut model, mut wrong) = (None, None);
+        for row in self.study.design.examples(TRIED) {
+            let bat = self.bat(varying, &row);
+            let asked =
+                |bat: &Bat| if without_asking { Ok(()) } else { self.can_be_asked(&row, bat) };
+            match bat.map(|bat| (asked(&bat), bat)) {
+                Ok((Ok(()), bat)) => return (Some((row, bat)), None),
+                Ok((Err(error), bat)) => {
+                    (model, wrong) = (model.or(Some((row, bat))), wrong.or(Some(error)));
+                }
+                Err(error) => wrong = wrong.or(Some(error)),
+            }
+        }
+        (model, wrong)
+    }
+
+    /// An error where all that is asked of a bat in a row is asked in vain.
+    fn can_be_asked(&self, row: &Row, bat: &Bat) -> Result<()> {
+        let answers = &self.study.asked.answers;
+        match answers.iter().any(|answer| answer.of_a_hit()) {
+            true => self.trial(row, bat).map(|_| ())?,
+            // What leads nowhere is wrong where nothing is hit too.
+            false => self.setup(row).map(|_| ())?,
+        }
+        on_the_bat(answers, bat)
+    }
+
+    /// How many rows there are.
+    pub fn count(&self) -> u64 {
+        self.bats.len() as u64 * self.study.design.rows()
+    }
+
+    /// Whether there are several bats.
+    pub fn several(&self) -> bool {
+        self.bats.len() > 1
+    }
+
+    /// Whether walls of hollow barrels are solved, in one of the rows that are tried of each bat at least.
+    pub fn solves_walls(&self) -> bool {
+        let solved = |bat: &Varying, row: &Row| {
+            let setup = self.setup(row).ok()?;
+            Some(setup.may_solve_wall(&self.bat(bat, row).ok()?))
+        };
+        let hit = self.study.asked.answers.iter().any(|answer| answer.of_a_hit());
+        let mut bats = self.bats.iter().filter(|bat| hit && bat.document.is_ok());
+        bats.any(|bat| {
+            let rows = self.study.design.examples(TRIED);
+            rows.into_iter().any(|row| solved(bat, &row) == Some(true))
+        })
+    }
+
+    /// What came of those rows, in the order of what is asked, or why there is no answer. A row's answers do
+    /// not depend on which others are asked for with it.
+    pub fn answers(&self, rows: Range<u64>) -> Vec<Result<Found>> {
+        let each = self.study.design.rows();
+        let mut found = vec![];
+        let mut from = rows.start;
+        while from < rows.end {
+            let to = rows.end.min((from / each + 1) * each);
+            found.extend(self.answers_of_one_bat(from..to));
+            from = to;
+        }
+        found
+    }
+
+    fn answers_of_one_bat(&self, rows: Range<u64>) -> Vec<Result<Found>> {
+        let of: Vec<(&Varying, Row)> = rows.map(|k| self.row(k)).collect();
+        let Some((bat, _)) = of.first() else { return vec![] };
+        self.answers_of_rows(bat, &of.iter().map(|(_, row)| row).collect::<Vec<_>>())
+    }
+
+    pub(super) fn answers_of_rows(&self, varying: &Varying, rows: &[&Row]) -> Vec<Result<Found>> {
+        let asked = &self.study.asked;
+        let trial = |k: usize, bat: &Bat| self.trial(rows[k], bat);
+        let bats = rows.iter().map(|row| self.bat(varying, row));
+        let Some((_, model)) = &varying.model else {
+            // Each is its own model.
+            let alone = |(k, bat): (usize, Result<Bat>)| match bat {
+                Ok(bat) => Asked::of_each(&bat.clone(), vec![(asked, Ok(bat))], |_, b| trial(k, b)),
+                Err(error) => vec![Err(error)],
+            };
+            return bats.enumerate().flat_map(alone).collect();
+        };
+        Asked::of_each(model, bats.map(|bat| (asked, bat)).collect(), trial)
+    }
+
+    fn row(&self, k: u64) -> (&Varying, Row) {
+        let each = self.study.design.rows();
+        (&self.bats[(k / each) as usize], self.study.design.row(k % each))
+    }
+
+    /// The names of the columns of a table of rows, each with its unit.
+    pub fn columns(&self) -> Vec<[String; 2]> {
+        let column = |name: String, unit: &str| [name, unit.to_owned()];
+        let inputs = self.study.varied.iter().map(|v| column(v.path.clone(), v.unit()));
+        let answers = self.study.outputs.iter().zip(&self.study.asked.answers);
+        let answers = answers.flat_map(|(name, answer)| {
+            let error = format!("{name}_error");
+            [column(name.clone(), answer.unit()), column(error, answer.unit())]
+        });
+        let first = ["row", "bat"].into_iter().take(1 + usize::from(self.several()));
+        let first = first.map(|name| column(name.to_owned(), ""));
+        let last = ["met", "error"].map(|name| column(name.to_owned(), ""));
+        first.chain(inputs).chain(answers).chain(last).collect()
+    }
+
+    /// Which of the columns are numbers in every row, or whether something is so.
+    pub fn numbers(&self) -> Vec<usize> {
+        let before = 1 + usize::from(self.several());
+        let varied = &self.study.varied;
+        let inputs = varied.iter().enumerate().filter(|(_, varied)| varied.is_number());
+        let inputs = inputs.map(|(k, _)| before + k);
+        let answers = before + varied.len();
+        let last = answers + 2 * self.study.asked.answers.len();
+        std::iter::once(0).chain(inputs).chain(answers..=last).collect()
+    }
+
+    /// The cells of those rows, as they are written: of each its number, of several bats its name, its inputs, answers with their
+    /// errors, whether they are as accurate as asked, and why there are none.
+    pub fn cells(&self, rows: Range<u64>) -> Vec<Vec<String>> {
+        rows.clone().zip(self.answers(rows)).map(|(k, found)| self.cells_of(k, found)).collect()
+    }
+
+    /// The first cells of a row: its number, its bat, its inputs.
+    fn inputs_of(&self, k: u64) -> Vec<String> {
+        let (bat, row) = self.row(k);
+        let mut cells = vec![k.to_string()];
+        cells.extend(self.several().then(|| marks::cell(&bat.name)));
+        cells.extend(self.study.varied.iter().map(|varied| varied.cell(&row)));
+        cells
+    }
+
+    /// The first cell of a row that was read back which cannot be, and what was expected.
+    pub fn wrong_cell(&self, k: u64, cells: &csv::StringRecord) -> Option<(usize, String)> {
+        let inputs = self.inputs_of(k);
+        if let Some(wrong) = (0..inputs.len()).find(|cell| cells[*cell] != *inputs[*cell]) {
+            return Some((wrong, format!("\"{}\"", inputs[wrong])));
+        }
+        let met = inputs.len() + 2 * self.study.asked.answers.len();
+        let explained = !cells[met + 1].is_empty();
+        for cell in inputs.len()..met {
+            let text = &cells[cell];
+            let is_number = text.parse().is_ok_and(|x: f64| x.is_finite() && shortest(x) == text);
+            // An error that is not known is left out beside its answer.
+            let is_error = (cell - inputs.len()) % 2 == 1;
+            if !(is_number || text.is_empty() && (explained || is_error)) {
+                return Some((cell, "a finite number, or none and why in the row".to_owned()));
+            }
+        }
+        let right = cells[met] == *"true" || (cells[met] == *"false" && explained);
+        (!right).then(|| (met, "true, or false and why in the row".to_owned()))
+    }
+
+    fn cells_of(&self, k: u64, found: Result<Found>) -> Vec<String> {
+        let (bat, _) = self.row(k);
+        let answers = self.study.asked.answers.len();
+        let mut cells = self.inputs_of(k);
+        let (met, why) = match found {
+            Ok(found) => {
+                let of =
+                    |value: f64| if value.is_finite() { shortest(value) } else { String::new() };
+                cells.extend(found.figures.iter().flat_map(|figure| {
+                    let both = figure.map(|figure| [figure.value, figure.error].map(of));
+                    both.unwrap_or_default()
+                }));
+                let known = |figure: &Option<Figure>| figure.is_some_and(|of| of.value.is_finite());
+                let missing = !found.figures.iter().all(known);
+                let why = match (found.off, found.met, missing) {
+                    (Some(off), ..) => reason(&off),
+                    (None, _, true) => "the bat has no such answer".to_owned(),
+                    (None, false, _) => "less accurate than asked".to_owned(),
+                    (None, true, false) => String::new(),
+                };
+                (found.met && !missing, why)
+            }
+            Err(error) => {
+                cells.extend(vec![String::new(); 2 * answers]);
+                (false, bat.document.as_ref().err().cloned().unwrap_or_else(|| reason(&error)))
+            }
+        };
+        cells.extend([met.to_string(), marks::cell(&why)]);
+        cells
+    }
+
+    /// A document with what varies of it in a row.
+    fn document(&self, subject: VariedFile, base: &Value, row: &Row) -> Result<Value> {
+        let mut document = base.clone();
+        for varied in self.study.varied.iter().filter(|varied| varied.subject == subject) {
+            varied.put(&mut document, row)?;
+        }
+        Ok(document)
+    }
+
+    pub(super) fn bat(&self, bat: &Varying, row: &Row) -> Result<Bat> {
+        let document = bat.document.as_ref();
+        let document = document.map_err(|why| Error::value("bat", why, "a bat file"))?;
+        let text = self.document(VariedFile::Bat, document, row)?.to_string();
+        Bat::from_text(&bat.name, &text, Path::new(""))
+    }
+
+    fn ball(&self, row: &Row) -> Result<Ball> {
+        match &self.ball {
+            Base::Same(ball) => Ok(ball.clone()),
+            Base::Varied(base) => {
+                Ball::from_text("ball", &self.document(VariedFile::Ball, base, row)?.to_string())
+            }
+        }
+    }
+
+    pub(super) fn setup(&self, row: &Row) -> Result<Setup> {
+        match &self.setup {
+            Base::Same(setup) => Ok(setup.clone()),
+            Base::Varied(base) => {
+                let members = self.document(VariedFile::Scene, base, row)?;
+                let none = Map::new();
+                scene_file::of(members.as_object().unwrap_or(&none), self.ball(row)?)
+            }
+        }
+    }
+
+    fn trial(&self, row: &Row, bat: &Bat) -> Result<Trial> {
+        let setup = self.setup(row)?;
+        let (model, tolerance) = (setup.model()?, Some(self.study.asked.tolerance));
+        Ok(Trial { scene: setup.scene(bat, tolerance)?.0, model })
+    }
+}
+
+/// Why there is no answer, without the place in a text that nobody wrote.
+pub fn reason(error: &Error) -> String {
+    match error {
+        Error::Value(complaint) | Error::Input { complaint, .. } => {
+            complaint.clone().naming(str::to_owned).to_string()
+        }
+        Error::Several { shown, .. } => shown.first().map(reason).unwrap_or_default(),
+        other => other.to_string(),
+    }
+}

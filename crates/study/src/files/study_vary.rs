@@ -1,0 +1,381 @@
+//! What differs between the rows of a study, and where does it go?
+//!
+//! What varies is named by its path in the bat file, in the ball file or in the scene; [`Varied::put`] puts a
+//! value there.
+
+use serde_json::{Value, json};
+
+use crate::many::design::{Axis, Row, Wanted};
+use crate::many::distribution::Distribution;
+use sweetspot::base::error::{Complaint, Error, FilePosition, Result};
+use sweetspot::base::marks;
+use sweetspot::base::mistakes::{self, Mistakes};
+use sweetspot::base::number::shortest;
+use sweetspot::base::typed;
+use sweetspot::base::units::{self, Quantity};
+use sweetspot::collision::setup::Setup;
+use sweetspot::files::json_node::Node;
+
+/// How something varies.
+const WAYS: [&str; 6] = ["values", "grid", "uniform", "normal", "lognormal", "triangular"];
+/// The documents whose members may vary.
+const SUBJECTS: &[(&str, VariedFile)] =
+    &[("bat", VariedFile::Bat), ("ball", VariedFile::Ball), ("scene", VariedFile::Scene)];
+
+/// Whose member varies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum VariedFile {
+    /// The bat file's.
+    Bat,
+    /// The ball file's.
+    Ball,
+    /// The scene's.
+    Scene,
+}
+
+/// A member that varies.
+#[derive(Debug, Clone)]
+pub struct Varied {
+    /// Its path, with that of its document before it: `bat.material.density`.
+    pub path: String,
+    /// Whose it is.
+    pub subject: VariedFile,
+    /// Its path in its document.
+    inside: Vec<Step>,
+    way: Variation,
+    /// Where the study names it.
+    place: Box<FilePosition>,
+}
+
+/// A step of a path into a document.
+#[derive(Debug, Clone, PartialEq, Eq)]
+enum Step {
+    Member(String),
+    Item(usize),
+}
+
+/// How a member varies. The first number is that of its list, or of its distribution, in a row; units may be none.
+#[derive(Debug, Clone)]
+enum Variation {
+    /// By one of these.
+    Listed(usize, Vec<Listed>),
+    /// By one of these numbers in that unit.
+    Numbered(usize, Vec<f64>, String),
+    /// By a number in that unit.
+    Drawn(usize, String),
+}
+
+/// A value of a list.
+#[derive(Debug, Clone)]
+struct Listed {
+    /// As the study has it.
+    said: Value,
+    /// As it goes into a document, which names no file.
+    meant: Value,
+}
+
+impl Varied {
+    /// Its value in a row, as a document has it.
+    pub fn value(&self, row: &Row) -> Value {
+        let in_unit = |value: f64, unit: &str| match unit {
+            "" => Value::from(value),
+            unit => format!("{} {unit}", shortest(value)).into(),
+        };
+        match &self.way {
+            Variation::Listed(k, values) => values[row.picks[*k] as usize].meant.clone(),
+            Variation::Numbered(k, values, unit) => in_unit(values[row.picks[*k] as usize], unit),
+            Variation::Drawn(k, unit) => in_unit(row.values[*k], unit),
+        }
+    }
+
+    /// Its value in a row, as a table has it, written as a cell: a number in its unit, or what the list says.
+    pub fn cell(&self, row: &Row) -> String {
+        match &self.way {
+            Variation::Drawn(k, _) => shortest(row.values[*k]),
+            Variation::Numbered(k, values, _) => shortest(values[row.picks[*k] as usize]),
+            Variation::Listed(k, values) => match &values[row.picks[*k] as usize].said {
+                Value::String(text) => marks::cell(text),
+                other => other.to_string(),
+            },
+        }
+    }
+
+    /// Where its value is in a row.
+    pub fn axis(&self) -> Axis {
+        match self.way {
+            Variation::Listed(k, _) | Variation::Numbered(k, ..) => Axis::List(k),
+            Variation::Drawn(k, _) => Axis::Drawn(k),
+        }
+    }
+
+    /// Whether all its values are numbers.
+    pub fn is_number(&self) -> bool {
+        match &self.way {
+            Variation::Drawn(..) | Variation::Numbered(..) => true,
+            Variation::Listed(_, values) => values.iter().all(|value| value.said.is_number()),
+        }
+    }
+
+    /// The unit of its numbers, empty where they are bare and for what is listed.
+    pub fn unit(&self) -> &str {
+        match &self.way {
+            Variation::Drawn(_, unit) | Variation::Numbered(_, _, unit) => unit,
+            Variation::Listed(..) => "",
+        }
+    }
+
+    /// Puts what `of` makes of them in place of values that are profiles and name a file: `{"csv": …}`.
+    ///
+    /// # Errors
+    ///
+    /// Those of `of`, in the study.
+    pub fn replace_tables(&mut self, mut of: impl FnMut(&Value) -> Result<Value>) -> Result<()> {
+        let is_profile = self.subject == VariedFile::Bat && self.inside == [member("profile")];
+        let Variation::Listed(_, values) = &mut self.way else { return Ok(()) };
+        for Listed { meant, .. } in values.iter_mut().filter(|_| is_profile) {
+            if meant.get("csv").is_some() {
+                let placed = |complaint| wrong(&self.path, &self.place, complaint);
+                *meant = of(meant).map_err(|error| error.placed(placed))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Puts its value in a row into a document. A member that is not there is added to its object, and so is that
+    /// object; a material that is a name becomes that name with a member of its own.
+    ///
+    /// # Errors
+    ///
+    /// How far the path leads, where it leads nowhere.
+    pub fn put(&self, root: &mut Value, row: &Row) -> Result<()> {
+        let (mut here, mut passed) = (root, String::new());
+        for step in &self.inside {
+            let lost = |what: String| {
+                let found = format!("{what} at \"{passed}\"");
+                Error::value(self.path.clone(), found, "a path that is in the document")
+            };
+            match step {
+                Step::Item(k) => {
+                    let list = here.as_array_mut().ok_or_else(|| lost("no list".to_owned()))?;
+                    let many = list.len();
+                    let none = || lost(format!("{many} items, none of number {k},"));
+                    here = list.get_mut(*k).ok_or_else(none)?;
+                    passed += &format!("[{k}]");
+                }
+                Step::Member(name) => {
+                    if here.is_string() {
+                        *here = json!({ "name": here.clone() });
+                    } else if here.is_null() {
+                        *here = json!({});
+                    }
+                    let object =
+                        here.as_object_mut().ok_or_else(|| lost("no object".to_owned()))?;
+                    here = object.entry(name).or_insert(Value::Null);
+                    passed += &format!("{}{name}", if passed.is_empty() { "" } else { "." });
+                }
+            }
+        }
+        *here = self.value(row);
+        Ok(())
+    }
+
+    /// Whether a complaint about a document, or about the path itself, is about what varies here.
+    pub fn is_meant(&self, complaint: &Complaint) -> bool {
+        complaint.field == self.path
+            || steps(&complaint.field).is_some_and(|field| one_within(&field, &self.inside))
+    }
+
+    /// An error about it, in the study.
+    pub fn wrong(&self, complaint: Complaint) -> Error {
+        wrong(&self.path, &self.place, complaint)
+    }
+}
+
+fn wrong(path: &str, place: &FilePosition, complaint: Complaint) -> Error {
+    let complaint = Complaint { field: format!("vary.{path}"), ..complaint };
+    Error::Input { place: Box::new(place.clone()), complaint }
+}
+
+fn member(name: &str) -> Step {
+    Step::Member(name.to_owned())
+}
+
+/// The steps of a path such as `attachments[0].mass`, which has one way to be written.
+fn steps(path: &str) -> Option<Vec<Step>> {
+    let mut steps = vec![];
+    for part in path.split('.') {
+        let (name, items) = part.split_at(part.find('[').unwrap_or(part.len()));
+        if name.is_empty() || name.contains(']') {
+            return None;
+        }
+        steps.push(member(name));
+        let items = items.strip_prefix('[').map(|items| items.strip_suffix(']'));
+        for k in items.map_or(Some(vec![]), |items| Some(items?.split("][").collect()))? {
+            let number: usize = k.parse().ok().filter(|number: &usize| number.to_string() == k)?;
+            steps.push(Step::Item(number));
+        }
+    }
+    Some(steps)
+}
+
+/// Whether one of two paths leads to what the other leads into, or to the same.
+fn one_within(a: &[Step], b: &[Step]) -> bool {
+    a.starts_with(b) || b.starts_with(a)
+}
+
+/// What varies, with its lists and distributions noted in what the design is made of.
+pub(crate) fn varied(node: &Node, wanted: &mut Wanted) -> Result<Vec<Varied>> {
+    let object = node.members()?;
+    let paths = object.keys();
+    if paths.is_empty() {
+        let expected = "one path at least, such as \"bat.material.density\"";
+        return Err(node.error("an empty object", expected));
+    }
+    /// Every row writes all of them into its bat, and finds each there.
+    const MOST: usize = 100;
+    if paths.len() > MOST {
+        return Err(node.error(format!("{} paths", paths.len()), format!("{MOST} at most")));
+    }
+    let mut all: Vec<(VariedFile, Vec<Step>, &str)> = vec![];
+    mistakes::all(paths.iter().map(|(path, node)| {
+        let key = node.key();
+        let (subject, inside) = led(path, &key)?;
+        let other = all.iter().find(|(of, into, _)| *of == subject && one_within(into, &inside));
+        if let Some((_, into, other)) = other {
+            return Err(if *into == inside {
+                key.error(format!("\"{path}\" a second time"), "it once")
+            } else {
+                let found = format!("\"{path}\" beside \"{other}\", one inside the other");
+                key.error(found, "paths of which none lies inside another")
+            });
+        }
+        all.push((subject, inside.clone(), path));
+        let way = way(node, wanted)?;
+        Ok(Varied { path: path.clone(), subject, inside, way, place: key.place() })
+    }))
+}
+
+/// Whose member a path names, and where it is there.
+fn led(path: &str, key: &Node) -> Result<(VariedFile, Vec<Step>)> {
+    let found = format!("\"{path}\"");
+    let subject = path.split_once('.').and_then(|(first, inside)| {
+        let (_, subject) = SUBJECTS.iter().find(|(name, _)| *name == first)?;
+        Some((*subject, inside, steps(inside)?))
+    });
+    let Some((subject, inside, steps)) = subject else {
+        let expected = "a path that begins with bat., ball. or scene., such as \
+                        \"bat.material.density\" or \"bat.profile.diameter[12]\"";
+        return Err(key.error(found, expected));
+    };
+    if subject == VariedFile::Scene && !Setup::MEMBERS.contains(&inside) {
+        let expected = format!("scene. and one of {}", Setup::MEMBERS.join(", "));
+        let complaint = Complaint::new("", found, expected);
+        return Err(key.complain(complaint.or_nearest(inside, &Setup::MEMBERS)));
+    }
+    if subject == VariedFile::Bat && steps == [member("profile"), member("csv")] {
+        let expected = "\"bat.profile\", with values such as {\"csv\": \"stations.csv\"}";
+        return Err(key.error(found, expected));
+    }
+    Ok((subject, steps))
+}
+
+/// How a member varies, noted in what the design is made of.
+fn way(node: &Node, wanted: &mut Wanted) -> Result<Variation> {
+    let mut mistakes = Mistakes::default();
+    let object = node.object(&WAYS, &mut mistakes)?;
+    mistakes.end(())?;
+    let Some((way, node)) = object.one_of(&WAYS)? else {
+        let expected = format!("one of {}", WAYS.join(", "));
+        return Err(node.error("nothing that says how it varies", expected));
+    };
+    let items = node.items()?;
+    let mut list = |length: usize| {
+        wanted.lists.push(length as u64);
+        wanted.lists.len() - 1
+    };
+    if way == "values" {
+        if items.is_empty() {
+            return Err(node.error("an empty list", "one value at least"));
+        }
+        let k = list(items.len());
+        if let Some((numbers, unit)) = of_one_unit(&items) {
+            return Ok(Variation::Numbered(k, numbers, unit));
+        }
+        let listed = items.iter().map(Node::value).map(|said| Listed { meant: said.clone(), said });
+        return Ok(Variation::Listed(k, listed.collect()));
+    }
+    let forms: [(&str, &str, usize); 5] = [
+        ("grid", "[from, to, how many], such as [\"0 oz\", \"2 oz\", 9]", 3),
+        ("uniform", "[from, to], such as [600, 700]", 2),
+        ("normal", "[mean, standard deviation], such as [\"27.5 mm\", \"0.2 mm\"]", 2),
+        ("lognormal", "[median, standard deviation of the logarithm], such as [650, 0.04]", 2),
+        ("triangular", "[from, likeliest, to], such as [600, 650, 720]", 3),
+    ];
+    let (_, form, count) = forms.into_iter().find(|(name, ..)| *name == way).unwrap_or(forms[0]);
+    if items.len() != count {
+        return Err(node.error(format!("{} values", items.len()), form));
+    }
+    // The last number of these two has no unit.
+    let with_unit = if matches!(way, "grid" | "lognormal") { count - 1 } else { count };
+    let numbers = mistakes::all(items[..with_unit].iter().map(number))?;
+    let unit = numbers[0].1.clone();
+    if let Some(k) = numbers.iter().position(|(_, other)| *other != unit) {
+        let expected = match &*unit {
+            "" => "a bare number, as the first".to_owned(),
+            unit => format!("the unit \"{unit}\", as the first has"),
+        };
+        return Err(items[k].error(items[k].shown(), expected));
+    }
+    let numbers: Vec<f64> = numbers.into_iter().map(|(number, _)| number).collect();
+    if way == "grid" {
+        let count = items[2].whole()?;
+        if !(2..=1_000_000).contains(&count) {
+            return Err(items[2].error(items[2].shown(), "2 to 1000000 values"));
+        }
+        let at = |k: u64| {
+            let share = k as f64 / (count - 1) as f64;
+            (1.0 - share) * numbers[0] + share * numbers[1]
+        };
+        return Ok(Variation::Numbered(list(count as usize), (0..count).map(at).collect(), unit));
+    }
+    let distribution = match way {
+        "uniform" => Distribution::Uniform { from: numbers[0], to: numbers[1] },
+        "normal" => Distribution::Normal { mean: numbers[0], deviation: numbers[1] },
+        "triangular" => {
+            Distribution::Triangular { from: numbers[0], peak: numbers[1], to: numbers[2] }
+        }
+        _ => Distribution::Lognormal { median: numbers[0], deviation: items[1].number()? },
+    };
+    distribution.check().map_err(|error| {
+        error.placed(|complaint| {
+            let found = format!("{} for \"{}\"", complaint.found, complaint.field);
+            node.complain(Complaint { field: String::new(), found, ..complaint })
+        })
+    })?;
+    wanted.drawn.push(distribution);
+    Ok(Variation::Drawn(wanted.drawn.len() - 1, unit))
+}
+
+/// The numbers of values that all have the same unit, and that.
+fn of_one_unit(items: &[Node]) -> Option<(Vec<f64>, String)> {
+    let all: Option<Vec<(f64, String)>> = items.iter().map(|item| number(item).ok()).collect();
+    let (numbers, mut units): (Vec<f64>, Vec<String>) = all?.into_iter().unzip();
+    units.dedup();
+    let [unit] = &units[..] else { return None };
+    Quantity::ALL
+        .iter()
+        .any(|quantity| units::factor(unit, *quantity).is_ok())
+        .then(|| (numbers, unit.clone()))
+}
+
+/// A number and its unit, which may be none.
+fn number(node: &Node) -> Result<(f64, String)> {
+    let Ok(text) = node.string() else { return Ok((node.number()?, String::new())) };
+    let plain = typed::plain(&text);
+    let (number, unit) = typed::split(&plain);
+    let value = typed::number(number).or_else(|| typed::mixed(number));
+    match value.filter(|value| value.is_finite()) {
+        Some(value) => Ok((value, unit.to_owned())),
+        None => Err(node.error(node.shown(), "a number, or a number and its unit")),
+    }
+}

@@ -1,0 +1,129 @@
+//! What does a beam theory leave out, and what does that cost on this bat?
+//!
+//! [`ignored`](fn@ignored) says it in sentences, [`shifts`] in numbers.
+
+use sweetspot::bat::body::Bat;
+use sweetspot::collision::hit::Scene;
+use sweetspot::collision::hoop_wall::{HoopInHit, WhyRigid, barrel_walls};
+use sweetspot::modes::shifts::typical_shear;
+use sweetspot::modes::solve::Solution;
+
+pub use sweetspot::modes::shifts::{Shift, shift, shifts, solved_shifts, with_typical_shear};
+
+/// By how much effects would change the lowest modes, in words.
+fn percents(shifts: &[Shift], change: impl Fn(&Shift) -> f64) -> String {
+    let digits = |v: f64| match v.abs() {
+        size if size >= 0.095 => format!("{v:.1} %"),
+        size if size >= 5e-5 => format!("{v:.1e} %"),
+        _ => "0 %".to_owned(),
+    };
+    let shown: Vec<String> = shifts.iter().map(|shift| digits(100.0 * change(shift))).collect();
+    match shifts.len() {
+        1 => format!("mode 1 by about {}", shown[0]),
+        many => format!("modes 1 to {many} by about {}", shown.join(", ")),
+    }
+}
+
+/// How what there is to say of shear begins.
+pub(crate) const SHEAR: &str = "shear: ";
+
+/// What the model leaves out and what it costs, a sentence each.
+pub fn ignored(bat: &Bat, solution: &Solution) -> Vec<String> {
+    let bat = solution.of(bat);
+    let modes = &solution.modes[..solution.modes.len().min(4)];
+    /// Shifts are shown to two digits.
+    const SHOWN: f64 = 1e-6;
+    let typical = with_typical_shear(bat);
+    let shifts = if solution.theory.shears() { vec![] } else { shifts(&typical, modes, SHOWN) };
+    let mut ignored = Vec::new();
+    if !modes.is_empty() && !solution.theory.turns() {
+        let change = percents(&shifts, |shift| shift.rotary_inertia);
+        ignored.push(format!("rotary inertia of the sections: would change {change}"));
+    }
+    if !modes.is_empty() && !solution.theory.shears() {
+        let change = percents(&shifts, |shift| shift.shear.unwrap_or(0.0));
+        ignored.push(match bat.knows_shear() {
+            true => format!("{SHEAR}would change {change}"),
+            false => format!(
+                "{SHEAR}not known, a material has no shear modulus; with the G/E of its kind ({}) \
+                 it would change {change}",
+                typical_shear(bat.material()).to_string().chars().take(5).collect::<String>()
+            ),
+        });
+    }
+    if !solution.theory.turns() && !bat.fixtures().holding() {
+        let inertia = bat.inertia();
+        let own = 100.0 * (inertia.about_balance / inertia.line_about_balance - 1.0);
+        ignored.push(format!(
+            "the sections' own inertia in the hit: this beam recoils as a line of mass, its \
+             inertia about the balance point {own:.2} % below the body's"
+        ));
+    }
+    if bat.fixtures().damping() {
+        ignored.push(
+            "damping by hands and absorbers in shapes, nodes and undamped frequencies: the damped \
+             frequencies are given beside them"
+                .to_owned(),
+        );
+    }
+    if !bat.lossy() {
+        let unknown = "damping by the material: no loss factor known, undamped";
+        ignored.push(format!("{unknown} (\"loss_factor\" in the bat file)"));
+    }
+    if bat.fixtures().grip.is_none() {
+        ignored.push("hands (add a \"grip\" to the bat file to model them)".to_owned());
+    }
+    ignored.push(match thinnest_wall(bat) {
+        Some(_) => {
+            "hoop modes of this hollow barrel: not a beam's; sweetspot hoop has them".to_owned()
+        }
+        None => "hoop modes of hollow barrels: not a beam's, and not modelled".to_owned(),
+    });
+    ignored
+}
+
+/// The thinnest wall (m) of the outer half of the bat, where a ball is hit, and its place (m); None
+/// where that half is solid, as [`barrel_walls`] says.
+pub fn thinnest_wall(bat: &Bat) -> Option<[f64; 2]> {
+    barrel_walls(bat).into_iter().min_by(|a, b| a[0].total_cmp(&b[0]))
+}
+
+/// What a hit on this bat leaves out, a sentence each: how the wall of a hollow barrel gives way, where
+/// it is taken as rigid.
+///
+/// # Source
+///
+/// For the direction: A. M. Nathan, D. A. Russell, L. V. Smith, "The physics of the trampoline effect
+/// in baseball and softball bats", Engineering of Sport 5 (2004).
+pub fn in_hit(bat: &Bat, scene: &Scene) -> Vec<String> {
+    let rigid = thinnest_wall(bat).filter(|_| !scene.wall_gives_way());
+    let Some([wall, x]) = rigid else { return vec![] };
+    let barrel = format!(
+        "the wall of this hollow barrel ({:.1} mm at its thinnest, {:.0} cm from the knob) is rigid here",
+        1e3 * wall,
+        100.0 * x
+    );
+    let faster = "a thin one gives way under the ball and spares it a loss, so that the ball leaves \
+                  faster and BBCOR is larger than computed";
+    let given = "--wall-stiffness and --wall-mass put in what is known of it";
+    vec![match &scene.hoop {
+        HoopInHit::LeftOut(WhyRigid::Small { gain, tolerance }) => format!(
+            "{barrel}: giving way it would change BBCOR by about {gain:.0e}, less than the \
+             {tolerance:.0e} asked for; --wall on counts its hoop modes"
+        ),
+        HoopInHit::LeftOut(WhyRigid::Asked) => {
+            format!("{barrel}: {faster}; --wall auto counts its hoop modes")
+        }
+        HoopInHit::LeftOut(WhyRigid::ModesTold) => format!(
+            "{barrel}: {faster}; a number of modes was told and nothing else is counted, but --wall on \
+             counts its hoop modes"
+        ),
+        HoopInHit::LeftOut(WhyRigid::ManyBats) => {
+            format!("{barrel}, as many bats are compared: {faster}; hit counts its hoop modes")
+        }
+        HoopInHit::LeftOut(WhyRigid::Unsolved(why)) => {
+            format!("{barrel}: {faster}; its hoop modes could not be found ({why}), {given}")
+        }
+        HoopInHit::None | HoopInHit::Counted(_) => format!("{barrel}: {faster}; {given}"),
+    }]
+}

@@ -1,0 +1,511 @@
+//! Which places of a hit does an answer read, and how?
+//!
+//! An answer about a hit is made a sum of values at fixed places, whose derivative is that of the answer. With
+//! a value `v(x; p)` of a hit at `x` on a bat that is changed by `p`,
+//!
+//! ```text
+//! greatest value      dv*/dp = ∂v/∂p at x*                  (v_x = 0 there)
+//! its place           dx*/dp = −v_xp/v_xx
+//! end of the zone     dx_e/dp = −(∂v/∂p at x_e − 0.99 dv*/dp)/v_x at x_e
+//! ```
+//!
+//! so that one look along the bat serves all its changes, and no change needs a search of its own.
+//!
+//! Slopes along the bat are differences, whose places must be nearer to each other than the value's own curve:
+//! beside a step of the section, and where a ball comes back, that is less than a millimetre. Their distance
+//! is halved until half of it says the same. A value with a corner at its best place has no derivative. The places
+//! themselves move with the distance and with the modes: a gauge is sought again by each ([`Gauge::again`]), and
+//! what that does to a derivative is part of its error, `δ(dv*/dp) = v_xp δx`.
+
+use crate::many::answers::Answer;
+use sweetspot::collision::hitter::Hitter;
+use sweetspot::collision::strike::Glance;
+use sweetspot::collision::sweet_spot::{HitsAlong, Peak};
+
+/// What is read of a hit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Probe {
+    /// Exit speed of the ball (m/s).
+    Speed,
+    /// Energy left in vibration (J).
+    Vibration,
+    /// What the hands feel: velocity (m/s).
+    HandsVelocity,
+    /// What the hands feel: acceleration (m/s²).
+    HandsAcceleration,
+    /// BBCOR of the free bat.
+    Bbcor,
+}
+
+impl Probe {
+    /// The reading of a hit at a place; None where ball and bat do not meet.
+    pub fn read(self, hitter: &Hitter, seen: Option<&Glance>) -> Option<f64> {
+        self.of(hitter, seen?)
+    }
+
+    /// The reading of a hit that was seen.
+    fn of(self, hitter: &Hitter, seen: &Glance) -> Option<f64> {
+        match self {
+            Self::Speed => Some(seen.exit_speed),
+            Self::Vibration => seen.vibration,
+            Self::HandsVelocity => Some(seen.hands[0]),
+            Self::HandsAcceleration => Some(seen.hands[1]),
+            Self::Bbcor if hitter.modes_used() == 0 => None,
+            Self::Bbcor => Some(hitter.figures(seen.x, seen.exit_speed)[1]),
+        }
+    }
+}
+
+impl Probe {
+    /// 1 where the greatest value is the best, −1 where the least is.
+    fn sign(self) -> f64 {
+        if matches!(self, Self::Speed | Self::Bbcor) { 1.0 } else { -1.0 }
+    }
+
+    /// Whether a value is more than nothing: hands on a pin feel nothing, and without modes nothing shakes them.
+    fn feels(self, value: f64) -> bool {
+        match self {
+            Self::HandsVelocity => value > 1e-9,
+            Self::HandsAcceleration => value > 1e-5,
+            _ => true,
+        }
+    }
+}
+
+/// Why an answer is not smooth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WhyNotSmooth {
+    /// Two places along the bat have it nearly alike, so that a small change makes the best one jump: no derivative.
+    Rivals,
+    /// The value has a corner at its best place: no derivative.
+    Corner,
+    /// The finite cut does not go where the derivative points.
+    Cut,
+}
+
+/// An answer that is not smooth.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rivals {
+    /// The answer.
+    pub answer: Answer,
+    /// The best place and the other one, with their values: the rival, the place after a finite cut, or the same.
+    pub peaks: [Peak; 2],
+    /// Why.
+    pub why: WhyNotSmooth,
+}
+
+/// An answer as a sum of readings at fixed places: `Σ factor · reading`.
+#[derive(Debug, Clone, Default)]
+pub struct Gauge {
+    /// Place (m from the knob end), probe and factor.
+    pub terms: Vec<(f64, Probe, f64)>,
+    /// How far the answer is off for each unit that a reading is, and for each unit that the slope of the
+    /// readings along the bat is.
+    pub off: [f64; 2],
+    /// How its places were found; None where they were asked for.
+    sought: Option<Sought>,
+}
+
+/// What a gauge reads that was found by a search.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Wanted {
+    /// The best value.
+    Value,
+    /// Its place.
+    Place,
+    /// An end of the zone.
+    Edge,
+}
+
+/// How the places of a gauge were found.
+#[derive(Debug, Clone, Copy)]
+struct Sought {
+    wanted: Wanted,
+    probe: Probe,
+    /// Where the value is best (m).
+    best: f64,
+    /// The end of the zone, or the best place (m).
+    x: f64,
+    /// Distance of the places of a difference (m).
+    apart: f64,
+    /// How far the best place may be from there on a bat of other modes (m).
+    reach: f64,
+}
+
+impl Gauge {
+    /// A reading at a place.
+    fn at(x: f64, probe: Probe) -> Self {
+        Self { terms: vec![(x, probe, 1.0)], off: [1.0, 0.0], sought: None }
+    }
+
+    /// The best value of a probe there, its place, or an end of the zone.
+    fn of(sought: Sought, [_, slope, bend]: [f64; 3], sign: f64) -> Self {
+        let Sought { wanted, probe, best, x, apart, .. } = sought;
+        let (terms, off) = match wanted {
+            Wanted::Value => (vec![(best, probe, 1.0)], [1.0, 0.0]),
+            Wanted::Place => (by_slope(best, probe, apart, -1.0 / bend), [0.0, 1.0 / bend.abs()]),
+            Wanted::Edge => {
+                let greatest = (1.0 - NEARLY * sign) / slope;
+                let terms = vec![(x, probe, -1.0 / slope), (best, probe, greatest)];
+                // The speed there is off, and so is the greatest one.
+                (terms, [2.0 / slope.abs(), 0.0])
+            }
+        };
+        Self { terms, off, sought: Some(sought) }
+    }
+
+    /// The same answer on a bat of other modes, or by places `share` times as far apart, its places sought
+    /// anew; as it is where they are not found near those that it has.
+    pub fn again(&self, hitter: &Hitter, share: f64) -> Self {
+        let Some(sought) = self.sought else { return self.clone() };
+        let by = Stencil { hitter, probe: sought.probe, apart: share * sought.apart };
+        let found = || {
+            let (best, top) = by.polished(sought.best, sought.reach)?;
+            let sought = Sought { best, x: best, apart: by.apart, ..sought };
+            if sought.wanted != Wanted::Edge {
+                return Some(Self::of(sought, top, 1.0));
+            }
+            let sign = top[0].signum();
+            let (x, edge) = by.edge(self.sought?.x, top[0] * (1.0 - NEARLY * sign))?;
+            Some(Self::of(Sought { x, ..sought }, edge, sign))
+        };
+        found().unwrap_or_else(|| self.clone())
+    }
+
+    /// How far the answer may be off where speeds are by `speed` (m/s), a curve along the bat that is not shorter
+    /// than `half_wave` (m): 0 of what is not read of speeds.
+    pub fn error(&self, speed: f64, half_wave: f64) -> f64 {
+        let speeds = [Probe::Speed, Probe::HandsVelocity];
+        let of_speeds = self.terms.iter().all(|(_, probe, _)| speeds.contains(probe));
+        // The slope of such a curve is π/half_wave of it at most.
+        let [value, slope] = self.off;
+        if of_speeds { speed * (value + std::f64::consts::PI / half_wave * slope) } else { 0.0 }
+    }
+
+    /// The sum on a bat that is hit, of hits seen at those places.
+    pub fn read(&self, hitter: &Hitter, seen: &GaugeHits) -> Option<f64> {
+        let of = |&(x, probe, factor): &(f64, Probe, f64)| {
+            Some(factor * probe.read(hitter, seen.at(x))?)
+        };
+        self.terms.iter().map(of).sum()
+    }
+}
+
+/// The hits at the places that gauges read.
+pub struct GaugeHits {
+    places: Vec<f64>,
+    hits: Vec<Option<Glance>>,
+}
+
+impl GaugeHits {
+    /// Hits the bat at every place that a gauge reads, once.
+    pub fn new<'a>(hitter: &Hitter, gauges: impl Iterator<Item = &'a Gauge>) -> Self {
+        let mut places: Vec<f64> = gauges.flat_map(|g| g.terms.iter().map(|term| term.0)).collect();
+        places.sort_by(f64::total_cmp);
+        places.dedup();
+        let hits = places.iter().map(|x| hitter.glance(*x)).collect();
+        Self { places, hits }
+    }
+
+    fn at(&self, x: f64) -> Option<&Glance> {
+        let k = self.places.binary_search_by(|place| place.total_cmp(&x)).ok()?;
+        self.hits[k].as_ref()
+    }
+}
+
+/// The outer half of a bat after a look along it, from which gauges are made.
+pub struct OuterHalf<'a> {
+    looked: HitsAlong<'a>,
+    hitter: &'a Hitter<'a>,
+    ends: [f64; 2],
+    /// What was found of a probe.
+    found: Vec<(Probe, Option<Greatest>)>,
+    /// Answers without a derivative.
+    pub rivals: Vec<Rivals>,
+}
+
+/// Steps of a look along the outer half.
+const STEPS: usize = 128;
+/// Distance of the places of a difference along the bat, as a share of the length: 3 mm of 84 cm. The
+/// difference is of the fourth order.
+const APART: f64 = 1.0 / 280.0;
+/// The distance is halved so often at most: to a tenth of a millimetre.
+const HALVED: usize = 5;
+/// Distances are near enough where half of them changes the second derivative by no more than this share.
+const ENOUGH: f64 = 1e-3;
+/// Where no distance changes it by less than this there is a corner.
+const CORNER: f64 = 0.1;
+/// A second best place counts where its value is within this share of the best one's.
+const NEARLY: f64 = 0.01;
+/// To what share of the outer half a search locates the best place before slopes do.
+const LOCATED: f64 = 2e-5;
+
+/// The greatest value and what it is like around its place.
+#[derive(Clone, Copy)]
+struct Greatest {
+    peak: Peak,
+    /// Value, slope and second derivative there by differences, and the distance of their places (m); None where
+    /// the place is an end of the stretch.
+    smooth: Option<([f64; 3], f64)>,
+    /// Whether the value has a corner there.
+    corner: bool,
+}
+
+impl<'a> OuterHalf<'a> {
+    /// Looks along the outer half of a bat of that length (m).
+    pub fn new(hitter: &'a Hitter<'a>, length: f64) -> Self {
+        let ends = [0.5 * length, length];
+        let looked = HitsAlong::by(ends, (STEPS, LOCATED), hitter);
+        Self { looked, hitter, ends, found: vec![], rivals: vec![] }
+    }
+
+    /// The gauge and the value of an answer about a hit; None where there is no such answer, and no gauge
+    /// where it has no derivative.
+    pub fn gauge(&mut self, answer: Answer) -> (Option<Gauge>, Option<f64>) {
+        let at = |x: f64, probe: Probe| {
+            let value = self.value(probe, x).filter(|value| probe.feels(*value));
+            (value.map(|_| Gauge::at(x, probe)), value)
+        };
+        match answer {
+            Answer::ExitSpeedAt(x) => at(x, Probe::Speed),
+            Answer::VibrationAt(x) => at(x, Probe::Vibration),
+            Answer::HandsVelocityAt(x) => at(x, Probe::HandsVelocity),
+            Answer::HandsAccelerationAt(x) => at(x, Probe::HandsAcceleration),
+            Answer::Zone(end) => self.zone(usize::from(end)),
+            _ => match searched(answer) {
+                Some((probe, place)) => self.extreme(answer, probe, place),
+                None => (None, None),
+            },
+        }
+    }
+
+    /// Where the best value is that an answer tells, or whose place or zone it tells.
+    pub fn peak(&mut self, answer: Answer) -> Option<Peak> {
+        let probe = match answer {
+            Answer::Zone(_) => Probe::Speed,
+            _ => searched(answer)?.0,
+        };
+        Some(self.greatest(probe)?.peak)
+    }
+
+    fn value(&self, probe: Probe, x: f64) -> Option<f64> {
+        probe.read(self.hitter, self.hitter.glance(x).as_ref())
+    }
+
+    fn stencil(&self, probe: Probe) -> Stencil<'_> {
+        Stencil { hitter: self.hitter, probe, apart: APART * self.ends[1] }
+    }
+
+    /// How far a search by slopes may go from where a search by values ended (m).
+    fn reach(&self) -> f64 {
+        1.5 * (self.ends[1] - self.ends[0]) / STEPS as f64
+    }
+
+    /// The best value of a probe, or its place.
+    fn extreme(
+        &mut self,
+        answer: Answer,
+        probe: Probe,
+        place: bool,
+    ) -> (Option<Gauge>, Option<f64>) {
+        let Some(Greatest { peak, smooth, corner }) = self.greatest(probe) else {
+            return (None, None);
+        };
+        if !probe.feels(peak.value) {
+            return (None, None);
+        }
+        let value = if place { peak.x } else { peak.value };
+        let rival = self.rival(probe, peak);
+        if let Some(other) = rival.or(corner.then_some(peak)) {
+            let why = if rival.is_some() { WhyNotSmooth::Rivals } else { WhyNotSmooth::Corner };
+            self.rivals.push(Rivals { answer, peaks: [peak, other], why });
+            return (None, Some(value));
+        }
+        let wanted = if place { Wanted::Place } else { Wanted::Value };
+        let reach = self.reach();
+        let gauge = smooth.map(|(by, apart)| {
+            let sought = Sought { wanted, probe, best: peak.x, x: peak.x, apart, reach };
+            Gauge::of(sought, by, 1.0)
+        });
+        (gauge.or_else(|| (!place).then(|| Gauge::at(peak.x, probe))), Some(value))
+    }
+
+    /// Another place that is nearly as good.
+    fn rival(&self, probe: Probe, best: Peak) -> Option<Peak> {
+        let sign = probe.sign();
+        let values = self.looked.values(|glance| Some(sign * probe.of(self.hitter, glance)?));
+        let place =
+            |k: usize| self.ends[0] + (self.ends[1] - self.ends[0]) * k as f64 / STEPS as f64;
+        let near = NEARLY * best.value.abs();
+        let apart = 2.5 * (place(1) - place(0));
+        let top = |j: &usize| {
+            let up = *j == 0 || values[*j] >= values[j - 1];
+            up && (*j == STEPS || values[*j] >= values[j + 1]) && (place(*j) - best.x).abs() > apart
+        };
+        let rival = (0..=STEPS).filter(top).find(|j| sign * best.value - values[*j] <= near);
+        rival.map(|j| Peak { x: place(j), value: sign * values[j] })
+    }
+
+    /// The greatest speed or BBCOR, or the least of the others.
+    fn greatest(&mut self, probe: Probe) -> Option<Greatest> {
+        if let Some((_, found)) = self.found.iter().find(|(known, _)| *known == probe) {
+            return *found;
+        }
+        let found = self.sought(probe);
+        self.found.push((probe, found));
+        found
+    }
+
+    fn sought(&self, probe: Probe) -> Option<Greatest> {
+        let sign = probe.sign();
+        let found = self.looked.greatest(|glance| Some(sign * probe.of(self.hitter, glance)?))?;
+        let found = Peak { x: found.x, value: sign * found.value };
+        if self.ends.contains(&found.x) {
+            return Some(Greatest { peak: found, smooth: None, corner: false });
+        }
+        let mut stencil = self.stencil(probe);
+        let mut best: Option<(f64, Greatest)> = None;
+        for _ in 0..=HALVED {
+            let half = Stencil { apart: 0.5 * stencil.apart, ..stencil };
+            let here = || {
+                let (x, by) = stencil.polished(found.x, self.reach())?;
+                let [value, _, bend] = by;
+                // A slope of nothing is that of a valley too, and of a mean over a narrow top.
+                let rough = 1e-9 * found.value.abs();
+                (sign * bend < 0.0 && sign * (value - found.value) >= -rough).then_some(())?;
+                let [_, slope, closer] = half.derivatives(x)?;
+                let bent = (closer / bend - 1.0).abs();
+                let off = bent.max((slope / bend / stencil.apart).abs());
+                let peak = Peak { x, value };
+                Some((off, Greatest { peak, smooth: Some((by, stencil.apart)), corner: false }))
+            };
+            let now = here();
+            if let Some((off, now)) = now {
+                if best.is_none_or(|(least, _)| off < least) {
+                    best = Some((off, now));
+                }
+                if off <= ENOUGH {
+                    break;
+                }
+            }
+            stencil = half;
+        }
+        let corner = Greatest { peak: found, smooth: None, corner: true };
+        Some(best.filter(|(off, _)| *off <= CORNER).map_or(corner, |(_, best)| best))
+    }
+
+    /// An end of the stretch within 1 % of the greatest exit speed.
+    fn zone(&mut self, end: usize) -> (Option<Gauge>, Option<f64>) {
+        let Some(Greatest { peak, smooth, corner }) = self.greatest(Probe::Speed) else {
+            return (None, None);
+        };
+        if self.rival(Probe::Speed, peak).is_some() {
+            return (None, None);
+        }
+        let sign = peak.value.signum();
+        let floor = peak.value * (1.0 - NEARLY * sign);
+        let x = self.looked.zone(peak)[end];
+        let apart = smooth.map_or(APART * self.ends[1], |(_, apart)| apart);
+        let stencil = Stencil { apart, ..self.stencil(Probe::Speed) };
+        if !self.inside(x, stencil.apart) {
+            return (None, Some(x));
+        }
+        let (Some((x, by)), false) = (stencil.edge(x, floor), corner) else {
+            let edge = Peak { x, value: floor };
+            let answer = Answer::Zone(end == 1);
+            self.rivals.push(Rivals { answer, peaks: [edge; 2], why: WhyNotSmooth::Corner });
+            return (None, Some(x));
+        };
+        let reach = self.reach();
+        let sought =
+            Sought { wanted: Wanted::Edge, probe: Probe::Speed, best: peak.x, x, apart, reach };
+        (Some(Gauge::of(sought, by, sign)), Some(x))
+    }
+
+    /// Whether all places of a difference are on the outer half.
+    fn inside(&self, x: f64, apart: f64) -> bool {
+        x - 2.0 * apart > self.ends[0] && x + 2.0 * apart < self.ends[1]
+    }
+}
+
+/// What a searched answer reads, and whether it is the place.
+fn searched(answer: Answer) -> Option<(Probe, bool)> {
+    Some(match answer {
+        Answer::ExitSpeed => (Probe::Speed, false),
+        Answer::ExitSpeedPlace => (Probe::Speed, true),
+        Answer::Vibration => (Probe::Vibration, false),
+        Answer::VibrationPlace => (Probe::Vibration, true),
+        Answer::Bbcor => (Probe::Bbcor, false),
+        Answer::HandsVelocity => (Probe::HandsVelocity, false),
+        Answer::HandsAcceleration => (Probe::HandsAcceleration, false),
+        _ => return None,
+    })
+}
+
+/// Differences of a reading along the bat, of the fourth order, by places so far apart.
+#[derive(Clone, Copy)]
+struct Stencil<'a> {
+    hitter: &'a Hitter<'a>,
+    probe: Probe,
+    /// Distance of the places (m).
+    apart: f64,
+}
+
+impl Stencil<'_> {
+    /// The value at `x` and its first two derivatives along the bat.
+    fn derivatives(&self, x: f64) -> Option<[f64; 3]> {
+        let h = self.apart;
+        let at = |k: f64| self.probe.read(self.hitter, self.hitter.glance(x + k * h).as_ref());
+        let within = x - 2.0 * h >= 0.0 && x + 2.0 * h <= self.hitter.profile.length();
+        within.then_some(())?;
+        let [a, b, c, d, e] = [at(-2.0)?, at(-1.0)?, at(0.0)?, at(1.0)?, at(2.0)?];
+        let slope = (8.0 * (d - b) - (e - a)) / (12.0 * h);
+        Some([c, slope, (16.0 * (b + d) - 30.0 * c - a - e) / (12.0 * h * h)])
+    }
+
+    /// Newton's steps to where the slope is 0, and the derivatives there; None where that is farther off than
+    /// `reach` (m).
+    fn polished(&self, start: f64, reach: f64) -> Option<(f64, [f64; 3])> {
+        const NEWTON: usize = 12;
+        let mut x = start;
+        for _ in 0..NEWTON {
+            let by = self.derivatives(x)?;
+            let step = -by[1] / by[2];
+            if !step.is_finite() || (x + step - start).abs() > reach {
+                return None;
+            }
+            if step.abs() < 1e-9 * self.hitter.profile.length() {
+                return Some((x, by));
+            }
+            x += step;
+        }
+        None
+    }
+
+    /// Newton's steps from some micrometres to as near as numbers are to where the value is `floor`, and the
+    /// derivatives there; None where they lead elsewhere.
+    fn edge(&self, start: f64, floor: f64) -> Option<(f64, [f64; 3])> {
+        const NEWTON: usize = 4;
+        let mut x = start;
+        for _ in 0..NEWTON {
+            let by = self.derivatives(x)?;
+            let step = (floor - by[0]) / by[1];
+            if !step.is_finite() || (x + step - start).abs() >= self.apart {
+                return None;
+            }
+            if step.abs() < 1e-7 * self.hitter.profile.length() {
+                return Some((x, by));
+            }
+            x += step;
+        }
+        None
+    }
+}
+
+/// So many times the slope of a reading along the bat at `x`.
+fn by_slope(x: f64, probe: Probe, h: f64, factor: f64) -> Vec<(f64, Probe, f64)> {
+    let unit = factor / (12.0 * h);
+    [(-2.0, 1.0), (-1.0, -8.0), (1.0, 8.0), (2.0, -1.0)]
+        .map(|(k, weight)| (x + k * h, probe, weight * unit))
+        .to_vec()
+}

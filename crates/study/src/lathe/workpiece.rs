@@ -1,0 +1,577 @@
+//! The bat on the lathe: what are its answers, and how do they change with its diameter?
+//!
+//! A [`Workpiece`] is a bat whose elements end where changes of its diameter may. [`Workpiece::slopes`] gives the
+//! derivative of every answer by each of a list of [`DiameterChange`]s: frequencies and the rigid body by closed
+//! formula ([`crate::lathe::samples`]), all else by central differences of whole bats with elements, number
+//! of modes and effort held fixed. [`Workpiece::measure`] gives the answers of a bat that is changed by much.
+
+use crate::comparison::contender::Figure;
+use crate::lathe::gauges::{Gauge, GaugeHits, OuterHalf, Rivals};
+use crate::lathe::same_plan::SamePlan;
+use crate::lathe::samples::{BodySlope, SectionSlopes};
+use crate::many::answers::{Answer, figure, on_the_bat};
+use sweetspot::base::error::Result;
+use sweetspot::base::threads;
+use sweetspot::bat::body::{Bat, STANDARD_PIVOT};
+use sweetspot::bat::turned::DiameterChange;
+use sweetspot::collision::hit::{Effort, Model, Scene};
+use sweetspot::collision::hitter::Hitter;
+use sweetspot::collision::hoop_wall::{HoopInHit, WhyRigid};
+use sweetspot::collision::sweep::{Trial, sweep};
+use sweetspot::collision::sweet_spot::Peak;
+use sweetspot::modes::solve::{Request, Solution};
+
+/// How the bat is hit for answers about a hit.
+#[derive(Debug, Clone)]
+pub struct HitTerms {
+    /// Swing, ball and pitch.
+    pub scene: Scene,
+    /// How a hit is computed.
+    pub model: Model,
+    /// Whether the request's modes are all there are.
+    pub exactly: bool,
+}
+
+/// How a derivative was found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Method {
+    /// Rayleigh's quotient, stationary in the motion.
+    Formula,
+    /// Derivative of the rigid body's integrals.
+    Exact,
+    /// Central differences of whole bats.
+    Difference,
+}
+
+impl Method {
+    /// The method for an answer.
+    pub fn of(answer: Answer) -> Self {
+        match answer {
+            Answer::Mass | Answer::BalancePoint | Answer::Inertia | Answer::CenterOfPercussion => {
+                Self::Exact
+            }
+            Answer::Frequency(_) => Self::Formula,
+            _ => Self::Difference,
+        }
+    }
+
+    /// What it is called in documents.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Formula => "formula",
+            Self::Exact => "exact",
+            Self::Difference => "difference",
+        }
+    }
+}
+
+/// How the answers change per unit of one change of the diameter.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Slopes {
+    /// Derivative of each answer with its error, the bat swung at the same angular speed; None where there
+    /// is none.
+    pub same_swing: Vec<Option<Figure>>,
+    /// The derivatives of the frequencies by differences too, as a check of the formula; None for other answers
+    /// and without [`Care::TwoSteps`].
+    pub checked: Vec<Option<f64>>,
+    /// Derivative of the moment of inertia about the standard pivot (kg m²).
+    pub inertia: f64,
+    /// Change of each answer per rad/s of the swing; 0 for answers that are not of a hit.
+    by_swing: Vec<Option<f64>>,
+    /// Share by which a swing of the same energy of rotation gains per unit of 2n: `−Ω/I dI`.
+    gain: f64,
+}
+
+impl Slopes {
+    /// The derivatives for a batter who swings another bat at `Ω (I₀/I)^n`: n = 0 is the same swing, n = ½ the
+    /// same energy of rotation.
+    pub fn by_law(&self, exponent: f64) -> Vec<Option<Figure>> {
+        // A bat at rest stays at rest.
+        if exponent == 0.0 || self.gain == 0.0 {
+            return self.same_swing.clone();
+        }
+        let of = |(slope, by_swing): (&Option<Figure>, &Option<f64>)| {
+            let Figure { value, error } = (*slope)?;
+            Some(Figure::new(value + exponent * self.gain * (*by_swing)?, error))
+        };
+        self.same_swing.iter().zip(&self.by_swing).map(of).collect()
+    }
+}
+
+/// How much work a difference is worth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Care {
+    /// One step: two bats for each change. The error is not known and stated as 0.
+    OneStep,
+    /// Two steps: four bats for each change; their difference is the error.
+    TwoSteps,
+}
+
+/// A bat whose diameter may be changed between borders, with its answers.
+pub struct Workpiece {
+    bat: Bat,
+    plan: SamePlan,
+    solution: Solution,
+    samples: SectionSlopes,
+    hit: Option<Hit>,
+    answers: Vec<Answer>,
+    values: Vec<Option<Figure>>,
+    gauges: Vec<Option<Gauge>>,
+    by_swing: Vec<Option<f64>>,
+    /// Answers without a derivative, as two places compete.
+    pub rivals: Vec<Rivals>,
+    /// Whether all answers are as accurate as asked.
+    pub met: bool,
+}
+
+/// How the bat is hit, once modes and steps are planned.
+struct Hit {
+    scene: Scene,
+    model: Model,
+    effort: Effort,
+}
+
+/// The largest change of the diameter in a difference (m): 20 μm of radius either way. Half of it changes a
+/// derivative of the exit speed by less than 1e-7 m/s per mm.
+const STEP: f64 = 4e-5;
+/// Step of the swing for a derivative by it, relative.
+const FASTER: f64 = 1e-3;
+/// Where a barrel is hit so that modes and steps are planned, as shares of the length.
+const ALONG: [f64; 4] = [0.7, 0.775, 0.85, 0.925];
+
+impl Workpiece {
+    /// A bat that is to be changed between these borders (m from the knob end), and what is asked of it. The
+    /// request's tolerance is that of frequencies and exit speeds, its theory holds for all changed bats; `terms`
+    /// are needed where an answer is about a hit.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`sweetspot::solve()`] and of a hit; [`sweetspot::Error::Value`] for a place that is not on the bat.
+    pub fn new(
+        bat: &Bat,
+        borders: &[f64],
+        request: &Request,
+        terms: Option<&HitTerms>,
+        answers: &[Answer],
+    ) -> Result<Self> {
+        on_the_bat(answers, bat)?;
+        let bat = bat.cut_at(borders)?;
+        let mut modes = answers.iter().map(|answer| answer.modes()).max().unwrap_or(0);
+        let (mut hit, mut met, mut off) = (None, true, 0.0);
+        if let Some(terms) = terms.filter(|_| answers.iter().any(|answer| answer.of_a_hit())) {
+            let scene = Scene { hoop: terms.scene.hoop.left_out(), ..terms.scene.clone() };
+            let trial = Trial { model: terms.model, scene: &scene };
+            let accuracy = trial.accuracy(request, terms.exactly);
+            let places: Vec<f64> = ALONG.iter().map(|share| share * bat.length()).collect();
+            let sweep = sweep(&bat, terms.model, &scene, &accuracy, &places)?;
+            (modes, met) = (modes.max(sweep.solution.modes.len()), sweep.met);
+            off = sweep.worst().map_or(0.0, |(_, outcome)| outcome.error);
+            let (model, effort) = (terms.model, sweep.effort);
+            hit = Some(Hit { scene, model, effort });
+        }
+        let (plan, solution) = SamePlan::new(&bat, &Request { modes, ..*request })?;
+        met &= solution.worst() <= request.tolerance;
+        let samples = SectionSlopes::new(&bat, &solution);
+        let mut piece = Self {
+            values: answers.iter().map(|answer| figure(*answer, &bat, &solution)).collect(),
+            gauges: vec![None; answers.len()],
+            by_swing: answers.iter().map(|answer| (!answer.of_a_hit()).then_some(0.0)).collect(),
+            answers: answers.to_vec(),
+            rivals: vec![],
+            bat,
+            plan,
+            solution,
+            samples,
+            hit,
+            met,
+        };
+        piece.look(off)?;
+        Ok(piece)
+    }
+
+    /// Looks along the bat for the places that answers about a hit read; exit speeds may be off by that share
+    /// of the closing speed.
+    fn look(&mut self, off: f64) -> Result<()> {
+        let Some(hit) = &self.hit else { return Ok(()) };
+        let hitter = hit.hitter(&self.bat, &self.solution, &hit.scene)?;
+        let length = self.bat.length();
+        let half_wave = length / (hitter.modes_used() + 1) as f64;
+        let mut along = OuterHalf::new(&hitter, length);
+        for (k, answer) in self.answers.iter().enumerate().filter(|(_, a)| a.of_a_hit()) {
+            let (gauge, value) = along.gauge(*answer);
+            let closing = hit.scene.swing.abs() * (length + hit.scene.pivot) + hit.scene.ball_speed;
+            let error = gauge.as_ref().map_or(0.0, |gauge| gauge.error(off * closing, half_wave));
+            self.values[k] = value.map(|value| Figure::new(value, error));
+            self.gauges[k] = gauge;
+        }
+        self.rivals = std::mem::take(&mut along.rivals);
+        let swing = hit.scene.swing;
+        let readings = |faster: f64| -> Result<Vec<Option<f64>>> {
+            let scene = Scene { swing: swing * (1.0 + faster), ..hit.scene.clone() };
+            let hitter = hit.hitter(&self.bat, &self.solution, &scene)?;
+            let [read] = Self::readings(&hitter, [&self.gauges]);
+            Ok(read)
+        };
+        if swing != 0.0 {
+            let (fast, slow) = (readings(FASTER)?, readings(-FASTER)?);
+            for (k, (fast, slow)) in fast.into_iter().zip(slow).enumerate() {
+                let by_swing = fast.zip(slow).map(|(a, b)| (a - b) / (2.0 * FASTER * swing));
+                if self.answers[k].of_a_hit() {
+                    self.by_swing[k] = by_swing;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether a wall that could give way is rigid in the answers about a hit.
+    pub fn has_rigid_wall(&self) -> bool {
+        let rigid = HoopInHit::LeftOut(WhyRigid::ManyBats);
+        self.hit.as_ref().is_some_and(|hit| hit.scene.hoop == rigid)
+    }
+
+    /// What gauges read of a bat that is hit.
+    fn readings<const N: usize>(
+        hitter: &Hitter,
+        gauges: [&[Option<Gauge>]; N],
+    ) -> [Vec<Option<f64>>; N] {
+        let seen = GaugeHits::new(hitter, gauges.iter().copied().flatten().flatten());
+        let read = |gauge: &Option<Gauge>| gauge.as_ref()?.read(hitter, &seen);
+        gauges.map(|gauges| gauges.iter().map(read).collect())
+    }
+
+    /// The bat, cut at its borders.
+    pub fn bat(&self) -> &Bat {
+        &self.bat
+    }
+
+    /// Its modes, as many as the answers need, and their shapes as exact as the tolerance.
+    pub fn solution(&self) -> &Solution {
+        &self.solution
+    }
+
+    /// Its sections at the points of a quadrature.
+    pub fn samples(&self) -> &SectionSlopes {
+        &self.samples
+    }
+
+    /// What is asked.
+    pub fn answers(&self) -> &[Answer] {
+        &self.answers
+    }
+
+    /// The answers of the bat as it is; None where it has none.
+    pub fn values(&self) -> &[Option<Figure>] {
+        &self.values
+    }
+
+    /// How the answers change per unit of each of these changes of the diameter, whose knots are among the
+    /// borders.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Bat::turned`] and of [`sweetspot::solve()`].
+    pub fn slopes(&self, changes: &[DiameterChange], care: Care) -> Result<Vec<Slopes>> {
+        let differs = |answer: &Answer| Method::of(*answer) == Method::Difference;
+        let steps: &[f64] = match care {
+            _ if !self.answers.iter().any(differs) => &[],
+            Care::OneStep => &[1.0],
+            Care::TwoSteps => &[1.0, 0.5],
+        };
+        let ways = match care {
+            Care::TwoSteps if !steps.is_empty() => self.ways()?,
+            _ => None,
+        };
+        let now = match steps {
+            [] => Raw::default(),
+            _ => self.raw(&self.bat, ways.as_ref())?,
+        };
+        let all = threads::map(changes.len() * steps.len(), |k| {
+            let (step, look) = (k % steps.len(), &changes[k / steps.len()]);
+            // How much the ways differ is seen by one step.
+            let ways = ways.as_ref().filter(|_| step == 0);
+            self.difference(look, steps[step], &now, ways)
+        });
+        let all: Vec<Quotient> = all.into_iter().collect::<Result<_>>()?;
+        let of_change = |k: usize| &all[k * steps.len()..(k + 1) * steps.len()];
+        // Where two ways agree by luck, what they do elsewhere tells more.
+        let usual = |answer: usize| {
+            let of = |k: usize| of_change(k).first().map_or(0.0, |first| first.apart(answer));
+            (0..changes.len()).map(of).sum::<f64>() / changes.len() as f64
+        };
+        let usual: Vec<f64> = (0..self.answers.len()).map(usual).collect();
+        let one = |(k, change): (usize, &DiameterChange)| self.one(change, of_change(k), &usual);
+        Ok(changes.iter().enumerate().map(one).collect())
+    }
+
+    fn one(&self, change: &DiameterChange, found: &[Quotient], usual: &[f64]) -> Slopes {
+        let radius = |x: f64| [0.5 * change.at(x), 0.0];
+        let body = self.samples.body(STANDARD_PIVOT, radius);
+        let of = |(k, answer): (usize, &Answer)| match (Method::of(*answer), answer) {
+            (Method::Exact, _) => exact(*answer, &body),
+            (Method::Formula, Answer::Frequency(order)) => {
+                let mode = self.solution.modes.get(order - 1)?;
+                let [value, error] = self.samples.frequency(mode, radius);
+                Some(Figure::new(value, error))
+            }
+            _ => joined(found, k, usual[k]),
+        };
+        let swing = self.hit.as_ref().map_or(0.0, |hit| hit.scene.swing);
+        // Two steps as one of the fourth order.
+        let check = |(k, answer): (usize, &Answer)| {
+            let Answer::Frequency(_) = answer else { return None };
+            let [whole, half] = [found.first()?, found.get(1)?].map(|d| d.by_way[0][k]);
+            Some((4.0 * half? - whole?) / 3.0).filter(|_| found.iter().all(|d| d.central))
+        };
+        Slopes {
+            checked: self.answers.iter().enumerate().map(check).collect(),
+            same_swing: self.answers.iter().enumerate().map(of).collect(),
+            inertia: body.inertia,
+            by_swing: self.by_swing.clone(),
+            gain: -swing / self.bat.inertia().about(STANDARD_PIVOT) * body.inertia,
+        }
+    }
+
+    /// A difference over that share of the usual step.
+    fn difference(
+        &self,
+        change: &DiameterChange,
+        share: f64,
+        now: &Raw,
+        ways: Option<&Ways>,
+    ) -> Result<Quotient> {
+        let all = change.stretches().iter().flat_map(|stretch| stretch.diameter);
+        let largest = all.fold(0.0, |largest: f64, by| largest.max(by.abs()));
+        if largest == 0.0 {
+            let by_way = [0; WAYS].map(|_| vec![Some(0.0); self.answers.len()]);
+            return Ok(Quotient { central: true, by_way });
+        }
+        let step = share * STEP / largest;
+        // A bat that ends in a point cannot lose wood there.
+        let [more, less] = [step, -step].map(|step| self.bat.turned(&change.scaled(step)));
+        let central = more.is_ok() && less.is_ok();
+        let (thick, thin) = match (more, less) {
+            (Ok(more), Ok(less)) => (self.raw(&more, ways)?, self.raw(&less, ways)?),
+            (Ok(more), Err(_)) => (self.raw(&more, ways)?, now.clone()),
+            (Err(_), Ok(less)) => (now.clone(), self.raw(&less, ways)?),
+            (Err(error), Err(_)) => return Err(error),
+        };
+        let run = if central { 2.0 * step } else { step };
+        let slopes = |(thick, thin): (&Vec<Option<f64>>, &Vec<Option<f64>>)| {
+            let slope = |(a, b): (&Option<f64>, &Option<f64>)| Some(((*a)? - (*b)?) / run);
+            thick.iter().zip(thin).map(slope).collect()
+        };
+        let by_way = std::array::from_fn(|k| slopes((&thick.by_way[k], &thin.by_way[k])));
+        Ok(Quotient { central, by_way })
+    }
+
+    /// What differences are taken of, on this plan: nodes, modal masses, and what the gauges read.
+    fn raw(&self, bat: &Bat, ways: Option<&Ways>) -> Result<Raw> {
+        let solution = self.plan.solve(bat)?;
+        let read = match &self.hit {
+            Some(hit) => self.every_way(hit, bat, &solution, ways)?,
+            None => [0; WAYS].map(|_| vec![None; self.answers.len()]),
+        };
+        let of = |(answer, read): (&Answer, Option<f64>)| match *answer {
+            Answer::Node(order) => {
+                let [was, is] = [&self.solution, &solution].map(|s| s.modes.get(order - 1));
+                // A node that comes or goes is another one.
+                let is =
+                    is.filter(|is| was.is_some_and(|was| was.nodes.len() == is.nodes.len()))?;
+                is.nodes.last().copied()
+            }
+            Answer::ModalMass(order) => Some(solution.modes.get(order - 1)?.modal_mass),
+            Answer::Frequency(order) => Some(solution.modes.get(order - 1)?.frequency()),
+            _ => read,
+        };
+        let all = |read: Vec<Option<f64>>| self.answers.iter().zip(read).map(of).collect();
+        Ok(Raw { by_way: read.map(all) })
+    }
+
+    /// The ways beside the gauges' own, each with its places sought anew; None where nothing is hit.
+    fn ways(&self) -> Result<Option<Ways>> {
+        let Some(hit) = &self.hit else { return Ok(None) };
+        let sought = |solution: &Solution, share: f64| -> Result<Vec<Option<Gauge>>> {
+            let hitter = hit.hitter(&self.bat, solution, &hit.scene)?;
+            let of = |gauge: &Option<Gauge>| Some(gauge.as_ref()?.again(&hitter, share));
+            Ok(threads::map(self.gauges.len(), |k| of(&self.gauges[k])))
+        };
+        let closer = sought(&self.solution, 0.5)?;
+        if !hit.effort.completed {
+            return Ok(Some(Ways { closer, fewer: vec![] }));
+        }
+        let count = self.solution.modes.len();
+        let fewer = [count.saturating_sub(2), count * 3 / 4]
+            .map(|count| Ok((count, sought(&with_modes(&self.solution, count), 1.0)?)));
+        let fewer = fewer.into_iter().collect::<Result<_>>()?;
+        Ok(Some(Ways { closer, fewer }))
+    }
+
+    /// What the gauges read of a bat that is hit, and what those of the other ways do.
+    fn every_way(
+        &self,
+        hit: &Hit,
+        bat: &Bat,
+        solution: &Solution,
+        ways: Option<&Ways>,
+    ) -> Result<[Vec<Option<f64>>; WAYS]> {
+        let hitter = hit.hitter(bat, solution, &hit.scene)?;
+        let Some(Ways { closer, fewer }) = ways else {
+            let [all] = Self::readings(&hitter, [&self.gauges]);
+            return Ok([0; WAYS].map(|_| all.clone()));
+        };
+        let [all, by_closer] = Self::readings(&hitter, [&self.gauges, closer]);
+        let few = |k: usize| {
+            let Some((count, gauges)) = fewer.get(k) else { return Ok(all.clone()) };
+            let solution = with_modes(solution, *count);
+            let [read] = Self::readings(&hit.hitter(bat, &solution, &hit.scene)?, [gauges]);
+            Ok(read)
+        };
+        let [two, quarter] = [few(0)?, few(1)?];
+        Ok([all, by_closer, two, quarter])
+    }
+
+    /// The answers of the bat changed by much, for a batter who swings it at `Ω (I₀/I)^n`.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::slopes`].
+    pub fn cut(&self, change: &DiameterChange, exponents: &[f64]) -> Result<Vec<Vec<Option<f64>>>> {
+        let bat = self.bat.turned(change)?;
+        let solution = self.plan.solve(&bat)?;
+        self.measured(&bat, &solution, exponents)
+    }
+
+    /// Where each searched answer is best, on the bat as it is or after a cut.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::slopes`].
+    pub fn peaks(&self, change: Option<&DiameterChange>) -> Result<Vec<Option<Peak>>> {
+        let Some(hit) = &self.hit else { return Ok(vec![None; self.answers.len()]) };
+        let turned = change.map(|change| self.bat.turned(change)).transpose()?;
+        let solution = turned.as_ref().map(|bat| self.plan.solve(bat)).transpose()?;
+        let bat = turned.as_ref().unwrap_or(&self.bat);
+        let hitter = hit.hitter(bat, solution.as_ref().unwrap_or(&self.solution), &hit.scene)?;
+        let mut along = OuterHalf::new(&hitter, bat.length());
+        Ok(self.answers.iter().map(|answer| along.peak(*answer)).collect())
+    }
+
+    /// The answers of any other bat, with elements of its own and as many modes, for batters who swing it at
+    /// `Ω (I₀/I)^n`: a list for each n.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`sweetspot::solve()`] and of a hit.
+    pub fn measure(&self, bat: &Bat, exponents: &[f64]) -> Result<Vec<Vec<Option<f64>>>> {
+        self.measured(bat, &self.plan.solve_anew(bat)?, exponents)
+    }
+
+    fn measured(
+        &self,
+        bat: &Bat,
+        solution: &Solution,
+        exponents: &[f64],
+    ) -> Result<Vec<Vec<Option<f64>>>> {
+        let still = |answer: &Answer| figure(*answer, bat, solution).map(|figure| figure.value);
+        let still: Vec<Option<f64>> = self.answers.iter().map(still).collect();
+        let Some(hit) = &self.hit else { return Ok(vec![still; exponents.len()]) };
+        let inertia = |bat: &Bat| bat.inertia().about(STANDARD_PIVOT);
+        let ratio = inertia(&self.bat) / inertia(bat);
+        let one = |exponent: &f64| {
+            let swing = hit.scene.swing * ratio.powf(*exponent);
+            let scene = Scene { swing, ..hit.scene.clone() };
+            let hitter = hit.hitter(bat, solution, &scene)?;
+            let mut along = OuterHalf::new(&hitter, bat.length());
+            let of = |(answer, known): (&Answer, &Option<f64>)| {
+                if answer.of_a_hit() { along.gauge(*answer).1 } else { *known }
+            };
+            Ok(self.answers.iter().zip(&still).map(of).collect())
+        };
+        exponents.iter().map(one).collect()
+    }
+}
+
+impl Hit {
+    fn hitter<'a>(
+        &self,
+        bat: &'a Bat,
+        solution: &'a Solution,
+        scene: &'a Scene,
+    ) -> Result<Hitter<'a>> {
+        Hitter::new(self.model, scene, bat, solution, self.effort)
+    }
+}
+
+/// The first modes of a solution.
+fn with_modes(solution: &Solution, count: usize) -> Solution {
+    let mut fewer = solution.clone();
+    fewer.modes.truncate(count);
+    fewer
+}
+
+/// In how many ways a derivative is found: by the gauges, by places half as far apart, without the last two modes,
+/// without the last quarter of them. The gauges of each way have the places that it finds.
+const WAYS: usize = 4;
+
+/// The gauges of the other ways.
+struct Ways {
+    /// By places half as far apart.
+    closer: Vec<Option<Gauge>>,
+    /// Without the last two modes and without the last quarter, with the number of modes that is left; none where
+    /// modes are not left out.
+    fewer: Vec<(usize, Vec<Option<Gauge>>)>,
+}
+
+/// What differences are taken of, answer by answer.
+#[derive(Debug, Clone, Default)]
+struct Raw {
+    /// In every way.
+    by_way: [Vec<Option<f64>>; WAYS],
+}
+
+/// A quotient of differences, answer by answer.
+struct Quotient {
+    /// Whether it is about the bat as it is; else to one side.
+    central: bool,
+    /// In every way.
+    by_way: [Vec<Option<f64>>; WAYS],
+}
+
+impl Quotient {
+    /// How far an answer's slope may be off by its way: by what the last two modes or the last quarter of them do to
+    /// it, and by the distance of places, whose error falls with that at least.
+    fn apart(&self, k: usize) -> f64 {
+        let [whole, closer, fewer @ ..] = self.by_way.each_ref().map(|way| way[k]);
+        let off = |other: Option<f64>| match (whole, other) {
+            (Some(whole), Some(other)) => (whole - other).abs(),
+            _ => 0.0,
+        };
+        2.0 * off(closer) + fewer.map(off).into_iter().fold(0.0, f64::max)
+    }
+}
+
+/// The derivative from differences by one step or two. Its error is that of the step, and how far the ways are
+/// apart, or `usual`ly of such an answer.
+fn joined(differences: &[Quotient], k: usize, usual: f64) -> Option<Figure> {
+    let [first, rest @ ..] = differences else { return None };
+    let whole = first.by_way[0][k]?;
+    let Some(second) = rest.first() else { return Some(Figure::new(whole, 0.0)) };
+    let half = second.by_way[0][k]?;
+    let apart = first.apart(k).max(usual);
+    match first.central && second.central {
+        // The half step's error is a third of the difference.
+        true => Some(Figure::new(whole, 4.0 / 3.0 * (whole - half).abs() + apart)),
+        false => Some(Figure::new(2.0 * half - whole, (whole - half).abs() + apart)),
+    }
+}
+
+fn exact(answer: Answer, body: &BodySlope) -> Option<Figure> {
+    let value = match answer {
+        Answer::Mass => body.mass,
+        Answer::BalancePoint => body.balance_point,
+        Answer::Inertia => body.inertia,
+        _ => body.center_of_percussion?,
+    };
+    Some(Figure::exact(value))
+}

@@ -1,0 +1,39 @@
+//! What follows for a person who asks?
+//!
+//! | file | question |
+//! |---|---|
+//! | [`trade`] | what does a digit cost on this bat |
+//! | [`ignored`] | what does a theory leave out, and what does that cost |
+//! | [`calibrate`] | what is the wood, by scale, ruler, pendulum and tap |
+//! | [`verdict`] | how far do the answers hold, by all that is known |
+//! | [`read_to`], `bat_changes` | to what step were diameters read; a bat that differs in one thing |
+//! | [`spread`] | how far do the answers move with what calipers, scale and wood leave open |
+//! | [`advise`] | which parts of a model matter on this bat |
+//! | [`comparison`] | which bat hits harder, where, and is the difference more than the errors |
+//! | [`many`] | which bats does a study vary |
+//! | [`lathe`] | where does a cut do what |
+//! | [`scatter`] | how much do bats of one model and swings of one batter differ |
+//! | [`trampoline`] | what does the wall of a hollow barrel do to a ball |
+//! | [`measured`] | which measured mode is which computed one; is the measurement sound |
+
+// Matrices are written with the indices of their formulas.
+#![allow(clippy::needless_range_loop)]
+#![forbid(unsafe_code)]
+
+pub mod trade;
+pub mod ignored;
+pub mod calibrate;
+pub mod verdict;
+pub mod read_to;
+pub(crate) mod bat_changes;
+pub mod spread;
+pub mod advise;
+pub mod comparison;
+pub mod measured;
+pub mod many;
+pub mod lathe;
+#[cfg(feature = "aim")]
+pub mod aim;
+pub mod scatter;
+pub mod trampoline;
+pub mod files;

@@ -1,0 +1,252 @@
+//! Which answers can be asked of a bat, by which names?
+//!
+//! Every answer has one name, that of the member in the other documents of the program, with its unit at the
+//! end.
+
+use crate::comparison::contender::Figure;
+use sweetspot::base::error::{Complaint, Error, Result};
+use sweetspot::bat::body::{Bat, STANDARD_PIVOT};
+use sweetspot::modes::solve::Solution;
+
+/// Something that is asked of a bat.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum Answer {
+    /// Mass of the bat (kg).
+    Mass,
+    /// Balance point from the knob end (m).
+    BalancePoint,
+    /// Moment of inertia about the point 6 in from the knob end (kg m²).
+    Inertia,
+    /// Centre of percussion of a swing about that point, from the knob end (m).
+    CenterOfPercussion,
+    /// Frequency of a bending mode, counted from 1 (Hz).
+    Frequency(usize),
+    /// The node of a bending mode that is nearest to the tip, from the knob end (m).
+    Node(usize),
+    /// Speed of the fastest ball (m/s).
+    ExitSpeed,
+    /// Where the fastest ball is hit, from the knob end (m).
+    ExitSpeedPlace,
+    /// Where the zone within 1 % of the fastest ball begins or, if true, ends (m).
+    Zone(bool),
+    /// The least energy that stays in vibration (J).
+    Vibration,
+    /// Where the least energy stays in vibration (m).
+    VibrationPlace,
+    /// The largest BBCOR of the outer half of the free bat.
+    Bbcor,
+    /// Exit speed of a ball that is hit there, from the knob end (m, m/s).
+    ExitSpeedAt(f64),
+    /// Modal mass of a bending mode, counted from 1 (kg).
+    ModalMass(usize),
+    /// Energy that a hit there leaves in vibration (m, J).
+    VibrationAt(f64),
+    /// The least velocity that the hands feel (m/s).
+    HandsVelocity,
+    /// The least acceleration that the hands feel (m/s²).
+    HandsAcceleration,
+    /// Velocity that the hands feel of a hit there (m, m/s).
+    HandsVelocityAt(f64),
+    /// Acceleration that the hands feel of a hit there (m, m/s²).
+    HandsAccelerationAt(f64),
+}
+
+/// Names of the answers that have no number in them.
+const NAMED: [(&str, Answer); 14] = [
+    ("mass_kg", Answer::Mass),
+    ("balance_point_m", Answer::BalancePoint),
+    ("inertia_pivot_kg_m2", Answer::Inertia),
+    ("center_of_percussion_m", Answer::CenterOfPercussion),
+    ("exit_speed_max.value", Answer::ExitSpeed),
+    ("exit_speed_max.x_m", Answer::ExitSpeedPlace),
+    ("zone_m[0]", Answer::Zone(false)),
+    ("zone_m[1]", Answer::Zone(true)),
+    ("vibration_min.value", Answer::Vibration),
+    ("vibration_min.x_m", Answer::VibrationPlace),
+    ("bbcor_max", Answer::Bbcor),
+    ("hands_velocity_min.value", Answer::HandsVelocity),
+    ("hands_acceleration_min.value", Answer::HandsAcceleration),
+    ("f1_hz", Answer::Frequency(1)),
+];
+/// More modes than this are no question of many bats.
+const MOST_MODES: usize = 40;
+const SPEED_AT: &str = "exit_speed_m_s@";
+/// An answer about a hit at a place (m).
+type Local = fn(f64) -> Answer;
+/// What is asked of a hit at a place, each with the beginning of its name.
+const AT: [(&str, Local); 4] = [
+    (SPEED_AT, Answer::ExitSpeedAt),
+    ("vibration_j@", Answer::VibrationAt),
+    ("hands_velocity_m_s@", Answer::HandsVelocityAt),
+    ("hands_acceleration_m_s2@", Answer::HandsAccelerationAt),
+];
+
+impl Answer {
+    /// The answer of that name.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] with the nearest name there is.
+    pub fn named(name: &str) -> Result<Self> {
+        let order = |text: &str| {
+            let order = text.parse().ok().filter(|k| (1..=MOST_MODES).contains(k))?;
+            (order.to_string() == text).then_some(order)
+        };
+        let between = |start: &str, end: &str| {
+            let inner = name.strip_prefix(start).and_then(|rest| rest.strip_suffix(end));
+            inner.and_then(order)
+        };
+        let known = NAMED.iter().find(|(known, _)| *known == name).map(|(_, answer)| *answer);
+        let at = || {
+            let of = |(start, of): &(&str, Local)| Some((name.strip_prefix(start)?, *of));
+            let (place, of) = AT.iter().find_map(of)?;
+            let is_plain = |c: char| c.is_ascii_digit() || c == '.';
+            let plain =
+                place.starts_with(|c: char| c.is_ascii_digit()) && place.chars().all(is_plain);
+            place.parse().ok().filter(|_| plain).map(of)
+        };
+        let found = known
+            .or_else(|| between("f", "_hz").map(Self::Frequency))
+            .or_else(|| between("node_mode_", "_m").map(Self::Node))
+            .or_else(|| between("modal_mass_mode_", "_kg").map(Self::ModalMass))
+            .or_else(at);
+        found.ok_or_else(|| {
+            let names: Vec<&str> = NAMED.iter().map(|(name, _)| *name).collect();
+            let expected = format!(
+                "{}, f2_hz to f{MOST_MODES}_hz, node_mode_1_m to node_mode_{MOST_MODES}_m, \
+                 modal_mass_mode_1_kg to modal_mass_mode_{MOST_MODES}_kg, or {}0.70 for a place in m",
+                names.join(", "),
+                AT.map(|(start, _)| start).join("0.70, ")
+            );
+            let complaint = Complaint::new("outputs", format!("\"{name}\""), expected);
+            Error::Value(complaint.or_nearest(name, &names))
+        })
+    }
+
+    /// What it is called.
+    pub fn name(self) -> String {
+        let named = NAMED.iter().find(|(_, answer)| *answer == self);
+        match (named, self) {
+            (Some((name, _)), _) => (*name).to_owned(),
+            (None, Self::Node(order)) => format!("node_mode_{order}_m"),
+            (None, Self::ModalMass(order)) => format!("modal_mass_mode_{order}_kg"),
+            (None, Self::Frequency(order)) => format!("f{order}_hz"),
+            (None, _) => {
+                let of = |(start, of): (&'static str, Local)| {
+                    self.place().filter(|x| of(*x) == self).map(|x| format!("{start}{x}"))
+                };
+                AT.into_iter().find_map(of).expect("every other answer is in the lists of names")
+            }
+        }
+    }
+
+    /// The place (m from the knob end) of a hit that it is asked of.
+    pub fn place(self) -> Option<f64> {
+        match self {
+            Self::ExitSpeedAt(x)
+            | Self::VibrationAt(x)
+            | Self::HandsVelocityAt(x)
+            | Self::HandsAccelerationAt(x) => Some(x),
+            _ => None,
+        }
+    }
+
+    /// Its unit.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Mass | Self::ModalMass(_) => "kg",
+            Self::Inertia => "kg m²",
+            Self::Frequency(_) => "Hz",
+            Self::ExitSpeed
+            | Self::ExitSpeedAt(_)
+            | Self::HandsVelocity
+            | Self::HandsVelocityAt(_) => "m/s",
+            Self::HandsAcceleration | Self::HandsAccelerationAt(_) => "m/s²",
+            Self::Vibration | Self::VibrationAt(_) => "J",
+            Self::Bbcor => "",
+            Self::BalancePoint
+            | Self::CenterOfPercussion
+            | Self::Node(_)
+            | Self::ExitSpeedPlace
+            | Self::Zone(_)
+            | Self::VibrationPlace => "m",
+        }
+    }
+
+    /// Whether the barrel must be searched for it.
+    pub fn is_searched(self) -> bool {
+        self.of_the_hands()
+            || matches!(
+                self,
+                Self::ExitSpeed
+                    | Self::ExitSpeedPlace
+                    | Self::Zone(_)
+                    | Self::Vibration
+                    | Self::VibrationPlace
+                    | Self::Bbcor
+            )
+    }
+
+    /// Whether a ball must be hit for it.
+    pub fn of_a_hit(self) -> bool {
+        self.place().is_some() || self.is_searched()
+    }
+
+    /// Whether it is what the hands feel.
+    pub(super) fn of_the_hands(self) -> bool {
+        matches!(
+            self,
+            Self::HandsVelocity
+                | Self::HandsAcceleration
+                | Self::HandsVelocityAt(_)
+                | Self::HandsAccelerationAt(_)
+        )
+    }
+
+    /// How many modes it needs.
+    pub fn modes(self) -> usize {
+        match self {
+            Self::Frequency(order) | Self::Node(order) | Self::ModalMass(order) => order,
+            _ => 0,
+        }
+    }
+}
+
+/// Whether every place that is asked for is on the bat.
+///
+/// # Errors
+///
+/// [`Error::Value`] about the first that is not.
+pub fn on_the_bat(answers: &[Answer], bat: &Bat) -> Result<()> {
+    let beyond = |answer: &&Answer| answer.place().is_some_and(|x| x > bat.length());
+    let Some(off) = answers.iter().find(beyond) else { return Ok(()) };
+    let expected = format!("a place on the bat, 0 to {} m", bat.length());
+    Err(Error::value("outputs", off.name(), expected))
+}
+
+/// An answer that needs no hit.
+pub fn figure(answer: Answer, bat: &Bat, solution: &Solution) -> Option<Figure> {
+    let mode = |order: usize| solution.modes.get(order - 1);
+    match answer {
+        Answer::Mass => Some(Figure::exact(bat.inertia().mass)),
+        Answer::BalancePoint => Some(Figure::exact(bat.inertia().balance_point)),
+        Answer::Inertia => Some(Figure::exact(bat.inertia().about(STANDARD_PIVOT))),
+        Answer::CenterOfPercussion => {
+            bat.inertia().center_of_percussion(STANDARD_PIVOT).map(Figure::exact)
+        }
+        Answer::Frequency(order) => {
+            let mode = mode(order)?;
+            Some(Figure::new(mode.frequency(), mode.error.total() * mode.frequency()))
+        }
+        Answer::Node(order) => {
+            let mode = mode(order)?;
+            Some(Figure::new(*mode.nodes.last()?, mode.error.nodes))
+        }
+        Answer::ModalMass(order) => {
+            let mode = mode(order)?;
+            Some(Figure::new(mode.modal_mass, mode.error.modal_mass * mode.modal_mass))
+        }
+        _ => None,
+    }
+}

@@ -1,0 +1,331 @@
+//! Which values does row k of a study have?
+//!
+//! [`Design::row`] says it from the study and k alone. Lists are gone through in every combination, the last
+//! one fastest; with each combination go the same points, so that two combinations differ by what is in the
+//! lists and by nothing else. Numbers that are drawn depend on each other as their correlations say: their
+//! normal scores do, which leaves every number its own distribution (a Gaussian copula).
+//!
+//! # Source
+//!
+//! M. D. McKay, R. J. Beckman, W. J. Conover, Technometrics 21 (1979) 239: Latin hypercubes. R. B. Nelsen, An
+//! Introduction to Copulas (Springer, 2006), 2.3: the copula.
+
+use serde::{Deserialize, Serialize};
+
+use crate::many::distribution::{Distribution, share_below, standard_normal};
+use crate::many::hash::{of, shuffled};
+use crate::many::indices::VariateKind;
+use crate::many::sobol::{MOST_COORDINATES, Sobol, between};
+use sweetspot::base::error::{Error, Result};
+
+/// How points are spread.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum Spread {
+    /// By Sobol's sequence, scrambled.
+    #[default]
+    Sobol,
+    /// Each of so many equal parts of every distribution once.
+    LatinHypercube,
+    /// Thrown.
+    Random,
+}
+
+/// Most rows of a study.
+pub const MOST_ROWS: u64 = 1_000_000_000;
+
+/// The rows of a study.
+#[derive(Debug, Clone)]
+pub struct Design {
+    lists: Vec<u64>,
+    drawn: Vec<Distribution>,
+    /// Lower triangle of Cholesky's factor of the correlations.
+    factor: Vec<Vec<f64>>,
+    points: u64,
+    spread: Spread,
+    seed: u64,
+    sobol: Sobol,
+}
+
+/// What a design is made of.
+#[derive(Debug, Clone, Default)]
+pub struct Wanted {
+    /// How many values each list has.
+    pub lists: Vec<u64>,
+    /// The distributions that are drawn from.
+    pub drawn: Vec<Distribution>,
+    /// Correlations of normal scores, each of two different distributions by their places in `drawn`.
+    pub correlations: Vec<(usize, usize, f64)>,
+    /// Points drawn for each combination of the lists; one where nothing is drawn.
+    pub points: u64,
+    /// How they are spread.
+    pub spread: Spread,
+    /// Which of all such designs.
+    pub seed: u64,
+}
+
+/// One row.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// Which value of each list.
+    pub picks: Vec<u64>,
+    /// The value of each distribution.
+    pub values: Vec<f64>,
+}
+
+/// Where one of the things that vary is in a row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Axis {
+    /// In the list of that number.
+    List(usize),
+    /// In the distribution of that number.
+    Drawn(usize),
+}
+
+/// Some of so many numbers from 0, which is the first of them.
+fn spread_evenly(count: u64, some: u64) -> impl Iterator<Item = u64> {
+    let some = count.min(some);
+    (0..some).map(move |k| (u128::from(k) * u128::from(count) / u128::from(some)) as u64)
+}
+
+impl Design {
+    /// # Errors
+    ///
+    /// [`Error::Value`] for an empty list, no points, more rows than [`MOST_ROWS`], more distributions than
+    /// Sobol's sequence has coordinates, and correlations that no numbers can have.
+    pub fn new(wanted: Wanted) -> Result<Self> {
+        let Wanted { lists, drawn, correlations, points, spread, seed } = wanted;
+        drawn.iter().try_for_each(Distribution::check)?;
+        // Where nothing is drawn every combination is one row; no points are asked for in vain all the same.
+        let points = if drawn.is_empty() { points.min(1) } else { points };
+        let rows = lists.iter().try_fold(points, |rows, list| rows.checked_mul(*list));
+        match rows {
+            Some(1..=MOST_ROWS) => {}
+            Some(0) => return Err(Error::value("points", 0, "one row at least")),
+            _ => {
+                let found =
+                    rows.map_or("more than 1.8e19 rows".to_owned(), |n| format!("{n} rows"));
+                return Err(Error::value("points", found, format!("{MOST_ROWS} rows at most")));
+            }
+        }
+        if spread == Spread::Sobol && drawn.len() > MOST_COORDINATES {
+            let expected = format!("{MOST_COORDINATES} at most with the design sobol");
+            return Err(Error::value("vary", format!("{} distributions", drawn.len()), expected));
+        }
+        let factor = cholesky(drawn.len(), &correlations)?;
+        let sobol = Sobol::new(if spread == Spread::Sobol { drawn.len() } else { 0 }, seed);
+        Ok(Self { lists, drawn, factor, points, spread, seed, sobol })
+    }
+
+    /// How many rows there are.
+    pub fn rows(&self) -> u64 {
+        self.combinations() * self.points
+    }
+
+    /// Row k of them, counted from 0.
+    pub fn row(&self, k: u64) -> Row {
+        let (mut combination, point) = (k / self.points, k % self.points);
+        let mut picks = vec![0; self.lists.len()];
+        for (pick, list) in picks.iter_mut().zip(&self.lists).rev() {
+            (combination, *pick) = (combination / list, combination % list);
+        }
+        let shares = (0..self.drawn.len()).map(|c| self.share(point, c));
+        let scores: Vec<f64> = shares.map(standard_normal).collect();
+        let value = |(c, distribution): (usize, &Distribution)| {
+            let row = &self.factor[c];
+            // What depends on nothing keeps its share to the last bit.
+            if row[..c].iter().all(|part| *part == 0.0) {
+                return distribution.quantile(self.share(point, c));
+            }
+            let score = row.iter().zip(&scores).map(|(part, score)| part * score).sum();
+            distribution.quantile(share_below(score).clamp(f64::MIN_POSITIVE, 1.0 - f64::EPSILON))
+        };
+        Row { picks, values: self.drawn.iter().enumerate().map(value).collect() }
+    }
+
+    /// Some rows that tell of all: combinations of the lists with the median of every distribution, the first of
+    /// every list before all others, and rows of the design; so many of both at most, at even distances.
+    pub fn examples(&self, some: u64) -> impl Iterator<Item = Row> {
+        let Row { values, .. } = self.middle();
+        let combined = spread_evenly(self.combinations(), some);
+        let combined = combined
+            .map(move |k| Row { picks: self.row(k * self.points).picks, values: values.clone() });
+        combined.chain(spread_evenly(self.rows(), some).map(|k| self.row(k)))
+    }
+
+    /// The first value of every list with the median of every distribution.
+    pub fn middle(&self) -> Row {
+        let values = self.drawn.iter().map(|drawn| drawn.quantile(0.5)).collect();
+        Row { picks: vec![0; self.lists.len()], values }
+    }
+
+    /// Rows that differ from this one in one place alone: by so many other values of a list, or by both quartiles
+    /// of a distribution.
+    pub fn beside(&self, row: &Row, axis: Axis, some: u64) -> Vec<Row> {
+        let other = |change: &dyn Fn(&mut Row)| {
+            let mut other = row.clone();
+            change(&mut other);
+            other
+        };
+        match axis {
+            Axis::List(k) => {
+                let others =
+                    spread_evenly(self.lists[k], some).filter(|pick| *pick != row.picks[k]);
+                others.map(|pick| other(&|row| row.picks[k] = pick)).collect()
+            }
+            Axis::Drawn(k) => {
+                let quartiles = [0.25, 0.75].map(|share| self.drawn[k].quantile(share));
+                quartiles.map(|value| other(&|row| row.values[k] = value)).to_vec()
+            }
+        }
+    }
+
+    /// The independent numbers behind the values that are drawn, and what each of them is.
+    pub fn kinds(&self) -> Vec<VariateKind> {
+        let kind = |distribution: &Distribution| match distribution {
+            Distribution::Normal { .. } | Distribution::Lognormal { .. } => VariateKind::Score,
+            Distribution::Uniform { .. } | Distribution::Triangular { .. } => VariateKind::Share,
+        };
+        self.drawn.iter().map(kind).collect()
+    }
+
+    /// Those of row k; of correlated values each has what the earlier ones leave open.
+    pub fn numbers(&self, k: u64) -> Vec<f64> {
+        let number = |(c, kind): (usize, VariateKind)| match kind {
+            VariateKind::Share => self.share(k % self.points, c),
+            VariateKind::Score => standard_normal(self.share(k % self.points, c)),
+        };
+        self.kinds().into_iter().enumerate().map(number).collect()
+    }
+
+    /// How many combinations of the lists there are.
+    pub fn combinations(&self) -> u64 {
+        self.lists.iter().product()
+    }
+
+    /// A coordinate of a point in the unit cube.
+    fn share(&self, point: u64, coordinate: usize) -> f64 {
+        let thrown = || between(of(self.seed, coordinate as u64, point));
+        match self.spread {
+            Spread::Sobol => self.sobol.at(point, coordinate),
+            Spread::Random => thrown(),
+            Spread::LatinHypercube => {
+                let own = of(self.seed, coordinate as u64, u64::MAX);
+                let part = shuffled(own, self.points, point) as f64;
+                // Rounding may not carry it out of the cube.
+                ((part + thrown()) / self.points as f64).min(1.0 - f64::EPSILON)
+            }
+        }
+    }
+}
+
+/// Cholesky's factor of a matrix of correlations, 0 where nothing is said.
+fn cholesky(count: usize, correlations: &[(usize, usize, f64)]) -> Result<Vec<Vec<f64>>> {
+    let mut matrix = vec![vec![0.0; count]; count];
+    for &(a, b, r) in correlations {
+        if r.is_nan() || r.abs() >= 1.0 {
+            return Err(Error::value("correlation", r, "a number between -1 and 1"));
+        }
+        (matrix[a][b], matrix[b][a]) = (r, r);
+    }
+    let mut factor = vec![vec![0.0; count]; count];
+    for i in 0..count {
+        for j in 0..i {
+            let taken: f64 = (0..j).map(|k| factor[i][k] * factor[j][k]).sum();
+            factor[i][j] = (matrix[i][j] - taken) / factor[j][j];
+        }
+        let left = 1.0 - factor[i][..i].iter().map(|part| part * part).sum::<f64>();
+        if left <= 1e-12 {
+            let found = "correlations that contradict each other";
+            let expected =
+                "a positive definite matrix: if a goes with b and b with c, a goes with c";
+            return Err(Error::value("correlation", found, expected));
+        }
+        factor[i][i] = left.sqrt();
+    }
+    Ok(factor)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const NORMAL: Distribution = Distribution::Normal { mean: 0.0, deviation: 1.0 };
+
+    fn design(spread: Spread, correlations: &[(usize, usize, f64)], points: u64) -> Design {
+        let drawn = vec![NORMAL, Distribution::Uniform { from: 0.0, to: 1.0 }, NORMAL];
+        let correlations = correlations.to_vec();
+        let wanted = Wanted { lists: vec![2, 3], drawn, correlations, points, spread, seed: 5 };
+        Design::new(wanted).unwrap()
+    }
+
+    #[test]
+    fn lists_are_combined_and_each_combination_has_the_same_points() {
+        for spread in [Spread::Sobol, Spread::LatinHypercube, Spread::Random] {
+            let design = design(spread, &[], 7);
+            assert_eq!(design.rows(), 42);
+            let picks: Vec<_> = (0..42).step_by(7).map(|k| design.row(k).picks).collect();
+            assert_eq!(picks, [[0, 0], [0, 1], [0, 2], [1, 0], [1, 1], [1, 2]]);
+            for k in 7..42 {
+                assert_eq!(design.row(k).values, design.row(k % 7).values);
+            }
+        }
+    }
+
+    #[test]
+    fn a_latin_hypercube_takes_every_part_of_every_distribution_once() {
+        let design = design(Spread::LatinHypercube, &[], 100);
+        let mut parts: Vec<_> =
+            (0..100).map(|k| (100.0 * design.row(k).values[1]) as usize).collect();
+        parts.sort_unstable();
+        assert_eq!(parts, (0..100).collect::<Vec<_>>());
+    }
+
+    /// Correlated scores have the correlation asked for, and a number keeps its distribution: of a uniform
+    /// one with a normal one the correlation of values is `√(3/π) r`.
+    #[test]
+    fn numbers_go_with_each_other_as_asked_and_stay_what_they_are() {
+        let count = 1 << 14;
+        let design = design(Spread::Sobol, &[(0, 2, 0.6), (0, 1, -0.5)], count);
+        let rows: Vec<Vec<f64>> = (0..count).map(|k| design.row(k).values).collect();
+        let mean =
+            |of: &dyn Fn(&[f64]) -> f64| rows.iter().map(|row| of(row)).sum::<f64>() / count as f64;
+        let correlation = |a: usize, b: usize| {
+            let [of_a, of_b] = [mean(&|row| row[a]), mean(&|row| row[b])];
+            let both = mean(&|row| (row[a] - of_a) * (row[b] - of_b));
+            let own = |c: usize, its: f64| mean(&|row| (row[c] - its).powi(2)).sqrt();
+            both / own(a, of_a) / own(b, of_b)
+        };
+        assert!((correlation(0, 2) - 0.6).abs() < 2e-3, "{}", correlation(0, 2));
+        let known = -0.5 * (3.0 / std::f64::consts::PI).sqrt();
+        assert!((correlation(0, 1) - known).abs() < 2e-3, "{}", correlation(0, 1));
+        let mut uniform: Vec<f64> = rows.iter().map(|row| row[1]).collect();
+        uniform.sort_by(f64::total_cmp);
+        let off = |(k, v): (usize, &f64)| (v - (k as f64 + 0.5) / count as f64).abs();
+        // Of as many that are thrown the worst is off by about 7e-3 (Kolmogorov).
+        let worst = uniform.iter().enumerate().map(off).fold(0.0, f64::max);
+        assert!(worst < 3e-3, "{worst}");
+    }
+
+    #[test]
+    fn what_cannot_be_is_refused() {
+        let wanted = |correlations: &[(usize, usize, f64)], lists: &[u64], points| {
+            let (correlations, lists) = (correlations.to_vec(), lists.to_vec());
+            Wanted { lists, drawn: vec![NORMAL; 3], correlations, points, ..Wanted::default() }
+        };
+        for (wrong, says) in [
+            (wanted(&[(0, 1, 1.0)], &[], 8), "between -1 and 1"),
+            (wanted(&[(0, 1, f64::NAN)], &[], 8), "between -1 and 1"),
+            (wanted(&[(0, 1, 0.9), (1, 2, 0.9), (0, 2, -0.9)], &[], 8), "contradict each other"),
+            (wanted(&[], &[0], 8), "one row at least"),
+            (wanted(&[], &[1_000_000, 1_000_000], 8), "rows at most"),
+            (wanted(&[], &[u64::MAX, 2], 8), "rows at most"),
+            (Wanted { drawn: vec![NORMAL; 65], ..wanted(&[], &[], 8) }, "64 at most"),
+        ] {
+            let said = Design::new(wrong).unwrap_err().to_string();
+            assert!(said.contains(says), "{said}");
+        }
+        assert_eq!(Design::new(Wanted { points: 3, ..Wanted::default() }).unwrap().rows(), 1);
+    }
+}

@@ -1,0 +1,340 @@
+//! What comes of each of some bats?
+//!
+//! Bats that are like one model are computed together, and what is answered of one is a function of itself and
+//! the model.
+
+use std::ops::Range;
+
+use crate::comparison::contender::{Figure, Sought, exit_speed};
+use crate::many::answers::{Answer, figure, on_the_bat};
+use sweetspot::base::error::{Error, Result};
+use sweetspot::base::threads;
+use sweetspot::bat::body::Bat;
+use sweetspot::collision::batch::{Blow, each as strike_each};
+use sweetspot::collision::hit::{Impact, Model, Scene, greater};
+use sweetspot::collision::hitter::Hitter;
+use sweetspot::collision::stated::fewer;
+use sweetspot::collision::sweep::{self as hit, Sweep};
+use sweetspot::collision::sweet_spot::FEW;
+use sweetspot::modes::batch::{Way, solutions};
+use sweetspot::modes::prepared::{Prepared, prepare};
+use sweetspot::modes::solve::{Request, Solution, solve};
+
+/// What is asked of every bat.
+#[derive(Debug, Clone)]
+pub struct Asked {
+    /// The answers, in the order of the columns.
+    pub answers: Vec<Answer>,
+    /// Accuracy of frequencies, relative, and of exit speeds, relative to the closing speed.
+    pub tolerance: f64,
+}
+
+/// How a bat is hit.
+#[derive(Debug, Clone)]
+pub struct Trial {
+    /// Swing, ball and pitch.
+    pub scene: Scene,
+    /// How a hit is computed.
+    pub model: Model,
+}
+
+/// What came of a bat.
+#[derive(Debug)]
+pub struct Found {
+    /// Values with their errors in the order asked; None where the bat has no such answer.
+    pub figures: Vec<Option<Figure>>,
+    /// Whether frequencies and exit speeds are as accurate as asked.
+    pub met: bool,
+    /// Why it cannot be hit where or as it is asked, if it cannot.
+    pub off: Option<Error>,
+}
+
+impl Found {
+    /// Whether another bat has an answer that differs from this one's by more than 1e-10 of it.
+    pub fn differs(&self, other: &Self) -> bool {
+        const SAME: f64 = 1e-10;
+        self.figures.iter().zip(&other.figures).any(|both| match both {
+            (Some(a), Some(b)) => (a.value - b.value).abs() > SAME * a.value.abs(),
+            (a, b) => a.is_some() != b.is_some(),
+        })
+    }
+}
+
+/// Rows that are computed together: some bats in the lanes of every vector, on one plan.
+pub const TOGETHER: u64 = 16;
+
+/// What `of` makes of some rows, in their order, on all cores; `tell` is told of rows that are done, how many
+/// more there are. Where each row has a wall of its own, of some 50 MB, one is solved after the other.
+pub fn in_groups<T: Send>(
+    rows: Range<u64>,
+    walls: bool,
+    of: impl Fn(Range<u64>) -> Vec<T> + Sync,
+    tell: impl Fn(u64) + Sync,
+) -> Vec<T> {
+    let together = if walls { 1 } else { TOGETHER };
+    let from = |group: usize| rows.end.min(rows.start + group as u64 * together);
+    let groups = (rows.end - rows.start).div_ceil(together) as usize;
+    let group = |group: usize| {
+        let (first, end) = (from(group), from(group + 1));
+        let found = of(first..end);
+        tell(end - first);
+        found
+    };
+    threads::map(groups, group).into_iter().flatten().collect()
+}
+
+/// A bat of which all is known that its modes are asked for.
+struct Ready {
+    /// The bat as it is tuned to its tap.
+    bat: Bat,
+    request: Request,
+    /// How it is hit, and where (m from the knob end), if it is.
+    trial: Option<(Trial, Vec<f64>)>,
+    /// Why it cannot be hit, if that was asked.
+    off: Option<Error>,
+}
+
+/// What was computed of a bat.
+enum Solved {
+    Modes(Solution),
+    Hits(Sweep),
+}
+
+impl Asked {
+    /// What is asked of each of some bats that are like `model`, in their order; `trial` is told the number of a
+    /// bat and the bat as it is tuned to its tap.
+    ///
+    /// What is answered of a bat is a function of itself and the model, whoever is beside it.
+    ///
+    /// # Errors
+    ///
+    /// Of each bat its own: why there is none, those of [`sweetspot::solve()`], of a hit, and of the trial.
+    pub fn of_each<'a>(
+        model: &Bat,
+        bats: Vec<(&'a Self, Result<Bat>)>,
+        trial: impl Fn(usize, &Bat) -> Result<Trial>,
+    ) -> Vec<Result<Found>> {
+        let ready = |(k, (asked, bat)): (usize, (&'a Self, Result<Bat>))| {
+            (asked, bat.and_then(|bat| asked.ready(bat, |bat| trial(k, bat))))
+        };
+        let ready: Vec<(&Self, Result<Ready>)> = bats.into_iter().enumerate().map(ready).collect();
+        let mut solved: Vec<Option<Result<Solved>>> = ready.iter().map(|_| None).collect();
+        let there =
+            || ready.iter().enumerate().filter_map(|(k, (_, of))| Some((k, of.as_ref().ok()?)));
+        let blows = there().filter_map(|(k, ready)| Some((k, ready.blow()?)));
+        let (hit, blows): (Vec<usize>, Vec<Blow>) = blows.unzip();
+        strike_each(model, &blows, Way::SideBySide, |k, found| {
+            solved[hit[k]] = Some(found.map(Solved::Hits));
+        });
+        let others = there().filter(|(_, ready)| ready.trial.is_none());
+        let (others, requests): (Vec<usize>, Vec<_>) =
+            others.map(|(k, ready)| (k, (&ready.bat, ready.request))).unzip();
+        solutions(model, &requests, Way::SideBySide, |k, found| {
+            solved[others[k]] = Some(found.map(Solved::Modes));
+        });
+        let found = |((asked, ready), solved): ((&Self, Result<Ready>), Option<Result<Solved>>)| {
+            let (ready, solved) = (ready?, solved.expect("every bat that is ready is solved"));
+            match solved? {
+                Solved::Modes(solution) => {
+                    let found = asked.of_modes(&ready.bat, &solution)?;
+                    Ok(Found { off: ready.off, ..found })
+                }
+                Solved::Hits(sweep) => asked.with_hits(ready, sweep),
+            }
+        };
+        ready.into_iter().zip(solved).map(found).collect()
+    }
+
+    /// The bat as it is tuned to its tap, with what its answers need.
+    fn ready(&self, bat: Bat, trial: impl FnOnce(&Bat) -> Result<Trial>) -> Result<Ready> {
+        let modes = self.answers.iter().map(|answer| answer.modes()).max().unwrap_or(0);
+        let hit = self.answers.iter().any(|answer| answer.of_a_hit());
+        let modes = if hit { modes.max(Request::default().modes) } else { modes };
+        let request = Request { modes, tolerance: self.tolerance, ..Request::default() };
+        let Prepared { bat, request, .. } = prepare(&bat, &request)?;
+        let bat = bat.into_owned();
+        let trial = hit.then(|| trial(&bat)).transpose();
+        let (trial, off) = trial.map_or_else(|error| (None, Some(error)), |trial| (trial, None));
+        let trial = trial.map(|trial| (trial, self.places(&bat)));
+        Ok(Ready { bat, request, trial, off })
+    }
+
+    /// The answers of a bat that is not hit.
+    fn of_modes(&self, bat: &Bat, solution: &Solution) -> Result<Found> {
+        let figures = self.answers.iter().map(|answer| figure(*answer, bat, solution)).collect();
+        Ok(Found { figures, met: solution.worst() <= self.tolerance, off: None })
+    }
+
+    /// The answers of a bat that was hit: the modes' from those of the hit where these are enough.
+    fn with_hits(&self, Ready { bat, request, trial, .. }: Ready, sweep: Sweep) -> Result<Found> {
+        let (Trial { scene, model }, _) = trial.expect("a bat that was hit has its trial");
+        let asked = self.answers.iter().map(|answer| answer.modes()).max().unwrap_or(0);
+        let found = match sweep.solution.modes.len() >= asked {
+            true => self.of_modes(&bat, &sweep.solution)?,
+            false => self.of_modes(&bat, &solve(&bat, &Request { modes: asked, ..request })?)?,
+        };
+        let searched = match self.answers.iter().any(|answer| answer.is_searched()) {
+            true => Some(Searched::new(&self.answers, &bat, (&scene, model), &sweep)?),
+            false => None,
+        };
+        let at = |x: f64| sweep.impacts.iter().find(|impact| impact.x == x);
+        let of = |(answer, known): (&Answer, Option<Figure>)| match *answer {
+            Answer::ExitSpeedAt(x) => exit_speed(at(x)?, &scene),
+            Answer::VibrationAt(x) => vibration(at(x)?, &scene),
+            answer if answer.is_searched() => searched.as_ref()?.figure(answer),
+            _ => known,
+        };
+        let figures = self.answers.iter().zip(found.figures).map(of).collect();
+        let off = on_the_bat(&self.answers, &bat).err();
+        Ok(Found { figures, met: found.met && sweep.met, off })
+    }
+
+    /// Where the barrel is hit (m from the knob end): where it is asked, and where best places are sought.
+    fn places(&self, bat: &Bat) -> Vec<f64> {
+        /// Where a barrel is hit that is searched, as shares of the length.
+        const ALONG: [f64; 4] = [0.7, 0.775, 0.85, 0.925];
+        let asked = self.answers.iter().filter_map(|answer| answer.place());
+        let mut places: Vec<f64> = asked.filter(|x| *x <= bat.length()).collect();
+        if self.answers.iter().any(|answer| answer.is_searched()) {
+            places.extend(ALONG.map(|share| share * bat.length()));
+        }
+        places.sort_by(f64::total_cmp);
+        places.dedup();
+        places
+    }
+}
+
+impl Ready {
+    fn blow(&self) -> Option<Blow<'_>> {
+        let (Trial { scene, model, .. }, places) = self.trial.as_ref()?;
+        let trial = hit::Trial { model: *model, scene };
+        let accuracy = trial.accuracy(&self.request, false);
+        Some(Blow { bat: &self.bat, trial, accuracy, places })
+    }
+}
+
+/// Energy that an impact leaves in vibration (J): what the error of the impulse moves between the
+/// energies is its error.
+fn vibration(impact: &Impact, scene: &Scene) -> Option<Figure> {
+    let outcome = impact.outcome.as_ref()?;
+    let closing = impact.bat_speed + scene.ball_speed;
+    let moved = scene.ball.mass_kg * outcome.error * closing * closing;
+    (!outcome.energy.vibration_by_mode.is_empty())
+        .then(|| Figure::new(outcome.energy.vibration(), moved))
+}
+
+/// What is found by search on a bat that was hit: of all that could be sought what is asked for.
+struct Searched {
+    /// Speed and place of the fastest ball, and the energy it leaves in vibration.
+    fastest: Option<[Figure; 3]>,
+    zone: Option<[Figure; 2]>,
+    /// Place and value of the least vibration.
+    least: Option<[Figure; 2]>,
+    bbcor: Option<Figure>,
+    hands: Option<Hands>,
+}
+
+impl Searched {
+    fn new(answers: &[Answer], bat: &Bat, trial: (&Scene, Model), sweep: &Sweep) -> Result<Self> {
+        let (scene, model) = trial;
+        let hitter = Hitter::new(model, scene, bat, &sweep.solution, sweep.effort)?;
+        let asked = |which: fn(&Answer) -> bool| answers.iter().any(which);
+        // What is asked of a place needs no search.
+        let sought = asked(|answer| answer.is_searched() && answer.place().is_none())
+            .then(|| Sought::new(&hitter, FEW));
+        let sought = |which| sought.as_ref().filter(|_| asked(which));
+        let fastest = sought(|answer| {
+            matches!(answer, Answer::ExitSpeed | Answer::ExitSpeedPlace | Answer::Zone(_))
+        });
+        let fastest = fastest.and_then(|sought| sought.looked.fastest().map(|peak| (sought, peak)));
+        let zone = fastest.filter(|_| asked(|answer| matches!(answer, Answer::Zone(_))));
+        let least = sought(|answer| matches!(answer, Answer::Vibration | Answer::VibrationPlace));
+        let felt = [
+            sought(|answer| *answer == Answer::HandsVelocity),
+            sought(|answer| *answer == Answer::HandsAcceleration),
+        ];
+        let felt = [0, 1].map(|k| Some(felt[k]?.looked.least_felt(k)?.x));
+        let hands = asked(|answer| answer.of_the_hands());
+        Ok(Self {
+            fastest: fastest.map(|(sought, peak)| sought.best(peak, &sought.hit(peak))),
+            zone: zone
+                .map(|(sought, peak)| sought.looked.zone(peak).map(|edge| sought.edge(peak, edge))),
+            least: least.and_then(|sought| Some(sought.least(sought.looked.least_vibration()?))),
+            bbcor: sought(|answer| *answer == Answer::Bbcor).and_then(|sought| sought.bbcor(1)),
+            hands: hands.then(|| Hands::new(bat, trial, (sweep, &hitter), felt)).transpose()?,
+        })
+    }
+
+    fn figure(&self, answer: Answer) -> Option<Figure> {
+        match answer {
+            Answer::ExitSpeed => Some(self.fastest?[0]),
+            Answer::ExitSpeedPlace => Some(self.fastest?[1]),
+            Answer::Zone(end) => Some(self.zone?[usize::from(end)]),
+            Answer::Vibration => Some(self.least?[1]),
+            Answer::VibrationPlace => Some(self.least?[0]),
+            Answer::Bbcor => self.bbcor,
+            answer => self.hands.as_ref()?.felt(answer),
+        }
+    }
+}
+
+/// What the hands feel of the hits on a bat. By fewer modes it is another, and the impulse has its error, by
+/// which all of it grows: both are the error.
+struct Hands {
+    /// Places of the least velocity and the least acceleration (m).
+    least: [Option<f64>; 2],
+    /// Places (m) and what the hands feel there: velocity and acceleration.
+    felt: Vec<(f64, [Figure; 2])>,
+}
+
+impl Hands {
+    /// At the places of the sweep, and where the least velocity and acceleration are (m) if that is asked.
+    fn new(
+        bat: &Bat,
+        (scene, model): (&Scene, Model),
+        (sweep, all): (&Sweep, &Hitter),
+        least: [Option<f64>; 2],
+    ) -> Result<Self> {
+        let Sweep { solution, impacts, effort, .. } = sweep;
+        let count = solution.modes.len();
+        let first = |few: usize| {
+            let mut first = solution.clone();
+            first.modes.truncate(few);
+            first
+        };
+        // By half of them it is another bat.
+        let most = fewer(count).into_iter().filter(|few| 3 * few >= 2 * count).map(first);
+        let most: Vec<Solution> = most.collect();
+        let hitter = |solution| Hitter::new(model, scene, bat, solution, *effort);
+        let few: Vec<Hitter> = most.iter().map(hitter).collect::<Result<_>>()?;
+        let share = |impact: &Impact| {
+            let outcome = impact.outcome.as_ref()?;
+            let closing = impact.bat_speed + scene.ball_speed;
+            Some(outcome.error * closing * scene.ball.mass_kg / outcome.impulse)
+        };
+        let unsure = impacts.iter().filter_map(share).fold(0.0, greater);
+        let places = impacts.iter().map(|impact| impact.x).chain(least.into_iter().flatten());
+        let felt = places.filter_map(|x| {
+            let seen = |hitter: &Hitter| hitter.glance(x).map(|seen| seen.hands);
+            let (all, few) = (seen(all)?, few.iter().map(seen).collect::<Option<Vec<_>>>()?);
+            let figure = |k: usize| {
+                let apart = few.iter().map(|few| (all[k] - few[k]).abs()).fold(0.0, greater);
+                Figure::new(all[k], apart + unsure * all[k])
+            };
+            Some((x, [0, 1].map(figure)))
+        });
+        Ok(Self { least, felt: felt.collect() })
+    }
+
+    fn felt(&self, answer: Answer) -> Option<Figure> {
+        let (x, which) = match answer {
+            Answer::HandsVelocity => (self.least[0]?, 0),
+            Answer::HandsAcceleration => (self.least[1]?, 1),
+            Answer::HandsVelocityAt(x) => (x, 0),
+            Answer::HandsAccelerationAt(x) => (x, 1),
+            _ => return None,
+        };
+        let near = |(place, _): &&(f64, _)| (place - x).abs() < 1e-9;
+        self.felt.iter().find(near).map(|(_, felt)| felt[which])
+    }
+}

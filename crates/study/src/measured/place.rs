@@ -1,0 +1,203 @@
+//! Where on the bat the measured points are.
+//!
+//! A file's coordinates have an origin and a direction of their own. Which end comes first is what
+//! was told, or what makes the shapes most like computed ones; where the first point is was told, or
+//! follows from the coordinates: within the bat they count from its end, else the points are taken
+//! as in the middle.
+
+use faer::c64;
+
+use crate::measured::data::Measured;
+use sweetspot::base::error::{Error, Result};
+use sweetspot::base::number::significant;
+
+/// An end of the bat.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum End {
+    /// The knob end, where the hands are.
+    Knob,
+    /// The end of the barrel.
+    Tip,
+}
+
+impl End {
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Knob => "knob",
+            Self::Tip => "tip",
+        }
+    }
+}
+
+/// What was told about the points.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ToldPoints {
+    /// The end that the first point is near, the one with the lowest coordinate.
+    pub first: Option<End>,
+    /// Where that point is (m from the knob end).
+    pub origin: Option<f64>,
+}
+
+/// The points on the bat.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Placed {
+    /// Positions of the points from the knob end (m), rising.
+    pub x: Vec<f64>,
+    /// The measured shapes at these points; empty for a mode without one.
+    pub shapes: Vec<Vec<c64>>,
+    /// The end that the first point of the file is near.
+    pub first: End,
+    /// How well the shapes fit this way and turned end for end, where either can be.
+    pub fits: [Option<f64>; 2],
+    /// What was assumed, one sentence each.
+    pub assumed: Vec<String>,
+    /// Whether turned end for end they would fit clearly better, although the file says otherwise.
+    pub turned_fits_better: bool,
+}
+
+/// Points this far beyond an end (of the length) are at the end.
+const BEYOND: f64 = 0.01;
+/// One fit is better than another by so much at least.
+const BETTER: f64 = 0.02;
+
+/// Finds the points' places on a bat of that length (m). `fit` says how well shapes at such places
+/// are like computed ones, 1 for entirely.
+///
+/// # Errors
+///
+/// [`Error::Value`] where the points span more than the bat, or are not on it.
+pub fn place(
+    measured: &Measured,
+    length: f64,
+    told: ToldPoints,
+    fit: impl Fn(&[f64], &[Vec<c64>]) -> f64,
+) -> Result<Placed> {
+    fits_on(measured, length)?;
+    let shapes: Vec<Vec<c64>> = measured.modes.iter().map(|mode| mode.shape.clone()).collect();
+    let way = |first: End| -> Result<DirectionPoints> {
+        let (places, how) = places(measured, length, told.origin, first);
+        let mut x = on_the_bat(places, length)?;
+        let mut shapes = shapes.clone();
+        if first == End::Tip {
+            x.reverse();
+            shapes.iter_mut().for_each(|shape| shape.reverse());
+        }
+        Ok(DirectionPoints { fit: fit(&x, &shapes), x, shapes, first, how })
+    };
+    let wanted = told.first.or(measured.from_knob.then_some(End::Knob));
+    let (knob, tip) = (way(End::Knob), way(End::Tip));
+    let Choice { chosen, other, reason } = choose(wanted, knob, tip)?;
+    let better = other.is_some_and(|other| other > chosen.fit + BETTER);
+    let mut assumed = vec![chosen.how];
+    if let Some(reason) = reason {
+        let first = chosen.first.name();
+        let turned = other.map_or(String::new(), |other| format!(", turned round {other:.3}"));
+        let fit = chosen.fit;
+        assumed.push(format!(
+            "the first is nearest the {first}: {reason} (mean MAC {fit:.3}{turned})"
+        ));
+    }
+    let fits = [Some(chosen.fit), other];
+    let (x, shapes, first) = (chosen.x, chosen.shapes, chosen.first);
+    Ok(Placed { x, shapes, first, fits, assumed, turned_fits_better: better })
+}
+
+/// The points in one direction.
+struct DirectionPoints {
+    x: Vec<f64>,
+    shapes: Vec<Vec<c64>>,
+    first: End,
+    fit: f64,
+    how: String,
+}
+
+/// One of two ways, how well the other fits if it can be, and why it is this one if nobody said so.
+struct Choice {
+    chosen: DirectionPoints,
+    other: Option<f64>,
+    reason: Option<&'static str>,
+}
+
+fn choose(
+    wanted: Option<End>,
+    knob: Result<DirectionPoints>,
+    tip: Result<DirectionPoints>,
+) -> Result<Choice> {
+    let fits = [&knob, &tip].map(|way| way.as_ref().ok().map(|way| way.fit));
+    let (chosen, other, reason) = match (wanted, knob, tip) {
+        (Some(End::Knob), knob, _) => (knob?, fits[1], None),
+        (Some(End::Tip), _, tip) => (tip?, fits[0], None),
+        (None, Ok(knob), Ok(tip)) => match tip.fit - knob.fit {
+            d if d > BETTER => (tip, fits[0], Some("so the shapes fit better")),
+            d if d < -BETTER => (knob, fits[1], Some("so the shapes fit better")),
+            _ => {
+                let alike = "both ways fit alike, and the knob end is taken (say that the tip comes first to turn it)";
+                (knob, fits[1], Some(alike))
+            }
+        },
+        (None, knob, tip) => {
+            let either = knob.or_else(|error| tip.map_err(|_| error))?;
+            (either, None, Some("the other way points are off the bat"))
+        }
+    };
+    Ok(Choice { chosen, other, reason })
+}
+
+/// Places from the knob end (m) with that end first, and how they were found.
+fn places(measured: &Measured, length: f64, origin: Option<f64>, first: End) -> (Vec<f64>, String) {
+    let along = &measured.along;
+    let (low, high) = (along[0], along[along.len() - 1]);
+    let turned = |x: f64| if first == End::Tip { length - x } else { x };
+    let margin = BEYOND * length;
+    let from = |places: &dyn Fn(f64) -> f64| along.iter().map(|s| places(*s)).collect();
+    if let Some(origin) = origin {
+        let sign = if first == End::Tip { -1.0 } else { 1.0 };
+        let how = format!("the first point is {origin} m from the knob end, as told");
+        return (from(&|s| origin + sign * (s - low)), how);
+    }
+    if measured.from_knob || (low >= -margin && high <= length + margin) {
+        let end = match first {
+            End::Knob => "knob end",
+            End::Tip => "tip",
+        };
+        return (from(&|s| turned(s)), format!("places count from the {end}"));
+    }
+    let before = 0.5 * (length - (high - low));
+    let how = format!(
+        "the coordinates, {low:.4} to {high:.4} m, do not count from an end of a bat of {length:.4} m: \
+         the points are taken as in its middle (--origin says where the first is)"
+    );
+    (from(&|s| turned(s - low + before)), how)
+}
+
+/// Points that span less of a bat than this share are in another unit: an inch is a fortieth of a metre.
+const LEAST_SPAN: f64 = 0.05;
+
+/// Points that are farther apart than the bat is long do not fit on it; several within a twentieth of it tell no
+/// shape.
+fn fits_on(measured: &Measured, length: f64) -> Result<()> {
+    let many = measured.along.len();
+    let span = measured.along[many - 1] - measured.along[0];
+    let least = if many > 1 { LEAST_SPAN * length } else { 0.0 };
+    if (least..=length * (1.0 + 2.0 * BEYOND)).contains(&span) {
+        return Ok(());
+    }
+    let found = format!("{many} points that span {} m", significant(span, 3));
+    let limit = if span < least { "at least a twentieth of" } else { "at most" };
+    let expected = format!("{limit} the bat's {length:.4} m: is the unit right?");
+    Err(Error::value(&measured.source, found, expected))
+}
+
+/// Places a little beyond an end are at the end; farther out there is no bat.
+fn on_the_bat(places: Vec<f64>, length: f64) -> Result<Vec<f64>> {
+    let margin = BEYOND * length;
+    match places.iter().find(|x| !(-margin..=length + margin).contains(*x)) {
+        Some(x) => Err(Error::value(
+            "measured points",
+            format!("one at {x:.4} m from the knob end"),
+            format!("places on the bat, 0 to {length:.4} m: is the unit right, and the origin?"),
+        )),
+        None => Ok(places.into_iter().map(|x| x.clamp(0.0, length)).collect()),
+    }
+}

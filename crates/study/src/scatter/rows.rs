@@ -1,0 +1,327 @@
+//! Which bat and which hit is row k, and what comes of them?
+//!
+//! [`ScatterRows::answers`] is a function of what differs, the bat, the seed and k alone: row k is point
+//! `k mod n` of scramble `k / n`. What is asked of a bat is asked as in a study
+//! ([`crate::many::rows`]).
+
+use std::ops::Range;
+
+use crate::comparison::contender::Figure;
+use crate::many::answers::Answer;
+use crate::many::design::Design;
+use crate::many::indices::VariateKind;
+use crate::many::rows::{Asked, Found, Trial};
+use crate::scatter::spreads::{Differences, Differs, SCRAMBLES, softened};
+use sweetspot::base::error::{Error, Result};
+use sweetspot::bat::body::Bat;
+use sweetspot::bat::material::Material;
+use sweetspot::collision::hitter::Hitter;
+use sweetspot::collision::setup::Setup;
+use sweetspot::collision::sweep::{Trial as Hit, sweep};
+use sweetspot::collision::sweet_spot::{FEW, HitsAlong};
+use sweetspot::modes::prepared::prepare;
+use sweetspot::modes::solve::Request;
+
+/// The exit speed of a ball that is hit at the place that differs, as an output.
+pub const AT_IMPACT: &str = "exit_speed_m_s@impact";
+
+/// Something that is asked of every row.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Output {
+    /// An answer of a study.
+    Of(Answer),
+    /// The exit speed where the ball is hit.
+    AtImpact,
+}
+
+impl Output {
+    /// What it is called.
+    pub fn name(self) -> String {
+        match self {
+            Self::Of(answer) => answer.name(),
+            Self::AtImpact => AT_IMPACT.to_owned(),
+        }
+    }
+
+    /// Its unit.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Of(answer) => answer.unit(),
+            Self::AtImpact => "m/s",
+        }
+    }
+}
+
+/// What is asked of the rows, and how many there are.
+#[derive(Debug, Clone)]
+pub struct ScatterPlan {
+    /// What differs.
+    pub differences: Differences,
+    /// How the bat is hit in the middle of all rows.
+    pub setup: Setup,
+    /// Where the ball is hit in the middle of all rows (m); None for where it leaves fastest.
+    pub impact: Option<f64>,
+    /// What is asked.
+    pub outputs: Vec<Output>,
+    /// Accuracy, as of [`Asked`].
+    pub tolerance: f64,
+    /// Rows, a power of two.
+    pub points: u64,
+    /// Another seed draws other rows.
+    pub seed: u64,
+}
+
+/// All rows.
+pub struct ScatterRows {
+    /// What was planned.
+    pub plan: ScatterPlan,
+    /// The bat in the middle of them, its density and stiffness settled.
+    pub bat: Bat,
+    /// Where the ball is hit in the middle of them (m).
+    pub impact: f64,
+    /// The bat in the middle as the rows have it, with all places of what was turned.
+    middle: Bat,
+    designs: Vec<Design>,
+    groups: Vec<usize>,
+}
+
+impl ScatterRows {
+    /// The rows of a bat; the one in the middle is hit once, to see that it can be.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] where something differs that the bat has not, and what is wrong with the bat in the middle.
+    pub fn new(bat: &Bat, plan: ScatterPlan) -> Result<Self> {
+        check(bat, &plan)?;
+        let settled = settled(bat, plan.tolerance)?;
+        let designs = plan.differences.designs(bat.length(), plan.points, plan.seed)?;
+        let groups = plan.differences.groups(bat.length());
+        let impact = plan.impact.unwrap_or(0.0);
+        let middle = settled.clone();
+        let mut rows = Self { plan, bat: settled, impact, middle, designs, groups };
+        if rows.plan.impact.is_none() && rows.plan.outputs.contains(&Output::AtImpact) {
+            rows.impact = fastest(&rows.bat, &rows.plan)?;
+        }
+        let none = vec![0.0; rows.groups.len()];
+        rows.middle = rows.changed(&none)?;
+        rows.of(&[none]).pop().transpose()?;
+        Ok(rows)
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> u64 {
+        self.plan.points
+    }
+
+    /// The numbers of row k: factors' logarithms, factors less one, and amounts, one for each that is drawn.
+    pub fn values(&self, k: u64) -> Vec<f64> {
+        let (scramble, point) = self.place(k);
+        self.designs[scramble].row(point).values
+    }
+
+    /// The independent numbers behind them, each of that kind, and the difference that each belongs to.
+    pub fn numbers(&self, k: u64) -> Vec<f64> {
+        let (scramble, point) = self.place(k);
+        self.designs[scramble].numbers(point)
+    }
+
+    /// What each of those numbers is.
+    pub fn kinds(&self) -> Vec<VariateKind> {
+        self.designs[0].kinds()
+    }
+
+    /// The difference that each number belongs to.
+    pub fn groups(&self) -> &[usize] {
+        &self.groups
+    }
+
+    fn place(&self, k: u64) -> (usize, u64) {
+        let each = self.plan.points / SCRAMBLES;
+        ((k / each) as usize, k % each)
+    }
+
+    /// What comes of those rows, in the order of the outputs, or why there is no answer. A row's answers do not
+    /// depend on which others are asked for with it.
+    pub fn answers(&self, rows: Range<u64>) -> Vec<Result<Found>> {
+        self.of(&rows.map(|k| self.values(k)).collect::<Vec<_>>())
+    }
+
+    /// The bat of row k.
+    ///
+    /// # Errors
+    ///
+    /// Why there is none.
+    pub fn bat_of(&self, k: u64) -> Result<Bat> {
+        self.changed(&self.values(k))
+    }
+
+    /// What a difference comes to in row k: a factor, or an amount; of turning the root of the mean square (m).
+    pub fn told(&self, values: &[f64], k: usize) -> f64 {
+        let (what, own) = (self.plan.differences.all[k].what, self.own(values, k));
+        match what {
+            Differs::Turned(turning) => {
+                let count = 64;
+                let at =
+                    |i: i32| turning.error(self.bat.length() * (f64::from(i) + 0.5) / 64.0, &own);
+                ((0..count).map(|i| at(i).powi(2)).sum::<f64>() / f64::from(count)).sqrt()
+            }
+            Differs::Cor | Differs::Impact | Differs::Moisture => own[0],
+            Differs::SwingSpeed | Differs::Pitch => 1.0 + own[0],
+            _ => own[0].exp(),
+        }
+    }
+
+    /// The numbers of one difference.
+    fn own(&self, values: &[f64], k: usize) -> Vec<f64> {
+        let pairs = values.iter().zip(&self.groups);
+        pairs.filter(|(_, group)| **group == k).map(|(value, _)| *value).collect()
+    }
+
+    fn of(&self, rows: &[Vec<f64>]) -> Vec<Result<Found>> {
+        let asked: Vec<Asked> = rows.iter().map(|values| self.asked(values)).collect();
+        let bats = asked.iter().zip(rows).map(|(asked, values)| (asked, self.changed(values)));
+        Asked::of_each(&self.middle, bats.collect(), |k, bat| self.trial(&rows[k], bat))
+    }
+
+    fn asked(&self, values: &[f64]) -> Asked {
+        let moved = self.impact + self.one(values, Differs::Impact);
+        let place = moved.clamp(0.0, self.bat.length());
+        let answer = |output: &Output| match output {
+            Output::Of(answer) => *answer,
+            Output::AtImpact => Answer::ExitSpeedAt(place),
+        };
+        let answers = self.plan.outputs.iter().map(answer).collect();
+        Asked { answers, tolerance: self.plan.tolerance }
+    }
+
+    /// The number of a difference; 0 where it does not differ.
+    fn one(&self, values: &[f64], what: Differs) -> f64 {
+        let place = self.plan.differences.all.iter().position(|one| one.what == what);
+        place.map_or(0.0, |k| self.own(values, k)[0])
+    }
+
+    fn trial(&self, values: &[f64], bat: &Bat) -> Result<Trial> {
+        let faster = 1.0 + self.one(values, Differs::SwingSpeed);
+        let livelier = self.one(values, Differs::Cor);
+        let mut setup = self.plan.setup.clone();
+        setup.swing_speed *= faster;
+        setup.bat_speed = setup.bat_speed.map(|speed| speed * faster);
+        setup.pitch = (setup.pitch * (1.0 + self.one(values, Differs::Pitch))).max(0.0);
+        let moved = |cor: f64| (cor + livelier).clamp(0.01, 0.99);
+        if livelier != 0.0 {
+            setup.cor = setup.cor.map(moved);
+            setup.ball.cor = moved(setup.ball.cor);
+            setup.ball.cor_by_speed.iter_mut().for_each(|[_, cor]| *cor = moved(*cor));
+        }
+        let (model, tolerance) = (setup.model()?, Some(self.plan.tolerance));
+        Ok(Trial { scene: setup.scene(bat, tolerance)?.0, model })
+    }
+
+    /// The bat with these numbers.
+    fn changed(&self, values: &[f64]) -> Result<Bat> {
+        let mut profile = None;
+        for (k, one) in self.plan.differences.all.iter().enumerate() {
+            if let Differs::Turned(turning) = one.what {
+                profile = Some(turning.turned(&self.bat, &self.own(values, k))?);
+            }
+        }
+        let of = |what: Differs| self.one(values, what);
+        let (moist, e) = (of(Differs::Moisture), of(Differs::YoungsModulus));
+        let soft = softened(moist);
+        let wet = (1.0 + moist).max(0.01);
+        let ratio = of(Differs::ModulusRatio);
+        // G goes with E, or has a factor of its own.
+        let by_itself =
+            self.plan.differences.all.iter().any(|one| one.what == Differs::ShearModulus);
+        let shear =
+            if by_itself { of(Differs::ShearModulus) } else { e + of(Differs::ShearOverYoung) };
+        let change = |material: &mut Material, stiffer: f64, heavier: f64| {
+            material.name = None;
+            material.density *= heavier.exp() * wet;
+            material.youngs_modulus *= (e + stiffer).exp() * soft;
+            material.shear_modulus =
+                material.shear_modulus.map(|modulus| modulus * (shear + stiffer).exp() * soft);
+        };
+        let own = self.bat.material().clone();
+        let barrel = [Differs::BarrelDensity, Differs::ModulusRatio];
+        let parted = self.plan.differences.all.iter().any(|one| barrel.contains(&one.what));
+        self.bat.with(|parts| {
+            change(&mut parts.material, 0.0, of(Differs::Density));
+            for region in &mut parts.fixtures.regions {
+                let own = region.layup.outer == own;
+                if parted {
+                    change(&mut region.layup.outer, ratio, of(Differs::BarrelDensity));
+                } else if own {
+                    change(&mut region.layup.outer, 0.0, of(Differs::Density));
+                }
+            }
+            if let Some(profile) = profile {
+                parts.profile = profile;
+            }
+        })
+    }
+}
+
+/// The bat as heavy and as stiff as it was weighed and tapped, which is then not asked again.
+fn settled(bat: &Bat, tolerance: f64) -> Result<Bat> {
+    let request = Request { tolerance, ..Request::default() };
+    let bat = prepare(bat, &request)?.bat;
+    let builder = Bat::builder(bat.profile().clone(), bat.material().clone());
+    let builder = builder.name(bat.name()).source(bat.source()).inches(bat.inches());
+    builder.fixtures(bat.fixtures().clone()).build()
+}
+
+/// Refuses what differs on no bat like this.
+fn check(bat: &Bat, plan: &ScatterPlan) -> Result<()> {
+    let all = &plan.differences.all;
+    let has = |what: &dyn Fn(Differs) -> bool| all.iter().any(|one| what(one.what));
+    if has(&|what| matches!(what, Differs::ShearOverYoung | Differs::ShearModulus))
+        && !bat.knows_shear()
+    {
+        let found = format!("it, but {} has no shear modulus", bat.without_shear());
+        return Err(Error::value("shear_over_young", found, "a bat whose shear modulus is known"));
+    }
+    let parted = has(&|what| matches!(what, Differs::BarrelDensity | Differs::ModulusRatio));
+    if parted && bat.fixtures().regions.len() != 1 {
+        let found = "a covariance of two regions, for a bat that has not two";
+        return Err(Error::value("covariance", found, "the bat that was calibrated with it"));
+    }
+    if has(&|what| what == Differs::Impact) && !plan.outputs.contains(&Output::AtImpact) {
+        let expected = format!("\"{AT_IMPACT}\" among the outputs, which alone depends on it");
+        return Err(Error::value("impact", "a place that nothing is asked of", expected));
+    }
+    if has(&|what| matches!(what, Differs::Turned(_))) && bat.profile().formulas.is_some() {
+        let expected = "a bat whose profile has stations";
+        return Err(Error::value("turning", "a profile of formulas", expected));
+    }
+    match plan.impact.filter(|x| !(0.0..=bat.length()).contains(x)) {
+        Some(x) => {
+            let expected = format!("a place on the bat, 0 to {} m", bat.length());
+            Err(Error::value("impact.at", format!("{x} m"), expected))
+        }
+        None => Ok(()),
+    }
+}
+
+/// Where the ball leaves the bat fastest (m).
+fn fastest(bat: &Bat, plan: &ScatterPlan) -> Result<f64> {
+    let (scene, _) = plan.setup.scene(bat, Some(plan.tolerance))?;
+    let model = plan.setup.model()?;
+    let request = Request { tolerance: plan.tolerance, ..Request::default() };
+    let accuracy = Hit { model, scene: &scene }.accuracy(&request, false);
+    let sweep = sweep(bat, model, &scene, &accuracy, &[0.8 * bat.length()])?;
+    let hitter = Hitter::new(model, &scene, bat, &sweep.solution, sweep.effort)?;
+    let looked = HitsAlong::outer(FEW, &hitter);
+    looked.fastest().map(|peak| peak.x).ok_or_else(|| {
+        Error::value(
+            "impact.at",
+            "no place at which a ball leaves fastest",
+            "a place, such as \"27.7 in\"",
+        )
+    })
+}
+
+/// The value of an answer, if there is one that is a number.
+pub fn value(figure: &Option<Figure>) -> Option<f64> {
+    figure.map(|figure| figure.value).filter(|value| value.is_finite())
+}

@@ -1,0 +1,229 @@
+//! Percentiles with errors, and what makes them so.
+
+use crate::many::indices::Indices;
+use crate::many::rows::in_groups;
+use crate::scatter::rows::{ScatterRows, value};
+use crate::scatter::spreads::SCRAMBLES;
+
+/// The percentiles that are told, as shares.
+pub const SHARES: [f64; 7] = [0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99];
+/// The percentiles whose bats are written, by their places in [`SHARES`].
+pub const WRITTEN: [usize; 3] = [1, 3, 5];
+/// Values whose standard deviation is no larger share of their mean are the same value but for rounding.
+const ROUND_OFF: f64 = 1e-9;
+/// Of Student's distribution with seven degrees of freedom 95 % lie within so many standard deviations.
+const STUDENT: f64 = 2.364_624_251;
+
+/// A percentile, and how far sampling may have put it off in 95 of 100 cases.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Percentile {
+    /// Which, as a share.
+    pub share: f64,
+    /// Its value.
+    pub value: f64,
+    /// Half the 95 % interval, by what eight scrambles differ; None where one of them has no answer.
+    pub error: Option<f64>,
+}
+
+/// An output, how it is spread and what spreads it.
+#[derive(Debug, Clone)]
+pub struct OutputSpread {
+    /// Its name.
+    pub name: String,
+    /// Its unit.
+    pub unit: &'static str,
+    /// The values of all rows; None where a row has none.
+    pub values: Vec<Option<f64>>,
+    /// The percentiles of [`SHARES`]; none without an answer.
+    pub percentiles: Vec<Percentile>,
+    /// Mean and standard deviation; None without two answers.
+    pub moments: Option<[f64; 2]>,
+    /// What makes it vary, by what differs; None where it does not or rows are too few.
+    pub indices: Option<Indices>,
+}
+
+/// What came of all rows.
+#[derive(Debug, Clone)]
+pub struct Scattered {
+    /// The outputs.
+    pub outputs: Vec<OutputSpread>,
+    /// Why a row has no answer, row by row; empty where it has.
+    pub reasons: Vec<String>,
+    /// How many rows are as accurate as asked.
+    pub met: usize,
+}
+
+impl Scattered {
+    /// All rows, on as many threads as there are; `tell` is told how many are done.
+    ///
+    /// ```
+    /// use sweetspot::Bat;
+    /// use sweetspot::collision::setup::Setup;
+    /// use crate::many::answers::Answer;
+    /// use crate::scatter::rows::{Output, ScatterPlan, ScatterRows};
+    /// use crate::scatter::scattered::Scattered;
+    /// use crate::scatter::spreads::{Difference, Differences, Differs};
+    ///
+    /// # fn main() -> sweetspot::Result<()> {
+    /// # let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
+    /// #     "profile": { "unit": "in", "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5] } }"#;
+    /// # let bat = Bat::from_text("bat.json", text, "".as_ref())?;
+    /// let all = vec![Difference { what: Differs::Density, deviation: 0.04 }];
+    /// let plan = ScatterPlan {
+    ///     differences: Differences { all, correlations: vec![] },
+    ///     setup: Setup::default(),
+    ///     impact: None,
+    ///     outputs: vec![Output::Of(Answer::Mass)],
+    ///     tolerance: 1e-4,
+    ///     points: 64,
+    ///     seed: 1,
+    /// };
+    /// let found = Scattered::new(&ScatterRows::new(&bat, plan)?, &|_| ());
+    /// let mass = &found.outputs[0];
+    /// let spread = (mass.percentiles[5].value / mass.percentiles[1].value).ln();
+    /// assert!((spread - 2.0 * 1.645 * 0.04).abs() < 0.02);
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn new(rows: &ScatterRows, tell: &(impl Fn(u64) + Sync)) -> Self {
+        let (count, asked) = (rows.count(), rows.plan.outputs.len());
+        let mut values: Vec<Vec<Option<f64>>> = vec![vec![]; asked];
+        let (mut reasons, mut met) = (vec![], 0);
+        let walls = rows.plan.setup.may_solve_wall(&rows.bat);
+        for found in in_groups(0..count, walls, |some| rows.answers(some), tell) {
+            let (all, why, good) = match found {
+                Ok(found) => {
+                    let all: Vec<_> = found.figures.iter().map(value).collect();
+                    let missing = all.iter().any(Option::is_none);
+                    let why = if missing { "the bat has no such answer" } else { "" };
+                    (all, why.to_owned(), found.met && !missing)
+                }
+                Err(error) => (vec![None; asked], error.to_string(), false),
+            };
+            values.iter_mut().zip(all).for_each(|(column, value)| column.push(value));
+            reasons.push(why);
+            met += usize::from(good);
+        }
+        let whole = |row: usize| values.iter().all(|column| column[row].is_some());
+        // A row without one of its answers is dropped whole.
+        let whole: Vec<usize> = (0..count as usize).filter(|row| whole(*row)).collect();
+        let numbers: Vec<Vec<f64>> = whole.iter().map(|row| rows.numbers(*row as u64)).collect();
+        let outputs = rows.plan.outputs.iter().zip(values).map(|(output, values)| {
+            let fitted: Vec<(Vec<f64>, f64)> = whole
+                .iter()
+                .zip(&numbers)
+                .filter_map(|(row, numbers)| Some((numbers.clone(), values[*row]?)))
+                .collect();
+            let moments = moments(&values);
+            let differ = moments.is_some_and(|[mean, sd]| sd > ROUND_OFF * mean.abs());
+            let indices = differ.then(|| Indices::grouped(&rows.kinds(), rows.groups(), &fitted));
+            OutputSpread {
+                name: output.name(),
+                unit: output.unit(),
+                percentiles: percentiles(&values),
+                moments,
+                indices: indices.flatten(),
+                values,
+            }
+        });
+        Self { outputs: outputs.collect(), reasons, met }
+    }
+
+    /// Rows with all their answers.
+    pub fn answered(&self) -> usize {
+        self.reasons.iter().filter(|why| why.is_empty()).count()
+    }
+
+    /// The row whose output k is nearest to its percentile of that place in [`SHARES`].
+    pub fn nearest(&self, output: usize, percentile: usize) -> Option<usize> {
+        let output = &self.outputs[output];
+        let wanted = output.percentiles.get(percentile)?.value;
+        let off = |row: &usize| output.values[*row].map_or(f64::INFINITY, |v| (v - wanted).abs());
+        let rows = (0..output.values.len()).filter(|row| output.values[*row].is_some());
+        rows.min_by(|a, b| off(a).total_cmp(&off(b)))
+    }
+}
+
+/// The percentiles, each with the error that eight scrambles show: the mean of theirs, and Student's interval of it. Where a
+/// scramble has too few rows for a percentile, the value is that of all rows together.
+fn percentiles(values: &[Option<f64>]) -> Vec<Percentile> {
+    let all = sorted(values);
+    let each: Vec<Vec<f64>> =
+        values.chunks(values.len() / SCRAMBLES as usize).map(sorted).collect();
+    let fewest = each.iter().map(Vec::len).min().unwrap_or(0) as f64;
+    let of = |share: f64| {
+        let together = percentile(&all, share)?;
+        let own: Option<Vec<f64>> = each.iter().map(|one| percentile(one, share)).collect();
+        let Some(own) = own else {
+            return Some(Percentile { share, value: together, error: None });
+        };
+        let count = own.len() as f64;
+        let mean = own.iter().sum::<f64>() / count;
+        let squares = own.iter().map(|v| (v - mean).powi(2)).sum::<f64>();
+        let error = Some(STUDENT * (squares / (count - 1.0) / count).sqrt());
+        let enough = fewest * share.min(1.0 - share) >= 0.5;
+        Some(Percentile { share, value: if enough { mean } else { together }, error })
+    };
+    SHARES.iter().filter_map(|share| of(*share)).collect()
+}
+
+fn moments(values: &[Option<f64>]) -> Option<[f64; 2]> {
+    let known: Vec<f64> = values.iter().flatten().copied().collect();
+    let count = known.len() as f64;
+    let mean = known.iter().sum::<f64>() / count;
+    let squares = known.iter().map(|value| (value - mean).powi(2)).sum::<f64>();
+    (known.len() > 1).then(|| [mean, (squares / (count - 1.0)).sqrt()])
+}
+
+fn sorted(values: &[Option<f64>]) -> Vec<f64> {
+    let mut known: Vec<f64> = values.iter().flatten().copied().collect();
+    known.sort_by(f64::total_cmp);
+    known
+}
+
+/// The value below which a share of sorted ones lies: the k-th of n stands for the share (k − ½)/n, straight between
+/// neighbours. None of none.
+pub fn percentile(sorted: &[f64], share: f64) -> Option<f64> {
+    let last = sorted.len().checked_sub(1)?;
+    let place = (share * sorted.len() as f64 - 0.5).clamp(0.0, last as f64);
+    let below = place.floor() as usize;
+    let above = (below + 1).min(last);
+    Some(sorted[below] + (place - below as f64) * (sorted[above] - sorted[below]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::many::distribution::standard_normal;
+    use crate::scatter::spreads::{Difference, Differences, Differs};
+
+    /// Of a normal number and of a sum of two, 95 of 100 intervals hold the percentile, to what 1500 can tell.
+    #[test]
+    fn ninety_five_of_a_hundred_intervals_hold_the_percentile() {
+        let one = |what| Difference { what, deviation: 1.0 };
+        let all = vec![one(Differs::Density), one(Differs::Pitch)];
+        let differences = Differences { all, correlations: vec![] };
+        let (mut within, mut of) = ([0, 0], 0);
+        for seed in 0..250 {
+            let designs = differences.designs(1.0, 1024, seed).unwrap();
+            let rows: Vec<Vec<f64>> =
+                designs.iter().flat_map(|design| (0..128).map(|k| design.row(k).values)).collect();
+            let values = [
+                rows.iter().map(|row| Some(row[0])).collect::<Vec<_>>(),
+                rows.iter().map(|row| Some(0.8 * row[0] + 0.6 * row[1])).collect(),
+            ];
+            for (within, values) in within.iter_mut().zip(&values) {
+                for one in
+                    percentiles(values).iter().filter(|one| (0.04..0.96).contains(&one.share))
+                {
+                    let off = one.value - standard_normal(one.share);
+                    *within += usize::from(off.abs() <= one.error.unwrap());
+                }
+            }
+            of += 5;
+        }
+        let shares = within.map(|within| f64::from(within as u32) / f64::from(of));
+
+        assert!(shares.iter().all(|share| *share > 0.93), "{shares:?}");
+    }
+}

@@ -1,0 +1,102 @@
+//! Which runs are worth their time: the Pareto front of time and error.
+
+use crate::trade::reference::{Choice, worst};
+
+/// One way to solve the bat, timed and held against the reference.
+#[derive(Debug, Clone)]
+pub struct Run {
+    /// The mesh and the solver.
+    pub choice: Choice,
+    /// Plan, assembly, eigenpairs, shapes and estimates: median of the repeats (s).
+    pub seconds: f64,
+    /// How often it was timed.
+    pub repeats: usize,
+    /// True relative error of the frequencies, mode by mode.
+    pub errors: Vec<f64>,
+    /// The largest of them by the solution's own estimate.
+    pub stated: f64,
+    /// The tolerance for which the planner chose this; none for a mesh of the ladder.
+    pub planned_for: Option<f64>,
+    /// Whether no other run is both faster and more accurate.
+    pub on_front: bool,
+}
+
+impl Run {
+    /// The largest true relative error of a frequency.
+    pub fn error(&self) -> f64 {
+        worst(&self.errors)
+    }
+}
+
+/// Sorts the runs by time and marks those that are more accurate than every faster one. Errors
+/// below `floor` are all alike, so that the front does not run on into the noise.
+pub fn mark(runs: &mut [Run], floor: f64) {
+    let error = |run: &Run| run.error().max(floor);
+    runs.sort_by(|a, b| a.seconds.total_cmp(&b.seconds).then(error(a).total_cmp(&error(b))));
+    let mut least = f64::INFINITY;
+    for run in runs {
+        run.on_front = error(run) < least;
+        least = least.min(error(run));
+    }
+}
+
+/// The runs of the front, fastest first.
+pub fn front(runs: &[Run]) -> impl Iterator<Item = &Run> {
+    runs.iter().filter(|run| run.on_front)
+}
+
+/// The fastest run whose error is within a tolerance.
+pub fn fastest(runs: &[Run], tolerance: f64) -> Option<&Run> {
+    let within = runs.iter().filter(|run| run.error() <= tolerance);
+    within.min_by(|a, b| a.seconds.total_cmp(&b.seconds))
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use sweetspot::base::golden;
+    use sweetspot::modes::solve::Solver;
+
+    pub fn run(seconds: f64, error: f64) -> Run {
+        let choice =
+            Choice { degree: 5, elements: 7, solver: Solver::Statics, degrees_of_freedom: 30 };
+        let (errors, stated) = (vec![0.5 * error, error], error);
+        Run { choice, seconds, repeats: 3, errors, stated, planned_for: None, on_front: false }
+    }
+
+    #[test]
+    fn nothing_beats_the_front_and_something_of_it_beats_all_else() {
+        let floor = 1e-12;
+        let numbers = (0..199).map(golden::fraction);
+        let mut runs: Vec<Run> = numbers
+            .clone()
+            .zip(numbers.skip(7))
+            .map(|(time, error)| run((time * 50.0).round(), 10f64.powf(-15.0 * error)))
+            .collect();
+        mark(&mut runs, floor);
+        assert!(front(&runs).count() > 2);
+        let beats = |a: &Run, b: &Run| {
+            let (ours, theirs) = (a.error().max(floor), b.error().max(floor));
+            a.seconds <= b.seconds && ours <= theirs
+        };
+        for (k, run) in runs.iter().enumerate() {
+            let others = || runs.iter().enumerate().filter(|(j, _)| *j != k).map(|(_, run)| run);
+            if run.on_front {
+                let better = others().find(|o| beats(o, run) && !beats(run, o));
+                assert!(better.is_none(), "{run:?} {better:?}");
+            } else {
+                assert!(others().any(|other| other.on_front && beats(other, run)), "{run:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_fastest_within_a_tolerance_is_on_the_front() {
+        let mut runs = vec![run(5.0, 1e-9), run(1.0, 1e-2), run(2.0, 1e-5), run(3.0, 1e-4)];
+        mark(&mut runs, 1e-14);
+        let on: Vec<f64> = front(&runs).map(|run| run.seconds).collect();
+        assert_eq!(on, [1.0, 2.0, 5.0]);
+        assert_eq!(fastest(&runs, 1e-4).map(|run| run.seconds), Some(2.0));
+        assert!(fastest(&runs, 1e-10).is_none());
+    }
+}

@@ -1,0 +1,68 @@
+//! What would a thinner or a thicker wall do?
+
+use crate::trampoline::barrel::{Barrel, BarrelStruck};
+use sweetspot::base::error::Result;
+use sweetspot::bat::body::Bat;
+use sweetspot::bat::turned::DiameterChange;
+
+/// Thicknesses that are tried, over that of the bat.
+pub const FACTORS: [f64; 9] = [0.6, 0.7, 0.8, 0.9, 1.0, 1.2, 1.4, 1.7, 2.0];
+
+/// A bat with a wall of another thickness.
+#[derive(Debug, Clone)]
+pub struct WallTried {
+    /// Thickness of the barrel's wall under the ball over what it is.
+    pub factor: f64,
+    /// Mass of the bat (kg).
+    pub mass: f64,
+    /// Its barrel under the ball.
+    pub struck: BarrelStruck,
+}
+
+/// The bat with walls of other thicknesses, by rising thickness: those that can be made and are hit. `tell` hears
+/// how far the work has come.
+pub fn wall_sweep(bat: &Bat, known: &Barrel, tell: &dyn Fn(f64)) -> Vec<WallTried> {
+    let struck = |bat: &Bat, factor: f64| match factor {
+        1.0 => Some(known.struck.clone()),
+        _ => BarrelStruck::of(bat, &known.test).ok(),
+    };
+    let tried = |(k, factor): (usize, f64)| {
+        tell(k as f64 / FACTORS.len() as f64);
+        let other = with_wall(bat, known, factor).ok()?;
+        let (struck, mass) = (struck(&other, factor)?, other.inertia().mass);
+        struck.rebound.is_some().then_some(WallTried { factor, mass, struck })
+    };
+    FACTORS.into_iter().enumerate().filter_map(tried).collect()
+}
+
+/// The bat whose barrel has a wall so many times as thick as it is under the ball, its surface where it was: the
+/// same length of wall is added or taken all over the barrel, and less and less of it down the taper.
+///
+/// # Errors
+///
+/// As [`Bat::bored`].
+pub fn with_wall(bat: &Bat, known: &Barrel, factor: f64) -> Result<Bat> {
+    let (from, to) = (known.hoop().from(), bat.length());
+    let section = bat.profile().at(known.test.at);
+    let full = full_barrel(bat, [from, known.test.at]);
+    // What the wall gains the bore's diameter loses, on both sides.
+    let by = -2.0 * (factor - 1.0) * (section.outer - section.inner);
+    let barrel = DiameterChange::band([full, to], by);
+    if full - from <= 1e-9 * to {
+        return bat.bored(&barrel);
+    }
+    let taper = DiameterChange::through(&[from, full], |x| by * (x - from) / (full - from));
+    bat.bored(&DiameterChange::sum(&[(1.0, &taper), (1.0, &barrel)]))
+}
+
+/// Where the taper ends (m): from there on to `at` the bat is as thick as at `at`, to a thousandth.
+fn full_barrel(bat: &Bat, [from, at]: [f64; 2]) -> f64 {
+    const AS_THICK: f64 = 0.999;
+    let profile = bat.profile();
+    let least = AS_THICK * profile.at(at).outer;
+    // A border between pieces is where a drawing has the end of the taper.
+    let mut borders = profile.borders();
+    borders.retain(|x| *x > from && *x < at);
+    let thick = |x: &&f64| profile.at(**x).outer >= least;
+    borders.iter().find(thick).copied().unwrap_or(at)
+}

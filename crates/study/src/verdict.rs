@@ -1,0 +1,122 @@
+//! How far do the answers of a hit hold, by the worst of all that the program knows?
+//!
+//! Computed once: [`Verdict::of`] a hit, and read by every screen that tells of it, so that no screen is more
+//! certain than another.
+
+use crate::ignored::{SHEAR, ignored, in_hit, thinnest_wall};
+use sweetspot::bat::body::Bat;
+use sweetspot::collision::answer::LATER;
+use sweetspot::collision::hit::{Impact, Scene};
+use sweetspot::collision::hoop_wall::{HoopInHit, WhyRigid};
+use sweetspot::collision::sweep::Sweep;
+use sweetspot::collision::wall_figures::WallFigures;
+
+/// Why the answers of a hit are less certain than they are computed.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Doubt {
+    /// The density that the mass asks for is not that of the material.
+    Density(String),
+    /// Shear is left out for want of a shear modulus, in a sentence that says what it would change.
+    Shear(String),
+    /// The wall of the barrel is dented deeper than half of it, where the theory of it ends.
+    Dent(Box<WallFigures>),
+    /// The wall of a hollow barrel is taken as rigid, for the reason in the sentence.
+    RigidWall(String),
+    /// The fastest place lives on a later contact of bat and ball.
+    LaterContact,
+    /// The ball's law was not measured for such a hit.
+    BallLaw,
+    /// Exit speeds are less accurate than was asked.
+    ExitSpeeds {
+        /// The largest error, over the closing speed.
+        error: f64,
+    },
+}
+
+impl Doubt {
+    /// What the doubt is about, in a word.
+    pub fn about(&self) -> &'static str {
+        match self {
+            Self::Density(_) => "density",
+            Self::Shear(_) => "shear",
+            Self::Dent(_) => "dent",
+            Self::RigidWall(_) => "rigid_wall",
+            Self::LaterContact => "later_contact",
+            Self::BallLaw => "ball_law",
+            Self::ExitSpeeds { .. } => "exit_speeds",
+        }
+    }
+}
+
+/// How far the answers of a hit hold.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Verdict {
+    /// What there is to doubt; the bat first.
+    pub doubts: Vec<Doubt>,
+}
+
+impl Verdict {
+    /// The verdict on the hits of a bat, of which the fastest is `best` and dents the wall so.
+    pub fn of(
+        (bat, scene): (&Bat, &Scene),
+        hits: &Sweep,
+        best: Option<&Impact>,
+        wall: Option<WallFigures>,
+    ) -> Self {
+        let density = bat.density_off().map(Doubt::Density);
+        let said = ignored(bat, &hits.solution).into_iter().filter(|_| !bat.knows_shear());
+        let shear = said.filter_map(|text| Some(text.strip_prefix(SHEAR)?.to_owned())).next();
+        let shear = shear.map(Doubt::Shear);
+        let deep = wall.filter(WallFigures::is_deep);
+        let dent = deep.map(|wall| Doubt::Dent(Box::new(wall)));
+        let rigid = rigid_wall(bat, scene).map(Doubt::RigidWall);
+        let flagged =
+            |flags: &[&str]| best.is_some_and(|best| best.flags.iter().any(|f| flags.contains(f)));
+        let later = flagged(&LATER).then_some(Doubt::LaterContact);
+        let law = flagged(&["ball_law_beyond"]).then_some(Doubt::BallLaw);
+        let unmet = hits.worst().filter(|_| !hits.met);
+        let unmet = unmet.map(|(_, outcome)| Doubt::ExitSpeeds { error: outcome.error });
+        Self {
+            doubts: density
+                .into_iter()
+                .chain(shear)
+                .chain(dent)
+                .chain(rigid)
+                .chain(later)
+                .chain(law)
+                .chain(unmet)
+                .collect(),
+        }
+    }
+
+    /// Whether what is known of the bat is a lower limit of what is open of it: it is not of that material, or not
+    /// of that shape.
+    pub fn bat_is_open(&self) -> bool {
+        self.doubts.iter().any(|doubt| matches!(doubt, Doubt::Density(_)))
+    }
+
+    /// Whether it bends otherwise than is computed: shear is left out.
+    pub fn bending_is_open(&self) -> bool {
+        self.doubts.iter().any(|doubt| matches!(doubt, Doubt::Shear(_)))
+    }
+
+    /// Whether what is known of the ball's way after the hit is a lower limit of what is open of it: the wall is
+    /// beyond its theory or left out, the ball beyond its law or struck again.
+    pub fn ball_is_open(&self) -> bool {
+        let open = |doubt: &Doubt| {
+            use Doubt::{BallLaw, Dent, LaterContact, RigidWall};
+            matches!(doubt, Dent(_) | RigidWall(_) | LaterContact | BallLaw)
+        };
+        self.doubts.iter().any(open)
+    }
+}
+
+/// Why the wall of a hollow barrel is rigid in a hit that it would change, in a sentence; None where it gives way, and where it
+/// changes less than was asked for.
+pub fn rigid_wall(bat: &Bat, scene: &Scene) -> Option<String> {
+    if let HoopInHit::LeftOut(WhyRigid::Small { .. }) = scene.hoop {
+        return None;
+    }
+    thinnest_wall(bat).filter(|_| !scene.wall_gives_way())?;
+    in_hit(bat, scene).pop()
+}
