@@ -13,7 +13,6 @@ use crate::show::analysis::{Analysis, Task};
 use crate::show::parts::terminal::wrapped;
 use crate::show::parts::units::Units;
 use crate::show::report::sketch::{self, Places, SketchRow};
-use crate::show::report::text;
 use crate::show::report::trust;
 use crate::study::spread::Readings;
 
@@ -81,8 +80,8 @@ fn shown(bat: &Bat, measured: &Measured, path: &Path) -> String {
     let units = if measured.unit == "in" { Units::Us } else { Units::Si };
     let [name, page] = [path, &path.with_extension("html")].map(quoted);
     format!(
-        "{}\n{}\n{}\nWrote {name}. Next:\n  sweetspot analyze {name} --report {page}\n\n{}",
-        text::summary(bat, units),
+        "{}{}\n{}\nWrote {name}. Next:\n  sweetspot analyze {name} --report {page}\n\n{}",
+        wrapped(bat.name(), 0),
         sketch::draw(bat, &rows, units, glyphs()),
         wrapped(&verdict(bat, measured), 0),
         sweet_spot(bat, units),
