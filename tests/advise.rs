@@ -351,7 +351,7 @@ fn advice_is_printed_80_columns_wide_and_written_as_json_without_holes() {
         .chain(["held.json".to_owned()]);
     for bat in bats {
         for units in ["si", "us", "both"] {
-            let args = ["advise", &bat, "-n", "6", "--tol", "1%", "--units", units];
+            let args = ["advise", &bat, "-n", "6", "--tol", "1%", "--units", units, "--full"];
             let table = folder.text(&args);
             let wide: Vec<_> = table.lines().filter(|line| line.chars().count() > 80).collect();
             assert!(wide.is_empty(), "{wide:?}");

@@ -537,7 +537,8 @@ fn a_weighed_bat_is_only_cut_unless_wood_may_be_added() {
 #[test]
 fn a_barrel_that_rules_forbid_is_warned_of() {
     let folder = Folder::new("aim-wide");
-    let wish = ["aim", "r161", "--target", "sweet spot 1 in outward", "--target", "-1 oz"];
+    let wish =
+        ["aim", "r161", "--target", "sweet spot 1 in outward", "--target", "-1 oz", "--full"];
     let output = folder.run(&wish);
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(text.contains("Warning") && text.contains("rule 3.02 of Major League"), "{text}");

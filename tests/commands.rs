@@ -205,7 +205,7 @@ fn a_bat_is_answered_in_the_units_of_its_file_first_by_every_verb() {
         (&["compare", "BAT", "r161"], "2.50 in", "0.0635 m"),
         (&["compare", "BAT", "r161", "--full"], "2.50 in", "0.0635 m"),
         (&["ring", "BAT", "--hit", "0.7"], "27.56 in", "70.00 cm"),
-        (&["advise", "BAT"], " oz in²", " kg m²"),
+        (&["advise", "BAT", "--full"], " oz in²", " kg m²"),
         (&["lathe", "BAT"], "2.50 in", "0.0635 m"),
         (&["frf", "BAT", "--at", "0.1", "--points", "3"], "3.94 in", "0.1000 m"),
     ] {

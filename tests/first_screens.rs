@@ -172,8 +172,10 @@ fn diameters_read_to_a_sixteenth_are_off_by_its_share_and_a_person_may_say_other
     assert!(plain(&told).contains("calipers are off by 0.002 in"), "{told}");
 }
 
-/// A screen of `hit`, `modes` and `lathe` has at most 40 lines and says where the rest is; places that were asked for
-/// are all there.
+const LOOSE: &str = r#"{ "format": "sweetspot-study/1", "bat": "r161", "points": 8,
+    "vary": { "bat.material.density": { "lognormal": [650, 0.04] } }, "outputs": ["f1_hz", "mass_kg"] }"#;
+
+/// A verb has at most 24 lines, five of them 40, and says where the rest is; what was asked for is all there.
 #[test]
 fn a_screen_is_a_screen_and_full_has_the_rest() {
     let folder = Folder::new("screens");
@@ -184,9 +186,59 @@ fn a_screen_is_a_screen_and_full_has_the_rest() {
             assert!(folder.text(&[verb, bat]).ends_with("Everything else: --full\n"), "{verb}");
             assert!(lines(&[verb, bat, "--full"]) > 60, "{verb} {bat}");
         }
-        assert!(lines(&["bbcor", bat]) <= 24 && lines(&["bbcor", bat, "--full"]) > 30, "{bat}");
+        for (most, args) in [
+            (40, &["frf", bat, "--at", "28 in", "--to", "2 in"][..]),
+            (24, &["bbcor", bat]),
+            (24, &["ring", bat, "--hit", "60 cm"]),
+            (24, &["advise", bat]),
+            (24, &["trade", bat, "--budget", "300 ms"]),
+            (24, &["trade", bat, "--u-curve", "--budget", "300 ms"]),
+            (24, &["aim", bat, "--target", "mass -2 %"]),
+            (24, &["compare", bat, "torpedo", "--quiet"]),
+        ] {
+            let screen = folder.text(args);
+            assert!(screen.lines().count() <= most, "{screen}");
+            assert!(screen.ends_with("Everything else: --full\n"), "{screen}");
+            let full = lines(&[args, &["--full"]].concat());
+            assert!(full > screen.lines().count() + 1, "{full}\n{screen}");
+        }
+        assert!(lines(&["analyze", bat]) <= 24, "{bat}");
+    }
+    folder.text(&["modes", "r161", "--json", "modes.json"]);
+    folder.run(&["convert", "modes.json", "--to", "uff", "--out", "modes.uff"]);
+    for args in [
+        &["hoop", "bbcor_made_up"][..],
+        &["scatter", "r161", "--points", "64"],
+        &["compare", "r161", "--measured", "modes.uff"],
+    ] {
+        let (screen, full) = (lines(args), lines(&[args, &["--full"]].concat()));
+        assert!(screen <= 24 && full > screen, "{args:?}: {screen} {full}");
     }
     assert!(lines(&["bats"]) <= 24 && lines(&["lathe", "two_piece"]) <= 40);
+    folder.write("loose.json", LOOSE);
+    assert!(lines(&["study", "loose.json", "--out", "loose"]) <= 24);
+    let made = ["new", "made.json", "--name", "M", "--length", "33 in", "--mass", "31 oz"];
+    assert!(lines(&[&made[..], &["--material", "white-ash", "--like", "r161"]].concat()) <= 24);
+    // What was asked for is all there.
     let rows = |points: &str| lines(&["hit", "r161", "--points", points]);
     assert_eq!(rows("90") - rows("80"), 10);
+    let rows = |points: &str| lines(&["frf", "r161", "--at", "0.6", "--points", points]);
+    assert_eq!(rows("90") - rows("80"), 10);
+    assert_eq!(
+        lines(&["hoop", "bbcor_made_up", "-n", "10"]),
+        lines(&["hoop", "bbcor_made_up", "--full"])
+    );
+}
+
+/// Known answers: counts, every miss and the worst of each kind on a screen, every number with `--full`.
+#[test]
+fn known_answers_have_a_screen_and_full_has_every_one() {
+    let folder = Folder::new("known");
+    let screen = folder.text(&["validate"]);
+    assert!(screen.lines().count() <= 40 && screen.ends_with("--full\n"), "{screen}");
+    assert!(screen.contains(" rows, 0 missed; ") && screen.contains("\nf… Hz "), "{screen}");
+    let full = folder.text(&["validate", "--full"]);
+    assert!(full.lines().count() > 3000 && full.contains("(r161_nathan)"));
+    let counts = |text: &str| text.lines().find(|line| line.contains(" rows, ")).map(str::to_owned);
+    assert_eq!(counts(&screen), counts(&full));
 }

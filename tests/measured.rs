@@ -258,7 +258,7 @@ fn a_mode_that_was_missed_and_one_measured_twice_stay_alone() {
     assert_eq!(names, ["m1 again"]);
     assert_eq!(study.lone_computed, [1]);
     // It is like mode 1, which has its partner, and what the two have in common is no fault.
-    let text = measured::text(&dowel(), &study, Units::Si);
+    let text = measured::text(&dowel(), &study, Units::Si, true);
     assert!(text.contains("like mode 1, but m1 is more so"), "{text}");
     let said = words(&study).join(" ");
     assert!(said.contains("sound in this") && !said.contains("m1 again"), "{said}");
@@ -286,7 +286,7 @@ fn modes_more_than_an_octave_apart_are_not_paired() {
     measured.modes.push(mode("far", 0.3 * dowel_frequency(4), exact(Ends::FreeFree, 4, &x)));
     let study = study(&dowel(), measured, ToldPoints::default());
     assert_eq!(study.pairs.len(), 1);
-    let text = measured::text(&dowel(), &study, Units::Si);
+    let text = measured::text(&dowel(), &study, Units::Si, true);
     assert!(text.contains("like no computed mode within an octave"), "{text}");
 }
 

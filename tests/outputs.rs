@@ -595,7 +595,7 @@ fn the_trade_documents_have_their_keys_and_tell_the_truth() {
     }
     let csv = folder.read("t.csv");
     assert!(csv.starts_with("degree,elements,solver,") && csv.lines().count() == runs.len() + 1);
-    let table = folder.text(&["trade", &bat, "--budget", "100 ms"]);
+    let table = folder.text(&["trade", &bat, "--budget", "100 ms", "--full"]);
     assert!(table.lines().all(|line| line.chars().count() <= 80), "{table}");
 }
 
@@ -622,7 +622,7 @@ fn the_u_curve_is_shown() {
     let csv = folder.read("u.csv");
     assert!(csv.starts_with("solver,frequency,elements,mode,error\n"), "{csv}");
     assert_eq!(csv.lines().count(), rows);
-    let table = folder.text(&args);
+    let table = folder.text(&[&args[..], &["--full"]].concat());
     assert!(table.lines().all(|line| line.chars().count() <= 80), "{table}");
 }
 

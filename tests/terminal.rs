@@ -52,9 +52,9 @@ fn tables_fit_eighty_columns_on_every_bat_and_in_every_unit() {
                 "--swing-exponent",
                 "0.25",
             ],
-            &["ring", bat, "--hit", "60 cm", "--watch", "2 in,4 in,6 in,8 in"],
+            &["ring", bat, "--hit", "60 cm", "--watch", "2 in,4 in,6 in,8 in", "--full"],
             &["frf", bat, "--at", "0.6", "--points", "3"],
-            &["advise", bat],
+            &["advise", bat, "--full"],
         ] {
             faults.extend(table_faults(&folder, args, name));
         }
@@ -79,7 +79,7 @@ fn trade_fits_eighty_columns() {
     let folder = Folder::new("trade-columns");
     let bat = mesh("cone");
     for more in [&["-n", "3"][..], &["-n", "12"], &["-n", "5", "--u-curve"]] {
-        let args = [&["trade", &bat, "--budget", "500 ms"][..], more].concat();
+        let args = [&["trade", &bat, "--budget", "500 ms", "--full"][..], more].concat();
         let wide = wider(&folder.text(&args), 80);
         assert!(wide.is_empty(), "{more:?} {wide:#?}");
     }

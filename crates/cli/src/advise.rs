@@ -9,14 +9,15 @@ use sweetspot_study::advise::advice::{Advice, MOST_MODES, advise_telling};
 use crate::common::{OutputArgs, examples, read};
 use crate::done::{Done, NOT_REACHED};
 use crate::edits::EditArgs;
+use crate::full_option::FullArgs;
 use crate::value::tolerance;
 
 /// Which physics this bat needs, and which it can do without
 ///
-/// Rotary inertia, shear, tape, hands, a cork: what does each do to the frequencies and nodes of
-/// this bat? The table gives the shift that each makes, with how far that may be off. Below it is
-/// the smallest model whose frequencies are still within --tol of the full one's, and what no beam
-/// model has.
+/// Rotary inertia, shear, tape, hands, a cork: what does each do to the frequencies of this bat, and
+/// with --full to its nodes, its balance and its damping? The table gives the shift that each makes,
+/// with how far that may be off. Below it is the smallest model whose frequencies are still within
+/// --tol of the full one's, and what no beam model has.
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES))]
 pub struct Args {
@@ -38,6 +39,9 @@ pub struct Args {
     tol: f64,
 
     #[command(flatten)]
+    full: FullArgs,
+
+    #[command(flatten)]
     output: OutputArgs,
 }
 
@@ -56,7 +60,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let advice = advise_telling(&bat, args.count.into(), args.tol, &tell)?;
     drop(progress);
     let code = verdict(args, &advice);
-    let table = advice::text(&advice, args.output.units(&bat));
+    let table = args.full.screen(|full| advice::text(&advice, args.output.units(&bat), full));
     Ok(Done::new(args.output.deliver(table, || advice::document(&advice))?, code))
 }
 

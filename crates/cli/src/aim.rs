@@ -24,6 +24,7 @@ use crate::common::{OutputArgs, Prepared, SolveArgs, examples, note_outside, rea
 use crate::delivered::{apart, put};
 use crate::done::{Done, NOT_REACHED};
 use crate::edits::EditArgs;
+use crate::full_option::FullArgs;
 use crate::pictures;
 use crate::scene::SceneArgs;
 use crate::value::LITTLE;
@@ -123,6 +124,9 @@ pub struct Args {
     scene: SceneArgs,
 
     #[command(flatten)]
+    full: FullArgs,
+
+    #[command(flatten)]
     solve: SolveArgs,
 
     #[command(flatten)]
@@ -198,7 +202,7 @@ pub fn run(args: &Args) -> Result<Done> {
     }
     let us = args.output.units(&bat).us_first();
     let rules = wish.rules.as_ref();
-    let table = aimed_text::text(&outcome, rules, args.pass, us);
+    let table = args.full.screen(|full| aimed_text::text(&outcome, rules, (args.pass, us, full)));
     let table = put(&args.cuts, table, || Ok(aimed::cuts_csv(&outcome, args.pass)))?;
     let text = args.output.deliver(table, || aimed::document(&outcome, rules, args.pass))?;
     Ok(Done::new(text, if outcome.met { 0 } else { NOT_REACHED }).with(warning))

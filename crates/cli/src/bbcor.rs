@@ -104,11 +104,10 @@ pub fn run(args: &Args) -> Result<Done> {
         pictures::write(folder, &picture, args.output.quiet)?;
     }
     let code = verdict(&args.solve, &tested.sweep, &args.output);
-    let said = |full| {
+    let table = args.full.screen(|full| {
         let (title, parts) = report::report(&tested, args.output.units(&tested.bat), full);
         terminal::text(&title, &parts)
-    };
-    let table = args.full.screen(|| said(false), || said(true));
+    });
     let out = args.output.deliver(table, || BbcorFile::of(&tested))?;
     let text = args.csv.deliver(out, || csv::rows(&report::COLUMNS, &tested.scan.places))?;
     Ok(Done::new(text, code).with(warning))

@@ -21,6 +21,7 @@ use crate::common::{OutputArgs, Prepared, SolveArgs, command_line, examples, pri
 use crate::delivered::{apart, put};
 use crate::done::{Done, NOT_REACHED};
 use crate::edits::{EditArgs, WhatIf, edited, what_if};
+use crate::full_option::FullArgs;
 use crate::pictures;
 use crate::scene::SceneArgs;
 use crate::value::{PLACE, SPACING};
@@ -28,14 +29,14 @@ use crate::value::{PLACE, SPACING};
 /// Bats side by side, or one beside its measured modes
 ///
 /// Swings two to six bats alike and says what differs and matters: the best exit speed and where, the
-/// zone, swing weight, mass, the first frequency, BBCOR, and where along the barrel which bat is
+/// swing weight, mass, the first frequency, BBCOR, and where along the barrel which bat is
 /// faster. The first bat is the one the others are measured by; a difference within the errors is
-/// none. With --full also: every frequency and node, vibration, and the exit speed at the same places
+/// none. With --full also: the zone, every frequency and node, vibration, and the exit speed at the same places
 /// from the tip and from the knob, each difference beside how far it may be off.
 ///
 /// With --measured FILE one bat's computed modes stand beside measured ones: which is which, how far
-/// apart, MAC, damping, and whether the measured shapes are sound: rigid motion in them, their mass
-/// orthogonality, and what the few points cost.
+/// apart, damping, and whether the measured shapes are sound; with --full also the MAC of any two, rigid
+/// motion in the shapes, their mass orthogonality, and what the few points cost.
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES))]
 pub struct Args {
@@ -96,9 +97,8 @@ pub struct Args {
     #[arg(long, value_name = "FILE", conflicts_with = "measured")]
     report: Option<PathBuf>,
 
-    /// Every figure of every bat beside the first one's, and the exit speeds place by place
-    #[arg(long, conflicts_with = "measured")]
-    full: bool,
+    #[command(flatten)]
+    full: FullArgs,
 
     #[command(flatten)]
     scene: SceneArgs,
@@ -183,7 +183,8 @@ fn measured_beside(args: &Args, file: &Path) -> Result<Done> {
             args.output.quiet,
         )?;
     }
-    let text = report::measured::text(&bat, &study, args.output.units(&bat));
+    let units = args.output.units(&bat);
+    let text = args.full.screen(|full| report::measured::text(&bat, &study, units, full));
     let name = path.display().to_string();
     let text = args.output.deliver(text, || report::measured::document(&bat, &name, &study))?;
     let code = args.solve.verdict(&study.solution, &args.output);
@@ -230,10 +231,10 @@ fn bats_beside(args: &Args) -> Result<Done> {
     let compared = Comparison::new(entries, terms)?;
     for_people(args, &compared)?;
     let units = args.output.units(&compared.bats[0].bat);
-    let table = match args.full {
+    let table = args.full.screen(|full| match full {
         true => comparison::text(&compared, units),
         false => comparison_screen::screen(&compared, units),
-    };
+    });
     let text = put(&args.csv, table, || Ok(comparison_data::csv(&compared)))?;
     let text = args.output.deliver(text, || comparison_data::document(&compared, &files))?;
     let warning = (!warnings.is_empty()).then(|| warnings.join("; "));

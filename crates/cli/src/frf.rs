@@ -22,6 +22,7 @@ use crate::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples, on_the_b
 use crate::delivered::{apart, put};
 use crate::done::Done;
 use crate::frf_grid::{Grid, GridArgs};
+use crate::full_option::FullArgs;
 use crate::pictures;
 use crate::value::{PLACE, choice, file_unit, named};
 
@@ -29,8 +30,9 @@ use crate::value::{PLACE, choice, file_unit, named};
 ///
 /// What would an accelerometer at one place see if a force swings at another? The table gives size
 /// and phase of the deflection (receptance), velocity (mobility) or acceleration (accelerance) for
-/// a unit force, the peaks with their damping, and how much of it the modes left out may be. The
-/// grid has every natural frequency in its range and the points around it that its peak needs.
+/// a unit force, the peaks with their damping, and how much of it the modes left out may be. With --full,
+/// --points or --frequencies it has every frequency, else some. The grid has every natural frequency in its
+/// range and the points around it that its peak needs.
 /// Undamped bats peak without bound at their frequencies: give the material a loss_factor.
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES))]
@@ -102,6 +104,9 @@ pub struct Args {
     /// Draw size and phase, with the peaks, into this folder, as SVG and PNG
     #[arg(long, value_name = "DIR", help_heading = "Output")]
     plots: Option<PathBuf>,
+
+    #[command(flatten)]
+    full: FullArgs,
 
     #[command(flatten)]
     solve: SolveArgs,
@@ -311,7 +316,8 @@ fn one(args: &Args, bat: Bat, measured: Option<&MeasuredResponse>) -> Result<Don
     let mut answered = Answered::new(args, (&bat, &request), measured)?;
     drop(progress);
     let told = answered.told(args, &bat, measured);
-    let (table, document) = (report::text(&told), report::document(&told));
+    let document = report::document(&told);
+    let table = args.full.screen(|full| report::text(&told, full, args.grid.counted()));
     if let Some(folder) = &args.plots {
         let picture = answered.picture(args, &bat, "response")?;
         pictures::write(folder, picture.as_slice(), args.output.quiet)?;
@@ -364,7 +370,8 @@ fn all(args: &Args, bat: Bat, measured: &[(usize, MeasuredResponse)]) -> Result<
         pictures::write(folder, &pictures, args.output.quiet)?;
     }
     let source = &measured[0].1.source;
-    let table = frf_set::text(&bat, source, &rows, args.output.units(&bat));
+    let units = args.output.units(&bat);
+    let table = args.full.screen(|full| frf_set::text(&bat, source, &rows, (units, full)));
     let numbers = rows.iter().map(|row| row.number).collect();
     let text = args.output.deliver(table, || FrfSetFile::new(numbers, answers))?;
     let text = put(&args.csv, text, || Ok(frf_set::csv(&rows)))?;

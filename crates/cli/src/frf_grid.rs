@@ -26,13 +26,12 @@ pub struct GridArgs {
           value_parser = |s: &str| TOP_FREQUENCY.read(s))]
     pub to_hz: Option<f64>,
 
-    /// Number of frequencies from the lowest to the highest
+    /// Number of frequencies from the lowest to the highest [default: 61]
     ///
     /// Files and pictures have more: every natural frequency between them, and those around it that
     /// its peak needs.
-    #[arg(long, value_name = "N", default_value = "61",
-          value_parser = clap::value_parser!(u32).range(1..=100_000))]
-    points: u32,
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    points: Option<u32>,
 
     /// Equal steps between them (else equal ratios)
     #[arg(long)]
@@ -66,7 +65,7 @@ impl GridArgs {
                 return Err(Error::value(name, format!("{f:?} Hz"), "0 or more, 1e6 Hz at most"));
             }
         }
-        let below = |low: f64, high: f64| low < high || (low == high && self.points == 1);
+        let below = |low: f64, high: f64| low < high || (low == high && self.points == Some(1));
         match (self.from_hz, self.to_hz) {
             (Some(low), Some(high)) if !below(low, high) => {
                 let expected = format!("more than {low:?} Hz");
@@ -80,6 +79,11 @@ impl GridArgs {
             }
             _ => Ok(()),
         }
+    }
+
+    /// Whether so many frequencies, or which, were asked for.
+    pub fn counted(&self) -> bool {
+        self.points.is_some() || !self.frequencies.is_empty()
     }
 
     /// As asked, with the ends of a measurement where no others were.
@@ -155,7 +159,8 @@ impl GridArgs {
         let lowest = || (0.1 * first).min(0.5 * self.to_hz.unwrap_or(first));
         let low = self.from_hz.unwrap_or_else(lowest);
         let high = self.to_hz.unwrap_or_else(|| (1.2 * last).max(2.0 * low));
-        let steps = f64::from(self.points - 1).max(1.0);
+        let points = self.points.unwrap_or(61);
+        let steps = f64::from(points - 1).max(1.0);
         let even = self.linear.then(|| [held(low), held((high - low) / steps)]);
         let at = |k: u32| match (f64::from(k) / steps, even) {
             (_, Some([start, step])) if in_file => start + f64::from(k) * step,
@@ -164,7 +169,7 @@ impl GridArgs {
             (s, Some(_)) => low + (high - low) * s,
             (s, None) => held(low * (high / low).powf(s)),
         };
-        ((0..self.points).map(at).collect(), even)
+        ((0..points).map(at).collect(), even)
     }
 
     /// The abscissa of a universal file rises, and two values at one place would be two answers.

@@ -11,8 +11,12 @@ pub struct FullArgs {
 pub const MORE: &str = "Everything else: --full\n";
 
 impl FullArgs {
-    /// What is printed: all there is, or what a screen holds.
-    pub fn screen(&self, first: impl FnOnce() -> String, all: impl FnOnce() -> String) -> String {
-        if self.full { all() } else { first() + MORE }
+    /// What is printed: all there is, or what a screen holds, and where the rest is.
+    pub fn screen(&self, said: impl Fn(bool) -> String) -> String {
+        let all = said(true);
+        match (!self.full).then(|| said(false)) {
+            Some(first) if first != all => first + MORE,
+            _ => all,
+        }
     }
 }

@@ -194,21 +194,19 @@ fn table(args: &Args, bat: &Bat, trial: Trial, sweep: &Sweep, figures: &Figures)
     ]
     .concat();
     let all = hit_text::impacts(bat, &sweep.impacts, units);
-    args.full.screen(
-        || {
-            let best = figures.spot.exit_speed_max.map(|peak| peak.x);
-            let some = hit_text::some(&sweep.impacts, best);
-            let shown =
-                if args.place.asked() { all.clone() } else { hit_text::impacts(bat, &some, units) };
-            format!("{above}\n{shown}\n{spot}")
-        },
-        || {
+    args.full.screen(|full| {
+        if full {
             let sketch = args.output.sketch(bat, &sketch::of_hit(bat, &figures.spot));
             let more = hit_text::figures(figures, units);
             let moves = hit_text::moves(bat, figures, units);
-            format!("{above}\n{all}\n{sketch}\n{spot}\n{more}\n{moves}")
-        },
-    )
+            return format!("{above}\n{all}\n{sketch}\n{spot}\n{more}\n{moves}");
+        }
+        let best = figures.spot.exit_speed_max.map(|peak| peak.x);
+        let some = hit_text::some(&sweep.impacts, best);
+        let shown =
+            if args.place.asked() { all.clone() } else { hit_text::impacts(bat, &some, units) };
+        format!("{above}\n{shown}\n{spot}")
+    })
 }
 
 /// The exit code, after a word about exit speeds that are less accurate than asked.

@@ -21,6 +21,7 @@ use crate::common::{OutputArgs, Prepared, examples, on_the_bat, prepare, read};
 use crate::delivered::{apart, put};
 use crate::done::{Done, NOT_REACHED};
 use crate::edits::EditArgs;
+use crate::full_option::FullArgs;
 use crate::pictures;
 use crate::value::{PLACE, TheoryChoice, tolerance};
 
@@ -41,10 +42,10 @@ pub struct Args {
     #[command(flatten)]
     edits: EditArgs,
 
-    /// Number of hoop modes in the table and the pictures
-    #[arg(short = 'n', long = "modes", value_name = "N", default_value_t = 10,
+    /// Number of hoop modes in the table and the pictures [default: 10, the table without --full three]
+    #[arg(short = 'n', long = "modes", value_name = "N",
           value_parser = clap::value_parser!(u16).range(1..=100), help_heading = "The bat")]
-    count: u16,
+    count: Option<u16>,
 
     /// Where the ball meets the bat, from the knob end [default: 6 in from the tip]
     #[arg(long, value_name = "m", help_heading = "The test", allow_hyphen_values = true,
@@ -95,6 +96,9 @@ pub struct Args {
     plots: Option<PathBuf>,
 
     #[command(flatten)]
+    full: FullArgs,
+
+    #[command(flatten)]
     output: OutputArgs,
 }
 
@@ -110,6 +114,8 @@ Examples:
   sweetspot hoop bbcor_made_up --vtu barrel.vtu --plots barrel
       to look at: in ParaView Warp By Vector with hoop_2_1, and pictures";
 
+/// Modes that a screen has where no number is asked for.
+const FEW: usize = 3;
 /// Modes in a picture: more would be too long to look at.
 const MOST_DRAWN: usize = 12;
 /// Places along the barrel in the files of other programs.
@@ -133,7 +139,7 @@ pub fn run(args: &Args) -> Result<Done> {
         false => vec![],
     };
     drop(progress);
-    let count = usize::from(args.count);
+    let count = modes(args);
     if let Some(folder) = &args.plots {
         let sheet = args.output.sheet(&bat);
         let mut all: Vec<_> =
@@ -141,10 +147,12 @@ pub fn run(args: &Args) -> Result<Done> {
         all.extend(wall_sweep::picture(sheet, bat.name(), &tried));
         pictures::write(folder, &all, args.output.quiet)?;
     }
-    let mut table = report::text(&bat, &barrel, count, args.output.units(&bat));
-    if args.wall_sweep {
-        table += &report::sweep(&tried, args.output.units(&bat));
-    }
+    let units = args.output.units(&bat);
+    let sweep = if args.wall_sweep { report::sweep(&tried, units) } else { String::new() };
+    let few = args.count.map_or(FEW, usize::from);
+    let table = args
+        .full
+        .screen(|full| report::text(&bat, &barrel, if full { count } else { few }, units) + &sweep);
     let samples = usize::from(args.shape_points);
     let text =
         args.output.deliver(table, || hoop_json::document(&bat, &barrel, &tried, samples))?;
@@ -158,6 +166,11 @@ pub fn run(args: &Args) -> Result<Done> {
     Ok(Done::new(text, code).with(warning))
 }
 
+/// How many hoop modes are computed.
+fn modes(args: &Args) -> usize {
+    args.count.map_or(10, usize::from)
+}
+
 /// What is asked of the barrel, all that is wrong with it at once.
 fn test(args: &Args, bat: &Bat, request: &Request) -> Result<BarrelTest> {
     let mut mistakes = Mistakes::default();
@@ -166,7 +179,7 @@ fn test(args: &Args, bat: &Bat, request: &Request) -> Result<BarrelTest> {
     let trial = Trial { model: Model::Contact, scene: &Scene::default() };
     let usual = BarrelTest::of(bat, shot.ball, trial.accuracy(request, false));
     Ok(BarrelTest {
-        modes: args.count.into(),
+        modes: modes(args),
         at: at.unwrap_or(usual.at),
         ball_speed: shot.speed,
         cor: shot.cor.unwrap_or(usual.cor),

@@ -161,7 +161,7 @@ pub fn run(args: &Args) -> Result<Done> {
         || args.depth.is_some()
         || args.bands.iter().any(|band| band.width().is_none());
     let table = match report::screen(&map, &hit.scene, units).filter(|_| !asked) {
-        Some(screen) => args.full.screen(|| screen, all),
+        Some(screen) => args.full.screen(|full| if full { all() } else { screen.clone() }),
         None => all(),
     };
     let out = args.output.deliver(table, || report::document(&map, &hit.scene, model))?;

@@ -108,14 +108,14 @@ pub fn run(args: &Args) -> Result<Done> {
             + &proven.as_ref().map_or(String::new(), proven::text)
     };
     let trust = trust::of_wood(&bat);
-    let table = args.full.screen(
-        || format!("{summary}\n{}{trust}", modes(FIRST_NODES)),
-        || {
-            let sketch = args.output.sketch(&bat, &sketch::of_modes(&bat, &solution));
-            let (modes, model) = (modes(solution.modes.len()), text::model(&bat, &solution));
-            format!("{summary}\n{sketch}\n{modes}\n{model}{trust}")
-        },
-    );
+    let table = args.full.screen(|full| {
+        if !full {
+            return format!("{summary}\n{}{trust}", modes(FIRST_NODES));
+        }
+        let sketch = args.output.sketch(&bat, &sketch::of_modes(&bat, &solution));
+        let (modes, model) = (modes(solution.modes.len()), text::model(&bat, &solution));
+        format!("{summary}\n{sketch}\n{modes}\n{model}{trust}")
+    });
     let document = || {
         let mut document = json::modes(&bat, &solution, args.shape_points, !args.reproducible);
         proven.iter().for_each(|proven| proven::write(&mut document, proven));

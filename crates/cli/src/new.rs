@@ -13,7 +13,6 @@ use sweetspot_report::analysis::{Analysis, Task};
 use sweetspot_report::parts::terminal::wrapped;
 use sweetspot_report::parts::units::Units;
 use sweetspot_report::report::sketch::{self, Places, SketchRow};
-use sweetspot_report::report::text;
 use sweetspot_report::report::trust;
 use sweetspot_study::spread::Readings;
 
@@ -81,8 +80,8 @@ fn shown(bat: &Bat, measured: &Measured, path: &Path) -> String {
     let units = if measured.unit == "in" { Units::Us } else { Units::Si };
     let [name, page] = [path, &path.with_extension("html")].map(quoted);
     format!(
-        "{}\n{}\n{}\nWrote {name}. Next:\n  sweetspot analyze {name} --report {page}\n\n{}",
-        text::summary(bat, units),
+        "{}{}\n{}\nWrote {name}. Next:\n  sweetspot analyze {name} --report {page}\n\n{}",
+        wrapped(bat.name(), 0),
         sketch::draw(bat, &rows, units, glyphs()),
         wrapped(&verdict(bat, measured), 0),
         sweet_spot(bat, units),

@@ -18,14 +18,15 @@ use crate::common::{examples, note_outside, printed, read};
 use crate::delivered::{apart, put};
 use crate::done::Done;
 use crate::edits::EditArgs;
+use crate::full_option::FullArgs;
 use crate::progress::Counted;
 use crate::{pictures, style};
 
 /// How much bats of one model, and swings of one batter, differ
 ///
 /// Draws bats by what differs between them (density, stiffness, what the lathe misses, moisture) and hits by what
-/// differs between swings (speed, pitch, ball, place): percentiles of every output, each with its own error, and what
-/// makes it vary. The same seed gives the same bytes, on any number of threads.
+/// differs between swings (speed, pitch, ball, place): percentiles of every output, and what makes it vary; with
+/// --full every percentile with its own error, and every share. The same seed gives the same bytes, on any number of threads.
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES))]
 pub struct Args {
@@ -71,6 +72,9 @@ pub struct Args {
     /// Draw a histogram of every output and what makes it vary into this folder, as SVG and PNG
     #[arg(long, value_name = "DIR", help_heading = "Output")]
     plots: Option<PathBuf>,
+
+    #[command(flatten)]
+    full: FullArgs,
 
     /// No warnings and no progress on standard error
     #[arg(long, help_heading = "Output")]
@@ -134,9 +138,8 @@ pub fn run(args: &Args) -> Result<Done> {
             file::write(&path, schema::text(&resolved::resolved(&bat)).as_bytes())?;
         }
     }
-    let text = put(&args.csv, style::table(&scatter::text(&rows, &found)), || {
-        Ok(scatter::csv(&rows, &found))
-    })?;
+    let table = args.full.screen(|full| scatter::text(&rows, &found, full));
+    let text = put(&args.csv, style::table(&table), || Ok(scatter::csv(&rows, &found)))?;
     let text = put(&args.json, text, || Ok(schema::text(&scatter::document(&rows, &found))))?;
     Ok(Done::new(text, 0))
 }

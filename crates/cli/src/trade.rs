@@ -16,6 +16,7 @@ use crate::common::{Prepared, examples, prepare, read};
 use crate::delivered::{apart, put};
 use crate::done::Done;
 use crate::edits::EditArgs;
+use crate::full_option::FullArgs;
 use crate::progress::Progress;
 use crate::value::{TheoryChoice, budget, theory};
 use crate::{pictures, style};
@@ -24,7 +25,7 @@ use crate::{pictures, style};
 ///
 /// How many elements of which degree, and which solver, for how many digits? It solves the bat in
 /// many ways, compares each with a reference known to 1e-13 and prints those that no other beats in
-/// both time and error, beside what the program would have chosen by itself. With --u-curve it adds
+/// both time and error, with --full beside what the program would have chosen by itself. With --u-curve it adds
 /// cubic elements up to a million and shows where factoring solvers begin to lose digits.
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES))]
@@ -69,6 +70,9 @@ pub struct Args {
     #[arg(long, value_name = "DIR", help_heading = "Output")]
     plots: Option<PathBuf>,
 
+    #[command(flatten)]
+    full: FullArgs,
+
     /// No warnings and no progress on standard error
     #[arg(long, help_heading = "Output")]
     quiet: bool,
@@ -105,12 +109,14 @@ pub fn run(args: &Args) -> Result<Done> {
         let columns = curve::measure(&bat, &reference, solvers, MOST, time, &tell);
         let document = schema::text(&u_curve::document(&bat, &reference, &columns));
         let pictures = sets::of_u_curve(bat.name(), &columns, modes);
-        (u_curve::text(&bat, &reference, &columns), document, u_curve::csv(&columns), pictures)
+        let said = |full| u_curve::text(&bat, &reference, &columns, full);
+        (args.full.screen(said), document, u_curve::csv(&columns), pictures)
     } else {
         let trade = measure(&bat, modes, theory, time(TRADE), &tell)?;
         let pictures = front::picture(bat.name(), &trade).into_iter().collect();
+        let said = |full| trade::text(&bat, &trade, full);
         (
-            trade::text(&bat, &trade),
+            args.full.screen(said),
             schema::text(&trade::document(&bat, &trade)),
             trade::csv(&trade),
             pictures,

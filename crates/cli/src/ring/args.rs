@@ -11,6 +11,7 @@ use sweetspot_report::exchange::wav;
 use sweetspot_study::ignored::thinnest_wall;
 
 use crate::common::{BatArgs, OutputArgs, SolveArgs, examples};
+use crate::full_option::FullArgs;
 use crate::scene::SceneArgs;
 use crate::value::{IMPULSE, PLACE, RINGING_TIME};
 use sweetspot_report::csv::Csv;
@@ -19,10 +20,11 @@ use sweetspot_report::parts::cell::Cell;
 /// How the bat moves after a hit, a blow, a push or a release
 ///
 /// How does the handle move, and how near does the bat come to breaking? With --hit a ball is hit and
-/// the table says how the watched places move, the spectrum there, where the strain is largest, and
-/// what share the stress is of the strength that is published for the material. With
-/// --at and --impulse or --force, or with --initial, the deflection at even places and given
-/// instants is written as CSV; on a terminal, without --csv, how far the bat is bent at each of them.
+/// the table says how the watched places move, where the strain is largest or, where a strength is
+/// published for the material, what share of it the stress is; with --full also the spectrum there and
+/// the strain along the bat. With --at and --impulse or --force, or with --initial, the deflection at
+/// even places and given instants is written as CSV; on a terminal, without --csv, how far the bat is
+/// bent at each of them.
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES))]
 pub struct Args {
@@ -114,6 +116,9 @@ pub struct Args {
     /// A material without a loss factor gets one for the sound only, and that is said.
     #[arg(long, value_name = "FILE", help_heading = "Output", conflicts_with_all = ["initial", "force"])]
     pub wav: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub full: FullArgs,
 
     #[command(flatten)]
     pub solve: SolveArgs,

@@ -62,15 +62,10 @@ pub fn run(args: &Args, bat: Bat, x: f64) -> Result<Done> {
         *swing = breaking_swing(&bat, &solution, (&scene, effort), (x, until), load.limit);
     }
     let units = args.output.units(&bat);
-    let mut text = format!(
-        "{}{}{}",
-        hit_text::scene(&bat, &scene, model.name(), units),
-        aftermath::impact(&impact, units),
-        aftermath::text(&report, units)
-    );
+    let mut heard = String::new();
     if let Some(path) = &args.wav {
         for told in write_sound(path, &bat, &after.sound(&solution))? {
-            text += &wrapped(&format!("Sound: {told}"), 2);
+            heard += &wrapped(&format!("Sound: {told}"), 2);
         }
     }
     if let Some(folder) = &args.plots {
@@ -92,6 +87,11 @@ pub fn run(args: &Args, bat: Bat, x: f64) -> Result<Done> {
         let ignored = ignored::in_hit(&bat, &scene);
         aftermath::document(&after, &report, hit_json::impact(&bat, &impact), ignored)
     };
+    let text = args.full.screen(|full| {
+        let scene = hit_text::scene(&bat, &scene, model.name(), units);
+        let hit = aftermath::impact(&impact, units);
+        scene + &hit + &aftermath::text(&report, units, full) + &heard
+    });
     let text = args.output.deliver(text, document)?;
     let text = put(&args.history, text, || Ok(aftermath::history(&after, &report)))?;
     let text = put(&args.csv, text, || Ok(frames_after(args, &bat, &solution, &after)))?;

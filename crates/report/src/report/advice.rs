@@ -22,26 +22,47 @@ const ABREAST: usize = 5;
 const NAME: usize = 24;
 const CELL: usize = 10;
 
-/// The advice in full, 80 columns wide.
-pub fn text(advice: &Advice, units: Units) -> String {
-    let full = &advice.full;
-    let mut out = wrapped(&format!("Advice on {}", full.bat.name()), 4);
-    out += &edited(&full.bat, units);
+/// The advice, 80 columns wide; `full` with nodes, the rigid body, damping and why effects are out of scope.
+pub fn text(advice: &Advice, units: Units, full: bool) -> String {
+    let whole = &advice.full;
+    let mut out = wrapped(&format!("Advice on {}", whole.bat.name()), 4);
+    out += &edited(&whole.bat, units);
     let worst = advice.effects.iter().flat_map(|effect| [&effect.with, &effect.without]);
     let worst = worst.map(|solved| solved.solution.worst()).fold(0.0, f64::max);
-    let line = format!("  full model: {}; solved, each within {worst:.0e}", model(&full.model));
+    let line = format!("  full model: {}; solved, each within {worst:.0e}", model(&whole.model));
     out += &wrapped(&line, 4);
     out += "Frequencies, and what each part does to them: with it against without it, in %\n";
     out += &tables(
         advice,
         "everything on, Hz",
-        |k| frequency(full, k),
+        |k| frequency(whole, k),
         |effect, k| {
             let shift = &effect.shifts.as_ref()?[k];
             Some(percent(shift.frequency, shift.error))
         },
     );
     out += &others(advice);
+    if full {
+        out += &nodes(advice, units);
+        out += &bodies(advice, units);
+        out += &damping(advice);
+    }
+    for line in recommendation(advice) {
+        out += &wrapped(&line, 2);
+    }
+    const OUTSIDE: &str = "Out of scope of every model here";
+    if full {
+        let why = advice.outside.iter().map(|sentence| wrapped(&format!("  {sentence}"), 4));
+        return why.fold(out + OUTSIDE + "\n", |out, why| out + &why);
+    }
+    let names = advice.outside.iter().filter_map(|sentence| sentence.split(':').next());
+    let names: Vec<&str> = names.collect();
+    out + &wrapped(&format!("{OUTSIDE}: {}", names.join(", ")), 2)
+}
+
+/// Where each part moves the nodes.
+fn nodes(advice: &Advice, units: Units) -> String {
+    let mut out = String::new();
     for (scale, unit) in units.pick((100.0, "cm"), (inches(1.0), "in")) {
         let _ = writeln!(out, "Nodes: the one that each part moves most, towards the tip, {unit}");
         out += &tables(
@@ -60,15 +81,6 @@ pub fn text(advice: &Advice, units: Units) -> String {
                 Some(if most.abs() < 5e-3 { "0.00".to_owned() } else { format!("{most:+.2}") })
             },
         );
-    }
-    out += &bodies(advice, units);
-    out += &damping(advice);
-    for line in recommendation(advice) {
-        out += &wrapped(&line, 2);
-    }
-    out += "Out of scope of every model here\n";
-    for sentence in &advice.outside {
-        out += &wrapped(&format!("  {sentence}"), 4);
     }
     out
 }

@@ -97,8 +97,9 @@ fn place(x: f64, units: Units) -> String {
     units.inline(units.show(format!("{:.2} cm", 100.0 * x), format!("{:.2} in", inches(x))))
 }
 
-/// The tables for the terminal.
-pub fn text(report: &AfterHit, units: Units) -> String {
+/// The tables for the terminal, `full` with strains along the bat and the spectrum. A strength that is known says the
+/// largest strain too.
+pub fn text(report: &AfterHit, units: Units, full: bool) -> String {
     let mut out = format!(
         "\nMotion against the swing, {:.1} ms from the first touch, hands without mass\n",
         1e3 * report.until
@@ -106,7 +107,12 @@ pub fn text(report: &AfterHit, units: Units) -> String {
     for (x, sting, _) in &report.watched {
         out += &motion(*x, sting, report.damped, units);
     }
+    if !full {
+        let strains = if report.loads.is_empty() { strains(report, units) } else { String::new() };
+        return (out + &strains + &strength(report, units)).replace("\n\n", "\n");
+    }
     out += &strains(report, units);
+    out += &along(report, units);
     out += &strength(report, units);
     out += &report
         .watched
@@ -185,8 +191,8 @@ fn spectrum(x: f64, lines: &[Line], damped: bool, units: Units) -> String {
     out
 }
 
-/// What the bat bears of it, and along it.
-fn strength(report: &AfterHit, units: Units) -> String {
+/// The largest strain of some places.
+fn along(report: &AfterHit, units: Units) -> String {
     let mut out = String::from("\nAlong the bat, the largest in the whole time\n");
     let every = (report.envelope.len() / 10).max(1);
     for at in report.envelope.iter().step_by(every) {
@@ -194,7 +200,13 @@ fn strength(report: &AfterHit, units: Units) -> String {
         let stress = units.first().stress(at.stress, 1);
         let _ = writeln!(out, "  {place:<24} {:.3} %, {stress}", 100.0 * at.strain);
     }
-    out += "\nStrength (clear wood along the grain; grain, knots, dents not known)\n";
+    out
+}
+
+/// What the bat bears of it.
+fn strength(report: &AfterHit, units: Units) -> String {
+    let mut out =
+        String::from("\nStrength (clear wood along the grain; grain, knots, dents not known)\n");
     if report.loads.is_empty() {
         let unknown = "  no material has a known strength: \"strength\" and \"strain_to_failure\" of \
                        the material in the bat file say what it bears";

@@ -17,24 +17,36 @@ use sweetspot_study::many::answers::Answer;
 
 /// A section that has less of its strength left is told.
 const WEAK: f64 = 0.5;
-/// Stations of the cut list that are shown.
-const SHOWN: usize = 24;
+/// Stations of the cut list that are shown in full, and on a screen.
+const SHOWN: [usize; 2] = [24, 3];
+/// What a screen has of before and after.
+const FIRST: [Answer; 5] = [
+    Answer::Mass,
+    Answer::Inertia,
+    Answer::Frequency(1),
+    Answer::ExitSpeed,
+    Answer::ExitSpeedPlace,
+];
 
-/// Everything there is to say, in one system of units.
-pub fn text(outcome: &Outcome, rules: Option<&RuleSet>, pass: f64, us: bool) -> String {
+/// What there is to say, in one system of units; `full` with all answers and more stations.
+pub fn text(
+    outcome: &Outcome,
+    rules: Option<&RuleSet>,
+    (pass, us, full): (f64, bool, bool),
+) -> String {
     let mut out = head(outcome, rules, us);
     out += &targets(outcome, us);
     if let Some(conflict) = &outcome.conflict {
         out += &wrapped(&format!("Conflict: {}.", conflict_words(conflict, &outcome.bands, us)), 0);
         out += "\n";
     }
-    out += &before_and_after(outcome, us);
+    out += &before_and_after(outcome, us, full);
     if let Some(set) = rules {
         out += &of_rules(outcome, set, us);
     }
     out += &choices(outcome, us);
-    out += &cut_list(outcome, pass, us);
-    out
+    out += &cut_list(outcome, (pass, us), SHOWN[usize::from(!full)]);
+    if full { out } else { out.replace("\n\n", "\n") }
 }
 
 /// The norm of a change (mm), in the maker's unit.
@@ -210,7 +222,7 @@ fn priced(band: &Band, price: Option<f64>, us: bool) -> Option<String> {
     Some(format!("{words} more of the {} changes the norm by {cost}", called(band.goal)))
 }
 
-fn before_and_after(outcome: &Outcome, us: bool) -> String {
+fn before_and_after(outcome: &Outcome, us: bool, full: bool) -> String {
     let columns = Columns::new([
         first(21, "Before and after"),
         labels(17, "before"),
@@ -218,7 +230,8 @@ fn before_and_after(outcome: &Outcome, us: bool) -> String {
         labels(15, "change"),
     ]);
     let mut out = columns.heads();
-    for (answer, [before, after]) in &outcome.answers {
+    let answers = outcome.answers.iter();
+    for (answer, [before, after]) in answers.filter(|(answer, _)| full || FIRST.contains(answer)) {
         let goal = Goal::Answer(*answer);
         let said =
             |value: &Option<f64>| value.map_or("none".to_owned(), |value| shown(goal, value, us));
@@ -293,7 +306,7 @@ fn choices(outcome: &Outcome, us: bool) -> String {
     if out.is_empty() { out } else { out + "\n" }
 }
 
-fn cut_list(outcome: &Outcome, pass: f64, us: bool) -> String {
+fn cut_list(outcome: &Outcome, (pass, us): (f64, bool), most: usize) -> String {
     let every = cuts(&outcome.stations, pass);
     // What would be shown as nothing.
     let least = if us { 1.27e-5 } else { 5e-6 };
@@ -304,7 +317,7 @@ fn cut_list(outcome: &Outcome, pass: f64, us: bool) -> String {
     if all.is_empty() {
         out += "Nothing is turned off.\n";
     } else {
-        out += &cut_rows(&all, us);
+        out += &cut_rows(&all, us, most);
     }
     if added > 0 {
         let line = format!(
@@ -313,7 +326,7 @@ fn cut_list(outcome: &Outcome, pass: f64, us: bool) -> String {
         );
         out += &wrapped(&line, 0);
     }
-    if all.len() > SHOWN {
+    if all.len() > most {
         let line =
             format!("{} stations in all; --cuts FILE writes every one with its passes.", all.len());
         out += &wrapped(&line, 0);
@@ -330,7 +343,7 @@ fn cut_list(outcome: &Outcome, pass: f64, us: bool) -> String {
 }
 
 /// The rows that are shown: every so many where there are more.
-fn cut_rows(all: &[StationCut], us: bool) -> String {
+fn cut_rows(all: &[StationCut], us: bool, most: usize) -> String {
     let adds = all.iter().any(StationCut::adds);
     let columns = Columns::new([
         first(12, if adds { "Change at" } else { "Cut at" }),
@@ -340,7 +353,7 @@ fn cut_rows(all: &[StationCut], us: bool) -> String {
         labels(26, "after each pass"),
     ]);
     let mut out = columns.heads();
-    for cut in all.iter().step_by(all.len().div_ceil(SHOWN)) {
+    for cut in all.iter().step_by(all.len().div_ceil(most)) {
         let passes: Vec<String> = cut.passes.iter().map(|off| across(cut.from - off, us)).collect();
         let passes = match passes.len() {
             0 => "wood added".to_owned(),

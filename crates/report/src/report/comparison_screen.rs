@@ -1,4 +1,4 @@
-//! Several bats side by side on two screens: what differs and matters, then where along the barrel.
+//! Several bats side by side on a screen: what differs and matters, then where along the barrel.
 
 use crate::parts::terminal::wrapped;
 use crate::parts::units::Units;
@@ -11,11 +11,10 @@ use sweetspot_study::comparison::rows::ComparedFigure;
 use sweetspot_study::comparison::table::Comparison;
 use sweetspot_study::ignored::thinnest_wall;
 
-/// What a short answer ends with.
-const MORE: &str =
-    "Every figure and every place: --full; on a page to look at: --report FILE.html\n";
+/// What a screen has no room for, of that which matters.
+const LEFT: [&str; 4] = ["zone_from", "zone_to", "length", "balance_point"];
 
-/// What differs, and where along the barrel: of five bats 48 lines at most. Several bats count in one
+/// What differs, and where along the barrel: of two bats 24 lines, of five 40 at most. Several bats count in one
 /// system of units, that of the first one's file unless another is asked for.
 pub fn screen(comparison: &Comparison, units: Units) -> String {
     let one = units.first();
@@ -35,14 +34,14 @@ pub fn screen(comparison: &Comparison, units: Units) -> String {
         let same: Vec<String> = same.iter().map(name).collect();
         out += &wrapped(&format!("No difference beyond the errors: {}", same.join(", ")), 2);
     }
-    out += "\nIn words, by distance from the tip\n";
+    out += "In words, by distance from the tip\n";
     for bat in 1..comparison.bats.len() {
         let parts = along(comparison, bat, one);
         let hit = if parts.is_empty() { "one of the two hits no ball".to_owned() } else { parts };
         let swung = swung(comparison, bat).map_or(String::new(), |swung| format!(" {swung}"));
         out += &wrapped(&format!("  {}: {hit}.{swung}", letter(bat)), 4);
     }
-    out + &doubted(comparison, one) + &beside_pieces(comparison, one) + MORE
+    out + &doubted(comparison, one) + &beside_pieces(comparison, one)
 }
 
 /// Figures whose scatter is told.
@@ -80,8 +79,7 @@ fn beside_pieces(comparison: &Comparison, units: Units) -> String {
         .collect();
     if !told.is_empty() {
         let text = format!(
-            "Trust: two pieces of one wood differ too (one standard deviation): {}. A difference that is less \
-             may be either way of two bats from a shelf; \"within\" is the computation alone.",
+            "Trust: two pieces of one wood differ too (one standard deviation): {}.",
             told.join("; ")
         );
         out += &wrapped(&text, 7);
@@ -112,7 +110,7 @@ fn bats(comparison: &Comparison, units: Units) -> String {
 /// What matters, in order: what differs of some bat, and what does of none.
 fn ordered(comparison: &Comparison, units: Units) -> (Vec<Row>, Vec<Row>) {
     let mut all = rows(comparison, units);
-    all.retain(|row| FIRST.contains(&row.key.as_str()));
+    all.retain(|row| FIRST.contains(&row.key.as_str()) && !LEFT.contains(&row.key.as_str()));
     all.sort_by_key(|row| FIRST.iter().position(|key| row.key == *key));
     all.into_iter().partition(|row| row.differs)
 }

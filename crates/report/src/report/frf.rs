@@ -165,10 +165,16 @@ pub fn unit(kind: ResponseKind) -> &'static str {
     }
 }
 
-/// The answer at the asked frequencies, the peaks, and what it was made of.
-pub fn text(told: &ToldResponse) -> String {
+/// Frequencies and peaks that a screen has.
+const FREQUENCIES: usize = 12;
+const PEAKS: usize = 10;
+
+/// The answer at the asked frequencies, the peaks, and what it was made of: all of it with `full`, all asked
+/// frequencies with `every`; a screen of a measured response has the peaks beside those of the measured one alone.
+pub fn text(told: &ToldResponse, full: bool, every: bool) -> String {
     let ToldResponse { bat, kind, places: [at, to], frf, samples, asked, peaks, measured, units } =
         *told;
+    let most = if full { usize::MAX } else { PEAKS };
     let name = kind.name();
     let title = format!(
         "Frequency response: {name} from a force at {} to {}",
@@ -176,24 +182,14 @@ pub fn text(told: &ToldResponse) -> String {
         place(to, units)
     );
     let mut out = wrapped(&title, 4) + &edited(bat, units);
-    let columns = Columns::new([
-        numbers(16, "frequency, Hz"),
-        numbers(19, format!("size, {}", unit(kind))),
-        numbers(15, "phase, deg"),
-    ]);
-    out += &columns.heads();
-    for sample in samples.iter().filter(|sample| asked.contains(&sample.frequency)) {
-        let value = sample.receptance * kind.of(sample.frequency);
-        let phase = phase(value.re, value.im);
-        out += &columns.row([
-            format!("{:.3}", sample.frequency),
-            format!("{:.5e}", value.norm()),
-            format!("{phase:.2}"),
-        ]);
+    if full || every || measured.is_none() {
+        out += &answers(told, if full || every { usize::MAX } else { FREQUENCIES });
     }
-    out += &listed(kind, peaks);
+    if full || measured.is_none() {
+        out += &listed(kind, peaks, most);
+    }
     let between = samples.len().saturating_sub(asked.len());
-    if between > 0 {
+    if full && between > 0 {
         let so = format!(
             "  {between} more frequencies, at and around the natural ones, show the peaks in files \
              and pictures"
@@ -213,9 +209,39 @@ pub fn text(told: &ToldResponse) -> String {
     );
     out += &wrapped(&made, 2);
     if let Some((response, laid)) = measured {
-        out += &differences(bat, frf, response, laid);
+        out += &differences((bat, frf), response, laid, most);
     }
     out
+}
+
+/// The answer at so many of the asked frequencies at most, evenly among them.
+fn answers(told: &ToldResponse, most: usize) -> String {
+    let ToldResponse { kind, samples, asked, .. } = *told;
+    let columns = Columns::new([
+        numbers(16, "frequency, Hz"),
+        numbers(19, format!("size, {}", unit(kind))),
+        numbers(15, "phase, deg"),
+    ]);
+    let mut out = columns.heads();
+    let asked_for = samples.iter().filter(|sample| asked.contains(&sample.frequency));
+    for sample in asked_for.step_by(asked.len().div_ceil(most).max(1)) {
+        let value = sample.receptance * kind.of(sample.frequency);
+        let phase = phase(value.re, value.im);
+        out += &columns.row([
+            format!("{:.3}", sample.frequency),
+            format!("{:.5e}", value.norm()),
+            format!("{phase:.2}"),
+        ]);
+    }
+    out
+}
+
+/// How many peaks are not shown; empty where all are.
+fn beyond(peaks: usize, most: usize) -> String {
+    match peaks.saturating_sub(most) {
+        0 => String::new(),
+        more => format!("  and {more} more\n"),
+    }
 }
 
 /// What the criterion means.
@@ -243,8 +269,13 @@ pub fn damping(bat: &Bat, frf: &Frf) -> String {
     wrapped(undamped, 2)
 }
 
-/// What a measured response says of the computed one: peaks, and both as a whole.
-fn differences(bat: &Bat, frf: &Frf, response: &MeasuredResponse, laid: &Laid) -> String {
+/// What a measured response says of the computed one: so many peaks at most, and both as a whole.
+fn differences(
+    (bat, frf): (&Bat, &Frf),
+    response: &MeasuredResponse,
+    laid: &Laid,
+    most: usize,
+) -> String {
     let title = format!("\nMeasured, {}, at {} frequencies", response.source, laid.measured.len());
     let mut out = wrapped(&title, 4);
     out += &damping(bat, frf);
@@ -262,7 +293,7 @@ fn differences(bat: &Bat, frf: &Frf, response: &MeasuredResponse, laid: &Laid) -
         Some(ratio) => format!("{:.3}", 100.0 * ratio),
         None => "-".to_owned(),
     };
-    for (computed, measured) in &laid.peaks {
+    for (computed, measured) in laid.peaks.iter().take(most) {
         let none = || "-".to_owned();
         let of = |text: &dyn Fn(&Peak) -> String| measured.as_ref().map_or_else(none, text);
         let apart = |m: &Peak| format!("{:+.2}", 100.0 * (computed.frequency / m.frequency - 1.0));
@@ -278,6 +309,7 @@ fn differences(bat: &Bat, frf: &Frf, response: &MeasuredResponse, laid: &Laid) -
         ];
         out += &columns.row(cells);
     }
+    out += &beyond(laid.peaks.len(), most);
     let Laid { frac, level, apart, .. } = laid;
     let side = if *level < 0.0 { "below" } else { "above" };
     let whole = format!(
@@ -293,8 +325,8 @@ fn differences(bat: &Bat, frf: &Frf, response: &MeasuredResponse, laid: &Laid) -
     out
 }
 
-/// The peaks, with the damping that their widths tell.
-fn listed(kind: ResponseKind, peaks: &[Peak]) -> String {
+/// So many peaks at most, with the damping that their widths tell.
+fn listed(kind: ResponseKind, peaks: &[Peak], most: usize) -> String {
     if peaks.is_empty() {
         return String::new();
     }
@@ -305,7 +337,7 @@ fn listed(kind: ResponseKind, peaks: &[Peak]) -> String {
         numbers(8, "mode"),
     ]);
     let mut out = columns.heads();
-    for peak in peaks {
+    for peak in peaks.iter().take(most) {
         let ratio = peak.damping_ratio().map(|ratio| format!("{:.3}", 100.0 * ratio));
         out += &columns.row([
             format!("{:.3}", peak.frequency),
@@ -314,6 +346,7 @@ fn listed(kind: ResponseKind, peaks: &[Peak]) -> String {
             peak.mode.to_string(),
         ]);
     }
+    out += &beyond(peaks.len(), most);
     if peaks.iter().any(|peak| peak.height.is_none()) {
         out += "  no bound: nothing damps the bat; give the material a loss_factor\n";
     }

@@ -52,8 +52,11 @@ impl RowOfSet {
     }
 }
 
-/// The rows for people.
-pub fn text(bat: &Bat, source: &str, rows: &[RowOfSet], units: Units) -> String {
+/// Rows that a screen has.
+const FEW: usize = 18;
+
+/// The rows for people; without `full` those of the responses that are least alike.
+pub fn text(bat: &Bat, source: &str, rows: &[RowOfSet], (units, full): (Units, bool)) -> String {
     let units = units.first();
     let title = format!("Measured frequency responses of {source} beside {}", bat.name());
     let mut out = wrapped(&title, 4) + &edited(bat, units);
@@ -69,7 +72,10 @@ pub fn text(bat: &Bat, source: &str, rows: &[RowOfSet], units: Units) -> String 
         numbers(13, "frequency, %"),
     ]);
     out += &columns.heads();
-    for row in rows {
+    let mut alike: Vec<f64> = rows.iter().map(|row| row.frac).collect();
+    alike.sort_by(f64::total_cmp);
+    let limit = alike.get(FEW).filter(|_| !full).copied().unwrap_or(f64::INFINITY);
+    for row in rows.iter().filter(|row| row.frac < limit) {
         let [at, to] = row.places.map(|x| units.length(x));
         let frequencies = row.frequencies.map(|apart| format!("{:.2}", 100.0 * apart));
         out += &columns.row([
@@ -82,6 +88,10 @@ pub fn text(bat: &Bat, source: &str, rows: &[RowOfSet], units: Units) -> String 
             format!("{} of {}", row.pairs[0], row.pairs[1]),
             frequencies.unwrap_or_else(|| "-".to_owned()),
         ]);
+    }
+    let more = alike.iter().filter(|frac| **frac >= limit).count();
+    if more > 0 {
+        out += &format!("  and {more} more that are more alike\n");
     }
     out += &wrapped(FRAC, 2);
     let rest = "  no.: its number in the file; higher: the computed response above the measured one on average; apart: the mean size of that \

@@ -17,12 +17,16 @@ use sweetspot_study::measured::pairing::{LEAST, octaves};
 use sweetspot_study::measured::study::{Pair, Shapes, Study};
 use sweetspot_study::measured::words::words;
 
-/// Everything for the terminal.
-pub fn text(bat: &Bat, study: &Study, units: Units) -> String {
+/// Measured modes that a screen has.
+const FEW: usize = 6;
+
+/// Pairs of modes and words; `full` with every mode and how the shapes go together.
+pub fn text(bat: &Bat, study: &Study, units: Units, full: bool) -> String {
     let mut out = format!("{}\n{}", bat.name(), edited(bat, units));
     out += &source(study, units);
-    out += &modes(study);
-    if let Some(shapes) = study.shapes.as_ref().filter(|_| !study.bending.is_empty()) {
+    out += &modes(study, if full { usize::MAX } else { FEW });
+    let shapes = study.shapes.as_ref().filter(|_| full && !study.bending.is_empty());
+    if let Some(shapes) = shapes {
         out += &of_shapes(study, shapes);
         out += &mac(study, shapes);
         out += &common(study, shapes);
@@ -64,8 +68,8 @@ fn cut(name: &str, width: usize) -> String {
     }
 }
 
-/// Frequencies and damping side by side.
-fn modes(study: &Study) -> String {
+/// Frequencies and damping side by side, of so many measured modes at most.
+fn modes(study: &Study, most: usize) -> String {
     let theory = study.solution.theory.name();
     let by = match &study.shapes {
         Some(_) => format!("paired by shape, a MAC of {LEAST} at least"),
@@ -86,7 +90,7 @@ fn modes(study: &Study) -> String {
     );
     out += &beside.heads();
     out += &beside.row(["", "", "", "", "", "", "off by"]);
-    for (k, mode) in study.measured.modes.iter().enumerate() {
+    for (k, mode) in study.measured.modes.iter().enumerate().take(most) {
         let damping = mode.damping_ratio.map_or(String::new(), |ratio| percent(ratio, 2));
         let own = [cut(&mode.name, 12), format!("{:.2} Hz", mode.frequency), damping];
         let own = own.into_iter();
@@ -94,6 +98,10 @@ fn modes(study: &Study) -> String {
             Some(pair) => beside.row(own.chain(partner(study, pair))),
             None => alone.row(own.chain([without_partner(study, k)])),
         };
+    }
+    let more = study.measured.modes.len().saturating_sub(most);
+    if more > 0 {
+        let _ = writeln!(out, "  and {more} more");
     }
     let errors = study.pairs.iter().map(|pair| pair.within).fold(0.0, f64::max);
     if !study.pairs.is_empty() {

@@ -17,8 +17,6 @@ pub struct Frames<'a> {
     pub frames: &'a [Vec<f64>],
 }
 
-/// Instants that a screen has room for.
-const MOST: usize = 20;
 /// What a screen ends with.
 const MORE: &str = "Every place at every instant: --csv FILE (- = here); drawn: --plots DIR\n";
 
@@ -36,15 +34,11 @@ pub fn screen((bat, solution): (&Bat, &Solution), motion: &Frames, units: Units)
         if us { format!("{:.4}", inches(w) + 0.0) } else { format!("{:.3}", 1e3 * w + 0.0) }
     };
     let at = |x: f64| if us { format!("{:.2}", inches(x)) } else { format!("{:.2}", 100.0 * x) };
-    for (time, frame) in motion.times.iter().zip(motion.frames).take(MOST) {
+    for (time, frame) in motion.times.iter().zip(motion.frames) {
         let largest = frame.iter().zip(motion.x).max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
         let (Some((most, x)), [knob, .., tip]) = (largest, &frame[..]) else { continue };
         let time = format!("{:.3}", 1e3 * time);
         out += &columns.row([time, moved(*knob), moved(*tip), moved(*most), at(*x)]);
-    }
-    match motion.times.len().saturating_sub(MOST) {
-        0 => {}
-        more => out += &format!("  and {more} more instants\n"),
     }
     out + MORE
 }

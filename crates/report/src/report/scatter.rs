@@ -13,7 +13,7 @@ use sweetspot::bat::body::Bat;
 use sweetspot::files::schema::document::{BatName, Format, Generator};
 use sweetspot_study::many::indices::{Indices, Share};
 use sweetspot_study::scatter::rows::{Output, ScatterRows};
-use sweetspot_study::scatter::scattered::{OutputSpread, Percentile, SHARES, Scattered};
+use sweetspot_study::scatter::scattered::{OutputSpread, Percentile, SHARES, Scattered, WRITTEN};
 use sweetspot_study::scatter::spreads::{Differs, SCRAMBLES};
 
 /// Shares below this are not told.
@@ -21,18 +21,22 @@ const LITTLE: f64 = 0.005;
 /// Reasons that are shown.
 const REASONS: usize = 3;
 
-/// Percentiles and what spreads every output, 80 columns wide.
-pub fn text(rows: &ScatterRows, found: &Scattered) -> String {
+/// What spreads every output in words, 80 columns wide; three percentiles of it, `full` with all and every share.
+pub fn text(rows: &ScatterRows, found: &Scattered, full: bool) -> String {
     let (count, name) = (rows.count(), rows.bat.name());
     let said = format!("{count} bats like {name}, {} of them as accurate as asked", found.met);
     let mut out = wrapped(&said, 2);
     for (why, count) in reasons(found).iter().take(REASONS) {
         out += &wrapped(&format!("  {count}: {why}"), 4);
     }
-    for output in &found.outputs {
-        out += &spread(output, rows.bat.inches());
+    let us = rows.bat.inches();
+    if !full {
+        out += &middle(&found.outputs, us);
     }
-    for output in &found.outputs {
+    for output in found.outputs.iter().filter(|_| full) {
+        out += &spread(output, us);
+    }
+    for output in found.outputs.iter().filter(|_| full) {
         if let Some(indices) = &output.indices {
             out += &shares(rows, output, indices);
         }
@@ -42,12 +46,44 @@ pub fn text(rows: &ScatterRows, found: &Scattered) -> String {
     out
 }
 
-fn spread(output: &OutputSpread, us: bool) -> String {
+/// An output with its unit, and how many of that unit are one.
+fn named(output: &OutputSpread, us: bool) -> (String, f64) {
     let (unit, per) = in_trade(output.unit, us);
     let unit = if unit.is_empty() { String::new() } else { format!(", in {unit}") };
+    (format!("{}{unit}", output.name), per)
+}
+
+/// How far a percentile may be off.
+fn error(one: &Percentile, per: f64) -> String {
+    match one.error {
+        None => "-".to_owned(),
+        // Rounding of an output that does not vary.
+        Some(error) if error <= 1e-12 * one.value.abs() => "0".to_owned(),
+        Some(error) => significant(per * error, 2),
+    }
+}
+
+/// The middle bat and the ends of the nine tenths about it, a row for every output.
+fn middle(outputs: &[OutputSpread], us: bool) -> String {
+    let columns = [numbers(11, "5 %"), numbers(11, "50 %"), numbers(9, "±"), numbers(11, "95 %")];
+    let columns = Columns::new(std::iter::once(first(36, "")).chain(columns));
+    let mut out = columns.heads();
+    for output in outputs {
+        let (name, per) = named(output, us);
+        let at = |k: usize| output.percentiles.get(k);
+        let value = |k: usize| at(k).map_or("none".into(), |one| significant(per * one.value, 5));
+        let [low, half, high] = WRITTEN.map(value);
+        let within = at(WRITTEN[1]).map_or(String::new(), |one| error(one, per));
+        out += &columns.row([name, low, half, within, high]);
+    }
+    out
+}
+
+fn spread(output: &OutputSpread, us: bool) -> String {
+    let (name, per) = named(output, us);
     let heads = SHARES.map(|share| numbers(10, format!("{} %", significant(100.0 * share, 2))));
     let columns = Columns::new(std::iter::once(first(8, "")).chain(heads));
-    let mut out = format!("{}{unit}\n", output.name);
+    let mut out = format!("{name}\n");
     if output.percentiles.is_empty() {
         return out + "  no bat has it\n";
     }
@@ -58,13 +94,7 @@ fn spread(output: &OutputSpread, us: bool) -> String {
             .collect::<Vec<_>>()
     };
     out += &columns.row(row("", &|one| significant(per * one.value, 5)));
-    let error = |one: &Percentile| match one.error {
-        None => "-".to_owned(),
-        // Rounding of an output that does not vary.
-        Some(error) if error <= 1e-12 * one.value.abs() => "0".to_owned(),
-        Some(error) => significant(per * error, 2),
-    };
-    out + &columns.row(row("  ±", &error))
+    out + &columns.row(row("  ±", &|one| error(one, per)))
 }
 
 fn shares(rows: &ScatterRows, output: &OutputSpread, indices: &Indices) -> String {

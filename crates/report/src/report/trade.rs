@@ -12,13 +12,16 @@ use sweetspot::files::schema::document::{BatName, Format, Generator};
 use sweetspot_study::trade::front::{Run, fastest, front};
 use sweetspot_study::trade::measure::Trade;
 use sweetspot_study::trade::reference::solver_name;
-use sweetspot_study::trade::words::time;
+use sweetspot_study::trade::words::{self, time};
 
 /// Runs of the front with a larger error are shown only if there are no others.
 const COARSEST: f64 = 1e-2;
 
-/// The reference, the front, the planner's choices and what follows, 80 columns wide.
-pub fn text(bat: &Bat, trade: &Trade) -> String {
+/// Runs of the front that a screen has.
+const FEW: usize = 12;
+
+/// The reference and the front, 80 columns wide; `full` with all of it, the planner's choices and every word.
+pub fn text(bat: &Bat, trade: &Trade, full: bool) -> String {
     let reference = &trade.reference;
     let modes = reference.omegas.len();
     let mut out = heading("Speed against accuracy", bat, reference);
@@ -38,7 +41,10 @@ pub fn text(bat: &Bat, trade: &Trade) -> String {
     ]);
     out += &columns.heads();
     let good = front(&trade.runs).any(|run| run.error() <= COARSEST);
-    for run in front(&trade.runs).filter(|run| !good || run.error() <= COARSEST) {
+    let shown = front(&trade.runs).filter(|run| !good || run.error() <= COARSEST);
+    let shown: Vec<&Run> = shown.collect();
+    let step = if full { 1 } else { shown.len().div_ceil(FEW).max(1) };
+    for run in shown.into_iter().step_by(step) {
         let (choice, floor) = (&run.choice, reference.floor());
         out += &columns.row([
             time(run.seconds),
@@ -50,9 +56,12 @@ pub fn text(bat: &Bat, trade: &Trade) -> String {
             run.planned_for.map_or(String::new(), |tolerance| format!("{tolerance:.0e}")),
         ]);
     }
-    out += &planner(trade);
+    if full {
+        out += &planner(trade);
+    }
     out += "In words\n";
-    trade.words.iter().for_each(|line| out += &wrapped(&format!("  {line}"), 4));
+    let words = if full { trade.words.clone() } else { words::planner(&trade.runs) };
+    words.iter().for_each(|line| out += &wrapped(&format!("  {line}"), 4));
     out
 }
 

@@ -35,8 +35,8 @@ pub fn heading(what: &str, bat: &Bat, reference: &Reference) -> String {
 /// Errors at which 8 digits, 4 digits and none are left.
 pub const THRESHOLDS: [f64; 3] = [1e-8, 1e-4, 1.0];
 
-/// The error of the first and the last mode against the number of elements, and where it is lost.
-pub fn text(bat: &Bat, reference: &Reference, columns: &[Column]) -> String {
+/// Where the error of the first mode is lost; `full` with that of the first and the last against the number of elements.
+pub fn text(bat: &Bat, reference: &Reference, columns: &[Column], full: bool) -> String {
     let mut out = heading("Error against the number of cubic elements", bat, reference);
     out += &wrapped(
         "  own λ: as the solver's eigenvalue says; again: recomputed from its shape as strain \
@@ -44,7 +44,7 @@ pub fn text(bat: &Bat, reference: &Reference, columns: &[Column]) -> String {
         4,
     );
     let last = reference.omegas.len() - 1;
-    for mode in [0, last].into_iter().take(1 + usize::from(last > 0)) {
+    for mode in [0, last].into_iter().take(1 + usize::from(last > 0)).filter(|_| full) {
         let _ = writeln!(out, "Relative error of frequency {}", mode + 1);
         out += &table(columns, mode);
     }
