@@ -125,7 +125,7 @@
 //! - A swing goes in +: the bat moves in +, the ball comes in − and leaves in +. Speeds of balls
 //!   that are asked for are positive towards the bat. A pivot beyond the knob is positive.
 //! - Inertias are the body's, sections' own `∫ρI dx` included; a theory without rotary inertia
-//!   recoils as a line of mass, and says so ([`study::ignored`]).
+//!   recoils as a line of mass, and says so (`sweetspot_study::ignored`).
 //! - What does not exist is `None`, and null in a file; no NaN and no infinity is given out.
 //!
 //! # Symbols
@@ -173,18 +173,16 @@
 //!
 //! Sections of the beam stay round and plane: hoop modes of hollow barrels are counted in hits
 //! ([`collision::hoop_wall`]) and no beam's, and wood that differs across the grain is not modelled. What a
-//! theory leaves out on a bat is estimated and reported with every solution ([`study::ignored`]), and
-//! [`study::advise`] measures what each part of a model does. A hit counts dashpots mode by mode
+//! theory leaves out on a bat is estimated and reported with every solution (`sweetspot_study::ignored`), and
+//! `sweetspot_study::advise` measures what each part of a model does. A hit counts dashpots mode by mode
 //! ([`collision`]). The ball meets the bat head on, without spin and friction.
 //!
 //! # Features
 //!
-//! `cli` (default): the command-line program. `show`: known answers, reports, pictures, schemas and
-//! files for other programs. `aim`: the least change of a bat that meets a wish. `parallel`: work on
-//! all processors. `png` (default): pictures as PNG beside SVG. `arpack`: the solver ARPACK as an
-//! outside referee; it needs a C compiler and the
-//! library. With none of them there is the physics and the reader of bat files, which also run in a
-//! browser (`wasm32-unknown-unknown`); [`proof`], [`show`] and [`cli`] are left out then.
+//! `parallel`: work on all processors. `schema`: JSON schemas of bat and ball files. `descriptors`: writing to an
+//! open descriptor where it stands (Linux). `arpack`: the solver ARPACK as an outside referee; it needs a C compiler
+//! and the library. With none of them there is the physics and the readers of bats, balls and scenes, which also run
+//! in a browser (`wasm32-unknown-unknown`).
 
 #![warn(missing_docs)]
 // Only `eigen::arpack`, which calls C, may ask for an exception.

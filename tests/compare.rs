@@ -40,7 +40,7 @@ fn all(comparison: &Comparison) -> impl Iterator<Item = &ComparedFigure> {
 
 #[test]
 fn a_bat_differs_from_itself_in_nothing() {
-    let r161 = Bat::from_file("meshes/r161.json").unwrap();
+    let r161 = Bat::builtin("r161").unwrap();
     let twice = compare(&[r161.clone(), r161], 1e-4);
     assert!(twice.same_length());
     for row in all(&twice) {
@@ -100,7 +100,7 @@ fn a_longer_bat_is_compared_from_both_ends() {
 #[test]
 fn what_is_stated_of_an_error_holds() {
     let names = ["r161", "torpedo", "cone"];
-    let bats = names.map(|name| Bat::from_file(format!("meshes/{name}.json")).unwrap());
+    let bats = names.map(|name| Bat::builtin(name).unwrap());
     let pulse = Model::Pulse(Pulse::default());
     for (model, tolerances) in [(Model::Contact, &[1e-2, 1e-4][..]), (pulse, &[1e-3])] {
         let truth = compare_by(model, &bats, 1e-6);
@@ -147,7 +147,8 @@ fn one_batter_swings_the_heavier_bat_slower() {
 fn meshes(test: &str) -> Folder {
     let folder = Folder::new(&format!("compare-{test}"));
     for name in ["r161", "torpedo", "house"] {
-        let text = std::fs::read_to_string(format!("meshes/{name}.json")).unwrap();
+        let text = std::fs::read_to_string(format!("{}/meshes/{name}.json", env!("SWEETSPOT_TOP")))
+            .unwrap();
         folder.write(&format!("{name}.json"), text);
     }
     folder

@@ -331,7 +331,9 @@ fn the_stacked_energies_reach_the_initial_one() {
     for (name, held) in [("r161", false), ("torpedo", false), ("dowel", true)] {
         let mut one = bat(name);
         if held {
-            let text = std::fs::read_to_string(format!("meshes/{name}.json")).unwrap();
+            let text =
+                std::fs::read_to_string(format!("{}/meshes/{name}.json", env!("SWEETSPOT_TOP")))
+                    .unwrap();
             let text = text.trim_end().trim_end_matches('}').to_owned()
                 + ", \"supports\": [{\"x\": 0.15, \"type\": \"pinned\"}] }";
             let folder = Folder::new("plots-held");

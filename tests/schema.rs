@@ -160,14 +160,14 @@ fn modes_of_all_kinds_of_bats_are_valid() {
     }
     // Undamped, materials alone, mode by mode, complex.
     assert_eq!(kinds.len(), 4, "{kinds:?}");
-    let dowel = Bat::from_file("meshes/dowel.json").unwrap();
+    let dowel = Bat::builtin("dowel").unwrap();
     for solver in [Solver::Dense, Solver::ShiftInvert] {
         let solution = solve(&dowel, &request(3, plain, solver)).unwrap();
         let document = json::modes(&dowel, &solution, ShapePoints::Even(1), false);
         let document = schema::value(&document);
         assert_valid(&modes_file, &document, "another solver");
     }
-    let r161 = Bat::from_file("meshes/r161.json").unwrap();
+    let r161 = Bat::builtin("r161").unwrap();
     let solution = solve(&r161, &request(2, Theory::Timoshenko, Solver::Statics)).unwrap();
     let document = schema::value(&json::modes(&r161, &solution, ShapePoints::Even(2), false));
     assert_valid(&modes_file, &document, "timoshenko");

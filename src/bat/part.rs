@@ -25,7 +25,6 @@ pub struct Field<P> {
     /// Another key that must be there beside it, and what is expected of that.
     pub with: Option<(&'static str, &'static str)>,
     /// A value in units of the trade, where that of the quantity is another size.
-    #[cfg_attr(not(feature = "schema"), expect(dead_code, reason = "the schema says it"))]
     pub example: Option<&'static str>,
     pub of: fn(&mut P) -> Slot<'_>,
 }
@@ -76,11 +75,11 @@ pub enum Range {
     Inside,
     /// A distance of at most ten lengths of the bat.
     Distance,
-    /// What a bat can be told from: [`HEAVIEST`] at most.
+    /// What a bat can be told from: `HEAVIEST` at most.
     Mass,
     /// Such a mass, above 0.
     SomeMass,
-    /// 0, or what holds more than a rigid motion: [`SOFTEST`] and more.
+    /// 0, or what holds more than a rigid motion: `SOFTEST` and more.
     Spring,
     /// Such a stiffness, above 0.
     SomeSpring,
@@ -229,7 +228,6 @@ pub struct Instead<P> {
     pub key: &'static str,
     pub quantity: Quantity,
     /// What it is, for the schema.
-    #[cfg_attr(not(feature = "schema"), expect(dead_code, reason = "the schema says it"))]
     pub said: &'static str,
     /// The number that it replaces.
     pub of: &'static str,

@@ -259,7 +259,7 @@ impl Round {
             before = [before[1], worst.error];
             let stopped = !met && settles && work > most;
             if !met && settles && !stopped && request.elements.is_none() {
-                let next = now.finer(&worst, request.tolerance, planned);
+                let next = now.finer(&worst, request.tolerance, planned, work);
                 if next.request != now.request && now.request.tolerance >= 1e-13 {
                     // Where more cannot be had, this answer stands.
                     if let Ok(finer) = solve(bat, &next.request) {
@@ -291,12 +291,15 @@ impl Round {
     }
 
     /// Those of the next round: more modes, finer steps, better modes, as the errors call for them.
-    fn finer(&self, worst: &Worst, tolerance: f64, planned: bool) -> Self {
+    fn finer(&self, worst: &Worst, tolerance: f64, planned: bool, work: usize) -> Self {
+        /// Where a round took that share of all work that is done, no round is wasted on a few modes more.
+        const DEAR: usize = MOST_WORK / 16;
         let Self { mut request, mut effort } = *self;
         if planned && worst.truncation > 0.3 * tolerance {
-            // As the error falls in the mean (`enough`), half as many again at least.
+            // As the error falls in the mean (`enough`).
             let rate = if request.theory.shears() { 3.2 } else { 6.5 };
-            let more = (worst.truncation / (0.3 * tolerance)).powf(1.0 / rate).clamp(1.5, 3.0);
+            let needed = (worst.truncation / (0.3 * tolerance)).powf(1.0 / rate);
+            let more = if work > DEAR { needed.clamp(1.5, 3.0) } else { 1.5 };
             request.modes = ((more * request.modes as f64) as usize).min(MOST);
         }
         // What is compared differs by its steps too.

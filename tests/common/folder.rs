@@ -12,7 +12,8 @@ pub struct Folder(pub PathBuf);
 
 /// The program, as cargo built it for tests of its crate.
 pub fn program() -> &'static str {
-    option_env!("CARGO_BIN_EXE_sweetspot").expect("a test of the program's crate")
+    const PROGRAM: Option<&str> = option_env!("CARGO_BIN_EXE_sweetspot");
+    PROGRAM.expect("a test of the program's crate")
 }
 
 impl Folder {

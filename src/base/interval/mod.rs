@@ -2,8 +2,7 @@
 //!
 //! [`Interval`] and [`Rectangle`] hold every value that exact arithmetic could give: results are
 //! rounded outwards, by one place after `+ − × ÷ √` and by `LIBRARY` after other functions. A
-//! [`Jet`] carries the derivative along, so that a range can be had from its middle too. A [`Series`] holds
-//! a polynomial that is known to within a bound, and [`Values`] what it is at Gauss points.
+//! [`Jet`] carries the derivative along, so that a range can be had from its middle too.
 //!
 //! # Source
 //!

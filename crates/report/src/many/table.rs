@@ -60,7 +60,7 @@ impl Table {
     ///
     /// # Errors
     ///
-    /// [`Error::Read`], and [`Error::Value`] for a part that is not as the study makes it.
+    /// [`Error::Read`](sweetspot::Error::Read), and [`Error::Value`](sweetspot::Error::Value) for a part that is not as the study makes it.
     pub fn read(folder: &StudyFolder, rows: &Rows) -> Result<Self> {
         let columns = rows.columns();
         let of = |k: usize| {

@@ -24,7 +24,7 @@ impl Input {
     ///
     /// # Errors
     ///
-    /// [`Error::Read`].
+    /// [`Error::Read`](sweetspot::Error::Read).
     pub fn read(path: &Path) -> Result<Self> {
         let bytes = if path.is_file() { file::read_plain(path)? } else { vec![] };
         Ok(Self::new(path, &String::from_utf8_lossy(&bytes)))
@@ -40,7 +40,7 @@ impl Input {
     ///
     /// # Errors
     ///
-    /// [`Error::Read`].
+    /// [`Error::Read`](sweetspot::Error::Read).
     pub fn of_bat(path: &Path, text: &str) -> Result<Vec<Self>> {
         let document: Value = serde_json::from_str(text).unwrap_or_default();
         let mut all = vec![Self::new(path, text)];
