@@ -85,7 +85,7 @@ MUTATIONS = [
      "[trace, soft * before + point(0.5) * trace.square(), ZERO]", "[trace, soft * before, ZERO]",
      "norms_of_uniform_bats_that_give_way_are_those_in_closed_form"),
     ("a mass on a spring that does not move alone", PROOF + "norms.rs",
-     "if give.way == Way::Hung { met.mass } else { ZERO }", "ZERO",
+     "if give.way == YieldingPart::Hung { met.mass } else { ZERO }", "ZERO",
      "norms_of_uniform_bats_that_give_way_are_those_in_closed_form"),
     ("a joint that a held bat does not have", PROOF + "holding.rs",
      "sum = sum + a.gives[give.number] * b.gives[give.number] * softness(&give);",

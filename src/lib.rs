@@ -17,14 +17,14 @@
 //! ```
 //! use sweetspot::{Bat, Hit, Swing};
 //!
-//! # fn main() -> crate::Result<()> {
+//! # fn main() -> sweetspot::Result<()> {
 //! let bat = Bat::builtin("r161")?; // or Bat::from_file("mine.json")
 //! let hit = Hit::of(&bat, &Swing::default())?;
 //! println!("{:.2} m/s within {:.0e}, {:.3} m from the knob", hit.best.exit_speed, hit.best.error, hit.best.x);
 //! for mode in hit.modes() {
 //!     println!("{:.2} Hz", mode.frequency());
 //! }
-//! # assert!((hit.best.exit_speed / 48.21 - 1.0).abs() < 1e-3 && hit.reached == crate::Reached::Asked);
+//! # assert!((hit.best.exit_speed / 48.21 - 1.0).abs() < 1e-3 && hit.reached == sweetspot::Reached::Asked);
 //! # Ok(())
 //! # }
 //! ```
@@ -34,12 +34,12 @@
 //! Diameters along the bat, a material and a kitchen scale make a [`Bat`]; no file is needed.
 //!
 //! ```
-//! use crate::collision::sweep::{Accuracy, sweep};
-//! use crate::collision::{Hitter, Model, Scene, SweetSpot};
-//! use crate::bat::profile::{Interpolation, Stations};
+//! use sweetspot::collision::sweep::{Accuracy, sweep};
+//! use sweetspot::collision::{Hitter, Model, Scene, SweetSpot};
+//! use sweetspot::bat::profile::{Interpolation, Stations};
 //! use sweetspot::{Bat, Material, Profile, Request, solve};
 //!
-//! # fn main() -> crate::Result<()> {
+//! # fn main() -> sweetspot::Result<()> {
 //! let inches = [0.0, 0.5, 1.25, 3.0, 6.0, 12.0, 18.0, 24.0, 30.0, 33.5];
 //! let diameters = [1.85, 1.95, 1.2, 0.98, 0.95, 1.05, 1.5, 2.3, 2.6, 2.45];
 //! let x = inches.map(|x| 0.0254 * x).to_vec();

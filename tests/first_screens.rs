@@ -208,6 +208,9 @@ fn a_screen_is_a_screen_and_full_has_the_rest() {
     folder.run(&["convert", "modes.json", "--to", "uff", "--out", "modes.uff"]);
     for args in [
         &["hoop", "bbcor_made_up"][..],
+        &["hoop", "two_piece"],
+        &["ring", "corked", "--hit", "65 cm"],
+        &["compare", "bbcor_made_up", "bbcor_made_up_open"],
         &["scatter", "r161", "--points", "64"],
         &["compare", "r161", "--measured", "modes.uff"],
     ] {

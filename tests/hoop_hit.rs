@@ -438,7 +438,9 @@ fn hits_on_every_hollow_bat_are_as_accurate_as_asked() {
 /// tip too, where it gives way most.
 #[test]
 fn a_wall_that_is_left_out_is_within_the_stated_error() {
-    let text = std::fs::read_to_string("meshes/bbcor_made_up_open.json").unwrap();
+    let text =
+        std::fs::read_to_string(concat!(env!("SWEETSPOT_TOP"), "/meshes/bbcor_made_up_open.json"))
+            .unwrap();
     let thick = text
         .replace("0.0333 - 0.003\"", "0.0333 - 0.012\"")
         .replace("0.0026 + 0.0004*", "0.0026 + 0.0084*");

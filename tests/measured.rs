@@ -738,7 +738,10 @@ fn what_is_assumed_of_a_universal_file_is_said() {
 #[test]
 fn what_convert_writes_is_measured_as_the_same_bat() {
     let folder = Folder::new("measured-uff");
-    folder.write("r161.json", std::fs::read_to_string("meshes/r161.json").unwrap());
+    folder.write(
+        "r161.json",
+        std::fs::read_to_string(concat!(env!("SWEETSPOT_TOP"), "/meshes/r161.json")).unwrap(),
+    );
     let modes = ["modes", "r161.json", "-n", "5", "--shape-points", "25", "--json", "m.json"];
     let fine = ["--tol", "1e-8"];
     folder.text(&[&modes[..], &fine].concat());
@@ -790,7 +793,8 @@ fn a_universal_file_without_what_is_needed_is_refused() {
     // Frequency responses alone: said, with what to do.
     let folder = Folder::new("measured-frf");
     folder.write("bat.json", BAT);
-    let file = std::fs::read("tests/foreign/functions.uff").unwrap();
+    let file =
+        std::fs::read(concat!(env!("SWEETSPOT_TOP"), "/tests/foreign/functions.uff")).unwrap();
     folder.write("f.uff", &file);
     folder.write("broken.unv", &file[..400]);
     for (name, told) in [

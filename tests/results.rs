@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 
 use serde::Serialize;
-use sweetspot::bat::body::Inertia;
+use sweetspot::bat::inertia::Inertia;
 use sweetspot::collision::bbcor::Scan;
 use sweetspot::collision::figures::Figures;
 use sweetspot::collision::sweep::{Accuracy, sweep};

@@ -65,7 +65,7 @@ fn one_element_has_720_and_8400_and_two_rigid_motions() {
 #[test]
 fn discrete_frequencies_are_those_of_multiprecision() {
     for elements in [1_usize, 2, 4, 8, 16, 32, 64] {
-        let path = format!("validation/hermite_{elements:02}.json");
+        let path = format!("{}/validation/hermite_{elements:02}.json", env!("SWEETSPOT_TOP"));
         let text = std::fs::read_to_string(path).unwrap();
         let case: serde_json::Value = serde_json::from_str(&text).unwrap();
         let checks = case["checks"].as_array().unwrap();

@@ -9,7 +9,6 @@
 //! | [`error`], `mistakes` | what was wrong, where, what was expected; several mistakes at once |
 //! | [`telling`], `clock`, [`threads`] | how far is a computation; how long does it take; on how many threads |
 //! | [`file`](mod@file) | how is a file written so that nothing is lost |
-//! | `own_file` | how is a file kept that this program alone may write over |
 //! | [`typed`], [`units`] | which numbers and units were typed; what is a number with a unit in SI |
 //! | [`number`] | how is a number written |
 //! | [`real`], [`lanes`] | one number or several side by side |

@@ -18,11 +18,11 @@ impl Bat {
     /// the knob end of the bat as it is when an edit comes to it.
     ///
     /// ```
-    /// use crate::bat::body::STANDARD_PIVOT;
-    /// use crate::bat::edit::{Change, Edit};
-    /// use crate::Bat;
+    /// use sweetspot::bat::body::STANDARD_PIVOT;
+    /// use sweetspot::bat::edit::{Change, Edit};
+    /// use sweetspot::Bat;
     ///
-    /// # fn main() -> crate::Result<()> {
+    /// # fn main() -> sweetspot::Result<()> {
     /// let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash", "weighed": { "mass": 0.9 },
     ///     "profile": { "unit": "in", "x": [0, 33], "diameter": [1.7, 1.7] } }"#;
     /// let bat = Bat::from_text("dowel.json", text, "".as_ref())?;

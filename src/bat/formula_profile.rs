@@ -41,11 +41,11 @@ impl Profile {
     /// These bounds also show that both radii are possible everywhere.
     ///
     /// ```
-    /// use crate::Profile;
-    /// use crate::bat::formula::Formula;
-    /// use crate::bat::profile::FormulaPiece;
+    /// use sweetspot::Profile;
+    /// use sweetspot::bat::formula::Formula;
+    /// use sweetspot::bat::profile::FormulaPiece;
     ///
-    /// # fn main() -> crate::Result<()> {
+    /// # fn main() -> sweetspot::Result<()> {
     /// let outer = Formula::parse("0.012 + 0.025*x").expect("it is a formula");
     /// let cone = Profile::from_formulas(vec![FormulaPiece { from: 0.0, to: 0.84, outer, inner: None }])?;
     /// assert!((cone.at(0.84).outer - 0.033).abs() < 1e-15);

@@ -157,7 +157,7 @@ impl Material {
     /// The built-in material of that name.
     ///
     /// ```
-    /// use crate::Material;
+    /// use sweetspot::Material;
     ///
     /// let ash = Material::named("white-ash-dynamic").expect("it is built in");
     /// assert!(ash.shear_modulus.is_some() && Material::named("willow").is_none());

@@ -8,12 +8,13 @@
 //! | [`material`], [`theory`] | how stiff and heavy is the wood; which beam theory |
 //! | `pchip` | how does the radius go between stations |
 //! | `formula_tree`, `formula_text`, [`formula`], `formula_range` | a formula's parts, how it is read, its value and corners, its range |
-//! | [`profile`], `formula_bounds`, `formula_profile`, `tip` | the radii along the length; features of a formula; pointed ends |
+//! | [`stations`], [`profile`], `formula_bounds`, `formula_profile`, `tip` | where it was measured; the radii along the length; features of a formula; pointed ends |
 //! | [`layup`], `slopes` | what is the section worth: stiffness and mass per length; and how do they change with its radii |
 //! | `rework` | the radii where wood is turned off, drilled out or sawn off |
 //! | [`fixtures`], [`weighed`], [`edit`] | masses, springs, supports, grips, joints; what a scale and a tap said; what is changed after that |
 //! | `part`, `members`, `fixtures_check` | a member's value; the members of each of these; can they be there |
-//! | [`body`], `edited`, [`turned`] | the whole bat; a bat after its edits; one whose diameter is changed by a curve |
+//! | [`inertia`], [`body`], `doubts` | a stiff body; the whole bat; what is strange about it |
+//! | `edited`, [`turned`] | a bat after its edits; one whose diameter is changed by a curve |
 
 pub mod material;
 pub mod theory;
@@ -23,6 +24,7 @@ mod formula_text;
 pub mod formula;
 pub(crate) mod formula_range;
 pub(crate) mod tip;
+pub mod stations;
 pub mod profile;
 pub(crate) mod formula_bounds;
 pub(crate) mod formula_profile;
@@ -36,6 +38,8 @@ pub mod edit;
 pub mod part;
 mod members;
 pub(crate) mod fixtures_check;
+pub mod inertia;
 pub mod body;
+mod doubts;
 mod edited;
 pub mod turned;

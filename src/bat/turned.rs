@@ -26,10 +26,10 @@ pub struct ChangedStretch {
 /// overlap, no change between them.
 ///
 /// ```
-/// use crate::bat::turned::DiameterChange;
-/// # use crate::Bat;
+/// use sweetspot::bat::turned::DiameterChange;
+/// # use sweetspot::Bat;
 ///
-/// # fn main() -> crate::Result<()> {
+/// # fn main() -> sweetspot::Result<()> {
 /// # let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash",
 /// #     "profile": { "unit": "m", "x": [0, 0.84], "diameter": [0.04, 0.04] } }"#;
 /// # let bat = Bat::from_text("dowel.json", text, "".as_ref())?;

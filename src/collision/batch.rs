@@ -32,18 +32,18 @@ pub struct Blow<'a> {
 /// A bat's hits are a function of itself, its blow and `model`, a bat like the others, whoever is beside it.
 ///
 /// ```
-/// use crate::collision::batch::{Blow, each};
-/// use crate::collision::sweep::{Accuracy, Trial};
-/// use crate::collision::{Model, Scene};
-/// use crate::modes::batch::Way;
-/// use crate::Bat;
+/// use sweetspot::collision::batch::{Blow, each};
+/// use sweetspot::collision::sweep::{Accuracy, Trial};
+/// use sweetspot::collision::{Model, Scene};
+/// use sweetspot::modes::batch::Way;
+/// use sweetspot::Bat;
 ///
-/// # fn main() -> crate::Result<()> {
+/// # fn main() -> sweetspot::Result<()> {
 /// # let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
 /// #     "profile": { "unit": "in", "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5] } }"#;
 /// # let bat = Bat::from_text("bat.json", text, "".as_ref())?;
 /// let lighter = |k: i32| bat.with(|parts| parts.material.density *= 0.99_f64.powi(k));
-/// let bats: Vec<Bat> = (0..16).map(lighter).collect::<crate::Result<_>>()?;
+/// let bats: Vec<Bat> = (0..16).map(lighter).collect::<sweetspot::Result<_>>()?;
 /// let scene = Scene { swing: 45.0, ball_speed: 38.0, ..Scene::default() }; // rad/s, m/s
 /// let (trial, accuracy) = (Trial { model: Model::Contact, scene: &scene }, Accuracy::default());
 /// let blow = |bat| Blow { bat, trial, accuracy, places: &[0.7] };

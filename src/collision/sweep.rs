@@ -112,11 +112,11 @@ impl Accuracy {
 /// Strikes the bat at all places (m from the knob end).
 ///
 /// ```
-/// use crate::Bat;
-/// use crate::collision::sweep::{Accuracy, sweep};
-/// use crate::collision::{Model, Scene};
+/// use sweetspot::Bat;
+/// use sweetspot::collision::sweep::{Accuracy, sweep};
+/// use sweetspot::collision::{Model, Scene};
 ///
-/// # fn main() -> crate::Result<()> {
+/// # fn main() -> sweetspot::Result<()> {
 /// # let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
 /// #     "profile": { "unit": "in", "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5] } }"#;
 /// # let bat = Bat::from_text("bat.json", text, "".as_ref())?;

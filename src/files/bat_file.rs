@@ -86,9 +86,9 @@ impl Bat {
     /// Reads a bat from text; `file` is what messages call it, a `csv` is sought in `folder`.
     ///
     /// ```
-    /// use crate::Bat;
+    /// use sweetspot::Bat;
     ///
-    /// # fn main() -> crate::Result<()> {
+    /// # fn main() -> sweetspot::Result<()> {
     /// let text = r#"{ "format": "sweetspot-bat/1", "name": "dowel", "material": "white-ash",
     ///     "profile": { "unit": "in", "x": [0, 33], "diameter": [1.7, 1.7] } }"#;
     /// let bat = Bat::from_text("dowel.json", text, "".as_ref())?;

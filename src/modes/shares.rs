@@ -40,10 +40,10 @@ impl Shares {
     /// `wood` count, not cores, sleeves, tape and what is attached.
     ///
     /// ```
-    /// use crate::modes::shares::Shares;
+    /// use sweetspot::modes::shares::Shares;
     /// use sweetspot::{Bat, Request, Theory, solve};
     ///
-    /// # fn main() -> crate::Result<()> {
+    /// # fn main() -> sweetspot::Result<()> {
     /// # let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
     /// #     "profile": { "unit": "in", "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5] } }"#;
     /// # let bat = Bat::from_text("bat.json", text, "".as_ref())?;

@@ -26,7 +26,7 @@ pub use crate::modes::solution::{Solution, Timing};
 /// ```
 /// use sweetspot::{Bat, Request, solve};
 ///
-/// # fn main() -> crate::Result<()> {
+/// # fn main() -> sweetspot::Result<()> {
 /// # let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
 /// #     "profile": { "unit": "in", "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5] } }"#;
 /// # let bat = Bat::from_text("bat.json", text, "".as_ref())?;
@@ -57,10 +57,10 @@ pub fn solve(bat: &Bat, request: &Request) -> Result<Solution> {
 ///
 /// ```
 /// use std::time::Duration;
-/// use crate::modes::solve::solve_within;
+/// use sweetspot::modes::solve::solve_within;
 /// use sweetspot::{Bat, Request};
 ///
-/// # fn main() -> crate::Result<()> {
+/// # fn main() -> sweetspot::Result<()> {
 /// # let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
 /// #     "profile": { "unit": "in", "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5] } }"#;
 /// # let bat = Bat::from_text("bat.json", text, "".as_ref())?;

@@ -22,10 +22,10 @@ pub struct Choice {
 /// all effects together make it; without shear where a shear modulus is not known.
 ///
 /// ```
-/// use crate::modes::theory_choice::theory;
+/// use sweetspot::modes::theory_choice::theory;
 /// use sweetspot::{Bat, Request, Theory};
 ///
-/// # fn main() -> crate::Result<()> {
+/// # fn main() -> sweetspot::Result<()> {
 /// # let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
 /// #     "profile": { "unit": "in", "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5] } }"#;
 /// # let bat = Bat::from_text("bat.json", text, "".as_ref())?;

@@ -84,10 +84,10 @@ impl Ringing {
     /// as the solution has modes; complex ones are found for that tolerance.
     ///
     /// ```
-    /// use crate::motion::ringing::Ringing;
+    /// use sweetspot::motion::ringing::Ringing;
     /// use sweetspot::{Bat, Request, solve};
     ///
-    /// # fn main() -> crate::Result<()> {
+    /// # fn main() -> sweetspot::Result<()> {
     /// # let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
     /// #     "profile": { "unit": "in", "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5] } }"#;
     /// # let bat = Bat::from_text("bat.json", text, "".as_ref())?;

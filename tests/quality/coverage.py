@@ -39,14 +39,16 @@ def ranges(numbers):
 
 
 def main():
-    root = Path.cwd() / "src"
+    top = Path.cwd()
     run, all_lines, missed = defaultdict(int), defaultdict(int), defaultdict(list)
     with open(sys.argv[1], encoding="utf-8") as text:
         for path, number, count in lines(text):
-            if path is None or not path.is_relative_to(root):
+            if path is None or not path.is_relative_to(top):
                 continue
-            path = path.relative_to(root)
-            folder = f"{path.parts[0]}/" if len(path.parts) > 1 else "src/*.rs"
+            path = path.relative_to(top)
+            if path.parts[0] not in ("src", "crates"):
+                continue
+            folder = f"{path.parts[0]}/{path.parts[1]}/" if len(path.parts) > 2 else "src/*.rs"
             for key in (folder, "all"):
                 all_lines[key] += 1
                 run[key] += count > 0

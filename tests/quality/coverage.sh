@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Which lines of src/ do the tests run? Builds the tests with counters (rustc's own), runs them, and
+# Which lines of src/ and crates/ do the tests run? Builds the tests with counters (rustc's own), runs them, and
 # adds up the lines. Reads the counters with `cov` of llvm_profparser, which is installed if missing:
 # it needs no LLVM of the compiler's version.
 set -euo pipefail
@@ -15,9 +15,9 @@ PATH="$PATH:$out/tools/bin"
 # each program (%m), added up.
 export RUSTC_WORKSPACE_WRAPPER="$PWD/tests/quality/counted_rustc" CARGO_TARGET_DIR="$out/build"
 export CARGO_INCREMENTAL=0 LLVM_PROFILE_FILE="$out/profiles/%m.profraw"
-cargo test --locked --no-run 2>&1 | tee "$out/build.txt"
+cargo test --locked --workspace --exclude sweetspot-python --no-run 2>&1 | tee "$out/build.txt"
 rm -f "$out"/profiles/*
-cargo test --locked --no-fail-fast "$@"
+cargo test --locked --workspace --exclude sweetspot-python --no-fail-fast "$@"
 
 programs=("$out/build/debug/sweetspot")
 while read -r program; do programs+=("$program"); done \

@@ -301,20 +301,8 @@ fn filled<P: Part>(start: P, text: &str) -> std::result::Result<P, String> {
     let stretch = P::FIELDS.iter().filter(|field| field.is_place());
     let mut fields: Vec<&Field<P>> = P::FIELDS.iter().filter(|field| !field.is_place()).collect();
     if stretch.clone().next().is_some() {
-        let ends = items.first().and_then(|first| first.split_once(" to "));
-        let Some((from, to)) = ends else {
-            let found = items.first().copied().unwrap_or_default();
-            return Err(format!(
-                "found \"{found}\", expected a stretch, such as \"24 in to 30 in\""
-            ));
-        };
-        // Of 24 to 30 in both are in inches.
-        let from = match (typed::split(from.trim()), typed::split(to.trim())) {
-            ((number, ""), (_, unit)) if !number.is_empty() => &format!("{number} {unit}"),
-            _ => from,
-        };
-        for (field, text) in stretch.zip([from, to]) {
-            set(field, PLACE.read(text)?, &mut part);
+        for (field, place) in stretch.zip(ends(items.first().copied().unwrap_or_default())?) {
+            set(field, place, &mut part);
         }
         items = &items[1..];
     }
@@ -355,6 +343,18 @@ fn filled<P: Part>(start: P, text: &str) -> std::result::Result<P, String> {
         None if !some => Err("found nothing, expected a length off the knob or the tip".to_owned()),
         None => Ok(part),
     }
+}
+
+/// Where a stretch begins and ends (m).
+fn ends(text: &str) -> std::result::Result<[f64; 2], String> {
+    let expected = || format!("found \"{text}\", expected a stretch, such as \"24 in to 30 in\"");
+    let (from, to) = text.split_once(" to ").ok_or_else(expected)?;
+    // Of 24 to 30 in both are in inches.
+    let from = match (typed::split(from.trim()), typed::split(to.trim())) {
+        ((number, ""), (_, unit)) if !number.is_empty() => &format!("{number} {unit}"),
+        _ => from,
+    };
+    Ok([PLACE.read(from)?, PLACE.read(to)?])
 }
 
 fn set<P>(field: &Field<P>, value: f64, part: &mut P) {

@@ -10,6 +10,7 @@ use sweetspot::collision::sweep::Trial;
 use sweetspot::modes::solve::Request;
 use sweetspot_report::exchange::barrel::BarrelGrid;
 use sweetspot_report::exchange::hoop_files;
+use sweetspot_report::parts::terminal::fitting;
 use sweetspot_report::plot::{hoop as plot, wall_sweep};
 use sweetspot_report::report::{hoop as report, hoop_json};
 use sweetspot_study::trampoline::barrel::{Barrel, BarrelTest};
@@ -21,7 +22,7 @@ use crate::common::{OutputArgs, Prepared, examples, on_the_bat, prepare, read};
 use crate::delivered::{apart, put};
 use crate::done::{Done, NOT_REACHED};
 use crate::edits::EditArgs;
-use crate::full_option::FullArgs;
+use crate::full_option::{FullArgs, LINES};
 use crate::pictures;
 use crate::value::{PLACE, TheoryChoice, tolerance};
 
@@ -150,9 +151,11 @@ pub fn run(args: &Args) -> Result<Done> {
     let units = args.output.units(&bat);
     let sweep = if args.wall_sweep { report::sweep(&tried, units) } else { String::new() };
     let few = args.count.map_or(FEW, usize::from);
-    let table = args
-        .full
-        .screen(|full| report::text(&bat, &barrel, if full { count } else { few }, units) + &sweep);
+    let asked = args.count.is_some() || args.wall_sweep;
+    let table = args.full.screen(|full| {
+        let text = report::text(&bat, &barrel, if full { count } else { few }, units);
+        if full || asked { text + &sweep } else { fitting(&text, LINES) }
+    });
     let samples = usize::from(args.shape_points);
     let text =
         args.output.deliver(table, || hoop_json::document(&bat, &barrel, &tried, samples))?;

@@ -1,4 +1,4 @@
-//! What did the user type? One file a verb; no physics: options are parsed, the library is called, `Done` returned.
+//! What did the user type? One file or folder a verb; no physics: options are parsed, the library is called, `Done` returned.
 //!
 //! | file | question |
 //! |---|---|

@@ -3,6 +3,7 @@
 //! | file | question |
 //! |---|---|
 //! | [`analysis`] | everything there is to say of one bat and its hits |
+//! | [`schema`] | what does every document look like |
 //! | [`parts`] | what a report is made of |
 //! | [`report`], [`csv`] | tables for people and for spreadsheets, JSON for programs |
 //! | [`exchange`] | files for other programs |

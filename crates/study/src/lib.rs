@@ -7,13 +7,15 @@
 //! | [`calibrate`] | what is the wood, by scale, ruler, pendulum and tap |
 //! | [`verdict`] | how far do the answers hold, by all that is known |
 //! | [`read_to`], `bat_changes` | to what step were diameters read; a bat that differs in one thing |
-//! | [`spread`] | how far do the answers move with what calipers, scale and wood leave open |
+//! | [`inputs`], [`spread`] | how far do the answers move with what calipers, scale and wood leave open |
 //! | [`advise`] | which parts of a model matter on this bat |
 //! | [`comparison`] | which bat hits harder, where, and is the difference more than the errors |
 //! | [`many`] | which bats does a study vary |
 //! | [`lathe`] | where does a cut do what |
+//! | `aim` | which profile meets a wish |
 //! | [`scatter`] | how much do bats of one model and swings of one batter differ |
 //! | [`trampoline`] | what does the wall of a hollow barrel do to a ball |
+//! | [`files`] | how do people write down what they ask |
 //! | [`measured`] | which measured mode is which computed one; is the measurement sound |
 
 // Matrices are written with the indices of their formulas.
@@ -26,6 +28,7 @@ pub mod calibrate;
 pub mod verdict;
 pub mod read_to;
 pub(crate) mod bat_changes;
+pub mod inputs;
 pub mod spread;
 pub mod advise;
 pub mod comparison;

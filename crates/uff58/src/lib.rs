@@ -1,5 +1,5 @@
 //! Universal files: the ASCII format in which modal test programs exchange geometry, mode shapes
-//! and measured functions. This module is on its own: of the crate it uses the errors alone.
+//! and measured functions. Of `sweetspot` it uses errors and the reading of files.
 //!
 //! A universal file is a list of datasets. Each stands between two fences, lines that hold `-1` in
 //! columns 5 and 6; its first line is its number, and what follows are Fortran records, fields of
@@ -63,7 +63,7 @@ pub struct Universal {
     pub datasets: Vec<Dataset>,
     /// The line of each dataset's number in the file, from 1.
     pub lines: Vec<usize>,
-    /// Datasets that this module does not know.
+    /// Datasets that this crate does not know.
     pub skipped: Vec<Skipped>,
     /// The units the file was written in, if they were not SI.
     pub converted_from: Option<Units>,

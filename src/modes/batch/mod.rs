@@ -291,15 +291,15 @@ fn figures(solution: &Solution, request: &Request, visit: impl FnOnce(Found)) {
 /// [`each`].
 ///
 /// ```
-/// use crate::modes::batch::{Way, all};
+/// use sweetspot::modes::batch::{Way, all};
 /// use sweetspot::{Bat, Request};
 ///
-/// # fn main() -> crate::Result<()> {
+/// # fn main() -> sweetspot::Result<()> {
 /// # let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
 /// #     "profile": { "unit": "in", "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5] } }"#;
 /// # let bat = Bat::from_text("bat.json", text, "".as_ref())?;
 /// let lighter = |k: i32| bat.with(|parts| parts.material.density *= 0.99_f64.powi(k));
-/// let bats: Vec<Bat> = (0..100).map(lighter).collect::<crate::Result<_>>()?;
+/// let bats: Vec<Bat> = (0..100).map(lighter).collect::<sweetspot::Result<_>>()?;
 /// let asked = Request { modes: 2, tolerance: 1e-6, ..Request::default() };
 /// let first = all(&bats, &asked, Way::SideBySide, |_, found| found.map(|found| found.omegas[0]));
 /// assert!(first[0].as_ref().unwrap() < first[99].as_ref().unwrap());

@@ -61,6 +61,18 @@ fn table(table: &Table) -> String {
     out
 }
 
+/// A text without its last statements, so that it has at most so many lines: a statement goes on in lines that are
+/// indented further than its first.
+pub fn fitting(text: &str, most: usize) -> String {
+    let mut lines: Vec<&str> = text.lines().collect();
+    let indent = |line: &str| line.len() - line.trim_start().len();
+    while lines.len() > most {
+        let Some(last) = lines.pop().map(indent) else { break };
+        while last > 0 && lines.pop().map(indent).is_some_and(|indent| indent >= last) {}
+    }
+    lines.iter().map(|line| format!("{line}\n")).collect()
+}
+
 /// Breaks a line at its last spaces before column 80, the rest indented; ends the line.
 pub fn wrapped(text: &str, indent: usize) -> String {
     let (mut out, mut rest, mut lead) = (String::new(), text, 0);
@@ -71,4 +83,18 @@ pub fn wrapped(text: &str, indent: usize) -> String {
     }
     let _ = writeln!(out, "{:lead$}{rest}", "");
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_text_that_is_too_long_loses_whole_statements() {
+        let text = "a\n  b\n  c\nd\n  e\n    f\n";
+        assert_eq!(fitting(text, 6), text);
+        assert_eq!(fitting(text, 5), "a\n  b\n  c\nd\n");
+        assert_eq!(fitting(text, 3), "a\n  b\n  c\n");
+        assert_eq!(fitting(text, 2), "");
+    }
 }

@@ -9,12 +9,12 @@
 //! knob end at the bottom, and from the tip at the top.
 //!
 //! ```
-//! use crate::plot::sheet::Sheet;
-//! use crate::plot::{picture, sets};
+//! use sweetspot_report::plot::sheet::Sheet;
+//! use sweetspot_report::plot::{picture, sets};
 //! use sweetspot::{Bat, Request, solve};
 //!
 //! # fn main() -> sweetspot::Result<()> {
-//! let bat = Bat::from_file("meshes/r161.json")?;
+//! let bat = Bat::builtin("r161")?;
 //! let solution = solve(&bat, &Request::default())?;
 //! let pictures = sets::of_modes(Sheet::of(&bat), &bat, &solution, None);
 //! assert!(pictures[1].alt.contains("mode 1 at"));

@@ -1,6 +1,6 @@
 //! Several bats side by side on a screen: what differs and matters, then where along the barrel.
 
-use crate::parts::terminal::wrapped;
+use crate::parts::terminal::{fitting, wrapped};
 use crate::parts::units::Units;
 use crate::report::columns::{Columns, first, numbers};
 use crate::report::comparison::{FIRST, Row, along, figures, hit, letter, rows, swung};
@@ -11,6 +11,8 @@ use sweetspot_study::comparison::rows::ComparedFigure;
 use sweetspot_study::comparison::table::Comparison;
 use sweetspot_study::ignored::thinnest_wall;
 
+/// Lines of a screen but the last, which says where the rest is.
+const LINES: usize = 23;
 /// What a screen has no room for, of that which matters.
 const LEFT: [&str; 4] = ["zone_from", "zone_to", "length", "balance_point"];
 
@@ -34,14 +36,19 @@ pub fn screen(comparison: &Comparison, units: Units) -> String {
         let same: Vec<String> = same.iter().map(name).collect();
         out += &wrapped(&format!("No difference beyond the errors: {}", same.join(", ")), 2);
     }
-    out += "In words, by distance from the tip\n";
+    let trust = doubted(comparison, one) + &beside_pieces(comparison, one);
+    let mut words = String::from("In words, by distance from the tip\n");
     for bat in 1..comparison.bats.len() {
         let parts = along(comparison, bat, one);
         let hit = if parts.is_empty() { "one of the two hits no ball".to_owned() } else { parts };
         let swung = swung(comparison, bat).map_or(String::new(), |swung| format!(" {swung}"));
-        out += &wrapped(&format!("  {}: {hit}.{swung}", letter(bat)), 4);
+        words += &wrapped(&format!("  {}: {hit}.{swung}", letter(bat)), 4);
     }
-    out + &doubted(comparison, one) + &beside_pieces(comparison, one)
+    // What is doubted stands on the screen before what can be read off a table.
+    let left = LINES.saturating_sub(out.lines().count() + trust.lines().count());
+    let words = fitting(&words, left);
+    let heading_alone = words.lines().count() < 2;
+    out + if heading_alone { "" } else { &words } + &trust
 }
 
 /// Figures whose scatter is told.

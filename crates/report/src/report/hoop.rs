@@ -64,7 +64,8 @@ fn sentences(bat: &Bat, barrel: &Barrel, units: Units) -> String {
     for line in answers(bat, barrel, units) {
         out += &wrapped(&line, 2);
     }
-    for note in notes(barrel, units) {
+    // What bounds the answer stands last in the document, and first here.
+    for note in notes(barrel, units).iter().rev() {
         out += &wrapped(&format!("note: {note}"), 2);
     }
     out

@@ -23,6 +23,7 @@ pub mod motion;
 pub mod u_curve;
 pub mod trade;
 pub mod advice;
+pub mod answer_unit;
 pub mod trust;
 pub mod comparison;
 pub mod comparison_screen;

@@ -105,10 +105,12 @@ pub fn modes(bat: &Bat, solution: &Solution, with_nodes: usize, units: Units) ->
             },
         ]);
     }
-    out += &damped::table(solution);
-    if with_nodes > 0 {
-        out += "Nodes\n";
-    }
+    out + &damped::table(solution) + &nodes(bat, solution, with_nodes, units)
+}
+
+/// Where the first modes stand still.
+fn nodes(bat: &Bat, solution: &Solution, with_nodes: usize, units: Units) -> String {
+    let mut out = if with_nodes > 0 { "Nodes\n".to_owned() } else { String::new() };
     for mode in solution.modes.iter().take(with_nodes.min(MOST_NODES)) {
         let from_tip: Vec<f64> = mode.nodes.iter().rev().map(|x| bat.length() - x).collect();
         let mut label = format!("mode {}", mode.order);

@@ -68,7 +68,7 @@ pub const MOST_MODES: usize = 100;
 ///
 /// ```
 /// use sweetspot::Bat;
-/// use crate::advise::advice::advise;
+/// use sweetspot_study::advise::advice::advise;
 ///
 /// # fn main() -> sweetspot::Result<()> {
 /// # let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",

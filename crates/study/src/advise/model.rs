@@ -4,7 +4,8 @@ use std::rc::Rc;
 
 use crate::advise::part::ModelPart;
 use sweetspot::base::error::{Error, Result};
-use sweetspot::bat::body::{Bat, Inertia};
+use sweetspot::bat::body::Bat;
+use sweetspot::bat::inertia::Inertia;
 use sweetspot::bat::theory::Theory;
 use sweetspot::modes::solve::{Request, Solution, solve};
 

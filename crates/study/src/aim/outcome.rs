@@ -108,11 +108,11 @@ impl Outcome {
     /// ```
     /// use sweetspot::bat::theory::Theory;
     /// use sweetspot::collision::{Model, Scene};
-    /// use crate::aim::bench::Terms;
-    /// use crate::aim::outcome::Outcome;
-    /// use crate::aim::wish::{Amount, Ask, Goal, Target, Wish};
-    /// use crate::lathe::workpiece::HitTerms;
-    /// use crate::many::answers::Answer;
+    /// use sweetspot_study::aim::bench::Terms;
+    /// use sweetspot_study::aim::outcome::Outcome;
+    /// use sweetspot_study::aim::wish::{Amount, Ask, Goal, Target, Wish};
+    /// use sweetspot_study::lathe::workpiece::HitTerms;
+    /// use sweetspot_study::many::answers::Answer;
     /// use sweetspot::{Bat, Request};
     ///
     /// # fn main() -> sweetspot::Result<()> {

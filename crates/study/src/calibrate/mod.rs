@@ -10,6 +10,7 @@
 //! | [`labels`] | which line is which mode |
 //! | [`posterior`] | how far is the wood open after all that |
 //! | [`next`] | which measurement would tell most |
+//! | [`estimated`] | what was found of a parameter |
 //! | [`calibration`](mod@calibration) | all of it, and how much of it the readings say |
 
 pub mod readings;
@@ -20,4 +21,5 @@ pub mod chart;
 pub mod labels;
 pub mod posterior;
 pub mod next;
+pub mod estimated;
 pub mod calibration;

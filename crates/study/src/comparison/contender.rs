@@ -17,7 +17,8 @@
 
 use crate::verdict::Verdict;
 use sweetspot::base::error::Result;
-use sweetspot::bat::body::{Bat, Inertia, STANDARD_PIVOT};
+use sweetspot::bat::body::{Bat, STANDARD_PIVOT};
+use sweetspot::bat::inertia::Inertia;
 use sweetspot::collision::figures::{BarrelSpeed, SwingLaw};
 use sweetspot::collision::hit::{Impact, Model, Scene};
 use sweetspot::collision::hitter::Hitter;

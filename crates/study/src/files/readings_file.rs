@@ -54,7 +54,7 @@ pub fn from_file(path: impl AsRef<Path>) -> Result<BatReadings> {
 /// Reads readings from text; `file` is what messages call it.
 ///
 /// ```
-/// use crate::files::readings_file::from_text;
+/// use sweetspot_study::files::readings_file::from_text;
 ///
 /// # fn main() -> sweetspot::Result<()> {
 /// let text = r#"{ "format": "sweetspot-readings/1", "mass": "31.2 oz ± 1 g",

@@ -108,7 +108,7 @@ pub fn named_by_a_person(path: &Path) -> Result<(ScatterFile, Vec<PathBuf>)> {
 /// Reads it from text; `file` is what messages call it, ball and covariance are sought in `folder`.
 ///
 /// ```
-/// use crate::files::scatter_file::from_text;
+/// use sweetspot_study::files::scatter_file::from_text;
 ///
 /// # fn main() -> sweetspot::Result<()> {
 /// let text = r#"{ "format": "sweetspot-scatter/1", "density": { "lognormal": "4 %" } }"#;

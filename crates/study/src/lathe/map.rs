@@ -140,13 +140,13 @@ impl LatheMap {
     ///
     /// ```
     /// use sweetspot::collision::{Model, Scene};
-    /// use crate::lathe::map::{LatheMap, LatheTerms, bands};
-    /// use crate::lathe::workpiece::HitTerms;
-    /// use crate::many::answers::Answer;
+    /// use sweetspot_study::lathe::map::{LatheMap, LatheTerms, bands};
+    /// use sweetspot_study::lathe::workpiece::HitTerms;
+    /// use sweetspot_study::many::answers::Answer;
     /// use sweetspot::{Bat, Request, Theory};
     ///
     /// # fn main() -> sweetspot::Result<()> {
-    /// let bat = Bat::from_file("meshes/r161.json")?;
+    /// let bat = Bat::builtin("r161")?;
     /// let request = Request { theory: Theory::Timoshenko, tolerance: 1e-3, ..Request::default() };
     /// let hit = HitTerms { scene: Scene::default(), model: Model::Contact, exactly: false };
     /// let answers = vec![Answer::Mass, Answer::Frequency(1), Answer::ExitSpeedPlace];

@@ -4,14 +4,18 @@
 //! |---|---|
 //! | [`same_plan`] | what are the modes of a changed bat on the elements of the one before |
 //! | [`samples`] | how do frequencies, mass, balance and swing weight change with the radius: closed formulas |
-//! | [`gauges`] | which places of a hit does an answer read, and how |
+//! | [`probe`], [`gauges`] | which places of a hit does an answer read, and how |
+//! | [`slopes`], [`quotient`] | how an answer changes with the diameter; by differences |
 //! | [`workpiece`] | the bat on the lathe: its answers, and how they change with its diameter |
 //! | [`map`] | what a cut does band by band, what a weight does, and what has to be solved |
 //! | [`recipe`] | how little wood has to come off for a wish |
 
 pub mod same_plan;
 pub mod samples;
+pub mod probe;
 pub mod gauges;
+pub mod slopes;
+pub mod quotient;
 pub mod workpiece;
 pub mod map;
 pub mod recipe;

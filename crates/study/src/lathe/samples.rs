@@ -24,7 +24,8 @@
 use std::f64::consts::PI;
 
 use sweetspot::base::quadrature::gauss;
-use sweetspot::bat::body::{Bat, Inertia};
+use sweetspot::bat::body::Bat;
+use sweetspot::bat::inertia::Inertia;
 use sweetspot::bat::layup::Worth;
 use sweetspot::bat::theory::Theory;
 use sweetspot::beam::mesh::Part;

@@ -7,8 +7,10 @@
 
 use crate::comparison::contender::Figure;
 use crate::lathe::gauges::{Gauge, GaugeHits, OuterHalf, Rivals};
+use crate::lathe::quotient::{Quotient, Raw, WAYS, Ways, joined};
 use crate::lathe::same_plan::SamePlan;
 use crate::lathe::samples::{BodySlope, SectionSlopes};
+pub use crate::lathe::slopes::{Method, Slopes};
 use crate::many::answers::{Answer, figure, on_the_bat};
 use sweetspot::base::error::Result;
 use sweetspot::base::threads;
@@ -30,72 +32,6 @@ pub struct HitTerms {
     pub model: Model,
     /// Whether the request's modes are all there are.
     pub exactly: bool,
-}
-
-/// How a derivative was found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Method {
-    /// Rayleigh's quotient, stationary in the motion.
-    Formula,
-    /// Derivative of the rigid body's integrals.
-    Exact,
-    /// Central differences of whole bats.
-    Difference,
-}
-
-impl Method {
-    /// The method for an answer.
-    pub fn of(answer: Answer) -> Self {
-        match answer {
-            Answer::Mass | Answer::BalancePoint | Answer::Inertia | Answer::CenterOfPercussion => {
-                Self::Exact
-            }
-            Answer::Frequency(_) => Self::Formula,
-            _ => Self::Difference,
-        }
-    }
-
-    /// What it is called in documents.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Formula => "formula",
-            Self::Exact => "exact",
-            Self::Difference => "difference",
-        }
-    }
-}
-
-/// How the answers change per unit of one change of the diameter.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Slopes {
-    /// Derivative of each answer with its error, the bat swung at the same angular speed; None where there
-    /// is none.
-    pub same_swing: Vec<Option<Figure>>,
-    /// The derivatives of the frequencies by differences too, as a check of the formula; None for other answers
-    /// and without [`Care::TwoSteps`].
-    pub checked: Vec<Option<f64>>,
-    /// Derivative of the moment of inertia about the standard pivot (kg m²).
-    pub inertia: f64,
-    /// Change of each answer per rad/s of the swing; 0 for answers that are not of a hit.
-    by_swing: Vec<Option<f64>>,
-    /// Share by which a swing of the same energy of rotation gains per unit of 2n: `−Ω/I dI`.
-    gain: f64,
-}
-
-impl Slopes {
-    /// The derivatives for a batter who swings another bat at `Ω (I₀/I)^n`: n = 0 is the same swing, n = ½ the
-    /// same energy of rotation.
-    pub fn by_law(&self, exponent: f64) -> Vec<Option<Figure>> {
-        // A bat at rest stays at rest.
-        if exponent == 0.0 || self.gain == 0.0 {
-            return self.same_swing.clone();
-        }
-        let of = |(slope, by_swing): (&Option<Figure>, &Option<f64>)| {
-            let Figure { value, error } = (*slope)?;
-            Some(Figure::new(value + exponent * self.gain * (*by_swing)?, error))
-        };
-        self.same_swing.iter().zip(&self.by_swing).map(of).collect()
-    }
 }
 
 /// How much work a difference is worth.
@@ -508,62 +444,6 @@ fn with_modes(solution: &Solution, count: usize) -> Solution {
     let mut fewer = solution.clone();
     fewer.modes.truncate(count);
     fewer
-}
-
-/// In how many ways a derivative is found: by the gauges, by places half as far apart, without the last two modes,
-/// without the last quarter of them. The gauges of each way have the places that it finds.
-const WAYS: usize = 4;
-
-/// The gauges of the other ways.
-struct Ways {
-    /// By places half as far apart.
-    closer: Vec<Option<Gauge>>,
-    /// Without the last two modes and without the last quarter, with the number of modes that is left; none where
-    /// modes are not left out.
-    fewer: Vec<(usize, Vec<Option<Gauge>>)>,
-}
-
-/// What differences are taken of, answer by answer.
-#[derive(Debug, Clone, Default)]
-struct Raw {
-    /// In every way.
-    by_way: [Vec<Option<f64>>; WAYS],
-}
-
-/// A quotient of differences, answer by answer.
-struct Quotient {
-    /// Whether it is about the bat as it is; else to one side.
-    central: bool,
-    /// In every way.
-    by_way: [Vec<Option<f64>>; WAYS],
-}
-
-impl Quotient {
-    /// How far an answer's slope may be off by its way: by what the last two modes or the last quarter of them do to
-    /// it, and by the distance of places, whose error falls with that at least.
-    fn apart(&self, k: usize) -> f64 {
-        let [whole, closer, fewer @ ..] = self.by_way.each_ref().map(|way| way[k]);
-        let off = |other: Option<f64>| match (whole, other) {
-            (Some(whole), Some(other)) => (whole - other).abs(),
-            _ => 0.0,
-        };
-        2.0 * off(closer) + fewer.map(off).into_iter().fold(0.0, f64::max)
-    }
-}
-
-/// The derivative from differences by one step or two. Its error is that of the step, and how far the ways are
-/// apart, or `usual`ly of such an answer.
-fn joined(differences: &[Quotient], k: usize, usual: f64) -> Option<Figure> {
-    let [first, rest @ ..] = differences else { return None };
-    let whole = first.by_way[0][k]?;
-    let Some(second) = rest.first() else { return Some(Figure::new(whole, 0.0)) };
-    let half = second.by_way[0][k]?;
-    let apart = first.apart(k).max(usual);
-    match first.central && second.central {
-        // The half step's error is a third of the difference.
-        true => Some(Figure::new(whole, 4.0 / 3.0 * (whole - half).abs() + apart)),
-        false => Some(Figure::new(2.0 * half - whole, (whole - half).abs() + apart)),
-    }
 }
 
 fn exact(answer: Answer, body: &BodySlope) -> Option<Figure> {

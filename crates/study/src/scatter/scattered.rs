@@ -59,10 +59,10 @@ impl Scattered {
     /// ```
     /// use sweetspot::Bat;
     /// use sweetspot::collision::setup::Setup;
-    /// use crate::many::answers::Answer;
-    /// use crate::scatter::rows::{Output, ScatterPlan, ScatterRows};
-    /// use crate::scatter::scattered::Scattered;
-    /// use crate::scatter::spreads::{Difference, Differences, Differs};
+    /// use sweetspot_study::many::answers::Answer;
+    /// use sweetspot_study::scatter::rows::{Output, ScatterPlan, ScatterRows};
+    /// use sweetspot_study::scatter::scattered::Scattered;
+    /// use sweetspot_study::scatter::spreads::{Difference, Differences, Differs};
     ///
     /// # fn main() -> sweetspot::Result<()> {
     /// # let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",

@@ -96,8 +96,8 @@ fn write(root: &Path, copy: &Path, sites: &[(usize, Site)]) -> Result<(Vec<Plant
             bytes = planting.out.into_bytes();
         } else if name == Path::new("src/lib.rs") {
             let text = String::from_utf8(bytes)?;
-            let switch = "#[doc(hidden)]\npub mod mutant;\npub mod error;";
-            bytes = text.replacen("pub mod error;", switch, 1).into_bytes();
+            let switch = "#[doc(hidden)]\npub mod mutant;\npub mod base;";
+            bytes = text.replacen("pub mod base;", switch, 1).into_bytes();
         }
         // An unchanged file keeps its time, and is not built again.
         if fs::read(&target).ok().as_ref() != Some(&bytes) {
