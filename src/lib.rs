@@ -6,11 +6,11 @@
 //! modal mass and exit speed comes with an estimate of its own error.
 //!
 //! ```text
-//! bat.json ─▶ Bat ─▶ Plan ─▶ elements ─▶ Statics (K, M) ─▶ modes ─▶ hit ─▶ report ─▶ JSON, table
+//! bat.json ─▶ Bat ─▶ Plan ─▶ elements ─▶ Statics (K, M) ─▶ modes ─▶ hit
 //!                     └─ refined until the modes' errors are small enough
 //! ```
 //!
-//! Each arrow is one function that borrows what lies to its left and returns a new value.
+//! `crates/report` makes tables, pages and JSON of them. Each arrow is one function that borrows what lies to its left and returns a new value.
 //!
 //! # A hit on a card
 //!

@@ -352,7 +352,7 @@ fn of_a_bat_with_an_absorber_rigid_motion_is_not_judged() {
     folder.text(&[&["modes", "bat.json"], &modes[..]].concat());
     folder.text(&["convert", "m.json", "--to", "uff"]);
     let args = ["compare", "bat.json", "--measured", "m.uff"];
-    let text = folder.text(&[&args[..], &["--plots", "p"]].concat());
+    let text = folder.text(&[&args[..], &["--plots", "p", "--full"]].concat());
     assert!(text.contains("an absorber moves more than the bat beneath it"), "{text}");
     assert!(
         !text.contains("carry rigid motion") && !text.contains("are the least orthogonal"),

@@ -1,5 +1,5 @@
 //! What is told of an impact: each figure once, with its name in files, which ends in its unit, and where
-//! it is from. Tables, CSV, JSON and the page take them from here.
+//! it is from. Tables, CSV, JSON and the page take their values from here; a test holds JSON to the names.
 
 use crate::collision::hit::{Impact, Outcome};
 

@@ -1,6 +1,7 @@
 //! How does the bat ring, as accurately as asked?
 //!
-//! [`solve()`](solve::solve) plans elements for a tolerance, states every error, and refines until these are within it.
+//! [`solve()`](solve::solve) plans elements for a tolerance, states every error, and refines until these are within it: `solve`, `refine`, `task`, `pairs`,
+//! `eigenpairs` call each other in this order, and the last one [`Lanczos`](crate::eigen::lanczos).
 //!
 //! | file | question |
 //! |---|---|
