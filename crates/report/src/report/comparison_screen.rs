@@ -47,6 +47,7 @@ pub fn screen(comparison: &Comparison, units: Units) -> String {
     // What is doubted stands on the screen before what can be read off a table.
     let left = LINES.saturating_sub(out.lines().count() + trust.lines().count());
     let words = fitting(&words, left);
+    let out = if left == 0 { out.replace("\n\n", "\n") } else { out };
     let heading_alone = words.lines().count() < 2;
     out + if heading_alone { "" } else { &words } + &trust
 }
