@@ -20,12 +20,7 @@ use sweetspot_report::report::mistakes;
 
 /// What a baseball bat does when it meets a ball
 #[derive(Parser)]
-#[command(
-    // Not its package's name.
-    name = "sweetspot",
-    version,
-    after_help = AFTER
-)]
+#[command(name = "sweetspot", version, after_help = AFTER)]
 struct Cli {
     #[command(subcommand)]
     verb: Verb,
