@@ -15,13 +15,13 @@ pub fn significant(value: f64, digits: usize) -> String {
     }
 }
 
-/// The value to so many decimals; nothing is 0, not −0.
+/// The value to the given number of decimals; nothing is 0, not −0.
 pub fn rounded(value: f64, decimals: i32) -> f64 {
     let scale = 10.0_f64.powi(decimals);
     (scale * value).round() / scale + 0.0
 }
 
-/// A change to so many decimals, with its sign; none is +0.
+/// A change to the given number of decimals, with its sign; none is +0.
 pub fn signed(value: f64, decimals: usize) -> String {
     format!("{:+.decimals$}", rounded(value, decimals as i32))
 }

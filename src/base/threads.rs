@@ -52,7 +52,7 @@ pub(crate) fn map_each<S: Send, T: Send>(
     each.iter_mut().enumerate().map(|(k, one)| of(k, one)).collect()
 }
 
-/// Does something with so many threads, as many as there are processors if none are named.
+/// Does something with the given number of threads, as many as there are processors if none are named.
 pub fn with<T: Send>(threads: Option<usize>, work: impl FnOnce() -> T + Send) -> T {
     #[cfg(feature = "parallel")]
     if let Some(threads) = threads

@@ -304,7 +304,7 @@ fn met<S: Real>(placed: &Placed<S>, bare: &Bare<S>, side: usize) -> Build<S> {
     build
 }
 
-/// The coefficients of one Legendre polynomial among so many.
+/// The coefficients of one Legendre polynomial among the given number.
 pub fn unit(terms: usize, term: usize) -> Vec<f64> {
     (0..terms).map(|k| f64::from(u8::from(k == term))).collect()
 }

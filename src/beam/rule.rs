@@ -77,7 +77,7 @@ impl Rule {
     /// The rule for elements of that degree on this bat.
     ///
     /// With radii of degree `d` and deflections of degree `p` the load `ρA w` has degree
-    /// `2d + p`: so many points and one more hold it exactly, and then the mass too. The stiffness
+    /// `2d + p`: the given number of points and one more hold it exactly, and then the mass too. The stiffness
     /// `∫EI P_{p−2}²` has degree `4d + 2p − 4`, and `n` points integrate `2n − 1` exactly. Formulas
     /// get 16 points beyond the degree; [`Rule::tail`] tells whether these are enough.
     ///

@@ -204,14 +204,14 @@ impl<'a> Aftermath<'a> {
         places.iter().map(bent).collect()
     }
 
-    /// The largest strain at those places (m) and instants, with so many modes.
+    /// The largest strain at those places (m) and instants, with the given number of modes.
     pub fn worst(&self, places: &[f64], instants: &[Instant], count: usize) -> Option<Strained> {
         let envelope = self.envelope(places, instants, count);
         // The first of equal ones.
         envelope.into_iter().reduce(|worst, at| if at.strain > worst.strain { at } else { worst })
     }
 
-    /// The largest strain of every place (m) among those instants, with so many modes.
+    /// The largest strain of every place (m) among those instants, with the given number of modes.
     pub fn envelope(&self, places: &[f64], instants: &[Instant], count: usize) -> Vec<Strained> {
         let at = |x: &f64| {
             let modes = self.modes.iter().take(count);

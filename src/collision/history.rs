@@ -24,7 +24,7 @@ pub struct Moment {
     pub compression: f64,
 }
 
-/// The ball from the first touch to the last, so many instants in every piece of the force, ends
+/// The ball from the first touch to the last, the given number of instants in every piece of the force, ends
 /// included: nearing at `speed` (m/s) a bat with those modes, ω (rad/s) and damping ratio, one for
 /// each gain.
 pub fn history(

@@ -190,7 +190,7 @@ const LOCAL: f64 = 0.005;
 const FINE: f64 = 1e-4;
 
 impl WallSeries {
-    /// Adds a harmonic by so many of its modes; those that are not taken weigh nothing.
+    /// Adds a harmonic by the given number of its modes; those that are not taken weigh nothing.
     fn take(&mut self, mut gains: Vec<f64>, modes: &[HoopMode], count: usize, all: [f64; 2]) {
         let square = |k: usize| modes[k].omega.powi(2);
         self.rest += complete(&mut gains[..count], square, all, [0.0; 2]);

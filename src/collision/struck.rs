@@ -125,7 +125,7 @@ pub fn complete(
     [soft, slow]: [f64; 2],
     [unsure, unsure_slow]: [f64; 2],
 ) -> f64 {
-    /// What is left is known if it is so many times its error.
+    /// What is left is known if it is this many times its error.
     const KNOWN: f64 = 10.0;
     let Some((last, before)) = gains.split_last_mut() else { return soft };
     let [here, there] = taken(before, &square);

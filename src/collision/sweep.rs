@@ -15,6 +15,18 @@ use crate::collision::strike::UNRESOLVED;
 use crate::modes::prepared::{Prepared, prepare};
 use crate::modes::solve::{Request, Solution, Solver, solve};
 
+/// Why a sweep takes no further round of more modes and finer steps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub enum RoundsEnd {
+    /// The accuracy is reached, or there are no more modes and no finer steps to be had.
+    Settled,
+    /// The last round made the answers no better: the hit magnifies what is small, and its exit speed is not
+    /// defined better than stated.
+    Unsettled,
+    /// The next round would take more work than is done for a hit ([`MOST_WORK`]).
+    Stopped,
+}
+
 /// The impacts along a bat.
 #[derive(Debug, Clone, Serialize)]
 #[non_exhaustive]
@@ -30,11 +42,8 @@ pub struct Sweep {
     pub truncation: Option<f64>,
     /// Whether every hit is resolved and its exit speed within the tolerance by its own estimate.
     pub met: bool,
-    /// Whether more modes and finer steps made the answers better; where they do not, the hit magnifies
-    /// what is small, and its exit speed is not defined better than stated.
-    pub settles: bool,
-    /// Whether they would have taken more work than is done for a hit ([`MOST_WORK`]): the answers stand as they were.
-    pub stopped: bool,
+    /// Why no better answers were computed.
+    pub end: RoundsEnd,
 }
 
 impl Sweep {
@@ -186,6 +195,11 @@ impl Trial<'_> {
         matches!(self.model, Model::Pulse(_) | Model::Contact)
     }
 
+    /// The worst error of a round by which the answers still get better, after those of the two rounds before.
+    fn most_left(&self, before: [f64; 2]) -> f64 {
+        if self.scene.cor < DEAD { IDLE_DEAD * before[1] } else { IDLE * before[0] }
+    }
+
     /// Of a request whose tolerance is that of exit speeds: with its modes and no others if they are
     /// asked for, or if their number is nothing to the model.
     pub fn accuracy(&self, request: &Request, asked: bool) -> Accuracy {
@@ -253,12 +267,14 @@ impl Round {
             keep_better(&mut impacts, &open, struck);
             let worst = Worst::of(open.iter().filter_map(|k| impacts[*k].outcome.as_ref()));
             let met = impacts.iter().all(|impact| doubt(impact) <= request.tolerance);
-            let dead = trial.scene.cor < DEAD;
-            let most_left = if dead { IDLE_DEAD * before[1] } else { IDLE * before[0] };
-            let settles = worst.error <= most_left;
+            let most_left = trial.most_left(before);
+            let end = match worst.error <= most_left {
+                false if !met => RoundsEnd::Unsettled,
+                true if !met && work > most => RoundsEnd::Stopped,
+                _ => RoundsEnd::Settled,
+            };
             before = [before[1], worst.error];
-            let stopped = !met && settles && work > most;
-            if !met && settles && !stopped && request.elements.is_none() {
+            if !met && end == RoundsEnd::Settled && request.elements.is_none() {
                 let next = now.finer(&worst, request.tolerance, planned, work);
                 if next.request != now.request && now.request.tolerance >= 1e-13 {
                     // Where more cannot be had, this answer stands.
@@ -272,13 +288,14 @@ impl Round {
                 }
                 now.effort = next.effort;
             }
-            let open =
-                impacts.iter_mut().filter(|impact| stopped && doubt(impact) > request.tolerance);
+            let open = impacts
+                .iter_mut()
+                .filter(|impact| end == RoundsEnd::Stopped && doubt(impact) > request.tolerance);
             open.filter_map(|impact| impact.outcome.as_mut()).for_each(Outcome::unsettled);
             let all = impacts.iter().filter_map(|impact| impact.outcome.as_ref());
             let truncation = planned.then(|| all.map(|o| o.truncation).fold(0.0, greater));
             let effort = now.effort;
-            return Ok(Sweep { solution, effort, impacts, truncation, met, settles, stopped });
+            return Ok(Sweep { solution, effort, impacts, truncation, met, end });
         }
     }
 

@@ -40,7 +40,7 @@ impl Fronts {
         Self { pivots: vec![0.0; size], places: vec![usize::MAX; size], ..Self::default() }
     }
 
-    /// Adds a front whose first unknowns, so many, are eliminated. Its matrix is 0 but for what `fill` adds to
+    /// Adds a front of which the given number of unknowns, the first ones, are eliminated. Its matrix is 0 but for what `fill` adds to
     /// the upper triangle, told where each unknown stands; if `take`, all that is left of earlier fronts is
     /// added.
     pub fn add(

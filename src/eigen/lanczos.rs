@@ -32,7 +32,7 @@ pub struct Lanczos<R> {
     pub vectors: Vec<R>,
 }
 
-/// The eigenpair beyond the wanted ones may have a residual so many times as large: it need only
+/// The eigenpair beyond the wanted ones may have a residual this many times as large: it need only
 /// show, and its value, of which nothing more is asked, is off by the square of that.
 const NEARLY: f64 = 100.0;
 
@@ -115,7 +115,7 @@ impl<R: Real> Lanczos<R> {
         }
     }
 
-    /// Nothing but known vectors in the basis, which gets room for so many numbers more.
+    /// Nothing but known vectors in the basis, which gets room for the given number of values more.
     #[inline(always)]
     fn begin(&mut self, dimension: usize, known: &[R], room: usize) {
         self.next.clear();

@@ -164,7 +164,7 @@ fn excerpt(text: &str, marked: Range<usize>) -> Excerpt {
     Excerpt { before, marked: shown.to_owned(), after }
 }
 
-/// The rest of a line, at most so many columns of it, `…` where it goes on.
+/// The rest of a line, at most the given number of columns of it, `…` where it goes on.
 fn begun(text: &str, most: usize) -> String {
     let shown = head(text, most);
     let more = !matches!(text[shown.len()..].bytes().next(), None | Some(b'\n'));
@@ -172,7 +172,7 @@ fn begun(text: &str, most: usize) -> String {
     format!("{}{dots}", shown.trim_end_matches('\r'))
 }
 
-/// What a line has before a place, at most so many columns of it, `…` where it begins earlier.
+/// What a line has before a place, at most the given number of columns of it, `…` where it begins earlier.
 fn ended(text: &str, most: usize) -> String {
     let shown = tail(text, most);
     let earlier = &text[..text.len() - shown.len()];
@@ -180,14 +180,14 @@ fn ended(text: &str, most: usize) -> String {
     format!("{dots}{shown}")
 }
 
-/// The beginning of a text, to the end of its line or to so many columns.
+/// The beginning of a text, to the end of its line or to the given number of columns.
 fn head(text: &str, most: usize) -> &str {
     let mut left = most;
     let end = text.char_indices().find(|(_, c)| *c == '\n' || !fits(*c, &mut left));
     end.map_or(text, |(end, _)| &text[..end])
 }
 
-/// The end of a text, from the beginning of its last line or from so many columns before.
+/// The end of a text, from the beginning of its last line or from the given number of columns before.
 fn tail(text: &str, most: usize) -> &str {
     let mut left = most;
     let end = text.char_indices().rev().find(|(_, c)| *c == '\n' || !fits(*c, &mut left));

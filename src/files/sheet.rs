@@ -360,7 +360,7 @@ fn beginning(
     Ok((first, Separator::Sign(between(text, first)), false))
 }
 
-/// The cells of a line with so many blanks at least between them; brackets belong to the name before them.
+/// The cells of a line with the given number of blanks at least between them; brackets belong to the name before them.
 fn in_blanks(line: &str, least: usize) -> Vec<&str> {
     let blank = |c: char| c.is_whitespace();
     let line = line.trim_matches(blank);

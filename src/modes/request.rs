@@ -72,7 +72,7 @@ impl Request {
         self.check_memory(bats as f64 * work.gigabytes(), elements)
     }
 
-    /// Elements of that degree, sampled at so many points, as work.
+    /// The work of an element of that degree, sampled at the given number of points.
     fn work(&self, elements: usize, degree: usize, points: usize) -> Work {
         let Self { modes, theory, solver, .. } = *self;
         let strains = (degree - 1) * if theory.shears() { 2 } else { 1 };
@@ -95,7 +95,7 @@ impl Request {
         (!fits).then(said)
     }
 
-    /// Whether so many elements fit into memory.
+    /// Whether the given number of elements fit into memory.
     pub fn check_memory(&self, gigabytes: f64, elements: usize) -> Result<()> {
         if gigabytes <= MOST_GIGABYTES {
             return Ok(());

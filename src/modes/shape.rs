@@ -130,7 +130,7 @@ impl Shape {
         self.stretches.last().map_or(0.0, |(middle, length)| middle + 0.5 * length)
     }
 
-    /// Makes every deflection so many times as large.
+    /// Makes every deflection this many times as large.
     pub fn scale(&mut self, scale: f64) {
         self.coefficients.iter_mut().chain(&mut self.turns).for_each(|w| *w *= scale);
     }

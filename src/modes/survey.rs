@@ -8,7 +8,7 @@ use crate::bat::theory::Theory;
 
 /// A piece is sampled until the radius changes by no more than this factor between samples.
 const SMOOTH: f64 = 1.35;
-/// Of so many pieces each is short beside what changes on a bat.
+/// With this many pieces each is short beside what changes on a bat.
 pub(super) const MANY: usize = 8;
 /// A radius below this share of the widest counts as that: a point is no infinite taper.
 const THIN: f64 = 1e-3;
@@ -162,7 +162,7 @@ struct SamplePoint {
     taper: Option<[f64; 2]>,
 }
 
-/// Samples along a piece of so many, denser where the radius changes; a radius below `thin` counts as that.
+/// Samples along a piece of the given number, denser where the radius changes; a radius below `thin` counts as that.
 fn take(bat: &Bat, piece: &Piece, thin: f64, pieces: usize, samples: &mut Vec<Sample>) {
     let at = |s: f64| {
         let section = piece.at(s);

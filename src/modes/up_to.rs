@@ -23,10 +23,10 @@ const ACCURACY: f64 = 1e-6;
 /// What a mistake names.
 const FIELD: &str = "frequency limit";
 
-/// The number of bending modes whose frequency is at most `limit` (Hz): the request with so many
+/// The number of bending modes whose frequency is at most `limit` (Hz): the request with the given number
 /// modes has a solution with none above it, and the next mode is above.
 ///
-/// On a mesh that knows so many modes well the motions slower than the limit are counted
+/// On a mesh that knows the given number of modes well the motions slower than the limit are counted
 /// ([`count`]), so that none is missed. Only if a mode is nearer to the limit than the request's
 /// tolerance tells, or the request has elements of its own, it is solved to see on which side the
 /// answer has it.

@@ -100,7 +100,7 @@ impl BatArgs {
         Ok(Solved { bat, solution, warning })
     }
 
-    /// The bat and what is asked of it: so many modes, or all up to the frequency that was given.
+    /// The bat and what is asked of it: a number of modes, or all up to a frequency.
     pub fn prepare(
         &self,
         bat: Bat,

@@ -81,7 +81,7 @@ impl GridArgs {
         }
     }
 
-    /// Whether so many frequencies, or which, were asked for.
+    /// Whether the user asked for a number of frequencies, or for certain ones.
     pub fn counted(&self) -> bool {
         self.points.is_some() || !self.frequencies.is_empty()
     }

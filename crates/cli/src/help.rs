@@ -78,7 +78,7 @@ fn columns(arg: &Arg) -> usize {
     2 + names + values.sum::<usize>() + 2
 }
 
-/// The text in lines of at most so many columns; its own line ends stay.
+/// The text in lines of at most the given number of columns; its own line ends stay.
 fn lines(text: impl Display, width: usize) -> String {
     let text = text.to_string();
     let mut out: Vec<String> = Vec::new();

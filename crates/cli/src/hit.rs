@@ -7,7 +7,7 @@ use sweetspot::base::units::{inches, shown_length};
 use sweetspot::bat::body::Bat;
 use sweetspot::collision::figures::Figures;
 use sweetspot::collision::hitter::Hitter;
-use sweetspot::collision::sweep::{Sweep, Trial, sweep_telling};
+use sweetspot::collision::sweep::{RoundsEnd, Sweep, Trial, sweep_telling};
 use sweetspot_report::csv;
 use sweetspot_report::parts::terminal::wrapped;
 use sweetspot_report::plot::profile;
@@ -131,7 +131,7 @@ impl PlaceArgs {
         Ok((0..points).map(place).collect())
     }
 
-    /// Whether so many places or one were asked for.
+    /// Whether the user asked for a number of places, or for one.
     fn asked(&self) -> bool {
         self.points.is_some() || self.at.is_some()
     }
@@ -217,16 +217,16 @@ pub fn verdict(solve: &SolveArgs, sweep: &Sweep, output: &OutputArgs) -> u8 {
     let modes = sweep.solution.shortfall(solve.tol);
     let reason = if modes.is_empty() { String::new() } else { format!(" ({modes})") };
     let worst = sweep.worst().map_or(String::new(), |(impact, outcome)| {
-        let limit = match sweep.settles {
+        let limit = match sweep.end {
             _ if outcome.wall > 0.5 * outcome.error => {
                 ": how far the wall gives way under the ball is known no better"
             }
-            true if sweep.stopped => {
+            RoundsEnd::Stopped => {
                 ": stopped there, as a better one would take more than ten times as long as a usual hit; fewer \
                  places get better ones"
             }
-            true => "",
-            false => {
+            RoundsEnd::Settled => "",
+            RoundsEnd::Unsettled => {
                 ": the hit there magnifies small changes, and neither more modes nor finer \
                  steps settle it"
             }

@@ -96,7 +96,7 @@ pub struct Counted {
 }
 
 impl Counted {
-    /// Of `all` so many are there.
+    /// How many of `all` are there.
     pub fn new(quiet: bool, what: &'static str, all: u64, before: u64) -> Self {
         let mut progress = Progress::new(quiet, what);
         progress.before = before as f64 / all as f64;

@@ -19,7 +19,7 @@ use sweetspot::base::telling::Tell;
 use sweetspot::modes::mode::Mode;
 use sweetspot::modes::solve::{Request, Solution, solve};
 
-/// Modes asked for where so many are known.
+/// Modes asked for where at least this many are known.
 pub const MODES: usize = 60;
 /// The asked tolerances, as negative powers of ten.
 pub const DIGITS: std::ops::RangeInclusive<i32> = 2..=12;

@@ -285,7 +285,7 @@ pub fn decimals(value: f64) -> usize {
     value.to_string().split('.').nth(1).map_or(0, str::len)
 }
 
-/// The number to so many decimals.
+/// The number to the given number of decimals.
 pub fn number(value: f64, decimals: usize) -> String {
     if value.is_nan() { "none".to_owned() } else { format!("{value:.decimals$}") }
 }

@@ -84,7 +84,7 @@ impl Series {
     ///
     /// # Panics
     ///
-    /// If so many points do not tell polynomials of that degree apart.
+    /// If the number of points does not tell polynomials of that degree apart.
     pub fn through<const N: usize>(gauss: &Gauss<N>, values: &Values<N>) -> Self {
         Self::near(gauss, &values.at, values.degree, values.radius)
     }
@@ -321,7 +321,7 @@ impl<const N: usize> Values<N> {
     ///
     /// # Panics
     ///
-    /// If so many points do not integrate polynomials of that degree.
+    /// If the number of points does not integrate polynomials of that degree.
     pub fn integral(&self, gauss: &Gauss<N>) -> Interval {
         assert!(self.degree < 2 * N, "{N} points do not integrate degree {}", self.degree);
         let (sum, size) = (dot(&gauss.weights, &self.at), 2.0 * self.size());

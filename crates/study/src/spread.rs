@@ -141,7 +141,7 @@ pub struct Analysed<'a> {
     pub scene: &'a Scene,
     /// How the swing goes with the bat's swing weight, if it does.
     pub law: Option<SwingLaw>,
-    /// Its hits: so many modes and such steps are taken for those of the other bats.
+    /// Its hits: their number of modes and their steps are taken for those of the other bats.
     pub hits: &'a Sweep,
     /// Where it is best.
     pub spot: &'a SweetSpot,

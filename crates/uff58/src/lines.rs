@@ -109,7 +109,7 @@ impl<'a> Lines<'a> {
         &self.bytes[self.at..]
     }
 
-    /// Takes so many bytes, whatever they are; they count as one line if no other end follows.
+    /// Takes the given number of bytes, whatever they are; they count as one line if no other end follows.
     pub fn skip(&mut self, count: usize) {
         let taken = &self.rest()[..count];
         self.number += taken.iter().filter(|b| **b == b'\n').count();

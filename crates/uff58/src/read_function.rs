@@ -159,7 +159,7 @@ impl Form {
         }
     }
 
-    /// Bytes of a value in dataset 58b, with an abscissa of so many bytes.
+    /// Bytes of a value in dataset 58b, with an abscissa of the given number of bytes.
     fn bytes_per_value(&self, abscissa: usize) -> usize {
         let part = if self.double { 8 } else { 4 };
         let uneven = if self.even.is_none() { abscissa } else { 0 };

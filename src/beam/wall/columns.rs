@@ -17,7 +17,7 @@ const STEP: f64 = 0.15;
 const LENGTH: f64 = 1.8;
 /// Thickest part of a layer as a share of the radius: a motion goes as `r^n` in a core.
 const THICKNESS: f64 = 0.3;
-/// A layer is cut at this distance from a corner if that is no less than so many times the distance of the
+/// A layer is cut at this distance from a corner if that is no less than this many times the distance of the
 /// column's far end.
 const ACROSS: f64 = 0.05;
 

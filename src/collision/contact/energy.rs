@@ -9,7 +9,7 @@ use crate::collision::contact::table::Piece;
 use crate::collision::contact::touch::{State, Touch};
 use crate::motion::phi::{driven, moments, shortened};
 
-/// A bump may change the impulse by so many times the energy that it puts right, both relative.
+/// A bump may change the impulse by this many times the energy that it puts right, both relative.
 const ILL: f64 = 3.0;
 /// An energy, relative, that one bump puts right.
 const SMALL: f64 = 1e-8;

@@ -24,7 +24,7 @@ impl Piece {
         self.start + self.length
     }
 
-    /// Its first so many seconds.
+    /// What it does in its first seconds.
     #[inline(always)]
     pub fn first(&self, length: f64) -> Self {
         let powers = shortened(self.powers, length / self.length);
@@ -74,7 +74,7 @@ pub struct Moves {
 pub struct StepTable {
     /// Length of the step (s).
     pub length: f64,
-    /// What it does to the modes, so many at once.
+    /// What it does to the modes, some lanes of them at once.
     pub moves: Vec<Moves>,
     /// `∫₀^h e^{s(h − τ)} σ(1 − σ) dτ` with σ = τ/h: the bump over the whole step, `[part]`.
     pub bump: Vec<[Lanes; 2]>,

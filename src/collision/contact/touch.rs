@@ -45,7 +45,7 @@ pub struct State {
 }
 
 impl State {
-    /// The moment of the first touch, at that closing speed (m/s), nothing ringing, with so many lanes of
+    /// The moment of the first touch, at that closing speed (m/s), nothing ringing, with the given number of lanes of
     /// modes.
     pub fn at_first(chunks: usize, speed: f64) -> Self {
         Self { speed, memories: vec![Default::default(); chunks], ..Self::default() }

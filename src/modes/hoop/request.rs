@@ -19,7 +19,7 @@ pub struct HoopRequest {
     pub harmonics: Vec<usize>,
     /// Every mode below this frequency is kept (Hz), up to 200 of a harmonic.
     pub up_to_hz: f64,
-    /// At least so many modes of every harmonic are kept.
+    /// At least the given number of modes of every harmonic are kept.
     pub least: usize,
     /// How the knob side is held.
     pub end: KnobSide,
@@ -34,7 +34,7 @@ const ROUGHEST: f64 = 1e-2;
 const FALLS: f64 = 3.6;
 
 impl HoopRequest {
-    /// Largest relative error of a mode of harmonic n that is so many times as high as the first of its harmonic.
+    /// Largest relative error of a mode of harmonic n that is this many times as high as the first of its harmonic.
     ///
     /// Under a ball the mode gives way by `c/ω²`: an eased request allows an error that is as much larger as this
     /// is smaller than that of the first mode of n = 2.

@@ -282,7 +282,7 @@ impl Hoop {
         turn / (largest * largest)
     }
 
-    /// The motion of the outer surface in mode `mode` of [`Self::modes`] at so many even places.
+    /// The motion of the outer surface in mode `mode` of [`Self::modes`] at the given number of even places.
     pub fn outline(&self, mode: usize, points: usize) -> Outline {
         let asked = &self.modes[mode];
         let of_harmonic = |spectrum: &&Spectrum| spectrum.system.n == asked.harmonic;

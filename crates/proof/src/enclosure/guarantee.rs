@@ -153,7 +153,7 @@ struct Attempt<'a> {
 }
 
 impl Attempt<'_> {
-    /// On that mesh, each element in so many pieces or more.
+    /// On that mesh, each element in the given number of pieces or more.
     fn of(
         &self,
         mesh: &Mesh,

@@ -40,7 +40,7 @@ pub fn one_mode(table: &ModeTable, grid: &Grid, k: usize) -> String {
     file(table, grid, &[mode], |_| "mode".into(), Some(mode.frequency))
 }
 
-/// About how many bytes such a file has, with so many modes on a grid of so many points: its
+/// About how many bytes such a file has, with that number of modes on a grid of that number of points: its
 /// numbers have up to 17 digits.
 pub fn size(points: usize, modes: usize) -> usize {
     const OF_A_POINT: usize = 100;
@@ -190,7 +190,7 @@ fn begin(out: &mut String, kind: &str, name: &str, components: usize) {
         writeln!(out, "<DataArray type=\"{kind}\" Name=\"{name}\"{components} format=\"ascii\">");
 }
 
-/// The numbers of an array, so many on a line, and its end.
+/// The numbers of an array, the given number on a line, and its end.
 fn rows(out: &mut String, words: impl Iterator<Item = String>, per_line: usize) {
     for (k, word) in words.enumerate() {
         if k > 0 {

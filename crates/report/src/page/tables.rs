@@ -213,7 +213,7 @@ fn signed(units: Units, change: f64) -> String {
     units.show(format!("{} m/s", with_sign(change, 2)), format!("{us} mph"))
 }
 
-/// A change, to so many decimals.
+/// A change, to the given number of decimals.
 fn with_sign(value: f64, decimals: usize) -> String {
     number::signed(value, decimals).replace('-', "−")
 }

@@ -73,7 +73,7 @@ pub enum Quantity {
     Length,
     /// A speed (m/s): m/s or mph.
     Speed,
-    /// A number without a unit, to so many decimals.
+    /// A number without a unit, to the given number of decimals.
     Ratio(usize),
     /// An error bound: one digit and its power of ten.
     Error,

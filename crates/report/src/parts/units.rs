@@ -70,7 +70,7 @@ impl Units {
         }
     }
 
-    /// A stress, given in Pa, in MPa to so many decimals and in whole psi.
+    /// A stress, given in Pa, in MPa to that number of decimals and in whole psi.
     pub fn stress(self, pascals: f64, decimals: usize) -> String {
         let psi = format!("{:.0} psi", pascals / PSI);
         self.beside(format!("{:.decimals$} MPa", 1e-6 * pascals), psi)
@@ -104,7 +104,7 @@ impl Units {
         if self == Self::Us { ("ft·lbf", 1.0 / FOOT_POUND) } else { ("J", 1.0) }
     }
 
-    /// An energy, given in joules, with so many decimals.
+    /// An energy (J) with the given number of decimals.
     pub fn energy(self, value: f64, decimals: usize) -> String {
         let (name, per) = self.of_energy();
         format!("{:.decimals$} {name}", per * value)

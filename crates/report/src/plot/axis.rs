@@ -101,7 +101,7 @@ impl Axis {
         (-1e-9..=1.0 + 1e-9).contains(&self.share(value))
     }
 
-    /// Round values on the axis, at most so many: 1, 2 or 5 times a power of ten apart, or powers of
+    /// Round values on the axis, at most the given number: 1, 2 or 5 times a power of ten apart, or powers of
     /// ten.
     pub fn ticks(&self, most: usize) -> Vec<Tick> {
         let [from, to] = [self.from * self.per, self.to * self.per];
@@ -141,7 +141,7 @@ fn ends(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
     })
 }
 
-/// 1, 2 or 5 times a power of ten, the least that divides that length into fewer parts than so many.
+/// 1, 2 or 5 times a power of ten, the least that divides that length into fewer parts than the given number.
 pub fn step(length: f64, most: usize) -> f64 {
     let least = length.abs() / (most.max(2) - 1) as f64;
     let power = 10f64.powf(least.log10().floor());

@@ -26,7 +26,7 @@ const WORDS: f64 = 96.0;
 const ALONG: usize = 45;
 const AROUND: usize = 48;
 
-/// The lowest modes, at most so many, a row each; picture `hoop`. None where there are none.
+/// The lowest modes, at most the given number, a row each; picture `hoop`. None where there are none.
 pub fn picture(sheet: Sheet, bat: &Bat, barrel: &Barrel, most: usize) -> Option<Picture> {
     let lowest = barrel.hoop().lowest(most);
     if lowest.is_empty() {

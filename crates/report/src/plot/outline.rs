@@ -19,7 +19,7 @@ pub struct Lying<'a> {
     pub per_metre: f64,
 }
 
-/// Sections from knob to tip, about so many at most; both sides of a step, and the ends.
+/// Sections from knob to tip, about the given number at most; both sides of a step, and the ends.
 pub fn sections(profile: &Profile, most: usize) -> Vec<(f64, Section)> {
     let length = profile.length();
     if 3 * profile.pieces.len() > most {

@@ -18,7 +18,7 @@ use crate::plot::words::{Anchor, Type};
 /// How much wider bold strokes are than the font's (its units).
 const BOLDER: f32 = 36.0;
 
-/// A drawing as PNG, on light paper, so many pixels for each of its own.
+/// A drawing as PNG, on light paper, with the given number of pixels for each unit of the drawing.
 pub fn png(drawing: &Svg, scale: f32) -> Vec<u8> {
     let sides = drawing.sides().map(|side| (side as f32 * scale).ceil().max(1.0) as u32);
     let pixels = Pixmap::new(sides[0], sides[1]).expect("our own pictures have a size");

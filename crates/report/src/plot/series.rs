@@ -111,7 +111,7 @@ pub fn short(value: f64) -> String {
     digits(value, 4)
 }
 
-/// A number with so many digits, without zeros at its end.
+/// A number with the given number of digits, without zeros at its end.
 pub fn digits(value: f64, count: i32) -> String {
     if value == 0.0 || !value.is_finite() {
         return "0".into();

@@ -36,7 +36,7 @@ const THICK: f64 = 10.0;
 /// Right of the frame, where a mode is named.
 const RIGHT: f64 = 96.0;
 
-/// The first modes, at most so many, a row each; picture `shapes`. None where there are no modes.
+/// The first modes, at most the given number, a row each; picture `shapes`. None where there are no modes.
 pub fn picture(sheet: Sheet, subjects: &[ShapeCurves], most: usize) -> Option<Picture> {
     let count = subjects.iter().map(|s| s.solution.modes.len()).max()?.min(most);
     if count == 0 {

@@ -246,7 +246,7 @@ impl Svg {
         self.shapes.push(Shape::Circle { middle: at, radius, look });
     }
 
-    /// Words that show where a pointer rests, at so many of the points at most: in files, for a page
+    /// Words that show where a pointer rests, at the given number of points at most: in files, for a page
     /// reads its pictures off by a line of its own.
     pub fn hover(&mut self, points: &[(Point, String)], most: usize) {
         if !points.is_empty() && self.sheet.paper == Paper::File {

@@ -214,7 +214,7 @@ pub fn text(told: &ToldResponse, full: bool, every: bool) -> String {
     out
 }
 
-/// The answer at so many of the asked frequencies at most, evenly among them.
+/// The answer at the given number of asked frequencies at most, evenly among them.
 fn answers(told: &ToldResponse, most: usize) -> String {
     let ToldResponse { kind, samples, asked, .. } = *told;
     let columns = Columns::new([
@@ -269,7 +269,7 @@ pub fn damping(bat: &Bat, frf: &Frf) -> String {
     wrapped(undamped, 2)
 }
 
-/// What a measured response says of the computed one: so many peaks at most, and both as a whole.
+/// What a measured response says of the computed one: the given number of peaks at most, and both as a whole.
 fn differences(
     (bat, frf): (&Bat, &Frf),
     response: &MeasuredResponse,

@@ -19,7 +19,7 @@ use sweetspot_study::trampoline::thickness::{FACTORS, WallTried};
 const MM: f64 = 1e-3;
 const MEGA: f64 = 1e6;
 
-/// Everything for the terminal, with the lowest modes, at most so many.
+/// Everything for the terminal, with the lowest modes, at most the given number.
 pub fn text(bat: &Bat, barrel: &Barrel, most: usize, units: Units) -> String {
     let mut out = format!("Hoop modes of {}\n{}", bat.name(), edited(bat, units));
     let [from, to] = [barrel.hoop().from(), barrel.hoop().to()];

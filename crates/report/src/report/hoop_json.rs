@@ -14,7 +14,7 @@ use sweetspot_study::trampoline::barrel::{Barrel, Rebound};
 use sweetspot_study::trampoline::pressed::PressedWall;
 use sweetspot_study::trampoline::thickness::WallTried;
 
-/// The `sweetspot-hoop/1` document; of each mode so many samples of its shape.
+/// The `sweetspot-hoop/1` document; of each mode the given number of samples of its shape.
 pub fn document(bat: &Bat, barrel: &Barrel, tried: &[WallTried], samples: usize) -> file::HoopFile {
     let modes = barrel.hoop().modes().iter().enumerate();
     file::HoopFile {

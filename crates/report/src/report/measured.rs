@@ -68,7 +68,7 @@ fn cut(name: &str, width: usize) -> String {
     }
 }
 
-/// Frequencies and damping side by side, of so many measured modes at most.
+/// Frequencies and damping side by side, of the given number of measured modes at most.
 fn modes(study: &Study, most: usize) -> String {
     let theory = study.solution.theory.name();
     let by = match &study.shapes {

@@ -73,7 +73,7 @@ fn as_known(frequency: f64, error: f64) -> String {
     fixed(frequency, decimals)
 }
 
-/// The nodes of so many modes fit a screen or two.
+/// The nodes of this many modes fit a screen or two.
 const MOST_NODES: usize = 20;
 
 /// The modes: frequencies with their errors, and the nodes of the first `with_nodes` modes.

@@ -118,7 +118,7 @@ pub struct Bench<'a> {
 }
 
 impl<'a> Bench<'a> {
-    /// For so many modes, every frequency to that tolerance.
+    /// For the given number of modes, every frequency to that tolerance.
     pub fn new(bat: &'a Bat, modes: usize, tolerance: f64) -> Self {
         let request = Request { modes, tolerance, ..Request::plain() };
         Self { bat, request, solved: Vec::new() }

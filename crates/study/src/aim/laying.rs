@@ -71,7 +71,7 @@ const CLOSEST: f64 = 5e-4;
 /// Rounds of looking where else stations are wanted: each makes the curve beside new stations another one.
 const HALVINGS: usize = 40;
 /// Stations nearer than this share of the even distance are near to each other: beside the bat's own there is no
-/// even one, and diameters of both are rounded so many times finer.
+/// even one, and diameters of both are rounded this many times finer.
 const NEAR: f64 = 0.7;
 const FINER: f64 = 10.0;
 

@@ -332,7 +332,7 @@ impl Writing<'_> {
         Ok(outcome)
     }
 
-    /// The best rounding of a least change so many times finer than it was wished, why its search stopped, and the
+    /// The best rounding of a least change this many times finer than it was wished, why its search stopped, and the
     /// bats that were computed. Where a rounding takes a goal out, the change is sought anew in narrower bands.
     fn rounded(&self, tries: &Tries, finer: f64) -> Result<(Rounded, Option<&'static str>, usize)> {
         /// So far inside its band a goal is sought anew, in tolerances.

@@ -18,7 +18,7 @@ const MOST: usize = 24;
 const STEPS_TAKEN: &str = "24 steps";
 /// A step changes no coefficient by more than that (mm).
 const TRUST: f64 = 3.0;
-/// Where the limits leave nothing in that, by so many times as much at most.
+/// Where the limits leave nothing in that, by this many times as much at most.
 const WIDEST: f64 = 32.0;
 /// The search has ended where a step changes no coefficient by more than that (mm).
 const STILL: f64 = 1e-3;
@@ -45,7 +45,7 @@ enum End {
     Met,
 }
 
-/// What is to be made least: so many times the size of the change, and the price of each band's miss.
+/// What is to be made least: this many times the size of the change, and the price of each band's miss.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Weights {
     /// Factor of `pᵀHp`.

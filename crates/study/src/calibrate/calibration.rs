@@ -23,7 +23,7 @@ const UNDETERMINED: f64 = 0.1;
 /// Two parameters that go together so much are known only together, unless both are known to a twentieth.
 const TOGETHER: f64 = 0.95;
 const WELL_KNOWN: f64 = 0.05;
-/// 95 of 100 of a normal distribution lie within so many standard deviations.
+/// 95 of 100 of a normal distribution lie within this many standard deviations.
 pub const NINETY_FIVE: f64 = 1.959_963_984_540_054;
 /// 95 of 100 of any distribution lie between these shares of it.
 const ENDS: [f64; 2] = [0.025, 0.975];
@@ -229,7 +229,7 @@ impl Residual {
     }
 }
 
-/// χ² of so many data that nobody takes for chance: four standard deviations above their number.
+/// χ² of the given number of data that is not taken for chance: four standard deviations above their number.
 fn far(data: usize) -> f64 {
     data as f64 + 4.0 * (2.0 * data as f64).sqrt()
 }

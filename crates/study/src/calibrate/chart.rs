@@ -42,7 +42,7 @@ pub struct Chart {
 }
 
 impl Chart {
-    /// The tones of so many modes over all wood that the bat may be of.
+    /// The tones of the first modes over all wood that the bat may be of.
     ///
     /// # Errors
     ///

@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::calibrate::readings::Reading;
 use crate::calibrate::unknowns::UNKNOWNS;
 
-/// E or density further from the file's than so many standard deviations of what was known before, and than that
+/// E or density further from the file's than this many standard deviations of what was known before, and than that
 /// factor, is not that material.
 const FOREIGN: [f64; 2] = [3.0, 1.25];
 
@@ -26,7 +26,7 @@ pub enum Property {
 }
 
 impl Property {
-    /// Those of so many regions.
+    /// Those of the given number of regions.
     pub fn of(regions: usize) -> &'static [Self] {
         const ALL: [Property; UNKNOWNS] = [
             Property::YoungsModulus,

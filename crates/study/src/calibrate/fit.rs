@@ -29,7 +29,7 @@ const LARGEST_STEP: f64 = 0.3;
 const MOST_STEPS: usize = 40;
 /// Steps of this size change nothing that anybody reads.
 const SETTLED: f64 = 1e-7;
-/// Beyond so many standard deviations of what was known before, and that factor, a fit has run away.
+/// Beyond this many standard deviations of what was known before, and that factor, a fit has run away.
 const RUNAWAY: [f64; 2] = [4.0, 8.0];
 
 /// What a datum is of.

@@ -24,10 +24,10 @@ use sweetspot::base::threads;
 
 /// G/E known better than this, relative, is told by one Gaussian.
 const KNOWN: f64 = 0.10;
-/// Values of G/E that are looked at, to so many standard deviations on both sides.
+/// Values of G/E are taken to this many standard deviations on both sides.
 const VALUES: usize = 13;
 const REACH: f64 = 3.3;
-/// Between two of them the distribution is looked at so many times.
+/// Between two of them the distribution is looked at this many times.
 const BETWEEN: usize = 6;
 /// Place of G/E among the unknowns.
 const SHEAR: usize = 1;

@@ -37,7 +37,7 @@ impl Unknown {
         Self::ModulusRatio,
     ];
 
-    /// Those of so many regions, one or two.
+    /// Those of one region or two.
     pub fn of(regions: usize) -> &'static [Self] {
         if regions == 1 { &Self::ALL[..3] } else { &Self::ALL }
     }
@@ -46,7 +46,7 @@ impl Unknown {
 /// Logarithms of all properties over those of the bat file; those of one region are the first three.
 pub type Logs = [f64; UNKNOWNS];
 
-/// The covariance of the unknowns of so many regions before anything was measured.
+/// The covariance of the unknowns of the given number of regions before anything was measured.
 pub fn covariance(priors: &Priors, regions: usize) -> Vec<Vec<f64>> {
     let unknowns = Unknown::of(regions);
     unknowns.iter().map(|a| unknowns.iter().map(|b| entry(priors, *a, *b)).collect()).collect()

@@ -156,7 +156,7 @@ impl WoodenBat {
         })
     }
 
-    /// What the bat of other wood shows, with so many frequencies.
+    /// What the bat of other wood shows, with the given number of frequencies.
     ///
     /// # Errors
     ///

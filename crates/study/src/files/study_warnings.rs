@@ -13,7 +13,7 @@ impl Rows {
     /// What is strange and stops nobody, to be told before the work: of the bats, as their files have them and as
     /// the study varies them, of the scene, and of what varies or is said without effect.
     pub fn warnings(&self) -> Vec<String> {
-        /// Of so many bats at most.
+        /// Of the given number of bats at most.
         const TOLD: usize = 8;
         let own = |bat: &Varying| {
             let document = bat.document.as_ref().ok()?.to_string();

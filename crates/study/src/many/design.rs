@@ -26,7 +26,7 @@ pub enum Spread {
     /// By Sobol's sequence, scrambled.
     #[default]
     Sobol,
-    /// Each of so many equal parts of every distribution once.
+    /// Each of the given number of equal parts of every distribution once.
     LatinHypercube,
     /// Thrown.
     Random,
@@ -83,7 +83,7 @@ pub enum Axis {
     Drawn(usize),
 }
 
-/// Some of so many numbers from 0, which is the first of them.
+/// Some of the given count of numbers from 0, which is the first of them.
 fn spread_evenly(count: u64, some: u64) -> impl Iterator<Item = u64> {
     let some = count.min(some);
     (0..some).map(move |k| (u128::from(k) * u128::from(count) / u128::from(some)) as u64)
@@ -145,7 +145,7 @@ impl Design {
     }
 
     /// Some rows that tell of all: combinations of the lists with the median of every distribution, the first of
-    /// every list before all others, and rows of the design; so many of both at most, at even distances.
+    /// every list before all others, and rows of the design; the given number of both at most, at even distances.
     pub fn examples(&self, some: u64) -> impl Iterator<Item = Row> {
         let Row { values, .. } = self.middle();
         let combined = spread_evenly(self.combinations(), some);

@@ -116,7 +116,7 @@ impl Indices {
     }
 }
 
-/// How many polynomials of at most that degree there are in so many numbers: `(n + d)!/(n! d!)`.
+/// How many polynomials of at most that degree there are in the given number of numbers: `(n + d)!/(n! d!)`.
 fn terms(count: usize, degree: usize) -> Option<usize> {
     (1..=degree).try_fold(1_usize, |terms, k| Some(terms.checked_mul(count + k)? / k))
 }

@@ -35,7 +35,7 @@ pub struct Sobol {
 }
 
 impl Sobol {
-    /// With so many coordinates, [`MOST_COORDINATES`] at most, scrambled by that seed.
+    /// With the given number of coordinates, [`MOST_COORDINATES`] at most, scrambled by that seed.
     pub fn new(coordinates: usize, seed: u64) -> Self {
         Self { directions: (0..coordinates).map(directions).collect(), seed }
     }

@@ -104,7 +104,7 @@ const MOST: usize = 100;
 const MANY: usize = 400;
 
 impl Study {
-    /// Solves the bat, for the request's modes if `exactly` so many are wanted, else for as many as
+    /// Solves the bat, for the request's modes if `exactly` that number is wanted, else for as many as
     /// reach beyond the measured frequencies; pairs the modes and looks at the measured shapes. Shapes whose
     /// frequencies are those of modes like them only in the other of Hz and rad/s are read so.
     ///

@@ -11,7 +11,7 @@ pub const SHARES: [f64; 7] = [0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99];
 pub const WRITTEN: [usize; 3] = [1, 3, 5];
 /// Values whose standard deviation is no larger share of their mean are the same value but for rounding.
 const ROUND_OFF: f64 = 1e-9;
-/// Of Student's distribution with seven degrees of freedom 95 % lie within so many standard deviations.
+/// Of Student's distribution with seven degrees of freedom 95 % lie within this many standard deviations.
 const STUDENT: f64 = 2.364_624_251;
 
 /// A percentile, and how far sampling may have put it off in 95 of 100 cases.

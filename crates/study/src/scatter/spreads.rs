@@ -111,7 +111,7 @@ impl Differences {
         each.flat_map(|(k, one)| std::iter::repeat_n(k, one.what.numbers(length))).collect()
     }
 
-    /// The eight designs of together so many points of a bat of that length (m).
+    /// The eight designs of together the given number of points of a bat of that length (m).
     ///
     /// # Errors
     ///

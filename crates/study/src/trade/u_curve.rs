@@ -35,7 +35,7 @@ pub struct Column {
 /// Why a column ends before the last number of elements.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum End {
-    /// The solver gave an error on so many elements.
+    /// The solver gave an error on this many elements.
     Refused {
         /// How many elements.
         elements: usize,
@@ -174,7 +174,7 @@ fn column(
     column
 }
 
-/// How long so many elements should take (s), from the last point.
+/// How long the given number of elements should take (s), from the last point.
 fn expected(last: Option<&MeshErrors>, elements: usize, solver: Solver) -> f64 {
     let Some(last) = last else { return first_time(2 * elements, solver) };
     last.seconds * (elements as f64 / last.elements as f64).powi(order(solver))
@@ -185,7 +185,7 @@ pub fn order(solver: Solver) -> i32 {
     if solver == Solver::Dense { 3 } else { 1 }
 }
 
-/// Seconds for so many unknowns before anything was measured, on the safe side.
+/// Seconds for the given number of unknowns before anything was measured, on the safe side.
 pub fn first_time(unknowns: usize, solver: Solver) -> f64 {
     let rate = match solver {
         Solver::Dense => 4e-10,

@@ -35,7 +35,7 @@ pub fn wall_sweep(bat: &Bat, known: &Barrel, tell: &dyn Fn(f64)) -> Vec<WallTrie
     FACTORS.into_iter().enumerate().filter_map(tried).collect()
 }
 
-/// The bat whose barrel has a wall so many times as thick as it is under the ball, its surface where it was: the
+/// The bat whose barrel has a wall this many times as thick as it is under the ball, its surface where it was: the
 /// same length of wall is added or taken all over the barrel, and less and less of it down the taper.
 ///
 /// # Errors
