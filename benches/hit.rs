@@ -267,7 +267,7 @@ fn sweeps(hit: &Hit, places: &[f64]) {
     let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     for (tolerance, modes) in [(1e-4, 10), (1e-6, 25), (1e-9, 40)] {
         let solution = hit.solved(modes);
-        let effort = Effort { accuracy: 10.0 * tolerance, completed: true };
+        let effort = Effort { accuracy: 10.0 * tolerance, completed: true, unsettled: false };
         let whole = || {
             let hitter =
                 Hitter::new(Model::Contact, &hit.scene, &hit.bat, &solution, effort).unwrap();

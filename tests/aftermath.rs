@@ -7,7 +7,7 @@ use sweetspot::collision::hitter::Hitter;
 use sweetspot::{Bat, Request, Solution, solve};
 use sweetspot_proof::bundled::bundled_bat;
 
-const EXACTLY: Effort = Effort { accuracy: 1e-3, completed: false };
+const EXACTLY: Effort = Effort { accuracy: 1e-3, completed: false, unsettled: false };
 
 fn r161() -> (Bat, Solution) {
     let bat = bundled_bat("meshes/r161.json").unwrap();

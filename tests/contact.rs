@@ -75,7 +75,7 @@ fn energy_and_both_momenta_are_kept_everywhere() {
         for cor in [0.0, 0.3, 0.5, 0.9, 1.0] {
             for accuracy in [1e-2, 1e-3, 1e-6] {
                 let scene = scene(50.0, cor);
-                let effort = Effort { accuracy, completed: true };
+                let effort = Effort { accuracy, completed: true, unsettled: false };
                 let hitter = Hitter::new(Model::Contact, &scene, &bat, &solution, effort).unwrap();
                 for x in places(&bat, &solution) {
                     let impact = hitter.strike(x);
@@ -140,7 +140,7 @@ fn only_the_closing_speed_counts() {
     let solution = solved(&bat, 10, Theory::Timoshenko);
     let x = 0.7;
     let impulse = |scene: &Scene| {
-        let effort = Effort { accuracy: 1e-9, completed: true };
+        let effort = Effort { accuracy: 1e-9, completed: true, unsettled: false };
         let hitter = Hitter::new(Model::Contact, scene, &bat, &solution, effort).unwrap();
         outcome(hitter.strike(x)).impulse
     };
@@ -209,7 +209,7 @@ fn the_pulse_has_its_known_sweet_spots() {
 fn a_mode_at_its_node_adds_nothing() {
     let bat = bundled_bat("meshes/dowel.json").unwrap();
     let scene = scene(50.0, 0.5);
-    let alone = Effort { accuracy: 1e-9, completed: false };
+    let alone = Effort { accuracy: 1e-9, completed: false, unsettled: false };
     let two = solved(&bat, 2, Theory::EulerBernoulli);
     let impulse = |modes: usize, x: f64| {
         let mut solution = two.clone();
@@ -234,7 +234,8 @@ fn a_mode_s_scale_changes_nothing() {
         mode.modal_mass *= scale * scale;
     }
     let scene = scene(50.0, 0.5);
-    for effort in [Effort::default(), Effort { accuracy: 1e-6, completed: false }] {
+    for effort in [Effort::default(), Effort { accuracy: 1e-6, completed: false, unsettled: false }]
+    {
         let [known, found] = [&solution, &scaled].map(|solution| {
             let hitter = Hitter::new(Model::Contact, &scene, &bat, solution, effort).unwrap();
             outcome(hitter.strike(0.62))

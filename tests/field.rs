@@ -178,7 +178,7 @@ fn the_largest_compression_of_a_linear_ball_on_a_stiff_bat_is_the_springs() {
     let scene = Scene { cor: 1.0, ball, ..Scene::default() };
     let request = request(0);
     let solution = solve(&bat, &request).unwrap();
-    let effort = Effort { accuracy: 1e-8, completed: false };
+    let effort = Effort { accuracy: 1e-8, completed: false, unsettled: false };
     let hitter = Hitter::new(Model::Contact, &scene, &bat, &solution, effort).unwrap();
     let impact = hitter.strike(0.65);
     let outcome = impact.outcome.unwrap();

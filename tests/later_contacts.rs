@@ -169,7 +169,7 @@ fn the_curve_has_no_jump_where_ball_and_bat_part_once() {
     for file in ["meshes/dowel.json", "meshes/r161.json"] {
         let bat = bundled_bat(file).unwrap();
         let solution = solve(&bat, &Request { modes: 12, ..Request::plain() }).unwrap();
-        let effort = Effort { accuracy: 1e-6, completed: true };
+        let effort = Effort { accuracy: 1e-6, completed: true, unsettled: false };
         for (swing, pitch, cor) in [(50.0, 40.2336, 0.5), (30.0, 40.2336, 0.5), (0.0, 60.0, 0.4)] {
             let ball = Ball { mass_kg: 0.1417, ..Ball::baseball() };
             let scene = Scene { swing, ball_speed: pitch, cor, ball, ..Scene::default() };
@@ -247,7 +247,7 @@ fn every_restitution_from_0_to_1_is_resolved() {
         let mut last: Option<f64> = None;
         for cor in [0.0, 1e-6, 1e-4, 1e-3, 7e-3, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 0.8, 1.0] {
             let scene = Scene { cor, ..Scene::default() };
-            let effort = Effort { accuracy: 1e-3, completed: true };
+            let effort = Effort { accuracy: 1e-3, completed: true, unsettled: false };
             let hitter = Hitter::new(Model::Contact, &scene, &bat, &solution, effort).unwrap();
             let impact = hitter.strike(x);
             let closing = impact.bat_speed + scene.ball_speed;
@@ -269,7 +269,7 @@ fn a_hit_that_magnifies_what_is_small_is_estimated_by_itself() {
     let bat = bundled_bat("meshes/r161.json").unwrap();
     let solution = solve(&bat, &Request { modes: 10, tolerance: 1e-8, ..Request::plain() });
     let (solution, scene) = (solution.unwrap(), Scene { cor: 0.2, ..Scene::default() });
-    let effort = Effort { accuracy: 1e-3, completed: true };
+    let effort = Effort { accuracy: 1e-3, completed: true, unsettled: false };
     let hitter = Hitter::new(Model::Contact, &scene, &bat, &solution, effort).unwrap();
     let mut seen = [0; 2];
     for k in 0..40 {
@@ -304,7 +304,7 @@ fn the_best_place_is_the_best_where_later_touches_make_narrow_peaks() {
         ..Scene::default()
     };
     let solution = solve(&bat, &Request { modes: 15, ..Request::plain() }).unwrap();
-    let effort = Effort { accuracy: 1e-6, completed: true };
+    let effort = Effort { accuracy: 1e-6, completed: true, unsettled: false };
     let hitter = Hitter::new(Model::Contact, &scene, &bat, &solution, effort).unwrap();
     let spot = SweetSpot::find(&hitter);
     let steps = 2000;

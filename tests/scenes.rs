@@ -10,7 +10,7 @@ use sweetspot::collision::hitter::Hitter;
 use sweetspot::{Bat, Request, Solution, solve};
 use sweetspot_proof::bundled::bundled_bat;
 
-const FINE: Effort = Effort { accuracy: 1e-8, completed: true };
+const FINE: Effort = Effort { accuracy: 1e-8, completed: true, unsettled: false };
 
 fn solved(bat: &Bat) -> Solution {
     let request =

@@ -15,7 +15,7 @@ const PLACES: usize = 16;
 /// Exit speeds over the closing speed along the outer half of a bat, where ball and bat touch once.
 fn speeds(bat: &Bat, solution: &Solution) -> Result<Vec<Option<f64>>> {
     let scene = Scene { swing: 50.0, ball_speed: 90.0 * 0.447_04, ..Scene::default() };
-    let effort = Effort { accuracy: 1e-10, completed: true };
+    let effort = Effort { accuracy: 1e-10, completed: true, unsettled: false };
     let hitter = Hitter::new(Model::Contact, &scene, bat, solution, effort)?;
     let speed = |k: usize| {
         let hit = hitter.strike(bat.length() * (0.5 + 0.49 * k as f64 / (PLACES - 1) as f64));

@@ -39,7 +39,7 @@ fn main() -> Result<()> {
             let started = Instant::now();
             let mut before: Option<Vec<Option<Outcome>>> = None;
             for accuracy in ACCURACIES {
-                let effort = Effort { accuracy, completed: true };
+                let effort = Effort { accuracy, completed: true, unsettled: false };
                 let hitter = Hitter::new(Model::Contact, &scene, &bat, &solution, effort)?;
                 let place = |k: usize| bat.length() * (0.5 + 0.49 * k as f64 / PLACES as f64);
                 let now: Vec<_> = (0..PLACES).map(|k| hitter.strike(place(k)).outcome).collect();

@@ -1,4 +1,4 @@
-//! What is strange about a bat, and which of what was measured of it does not fit?
+//! What is not known of a bat, what is strange about it, and which of what was measured does not fit?
 
 use crate::base::units::{ounce_square_inches, shown_length};
 use crate::bat::body::{Bat, STANDARD_PIVOT};

@@ -139,7 +139,7 @@ impl Hitter<'_> {
         known: Option<[f64; 3]>,
     ) -> Option<HitAnswer> {
         let (ball, count) = (self.scene.ball.mass_kg, self.modes_used());
-        let Effort { accuracy, completed } = self.effort;
+        let Effort { accuracy, completed, .. } = self.effort;
         let beyond = completed.then(|| self.struck.flexibility(x));
         let modes = self.by_modes(x);
         let few = if completed { fewer(count) } else { vec![] };

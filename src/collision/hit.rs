@@ -48,7 +48,7 @@ impl Model {
 /// Steps times modes of contacts, after which the hits of a hundred places are not made better and best places not
 /// looked for more closely. A usual ball takes 70,000 along an R161, and with all that is told of its hits 1.4
 /// million; with this bound the stiffest balls take ten times as long as a usual one.
-pub const MOST_WORK: usize = 6_000_000;
+pub const MOST_WORK: u64 = 6_000_000;
 
 /// How a contact is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -58,12 +58,14 @@ pub struct Effort {
     /// Whether the modes that are left out have their flexibility, the last mode as heavy as makes
     /// it right; else the modes that are taken are all there are.
     pub completed: bool,
+    /// Whether the answers were not seen to settle: errors are stated three times as large.
+    pub unsettled: bool,
 }
 
 impl Default for Effort {
     /// Steps good for exit speeds to 1e-4 of the closing speed and better.
     fn default() -> Self {
-        Self { accuracy: 1e-3, completed: true }
+        Self { accuracy: 1e-3, completed: true, unsettled: false }
     }
 }
 
@@ -224,9 +226,9 @@ impl Outcome {
     /// 3.8 times, against the next rounds' answers.
     pub(super) fn unsettled(&mut self) {
         const MORE: f64 = 3.0;
-        for error in [&mut self.error, &mut self.truncation, &mut self.steps] {
-            *error *= MORE;
-        }
+        self.error += (MORE - 1.0) * (self.error - self.wall);
+        self.truncation *= MORE;
+        self.steps *= MORE;
         self.first_separation.iter_mut().for_each(|first| first.error *= MORE);
     }
 }

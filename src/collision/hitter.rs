@@ -5,7 +5,7 @@
 //! impulse is the same for both.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::base::error::{Error, Result};
 use crate::bat::body::{Bat, STANDARD_PIVOT};
@@ -51,7 +51,7 @@ pub struct Hitter<'a> {
     /// ω (rad/s) and damping ratio of the modes of either, which a contact takes first.
     pub(super) wall_modes: Vec<[f64; 2]>,
     /// Steps times modes of all contacts so far.
-    work: AtomicUsize,
+    work: AtomicU64,
 }
 
 /// A bat lighter than this share of the ball's mass, whose first mode goes through less than that phase (rad) while
@@ -159,12 +159,12 @@ impl<'a> Hitter<'a> {
             wall_error,
             hoop,
             wall_modes,
-            work: AtomicUsize::new(0),
+            work: AtomicU64::new(0),
         })
     }
 
     /// Steps times modes of all contacts so far.
-    pub(super) fn work(&self) -> usize {
+    pub(super) fn work(&self) -> u64 {
         self.work.load(Ordering::Relaxed)
     }
 

@@ -25,8 +25,6 @@ pub struct Glance {
     /// What the hands feel once the ball has gone: velocity (m/s) and acceleration (m/s²) of the bat
     /// there against the swing's, in the mean square over a long undamped ringing.
     pub hands: [f64; 2],
-    /// Steps times modes of the contact.
-    pub work: usize,
 }
 
 /// Accuracy of the steps where a place is sought: exit speeds then differ smoothly.
@@ -47,16 +45,16 @@ impl Hitter<'_> {
         if touches && self.profile.at(x).outer < POINTED * largest {
             return None;
         }
-        let (impulse, first, [late, again], work, in_modes) = match self.model {
+        let (impulse, first, [late, again], in_modes) = match self.model {
             Model::Contact => {
                 let closing = self.closing(x)?;
                 let (met, _) = self.meet(x, &self.felt(x), closing, SMOOTH)?;
                 let later = [met.late, met.again()];
-                (met.impulse, met.first_impulse, later, met.work(), met.in_modes)
+                (met.impulse, met.first_impulse, later, met.in_modes)
             }
             _ => {
                 let answer = self.answer(x, None)?;
-                (answer.impulse, answer.impulse, [false; 2], 0, answer.in_modes)
+                (answer.impulse, answer.impulse, [false; 2], answer.in_modes)
             }
         };
         let in_modes = &in_modes[in_modes.len() - self.modes_used()..];
@@ -78,7 +76,6 @@ impl Hitter<'_> {
             later: late || again,
             vibration: (self.modes_used() > 0).then(|| in_modes.iter().sum()),
             hands: [velocity.sqrt(), acceleration.sqrt()],
-            work,
         })
     }
 
@@ -139,7 +136,7 @@ impl Hitter<'_> {
                 after,
             ],
         };
-        Outcome {
+        let mut outcome = Outcome {
             exit_speed,
             cor: answer.cor,
             impulse,
@@ -167,6 +164,10 @@ impl Hitter<'_> {
             truncation: answer.truncation,
             steps: answer.steps,
             wall: answer.wall,
+        };
+        if self.effort.unsettled {
+            outcome.unsettled();
         }
+        outcome
     }
 }

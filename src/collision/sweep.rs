@@ -210,7 +210,7 @@ impl Trial<'_> {
 }
 
 /// By which modes and steps a round of hits is computed.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 pub(super) struct Round {
     /// The modes that the bat is struck with.
     pub request: Request,
@@ -230,7 +230,7 @@ impl Round {
             // What a mode's own error does to a hit is bounded from far above: it is to be no part.
             first.tolerance = (MODES * request.tolerance).clamp(1e-13, 1e-6);
         }
-        Self { request: first, effort: Effort { accuracy, completed: planned } }
+        Self { request: first, effort: Effort { accuracy, completed: planned, unsettled: false } }
     }
 
     /// Strikes the bat at all places (m) with these modes, and with better ones as long as that helps.
@@ -248,13 +248,11 @@ impl Round {
     ) -> Result<Sweep> {
         let (request, planned) = (&accuracy.request(), accuracy.planned(trial));
         let mut now = self;
-        let mut impacts: Vec<Impact> = vec![];
-        let mut before = [f64::INFINITY; 2];
-        let (mut work, most) = (0, MOST_WORK.max(MOST_WORK / 100 * places.len()));
+        let (mut impacts, mut before): (Vec<Impact>, _) = (vec![], [f64::INFINITY; 2]);
+        let (mut work, most) = (0, MOST_WORK.max(MOST_WORK / 100 * places.len() as u64));
         loop {
             let hitter = Hitter::new(trial.model, trial.scene, bat, &solution, now.effort)?;
-            let more = planned && request.elements.is_none();
-            if let Some((request, found)) = more.then(|| now.slow_modes(&hitter, bat)).flatten() {
+            if let Some((request, found)) = now.slow_modes(&hitter, bat) {
                 drop(hitter);
                 (solution, now.request) = (found, request);
                 continue;
@@ -267,50 +265,55 @@ impl Round {
             keep_better(&mut impacts, &open, struck);
             let worst = Worst::of(open.iter().filter_map(|k| impacts[*k].outcome.as_ref()));
             let met = impacts.iter().all(|impact| doubt(impact) <= request.tolerance);
-            let most_left = trial.most_left(before);
-            let end = match worst.error <= most_left {
-                false if !met => RoundsEnd::Unsettled,
-                true if !met && work > most => RoundsEnd::Stopped,
-                _ => RoundsEnd::Settled,
-            };
+            let improves = worst.error <= trial.most_left(before);
             before = [before[1], worst.error];
-            if !met && end == RoundsEnd::Settled && request.elements.is_none() {
-                let next = now.finer(&worst, request.tolerance, planned, work);
-                if next.request != now.request && now.request.tolerance >= 1e-13 {
-                    // Where more cannot be had, this answer stands.
-                    if let Ok(finer) = solve(bat, &next.request) {
-                        (solution, now) = (finer, next);
-                        continue;
-                    }
-                } else if next.request == now.request && next.effort != now.effort {
+            let next = now.finer(&worst, request.tolerance, planned, work);
+            let more = !met && improves && request.elements.is_none() && next != now;
+            let stopped = more && work > most;
+            if more && !stopped {
+                if next.request == now.request {
                     now = next;
+                    continue;
+                }
+                // Where better modes cannot be had, this answer stands.
+                if now.request.tolerance >= 1e-13
+                    && let Ok(finer) = solve(bat, &next.request)
+                {
+                    (solution, now) = (finer, next);
                     continue;
                 }
                 now.effort = next.effort;
             }
-            let open = impacts
-                .iter_mut()
-                .filter(|impact| end == RoundsEnd::Stopped && doubt(impact) > request.tolerance);
+            now.effort.unsettled = stopped;
+            let open = |impact: &&mut Impact| stopped && doubt(impact) > request.tolerance;
+            let open = impacts.iter_mut().filter(open);
             open.filter_map(|impact| impact.outcome.as_mut()).for_each(Outcome::unsettled);
+            let end = match (stopped, met || improves) {
+                (true, _) => RoundsEnd::Stopped,
+                (false, true) => RoundsEnd::Settled,
+                (false, false) => RoundsEnd::Unsettled,
+            };
             let all = impacts.iter().filter_map(|impact| impact.outcome.as_ref());
             let truncation = planned.then(|| all.map(|o| o.truncation).fold(0.0, greater));
-            let effort = now.effort;
-            return Ok(Sweep { solution, effort, impacts, truncation, met, end });
+            return Ok(Sweep { solution, effort: now.effort, impacts, truncation, met, end });
         }
     }
 
     /// More modes, where one that is slow beside the contact is among those that are left out, and what they are;
-    /// None where more cannot be had.
+    /// None where more cannot be had or the modes are given.
     fn slow_modes(&self, hitter: &Hitter, bat: &Bat) -> Option<(Request, Solution)> {
+        if !self.effort.completed || self.request.elements.is_some() {
+            return None;
+        }
         let modes = hitter.modes_for_contact()?.min(MOST);
         let more = Request { modes, ..self.request };
         (modes > self.request.modes).then(|| Some((more, solve(bat, &more).ok()?))).flatten()
     }
 
     /// Those of the next round: more modes, finer steps, better modes, as the errors call for them.
-    fn finer(&self, worst: &Worst, tolerance: f64, planned: bool, work: usize) -> Self {
+    fn finer(&self, worst: &Worst, tolerance: f64, planned: bool, work: u64) -> Self {
         /// Where a round took that share of all work that is done, no round is wasted on a few modes more.
-        const DEAR: usize = MOST_WORK / 16;
+        const DEAR: u64 = MOST_WORK / 16;
         let Self { mut request, mut effort } = *self;
         if planned && worst.truncation > 0.3 * tolerance {
             // As the error falls in the mean (`enough`).

@@ -128,7 +128,7 @@ pub struct HitsAlong<'a> {
     places: Vec<f64>,
     seen: Vec<Option<Glance>>,
     /// As [`SweetSpot::looked_every`].
-    looked_every: Option<f64>,
+    pub looked_every: Option<f64>,
 }
 
 impl<'a> HitsAlong<'a> {
@@ -147,15 +147,16 @@ impl<'a> HitsAlong<'a> {
         let place = |part: usize| ends[0] + length * part as f64 / parts as f64;
         let look = |parts: &[usize]| threads::map(parts.len(), |k| hitter.glance(place(parts[k])));
         let first: Vec<usize> = (0..=steps).map(|k| k * BETWEEN_LATER).collect();
+        let before = hitter.work();
         let mut seen: Vec<(usize, Option<Glance>)> =
             first.iter().copied().zip(look(&first)).collect();
+        let work = hitter.work() - before;
         let later = |glance: &Option<Glance>| glance.is_some_and(|glance| glance.later);
         let unsettled = seen.windows(2).filter(|pair| later(&pair[0].1) || later(&pair[1].1));
         let unsettled: Vec<usize> = unsettled.map(|pair| pair[0].0).collect();
-        let work: usize = seen.iter().filter_map(|(_, glance)| Some(glance.as_ref()?.work)).sum();
         let affordable = |apart: &usize| {
             let looks = unsettled.len() * (BETWEEN_LATER / apart - 1);
-            looks * work <= MOST_WORK * first.len()
+            looks as u64 * work <= MOST_WORK * first.len() as u64
         };
         let apart = [1, 2, 4].into_iter().find(affordable).unwrap_or(BETWEEN_LATER);
         let within = |from: &usize| (from + apart..from + BETWEEN_LATER).step_by(apart);

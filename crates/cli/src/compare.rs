@@ -29,8 +29,8 @@ use crate::value::{PLACE, SPACING};
 /// Bats side by side, or one beside its measured modes
 ///
 /// Swings two to six bats alike and says what differs and matters: the best exit speed and where, the
-/// swing weight, mass, the first frequency, BBCOR, and where along the barrel which bat is
-/// faster. The first bat is the one the others are measured by; a difference within the errors is
+/// swing weight, mass, the first frequency, BBCOR, and, where there is room, where along the
+/// barrel which bat is faster. The first bat is the one the others are measured by; a difference within the errors is
 /// none. With --full also: the zone, every frequency and node, vibration, and the exit speed at the same places
 /// from the tip and from the knob, each difference beside how far it may be off.
 ///

@@ -7,9 +7,6 @@ pub struct FullArgs {
     pub full: bool,
 }
 
-/// Lines of most screens but the last; `tests/first_screens.rs` holds every verb to its number.
-pub const LINES: usize = 23;
-
 /// The last line of a screen that is not all.
 pub const MORE: &str = "Everything else: --full\n";
 

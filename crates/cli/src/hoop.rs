@@ -10,7 +10,7 @@ use sweetspot::collision::sweep::Trial;
 use sweetspot::modes::solve::Request;
 use sweetspot_report::exchange::barrel::BarrelGrid;
 use sweetspot_report::exchange::hoop_files;
-use sweetspot_report::parts::terminal::fitting;
+use sweetspot_report::parts::terminal::{LINES, fitting};
 use sweetspot_report::plot::{hoop as plot, wall_sweep};
 use sweetspot_report::report::{hoop as report, hoop_json};
 use sweetspot_study::trampoline::barrel::{Barrel, BarrelTest};
@@ -22,7 +22,7 @@ use crate::common::{OutputArgs, Prepared, examples, on_the_bat, prepare, read};
 use crate::delivered::{apart, put};
 use crate::done::{Done, NOT_REACHED};
 use crate::edits::EditArgs;
-use crate::full_option::{FullArgs, LINES};
+use crate::full_option::FullArgs;
 use crate::pictures;
 use crate::value::{PLACE, TheoryChoice, tolerance};
 

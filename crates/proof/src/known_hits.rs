@@ -158,7 +158,7 @@ impl Throw {
         wanted: &[(KnownFigure, f64)],
     ) -> Result<Vec<f64>> {
         let scene = self.scene(bat)?;
-        let effort = Effort { accuracy: STEPS, completed: !self.modes_alone };
+        let effort = Effort { accuracy: STEPS, completed: !self.modes_alone, unsettled: false };
         let hitter = Hitter::new(Model::Contact, &scene, bat, solution, effort)?;
         let seen = |&(seen, at): &(KnownFigure, f64)| {
             if matches!(seen, KnownFigure::BestPlaceM | KnownFigure::BestExitSpeedMPerS) {
@@ -202,7 +202,7 @@ impl Throw {
         places: &[f64],
     ) -> Result<[Vec<[f64; 2]>; 3]> {
         let scene = self.scene(bat)?;
-        let effort = Effort { accuracy: STEPS, completed: true };
+        let effort = Effort { accuracy: STEPS, completed: true, unsettled: false };
         let curve = |model, solution| -> Result<Vec<[f64; 2]>> {
             let hitter = Hitter::new(model, &scene, bat, solution, effort)?;
             Ok(places

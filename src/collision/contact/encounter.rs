@@ -85,8 +85,8 @@ impl Encounter {
     }
 
     /// Steps times modes.
-    pub fn work(&self) -> usize {
-        self.steps * self.in_modes.len().max(1)
+    pub fn work(&self) -> u64 {
+        self.steps as u64 * self.in_modes.len().max(1) as u64
     }
 
     /// Whether the bat's surface caught the ball again after it had left.

@@ -8,7 +8,7 @@ use sweetspot::collision::hit::{Effort, Model};
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::strength::breaking_swing;
 use sweetspot::modes::solve::{Solution, solve};
-use sweetspot_report::parts::terminal::{fitting, wrapped};
+use sweetspot_report::parts::terminal::{LINES, fitting, wrapped};
 use sweetspot_report::plot::ringing;
 use sweetspot_report::report::aftermath::{self, AfterHit};
 use sweetspot_report::report::{hit_json, hit_text};
@@ -17,7 +17,6 @@ use sweetspot_study::ignored;
 use crate::common::{Prepared, on_the_bat};
 use crate::delivered::put;
 use crate::done::Done;
-use crate::full_option::LINES;
 use crate::pictures;
 use crate::ring::args::{Args, csv, times, write_sound};
 
@@ -88,11 +87,12 @@ pub fn run(args: &Args, bat: Bat, x: f64) -> Result<Done> {
         let ignored = ignored::in_hit(&bat, &scene);
         aftermath::document(&after, &report, hit_json::impact(&bat, &impact), ignored)
     };
+    let asked = !(args.watch.is_empty() && args.times.is_empty());
     let text = args.full.screen(|full| {
         let scene = hit_text::scene(&bat, &scene, model.name(), units);
         let hit = aftermath::impact(&impact, units);
-        let text = scene + &hit + &aftermath::text(&report, units, full) + &heard;
-        if full || !args.times.is_empty() { text } else { fitting(&text, LINES) }
+        let text = scene + &hit + &aftermath::text(&report, units, full);
+        (if full || asked { text } else { fitting(&text, LINES) }) + &heard
     });
     let text = args.output.deliver(text, document)?;
     let text = put(&args.history, text, || Ok(aftermath::history(&after, &report)))?;

@@ -117,7 +117,7 @@ impl<'a> StudyFolder<'a> {
         }
         let part = file::read_plain(&path)?;
         if !sums::fits(&path, &part)? {
-            part::read(&self.study.rows, self.division.part(k), (&path, &part), |_| ())?;
+            part::check(&self.study.rows, self.division.part(k), (&path, &part))?;
             sums::add(&path, &part)?;
         }
         Ok(Some(part))

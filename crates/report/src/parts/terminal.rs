@@ -61,14 +61,25 @@ fn table(table: &Table) -> String {
     out
 }
 
-/// A text without its last statements, so that it has at most so many lines: a statement goes on in lines that are
-/// indented further than its first.
+/// Lines of most screens but the last, which says where the rest is; `tests/first_screens.rs` holds every verb to its
+/// number.
+pub const LINES: usize = 23;
+
+/// A text of at most `most` lines: its last statements are left out, each with all lines into which [`wrapped`] broke
+/// it, and so are headings that nothing follows.
 pub fn fitting(text: &str, most: usize) -> String {
     let mut lines: Vec<&str> = text.lines().collect();
     let indent = |line: &str| line.len() - line.trim_start().len();
+    let goes_on = |above: &str, line: &str| {
+        let word = line.split_whitespace().next().unwrap_or_default();
+        indent(line) > 0 && above.chars().count() + 1 + word.chars().count() >= 80
+    };
     while lines.len() > most {
-        let Some(last) = lines.pop().map(indent) else { break };
-        while last > 0 && lines.pop().map(indent).is_some_and(|indent| indent >= last) {}
+        let Some(mut cut) = lines.pop() else { break };
+        while let Some(above) = lines.pop_if(|above| goes_on(above, cut)) {
+            cut = above;
+        }
+        while lines.pop_if(|above| above.is_empty() || indent(above) < indent(cut)).is_some() {}
     }
     lines.iter().map(|line| format!("{line}\n")).collect()
 }
@@ -90,11 +101,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_text_that_is_too_long_loses_whole_statements() {
-        let text = "a\n  b\n  c\nd\n  e\n    f\n";
-        assert_eq!(fitting(text, 6), text);
-        assert_eq!(fitting(text, 5), "a\n  b\n  c\nd\n");
-        assert_eq!(fitting(text, 3), "a\n  b\n  c\n");
-        assert_eq!(fitting(text, 2), "");
+    fn a_text_that_is_too_long_loses_whole_statements_and_headings_of_nothing() {
+        let long = "word ".repeat(30);
+        let [first, second] = ["one", "two"].map(|name| wrapped(&format!("  {name}: {long}"), 4));
+        assert_eq!((first.lines().count(), first.contains("\n    word")), (2, true));
+        let text = format!("Table\n  a\n  b\n\nWords\n{first}{second}");
+        assert_eq!(fitting(&text, 9), text);
+        assert_eq!(fitting(&text, 8), format!("Table\n  a\n  b\n\nWords\n{first}"));
+        assert_eq!(fitting(&text, 6), "Table\n  a\n  b\n");
+        assert_eq!(fitting(&text, 2), "Table\n  a\n");
     }
 }

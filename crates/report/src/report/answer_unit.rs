@@ -28,7 +28,7 @@ impl AnswerUnit {
     }
 
     /// Units with their factors and the decimals of a value, in SI and in US units.
-    pub fn scales(self) -> [(f64, usize, &'static str); 2] {
+    fn scales(self) -> [(f64, usize, &'static str); 2] {
         match self {
             Self::Length => [(100.0, 2, "cm"), (inches(1.0), 2, "in")],
             Self::Speed => [(1.0, 2, "m/s"), (miles_per_hour(1.0), 1, "mph")],
@@ -39,7 +39,7 @@ impl AnswerUnit {
     }
 
     /// In both systems of units, or in one.
-    pub fn said(self, units: Units, say: impl Fn(f64, usize) -> String) -> String {
+    fn said(self, units: Units, say: impl Fn(f64, usize) -> String) -> String {
         let [si, us] = self.scales();
         let told = |(factor, decimals, name): (f64, usize, &str)| {
             format!("{} {name}", say(factor, decimals))
@@ -61,7 +61,7 @@ impl AnswerUnit {
 }
 
 /// Two significant digits, the last of them also where it is 0.
-pub fn two_digits(value: f64) -> String {
+fn two_digits(value: f64) -> String {
     let rounded: f64 = format!("{value:.1e}").parse().unwrap_or(value);
     format!("{rounded:.*}", decimals(value))
 }

@@ -1,6 +1,6 @@
 //! Several bats side by side on a screen: what differs and matters, then where along the barrel.
 
-use crate::parts::terminal::{fitting, wrapped};
+use crate::parts::terminal::{LINES, fitting, wrapped};
 use crate::parts::units::Units;
 use crate::report::columns::{Columns, first, numbers};
 use crate::report::comparison::{FIRST, Row, along, figures, hit, letter, rows, swung};
@@ -11,8 +11,6 @@ use sweetspot_study::comparison::rows::ComparedFigure;
 use sweetspot_study::comparison::table::Comparison;
 use sweetspot_study::ignored::thinnest_wall;
 
-/// Lines of a screen but the last, which says where the rest is.
-const LINES: usize = 23;
 /// What a screen has no room for, of that which matters.
 const LEFT: [&str; 4] = ["zone_from", "zone_to", "length", "balance_point"];
 
@@ -46,10 +44,13 @@ pub fn screen(comparison: &Comparison, units: Units) -> String {
     }
     // What is doubted stands on the screen before what can be read off a table.
     let left = LINES.saturating_sub(out.lines().count() + trust.lines().count());
-    let words = fitting(&words, left);
+    let said = fitting(&words, left);
+    let rest = match said == words {
+        true => "",
+        false => "Where along the barrel which bat is faster: --full\n",
+    };
     let out = if left == 0 { out.replace("\n\n", "\n") } else { out };
-    let heading_alone = words.lines().count() < 2;
-    out + if heading_alone { "" } else { &words } + &trust
+    out + &fitting(&words, left.saturating_sub(rest.lines().count())) + rest + &trust
 }
 
 /// Figures whose scatter is told.
@@ -64,7 +65,7 @@ pub fn doubted(comparison: &Comparison, units: Units) -> String {
     comparison.bats.iter().enumerate().map(of).collect()
 }
 
-/// The differences beside what two pieces of one wood differ by; of one piece that this cancels.
+/// The differences beside what two pieces of one material differ by; of one piece that this cancels.
 fn beside_pieces(comparison: &Comparison, units: Units) -> String {
     let others = 1..comparison.bats.len();
     let same = others.clone().filter(|bat| comparison.one_piece(*bat));
@@ -72,7 +73,7 @@ fn beside_pieces(comparison: &Comparison, units: Units) -> String {
     let mut out = String::new();
     if !same.is_empty() {
         let text = format!(
-            "Trust: {} and A are one and the same piece, so that what pieces of one wood differ by cancels.",
+            "Trust: {} and A are one and the same piece, so that what pieces of one material differ by cancels.",
             same.join(", ")
         );
         out += &wrapped(&text, 7);
@@ -87,7 +88,7 @@ fn beside_pieces(comparison: &Comparison, units: Units) -> String {
         .collect();
     if !told.is_empty() {
         let text = format!(
-            "Trust: two pieces of one wood differ too (one standard deviation): {}.",
+            "Trust: pieces of one material differ too (one standard deviation): {}; \"within\" is the computation alone.",
             told.join("; ")
         );
         out += &wrapped(&text, 7);

@@ -72,10 +72,12 @@ pub fn text(bat: &Bat, source: &str, rows: &[RowOfSet], (units, full): (Units, b
         numbers(13, "frequency, %"),
     ]);
     out += &columns.heads();
-    let mut alike: Vec<f64> = rows.iter().map(|row| row.frac).collect();
-    alike.sort_by(f64::total_cmp);
-    let limit = alike.get(FEW).filter(|_| !full).copied().unwrap_or(f64::INFINITY);
-    for row in rows.iter().filter(|row| row.frac < limit) {
+    let mut shown: Vec<&RowOfSet> = rows.iter().collect();
+    shown.sort_by(|a, b| a.frac.total_cmp(&b.frac));
+    let more = if full { 0 } else { rows.len().saturating_sub(FEW) };
+    shown.truncate(rows.len() - more);
+    shown.sort_by_key(|row| row.number);
+    for row in shown {
         let [at, to] = row.places.map(|x| units.length(x));
         let frequencies = row.frequencies.map(|apart| format!("{:.2}", 100.0 * apart));
         out += &columns.row([
@@ -89,7 +91,6 @@ pub fn text(bat: &Bat, source: &str, rows: &[RowOfSet], (units, full): (Units, b
             frequencies.unwrap_or_else(|| "-".to_owned()),
         ]);
     }
-    let more = alike.iter().filter(|frac| **frac >= limit).count();
     if more > 0 {
         out += &format!("  and {more} more that are more alike\n");
     }

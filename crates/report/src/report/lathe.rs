@@ -124,7 +124,8 @@ pub fn per(map: &LatheMap, units: Units) -> &'static str {
 fn below(map: &LatheMap, shown: TableUnits) -> String {
     let mut out = String::new();
     for (k, line) in recipes(map, shown).into_iter().enumerate() {
-        out += &(if k == 0 { "\n" } else { "" }.to_owned() + &wrapped(&line, 2));
+        out += if k == 0 { "\n" } else { "" };
+        out += &wrapped(&line, 2);
     }
     out += &wholes(map, shown);
     if map.piece.has_rigid_wall() {

@@ -293,7 +293,8 @@ impl<'a> Sought<'a> {
         let half_wave = self.length / (self.hitter.modes_used() + 1) as f64;
         let reach = self.reach(peak, 2.0 * error, value);
         let near = curvature.filter(|bend| *bend > 0.0).map(|bend| 3.0 * error / half_wave / bend);
-        near.map_or(reach, |near| near.min(reach)) + self.located * self.length
+        let near = near.map_or(reach, |near| near.min(reach)) + self.located * self.length;
+        near.max(self.looked.looked_every.unwrap_or(0.0))
     }
 
     /// How far from a greatest value it is less by `by` at most, on the side where that is farther.
