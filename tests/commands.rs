@@ -42,7 +42,7 @@ fn furnished(name: &str) -> Folder {
     }
     // docs/studies.md describes it.
     folder.write(
-        "scatter.json",
+        "lot.json",
         r#"{ "format": "sweetspot-study/1", "bat": "r161", "points": 16, "tol": 1e-2,
              "vary": { "bat.material.density": { "lognormal": [650, 0.04] } },
              "outputs": ["f1_hz", "mass_kg", "exit_speed_max.value"] }"#,

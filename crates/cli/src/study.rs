@@ -71,9 +71,9 @@ pub struct Args {
 
 const EXAMPLES: &str = "\
 Examples:
-  sweetspot study scatter.json --out scatter
-      the bats of scatter.json, in parts in the folder scatter
-  sweetspot study scatter.json --out scatter --summary --plots scatter/plots
+  sweetspot study lot.json --out lot
+      the bats of lot.json, in parts in the folder lot
+  sweetspot study lot.json --out lot --summary --plots lot/plots
       what makes the answers vary, with pictures; rows that are there stay";
 
 pub fn run(args: &Args) -> Result<Done> {
