@@ -139,7 +139,7 @@ fn of_hits() {
     for theory in Theory::ALL {
         let accuracy = Accuracy { theory, ..Accuracy::default() };
         let seen = |hits: Sweep| {
-            assert!(hits.met);
+            assert!(hits.met());
             black_box(hits);
         };
         let blow = |(bat, places)| Blow { bat, trial, accuracy, places };

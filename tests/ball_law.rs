@@ -60,7 +60,7 @@ fn a_ball_with_a_law_of_its_own_is_hit_like_any_other() {
     let solution = solve(&bat, &Request { modes: 12, ..Request::plain() }).unwrap();
     let effort = Effort { accuracy: 1e-9, ..Effort::default() };
     let power = Ball { cor: 1.0, ..Ball::baseball().linear(3e6).unwrap() };
-    let own = Ball { law: LawOf(|k, _, _| Box::new(Linear(k))), ..power.clone() };
+    let own = Ball { law: LawOf(|of| Box::new(Linear(of.stiffness))), ..power.clone() };
     let [power, own] = [power, own].map(|ball| Scene { cor: 1.0, ball, ..Scene::default() });
     let hitter = |scene| Hitter::new(Model::Contact, scene, &bat, &solution, effort).unwrap();
     let (power, own) = (hitter(&power), hitter(&own));
@@ -73,5 +73,33 @@ fn a_ball_with_a_law_of_its_own_is_hit_like_any_other() {
             b.exit_speed
         );
         assert!(b.energy.imbalance().abs() < 1e-9 * b.energy.initial && b.error < 0.01);
+    }
+}
+
+/// A ball that is stiffer the faster it is met: at each place it is hit as a ball is that always has the stiffness
+/// which that place's speed gives it, `v² = μ u²/m` on a rigid wall.
+#[test]
+fn a_law_may_depend_on_the_speed_of_the_hit() {
+    const BY_SPEED: fn(f64) -> f64 = |speed| 1e6 + 5e4 * speed;
+    let bat = bundled_bat("meshes/r161.json").unwrap();
+    let solution = solve(&bat, &Request { modes: 12, ..Request::plain() }).unwrap();
+    let effort = Effort { accuracy: 1e-9, ..Effort::default() };
+    let known = Ball { cor: 1.0, ..Ball::baseball().linear(3e6).unwrap() };
+    let ball = Ball { law: LawOf(|of| Box::new(Linear(BY_SPEED(of.speed)))), ..known.clone() };
+    let scene = Scene { cor: 1.0, ball, ..Scene::default() };
+    let hitter = Hitter::new(Model::Contact, &scene, &bat, &solution, effort).unwrap();
+    let line = bat.inertia().as_line();
+    for x in [0.55, 0.72, 0.8] {
+        let hit = hitter.strike(x);
+        let closing = hit.bat_speed + scene.ball_speed;
+        let recoil = 1.0 / line.mass + (x - line.balance_point).powi(2) / line.about_balance;
+        let reduced = 1.0 / (1.0 / known.mass_kg + recoil);
+        let stiffness = BY_SPEED((reduced / known.mass_kg).sqrt() * closing);
+        let ball = known.clone().linear(stiffness).unwrap();
+        let same = Scene { ball, ..scene.clone() };
+        let same = Hitter::new(Model::Contact, &same, &bat, &solution, effort).unwrap().strike(x);
+        let [a, b] = [&hit, &same].map(|hit| hit.outcome.as_ref().unwrap());
+        assert!((a.exit_speed - b.exit_speed).abs() < 1e-6 * closing, "{x} {a:?} {b:?}");
+        assert!((a.peak_force.unwrap() / b.peak_force.unwrap() - 1.0).abs() < 1e-6);
     }
 }

@@ -208,7 +208,7 @@ fn mass_is_exact_for_a_round_end() {
     // Transverse inertia of an ellipsoid: m (a² + b²)/5.
     let inertia = body.mass * (half * half + 9e-4) / 5.0;
     assert!((body.about_balance / inertia - 1.0).abs() < 1e-13);
-    assert!(solve(&round, &Request { modes: 3, ..Request::plain() }).unwrap().met);
+    assert!(solve(&round, &Request { modes: 3, ..Request::plain() }).unwrap().met());
 }
 
 #[test]

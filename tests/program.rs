@@ -35,6 +35,7 @@ mod page;
 mod plots;
 mod results;
 mod scatter;
+mod solved_once;
 mod schema;
 mod study;
 mod tables;

@@ -57,7 +57,7 @@ fn answered(text: &str) -> Result<Value> {
     Ok(json!({
         "name": bat.name(),
         "frequency_hz": frequencies,
-        "met": solution.met && hits.met,
+        "met": solution.met() && hits.met(),
         "hit": { "x_m": IMPACT, "exit_speed_m_s": speed },
     }))
 }

@@ -3,12 +3,12 @@
 use serde::{Deserialize, Serialize};
 
 use crate::base::error::{Error, Result};
-use crate::collision::contact::collider::Law;
+use crate::collision::contact::collider::{Law, LawTerms};
 use crate::collision::contact::power_law;
 
-/// What makes a force law of k, α and e₀.
+/// What makes the force law of a hit.
 #[derive(Debug, Clone, Copy)]
-pub struct LawOf(pub fn(f64, f64, f64) -> Box<dyn Law>);
+pub struct LawOf(pub fn(LawTerms) -> Box<dyn Law>);
 
 impl PartialEq for LawOf {
     fn eq(&self, other: &Self) -> bool {
@@ -139,6 +139,22 @@ impl Ball {
             cor: 0.44,
             cor_by_speed: vec![],
         }
+    }
+
+    /// Stiffness k (N/m^α) and exponent α of the force law.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] for a ball of which none is known.
+    pub fn spring(&self) -> Result<[f64; 2]> {
+        self.stiffness.zip(self.exponent).map(<[f64; 2]>::from).ok_or_else(|| {
+            let found = format!("{}, of which no force law is known", self.name);
+            let expected = "--ball-stiffness with its dynamic stiffness as a laboratory \
+                            measures it (force F on a rigid cylinder at speed v: F²/(m v²)), a \
+                            ball file with \"stiffness\" and \"exponent\", or --model rigid, \
+                            energy-loss or pulse";
+            Error::value("ball", found, expected)
+        })
     }
 
     /// e₀ on a rigid wall at that speed (m/s), where it is known by speed: straight lines between the

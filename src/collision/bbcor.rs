@@ -203,7 +203,7 @@ impl Protocol {
     /// [`Error::Value`] for a ball whose force law is not known, and for a scan that ends before it
     /// begins.
     pub fn checked(self) -> Result<Self> {
-        self.scene().force_law(self.cor)?;
+        self.ball.spring()?;
         let [from, to] = self.scan;
         if to < from {
             let expected = format!("a place at {from:.4} m or beyond, where the scan begins");
@@ -264,7 +264,7 @@ impl Protocol {
             largest,
             wall,
             limit: LIMIT,
-            tolerance_met: sweep.met,
+            tolerance_met: sweep.met(),
         };
         Ok(Tested { bat, scene, scan, sweep })
     }

@@ -2,10 +2,10 @@
 
 use serde::Serialize;
 
-use crate::base::error::{Error, Result};
+use crate::base::error::Result;
 use crate::bat::body::STANDARD_PIVOT;
 use crate::collision::ball::Ball;
-use crate::collision::contact::collider::Law;
+use crate::collision::contact::collider::{Law, LawTerms};
 use crate::collision::energy_loss::EnergyLoss;
 use crate::collision::hoop_wall::HoopInHit;
 use crate::collision::pulse::Pulse;
@@ -122,30 +122,26 @@ impl Scene {
         self.wall.is_some() || self.hoop.wall().is_some()
     }
 
-    /// e₀ of a ball that is met with that energy (J, of the relative motion): that of the rigid
-    /// wall on which it would have as much, and so be compressed as much.
-    pub fn restitution(&self, energy: f64) -> f64 {
-        let speed = (2.0 * energy / self.ball.mass_kg).sqrt();
-        self.ball.restitution_at(speed).unwrap_or(self.cor)
+    /// Speed (m/s) at which the ball would bring that energy (J, of the relative motion) to a rigid wall, and so be
+    /// compressed as much.
+    fn speed_on_wall(&self, energy: f64) -> f64 {
+        (2.0 * energy / self.ball.mass_kg).sqrt()
     }
 
-    /// The ball's force law with that e₀.
+    /// e₀ of a ball that is met with that energy (J, of the relative motion): that of a rigid wall.
+    pub fn restitution(&self, energy: f64) -> f64 {
+        self.ball.restitution_at(self.speed_on_wall(energy)).unwrap_or(self.cor)
+    }
+
+    /// The ball's force law with that e₀, when it is met with that energy (J, of the relative motion).
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] for a ball of which none is known.
-    pub fn force_law(&self, cor: f64) -> Result<Box<dyn Law>> {
-        match (self.ball.stiffness, self.ball.exponent) {
-            (Some(stiffness), Some(exponent)) => Ok((self.ball.law.0)(stiffness, exponent, cor)),
-            _ => {
-                let found = format!("{}, of which no force law is known", self.ball.name);
-                let expected = "--ball-stiffness with its dynamic stiffness as a laboratory \
-                                measures it (force F on a rigid cylinder at speed v: F²/(m v²)), a \
-                                ball file with \"stiffness\" and \"exponent\", or --model rigid, \
-                                energy-loss or pulse";
-                Err(Error::value("ball", found, expected))
-            }
-        }
+    /// As [`Ball::spring`].
+    pub fn force_law(&self, restitution: f64, energy: f64) -> Result<Box<dyn Law>> {
+        let [stiffness, exponent] = self.ball.spring()?;
+        let speed = self.speed_on_wall(energy);
+        Ok((self.ball.law.0)(LawTerms { stiffness, exponent, restitution, speed }))
     }
 }
 

@@ -116,10 +116,10 @@ impl<'a> Hitter<'a> {
         let modes = struck.modes();
         let speed = rigid.speed_at(0.75 * bat.length(), motion).abs() + scene.ball_speed;
         let mass = 1.0 / (1.0 / scene.ball.mass_kg + 1.0 / rigid.mass);
-        let law = scene.force_law(scene.cor);
+        let energy = 0.5 * mass * speed * speed;
+        let law = scene.force_law(scene.cor, energy);
         // How long the ball is pressed, more or less; not a number without a law or a speed.
-        let pressed =
-            law.as_ref().map_or(f64::NAN, |law| law.pressed_by(0.5 * mass * speed * speed) / speed);
+        let pressed = law.as_ref().map_or(f64::NAN, |law| law.pressed_by(energy) / speed);
         let turned = modes.first().map_or(f64::INFINITY, |[omega, _]| omega * pressed);
         let share = rigid.mass / scene.ball.mass_kg;
         if model == Model::Contact && !held && share < CARRIED[0] && turned < CARRIED[1] {
@@ -292,8 +292,8 @@ impl<'a> Hitter<'a> {
 
     /// The force law with the e₀ of the hit, which later touches of the same hit keep.
     pub(super) fn law_at(&self, x: f64, closing: f64) -> Option<Box<dyn Law>> {
-        let [_, cor] = self.blow(x, closing);
-        self.scene.force_law(cor).ok()
+        let [mass, cor] = self.blow(x, closing);
+        self.scene.force_law(cor, 0.5 * mass * closing * closing).ok()
     }
 
     /// The meeting and the accuracy of its steps, which may have to be better than asked.

@@ -55,6 +55,8 @@ pub mod batch;
 pub mod swing;
 pub mod bbcor;
 
+pub use contact::collider::{Law, LawTerms};
+pub use contact::force_law::{ForceLaw, Top};
 pub use hit::{Effort, Impact, Model, Outcome, Scene};
-pub use {ball::Ball, hitter::Hitter};
+pub use {ball::Ball, ball::LawOf, hitter::Hitter};
 pub use {sweep::Sweep, sweet_spot::SweetSpot, swing::Hit, swing::Swing};

@@ -255,7 +255,7 @@ impl Setup {
             Model::Pulse(default) => Model::Pulse(self.pulse(default)?),
             Model::Contact => {
                 // What the ball lacks is told before anything is solved.
-                Scene { ball: self.ball.clone(), ..Scene::default() }.force_law(1.0)?;
+                self.ball.spring()?;
                 Model::Contact
             }
         })

@@ -17,8 +17,11 @@ use crate::modes::solve::{Request, Solution, Solver, solve};
 
 /// Why a sweep takes no further round of more modes and finer steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[must_use]
 pub enum RoundsEnd {
-    /// The accuracy is reached, or there are no more modes and no finer steps to be had.
+    /// Every hit is resolved and its exit speed within the tolerance by its own estimate.
+    Met,
+    /// There are no more modes and no finer steps to be had.
     Settled,
     /// The last round made the answers no better: the hit magnifies what is small, and its exit speed is not
     /// defined better than stated.
@@ -40,9 +43,7 @@ pub struct Sweep {
     /// Estimated bound on the change of an exit speed by the modes left out, relative to the closing
     /// speed; None where the model leaves out no modes.
     pub truncation: Option<f64>,
-    /// Whether every hit is resolved and its exit speed within the tolerance by its own estimate.
-    pub met: bool,
-    /// Why no better answers were computed.
+    /// Why no better answers were computed: whether what was asked was reached.
     pub end: RoundsEnd,
 }
 
@@ -51,6 +52,11 @@ impl Sweep {
     pub(super) fn of_tapped(mut self, bat: Cow<'_, Bat>) -> Self {
         self.solution = self.solution.of_tapped(bat);
         self
+    }
+
+    /// Whether every hit is resolved and its exit speed within the tolerance by its own estimate.
+    pub fn met(&self) -> bool {
+        self.end == RoundsEnd::Met
     }
 
     /// The impact whose exit speed is known worst.
@@ -131,7 +137,7 @@ impl Accuracy {
 /// # let bat = Bat::from_text("bat.json", text, "".as_ref())?;
 /// let scene = Scene { swing: 45.0, ball_speed: 38.0, ..Scene::default() }; // rad/s, m/s
 /// let hits = sweep(&bat, Model::Contact, &scene, &Accuracy::default(), &[0.6, 0.7])?;
-/// assert!(hits.met);
+/// assert!(hits.met());
 /// for impact in &hits.impacts {
 ///     let outcome = impact.outcome.as_ref().expect("they meet");
 ///     println!("{:.2} m/s within {:.0e}", outcome.exit_speed, outcome.error);
@@ -288,14 +294,15 @@ impl Round {
             let open = |impact: &&mut Impact| stopped && doubt(impact) > request.tolerance;
             let open = impacts.iter_mut().filter(open);
             open.filter_map(|impact| impact.outcome.as_mut()).for_each(Outcome::unsettled);
-            let end = match (stopped, met || improves) {
-                (true, _) => RoundsEnd::Stopped,
-                (false, true) => RoundsEnd::Settled,
-                (false, false) => RoundsEnd::Unsettled,
+            let end = match (met, stopped, improves) {
+                (true, ..) => RoundsEnd::Met,
+                (_, true, _) => RoundsEnd::Stopped,
+                (_, _, true) => RoundsEnd::Settled,
+                (_, _, false) => RoundsEnd::Unsettled,
             };
             let all = impacts.iter().filter_map(|impact| impact.outcome.as_ref());
             let truncation = planned.then(|| all.map(|o| o.truncation).fold(0.0, greater));
-            return Ok(Sweep { solution, effort: now.effort, impacts, truncation, met, end });
+            return Ok(Sweep { solution, effort: now.effort, impacts, truncation, end });
         }
     }
 

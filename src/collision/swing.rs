@@ -109,7 +109,7 @@ impl Hit {
         };
         let closing = best.impact.bat_speed + scene.ball_speed;
         let worst = sweep.impacts.iter().map(error).fold(best.error, f64::max);
-        let reached = match sweep.met && best.error <= accuracy.exit_speed * closing {
+        let reached = match sweep.met() && best.error <= accuracy.exit_speed * closing {
             true => Reached::Asked,
             false => Reached::Within(worst),
         };

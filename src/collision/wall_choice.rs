@@ -102,7 +102,7 @@ impl Scene {
         let recoil = 1.0 / body.mass + arm * arm / body.about_balance;
         let energy = 0.5 * closing * closing / (1.0 / self.ball.mass_kg + recoil);
         let stiff = self.restitution(energy);
-        let pressed = self.force_law(stiff).ok()?.pressed_by(energy);
+        let pressed = self.force_law(stiff, energy).ok()?.pressed_by(energy);
         let ball = stiffness * pressed.powf(exponent - 1.0);
         let gain = restitution_with_wall(stiff, exponent, ball / wall) - stiff;
         (closing > 0.0 && gain.is_finite()).then_some(gain)

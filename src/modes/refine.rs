@@ -2,6 +2,8 @@
 //!
 //! [`refine`](fn@refine) plans, solves, looks at the errors and refines, by the theory that is named.
 
+use std::sync::OnceLock;
+
 use crate::base::clock::Clock;
 use crate::base::error::{Error, Result};
 use crate::bat::body::Bat;
@@ -9,13 +11,17 @@ use crate::modes::damping::damping;
 use crate::modes::plan::Plan;
 use crate::modes::referee::Solver;
 use crate::modes::request::{CONVERGED, Request, stop_at, wanted};
-use crate::modes::solution::{Solution, Timing};
+use crate::modes::solution::{Ending, Solution, Timing};
 use crate::modes::task::Task;
 
 /// A refinement that leaves more than this of the error gains nothing.
 const STALLED: f64 = 0.7;
 /// Refinements before the answer is given as it is.
 const MOST_ROUNDS: usize = 12;
+
+/// Is told of every bat that is solved, and how: a test sets it, to see that no bat is solved twice in the same way.
+#[doc(hidden)]
+pub static SOLVED: OnceLock<fn(&Bat, &Request)> = OnceLock::new();
 
 /// Finds the lowest bending modes of a bat as it is, by the theory that the request names: no tap is
 /// listened to.
@@ -29,6 +35,9 @@ pub(crate) fn refine(bat: &Bat, request: &Request) -> Result<Solution> {
         let found = format!("timoshenko, but {} has no shear modulus", bat.without_shear());
         let expected = "\"shear_modulus\" or \"poisson_ratio\" there, or a theory without shear";
         return Err(Error::value("theory", found, expected));
+    }
+    if let Some(told) = SOLVED.get() {
+        told(bat, request);
     }
     let started = Clock::start();
     let plan = match request.elements {
@@ -70,9 +79,8 @@ fn beyond_numbers(bat: &Bat, error: Error) -> Error {
 pub(super) fn damped(bat: &Bat, request: &Request, mut best: Solution) -> Result<Solution> {
     best.damping = damping(bat, best.elements(), &best.modes, request.tolerance)?;
     let damped = best.damping.modes.iter().map(|damped| damped.error).fold(0.0, f64::max);
-    if best.met && damped > request.tolerance {
-        best.met = false;
-        best.stopped = Some(format!("the damped motions are known to {damped:.1e} only"));
+    if best.met() && damped > request.tolerance {
+        best.ending = Ending::Stopped(format!("the damped motions are known to {damped:.1e} only"));
     }
     Ok(best)
 }
@@ -91,20 +99,20 @@ fn refined(bat: &Bat, request: &Request, mut plan: Plan, mut timing: Timing) -> 
             (Ok(answer), _) => answer,
             (Err(error), Some(best)) => {
                 // The answer before this refinement stands.
-                best.stopped = Some(error.to_string());
+                best.stop(error.to_string());
                 break;
             }
             (Err(error), None) => return Err(beyond_numbers(bat, error)),
         };
         let again = request.solver == Solver::Statics && residual > CONVERGED;
-        if again && answer.none_missing != Some(true) {
+        if again && !answer.complete {
             // Two modes of nearly one frequency mix, or one is missing: iterate to the end.
             residual = CONVERGED;
             continue;
         }
         let (solution, defects) = answer.solution(plan, request, timing);
         let gain = best.as_ref().map_or(0.0, |best| solution.worst() / best.worst());
-        let done = solution.met
+        let done = solution.met()
             || request.elements.is_some()
             || solution.round_off() > request.tolerance
             || (round > 2 && gain > STALLED);
@@ -113,14 +121,14 @@ fn refined(bat: &Bat, request: &Request, mut plan: Plan, mut timing: Timing) -> 
                 Plan { mesh: solution.mesh.clone(), degree: solution.degree, ..Plan::default() };
             plan.refined(bat, &defects, request.tolerance, request.degree.is_none())
         });
-        if solution.met || best.is_none() || gain < 1.0 {
+        if solution.met() || best.is_none() || gain < 1.0 {
             best = Some(solution);
         }
         let Some(next) = next else { break };
         let last = (round + 1 == MOST_ROUNDS)
             .then(|| format!("{MOST_ROUNDS} refinements were not enough"));
         if let Some(stopped) = request.too_large(bat, &next).or(last) {
-            best.iter_mut().for_each(|best| best.stopped = Some(stopped.clone()));
+            best.iter_mut().for_each(|best| best.stop(stopped.clone()));
             break;
         }
         plan = next;

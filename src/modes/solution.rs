@@ -1,6 +1,7 @@
 //! The modes of a bat, and how far they may be trusted.
 
 use std::borrow::Cow;
+use std::fmt;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -14,6 +15,38 @@ use crate::modes::damping::Damping;
 use crate::modes::mode::Mode;
 use crate::modes::plan::Reason;
 use crate::modes::referee::Solver;
+
+/// How the search for the modes of a bat ended. Written out ([`fmt::Display`]) it says for a person why what was
+/// asked was not reached; nothing where it was.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[must_use]
+pub enum Ending {
+    /// Every frequency is within the tolerance by its own estimate, and no mode is missing.
+    Reached,
+    /// Round-off alone is larger than the tolerance: this share of a frequency.
+    RoundOff(f64),
+    /// It is not certain that no mode is missing.
+    Uncounted,
+    /// This ended the refinement before the tolerance was met.
+    Stopped(String),
+    /// A further refinement gained nothing.
+    Stalled,
+}
+
+impl fmt::Display for Ending {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Reached => Ok(()),
+            Self::RoundOff(share) => write!(out, "round-off alone is {share:.1e}"),
+            Self::Uncounted => out.write_str(
+                "the number of slower motions does not show that no mode is missing: two \
+                 frequencies are too near each other to count between them",
+            ),
+            Self::Stopped(why) => out.write_str(why),
+            Self::Stalled => out.write_str("further refinement gained nothing"),
+        }
+    }
+}
 
 /// The modes of a bat, how they were found and how far they may be trusted.
 #[derive(Debug, Clone, Serialize)]
@@ -35,14 +68,11 @@ pub struct Solution {
     pub reason: Reason,
     /// Products with the compliance or the inverse (Lanczos steps); 0 for the dense solver.
     pub steps: usize,
-    /// Whether every frequency is within the wanted tolerance by its own estimate, and none is
-    /// missing.
-    pub met: bool,
+    /// How the search for the modes ended: whether what was asked was reached.
+    pub ending: Ending,
     /// Whether it is certain that no mode is missing: by the number of nodes where theory demands
-    /// it, or by the number of slower motions. None where that could not be counted.
-    pub none_missing: Option<bool>,
-    /// What ended the refinement before the tolerance was met, if something did.
-    pub stopped: Option<String>,
+    /// it, or by the number of slower motions.
+    pub complete: bool,
     /// How the modes die out.
     pub damping: Damping,
     /// Where the time went.
@@ -78,31 +108,21 @@ impl Solution {
         self.modes.iter().map(|mode| mode.error.round_off).fold(0.0, f64::max)
     }
 
-    /// Whether it is certain that no mode is missing.
-    pub fn complete(&self) -> bool {
-        self.none_missing == Some(true)
+    /// Whether every frequency is within the wanted tolerance by its own estimate, and no mode is missing.
+    pub fn met(&self) -> bool {
+        self.ending == Ending::Reached
+    }
+
+    /// Notes what ended the refinement before the tolerance was met.
+    pub(super) fn stop(&mut self, why: String) {
+        if self.ending == Ending::Stalled {
+            self.ending = Ending::Stopped(why);
+        }
     }
 
     /// What the bat was divided into.
     pub fn elements(&self) -> Elements<'_> {
         Elements { mesh: &self.mesh, degree: self.degree, theory: self.theory }
-    }
-
-    /// Why the wanted tolerance was not met, for a person; empty if it was.
-    pub fn shortfall(&self, tolerance: f64) -> String {
-        let round_off = self.round_off();
-        if self.met {
-            return String::new();
-        }
-        if round_off > tolerance {
-            return format!("round-off alone is {round_off:.1e}");
-        }
-        if !self.complete() {
-            return "the number of slower motions does not show that no mode is missing: two \
-                    frequencies are too near each other to count between them"
-                .to_owned();
-        }
-        self.stopped.clone().unwrap_or_else(|| "further refinement gained nothing".to_owned())
     }
 
     /// Unknowns of the assembled matrices.

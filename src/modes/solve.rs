@@ -14,8 +14,10 @@ use crate::modes::prepared::{Prepared, prepare};
 use crate::modes::refine::refine;
 
 pub use crate::modes::referee::{MOST_DENSE, Solver, own_and_recomputed};
+#[doc(hidden)]
+pub use crate::modes::refine::SOLVED;
 pub use crate::modes::request::{Request, stop_at, wanted};
-pub use crate::modes::solution::{Solution, Timing};
+pub use crate::modes::solution::{Ending, Solution, Timing};
 
 /// Finds the lowest bending modes of a bat, as accurately as asked: the numbers that the program `sweetspot`
 /// prints.
@@ -32,7 +34,7 @@ pub use crate::modes::solution::{Solution, Timing};
 /// # let bat = Bat::from_text("bat.json", text, "".as_ref())?;
 /// let asked = Request { modes: 3, tolerance: 1e-9, ..Request::default() };
 /// let solution = solve(&bat, &asked)?;
-/// assert!(solution.met && solution.complete()); // no mode is missing
+/// assert!(solution.met()); // no mode is missing
 /// for mode in &solution.modes {
 ///     println!("{:.6} Hz within {:.0e}", mode.frequency(), mode.error.total());
 /// }
@@ -45,15 +47,15 @@ pub use crate::modes::solution::{Solution, Timing};
 /// Those of [`Request::check`] and [`prepare`]; [`crate::Error::TooFewElements`] where the asked elements cannot bend in
 /// so many ways, [`crate::Error::TooLarge`] for the dense solver, [`crate::Error::Factorization`] for those that
 /// factor `K`, [`crate::Error::NotBuilt`] without ARPACK, [`crate::Error::NotConverged`]. An accuracy that cannot
-/// be reached is no error: the best answer comes back with `met` false.
+/// be reached is no error: the best answer comes back with the [`Ending`] that says so.
 pub fn solve(bat: &Bat, request: &Request) -> Result<Solution> {
     let Prepared { bat, request, .. } = prepare(bat, request)?;
     Ok(refine(&bat, &request)?.of_tapped(bat))
 }
 
 /// The most accurate answer that a time allows: one digit after the other, until the next would
-/// take too long by the time that the last took. The first digit is given in any case, `met` false
-/// if it took longer.
+/// take too long by the time that the last took. The first digit is given in any case, with an [`Ending`]
+/// that says so if it took longer.
 ///
 /// ```
 /// use std::time::Duration;
@@ -91,9 +93,11 @@ pub fn solve_within(bat: &Bat, request: &Request, budget: Duration) -> Result<So
             first = spent;
         }
         let better = best.as_ref().is_none_or(|best| solution.worst() < best.worst());
-        let over = spent + last + last / 2 > budget || !solution.met;
+        let over = spent + last + last / 2 > budget || !solution.met();
         if better && (spent <= budget || best.is_none()) {
-            best = Some(Solution { met: spent <= budget && solution.complete(), ..solution });
+            let in_time = spent <= budget && solution.complete;
+            let ending = if in_time { Ending::Reached } else { solution.ending };
+            best = Some(Solution { ending, ..solution });
         }
         if over {
             break;
@@ -102,7 +106,8 @@ pub fn solve_within(bat: &Bat, request: &Request, budget: Duration) -> Result<So
     let mut best = best.expect("there was a first digit");
     best.reason = Reason::Budget(budget);
     if first > budget {
-        best.stopped = Some(format!("the first digit took {first:?}, {budget:?} were allowed"));
+        let late = format!("the first digit took {first:?}, {budget:?} were allowed");
+        best.ending = if best.complete { Ending::Stopped(late) } else { Ending::Uncounted };
     }
     Ok(best.of_tapped(bat))
 }

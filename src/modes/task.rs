@@ -23,7 +23,7 @@ use crate::modes::pairs::{Pairs, pairs_of};
 use crate::modes::plan::Plan;
 use crate::modes::referee::{Found, Solver};
 use crate::modes::request::{AT_ONCE, CONVERGED, LARGE, Request};
-use crate::modes::solution::{Solution, Timing};
+use crate::modes::solution::{Ending, Solution, Timing};
 
 /// Modes on one mesh.
 pub struct MeshModes {
@@ -33,8 +33,8 @@ pub struct MeshModes {
     pub steps: usize,
     /// Each element's part in the worst mode's defect.
     pub defects: Vec<f64>,
-    /// [`Solution::none_missing`].
-    pub none_missing: Option<bool>,
+    /// [`Solution::complete`].
+    pub complete: bool,
     /// [`Solution::rigid_modes`].
     pub rigid_modes: usize,
 }
@@ -42,10 +42,9 @@ pub struct MeshModes {
 impl MeshModes {
     /// The solution, and each element's part in its worst defect.
     pub fn solution(self, plan: Plan, request: &Request, timing: Timing) -> (Solution, Vec<f64>) {
-        let within = |mode: &Mode| mode.error.total() <= request.tolerance;
         let solution = Solution {
-            met: self.modes.iter().all(within) && self.none_missing == Some(true),
-            none_missing: self.none_missing,
+            ending: self.ending(request.tolerance),
+            complete: self.complete,
             rigid_modes: self.rigid_modes,
             theory: request.theory,
             modes: self.modes,
@@ -54,12 +53,26 @@ impl MeshModes {
             degree: plan.degree,
             reason: plan.reason,
             steps: self.steps,
-            stopped: None,
             damping: Damping::default(),
             timing,
             tuned: None,
         };
         (solution, self.defects)
+    }
+
+    /// What becomes of the search if nothing follows.
+    fn ending(&self, tolerance: f64) -> Ending {
+        let within = |mode: &Mode| mode.error.total() <= tolerance;
+        let round_off = self.modes.iter().map(|mode| mode.error.round_off).fold(0.0, f64::max);
+        if self.complete && self.modes.iter().all(within) {
+            Ending::Reached
+        } else if round_off > tolerance {
+            Ending::RoundOff(round_off)
+        } else if self.complete {
+            Ending::Stalled
+        } else {
+            Ending::Uncounted
+        }
     }
 }
 
@@ -93,12 +106,12 @@ impl Task<'_> {
         let (mut modes, defects) = self.modes(&mut *pairs, &found);
         let factored = request.solver != Solver::Statics;
         add_neighbours(&mut modes, found.beyond, &found.residuals, factored);
-        let none_missing = none_missing(&pairs.view(), &modes, found.beyond, self.residual);
+        let complete = none_missing(&pairs.view(), &modes, found.beyond, self.residual);
         // Those beyond were looked at for their near twins' sake.
         modes.truncate(request.modes);
         timing.solve += assembled.elapsed();
         let (steps, rigid_modes) = (found.steps, pairs.view().rigid_modes());
-        Ok(MeshModes { modes, steps, defects, none_missing, rigid_modes })
+        Ok(MeshModes { modes, steps, defects, complete, rigid_modes })
     }
 
     /// Modes of strains, each with its own errors, and each element's part in the worst defect.
@@ -237,30 +250,25 @@ impl<'a> Account<'a> {
     }
 }
 
-/// Whether no mode is missing, not even a near twin just beyond the list, which an iteration that
+/// Whether it is certain that no mode is missing, not even a near twin just beyond the list, which an iteration that
 /// ends at `residual` does not tell from the last mode: as many motions must be slower than a
 /// frequency in the last gap of the list that is wide enough. Where that cannot be counted, or the
 /// iteration tells as much as the count would, the nodes do: mode n of a free Euler-Bernoulli bat
 /// has n + 1.
-fn none_missing(
-    view: &View<f64>,
-    modes: &[Mode],
-    beyond: Option<f64>,
-    residual: f64,
-) -> Option<bool> {
+fn none_missing(view: &View<f64>, modes: &[Mode], beyond: Option<f64>, residual: f64) -> bool {
     const WIDE: f64 = 1e-9;
     let oscillates = view.fixed.is_none() && !view.theory.turns();
-    let by_nodes = (oscillates && modes.iter().all(Mode::has_its_nodes)).then_some(true);
-    if residual < WIDE && by_nodes.is_some() {
+    let by_nodes = oscillates && modes.iter().all(Mode::has_its_nodes);
+    if residual < WIDE && by_nodes {
         return by_nodes;
     }
     let omegas = modes.iter().map(|mode| mode.omega).chain(beyond);
     let omegas: Vec<f64> = omegas.collect();
     let gap = (1..omegas.len()).rev().find(|&k| omegas[k] > (1.0 + WIDE) * omegas[k - 1]);
-    let Some(below) = gap else { return by_nodes.or(modes.is_empty().then_some(true)) };
+    let Some(below) = gap else { return by_nodes || modes.is_empty() };
     let between = (omegas[below - 1] * omegas[below]).sqrt();
     let Some(slower) = count::slower(view, between) else { return by_nodes };
-    Some(slower == below + view.rigid_modes())
+    slower == below + view.rigid_modes()
 }
 
 /// So many motions beyond the wanted ones are looked at where they are near twins of these.

@@ -74,7 +74,7 @@ fn verdict(args: &Args, advice: &Advice) -> u8 {
         "accuracy not reached: asked {:e}, the full model is within {:.1e}; {}",
         args.tol,
         solution.worst(),
-        solution.shortfall(args.tol)
+        solution.ending
     ));
     NOT_REACHED
 }

@@ -242,7 +242,7 @@ impl SolveArgs {
 
     /// The exit code, after a word about an answer that is less accurate than asked or later.
     pub fn verdict(&self, solution: &Solution, output: &OutputArgs) -> u8 {
-        if solution.met || !self.enforced() {
+        if solution.met() || !self.enforced() {
             return 0;
         }
         let asked = match self.budget {
@@ -254,7 +254,7 @@ impl SolveArgs {
             solution.worst(),
             solution.mesh.len(),
             solution.degree,
-            solution.shortfall(self.tol)
+            solution.ending
         ));
         NOT_REACHED
     }

@@ -278,7 +278,7 @@ fn for_people(args: &Args, compared: &Comparison) -> Result<()> {
 
 /// The exit code, after a word about bats whose exit speeds are less accurate than asked.
 fn verdict(args: &Args, compared: &Comparison) -> u8 {
-    let short = compared.bats.iter().filter(|bat| !bat.sweep.met && args.solve.enforced());
+    let short = compared.bats.iter().filter(|bat| !bat.sweep.met() && args.solve.enforced());
     let names: Vec<&str> = short.map(|bat| bat.bat.name()).collect();
     if names.is_empty() {
         return 0;

@@ -8,6 +8,7 @@ use sweetspot::bat::body::Bat;
 use sweetspot::collision::figures::Figures;
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::sweep::{RoundsEnd, Sweep, Trial, sweep_telling};
+use sweetspot::modes::solve::Solution;
 use sweetspot_report::csv;
 use sweetspot_report::parts::terminal::wrapped;
 use sweetspot_report::plot::profile;
@@ -211,11 +212,11 @@ fn table(args: &Args, bat: &Bat, trial: Trial, sweep: &Sweep, figures: &Figures)
 
 /// The exit code, after a word about exit speeds that are less accurate than asked.
 pub fn verdict(solve: &SolveArgs, sweep: &Sweep, output: &OutputArgs) -> u8 {
-    if sweep.met || !solve.enforced() {
+    if sweep.met() || !solve.enforced() {
         return 0;
     }
-    let modes = sweep.solution.shortfall(solve.tol);
-    let reason = if modes.is_empty() { String::new() } else { format!(" ({modes})") };
+    let Solution { ending, .. } = &sweep.solution;
+    let reason = if sweep.solution.met() { String::new() } else { format!(" ({ending})") };
     let worst = sweep.worst().map_or(String::new(), |(impact, outcome)| {
         let limit = match sweep.end {
             _ if outcome.wall > 0.5 * outcome.error => {
@@ -225,7 +226,7 @@ pub fn verdict(solve: &SolveArgs, sweep: &Sweep, output: &OutputArgs) -> u8 {
                 ": stopped there, as a better one would take more than ten times as long as a usual hit; fewer \
                  places get better ones"
             }
-            RoundsEnd::Settled => "",
+            RoundsEnd::Met | RoundsEnd::Settled => "",
             RoundsEnd::Unsettled => {
                 ": the hit there magnifies small changes, and neither more modes nor finer \
                  steps settle it"

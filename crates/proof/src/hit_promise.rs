@@ -212,7 +212,7 @@ fn row(number: usize, bat: &Bat, hit: &Hit) -> Result<CheckedHit> {
             _ => ReferenceCourse::Later,
         },
         tolerance: hit.tolerance,
-        met: swept.met,
+        met: swept.met(),
         truth: outcome.map_or(0.0, |outcome| off(outcome.exit_speed)),
         stated: outcome.map_or(f64::INFINITY, |outcome| outcome.error),
         known_to: hit.known_to,

@@ -74,7 +74,7 @@ impl Verdict {
             |flags: &[&str]| best.is_some_and(|best| best.flags.iter().any(|f| flags.contains(f)));
         let later = flagged(&LATER).then_some(Doubt::LaterContact);
         let law = flagged(&["ball_law_beyond"]).then_some(Doubt::BallLaw);
-        let unmet = hits.worst().filter(|_| !hits.met);
+        let unmet = hits.worst().filter(|_| !hits.met());
         let unmet = unmet.map(|(_, outcome)| Doubt::ExitSpeeds { error: outcome.error });
         Self {
             doubts: density

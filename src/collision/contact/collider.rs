@@ -109,6 +109,21 @@ struct Touches<'a, L> {
     meeting: Meeting<'a>,
 }
 
+/// What the force law of one hit is made of.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct LawTerms {
+    /// Stiffness k of the ball (N/m^α).
+    pub stiffness: f64,
+    /// Exponent α of the ball.
+    pub exponent: f64,
+    /// Coefficient of restitution e₀ on a rigid wall in this hit.
+    pub restitution: f64,
+    /// Speed (m/s) at which the ball would bring as much energy to a rigid wall, for laws of balls that are stiffer
+    /// the faster they are met. Later touches of the same hit keep it, as they keep e₀.
+    pub speed: f64,
+}
+
 /// Any law, as a hit holds it: the whole encounter behind one call, so that each law has its own
 /// compiled steps.
 pub trait Law: Send + Sync {

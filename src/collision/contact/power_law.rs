@@ -13,7 +13,7 @@
 //!
 //! A. M. Nathan, Am. J. Phys. 68, 979 (2000), "Dynamics of the baseball-bat collision".
 
-use crate::collision::contact::collider::Law;
+use crate::collision::contact::collider::{Law, LawTerms};
 use crate::collision::contact::force_law::{ForceLaw, Top};
 
 /// A force as a power of the compression, and as a steeper one on the way back.
@@ -41,8 +41,8 @@ impl PowerLaw {
 }
 
 /// The law of k, α and e₀, for a [`crate::collision::ball::Ball`].
-pub fn law(stiffness: f64, exponent: f64, restitution: f64) -> Box<dyn Law> {
-    Box::new(PowerLaw::new(stiffness, exponent, restitution))
+pub fn law(of: LawTerms) -> Box<dyn Law> {
+    Box::new(PowerLaw::new(of.stiffness, of.exponent, of.restitution))
 }
 
 impl ForceLaw for PowerLaw {

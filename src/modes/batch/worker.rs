@@ -228,11 +228,11 @@ where
         let (steps, rigid_modes) =
             (self.pairs.lanczos.steps, self.pairs.statics.view().rigid_modes());
         let solution = |(lane, modes): (usize, Vec<Mode>)| {
-            let none_missing = self.counted[lane].then_some(true);
-            let answer = MeshModes { modes, steps, defects: vec![], none_missing, rigid_modes };
+            let complete = self.counted[lane];
+            let answer = MeshModes { modes, steps, defects: vec![], complete, rigid_modes };
             let plan = Plan { mesh: self.meshes[lane].clone(), ..self.plan.clone() };
             let solution = answer.solution(plan, request, Timing::default()).0;
-            solution.met.then_some(solution)
+            solution.met().then_some(solution)
         };
         self.solutions = found.into_iter().enumerate().map(solution).collect();
     }

@@ -14,8 +14,8 @@ pub fn against(asked: f64, solution: &Solution, exact: &[f64]) -> Outcome {
     let stated = solution.modes.iter().map(|mode| mode.error.total());
     let verdict = if solution.modes.len() > exact.len() || errors.zip(stated).any(beyond) {
         Verdict::Wrong("an error beyond three times the stated one".into())
-    } else if !solution.met {
-        Verdict::Refused(solution.shortfall(asked))
+    } else if !solution.met() {
+        Verdict::Refused(solution.ending.to_string())
     } else if found > ALWAYS * asked {
         Verdict::Wrong("the claim is false".into())
     } else {

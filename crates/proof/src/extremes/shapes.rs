@@ -59,7 +59,7 @@ pub fn chain_of_steps() -> Result<Outcome> {
     let (a, b) = (of_degree(5)?, of_degree(12)?);
     let stated = a.worst() + b.worst();
     let outcome = difference(ALWAYS * 2e-11, apart(&a, &b, 1.0), stated);
-    let claims = a.met && b.met && outcome.found <= ALWAYS * stated;
+    let claims = a.met() && b.met() && outcome.found <= ALWAYS * stated;
     let wrong = Verdict::Wrong("apart by more than both state, or not met".into());
     Ok(if claims { outcome } else { Outcome { verdict: wrong, ..outcome } })
 }

@@ -78,7 +78,7 @@ pub fn modes(count: usize, asked: f64) -> Result<Outcome> {
     let solution = solve(&truth.bat, &request)?;
     let outcome = against(asked, &solution, &truth.frequencies);
     let lost = "a mode has not its nodes".to_owned();
-    Ok(if solution.complete() {
+    Ok(if solution.complete {
         outcome
     } else {
         Outcome { verdict: Verdict::Wrong(lost), ..outcome }

@@ -26,7 +26,7 @@ pub fn certified(analysis: &Analysis, units: Units) -> Vec<String> {
     if !solution.modes.is_empty() {
         let count = solution.modes.len();
         let worst = shown::error(solution.worst());
-        told.push(match (task.hits.elements, solution.met) {
+        told.push(match (task.hits.elements, solution.met()) {
             (Some(_), _) => format!(
                 "Frequencies: the elements were asked for and no tolerance; each of the {count} is \
                  within {worst} of itself."
@@ -40,7 +40,7 @@ pub fn certified(analysis: &Analysis, units: Units) -> Vec<String> {
                 "Frequencies: asked within {}, NOT met ({}); each of the {count} is within {worst} \
                  of itself.",
                 shown::error(tolerance),
-                solution.shortfall(tolerance)
+                solution.ending
             ),
         });
         told.push(count_of_modes(analysis).to_owned());
@@ -97,7 +97,7 @@ fn proven(analysis: &Analysis) -> Option<String> {
 fn count_of_modes(analysis: &Analysis) -> &'static str {
     let solution = &analysis.solution;
     let by_nodes = analysis.bat.fixtures().none_moving() && !solution.theory.shears();
-    match (solution.complete(), by_nodes) {
+    match (solution.complete, by_nodes) {
         (true, true) => "No mode is missing: mode n has its n + 1 nodes.",
         (true, false) => "No mode is missing, by an inertia count.",
         (false, true) => "A MODE MAY BE MISSING: not every mode n has n + 1 nodes.",
@@ -112,7 +112,7 @@ fn exit_speeds(analysis: &Analysis, units: Units) -> Option<String> {
     let fastest = fastest.fold(0.0, f64::max);
     let outcomes = hits.impacts.iter().filter_map(|impact| impact.outcome.as_ref());
     let worst = outcomes.map(|outcome| outcome.error).reduce(f64::max)?;
-    let verdict = match (analysis.task.hits.elements, hits.met) {
+    let verdict = match (analysis.task.hits.elements, hits.met()) {
         (Some(_), _) => "",
         (None, true) => "; asked and met",
         (None, false) => "; NOT met",

@@ -78,7 +78,7 @@ fn of_bat(comparison: &Comparison, k: usize, bat: &Contender, file: &str) -> fil
         energies_seen_from: seen_from(&bat.bat),
         theory: bat.sweep.solution.theory.name(),
         modes: bat.sweep.solution.modes.len(),
-        tolerance_met: bat.sweep.met,
+        tolerance_met: bat.sweep.met(),
         ignored: in_hit(&bat.bat, &bat.scene),
         doubts: in_file(&bat.verdict),
         figures: figures

@@ -160,7 +160,7 @@ pub fn model(bat: &Bat, solution: &Solution) -> String {
     let mut out = wrapped(&model, 7);
     let oscillates = bat.fixtures().none_moving() && !solution.theory.turns();
     let by_nodes = oscillates && solution.modes.iter().all(Mode::has_its_nodes);
-    let count = match (solution.complete(), by_nodes) {
+    let count = match (solution.complete, by_nodes) {
         (true, true) => "no mode is missing: mode n has its n + 1 nodes",
         (true, false) => "no mode is missing (inertia count)",
         (false, _) => "A MODE MAY BE MISSING: the inertia count differs from the modes found",

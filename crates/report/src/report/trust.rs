@@ -335,7 +335,7 @@ fn computation(analysis: &Analysis) -> String {
         told.push(format!("exit speeds within {:.0e}", outcome.error));
     }
     let asked = analysis.task.hits.tolerance;
-    let verdict = match (analysis.task.hits.elements, solution.met && hits.met) {
+    let verdict = match (analysis.task.hits.elements, solution.met() && hits.met()) {
         (None, true) if far_more_exact(analysis) => " itself is far more exact than that",
         (None, true) => "",
         (None, false) => &format!(" was asked within {asked:.0e}, NOT met"),

@@ -47,7 +47,7 @@ impl Advice {
 
     /// Whether the full model's own frequencies are known to the tolerance.
     pub fn met(&self) -> bool {
-        self.full.solution.worst() <= self.tolerance && self.full.solution.complete()
+        self.full.solution.worst() <= self.tolerance && self.full.solution.complete
     }
 
     /// The largest shift that shear would typically make, where it is not known.

@@ -100,7 +100,7 @@ impl Workpiece {
             let accuracy = trial.accuracy(request, terms.exactly);
             let places: Vec<f64> = ALONG.iter().map(|share| share * bat.length()).collect();
             let sweep = sweep(&bat, terms.model, &scene, &accuracy, &places)?;
-            (modes, met) = (modes.max(sweep.solution.modes.len()), sweep.met);
+            (modes, met) = (modes.max(sweep.solution.modes.len()), sweep.met());
             off = sweep.worst().map_or(0.0, |(_, outcome)| outcome.error);
             let (model, effort) = (terms.model, sweep.effort);
             hit = Some(Hit { scene, model, effort });

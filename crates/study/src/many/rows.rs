@@ -186,7 +186,7 @@ impl Asked {
         };
         let figures = self.answers.iter().zip(found.figures).map(of).collect();
         let off = on_the_bat(&self.answers, &bat).err();
-        Ok(Found { figures, met: found.met && sweep.met, off })
+        Ok(Found { figures, met: found.met && sweep.met(), off })
     }
 
     /// Where the barrel is hit (m from the knob end): where it is asked, and where best places are sought.
