@@ -33,6 +33,19 @@ pub(crate) fn widest<W: WithSimd>(work: W) -> W::Output {
     arch.dispatch(work)
 }
 
+/// Evaluates an expression with the widest vectors that this machine has. What it calls is inlined into the closure
+/// around it, and the closure into what is compiled for a kind of vectors.
+macro_rules! vectorized {
+    ($work:expr) => {
+        $crate::base::lanes::widest(
+            #[inline(always)]
+            || $work,
+        )
+    };
+}
+
+pub(crate) use vectorized;
+
 /// One number for each of several bats or modes.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[repr(align(64))]

@@ -21,9 +21,7 @@
 //! end, whose strains are the least certain, then moves nothing but itself; with the root in the
 //! point of a cone, 4000 elements lost half the digits.
 
-use pulp::{Simd, WithSimd};
-
-use crate::base::lanes::widest;
+use crate::base::lanes::vectorized;
 use crate::base::quadrature::RunningSum;
 use crate::base::real::Real;
 use crate::bat::body::Bat;
@@ -346,37 +344,29 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
     /// motion with these strains when it is at rest at the root.
     pub fn apply(&self, q: &[R], y: &mut [R], loads: &mut Loads<R, W>) -> Rigid<R> {
         let (body, fixed) = (self.body(), self.fixed.as_deref());
-        widest(Apply { body, fixed, q, y: Some(y), loads })
+        apply(&body, fixed, q, Some(y), loads)
     }
 
     /// The rigid motion alone that [`Self::apply`] takes out of a bare bat: half the work.
     pub fn rigid(&self, q: &[R], loads: &mut Loads<R, W>) -> Rigid<R> {
         debug_assert!(self.fixed.is_none());
-        widest(Apply { body: self.body(), fixed: None, q, y: None, loads })
+        apply(&self.body(), None, q, None, loads)
     }
 }
 
 /// The compliance of a bat times the strains `q`, which go to `y` if they are asked for.
-struct Apply<'a, R, const W: usize> {
-    body: Body<'a, R, W>,
-    fixed: Option<&'a Fixed<R>>,
-    q: &'a [R],
-    y: Option<&'a mut [R]>,
-    loads: &'a mut Loads<R, W>,
-}
-
-impl<R: Real, const W: usize> WithSimd for Apply<'_, R, W> {
-    type Output = Rigid<R>;
-
-    #[inline(always)]
-    fn with_simd<V: Simd>(self, _: V) -> Rigid<R> {
-        let Self { body, fixed, q, y, loads } = self;
-        match (fixed, y) {
-            (Some(fixed), Some(y)) => fixed.compliance(&body, q, y, loads),
-            (_, y) if body.cells.len() > LONG => body.compliance::<true>(q, y, loads),
-            (_, y) => body.compliance::<false>(q, y, loads),
-        }
-    }
+fn apply<R: Real, const W: usize>(
+    body: &Body<'_, R, W>,
+    fixed: Option<&Fixed<R>>,
+    q: &[R],
+    y: Option<&mut [R]>,
+    loads: &mut Loads<R, W>,
+) -> Rigid<R> {
+    vectorized!(match (fixed, y) {
+        (Some(fixed), Some(y)) => fixed.compliance(body, q, y, loads),
+        (_, y) if body.cells.len() > LONG => body.compliance::<true>(q, y, loads),
+        (_, y) => body.compliance::<false>(q, y, loads),
+    })
 }
 
 impl<R: Real, const W: usize> Body<'_, R, W> {
