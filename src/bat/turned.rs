@@ -9,7 +9,7 @@ use crate::base::error::{Error, Result};
 use crate::bat::body::Bat;
 use crate::bat::pchip::{bernstein, subdivide};
 use crate::bat::profile::{Piece, SAME_PLACE};
-use crate::bat::rework::place;
+use crate::bat::rework::{Surface, place};
 
 /// A stretch of a [`DiameterChange`]: a cubic.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -174,7 +174,7 @@ impl Bat {
                 return Err(Error::value("stretch", found, expected));
             }
         }
-        profile.moved(|piece| change.radius_over(piece))?;
+        profile.moved(Surface::Outside, |piece| change.radius_over(piece))?;
         self.with(|parts| parts.profile = profile)
     }
 
@@ -187,7 +187,7 @@ impl Bat {
     pub fn bored(&self, change: &DiameterChange) -> Result<Self> {
         let mut profile = self.profile().clone();
         profile.cut(change.knots());
-        profile.bore_moved(|piece| change.radius_over(piece))?;
+        profile.moved(Surface::Bore, |piece| change.radius_over(piece))?;
         self.with(|parts| parts.profile = profile)
     }
 
