@@ -65,31 +65,25 @@ macro_rules! lanes {
     }};
 }
 
-impl Add for Lanes {
-    type Output = Self;
+/// Operations of two numbers in every lane.
+macro_rules! operations {
+    ($($name:ident $function:ident $sign:tt;)*) => {$(
+        impl $name for Lanes {
+            type Output = Self;
 
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        lanes!(k => self.0[k] + other.0[k])
-    }
+            #[inline(always)]
+            fn $function(self, other: Self) -> Self {
+                lanes!(k => self.0[k] $sign other.0[k])
+            }
+        }
+    )*};
 }
 
-impl Sub for Lanes {
-    type Output = Self;
-
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        lanes!(k => self.0[k] - other.0[k])
-    }
-}
-
-impl Mul for Lanes {
-    type Output = Self;
-
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        lanes!(k => self.0[k] * other.0[k])
-    }
+operations! {
+    Add add +;
+    Sub sub -;
+    Mul mul *;
+    Div div /;
 }
 
 impl Mul<f64> for Lanes {
@@ -105,15 +99,6 @@ impl Over<f64> for Lanes {
     #[inline(always)]
     fn of(value: f64) -> Self {
         Self::splat(value)
-    }
-}
-
-impl Div for Lanes {
-    type Output = Self;
-
-    #[inline(always)]
-    fn div(self, other: Self) -> Self {
-        lanes!(k => self.0[k] / other.0[k])
     }
 }
 
