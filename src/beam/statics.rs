@@ -114,33 +114,50 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
         debug_assert!(bats.len() == R::LANES && meshes.len() == R::LANES);
         let over = meshes[0].over_stations();
         self.rule = Rule::of(bats[0], over, N - 1);
-        let (points, count) = (self.rule.count(), meshes[0].len());
-        let zero = R::default();
-        for (softness, shear) in self.softness.iter_mut().zip([false, true]) {
-            softness.clear();
-            let of_all = over && (!shear || self.theory.shears());
-            softness.resize(if of_all { count * points } else { 0 }, zero);
-        }
-        self.bending_stiffness.clear();
-        self.bending_stiffness.resize(count * points, zero);
-        self.mass_per_length.clear();
-        self.mass_per_length.resize(count * points, zero);
-        if self.theory.turns() {
-            self.turning_per_length.clear();
-            self.turning_per_length.resize(count * points, zero);
-            self.shear_stiffness.clear();
-            let shear = if self.theory.shears() { count * points } else { 0 };
-            self.shear_stiffness.resize(shear, zero);
-        }
+        self.make_room(meshes[0].len(), over);
         if over {
             self.sample_over_stations(bats, meshes);
         } else if self.theory.turns() {
             self.sample_the_rest(bats, meshes);
         }
+        let stiffest = self.add_up(bats, meshes, over);
+        self.split = self.rooted.unwrap_or_else(|| self.root(meshes[0].len(), stiffest));
+        self.fill(meshes);
+        self.fixed = None;
+        if !bats[0].fixtures().none_moving() {
+            self.attach(bats);
+            self.fixed = Some(Box::new(Fixed::new(&self.bare(), bats, meshes[0])));
+        }
+    }
+
+    /// Room for what the sections of so many elements are worth at their points, as far as the theory asks for it.
+    #[inline(always)]
+    fn make_room(&mut self, count: usize, over: bool) {
+        let (samples, theory) = (count * self.rule.count(), self.theory);
+        let [bending_softness, shear_softness] = &mut self.softness;
+        for (values, asked) in [
+            (&mut self.bending_stiffness, true),
+            (&mut self.mass_per_length, true),
+            (&mut self.turning_per_length, theory.turns()),
+            (&mut self.shear_stiffness, theory.shears()),
+            (bending_softness, over),
+            (shear_softness, over && theory.shears()),
+        ] {
+            values.clear();
+            values.resize(if asked { samples } else { 0 }, R::default());
+        }
+    }
+
+    /// Adds up length, mass and balance point of the elements and what is attached, and finds the unit of energy;
+    /// EI and ρA of elements that reach over no stations are sampled on the way. The greatest `∫EI dx/h` of an
+    /// element of the first bat (N m²).
+    #[inline(always)]
+    fn add_up(&mut self, bats: &[&Bat], meshes: &[&Mesh], over: bool) -> f64 {
+        let (points, zero) = (self.rule.count(), R::default());
         let (mut mass, mut first) = (RunningSum::<R>::default(), RunningSum::<R>::default());
         let (mut greatest, mut stiffest) = (zero, 0.0);
         let mut at = zero;
-        for k in 0..count {
+        for k in 0..meshes[0].len() {
             let range = k * points..(k + 1) * points;
             let bending = &mut self.bending_stiffness[range.clone()];
             let line = &mut self.mass_per_length[range.clone()];
@@ -179,13 +196,7 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
         (0..R::LANES).for_each(|lane| {
             self.energy_unit.set_lane(lane, power_of_two_below(greatest.lane(lane)));
         });
-        self.split = self.rooted.unwrap_or_else(|| self.root(count, stiffest));
-        self.fill(meshes);
-        self.fixed = None;
-        if !bats[0].fixtures().none_moving() {
-            self.attach(bats);
-            self.fixed = Some(Box::new(Fixed::new(&self.bare(), bats, meshes[0])));
-        }
+        stiffest
     }
 
     /// Everything at the points of elements that reach over stations, or some of which do.

@@ -12,7 +12,7 @@ use crate::beam::wall::elastic::Elastic;
 use crate::beam::wall::layers::Layers;
 use crate::beam::wall::unknowns::{EndHold, WallMesh};
 use crate::modes::hoop::request::HoopRequest;
-use crate::modes::hoop::spectrum::{Spectrum, count_below};
+use crate::modes::hoop::spectrum::{Spectrum, count_below, keep};
 use crate::modes::hoop::system::Wall;
 
 /// One fineness of the elements after the other: degrees along and across, geometric steps towards ends, kinks
@@ -143,8 +143,7 @@ impl<'a> Climb<'a> {
                     continue;
                 }
                 now.keep(&kept);
-                let mut kept = kept.into_iter();
-                errors.retain(|_| kept.next() == Some(true));
+                keep(&mut errors, &kept);
             }
             let lowest = now.omegas.first().copied().unwrap_or(1.0);
             let allowed = |omega: &f64| self.request.allowed(n, omega / lowest);
