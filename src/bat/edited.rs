@@ -14,6 +14,20 @@ use crate::bat::profile::{Piece, SAME_PLACE};
 use crate::bat::rework::{Blended, place};
 
 impl Bat {
+    /// What the pieces of a stretch (m) are made of.
+    fn layups_on(&self, [from, to]: [f64; 2]) -> impl Iterator<Item = &Layup> {
+        let same = SAME_PLACE * self.length();
+        let here = move |piece: &&Piece| {
+            piece.start < to - same && piece.start + piece.length > from + same
+        };
+        self.profile().pieces.iter().filter(here).map(|piece| self.layup(piece))
+    }
+
+    /// Whether there is a sleeve somewhere around a stretch (m).
+    pub fn is_sleeved(&self, stretch: [f64; 2]) -> bool {
+        self.layups_on(stretch).any(|layup| !layup.sleeves.is_empty())
+    }
+
     /// The bat after these edits, one after the other, and after those it has already. Places count from
     /// the knob end of the bat as it is when an edit comes to it.
     ///
@@ -176,26 +190,16 @@ fn check_turned(bat: &Bat, on: Blended) -> Result<()> {
         let expected = format!("{} at most, half of the stretch", place(half));
         return Err(Error::value("blend", shown(blend, "m"), expected));
     }
-    if any_layup(bat, [on.from, on.to], |layup| !layup.sleeves.is_empty()) {
+    if bat.is_sleeved([on.from, on.to]) {
         let expected = "wood at the surface: let this edit come before the sleeve";
         return Err(Error::value("", "a stretch with a sleeve around it", expected));
     }
     Ok(())
 }
 
-/// Whether some layup of a stretch (m) is such a one.
-fn any_layup(bat: &Bat, [from, to]: [f64; 2], such: impl Fn(&Layup) -> bool) -> bool {
-    let same = SAME_PLACE * bat.length();
-    let mut pieces = bat.profile().pieces.iter();
-    pieces.any(|piece| {
-        let here = piece.start < to - same && piece.start + piece.length > from + same;
-        here && such(bat.layup(piece))
-    })
-}
-
 /// Nothing may be drilled where something fills the bore.
 fn check_unfilled(bat: &Bat, stretch: [f64; 2]) -> Result<()> {
-    match any_layup(bat, stretch, |layup| layup.core.is_some()) {
+    match bat.layups_on(stretch).any(|layup| layup.core.is_some()) {
         true => Err(Error::value("", "a stretch that is drilled and filled", "wood to be drilled")),
         false => Ok(()),
     }

@@ -201,15 +201,6 @@ impl Bat {
         profile.cut(places.iter().copied());
         self.with(|parts| parts.profile = profile)
     }
-
-    /// Whether there is a sleeve somewhere around a stretch (m).
-    pub fn is_sleeved(&self, [from, to]: [f64; 2]) -> bool {
-        let same = SAME_PLACE * self.length();
-        let here =
-            |piece: &&Piece| piece.start < to - same && piece.start + piece.length > from + same;
-        let mut pieces = self.profile().pieces.iter().filter(here);
-        pieces.any(|piece| !self.layup(piece).sleeves.is_empty())
-    }
 }
 
 #[cfg(test)]
