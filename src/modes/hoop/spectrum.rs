@@ -135,6 +135,11 @@ impl Spectrum {
 }
 
 impl Spectrum {
+    /// How far the outer surface moves radially at `x` (m) in a mode.
+    pub fn radial(&self, mode: usize, x: f64) -> f64 {
+        self.system.surface(&self.motions[mode], x)[0]
+    }
+
     /// Keeps some of the modes.
     pub fn keep(&mut self, kept: &[bool]) {
         keep(&mut self.omegas, kept);
