@@ -274,23 +274,21 @@ impl Hoop {
     /// `M = π ∫∫ρ(U² + V² + W²) r dr dx`, 2π in place of π for n = 0.
     pub fn modal_mass(&self, mode: usize) -> f64 {
         let asked = &self.modes[mode];
-        let largest = self.spectrum(asked).radial(asked.order - 1, asked.largest_at);
+        let of_harmonic = |spectrum: &&Spectrum| spectrum.system.n == asked.harmonic;
+        let spectrum = self.spectra.iter().find(of_harmonic).expect("every mode has its harmonic");
+        let [largest, ..] =
+            spectrum.system.surface(&spectrum.motions[asked.order - 1], asked.largest_at);
         let turn = if asked.harmonic == 0 { TAU } else { 0.5 * TAU };
         turn / (largest * largest)
-    }
-
-    /// The modes of a mode's harmonic.
-    fn spectrum(&self, mode: &HoopMode) -> &Spectrum {
-        let of_harmonic = |spectrum: &&Spectrum| spectrum.system.n == mode.harmonic;
-        self.spectra.iter().find(of_harmonic).expect("every mode has its harmonic")
     }
 
     /// The motion of the outer surface in mode `mode` of [`Self::modes`] at the given number of even places.
     pub fn outline(&self, mode: usize, points: usize) -> Outline {
         let asked = &self.modes[mode];
-        let spectrum = self.spectrum(asked);
+        let of_harmonic = |spectrum: &&Spectrum| spectrum.system.n == asked.harmonic;
+        let spectrum = self.spectra.iter().find(of_harmonic).expect("every mode has its harmonic");
         let motion = &spectrum.motions[asked.order - 1];
-        let scale = 1.0 / spectrum.radial(asked.order - 1, asked.largest_at);
+        let scale = 1.0 / spectrum.system.surface(motion, asked.largest_at)[0];
         let mut outline = Outline { x: vec![], radial: vec![], around: vec![], along: vec![] };
         for k in 0..points {
             let share = k as f64 / (points.max(2) - 1) as f64;
@@ -324,7 +322,8 @@ const SAMPLES: usize = 8;
 
 /// Where the outer surface moves most, radially (m).
 fn largest_at(spectrum: &Spectrum, mode: usize) -> f64 {
-    let size = |x: f64| spectrum.radial(mode, x).abs();
+    let motion = &spectrum.motions[mode];
+    let size = |x: f64| spectrum.system.surface(motion, x)[0].abs();
     let columns = &spectrum.system.mesh.columns;
     let mut places: Vec<f64> = columns
         .iter()
