@@ -13,8 +13,12 @@
 //! closed form, two damped fronts that run to both ends and come back upside down, and the program
 //! checks itself against it.
 
+#[path = "wpi_report/sums.rs"]
+mod sums;
+
 use std::f64::consts::PI;
-use sweetspot::motion::oscillator::{Oscillator, partial_sums, struck};
+use sums::{partial_sums, struck};
+use sweetspot::motion::oscillator::Oscillator;
 
 /// A string between two fixed ends; SI units.
 pub struct DampedString {

@@ -5,6 +5,8 @@
 
 #[path = "../examples/wpi_report/table.rs"]
 mod table;
+#[path = "../examples/wpi_report/sums.rs"]
+mod sums;
 #[path = "../examples/wpi_report/vibration.rs"]
 mod vibration;
 #[path = "../examples/wpi_report/hit.rs"]

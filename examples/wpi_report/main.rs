@@ -8,6 +8,7 @@
 //! gives. What a real hit does is another matter: the loss to vibration here is the report's own.
 
 mod table;
+mod sums;
 mod vibration;
 mod hit;
 mod claims;

@@ -3,13 +3,12 @@
 //! Lengths are in units of `L`, `ρA = EI = 1`; so `ω_n = b_n²`, and a displacement after an impulse
 //! `J` is `w √(EI ρA)/(J L)`. Shapes are the report's `W_n`, computed without cancellation.
 
+use crate::sums::{partial_sums, struck};
 use crate::table::{Table, grid, numbered};
 use std::f64::consts::PI;
 use sweetspot::beam::dowel::{Ends, UniformMode, beta_l};
 use sweetspot::collision::energy_loss::wpi_alpha;
-use sweetspot::motion::oscillator::{
-    Oscillator, expansion, largest_steps, orthogonality, partial_sums, struck, trapezoid_masses,
-};
+use sweetspot::motion::oscillator::Oscillator;
 
 /// The report sums over 1001 points.
 const CELLS: usize = 1000;
@@ -22,6 +21,43 @@ pub fn all() -> Vec<Table> {
     tables.extend([released_over_time(), struck_at_two_times(), end_point()]);
     tables.extend(EIGHTHS.map(struck_sums));
     tables
+}
+
+/// Sample masses `μ_i` (kg) of a bar with `density_per_length` (kg/m) sampled at rising `x` (m):
+/// the trapezoid rule.
+fn trapezoid_masses(x: &[f64], density_per_length: &[f64]) -> Vec<f64> {
+    let gap = |i: usize, j: usize| x[j] - x[i];
+    let last = x.len() - 1;
+    (0..=last)
+        .map(|i| 0.5 * gap(i.saturating_sub(1), (i + 1).min(last)) * density_per_length[i])
+        .collect()
+}
+
+/// `I_nm = Σ_i μ_i φ_n(x_i) φ_m(x_i)`: modal masses on the diagonal, and beside it what
+/// orthogonality or the sampling leaves.
+fn orthogonality(masses: &[f64], shapes: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    shapes.iter().map(|a| shapes.iter().map(|b| dot(masses, a, b)).collect()).collect()
+}
+
+/// `A_n = Σ_i μ_i w₀(x_i) φ_n(x_i) / I_nn`: how much of each mode is in the shape `w0`.
+///
+/// # Source
+///
+/// Chapter 2 and Fig. 9 of the WPI report (named in [`wpi_alpha`]), which leaves out
+/// the rigid pair: its sum then tends to `w₀` less its rigid part.
+fn expansion(masses: &[f64], shapes: &[Vec<f64>], w0: &[f64]) -> Vec<f64> {
+    shapes.iter().map(|shape| dot(masses, shape, w0) / dot(masses, shape, shape)).collect()
+}
+
+/// `max_i |w_{N+1}(x_i) − w_N(x_i)|` for successive partial sums: what one more mode still changes.
+fn largest_steps(sums: &[Vec<f64>]) -> Vec<f64> {
+    let step = |(a, b): (&f64, &f64)| (b - a).abs();
+    sums.windows(2).map(|w| w[0].iter().zip(&w[1]).map(step).fold(0.0, f64::max)).collect()
+}
+
+/// `Σ μ a b`.
+fn dot(masses: &[f64], a: &[f64], b: &[f64]) -> f64 {
+    masses.iter().zip(a).zip(b).map(|((mass, a), b)| mass * a * b).sum()
 }
 
 fn b(n: usize) -> f64 {

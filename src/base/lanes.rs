@@ -33,6 +33,19 @@ pub(crate) fn widest<W: WithSimd>(work: W) -> W::Output {
     arch.dispatch(work)
 }
 
+/// Evaluates an expression with the widest vectors that this machine has. What it calls is inlined into the closure
+/// around it, and the closure into what is compiled for a kind of vectors.
+macro_rules! vectorized {
+    ($work:expr) => {
+        $crate::base::lanes::widest(
+            #[inline(always)]
+            || $work,
+        )
+    };
+}
+
+pub(crate) use vectorized;
+
 /// One number for each of several bats or modes.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[repr(align(64))]
@@ -52,31 +65,25 @@ macro_rules! lanes {
     }};
 }
 
-impl Add for Lanes {
-    type Output = Self;
+/// Operations of two numbers in every lane.
+macro_rules! operations {
+    ($($name:ident $function:ident $sign:tt;)*) => {$(
+        impl $name for Lanes {
+            type Output = Self;
 
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        lanes!(k => self.0[k] + other.0[k])
-    }
+            #[inline(always)]
+            fn $function(self, other: Self) -> Self {
+                lanes!(k => self.0[k] $sign other.0[k])
+            }
+        }
+    )*};
 }
 
-impl Sub for Lanes {
-    type Output = Self;
-
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        lanes!(k => self.0[k] - other.0[k])
-    }
-}
-
-impl Mul for Lanes {
-    type Output = Self;
-
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        lanes!(k => self.0[k] * other.0[k])
-    }
+operations! {
+    Add add +;
+    Sub sub -;
+    Mul mul *;
+    Div div /;
 }
 
 impl Mul<f64> for Lanes {
@@ -92,15 +99,6 @@ impl Over<f64> for Lanes {
     #[inline(always)]
     fn of(value: f64) -> Self {
         Self::splat(value)
-    }
-}
-
-impl Div for Lanes {
-    type Output = Self;
-
-    #[inline(always)]
-    fn div(self, other: Self) -> Self {
-        lanes!(k => self.0[k] / other.0[k])
     }
 }
 

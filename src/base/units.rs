@@ -40,92 +40,67 @@ pub const PSI: f64 = 6_894.757_293_168_361;
 /// Powers of length, mass, time and angle.
 type Dimension = [i8; 4];
 
-/// A physical quantity: what a value is, its dimension, its SI unit and an example.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Quantity {
+/// Quantities: the name in words, the dimension, the SI unit, and an example in the units of the trade.
+macro_rules! quantities {
+    ($($(#[$said:meta])* $quantity:ident: $name:literal, $dimension:expr, $si:literal, $example:literal;)*) => {
+        /// A physical quantity: what a value is, its dimension, its SI unit and an example.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        pub enum Quantity {
+            $($(#[$said])* $quantity,)*
+        }
+
+        impl Quantity {
+            /// All quantities, for tables and tests.
+            pub const ALL: [Self; [$($name),*].len()] = [$(Self::$quantity),*];
+
+            /// Name, dimension, SI unit, and an example in the units of the trade.
+            fn facts(self) -> (&'static str, Dimension, &'static str, &'static str) {
+                match self {
+                    $(Self::$quantity => ($name, $dimension, $si, $example),)*
+                }
+            }
+        }
+    };
+}
+
+quantities! {
     /// A length, in m.
-    Length,
+    Length: "a length", [1, 0, 0, 0], "m", "33 in";
     /// A mass, in kg.
-    Mass,
+    Mass: "a mass", [0, 1, 0, 0], "kg", "31 oz";
     /// A density, in kg/m³.
-    Density,
+    Density: "a density", [-3, 1, 0, 0], "kg/m^3", "0.0257 lb/in^3";
     /// A pressure, a stress or a modulus, in Pa.
-    Pressure,
+    Pressure: "a pressure", [-1, 1, -2, 0], "Pa", "18.1 GPa";
     /// A speed, in m/s.
-    Speed,
+    Speed: "a speed", [1, 0, -1, 0], "m/s", "90 mph";
     /// An angular speed, in rad/s.
-    AngularSpeed,
+    AngularSpeed: "an angular speed", [0, 0, -1, 1], "rad/s", "50 rad/s";
     /// An angle, in rad.
-    Angle,
+    Angle: "an angle", [0, 0, 0, 1], "rad", "10 deg";
     /// A time, in s.
-    Time,
+    Time: "a time", [0, 0, 1, 0], "s", "0.75 ms";
     /// A frequency, in Hz.
-    Frequency,
+    Frequency: "a frequency", [0, 0, -1, 0], "Hz", "170 Hz";
     /// A force, in N.
-    Force,
+    Force: "a force", [1, 1, -2, 0], "N", "20 lbf";
     /// A stiffness, in N/m.
-    Stiffness,
+    Stiffness: "a stiffness", [0, 1, -2, 0], "N/m", "1000 N/m";
     /// A stiffness against rotation, in N m/rad.
-    RotationalStiffness,
+    RotationalStiffness: "a rotational stiffness", [2, 1, -2, -1], "N m/rad", "500 N m/rad";
     /// A stiffness per length of bat, in N/m².
-    BedStiffness,
+    BedStiffness: "a stiffness per length", [-1, 1, -2, 0], "N/m^2", "4e5 N/m^2";
     /// A damping constant, in N s/m.
-    Damping,
+    Damping: "a damping", [0, 1, -1, 0], "N s/m", "5 N s/m";
     /// A damping constant per length of bat, in N s/m².
-    BedDamping,
+    BedDamping: "a damping per length", [-1, 1, -1, 0], "N s/m^2", "200 N s/m^2";
     /// A moment of inertia, in kg m².
-    Inertia,
+    Inertia: "a moment of inertia", [2, 1, 0, 0], "kg m^2", "10425 oz in^2";
     /// An impulse, in N s.
-    Impulse,
+    Impulse: "an impulse", [1, 1, -1, 0], "N s", "12 N s";
 }
 
 impl Quantity {
-    /// All quantities, for tables and tests.
-    pub const ALL: [Self; 17] = [
-        Self::Length,
-        Self::Mass,
-        Self::Density,
-        Self::Pressure,
-        Self::Speed,
-        Self::AngularSpeed,
-        Self::Angle,
-        Self::Time,
-        Self::Frequency,
-        Self::Force,
-        Self::Stiffness,
-        Self::RotationalStiffness,
-        Self::BedStiffness,
-        Self::Damping,
-        Self::BedDamping,
-        Self::Inertia,
-        Self::Impulse,
-    ];
-
-    /// Name, dimension, SI unit, and an example in the units of the trade.
-    fn facts(self) -> (&'static str, Dimension, &'static str, &'static str) {
-        match self {
-            Self::Length => ("a length", [1, 0, 0, 0], "m", "33 in"),
-            Self::Mass => ("a mass", [0, 1, 0, 0], "kg", "31 oz"),
-            Self::Density => ("a density", [-3, 1, 0, 0], "kg/m^3", "0.0257 lb/in^3"),
-            Self::Pressure => ("a pressure", [-1, 1, -2, 0], "Pa", "18.1 GPa"),
-            Self::Speed => ("a speed", [1, 0, -1, 0], "m/s", "90 mph"),
-            Self::AngularSpeed => ("an angular speed", [0, 0, -1, 1], "rad/s", "50 rad/s"),
-            Self::Angle => ("an angle", [0, 0, 0, 1], "rad", "10 deg"),
-            Self::Time => ("a time", [0, 0, 1, 0], "s", "0.75 ms"),
-            Self::Frequency => ("a frequency", [0, 0, -1, 0], "Hz", "170 Hz"),
-            Self::Force => ("a force", [1, 1, -2, 0], "N", "20 lbf"),
-            Self::Stiffness => ("a stiffness", [0, 1, -2, 0], "N/m", "1000 N/m"),
-            Self::RotationalStiffness => {
-                ("a rotational stiffness", [2, 1, -2, -1], "N m/rad", "500 N m/rad")
-            }
-            Self::BedStiffness => ("a stiffness per length", [-1, 1, -2, 0], "N/m^2", "4e5 N/m^2"),
-            Self::Damping => ("a damping", [0, 1, -1, 0], "N s/m", "5 N s/m"),
-            Self::BedDamping => ("a damping per length", [-1, 1, -1, 0], "N s/m^2", "200 N s/m^2"),
-            Self::Inertia => ("a moment of inertia", [2, 1, 0, 0], "kg m^2", "10425 oz in^2"),
-            Self::Impulse => ("an impulse", [1, 1, -1, 0], "N s", "12 N s"),
-        }
-    }
-
     /// Whether a unit of that dimension measures it. A stiffness against rotation may leave its
     /// radian out: `N m`.
     fn has(self, dimension: Dimension) -> bool {

@@ -26,12 +26,10 @@ pub const STANDARD_PIVOT: f64 = 0.1524;
 /// again: it is made by [`Bat::builder`], and a change makes another one ([`Bat::with`]).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bat {
-    name: String,
-    source: String,
-    inches: bool,
-    profile: Profile,
+    /// Its pieces end wherever a material or a fixture begins.
+    parts: Parts,
+    /// What the pieces are made of, the bat's own material first.
     layups: Vec<Layup>,
-    fixtures: Fixtures,
     weighed: Weighed,
     factors: [f64; 2],
     /// Whether the moduli follow from the tap.
@@ -133,7 +131,7 @@ impl Builder {
         mistakes.end(())?;
         let mut bat = bat.expect("what could not be made was noted");
         if let Some(mass) = self.weighed.mass {
-            let attached = bat.fixtures.attached_mass();
+            let attached = bat.fixtures().attached_mass();
             let own = mass - attached;
             if own <= 0.0 {
                 let found = format!("{mass} kg, no more than the {attached} kg attached");
@@ -161,22 +159,11 @@ impl Bat {
     ///
     /// As [`Builder::build`].
     pub fn with(&self, change: impl FnOnce(&mut Parts)) -> Result<Self> {
-        let mut parts = self.parts();
+        let mut parts = self.parts.clone();
         change(&mut parts);
         let bat = Self::of(parts, self.weighed, self.factors)?;
         let (edits, unedited) = (self.edits.clone(), self.unedited.clone());
         Ok(Self { edits, unedited, heard: self.heard, ..bat })
-    }
-
-    fn parts(&self) -> Parts {
-        Parts {
-            name: self.name.clone(),
-            source: self.source.clone(),
-            inches: self.inches,
-            profile: self.profile.clone(),
-            material: self.material().clone(),
-            fixtures: self.fixtures.clone(),
-        }
     }
 
     /// The bat with these parts, which one more edit has made of its own.
@@ -185,7 +172,7 @@ impl Bat {
         edit: &Edit,
         change: impl FnOnce(&mut Parts) -> Result<()>,
     ) -> Result<Self> {
-        let mut parts = self.parts();
+        let mut parts = self.parts.clone();
         change(&mut parts)?;
         // Another wood is not the one that was weighed and tapped.
         let (weighed, factors) = match edit.change {
@@ -208,25 +195,12 @@ impl Bat {
         self.unedited.as_deref().unwrap_or(self)
     }
 
-    fn of(parts: Parts, weighed: Weighed, factors: [f64; 2]) -> Result<Self> {
-        let Parts { name, source, inches, profile, material, mut fixtures } = parts;
-        let layups = vec![Layup::of(material)];
+    fn of(mut parts: Parts, weighed: Weighed, factors: [f64; 2]) -> Result<Self> {
+        let Parts { profile, fixtures, .. } = &mut parts;
         fixtures.check(profile.length())?;
         fixtures.settle(&profile.borders());
-        let (edits, unedited) = (vec![], None);
-        let mut bat = Self {
-            name,
-            source,
-            inches,
-            profile,
-            layups,
-            fixtures,
-            weighed,
-            factors,
-            heard: false,
-            edits,
-            unedited,
-        };
+        let (layups, edits) = (vec![Layup::of(parts.material.clone())], vec![]);
+        let mut bat = Self { parts, layups, weighed, factors, heard: false, edits, unedited: None };
         bat.lay_out();
         bat.check_range()?;
         Ok(bat)
@@ -234,22 +208,22 @@ impl Bat {
 
     /// Whether the bat's file has its lengths in inches: people who measure so are answered so.
     pub fn inches(&self) -> bool {
-        self.inches
+        self.parts.inches
     }
 
     /// Name of the bat.
     pub fn name(&self) -> &str {
-        &self.name
+        &self.parts.name
     }
 
     /// Where the numbers of the bat come from.
     pub fn source(&self) -> &str {
-        &self.source
+        &self.parts.source
     }
 
     /// Shape of the bat; its pieces end wherever a material or a fixture begins.
     pub fn profile(&self) -> &Profile {
-        &self.profile
+        &self.parts.profile
     }
 
     /// What the pieces of the profile are made of; the first is the bat's own material.
@@ -259,7 +233,7 @@ impl Bat {
 
     /// What is on it and what holds it.
     pub fn fixtures(&self) -> &Fixtures {
-        &self.fixtures
+        &self.parts.fixtures
     }
 
     /// Mass, balance point and first frequency as they were measured, of the bat before its edits;
@@ -286,25 +260,25 @@ impl Bat {
 
     /// Cuts the profile where a material or a fixture begins, and tells every piece its layup.
     fn lay_out(&mut self) {
-        self.layups.truncate(1);
-        self.profile.pieces.iter_mut().for_each(|piece| piece.layup = 0);
-        self.profile.cut(self.fixtures.borders());
-        for region in &self.fixtures.regions {
-            self.layups.push(region.layup.clone());
-            for piece in &mut self.profile.pieces {
+        let Self { parts: Parts { profile, fixtures, .. }, layups, .. } = self;
+        layups.truncate(1);
+        profile.pieces.iter_mut().for_each(|piece| piece.layup = 0);
+        profile.cut(fixtures.borders());
+        for region in &fixtures.regions {
+            layups.push(region.layup.clone());
+            for piece in &mut profile.pieces {
                 if piece.is_within(region.from, region.to) {
-                    piece.layup = self.layups.len() - 1;
+                    piece.layup = layups.len() - 1;
                 }
             }
         }
-        for tape in &self.fixtures.tapes {
+        for tape in &fixtures.tapes {
             let per_length = tape.mass / (tape.to - tape.from);
             // Each layup under it once more, with the tape.
-            let bare = self.layups.len();
+            let bare = layups.len();
             let mut taped: Vec<Option<usize>> = vec![None; bare];
-            for piece in &mut self.profile.pieces {
+            for piece in &mut profile.pieces {
                 if piece.is_within(tape.from, tape.to) {
-                    let layups = &mut self.layups;
                     piece.layup = *taped[piece.layup].get_or_insert_with(|| {
                         let mut layup = layups[piece.layup].clone();
                         layup.tape += per_length;
@@ -319,21 +293,22 @@ impl Bat {
     /// One factor on every density and one on every modulus of the bat.
     pub fn scale(&mut self, density: f64, modulus: f64) {
         self.layups.iter_mut().for_each(|layup| layup.scaled(density, modulus));
-        for region in &mut self.fixtures.regions {
+        for region in &mut self.parts.fixtures.regions {
             region.layup.scaled(density, modulus);
         }
+        self.parts.material.clone_from(&self.layups[0].outer);
         self.factors[0] *= density;
         self.factors[1] *= modulus;
     }
 
     /// The bat's own material; its density is the weighed one where a weighed mass was given.
     pub fn material(&self) -> &Material {
-        &self.layups[0].outer
+        &self.parts.material
     }
 
     /// Length from the knob end to the tip (m).
     pub fn length(&self) -> f64 {
-        self.profile.length()
+        self.parts.profile.length()
     }
 
     /// What a piece of the profile is made of.
@@ -344,12 +319,12 @@ impl Bat {
 
     /// What the section at `x` is worth, at a border the one to its right.
     pub fn worth_at(&self, x: f64) -> Worth {
-        self.layup(self.profile.piece_at(x)).worth(self.profile.at(x))
+        self.layup(self.parts.profile.piece_at(x)).worth(self.parts.profile.at(x))
     }
 
     /// Whether a material of the bat has a loss factor.
     pub fn lossy(&self) -> bool {
-        let mut layups = self.profile.pieces.iter().map(|piece| self.layup(piece));
+        let mut layups = self.parts.profile.pieces.iter().map(|piece| self.layup(piece));
         layups.any(|layup| layup.materials().any(|material| material.loss_factor > 0.0))
     }
 
@@ -369,7 +344,7 @@ impl Bat {
 
     /// Whether anything damps the bat; else it rings without end after a hit.
     pub fn damped(&self) -> bool {
-        self.lossy() || self.fixtures.damping()
+        self.lossy() || self.parts.fixtures.damping()
     }
 
     /// Mass, balance point and moments of inertia with everything attached, exact by quadrature.
@@ -378,7 +353,8 @@ impl Bat {
     /// the integrands of degree 8 and 12, which five and seven Gauss points integrate exactly.
     /// Formulas take as many points as agree to 2e-14.
     pub fn inertia(&self) -> Inertia {
-        let attached = |f: &dyn Fn([f64; 3]) -> f64| self.fixtures.masses().map(f).sum::<f64>();
+        let attached =
+            |f: &dyn Fn([f64; 3]) -> f64| self.parts.fixtures.masses().map(f).sum::<f64>();
         let [mass, first, own] = self.integrals(|x, layup, section| {
             let mass = layup.mass(section);
             [mass, x * mass, layup.turning(section)]
@@ -396,7 +372,7 @@ impl Bat {
     fn integrals<const N: usize>(&self, f: impl Fn(f64, &Layup, Section) -> [f64; N]) -> [f64; N] {
         let rule = gauss(7);
         let mut totals = [RunningSum::<f64>::default(); N];
-        for piece in &self.profile.pieces {
+        for piece in &self.parts.profile.pieces {
             let layup = self.layup(piece);
             let of = |s: f64, section: Section| f(piece.start + s * piece.length, layup, section);
             let mut add = |weight: f64, values: [f64; N]| {
@@ -417,7 +393,7 @@ impl Bat {
     fn check_layers(&self) -> Result<()> {
         /// As a share of the wall.
         const ROOM: f64 = 1e-6;
-        for piece in &self.profile.pieces {
+        for piece in &self.parts.profile.pieces {
             let layup = self.layup(piece);
             let layers: f64 = layup.sleeves.iter().map(|layer| layer.thickness).sum();
             let too_thick = |(s, room): &(f64, f64)| {
@@ -430,7 +406,7 @@ impl Bat {
                 continue;
             };
             let section = piece.at(s);
-            let regions = self.fixtures.regions.iter();
+            let regions = self.parts.fixtures.regions.iter();
             let own = regions.enumerate().find(|(_, r)| piece.is_within(r.from, r.to));
             let field = own.map_or("layers".to_owned(), |(k, _)| format!("regions[{k}].layers"));
             let found = format!("{} mm in all", significant(1e3 * layers, 4));
@@ -452,12 +428,11 @@ impl Bat {
         in_range("balance point", balance_point.abs().max(1.0), "m")?;
         in_range("moment of inertia", about_balance, "kg m²")?;
         in_range("moment of inertia as a line", line_about_balance, "kg m²")?;
-        let outer = self.profile.stations.outer.iter().fold(0.0_f64, |a, b| a.max(*b));
-        let widest = Section { outer, inner: 0.0 };
+        let widest = Section { outer: self.parts.profile.widest(), inner: 0.0 };
         self.check_layers()?;
         for (k, layup) in self.layups.iter().enumerate() {
             let name = |what: &str| match k {
-                k if (1..=self.fixtures.regions.len()).contains(&k) => {
+                k if (1..=self.parts.fixtures.regions.len()).contains(&k) => {
                     format!("regions[{}].{what}", k - 1)
                 }
                 _ => what.to_owned(),

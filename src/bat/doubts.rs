@@ -49,10 +49,16 @@ impl Bat {
     pub fn warnings(&self) -> Vec<String> {
         let Inertia { mass, balance_point, .. } = self.inertia();
         let length = self.length();
-        let widest = self.profile().stations.outer.iter().fold(0.0_f64, |a, b| a.max(*b));
         let checks = [
             ("length", length, "m", 0.3, 1.2, " (bare numbers are in m: \"unit\": \"in\"?)"),
-            ("largest radius", widest, "m", 0.01, 0.05, " (a diameter given as radius?)"),
+            (
+                "largest radius",
+                self.profile().widest(),
+                "m",
+                0.01,
+                0.05,
+                " (a diameter given as radius?)",
+            ),
             ("mass", mass, "kg", 0.2, 2.0, " (bare numbers are in kg: \"31 oz\"?)"),
             ("balance point", balance_point, "m", 0.0, length, ""),
         ];

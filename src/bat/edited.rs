@@ -10,10 +10,24 @@ use crate::bat::fixtures::{Attachment, Fixtures, Region, Tape};
 use crate::bat::layup::{Layer, Layup};
 use crate::bat::material::Material;
 use crate::bat::part::{Part as _, shown};
-use crate::bat::profile::SAME_PLACE;
+use crate::bat::profile::{Piece, SAME_PLACE};
 use crate::bat::rework::{Blended, place};
 
 impl Bat {
+    /// What the pieces of a stretch (m) are made of.
+    fn layups_on(&self, [from, to]: [f64; 2]) -> impl Iterator<Item = &Layup> {
+        let same = SAME_PLACE * self.length();
+        let here = move |piece: &&Piece| {
+            piece.start < to - same && piece.start + piece.length > from + same
+        };
+        self.profile().pieces.iter().filter(here).map(|piece| self.layup(piece))
+    }
+
+    /// Whether there is a sleeve somewhere around a stretch (m).
+    pub fn is_sleeved(&self, stretch: [f64; 2]) -> bool {
+        self.layups_on(stretch).any(|layup| !layup.sleeves.is_empty())
+    }
+
     /// The bat after these edits, one after the other, and after those it has already. Places count from
     /// the knob end of the bat as it is when an edit comes to it.
     ///
@@ -95,19 +109,24 @@ fn ends(change: &mut Change) -> Option<[&mut f64; 2]> {
     }
 }
 
+/// The stretch of a change that runs in and out.
+macro_rules! blended {
+    ($change:ident) => {
+        Blended { from: $change.from, to: $change.to, blend: $change.blend }
+    };
+}
+
 /// Whether the change fits the bat.
 fn check(change: &Change, path: &str, bat: &Bat) -> Result<()> {
     let length = bat.length();
     match change {
         Change::Cut(cut) => {
             cut.check(path, length)?;
-            check_blend(Blended { from: cut.from, to: cut.to, blend: cut.blend })?;
-            check_bare(bat, [cut.from, cut.to])
+            check_turned(bat, blended!(cut))
         }
         Change::ScaleDiameter(scale) => {
             scale.check(path, length)?;
-            check_blend(Blended { from: scale.from, to: scale.to, blend: scale.blend })?;
-            check_bare(bat, [scale.from, scale.to])
+            check_turned(bat, blended!(scale))
         }
         Change::Knob(mass) => {
             Attachment { mass: *mass, ..Attachment::default() }.check("", length).map_err(
@@ -120,21 +139,7 @@ fn check(change: &Change, path: &str, bat: &Bat) -> Result<()> {
         }
         Change::Cup(cup) => {
             cup.check(path, length)?;
-            if cup.depth >= length {
-                let expected = format!("less than the bat's length, {}", place(length));
-                return Err(Error::value("depth", shown(cup.depth, "m"), expected));
-            }
-            check_unfilled(bat, [length - cup.depth, length])?;
-            let tip = [length - cup.depth, length];
-            match bat.profile().pieces.iter().any(|piece| {
-                let overlaps = piece.start < tip[1] && piece.start + piece.length > tip[0];
-                overlaps && [0.0, 0.5, 1.0].iter().any(|s| piece.at(*s).inner > 0.0)
-            }) {
-                true => {
-                    Err(Error::value("", "a bat that is hollow there", "a solid end of the bat"))
-                }
-                false => Ok(()),
-            }
+            check_cup(bat, cup.depth)
         }
         Change::Bore(bore) => {
             bore.check(path, length)?;
@@ -159,41 +164,42 @@ fn check(change: &Change, path: &str, bat: &Bat) -> Result<()> {
     }
 }
 
-/// A change runs in and out within its stretch.
-fn check_blend(on: Blended) -> Result<()> {
+/// A cup is shorter than the bat, and its end of the bat is solid.
+fn check_cup(bat: &Bat, depth: f64) -> Result<()> {
+    let length = bat.length();
+    let bottom = length - depth;
+    if depth >= length {
+        let expected = format!("less than the bat's length, {}", place(length));
+        return Err(Error::value("depth", shown(depth, "m"), expected));
+    }
+    check_unfilled(bat, [bottom, length])?;
+    let hollow = |piece: &Piece| {
+        let overlaps = piece.start < length && piece.start + piece.length > bottom;
+        overlaps && [0.0, 0.5, 1.0].iter().any(|s| piece.at(*s).inner > 0.0)
+    };
+    match bat.profile().pieces.iter().any(hollow) {
+        true => Err(Error::value("", "a bat that is hollow there", "a solid end of the bat")),
+        false => Ok(()),
+    }
+}
+
+/// A change of the surface runs in and out within its stretch, where there is no sleeve.
+fn check_turned(bat: &Bat, on: Blended) -> Result<()> {
     let half = 0.5 * (on.to - on.from);
-    match on.blend {
-        Some(blend) if blend > half * (1.0 + SAME_PLACE) => {
-            let expected = format!("{} at most, half of the stretch", place(half));
-            Err(Error::value("blend", shown(blend, "m"), expected))
-        }
-        _ => Ok(()),
+    if let Some(blend) = on.blend.filter(|blend| *blend > half * (1.0 + SAME_PLACE)) {
+        let expected = format!("{} at most, half of the stretch", place(half));
+        return Err(Error::value("blend", shown(blend, "m"), expected));
     }
-}
-
-/// Whether some layup of a stretch (m) is such a one.
-fn any_layup(bat: &Bat, [from, to]: [f64; 2], such: impl Fn(&Layup) -> bool) -> bool {
-    let same = SAME_PLACE * bat.length();
-    let mut pieces = bat.profile().pieces.iter();
-    pieces.any(|piece| {
-        let here = piece.start < to - same && piece.start + piece.length > from + same;
-        here && such(bat.layup(piece))
-    })
-}
-
-/// Nothing may be turned off where there is a sleeve.
-fn check_bare(bat: &Bat, stretch: [f64; 2]) -> Result<()> {
-    if any_layup(bat, stretch, |layup| !layup.sleeves.is_empty()) {
+    if bat.is_sleeved([on.from, on.to]) {
         let expected = "wood at the surface: let this edit come before the sleeve";
-        Err(Error::value("", "a stretch with a sleeve around it", expected))
-    } else {
-        Ok(())
+        return Err(Error::value("", "a stretch with a sleeve around it", expected));
     }
+    Ok(())
 }
 
 /// Nothing may be drilled where something fills the bore.
 fn check_unfilled(bat: &Bat, stretch: [f64; 2]) -> Result<()> {
-    match any_layup(bat, stretch, |layup| layup.core.is_some()) {
+    match bat.layups_on(stretch).any(|layup| layup.core.is_some()) {
         true => Err(Error::value("", "a stretch that is drilled and filled", "wood to be drilled")),
         false => Ok(()),
     }
@@ -203,14 +209,8 @@ fn check_unfilled(bat: &Bat, stretch: [f64; 2]) -> Result<()> {
 fn made(change: &Change, parts: &mut Parts) -> Result<()> {
     let length = parts.profile.length();
     match change {
-        Change::Cut(cut) => {
-            let on = Blended { from: cut.from, to: cut.to, blend: cut.blend };
-            parts.profile.turned_down(on, cut.depth)
-        }
-        Change::ScaleDiameter(scale) => {
-            let on = Blended { from: scale.from, to: scale.to, blend: scale.blend };
-            parts.profile.scaled_outside(on, scale.by)
-        }
+        Change::Cut(cut) => parts.profile.turned_down(blended!(cut), cut.depth),
+        Change::ScaleDiameter(scale) => parts.profile.scaled_outside(blended!(scale), scale.by),
         Change::Knob(mass) => {
             parts.fixtures.attachments.push(Attachment { mass: *mass, ..Attachment::default() });
             Ok(())

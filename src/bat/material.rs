@@ -89,7 +89,13 @@ impl Material {
     ///
     /// [`crate::Error::Value`] if one of them is not a positive number.
     pub fn new(density: f64, youngs_modulus: f64) -> Result<Self> {
-        let material = Self {
+        let material = Self::unchecked(density, youngs_modulus);
+        material.check()?;
+        Ok(material)
+    }
+
+    fn unchecked(density: f64, youngs_modulus: f64) -> Self {
+        Self {
             name: None,
             density,
             youngs_modulus,
@@ -103,9 +109,7 @@ impl Material {
             radial_modulus: None,
             shear_moduli: None,
             poisson_ratios: None,
-        };
-        material.check()?;
-        Ok(material)
+        }
     }
 
     /// Poisson's ratio for κ: the material's own, of a composite that of the plane of its wall, else 0.3.
@@ -165,18 +169,10 @@ impl Material {
     pub fn named(name: &str) -> Option<Self> {
         BUILT_IN.iter().find(|m| m.name == name).map(|m| Self {
             name: Some(m.name.to_owned()),
-            density: m.density,
-            youngs_modulus: m.youngs_modulus,
             shear_modulus: m.shear_modulus,
-            poisson_ratio: None,
-            shear_coefficient: None,
-            loss_factor: 0.0,
             strength: m.strength,
             strain_to_failure: m.strain_to_failure,
-            hoop_modulus: None,
-            radial_modulus: None,
-            shear_moduli: None,
-            poisson_ratios: None,
+            ..Self::unchecked(m.density, m.youngs_modulus)
         })
     }
 }

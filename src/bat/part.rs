@@ -46,24 +46,39 @@ pub enum MemberKind {
     Layers,
 }
 
-/// Where the value of a member is kept.
-pub enum Slot<'a> {
+/// Slots by what is kept in them.
+macro_rules! slots {
+    ($($(#[$said:meta])* $slot:ident: $kept:ty,)*) => {
+        /// Where the value of a member is kept.
+        pub enum Slot<'a> {
+            $($(#[$said])* $slot(&'a mut $kept),)*
+        }
+
+        $(impl<'a> From<&'a mut $kept> for Slot<'a> {
+            fn from(value: &'a mut $kept) -> Self {
+                Self::$slot(value)
+            }
+        })*
+    };
+}
+
+slots! {
     /// A number that is always there.
-    Number(&'a mut f64),
+    Number: f64,
     /// A number that may be unknown.
-    Unknown(&'a mut Option<f64>),
+    Unknown: Option<f64>,
     /// What a support holds.
-    Held(&'a mut Held),
+    Held: Held,
     /// A material that is always there.
-    Material(&'a mut Material),
+    Material: Material,
     /// A material that may be missing.
-    Core(&'a mut Option<Material>),
+    Core: Option<Material>,
     /// Shear moduli that may be missing.
-    ShearModuli(&'a mut Option<ShearModuli>),
+    ShearModuli: Option<ShearModuli>,
     /// Poisson's ratios that may be missing.
-    PoissonRatios(&'a mut Option<PoissonRatios>),
+    PoissonRatios: Option<PoissonRatios>,
     /// Layers of a wall.
-    Layers(&'a mut Vec<Layer>),
+    Layers: Vec<Layer>,
 }
 
 /// How large a number may be.
@@ -104,25 +119,8 @@ pub enum Bound {
 pub(crate) const PLACE: &str = "a place on the bat, from the knob end";
 
 impl<P> Field<P> {
-    pub const fn new(
-        key: &'static str,
-        quantity: Quantity,
-        range: Range,
-        of: fn(&mut P) -> Slot<'_>,
-    ) -> Self {
-        Self::of_kind(key, MemberKind::Number(Some(quantity), range), of)
-    }
-
-    pub const fn ratio(key: &'static str, range: Range, of: fn(&mut P) -> Slot<'_>) -> Self {
-        Self::of_kind(key, MemberKind::Number(None, range), of)
-    }
-
     pub const fn of_kind(key: &'static str, kind: MemberKind, of: fn(&mut P) -> Slot<'_>) -> Self {
         Self { key, kind, needed: None, with: None, example: None, of }
-    }
-
-    pub const fn place(key: &'static str, of: fn(&mut P) -> Slot<'_>) -> Self {
-        Self::new(key, Quantity::Length, Range::OnBat, of).needed(PLACE)
     }
 
     pub const fn like(self, example: &'static str) -> Self {
@@ -247,7 +245,15 @@ pub trait Part: Clone + 'static {
 
     /// Where it begins and ends (m), if it lies on a stretch.
     fn stretch(&self) -> Option<[f64; 2]> {
-        None
+        let mut part = self.clone();
+        let mut end = |key: &str| {
+            let field = Self::FIELDS.iter().find(|field| field.key == key)?;
+            match (field.of)(&mut part) {
+                Slot::Number(x) => Some(*x),
+                _ => None,
+            }
+        };
+        Some([end("from")?, end("to")?])
     }
 
     /// What is wrong with it on a bat of that length (m), its path in a bat file before each field.

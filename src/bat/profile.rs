@@ -149,6 +149,11 @@ impl Profile {
         *self.stations.x.last().expect("a profile has stations")
     }
 
+    /// The largest outer radius of its stations (m).
+    pub fn widest(&self) -> f64 {
+        self.stations.outer.iter().fold(0.0, |most, r| most.max(*r))
+    }
+
     /// This profile reversed end for end.
     pub fn reversed(mut self) -> Self {
         let length = self.length();

@@ -22,6 +22,15 @@ const FULL: [f64; 4] = [1.0; 4];
 /// Places at which the wall of a formula is looked at.
 const SAMPLES: usize = 128;
 
+/// A surface of the wood.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Surface {
+    /// That of the bat.
+    Outside,
+    /// That of its bore.
+    Bore,
+}
+
 /// A stretch (m), and how far a change of it runs in and out (m).
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Blended {
@@ -56,29 +65,22 @@ impl Profile {
     /// With `v` from 0 to 1 along the run-in, the depth goes as `3v² − 2v³`: the surface has no corner.
     /// What remains is a cubic where the surface was one.
     pub(crate) fn turned_down(&mut self, on: Blended, depth: f64) -> Result<()> {
-        self.reshape(on, |piece, weight| grown(piece, weight.map(|w| -0.5 * depth * w)))
+        self.reshape(on, |piece, weight| {
+            grown(piece, Surface::Outside, weight.map(|w| -0.5 * depth * w))
+        })
     }
 
-    /// Moves the surface out by `by` (m), in Bernstein form over each piece; None leaves a piece as it is.
-    pub(crate) fn moved(&mut self, by: impl Fn(&Piece) -> Option<[f64; 4]>) -> Result<()> {
+    /// Moves a surface out by `by` (m), in Bernstein form over each piece; None leaves a piece as it is, and where
+    /// there is no bore nothing is moved.
+    pub(crate) fn moved(
+        &mut self,
+        surface: Surface,
+        by: impl Fn(&Piece) -> Option<[f64; 4]>,
+    ) -> Result<()> {
         let length = self.length();
         for piece in &mut self.pieces {
             if let Some(by) = by(piece) {
-                grown(piece, by)?;
-                check_wall(piece)?;
-            }
-        }
-        self.survey(length);
-        Ok(())
-    }
-
-    /// Moves the surface of the bore out by `by` (m), in Bernstein form over each piece; None leaves a piece as
-    /// it is, and where there is no bore nothing is moved.
-    pub(crate) fn bore_moved(&mut self, by: impl Fn(&Piece) -> Option<[f64; 4]>) -> Result<()> {
-        let length = self.length();
-        for piece in &mut self.pieces {
-            if let Some(by) = by(piece) {
-                bored(piece, by)?;
+                grown(piece, surface, by)?;
                 check_wall(piece)?;
             }
         }
@@ -251,33 +253,26 @@ impl Profile {
     }
 }
 
-/// Moves the surface of a piece out by so much (m), in Bernstein form.
-fn grown(piece: &mut Piece, by: [f64; 4]) -> Result<()> {
+/// Moves a surface of a piece out by so much (m), in Bernstein form, if the piece has it.
+fn grown(piece: &mut Piece, surface: Surface, by: [f64; 4]) -> Result<()> {
     match &mut piece.radii {
         Radii::Cubic(cubics) => {
-            cubics.outer.iter_mut().zip(by).for_each(|(r, by)| *r += by);
+            let radii = match surface {
+                Surface::Outside => &mut cubics.outer,
+                Surface::Bore if cubics.inner == [0.0; 4] => return Ok(()),
+                Surface::Bore => &mut cubics.inner,
+            };
+            radii.iter_mut().zip(by).for_each(|(r, by)| *r += by);
             cubics.degree = if flat(&by) { cubics.degree } else { 3 };
         }
         Radii::Formula(curves) => {
             let by = polynomial(&by, curves);
-            curves.outer = formula(format!("({})+{by}", curves.outer.text()))?;
-        }
-    }
-    Ok(())
-}
-
-/// Moves the surface of the bore of a piece out by so much (m), in Bernstein form, if it has a bore.
-fn bored(piece: &mut Piece, by: [f64; 4]) -> Result<()> {
-    match &mut piece.radii {
-        Radii::Cubic(cubics) if cubics.inner == [0.0; 4] => {}
-        Radii::Cubic(cubics) => {
-            cubics.inner.iter_mut().zip(by).for_each(|(r, by)| *r += by);
-            cubics.degree = if flat(&by) { cubics.degree } else { 3 };
-        }
-        Radii::Formula(curves) => {
-            let by = polynomial(&by, curves);
-            if let Some(inner) = &curves.inner {
-                curves.inner = Some(formula(format!("({})+{by}", inner.text()))?);
+            let radius = match surface {
+                Surface::Outside => Some(&mut curves.outer),
+                Surface::Bore => curves.inner.as_mut(),
+            };
+            if let Some(radius) = radius {
+                *radius = formula(format!("({})+{by}", radius.text()))?;
             }
         }
     }

@@ -9,7 +9,7 @@ use crate::base::error::{Error, Result};
 use crate::bat::body::Bat;
 use crate::bat::pchip::{bernstein, subdivide};
 use crate::bat::profile::{Piece, SAME_PLACE};
-use crate::bat::rework::place;
+use crate::bat::rework::{Surface, place};
 
 /// A stretch of a [`DiameterChange`]: a cubic.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -174,7 +174,7 @@ impl Bat {
                 return Err(Error::value("stretch", found, expected));
             }
         }
-        profile.moved(|piece| change.radius_over(piece))?;
+        profile.moved(Surface::Outside, |piece| change.radius_over(piece))?;
         self.with(|parts| parts.profile = profile)
     }
 
@@ -187,7 +187,7 @@ impl Bat {
     pub fn bored(&self, change: &DiameterChange) -> Result<Self> {
         let mut profile = self.profile().clone();
         profile.cut(change.knots());
-        profile.bore_moved(|piece| change.radius_over(piece))?;
+        profile.moved(Surface::Bore, |piece| change.radius_over(piece))?;
         self.with(|parts| parts.profile = profile)
     }
 
@@ -200,15 +200,6 @@ impl Bat {
         let mut profile = self.profile().clone();
         profile.cut(places.iter().copied());
         self.with(|parts| parts.profile = profile)
-    }
-
-    /// Whether there is a sleeve somewhere around a stretch (m).
-    pub fn is_sleeved(&self, [from, to]: [f64; 2]) -> bool {
-        let same = SAME_PLACE * self.length();
-        let here =
-            |piece: &&Piece| piece.start < to - same && piece.start + piece.length > from + same;
-        let mut pieces = self.profile().pieces.iter().filter(here);
-        pieces.any(|piece| !self.layup(piece).sleeves.is_empty())
     }
 }
 

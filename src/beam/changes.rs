@@ -149,9 +149,9 @@ impl<R: Real> Motion<R> {
         let shears = view.theory.shears();
         let change = &mut self.changes[at.samples.clone()];
         let [turned, first] = rule.integrals(change);
-        rule.twice_from_left(change, &mut way.twice);
+        rule.combine(&rule.twice_from_left, change, &mut way.twice);
         if view.theory.turns() {
-            rule.once_from_left(change, &mut way.once);
+            rule.combine(&rule.once_from_left, change, &mut way.once);
             let line = &view.turning_per_length[at.samples.clone()];
             let turn = &mut self.turn_changes[at.samples.clone()];
             for (j, point) in rule.points.iter().enumerate() {
@@ -162,7 +162,7 @@ impl<R: Real> Motion<R> {
         let mut slipped = R::default();
         if shears {
             let slips = &self.slips[at.samples.clone()];
-            rule.once_from_left(slips, &mut way.once);
+            rule.combine(&rule.once_from_left, slips, &mut way.once);
             slipped = rule.integrals(slips)[0] * h;
         }
         let line = &view.mass_per_length[at.samples.clone()];

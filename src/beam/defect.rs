@@ -123,18 +123,18 @@ impl<R: Real> Motion<R> {
         let (rule, h, samples) = (view.rule, at.cell.length, at.samples.clone());
         let loads = &mut self.changes[samples.clone()];
         let [force, turning] = rule.integrals(loads);
-        rule.twice_from_right(loads, &mut room.twice);
+        rule.combine(&rule.twice_from_right, loads, &mut room.twice);
         let (v, m, square) = (carried.shear.value() * h, carried.moment.value(), h * h);
         let mut gained = v + turning * square;
         let mut energy = R::default();
         if view.theory.shears() {
-            rule.once_from_right(loads, &mut room.once);
+            rule.combine(&rule.once_from_right, loads, &mut room.once);
             energy = self.slip(view, at, lambda, carried.shear.value(), room);
         }
         let turns = view.theory.turns();
         if turns {
             let couples = &self.turn_changes[samples.clone()];
-            rule.once_from_right(couples, &mut room.once);
+            rule.combine(&rule.once_from_right, couples, &mut room.once);
             gained += rule.integrals(couples)[0] * h;
         }
         rule.values(&room.strains[..view.terms - 2], &mut room.values);

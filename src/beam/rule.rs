@@ -21,17 +21,18 @@ pub struct Rule {
     by_term: Vec<f64>,
     /// `∫₀^{s_j} (s_j − s) ℓ_i(s) ds`, `[i][j]`: twice integrated from the left end, for a
     /// function given at the points (`ℓ_i` the polynomial that is 1 at point `i`, 0 at the others).
-    from_left: Vec<f64>,
+    pub twice_from_left: Vec<f64>,
     /// `∫_{s_j}^1 (s − s_j) ℓ_i(s) ds`, `[i][j]`: the same from the right end.
-    from_right: Vec<f64>,
-    /// `∫₀^{s_j} ℓ_i(s) ds` and `∫_{s_j}^1 ℓ_i(s) ds`, `[i][j]`: once integrated.
-    once_from_left: Vec<f64>,
-    once_from_right: Vec<f64>,
+    pub twice_from_right: Vec<f64>,
+    /// `∫₀^{s_j} ℓ_i(s) ds`, `[i][j]`: once integrated from the left end.
+    pub once_from_left: Vec<f64>,
+    /// `∫_{s_j}^1 ℓ_i(s) ds`, `[i][j]`: once integrated from the right end.
+    pub once_from_right: Vec<f64>,
     /// Weights that give the last two coefficients of the Legendre series through the points.
     last: [Vec<f64>; 2],
-    /// `(2k + 1) P_k` at the points, polynomial by polynomial, up to twice the degree: of a rule for
-    /// elements over stations.
-    from_moments: Vec<f64>,
+    /// `(2k + 1) P_k` at the points, polynomial by polynomial, up to twice the degree, which make of moments `∫₀¹ f P_k
+    /// ds` the polynomial that has them: of a rule for elements over stations.
+    pub from_moments: Vec<f64>,
 }
 
 /// Points whose numbers are computed together; the tables are filled up to a multiple.
@@ -119,12 +120,6 @@ impl Rule {
         self.from_moments.len() / self.stride()
     }
 
-    /// The values at the points of the polynomial with the moments `∫₀¹ f P_k ds`.
-    #[inline(always)]
-    pub fn with_moments(&self, moments: &[f64], values: &mut [f64; MOST_POINTS]) {
-        self.combine(&self.from_moments, moments, values);
-    }
-
     /// `count` points for `terms` Legendre polynomials.
     fn new(terms: usize, count: usize) -> Self {
         let places = gauss(count);
@@ -154,8 +149,8 @@ impl Rule {
         let table = |entry: &dyn Fn(usize, usize) -> f64| -> Vec<f64> {
             (0..count).flat_map(|i| padded(&|j| entry(j, i))).collect()
         };
-        let from_left = table(&entry);
-        let from_right = table(&|j, i| entry(count - 1 - j, count - 1 - i));
+        let twice_from_left = table(&entry);
+        let twice_from_right = table(&|j, i| entry(count - 1 - j, count - 1 - i));
         let once_from_left = table(&simple);
         let once_from_right = table(&|j, i| simple(count - 1 - j, count - 1 - i));
         let last = [count - 2, count - 1].map(|k| {
@@ -166,8 +161,8 @@ impl Rule {
             points: places.into_iter().map(GaussPoint::new).collect(),
             legendre,
             by_term,
-            from_left,
-            from_right,
+            twice_from_left,
+            twice_from_right,
             once_from_left,
             once_from_right,
             last,
@@ -225,33 +220,9 @@ impl Rule {
         }
     }
 
-    /// A function given at the points, twice integrated from the left end.
+    /// `Σ parts[k] rows[k]`, the rows those of a table: what it makes of a function given at the points.
     #[inline(always)]
-    pub fn twice_from_left<R: Real>(&self, function: &[R], twice: &mut [R; MOST_POINTS]) {
-        self.combine(&self.from_left, function, twice);
-    }
-
-    /// A function given at the points, twice integrated from the right end.
-    #[inline(always)]
-    pub fn twice_from_right<R: Real>(&self, function: &[R], twice: &mut [R; MOST_POINTS]) {
-        self.combine(&self.from_right, function, twice);
-    }
-
-    /// A function given at the points, once integrated from the left end.
-    #[inline(always)]
-    pub fn once_from_left<R: Real>(&self, function: &[R], once: &mut [R; MOST_POINTS]) {
-        self.combine(&self.once_from_left, function, once);
-    }
-
-    /// A function given at the points, once integrated from the right end.
-    #[inline(always)]
-    pub fn once_from_right<R: Real>(&self, function: &[R], once: &mut [R; MOST_POINTS]) {
-        self.combine(&self.once_from_right, function, once);
-    }
-
-    /// `Σ parts[k] rows[k]`.
-    #[inline(always)]
-    fn combine<R: Real>(&self, rows: &[f64], parts: &[R], sums: &mut [R; MOST_POINTS]) {
+    pub fn combine<R: Real>(&self, rows: &[f64], parts: &[R], sums: &mut [R; MOST_POINTS]) {
         let stride = self.stride();
         // Four points at a time stay in registers while the parts go by.
         for first in (0..stride).step_by(BLOCK) {

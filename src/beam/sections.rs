@@ -56,7 +56,7 @@ pub fn over<const Q: usize>(
     let mut values = [[0.0; MOST_POINTS]; Q];
     for (values, sums) in values.iter_mut().zip(&moments.sums) {
         let own = sums.map(|sum| (0..WIDTH).map(|lane| sum.lane(lane)).sum::<f64>());
-        rule.with_moments(&own[..moments.count], values);
+        rule.combine(&rule.from_moments, &own[..moments.count], values);
     }
     values
 }

@@ -21,9 +21,7 @@
 //! end, whose strains are the least certain, then moves nothing but itself; with the root in the
 //! point of a cone, 4000 elements lost half the digits.
 
-use pulp::{Simd, WithSimd};
-
-use crate::base::lanes::widest;
+use crate::base::lanes::vectorized;
 use crate::base::quadrature::RunningSum;
 use crate::base::real::Real;
 use crate::bat::body::Bat;
@@ -116,33 +114,50 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
         debug_assert!(bats.len() == R::LANES && meshes.len() == R::LANES);
         let over = meshes[0].over_stations();
         self.rule = Rule::of(bats[0], over, N - 1);
-        let (points, count) = (self.rule.count(), meshes[0].len());
-        let zero = R::default();
-        for (softness, shear) in self.softness.iter_mut().zip([false, true]) {
-            softness.clear();
-            let of_all = over && (!shear || self.theory.shears());
-            softness.resize(if of_all { count * points } else { 0 }, zero);
-        }
-        self.bending_stiffness.clear();
-        self.bending_stiffness.resize(count * points, zero);
-        self.mass_per_length.clear();
-        self.mass_per_length.resize(count * points, zero);
-        if self.theory.turns() {
-            self.turning_per_length.clear();
-            self.turning_per_length.resize(count * points, zero);
-            self.shear_stiffness.clear();
-            let shear = if self.theory.shears() { count * points } else { 0 };
-            self.shear_stiffness.resize(shear, zero);
-        }
+        self.make_room(meshes[0].len(), over);
         if over {
             self.sample_over_stations(bats, meshes);
         } else if self.theory.turns() {
             self.sample_the_rest(bats, meshes);
         }
+        let stiffest = self.add_up(bats, meshes, over);
+        self.split = self.rooted.unwrap_or_else(|| self.root(meshes[0].len(), stiffest));
+        self.fill(meshes);
+        self.fixed = None;
+        if !bats[0].fixtures().none_moving() {
+            self.attach(bats);
+            self.fixed = Some(Box::new(Fixed::new(&self.bare(), bats, meshes[0])));
+        }
+    }
+
+    /// Room for what the sections of so many elements are worth at their points, as far as the theory asks for it.
+    #[inline(always)]
+    fn make_room(&mut self, count: usize, over: bool) {
+        let (samples, theory) = (count * self.rule.count(), self.theory);
+        let [bending_softness, shear_softness] = &mut self.softness;
+        for (values, asked) in [
+            (&mut self.bending_stiffness, true),
+            (&mut self.mass_per_length, true),
+            (&mut self.turning_per_length, theory.turns()),
+            (&mut self.shear_stiffness, theory.shears()),
+            (bending_softness, over),
+            (shear_softness, over && theory.shears()),
+        ] {
+            values.clear();
+            values.resize(if asked { samples } else { 0 }, R::default());
+        }
+    }
+
+    /// Adds up length, mass and balance point of the elements and what is attached, and finds the unit of energy;
+    /// EI and ρA of elements that reach over no stations are sampled on the way. The greatest `∫EI dx/h` of an
+    /// element of the first bat (N m²).
+    #[inline(always)]
+    fn add_up(&mut self, bats: &[&Bat], meshes: &[&Mesh], over: bool) -> f64 {
+        let (points, zero) = (self.rule.count(), R::default());
         let (mut mass, mut first) = (RunningSum::<R>::default(), RunningSum::<R>::default());
         let (mut greatest, mut stiffest) = (zero, 0.0);
         let mut at = zero;
-        for k in 0..count {
+        for k in 0..meshes[0].len() {
             let range = k * points..(k + 1) * points;
             let bending = &mut self.bending_stiffness[range.clone()];
             let line = &mut self.mass_per_length[range.clone()];
@@ -181,13 +196,7 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
         (0..R::LANES).for_each(|lane| {
             self.energy_unit.set_lane(lane, power_of_two_below(greatest.lane(lane)));
         });
-        self.split = self.rooted.unwrap_or_else(|| self.root(count, stiffest));
-        self.fill(meshes);
-        self.fixed = None;
-        if !bats[0].fixtures().none_moving() {
-            self.attach(bats);
-            self.fixed = Some(Box::new(Fixed::new(&self.bare(), bats, meshes[0])));
-        }
+        stiffest
     }
 
     /// Everything at the points of elements that reach over stations, or some of which do.
@@ -346,37 +355,29 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
     /// motion with these strains when it is at rest at the root.
     pub fn apply(&self, q: &[R], y: &mut [R], loads: &mut Loads<R, W>) -> Rigid<R> {
         let (body, fixed) = (self.body(), self.fixed.as_deref());
-        widest(Apply { body, fixed, q, y: Some(y), loads })
+        apply(&body, fixed, q, Some(y), loads)
     }
 
     /// The rigid motion alone that [`Self::apply`] takes out of a bare bat: half the work.
     pub fn rigid(&self, q: &[R], loads: &mut Loads<R, W>) -> Rigid<R> {
         debug_assert!(self.fixed.is_none());
-        widest(Apply { body: self.body(), fixed: None, q, y: None, loads })
+        apply(&self.body(), None, q, None, loads)
     }
 }
 
 /// The compliance of a bat times the strains `q`, which go to `y` if they are asked for.
-struct Apply<'a, R, const W: usize> {
-    body: Body<'a, R, W>,
-    fixed: Option<&'a Fixed<R>>,
-    q: &'a [R],
-    y: Option<&'a mut [R]>,
-    loads: &'a mut Loads<R, W>,
-}
-
-impl<R: Real, const W: usize> WithSimd for Apply<'_, R, W> {
-    type Output = Rigid<R>;
-
-    #[inline(always)]
-    fn with_simd<V: Simd>(self, _: V) -> Rigid<R> {
-        let Self { body, fixed, q, y, loads } = self;
-        match (fixed, y) {
-            (Some(fixed), Some(y)) => fixed.compliance(&body, q, y, loads),
-            (_, y) if body.cells.len() > LONG => body.compliance::<true>(q, y, loads),
-            (_, y) => body.compliance::<false>(q, y, loads),
-        }
-    }
+fn apply<R: Real, const W: usize>(
+    body: &Body<'_, R, W>,
+    fixed: Option<&Fixed<R>>,
+    q: &[R],
+    y: Option<&mut [R]>,
+    loads: &mut Loads<R, W>,
+) -> Rigid<R> {
+    vectorized!(match (fixed, y) {
+        (Some(fixed), Some(y)) => fixed.compliance(body, q, y, loads),
+        (_, y) if body.cells.len() > LONG => body.compliance::<true>(q, y, loads),
+        (_, y) => body.compliance::<false>(q, y, loads),
+    })
 }
 
 impl<R: Real, const W: usize> Body<'_, R, W> {

@@ -8,9 +8,7 @@
 //! I. S. Duff, J. K. Reid, ACM Trans. Math. Softw. 9 (1983) 302: fronts. Sylvester's law of inertia: as many
 //! entries of D are negative as eigenvalues of K.
 
-use pulp::{Simd, WithSimd};
-
-use crate::base::lanes::widest;
+use crate::base::lanes::vectorized;
 use crate::base::linear::dot;
 
 /// A dense block: its unknowns, and how many of them, from the first on, are eliminated.
@@ -65,7 +63,7 @@ impl Fronts {
                 }
             }
         }
-        let pivots = widest(Elimination { matrix: &mut matrix, size, eliminated });
+        let pivots = vectorized!(eliminate(&mut matrix, size, eliminated));
         for (unknown, pivot) in unknowns.iter().zip(&pivots) {
             self.pivots[*unknown] = *pivot;
         }
@@ -91,12 +89,12 @@ impl Fronts {
 
     /// `x ← L⁻¹ x`.
     pub fn forward(&self, x: &mut [f64]) {
-        widest(Forward { fronts: &self.fronts, x });
+        vectorized!(forward(&self.fronts, x));
     }
 
     /// `x ← L⁻ᵀ x`.
     pub fn backward(&self, x: &mut [f64]) {
-        widest(Backward { fronts: &self.fronts, x });
+        vectorized!(backward(&self.fronts, x));
     }
 
     /// `x ← K⁻¹ x`.
@@ -113,124 +111,77 @@ pub const SIDES: usize = 8;
 impl Fronts {
     /// `x ← K⁻¹ x` of several right-hand sides side by side.
     pub fn solve_together(&self, x: &mut [[f64; SIDES]]) {
-        widest(Together { fronts: &self.fronts, pivots: &self.pivots, x });
+        vectorized!(solve_together(&self.fronts, &self.pivots, x));
     }
 }
 
 /// `x ← K⁻¹ x` of several right-hand sides.
-struct Together<'a> {
-    fronts: &'a [Front],
-    pivots: &'a [f64],
-    x: &'a mut [[f64; SIDES]],
-}
-
-impl WithSimd for Together<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        let Self { fronts, pivots, x } = self;
-        let mut own: Vec<[f64; SIDES]> = vec![];
-        for front in fronts {
-            own.clear();
-            own.extend(front.unknowns.iter().map(|unknown| x[*unknown]));
-            for (k, row) in front.rows.chunks_exact(front.unknowns.len()).enumerate() {
-                let value = own[k];
-                // Loads of one place: nothing before it.
-                if value == [0.0; SIDES] {
-                    continue;
-                }
-                for (x, l) in own[k + 1..].iter_mut().zip(&row[k + 1..]) {
-                    (0..SIDES).for_each(|s| x[s] -= value[s] * l);
-                }
+#[inline(always)]
+fn solve_together(fronts: &[Front], pivots: &[f64], x: &mut [[f64; SIDES]]) {
+    let mut own: Vec<[f64; SIDES]> = vec![];
+    for front in fronts {
+        own.clear();
+        own.extend(front.unknowns.iter().map(|unknown| x[*unknown]));
+        for (k, row) in front.rows.chunks_exact(front.unknowns.len()).enumerate() {
+            let value = own[k];
+            // Loads of one place: nothing before it.
+            if value == [0.0; SIDES] {
+                continue;
             }
-            front.unknowns.iter().zip(&own).for_each(|(unknown, own)| x[*unknown] = *own);
-        }
-        for (x, pivot) in x.iter_mut().zip(pivots) {
-            x.iter_mut().for_each(|x| *x /= pivot);
-        }
-        for front in fronts.iter().rev() {
-            own.clear();
-            own.extend(front.unknowns.iter().map(|unknown| x[*unknown]));
-            let rows = front.rows.chunks_exact(front.unknowns.len());
-            for (k, row) in rows.enumerate().rev() {
-                let mut sum = [0.0; SIDES];
-                for (x, l) in own[k + 1..].iter().zip(&row[k + 1..]) {
-                    (0..SIDES).for_each(|s| sum[s] += x[s] * l);
-                }
-                (0..SIDES).for_each(|s| own[k][s] -= sum[s]);
+            for (x, l) in own[k + 1..].iter_mut().zip(&row[k + 1..]) {
+                (0..SIDES).for_each(|s| x[s] -= value[s] * l);
             }
-            let eliminated = front.unknowns.iter().zip(&own).take(front.eliminated);
-            eliminated.for_each(|(unknown, own)| x[*unknown] = *own);
         }
+        front.unknowns.iter().zip(&own).for_each(|(unknown, own)| x[*unknown] = *own);
+    }
+    for (x, pivot) in x.iter_mut().zip(pivots) {
+        x.iter_mut().for_each(|x| *x /= pivot);
+    }
+    for front in fronts.iter().rev() {
+        own.clear();
+        own.extend(front.unknowns.iter().map(|unknown| x[*unknown]));
+        let rows = front.rows.chunks_exact(front.unknowns.len());
+        for (k, row) in rows.enumerate().rev() {
+            let mut sum = [0.0; SIDES];
+            for (x, l) in own[k + 1..].iter().zip(&row[k + 1..]) {
+                (0..SIDES).for_each(|s| sum[s] += x[s] * l);
+            }
+            (0..SIDES).for_each(|s| own[k][s] -= sum[s]);
+        }
+        let eliminated = front.unknowns.iter().zip(&own).take(front.eliminated);
+        eliminated.for_each(|(unknown, own)| x[*unknown] = *own);
     }
 }
 
 /// `x ← L⁻¹ x`, front after front.
-struct Forward<'a> {
-    fronts: &'a [Front],
-    x: &'a mut [f64],
-}
-
-impl WithSimd for Forward<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        let Self { fronts, x } = self;
-        let mut own = vec![];
-        for front in fronts {
-            let size = front.unknowns.len();
-            own.clear();
-            own.extend(front.unknowns.iter().map(|unknown| x[*unknown]));
-            for (k, row) in front.rows.chunks_exact(size).enumerate() {
-                let value = own[k];
-                own[k + 1..].iter_mut().zip(&row[k + 1..]).for_each(|(x, l)| *x -= value * l);
-            }
-            front.unknowns.iter().zip(&own).for_each(|(unknown, own)| x[*unknown] = *own);
+#[inline(always)]
+fn forward(fronts: &[Front], x: &mut [f64]) {
+    let mut own = vec![];
+    for front in fronts {
+        let size = front.unknowns.len();
+        own.clear();
+        own.extend(front.unknowns.iter().map(|unknown| x[*unknown]));
+        for (k, row) in front.rows.chunks_exact(size).enumerate() {
+            let value = own[k];
+            own[k + 1..].iter_mut().zip(&row[k + 1..]).for_each(|(x, l)| *x -= value * l);
         }
+        front.unknowns.iter().zip(&own).for_each(|(unknown, own)| x[*unknown] = *own);
     }
 }
 
 /// `x ← L⁻ᵀ x`, front after front from the last.
-struct Backward<'a> {
-    fronts: &'a [Front],
-    x: &'a mut [f64],
-}
-
-impl WithSimd for Backward<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        let Self { fronts, x } = self;
-        let mut own = vec![];
-        for front in fronts.iter().rev() {
-            let size = front.unknowns.len();
-            own.clear();
-            own.extend(front.unknowns.iter().map(|unknown| x[*unknown]));
-            for (k, row) in front.rows.chunks_exact(size).enumerate().rev() {
-                own[k] -= dot(&row[k + 1..], &own[k + 1..]);
-            }
-            let eliminated = front.unknowns.iter().zip(&own).take(front.eliminated);
-            eliminated.for_each(|(unknown, own)| x[*unknown] = *own);
+#[inline(always)]
+fn backward(fronts: &[Front], x: &mut [f64]) {
+    let mut own = vec![];
+    for front in fronts.iter().rev() {
+        let size = front.unknowns.len();
+        own.clear();
+        own.extend(front.unknowns.iter().map(|unknown| x[*unknown]));
+        for (k, row) in front.rows.chunks_exact(size).enumerate().rev() {
+            own[k] -= dot(&row[k + 1..], &own[k + 1..]);
         }
-    }
-}
-
-/// The elimination of the first unknowns of an upper triangle.
-struct Elimination<'a> {
-    matrix: &'a mut [f64],
-    size: usize,
-    eliminated: usize,
-}
-
-impl WithSimd for Elimination<'_> {
-    type Output = Vec<f64>;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> Vec<f64> {
-        eliminate(self.matrix, self.size, self.eliminated)
+        let eliminated = front.unknowns.iter().zip(&own).take(front.eliminated);
+        eliminated.for_each(|(unknown, own)| x[*unknown] = *own);
     }
 }
 

@@ -8,7 +8,7 @@ use crate::eigen::factor::{Factor, INDEFINITE};
 use crate::eigen::lanczos::{self, Ritz};
 
 /// Eigenpairs of `K x = λ M x` and how the iteration went.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Pairs {
     /// Eigenvalues λ, rising (1/s²); the rigid ones are zero but for round-off of either sign.
     pub values: Vec<f64>,
@@ -141,7 +141,7 @@ pub fn pairs(k: &CscMatrix<f64>, m: &CscMatrix<f64>, shift: f64, ritz: Ritz) -> 
         rows.push((lambda, round_off, vector));
     }
     rows.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut pairs = Pairs { values: vec![], round_off: vec![], vectors: vec![], steps: ritz.steps };
+    let mut pairs = Pairs { steps: ritz.steps, ..Pairs::default() };
     let mut greatest = 0.0_f64;
     for (lambda, round_off, vector) in rows {
         // Round-off of K is spread alike over all shapes: one difference may be small by luck.

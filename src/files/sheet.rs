@@ -39,26 +39,8 @@ impl<'a> Sheet<'a> {
         known: impl Fn(&[String]) -> bool,
     ) -> Result<Self> {
         let text = &document.text[..];
-        let (mut at, separator, found) = beginning(document, known)?;
-        let mut rows = vec![];
-        while at < text.len() {
-            if text[at..].starts_with('#') {
-                at = text[at..].find('\n').map_or(text.len(), |end| at + end + 1);
-                continue;
-            }
-            let start = at;
-            let cells;
-            (cells, at) = separator.record(text, at).map_err(|quote| {
-                let field = if rows.is_empty() { "header" } else { "" };
-                let complaint = Complaint::new(field, "a quote without an end", "quotes in pairs");
-                document.error(quote..quote + 1, complaint.hinted("a closing quote is missing"))
-            })?;
-            let cells: Vec<&str> = cells.into_iter().map(marks::of_cell).collect();
-            // Spreadsheets leave lines that hold only separators.
-            if cells.iter().any(|cell| !cell.is_empty()) {
-                rows.push(SheetRow { start, cells });
-            }
-        }
+        let (at, separator, found) = beginning(document, known)?;
+        let mut rows = records(document, at, separator)?;
         if rows.is_empty() {
             let complaint = Complaint::new("", "no header", names);
             return Err(document.error(0..0, complaint));
@@ -358,6 +340,31 @@ fn beginning(
         }
     }
     Ok((first, Separator::Sign(between(text, first)), false))
+}
+
+/// The rows from a place on, without comments and empty ones.
+fn records(document: &Document, mut at: usize, separator: Separator) -> Result<Vec<SheetRow<'_>>> {
+    let text = &document.text[..];
+    let mut rows = vec![];
+    while at < text.len() {
+        if text[at..].starts_with('#') {
+            at = text[at..].find('\n').map_or(text.len(), |end| at + end + 1);
+            continue;
+        }
+        let start = at;
+        let cells;
+        (cells, at) = separator.record(text, at).map_err(|quote| {
+            let field = if rows.is_empty() { "header" } else { "" };
+            let complaint = Complaint::new(field, "a quote without an end", "quotes in pairs");
+            document.error(quote..quote + 1, complaint.hinted("a closing quote is missing"))
+        })?;
+        let cells: Vec<&str> = cells.into_iter().map(marks::of_cell).collect();
+        // Spreadsheets leave lines that hold only separators.
+        if cells.iter().any(|cell| !cell.is_empty()) {
+            rows.push(SheetRow { start, cells });
+        }
+    }
+    Ok(rows)
 }
 
 /// The cells of a line with the given number of blanks at least between them; brackets belong to the name before them.

@@ -153,9 +153,7 @@ impl fmt::Display for DampingMethod {
 /// use sweetspot::{Bat, Request, solve};
 ///
 /// # fn main() -> sweetspot::Result<()> {
-/// # let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
-/// #     "profile": { "unit": "in", "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5] } }"#;
-/// # let bat = Bat::from_text("bat.json", text, "".as_ref())?;
+/// # let bat = Bat::builtin("r161")?;
 /// let lossy = bat.with(|parts| parts.material.loss_factor = 0.01)?;
 /// let solution = solve(&lossy, &Request::default())?;
 /// let found = damping(&lossy, solution.elements(), &solution.modes, 1e-4)?;

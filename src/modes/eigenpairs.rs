@@ -8,10 +8,8 @@
 
 use std::ops::Range;
 
-use pulp::{Simd, WithSimd};
-
 use crate::base::error::Result;
-use crate::base::lanes::{Lanes, WIDTH, widest};
+use crate::base::lanes::{Lanes, WIDTH, vectorized};
 use crate::base::real::{Over, Real};
 use crate::bat::body::Bat;
 use crate::bat::theory::Theory;
@@ -60,7 +58,7 @@ where
 
     /// Assembles the bats, one per lane, on meshes of one pattern.
     pub fn assemble(&mut self, bats: &[&Bat], meshes: &[&Mesh]) {
-        widest(Assembly { statics: &mut self.statics, bats, meshes });
+        vectorized!(self.statics.assemble(bats, meshes));
     }
 
     /// Finds the `count` slowest motions to that residual.
@@ -91,7 +89,7 @@ where
 
     fn iterate(&mut self, wanted: Wanted) -> Result<()> {
         let start = &mut |statics: &Statics<R, N, W>, next: &mut [R]| {
-            widest(Start { view: statics.view(), count: wanted.count, next });
+            begin(&statics.view(), wanted.count, next);
         };
         self.run(wanted, &[], start)
     }
@@ -103,19 +101,14 @@ where
         start: &mut dyn FnMut(&Statics<R, N, W>, &mut [R]),
     ) -> Result<()> {
         let Self { statics, lanczos, loads, .. } = self;
-        widest(Iteration {
-            lanczos,
-            dimension: statics.dimension(),
-            wanted,
-            known,
-            start: &mut |next| start(statics, next),
-            // What the contacts do not allow: a step divides by a small number, and would let it
-            // grow.
-            allow: &mut |next| statics.fixed.iter().for_each(|fixed| fixed.project(next)),
-            apply: &mut |q, y| {
-                statics.apply(q, y, loads);
-            },
-        })
+        // What the contacts do not allow: a step divides by a small number, and would let it grow.
+        let allow =
+            &mut |next: &mut [R]| statics.fixed.iter().for_each(|fixed| fixed.project(next));
+        let apply = &mut |q: &[R], y: &mut [R]| {
+            statics.apply(q, y, loads);
+        };
+        let start = &mut |next: &mut [R]| start(statics, next);
+        iterate(lanczos, statics.dimension(), wanted, Space { known, allow }, start, apply)
     }
 
     /// Looks at the motions from number `first` of those found on, [`Self::TOGETHER`] of them or as
@@ -164,7 +157,7 @@ where
             side_by_side(own, strains, lanes.clone());
             side_by_side(image, &mut motions.image, lanes);
         }
-        widest(Look { view: statics.view(), rigid, motions, strains, value, depth });
+        look(&statics.view(), rigid, motions, strains, Known { value, others: &[] }, depth);
     }
 }
 
@@ -224,73 +217,31 @@ impl<const N: usize, const W: usize> Eigenpairs<f64, N, W> {
     }
 }
 
-struct Assembly<'a, R, const N: usize, const W: usize> {
-    statics: &'a mut Statics<R, N, W>,
-    bats: &'a [&'a Bat],
-    meshes: &'a [&'a Mesh],
-}
-
-impl<R: Real, const N: usize, const W: usize> WithSimd for Assembly<'_, R, N, W> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        self.statics.assemble(self.bats, self.meshes);
-    }
-}
-
 /// The iteration, one for all degrees and theories.
-struct Iteration<'a, R> {
-    lanczos: &'a mut Lanczos<R>,
+fn iterate<R: Real>(
+    lanczos: &mut Lanczos<R>,
     dimension: usize,
     wanted: Wanted,
-    known: &'a [R],
-    start: &'a mut dyn FnMut(&mut [R]),
-    allow: &'a mut dyn FnMut(&mut [R]),
-    apply: &'a mut dyn FnMut(&[R], &mut [R]),
-}
-
-impl<R: Real> WithSimd for Iteration<'_, R> {
-    type Output = Result<()>;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> Result<()> {
-        let Self { lanczos, dimension, wanted, known, start, allow, apply } = self;
-        lanczos.largest(dimension, wanted, Space { known, allow }, start, apply)
-    }
+    space: Space<R>,
+    start: &mut dyn FnMut(&mut [R]),
+    apply: &mut dyn FnMut(&[R], &mut [R]),
+) -> Result<()> {
+    vectorized!(lanczos.largest(dimension, wanted, space, start, apply))
 }
 
 /// The start of the iteration, one for all degrees and theories.
-struct Start<'a, R> {
-    view: View<'a, R>,
-    count: usize,
-    next: &'a mut [R],
+fn begin<R: Real>(view: &View<R>, count: usize, next: &mut [R]) {
+    vectorized!(view.start(count, next));
 }
 
-impl<R: Real> WithSimd for Start<'_, R> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        self.view.start(self.count, self.next);
-    }
-}
-
-struct Look<'a, S, R> {
-    view: View<'a, S>,
+/// The look at motions, one for all degrees and theories.
+fn look<S: Real, R: Over<S>>(
+    view: &View<S>,
     rigid: Rigid<R>,
-    motions: &'a mut Motion<R>,
-    strains: &'a [R],
-    value: Option<R>,
+    motions: &mut Motion<R>,
+    strains: &[R],
+    known: Known<R, S>,
     depth: Depth,
-}
-
-impl<S: Real, R: Over<S>> WithSimd for Look<'_, S, R> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<V: Simd>(self, _: V) {
-        let Self { view, rigid, motions, strains, value, depth } = self;
-        motions.look(&view, rigid, strains, Known { value, others: &[] }, depth);
-    }
+) {
+    vectorized!(motions.look(view, rigid, strains, known, depth));
 }

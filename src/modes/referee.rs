@@ -14,7 +14,8 @@ use crate::beam::hermite::elements;
 use crate::beam::mesh::Mesh;
 use crate::beam::motion::Motion;
 use crate::beam::statics::Statics;
-use crate::eigen::{dense, shift_invert};
+use crate::eigen::dense;
+use crate::eigen::shift_invert::{self, Pairs};
 
 type Sparse = nalgebra_sparse::CscMatrix<f64>;
 
@@ -107,14 +108,6 @@ fn check<const N: usize, const W: usize>(
     }
 }
 
-/// What a solver makes of the assembled matrices.
-struct Pairs {
-    /// The solver's own eigenvalues λ = ω² (1/s²), rising.
-    values: Vec<f64>,
-    vectors: Vec<Vec<f64>>,
-    steps: usize,
-}
-
 /// The `count` lowest bending modes, and the next if there is one, by a solver that factors `K`;
 /// for the statics, which factors nothing, by shift-invert.
 fn of_pencil<const N: usize, const W: usize>(
@@ -131,26 +124,18 @@ fn of_pencil<const N: usize, const W: usize>(
         Solver::Arpack => arpack(&k, &m, shift, all)?,
         Solver::Dense => {
             let (values, vectors) = dense::lowest(&k, &m, shift, all)?;
-            Pairs { values, vectors, steps: 0 }
+            Pairs { values, vectors, ..Pairs::default() }
         }
-        Solver::ShiftInvert | Solver::Statics => {
-            shift_invert::lowest(&k, &m, shift, all, 1e-12)?.into()
-        }
+        Solver::ShiftInvert | Solver::Statics => shift_invert::lowest(&k, &m, shift, all, 1e-12)?,
     };
-    pairs.values = pairs.values.into_iter().skip(rigid).collect();
-    pairs.vectors = pairs.vectors.into_iter().skip(rigid).collect();
+    pairs.values.drain(..rigid);
+    pairs.vectors.drain(..rigid);
     Ok(pairs)
-}
-
-impl From<shift_invert::Pairs> for Pairs {
-    fn from(pairs: shift_invert::Pairs) -> Self {
-        Self { values: pairs.values, vectors: pairs.vectors, steps: pairs.steps }
-    }
 }
 
 #[cfg(feature = "arpack")]
 fn arpack(k: &Sparse, m: &Sparse, shift: f64, count: usize) -> Result<Pairs> {
-    Ok(crate::eigen::arpack::lowest(k, m, shift, count, 1e-12)?.into())
+    crate::eigen::arpack::lowest(k, m, shift, count, 1e-12)
 }
 
 #[cfg(not(feature = "arpack"))]

@@ -44,9 +44,7 @@ impl Shares {
     /// use sweetspot::{Bat, Request, Theory, solve};
     ///
     /// # fn main() -> sweetspot::Result<()> {
-    /// # let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
-    /// #     "profile": { "unit": "in", "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5] } }"#;
-    /// # let bat = Bat::from_text("bat.json", text, "".as_ref())?;
+    /// # let bat = Bat::builtin("r161")?;
     /// let theory = Theory::Timoshenko;
     /// let solution = solve(&bat, &Request { modes: 1, tolerance: 1e-9, theory, ..Request::default() })?;
     /// let shares = Shares::of(&bat, &solution.modes[0], theory, &[0.0, bat.length()], |_| true);

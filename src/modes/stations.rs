@@ -65,7 +65,7 @@ impl Stations {
     /// Those of a bat; None if there is nothing to reach over.
     pub fn of(bat: &Bat, survey: &Survey) -> Option<Self> {
         let pieces = &bat.profile().pieces;
-        let widest = bat.profile().stations.outer.iter().fold(0.0_f64, |most, r| most.max(*r));
+        let widest = bat.profile().widest();
         let held = bat.fixtures().borders();
         let same = SAME_PLACE * bat.length();
         let (mut stretches, mut kinks, mut first) = (vec![], vec![], 0);

@@ -69,7 +69,7 @@ impl Ratios {
 impl Survey {
     /// A bat whose highest wanted mode has that phase from end to end (rad), all waves together.
     pub fn of(bat: &Bat, theory: Theory, phase: f64) -> Self {
-        let widest = bat.profile().stations.outer.iter().fold(0.0_f64, |a, b| a.max(*b));
+        let widest = bat.profile().widest();
         let pieces = &bat.profile().pieces;
         let mut samples = Vec::with_capacity(5 * pieces.len());
         let mut ends = Vec::with_capacity(pieces.len());

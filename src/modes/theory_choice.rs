@@ -26,9 +26,7 @@ pub struct Choice {
 /// use sweetspot::{Bat, Request, Theory};
 ///
 /// # fn main() -> sweetspot::Result<()> {
-/// # let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
-/// #     "profile": { "unit": "in", "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5] } }"#;
-/// # let bat = Bat::from_text("bat.json", text, "".as_ref())?;
+/// # let bat = Bat::builtin("r161")?;
 /// let choice = theory(&bat, &Request::default())?;
 /// assert_eq!(choice.theory, Theory::Timoshenko); // shear counts at 1e-4
 /// # Ok(())

@@ -46,11 +46,7 @@ pub fn tuned(mut bat: Bat, theory: Theory, tolerance: f64) -> Result<Bat> {
         let there = refine(&stiffer, &request)?;
         let share = |(a, b): (&Mode, &Mode)| 2.0 * (b.omega / a.omega).ln() / STIFFER.ln();
         let shares: Vec<f64> = here.modes.iter().zip(&there.modes).map(share).collect();
-        let bending = shares.iter().position(|share| *share >= 0.5);
-        let bending = bending.unwrap_or_else(|| {
-            let larger = |a: &usize, b: &usize| shares[*a].total_cmp(&shares[*b]);
-            (0..shares.len()).max_by(larger).unwrap_or(0)
-        });
+        let bending = first_bending(&shares);
         let found = here.modes[bending].frequency();
         let ratio = tapped / found;
         if nearest == 0.0 || ratio.ln().abs() < (tapped / nearest).ln().abs() {
@@ -85,6 +81,15 @@ pub fn tuned(mut bat: Bat, theory: Theory, tolerance: f64) -> Result<Bat> {
         false => "a first bending frequency with the absorber, which takes one near its own away",
     };
     Err(Error::value("weighed.first_bending_hz", found, expected))
+}
+
+/// The first mode in which the bat's own strain energy has a share of a half at least, else the one in which it has the
+/// largest.
+fn first_bending(shares: &[f64]) -> usize {
+    shares.iter().position(|share| *share >= 0.5).unwrap_or_else(|| {
+        let larger = |a: &usize, b: &usize| shares[*a].total_cmp(&shares[*b]);
+        (0..shares.len()).max_by(larger).unwrap_or(0)
+    })
 }
 
 /// The edited bat, as stiff as the bat before its edits was tapped.

@@ -36,9 +36,7 @@ const FIELD: &str = "frequency limit";
 /// use sweetspot::{Bat, Request, solve};
 ///
 /// # fn main() -> sweetspot::Result<()> {
-/// # let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
-/// #     "profile": { "unit": "in", "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5] } }"#;
-/// # let bat = Bat::from_text("bat.json", text, "".as_ref())?;
+/// # let bat = Bat::builtin("r161")?;
 /// let modes = modes_up_to(&bat, &Request::default(), 2000.0)?;
 /// let solution = solve(&bat, &Request { modes, ..Request::default() })?;
 /// assert!(solution.modes.iter().all(|mode| mode.frequency() <= 2000.0));

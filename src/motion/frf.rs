@@ -191,9 +191,7 @@ impl Frf {
 
     /// The receptance (m/N) at a frequency (Hz) by the strains that are there.
     fn receptance(&self, driven: &Driven, frequency: f64) -> c64 {
-        let rigid =
-            if self.reduced.flexible.rigid.is_empty() { 0.0 } else { self.rigid(frequency) };
-        self.strained_by(driven, frequency) + c64::new(rigid, 0.0)
+        self.strained_by(driven, frequency) + c64::new(self.rigid(frequency), 0.0)
     }
 
     /// Natural frequency (Hz) and damping ratio of every mode.
@@ -272,10 +270,9 @@ impl Frf {
         let driven = self.reduced.driven();
         let sample = |f: &f64| {
             let answers = self.answers(&driven, *f);
-            let rigid = if free { self.rigid(*f) } else { 0.0 };
             Sample {
                 frequency: *f,
-                receptance: answers[0].at(&self.places[1]) + c64::new(rigid, 0.0),
+                receptance: answers[0].at(&self.places[1]) + c64::new(self.rigid(*f), 0.0),
                 truncation: self.missing(&answers) + self.blurred(&answers, *f),
             }
         };
@@ -296,10 +293,8 @@ impl Frf {
     /// `ω² qᵀ δM q′`.
     fn blurred(&self, answers: &[DrivenStrains; 2], frequency: f64) -> f64 {
         let inertia = (TAU * frequency).powi(2) * self.reduced.inertia_of(answers);
-        let unit = self.reduced.flexible.energy_unit;
-        let rigid =
-            if self.reduced.flexible.rigid.is_empty() { 0.0 } else { self.rigid(frequency) };
-        BEYOND * self.solution.worst().max(KNOWN) * (inertia * unit + rigid.abs())
+        let strained = inertia * self.reduced.flexible.energy_unit;
+        BEYOND * self.solution.worst().max(KNOWN) * (strained + self.rigid(frequency).abs())
     }
 
     /// The mean size of both points' own receptances (m/N), which one between them may be far

@@ -88,9 +88,7 @@ impl Ringing {
     /// use sweetspot::{Bat, Request, solve};
     ///
     /// # fn main() -> sweetspot::Result<()> {
-    /// # let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
-    /// #     "profile": { "unit": "in", "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5] } }"#;
-    /// # let bat = Bat::from_text("bat.json", text, "".as_ref())?;
+    /// # let bat = Bat::builtin("r161")?;
     /// let solution = solve(&bat, &Request::default())?;
     /// let ringing = Ringing::new(&bat, &solution, 1e-4, true)?;
     /// // A blow of 1 N s in the middle, and how the tip stands 2 ms later.

@@ -3,7 +3,7 @@
 //! The derivative gives a second bound of the values, which is the closer one on a small box:
 //! `f(x) ∈ f(m) + f′([a, b]) (x − m)`, the mean-value form.
 
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::{Add, Mul, Neg};
 
 use super::{Interval, Rectangle};
 
@@ -118,14 +118,6 @@ impl Neg for Jet {
 
     fn neg(self) -> Self {
         Self { value: -self.value, slope: -self.slope }
-    }
-}
-
-impl Sub for Jet {
-    type Output = Self;
-
-    fn sub(self, other: Self) -> Self {
-        self + -other
     }
 }
 

@@ -216,13 +216,20 @@ impl Neg for Interval {
     }
 }
 
-impl Sub for Interval {
-    type Output = Self;
+/// What is less by another is more by the negative of that.
+macro_rules! differences {
+    ($($of:ty)*) => {$(
+        impl Sub for $of {
+            type Output = Self;
 
-    fn sub(self, other: Self) -> Self {
-        self + -other
-    }
+            fn sub(self, other: Self) -> Self {
+                self + -other
+            }
+        }
+    )*};
 }
+
+differences! { Interval Rectangle Jet }
 
 impl Sum for Interval {
     fn sum<I: Iterator<Item = Self>>(numbers: I) -> Self {

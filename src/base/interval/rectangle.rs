@@ -4,7 +4,7 @@
 //! one is not analytic there is no bound.
 
 use std::f64::consts::FRAC_PI_2;
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::{Add, Mul, Neg};
 
 use super::{Interval, LIBRARY};
 
@@ -157,14 +157,6 @@ impl Neg for Rectangle {
 
     fn neg(self) -> Self {
         Self { re: -self.re, im: -self.im }
-    }
-}
-
-impl Sub for Rectangle {
-    type Output = Self;
-
-    fn sub(self, other: Self) -> Self {
-        self + -other
     }
 }
 

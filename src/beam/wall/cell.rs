@@ -17,9 +17,7 @@
 //! E. L. Wilson, AIAA Journal 3 (1965) 2269: solids of revolution under loads that are no function of
 //! revolution, one Fourier term after the other.
 
-use pulp::{Simd, WithSimd};
-
-use crate::base::lanes::widest;
+use crate::base::lanes::vectorized;
 use crate::beam::wall::columns::LayerElement;
 use crate::beam::wall::elastic::Elastic;
 use crate::beam::wall::shapes::Shapes;
@@ -102,7 +100,7 @@ const MATRICES: usize = 7;
 impl Cell {
     /// The integrals over a part of a column of length `h` (m).
     pub fn new(part: &LayerElement, rule: &Rule, h: f64) -> Self {
-        widest(Integration { part, rule, h })
+        vectorized!(integrals(part, rule, h))
     }
 
     /// Stiffness and `shift` times the mass in harmonic n, without the factor π: unknowns all of U, then of
@@ -153,64 +151,51 @@ impl Cell {
     }
 }
 
-/// The integrals over one part.
-struct Integration<'a> {
-    part: &'a LayerElement,
-    rule: &'a Rule,
-    h: f64,
-}
-
-impl WithSimd for Integration<'_> {
-    type Output = Cell;
-
-    /// Sums across the wall at each point along it, times products of functions along it. In between the
-    /// sums of all pairs across stand side by side for each pair along.
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> Cell {
-        let Self { part, rule, h } = self;
-        let (p, q) = (rule.along.count, rule.across.count);
-        let square = q * q;
-        let mut kinds = vec![0.0; KINDS * square];
-        let mut sums = vec![0.0; MATRICES * p * p * square];
-        for k in 0..rule.along.places.len() {
-            across(part, rule, h, k, &mut kinds);
-            let kind: [&[f64]; KINDS] =
-                std::array::from_fn(|m| &kinds[m * square..(m + 1) * square]);
-            let [qq, qr, rr, tt, rt, qt, tn, nt, rn, qn, nn] = kind;
-            let (values, slopes) = (rule.along.value(k), rule.along.slope(k));
-            for i in 0..p {
-                let (f, g) = (values[i], slopes[i] * 2.0 / h);
-                for j in 0..p {
-                    let (f_j, g_j) = (values[j], slopes[j] * 2.0 / h);
-                    let (ff, fg, gf, gg) = (f * f_j, f * g_j, g * f_j, g * g_j);
-                    let at = (i * p + j) * MATRICES * square;
-                    let to = &mut sums[at..at + MATRICES * square];
-                    for m in 0..square {
-                        to[m] += ff * qq[m];
-                        to[square + m] += ff * qr[m];
-                        to[2 * square + m] += ff * rr[m];
-                        to[3 * square + m] += ff * tt[m] + fg * tn[m] + gf * nt[m] + gg * nn[m];
-                        to[4 * square + m] += ff * rt[m] + fg * rn[m];
-                        to[5 * square + m] += ff * qt[m] + fg * qn[m];
-                        to[6 * square + m] += ff * nn[m];
-                    }
+/// The integrals over one part: sums across the wall at each point along it, times products of functions along it.
+/// In between the sums of all pairs across stand side by side for each pair along.
+#[inline(always)]
+fn integrals(part: &LayerElement, rule: &Rule, h: f64) -> Cell {
+    let (p, q) = (rule.along.count, rule.across.count);
+    let square = q * q;
+    let mut kinds = vec![0.0; KINDS * square];
+    let mut sums = vec![0.0; MATRICES * p * p * square];
+    for k in 0..rule.along.places.len() {
+        across(part, rule, h, k, &mut kinds);
+        let kind: [&[f64]; KINDS] = std::array::from_fn(|m| &kinds[m * square..(m + 1) * square]);
+        let [qq, qr, rr, tt, rt, qt, tn, nt, rn, qn, nn] = kind;
+        let (values, slopes) = (rule.along.value(k), rule.along.slope(k));
+        for i in 0..p {
+            let (f, g) = (values[i], slopes[i] * 2.0 / h);
+            for j in 0..p {
+                let (f_j, g_j) = (values[j], slopes[j] * 2.0 / h);
+                let (ff, fg, gf, gg) = (f * f_j, f * g_j, g * f_j, g * g_j);
+                let at = (i * p + j) * MATRICES * square;
+                let to = &mut sums[at..at + MATRICES * square];
+                for m in 0..square {
+                    to[m] += ff * qq[m];
+                    to[square + m] += ff * qr[m];
+                    to[2 * square + m] += ff * rr[m];
+                    to[3 * square + m] += ff * tt[m] + fg * tn[m] + gf * nt[m] + gg * nn[m];
+                    to[4 * square + m] += ff * rt[m] + fg * rn[m];
+                    to[5 * square + m] += ff * qt[m] + fg * qn[m];
+                    to[6 * square + m] += ff * nn[m];
                 }
             }
         }
-        let count = p * q;
-        let mut matrices: [Vec<f64>; MATRICES] = std::array::from_fn(|_| vec![0.0; count * count]);
-        for (pair, sums) in sums.chunks_exact(MATRICES * square).enumerate() {
-            let (i, j) = (pair / p, pair % p);
-            for (matrix, sums) in matrices.iter_mut().zip(sums.chunks_exact(square)) {
-                for (a, row) in sums.chunks_exact(q).enumerate() {
-                    let at = (i * q + a) * count + j * q;
-                    matrix[at..at + q].copy_from_slice(row);
-                }
-            }
-        }
-        let [qq, qr, rr, dd, rd, qd, nn] = matrices;
-        Cell { count, qq, qr, rr, dd, rd, qd, nn }
     }
+    let count = p * q;
+    let mut matrices: [Vec<f64>; MATRICES] = std::array::from_fn(|_| vec![0.0; count * count]);
+    for (pair, sums) in sums.chunks_exact(MATRICES * square).enumerate() {
+        let (i, j) = (pair / p, pair % p);
+        for (matrix, sums) in matrices.iter_mut().zip(sums.chunks_exact(square)) {
+            for (a, row) in sums.chunks_exact(q).enumerate() {
+                let at = (i * q + a) * count + j * q;
+                matrix[at..at + q].copy_from_slice(row);
+            }
+        }
+    }
+    let [qq, qr, rr, dd, rd, qd, nn] = matrices;
+    Cell { count, qq, qr, rr, dd, rd, qd, nn }
 }
 
 /// The sums across at point `k` along, for all pairs of functions across.

@@ -194,29 +194,34 @@ fn divide(
                 cut(&stretch.radii(place), border, (place - far).abs(), innermost, &mut cuts);
             }
         }
-        let xi = [-1.0, 0.0, 1.0];
-        let mut parts = vec![];
-        for (k, (material, cuts)) in stretch.materials.iter().zip(&mut cuts).enumerate() {
-            let thick = |xi: &f64| {
-                (radii[k + 1].at(*xi)[0] - radii[k].at(*xi)[0]) / radii[radii.len() - 1].at(*xi)[0]
-            };
-            let thickest = xi.iter().map(thick).fold(0.0, f64::max);
-            even_out(cuts, thickest / THICKNESS);
-            cuts.sort_by(f64::total_cmp);
-            cuts.dedup_by(|a, b| (*a - *b).abs() < 1e-7);
-            let mut inner = radii[k].clone();
-            for share in cuts {
-                let outer = match *share > 1.0 - 1e-7 {
-                    true => radii[k + 1].clone(),
-                    false => radii[k].towards(&radii[k + 1], *share),
-                };
-                let next = outer.clone();
-                parts.push(LayerElement { material: *material, inner, outer });
-                inner = next;
-            }
-        }
-        columns.push(Column { from, to, parts });
+        columns.push(Column { from, to, parts: layered(&stretch.materials, &radii, cuts) });
     }
+}
+
+/// The elements of a column, from the inside out: layers of these materials between these radii, each cut at shares
+/// of it and into parts that are not too thick.
+fn layered(materials: &[usize], radii: &[Radius], cuts: Vec<Vec<f64>>) -> Vec<LayerElement> {
+    let mut parts = vec![];
+    for (k, (material, mut cuts)) in materials.iter().zip(cuts).enumerate() {
+        let thick = |xi: f64| {
+            (radii[k + 1].at(xi)[0] - radii[k].at(xi)[0]) / radii[radii.len() - 1].at(xi)[0]
+        };
+        let thickest = [-1.0, 0.0, 1.0].map(thick).into_iter().fold(0.0, f64::max);
+        even_out(&mut cuts, thickest / THICKNESS);
+        cuts.sort_by(f64::total_cmp);
+        cuts.dedup_by(|a, b| (*a - *b).abs() < 1e-7);
+        let mut inner = radii[k].clone();
+        for share in cuts {
+            let outer = match share > 1.0 - 1e-7 {
+                true => radii[k + 1].clone(),
+                false => radii[k].towards(&radii[k + 1], share),
+            };
+            let next = outer.clone();
+            parts.push(LayerElement { material: *material, inner, outer });
+            inner = next;
+        }
+    }
+    parts
 }
 
 /// Cuts a layer, already cut at these shares, into parts of one over `count` of it at most; 1 is a cut.

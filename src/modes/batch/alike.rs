@@ -14,8 +14,7 @@ pub fn plain(bat: &Bat) -> bool {
 /// proportions, and with masses at the same borders, so that the same elements serve both.
 pub fn same_pattern(a: &Bat, b: &Bat) -> bool {
     const ALIKE: f64 = 2.5;
-    let widest = |bat: &Bat| bat.profile().stations.outer.iter().fold(0.0_f64, |m, r| m.max(*r));
-    let (widest_a, widest_b) = (widest(a), widest(b));
+    let (widest_a, widest_b) = (a.profile().widest(), b.profile().widest());
     let pieces = a.profile().pieces.iter().zip(&b.profile().pieces);
     // Where what is on a bat is, by the piece that begins there, and which of it has a mass.
     let masses = |bat: &Bat| -> Vec<bool> {

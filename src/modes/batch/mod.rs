@@ -295,9 +295,7 @@ fn figures(solution: &Solution, request: &Request, visit: impl FnOnce(Found)) {
 /// use sweetspot::{Bat, Request};
 ///
 /// # fn main() -> sweetspot::Result<()> {
-/// # let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
-/// #     "profile": { "unit": "in", "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5] } }"#;
-/// # let bat = Bat::from_text("bat.json", text, "".as_ref())?;
+/// # let bat = Bat::builtin("r161")?;
 /// let lighter = |k: i32| bat.with(|parts| parts.material.density *= 0.99_f64.powi(k));
 /// let bats: Vec<Bat> = (0..100).map(lighter).collect::<sweetspot::Result<_>>()?;
 /// let asked = Request { modes: 2, tolerance: 1e-6, ..Request::default() };

@@ -2,10 +2,8 @@
 
 use std::sync::Arc;
 
-use pulp::{Simd, WithSimd};
-
 use crate::base::error::{Error, Result};
-use crate::base::lanes::{Lanes, WIDTH, widest};
+use crate::base::lanes::{Lanes, WIDTH, vectorized};
 use crate::base::real::{Over, Real};
 use crate::bat::body::Bat;
 use crate::bat::theory::Theory;
@@ -246,7 +244,7 @@ where
             self.counted[lane] &= next.is_some();
             between.set_lane(lane, (last[lane] * next.unwrap_or(last[lane])).sqrt());
         }
-        let found = widest(Count { view: self.pairs.statics.view(), omega: between });
+        let found = slower_of_all(&self.pairs.statics.view(), between);
         for (lane, counted) in self.counted.iter_mut().enumerate() {
             let slower = found.map(|count| count.lane(lane));
             *counted &= slower == Some((modes + 2) as f64);
@@ -332,16 +330,6 @@ where
 }
 
 /// How many motions are slower than a frequency, of the bats in the lanes.
-struct Count<'a, R> {
-    view: View<'a, R>,
-    omega: R,
-}
-
-impl<R: Real> WithSimd for Count<'_, R> {
-    type Output = Option<R>;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> Option<R> {
-        slower_each(&self.view, self.omega)
-    }
+fn slower_of_all<R: Real>(view: &View<R>, omega: R) -> Option<R> {
+    vectorized!(slower_each(view, omega))
 }

@@ -12,7 +12,7 @@ use crate::beam::wall::elastic::Elastic;
 use crate::beam::wall::layers::Layers;
 use crate::beam::wall::unknowns::{EndHold, WallMesh};
 use crate::modes::hoop::request::HoopRequest;
-use crate::modes::hoop::spectrum::{Spectrum, count_below};
+use crate::modes::hoop::spectrum::{Spectrum, count_below, keep};
 use crate::modes::hoop::system::Wall;
 
 /// One fineness of the elements after the other: degrees along and across, geometric steps towards ends, kinks
@@ -143,8 +143,7 @@ impl<'a> Climb<'a> {
                     continue;
                 }
                 now.keep(&kept);
-                let mut kept = kept.into_iter();
-                errors.retain(|_| kept.next() == Some(true));
+                keep(&mut errors, &kept);
             }
             let lowest = now.omegas.first().copied().unwrap_or(1.0);
             let allowed = |omega: &f64| self.request.allowed(n, omega / lowest);
@@ -176,9 +175,8 @@ const MOST_LEFT_OUT: usize = 40;
 /// squared, against its largest, and times the cube of the radii, as the stiffness of a section that does not
 /// stay round. Measured on twenty random barrels, cut off where their taper begins and eight radii before.
 fn cut_off(spectrum: &Spectrum, mode: usize) -> f64 {
-    let motion = &spectrum.motions[mode];
     let columns = &spectrum.system.mesh.columns;
-    let size = |x: f64| spectrum.system.surface(motion, x)[0].abs();
+    let size = |x: f64| spectrum.radial(mode, x).abs();
     let from = columns[0].from;
     let radius = spectrum.system.radius(from);
     let there = (0..=PLACES).map(|k| size(from + 2.0 * radius * k as f64 / PLACES as f64));
@@ -194,9 +192,8 @@ const PLACES: usize = 8;
 
 /// Whether a mode moves where the stretch begins by more than a tenth of its largest motion.
 fn in_handle(spectrum: &Spectrum, mode: usize) -> bool {
-    let motion = &spectrum.motions[mode];
     let columns = &spectrum.system.mesh.columns;
-    let size = |x: f64| spectrum.system.surface(motion, x)[0].abs();
+    let size = |x: f64| spectrum.radial(mode, x).abs();
     let middles =
         columns.iter().flat_map(|column| [column.from, 0.5 * (column.from + column.to), column.to]);
     let largest = middles.map(size).fold(0.0, f64::max);

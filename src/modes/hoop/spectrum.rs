@@ -105,11 +105,6 @@ impl Spectrum {
         let total = (count + skipped).min(size);
         let wanted = Wanted { count: total, residual, earliest: 8, clustered: CLUSTERED };
         let space = Space { known: &[], allow: &mut |_| {} };
-        let start = |z: &mut [f64]| {
-            for (k, z) in z.iter_mut().enumerate() {
-                *z = golden::fraction(k) - 0.5;
-            }
-        };
         let (mut x, mut y) = (vec![0.0; all], vec![0.0; all]);
         lanczos.largest(size, wanted, space, start, |z, image| {
             back(z, &mut x);
@@ -140,15 +135,28 @@ impl Spectrum {
 }
 
 impl Spectrum {
+    /// How far the outer surface moves radially at `x` (m) in a mode.
+    pub fn radial(&self, mode: usize, x: f64) -> f64 {
+        self.system.surface(&self.motions[mode], x)[0]
+    }
+
     /// Keeps some of the modes.
     pub fn keep(&mut self, kept: &[bool]) {
-        let mut each = kept.iter();
-        self.omegas.retain(|_| each.next() == Some(&true));
-        let mut each = kept.iter();
-        self.motions.retain(|_| each.next() == Some(&true));
-        let mut each = kept.iter();
-        self.losses.retain(|_| each.next() == Some(&true));
+        keep(&mut self.omegas, kept);
+        keep(&mut self.motions, kept);
+        keep(&mut self.losses, kept);
     }
+}
+
+/// Keeps some of a list.
+pub fn keep<T>(list: &mut Vec<T>, kept: &[bool]) {
+    let mut kept = kept.iter();
+    list.retain(|_| kept.next() == Some(&true));
+}
+
+/// Where the iteration starts: numbers that favour no mode.
+fn start(z: &mut [f64]) {
+    z.iter_mut().enumerate().for_each(|(k, z)| *z = golden::fraction(k) - 0.5);
 }
 
 /// How many rigid motions harmonic n has between ends that are held so.

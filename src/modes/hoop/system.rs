@@ -84,12 +84,9 @@ impl System {
             let parts = mesh.cells[c].len();
             let inside = &mesh.inside[c];
             let edges = inside[parts].clone();
-            let borders = mesh.at_border[c].clone().chain(if c + 1 == columns {
-                mesh.at_border[c + 1].clone()
-            } else {
-                0..0
-            });
-            let beyond = if c + 1 == columns { 0..0 } else { mesh.at_border[c + 1].clone() };
+            let next = mesh.at_border[c + 1].clone();
+            let (last, beyond) = if c + 1 == columns { (next, 0..0) } else { (0..0, next) };
+            let borders = mesh.at_border[c].clone().chain(last);
             if parts == 1 {
                 let all = inside[0].clone().chain(edges).chain(borders);
                 let mut unknowns = self.numbers(all);
@@ -244,20 +241,23 @@ impl System {
 
     /// Outer radius at `x` (m).
     pub fn radius(&self, x: f64) -> f64 {
-        let columns = &self.mesh.columns;
-        let c = columns.partition_point(|column| column.from <= x).max(1) - 1;
-        let column = &columns[c];
-        let xi = (2.0 * (x - column.from) / (column.to - column.from) - 1.0).clamp(-1.0, 1.0);
-        column.parts[column.parts.len() - 1].outer.at(xi)[0]
+        let (c, xi) = self.locate(x);
+        let parts = &self.mesh.columns[c].parts;
+        parts[parts.len() - 1].outer.at(xi)[0]
     }
 
     /// The column at `x` and the values of the functions along it there.
     fn place(&self, x: f64) -> (usize, Vec<f64>) {
+        let (c, xi) = self.locate(x);
+        (c, crate::beam::wall::shapes::at(self.mesh.degrees[0], xi)[0].clone())
+    }
+
+    /// The column at `x` and the place in it, ξ in [−1, 1].
+    fn locate(&self, x: f64) -> (usize, f64) {
         let columns = &self.mesh.columns;
         let c = columns.partition_point(|column| column.from <= x).max(1) - 1;
         let column = &columns[c];
-        let xi = (2.0 * (x - column.from) / (column.to - column.from) - 1.0).clamp(-1.0, 1.0);
-        (c, crate::beam::wall::shapes::at(self.mesh.degrees[0], xi)[0].clone())
+        (c, (2.0 * (x - column.from) / (column.to - column.from) - 1.0).clamp(-1.0, 1.0))
     }
 
     /// Adds `weight` times the radial displacement of the outer surface at `x` to a load.
