@@ -72,13 +72,13 @@
 //! let best = spot.exit_speed_max.expect("a swung barrel meets the ball");
 //! let energy = hitter.strike(best.x).outcome.expect("it met it there").energy;
 //! println!("fastest, {:.2} m/s, at {:.3} m; of {:.0} J", best.value, best.x, energy.initial);
-//! println!("{:.1} J stay in vibration, {:.1} J in the bat", energy.vibration(), energy.bat_rigid);
+//! println!("{:.1} J stay in vibration, {:.1} J in the bat", energy.vibration, energy.bat_rigid);
 //! let nodes = [spot.node_mode_1, spot.node_mode_2].map(|node| node.expect("a free bat has some"));
 //! println!("the nodes of modes 1 and 2 are at {:.3} and {:.3} m", nodes[0], nodes[1]);
 //! # assert!(hits.met() && nodes[0] < nodes[1]);
 //! # let inwards = hitter.strike(best.x - 0.1).outcome.expect("it is hit").energy;
-//! # assert!(inwards.vibration() > 3.0 * energy.vibration());
-//! # assert!(energy.imbalance().abs() < 1e-9 * energy.initial);
+//! # assert!(inwards.vibration > 3.0 * energy.vibration);
+//! # assert!(energy.imbalance.abs() < 1e-9 * energy.initial);
 //! # Ok(())
 //! # }
 //! ```

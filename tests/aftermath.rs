@@ -39,8 +39,8 @@ fn the_bat_goes_on_as_the_hit_left_it() {
         {
             // E = m ω² A²/2 of the amplitude A of the shape, φ(x) A of that at x.
             let shape = mode.shape.deflection(0.13).abs();
-            let found = 0.5 * mode.modal_mass * (line.amplitude[1] / shape).powi(2);
-            let whole = outcome.energy.vibration();
+            let found = 0.5 * mode.modal_mass * (line.velocity_m_s / shape).powi(2);
+            let whole = outcome.energy.vibration;
             assert!((found - energy).abs() < 1e-5 * whole, "{x} {} {found} {energy}", mode.order);
         }
         // The mean motion over a long time is that of a stiff bat with the same impulse.
@@ -86,8 +86,8 @@ fn the_handle_hears_of_the_hit_after_half_a_millisecond() {
     let hitter = Hitter::new(Model::Contact, &scene, &bat, &solution, EXACTLY).unwrap();
     let after = Aftermath::new(&bat, &solution, 0.66, hitter.force(0.66).unwrap());
     let times: Vec<f64> = (0..=1000).map(|k| 1e-5 * f64::from(k)).collect();
-    let sting = after.sting(0.13, &after.at(&times));
-    assert!(sting.begins > 0.4e-3 && sting.begins < 0.65e-3, "{}", sting.begins);
+    let begins = after.watched(0.13, &after.at(&times)).begins_s;
+    assert!(begins > 0.4e-3 && begins < 0.65e-3, "{begins}");
 }
 
 /// A slow push bends the bat as statics says: with the inertia forces that balance it, the bending
@@ -133,8 +133,9 @@ fn a_longer_look_finds_no_less() {
     let mut before = [0.0; 4];
     for until in [1e-4, 2e-3, 0.02, 0.1, 3.0] {
         let report = AfterHit::new(&bat, &after, &[0.13], until);
-        let [moved, speed, acceleration] = report.watched[0].1.peak;
-        let now = [moved, speed, acceleration, report.after.unwrap().strain];
+        let peak = report.watched[0].peak;
+        let motion = [peak.displacement_m, peak.velocity_m_s, peak.acceleration_m_s2];
+        let now = [motion[0], motion[1], motion[2], report.after.unwrap().strain];
         assert!(now.iter().zip(before).all(|(now, before)| *now >= before), "{until} {now:?}");
         before = now;
     }

@@ -210,7 +210,7 @@ fn a_hit_at_the_breaking_swing_reaches_the_strength() {
     let envelope = after.envelope(&places, &after.at(&times), after.count());
     let load = nearest(&bat, &envelope, Limit::Stress).unwrap();
     assert!((load.share - 1.0).abs() < 0.01, "{swing} rad/s: {}", load.share);
-    assert!((load.at.stress / (load.share * 300e6) - 1.0).abs() < 1e-12);
+    assert!((load.at.stress_pa / (load.share * 300e6) - 1.0).abs() < 1e-12);
     assert_eq!(nearest(&bat, &envelope, Limit::Strain), None);
 }
 

@@ -230,9 +230,9 @@ fn energies_close_along_a_hollow_barrel() {
         for impact in &hits.impacts {
             let outcome = impact.outcome.as_ref().unwrap();
             let energy = &outcome.energy;
-            let off = energy.imbalance().abs() / energy.initial;
+            let off = energy.imbalance.abs() / energy.initial;
             assert!(off < 1e-11, "{cor} {} {off:e}", impact.x);
-            let sum: f64 = energy.wall_by_harmonic.iter().map(|(_, energy)| energy).sum();
+            let sum: f64 = energy.wall_by_harmonic.iter().map(|of| of.energy_j).sum();
             assert!((sum - energy.wall).abs() <= 1e-12 * energy.initial);
             assert!(energy.wall >= 0.0 && energy.wall < energy.initial);
             let ball = scene.ball.mass_kg * (outcome.exit_speed + scene.ball_speed);

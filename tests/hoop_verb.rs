@@ -117,18 +117,18 @@ fn walls_of_other_thickness_give_way_as_another_program_found() {
         let found = BarrelStruck::of(&other, &test()).unwrap();
         let [pressed, rebound] = (found.wall.as_ref()).zip(found.rebound.as_ref()).map_or_else(
             || panic!("{wall}"),
-            |(pressed, rebound)| [pressed.stiffness() * 1e-6, rebound.bbcor().stiff],
+            |(pressed, rebound)| [pressed.stiffness_n_m * 1e-6, rebound.stiff],
         );
-        assert!((found.wall.as_ref().unwrap().thickness - wall).abs() < 1e-12);
-        let first = found.first.unwrap() / std::f64::consts::TAU;
+        assert!((found.wall.as_ref().unwrap().thickness_m - wall).abs() < 1e-12);
+        let first = found.first.unwrap();
         // A table's digits, and the frequency as well as a hit needs it.
         assert!((first - frequency).abs() < 0.5 + 3e-4 * frequency, "{wall}: {first} Hz");
         assert!((pressed / stiffness - 1.0).abs() < 0.01, "{wall}: {pressed} MN/m");
         assert!((rebound - stiff).abs() < 0.003, "{wall}: {rebound} stiff");
         let bounced = found.rebound.unwrap();
-        assert!((bounced.bbcor().with - with).abs() < 0.003, "{wall}: {bounced:?}");
-        let [low, high] = bounced.bbcor().range;
-        assert!(low < bounced.bbcor().with && bounced.bbcor().with < high, "{wall}: {bounced:?}");
+        assert!((bounced.wall - with).abs() < 0.003, "{wall}: {bounced:?}");
+        let [low, high] = bounced.range;
+        assert!(low < bounced.wall && bounced.wall < high, "{wall}: {bounced:?}");
     }
 }
 
@@ -141,7 +141,7 @@ fn another_wall_grows_along_the_taper_and_leaves_the_surface() {
         let test = BarrelTest::of(&bat, Ball::baseball(), Accuracy::plain());
         let barrel = Barrel::of(&bat, test).unwrap();
         let from = barrel.hoop().from();
-        let whole = barrel.struck.wall.as_ref().unwrap().thickness;
+        let whole = barrel.struck.wall.as_ref().unwrap().thickness_m;
         let borders = bat.profile().borders();
         let barrel_radius = bat.profile().at(0.8 * bat.length()).outer;
         let is_full = |x: &f64| bat.profile().at(*x).outer > 0.9999 * barrel_radius;

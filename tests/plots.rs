@@ -655,7 +655,7 @@ fn responses_and_motions_are_whole_in_every_form() {
                 bat: name,
                 length: bat.length(),
                 after: &after,
-                watched: report.watched.iter().map(|(x, _, lines)| (*x, &lines[..])).collect(),
+                watched: report.watched.iter().map(|seen| (seen.x_m, &seen.spectrum[..])).collect(),
                 until: report.until,
                 envelope: &report.envelope,
                 damped: report.damped,

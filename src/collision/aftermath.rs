@@ -59,39 +59,76 @@ pub struct Instant {
     modes: Vec<[f64; 3]>,
 }
 
-/// The largest strain.
+/// A strain, where and when.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct Strained {
-    /// Place of the largest strain (m).
-    pub x: f64,
-    /// Time of the largest strain (s).
-    pub time: f64,
-    /// Absolute value of the strain at the outermost fibre.
+    /// The place (m).
+    pub x_m: f64,
+    /// The instant (s).
+    pub time_s: f64,
+    /// Strain of the surface.
+    // Without its sign.
     pub strain: f64,
-    /// Stress at that place and time (Pa).
-    pub stress: f64,
+    /// Stress of the surface (Pa).
+    pub stress_pa: f64,
 }
 
-/// How one mode rings where it is looked at, just after the ball has left.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// Amplitude of one mode at a place.
+// Just after the ball has left.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Line {
-    /// Frequency of the undamped mode (Hz).
-    pub frequency: f64,
-    /// Amplitudes of displacement (m), velocity (m/s) and acceleration (m/s²).
-    pub amplitude: [f64; 3],
+    /// Frequency (Hz).
+    // Of the undamped mode.
+    pub frequency_hz: f64,
+    /// Displacement (m).
+    pub displacement_m: f64,
+    /// Velocity (m/s).
+    pub velocity_m_s: f64,
+    /// Acceleration (m/s²).
+    pub acceleration_m_s2: f64,
 }
 
-/// What a place feels in a span of time.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+/// A watched place.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
-pub struct Sting {
-    /// Largest displacement (m), velocity (m/s) and acceleration (m/s²), without sign.
-    pub peak: [f64; 3],
-    /// When each is the largest (s).
+pub struct Watched {
+    /// The place (m).
+    pub x_m: f64,
+    /// When it begins to move (s).
+    // When the velocity first is a twentieth of its largest.
+    pub begins_s: f64,
+    /// The largest motion in the whole time.
+    pub peak: PeakMotion,
+    /// When displacement, velocity and acceleration are the largest (s).
+    #[serde(skip)]
     pub when: [f64; 3],
-    /// When the velocity first is a twentieth of its largest (s).
-    pub begins: f64,
+    /// The modes as they ring there when the ball has left.
+    pub spectrum: Vec<Line>,
+    /// Displacement at every instant (m).
+    pub displacement_m: Vec<f64>,
+    /// Velocity at every instant (m/s).
+    pub velocity_m_s: Vec<f64>,
+    /// Acceleration at every instant (m/s²).
+    pub acceleration_m_s2: Vec<f64>,
+    /// Strain of the surface at every instant.
+    pub strain: Vec<f64>,
+}
+
+/// The largest motion of a place.
+// Without sign.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct PeakMotion {
+    /// Displacement (m).
+    pub displacement_m: f64,
+    /// Velocity (m/s).
+    pub velocity_m_s: f64,
+    /// Acceleration (m/s²).
+    pub acceleration_m_s2: f64,
 }
 
 impl<'a> Aftermath<'a> {
@@ -177,19 +214,30 @@ impl<'a> Aftermath<'a> {
     }
 
     /// What `x` (m) feels at those instants.
-    pub fn sting(&self, x: f64, instants: &[Instant]) -> Sting {
+    pub fn watched(&self, x: f64, instants: &[Instant]) -> Watched {
         let motions: Vec<[f64; 3]> = instants.iter().map(|now| self.motion(x, now)).collect();
-        let mut sting = Sting::default();
+        let [mut peak, mut when] = [[0.0; 3]; 2];
         for (motion, now) in motions.iter().zip(instants) {
             for (k, value) in motion.iter().enumerate() {
-                if value.abs() > sting.peak[k] {
-                    (sting.peak[k], sting.when[k]) = (value.abs(), now.time);
+                if value.abs() > peak[k] {
+                    (peak[k], when[k]) = (value.abs(), now.time);
                 }
             }
         }
-        let first = motions.iter().position(|motion| motion[1].abs() >= 0.05 * sting.peak[1]);
-        sting.begins = first.map_or(0.0, |k| instants[k].time);
-        sting
+        let [displacement_m, velocity_m_s, acceleration_m_s2] = peak;
+        let first = motions.iter().position(|motion| motion[1].abs() >= 0.05 * velocity_m_s);
+        let column = |k: usize| motions.iter().map(|motion| motion[k]).collect();
+        Watched {
+            x_m: x,
+            begins_s: first.map_or(0.0, |k| instants[k].time),
+            peak: PeakMotion { displacement_m, velocity_m_s, acceleration_m_s2 },
+            when,
+            spectrum: self.lines(x),
+            displacement_m: column(0),
+            velocity_m_s: column(1),
+            acceleration_m_s2: column(2),
+            strain: instants.iter().map(|now| self.strains(&[x], now, self.count())[0]).collect(),
+        }
     }
 
     /// The strain at the outermost fibre of every place (m) at an instant, with its sign: positive
@@ -217,15 +265,15 @@ impl<'a> Aftermath<'a> {
             let modes = self.modes.iter().take(count);
             let curvature: Vec<f64> = modes.map(|r| r.mode.shape.curvature(*x)).collect();
             let radius = self.bat.profile().at(*x).outer;
-            let mut worst = Strained { x: *x, time: 0.0, strain: 0.0, stress: 0.0 };
+            let mut worst = Strained { x_m: *x, time_s: 0.0, strain: 0.0, stress_pa: 0.0 };
             for now in instants {
                 let sum: f64 = curvature.iter().zip(&now.modes).map(|(c, part)| c * part[0]).sum();
                 let strain = (radius * sum).abs();
                 if strain > worst.strain {
-                    (worst.time, worst.strain) = (now.time, strain);
+                    (worst.time_s, worst.strain) = (now.time, strain);
                 }
             }
-            Strained { stress: self.modulus(*x) * worst.strain, ..worst }
+            Strained { stress_pa: self.modulus(*x) * worst.strain, ..worst }
         };
         places.iter().map(at).collect()
     }
@@ -252,8 +300,10 @@ impl<'a> Aftermath<'a> {
             let omega = rung.mode.omega;
             let amplitude = rung.mode.shape.deflection(x).abs() * part[0].hypot(part[1] / omega);
             Line {
-                frequency: rung.mode.frequency(),
-                amplitude: [amplitude, omega * amplitude, omega * omega * amplitude],
+                frequency_hz: rung.mode.frequency(),
+                displacement_m: amplitude,
+                velocity_m_s: omega * amplitude,
+                acceleration_m_s2: omega * omega * amplitude,
             }
         };
         self.modes.iter().zip(&now.modes).map(line).collect()
@@ -261,7 +311,7 @@ impl<'a> Aftermath<'a> {
 
     /// What the hit sounds like, where the ball met the bat; the solution is the one it was made of.
     pub fn sound(&self, solution: &Solution) -> Sound {
-        Sound::new(solution, self.lines(self.place).iter().map(|line| line.amplitude[2]))
+        Sound::new(solution, self.lines(self.place).iter().map(|line| line.acceleration_m_s2))
     }
 
     /// Nothing has moved yet.

@@ -49,8 +49,7 @@ pub const BBCOR: Column = Column { name: "bbcor", of: |i| of(i, |o| o.bbcor) };
 pub const BBCOR_PIVOTED: Column =
     Column { name: "bbcor_pivoted", of: |i| of(i, |o| o.bbcor_pivoted) };
 /// Energy of all bending modes after the hit (J).
-pub const VIBRATION: Column =
-    Column { name: "vibration_j", of: |i| of(i, |o| o.energy.vibration()) };
+pub const VIBRATION: Column = Column { name: "vibration_j", of: |i| of(i, |o| o.energy.vibration) };
 
 /// All of them, in the order of the files.
 pub const ALL: [Column; 13] = [

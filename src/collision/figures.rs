@@ -2,7 +2,7 @@
 //!
 //! They are computed, from this project's models; nothing here is a certificate of any standard.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::base::error::Result;
 use crate::base::threads;
@@ -63,43 +63,62 @@ impl BarrelSpeed {
     }
 }
 
-/// A swing and the fastest ball it gives.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+/// A swing of Ω₀ (I_ref/I)^exponent, and the fastest ball it gives.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct Swung {
-    /// n of the law.
+    /// Exponent of the law: 0 for the same angular speed, 0.5 for the same energy.
     pub exponent: f64,
-    /// Angular speed of the swing (rad/s).
+    /// Angular speed of the swing with this bat (rad/s).
+    #[serde(rename = "swing_rad_s")]
     pub swing: f64,
-    /// Place (m) and exit speed (m/s).
+    /// Place and exit speed (m/s) of the fastest ball.
+    #[serde(rename = "exit_speed_max")]
     pub best: Option<Peak>,
 }
 
+/// The sweet spot of another scene.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Moved {
+    /// Sweet spot of the changed scene.
+    #[serde(flatten)]
+    pub sweet_spot: SweetSpot,
+    /// What differs in the scene, in words.
+    pub change: String,
+}
+
 /// What tests and catalogues state of a bat, and where and why it is best.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct Figures {
     /// Where the bat is best, by every definition.
+    #[serde(skip)]
     pub spot: SweetSpot,
     /// The hit at the sweet spot: its `e_A`, its bat-ball speed.
-    pub best: Option<Impact>,
-    /// Where the same bat would be best if it did not bend.
-    pub rigid_best: Option<Peak>,
-    /// Energy that the bending bat loses to vibration at [`Self::rigid_best`] (J).
-    pub vibration_at_rigid_best: Option<f64>,
-    /// The largest BBCOR of the outer half, as of a free bat.
-    pub bbcor_max: Option<Peak>,
-    /// The largest BBCOR of the outer half, as of a bat held at the standard pivot, 6 in from the knob.
-    pub bbcor_pivoted_max: Option<Peak>,
-    /// What a hollow barrel's wall does at the sweet spot; None where it does not give way by its hoop
-    /// modes.
     #[serde(skip)]
+    pub best: Option<Impact>,
+    /// Energy that the bending bat loses to vibration at [`Self::rigid_best`] (J).
+    #[serde(skip)]
+    pub vibration_at_rigid_best: Option<f64>,
+    /// Largest BBCOR of the outer half, of the free bat.
+    pub bbcor_max: Option<Peak>,
+    /// Largest BBCOR of the outer half, of a bat held 6 in from the knob.
+    pub bbcor_pivoted_max: Option<Peak>,
+    /// Place and exit speed (m/s) of the fastest ball if the bat did not bend.
+    #[serde(rename = "rigid_exit_speed_max")]
+    pub rigid_best: Option<Peak>,
+    /// What a hollow barrel's wall does at the sweet spot; left out where it does not give way by its hoop
+    /// modes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub wall: Option<WallFigures>,
-    /// Swings of one batter with this bat, by several laws; empty where no reference bat was given.
+    /// Swings of one batter with this bat, by several laws of swing; empty without a reference inertia.
     pub swings: Vec<Swung>,
-    /// The sweet spot of other scenes, each with what is different; empty where the fastest place lives on a later
+    /// The sweet spot of scenes that differ in one thing each; empty where the fastest place lives on a later
     /// contact, and small changes move it far.
-    pub moves: Vec<(String, SweetSpot)>,
+    pub moves: Vec<Moved>,
 }
 
 impl Figures {
@@ -135,7 +154,10 @@ impl Figures {
         let later = |best: &Impact| LATER.iter().any(|flag| best.flags.contains(flag));
         let changes = if best.as_ref().is_some_and(later) { vec![] } else { changes(scene) };
         let moved = threads::map(changes.len(), |k| find(&changes[k].1));
-        let moves = changes.into_iter().zip(moved).map(|((what, _), spot)| Ok((what, spot?)));
+        let moves = changes
+            .into_iter()
+            .zip(moved)
+            .map(|((change, _), spot)| Ok(Moved { sweet_spot: spot?, change }));
         Ok(Self {
             best,
             wall: spot.exit_speed_max.and_then(|peak| hitter.wall_figures(peak.x)),

@@ -1,13 +1,13 @@
 //! What a hit is: model, swing, pitch and ball; exit speed, impulse and where the energy went.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::base::error::Result;
 use crate::bat::body::STANDARD_PIVOT;
 use crate::collision::ball::Ball;
 use crate::collision::contact::collider::{Law, LawTerms};
 use crate::collision::energy_loss::EnergyLoss;
-use crate::collision::hoop_wall::HoopInHit;
+use crate::collision::hoop_wall::{HarmonicEnergy, HoopInHit};
 use crate::collision::pulse::Pulse;
 
 /// How the bat's bending is counted; each model is a limit of the last.
@@ -229,51 +229,65 @@ impl Outcome {
     }
 }
 
-/// The moment at which the ball leaves the bat for the first time. It may be caught again.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+/// The moment at which the ball leaves the bat for the first time.
+// It may be caught again.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct Separation {
     /// Time since the first touch (s).
+    #[serde(rename = "time_s")]
     pub time: f64,
     /// Speed of the ball at that moment (m/s).
+    #[serde(rename = "exit_speed_m_s")]
     pub exit_speed: f64,
     /// How far that may be off, relative to the closing speed.
+    #[serde(rename = "exit_speed_error")]
     pub error: f64,
 }
 
-/// The energies (J) before and after, each computed on its own; of a held bat as its hands see them.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+/// Energies (J): the initial one is the sum of all others, each computed on its own.
+// Of a held bat as its hands see them.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct Energy {
-    /// Energy of ball and bat before the hit.
+    /// Energy of ball and bat before the hit (J).
     pub initial: f64,
-    /// Energy of the ball after the hit.
+    /// Energy of the ball after the hit (J).
     pub ball: f64,
-    /// Energy of the bat's rigid motion after the hit.
+    /// Energy of the bat's rigid motion after the hit (J).
     pub bat_rigid: f64,
-    /// Energy of each bending mode after the hit, in the order of the modes.
+    /// Energy of all bending modes after the hit (J).
+    pub vibration: f64,
+    /// Energy of each bending mode after the hit (J).
     pub vibration_by_mode: Vec<f64>,
-    /// Energy lost in the ball.
+    /// Energy lost in the ball (J).
     pub dissipated_ball: f64,
-    /// Energy lost by the bat's own damping.
+    /// Energy lost in the bat's own damping (J).
     pub dissipated_damping: f64,
-    /// Energy left in the barrel's wall, where it gives way.
+    /// Energy left in the barrel's wall (J), where it gives way.
+    #[serde(default, skip_serializing_if = "is_zero")]
     pub wall: f64,
-    /// That energy by the harmonics around the barrel, where the wall gives way by its hoop modes.
-    pub wall_by_harmonic: Vec<(usize, f64)>,
+    /// That energy by the harmonics around the barrel; left out where the wall has none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub wall_by_harmonic: Vec<HarmonicEnergy>,
+    /// Energy that the model created (−) or failed to account for (+) (J).
+    pub imbalance: f64,
+}
+
+/// A wall that does not give way has no line.
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
 }
 
 impl Energy {
-    /// Energy of all bending modes (J).
-    pub fn vibration(&self) -> f64 {
-        // An empty sum of floats is −0, which is no energy to print.
-        self.vibration_by_mode.iter().fold(0.0, |sum, energy| sum + energy)
-    }
-
-    /// Energy that the model created (−) or failed to account for (+) (J).
-    pub fn imbalance(&self) -> f64 {
+    /// With what the others leave of the initial one.
+    pub(super) fn balanced(self) -> Self {
         let dissipated = self.dissipated_ball + self.dissipated_damping;
-        self.initial - self.ball - self.bat_rigid - self.vibration() - self.wall - dissipated
+        let imbalance =
+            self.initial - self.ball - self.bat_rigid - self.vibration - self.wall - dissipated;
+        Self { imbalance, ..self }
     }
 }
 

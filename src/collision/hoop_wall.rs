@@ -18,12 +18,24 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
+use serde::{Deserialize, Serialize};
+
 use crate::base::error::Result;
 use crate::bat::body::Bat;
 use crate::collision::contact::touch::DrivingPoint;
 use crate::collision::struck::{complete, taken};
 use crate::collision::wall_table::WallTable;
 use crate::modes::hoop::{Hoop, HoopMode, HoopRequest, Patch, Share};
+
+/// Energy of all hoop modes of a harmonic.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct HarmonicEnergy {
+    /// Number of waves around the barrel.
+    pub harmonic: usize,
+    /// Energy (J).
+    pub energy_j: f64,
+}
 
 /// A hole that begins so near to the tip (m) is a cup in it, and the barrel is solid.
 pub const CUP: f64 = 0.04;
@@ -112,12 +124,14 @@ impl HoopWall {
     }
 
     /// The energies (J) of all modes, summed by harmonic.
-    pub fn by_harmonic(&self, energies: &[f64]) -> Vec<(usize, f64)> {
-        let mut all: Vec<(usize, f64)> = vec![];
+    pub fn by_harmonic(&self, energies: &[f64]) -> Vec<HarmonicEnergy> {
+        let mut all: Vec<HarmonicEnergy> = vec![];
         for (mode, energy) in self.hoop.modes().iter().zip(energies) {
-            match all.last_mut().filter(|(harmonic, _)| *harmonic == mode.harmonic) {
-                Some((_, sum)) => *sum += energy,
-                None => all.push((mode.harmonic, *energy)),
+            match all.last_mut().filter(|known| known.harmonic == mode.harmonic) {
+                Some(known) => known.energy_j += energy,
+                None => {
+                    all.push(HarmonicEnergy { harmonic: mode.harmonic, energy_j: *energy });
+                }
             }
         }
         all

@@ -16,6 +16,8 @@ use crate::modes::solve::Solution;
 
 /// What a strength is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "lowercase")]
 pub enum Limit {
     /// Limit of the stress in slow bending (Pa).
     Stress,
@@ -36,26 +38,43 @@ impl Limit {
     }
 }
 
-/// Where a hit comes nearest to a limit.
+/// Where a hit comes nearest to a limit of the material.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct Load {
     /// Which limit.
     pub limit: Limit,
-    /// What the material bears there (Pa, or a strain).
-    pub bears: f64,
-    /// The largest strain at that place.
+    /// The stress that the material bears there (Pa); of a limit of stress alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub strength_pa: Option<f64>,
+    /// The strain at which the material breaks there; of a limit of strain alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub strain_to_failure: Option<f64>,
+    /// The largest strain at the place nearest to the limit.
+    #[serde(flatten)]
     pub at: Strained,
-    /// Largest strain or stress as a share of the limit; 1 and more is beyond it.
+    /// Largest stress or strain as a share of the limit.
     pub share: f64,
+    /// The swing that reaches the limit (rad/s); null if none up to 200 rad/s does.
+    // As `breaking_swing` finds it: None before.
+    pub reached_at_swing_rad_s: Option<f64>,
 }
 
 /// The nearest to a limit among the largest strains of every place; None where no material has it.
 pub fn nearest(bat: &Bat, envelope: &[Strained], limit: Limit) -> Option<Load> {
     let load = |at: &Strained| {
-        let bears = limit.of(bat.layup(bat.profile().piece_at(at.x)).surface())?;
-        let reached = if limit == Limit::Stress { at.stress } else { at.strain };
-        Some(Load { limit, bears, at: *at, share: reached / bears })
+        let bears = limit.of(bat.layup(bat.profile().piece_at(at.x_m)).surface())?;
+        let is = |one: Limit| (limit == one).then_some(bears);
+        let reached = if limit == Limit::Stress { at.stress_pa } else { at.strain };
+        Some(Load {
+            limit,
+            strength_pa: is(Limit::Stress),
+            strain_to_failure: is(Limit::Strain),
+            at: *at,
+            share: reached / bears,
+            reached_at_swing_rad_s: None,
+        })
     };
     envelope.iter().filter_map(load).max_by(|a, b| a.share.total_cmp(&b.share))
 }
@@ -70,14 +89,15 @@ const FOUND: f64 = 1e-3;
 /// More hits are not tried for it.
 const MOST: usize = 60;
 
-/// A hit's nearness to every limit that is known, and the swing (rad/s) that takes the bat to it.
+/// What a hit at one place asks of the bat.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct Strength {
     /// Where the ball meets the bat (m).
-    pub x: f64,
-    /// Where the bat comes nearest to each limit, and the swing at which it gets there.
-    pub loads: Vec<(Load, Option<f64>)>,
+    pub x_m: f64,
+    /// How near the bat comes to each limit that is known.
+    pub limits: Vec<Load>,
 }
 
 impl Strength {
@@ -92,8 +112,11 @@ impl Strength {
         let until = 3.0 / solution.modes.first()?.frequency();
         let envelope = largest_strains(bat, solution, (scene, effort), (x, until))?;
         let reached = |limit| breaking_swing(bat, solution, (scene, effort), (x, until), limit);
-        let load = |limit: &Limit| Some((nearest(bat, &envelope, *limit)?, reached(*limit)));
-        Some(Self { x, loads: Limit::ALL.iter().filter_map(load).collect() })
+        let load = |limit: &Limit| {
+            let load = nearest(bat, &envelope, *limit)?;
+            Some(Load { reached_at_swing_rad_s: reached(*limit), ..load })
+        };
+        Some(Self { x_m: x, limits: Limit::ALL.iter().filter_map(load).collect() })
     }
 }
 

@@ -151,6 +151,8 @@ impl Hitter<'_> {
                 initial,
                 ball: gone,
                 bat_rigid,
+                // An empty sum of floats is −0, which is no energy to print.
+                vibration: answer.in_modes.iter().fold(0.0, |sum, energy| sum + energy),
                 vibration_by_mode: answer.in_modes,
                 dissipated_ball: answer.lost_in_ball,
                 dissipated_damping: answer.lost_in_bat,
@@ -159,7 +161,9 @@ impl Hitter<'_> {
                     .hoop
                     .as_ref()
                     .map_or(vec![], |hoop| hoop.by_harmonic(&answer.in_wall)),
-            },
+                imbalance: 0.0,
+            }
+            .balanced(),
             error: answer.error,
             truncation: answer.truncation,
             steps: answer.steps,

@@ -1,6 +1,6 @@
 //! Where is the sweet spot, by each of its definitions.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::base::golden;
 use crate::base::threads;
@@ -9,41 +9,53 @@ use crate::collision::hitter::Hitter;
 use crate::collision::strike::Glance;
 
 /// A place and the value there.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Peak {
-    /// Position from the knob end (m).
+    /// The place (m).
+    #[serde(rename = "x_m")]
     pub x: f64,
-    /// The largest or least value, found at `x`, in its own unit.
+    /// The value, in the unit of the member that holds it.
     pub value: f64,
 }
 
-/// The sweet spot of the outer half of a bat, by every definition there is a number for.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+/// The sweet spot of the outer half of the bat, by each of its definitions; null where one has none.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct SweetSpot {
     /// Where the ball leaves fastest (m/s).
     pub exit_speed_max: Option<Peak>,
-    /// Where the ball leaves fastest for the first time (m/s), of places where the bat does not catch up with it as it
-    /// is leaving: elsewhere than [`Self::exit_speed_max`] only where that lives on a later contact.
+    /// Where the ball leaves fastest for the first time (m/s), of places where the bat does not catch up with it as
+    /// it is leaving; another place than `exit_speed_max` where that lives on a later contact.
     pub first_separation_max: Option<Peak>,
     /// Where the least energy stays in vibration (J).
     pub vibration_min: Option<Peak>,
     /// The barrel-side node of the first bending mode (m).
+    #[serde(rename = "node_mode_1_m")]
     pub node_mode_1: Option<f64>,
     /// The barrel-side node of the second bending mode (m).
+    #[serde(rename = "node_mode_2_m")]
     pub node_mode_2: Option<f64>,
     /// The centre of percussion for the swing's own pivot (m).
+    #[serde(rename = "center_of_percussion_m")]
     pub center_of_percussion: Option<f64>,
-    /// Where the hands feel the least velocity (m/s), as [`Glance::hands`] counts it.
-    pub hands_velocity_min: Option<Peak>,
-    /// Where the hands feel the least acceleration (m/s²), as [`Glance::hands`] counts it.
-    pub hands_acceleration_min: Option<Peak>,
-    /// Where the exit speed is within 1 % of its maximum (m).
+    /// From where to where the exit speed is within 1 % of its maximum (m).
+    #[serde(rename = "zone_m")]
     pub zone: Option<[f64; 2]>,
-    /// Exit speeds (m/s) an inch from the best place, towards the knob and towards the tip.
+    /// Where the hands feel the least velocity (m/s).
+    // As `Glance::hands` counts it, and so of the next one.
+    pub hands_velocity_min: Option<Peak>,
+    /// Where the hands feel the least acceleration (m/s²).
+    pub hands_acceleration_min: Option<Peak>,
+    /// Exit speeds (m/s) an inch from the best place, towards the knob and towards the tip; null
+    /// beyond the tip.
+    #[serde(rename = "inch_off_m_s")]
     pub inch_off: Option<[Option<f64>; 2]>,
-    /// Distance (m) between the places that were looked at, where the bat catches up with the ball late or again and
-    /// to look as closely as usual would have taken more than [`MOST_WORK`]: peaks as narrow may be missed.
+    /// How far apart the places were that were looked at (m), where the bat catches up with the ball late or again and
+    /// a closer look would have taken too long: narrower peaks may be missed. Left out elsewhere.
+    // Longer than `MOST_WORK`.
+    #[serde(default, rename = "looked_every_m", skip_serializing_if = "Option::is_none")]
     pub looked_every: Option<f64>,
 }
 

@@ -18,7 +18,7 @@ use sweetspot_report::report::json::{self, ShapePoints};
 use sweetspot_report::report::proven::{self, Proven};
 use sweetspot_report::report::sketch::{self, SketchRow};
 use sweetspot_report::report::text;
-use sweetspot_report::report::{self, advice, aftermath, hit_json, hit_text, hoop_json, trust};
+use sweetspot_report::report::{self, advice, aftermath, hit_json, hit_text, hoop, trust};
 use sweetspot_report::schema;
 use sweetspot_report::schema::analysis::AnalysisFile;
 use sweetspot_report::schema::hit::HitFile;
@@ -187,7 +187,7 @@ pub fn run(args: &Args) -> Result<Done> {
         generator: Generator::this(),
         modes: modes_file(args, &analysis, proven.as_ref()),
         hit: hit_file(&analysis),
-        strength: aftermath::strengths_file(&analysis.strength),
+        strength: analysis.strength.clone(),
         open: trust::open(&analysis),
         hoop: hoop_file(&analysis),
     };
@@ -216,7 +216,7 @@ pub fn run(args: &Args) -> Result<Done> {
 
 /// The barrel of a hollow bat, in short.
 fn barrel(analysis: &Analysis, units: Units) -> String {
-    let told = |barrel| format!("\n{}", report::hoop::in_short(&analysis.bat, barrel, units));
+    let told = |barrel| format!("\n{}", report::hoop::in_short(barrel, units));
     analysis.barrel.as_ref().map_or(String::new(), told)
 }
 
@@ -307,7 +307,7 @@ fn hit_file(analysis: &Analysis) -> HitFile {
 fn hoop_file(analysis: &Analysis) -> Option<HoopFile> {
     const SAMPLES: usize = 41;
     let barrel = analysis.barrel.as_ref()?;
-    Some(hoop_json::document(&analysis.bat, barrel, &[], SAMPLES))
+    Some(hoop::document(&analysis.bat, barrel, &[], SAMPLES))
 }
 
 fn write_out(

@@ -12,7 +12,7 @@ use sweetspot_report::exchange::barrel::BarrelGrid;
 use sweetspot_report::exchange::hoop_files;
 use sweetspot_report::parts::terminal::{LINES, fitting};
 use sweetspot_report::plot::{hoop as plot, wall_sweep};
-use sweetspot_report::report::{hoop as report, hoop_json};
+use sweetspot_report::report::hoop as report;
 use sweetspot_study::trampoline::barrel::{Barrel, BarrelTest};
 use sweetspot_study::trampoline::thickness::wall_sweep as thicknesses;
 use uff58::Stamp;
@@ -157,9 +157,8 @@ pub fn run(args: &Args) -> Result<Done> {
         if full || asked { text + &sweep } else { fitting(&text, LINES) }
     });
     let samples = usize::from(args.shape_points);
-    let text =
-        args.output.deliver(table, || hoop_json::document(&bat, &barrel, &tried, samples))?;
-    let text = put(&args.csv, text, || Ok(hoop_json::csv(&bat, &barrel)))?;
+    let text = args.output.deliver(table, || report::document(&bat, &barrel, &tried, samples))?;
+    let text = put(&args.csv, text, || Ok(report::csv(&bat, &barrel)))?;
     let text = exchanged(args, &bat, &barrel, text)?;
     let unmet = barrel.unmet();
     if let Some(unmet) = &unmet {

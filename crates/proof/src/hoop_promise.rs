@@ -98,7 +98,7 @@ fn check(barrel: &Barrel) -> Result<Vec<CheckedHoop>> {
         None => {
             let finer = solve(barrel, 1e-2 * TOLERANCES[2])?;
             let worst = finer.modes().iter().map(|mode| mode.error).fold(0.0, f64::max);
-            (finer.modes().iter().map(|mode| mode.frequency()).collect(), worst)
+            (finer.modes().iter().map(|mode| mode.frequency_hz).collect(), worst)
         }
     };
     let mut rows = vec![];

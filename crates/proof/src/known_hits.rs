@@ -229,7 +229,7 @@ fn of_hit(seen: KnownFigure, outcome: &Outcome, rigid: f64) -> Option<f64> {
         KnownFigure::BallShare => share(energy.ball),
         KnownFigure::LostInBallShare => share(energy.dissipated_ball),
         KnownFigure::RecoilShare => share(energy.bat_rigid),
-        KnownFigure::VibrationShare => share(energy.vibration()),
+        KnownFigure::VibrationShare => share(energy.vibration),
         _ => None,
     }
 }

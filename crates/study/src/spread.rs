@@ -39,41 +39,55 @@ use sweetspot::collision::sweet_spot::{FEW, HitsAlong, SweetSpot};
 use sweetspot::collision::wall_choice::hoop_request;
 use sweetspot::modes::solve::{Request, Solution, solve};
 
-/// An input and how far it is open.
+/// Something that is not known exactly.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct Source {
-    /// Which input.
+    /// What it is: E (and G with it) or density of a material from piece to piece, readings of diameters,
+    /// bores, length and mass, the note of a tap, the patch on which the ball presses on a hollow barrel's wall.
     pub input: Input,
-    /// Name of the material it is of, where the bat has several; empty for the bat's only one.
+    /// The material as the bat file calls it, where the bat has several; empty otherwise.
     pub material: String,
-    /// Standard deviation, relative or in the input's unit.
+    /// Standard deviation; relative of stiffness, density, tap and patch (of the ball's compression, as a
+    /// logarithm), in m of lengths, in kg of the mass.
+    #[serde(rename = "standard_deviation")]
     pub deviation: f64,
 }
 
 /// An answer that moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum SpreadAnswer {
     /// Mass (kg).
+    #[serde(rename = "mass_kg")]
     Mass,
     /// Balance point from the knob end (m).
+    #[serde(rename = "balance_point_m")]
     BalancePoint,
     /// Moment of inertia about the point 6 in from the knob end (kg m²).
+    #[serde(rename = "inertia_pivot_kg_m2")]
     SwingWeight,
     /// Frequency of the first bending mode (Hz).
+    #[serde(rename = "frequency_1_hz")]
     Frequency1,
     /// Frequency of the second bending mode (Hz).
+    #[serde(rename = "frequency_2_hz")]
     Frequency2,
     /// Frequency of the third bending mode (Hz).
+    #[serde(rename = "frequency_3_hz")]
     Frequency3,
     /// Where the ball leaves fastest, from the knob end (m).
+    #[serde(rename = "best_place_m")]
     BestPlace,
     /// Exit speed there (m/s).
+    #[serde(rename = "exit_speed_m_s")]
     ExitSpeed,
     /// Where the zone within 1 % of it begins, from the knob end (m).
+    #[serde(rename = "zone_from_m")]
     ZoneFrom,
     /// Where the zone ends, from the knob end (m).
+    #[serde(rename = "zone_to_m")]
     ZoneTo,
 }
 
@@ -93,19 +107,23 @@ impl SpreadAnswer {
     ];
 }
 
-/// An answer, and how far that of the bat in hand may be from it.
+/// An answer and how far that of the bat in hand may be from it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct Estimate {
-    /// Which answer.
+    /// Which answer, its unit at the end.
     pub answer: SpreadAnswer,
-    /// As it is computed, in the unit of the answer.
+    /// As it is computed.
     pub value: f64,
-    /// Standard deviation, in the same unit; None where a bat that differs in one of the sources has no
-    /// such answer.
+    /// Standard deviation of all sources together, in the unit of the value; null where a bat that differs
+    /// in one of them has no such answer.
+    #[serde(rename = "standard_deviation")]
     pub deviation: Option<f64>,
-    /// What each source alone makes of it, with its sign, in the same unit and the order of the sources;
-    /// empty without a standard deviation.
+    /// What one standard deviation of each source alone makes of it, in the order of the sources; empty
+    /// where the standard deviation is null.
+    // With its sign.
+    #[serde(rename = "by_source")]
     pub parts: Vec<f64>,
 }
 
@@ -116,13 +134,16 @@ impl Estimate {
     }
 }
 
-/// The answers of a bat with what is open of them.
+/// What is not known exactly of a bat, and how far each answer may be off by it: to first order, the
+/// sources taken as independent.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct Spread {
     /// What is open.
     pub sources: Vec<Source>,
-    /// The answers there are.
+    /// How far each answer may be off.
+    #[serde(rename = "answers")]
     pub estimates: Vec<Estimate>,
     /// What could not be counted, a phrase each.
     pub left_out: Vec<String>,

@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use serde::Serialize;
+
 use crate::base::error::{Error, Result};
 use crate::base::golden;
 use crate::base::threads;
@@ -15,40 +17,39 @@ use crate::modes::hoop::patch::{Patch, Share, shares};
 use crate::modes::hoop::request::{HoopRequest, KnobSide};
 use crate::modes::hoop::spectrum::Spectrum;
 
-/// One hoop mode.
-#[derive(Debug, Clone, PartialEq)]
+/// A mode of the wall.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct HoopMode {
-    /// Its harmonic n: it moves as `cos nθ` around the bat.
+    /// Waves around the barrel, n: the motion goes as cos nθ.
     pub harmonic: usize,
-    /// Its order among those of its harmonic, from 1.
+    /// Number of the mode among those of its harmonic, from 1.
     pub order: usize,
     /// Angular frequency (rad/s).
+    #[serde(skip)]
     pub omega: f64,
-    /// Damping ratio ζ, half the loss factor of the wall.
+    /// Natural frequency (Hz).
+    pub frequency_hz: f64,
+    /// Share of critical damping.
+    // Half the loss factor of the wall.
     pub damping_ratio: f64,
-    /// Largest relative error of the frequency, as it is stated.
+    /// How far the frequency may be off, relative.
     pub error: f64,
-    /// Where the outer surface moves most, radially (m from the knob end).
-    pub largest_at: f64,
+    /// Where the outer surface moves most across the bat (m).
+    pub largest_at_m: f64,
 }
 
-impl HoopMode {
-    /// Frequency (Hz).
-    pub fn frequency(&self) -> f64 {
-        self.omega / TAU
-    }
-}
-
-/// The motion of the outer surface in a mode; the largest |radial| is 1.
-#[derive(Debug, Clone, PartialEq)]
+/// Motion of the outer surface along the barrel, the largest motion across being 1.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Outline {
-    /// Places from the knob end (m).
-    pub x: Vec<f64>,
-    /// Radial displacement at θ = 0, which goes as `cos nθ`.
+    /// Places (m), rising.
+    pub x_m: Vec<f64>,
+    /// Outwards, times cos nθ.
     pub radial: Vec<f64>,
-    /// Displacement around, which goes as `sin nθ`.
+    /// Around the barrel, times sin nθ.
     pub around: Vec<f64>,
-    /// Displacement along the bat, which goes as `cos nθ`.
+    /// Towards the tip, times cos nθ.
     pub along: Vec<f64>,
 }
 
@@ -153,7 +154,7 @@ impl Hoop {
             let harmonics = vec![n];
             let request =
                 HoopRequest { tol: 0.1, harmonics, up_to_hz, least, ..HoopRequest::default() };
-            Ok(Self::of(bat, &request)?.modes.iter().map(HoopMode::frequency).collect())
+            Ok(Self::of(bat, &request)?.modes.iter().map(|mode| mode.frequency_hz).collect())
         };
         let mut known = rough(2, count, 0.0)?;
         let mut harmonics = vec![2];
@@ -277,7 +278,7 @@ impl Hoop {
         let of_harmonic = |spectrum: &&Spectrum| spectrum.system.n == asked.harmonic;
         let spectrum = self.spectra.iter().find(of_harmonic).expect("every mode has its harmonic");
         let [largest, ..] =
-            spectrum.system.surface(&spectrum.motions[asked.order - 1], asked.largest_at);
+            spectrum.system.surface(&spectrum.motions[asked.order - 1], asked.largest_at_m);
         let turn = if asked.harmonic == 0 { TAU } else { 0.5 * TAU };
         turn / (largest * largest)
     }
@@ -288,13 +289,13 @@ impl Hoop {
         let of_harmonic = |spectrum: &&Spectrum| spectrum.system.n == asked.harmonic;
         let spectrum = self.spectra.iter().find(of_harmonic).expect("every mode has its harmonic");
         let motion = &spectrum.motions[asked.order - 1];
-        let scale = 1.0 / spectrum.system.surface(motion, asked.largest_at)[0];
-        let mut outline = Outline { x: vec![], radial: vec![], around: vec![], along: vec![] };
+        let scale = 1.0 / spectrum.system.surface(motion, asked.largest_at_m)[0];
+        let mut outline = Outline { x_m: vec![], radial: vec![], around: vec![], along: vec![] };
         for k in 0..points {
             let share = k as f64 / (points.max(2) - 1) as f64;
             let x = self.from + (self.to - self.from) * share;
             let [u, v, w] = spectrum.system.surface(motion, x);
-            outline.x.push(x);
+            outline.x_m.push(x);
             outline.radial.push(scale * u);
             outline.around.push(scale * v);
             outline.along.push(scale * w);
@@ -310,9 +311,10 @@ fn modes(spectrum: &Spectrum, errors: &[f64]) -> Vec<HoopMode> {
         harmonic: spectrum.system.n,
         order: k + 1,
         omega: *omega,
+        frequency_hz: omega / TAU,
         damping_ratio: 0.5 * loss,
         error: *error,
-        largest_at: largest_at(spectrum, k),
+        largest_at_m: largest_at(spectrum, k),
     });
     modes.collect()
 }

@@ -58,8 +58,9 @@ pub fn run(args: &Args, bat: Bat, x: f64) -> Result<Done> {
     }
     let watched = if args.watch.is_empty() { vec![scene.hands] } else { args.watch.clone() };
     let mut report = AfterHit::new(&bat, &after, &watched, until);
-    for (load, swing) in &mut report.loads {
-        *swing = breaking_swing(&bat, &solution, (&scene, effort), (x, until), load.limit);
+    for load in &mut report.loads {
+        load.reached_at_swing_rad_s =
+            breaking_swing(&bat, &solution, (&scene, effort), (x, until), load.limit);
     }
     let units = args.output.units(&bat);
     let mut heard = String::new();
@@ -69,7 +70,7 @@ pub fn run(args: &Args, bat: Bat, x: f64) -> Result<Done> {
         }
     }
     if let Some(folder) = &args.plots {
-        let seen = report.watched.iter().map(|(x, _, lines)| (*x, &lines[..])).collect();
+        let seen = report.watched.iter().map(|seen| (seen.x_m, &seen.spectrum[..])).collect();
         let picture = ringing::AfterHit {
             bat: bat.name(),
             length: bat.length(),
@@ -95,7 +96,7 @@ pub fn run(args: &Args, bat: Bat, x: f64) -> Result<Done> {
         (if full || asked { text } else { fitting(&text, LINES) }) + &heard
     });
     let text = args.output.deliver(text, document)?;
-    let text = put(&args.history, text, || Ok(aftermath::history(&after, &report)))?;
+    let text = put(&args.history, text, || Ok(aftermath::history(&report)))?;
     let text = put(&args.csv, text, || Ok(frames_after(args, &bat, &solution, &after)))?;
     Ok(Done::new(text, code).with(warning))
 }

@@ -79,7 +79,7 @@ mod tests {
     #[test]
     fn a_harmonic_of_one_wave_is_a_shift_of_the_whole_ring() {
         let outline =
-            Outline { x: vec![0.0], radial: vec![1.0], around: vec![-1.0], along: vec![0.0] };
+            Outline { x_m: vec![0.0], radial: vec![1.0], around: vec![-1.0], along: vec![0.0] };
         for motion in moved(1, &outline, 12) {
             let off = [motion[0], motion[1] - 1.0, motion[2]];
             assert!(off.iter().all(|by| by.abs() < 1e-15), "{motion:?}");
@@ -91,7 +91,7 @@ mod tests {
     fn an_oval_ring_keeps_its_length_to_first_order() {
         let around = 360;
         let outline =
-            Outline { x: vec![0.0], radial: vec![1.0], around: vec![-0.5], along: vec![0.0] };
+            Outline { x_m: vec![0.0], radial: vec![1.0], around: vec![-0.5], along: vec![0.0] };
         let motion = moved(2, &outline, around);
         let length = |by: f64| -> f64 {
             let at = |k: usize| {

@@ -198,7 +198,7 @@ pub fn why(analysis: &Analysis, units: Units) -> Option<String> {
         length(units, rigid.x),
         units.energy(there, 0),
         length(units, (peak.x - rigid.x).abs()),
-        units.energy(here.energy.vibration(), 0),
+        units.energy(here.energy.vibration, 0),
     ))
 }
 

@@ -56,11 +56,11 @@ impl RingingBarrel {
             let mode = RingingMode {
                 harmonic: mode.harmonic,
                 order: mode.order,
-                frequency_hz: rounded(mode.frequency(), 2),
+                frequency_hz: rounded(mode.frequency_hz, 2),
                 radial: round(&outline.radial),
                 around: round(&outline.around),
             };
-            (outline.x, mode)
+            (outline.x_m, mode)
         };
         let (places, modes): (Vec<_>, Vec<_>) = moving(barrel).iter().map(ringing).unzip();
         let x = places.into_iter().next()?;

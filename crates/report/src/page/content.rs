@@ -234,7 +234,7 @@ impl<'a> Report<'a> {
             Part::Moving(players::hoop(barrel)),
             Part::Picture("hoop"),
             Part::Table(tables::hoop_modes(bat, barrel, units)),
-            Part::List(hoop::answers(bat, barrel, units)),
+            Part::List(hoop::answers(barrel, units)),
         ];
         let notes: Vec<String> =
             hoop_notes::notes(barrel, units).iter().map(|note| sentence(note)).collect();

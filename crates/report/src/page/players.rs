@@ -29,7 +29,7 @@ pub fn modes(analysis: &Analysis) -> String {
 /// The barrel in one of its hoop modes.
 pub fn hoop(barrel: &Barrel) -> String {
     let name = |(_, mode): &(usize, &HoopMode)| {
-        let hertz = decimals(mode.frequency(), 0);
+        let hertz = decimals(mode.frequency_hz, 0);
         format!("n {}, m {} · {hertz} Hz", mode.harmonic, mode.order)
     };
     let names: Vec<String> = moving(barrel).iter().map(name).collect();

@@ -9,7 +9,7 @@ use crate::parts::units::Units;
 use sweetspot::base::number;
 use sweetspot::base::units::{gravities, inches, ounces};
 use sweetspot::bat::body::Bat;
-use sweetspot::collision::figures::Swung;
+use sweetspot::collision::figures::{Moved, Swung};
 use sweetspot::collision::hit::Outcome;
 use sweetspot::collision::sweet_spot::{Peak, SweetSpot};
 use sweetspot_study::trampoline::barrel::Barrel;
@@ -56,9 +56,9 @@ pub fn hoop_modes(bat: &Bat, barrel: &Barrel, units: Units) -> Table {
         table.row([
             mode.harmonic.to_string(),
             mode.order.to_string(),
-            decimals(mode.frequency(), 2),
+            decimals(mode.frequency_hz, 2),
             format!("≤ {}", shown::error(mode.error)),
-            bare(units, (bat.length() - mode.largest_at).max(0.0)),
+            bare(units, (bat.length() - mode.largest_at_m).max(0.0)),
         ]);
     }
     table
@@ -126,7 +126,7 @@ pub fn ledger(analysis: &Analysis, units: Units) -> Table {
     line("before: ball and bat together", energy.initial);
     line("after: the ball flies on with", energy.ball);
     line("the bat's swing keeps", energy.bat_rigid);
-    line("the bat's vibration takes", energy.vibration());
+    line("the bat's vibration takes", energy.vibration);
     let (first, others) =
         energy.vibration_by_mode.split_at(energy.vibration_by_mode.len().min(LARGEST));
     for (k, mode) in first.iter().enumerate() {
@@ -141,8 +141,8 @@ pub fn ledger(analysis: &Analysis, units: Units) -> Table {
         line("in the barrel's wall", energy.wall);
     }
     // An empirical model loses some: what is round-off in all others is not for people to read.
-    if energy.imbalance().abs() > 1e-6 * energy.initial {
-        line("not accounted for by this model", energy.imbalance());
+    if energy.imbalance.abs() > 1e-6 * energy.initial {
+        line("not accounted for by this model", energy.imbalance);
     }
     table
 }
@@ -232,7 +232,7 @@ pub fn moves(analysis: &Analysis, units: Units) -> Table {
     if spot.exit_speed_max.is_none() {
         return table;
     }
-    for (what, moved) in &analysis.figures.moves {
+    for Moved { change, sweet_spot: moved } in &analysis.figures.moves {
         let by = |of: fn(&SweetSpot) -> Option<Peak>| match (of(spot), of(moved)) {
             (Some(before), Some(after)) => with_sign(per * (after.x - before.x), digits),
             _ => NONE.to_owned(),
@@ -242,7 +242,7 @@ pub fn moves(analysis: &Analysis, units: Units) -> Table {
             _ => NONE.to_owned(),
         };
         let mut cells = vec![
-            what.clone(),
+            change.clone(),
             by(|s| s.exit_speed_max),
             by(|s| s.vibration_min),
             by(|s| s.hands_velocity_min),

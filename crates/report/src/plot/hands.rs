@@ -144,6 +144,6 @@ fn motions(after: &Aftermath, x: f64, times: &[f64]) -> Vec<[f64; 3]> {
 /// How long is shown (s): the touch a few times, and three swings of the first mode.
 fn span(after: &Aftermath, x: f64) -> f64 {
     let touch = 5.0 * after.end();
-    let slowest = after.lines(x).first().map_or(0.0, |line| 3.0 / line.frequency);
+    let slowest = after.lines(x).first().map_or(0.0, |line| 3.0 / line.frequency_hz);
     touch.max(slowest.min(40.0 * after.end()))
 }

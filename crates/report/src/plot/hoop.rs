@@ -60,8 +60,8 @@ pub fn picture(sheet: Sheet, bat: &Bat, barrel: &Barrel, most: usize) -> Option<
     }
     plane.below(&mut svg);
     let told = |mode: &&HoopMode| {
-        let x = place::shown(sheet, mode.largest_at, bat.length());
-        let (n, m, hertz) = (mode.harmonic, mode.order, mode.frequency());
+        let x = place::shown(sheet, mode.largest_at_m, bat.length());
+        let (n, m, hertz) = (mode.harmonic, mode.order, mode.frequency_hz);
         format!("n = {n}, m = {m} at {hertz:.1} Hz, largest {x}")
     };
     let told: Vec<String> = lowest.iter().map(told).collect();
@@ -101,12 +101,12 @@ fn side(
     (bat, mode, outline): (&Bat, &HoopMode, &Outline),
 ) {
     let radius = |x: f64| bat.profile().at(x).outer;
-    let widest = outline.x.iter().map(|x| radius(*x)).fold(0.0, f64::max);
+    let widest = outline.x_m.iter().map(|x| radius(*x)).fold(0.0, f64::max);
     // On the lower side the waves stand as they do half a turn on.
     let below = if mode.harmonic.is_multiple_of(2) { 1.0 } else { -1.0 };
     let line = |side: f64, moved: f64| -> Vec<Point> {
         let sign = if side < 0.0 { below } else { 1.0 };
-        let places = outline.x.iter().zip(&outline.radial);
+        let places = outline.x_m.iter().zip(&outline.radial);
         let at = |(x, radial): (&f64, &f64)| {
             let out = THICK * radius(*x) / widest + most * moved * sign * radial;
             [plane.across(*x), axis - side * out]
@@ -127,7 +127,7 @@ fn side(
 ///
 /// A point at θ moves by `U cos nθ` outwards and `V sin nθ` around.
 fn around(svg: &mut Svg, [x, y]: Point, size: Size, (mode, outline): (&HoopMode, &Outline)) {
-    let most = (0..outline.x.len())
+    let most = (0..outline.x_m.len())
         .max_by(|a, b| outline.radial[*a].abs().total_cmp(&outline.radial[*b].abs()))
         .unwrap_or(0);
     let (out, turn) = (outline.radial[most], outline.around[most]);
@@ -150,7 +150,7 @@ fn around(svg: &mut Svg, [x, y]: Point, size: Size, (mode, outline): (&HoopMode,
 fn named(svg: &mut Svg, [x, y]: Point, mode: &HoopMode) {
     let (n, m) = (mode.harmonic, mode.order);
     svg.text([x, y - 4.0], SMALL, &format!("n = {n}, m = {m}"));
-    let hertz = match mode.frequency() {
+    let hertz = match mode.frequency_hz {
         f if f < 9_999.5 => format!("{f:.1} Hz"),
         f => format!("{:.2} kHz", 1e-3 * f),
     };

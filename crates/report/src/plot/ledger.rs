@@ -125,7 +125,7 @@ pub fn picture(
 
 /// Whether everything is there after the hit.
 fn books(unit: Unit, impacts: &[Impact], greatest: f64) -> String {
-    let off = impacts.iter().filter_map(|i| Some(i.outcome.as_ref()?.energy.imbalance().abs()));
+    let off = impacts.iter().filter_map(|i| Some(i.outcome.as_ref()?.energy.imbalance.abs()));
     let most = off.fold(0.0, f64::max);
     if most < 1e-3 * greatest {
         "all of it accounted for".into()

@@ -115,20 +115,21 @@ impl AfterHit<'_> {
     fn spectrum(&self, sheet: Sheet) -> Option<Picture> {
         let unit = sheet.speed();
         let lines = || self.watched.iter().take(MOST).flat_map(|(_, lines)| lines.iter());
-        let highest = lines().map(|line| line.frequency).fold(0.0, f64::max);
-        let largest = lines().map(|line| line.amplitude[1]).fold(0.0, f64::max);
+        let highest = lines().map(|line| line.frequency_hz).fold(0.0, f64::max);
+        let largest = lines().map(|line| line.velocity_m_s).fold(0.0, f64::max);
         // What can be seen at all.
-        let seen = lines().filter(|line| line.amplitude[1] >= 0.003 * largest);
-        let end = seen.map(|line| line.frequency).fold(0.0, f64::max).min(highest);
+        let seen = lines().filter(|line| line.velocity_m_s >= 0.003 * largest);
+        let end = seen.map(|line| line.frequency_hz).fold(0.0, f64::max).min(highest);
         if end <= 0.0 || largest <= 0.0 {
             return None;
         }
         let curve = |(k, (x, lines)): (usize, &(f64, &[Line]))| {
             let stem = |line: &Line| {
-                let (f, size) = (line.frequency, line.amplitude[1]);
+                let (f, size) = (line.frequency_hz, line.velocity_m_s);
                 [Some([f, 0.0]), Some([f, size]), None]
             };
-            let points = lines.iter().filter(|line| line.frequency <= end).flat_map(stem).collect();
+            let points =
+                lines.iter().filter(|line| line.frequency_hz <= end).flat_map(stem).collect();
             let name = Self::name(sheet, *x);
             Series::curve(&name, k, points).units("Hz", unit.name)
         };
@@ -147,11 +148,11 @@ impl AfterHit<'_> {
         let plane = Plane { frame, x: Axis::new("frequency (Hz)", [0.0, 1.05 * end]), y };
         drawn(&mut svg, &plane, &curves);
         ends.iter().for_each(|ends| ends.draw(&mut svg, &plane));
-        let told = lines().filter(|line| line.amplitude[1] >= 0.1 * largest).map(|line| {
+        let told = lines().filter(|line| line.velocity_m_s >= 0.1 * largest).map(|line| {
             format!(
                 "{} Hz {} {}",
-                short(line.frequency),
-                short(unit.per * line.amplitude[1]),
+                short(line.frequency_hz),
+                short(unit.per * line.velocity_m_s),
                 unit.name
             )
         });
@@ -162,7 +163,7 @@ impl AfterHit<'_> {
 
     /// The largest strain of the surface at every place.
     fn strain(&self, sheet: Sheet) -> Option<Picture> {
-        let points: Vec<_> = self.envelope.iter().map(|at| Some([at.x, at.strain])).collect();
+        let points: Vec<_> = self.envelope.iter().map(|at| Some([at.x_m, at.strain])).collect();
         let most = self.envelope.iter().max_by(|a, b| a.strain.total_cmp(&b.strain))?;
         if most.strain <= 0.0 {
             return None;
@@ -183,7 +184,7 @@ impl AfterHit<'_> {
         let plane = Plane { frame, x, y };
         plane.above(&mut svg, &tip);
         drawn(&mut svg, &plane, &[curve]);
-        let [at, size] = [along(sheet, most.x), short(share.per * most.strain)];
+        let [at, size] = [along(sheet, most.x_m), short(share.per * most.strain)];
         let alt = format!("{title} of {}, {facts}: {size} % at {at}.", self.bat);
         Some(Picture::new("strain", title, &alt, svg))
     }

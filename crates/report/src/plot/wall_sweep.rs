@@ -8,7 +8,6 @@ use crate::plot::sheet::Sheet;
 use crate::plot::svg::{Mark, Pen, Svg};
 use crate::plot::theme::SERIES;
 use sweetspot::collision::bbcor::LIMIT;
-use sweetspot_study::trampoline::barrel::Rebound;
 use sweetspot_study::trampoline::thickness::WallTried;
 
 /// Height of the diagram (px).
@@ -17,32 +16,27 @@ const DIAGRAM: f64 = 250.0;
 /// BBCOR against wall thickness, stiff and with the wall; picture `wall_sweep`. None without two walls.
 pub fn picture(sheet: Sheet, name: &str, tried: &[WallTried]) -> Option<Picture> {
     let unit = sheet.small();
-    let point = |tried: &WallTried, of: &dyn Fn(&Rebound) -> f64| {
-        let (wall, rebound) = (tried.struck.wall.as_ref()?, tried.struck.rebound.as_ref()?);
-        Some([wall.thickness, of(rebound)])
+    let points = |of: &dyn Fn(&WallTried) -> f64| -> Vec<Option<[f64; 2]>> {
+        tried.iter().map(|tried| Some([tried.thickness_m, of(tried)])).collect()
     };
-    let points = |of: &dyn Fn(&Rebound) -> f64| -> Vec<Option<[f64; 2]>> {
-        tried.iter().map(|tried| point(tried, of)).collect()
-    };
-    let wall = points(&|rebound| rebound.bbcor().with);
+    let wall = points(&|tried| tried.wall);
     let known: Vec<[f64; 2]> = wall.iter().flatten().copied().collect();
     let (from, to) = (known.first()?[0], known.last()?[0]);
     if from >= to {
         return None;
     }
     let curve = Series::curve("with the wall", 0, wall).units(unit.name, "");
-    let stiff =
-        Series::curve("if the wall were stiff", 1, points(&|rebound| rebound.bbcor().stiff));
+    let stiff = Series::curve("if the wall were stiff", 1, points(&|tried| tried.stiff));
     let stiff = stiff.units(unit.name, "");
     let thin = |name: &str, end: usize| {
         let pen = Pen::new(SERIES[0], 1.0).dashed("2 3");
-        Series::curve(name, 0, points(&|rebound| rebound.bbcor().range[end])).pen(pen)
+        Series::curve(name, 0, points(&|tried| tried.range[end])).pen(pen)
     };
     let [low, high] = [thin("patch of a ball squeezed twice or half as much", 0), thin("", 1)];
     let limit = Series::curve("limit", 0, vec![Some([from, LIMIT]), Some([to, LIMIT])])
         .pen(Pen::new(SERIES[5], 1.4));
     let here = tried.iter().find(|tried| tried.factor == 1.0);
-    let here = here.and_then(|tried| point(tried, &|rebound| rebound.bbcor().with));
+    let here = here.map(|tried| [tried.thickness_m, tried.wall]);
     let title = "BBCOR against wall thickness";
     let facts =
         "the barrel's surface where it is, the bat at rest and free; computed, not certified";

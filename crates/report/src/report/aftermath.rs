@@ -11,7 +11,7 @@ use crate::schema::hit::Impact;
 use crate::schema::ring as file;
 use sweetspot::base::units::{gravities, inches, miles_per_hour};
 use sweetspot::bat::body::Bat;
-use sweetspot::collision::aftermath::{Aftermath, Instant, Line, Sting, Strained};
+use sweetspot::collision::aftermath::{Aftermath, Instant, PeakMotion, Strained, Watched};
 use sweetspot::collision::hit;
 use sweetspot::collision::strength::{Limit, Load, Strength, nearest};
 use sweetspot::files::schema::document::{Format, Generator};
@@ -20,17 +20,16 @@ use sweetspot::files::schema::document::{Format, Generator};
 pub struct AfterHit {
     /// How long was looked (s).
     pub until: f64,
-    /// Watched places (m), what each feels, and the modes as they ring there.
-    pub watched: Vec<(f64, Sting, Vec<Line>)>,
+    /// What the watched places feel.
+    pub watched: Vec<Watched>,
     /// The largest strain while the ball is there.
     pub during: Option<Strained>,
     /// The largest strain of the whole time.
     pub after: Option<Strained>,
     /// The largest strain of every place in the whole time.
     pub envelope: Vec<Strained>,
-    /// Where the bat comes nearest to what its materials bear, and the swing (rad/s) that takes it
-    /// there, by every limit that is known.
-    pub loads: Vec<(Load, Option<f64>)>,
+    /// Where the bat comes nearest to what its materials bear, by every limit that is known.
+    pub loads: Vec<Load>,
     /// Whether anything damps the bat: else its shaking has no end, and no size that a hand feels.
     pub damped: bool,
     /// How far the largest strain changes where a quarter of the modes is left out, relative.
@@ -62,14 +61,13 @@ impl AfterHit {
         let during = after.worst(&places, &instants[..=WITHIN], all);
         let envelope = after.envelope(&places, &instants, all);
         let whole = after.worst(&places, &instants, all);
-        let loads = Limit::ALL.iter().filter_map(|limit| nearest(bat, &envelope, *limit));
-        let loads = loads.map(|load| (load, None)).collect();
+        let load = |limit: &Limit| nearest(bat, &envelope, *limit);
+        let loads = Limit::ALL.iter().filter_map(load).collect();
         let fewer = after.worst(&places, &instants, all - all / 4);
         let change = whole.zip(fewer).map(|(a, b)| (b.strain / a.strain - 1.0).abs());
-        let seen = |x: &f64| (*x, after.sting(*x, &instants), after.lines(*x));
         Self {
             until,
-            watched: watched.iter().map(seen).collect(),
+            watched: watched.iter().map(|x| after.watched(*x, &instants)).collect(),
             during,
             after: whole,
             envelope,
@@ -104,8 +102,8 @@ pub fn text(report: &AfterHit, units: Units, full: bool) -> String {
         "\nMotion against the swing, {:.1} ms from the first touch, hands without mass\n",
         1e3 * report.until
     );
-    for (x, sting, _) in &report.watched {
-        out += &motion(*x, sting, report.damped, units);
+    for seen in &report.watched {
+        out += &motion(seen, report.damped, units);
     }
     if !full {
         let strains = if report.loads.is_empty() { strains(report, units) } else { String::new() };
@@ -114,18 +112,17 @@ pub fn text(report: &AfterHit, units: Units, full: bool) -> String {
     out += &strains(report, units);
     out += &along(report, units);
     out += &strength(report, units);
-    out += &report
-        .watched
-        .first()
-        .map_or(String::new(), |(x, _, lines)| spectrum(*x, lines, report.damped, units));
+    if let Some(seen) = report.watched.first() {
+        out += &spectrum(seen, report.damped, units);
+    }
     out
 }
 
 /// When a place begins to move, and its largest displacement, velocity and acceleration.
-fn motion(x: f64, sting: &Sting, damped: bool, units: Units) -> String {
-    let [moved, speed, acceleration] = sting.peak;
-    let [a, b, c] = sting.when.map(|t| format!("at {:.2} ms", 1e3 * t));
-    let (place, begins) = (place(x, units), 1e3 * sting.begins);
+fn motion(seen: &Watched, damped: bool, units: Units) -> String {
+    let PeakMotion { displacement_m: moved, velocity_m_s: speed, acceleration_m_s2 } = seen.peak;
+    let [a, b, c] = seen.when.map(|t| format!("at {:.2} ms", 1e3 * t));
+    let (place, begins) = (place(seen.x_m, units), 1e3 * seen.begins_s);
     let mut out = format!("  at {place}, which begins to move after {begins:.2} ms\n");
     let mut line = |what: &str, size: String, when: String| {
         let _ = writeln!(out, "{}", format!("    {what:<36} {size} {when}").trim_end());
@@ -135,7 +132,7 @@ fn motion(x: f64, sting: &Sting, damped: bool, units: Units) -> String {
     let speed = units.show(format!("{speed:.2} m/s"), format!("{:.1} mph", miles_per_hour(speed)));
     line("largest velocity", units.inline(speed), b);
     if damped {
-        let shaken = format!("{acceleration:.0} m/s² ({:.0} g)", gravities(acceleration));
+        let shaken = format!("{acceleration_m_s2:.0} m/s² ({:.0} g)", gravities(acceleration_m_s2));
         line("largest acceleration", shaken, c);
     } else {
         let how = "without end: nothing damps the bat";
@@ -156,17 +153,17 @@ fn strains(report: &AfterHit, units: Units) -> String {
             out,
             "  {what:<24} {:.3} %, {} at {}, {:.2} ms",
             100.0 * worst.strain,
-            units.first().stress(worst.stress, 1),
-            place(worst.x, units),
-            1e3 * worst.time
+            units.first().stress(worst.stress_pa, 1),
+            place(worst.x_m, units),
+            1e3 * worst.time_s
         );
     }
     out
 }
 
 /// The modes that a place hears, once the ball has left.
-fn spectrum(x: f64, lines: &[Line], damped: bool, units: Units) -> String {
-    let place = place(x, units);
+fn spectrum(seen: &Watched, damped: bool, units: Units) -> String {
+    let (place, lines) = (place(seen.x_m, units), &seen.spectrum);
     let mut out =
         format!("\nSpectrum at {place} when the ball has left: amplitude of every mode\n");
     let us = units.us_first();
@@ -177,15 +174,15 @@ fn spectrum(x: f64, lines: &[Line], damped: bool, units: Units) -> String {
             .chain(damped.then(|| numbers(10, "g"))),
     );
     out += &columns.heads();
-    let largest = lines.iter().map(|line| line.amplitude[1]).fold(0.0, f64::max);
-    for line in lines.iter().filter(|line| line.amplitude[1] >= 0.01 * largest) {
-        let [moved, speed, acceleration] = line.amplitude;
+    let largest = lines.iter().map(|line| line.velocity_m_s).fold(0.0, f64::max);
+    for line in lines.iter().filter(|line| line.velocity_m_s >= 0.01 * largest) {
+        let (moved, speed) = (line.displacement_m, line.velocity_m_s);
         let [moved, speed] = match us {
             true => [format!("{:.4}", inches(moved)), format!("{:.3}", miles_per_hour(speed))],
             false => [format!("{:.3}", 1e3 * moved), format!("{speed:.3}")],
         };
-        let cells = [format!("{:.1}", line.frequency), moved, speed];
-        let shaken = damped.then(|| format!("{:.0}", gravities(acceleration)));
+        let cells = [format!("{:.1}", line.frequency_hz), moved, speed];
+        let shaken = damped.then(|| format!("{:.0}", gravities(line.acceleration_m_s2)));
         out += &columns.row(cells.into_iter().chain(shaken));
     }
     out
@@ -196,8 +193,8 @@ fn along(report: &AfterHit, units: Units) -> String {
     let mut out = String::from("\nAlong the bat, the largest in the whole time\n");
     let every = (report.envelope.len() / 10).max(1);
     for at in report.envelope.iter().step_by(every) {
-        let place = format!("at {}", place(at.x, units));
-        let stress = units.first().stress(at.stress, 1);
+        let place = format!("at {}", place(at.x_m, units));
+        let stress = units.first().stress(at.stress_pa, 1);
         let _ = writeln!(out, "  {place:<24} {:.3} %, {stress}", 100.0 * at.strain);
     }
     out
@@ -212,10 +209,10 @@ fn strength(report: &AfterHit, units: Units) -> String {
                        the material in the bat file say what it bears";
         return out + &wrapped(unknown, 4);
     }
-    for (load, swing) in &report.loads {
-        out += &wrapped(&format!("  {}", reached(load, *swing, units)), 4);
+    for load in &report.loads {
+        out += &wrapped(&format!("  {}", reached(load, units)), 4);
     }
-    out + &beyond(report.loads.iter().map(|(load, _)| load))
+    out + &beyond(report.loads.iter())
 }
 
 /// What a share above 100 % means; empty where there is none.
@@ -231,68 +228,65 @@ fn beyond<'a>(mut loads: impl Iterator<Item = &'a Load>) -> String {
     }
 }
 
-/// How near a hit takes the bat to a limit, where, and the swing (rad/s) that takes it there.
-pub fn reached(load: &Load, swing: Option<f64>, units: Units) -> String {
+/// How near a hit takes the bat to a limit, where, and the swing that takes it there.
+pub fn reached(load: &Load, units: Units) -> String {
+    let bears = load.strength_pa.or(load.strain_to_failure).unwrap_or(0.0);
     let (bears, most, test) = match load.limit {
         Limit::Stress => (
-            units.stress(load.bears, 0),
-            units.stress(load.at.stress, 1),
+            units.stress(bears, 0),
+            units.stress(load.at.stress_pa, 1),
             "published for slow bending (how much more a blow bears is not known)",
         ),
         Limit::Strain => (
-            format!("{:.2} %", 100.0 * load.bears),
+            format!("{:.2} %", 100.0 * bears),
             format!("a strain of {:.3} %", 100.0 * load.at.strain),
             "published, at which it breaks in a blow",
         ),
     };
-    let swing = match swing {
+    let swing = match load.reached_at_swing_rad_s {
         Some(0.0) => "reached by the pitch alone, without a swing".to_owned(),
         Some(swing) => format!("reached at a swing of about {swing:.1} rad/s"),
         None => "not reached by any swing up to 200 rad/s".to_owned(),
     };
     format!(
         "{most} at {}: {:.0} % of the {bears} {test}; {swing}",
-        place(load.at.x, units),
+        place(load.at.x_m, units),
         100.0 * load.share
     )
 }
 
 /// What hits at some places ask of the bat, for a screen.
 pub fn strengths(all: &[Strength], units: Units) -> String {
-    if all.iter().all(|at| at.loads.is_empty()) {
+    if all.iter().all(|at| at.limits.is_empty()) {
         return String::new();
     }
     let mut out = String::from(
         "Strength (clear wood along the grain; slope of grain, knots and dents not known)\n",
     );
     for at in all {
-        for (load, swing) in &at.loads {
-            let text = reached(load, *swing, units);
-            out += &wrapped(&format!("  hit at {}: {text}", place(at.x, units)), 4);
+        for load in &at.limits {
+            let text = reached(load, units);
+            out += &wrapped(&format!("  hit at {}: {text}", place(at.x_m, units)), 4);
         }
     }
-    out + &beyond(all.iter().flat_map(|at| &at.loads).map(|(load, _)| load))
-}
-
-/// What hits at some places ask of the bat, for a document.
-pub fn strengths_file(all: &[Strength]) -> Vec<file::Strength> {
-    let of = |at: &Strength| file::Strength { x_m: at.x, limits: loads(&at.loads) };
-    all.iter().map(of).collect()
+    out + &beyond(all.iter().flat_map(|at| &at.limits))
 }
 
 /// Force, and motion and strain at the watched places, in time.
-pub fn history(after: &Aftermath, report: &AfterHit) -> String {
-    let places: Vec<f64> = report.watched.iter().map(|(x, ..)| *x).collect();
-    let columns = places.iter().flat_map(|x| {
+pub fn history(report: &AfterHit) -> String {
+    let columns = report.watched.iter().flat_map(|seen| {
         ["displacement_m", "velocity_m_s", "acceleration_m_s2", "strain"]
-            .map(|what| format!("{what}_at_{x}_m"))
+            .map(|what| format!("{what}_at_{}_m", seen.x_m))
     });
     let mut table = Csv::new(["t_s", "force_n"].map(str::to_owned).into_iter().chain(columns));
-    for now in &report.instants {
-        let strains = after.strains(&places, now, after.count());
-        let at_places = places.iter().zip(strains).flat_map(|(x, strain)| {
-            let [moved, speed, acceleration] = after.motion(*x, now);
-            [moved, speed, acceleration, strain]
+    for (k, now) in report.instants.iter().enumerate() {
+        let at_places = report.watched.iter().flat_map(|seen| {
+            [
+                seen.displacement_m[k],
+                seen.velocity_m_s[k],
+                seen.acceleration_m_s2[k],
+                seen.strain[k],
+            ]
         });
         table.row([now.time, now.force].into_iter().chain(at_places).map(Cell::from));
     }
@@ -316,64 +310,17 @@ pub fn document(
         contact_s: after.end(),
         times_s: report.instants.iter().map(|now| now.time).collect(),
         force_n: report.instants.iter().map(|now| now.force).collect(),
-        watched: report.watched.iter().map(|seen| watched(after, report, seen)).collect(),
-        strain_max_in_contact: report.during.as_ref().map(strained),
-        strain_max: report.after.as_ref().map(strained),
+        watched: report.watched.clone(),
+        strain_max_in_contact: report.during,
+        strain_max: report.after,
         strain_error: report.strain_error,
         along: file::Along {
-            x_m: along(|at| at.x),
+            x_m: along(|at| at.x_m),
             strain_max: along(|at| at.strain),
-            stress_max_pa: along(|at| at.stress),
+            stress_max_pa: along(|at| at.stress_pa),
         },
-        strength: loads(&report.loads),
+        strength: report.loads.clone(),
         impact,
         ignored,
     }))
-}
-
-fn watched(
-    after: &Aftermath,
-    report: &AfterHit,
-    (x, sting, lines): &(f64, Sting, Vec<Line>),
-) -> file::Watched {
-    let motions: Vec<[f64; 3]> = report.instants.iter().map(|now| after.motion(*x, now)).collect();
-    let column = |k: usize| motions.iter().map(|motion| motion[k]).collect::<Vec<_>>();
-    let strain = |now: &Instant| after.strains(&[*x], now, after.count())[0];
-    let [displacement_m, velocity_m_s, acceleration_m_s2] = sting.peak;
-    file::Watched {
-        x_m: *x,
-        begins_s: sting.begins,
-        peak: file::Peak { displacement_m, velocity_m_s, acceleration_m_s2 },
-        spectrum: lines.iter().map(line).collect(),
-        displacement_m: column(0),
-        velocity_m_s: column(1),
-        acceleration_m_s2: column(2),
-        strain: report.instants.iter().map(strain).collect(),
-    }
-}
-
-fn line(line: &Line) -> file::Line {
-    let [displacement_m, velocity_m_s, acceleration_m_s2] = line.amplitude;
-    file::Line { frequency_hz: line.frequency, displacement_m, velocity_m_s, acceleration_m_s2 }
-}
-
-fn strained(at: &Strained) -> file::Strained {
-    file::Strained { x_m: at.x, time_s: at.time, strain: at.strain, stress_pa: at.stress }
-}
-
-/// How near the bat comes to each limit.
-fn loads(loads: &[(Load, Option<f64>)]) -> Vec<file::Load> {
-    let bears = |load: &Load, limit: Limit| (load.limit == limit).then_some(load.bears);
-    let of = |(load, swing): &(Load, Option<f64>)| file::Load {
-        limit: match load.limit {
-            Limit::Stress => "stress",
-            Limit::Strain => "strain",
-        },
-        strength_pa: bears(load, Limit::Stress),
-        strain_to_failure: bears(load, Limit::Strain),
-        at: strained(&load.at),
-        share: load.share,
-        reached_at_swing_rad_s: *swing,
-    };
-    loads.iter().map(of).collect()
 }

@@ -58,13 +58,7 @@ pub fn document(told: &ToldResponse) -> FrfFile {
         static_compliance_m_per_n: frf.static_compliance(),
         rigid_modes: frf.solution.rigid_modes,
         frequency_hz: of(&|s| s.frequency),
-        answer: match kind {
-            ResponseKind::Receptance => ResponseValues::Receptance { real, imaginary, truncation },
-            ResponseKind::Mobility => ResponseValues::Mobility { real, imaginary, truncation },
-            ResponseKind::Accelerance => {
-                ResponseValues::Accelerance { real, imaginary, truncation }
-            }
-        },
+        answer: ResponseValues::of(kind, real, imaginary, truncation),
         peaks: peaks.iter().map(|peak| line(kind, peak)).collect(),
         measured: told.measured.map(|(response, laid)| beside(kind, response, laid)),
         damping_ratios_as_measured: frf.damping_ratios().to_vec(),
@@ -74,16 +68,11 @@ pub fn document(told: &ToldResponse) -> FrfFile {
 
 /// A peak as it stands in a document.
 pub fn line(kind: ResponseKind, peak: &Peak) -> PeakLine {
-    let magnitude = peak.height;
     PeakLine {
         mode: peak.mode,
         natural_frequency_hz: peak.natural,
         frequency_hz: peak.frequency,
-        height: match kind {
-            ResponseKind::Receptance => Height::Receptance { magnitude },
-            ResponseKind::Mobility => Height::Mobility { magnitude },
-            ResponseKind::Accelerance => Height::Accelerance { magnitude },
-        },
+        height: Height::of(kind, peak.height),
         damping_ratio: peak.damping_ratio(),
         half_power_hz: peak.half_power,
     }
@@ -102,11 +91,7 @@ fn beside(kind: ResponseKind, response: &MeasuredResponse, laid: &Laid) -> Measu
         source: response.source.clone(),
         assumed: response.assumed.clone(),
         frequency_hz: laid.measured.iter().map(|(f, _)| *f).collect(),
-        answer: match kind {
-            ResponseKind::Receptance => MeasuredValues::Receptance { real, imaginary },
-            ResponseKind::Mobility => MeasuredValues::Mobility { real, imaginary },
-            ResponseKind::Accelerance => MeasuredValues::Accelerance { real, imaginary },
-        },
+        answer: MeasuredValues::of(kind, real, imaginary),
         frac: laid.frac,
         mean_level_difference_db: laid.level,
         mean_absolute_level_difference_db: laid.apart,

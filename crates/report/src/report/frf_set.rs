@@ -1,6 +1,7 @@
 //! The measured responses of one file beside the computed ones: a row each.
 
-use crate::csv::Csv;
+use crate::csv;
+use crate::parts::table::Column;
 use crate::parts::terminal::wrapped;
 use crate::parts::units::Units;
 use crate::report::columns::{Columns, numbers};
@@ -109,31 +110,20 @@ pub fn text(bat: &Bat, source: &str, rows: &[RowOfSet], (units, full): (Units, b
     out
 }
 
+/// The columns of the responses.
+const COLUMNS: [Column<RowOfSet>; 9] = [
+    Column::in_files("response", |row| row.number.into()),
+    Column::in_files("at_m", |row| row.places[0].into()),
+    Column::in_files("to_m", |row| row.places[1].into()),
+    Column::in_files("frac", |row| row.frac.into()),
+    Column::in_files("level_db", |row| row.level.into()),
+    Column::in_files("apart_db", |row| row.apart.into()),
+    Column::in_files("peaks_measured", |row| row.pairs[0].into()),
+    Column::in_files("peaks", |row| row.pairs[1].into()),
+    Column::in_files("frequencies_apart", |row| row.frequencies.into()),
+];
+
 /// A row for each response.
 pub fn csv(rows: &[RowOfSet]) -> String {
-    let mut table = Csv::new([
-        "response".to_owned(),
-        "at_m".to_owned(),
-        "to_m".to_owned(),
-        "frac".to_owned(),
-        "level_db".to_owned(),
-        "apart_db".to_owned(),
-        "peaks_measured".to_owned(),
-        "peaks".to_owned(),
-        "frequencies_apart".to_owned(),
-    ]);
-    for row in rows {
-        table.row([
-            row.number.into(),
-            row.places[0].into(),
-            row.places[1].into(),
-            row.frac.into(),
-            row.level.into(),
-            row.apart.into(),
-            row.pairs[0].into(),
-            row.pairs[1].into(),
-            row.frequencies.into(),
-        ]);
-    }
-    table.text()
+    csv::rows(&COLUMNS, rows)
 }

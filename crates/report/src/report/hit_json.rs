@@ -3,9 +3,9 @@
 use crate::schema::hit as file;
 use sweetspot::bat::body::Bat;
 use sweetspot::collision::columns;
-use sweetspot::collision::figures::{BarrelSpeed, Figures, Swung};
-use sweetspot::collision::hit::{Energy, Impact, Model, Scene, Separation, Wall, greater};
-use sweetspot::collision::sweet_spot::{Peak, SweetSpot};
+use sweetspot::collision::figures::{BarrelSpeed, Figures};
+use sweetspot::collision::hit::{Impact, Model, Scene, Wall, greater};
+use sweetspot::collision::sweet_spot::SweetSpot;
 use sweetspot::files::schema::document::{Format, Generator};
 use sweetspot_study::ignored;
 
@@ -24,7 +24,7 @@ pub fn hit(
         model: model.name().to_owned(),
         scene: scene_out(bat, scene),
         impacts: impacts.iter().map(|at| impact(bat, at)).collect(),
-        sweet_spot: sweet_spot(spot),
+        sweet_spot: spot.clone(),
         ignored: ignored::in_hit(bat, scene),
         figures: None,
     }
@@ -71,50 +71,16 @@ fn wall(bat: &Bat, scene: &Scene) -> Option<file::Wall> {
     })
 }
 
-fn sweet_spot(spot: &SweetSpot) -> file::SweetSpot {
-    file::SweetSpot {
-        exit_speed_max: spot.exit_speed_max.map(peak),
-        first_separation_max: spot.first_separation_max.map(peak),
-        vibration_min: spot.vibration_min.map(peak),
-        node_mode_1_m: spot.node_mode_1,
-        node_mode_2_m: spot.node_mode_2,
-        center_of_percussion_m: spot.center_of_percussion,
-        zone_m: spot.zone,
-        hands_velocity_min: spot.hands_velocity_min.map(peak),
-        hands_acceleration_min: spot.hands_acceleration_min.map(peak),
-        inch_off_m_s: spot.inch_off,
-        looked_every_m: spot.looked_every,
-    }
-}
-
-fn peak(peak: Peak) -> file::Peak {
-    file::Peak { x_m: peak.x, value: peak.value }
-}
-
 /// The standard figures, beside the impacts in the same document.
 pub fn figures(figures: &Figures) -> file::Figures {
     let best = figures.best.as_ref().and_then(|best| best.outcome.as_ref());
-    let swung = |swung: &Swung| file::Swung {
-        exponent: swung.exponent,
-        swing_rad_s: swung.swing,
-        exit_speed_max: swung.best.map(peak),
-    };
-    let moved = |(change, spot): &(String, SweetSpot)| file::Moved {
-        sweet_spot: sweet_spot(spot),
-        change: change.clone(),
-    };
     file::Figures {
         certified: false,
         bat_ball_speed_m_s: best.map(|o| o.exit_speed),
         collision_efficiency: best.map(|o| o.collision_efficiency),
         bbcor: best.map(|o| o.bbcor),
         bbcor_pivoted: best.map(|o| o.bbcor_pivoted),
-        bbcor_max: figures.bbcor_max.map(peak),
-        bbcor_pivoted_max: figures.bbcor_pivoted_max.map(peak),
-        rigid_exit_speed_max: figures.rigid_best.map(peak),
-        wall: figures.wall,
-        swings: figures.swings.iter().map(swung).collect(),
-        moves: figures.moves.iter().map(moved).collect(),
+        others: figures.clone(),
     }
 }
 
@@ -130,7 +96,7 @@ pub fn impact(bat: &Bat, impact: &Impact) -> file::Impact {
         cor: columns::COR.at(impact),
         impulse_n_s: columns::IMPULSE.at(impact),
         contact_time_s: columns::CONTACT_TIME.at(impact),
-        first_separation: outcome.and_then(|o| o.first_separation).map(separation),
+        first_separation: outcome.and_then(|o| o.first_separation),
         peak_force_n: columns::PEAK_FORCE.at(impact),
         peak_compression_m: columns::PEAK_COMPRESSION.at(impact),
         collision_efficiency: columns::EFFICIENCY.at(impact),
@@ -138,33 +104,8 @@ pub fn impact(bat: &Bat, impact: &Impact) -> file::Impact {
         bbcor_pivoted: columns::BBCOR_PIVOTED.at(impact),
         modes_used: outcome.map(|o| o.energy.vibration_by_mode.len()),
         flags: impact.flags.iter().map(|flag| (*flag).to_owned()).collect(),
-        energy_j: outcome.map(|o| energy_out(&o.energy)),
+        energy_j: outcome.map(|o| o.energy.clone()),
         error: file::HitError { exit_speed: outcome.map(|o| o.error) },
-    }
-}
-
-fn separation(first: Separation) -> file::FirstSeparation {
-    file::FirstSeparation {
-        time_s: first.time,
-        exit_speed_m_s: first.exit_speed,
-        exit_speed_error: first.error,
-    }
-}
-
-fn energy_out(energy: &Energy) -> file::Energy {
-    let harmonic =
-        |&(harmonic, energy_j): &(usize, f64)| file::HarmonicEnergy { harmonic, energy_j };
-    file::Energy {
-        initial: energy.initial,
-        ball: energy.ball,
-        bat_rigid: energy.bat_rigid,
-        vibration: energy.vibration(),
-        vibration_by_mode: energy.vibration_by_mode.clone(),
-        dissipated_ball: energy.dissipated_ball,
-        dissipated_damping: energy.dissipated_damping,
-        wall: energy.wall,
-        wall_by_harmonic: energy.wall_by_harmonic.iter().map(harmonic).collect(),
-        imbalance: energy.imbalance(),
     }
 }
 

@@ -11,7 +11,7 @@ use sweetspot::base::number::signed;
 use sweetspot::base::units::{gravities, inches, miles_per_hour};
 use sweetspot::bat::body::Bat;
 use sweetspot::collision::columns::{self, Column};
-use sweetspot::collision::figures::{BarrelSpeed, Figures};
+use sweetspot::collision::figures::{BarrelSpeed, Figures, Moved};
 use sweetspot::collision::hit::{Impact, Model, Scene};
 use sweetspot::collision::sweep::Sweep;
 use sweetspot::collision::sweet_spot::{Peak, SweetSpot};
@@ -163,7 +163,7 @@ pub fn why(figures: &Figures, units: Units) -> String {
          the bat's speed there makes up for.",
         place(rigid.x),
         units.energy(there, 2),
-        units.energy(here.energy.vibration(), 2),
+        units.energy(here.energy.vibration, 2),
         place((peak.x - rigid.x).abs())
     );
     wrapped(&text, 0)
@@ -345,7 +345,7 @@ pub fn moves(bat: &Bat, figures: &Figures, units: Units) -> String {
     let mut out = row("How it moves, mm to tip", heads);
     out += &row("", ["ball", "vibr.", "speed", "shaking", "speed"].map(str::to_owned));
     let spot = &figures.spot;
-    for (what, moved) in &figures.moves {
+    for Moved { change, sweet_spot: moved } in &figures.moves {
         let by = |of: fn(&SweetSpot) -> Option<Peak>| match (of(spot), of(moved)) {
             (Some(before), Some(after)) => signed(1e3 * (after.x - before.x), 1),
             _ => String::new(),
@@ -367,7 +367,7 @@ pub fn moves(bat: &Bat, figures: &Figures, units: Units) -> String {
             by(|s| s.hands_acceleration_min),
             faster,
         ];
-        out += &row(&format!("  {what}"), cells);
+        out += &row(&format!("  {change}"), cells);
     }
     out
 }

@@ -1,23 +1,68 @@
-//! How a barrel rings and what its wall does to a ball: the table, in sentences, and in short.
+//! How a barrel rings and what its wall does to a ball: the document, the table, in sentences, and in short.
 
-use std::fmt::Write;
-
+use crate::csv::rows;
+use crate::parts::table::Column;
 use crate::parts::terminal::wrapped;
 use crate::parts::units::Units;
 use crate::report::columns::{Columns, first, labels, numbers};
 use crate::report::hoop_notes::notes;
 use crate::report::text::edited;
+use crate::schema::hoop::{HoopFile, ShapedMode};
 use sweetspot::base::number::{rounded, significant};
 use sweetspot::base::units::{POUND_FORCE, inches};
 use sweetspot::bat::body::Bat;
-use sweetspot::collision::wall_figures::WallBbcor;
-use sweetspot::modes::hoop::{HoopMode, Share};
+use sweetspot::files::schema::document::{Format, Generator};
+use sweetspot::modes::hoop::HoopMode;
 use sweetspot_study::trampoline::barrel::{Barrel, Rebound};
-use sweetspot_study::trampoline::pressed::PressedWall;
+use sweetspot_study::trampoline::pressed::{BarrelCompression, HarmonicShare, PressedWall};
 use sweetspot_study::trampoline::thickness::{FACTORS, WallTried};
 
 const MM: f64 = 1e-3;
 const MEGA: f64 = 1e6;
+
+/// The `sweetspot-hoop/1` document; of each mode the given number of samples of its shape.
+pub fn document(bat: &Bat, barrel: &Barrel, tried: &[WallTried], samples: usize) -> HoopFile {
+    let hoop = barrel.hoop();
+    let modes = hoop.modes().iter().enumerate().map(|(k, mode)| ShapedMode {
+        mode: mode.clone(),
+        shape: (samples > 0).then(|| hoop.outline(k, samples)),
+    });
+    HoopFile {
+        format: Format::new(),
+        generator: Generator::this(),
+        bat_name: bat.name().to_owned(),
+        edits: bat.edits().to_vec(),
+        model: barrel.model.clone(),
+        modes: modes.collect(),
+        wall: barrel.struck.wall.clone(),
+        bbcor: barrel.struck.rebound.clone(),
+        compression: barrel.compressed(),
+        wall_sweep: tried.to_vec(),
+        notes: notes(barrel, Units::Si),
+        tolerance_met: barrel.met(),
+    }
+}
+
+/// A mode, and how far from the tip it moves most (m).
+type Placed = (HoopMode, f64);
+
+/// The columns of the modes.
+const COLUMNS: [Column<Placed>; 7] = [
+    Column::in_files("harmonic", |(mode, _)| mode.harmonic.into()),
+    Column::in_files("order", |(mode, _)| mode.order.into()),
+    Column::in_files("frequency_hz", |(mode, _)| mode.frequency_hz.into()),
+    Column::in_files("damping_ratio", |(mode, _)| mode.damping_ratio.into()),
+    Column::in_files("error", |(mode, _)| mode.error.into()),
+    Column::in_files("largest_at_m", |(mode, _)| mode.largest_at_m.into()),
+    Column::in_files("largest_from_tip_m", |(_, from_tip)| (*from_tip).into()),
+];
+
+/// A line for each mode, SI.
+pub fn csv(bat: &Bat, barrel: &Barrel) -> String {
+    let placed = |mode: &HoopMode| (mode.clone(), bat.length() - mode.largest_at_m);
+    let modes: Vec<Placed> = barrel.hoop().modes().iter().map(placed).collect();
+    rows(&COLUMNS, &modes)
+}
 
 /// Everything for the terminal, with the lowest modes, at most the given number.
 pub fn text(bat: &Bat, barrel: &Barrel, most: usize, units: Units) -> String {
@@ -30,7 +75,7 @@ pub fn text(bat: &Bat, barrel: &Barrel, most: usize, units: Units) -> String {
     );
     out += &wrapped(&stretch, 2);
     out += &modes(bat, barrel, most, units);
-    out += &sentences(bat, barrel, units);
+    out += &sentences(barrel, units);
     out
 }
 
@@ -49,19 +94,19 @@ fn modes(bat: &Bat, barrel: &Barrel, most: usize, units: Units) -> String {
         out += &columns.row([
             mode.harmonic.to_string(),
             mode.order.to_string(),
-            format!("{:.2} Hz", mode.frequency()),
+            format!("{:.2} Hz", mode.frequency_hz),
             String::new(),
             format!("within {:.0e}", mode.error),
-            units.inline(units.length((bat.length() - mode.largest_at).max(0.0))),
+            units.inline(units.length((bat.length() - mode.largest_at_m).max(0.0))),
         ]);
     }
     out
 }
 
 /// The wall under the ball, the rebound, the compression and what is to be known, each broken into lines.
-fn sentences(bat: &Bat, barrel: &Barrel, units: Units) -> String {
+fn sentences(barrel: &Barrel, units: Units) -> String {
     let mut out = String::from("\n");
-    for line in answers(bat, barrel, units) {
+    for line in answers(barrel, units) {
         out += &wrapped(&line, 2);
     }
     // What bounds the answer stands last in the document, and first here.
@@ -72,9 +117,9 @@ fn sentences(bat: &Bat, barrel: &Barrel, units: Units) -> String {
 }
 
 /// The wall under the ball, the rebound and the compression, a sentence each.
-pub fn answers(bat: &Bat, barrel: &Barrel, units: Units) -> Vec<String> {
+pub fn answers(barrel: &Barrel, units: Units) -> Vec<String> {
     let Some(wall) = &barrel.struck.wall else { return vec![] };
-    let mut all = vec![pressed(bat, barrel, wall, units), harmonics(wall)];
+    let mut all = vec![pressed(barrel, wall, units), harmonics(wall)];
     match &barrel.struck.rebound {
         Some(rebound) => all.extend(rebounded(rebound, units)),
         None => all.push(format!(
@@ -82,26 +127,25 @@ pub fn answers(bat: &Bat, barrel: &Barrel, units: Units) -> Vec<String> {
             barrel.test.ball.name
         )),
     }
-    let [deflection, force] = wall.compressed(&barrel.test.ball);
+    let BarrelCompression { deflection_m, force_n } = wall.compressed(&barrel.test.ball);
     all.push(format!(
         "Barrel compression: {} for {} between two opposite sides.",
-        forces(units, force),
-        small(units, deflection)
+        forces(units, force_n),
+        small(units, deflection_m)
     ));
     all
 }
 
 /// How stiff the wall is.
-fn pressed(bat: &Bat, barrel: &Barrel, wall: &PressedWall, units: Units) -> String {
-    let ball = barrel.struck.rebound.as_ref().map_or(String::new(), |rebound| {
-        format!(" ({} times the ball)", significant(rebound.figures.stiffness_over_ball, 2))
-    });
+fn pressed(barrel: &Barrel, wall: &PressedWall, units: Units) -> String {
+    let times = |over_ball| format!(" ({} times the ball)", significant(over_ball, 2));
+    let ball = wall.over_ball.map_or(String::new(), times);
     format!(
         "Wall under a {}, {} from the tip: {} MN/m{ball}; {} thick, patch {}.",
         barrel.test.ball.name,
-        units.inline(units.length(bat.length() - wall.patch.x)),
-        significant(wall.stiffness() / MEGA, 3),
-        small(units, wall.thickness),
+        units.inline(units.length(wall.from_tip_m)),
+        significant(wall.stiffness_n_m / MEGA, 3),
+        small(units, wall.thickness_m),
         patch(units, wall),
     )
 }
@@ -109,11 +153,12 @@ fn pressed(bat: &Bat, barrel: &Barrel, wall: &PressedWall, units: Units) -> Stri
 /// What the harmonics have of the wall's giving way, those with half a per cent and more by name.
 fn harmonics(wall: &PressedWall) -> String {
     const LEAST: f64 = 0.5;
-    let percent = |share: &Share| 100.0 * share.flexibility / wall.flexibility();
-    let (named, others): (Vec<&Share>, Vec<&Share>) =
-        wall.shares.iter().partition(|share| percent(share) >= LEAST);
-    let told =
-        |share: &&Share| format!("n = {} has {} %", share.harmonic, significant(percent(share), 2));
+    let percent = |share: &HarmonicShare| 100.0 * share.flexibility_m_n * wall.stiffness_n_m;
+    let (named, others): (Vec<&HarmonicShare>, Vec<&HarmonicShare>) =
+        wall.by_harmonic.iter().partition(|share| percent(share) >= LEAST);
+    let told = |share: &&HarmonicShare| {
+        format!("n = {} has {} %", share.harmonic, significant(percent(share), 2))
+    };
     let mut all: Vec<String> = named.iter().map(told).collect();
     if !others.is_empty() {
         let rest: f64 = others.into_iter().map(percent).sum();
@@ -124,24 +169,24 @@ fn harmonics(wall: &PressedWall) -> String {
 
 /// How the ball comes back.
 fn rebounded(rebound: &Rebound, units: Units) -> [String; 2] {
-    let WallBbcor { stiff, with, range: [low, high] } = rebound.bbcor();
+    let Rebound { stiff, wall, range: [low, high], .. } = rebound;
     [
         format!(
-            "BBCOR there: {stiff:.3} stiff, {with:.3} with the wall; {low:.3} to {high:.3} with the patch of a \
+            "BBCOR there: {stiff:.3} stiff, {wall:.3} with the wall; {low:.3} to {high:.3} with the patch of a \
              ball squeezed twice or half as much."
         ),
         format!(
             "The ball, with {}, dents the wall by about {}; {} stay in the wall.",
-            units.energy(rebound.initial, 0),
-            small(units, rebound.figures.dent_m),
-            units.energy(rebound.left, 1)
+            units.energy(rebound.initial_j, 0),
+            small(units, rebound.dent_m),
+            units.energy(rebound.left_in_wall_j, 1)
         ),
     ]
 }
 
 /// Length and width of the patch.
 fn patch(units: Units, wall: &PressedWall) -> String {
-    let sides = [wall.patch.half_length, wall.patch.half_width].map(|half| 2.0 * half);
+    let sides = [wall.patch_half_length_m, wall.patch_half_width_m].map(|half| 2.0 * half);
     let [long, wide] = sides.map(|side| format!("{:.0}", side / MM));
     let [long_in, wide_in] = sides.map(|side| format!("{:.2}", inches(side)));
     units.beside(format!("{long} by {wide} mm"), format!("{long_in} by {wide_in} in"))
@@ -164,22 +209,22 @@ fn forces(units: Units, force: f64) -> String {
 /// What a short answer of a hollow bat ends with, the first hoop mode in it; None where there is none.
 pub fn in_a_line(barrel: &Barrel) -> Option<String> {
     let lowest = barrel.hoop().lowest(1);
-    let hertz = lowest.first()?.frequency();
+    let hertz = lowest.first()?.frequency_hz;
     Some(format!(
         "Hoop modes from {hertz:.0} Hz: sweetspot hoop. All else: --full or --report FILE.html\n"
     ))
 }
 
 /// The first hoop modes, the wall and the rebound, as a part of more.
-pub fn in_short(bat: &Bat, barrel: &Barrel, units: Units) -> String {
+pub fn in_short(barrel: &Barrel, units: Units) -> String {
     const FEW: usize = 3;
     let named = |mode: &&HoopMode| {
-        format!("{:.0} Hz (n = {}, m = {})", mode.frequency(), mode.harmonic, mode.order)
+        format!("{:.0} Hz (n = {}, m = {})", mode.frequency_hz, mode.harmonic, mode.order)
     };
     let lowest: Vec<String> = barrel.hoop().lowest(FEW).iter().map(named).collect();
     let mut out = String::from("How the barrel rings\n");
     out += &wrapped(&format!("  hoop modes: {}", lowest.join(", ")), 4);
-    for line in answers(bat, barrel, units) {
+    for line in answers(barrel, units) {
         out += &wrapped(&format!("  {line}"), 4);
     }
     out + "  More: sweetspot hoop\n"
@@ -198,25 +243,17 @@ pub fn sweep(tried: &[WallTried], units: Units) -> String {
     ]);
     let mut out = String::from("\nBBCOR against wall thickness, the surface where it is\n");
     out += &columns.heads();
-    for WallTried { factor, struck, .. } in tried {
-        let (Some(wall), Some(rebound)) = (&struck.wall, &struck.rebound) else { continue };
-        let hertz = struck
-            .first
-            .map_or(String::new(), |omega| format!("{:.0} Hz", omega / std::f64::consts::TAU));
-        let WallBbcor { stiff, with, range: [low, high] } = rebound.bbcor();
-        let _ = write!(
-            out,
-            "{}",
-            columns.row([
-                small(units, wall.thickness),
-                format!("{factor:.1}"),
-                hertz,
-                format!("{} MN/m", significant(wall.stiffness() / MEGA, 3)),
-                format!("{stiff:.3}"),
-                format!("{with:.3}"),
-                format!("{low:.3} to {high:.3}"),
-            ])
-        );
+    for tried in tried {
+        let [low, high] = tried.range;
+        out += &columns.row([
+            small(units, tried.thickness_m),
+            format!("{:.1}", tried.factor),
+            format!("{:.0} Hz", tried.frequency_hz),
+            format!("{} MN/m", significant(tried.stiffness_n_m / MEGA, 3)),
+            format!("{:.3}", tried.stiff),
+            format!("{:.3}", tried.wall),
+            format!("{low:.3} to {high:.3}"),
+        ]);
     }
     if tried.len() < FACTORS.len() {
         let missing = "Walls of the other thicknesses cannot be made of this bat: its layers or its bore \

@@ -59,7 +59,7 @@ fn unpressed(barrel: &Barrel, units: Units) -> Option<String> {
 
 /// A first mode that reaches the beginning of the stretch.
 fn alive(barrel: &Barrel) -> Option<String> {
-    let change = barrel.clamped_change.filter(|change| change.abs() > barrel.test.tol)?;
+    let change = barrel.model.clamped_change.filter(|change| change.abs() > barrel.test.tol)?;
     Some(format!(
         "the first hoop mode is not dead where the model begins: clamped there it is {} % higher, and the \
          true one lies between",
@@ -70,8 +70,8 @@ fn alive(barrel: &Barrel) -> Option<String> {
 /// A dent that is too deep for small motions.
 fn dented(barrel: &Barrel) -> Option<String> {
     let (wall, rebound) = (barrel.struck.wall.as_ref()?, barrel.struck.rebound.as_ref()?);
-    let share = rebound.figures.dent_m / wall.thickness;
-    rebound.figures.is_deep().then(|| {
+    let share = rebound.dent_m / wall.thickness_m;
+    (rebound.dent_m > 0.5 * wall.thickness_m).then(|| {
         format!(
             "the wall is dented by {} of its thickness: beyond half of it the dent is not small, as is \
              assumed here, and a metal may yield",

@@ -269,16 +269,7 @@ pub fn document(bat: &Bat, file: &str, study: &Study) -> file::MeasuredFile {
         unpaired_measured: names(study, &study.lone_measured),
         unpaired_computed: study.lone_computed.iter().map(|k| k + 1).collect(),
         words: words(study),
-        shapes: study.shapes.as_ref().map(|shapes| file::Shapes {
-            assumed: shapes.placed.assumed.clone(),
-            first_end: shapes.placed.first.name(),
-            x_m: shapes.placed.x.clone(),
-            rows: names(study, &study.bending),
-            mac: shapes.mac.clone(),
-            mac_of_computed: shapes.own_mac.clone(),
-            common_in_mass: shapes.common.clone(),
-            common_in_mass_of_computed: shapes.sampled_common.clone(),
-        }),
+        shapes: study.shapes.clone(),
     }
 }
 

@@ -33,7 +33,6 @@ pub mod lathe_table;
 pub mod lathe;
 pub mod hoop_notes;
 pub mod hoop;
-pub mod hoop_json;
 pub mod calibrate;
 pub mod calibrated_bat;
 pub mod scatter;

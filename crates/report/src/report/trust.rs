@@ -15,7 +15,7 @@ use sweetspot::collision::figures::BarrelSpeed;
 use sweetspot::collision::hit::Model;
 use sweetspot::modes::mode::Mode;
 use sweetspot_study::read_to::diameters_read_to;
-use sweetspot_study::spread::{Estimate, Input, Source, Spread, SpreadAnswer, of_frequencies};
+use sweetspot_study::spread::{Input, Source, Spread, SpreadAnswer, of_frequencies};
 use sweetspot_study::verdict::{Doubt, Verdict};
 
 /// The bat, the answers, and how far to trust them: 24 lines at most.
@@ -395,24 +395,7 @@ pub const IN_ANALYZE: &str =
 
 /// The member `open` of the `sweetspot-analysis/1` document.
 pub fn open(analysis: &Analysis) -> file::Open {
-    let Analysis { spread, verdict, .. } = analysis;
-    let source = |source: &Source| file::Source {
-        input: source.input.name(),
-        material: source.material.clone(),
-        standard_deviation: source.deviation,
-    };
-    let answer = |estimate: &Estimate| file::BoundedAnswer {
-        answer: key(estimate.answer),
-        value: estimate.value,
-        standard_deviation: estimate.deviation,
-        by_source: estimate.parts.clone(),
-    };
-    file::Open {
-        sources: spread.sources.iter().map(source).collect(),
-        answers: spread.estimates.iter().map(answer).collect(),
-        left_out: spread.left_out.clone(),
-        doubts: in_file(verdict),
-    }
+    file::Open { spread: analysis.spread.clone(), doubts: in_file(&analysis.verdict) }
 }
 
 /// What there is to doubt of a hit, as documents have it.
@@ -425,20 +408,4 @@ pub fn in_file(verdict: &Verdict) -> Vec<file::Doubt> {
         },
     };
     verdict.doubts.iter().map(doubt).collect()
-}
-
-/// The name of an answer in JSON, its unit at the end.
-fn key(answer: SpreadAnswer) -> &'static str {
-    match answer {
-        SpreadAnswer::Mass => "mass_kg",
-        SpreadAnswer::BalancePoint => "balance_point_m",
-        SpreadAnswer::SwingWeight => "inertia_pivot_kg_m2",
-        SpreadAnswer::Frequency1 => "frequency_1_hz",
-        SpreadAnswer::Frequency2 => "frequency_2_hz",
-        SpreadAnswer::Frequency3 => "frequency_3_hz",
-        SpreadAnswer::BestPlace => "best_place_m",
-        SpreadAnswer::ExitSpeed => "exit_speed_m_s",
-        SpreadAnswer::ZoneFrom => "zone_from_m",
-        SpreadAnswer::ZoneTo => "zone_to_m",
-    }
 }

@@ -6,8 +6,9 @@ use serde::Serialize;
 use crate::schema::hit::HitFile;
 use crate::schema::hoop::HoopFile;
 use crate::schema::modes::ModesFile;
-use crate::schema::ring::Strength;
+use sweetspot::collision::strength::Strength;
 use sweetspot::files::schema::document::{Document, Format, Generator};
+use sweetspot_study::spread::Spread;
 
 /// Everything about a bat: its modes, its hits along the barrel, what they ask of its strength, and how
 /// far the answers may be from those of the bat in hand. SI, the unit in every name; positions count
@@ -41,12 +42,9 @@ impl Document for AnalysisFile {
 /// sources taken as independent.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Open {
-    /// What is open.
-    pub sources: Vec<Source>,
-    /// How far each answer may be off.
-    pub answers: Vec<BoundedAnswer>,
-    /// What could not be counted, a phrase each.
-    pub left_out: Vec<String>,
+    /// What is open, and how far each answer may be off.
+    #[serde(flatten)]
+    pub spread: Spread,
     /// Why the answers are less certain than that; left out where nothing is known against them.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub doubts: Vec<Doubt>,
@@ -62,37 +60,4 @@ pub struct Doubt {
     pub about: &'static str,
     /// The doubt in a sentence.
     pub text: String,
-}
-
-/// Something that is not known exactly.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct Source {
-    /// What it is: E (and G with it) or density of a material from piece to piece, readings of diameters,
-    /// bores, length and mass, the note of a tap, the patch on which the ball presses on a hollow barrel's wall.
-    #[schemars(extend("enum" = ["stiffness", "density", "diameters", "bores", "length", "mass", "tap", "patch"]))]
-    pub input: &'static str,
-    /// The material as the bat file calls it, where the bat has several; empty otherwise.
-    pub material: String,
-    /// Standard deviation; relative of stiffness, density, tap and patch (of the ball's compression, as a
-    /// logarithm), in m of lengths, in kg of the mass.
-    pub standard_deviation: f64,
-}
-
-/// An answer and how far that of the bat in hand may be from it.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct BoundedAnswer {
-    /// Which answer, its unit at the end.
-    #[schemars(extend("enum" = [
-        "mass_kg", "balance_point_m", "inertia_pivot_kg_m2", "frequency_1_hz", "frequency_2_hz",
-        "frequency_3_hz", "best_place_m", "exit_speed_m_s", "zone_from_m", "zone_to_m"
-    ]))]
-    pub answer: &'static str,
-    /// As it is computed.
-    pub value: f64,
-    /// Standard deviation of all sources together, in the unit of the value; null where a bat that differs
-    /// in one of them has no such answer.
-    pub standard_deviation: Option<f64>,
-    /// What one standard deviation of each source alone makes of it, in the order of the sources; empty
-    /// where the standard deviation is null.
-    pub by_source: Vec<f64>,
 }

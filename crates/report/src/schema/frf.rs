@@ -6,6 +6,7 @@ use serde::Serialize;
 use sweetspot::bat::edit::Edit;
 use sweetspot::bat::theory::Theory;
 use sweetspot::files::schema::document::{Document, Format, Generator};
+use sweetspot::motion::frf::ResponseKind;
 
 /// How a bat answers a unit force that swings at one place, seen at another, over frequency; time goes
 /// as e^(+i omega t). SI, the unit in every name; positions count from the knob end. Later versions of
@@ -85,46 +86,70 @@ impl FrfSetFile {
     }
 }
 
-/// The answer at every frequency, in the unit of its kind.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-#[serde(untagged)]
-pub enum ResponseValues {
-    /// Deflection per force.
-    Receptance {
-        /// Real part (m/N).
-        #[serde(rename = "real_m_per_n")]
-        real: Vec<f64>,
-        /// Imaginary part (m/N).
-        #[serde(rename = "imaginary_m_per_n")]
-        imaginary: Vec<f64>,
-        /// How far it may be off, for what is left out and for the modes' own errors (m/N).
-        #[serde(rename = "truncation_m_per_n")]
+/// Members of a document that a kind of answer counts in its unit, with which their names end.
+macro_rules! by_kind {
+    ($(#[$about:meta])* $name:ident {
+        $($member:ident: $type:ty, $said:literal, $more:literal,
+          $per_n:tt $per_s_n:tt $per_kg:tt;)+
+    }) => {
+        $(#[$about])*
+        #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+        #[serde(untagged)]
+        pub enum $name {
+            /// Deflection per force.
+            Receptance {
+                $(#[doc = concat!($said, " (m/N)", $more)] #[serde(rename = $per_n)] $member: $type,)+
+            },
+            /// Velocity per force.
+            Mobility {
+                $(#[doc = concat!($said, " (m/(s N))", $more)] #[serde(rename = $per_s_n)] $member: $type,)+
+            },
+            /// Acceleration per force.
+            Accelerance {
+                $(#[doc = concat!($said, " (1/kg)", $more)] #[serde(rename = $per_kg)] $member: $type,)+
+            },
+        }
+
+        impl $name {
+            /// Those of that kind.
+            pub fn of(kind: ResponseKind, $($member: $type),+) -> Self {
+                match kind {
+                    ResponseKind::Receptance => Self::Receptance { $($member),+ },
+                    ResponseKind::Mobility => Self::Mobility { $($member),+ },
+                    ResponseKind::Accelerance => Self::Accelerance { $($member),+ },
+                }
+            }
+        }
+    };
+}
+
+by_kind! {
+    /// The answer at every frequency, in the unit of its kind.
+    ResponseValues {
+        real: Vec<f64>, "Real part", ".", "real_m_per_n" "real_m_per_s_n" "real_1_per_kg";
+        imaginary: Vec<f64>, "Imaginary part", ".",
+            "imaginary_m_per_n" "imaginary_m_per_s_n" "imaginary_1_per_kg";
         truncation: Vec<f64>,
-    },
-    /// Velocity per force.
-    Mobility {
-        /// Real part (m/(s N)).
-        #[serde(rename = "real_m_per_s_n")]
-        real: Vec<f64>,
-        /// Imaginary part (m/(s N)).
-        #[serde(rename = "imaginary_m_per_s_n")]
-        imaginary: Vec<f64>,
-        /// How far it may be off, for what is left out and for the modes' own errors (m/(s N)).
-        #[serde(rename = "truncation_m_per_s_n")]
-        truncation: Vec<f64>,
-    },
-    /// Acceleration per force.
-    Accelerance {
-        /// Real part (1/kg).
-        #[serde(rename = "real_1_per_kg")]
-        real: Vec<f64>,
-        /// Imaginary part (1/kg).
-        #[serde(rename = "imaginary_1_per_kg")]
-        imaginary: Vec<f64>,
-        /// How far it may be off, for what is left out and for the modes' own errors (1/kg).
-        #[serde(rename = "truncation_1_per_kg")]
-        truncation: Vec<f64>,
-    },
+            "How far it may be off, for what is left out and for the modes' own errors", ".",
+            "truncation_m_per_n" "truncation_m_per_s_n" "truncation_1_per_kg";
+    }
+}
+
+by_kind! {
+    /// The size of the answer at a peak, in the unit of its kind; null where it has no bound.
+    Height {
+        magnitude: Option<f64>, "Size of the answer", "; null without bound.",
+            "magnitude_m_per_n" "magnitude_m_per_s_n" "magnitude_1_per_kg";
+    }
+}
+
+by_kind! {
+    /// The measured answer, in the unit of its kind.
+    MeasuredValues {
+        real: Vec<f64>, "Real part", ".", "real_m_per_n" "real_m_per_s_n" "real_1_per_kg";
+        imaginary: Vec<f64>, "Imaginary part", ".",
+            "imaginary_m_per_n" "imaginary_m_per_s_n" "imaginary_1_per_kg";
+    }
 }
 
 /// A peak of the answer.
@@ -145,30 +170,6 @@ pub struct PeakLine {
     /// Where the answer has half the power, below and above the peak (Hz); null where it rises again
     /// before, and where nothing damps the bat.
     pub half_power_hz: Option<[f64; 2]>,
-}
-
-/// The size of the answer at a peak, in the unit of its kind; null where it has no bound.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-#[serde(untagged)]
-pub enum Height {
-    /// Deflection per force.
-    Receptance {
-        /// Size of the answer (m/N); null without bound.
-        #[serde(rename = "magnitude_m_per_n")]
-        magnitude: Option<f64>,
-    },
-    /// Velocity per force.
-    Mobility {
-        /// Size of the answer (m/(s N)); null without bound.
-        #[serde(rename = "magnitude_m_per_s_n")]
-        magnitude: Option<f64>,
-    },
-    /// Acceleration per force.
-    Accelerance {
-        /// Size of the answer (1/kg); null without bound.
-        #[serde(rename = "magnitude_1_per_kg")]
-        magnitude: Option<f64>,
-    },
 }
 
 /// A measured response laid over the computed one.
@@ -206,37 +207,4 @@ pub struct PeakBeside {
     pub frequency_difference: Option<f64>,
     /// 20 log10 of the computed over the measured height (dB).
     pub level_difference_db: Option<f64>,
-}
-
-/// The measured answer, in the unit of its kind.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-#[serde(untagged)]
-pub enum MeasuredValues {
-    /// Deflection per force.
-    Receptance {
-        /// Real part (m/N).
-        #[serde(rename = "real_m_per_n")]
-        real: Vec<f64>,
-        /// Imaginary part (m/N).
-        #[serde(rename = "imaginary_m_per_n")]
-        imaginary: Vec<f64>,
-    },
-    /// Velocity per force.
-    Mobility {
-        /// Real part (m/(s N)).
-        #[serde(rename = "real_m_per_s_n")]
-        real: Vec<f64>,
-        /// Imaginary part (m/(s N)).
-        #[serde(rename = "imaginary_m_per_s_n")]
-        imaginary: Vec<f64>,
-    },
-    /// Acceleration per force.
-    Accelerance {
-        /// Real part (1/kg).
-        #[serde(rename = "real_1_per_kg")]
-        real: Vec<f64>,
-        /// Imaginary part (1/kg).
-        #[serde(rename = "imaginary_1_per_kg")]
-        imaginary: Vec<f64>,
-    },
 }

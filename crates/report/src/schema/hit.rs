@@ -5,7 +5,9 @@ use serde::{Deserialize, Serialize};
 
 use sweetspot::bat::edit::Edit;
 use sweetspot::collision::ball::Ball;
-use sweetspot::collision::wall_figures::WallFigures;
+use sweetspot::collision::figures;
+use sweetspot::collision::hit::{Energy, Separation};
+use sweetspot::collision::sweet_spot::SweetSpot;
 use sweetspot::files::schema::document::{Document, Format, Generator};
 
 /// Hits along a bat: exit speeds, forces, energies and the sweet spot. SI, the unit in every name;
@@ -115,7 +117,7 @@ pub struct Impact {
     pub contact_time_s: Option<f64>,
     /// The ball's first departure, where the model has times; the ball may be caught again.
     #[serde(default)]
-    pub first_separation: Option<FirstSeparation>,
+    pub first_separation: Option<Separation>,
     /// Largest force (N), where the model has one.
     pub peak_force_n: Option<f64>,
     /// Largest compression of the ball (m), where the model has one.
@@ -143,103 +145,11 @@ pub struct Impact {
     pub error: HitError,
 }
 
-/// The moment at which the ball leaves the bat for the first time.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct FirstSeparation {
-    /// Time since the first touch (s).
-    pub time_s: f64,
-    /// Speed of the ball at that moment (m/s).
-    pub exit_speed_m_s: f64,
-    /// How far that may be off, relative to the closing speed.
-    pub exit_speed_error: f64,
-}
-
-/// Energies (J): the initial one is the sum of all others, each computed on its own.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Energy {
-    /// Energy of ball and bat before the hit (J).
-    pub initial: f64,
-    /// Energy of the ball after the hit (J).
-    pub ball: f64,
-    /// Energy of the bat's rigid motion after the hit (J).
-    pub bat_rigid: f64,
-    /// Energy of all bending modes after the hit (J).
-    pub vibration: f64,
-    /// Energy of each bending mode after the hit (J).
-    pub vibration_by_mode: Vec<f64>,
-    /// Energy lost in the ball (J).
-    pub dissipated_ball: f64,
-    /// Energy lost in the bat's own damping (J).
-    pub dissipated_damping: f64,
-    /// Energy left in the barrel's wall (J), where it gives way.
-    #[serde(default, skip_serializing_if = "is_zero")]
-    pub wall: f64,
-    /// That energy by the harmonics around the barrel; left out where the wall has none.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub wall_by_harmonic: Vec<HarmonicEnergy>,
-    /// Energy that the model created (−) or failed to account for (+) (J).
-    pub imbalance: f64,
-}
-
-/// Energy of all hoop modes of a harmonic.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct HarmonicEnergy {
-    /// Number of waves around the barrel.
-    pub harmonic: usize,
-    /// Energy (J).
-    pub energy_j: f64,
-}
-
-/// A wall that does not give way has no line.
-fn is_zero(value: &f64) -> bool {
-    *value == 0.0
-}
-
 /// Estimated errors.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct HitError {
     /// Error of the exit speed, relative to the closing speed.
     pub exit_speed: Option<f64>,
-}
-
-/// A place and the value there.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Peak {
-    /// The place (m).
-    pub x_m: f64,
-    /// The value, in the unit of the member that holds it.
-    pub value: f64,
-}
-
-/// The sweet spot of the outer half of the bat, by each of its definitions; null where one has none.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct SweetSpot {
-    /// Where the ball leaves fastest (m/s).
-    pub exit_speed_max: Option<Peak>,
-    /// Where the ball leaves fastest for the first time (m/s), of places where the bat does not catch up with it as
-    /// it is leaving; another place than `exit_speed_max` where that lives on a later contact.
-    pub first_separation_max: Option<Peak>,
-    /// Where the least energy stays in vibration (J).
-    pub vibration_min: Option<Peak>,
-    /// The barrel-side node of the first bending mode (m).
-    pub node_mode_1_m: Option<f64>,
-    /// The barrel-side node of the second bending mode (m).
-    pub node_mode_2_m: Option<f64>,
-    /// The centre of percussion for the swing's own pivot (m).
-    pub center_of_percussion_m: Option<f64>,
-    /// From where to where the exit speed is within 1 % of its maximum (m).
-    pub zone_m: Option<[f64; 2]>,
-    /// Where the hands feel the least velocity (m/s).
-    pub hands_velocity_min: Option<Peak>,
-    /// Where the hands feel the least acceleration (m/s²).
-    pub hands_acceleration_min: Option<Peak>,
-    /// Exit speeds (m/s) an inch from the best place, towards the knob and towards the tip; null
-    /// beyond the tip.
-    pub inch_off_m_s: Option<[Option<f64>; 2]>,
-    /// How far apart the places were that were looked at (m), where the bat catches up with the ball late or again and
-    /// a closer look would have taken too long: narrower peaks may be missed. Left out elsewhere.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub looked_every_m: Option<f64>,
 }
 
 /// The figures by which bats are compared, computed from this model.
@@ -255,40 +165,7 @@ pub struct Figures {
     pub bbcor: Option<f64>,
     /// BBCOR at the sweet spot, of the bat held 6 in from the knob.
     pub bbcor_pivoted: Option<f64>,
-    /// Largest BBCOR of the outer half, of the free bat.
-    pub bbcor_max: Option<Peak>,
-    /// Largest BBCOR of the outer half, of a bat held 6 in from the knob.
-    pub bbcor_pivoted_max: Option<Peak>,
-    /// Place and exit speed (m/s) of the fastest ball if the bat did not bend.
-    pub rigid_exit_speed_max: Option<Peak>,
-    /// What a hollow barrel's wall does at the sweet spot; left out where it does not give way by its hoop
-    /// modes.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub wall: Option<WallFigures>,
-    /// Swings of one batter with this bat, by several laws of swing; empty without a reference inertia.
-    pub swings: Vec<Swung>,
-    /// The sweet spot of scenes that differ in one thing each; empty where the fastest place lives on a later
-    /// contact, and small changes move it far.
-    pub moves: Vec<Moved>,
-}
-
-/// A swing of Ω₀ (I_ref/I)^exponent, and the fastest ball it gives.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Swung {
-    /// Exponent of the law: 0 for the same angular speed, 0.5 for the same energy.
-    pub exponent: f64,
-    /// Angular speed of the swing with this bat (rad/s).
-    pub swing_rad_s: f64,
-    /// Place and exit speed (m/s) of the fastest ball.
-    pub exit_speed_max: Option<Peak>,
-}
-
-/// The sweet spot of another scene.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Moved {
-    /// Sweet spot of the changed scene.
+    /// The other figures.
     #[serde(flatten)]
-    pub sweet_spot: SweetSpot,
-    /// What differs in the scene, in words.
-    pub change: String,
+    pub others: figures::Figures,
 }

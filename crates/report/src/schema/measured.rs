@@ -6,6 +6,7 @@ use serde::Serialize;
 use sweetspot::bat::edit::Edit;
 use sweetspot::bat::theory::Theory;
 use sweetspot::files::schema::document::{Document, Format, Generator};
+use sweetspot_study::measured::study::Shapes;
 
 /// The measured modes of a bat beside the computed ones: which is which, how far they differ, and how
 /// alike their shapes are. SI, the unit in every name; positions count from the knob end; what does
@@ -124,26 +125,4 @@ pub struct Complex {
     pub real: f64,
     /// Imaginary part.
     pub imaginary: f64,
-}
-
-/// What measured shapes say of themselves and of the computed ones.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct Shapes {
-    /// What was assumed to place the points on the bat, a sentence each.
-    pub assumed: Vec<String>,
-    /// The end that the first point of the file is near.
-    #[schemars(extend("enum" = ["knob", "tip"]))]
-    pub first_end: &'static str,
-    /// Positions of the points (m).
-    pub x_m: Vec<f64>,
-    /// Names of the measured bending modes, the rows of the tables.
-    pub rows: Vec<String>,
-    /// MAC of measured (rows) with computed modes (columns).
-    pub mac: Vec<Vec<f64>>,
-    /// MAC of the computed modes among themselves as the same points see them.
-    pub mac_of_computed: Vec<Vec<f64>>,
-    /// Mass orthogonality of every two measured modes; null for a bat with absorbers.
-    pub common_in_mass: Option<Vec<Vec<f64>>>,
-    /// Mass orthogonality of their computed partners as the same points see them; null without one.
-    pub common_in_mass_of_computed: Vec<Vec<Option<f64>>>,
 }

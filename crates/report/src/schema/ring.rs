@@ -6,6 +6,8 @@ use serde::Serialize;
 use crate::schema::hit::Impact;
 use sweetspot::bat::edit::Edit;
 use sweetspot::bat::theory::Theory;
+use sweetspot::collision::aftermath::{Strained, Watched};
+use sweetspot::collision::strength::Load;
 use sweetspot::files::schema::document::{Document, Format, Generator};
 
 /// How a bat moves in time after a hit, or after a blow, under a force or from an initial shape. SI,
@@ -63,65 +65,6 @@ pub struct AfterHit {
     pub ignored: Vec<String>,
 }
 
-/// A watched place.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct Watched {
-    /// The place (m).
-    pub x_m: f64,
-    /// When it begins to move (s).
-    pub begins_s: f64,
-    /// The largest motion in the whole time.
-    pub peak: Peak,
-    /// The modes as they ring there when the ball has left.
-    pub spectrum: Vec<Line>,
-    /// Displacement at every instant (m).
-    pub displacement_m: Vec<f64>,
-    /// Velocity at every instant (m/s).
-    pub velocity_m_s: Vec<f64>,
-    /// Acceleration at every instant (m/s²).
-    pub acceleration_m_s2: Vec<f64>,
-    /// Strain of the surface at every instant.
-    pub strain: Vec<f64>,
-}
-
-/// The largest motion of a place.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-#[schemars(rename = "PeakMotion")]
-pub struct Peak {
-    /// Displacement (m).
-    pub displacement_m: f64,
-    /// Velocity (m/s).
-    pub velocity_m_s: f64,
-    /// Acceleration (m/s²).
-    pub acceleration_m_s2: f64,
-}
-
-/// Amplitude of one mode at a place.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct Line {
-    /// Frequency (Hz).
-    pub frequency_hz: f64,
-    /// Displacement (m).
-    pub displacement_m: f64,
-    /// Velocity (m/s).
-    pub velocity_m_s: f64,
-    /// Acceleration (m/s²).
-    pub acceleration_m_s2: f64,
-}
-
-/// A strain, where and when.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct Strained {
-    /// The place (m).
-    pub x_m: f64,
-    /// The instant (s).
-    pub time_s: f64,
-    /// Strain of the surface.
-    pub strain: f64,
-    /// Stress of the surface (Pa).
-    pub stress_pa: f64,
-}
-
 /// The largest strain along the bat.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Along {
@@ -131,36 +74,6 @@ pub struct Along {
     pub strain_max: Vec<f64>,
     /// Largest stress of the surface at each place (Pa).
     pub stress_max_pa: Vec<f64>,
-}
-
-/// Where a hit comes nearest to a limit of the material.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct Load {
-    /// Which limit.
-    #[schemars(extend("enum" = ["stress", "strain"]))]
-    pub limit: &'static str,
-    /// The stress that the material bears there (Pa); of a limit of stress alone.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub strength_pa: Option<f64>,
-    /// The strain at which the material breaks there; of a limit of strain alone.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub strain_to_failure: Option<f64>,
-    /// The largest strain at the place nearest to the limit.
-    #[serde(flatten)]
-    pub at: Strained,
-    /// Largest stress or strain as a share of the limit.
-    pub share: f64,
-    /// The swing that reaches the limit (rad/s); null if none up to 200 rad/s does.
-    pub reached_at_swing_rad_s: Option<f64>,
-}
-
-/// What a hit at one place asks of the bat.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct Strength {
-    /// Where the ball meets the bat (m).
-    pub x_m: f64,
-    /// How near the bat comes to each limit that is known.
-    pub limits: Vec<Load>,
 }
 
 /// The deflection along the bat in time.

@@ -220,7 +220,7 @@ fn vibration(impact: &Impact, scene: &Scene) -> Option<Figure> {
     let closing = impact.bat_speed + scene.ball_speed;
     let moved = scene.ball.mass_kg * outcome.error * closing * closing;
     (!outcome.energy.vibration_by_mode.is_empty())
-        .then(|| Figure::new(outcome.energy.vibration(), moved))
+        .then(|| Figure::new(outcome.energy.vibration, moved))
 }
 
 /// What is found by search on a bat that was hit: of all that could be sought what is asked for.

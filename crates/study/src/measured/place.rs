@@ -6,13 +6,16 @@
 //! as in the middle.
 
 use faer::c64;
+use serde::Serialize;
 
 use crate::measured::data::Measured;
 use sweetspot::base::error::{Error, Result};
 use sweetspot::base::number::significant;
 
 /// An end of the bat.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "lowercase")]
 pub enum End {
     /// The knob end, where the hands are.
     Knob,
@@ -40,19 +43,26 @@ pub struct ToldPoints {
 }
 
 /// The points on the bat.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Placed {
-    /// Positions of the points from the knob end (m), rising.
+    /// What was assumed to place the points on the bat, a sentence each.
+    pub assumed: Vec<String>,
+    /// The end that the first point of the file is near.
+    #[serde(rename = "first_end")]
+    pub first: End,
+    /// Positions of the points (m).
+    // From the knob end, rising.
+    #[serde(rename = "x_m")]
     pub x: Vec<f64>,
     /// The measured shapes at these points; empty for a mode without one.
+    #[serde(skip)]
     pub shapes: Vec<Vec<c64>>,
-    /// The end that the first point of the file is near.
-    pub first: End,
     /// How well the shapes fit this way and turned end for end, where either can be.
+    #[serde(skip)]
     pub fits: [Option<f64>; 2],
-    /// What was assumed, one sentence each.
-    pub assumed: Vec<String>,
     /// Whether turned end for end they would fit clearly better, although the file says otherwise.
+    #[serde(skip)]
     pub turned_fits_better: bool,
 }
 

@@ -1,6 +1,7 @@
 //! Everything there is to say of measured modes beside a bat's computed ones.
 
 use faer::c64;
+use serde::Serialize;
 
 use crate::measured::data::{Measured, MeasuredMode};
 use crate::measured::mac;
@@ -62,31 +63,43 @@ pub struct RigidMode {
 }
 
 /// What measured shapes say of themselves and of the computed ones.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Shapes {
     /// The points on the bat, and the shapes there.
+    #[serde(flatten)]
     pub placed: Placed,
-    /// MAC of measured bending modes (rows) with computed modes (columns).
+    /// Names of the measured bending modes, the rows of the tables.
+    pub rows: Vec<String>,
+    /// MAC of measured (rows) with computed modes (columns).
     pub mac: Vec<Vec<f64>>,
-    /// MAC of the computed modes among themselves, at the measured points.
+    /// MAC of the computed modes among themselves as the same points see them.
+    #[serde(rename = "mac_of_computed")]
     pub own_mac: Vec<Vec<f64>>,
+    /// Mass orthogonality of every two measured modes; null for a bat with absorbers.
+    // 1 for the same mode. The motion of absorbers was not measured.
+    #[serde(rename = "common_in_mass")]
+    pub common: Option<Vec<Vec<f64>>>,
+    /// Mass orthogonality of their computed partners as the same points see them; null without one.
+    // And with absorbers.
+    #[serde(rename = "common_in_mass_of_computed")]
+    pub sampled_common: Vec<Vec<Option<f64>>>,
     /// MAC of the computed modes among themselves, at many points.
+    #[serde(skip)]
     pub dense_mac: Vec<Vec<f64>>,
     /// Phase collinearity of every measured bending mode.
+    #[serde(skip)]
     pub collinearity: Vec<f64>,
     /// Share out of phase of every measured bending mode.
+    #[serde(skip)]
     pub out_of_phase: Vec<f64>,
-    /// Mass orthogonality of every two measured bending modes, 1 for the same mode. None for a bat with
-    /// absorbers, whose motion was not measured.
-    pub common: Option<Vec<Vec<f64>>>,
-    /// Mass orthogonality of the computed partners, taken from the measured points only; None without a
-    /// partner, and with absorbers.
-    pub sampled_common: Vec<Vec<Option<f64>>>,
     /// Rigid motion in every measured bending mode, as a share of its size. None for a bat with
     /// absorbers, and for one that something holds.
+    #[serde(skip)]
     pub rigid_share: Option<Vec<f64>>,
     /// Rigid motion in the computed partner of every measured bending mode, as a share of its size;
     /// taken from the measured points.
+    #[serde(skip)]
     pub sampled_rigid_share: Option<Vec<Option<f64>>>,
 }
 
@@ -265,6 +278,7 @@ impl Study {
         let many: Vec<f64> = (0..=MANY).map(|k| bat.length() * k as f64 / MANY as f64).collect();
         let dense = sampled(&self.solution, &many);
         Shapes {
+            rows: self.bending.iter().map(|k| self.name(*k).to_owned()).collect(),
             mac,
             own_mac: mac::matrix(&computed, &computed),
             dense_mac: mac::matrix(&dense, &dense),

@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use crate::trampoline::pressed::PressedWall;
+use serde::Serialize;
+
+use crate::trampoline::pressed::{BarrelCompression, PressedWall};
 use sweetspot::base::error::Result;
 use sweetspot::bat::body::Bat;
 use sweetspot::bat::fixtures::Fixtures;
@@ -15,8 +17,8 @@ use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::hoop_wall::{HoopInHit, HoopWall};
 use sweetspot::collision::sweep::{Accuracy, sweep};
 use sweetspot::collision::wall_choice::hoop_request;
-use sweetspot::collision::wall_figures::{WallBbcor, WallFigures};
-use sweetspot::modes::hoop::{Hoop, HoopRequest, KnobSide};
+use sweetspot::collision::wall_figures::WallBbcor;
+use sweetspot::modes::hoop::{Hoop, HoopMode, HoopRequest, KnobSide};
 
 /// Where a ball meets a barrel if nothing else is said, from the tip: 6 in (m).
 pub const FROM_TIP: f64 = 0.1524;
@@ -69,9 +71,8 @@ pub struct Barrel {
     pub test: BarrelTest,
     /// The lowest hoop modes.
     hoop: Hoop,
-    /// By how much the first mode of harmonic 2 rises where the stretch is clamped at its beginning, relative:
-    /// how far the mode is from dead there; None where that cannot be solved.
-    pub clamped_change: Option<f64>,
+    /// What the modes were found with.
+    pub model: HoopModel,
     /// Relative change of the first frequency of harmonic 2 by a Poisson's ratio that is 0.05 smaller and larger;
     /// None where the ratio is known.
     pub by_poisson: Option<[f64; 2]>,
@@ -79,10 +80,26 @@ pub struct Barrel {
     pub struck: BarrelStruck,
 }
 
+/// What the modes were found with.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct HoopModel {
+    /// Where the stretch that is modelled begins (m).
+    pub from_m: f64,
+    /// Where the stretch that is modelled ends (m).
+    pub to_m: f64,
+    /// Wanted relative accuracy of every frequency.
+    pub tolerance: f64,
+    /// By how much the first mode of harmonic 2 rises if the stretch is clamped where it begins, relative:
+    /// how far it is from dead there.
+    // None where that cannot be solved.
+    pub clamped_change: Option<f64>,
+}
+
 /// A barrel that a ball was shot at.
 #[derive(Debug, Clone)]
 pub struct BarrelStruck {
-    /// ω of the first mode of harmonic 2 (rad/s), as accurate as the hit needs it.
+    /// Frequency of the first mode of harmonic 2 (Hz), as accurate as the hit needs it.
     pub first: Option<f64>,
     /// The wall under the ball; None where the ball does not meet the stretch that is modelled.
     pub wall: Option<PressedWall>,
@@ -90,26 +107,33 @@ pub struct BarrelStruck {
     pub rebound: Option<Rebound>,
 }
 
-/// A ball that came back from a bat at rest and free.
-#[derive(Debug, Clone, PartialEq)]
+/// The rebound of a ball from the bat at rest and free, without and with its wall.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Rebound {
-    /// BBCOR without and with the wall, the wall's stiffness over the ball's, and the dent.
-    pub figures: WallFigures,
-    /// How far BBCOR with the wall may be off by the program's own errors.
+    /// The ball.
+    pub ball: Ball,
+    /// Speed of the ball (m/s).
+    pub ball_speed_m_s: f64,
+    /// Coefficient of restitution of the ball on a rigid wall, unless its own depends on the speed.
+    pub cor: f64,
+    /// BBCOR of the bat if its wall did not give way.
+    pub stiff: f64,
+    /// BBCOR of the bat with its wall.
+    pub wall: f64,
+    /// BBCOR with the patch of a ball that is squeezed twice as much and half as much, the lesser first: how
+    /// much the size of the patch leaves open.
+    pub range: [f64; 2],
+    /// How far `wall` may be off by the program's own errors.
     pub error: f64,
     /// Largest force between ball and bat (N).
-    pub peak_force: f64,
+    pub peak_force_n: f64,
+    /// How deep that force, acting slowly, dents the wall (m).
+    pub dent_m: f64,
     /// Energy that is left in the wall when the ball is gone (J).
-    pub left: f64,
+    pub left_in_wall_j: f64,
     /// Energy of the ball before (J).
-    pub initial: f64,
-}
-
-impl Rebound {
-    /// BBCOR of the free bat, without the wall and with it.
-    pub fn bbcor(&self) -> WallBbcor {
-        self.figures.bbcor
-    }
+    pub initial_j: f64,
 }
 
 /// Three digits of BBCOR are said, and the patch leaves ten times as much open and more.
@@ -127,21 +151,26 @@ impl Barrel {
     pub fn of(bat: &Bat, test: BarrelTest) -> Result<Self> {
         let hoop = Hoop::first(bat, test.modes, test.tol)?;
         let struck = BarrelStruck::of(bat, &test)?;
-        let known = first(&hoop);
+        let known = first(&hoop).map(|mode| mode.omega);
         let change = |bat: &Bat, end: KnobSide| {
             let (tol, harmonics) = (test.tol, vec![2]);
             let up_to_hz = 0.0;
             let request =
                 HoopRequest { tol, harmonics, up_to_hz, least: 1, end, ..HoopRequest::default() };
-            Some(first(&Hoop::of(bat, &request).ok()?)? / known? - 1.0)
+            Some(first(&Hoop::of(bat, &request).ok()?)?.omega / known? - 1.0)
         };
-        let clamped_change = change(bat, KnobSide::Clamped);
+        let model = HoopModel {
+            from_m: hoop.from(),
+            to_m: hoop.to(),
+            tolerance: test.tol,
+            clamped_change: change(bat, KnobSide::Clamped),
+        };
         let other = |by: f64| change(&assuming(bat, by).ok()?, KnobSide::Free);
         let by_poisson = match knows_poisson(bat) {
             true => None,
             false => other(-SPREAD).zip(other(SPREAD)).map(|(less, more)| [less, more]),
         };
-        Ok(Self { test, hoop, clamped_change, by_poisson, struck })
+        Ok(Self { test, hoop, model, by_poisson, struck })
     }
 
     /// The lowest modes of the wall.
@@ -169,8 +198,8 @@ impl Barrel {
         self.unmet().is_none()
     }
 
-    /// What a test of the barrel's compression takes: the deflection (m) and the force (N).
-    pub fn compressed(&self) -> Option<[f64; 2]> {
+    /// What a test of the barrel's compression takes.
+    pub fn compressed(&self) -> Option<BarrelCompression> {
         self.struck.wall.as_ref().map(|wall| wall.compressed(&self.test.ball))
     }
 }
@@ -186,21 +215,27 @@ impl BarrelStruck {
             Some(known) => known.on(bat)?,
             None => HoopWall::of(bat, test.ball.radius_m, &hoop_request(test.accuracy.exit_speed))?,
         };
-        let wall = PressedWall::under(solved.hoop(), bat, &test.ball, test.at);
-        let rebound = match (&wall, test.ball.stiffness) {
-            (Some(_), Some(_)) => rebound(bat, &solved, test)?,
+        let mut wall = PressedWall::under(solved.hoop(), bat, &test.ball, test.at);
+        let rebound = match (&mut wall, test.ball.stiffness) {
+            (Some(wall), Some(_)) => rebound(bat, &solved, test, wall)?,
             _ => None,
         };
-        Ok(Self { first: first(solved.hoop()), wall, rebound })
+        Ok(Self { first: first(solved.hoop()).map(|mode| mode.frequency_hz), wall, rebound })
     }
 }
 
-fn first(hoop: &Hoop) -> Option<f64> {
-    hoop.modes().iter().find(|mode| mode.harmonic == 2).map(|mode| mode.omega)
+fn first(hoop: &Hoop) -> Option<&HoopMode> {
+    hoop.modes().iter().find(|mode| mode.harmonic == 2)
 }
 
-/// The ball against the bat at rest and free; None where they do not meet.
-fn rebound(bat: &Bat, wall: &Arc<HoopWall>, test: &BarrelTest) -> Result<Option<Rebound>> {
+/// The ball against the bat at rest and free, and how stiff the pressed wall is beside it; None where they do not
+/// meet.
+fn rebound(
+    bat: &Bat,
+    wall: &Arc<HoopWall>,
+    test: &BarrelTest,
+    pressed: &mut PressedWall,
+) -> Result<Option<Rebound>> {
     let free = bat.with(|parts| {
         let fixtures = parts.fixtures.without_springs();
         parts.fixtures = Fixtures { supports: vec![], ..fixtures };
@@ -221,12 +256,21 @@ fn rebound(bat: &Bat, wall: &Arc<HoopWall>, test: &BarrelTest) -> Result<Option<
         // BBCOR is `e_A (1 + r) + r`, and `outcome.error` that of `e_A`.
         let per_efficiency = (1.0 + outcome.bbcor) / (1.0 + outcome.collision_efficiency);
         let error = per_efficiency * outcome.error;
-        error.is_finite().then_some(Rebound {
+        let peak_force_n = outcome.peak_force.filter(|_| error.is_finite())?;
+        pressed.over_ball = Some(figures.stiffness_over_ball);
+        let WallBbcor { stiff, with, range } = figures.bbcor;
+        Some(Rebound {
+            ball: test.ball.clone(),
+            ball_speed_m_s: test.ball_speed,
+            cor: test.cor,
+            stiff,
+            wall: with,
+            range,
             error,
-            peak_force: outcome.peak_force?,
-            left: outcome.energy.wall,
-            initial: outcome.energy.initial,
-            figures,
+            peak_force_n,
+            dent_m: figures.dent_m,
+            left_in_wall_j: outcome.energy.wall,
+            initial_j: outcome.energy.initial,
         })
     }))
 }

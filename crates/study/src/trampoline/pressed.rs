@@ -1,5 +1,7 @@
 //! How stiff is the wall of a barrel under a ball, and between two opposite sides?
 
+use serde::Serialize;
+
 use sweetspot::bat::body::Bat;
 use sweetspot::collision::ball::Ball;
 use sweetspot::modes::hoop::{Hoop, Patch, Share};
@@ -15,17 +17,54 @@ const DEFLECTIONS: [f64; 2] = [0.04 * 0.0254, 0.07 * 0.0254];
 /// Balls of this radius and larger (m) are softballs: between 37 mm of a baseball and 45 mm of an 11 in softball.
 const SOFTBALL: f64 = 0.042;
 
-/// The wall of a barrel under the patch of a ball.
-#[derive(Debug, Clone)]
+/// The wall under a ball at one place.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PressedWall {
-    /// Outer radius of the barrel there (m).
-    pub radius: f64,
+    /// Where the ball meets the bat (m).
+    pub x_m: f64,
+    /// Distance of that from the tip (m).
+    pub from_tip_m: f64,
+    /// Outer radius there (m).
+    pub radius_m: f64,
     /// Thickness of the wall there, sleeves included (m).
-    pub thickness: f64,
-    /// Where the ball presses, and how large its patch is.
-    pub patch: Patch,
-    /// What each harmonic has of the wall's giving way.
-    pub shares: Vec<Share>,
+    pub thickness_m: f64,
+    /// Force on the ball's patch over how far the wall gives way (N/m).
+    // 1/Σ C_n.
+    pub stiffness_n_m: f64,
+    /// The stiffness over that of the ball, force over compression at the largest force on a stiff wall; null for
+    /// a ball without a force law.
+    pub over_ball: Option<f64>,
+    /// Compression of the ball for which the patch is as large as it is (m).
+    pub compression_m: f64,
+    /// Half the length of the patch along the bat (m).
+    pub patch_half_length_m: f64,
+    /// Half the width of the patch around the bat (m).
+    pub patch_half_width_m: f64,
+    /// What each harmonic has of it.
+    pub by_harmonic: Vec<HarmonicShare>,
+}
+
+/// What a harmonic has of the wall's giving way.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct HarmonicShare {
+    /// Waves around the barrel.
+    pub harmonic: usize,
+    /// How far the wall gives way by it to a slow force (m/N).
+    pub flexibility_m_n: f64,
+    /// Number of its modes that take part in a hit; what is left of the flexibility follows the force.
+    pub modes: usize,
+}
+
+/// The barrel pressed between two opposite sides, each with the ball's patch.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct BarrelCompression {
+    /// By how much both sides together are pressed in (m).
+    pub deflection_m: f64,
+    /// Force that it takes (N).
+    pub force_n: f64,
 }
 
 impl PressedWall {
@@ -34,23 +73,29 @@ impl PressedWall {
     /// the stretch that is modelled.
     pub fn under(hoop: &Hoop, bat: &Bat, ball: &Ball, x: f64) -> Option<Self> {
         let section = bat.profile().at(x);
-        let patch = Patch::under(x, ball.radius_m, section.outer, ball.patch_compression());
-        (section.inner > 0.0 && hoop.covers(&patch)).then(|| Self {
-            radius: section.outer,
-            thickness: section.outer - section.inner,
-            patch,
-            shares: hoop.under(&patch),
+        let compression_m = ball.patch_compression();
+        let patch = Patch::under(x, ball.radius_m, section.outer, compression_m);
+        if section.inner <= 0.0 || !hoop.covers(&patch) {
+            return None;
+        }
+        let share = |share: Share| HarmonicShare {
+            harmonic: share.harmonic,
+            flexibility_m_n: share.flexibility,
+            modes: share.gains.len(),
+        };
+        let by_harmonic: Vec<HarmonicShare> = hoop.under(&patch).into_iter().map(share).collect();
+        Some(Self {
+            x_m: x,
+            from_tip_m: bat.length() - x,
+            radius_m: section.outer,
+            thickness_m: section.outer - section.inner,
+            stiffness_n_m: 1.0 / by_harmonic.iter().map(|share| share.flexibility_m_n).sum::<f64>(),
+            over_ball: None,
+            compression_m,
+            patch_half_length_m: patch.half_length,
+            patch_half_width_m: patch.half_width,
+            by_harmonic,
         })
-    }
-
-    /// How far the wall gives way to a slow force of 1 N, `Σ C_n` (m/N).
-    pub fn flexibility(&self) -> f64 {
-        self.shares.iter().map(|share| share.flexibility).sum()
-    }
-
-    /// Stiffness of the wall under the ball, `1/Σ C_n` (N/m).
-    pub fn stiffness(&self) -> f64 {
-        1.0 / self.flexibility()
     }
 
     /// Stiffness of the barrel between two opposite sides (N/m), each pressed by the patch.
@@ -62,13 +107,13 @@ impl PressedWall {
     /// d = 2F Σ (1 + (−1)ⁿ) C_n = 4F Σ C_n over even n
     /// ```
     pub fn between_sides(&self) -> f64 {
-        let even = self.shares.iter().filter(|share| share.harmonic.is_multiple_of(2));
-        1.0 / (4.0 * even.map(|share| share.flexibility).sum::<f64>())
+        let even = self.by_harmonic.iter().filter(|share| share.harmonic.is_multiple_of(2));
+        1.0 / (4.0 * even.map(|share| share.flexibility_m_n).sum::<f64>())
     }
 
-    /// What a test of the barrel's compression takes for such a ball: the deflection (m) and the force (N).
-    pub fn compressed(&self, ball: &Ball) -> [f64; 2] {
-        let deflection = DEFLECTIONS[usize::from(ball.radius_m >= SOFTBALL)];
-        [deflection, deflection * self.between_sides()]
+    /// What a test of the barrel's compression takes for such a ball.
+    pub fn compressed(&self, ball: &Ball) -> BarrelCompression {
+        let deflection_m = DEFLECTIONS[usize::from(ball.radius_m >= SOFTBALL)];
+        BarrelCompression { deflection_m, force_n: deflection_m * self.between_sides() }
     }
 }

@@ -1,5 +1,7 @@
 //! What would a thinner or a thicker wall do?
 
+use serde::Serialize;
+
 use crate::trampoline::barrel::{Barrel, BarrelStruck};
 use sweetspot::base::error::Result;
 use sweetspot::bat::body::Bat;
@@ -8,15 +10,28 @@ use sweetspot::bat::turned::DiameterChange;
 /// Thicknesses that are tried, over that of the bat.
 pub const FACTORS: [f64; 9] = [0.6, 0.7, 0.8, 0.9, 1.0, 1.2, 1.4, 1.7, 2.0];
 
-/// A bat with a wall of another thickness.
-#[derive(Debug, Clone)]
+/// The bat with another wall.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct WallTried {
-    /// Thickness of the barrel's wall under the ball over what it is.
+    /// Thickness of the barrel's wall over what it is.
     pub factor: f64,
+    /// Thickness of the wall under the ball (m).
+    pub thickness_m: f64,
     /// Mass of the bat (kg).
-    pub mass: f64,
-    /// Its barrel under the ball.
-    pub struck: BarrelStruck,
+    pub mass_kg: f64,
+    /// First frequency of harmonic 2 (Hz).
+    pub frequency_hz: f64,
+    /// Stiffness of the wall under the ball (N/m).
+    pub stiffness_n_m: f64,
+    /// BBCOR if the wall did not give way.
+    pub stiff: f64,
+    /// BBCOR with the wall.
+    pub wall: f64,
+    /// BBCOR with the patch of a ball that is squeezed twice as much and half as much, the lesser first.
+    pub range: [f64; 2],
+    /// How deep the wall is dented (m).
+    pub dent_m: f64,
 }
 
 /// The bat with walls of other thicknesses, by rising thickness: those that can be made and are hit. `tell` hears
@@ -29,8 +44,19 @@ pub fn wall_sweep(bat: &Bat, known: &Barrel, tell: &dyn Fn(f64)) -> Vec<WallTrie
     let tried = |(k, factor): (usize, f64)| {
         tell(k as f64 / FACTORS.len() as f64);
         let other = with_wall(bat, known, factor).ok()?;
-        let (struck, mass) = (struck(&other, factor)?, other.inertia().mass);
-        struck.rebound.is_some().then_some(WallTried { factor, mass, struck })
+        let BarrelStruck { first, wall, rebound } = struck(&other, factor)?;
+        let (wall, rebound) = (wall?, rebound?);
+        Some(WallTried {
+            factor,
+            thickness_m: wall.thickness_m,
+            mass_kg: other.inertia().mass,
+            frequency_hz: first?,
+            stiffness_n_m: wall.stiffness_n_m,
+            stiff: rebound.stiff,
+            wall: rebound.wall,
+            range: rebound.range,
+            dent_m: rebound.dent_m,
+        })
     };
     FACTORS.into_iter().enumerate().filter_map(tried).collect()
 }
