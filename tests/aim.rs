@@ -13,8 +13,8 @@ use sweetspot::{Bat, Material, Request};
 use sweetspot_report::report::aimed;
 use sweetspot_report::template::pages::pages;
 use sweetspot_report::template::sheet::{Drawn, PAPERS, Page};
+use sweetspot_study::aim::aimed::Outcome;
 use sweetspot_study::aim::bench::Terms;
-use sweetspot_study::aim::outcome::Outcome;
 use sweetspot_study::aim::wish::{Amount, Ask, DiameterLimit, FreeChoice, Goal, Target, Wish};
 use sweetspot_study::lathe::workpiece::HitTerms;
 use sweetspot_study::many::answers::Answer;
@@ -118,8 +118,8 @@ fn a_lighter_swing_is_turned_with_the_least_change_and_the_file_has_it() {
     let (bat, wish) = (r161(), task_a());
     let outcome = Outcome::of(&bat, &wish, &terms()).unwrap();
     assert!(outcome.met && outcome.conflict.is_none() && outcome.iterations <= 4, "{outcome:?}");
-    assert!((outcome.norm / 0.565 - 1.0).abs() < 0.1, "{}", outcome.norm);
-    assert!((1e3 * outcome.largest()[0] - 1.19).abs() < 0.05);
+    assert!((outcome.norm_mm / 0.565 - 1.0).abs() < 0.1, "{}", outcome.norm_mm);
+    assert!((1e3 * outcome.largest_cut_m - 1.19).abs() < 0.05);
     let answers =
         [Answer::Inertia, Answer::Frequency(1), Answer::ExitSpeedPlace, Answer::ExitSpeed];
     let (new, found) = written(&outcome, &answers);
@@ -128,8 +128,8 @@ fn a_lighter_swing_is_turned_with_the_least_change_and_the_file_has_it() {
     assert!((inches(bat.length() - found[2]) - 5.279_3).abs() <= 0.02);
     assert!((ounces(new.inertia().mass) - 30.0).abs() < 0.02);
     // The best ball, at the same swing.
-    let start = outcome.answers.iter().find(|(answer, _)| *answer == Answer::ExitSpeed).unwrap();
-    let lost = miles_per_hour(found[3] - start.1[0].unwrap());
+    let start = outcome.outputs.iter().find(|of| of.answer == Answer::ExitSpeed).unwrap();
+    let lost = miles_per_hour(found[3] - start.start.unwrap());
     assert!((lost + 1.36).abs() < 0.02, "{lost}");
     let [_, added, least, _] = along(&bat, &new);
     assert!(added <= 1e-9 && least >= 0.024 - 1e-9, "{added:e} {least}");
@@ -146,7 +146,7 @@ fn a_stiffer_bat_grows_where_it_may() {
     let (bat, wish) = (r161(), task_c());
     let outcome = Outcome::of(&bat, &wish, &terms()).unwrap();
     assert!(outcome.met && outcome.iterations <= 4, "{outcome:?}");
-    assert!((outcome.norm / 0.389 - 1.0).abs() < 0.1, "{}", outcome.norm);
+    assert!((outcome.norm_mm / 0.389 - 1.0).abs() < 0.1, "{}", outcome.norm_mm);
     let answers = [Answer::Frequency(1), Answer::Node(1), Answer::Inertia, Answer::Frequency(2)];
     let (new, found) = written(&outcome, &answers);
     assert!((found[0] - 180.0).abs() <= 0.05, "{found:?}");
@@ -168,18 +168,18 @@ fn what_cannot_be_had_together_is_named_with_how_near_each_comes() {
     let outcome = Outcome::of(&bat, &wish, &terms()).unwrap();
     assert!(!outcome.met);
     let conflict = outcome.conflict.as_ref().unwrap();
-    let members: Vec<usize> = conflict.members.iter().map(|member| member.band).collect();
+    let members: Vec<usize> = conflict.members.iter().map(|member| member.target).collect();
     assert_eq!(members, [0, 1]);
     assert!(conflict.members.iter().all(|member| member.others_met), "{conflict:?}");
-    let mass = ounces(conflict.members[0].value);
+    let mass = ounces(conflict.members[0].reaches.unwrap());
     assert!((mass - 29.376).abs() < 0.005, "{mass}");
-    let swing = ounce_square_inches(conflict.members[1].value);
+    let swing = ounce_square_inches(conflict.members[1].reaches.unwrap());
     assert!((9_821.7..10_000.0).contains(&swing), "{swing}");
     // The nearest bat is a bat, and keeps to the limits.
     let (new, _) = written(&outcome, &[Answer::Mass]);
     let [_, added, least, _] = along(&bat, &new);
     assert!(added <= 1e-9 && least >= 0.024 - 1e-9, "{added:e} {least}");
-    let words = aimed::conflict_words(conflict, &outcome.bands, true);
+    let words = aimed::conflict_words(conflict, &outcome.targets, true);
     assert!(words.contains("cannot both be had") && words.contains("29.38 oz at best"), "{words}");
 }
 
@@ -208,7 +208,7 @@ fn what_can_be_had_is_no_conflict() {
     ];
     let wish = Wish { targets, remove_only: true, diameter: vec![least(24.0)], ..Wish::default() };
     let outcome = Outcome::of(&r161(), &wish, &terms()).unwrap();
-    assert!(outcome.met && outcome.conflict.is_none(), "{:?}", outcome.values);
+    assert!(outcome.met && outcome.conflict.is_none(), "{:?}", outcome.targets);
     // A tip that is turned to a cone has lost nearly all of its strength there.
     let (x, left) = outcome.weakest().unwrap();
     assert!(x > 0.8 && left < 0.15, "{x} {left}");
@@ -224,8 +224,8 @@ fn a_price_is_what_a_little_more_costs() {
         Outcome::of(&bat, &wish, &terms()).unwrap()
     };
     let (less, here, more) = (norm(0.1852), norm(0.185), norm(0.1848));
-    let slope = (more.norm - less.norm) / 4e-4;
-    let price = here.prices[0].unwrap();
+    let slope = (more.norm_mm - less.norm_mm) / 4e-4;
+    let price = here.targets[0].price_mm.unwrap();
     assert!((price / slope - 1.0).abs() < 0.01, "{price} {slope}");
 }
 
@@ -240,16 +240,21 @@ fn free_choices_are_taken_before_the_shape() {
     let shape = of(vec![lighter], FreeChoice::default());
     let density = Some([600.0, 700.0]);
     let free = of(vec![lighter], FreeChoice { density, ..FreeChoice::default() });
-    assert!(shape.met && free.met && free.norm < 0.2 * shape.norm, "{} {}", free.norm, shape.norm);
-    assert!((free.extras[0].1 / 649.0 - 0.95).abs() < 0.01, "{:?}", free.extras);
+    assert!(
+        shape.met && free.met && free.norm_mm < 0.2 * shape.norm_mm,
+        "{} {}",
+        free.norm_mm,
+        shape.norm_mm
+    );
+    assert!((free.free[0].found / 649.0 - 0.95).abs() < 0.01, "{:?}", free.free);
     let weight = FreeChoice { knob_weight: Some(0.06), ..FreeChoice::default() };
     let heavier = target(Answer::BalancePoint, Ask::Change(Amount::Si(-0.01), None));
     let knob = of(vec![heavier], weight);
     assert!(
-        knob.met && knob.extras[0].1 > 0.005 && knob.norm < 0.5,
+        knob.met && knob.free[0].found > 0.005 && knob.norm_mm < 0.5,
         "{} {:?}",
-        knob.norm,
-        knob.extras
+        knob.norm_mm,
+        knob.free
     );
     let length = FreeChoice { length: Some([0.8, 0.86]), ..FreeChoice::default() };
     let shorter = of(vec![target(Answer::Mass, Ask::Change(Amount::Share(-0.02), None))], length);
@@ -393,13 +398,13 @@ fn a_bat_of_a_formula_keeps_its_handle() {
     let targets = vec![target(Answer::Inertia, Ask::Change(Amount::Share(-0.02), within(1e-4)))];
     let wish = Wish { targets, remove_only: true, ..Wish::default() };
     let outcome = Outcome::of(&bat, &wish, &terms()).unwrap();
-    assert!(outcome.met && outcome.broken <= 1e-9, "{:e}", outcome.broken);
+    assert!(outcome.met && outcome.limits_broken_m <= 1e-9, "{:e}", outcome.limits_broken_m);
     let (new, found) = written(&outcome, &[Answer::Inertia]);
     let before = bat.inertia().about(sweetspot::bat::body::STANDARD_PIVOT);
     assert!((found[0] / before - 0.98).abs() < 1e-3, "{found:?}");
     let [_, added, ..] = along(&bat, &new);
     assert!(added <= 1e-8, "{added:e}");
-    assert!(outcome.kept_within < 1e-5, "{:e}", outcome.kept_within);
+    assert!(outcome.kept_within_m < 1e-5, "{:e}", outcome.kept_within_m);
 }
 
 /// Two per cent less swing weight of every bat that comes with the program, domed and pointed tips, hollow and cored
@@ -420,8 +425,12 @@ fn every_bat_is_aimed_with_its_limits_kept_by_its_file() {
         let wish = Wish { targets, remove_only: true, ..Wish::default() };
         let outcome = Outcome::of(&bat, &wish, &terms).unwrap();
         let name = path.display();
-        assert!(outcome.met && outcome.broken <= 1e-9, "{name} {:e}", outcome.broken);
-        assert!(outcome.kept_within <= 1e-8, "{name} {:e}", outcome.kept_within);
+        assert!(
+            outcome.met && outcome.limits_broken_m <= 1e-9,
+            "{name} {:e}",
+            outcome.limits_broken_m
+        );
+        assert!(outcome.kept_within_m <= 1e-8, "{name} {:e}", outcome.kept_within_m);
         let new = Bat::from_text("new.json", &aimed::bat_text(&outcome), Path::new("")).unwrap();
         let inertia = |bat: &Bat| bat.inertia().about(sweetspot::bat::body::STANDARD_PIVOT);
         assert!((inertia(&new) / inertia(&bat) - 0.98).abs() <= 1.001e-3, "{name}");
@@ -456,7 +465,7 @@ fn a_limit_of_the_slope_is_kept_by_the_file() {
     let (free, least) = of(None);
     let (kept, outcome) = of(Some(0.05));
     assert!(outcome.met && free > 0.055 && kept <= 0.05, "{kept} of {free}");
-    assert!(outcome.norm > 1.1 * least.norm, "{} of {}", outcome.norm, least.norm);
+    assert!(outcome.norm_mm > 1.1 * least.norm_mm, "{} of {}", outcome.norm_mm, least.norm_mm);
     // What needs more cannot be had.
     let (kept, outcome) = of(Some(0.045));
     assert!(!outcome.met && outcome.conflict.is_some() && kept <= 0.045, "{kept}");
@@ -482,7 +491,7 @@ fn a_bat_of_few_stations_keeps_the_curve_of_what_is_kept() {
             (is - was).abs()
         });
         let moved = moved.fold(0.0, f64::max);
-        assert!(moved <= 1e-5 && moved <= 1.01 * outcome.kept_within, "{moved:e}");
+        assert!(moved <= 1e-5 && moved <= 1.01 * outcome.kept_within_m, "{moved:e}");
     }
 }
 
@@ -497,15 +506,18 @@ fn a_wish_that_can_be_had_is_not_refused_by_rounding() {
     ];
     let wish = Wish { targets, remove_only: true, ..Wish::default() };
     let outcome = Outcome::of(&r161(), &wish, &terms()).unwrap();
-    assert!(outcome.met && outcome.conflict.is_none(), "{:?}", outcome.values);
-    assert!((outcome.norm / 0.178 - 1.0).abs() < 0.1, "{}", outcome.norm);
+    assert!(outcome.met && outcome.conflict.is_none(), "{:?}", outcome.targets);
+    assert!((outcome.norm_mm / 0.178 - 1.0).abs() < 0.1, "{}", outcome.norm_mm);
     let (new, _) = written(&outcome, &[Answer::Mass]);
     let [_, added, ..] = along(&r161(), &new);
     assert!(added <= 1e-9, "{added:e}");
     // What is said of the knob is the largest of any place of a closer look.
     let moved = |x: f64| 2.0 * (new.profile().at(x).outer - r161().profile().at(x).outer).abs();
     let most = (0..60_000).map(|k| moved(5e-7 * f64::from(k))).fold(0.0, f64::max);
-    assert!(outcome.kept_within >= most && outcome.kept_within < 1.01 * most + 1e-12, "{most:e}");
+    assert!(
+        outcome.kept_within_m >= most && outcome.kept_within_m < 1.01 * most + 1e-12,
+        "{most:e}"
+    );
 }
 
 /// A weighed bat exists: it is cut, and wood is added only where that is allowed. What changes is in the list.

@@ -15,6 +15,7 @@ use sweetspot::collision::sweet_spot::FINE;
 use sweetspot::modes::solve::Request;
 use sweetspot_study::comparison::contender::Terms;
 use sweetspot_study::comparison::rows::{ComparedFigure, Unit};
+use sweetspot_study::comparison::stretches::Harder;
 use sweetspot_study::comparison::table::{Comparison, Entry};
 
 const INCH: f64 = 0.0254;
@@ -45,10 +46,10 @@ fn a_bat_differs_from_itself_in_nothing() {
     assert!(twice.same_length());
     for row in all(&twice) {
         if let Some(difference) = row.difference(1) {
-            assert!(difference.by == 0.0 && !difference.is_real(), "{row:?}");
+            assert!(difference.by == 0.0 && !difference.beyond_errors, "{row:?}");
         }
     }
-    assert!(twice.stretches(1).iter().all(|stretch| stretch.harder == 0));
+    assert!(twice.stretches(1).iter().all(|stretch| stretch.harder.is_none()));
 }
 
 /// With the same E/ρ the frequencies are the same, and mass and inertia go as ρ.
@@ -58,18 +59,18 @@ fn a_denser_bat_is_heavier_by_as_much_and_rings_the_same() {
     let heavy = of_factors(&light, [1.25, 1.25]);
     let both = compare(&[light, heavy], 1e-4);
     for key in ["length", "balance_point", "frequency_1", "frequency_3", "node_2_of_mode_1"] {
-        assert!(!row(&both, key).difference(1).unwrap().is_real(), "{key}");
+        assert!(!row(&both, key).difference(1).unwrap().beyond_errors, "{key}");
     }
     for key in ["mass", "swing_weight"] {
         let values = &row(&both, key).values;
         let [light, heavy] = [0, 1].map(|k| values[k].unwrap().value);
         assert!((heavy / light - 1.25).abs() < 1e-13, "{key}");
-        assert!(row(&both, key).difference(1).unwrap().is_real(), "{key}");
+        assert!(row(&both, key).difference(1).unwrap().beyond_errors, "{key}");
     }
     // The heavier recoils less.
     let faster = row(&both, "best_exit_speed").difference(1).unwrap();
-    assert!(faster.is_real() && faster.by > 0.0);
-    assert!(both.stretches(1).iter().all(|stretch| stretch.harder == 1));
+    assert!(faster.beyond_errors && faster.by > 0.0);
+    assert!(both.stretches(1).iter().all(|stretch| stretch.harder == Some(Harder::This)));
 }
 
 /// Every length times k: frequencies over k, places times k.
@@ -89,7 +90,7 @@ fn a_longer_bat_is_compared_from_both_ends() {
     assert!((ratio("node_1_of_mode_2_from_tip") / k - 1.0).abs() < 1e-6);
     assert!((ratio("mass") / k.powi(3) - 1.0).abs() < 1e-12);
     let length = row(&both, "length").difference(1).unwrap();
-    assert!((length.by - 0.04).abs() < 1e-15 && length.is_real());
+    assert!((length.by - 0.04).abs() < 1e-15 && length.beyond_errors);
     // From the knob end only where both have a place.
     let [first, last] = [both.from_knob[0], both.from_knob[both.from_knob.len() - 1]];
     assert!(first >= k * 0.8 - 0.4 * 0.8 && last <= 0.8);
@@ -339,12 +340,12 @@ fn two_pieces_of_one_model_differ_in_mass_by_the_root_of_two_times_the_scatter()
     )
     .unwrap();
     let two = compare(&[ash.clone(), ash.clone()], 1e-4);
-    let mass = two.between_pieces("mass", 1).unwrap();
+    let mass = two.figure("mass", 1).unwrap().between_pieces.unwrap();
     let expected = 2.0_f64.sqrt() * 0.1 * ash.inertia().mass;
     // Central differences over a step of 5 % of the logarithm: right to its square over 6.
     assert!((mass / expected - 1.0).abs() < 5e-4, "{mass} {expected}");
-    assert!(two.between_pieces("best_exit_speed", 1).unwrap() > 0.5);
-    assert_eq!(two.between_pieces("length", 1), None);
+    assert!(two.figure("best_exit_speed", 1).unwrap().between_pieces.unwrap() > 0.5);
+    assert_eq!(two.figure("length", 1).unwrap().between_pieces, None);
 }
 
 #[test]

@@ -566,7 +566,7 @@ fn the_front_shows_the_solvers_and_the_planners_choices() {
     for words in ["statics", "shift-invert", "front", "planner"] {
         assert!(picture.svg.contains(words), "{words}");
     }
-    for (k, picture) in sets::of_u_curve(bat.name(), &trade.columns, 3).iter().enumerate() {
+    for (k, picture) in sets::of_u_curve(bat.name(), &trade.more_elements, 3).iter().enumerate() {
         assert_eq!(picture.name, ["u_curve", "u_curve_mode_3"][k]);
         check(picture, "cone");
     }

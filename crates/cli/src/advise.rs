@@ -3,7 +3,9 @@
 use std::path::PathBuf;
 
 use sweetspot::base::error::Result;
+use sweetspot_report::parts::terminal;
 use sweetspot_report::report::advice;
+use sweetspot_report::schema::advice::AdviceFile;
 use sweetspot_study::advise::advice::{Advice, MOST_MODES, advise_telling};
 
 use crate::common::{OutputArgs, examples, read};
@@ -60,16 +62,19 @@ pub fn run(args: &Args) -> Result<Done> {
     let advice = advise_telling(&bat, args.count.into(), args.tol, &tell)?;
     drop(progress);
     let code = verdict(args, &advice);
-    let table = args.full.screen(|full| advice::text(&advice, args.output.units(&bat), full));
-    Ok(Done::new(args.output.deliver(table, || advice::document(&advice))?, code))
+    let table = args.full.screen(|full| {
+        let (title, parts) = advice::report(&advice, args.output.units(&bat), full);
+        terminal::text(&title, &parts)
+    });
+    Ok(Done::new(args.output.deliver(table, || AdviceFile::of(&advice))?, code))
 }
 
 /// The exit code, after a word about frequencies that are less accurate than the tolerance.
 fn verdict(args: &Args, advice: &Advice) -> u8 {
-    if advice.met() {
+    if advice.full_model.tolerance_met {
         return 0;
     }
-    let solution = &advice.full.solution;
+    let solution = &advice.full_model.solved.solution;
     args.output.warn(&format!(
         "accuracy not reached: asked {:e}, the full model is within {:.1e}; {}",
         args.tol,

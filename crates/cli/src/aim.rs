@@ -11,8 +11,8 @@ use sweetspot_report::report::{aimed, aimed_text};
 use sweetspot_report::template::pages::pages;
 use sweetspot_report::template::pdf::pdf;
 use sweetspot_report::template::sheet::PAPERS;
+use sweetspot_study::aim::aimed::Outcome;
 use sweetspot_study::aim::bench::Terms;
-use sweetspot_study::aim::outcome::Outcome;
 use sweetspot_study::aim::wish::{FreeChoice, SLOPES, Wish};
 use sweetspot_study::comparison::contender::Terms as Looks;
 use sweetspot_study::comparison::table::{Comparison, Entry};
@@ -201,10 +201,9 @@ pub fn run(args: &Args) -> Result<Done> {
         file::write(path, text.as_bytes())?;
     }
     let us = args.output.units(&bat).us_first();
-    let rules = wish.rules.as_ref();
-    let table = args.full.screen(|full| aimed_text::text(&outcome, rules, (args.pass, us, full)));
+    let table = args.full.screen(|full| aimed_text::text(&outcome, (args.pass, us, full)));
     let table = put(&args.cuts, table, || Ok(aimed::cuts_csv(&outcome, args.pass)))?;
-    let text = args.output.deliver(table, || aimed::document(&outcome, rules, args.pass))?;
+    let text = args.output.deliver(table, || aimed::document(&outcome, args.pass))?;
     Ok(Done::new(text, if outcome.met { 0 } else { NOT_REACHED }).with(warning))
 }
 

@@ -5,9 +5,12 @@ use std::time::Duration;
 
 use sweetspot::base::error::Result;
 use sweetspot::modes::solve::Request;
+use sweetspot_report::parts::part::Part;
+use sweetspot_report::parts::terminal;
 use sweetspot_report::plot::{front, sets};
 use sweetspot_report::report::{trade, u_curve};
 use sweetspot_report::schema;
+use sweetspot_report::schema::trade::{TradeFile, UCurveFile};
 use sweetspot_study::trade::measure::measure;
 use sweetspot_study::trade::reference::Reference;
 use sweetspot_study::trade::u_curve as curve;
@@ -102,25 +105,23 @@ pub fn run(args: &Args) -> Result<Done> {
     let theory = request.theory;
     let progress = Progress::new(args.quiet, "the reference");
     let tell = |share, what: &str| progress.say(share, what);
+    let told = |(title, parts): &(String, Vec<Part>)| terminal::text(title, parts);
     let time = |seconds| args.budget.unwrap_or(Duration::from_secs(seconds));
     let (table, document, rows, pictures) = if args.u_curve {
         let reference = Reference::of(&bat, modes, theory)?;
         let (solvers, time) = (curve::SOLVERS, time(U_CURVE));
         let columns = curve::measure(&bat, &reference, solvers, MOST, time, &tell);
-        let document = schema::text(&u_curve::document(&bat, &reference, &columns));
         let pictures = sets::of_u_curve(bat.name(), &columns, modes);
-        let said = |full| u_curve::text(&bat, &reference, &columns, full);
-        (args.full.screen(said), document, u_curve::csv(&columns), pictures)
+        let said = |full| told(&u_curve::report(&bat, (&reference, &columns), full));
+        let (screen, rows) = (args.full.screen(said), u_curve::csv(&columns));
+        let document = schema::text(&UCurveFile::of(&bat, reference, columns));
+        (screen, document, rows, pictures)
     } else {
         let trade = measure(&bat, modes, theory, time(TRADE), &tell)?;
         let pictures = front::picture(bat.name(), &trade).into_iter().collect();
-        let said = |full| trade::text(&bat, &trade, full);
-        (
-            args.full.screen(said),
-            schema::text(&trade::document(&bat, &trade)),
-            trade::csv(&trade),
-            pictures,
-        )
+        let said = |full| told(&trade::report(&bat, &trade, full));
+        let (screen, rows) = (args.full.screen(said), trade::csv(&trade));
+        (screen, schema::text(&TradeFile::of(&bat, trade)), rows, pictures)
     };
     if let Some(folder) = &args.plots {
         pictures::write(folder, &pictures, args.quiet)?;

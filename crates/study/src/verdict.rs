@@ -76,17 +76,8 @@ impl Verdict {
         let law = flagged(&["ball_law_beyond"]).then_some(Doubt::BallLaw);
         let unmet = hits.worst().filter(|_| !hits.met());
         let unmet = unmet.map(|(_, outcome)| Doubt::ExitSpeeds { error: outcome.error });
-        Self {
-            doubts: density
-                .into_iter()
-                .chain(shear)
-                .chain(dent)
-                .chain(rigid)
-                .chain(later)
-                .chain(law)
-                .chain(unmet)
-                .collect(),
-        }
+        let doubts = [density, shear, dent, rigid, later, law, unmet];
+        Self { doubts: doubts.into_iter().flatten().collect() }
     }
 
     /// Whether what is known of the bat is a lower limit of what is open of it: it is not of that material, or not

@@ -3,6 +3,7 @@
 use sweetspot::base::marks;
 use sweetspot::base::number::{rounded, shortest};
 use sweetspot::base::units::{inches, miles_per_hour};
+use sweetspot_study::trade::words::time;
 
 /// What a cell holds.
 #[derive(Debug, Clone, PartialEq)]
@@ -77,6 +78,8 @@ pub enum Quantity {
     Ratio(usize),
     /// An error bound: one digit and its power of ten.
     Error,
+    /// A time (s), with three digits and the unit that suits it.
+    Time,
     /// Words.
     Words,
 }
@@ -89,7 +92,7 @@ impl Quantity {
             (Self::Length, true) => "in",
             (Self::Speed, false) => "m/s",
             (Self::Speed, true) => "mph",
-            (Self::Ratio(_) | Self::Error | Self::Words, _) => "",
+            (Self::Ratio(_) | Self::Error | Self::Time | Self::Words, _) => "",
         }
     }
 
@@ -108,6 +111,7 @@ impl Quantity {
             (Self::Speed, true) => decimals(miles_per_hour(value), 1),
             (Self::Ratio(n), _) => decimals(value, n),
             (Self::Error, _) => format!("{value:.0e}"),
+            (Self::Time, _) => time(value),
             (Self::Words, _) => value.to_string(),
         }
     }

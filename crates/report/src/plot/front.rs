@@ -22,8 +22,8 @@ const SOLVERS: [Solver; 4] = [Solver::Statics, Solver::ShiftInvert, Solver::Dens
 /// Every run, the front and the planner's choices; picture `front`. None without runs.
 pub fn picture(name: &str, trade: &Trade) -> Option<Picture> {
     let Trade { reference, runs, words, .. } = trade;
-    let floor = reference.floor();
-    let at = |run: &Run| [1e6 * run.seconds, run.error().max(floor)];
+    let floor = reference.floor;
+    let at = |run: &Run| [1e6 * run.seconds, run.error.max(floor)];
     runs.first()?;
     let solvers = solvers(runs, at);
     let best: Vec<_> = front(runs).map(|run| Some(at(run))).collect();
@@ -68,7 +68,7 @@ fn solvers(runs: &[Run], at: impl Fn(&Run) -> [f64; 2]) -> Vec<Series> {
 
 fn told(run: &Run) -> String {
     let (solver, seconds) = (solver_name(run.choice.solver), time(run.seconds));
-    let (n, p, error) = (run.choice.elements, run.choice.degree, short(run.error()));
+    let (n, p, error) = (run.choice.elements, run.choice.degree, short(run.error));
     format!("{solver}, {n} elements of degree {p}: {seconds}, error {error}")
 }
 

@@ -15,7 +15,7 @@ use sweetspot::collision::sweep::Sweep;
 use sweetspot::collision::sweet_spot::SweetSpot;
 use sweetspot::modes::solve::Solution;
 use sweetspot_study::lathe::map::LatheMap;
-use sweetspot_study::trade::u_curve::Column;
+use sweetspot_study::trade::u_curve::Curve;
 
 /// The bat and its modes: `profile`, `shapes`. With a swing, its pivot beyond the knob end (m) is
 /// marked.
@@ -99,8 +99,8 @@ pub fn of_analysis(
 }
 
 /// The error of the first and of the last mode of a U-curve.
-pub fn of_u_curve(name: &str, columns: &[Column], modes: usize) -> Vec<Picture> {
+pub fn of_u_curve(name: &str, curves: &[Curve], modes: usize) -> Vec<Picture> {
     let last = modes.saturating_sub(1);
     let which = [0, last].into_iter().take(1 + usize::from(last > 0));
-    which.filter_map(|mode| u_curve::picture(name, columns, mode)).collect()
+    which.filter_map(|mode| u_curve::picture(name, curves, mode)).collect()
 }

@@ -8,7 +8,7 @@ use crate::plot::sheet::Sheet;
 use crate::plot::svg::{MARKS, Pen, Svg};
 use crate::plot::theme::SERIES;
 use sweetspot_study::trade::reference::solver_name;
-use sweetspot_study::trade::u_curve::{Column, SolverFrequency};
+use sweetspot_study::trade::u_curve::{Curve, SolverFrequency};
 
 /// Height of the diagram (px).
 const DIAGRAM: f64 = 320.0;
@@ -17,15 +17,15 @@ const NOTHING: f64 = 1e-17;
 
 /// The error of one mode (from 0), as the solver's own eigenvalue says and as recomputed from its
 /// shape; picture `u_curve`, of another mode than the first `u_curve_mode_N`. None without points.
-pub fn picture(name: &str, columns: &[Column], mode: usize) -> Option<Picture> {
-    let mut curves = vec![];
-    for (k, column) in columns.iter().enumerate() {
-        for way in column.ways() {
-            let curve = curve(column, *way, (k, mode));
-            curves.extend(Some(curve).filter(|curve| !curve.points.is_empty()));
+pub fn picture(name: &str, curves: &[Curve], mode: usize) -> Option<Picture> {
+    let mut drawn = vec![];
+    for (k, curve) in curves.iter().enumerate() {
+        for way in curve.ways() {
+            let series = series(curve, *way, (k, mode));
+            drawn.extend(Some(series).filter(|series| !series.points.is_empty()));
         }
     }
-    let points = || curves.iter().flat_map(|c: &Series| c.points.iter().flatten());
+    let points = || drawn.iter().flat_map(|c: &Series| c.points.iter().flatten());
     points().next()?;
     let x = Axis::logarithmic("number of cubic elements", points().map(|at| at[0]));
     let y = Axis::logarithmic("relative error of the frequency", points().map(|at| at[1]));
@@ -34,33 +34,33 @@ pub fn picture(name: &str, columns: &[Column], mode: usize) -> Option<Picture> {
     let sheet = Sheet::file(false);
     let mut svg = Svg::on(sheet);
     head(&mut svg, &title, [name, facts]);
-    let top = legend(&mut svg, &curves.iter().collect::<Vec<_>>()) + 16.0;
+    let top = legend(&mut svg, &drawn.iter().collect::<Vec<_>>()) + 16.0;
     let frame = Frame::across(sheet, [top, top + DIAGRAM]);
     svg.height = frame.bottom + NUMBERS + 4.0;
     let plane = Plane { frame, x, y };
     plane.draw(&mut svg);
-    curves.iter().for_each(|curve| curve.draw(&mut svg, &plane));
+    drawn.iter().for_each(|series| series.draw(&mut svg, &plane));
     plane.below(&mut svg);
-    hover(&mut svg, &plane, &curves.iter().collect::<Vec<_>>());
+    hover(&mut svg, &plane, &drawn.iter().collect::<Vec<_>>());
     let file = match mode {
         0 => "u_curve".to_owned(),
         _ => format!("u_curve_mode_{}", mode + 1),
     };
-    let names: Vec<&str> = curves.iter().map(|curve| curve.name.as_str()).collect();
+    let names: Vec<&str> = drawn.iter().map(|series| series.name.as_str()).collect();
     let alt = format!("{title} of {name}; {facts}. Curves: {}.", names.join(", "));
     Some(Picture::new(&file, &title, &alt, svg))
 }
 
-fn curve(column: &Column, way: SolverFrequency, (k, mode): (usize, usize)) -> Series {
-    let name = match (column.ways().len(), way) {
-        (1, _) => solver_name(column.solver).to_owned(),
-        (_, SolverFrequency::Own) => format!("{}, own", solver_name(column.solver)),
-        (_, SolverFrequency::Recomputed) => format!("{}, again", solver_name(column.solver)),
+fn series(curve: &Curve, way: SolverFrequency, (k, mode): (usize, usize)) -> Series {
+    let name = match (curve.ways().len(), way) {
+        (1, _) => solver_name(curve.solver).to_owned(),
+        (_, SolverFrequency::Own) => format!("{}, own", solver_name(curve.solver)),
+        (_, SolverFrequency::Recomputed) => format!("{}, again", solver_name(curve.solver)),
     };
-    let points = column.series(way, mode).into_iter();
+    let points = curve.series(way, mode).into_iter();
     let points = points.map(|(n, error)| Some([n as f64, error.max(NOTHING)])).collect();
     let dash =
-        if way == SolverFrequency::Recomputed && column.ways().len() > 1 { "4 3" } else { "" };
+        if way == SolverFrequency::Recomputed && curve.ways().len() > 1 { "4 3" } else { "" };
     let pen = Pen::new(SERIES[k % 6], 1.6).dashed(dash);
     let series = Series::curve(&name, k, points).pen(pen).units("elements", "");
     Series { mark: Some(MARKS[k % MARKS.len()]), ..series }

@@ -3,19 +3,19 @@
 use serde_json::{Value, json};
 
 use crate::csv::Csv;
+use crate::report::resolved::profile;
 use crate::schema;
-use crate::schema::aimed as file;
+use crate::schema::aimed::AimedFile;
 use sweetspot::base::number::{rounded, shortest, signed, significant};
 use sweetspot::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
 use sweetspot::bat::body::Bat;
 use sweetspot::bat::profile::Interpolation;
 use sweetspot::files::schema::document::{BatName, Format, Generator};
-use sweetspot::files::schema::resolved::{Columns, Profile, ResolvedBat};
-use sweetspot_study::aim::bench::ExtraKind;
+use sweetspot::files::schema::resolved::ResolvedBat;
+use sweetspot_study::aim::aimed::{AimedTarget, Outcome};
 use sweetspot_study::aim::conflict::Conflict;
 use sweetspot_study::aim::cuts::cuts;
-use sweetspot_study::aim::outcome::Outcome;
-use sweetspot_study::aim::rules::RuleSet;
+use sweetspot_study::aim::rules::{Rule, Ruled};
 use sweetspot_study::aim::wish::{Band, Goal};
 use sweetspot_study::files::rules_file;
 use sweetspot_study::many::answers::Answer;
@@ -92,16 +92,17 @@ pub fn asked(band: &Band, us: bool) -> String {
 }
 
 /// What cannot be had, in words.
-pub fn conflict_words(conflict: &Conflict, bands: &[Band], us: bool) -> String {
-    let wish = |k: usize| format!("{} {}", called(bands[k].goal), asked(&bands[k], us));
+pub fn conflict_words(conflict: &Conflict, targets: &[AimedTarget], us: bool) -> String {
+    let band = |k: usize| &targets[k].band;
+    let wish = |k: usize| format!("{} {}", called(band(k).goal), asked(band(k), us));
     let reach = |k: usize, value: f64| {
-        format!("{} comes to {}", called(bands[k].goal), shown(bands[k].goal, value, us))
+        format!("{} comes to {}", called(band(k).goal), shown(band(k).goal, value, us))
     };
     match conflict.members.as_slice() {
         [] => "the search has not met the targets, though no smaller set of them was found that cannot be had"
             .to_owned(),
         members => {
-            let all: Vec<String> = members.iter().map(|member| wish(member.band)).collect();
+            let all: Vec<String> = members.iter().map(|member| wish(member.target)).collect();
             let mut words = match members.len() {
                 1 => format!("{} cannot be had under these limits", all[0]),
                 2 => format!("{} cannot both be had", all.join(" and ")),
@@ -109,14 +110,14 @@ pub fn conflict_words(conflict: &Conflict, bands: &[Band], us: bool) -> String {
             };
             // Only what a bat shows that meets the others.
             for member in members.iter().filter(|member| member.others_met) {
-                let rest = members.iter().filter(|other| other.band != member.band);
-                let rest: Vec<String> = rest.map(|other| wish(other.band)).collect();
+                let rest = members.iter().filter(|other| other.target != member.target);
+                let rest: Vec<String> = rest.map(|other| wish(other.target)).collect();
                 let with = match rest.is_empty() {
                     true => String::new(),
                     false => format!("with {}, ", rest.join(" and ")),
                 };
                 let sure = if member.settled { "at best" } else { "as far as was searched" };
-                words += &format!("; {with}{} {sure}", reach(member.band, member.value));
+                words += &format!("; {with}{} {sure}", reach(member.target, member.reaches.unwrap_or(f64::NAN)));
             }
             if !conflict.aside.is_empty() {
                 let aside: Vec<String> = conflict.aside.iter().map(|k| wish(*k)).collect();
@@ -129,21 +130,12 @@ pub fn conflict_words(conflict: &Conflict, bands: &[Band], us: bool) -> String {
 
 /// The bat as a bat file in its own right, its edits made.
 pub fn resolved(bat: &Bat, source: &str) -> ResolvedBat {
-    let stations = &bat.profile().stations;
-    let hollow = stations.inner.iter().any(|r| *r > 0.0);
-    let profile = Profile::Columns(Columns {
-        interpolation: stations.interpolation,
-        unit: "m".to_owned(),
-        x: stations.x.clone(),
-        radius: stations.outer.clone(),
-        inner_radius: hollow.then(|| stations.inner.clone()),
-    });
     ResolvedBat {
         format: Format::new(),
         name: bat.name().to_owned(),
         source: source.to_owned(),
         material: bat.material().clone(),
-        profile,
+        profile: profile(bat.profile()),
         fixtures: bat.fixtures().clone(),
         weighed: None,
         edits: vec![],
@@ -152,8 +144,8 @@ pub fn resolved(bat: &Bat, source: &str) -> ResolvedBat {
 
 /// Where the new bat's numbers are from.
 pub fn source(outcome: &Outcome) -> String {
-    let wishes =
-        outcome.bands.iter().map(|band| format!("{} {}", called(band.goal), asked(band, false)));
+    let wish = |of: &AimedTarget| format!("{} {}", called(of.band.goal), asked(&of.band, false));
+    let wishes = outcome.targets.iter().map(wish);
     let wishes: Vec<String> = wishes.collect();
     format!(
         "{}, changed by sweetspot aim for: {}. Stations where it was changed are rounded to {} mm, with more digits \
@@ -196,13 +188,14 @@ pub fn bat_text(outcome: &Outcome) -> String {
 }
 
 /// What a maker should know before turning: a barrel that rules forbid, with the rule.
-pub fn warning(outcome: &Outcome, rules: Option<&RuleSet>, us: bool) -> Option<String> {
+pub fn warning(outcome: &Outcome, us: bool) -> Option<String> {
     let widest = outcome.widest();
     let shown = |value: f64| {
         if us { format!("{:.2} in", inches(value)) } else { format!("{:.1} mm", 1e3 * value) }
     };
     // Rules that were asked for have a table of their own.
-    if rules.is_some_and(|rules| rules.diameter().is_finite()) {
+    let of_diameter = |ruled: &Ruled| matches!(ruled.rule, Rule::DiameterAtMost(_));
+    if outcome.rules.as_ref().is_some_and(|set| set.limits.iter().any(of_diameter)) {
         return None;
     }
     let known = |name: &str| rules_file::named(name).ok();
@@ -244,132 +237,41 @@ pub fn cuts_csv(outcome: &Outcome, pass: f64) -> String {
     ]);
     let mm = |value: f64| rounded(1e3 * value, 6);
     let inch = |value: f64| rounded(inches(value), 6);
-    for cut in cuts(&outcome.stations, pass) {
+    for cut in cuts(&outcome.change, pass) {
         // Wood that is added is no pass: 0, and less than nothing off.
         let added = cut.adds().then(|| (0, cut.off()));
-        let passes = cut.passes.iter().enumerate().map(|(k, off)| (k + 1, *off));
+        let passes = cut.passes_m.iter().enumerate().map(|(k, off)| (k + 1, *off));
         for (number, off) in added.into_iter().chain(passes) {
             table.row([
-                mm(cut.x).into(),
-                mm(cut.from).into(),
-                mm(cut.to).into(),
+                mm(cut.x_m).into(),
+                mm(cut.from_m).into(),
+                mm(cut.to_m).into(),
                 number.into(),
                 mm(off).into(),
-                mm(cut.from - off).into(),
-                inch(cut.x).into(),
-                inch(cut.from).into(),
-                inch(cut.from - off).into(),
+                mm(cut.from_m - off).into(),
+                inch(cut.x_m).into(),
+                inch(cut.from_m).into(),
+                inch(cut.from_m - off).into(),
             ]);
         }
     }
     table.text()
 }
 
-/// The `sweetspot-aimed/1` document.
-pub fn document(outcome: &Outcome, rules: Option<&RuleSet>, pass: f64) -> file::AimedFile {
-    let [cut, added] = outcome.largest();
+/// The `sweetspot-aimed/1` document; no pass of the lathe takes more than `pass` off the diameter (m).
+pub fn document(outcome: &Outcome, pass: f64) -> AimedFile {
     let us = outcome.start.inches();
-    let words = |conflict: &Conflict| conflict_words(conflict, &outcome.bands, us);
-    let number = |value: f64| value.is_finite().then_some(value);
-    let reach = |reach: &sweetspot_study::aim::conflict::Reach| file::AimedReach {
-        name: outcome.bands[reach.band].goal.name(),
-        target: reach.band,
-        reaches: number(reach.value),
-        others_met: reach.others_met,
-    };
-    let conflict = outcome.conflict.as_ref().map(|conflict| file::AimedConflict {
-        members: conflict.members.iter().map(reach).collect(),
-        words: words(conflict),
-    });
-    let choice = |(extra, found): &(sweetspot_study::aim::bench::Extra, f64)| {
-        let name = match extra.what {
-            ExtraKind::Length => "length_m",
-            ExtraKind::Density => "density_kg_m3",
-            ExtraKind::KnobWeight => "knob_weight_kg",
-        };
-        file::AimedChoice { name: name.to_owned(), start: extra.start, found: *found }
-    };
-    file::AimedFile {
+    let mut told = outcome.clone();
+    if let Some(conflict) = &mut told.conflict {
+        conflict.words = conflict_words(conflict, &outcome.targets, us);
+    }
+    AimedFile {
         format: Format::new(),
         generator: Generator::this(),
         bat: BatName::of(&outcome.start),
-        met: outcome.met,
-        targets: targets(outcome),
-        conflict,
-        rules: rules.map(|set| of_rules(outcome, set)),
-        norm_mm: outcome.norm,
-        largest_cut_m: cut,
-        largest_added_m: added,
-        limits_broken_m: if outcome.broken <= 1e-9 { 0.0 } else { outcome.broken },
-        kept_within_m: outcome.kept_within,
-        steeper_by: outcome
-            .slope
-            .map(|_| if outcome.steeper <= 1e-9 { 0.0 } else { outcome.steeper }),
-        iterations: outcome.iterations,
-        bats_solved: outcome.bats,
-        stopped: outcome.stopped.map(str::to_owned),
-        free: outcome.extras.iter().map(choice).collect(),
-        wood: outcome.wood.clone(),
-        outputs: outputs(outcome),
-        change: outcome.stations.iter().map(station).collect(),
-        cuts: cuts(&outcome.stations, pass).into_iter().map(of_cut).collect(),
-        warnings: warning(outcome, rules, us)
-            .into_iter()
-            .chain(outcome.rigid_wall.clone())
-            .collect(),
+        outcome: told,
+        cuts: cuts(&outcome.change, pass),
+        warnings: warning(outcome, us).into_iter().chain(outcome.rigid_wall.clone()).collect(),
         new_bat: resolved(&outcome.bat, &source(outcome)),
     }
-}
-
-fn targets(outcome: &Outcome) -> Vec<file::AimedTarget> {
-    let number = |value: f64| value.is_finite().then_some(value);
-    let of = |(k, band): (usize, &Band)| file::AimedTarget {
-        name: band.goal.name(),
-        rule: band.rule.map(str::to_owned),
-        at_least: number(band.low),
-        at_most: number(band.high),
-        start: band.start,
-        found: number(outcome.values[k]),
-        met: band.has(outcome.values[k]),
-        price_mm: outcome.prices[k].filter(|_| band.has(outcome.values[k])),
-    };
-    outcome.bands.iter().enumerate().map(of).collect()
-}
-
-fn outputs(outcome: &Outcome) -> Vec<file::AimedOutput> {
-    let of = |(answer, [start, found]): &(Answer, [Option<f64>; 2])| file::AimedOutput {
-        name: answer.name(),
-        start: *start,
-        found: *found,
-    };
-    outcome.answers.iter().map(of).collect()
-}
-
-fn of_rules(outcome: &Outcome, set: &RuleSet) -> file::AimedRules {
-    let rule =
-        |(rule, value, kept): &(sweetspot_study::aim::rules::Rule, Option<f64>, Option<bool>)| {
-            file::AimedRule {
-                rule: rule.name().to_owned(),
-                limit: rule.limit(),
-                value: *value,
-                kept: *kept,
-            }
-        };
-    file::AimedRules {
-        name: set.name.clone(),
-        game: set.game.clone(),
-        source: set.source.clone(),
-        date: set.date.clone(),
-        certified: false,
-        limits: outcome.rules.iter().map(rule).collect(),
-        ask: set.ask.clone(),
-    }
-}
-
-fn station(station: &sweetspot_study::aim::laying::Station) -> file::AimedStation {
-    file::AimedStation { x_m: station.x, old_m: station.old, new_m: station.new }
-}
-
-fn of_cut(cut: sweetspot_study::aim::cuts::StationCut) -> file::AimedCut {
-    file::AimedCut { x_m: cut.x, from_m: cut.from, to_m: cut.to, passes_m: cut.passes }
 }

@@ -8,10 +8,10 @@ use crate::report::columns::{Columns, first, labels, numbers};
 use sweetspot::base::number::{rounded, shortest, signed, significant};
 use sweetspot::base::units::{inches, ounce_square_inches, ounces};
 use sweetspot::bat::weighed::Weighed;
+use sweetspot_study::aim::aimed::{AimedTarget, Choice, Outcome, Output};
+use sweetspot_study::aim::bench::ExtraKind;
 use sweetspot_study::aim::cuts::{StationCut, cuts};
-use sweetspot_study::aim::limits::KEPT;
-use sweetspot_study::aim::outcome::Outcome;
-use sweetspot_study::aim::rules::{Rule, RuleSet};
+use sweetspot_study::aim::rules::{Rule, Ruled, RulesKept};
 use sweetspot_study::aim::wish::{Band, Goal};
 use sweetspot_study::many::answers::Answer;
 
@@ -29,20 +29,17 @@ const FIRST: [Answer; 5] = [
 ];
 
 /// What there is to say, in one system of units; `full` with all answers and more stations.
-pub fn text(
-    outcome: &Outcome,
-    rules: Option<&RuleSet>,
-    (pass, us, full): (f64, bool, bool),
-) -> String {
-    let mut out = head(outcome, rules, us);
+pub fn text(outcome: &Outcome, (pass, us, full): (f64, bool, bool)) -> String {
+    let mut out = head(outcome, us);
     out += &targets(outcome, us);
     if let Some(conflict) = &outcome.conflict {
-        out += &wrapped(&format!("Conflict: {}.", conflict_words(conflict, &outcome.bands, us)), 0);
+        out +=
+            &wrapped(&format!("Conflict: {}.", conflict_words(conflict, &outcome.targets, us)), 0);
         out += "\n";
     }
     out += &before_and_after(outcome, us, full);
-    if let Some(set) = rules {
-        out += &of_rules(outcome, set, us);
+    if let Some(set) = &outcome.rules {
+        out += &of_rules(set, us);
     }
     out += &choices(outcome, us);
     out += &cut_list(outcome, (pass, us), SHOWN[usize::from(!full)]);
@@ -71,8 +68,9 @@ fn place(x: f64, us: bool) -> String {
     }
 }
 
-fn head(outcome: &Outcome, rules: Option<&RuleSet>, us: bool) -> String {
-    let limits = outcome.broken > KEPT || outcome.steeper > KEPT;
+/// The verdict, what was changed, and what to know of it.
+fn head(outcome: &Outcome, us: bool) -> String {
+    let limits = outcome.limits_broken_m > 0.0 || outcome.steeper_by.is_some_and(|by| by > 0.0);
     let verdict = match (outcome.targets_met(), outcome.broken_rules() > 0, limits) {
         (true, false, false) => "the new bat meets every target",
         (true, true, _) => "the new bat meets every target, but breaks a rule",
@@ -82,77 +80,70 @@ fn head(outcome: &Outcome, rules: Option<&RuleSet>, us: bool) -> String {
         }
         _ => "the new bat does not meet every target; it comes nearest",
     };
-    let mut out = wrapped(&format!("{}: {verdict}", outcome.start.name()), 2);
-    let [cut, added] = outcome.largest();
-    let added = if added > 1e-9 {
-        format!("at most {} added", across(added, us))
+    let added = if outcome.largest_added_m > 1e-9 {
+        format!("at most {} added", across(outcome.largest_added_m, us))
     } else {
         "nothing added".into()
     };
-    let line = format!(
+    let change = format!(
         "of its diameter at most {} off, {added}; norm of the change {}; {}, {}",
-        across(cut, us),
-        norm(outcome.norm, us),
+        across(outcome.largest_cut_m, us),
+        norm(outcome.norm_mm, us),
         counted(outcome.iterations, "step"),
-        counted(outcome.bats, "bat")
+        counted(outcome.bats_solved, "bat")
     );
-    out += &wrapped(&line, 2);
-    if let Some(line) = warning(outcome, rules, us) {
-        out += &wrapped(&format!("Warning: {line}"), 2);
-    }
-    if let Some(why) = &outcome.rigid_wall {
-        out += &wrapped(&format!("Left out: {why}"), 2);
-    }
+    let warning = warning(outcome, us).map(|line| format!("Warning: {line}"));
+    let rigid = outcome.rigid_wall.as_ref().map(|why| format!("Left out: {why}"));
+    let lines = [format!("{}: {verdict}", outcome.start.name()), change].into_iter();
+    let lines = lines.chain(warning).chain(rigid).chain(to_know(outcome, us));
+    lines.map(|line| wrapped(&line, 2)).collect::<String>() + "\n"
+}
+
+/// What a maker has to know of the new bat and its limits.
+fn to_know(outcome: &Outcome, us: bool) -> Vec<String> {
+    let mut told = vec![];
     if outcome.remove_only && outcome.start.weighed() != Weighed::default() {
-        let line = "the bat was weighed, so that it exists: wood is only taken off; --add lets it be added, for a \
-                    new bat";
-        out += &wrapped(line, 2);
+        told.push(
+            "the bat was weighed, so that it exists: wood is only taken off; --add lets it be added, for a new bat"
+                .to_owned(),
+        );
     }
     if outcome.finer > 1.0 {
-        let line = format!(
-            "stations are rounded to {}: coarser ones would miss a target",
-            match us {
-                true => format!("{} in", significant(inches(outcome.grid.round), 2)),
-                false => format!("{} mm", shortest(rounded(1e3 * outcome.grid.round, 9))),
-            }
-        );
-        out += &wrapped(&line, 2);
+        let round = match us {
+            true => format!("{} in", significant(inches(outcome.grid.round), 2)),
+            false => format!("{} mm", shortest(rounded(1e3 * outcome.grid.round, 9))),
+        };
+        told.push(format!("stations are rounded to {round}: coarser ones would miss a target"));
     }
     if let Some((x, left)) = outcome.weakest().filter(|(_, left)| *left < WEAK) {
-        let line = format!(
+        told.push(format!(
             "at {} the section has {} % of its strength in bending left: --diameter \"at least ...\" and --keep \
              set limits",
             place(x, us),
             significant(100.0 * left, 2)
-        );
-        out += &wrapped(&line, 2);
+        ));
     }
-    if outcome.broken > KEPT {
+    if outcome.limits_broken_m > 0.0 {
         let by = match us {
-            true => format!("{:.5} in", inches(outcome.broken)),
-            false => format!("{:.4} mm", 1e3 * outcome.broken),
+            true => format!("{:.5} in", inches(outcome.limits_broken_m)),
+            false => format!("{:.4} mm", 1e3 * outcome.limits_broken_m),
         };
-        let line = format!("a limit of the diameter is broken by {by}");
-        out += &wrapped(&line, 2);
+        told.push(format!("a limit of the diameter is broken by {by}"));
     }
-    if let Some(slope) = outcome.slope {
-        let kept = match outcome.steeper > KEPT {
-            true => format!("is broken by {:.4}", outcome.steeper),
-            false => "is kept".to_owned(),
+    if let Some((slope, by)) = outcome.slope.zip(outcome.steeper_by) {
+        let kept = if by > 0.0 { format!("is broken by {by:.4}") } else { "is kept".to_owned() };
+        told.push(format!("the limit {} of the slope {kept}", shortest(slope)));
+    }
+    if outcome.kept_within_m > 5e-8 {
+        let by = match us {
+            true => format!("{} in", significant(inches(outcome.kept_within_m), 2)),
+            false => format!("{:.1} μm", 1e6 * outcome.kept_within_m),
         };
-        out += &wrapped(&format!("the limit {} of the slope {kept}", shortest(slope)), 2);
+        told.push(format!(
+            "where the bat is kept, the curve through its stations moves by {by} at most"
+        ));
     }
-    if outcome.kept_within > 5e-8 {
-        let line = format!(
-            "where the bat is kept, the curve through its stations moves by {} at most",
-            match us {
-                true => format!("{} in", significant(inches(outcome.kept_within), 2)),
-                false => format!("{:.1} μm", 1e6 * outcome.kept_within),
-            }
-        );
-        out += &wrapped(&line, 2);
-    }
-    out + "\n"
+    told
 }
 
 fn targets(outcome: &Outcome, us: bool) -> String {
@@ -163,7 +154,8 @@ fn targets(outcome: &Outcome, us: bool) -> String {
         labels(14, "after"),
     ]);
     let mut out = columns.heads();
-    for (band, value) in outcome.bands.iter().zip(&outcome.values) {
+    for target in &outcome.targets {
+        let band = &target.band;
         let name = match band.rule {
             Some(_) => format!("{} (rule)", called(band.goal)),
             None => called(band.goal),
@@ -172,18 +164,14 @@ fn targets(outcome: &Outcome, us: bool) -> String {
             name,
             asked(band, us),
             shown(band.goal, band.start, us),
-            shown(band.goal, *value, us),
+            shown(band.goal, target.value(), us),
         ]);
-        if !band.has(*value) {
-            out += &format!("  missed by {}\n", missed_by(band, *value, us));
+        if !target.met {
+            out += &format!("  missed by {}\n", missed_by(band, target.value(), us));
         }
     }
-    let priced: Vec<String> = outcome
-        .bands
-        .iter()
-        .zip(&outcome.prices)
-        .filter_map(|(band, price)| priced(band, *price, us))
-        .collect();
+    let priced: Vec<String> =
+        outcome.targets.iter().filter_map(|target| priced(target, us)).collect();
     if !priced.is_empty() {
         out += &wrapped(&format!("Price: {}.", priced.join("; ")), 2);
     }
@@ -203,7 +191,7 @@ fn missed_by(band: &Band, value: f64, us: bool) -> String {
 }
 
 /// What a little more of a target that binds would cost.
-fn priced(band: &Band, price: Option<f64>, us: bool) -> Option<String> {
+fn priced(AimedTarget { band, price, .. }: &AimedTarget, us: bool) -> Option<String> {
     let price = price.filter(|price| *price > 0.0)?;
     let (step, words) = match (band.goal.unit(), us) {
         ("kg", false) => (1e-3, "1 g".to_owned()),
@@ -230,8 +218,8 @@ fn before_and_after(outcome: &Outcome, us: bool, full: bool) -> String {
         labels(15, "change"),
     ]);
     let mut out = columns.heads();
-    let answers = outcome.answers.iter();
-    for (answer, [before, after]) in answers.filter(|(answer, _)| full || FIRST.contains(answer)) {
+    let outputs = outcome.outputs.iter().filter(|of| full || FIRST.contains(&of.answer));
+    for Output { answer, start: before, found: after } in outputs {
         let goal = Goal::Answer(*answer);
         let said =
             |value: &Option<f64>| value.map_or("none".to_owned(), |value| shown(goal, value, us));
@@ -247,14 +235,14 @@ fn before_and_after(outcome: &Outcome, us: bool, full: bool) -> String {
     out + "\n"
 }
 
-fn of_rules(outcome: &Outcome, set: &RuleSet, us: bool) -> String {
+fn of_rules(set: &RulesKept, us: bool) -> String {
     let mut out = wrapped(
         &format!("Rules: {} ({}, {}). Computed, not certified.", set.game, set.name, set.date),
         2,
     );
     let columns =
         Columns::new([first(24, ""), labels(18, "limit"), labels(18, "this bat"), labels(10, "")]);
-    for (rule, value, kept) in &outcome.rules {
+    for Ruled { rule, limit, value, kept } in &set.limits {
         let said =
             |value: Option<f64>| value.map_or(String::new(), |value| of_rule(*rule, value, us));
         let kept = match kept {
@@ -263,7 +251,7 @@ fn of_rules(outcome: &Outcome, set: &RuleSet, us: bool) -> String {
             None => "not known",
         };
         let name = rule.name().replace('_', " ");
-        out += &columns.row([name, said(rule.limit()), said(*value), kept.to_owned()]);
+        out += &columns.row([name, said(*limit), said(*value), kept.to_owned()]);
     }
     for ask in &set.ask {
         out += &wrapped(&format!("  not computed: {ask}"), 4);
@@ -285,29 +273,21 @@ fn of_rule(rule: Rule, value: f64, us: bool) -> String {
 }
 
 fn choices(outcome: &Outcome, us: bool) -> String {
-    use sweetspot_study::aim::bench::ExtraKind;
-    let mut out = String::new();
-    if let Some(wood) = &outcome.wood {
-        let _ = writeln!(out, "Wood: {wood}");
-    }
-    for (extra, found) in &outcome.extras {
-        let said = |value: f64| match extra.what {
-            ExtraKind::Length => shown(Goal::Answer(Answer::BalancePoint), value, us),
-            ExtraKind::Density => format!("{value:.1} kg/m³"),
-            ExtraKind::KnobWeight => shown(Goal::Answer(Answer::Mass), value, us),
+    let mut out = outcome.wood.iter().map(|wood| format!("Wood: {wood}\n")).collect::<String>();
+    for Choice { what, start, found } in &outcome.free {
+        let answer = |answer| move |value| shown(Goal::Answer(answer), value, us);
+        let (name, said): (_, &dyn Fn(f64) -> String) = match what {
+            ExtraKind::Length => ("Length", &answer(Answer::BalancePoint)),
+            ExtraKind::Density => ("Density", &|value| format!("{value:.1} kg/m³")),
+            ExtraKind::KnobWeight => ("Weight on the knob", &answer(Answer::Mass)),
         };
-        let name = match extra.what {
-            ExtraKind::Length => "Length",
-            ExtraKind::Density => "Density",
-            ExtraKind::KnobWeight => "Weight on the knob",
-        };
-        let _ = writeln!(out, "{name}: {}, was {}", said(*found), said(extra.start));
+        let _ = writeln!(out, "{name}: {}, was {}", said(*found), said(*start));
     }
     if out.is_empty() { out } else { out + "\n" }
 }
 
 fn cut_list(outcome: &Outcome, (pass, us): (f64, bool), most: usize) -> String {
-    let every = cuts(&outcome.stations, pass);
+    let every = cuts(&outcome.change, pass);
     // What would be shown as nothing.
     let least = if us { 1.27e-5 } else { 5e-6 };
     let (all, little): (Vec<StationCut>, Vec<StationCut>) =
@@ -354,20 +334,21 @@ fn cut_rows(all: &[StationCut], us: bool, most: usize) -> String {
     ]);
     let mut out = columns.heads();
     for cut in all.iter().step_by(all.len().div_ceil(most)) {
-        let passes: Vec<String> = cut.passes.iter().map(|off| across(cut.from - off, us)).collect();
+        let passes: Vec<String> =
+            cut.passes_m.iter().map(|off| across(cut.from_m - off, us)).collect();
         let passes = match passes.len() {
             0 => "wood added".to_owned(),
             1 => "one pass".to_owned(),
             count if count > 3 => format!("{count} passes"),
             _ => passes.join(", "),
         };
-        let [from, to, by] = [cut.from, cut.to, cut.off().abs()].map(|value| across(value, us));
+        let [from, to, by] = [cut.from_m, cut.to_m, cut.off().abs()].map(|value| across(value, us));
         let by = match (adds, cut.adds()) {
             (false, _) => by,
             (true, true) => format!("+{by}"),
             (true, false) => format!("-{by}"),
         };
-        out += &columns.row([place(cut.x, us), from, to, by, passes]);
+        out += &columns.row([place(cut.x_m, us), from, to, by, passes]);
     }
     out
 }

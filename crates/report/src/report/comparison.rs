@@ -8,9 +8,11 @@ use crate::report::trust::doubts;
 use sweetspot::base::number::significant;
 use sweetspot::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
 use sweetspot::collision::hit::Scene;
-use sweetspot_study::comparison::contender::Figure;
-use sweetspot_study::comparison::rows::{ComparedFigure, Difference, From, Unit, energies_compare};
-use sweetspot_study::comparison::stretches::Stretch;
+use sweetspot_study::comparison::contender::Contender;
+use sweetspot_study::comparison::rows::{
+    Compared, ComparedFigure, Difference, From, Unit, energies_compare,
+};
+use sweetspot_study::comparison::stretches::{Harder, Stretch};
 use sweetspot_study::comparison::table::Comparison;
 use sweetspot_study::ignored::in_hit;
 
@@ -71,7 +73,7 @@ impl Scale {
 
     /// A difference with its sign, with more decimals where these would hide it.
     fn difference(&self, difference: Difference) -> String {
-        if !difference.is_real() {
+        if !difference.beyond_errors {
             return "none".to_owned();
         }
         let by = difference.by * self.factor;
@@ -95,7 +97,10 @@ impl Scale {
 
 /// Everything for the terminal.
 pub fn text(comparison: &Comparison, units: Units) -> String {
-    let mut out = legend(comparison, units);
+    let mut out = bats(comparison, units, true) + &hit(comparison, units);
+    let within = "Within: how far a difference may be off by the computation, from the errors stated of both \
+                  bats; less with a smaller --tol. A difference within it is shown as none.";
+    out += &wrapped(within, 5);
     if comparison.bats.len() > 2 {
         out += &overview(comparison, units);
     }
@@ -107,24 +112,26 @@ pub fn text(comparison: &Comparison, units: Units) -> String {
     out
 }
 
-fn legend(comparison: &Comparison, units: Units) -> String {
+/// The bats, each in a line; `full` with how their bending was computed and all that was left out.
+pub fn bats(comparison: &Comparison, units: Units, full: bool) -> String {
     let mut out = String::from("Bats compared; A is the one the others are measured by\n");
-    for (k, contender) in comparison.bats.iter().enumerate() {
-        let modes = contender.sweep.solution.modes.len();
-        let theory = contender.sweep.solution.theory.name();
-        let line = format!("  {}  {} ({theory}, {modes} modes)", letter(k), contender.bat.name());
-        out += &wrapped(&line, 5);
-        if !contender.bat.edits().is_empty() {
-            out += &wrapped(&format!("     edited: {}", edits::listed(&contender.bat, units)), 5);
-        }
-        for effect in in_hit(&contender.bat, &contender.scene) {
-            out += &wrapped(&format!("     left out: {effect}"), 5);
-        }
+    for (k, Contender { bat, scene, sweep, .. }) in comparison.bats.iter().enumerate() {
+        let (solution, left_out) = (&sweep.solution, in_hit(bat, scene));
+        let more = match (full, left_out.is_empty()) {
+            (true, _) => {
+                format!(" ({}, {} modes)", solution.theory.name(), solution.modes.len())
+            }
+            (false, false) => " (hollow, its wall taken as rigid)".to_owned(),
+            (false, true) => String::new(),
+        };
+        out += &wrapped(&format!("  {}  {}{more}", letter(k), bat.name()), 5);
+        let edited =
+            (!bat.edits().is_empty()).then(|| format!("edited: {}", edits::listed(bat, units)));
+        let left_out = left_out.into_iter().filter(|_| full);
+        let notes = edited.into_iter().chain(left_out.map(|effect| format!("left out: {effect}")));
+        notes.for_each(|note| out += &wrapped(&format!("     {note}"), 5));
     }
-    out += &hit(comparison, units);
-    let within = "Within: how far a difference may be off by the computation, from the errors stated of both \
-                  bats; less with a smaller --tol. A difference within it is shown as none.";
-    out + &wrapped(within, 5)
+    out
 }
 
 /// How all of them are hit.
@@ -247,18 +254,18 @@ pub fn rows(comparison: &Comparison, units: Units) -> Vec<Row> {
         };
         let differences = || (1..bats).map(|bat| figure.difference(bat));
         let told = |d: Option<Difference>| d.map_or(String::new(), |d| scale.difference(d));
-        let value = |v: &Option<Figure>| v.map_or(String::new(), |v| scale.value(v.value));
+        let value = |v: &Option<Compared>| v.map_or(String::new(), |v| scale.value(v.value));
         Row {
             key: figure.key.clone(),
             label: alone(figure, scale.name),
             values: figure.values.iter().map(value).collect(),
             differences: differences().map(told).collect(),
             pieces: {
-                let all = (1..bats).filter_map(|bat| comparison.between_pieces(&figure.key, bat));
+                let all = figure.values.iter().flatten().filter_map(|value| value.between_pieces);
                 let most = all.fold(0.0, f64::max) * scale.factor;
                 if most > 0.0 { format!("± {}", significant(most, 2)) } else { String::new() }
             },
-            differs: differences().flatten().any(|difference| difference.is_real()),
+            differs: differences().flatten().any(|difference| difference.beyond_errors),
         }
     };
     shown(comparison).map(row).collect()
@@ -318,7 +325,7 @@ fn compared(figure: &ComparedFigure, bat: usize, label: &str, units: Units) -> S
     let value = |k: usize| figure.values[k].map_or(String::new(), |f| scale_here.value(f.value));
     let difference = figure.difference(bat);
     let size = figure.values[0].map_or(0.0, |f| f.value);
-    let in_other = difference.filter(|d| units.both() && d.is_real());
+    let in_other = difference.filter(|d| units.both() && d.beyond_errors);
     let in_other = in_other.map_or(String::new(), |d| {
         let other = scale(figure.unit, !units.us_first());
         if other.name == scale_here.name {
@@ -396,14 +403,14 @@ const NO_ENERGIES: &str = "Vibration is not compared: the energies of a held bat
 /// Whose best hit is faster.
 fn best(comparison: &Comparison, bat: usize, units: Units) -> String {
     let name = letter(bat);
-    let row = comparison.figures.iter().find(|row| row.key == "best_exit_speed");
-    let Some(difference) = row.and_then(|row| row.difference(bat)) else {
+    let figure = comparison.figure("best_exit_speed", bat);
+    let Some((figure, difference)) = figure.and_then(|of| Some((of, of.difference?))) else {
         return format!(
             "{name} and A cannot be compared at their best: one of them does not hit the ball."
         );
     };
     let speed = |v: f64| by_speed(v, units);
-    if !difference.is_real() {
+    if !difference.beyond_errors {
         return format!(
             "{name} and A hit equally hard at their best: the difference is no more than the \
              computation's error, {}.",
@@ -413,7 +420,7 @@ fn best(comparison: &Comparison, bat: usize, units: Units) -> String {
     let (harder, other) = if difference.by > 0.0 { (name, 'A') } else { ('A', name) };
     let by =
         format!("{harder} hits harder at its best than {other}, by {}", speed(difference.by.abs()));
-    match comparison.between_pieces("best_exit_speed", bat) {
+    match figure.between_pieces {
         Some(pieces) if difference.by.abs() > pieces => {
             format!(
                 "{by}: a clear difference; two pieces of one wood differ by ± {}.",
@@ -437,7 +444,8 @@ pub fn of_pieces(comparison: &Comparison, bat: usize) -> String {
             "{name} and A are one and the same piece: what pieces of one wood differ by cancels."
         );
     }
-    if comparison.between_pieces("frequency_1", bat).is_none() {
+    let figure = comparison.figure("frequency_1", bat);
+    if figure.and_then(|figure| figure.between_pieces).is_none() {
         return format!(
             "How much two pieces of the material of {name} and A differ is not known here: the errors are \
              those of the computation alone."
@@ -457,17 +465,16 @@ fn by_speed(v: f64, units: Units) -> String {
 }
 
 fn stretch(s: &Stretch, name: char, place: &dyn Fn(f64) -> String, units: Units) -> String {
-    let at = match s.from == s.to {
-        true => format!("at {}", place(s.from)),
-        false => format!("from {} to {}", place(s.from), place(s.to)),
+    let [from, to] = s.from_tip_m;
+    let at = match from == to {
+        true => format!("at {}", place(from)),
+        false => format!("from {} to {}", place(from), place(to)),
     };
-    match s.harder {
-        0 => format!("no significant difference {at}"),
-        harder => format!(
-            "{at} {} is faster, by up to {} at {}",
-            if harder > 0 { name } else { 'A' },
-            by_speed(s.most.by.abs(), units),
-            place(s.most_at)
-        ),
-    }
+    let Some(harder) = s.harder else { return format!("no significant difference {at}") };
+    format!(
+        "{at} {} is faster, by up to {} at {}",
+        if harder == Harder::This { name } else { 'A' },
+        by_speed(s.largest_difference_m_s.abs(), units),
+        place(s.largest_at_from_tip_m)
+    )
 }

@@ -1,6 +1,7 @@
 //! Several bats side by side: JSON and CSV, in SI.
 
-use crate::csv::Csv;
+use crate::csv;
+use crate::parts::table::Column;
 use crate::parts::units::Units;
 use crate::report::comparison::{letter, words};
 use crate::report::hit_json::{scene_out, seen_from};
@@ -8,8 +9,7 @@ use crate::report::trust::in_file;
 use crate::schema::compare as file;
 use sweetspot::files::schema::document::{Format, Generator};
 use sweetspot_study::comparison::contender::Contender;
-use sweetspot_study::comparison::rows::ComparedFigure;
-use sweetspot_study::comparison::stretches::Stretch;
+use sweetspot_study::comparison::rows::{Compared, ComparedFigure};
 use sweetspot_study::comparison::table::Comparison;
 use sweetspot_study::ignored::in_hit;
 
@@ -56,20 +56,7 @@ fn scene(first: &Contender) -> file::Scene {
 }
 
 fn of_bat(comparison: &Comparison, k: usize, bat: &Contender, file: &str) -> file::ComparedBat {
-    let figure = |row: &ComparedFigure| {
-        let figure = row.values[k]?;
-        let difference = row.difference(k).filter(|_| k > 0);
-        Some(file::Figure {
-            value: figure.value,
-            error: figure.error,
-            difference: difference.map(|difference| difference.by),
-            difference_error: difference.map(|difference| difference.within),
-            beyond_errors: difference.map(|difference| difference.is_real()),
-            between_pieces: comparison.between_pieces(&row.key, k).filter(|_| k > 0),
-        })
-    };
-    let figures = comparison.figures.iter();
-    let stretches = comparison.stretches(k).into_iter().filter(|_| k > 0);
+    let figures = comparison.figures.iter().map(|row| (row.key_with_unit(), row.values[k]));
     file::ComparedBat {
         name: bat.bat.name().to_owned(),
         file: file.to_owned(),
@@ -81,68 +68,50 @@ fn of_bat(comparison: &Comparison, k: usize, bat: &Contender, file: &str) -> fil
         tolerance_met: bat.sweep.met(),
         ignored: in_hit(&bat.bat, &bat.scene),
         doubts: in_file(&bat.verdict),
-        figures: figures
-            .map(|row| (format!("{}{}", row.key, row.unit.suffix()), figure(row)))
-            .collect(),
-        harder: stretches.map(stretch).collect(),
+        figures: figures.collect(),
+        harder: comparison.stretches(k),
     }
 }
 
-fn stretch(stretch: Stretch) -> file::Stretch {
-    file::Stretch {
-        from_tip_m: [stretch.from, stretch.to],
-        harder: match stretch.harder {
-            0 => None,
-            1 => Some("this"),
-            _ => Some("the first"),
-        },
-        largest_difference_m_s: stretch.most.by,
-        largest_difference_error_m_s: stretch.most.within,
-        largest_at_from_tip_m: stretch.most_at,
-    }
+/// A figure or a speed of one bat.
+struct Line {
+    quantity: String,
+    distance: Option<f64>,
+    bat: usize,
+    figure: Compared,
 }
+
+const COLUMNS: [Column<Line>; 9] = [
+    Column::in_files("quantity", |line| line.quantity.as_str().into()),
+    Column::in_files("distance_m", |line| line.distance.into()),
+    Column::in_files("bat", |line| letter(line.bat).to_string().into()),
+    Column::in_files("value", |line| line.figure.value.into()),
+    Column::in_files("error", |line| line.figure.error.into()),
+    Column::in_files("difference", |line| line.figure.difference.map(|d| d.by).into()),
+    Column::in_files("difference_error", |line| line.figure.difference.map(|d| d.within).into()),
+    Column::in_files("beyond_errors", |line| {
+        line.figure.difference.map(|d| d.beyond_errors).into()
+    }),
+    Column::in_files("between_pieces", |line| line.figure.between_pieces.into()),
+];
 
 /// All figures and speeds, a line for each bat's: SI, the unit at the end of the quantity.
 pub fn csv(comparison: &Comparison) -> String {
-    let mut table = Csv::new([
-        "quantity",
-        "distance_m",
-        "bat",
-        "value",
-        "error",
-        "difference",
-        "difference_error",
-        "beyond_errors",
-        "between_pieces",
-    ]);
-    let mut add = |name: &str, distance: Option<f64>, row: &ComparedFigure| {
-        for (k, figure) in row.values.iter().enumerate() {
-            let Some(figure) = figure else { continue };
-            let difference = row.difference(k).filter(|_| k > 0);
-            table.row([
-                format!("{name}{}", row.unit.suffix()).into(),
-                distance.into(),
-                letter(k).to_string().into(),
-                figure.value.into(),
-                figure.error.into(),
-                difference.map(|d| d.by).into(),
-                difference.map(|d| d.within).into(),
-                difference.map(|d| d.is_real()).into(),
-                comparison
-                    .between_pieces(&row.key, k)
-                    .filter(|_| k > 0 && distance.is_none())
-                    .into(),
-            ]);
-        }
+    let lines = |quantity: String, distance: Option<f64>, row: &ComparedFigure| -> Vec<Line> {
+        let known =
+            row.values.iter().enumerate().filter_map(|(bat, figure)| Some((bat, (*figure)?)));
+        known
+            .map(|(bat, figure)| Line { quantity: quantity.clone(), distance, bat, figure })
+            .collect()
     };
-    for row in &comparison.figures {
-        add(&row.key, None, row);
+    let Comparison { figures, from_tip, by_tip, from_knob, by_knob, .. } = comparison;
+    let mut all: Vec<Line> =
+        figures.iter().flat_map(|row| lines(row.key_with_unit(), None, row)).collect();
+    let ends = [("tip", from_tip, by_tip), ("knob", from_knob, by_knob)];
+    for (end, distances, rows) in ends {
+        for (distance, row) in distances.iter().zip(rows) {
+            all.extend(lines(format!("exit_speed_from_{end}_m_s"), Some(*distance), row));
+        }
     }
-    for (d, row) in comparison.from_tip.iter().zip(&comparison.by_tip) {
-        add("exit_speed_from_tip", Some(*d), row);
-    }
-    for (d, row) in comparison.from_knob.iter().zip(&comparison.by_knob) {
-        add("exit_speed_from_knob", Some(*d), row);
-    }
-    table.text()
+    csv::rows(&COLUMNS, &all)
 }

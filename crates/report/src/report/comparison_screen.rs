@@ -3,13 +3,11 @@
 use crate::parts::terminal::{LINES, fitting, wrapped};
 use crate::parts::units::Units;
 use crate::report::columns::{Columns, first, numbers};
-use crate::report::comparison::{FIRST, Row, along, figures, hit, letter, rows, swung};
-use crate::report::edits;
+use crate::report::comparison::{FIRST, Row, along, bats, figures, hit, letter, rows, swung};
 use crate::report::trust::doubts;
 use sweetspot_study::comparison::contender::Contender;
 use sweetspot_study::comparison::rows::ComparedFigure;
 use sweetspot_study::comparison::table::Comparison;
-use sweetspot_study::ignored::thinnest_wall;
 
 /// What a screen has no room for, of that which matters.
 const LEFT: [&str; 4] = ["zone_from", "zone_to", "length", "balance_point"];
@@ -18,7 +16,7 @@ const LEFT: [&str; 4] = ["zone_from", "zone_to", "length", "balance_point"];
 /// system of units, that of the first one's file unless another is asked for.
 pub fn screen(comparison: &Comparison, units: Units) -> String {
     let one = units.first();
-    let mut out = bats(comparison, one) + &hit(comparison, units);
+    let mut out = bats(comparison, one, false) + &hit(comparison, units);
     let (differing, same) = ordered(comparison, one);
     out += &match (comparison.bats.len(), differing.is_empty()) {
         (_, true) => String::new(),
@@ -97,21 +95,6 @@ fn beside_pieces(comparison: &Comparison, units: Units) -> String {
         let text = "Trust: how much two pieces of these materials differ is not known here; \"within\" is the \
                     computation alone.";
         out += &wrapped(text, 7);
-    }
-    out
-}
-
-/// The bats, each in a line.
-fn bats(comparison: &Comparison, units: Units) -> String {
-    let mut out = String::from("Bats compared; A is the one the others are measured by\n");
-    for (k, contender) in comparison.bats.iter().enumerate() {
-        let hollow = thinnest_wall(&contender.bat).filter(|_| !contender.scene.wall_gives_way());
-        let hollow = if hollow.is_some() { " (hollow, its wall taken as rigid)" } else { "" };
-        out += &wrapped(&format!("  {}  {}{hollow}", letter(k), contender.bat.name()), 5);
-        let edits = edits::listed(&contender.bat, units);
-        if !edits.is_empty() {
-            out += &wrapped(&format!("     edited: {edits}"), 5);
-        }
     }
     out
 }

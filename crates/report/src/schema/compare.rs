@@ -11,6 +11,8 @@ use sweetspot::bat::edit::Edit;
 use sweetspot::bat::theory::Theory;
 use sweetspot::collision::ball::Ball;
 use sweetspot::files::schema::document::{Document, Format, Generator};
+use sweetspot_study::comparison::rows::Compared;
+use sweetspot_study::comparison::stretches::Stretch;
 
 /// Several bats side by side: their figures, exit speeds at the same places, and where one hits harder
 /// than the first. SI, the unit in every name; what does not exist is null. Later versions of the same
@@ -103,56 +105,18 @@ pub struct ComparedBat {
     pub doubts: Vec<Doubt>,
     /// Figures by their names, the unit at the end of each; null where this bat has none.
     #[serde(serialize_with = "in_order")]
-    #[schemars(with = "BTreeMap<String, Option<Figure>>")]
-    pub figures: Vec<(String, Option<Figure>)>,
+    #[schemars(with = "BTreeMap<String, Option<Compared>>")]
+    pub figures: Vec<(String, Option<Compared>)>,
     /// Stretches of the barrel where this bat or the first hits harder; empty for the first.
     pub harder: Vec<Stretch>,
 }
 
 /// Named values as an object, in their order.
 fn in_order<S: Serializer>(
-    figures: &[(String, Option<Figure>)],
+    figures: &[(String, Option<Compared>)],
     serializer: S,
 ) -> Result<S::Ok, S::Error> {
     serializer.collect_map(figures.iter().map(|(name, figure)| (name, figure)))
-}
-
-/// A figure of a bat; its difference is left out for the first bat, and where that has no such figure.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct Figure {
-    /// The value.
-    pub value: f64,
-    /// How far the value may be off.
-    pub error: f64,
-    /// The value less that of the first bat.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub difference: Option<f64>,
-    /// How far the difference may be off.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub difference_error: Option<f64>,
-    /// Whether the difference is larger than its error.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub beyond_errors: Option<bool>,
-    /// One standard deviation of the difference between two pieces of wood, this bat's and the first one's; left
-    /// out where it is not known, and where both are one piece.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub between_pieces: Option<f64>,
-}
-
-/// A stretch of the barrel where one of two bats hits harder, or neither.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct Stretch {
-    /// Where it begins and ends, as distances from the tip (m).
-    pub from_tip_m: [f64; 2],
-    /// Which bat hits harder; null where the difference is within the errors.
-    #[schemars(extend("enum" = ["this", "the first", null]))]
-    pub harder: Option<&'static str>,
-    /// The largest difference of the exit speeds (m/s).
-    pub largest_difference_m_s: f64,
-    /// How far that difference may be off (m/s).
-    pub largest_difference_error_m_s: f64,
-    /// Where the difference is largest, as a distance from the tip (m).
-    pub largest_at_from_tip_m: f64,
 }
 
 /// Exit speeds at one distance, one for each bat; null where ball and bat do not meet.

@@ -21,7 +21,6 @@ pub mod analysis;
 pub mod compare;
 pub mod frf;
 pub mod advice;
-pub mod u_curve;
 pub mod trade;
 pub mod readings;
 pub mod calibrate;

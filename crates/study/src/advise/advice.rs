@@ -2,6 +2,8 @@
 
 use std::rc::Rc;
 
+use serde::Serialize;
+
 use crate::advise::damping::Damping;
 use crate::advise::effect::{Effect, Switch, effects};
 use crate::advise::model::{Bench, Model, Solved};
@@ -13,43 +15,37 @@ use sweetspot::bat::body::Bat;
 use sweetspot::modes::tuned::tuned;
 
 /// What a bat's model needs.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Advice {
+    /// Number of modes that were looked at.
+    pub modes: usize,
     /// How near to the full model's frequencies is near enough, relative.
     pub tolerance: f64,
-    /// Everything that is known of the bat.
-    pub full: Rc<Solved>,
-    /// One for everything that can be switched.
+    /// The model with everything that is known of the bat.
+    pub full_model: FullModel,
+    /// One effect for everything that can be switched.
     pub effects: Vec<Effect>,
     /// What the bat's materials and dashpots damp.
     pub damping: Damping,
-    /// The smallest model that will do.
-    pub smallest: Smallest,
-    /// The physics that no model here has.
-    pub outside: Vec<String>,
+    /// The smallest model within the tolerance.
+    pub smallest_model: Smallest,
+    /// The physics that no model here has, a sentence each.
+    pub out_of_scope: Vec<String>,
+}
+
+/// The full model.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct FullModel {
+    /// The model and what it says of the modes.
+    #[serde(flatten)]
+    pub solved: Rc<Solved>,
+    /// Whether its own frequencies are known to the tolerance.
+    pub tolerance_met: bool,
 }
 
 impl Advice {
-    /// What the smallest model leaves out of the full one, in words.
-    pub fn left_out(&self) -> Vec<&'static str> {
-        let (full, kept) = (&self.full.model, &self.smallest.solved.model);
-        let mut left_out = Vec::new();
-        if full.theory.turns() && !kept.theory.turns() {
-            left_out.push("rotary inertia");
-        }
-        if full.theory.shears() && !kept.theory.shears() {
-            left_out.push("shear");
-        }
-        let parts = full.parts.iter().filter(|part| !kept.parts.contains(part));
-        left_out.extend(parts.map(|part| part.name()));
-        left_out
-    }
-
-    /// Whether the full model's own frequencies are known to the tolerance.
-    pub fn met(&self) -> bool {
-        self.full.solution.worst() <= self.tolerance && self.full.solution.complete
-    }
-
     /// The largest shift that shear would typically make, where it is not known.
     pub fn unknown_shear(&self) -> Option<f64> {
         let row = self.effects.iter().find(|effect| effect.switch == Switch::TypicalShear)?;
@@ -75,7 +71,7 @@ pub const MOST_MODES: usize = 100;
 /// #     "profile": { "unit": "in", "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5] } }"#;
 /// # let bat = Bat::from_text("bat.json", text, "".as_ref())?;
 /// let advice = advise(&bat, 3, 0.01)?;
-/// println!("within 1 % without {:?}", advice.left_out());
+/// println!("within 1 % without {:?}", advice.smallest_model.left_out);
 /// # Ok(())
 /// # }
 /// ```
@@ -110,13 +106,18 @@ pub fn advise_telling(bat: &Bat, modes: usize, tolerance: f64, tell: Tell) -> Re
     let bat = tuned(bat.clone(), full.theory, accuracy)?;
     let mut bench = Bench::new(&bat, modes, accuracy);
     let effects = effects(&mut bench, &full)?;
-    let smallest = smallest(&mut bench, &full, tolerance, tell)?;
+    let smallest_model = smallest(&mut bench, &full, tolerance, tell)?;
+    let solved = bench.solve(&full)?;
     Ok(Advice {
+        modes: solved.solution.modes.len(),
         tolerance,
-        full: bench.solve(&full)?,
         effects,
-        damping: Damping::of(&bat),
-        smallest,
-        outside: outside(&bat),
+        damping: Damping::of(&bat, &solved.solution),
+        smallest_model,
+        out_of_scope: outside(&bat),
+        full_model: FullModel {
+            tolerance_met: solved.solution.worst() <= tolerance && solved.solution.complete(),
+            solved,
+        },
     })
 }

@@ -1,25 +1,35 @@
-//! What damps a bat, as far as its materials say without solving anything.
+//! What damps a bat: its materials, its dashpots, and what both make of its modes.
+
+use std::f64::consts::TAU;
+
+use serde::Serialize;
 
 use crate::advise::part::ModelPart;
 use sweetspot::bat::body::Bat;
 use sweetspot::bat::material::Material;
+use sweetspot::modes::damping::Damped;
+use sweetspot::modes::solve::Solution;
 
-/// The damping that the materials make, and what else takes energy.
-#[derive(Debug, Clone, PartialEq)]
+/// What materials and dashpots damp.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Damping {
-    /// Bounds of every mode's damping ratio ζ by the materials alone.
-    ///
-    /// A mode's ζ is half the mean of the loss factors, weighed by the strain energy in each
-    /// material: η/2 where there is one material. Springs, joints, absorbers and hands may store
-    /// energy without loss, which makes 0 the lower bound.
-    pub material: [f64; 2],
+    /// Bounds of every mode's damping ratio by the materials alone.
+    // A mode's damping ratio ζ is half the mean of the loss factors, weighed by the strain energy in each
+    // material: η/2 where there is one material. Springs, joints, absorbers and hands may store
+    // energy without loss, which makes 0 the lower bound.
+    pub material_ratio: [f64; 2],
     /// Dashpots: what they are and how strong.
     pub dashpots: Vec<String>,
+    /// Damping ratio of each mode; empty without damping.
+    pub ratio_by_mode: Vec<f64>,
+    /// Frequency of each damped motion (Hz); empty without damping.
+    pub damped_frequency_hz_by_mode: Vec<f64>,
 }
 
 impl Damping {
-    /// What damps that bat.
-    pub fn of(bat: &Bat) -> Self {
+    /// What damps that bat, whose modes are those.
+    pub fn of(bat: &Bat, solution: &Solution) -> Self {
         let lossless =
             [ModelPart::Springs, ModelPart::Absorbers, ModelPart::Joints, ModelPart::Grip]
                 .iter()
@@ -39,7 +49,13 @@ impl Damping {
                 dashpots.push(format!("absorbers[{k}], {} N s/m", absorber.damping));
             }
         }
-        Self { material: [0.5 * least.min(most), 0.5 * most], dashpots }
+        let by_mode = |of: fn(&Damped) -> f64| solution.damping.modes.iter().map(of).collect();
+        Self {
+            material_ratio: [0.5 * least.min(most), 0.5 * most],
+            dashpots,
+            ratio_by_mode: by_mode(|damped| damped.ratio),
+            damped_frequency_hz_by_mode: by_mode(|damped| damped.swinging() / TAU),
+        }
     }
 }
 

@@ -2,10 +2,12 @@
 
 use std::rc::Rc;
 
+use serde::{Serialize, Serializer};
+
 use crate::advise::model::{Bench, Model, Solved};
 use crate::advise::part::ModelPart;
 use crate::ignored::with_typical_shear;
-use sweetspot::base::error::Result;
+use sweetspot::base::error;
 use sweetspot::bat::body::STANDARD_PIVOT;
 use sweetspot::bat::theory::Theory;
 use sweetspot::modes::mode::Mode;
@@ -42,67 +44,78 @@ impl Switch {
     }
 }
 
-/// The bat with something and without it, all else as in the full model.
-#[derive(Debug, Clone)]
-pub struct Effect {
-    /// What is switched.
-    pub switch: Switch,
-    /// The bat that has it.
-    pub with: Rc<Solved>,
-    /// The bat that does not.
-    pub without: Rc<Solved>,
-    /// Change of every mode by the effect; None where the modes are others altogether.
-    pub shifts: Option<Vec<Shift>>,
-    /// Change of mass (kg), balance point (m) and inertia 6 in from the knob (kg m²) by the effect.
-    pub body: [f64; 3],
+impl Serialize for Switch {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        to.serialize_str(self.name())
+    }
 }
 
-/// Relative change of a mode's frequency, and the shift of its nodes.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Shift {
-    /// Change of the frequency, relative to the one without the effect; negative where that lowers it.
-    pub frequency: f64,
-    /// Error bound of [`Self::frequency`], relative.
-    pub error: f64,
-    /// Shift of every node towards the tip (m); None where their number changes.
-    pub nodes: Option<Vec<f64>>,
-    /// Error bound of [`Self::nodes`] (m).
-    pub node_error: f64,
+/// What one part of the model does; shifts are null where the modes are others altogether.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Effect {
+    /// What is switched, in words.
+    #[cfg_attr(feature = "schema", schemars(with = "String"))]
+    pub switch: Switch,
+    /// Whether the bat file says so; false where a typical value was tried.
+    pub known: bool,
+    /// The model that has it.
+    pub with: Rc<Solved>,
+    /// The model that does not.
+    pub without: Rc<Solved>,
+    /// Relative change of each frequency, negative where the part lowers it.
+    pub shift_by_mode: Option<Vec<f64>>,
+    /// How far each change may be off.
+    pub shift_error_by_mode: Option<Vec<f64>>,
+    /// Shift of every node of each mode towards the tip (m); null where their number changes.
+    pub node_shift_m_by_mode: Option<Vec<Option<Vec<f64>>>>,
+    /// How far the shifts of each mode's nodes may be off (m).
+    pub node_shift_error_m_by_mode: Option<Vec<f64>>,
+    /// Change of the mass (kg).
+    pub mass_kg: f64,
+    /// Change of the balance point (m).
+    pub balance_point_m: f64,
+    /// Change of the moment of inertia about the point 6 in from the knob end (kg m²).
+    pub inertia_pivot_kg_m2: f64,
 }
 
 impl Effect {
     fn new(switch: Switch, with: Rc<Solved>, without: Rc<Solved>) -> Self {
-        let shifts = with.pairs_with(&without).then(|| shifts(&with, &without));
-        let body = |solved: &Solved| {
-            let inertia = solved.inertia();
-            [inertia.mass, inertia.balance_point, inertia.about(STANDARD_PIVOT)]
+        let paired = with.pairs_with(&without);
+        let pairs = || with.solution.modes.iter().zip(&without.solution.modes);
+        let numbers = |of: fn((&Mode, &Mode)) -> f64| paired.then(|| pairs().map(of).collect());
+        let moved = |(a, b): (&Mode, &Mode)| {
+            let moved = || a.nodes.iter().zip(&b.nodes).map(|(a, b)| a - b).collect();
+            (a.nodes.len() == b.nodes.len()).then(moved)
         };
-        let (a, b) = (body(&with), body(&without));
-        let body = [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
-        Self { switch, with, without, shifts, body }
+        let [more, less] = [with.inertia(), without.inertia()];
+        Self {
+            switch,
+            known: switch != Switch::TypicalShear,
+            shift_by_mode: numbers(|(a, b)| a.omega / b.omega - 1.0),
+            shift_error_by_mode: numbers(|(a, b)| {
+                a.omega / b.omega * (a.error.total() + b.error.total())
+            }),
+            node_shift_m_by_mode: paired.then(|| pairs().map(moved).collect()),
+            node_shift_error_m_by_mode: numbers(|(a, b)| a.error.nodes + b.error.nodes),
+            mass_kg: more.mass - less.mass,
+            balance_point_m: more.balance_point - less.balance_point,
+            inertia_pivot_kg_m2: more.about(STANDARD_PIVOT) - less.about(STANDARD_PIVOT),
+            with,
+            without,
+        }
     }
 
     /// The largest |shift| of a frequency; None where the modes are others.
     pub fn largest(&self) -> Option<f64> {
-        let shifts = self.shifts.as_ref()?;
-        Some(shifts.iter().map(|shift| shift.frequency.abs()).fold(0.0, f64::max))
+        let shifts = self.shift_by_mode.as_ref()?;
+        Some(shifts.iter().map(|shift| shift.abs()).fold(0.0, f64::max))
     }
-}
 
-/// Mode by mode, from the bat without something to the bat with it.
-fn shifts(with: &Solved, without: &Solved) -> Vec<Shift> {
-    let pairs = with.solution.modes.iter().zip(&without.solution.modes);
-    let shift = |(a, b): (&Mode, &Mode)| {
-        let ratio = a.omega / b.omega;
-        let moved = || a.nodes.iter().zip(&b.nodes).map(|(a, b)| a - b).collect();
-        Shift {
-            frequency: ratio - 1.0,
-            error: ratio * (a.error.total() + b.error.total()),
-            nodes: (a.nodes.len() == b.nodes.len()).then(moved),
-            node_error: a.error.nodes + b.error.nodes,
-        }
-    };
-    pairs.map(shift).collect()
+    /// The relative change of a mode's frequency (from 0), and how far it may be off; None where the modes are others.
+    pub fn shift(&self, mode: usize) -> Option<[f64; 2]> {
+        Some([self.shift_by_mode.as_ref()?[mode], self.shift_error_by_mode.as_ref()?[mode]])
+    }
 }
 
 /// The effect of everything that can be switched on this bat, one at a time, from the full model.
@@ -110,7 +123,7 @@ fn shifts(with: &Solved, without: &Solved) -> Vec<Shift> {
 /// # Errors
 ///
 /// Those of [`sweetspot::modes::solve::solve`].
-pub fn effects(bench: &mut Bench, full: &Model) -> Result<Vec<Effect>> {
+pub fn effects(bench: &mut Bench, full: &Model) -> error::Result<Vec<Effect>> {
     let plain = bench.solve(&full.by(Theory::EulerBernoulli))?;
     let turning = bench.solve(&full.by(Theory::Rayleigh))?;
     let mut effects =
@@ -143,7 +156,7 @@ fn taken_off(
     full: &Model,
     switch: Switch,
     parts: &[ModelPart],
-) -> Result<Effect> {
+) -> error::Result<Effect> {
     let mut without = full.without(parts);
     let known = without.bat(bench.bat())?.knows_shear();
     if without.theory.shears() && !known {

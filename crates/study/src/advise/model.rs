@@ -2,6 +2,8 @@
 
 use std::rc::Rc;
 
+use serde::Serialize;
+
 use crate::advise::part::ModelPart;
 use sweetspot::base::error::{Error, Result};
 use sweetspot::bat::body::Bat;
@@ -10,11 +12,15 @@ use sweetspot::bat::theory::Theory;
 use sweetspot::modes::solve::{Request, Solution, solve};
 
 /// What of a bat is in a model.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Model {
-    /// The beam theory.
+    /// Beam theory.
+    #[cfg_attr(feature = "schema", schemars(with = "String", extend("enum" = Theory::ALL.map(Theory::name))))]
     pub theory: Theory,
-    /// The parts that it has, in the order of [`ModelPart::ALL`].
+    /// What the model has beside the bare bat, in words.
+    // In the order of [`ModelPart::ALL`].
+    #[cfg_attr(feature = "schema", schemars(with = "Vec<String>"))]
     pub parts: Vec<ModelPart>,
 }
 
@@ -58,14 +64,24 @@ impl Model {
     }
 }
 
-/// A model and its modes.
-#[derive(Debug, Clone)]
+/// A model and what it says of the modes.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Solved {
     /// The model: a theory and the parts of the bat it includes.
+    #[serde(flatten)]
     pub model: Model,
+    /// How many motions are rigid, at 0 Hz.
+    pub rigid_modes: usize,
+    /// Frequency of each mode (Hz).
+    pub frequencies_hz: Vec<f64>,
+    /// Relative error of each frequency.
+    pub error_by_mode: Vec<f64>,
     /// The bat as the model sees it.
+    #[serde(skip)]
     pub bat: Bat,
     /// Modes of the model.
+    #[serde(skip)]
     pub solution: Solution,
 }
 
@@ -77,12 +93,14 @@ impl Solved {
     /// Those of [`solve`].
     pub fn new(model: Model, bat: Bat, request: &Request) -> Result<Self> {
         let solution = solve(&bat, &Request { theory: model.theory, ..*request })?;
-        Ok(Self { model, bat, solution })
-    }
-
-    /// Frequencies (Hz).
-    pub fn frequencies(&self) -> Vec<f64> {
-        self.solution.modes.iter().map(|mode| mode.frequency()).collect()
+        Ok(Self {
+            model,
+            rigid_modes: solution.rigid_modes,
+            frequencies_hz: solution.modes.iter().map(|mode| mode.frequency()).collect(),
+            error_by_mode: solution.modes.iter().map(|mode| mode.error.total()).collect(),
+            bat,
+            solution,
+        })
     }
 
     /// What it swings with as a rigid body: a line of mass without rotary inertia.
@@ -105,7 +123,7 @@ impl Solved {
         };
         let slow = many.iter().any(|a| (a.stiffness / a.mass).sqrt() <= top);
         let added = many.len() > few.len() && slow;
-        self.solution.rigid_modes == that.solution.rigid_modes && !added
+        self.rigid_modes == that.rigid_modes && !added
     }
 }
 

@@ -1,5 +1,7 @@
 //! What is on a bat, kind by kind, and the bat without it.
 
+use serde::{Serialize, Serializer};
+
 use sweetspot::bat::body::Bat;
 use sweetspot::bat::fixtures::{Attachment, Fixtures};
 
@@ -92,6 +94,12 @@ impl ModelPart {
             Self::Grip => fixtures.grip = None,
         }
         fixtures.attachments.retain(|a| weighs(a) || springs(a));
+    }
+}
+
+impl Serialize for ModelPart {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        to.serialize_str(self.name())
     }
 }
 

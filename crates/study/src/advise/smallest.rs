@@ -2,20 +2,34 @@
 
 use std::rc::Rc;
 
+use serde::Serialize;
+
 use crate::advise::model::{Bench, Model, Solved};
 use sweetspot::base::error::Result;
 use sweetspot::base::telling::Tell;
 use sweetspot::bat::theory::Theory;
 
-/// A model that will do.
-#[derive(Debug, Clone)]
+/// The smallest model within the tolerance.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Smallest {
-    /// The model and its modes.
+    /// The model and what it says of the modes.
+    #[serde(flatten)]
     pub solved: Rc<Solved>,
-    /// The largest |f/f_full − 1|.
+    /// What it leaves out of the full model, in words.
+    pub left_out: Vec<&'static str>,
+    /// Largest relative difference of a frequency from the full model's.
     pub deviation: f64,
-    /// How far the deviation may be off.
-    pub error: f64,
+    /// How far that difference may be off.
+    pub deviation_error: f64,
+}
+
+/// What a model leaves out of the full one, in words.
+fn left_out(kept: &Model, full: &Model) -> Vec<&'static str> {
+    let turning = (full.theory.turns() && !kept.theory.turns()).then_some("rotary inertia");
+    let shearing = (full.theory.shears() && !kept.theory.shears()).then_some("shear");
+    let parts = full.parts.iter().filter(|part| !kept.parts.contains(part));
+    turning.into_iter().chain(shearing).chain(parts.map(|part| part.name())).collect()
 }
 
 /// The model with the fewest switches on whose every frequency is within `tolerance` of the full
@@ -39,17 +53,18 @@ pub fn smallest(bench: &mut Bench, full: &Model, tolerance: f64, tell: Tell) -> 
                 continue;
             }
             let solved = bench.solve(&model)?;
-            let Some([deviation, error]) = deviation(&solved, &truth) else { continue };
+            let Some([deviation, deviation_error]) = deviation(&solved, &truth) else { continue };
             let nearer = best.as_ref().is_none_or(|best| deviation < best.deviation);
-            if deviation + error <= tolerance && nearer {
-                best = Some(Smallest { solved, deviation, error });
+            if deviation + deviation_error <= tolerance && nearer {
+                let left_out = left_out(&model, full);
+                best = Some(Smallest { solved, left_out, deviation, deviation_error });
             }
         }
         if let Some(best) = best {
             return Ok(best);
         }
     }
-    Ok(Smallest { solved: truth, deviation: 0.0, error: 0.0 })
+    Ok(Smallest { solved: truth, left_out: vec![], deviation: 0.0, deviation_error: 0.0 })
 }
 
 /// Every theory with every set of the full model's parts.

@@ -3,6 +3,8 @@
 //! The unknowns are the coefficients of the change of the diameter (mm), then one for each free choice besides
 //! the shape, in units of its own (see [`Extra`]).
 
+use serde::Serialize;
+
 use crate::aim::limits::Limits;
 use crate::aim::spline::Splines;
 use crate::aim::wish::{FreeChoice, Goal, Wish};
@@ -47,13 +49,16 @@ pub struct Extra {
 }
 
 /// What may change besides the shape.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub enum ExtraKind {
     /// Length of the bat (m), everything on it moving with it.
+    #[serde(rename = "length_m")]
     Length,
     /// Density of the bat's own material (kg/m³).
+    #[serde(rename = "density_kg_m3")]
     Density,
     /// A weight on the knob end (kg).
+    #[serde(rename = "knob_weight_kg")]
     KnobWeight,
 }
 

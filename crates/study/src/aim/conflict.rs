@@ -4,32 +4,44 @@
 //! other is left out; those without which the others still cannot be met stay out. What remains is a smallest
 //! conflict: without any of its members the others can be met.
 
+use serde::Serialize;
+
 use crate::aim::search::{Found, MISSED, Search, Weights};
 use crate::aim::wish::Band;
 use sweetspot::base::error::Result;
 use sweetspot::base::threads;
 
-/// A smallest set of bands that cannot be met together.
-#[derive(Debug, Clone, PartialEq)]
+/// Targets that cannot be had together: without any one of them the others can.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Conflict {
-    /// How near each member comes.
+    /// The targets, with how near each comes.
     pub members: Vec<Reach>,
+    /// The conflict in a sentence: the targets that cannot all be had, and how near each comes.
+    // A report says it; until then it is empty.
+    pub words: String,
     /// Numbers of the bands that are no part of it and are missed where a member comes nearest.
+    #[serde(skip)]
     pub aside: Vec<usize>,
     /// Bats that were computed for it.
+    #[serde(skip)]
     pub bats: usize,
 }
 
-/// How near a band comes, the other members met.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// How near a target comes with the other members of the conflict met.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Reach {
-    /// Number of the band.
-    pub band: usize,
-    /// The nearest value, in SI.
-    pub value: f64,
+    /// Name of the output.
+    pub name: String,
+    /// Which of the targets, counted from 0.
+    pub target: usize,
+    /// The nearest value (SI); null where the bat has none.
+    pub reaches: Option<f64>,
     /// Whether the others are met there.
     pub others_met: bool,
     /// Whether the search stood still there: nothing nearer is beside it.
+    #[serde(skip)]
     pub settled: bool,
 }
 
@@ -78,8 +90,9 @@ impl Conflict {
             let mut others = stay.clone();
             others[*k] = false;
             let others_met = !missed(reached, bands, &others);
-            let (value, settled) = (reached.values[*k], reached.stopped.is_none());
-            Reach { band: *k, value, others_met, settled }
+            let reaches = Some(reached.values[*k]).filter(|value| value.is_finite());
+            let (name, settled) = (bands[*k].goal.name(), reached.stopped.is_none());
+            Reach { name, target: *k, reaches, others_met, settled }
         };
         let members = members.iter().zip(&reached).map(reach).collect();
         let out = |k: &usize| {
@@ -87,7 +100,7 @@ impl Conflict {
             !stay[*k] && reached.iter().any(missed)
         };
         let aside = (0..bands.len()).filter(out).collect();
-        Ok((Self { members, aside, bats }, reached))
+        Ok((Self { members, words: String::new(), aside, bats }, reached))
     }
 
     /// Weights by which everything else is met and the members come as near as they can together, each by its
@@ -96,7 +109,7 @@ impl Conflict {
         const OTHERS: f64 = 100.0;
         let mut weights = Weights::met(bands);
         for (k, price) in weights.miss.iter_mut().enumerate() {
-            if self.members.iter().all(|member| member.band != k) {
+            if self.members.iter().all(|member| member.target != k) {
                 *price *= OTHERS;
             }
         }

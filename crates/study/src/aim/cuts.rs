@@ -1,29 +1,32 @@
 //! What does the lathe take off, station by station and pass by pass, and where is wood added?
 
+use serde::Serialize;
+
 use crate::aim::laying::Station;
 
-/// What changes at a station; lengths in m.
-#[derive(Debug, Clone, PartialEq)]
+/// A change at a station.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct StationCut {
-    /// Place from the knob end.
-    pub x: f64,
-    /// Diameter before.
-    pub from: f64,
-    /// Diameter after.
-    pub to: f64,
-    /// How much is off the diameter after each pass; empty where wood is added, which no lathe does.
-    pub passes: Vec<f64>,
+    /// Where (m).
+    pub x_m: f64,
+    /// Diameter before (m).
+    pub from_m: f64,
+    /// Diameter after (m).
+    pub to_m: f64,
+    /// How much is off the diameter after each pass (m); empty where wood is added.
+    pub passes_m: Vec<f64>,
 }
 
 impl StationCut {
     /// What comes off the diameter (m), below 0 where wood is added.
     pub fn off(&self) -> f64 {
-        self.from - self.to
+        self.from_m - self.to_m
     }
 
     /// Whether wood is added.
     pub fn adds(&self) -> bool {
-        self.to > self.from
+        self.to_m > self.from_m
     }
 }
 
@@ -43,7 +46,12 @@ pub fn cuts(stations: &[Station], pass: f64) -> Vec<StationCut> {
             true => (1..=count).map(|k| off * k as f64 / count as f64).collect(),
             false => vec![],
         };
-        Some(StationCut { x: station.x, from: station.old, to: station.new, passes })
+        Some(StationCut {
+            x_m: station.x,
+            from_m: station.old,
+            to_m: station.new,
+            passes_m: passes,
+        })
     };
     stations.iter().filter_map(cut).collect()
 }

@@ -7,6 +7,8 @@
 //! halve the way from one to the next until it does not. They have finer digits, as those have where the change
 //! runs out.
 
+use serde::Serialize;
+
 use crate::aim::limits::{Limits, section};
 use crate::aim::spline::Splines;
 use crate::aim::wish::Grid;
@@ -14,26 +16,36 @@ use sweetspot::base::error::Result;
 use sweetspot::bat::body::Bat;
 use sweetspot::bat::profile::{Interpolation, Profile, Radii, SAME_PLACE, Stations};
 
-/// A station of the new bat; lengths in m.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// A station of the new bat.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Station {
-    /// Place from the knob end.
+    /// Where it is (m).
+    #[serde(rename = "x_m")]
     pub x: f64,
-    /// Diameter that the bat has there.
+    /// Diameter that the bat had there (m).
+    #[serde(rename = "old_m")]
     pub old: f64,
-    /// Diameter by the smooth change.
-    pub exact: f64,
-    /// Diameter that is written.
+    /// Diameter of the new bat (m).
+    #[serde(rename = "new_m")]
     pub new: f64,
-    /// Inner radius.
+    /// Diameter by the smooth change (m).
+    #[serde(skip)]
+    pub exact: f64,
+    /// Inner radius (m).
+    #[serde(skip)]
     pub(super) inner: f64,
-    /// Least diameter that the limits allow, more where the curve beside the station asks for it.
+    /// Least diameter that the limits allow (m), more where the curve beside the station asks for it.
+    #[serde(skip)]
     pub(super) low: f64,
-    /// Greatest diameter that the limits allow, less where the curve beside the station asks for it.
+    /// Greatest diameter that the limits allow (m), less where the curve beside the station asks for it.
+    #[serde(skip)]
     pub(super) high: f64,
-    /// What its diameter is rounded to.
+    /// What its diameter is rounded to (m).
+    #[serde(skip)]
     pub(super) round: f64,
     /// Whether it is in a stretch that is kept.
+    #[serde(skip)]
     pub(super) kept: bool,
 }
 

@@ -10,7 +10,8 @@
 //! | [`search`], [`conflict`] | the least change that meets the goals; which of them cannot be had together |
 //! | [`laying`], [`stations`] | where do the stations of the changed bat stand; which diameters is it written with |
 //! | [`rounding`] | which rounding leaves the goals where they are to be |
-//! | [`outcome`], [`cuts`] | the bat that meets the wish, or comes nearest; what the lathe takes off |
+//! | [`aimed`], [`outcome`] | what comes of a wish; the bat that meets it, or comes nearest |
+//! | [`cuts`] | what the lathe takes off |
 
 pub mod rules;
 pub mod wish;
@@ -24,5 +25,6 @@ pub mod conflict;
 pub mod laying;
 pub mod stations;
 pub mod rounding;
+pub mod aimed;
 pub mod outcome;
 pub mod cuts;

@@ -5,73 +5,18 @@
 //! stations are then rounded anew, aside by what the last ones were off, and if that does not do, the search is
 //! made anew with bands that are moved by as much.
 
-use crate::aim::bench::{Bench, Extra, Terms};
+use crate::aim::aimed::{AimedTarget, Choice, Outcome, Output, largest};
+use crate::aim::bench::{Bench, Terms};
 use crate::aim::conflict::{Conflict, missed};
-use crate::aim::laying::Station;
 use crate::aim::limits::{KEPT, Limits, section};
 use crate::aim::rounding::{Rounded, Rounding};
-use crate::aim::rules::{Rule, Ruled};
+use crate::aim::rules::{Rule, RulesKept};
 use crate::aim::search::{Found, MISSED, Search, Weights};
 use crate::aim::wish::{Band, Grid, Wish};
 use crate::many::answers::Answer;
 use sweetspot::base::error::{Error, Result};
 use sweetspot::base::golden;
 use sweetspot::bat::body::Bat;
-
-/// What came of a wish.
-#[derive(Debug, Clone)]
-pub struct Outcome {
-    /// The bat as it was.
-    pub start: Bat,
-    /// The bat as it is written.
-    pub bat: Bat,
-    /// The stations of the bat that is written.
-    pub stations: Vec<Station>,
-    /// How they were laid.
-    pub grid: Grid,
-    /// How many times finer than it was wished they are rounded, so that every goal is met.
-    pub finer: f64,
-    /// What each goal may be.
-    pub bands: Vec<Band>,
-    /// What each goal is, of the bat that is written.
-    pub values: Vec<f64>,
-    /// How much the norm of the change (mm) would be less if the goal's bound gave way by one SI unit; 0 where
-    /// it does not bind, None where the change is not a least one that meets all goals.
-    pub prices: Vec<Option<f64>>,
-    /// Whether every goal is met and every limit and rule kept by the bat that is written.
-    pub met: bool,
-    /// The targets that cannot be had together.
-    pub conflict: Option<Conflict>,
-    /// Root of `mean(d²) + ℓ⁴ mean(d″²)` of the change d of the diameter (mm).
-    pub norm: f64,
-    /// Quadratic programs of the search.
-    pub iterations: usize,
-    /// Bats that were computed, all in all.
-    pub bats: usize,
-    /// Why the search ended before it stood still.
-    pub stopped: Option<&'static str>,
-    /// How far a limit of the diameter is broken (m); 0 where all are kept.
-    pub broken: f64,
-    /// How far the diameter moved where the bat is kept (m).
-    pub kept_within: f64,
-    /// Greatest slope of the surface where it is changed, if that is limited: radius over length.
-    pub slope: Option<f64>,
-    /// How much steeper the surface is anywhere than it may be, radius over length; 0 where it is not, or
-    /// nothing limits it.
-    pub steeper: f64,
-    /// Whether wood was only taken off.
-    pub remove_only: bool,
-    /// What else was chosen, with its value in SI.
-    pub extras: Vec<(Extra, f64)>,
-    /// The wood that was chosen.
-    pub wood: Option<String>,
-    /// Main answers before and after.
-    pub answers: Vec<(Answer, [Option<f64>; 2])>,
-    /// The rules, with what the bat has, and whether it keeps them.
-    pub rules: Vec<Ruled>,
-    /// Why the wall of a hollow barrel is rigid in the hits; None where it matters to none.
-    pub rigid_wall: Option<String>,
-}
 
 /// What is told of every bat before and after.
 const TOLD: [Answer; 10] = [
@@ -109,7 +54,7 @@ impl Outcome {
     /// use sweetspot::bat::theory::Theory;
     /// use sweetspot::collision::{Model, Scene};
     /// use sweetspot_study::aim::bench::Terms;
-    /// use sweetspot_study::aim::outcome::Outcome;
+    /// use sweetspot_study::aim::aimed::Outcome;
     /// use sweetspot_study::aim::wish::{Amount, Ask, Goal, Target, Wish};
     /// use sweetspot_study::lathe::workpiece::HitTerms;
     /// use sweetspot_study::many::answers::Answer;
@@ -176,61 +121,14 @@ impl Outcome {
     /// Those of [`Bench::of`].
     pub fn read_back(mut self, written: Bat, wish: &Wish, terms: &Terms) -> Result<Self> {
         let bench = Bench::new(&self.start, wish, terms.clone())?;
-        self.values = bench.of(&written)?;
+        for (target, value) in self.targets.iter_mut().zip(bench.of(&written)?) {
+            *target = AimedTarget::new(target.band, value, target.price);
+        }
         self.bat = written;
-        self.answers = told(&bench, &self.start, &self.bat)?;
+        self.outputs = told(&bench, &self.start, &self.bat)?;
         self.rules = rules(wish, &self.bat, &bench)?;
         self.judge();
         Ok(self)
-    }
-
-    fn is_met(&self) -> bool {
-        self.targets_met()
-            && self.broken <= KEPT
-            && self.steeper <= KEPT
-            && self.broken_rules() == 0
-    }
-
-    /// Says whether it is met; targets that are met are in no conflict.
-    fn judge(&mut self) {
-        self.met = self.is_met();
-        if self.targets_met() {
-            self.conflict = None;
-        }
-    }
-
-    /// Whether every target, and every rule that is one, is met.
-    pub fn targets_met(&self) -> bool {
-        self.bands.iter().zip(&self.values).all(|(band, value)| band.has(*value))
-    }
-
-    /// How many rules are broken.
-    pub fn broken_rules(&self) -> usize {
-        self.rules.iter().filter(|(.., kept)| *kept == Some(false)).count()
-    }
-
-    /// Where a section that was cut has least of its strength in bending left, and the share that is left: the
-    /// section modulus `π (d⁴ − d_i⁴) / (32 d)` of a round section of that diameter and bore, after over before.
-    pub fn weakest(&self) -> Option<(f64, f64)> {
-        let modulus = |across: f64, bore: f64| (across.powi(4) - bore.powi(4)) / across;
-        let left = |station: &Station| {
-            let [old, new] = [station.old, station.new].map(|d| modulus(d, 2.0 * station.inner));
-            new / old
-        };
-        let cut = self.stations.iter().filter(|station| station.new < station.old);
-        cut.map(|station| (station.x, left(station))).min_by(|a, b| a.1.total_cmp(&b.1))
-    }
-
-    /// The greatest diameter of the bat that is written (m).
-    pub fn widest(&self) -> f64 {
-        let radii = &self.bat.profile().stations.outer;
-        2.0 * radii.iter().fold(0.0_f64, |a, b| a.max(*b))
-    }
-
-    /// The largest amount taken off a diameter, and the largest put on (m).
-    pub fn largest(&self) -> [f64; 2] {
-        let changes = self.stations.iter().map(|station| station.new - station.old);
-        changes.fold([0.0, 0.0], |[off, on]: [f64; 2], by| [off.max(-by), on.max(by)])
     }
 }
 
@@ -266,70 +164,80 @@ struct Tries<'a> {
 
 impl Writing<'_> {
     fn outcome(self, least: Least) -> Result<Outcome> {
-        let Least { bench, mut found, wood, .. } = least;
+        let Least { bench, found, wood, .. } = least;
         let all = vec![true; self.bands.len()];
         let limits = Limits::new(self.wish, bench.bat());
         let search = Search::new(&bench, &limits);
-        let mut conflict = None;
-        if missed(&found, &self.bands, &all) {
-            (found, conflict) = self.nearest(&bench, &search, found)?;
-        }
+        let (found, conflict) = match missed(&found, &self.bands, &all) {
+            true => self.nearest(&bench, &search, found)?,
+            false => (found, None),
+        };
         let norm = search.norm(&found.p);
         let prices = self.prices(&found, norm);
-        let mut bats = found.bats + conflict.as_ref().map_or(0, |conflict| conflict.bats);
-        let iterations = found.iterations;
-        let first = found;
-        let (mut best, mut stopped) = (None::<Rounded>, first.stopped);
+        let tries =
+            Tries { bench: &bench, limits: &limits, first: &found, once: conflict.is_some() };
+        let (rounded, stopped, tried) = self.finest(&tries)?;
+        let bats = tried + found.bats + conflict.as_ref().map_or(0, |conflict| conflict.bats);
+        let Rounded { draft, grid, values, p, norm: written, steeper, .. } = rounded;
+        let chosen = bench.extras().iter().enumerate().map(|(k, extra)| Choice {
+            what: extra.what,
+            start: extra.start,
+            found: bench.extra(&p, k),
+        });
+        let stretch = bench.stretch(&p);
+        let free = bench.splines().stretches().iter().map(|s| s.map(|end| end * stretch));
+        let kept_within_m =
+            moved_beside(&free.collect::<Vec<_>>(), &bench.rechosen(bench.bat(), &p)?, &draft.bat);
+        let broken = draft.broken.iter().map(|broken| broken.by.abs()).fold(0.0, f64::max);
+        let bat = draft.bat.with(|parts| self.name(parts))?;
+        let [largest_cut_m, largest_added_m] = largest(&draft.stations);
+        let kept = |by: f64| if by <= KEPT { 0.0 } else { by };
+        let targets = self.bands.into_iter().zip(values).zip(prices);
+        let mut outcome = Outcome {
+            met: false,
+            targets: targets.map(|((band, of), price)| AimedTarget::new(band, of, price)).collect(),
+            conflict,
+            rules: rules(self.wish, &bat, &bench)?,
+            norm_mm: written,
+            largest_cut_m,
+            largest_added_m,
+            limits_broken_m: kept(broken),
+            kept_within_m,
+            steeper_by: self.wish.slope.map(|_| kept(steeper)),
+            iterations: found.iterations,
+            bats_solved: bats,
+            stopped,
+            free: chosen.collect(),
+            wood,
+            outputs: told(&bench, self.bat, &bat)?,
+            change: draft.stations,
+            start: self.bat.clone(),
+            rigid_wall: bench.rigid_wall(&bat),
+            bat,
+            grid,
+            finer: self.grid.round / grid.round,
+            slope: self.wish.slope,
+            remove_only: self.wish.remove_only,
+        };
+        outcome.judge();
+        Ok(outcome)
+    }
+
+    /// The rounding of a least change that leaves the goals in their bands, no finer than needed, or the best of all:
+    /// why its search stopped, and the bats that were computed.
+    fn finest(&self, tries: &Tries) -> Result<(Rounded, Option<&'static str>, usize)> {
+        let (mut best, mut stopped, mut bats) = (None::<Rounded>, tries.first.stopped, 0);
         for finer in FINER {
-            if best.as_ref().is_some_and(|best| best.worst <= 1e-9 || conflict.is_some()) {
+            if best.as_ref().is_some_and(|best| best.worst <= 1e-9 || tries.once) {
                 break;
             }
-            let tries =
-                Tries { bench: &bench, limits: &limits, first: &first, once: conflict.is_some() };
-            let (rounded, by, tried) = self.rounded(&tries, finer)?;
+            let (rounded, by, tried) = self.rounded(tries, finer)?;
             bats += tried;
             if best.as_ref().is_none_or(|best| best.worst > rounded.worst) {
                 (best, stopped) = (Some(rounded), by);
             }
         }
-        let rounded = best.expect("one draft at least was made");
-        let Rounded { draft, grid, values, p, norm: written, steeper, .. } = rounded;
-        let extras = bench.extras().iter().enumerate();
-        let extras = extras.map(|(k, extra)| (*extra, bench.extra(&p, k))).collect();
-        let stretch = bench.stretch(&p);
-        let free = bench.splines().stretches().iter().map(|s| s.map(|end| end * stretch));
-        let kept_within =
-            moved_beside(&free.collect::<Vec<_>>(), &bench.rechosen(bench.bat(), &p)?, &draft.bat);
-        let broken = draft.broken.iter().map(|broken| broken.by.abs()).fold(0.0, f64::max);
-        let bat = draft.bat.with(|parts| self.name(parts))?;
-        let mut outcome = Outcome {
-            start: self.bat.clone(),
-            answers: told(&bench, self.bat, &bat)?,
-            rules: rules(self.wish, &bat, &bench)?,
-            rigid_wall: bench.rigid_wall(&bat),
-            bat,
-            stations: draft.stations,
-            grid,
-            finer: self.grid.round / grid.round,
-            bands: self.bands,
-            values,
-            prices,
-            met: false,
-            conflict,
-            norm: written,
-            iterations,
-            bats,
-            stopped,
-            broken,
-            kept_within,
-            slope: self.wish.slope,
-            steeper,
-            remove_only: self.wish.remove_only,
-            extras,
-            wood,
-        };
-        outcome.judge();
-        Ok(outcome)
+        Ok((best.expect("one draft at least was made"), stopped, bats))
     }
 
     /// The best rounding of a least change this many times finer than it was wished, why its search stopped, and the
@@ -461,22 +369,22 @@ fn moved_beside(free: &[[f64; 2]], old: &Bat, new: &Bat) -> f64 {
 }
 
 /// The main answers of both bats, swung alike.
-fn told(bench: &Bench, start: &Bat, bat: &Bat) -> Result<Vec<(Answer, [Option<f64>; 2])>> {
+fn told(bench: &Bench, start: &Bat, bat: &Bat) -> Result<Vec<Output>> {
     let of = |bat: &Bat| -> Result<Vec<Option<f64>>> {
         let piece = bench.piece_of(bat, &TOLD)?;
         Ok(piece.values().iter().map(|figure| figure.map(|figure| figure.value)).collect())
     };
     let (before, after) = (of(start)?, of(bat)?);
-    let both = before.into_iter().zip(after).map(|(a, b)| [a, b]);
-    Ok(TOLD.into_iter().zip(both).collect())
+    let both = TOLD.into_iter().zip(before.into_iter().zip(after));
+    Ok(both.map(|(answer, (start, found))| Output { answer, start, found }).collect())
 }
 
 /// The rules, with what the bat has of the matter of each.
-fn rules(wish: &Wish, bat: &Bat, bench: &Bench) -> Result<Vec<Ruled>> {
-    let Some(set) = &wish.rules else { return Ok(vec![]) };
+fn rules(wish: &Wish, bat: &Bat, bench: &Bench) -> Result<Option<RulesKept>> {
+    let Some(set) = &wish.rules else { return Ok(None) };
     let bbcor = match set.rules.iter().any(|rule| matches!(rule, Rule::BbcorAtMost(_))) {
         true => bench.piece_of(bat, &[Answer::Bbcor])?.values()[0].map(|figure| figure.value),
         false => None,
     };
-    Ok(set.judged(bat, bbcor))
+    Ok(Some(set.judged(bat, bbcor)))
 }

@@ -2,6 +2,8 @@
 //!
 //! A [`RuleSet`] is data with its source and date; what is computed by it certifies nothing.
 
+use serde::{Serialize, Serializer};
+
 use sweetspot::base::units::{inches, ounces};
 use sweetspot::bat::body::{Bat, STANDARD_PIVOT};
 
@@ -47,8 +49,46 @@ pub enum Rule {
     OnePiece,
 }
 
-/// A rule, what the bat has of its matter (SI), and whether it is kept.
-pub type Ruled = (Rule, Option<f64>, Option<bool>);
+/// Rules, and whether the new bat keeps them.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct RulesKept {
+    /// Short name.
+    pub name: String,
+    /// Which game they are of.
+    pub game: String,
+    /// Where the numbers are from.
+    pub source: String,
+    /// Year or date of the source.
+    pub date: String,
+    /// Always false: what is computed certifies nothing.
+    pub certified: bool,
+    /// The rules.
+    pub limits: Vec<Ruled>,
+    /// What the rules ask besides, which nothing here computes.
+    pub ask: Vec<String>,
+}
+
+/// A rule, and what came of it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Ruled {
+    /// Which, as a rule file calls it.
+    #[cfg_attr(feature = "schema", schemars(with = "String"))]
+    pub rule: Rule,
+    /// Its limit (SI); null where it has no number.
+    pub limit: Option<f64>,
+    /// What the new bat has (SI); null where it has no such thing.
+    pub value: Option<f64>,
+    /// Whether it is kept; null where that is not known.
+    pub kept: Option<bool>,
+}
+
+impl Serialize for Rule {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        to.serialize_str(self.name())
+    }
+}
 
 impl Rule {
     /// What a rule file calls it.
@@ -94,11 +134,12 @@ impl RuleSet {
         self.rules.iter().map(of).fold(f64::INFINITY, f64::min)
     }
 
-    /// Every rule, what the bat has of its matter, and whether it is kept; its BBCOR is told.
-    pub fn judged(&self, bat: &Bat, bbcor: Option<f64>) -> Vec<Ruled> {
+    /// The rules with what the bat has of the matter of each, and whether it is kept; its BBCOR is told.
+    pub fn judged(&self, bat: &Bat, bbcor: Option<f64>) -> RulesKept {
         let widest = bat.profile().stations.outer.iter().fold(0.0_f64, |a, b| a.max(*b));
         let (body, hole) = (bat.inertia(), cup(bat));
         let of = |rule: &Rule| {
+            let (rule, limit) = (*rule, rule.limit());
             let (value, most) = match rule {
                 Rule::DiameterAtMost(_) => (Some(2.0 * widest), true),
                 Rule::LengthAtMost(_) => (Some(bat.length()), true),
@@ -109,17 +150,26 @@ impl RuleSet {
                 Rule::CupDepthAtMost(_) => (hole.map(|hole| hole[0]), true),
                 Rule::CupDiameterAtLeast(_) => (hole.map(|hole| hole[1]), false),
                 Rule::CupDiameterAtMost(_) => (hole.map(|hole| hole[1]), true),
-                Rule::OnePiece => return (*rule, None, Some(one_piece(bat))),
+                Rule::OnePiece => {
+                    return Ruled { rule, limit, value: None, kept: Some(one_piece(bat)) };
+                }
             };
-            let limit = rule.limit().unwrap_or(f64::INFINITY);
-            let slack = 1e-9 * limit.abs().max(1.0);
+            let bound = limit.unwrap_or(f64::INFINITY);
+            let slack = 1e-9 * bound.abs().max(1.0);
             let kept = value
-                .map(|value| if most { value <= limit + slack } else { value >= limit - slack });
+                .map(|value| if most { value <= bound + slack } else { value >= bound - slack });
             // Without a cup every rule of cups is kept.
             let of_cup = rule.name().starts_with("cup");
-            (*rule, value, if of_cup { Some(kept.unwrap_or(true)) } else { kept })
+            Ruled {
+                rule,
+                limit,
+                value,
+                kept: if of_cup { Some(kept.unwrap_or(true)) } else { kept },
+            }
         };
-        self.rules.iter().map(of).collect()
+        let Self { name, game, source, date, ask, .. } = self.clone();
+        let limits = self.rules.iter().map(of).collect();
+        RulesKept { name, game, source, date, certified: false, limits, ask }
     }
 }
 

@@ -1,5 +1,7 @@
 //! The figures of several bats side by side, and their differences.
 
+use serde::Serialize;
+
 use crate::comparison::contender::{Contender, Figure};
 use sweetspot::bat::body::STANDARD_PIVOT;
 
@@ -63,30 +65,69 @@ pub struct ComparedFigure {
     /// Where places are measured from, if the values are places.
     pub from: From,
     /// A value for each bat that has one.
-    pub values: Vec<Option<Figure>>,
+    pub values: Vec<Option<Compared>>,
+}
+
+/// A figure of a bat; its difference is left out for the first bat, and where that has no such figure.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Compared {
+    /// The value.
+    pub value: f64,
+    /// How far the value may be off.
+    pub error: f64,
+    /// What the bat has more than the first one.
+    #[serde(flatten)]
+    pub difference: Option<Difference>,
+    /// One standard deviation of the difference between two pieces of wood, this bat's and the first one's; left
+    /// out where it is not known, and where both are one piece.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub between_pieces: Option<f64>,
 }
 
 /// How a bat differs from the reference.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Difference {
-    /// The other value less the first.
+    /// The value less that of the first bat.
+    #[serde(rename = "difference")]
     pub by: f64,
-    /// Error bound of the difference: the errors of both values added.
+    /// How far the difference may be off.
+    // The errors of both values added.
+    #[serde(rename = "difference_error")]
     pub within: f64,
-}
-
-impl Difference {
-    /// Whether the difference exceeds the errors.
-    pub fn is_real(&self) -> bool {
-        self.by.abs() > self.within
-    }
+    /// Whether the difference is larger than its error.
+    pub beyond_errors: bool,
 }
 
 impl ComparedFigure {
-    /// Difference of a bat from the first; None where one of them has no value.
+    /// The figures of all the bats beside those of the first.
+    pub(crate) fn new(
+        (key, name): (&str, &str),
+        unit: Unit,
+        from: From,
+        values: &[Option<Figure>],
+    ) -> Self {
+        let compared = |(k, other): (usize, &Option<Figure>)| {
+            let Figure { value, error } = (*other)?;
+            let difference = values[0].filter(|_| k > 0).map(|first| {
+                let (by, within) = (value - first.value, first.error + error);
+                Difference { by, within, beyond_errors: by.abs() > within }
+            });
+            Some(Compared { value, error, difference, between_pieces: None })
+        };
+        let values = values.iter().enumerate().map(compared).collect();
+        Self { key: key.to_owned(), name: name.to_owned(), unit, from, values }
+    }
+
+    /// Its key with the unit at the end.
+    pub fn key_with_unit(&self) -> String {
+        format!("{}{}", self.key, self.unit.suffix())
+    }
+
+    /// Difference of a bat from the first; None of the first, and where one of them has no value.
     pub fn difference(&self, bat: usize) -> Option<Difference> {
-        let (one, other) = (self.values[0]?, self.values[bat]?);
-        Some(Difference { by: other.value - one.value, within: one.error + other.error })
+        self.values[bat]?.difference
     }
 }
 
@@ -145,13 +186,9 @@ pub fn speeds(bats: &[Contender], from: From, distances: &[f64]) -> Vec<Compared
             From::Tip => c.bat.length() - distance,
             _ => *distance,
         };
-        ComparedFigure {
-            key: "exit_speed".into(),
-            name: "exit speed".into(),
-            unit: Unit::MetresPerSecond,
-            from,
-            values: bats.iter().map(|c| c.speed(place(c))).collect(),
-        }
+        let values: Vec<_> = bats.iter().map(|c| c.speed(place(c))).collect();
+        let names = ("exit_speed", "exit speed");
+        ComparedFigure::new(names, Unit::MetresPerSecond, from, &values)
     };
     distances.iter().map(row).collect()
 }
@@ -170,8 +207,7 @@ impl Rows<'_> {
         of: impl Fn(&Contender) -> Option<Figure>,
     ) {
         let values: Vec<_> = self.bats.iter().map(of).collect();
-        let (key, name) = (key.to_owned(), name.to_owned());
-        self.all.push(ComparedFigure { key, name, unit, from: From::Nowhere, values });
+        self.all.push(ComparedFigure::new((key, name), unit, From::Nowhere, &values));
     }
 
     fn exact(&mut self, key: &str, name: &str, unit: Unit, of: impl Fn(&Contender) -> f64) {

@@ -1,13 +1,13 @@
 //! Bats hit at the same places, and everything that is compared of them.
 
 use crate::comparison::contender::{Contender, Terms, multiples, places};
-use crate::comparison::pieces::{ByWood, answer, by_wood, one_piece};
-use crate::comparison::rows::{ComparedFigure, From, figures, speeds};
+use crate::comparison::pieces::{answer, by_wood, one_piece};
+use crate::comparison::rows::{Compared, ComparedFigure, From, figures, speeds};
 use crate::comparison::stretches::{Stretch, stretches};
 use sweetspot::base::error::{Error, Result};
 use sweetspot::bat::body::Bat;
 use sweetspot::collision::figures::SwingLaw;
-use sweetspot::collision::hit::Scene;
+use sweetspot::collision::hit::{Model, Scene};
 use sweetspot::modes::solve::Request;
 
 /// A bat with its own swing and its own request: theories may differ.
@@ -40,8 +40,6 @@ pub struct Comparison {
     pub from_knob: Vec<f64>,
     /// The exit speeds there.
     pub by_knob: Vec<ComparedFigure>,
-    /// What the wood alone leaves open of every bat.
-    by_wood: Vec<ByWood>,
 }
 
 /// How much of the shortest bat is compared, from the tip on.
@@ -71,11 +69,11 @@ impl Comparison {
         }
         let from_tip = multiples([0.0, reach], 0.25 * terms.every);
         let from_knob = multiples([longest - reach, shortest], terms.every);
-        let by_wood = bats.iter().map(|bat| by_wood(bat, terms.model)).collect();
+        let mut figures = figures(&bats);
+        between_pieces(&mut figures, &bats, terms.model);
         Ok(Self {
             terms,
-            by_wood,
-            figures: figures(&bats),
+            figures,
             by_tip: speeds(&bats, From::Tip, &from_tip),
             by_knob: speeds(&bats, From::Knob, &from_knob),
             from_tip,
@@ -92,14 +90,9 @@ impl Comparison {
         })
     }
 
-    /// By how much that figure of another piece of that bat's wood and of another of the first's differ,
-    /// one standard deviation, in the unit of the figure; None where no scatter is known, or where both bats
-    /// are one piece.
-    pub fn between_pieces(&self, key: &str, bat: usize) -> Option<f64> {
-        let answer = answer(key.trim_end_matches("_from_tip"))? as usize;
-        let [a, b] = [self.by_wood[0][answer]?, self.by_wood[bat][answer]?];
-        let by = a.hypot(b);
-        (!self.one_piece(bat) && by > 0.0).then_some(by)
+    /// That figure of that bat; None where the bat has none.
+    pub fn figure(&self, key: &str, bat: usize) -> Option<Compared> {
+        self.figures.iter().find(|row| row.key == key)?.values[bat]
     }
 
     /// Whether that bat is the first one with edits, or the first is: one and the same piece of wood.
@@ -110,5 +103,21 @@ impl Comparison {
     /// Where that bat hits harder than the first.
     pub fn stretches(&self, bat: usize) -> Vec<Stretch> {
         stretches(&self.from_tip, &self.by_tip, bat)
+    }
+}
+
+/// Puts beside every figure by how much it differs between another piece of that bat's wood and another of the first's:
+/// one standard deviation, where the scatter is known and the bats are not one piece.
+fn between_pieces(figures: &mut [ComparedFigure], bats: &[Contender], model: Model) {
+    let by_wood: Vec<_> = bats.iter().map(|bat| by_wood(bat, model)).collect();
+    let others = (1..bats.len()).filter(|bat| !one_piece(&bats[0].bat, &bats[*bat].bat));
+    for bat in others {
+        for row in &mut *figures {
+            let answer =
+                answer(row.key.trim_end_matches("_from_tip")).map(|answer| answer as usize);
+            let open = |bat: usize| by_wood[bat][answer?];
+            let by = open(0).zip(open(bat)).map(|(a, b)| a.hypot(b)).filter(|by| *by > 0.0);
+            row.values[bat].iter_mut().for_each(|figure| figure.between_pieces = by);
+        }
     }
 }

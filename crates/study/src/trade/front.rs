@@ -1,37 +1,37 @@
 //! Which runs are worth their time: the Pareto front of time and error.
 
-use crate::trade::reference::{Choice, worst};
+use serde::Serialize;
 
-/// One way to solve the bat, timed and held against the reference.
-#[derive(Debug, Clone)]
+use crate::trade::reference::Choice;
+
+/// One mesh and solver, timed.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Run {
     /// The mesh and the solver.
+    #[serde(flatten)]
     pub choice: Choice,
-    /// Plan, assembly, eigenpairs, shapes and estimates: median of the repeats (s).
+    /// Median time of the repeats (s).
+    // Plan, assembly, eigenpairs, shapes and estimates.
     pub seconds: f64,
     /// How often it was timed.
     pub repeats: usize,
-    /// True relative error of the frequencies, mode by mode.
-    pub errors: Vec<f64>,
-    /// The largest of them by the solution's own estimate.
-    pub stated: f64,
-    /// The tolerance for which the planner chose this; none for a mesh of the ladder.
+    /// Largest true error of a frequency.
+    pub error: f64,
+    /// True error of each frequency.
+    pub error_by_mode: Vec<f64>,
+    /// Largest error of a frequency by the solution's own estimate.
+    pub stated_error: f64,
+    /// The tolerance for which the planner chose this; null for a mesh of the ladder.
     pub planned_for: Option<f64>,
     /// Whether no other run is both faster and more accurate.
     pub on_front: bool,
 }
 
-impl Run {
-    /// The largest true relative error of a frequency.
-    pub fn error(&self) -> f64 {
-        worst(&self.errors)
-    }
-}
-
 /// Sorts the runs by time and marks those that are more accurate than every faster one. Errors
 /// below `floor` are all alike, so that the front does not run on into the noise.
 pub fn mark(runs: &mut [Run], floor: f64) {
-    let error = |run: &Run| run.error().max(floor);
+    let error = |run: &Run| run.error.max(floor);
     runs.sort_by(|a, b| a.seconds.total_cmp(&b.seconds).then(error(a).total_cmp(&error(b))));
     let mut least = f64::INFINITY;
     for run in runs {
@@ -47,7 +47,7 @@ pub fn front(runs: &[Run]) -> impl Iterator<Item = &Run> {
 
 /// The fastest run whose error is within a tolerance.
 pub fn fastest(runs: &[Run], tolerance: f64) -> Option<&Run> {
-    let within = runs.iter().filter(|run| run.error() <= tolerance);
+    let within = runs.iter().filter(|run| run.error <= tolerance);
     within.min_by(|a, b| a.seconds.total_cmp(&b.seconds))
 }
 
@@ -60,8 +60,16 @@ pub(crate) mod tests {
     pub fn run(seconds: f64, error: f64) -> Run {
         let choice =
             Choice { degree: 5, elements: 7, solver: Solver::Statics, degrees_of_freedom: 30 };
-        let (errors, stated) = (vec![0.5 * error, error], error);
-        Run { choice, seconds, repeats: 3, errors, stated, planned_for: None, on_front: false }
+        Run {
+            choice,
+            seconds,
+            repeats: 3,
+            error,
+            error_by_mode: vec![0.5 * error, error],
+            stated_error: error,
+            planned_for: None,
+            on_front: false,
+        }
     }
 
     #[test]
@@ -76,7 +84,7 @@ pub(crate) mod tests {
         mark(&mut runs, floor);
         assert!(front(&runs).count() > 2);
         let beats = |a: &Run, b: &Run| {
-            let (ours, theirs) = (a.error().max(floor), b.error().max(floor));
+            let (ours, theirs) = (a.error.max(floor), b.error.max(floor));
             a.seconds <= b.seconds && ours <= theirs
         };
         for (k, run) in runs.iter().enumerate() {

@@ -2,9 +2,11 @@
 
 use std::time::{Duration, Instant};
 
+use serde::Serialize;
+
 use crate::trade::front::{Run, mark};
-use crate::trade::reference::{Choice, Reference, solver_name};
-use crate::trade::u_curve::{self, Column, first_time, order};
+use crate::trade::reference::{Choice, Reference, solver_name, worst};
+use crate::trade::u_curve::{self, Curve, first_time, order};
 use crate::trade::words::{digits, hurts, planner};
 use sweetspot::base::error::Result;
 use sweetspot::base::telling::Tell;
@@ -14,14 +16,19 @@ use sweetspot::beam::rule::DEGREES;
 use sweetspot::modes::solve::{Request, Solution, Solver, solve};
 
 /// Speed against accuracy on one bat, as measured.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Trade {
-    /// What the runs are held against.
+    /// Number of modes.
+    pub modes: usize,
+    /// What the errors are measured against.
     pub reference: Reference,
-    /// Every run, fastest first, those on the front marked.
+    /// Every run, fastest first.
     pub runs: Vec<Run>,
+    /// The runs that the planner chose, for the largest tolerance first.
+    pub planner: Vec<Run>,
     /// Error against the number of cubic elements, as far as there was time.
-    pub columns: Vec<Column>,
+    pub more_elements: Vec<Curve>,
     /// What follows, in sentences.
     pub words: Vec<String>,
 }
@@ -74,13 +81,13 @@ pub fn measure(
     bench.ask_planner(tell)?;
     let time = budget.mul_f64(COLUMNS).saturating_sub(started.elapsed());
     let finer = |_, what: &str| tell(bench.share(), what);
-    let columns = u_curve::measure(bat, &bench.reference, &SOLVERS, FINEST_COLUMN, time, &finer);
+    let curves = u_curve::measure(bat, &bench.reference, &SOLVERS, FINEST_COLUMN, time, &finer);
     bench.climb(tell);
     tell(bench.share(), "the front again");
     for _ in 0..2 {
         bench.repeat_front();
     }
-    Ok(bench.trade(columns))
+    Ok(bench.trade(curves))
 }
 
 /// A run with what was asked and every time it took.
@@ -196,11 +203,11 @@ impl Bench<'_> {
             ladder.done = true;
             return;
         };
-        let error = measured.run.error();
+        let error = measured.run.error;
         ladder.last = Some((unknowns, measured.run.seconds));
         ladder.without_gain = if error < 0.9 * ladder.least { 0 } else { ladder.without_gain + 1 };
         ladder.least = ladder.least.min(error);
-        ladder.done = error <= self.reference.floor() || ladder.without_gain == PATIENCE;
+        ladder.done = error <= self.reference.floor || ladder.without_gain == PATIENCE;
         self.runs.push(measured);
     }
 
@@ -220,12 +227,14 @@ impl Bench<'_> {
             samples.push(self.once(&request)?.1);
         }
         let omegas: Vec<f64> = solution.modes.iter().map(|mode| mode.omega).collect();
+        let error_by_mode = self.reference.errors(&omegas);
         let run = Run {
             choice: Choice::of(&solution),
             seconds: median(&samples),
             repeats: samples.len(),
-            errors: self.reference.errors(&omegas),
-            stated: solution.worst(),
+            error: worst(&error_by_mode),
+            error_by_mode,
+            stated_error: solution.worst(),
             planned_for: None,
             on_front: false,
         };
@@ -242,10 +251,9 @@ impl Bench<'_> {
     /// Times what decides, again and in turn, so that all of it meets the same machine: the
     /// planner's choices, and what would be on the front if its first times were slow by chance.
     fn repeat_front(&mut self) {
-        let floor = self.reference.floor();
+        let floor = self.reference.floor;
         let beats = |other: &Run, run: &Run| {
-            other.seconds < CHANCE * run.seconds
-                && other.error().max(floor) <= run.error().max(floor)
+            other.seconds < CHANCE * run.seconds && other.error.max(floor) <= run.error.max(floor)
         };
         let decides = |run: &Run| {
             run.planned_for.is_some() || !self.runs.iter().any(|other| beats(&other.run, run))
@@ -268,14 +276,19 @@ impl Bench<'_> {
         }
     }
 
-    fn trade(self, columns: Vec<Column>) -> Trade {
-        let floor = self.reference.floor();
+    fn trade(self, more_elements: Vec<Curve>) -> Trade {
+        let floor = self.reference.floor;
         let mut runs: Vec<Run> = self.runs.into_iter().map(|measured| measured.run).collect();
         mark(&mut runs, floor);
         let mut words = digits(&runs, floor);
         words.extend(planner(&runs));
-        words.extend(hurts(&columns));
-        Trade { reference: self.reference, runs, columns, words }
+        words.extend(hurts(&more_elements));
+        let planned = runs.iter().filter(|run| run.planned_for.is_some());
+        let mut planner: Vec<Run> = planned.cloned().collect();
+        planner
+            .sort_by(|a, b| b.planned_for.unwrap_or(0.0).total_cmp(&a.planned_for.unwrap_or(0.0)));
+        let modes = self.reference.omegas.len();
+        Trade { modes, reference: self.reference, runs, planner, more_elements, words }
     }
 }
 
@@ -297,19 +310,22 @@ mod tests {
         let bat = Bat::builtin("cone").unwrap();
         let trade =
             measure(&bat, 3, Theory::EulerBernoulli, Duration::from_millis(600), &nobody).unwrap();
-        let floor = trade.reference.floor();
+        let floor = trade.reference.floor;
         assert!(trade.runs.len() > 20, "{}", trade.runs.len());
         for run in &trade.runs {
-            assert!(run.seconds > 0.0 && run.repeats > 0 && run.errors.len() == 3, "{run:?}");
-            assert!(run.error() <= 3.0 * run.stated + 3.0 * floor, "{run:?}");
+            assert!(
+                run.seconds > 0.0 && run.repeats > 0 && run.error_by_mode.len() == 3,
+                "{run:?}"
+            );
+            assert!(run.error <= 3.0 * run.stated_error + 3.0 * floor, "{run:?}");
         }
-        let errors: Vec<f64> = front(&trade.runs).map(|run| run.error().max(floor)).collect();
+        let errors: Vec<f64> = front(&trade.runs).map(|run| run.error.max(floor)).collect();
         assert!(!errors.is_empty() && errors.windows(2).all(|pair| pair[1] < pair[0]));
         assert!(trade.words.iter().any(|words| words.starts_with("1e-2 takes")));
         let planned = trade.runs.iter().filter_map(|run| Some((run, run.planned_for?)));
         assert!(planned.clone().count() >= 1);
         for (run, tolerance) in planned {
-            assert!(run.error() <= tolerance, "{run:?}");
+            assert!(run.error <= tolerance, "{run:?}");
         }
     }
 

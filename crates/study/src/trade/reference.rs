@@ -1,18 +1,24 @@
 //! What errors are measured against: the same bat, solved as accurately as can be, twice.
 
-use sweetspot::base::error::Result;
+use std::f64::consts::TAU;
+
+use serde::{Serialize, Serializer};
+use sweetspot::base::error;
 use sweetspot::bat::body::Bat;
 use sweetspot::bat::theory::Theory;
 use sweetspot::modes::solve::{Request, Solution, Solver, solve};
 
-/// How a bat is discretised and solved.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// A mesh and the solver for it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Choice {
     /// Degree of the elements' deflection.
     pub degree: usize,
     /// Number of elements.
     pub elements: usize,
     /// How the eigenvalues are found.
+    #[serde(serialize_with = "by_name")]
+    #[cfg_attr(feature = "schema", schemars(with = "String", extend("enum" = SOLVERS.map(solver_name))))]
     pub solver: Solver,
     /// Unknowns of the assembled matrices.
     pub degrees_of_freedom: usize,
@@ -30,6 +36,10 @@ impl Choice {
     }
 }
 
+/// Every solver, in the order in which they are listed.
+pub const SOLVERS: [Solver; 4] =
+    [Solver::Statics, Solver::Dense, Solver::ShiftInvert, Solver::Arpack];
+
 /// The name that the command line and the files use.
 pub fn solver_name(solver: Solver) -> &'static str {
     match solver {
@@ -40,20 +50,42 @@ pub fn solver_name(solver: Solver) -> &'static str {
     }
 }
 
-/// The frequencies of the continuous bat, how they were found and how far they may be trusted.
-#[derive(Debug, Clone)]
+/// Writes a solver as files have it.
+pub(crate) fn by_name<S: Serializer>(solver: &Solver, to: S) -> Result<S::Ok, S::Error> {
+    to.serialize_str(solver_name(*solver))
+}
+
+/// The frequencies everything is measured against, and how far they may be trusted.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Reference {
-    /// Angular frequencies of the lowest bending modes (rad/s).
-    pub omegas: Vec<f64>,
-    /// The beam theory.
-    pub theory: Theory,
     /// How they were found.
+    #[serde(flatten)]
     pub choice: Choice,
-    /// Largest relative error of a frequency by the solution's own estimate.
-    pub stated: f64,
-    /// Another discretisation, of another degree, solved for confirmation.
-    pub other: Choice,
-    /// Largest relative difference of a frequency between the two.
+    /// Beam theory.
+    #[cfg_attr(feature = "schema", schemars(with = "String", extend("enum" = Theory::ALL.map(Theory::name))))]
+    pub theory: Theory,
+    /// Frequency of each mode (Hz).
+    pub frequencies_hz: Vec<f64>,
+    /// Angular frequencies of the same modes (rad/s).
+    #[serde(skip)]
+    pub omegas: Vec<f64>,
+    /// Largest error of a frequency by the solution's own estimate.
+    pub stated_error: f64,
+    /// Smaller errors cannot be told from none.
+    pub floor: f64,
+    /// Another discretisation, solved for confirmation.
+    pub confirmed_by: Confirmation,
+}
+
+/// Another discretisation.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Confirmation {
+    /// Its mesh and its solver.
+    #[serde(flatten)]
+    pub choice: Choice,
+    /// Largest difference of a frequency from the reference.
     pub agreement: f64,
 }
 
@@ -68,33 +100,33 @@ impl Reference {
     /// # Errors
     ///
     /// As [`solve`].
-    pub fn of(bat: &Bat, modes: usize, theory: Theory) -> Result<Self> {
+    pub fn of(bat: &Bat, modes: usize, theory: Theory) -> error::Result<Self> {
         let request = Request { modes, tolerance: FINEST, theory, ..Request::default() };
         let best = solve(bat, &request)?;
         let degree = if best.degree > 4 { best.degree - 1 } else { best.degree + 1 };
         let other = solve(bat, &Request { degree: Some(degree), ..request })?;
-        let omegas = |solution: &Solution| solution.modes.iter().map(|m| m.omega).collect();
-        let mut reference = Self {
-            omegas: omegas(&best),
-            theory,
+        let [omegas, others] = [&best, &other]
+            .map(|solution| solution.modes.iter().map(|m| m.omega).collect::<Vec<f64>>());
+        let (stated_error, agreement) = (best.worst(), worst(&errors(&others, &omegas)));
+        Ok(Self {
             choice: Choice::of(&best),
-            stated: best.worst(),
-            other: Choice::of(&other),
-            agreement: 0.0,
-        };
-        reference.agreement = worst(&reference.errors(&omegas(&other)));
-        Ok(reference)
-    }
-
-    /// Errors below this are not told from none.
-    pub fn floor(&self) -> f64 {
-        self.stated.max(self.agreement).max(f64::EPSILON)
+            theory,
+            frequencies_hz: omegas.iter().map(|omega| omega / TAU).collect(),
+            omegas,
+            stated_error,
+            floor: stated_error.max(agreement).max(f64::EPSILON),
+            confirmed_by: Confirmation { choice: Choice::of(&other), agreement },
+        })
     }
 
     /// Relative error of each of these angular frequencies (rad/s), mode by mode.
     pub fn errors(&self, omegas: &[f64]) -> Vec<f64> {
-        omegas.iter().zip(&self.omegas).map(|(got, exact)| (got / exact - 1.0).abs()).collect()
+        errors(omegas, &self.omegas)
     }
+}
+
+fn errors(omegas: &[f64], exact: &[f64]) -> Vec<f64> {
+    omegas.iter().zip(exact).map(|(got, exact)| (got / exact - 1.0).abs()).collect()
 }
 
 /// The largest of these errors.
@@ -119,9 +151,9 @@ mod tests {
         let reference = Reference::of(&bat, 8, Theory::EulerBernoulli).unwrap();
         let exact: Vec<f64> = (1..=8).map(|n| dowel.omega(Ends::FreeFree, n)).collect();
         let errors = reference.errors(&exact);
-        assert!(errors.len() == 8 && worst(&errors) <= reference.floor(), "{errors:?}");
-        assert!(reference.floor() < 1e-13);
-        assert_ne!(reference.choice.degree, reference.other.degree);
+        assert!(errors.len() == 8 && worst(&errors) <= reference.floor, "{errors:?}");
+        assert!(reference.floor < 1e-13);
+        assert_ne!(reference.choice.degree, reference.confirmed_by.choice.degree);
     }
 
     #[test]
@@ -131,8 +163,8 @@ mod tests {
             let known = |theory: &Theory| !theory.shears() || bat.knows_shear();
             for theory in Theory::ALL.into_iter().filter(known) {
                 let reference = Reference::of(&bat, 5, theory).unwrap();
-                let within = reference.agreement <= 3.0 * reference.stated;
-                assert!(within && reference.stated < 1e-13, "{}: {reference:?}", bat.name());
+                let within = reference.confirmed_by.agreement <= 3.0 * reference.stated_error;
+                assert!(within && reference.stated_error < 1e-13, "{}: {reference:?}", bat.name());
             }
         }
     }

@@ -5,12 +5,19 @@
 
 use std::time::{Duration, Instant};
 
-use crate::trade::reference::{Reference, solver_name};
+use serde::Serialize;
+
+#[cfg(feature = "schema")]
+use crate::trade::reference;
+use crate::trade::reference::{Reference, by_name, solver_name};
 use sweetspot::base::error::{Error, Result};
 use sweetspot::base::telling::Tell;
 use sweetspot::bat::body::Bat;
 use sweetspot::beam::mesh::Mesh;
 use sweetspot::modes::solve::{MOST_DENSE, Request, Solver, own_and_recomputed, solve};
+
+/// Errors at which 8 digits, 4 digits and none are left.
+const THRESHOLDS: [f64; 3] = [1e-8, 1e-4, 1.0];
 
 /// The solvers of a U-curve, those of this build.
 pub const SOLVERS: &[Solver] = &[
@@ -21,50 +28,81 @@ pub const SOLVERS: &[Solver] = &[
     Solver::Dense,
 ];
 
-/// What one solver does as elements are added.
-#[derive(Debug, Clone)]
-pub struct Column {
-    /// The solver.
+/// The errors of one solver as elements are added.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Curve {
+    /// How the eigenvalues are found.
+    #[serde(serialize_with = "by_name")]
+    #[cfg_attr(feature = "schema", schemars(with = "String", extend("enum" = reference::SOLVERS.map(solver_name))))]
     pub solver: Solver,
     /// Points by rising number of elements.
     pub points: Vec<MeshErrors>,
-    /// Why the column ends early; None if it has as many points as were asked for.
+    /// Why the column ends early; null if it has as many points as were asked for.
     pub end: Option<End>,
+    /// Where the solver's own eigenvalue of mode 1 is lost; null if it has none.
+    pub own_lost_at: Option<Losses>,
+    /// Where the frequency recomputed from the shape of mode 1 is lost.
+    pub recomputed_lost_at: Option<Losses>,
 }
 
-/// Why a column ends before the last number of elements.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum End {
-    /// The solver gave an error on this many elements.
-    Refused {
-        /// How many elements.
-        elements: usize,
-        /// The error, in words.
-        reason: String,
-    },
+/// Why a column ends.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct End {
+    /// The number of elements that was not reached.
+    pub elements: usize,
+    /// The solver's error, "too large" or "no time".
+    #[cfg_attr(feature = "schema", schemars(with = "String"))]
+    pub reason: Reason,
+}
+
+/// Why a solver got no further.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub enum Reason {
     /// So many elements are more than the solver takes.
-    TooLarge {
-        /// How many elements.
-        elements: usize,
-    },
+    #[serde(rename = "too large")]
+    TooLarge,
     /// So many elements would have taken longer than there was time for.
-    NoTime {
-        /// How many elements.
-        elements: usize,
-    },
+    #[serde(rename = "no time")]
+    NoTime,
+    /// The solver gave this error.
+    #[serde(untagged)]
+    Refused(String),
 }
 
-/// The errors on one mesh, relative, mode by mode.
-#[derive(Debug, Clone)]
+/// The errors at one number of elements.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct MeshErrors {
     /// Number of elements.
     pub elements: usize,
-    /// Of the frequencies as the solver's own λ says them; empty for statics, which has no other.
-    pub own: Vec<f64>,
-    /// Of the frequencies as strain energy over kinetic energy.
-    pub recomputed: Vec<f64>,
-    /// Assembly to frequencies, once (s).
+    /// Time from assembly to frequencies (s).
     pub seconds: f64,
+    /// Error of each frequency as the solver's own eigenvalue says it; null where it has no other.
+    // Statics has no other.
+    pub own_error_by_mode: Option<Vec<f64>>,
+    /// Error of each frequency as strain energy over kinetic energy of the shape.
+    pub recomputed_error_by_mode: Vec<f64>,
+}
+
+/// Numbers of elements at which a frequency is lost; null where it is not.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Losses {
+    /// The number of elements with the least error.
+    pub best_elements: usize,
+    /// That least error.
+    pub least_error: f64,
+    /// The first number beyond the best at which 8 digits are left.
+    #[serde(rename = "error_1e-8")]
+    pub eight_digits: Option<usize>,
+    /// The first number beyond the best at which 4 digits are left.
+    #[serde(rename = "error_1e-4")]
+    pub four_digits: Option<usize>,
+    /// The first number beyond the best at which nothing is left.
+    #[serde(rename = "error_1")]
+    pub nothing: Option<usize>,
 }
 
 /// Which of a solver's two frequencies.
@@ -76,14 +114,49 @@ pub enum SolverFrequency {
     Recomputed,
 }
 
-impl Column {
+impl MeshErrors {
+    /// The error of each frequency, found that way.
+    pub fn errors(&self, way: SolverFrequency) -> &[f64] {
+        match way {
+            SolverFrequency::Own => self.own_error_by_mode.as_deref().unwrap_or_default(),
+            SolverFrequency::Recomputed => &self.recomputed_error_by_mode,
+        }
+    }
+}
+
+impl Losses {
+    /// The losses of a curve of errors by number of elements; None of a curve without points.
+    fn of(series: &[(usize, f64)]) -> Option<Self> {
+        let (best_elements, least_error) = best(series)?;
+        let [eight_digits, four_digits, nothing] = THRESHOLDS.map(|threshold| {
+            let beyond = series.iter().find(|(n, error)| *n > best_elements && *error >= threshold);
+            beyond.map(|at| at.0)
+        });
+        Some(Self { best_elements, least_error, eight_digits, four_digits, nothing })
+    }
+}
+
+impl Curve {
+    /// The curve of those points, with where mode 1 is lost.
+    pub(crate) fn new(solver: Solver, points: Vec<MeshErrors>, end: Option<End>) -> Self {
+        let mut curve = Self { solver, points, end, own_lost_at: None, recomputed_lost_at: None };
+        curve.own_lost_at = Losses::of(&curve.series(SolverFrequency::Own, 0));
+        curve.recomputed_lost_at = Losses::of(&curve.series(SolverFrequency::Recomputed, 0));
+        curve
+    }
+
     /// Number of elements and error of one mode (from 0).
     pub fn series(&self, way: SolverFrequency, mode: usize) -> Vec<(usize, f64)> {
-        let error = |point: &MeshErrors| match way {
-            SolverFrequency::Own => point.own.get(mode).copied(),
-            SolverFrequency::Recomputed => point.recomputed.get(mode).copied(),
-        };
+        let error = |point: &MeshErrors| point.errors(way).get(mode).copied();
         self.points.iter().filter_map(|point| Some((point.elements, error(point)?))).collect()
+    }
+
+    /// Where mode 1 is lost by that frequency.
+    pub fn lost_at(&self, way: SolverFrequency) -> Option<&Losses> {
+        match way {
+            SolverFrequency::Own => self.own_lost_at.as_ref(),
+            SolverFrequency::Recomputed => self.recomputed_lost_at.as_ref(),
+        }
     }
 
     /// The ways in which this solver gives a frequency.
@@ -100,12 +173,6 @@ pub fn best(series: &[(usize, f64)]) -> Option<(usize, f64)> {
     series.iter().copied().min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// The first number of elements beyond the best at which the error is `threshold` or more.
-pub fn loss(series: &[(usize, f64)], threshold: f64) -> Option<(usize, f64)> {
-    let (least, _) = best(series)?;
-    series.iter().copied().find(|(n, error)| *n > least && *error >= threshold)
-}
-
 /// 8, 16, 32, … and `most`, from the first that has an element in every piece of the profile and
 /// bends in so many ways on.
 pub fn counts(bat: &Bat, modes: usize, most: usize) -> Vec<usize> {
@@ -118,7 +185,7 @@ pub fn counts(bat: &Bat, modes: usize, most: usize) -> Vec<usize> {
     counts
 }
 
-/// The columns of these solvers up to `most` elements, for all modes of the reference; what would
+/// The curves of these solvers up to `most` elements, for all modes of the reference; what would
 /// not be ready within `time` is left out.
 pub fn measure(
     bat: &Bat,
@@ -127,51 +194,51 @@ pub fn measure(
     most: usize,
     time: Duration,
     tell: Tell,
-) -> Vec<Column> {
+) -> Vec<Curve> {
     let deadline = Instant::now() + time;
     let counts = counts(bat, reference.omegas.len(), most);
     // Time goes with the number of elements, and there are as many for every solver.
     let all = counts.iter().sum::<usize>() as f64;
     let share = |k: usize| k as f64 / solvers.len() as f64;
-    let columns = solvers.iter().enumerate().map(|(k, solver)| {
+    let curves = solvers.iter().enumerate().map(|(k, solver)| {
         let tell = |before, what: &str| tell(share(k) + share(1) * before / all, what);
-        column(bat, reference, *solver, &counts, deadline, &tell)
+        curve(bat, reference, *solver, &counts, deadline, &tell)
     });
-    columns.collect()
+    curves.collect()
 }
 
-fn column(
+fn curve(
     bat: &Bat,
     reference: &Reference,
     solver: Solver,
     counts: &[usize],
     deadline: Instant,
     tell: Tell,
-) -> Column {
-    let mut column = Column { solver, points: vec![], end: None };
-    let mut before = 0.0;
+) -> Curve {
+    let (mut points, mut end, mut before) = (vec![], None, 0.0);
     for &elements in counts {
         let left = deadline.saturating_duration_since(Instant::now()).as_secs_f64();
         // What is too large is refused at once.
         let refused = solver == Solver::Dense && 2 * elements + 2 > MOST_DENSE;
-        if !refused && expected(column.points.last(), elements, solver) > left {
-            column.end = Some(End::NoTime { elements });
+        if !refused && expected(points.last(), elements, solver) > left {
+            end = Some(End { elements, reason: Reason::NoTime });
             break;
         }
         tell(before, &format!("{}, {elements} cubic elements", solver_name(solver)));
         before += elements as f64;
         match point(bat, reference, solver, elements) {
-            Ok(point) => column.points.push(point),
+            Ok(point) => points.push(point),
             Err(error) => {
-                column.end = Some(match error {
-                    Error::TooLarge { .. } => End::TooLarge { elements },
-                    error => End::Refused { elements, reason: error.to_string() },
-                });
+                let reason = match error {
+                    Error::TooLarge { .. } => Reason::TooLarge,
+                    error => Reason::Refused(error.to_string()),
+                };
+                end = Some(End { elements, reason });
                 break;
             }
         }
     }
-    column
+    Curve::new(solver, points, end)
 }
 
 /// How long the given number of elements should take (s), from the last point.
@@ -198,22 +265,28 @@ pub fn first_time(unknowns: usize, solver: Solver) -> f64 {
 fn point(bat: &Bat, reference: &Reference, solver: Solver, elements: usize) -> Result<MeshErrors> {
     let modes = reference.omegas.len();
     let started = Instant::now();
-    let (own, recomputed): (Vec<f64>, Vec<f64>) = match solver {
+    let (own, recomputed): (Option<Vec<f64>>, Vec<f64>) = match solver {
         Solver::Statics => {
             let (elements, degree) = (Some(elements), Some(3));
             let theory = reference.theory;
             let request = Request { modes, elements, degree, theory, ..Request::default() };
             let solution = solve(bat, &request)?;
-            (vec![], solution.modes.iter().map(|mode| mode.omega).collect())
+            (None, solution.modes.iter().map(|mode| mode.omega).collect())
         }
-        _ => own_and_recomputed(bat, &Mesh::along(bat, elements), modes, solver, reference.theory)?
-            .into_iter()
-            .map(|[own, recomputed]| (own, recomputed))
-            .unzip(),
+        _ => {
+            let mesh = Mesh::along(bat, elements);
+            let both = own_and_recomputed(bat, &mesh, modes, solver, reference.theory)?;
+            let (own, recomputed) = both.into_iter().map(<(f64, f64)>::from).unzip();
+            (Some(own), recomputed)
+        }
     };
     let seconds = started.elapsed().as_secs_f64();
-    let [own, recomputed] = [own, recomputed].map(|omegas| reference.errors(&omegas));
-    Ok(MeshErrors { elements, own, recomputed, seconds })
+    Ok(MeshErrors {
+        elements,
+        seconds,
+        own_error_by_mode: own.map(|omegas| reference.errors(&omegas)),
+        recomputed_error_by_mode: reference.errors(&recomputed),
+    })
 }
 
 #[cfg(test)]
@@ -222,7 +295,7 @@ mod tests {
     use sweetspot::base::telling::nobody;
     use sweetspot::bat::theory::Theory;
 
-    fn dowel(solvers: &[Solver], most: usize) -> Vec<Column> {
+    fn dowel(solvers: &[Solver], most: usize) -> Vec<Curve> {
         let bat = Bat::builtin("dowel").unwrap();
         let reference = Reference::of(&bat, 5, Theory::EulerBernoulli).unwrap();
         measure(&bat, &reference, solvers, most, Duration::from_secs(3600), &nobody)
@@ -264,15 +337,16 @@ mod tests {
     #[test]
     fn a_loss_counts_from_the_best_on() {
         let series = [(8, 1e-3), (16, 1e-9), (32, 1e-12), (64, 1e-7), (128, 1e-9)];
-        assert_eq!(best(&series), Some((32, 1e-12)));
-        assert_eq!(loss(&series, 1e-8), Some((64, 1e-7)));
-        assert_eq!((loss(&series, 1e-4), loss(&[], 1.0)), (None, None));
+        let lost = Losses::of(&series).unwrap();
+        assert_eq!((lost.best_elements, lost.least_error), (32, 1e-12));
+        assert_eq!((lost.eight_digits, lost.four_digits), (Some(64), None));
+        assert_eq!(Losses::of(&[]), None);
     }
 
     #[test]
     fn a_solver_that_cannot_says_so() {
         let columns = dowel(&[Solver::ShiftInvert], 100_000);
-        let Some(End::Refused { elements, reason }) = &columns[0].end else {
+        let Some(End { elements, reason: Reason::Refused(reason) }) = &columns[0].end else {
             panic!("{columns:?}");
         };
         assert!(*elements > 1000 && reason.contains("stiffness matrix"), "{elements}: {reason}");

@@ -2,7 +2,7 @@
 
 use crate::trade::front::{Run, fastest};
 use crate::trade::reference::solver_name;
-use crate::trade::u_curve::{Column, End, SolverFrequency, best};
+use crate::trade::u_curve::{Curve, End, Losses, Reason, SolverFrequency};
 use sweetspot::modes::solve::Solver;
 
 /// Digits that are asked for, from the second on.
@@ -60,10 +60,10 @@ pub fn planner(runs: &[Run]) -> Vec<String> {
     let plans = runs.iter().filter_map(|run| Some((run, run.planned_for?)));
     let (mut shares, mut broken) = (Vec::new(), Vec::new());
     for (run, tolerance) in plans {
-        if run.error() <= tolerance {
+        if run.error <= tolerance {
             shares.extend(fastest(runs, tolerance).map(|best| run.seconds / best.seconds));
         } else {
-            let error = run.error();
+            let error = run.error;
             broken.push(format!("the planner's choice for {tolerance:.0e} has {error:.1e}"));
         }
     }
@@ -85,18 +85,19 @@ pub fn planner(runs: &[Run]) -> Vec<String> {
 }
 
 /// From where more cubic elements hurt, solver by solver, for mode 1.
-pub fn hurts(columns: &[Column]) -> Vec<String> {
-    let lines = columns.iter().flat_map(|column| {
-        column.ways().iter().filter_map(|way| hurt(column, *way)).chain(refusal(column))
+pub fn hurts(curves: &[Curve]) -> Vec<String> {
+    let lines = curves.iter().flat_map(|curve| {
+        curve.ways().iter().filter_map(|way| hurt(curve, *way)).chain(refusal(curve))
     });
     lines.collect()
 }
 
-fn hurt(column: &Column, way: SolverFrequency) -> Option<String> {
-    let series = column.series(way, 0);
-    let ((least, error), (last, _)) = (best(&series)?, *series.last()?);
-    let name = solver_name(column.solver);
-    let whose = match (column.solver, way) {
+fn hurt(curve: &Curve, way: SolverFrequency) -> Option<String> {
+    let series = curve.series(way, 0);
+    let Losses { best_elements: least, least_error: error, .. } = *curve.lost_at(way)?;
+    let (last, _) = *series.last()?;
+    let name = solver_name(curve.solver);
+    let whose = match (curve.solver, way) {
         (Solver::Statics, _) => name.to_owned(),
         (_, SolverFrequency::Own) => format!("{name}, its own λ"),
         (_, SolverFrequency::Recomputed) => format!("{name}, recomputed"),
@@ -112,11 +113,13 @@ fn hurt(column: &Column, way: SolverFrequency) -> Option<String> {
     })
 }
 
-fn refusal(column: &Column) -> Option<String> {
-    let name = solver_name(column.solver);
-    match column.end.as_ref()? {
-        End::Refused { elements, .. } => Some(format!("{name}: no answer on {elements} elements")),
-        End::TooLarge { .. } | End::NoTime { .. } => None,
+fn refusal(curve: &Curve) -> Option<String> {
+    let name = solver_name(curve.solver);
+    match curve.end.as_ref()? {
+        End { elements, reason: Reason::Refused(_) } => {
+            Some(format!("{name}: no answer on {elements} elements"))
+        }
+        End { .. } => None,
     }
 }
 
@@ -158,13 +161,13 @@ mod tests {
     fn a_u_hurts_beyond_its_bottom_and_a_floor_does_not() {
         let point = |elements, own, recomputed| MeshErrors {
             elements,
-            own: vec![own],
-            recomputed: vec![recomputed],
+            own_error_by_mode: Some(vec![own]),
+            recomputed_error_by_mode: vec![recomputed],
             seconds: 1.0,
         };
         let points = vec![point(8, 1e-4, 1e-4), point(16, 1e-9, 1e-15), point(32, 1e-6, 5e-15)];
-        let end = Some(End::Refused { elements: 64, reason: "it is too large".into() });
-        let words = hurts(&[Column { solver: Solver::Dense, points, end }]);
+        let end = Some(End { elements: 64, reason: Reason::Refused("it is too large".into()) });
+        let words = hurts(&[Curve::new(Solver::Dense, points, end)]);
         let says = [
             "dense, its own λ: more than 16 cubic elements hurt: 1e-9 there, 1e-6 at 32",
             "dense, recomputed: more elements do no harm up to 32 cubic ones",

@@ -1,0 +1,215 @@
+//! What came of a wish: the bat that meets it or comes nearest, with how it was found.
+
+use serde::{Serialize, Serializer};
+
+use crate::aim::bench::ExtraKind;
+use crate::aim::conflict::Conflict;
+use crate::aim::laying::Station;
+use crate::aim::limits::KEPT;
+use crate::aim::rules::RulesKept;
+use crate::aim::wish::{Band, Grid};
+use crate::many::answers::Answer;
+use sweetspot::bat::body::Bat;
+
+/// What came of a wish.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Outcome {
+    /// Whether every target is met and every limit kept.
+    pub met: bool,
+    /// The targets, and the rules that are goals.
+    pub targets: Vec<AimedTarget>,
+    /// The targets that cannot be had together; null where all can.
+    pub conflict: Option<Conflict>,
+    /// The rules that were asked for; null without.
+    pub rules: Option<RulesKept>,
+    /// Root of mean(d²) + (5 cm)⁴ mean(d″²) of the change d of the diameter (mm).
+    pub norm_mm: f64,
+    /// Largest amount taken off a diameter (m).
+    pub largest_cut_m: f64,
+    /// Largest amount put on a diameter (m).
+    pub largest_added_m: f64,
+    /// How far a limit of the diameter is broken anywhere (m); 0 where all are kept to 1e-9 m.
+    pub limits_broken_m: f64,
+    /// How far the diameter moved on the stretches that are kept (m).
+    pub kept_within_m: f64,
+    /// How much steeper the surface is anywhere than `slope_at_most` (radius over length); 0 where that is kept,
+    /// null without it.
+    pub steeper_by: Option<f64>,
+    /// Quadratic programs of the search.
+    pub iterations: usize,
+    /// Bats that were computed.
+    pub bats_solved: usize,
+    /// Why the search ended before it stood still; null where it did not.
+    pub stopped: Option<&'static str>,
+    /// What else was chosen.
+    pub free: Vec<Choice>,
+    /// The material that was chosen; null without a choice.
+    pub wood: Option<String>,
+    /// Main outputs before and after.
+    pub outputs: Vec<Output>,
+    /// Every station of the new bat.
+    pub change: Vec<Station>,
+    /// The bat as it was.
+    #[serde(skip)]
+    pub start: Bat,
+    /// The bat as it is written.
+    #[serde(skip)]
+    pub bat: Bat,
+    /// How its stations were laid.
+    #[serde(skip)]
+    pub grid: Grid,
+    /// How many times finer than it was wished they are rounded, so that every goal is met.
+    #[serde(skip)]
+    pub finer: f64,
+    /// Greatest slope of the surface where it is changed, if that is limited: radius over length.
+    #[serde(skip)]
+    pub slope: Option<f64>,
+    /// Whether wood was only taken off.
+    #[serde(skip)]
+    pub remove_only: bool,
+    /// Why the wall of a hollow barrel is rigid in the hits; None where it matters to none.
+    #[serde(skip)]
+    pub rigid_wall: Option<String>,
+}
+
+/// A target and what came of it; SI, in the unit of its name.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct AimedTarget {
+    /// Name of the output.
+    pub name: String,
+    /// The rule it is of; null for a target.
+    pub rule: Option<&'static str>,
+    /// Least value that was asked for; null without.
+    pub at_least: Option<f64>,
+    /// Greatest value that was asked for; null without.
+    pub at_most: Option<f64>,
+    /// The value of the bat as it was.
+    pub start: f64,
+    /// The value of the new bat; null where it has none.
+    pub found: Option<f64>,
+    /// Whether it is met.
+    pub met: bool,
+    /// How much less the norm would be (mm) if the bound that binds gave way by one unit; 0 where none binds,
+    /// null where the target is missed.
+    pub price_mm: Option<f64>,
+    /// What it may be.
+    #[serde(skip)]
+    pub band: Band,
+    /// The price where it is missed too; None where the change is not a least one that meets all goals.
+    #[serde(skip)]
+    pub price: Option<f64>,
+}
+
+impl AimedTarget {
+    /// The target of that band, which comes to that value at that price.
+    pub(super) fn new(band: Band, value: f64, price: Option<f64>) -> Self {
+        let known = |value: f64| value.is_finite().then_some(value);
+        let met = band.has(value);
+        Self {
+            name: band.goal.name(),
+            rule: band.rule,
+            at_least: known(band.low),
+            at_most: known(band.high),
+            start: band.start,
+            found: known(value),
+            met,
+            price_mm: price.filter(|_| met),
+            band,
+            price,
+        }
+    }
+
+    /// The value of the new bat; NaN where it has none.
+    pub fn value(&self) -> f64 {
+        self.found.unwrap_or(f64::NAN)
+    }
+}
+
+/// A choice besides the shape.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Choice {
+    /// What: length_m, density_kg_m3 or knob_weight_kg.
+    #[serde(rename = "name")]
+    #[cfg_attr(feature = "schema", schemars(with = "String"))]
+    pub what: ExtraKind,
+    /// The value before.
+    pub start: f64,
+    /// The value chosen.
+    pub found: f64,
+}
+
+/// An output before and after.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Output {
+    /// Its name.
+    #[serde(rename = "name", serialize_with = "by_name")]
+    #[cfg_attr(feature = "schema", schemars(with = "String"))]
+    pub answer: Answer,
+    /// Of the bat as it was.
+    pub start: Option<f64>,
+    /// Of the new bat.
+    pub found: Option<f64>,
+}
+
+fn by_name<S: Serializer>(answer: &Answer, to: S) -> Result<S::Ok, S::Error> {
+    to.serialize_str(&answer.name())
+}
+
+impl Outcome {
+    fn is_met(&self) -> bool {
+        self.targets_met()
+            && self.limits_broken_m <= KEPT
+            && self.steeper_by.is_none_or(|by| by <= KEPT)
+            && self.broken_rules() == 0
+    }
+
+    /// Says whether it is met; targets that are met are in no conflict.
+    pub(super) fn judge(&mut self) {
+        self.met = self.is_met();
+        if self.targets_met() {
+            self.conflict = None;
+        }
+    }
+
+    /// Whether every target, and every rule that is one, is met.
+    pub fn targets_met(&self) -> bool {
+        self.targets.iter().all(|target| target.met)
+    }
+
+    /// How many rules are broken.
+    pub fn broken_rules(&self) -> usize {
+        self.rules
+            .iter()
+            .flat_map(|set| &set.limits)
+            .filter(|ruled| ruled.kept == Some(false))
+            .count()
+    }
+
+    /// Where a section that was cut has least of its strength in bending left, and the share that is left: the
+    /// section modulus `π (d⁴ − d_i⁴) / (32 d)` of a round section of that diameter and bore, after over before.
+    pub fn weakest(&self) -> Option<(f64, f64)> {
+        let modulus = |across: f64, bore: f64| (across.powi(4) - bore.powi(4)) / across;
+        let left = |station: &Station| {
+            let [old, new] = [station.old, station.new].map(|d| modulus(d, 2.0 * station.inner));
+            new / old
+        };
+        let cut = self.change.iter().filter(|station| station.new < station.old);
+        cut.map(|station| (station.x, left(station))).min_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// The greatest diameter of the bat that is written (m).
+    pub fn widest(&self) -> f64 {
+        let radii = &self.bat.profile().stations.outer;
+        2.0 * radii.iter().fold(0.0_f64, |a, b| a.max(*b))
+    }
+}
+
+/// The largest amount taken off a diameter, and the largest put on (m).
+pub(super) fn largest(stations: &[Station]) -> [f64; 2] {
+    let changes = stations.iter().map(|station| station.new - station.old);
+    changes.fold([0.0, 0.0], |[off, on]: [f64; 2], by| [off.max(-by), on.max(by)])
+}
