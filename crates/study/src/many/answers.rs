@@ -3,13 +3,16 @@
 //! Every answer has one name, that of the member in the other documents of the program, with its unit at the
 //! end.
 
+use serde::Serialize;
+
 use crate::comparison::contender::Figure;
 use sweetspot::base::error::{Complaint, Error, Result};
 use sweetspot::bat::body::{Bat, STANDARD_PIVOT};
 use sweetspot::modes::solve::Solution;
 
-/// Something that is asked of a bat.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// Something that is asked of a bat; in a document by its name.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(into = "String")]
 #[non_exhaustive]
 pub enum Answer {
     /// Mass of the bat (kg).
@@ -50,6 +53,12 @@ pub enum Answer {
     HandsVelocityAt(f64),
     /// Acceleration that the hands feel of a hit there (m, m/s²).
     HandsAccelerationAt(f64),
+}
+
+impl From<Answer> for String {
+    fn from(answer: Answer) -> Self {
+        answer.name()
+    }
 }
 
 /// Names of the answers that have no number in them.
