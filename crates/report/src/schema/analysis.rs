@@ -86,7 +86,7 @@ pub struct BoundedAnswer {
         "mass_kg", "balance_point_m", "inertia_pivot_kg_m2", "frequency_1_hz", "frequency_2_hz",
         "frequency_3_hz", "best_place_m", "exit_speed_m_s", "zone_from_m", "zone_to_m"
     ]))]
-    pub answer: &'static str,
+    pub answer: String,
     /// As it is computed.
     pub value: f64,
     /// Standard deviation of all sources together, in the unit of the value; null where a bat that differs

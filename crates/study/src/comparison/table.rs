@@ -96,7 +96,7 @@ impl Comparison {
     /// one standard deviation, in the unit of the figure; None where no scatter is known, or where both bats
     /// are one piece.
     pub fn between_pieces(&self, key: &str, bat: usize) -> Option<f64> {
-        let answer = answer(key.trim_end_matches("_from_tip"))? as usize;
+        let answer = answer(key.trim_end_matches("_from_tip"))?;
         let [a, b] = [self.by_wood[0][answer]?, self.by_wood[bat][answer]?];
         let by = a.hypot(b);
         (!self.one_piece(bat) && by > 0.0).then_some(by)
