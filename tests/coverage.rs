@@ -142,7 +142,7 @@ fn held(kind: &Kind, trials: u64, seed: u64) -> Vec<(Property, usize)> {
                 Property::BarrelDensity => own.density * barrel,
                 _ => ratio,
             };
-            let [low, high] = one.interval;
+            let [low, high] = one.interval95;
             *inside += usize::from(low <= truth && truth <= high);
         }
     }

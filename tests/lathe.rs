@@ -601,10 +601,12 @@ fn the_least_wood_can_be_turned_off() {
             let deepest = cuts.iter().fold(0.0_f64, |most, cut| most.max(cut.depth));
             for cut in &cuts {
                 let thinnest = map
+                    .found
                     .bands
                     .iter()
-                    .filter(|band| band.ends[0] >= cut.ends[0] && band.ends[1] <= cut.ends[1]);
-                let thinnest = thinnest.fold(f64::INFINITY, |least, band| least.min(band.diameter));
+                    .filter(|band| band.from_m >= cut.ends[0] && band.to_m <= cut.ends[1]);
+                let thinnest =
+                    thinnest.fold(f64::INFINITY, |least, band| least.min(band.diameter_m));
                 assert!(cut.depth <= 0.1 * thinnest, "{name} {wish:?} {cut:?}");
                 assert!(cut.depth >= 0.1 * deepest, "{name} {wish:?} {cut:?} of {deepest}");
             }
@@ -694,12 +696,15 @@ fn best_places_change_as_whole_bats_do_or_it_is_said_that_they_jump() {
         let told = |answer: &Answer| map.piece.rivals.iter().any(|rival| rival.answer == *answer);
         for k in (0..4).filter(|k| !told(&answers[*k])) {
             let name = format!("{theory:?} {}", answers[k].name());
-            let found = map.bands[0].slopes.as_ref().unwrap().same_swing[k].unwrap();
+            let band = &map.found.bands[0];
+            let [value, error] =
+                [band.derivative(answers[k], 0.0), band.error(answers[k])].map(|v| v.unwrap() / MM);
+            let found = Figure::new(value, error);
             // What the search leaves of a place is some tenths of a micrometre, of a value nothing.
             let known = 3.0 * (fine[k] - rough[k]).abs() + if k % 2 == 1 { 5e-3 } else { 0.1 };
             let off = (found.value - fine[k]).abs();
             assert!(off <= 3.0 * found.error + known, "{name}: {found:?} {fine:?} {rough:?}");
-            let finite = map.bands[0].finite.as_ref().unwrap()[0][k].unwrap();
+            let finite = band.when_cut(answers[k], 0.0).unwrap() / MM;
             let truth = (cut[k] - now[k]) / 5e-4;
             let near = 0.02 * truth.abs() + if k % 2 == 1 { 4e-3 } else { 1.0 };
             assert!((finite - truth).abs() <= near, "{name}: {finite} {truth}");

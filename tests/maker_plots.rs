@@ -65,7 +65,7 @@ fn what_readings_say_of_the_wood_is_drawn_whole() {
         let document = Document::parse(&all[1].svg).unwrap();
         let small = |node: &resvg::usvg::roxmltree::Node| number(*node, "r") == 4.0;
         let circles = document.descendants().filter(|node| node.has_tag_name("circle"));
-        assert_eq!(circles.filter(small).count(), found.fit.residuals.len());
+        assert_eq!(circles.filter(small).count(), found.data.len());
     }
 }
 

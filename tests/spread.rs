@@ -12,7 +12,8 @@ use sweetspot::collision::sweet_spot::HitsAlong;
 use sweetspot::collision::{Hitter, Model, Scene};
 use sweetspot::modes::tuned::tuned;
 use sweetspot::{Bat, Material, Profile, Request, Solution, Theory, solve};
-use sweetspot_study::spread::{Analysed, Input, Readings, Spread, SpreadAnswer};
+use sweetspot_study::answers::Answer;
+use sweetspot_study::spread::{Analysed, COUNTED, Input, Readings, Spread};
 
 const ASH: [f64; 2] = [649.0, 18.14e9];
 
@@ -83,10 +84,10 @@ fn a_dowel_s_spread_is_that_of_the_closed_form() {
     let frequency = [0.5 * 0.22, -0.5 * 0.10, thicker, -2.0 * longer];
     let mass = [0.0, 0.10, 2.0 * thicker, longer];
     for (answer, expected) in [
-        (SpreadAnswer::Frequency1, frequency),
-        (SpreadAnswer::Frequency2, frequency),
-        (SpreadAnswer::Frequency3, frequency),
-        (SpreadAnswer::Mass, mass),
+        (Answer::Frequency(1), frequency),
+        (Answer::Frequency(2), frequency),
+        (Answer::Frequency(3), frequency),
+        (Answer::Mass, mass),
     ] {
         let found = spread.of(answer).unwrap();
         for (part, expected) in found.parts.iter().zip(expected) {
@@ -97,7 +98,7 @@ fn a_dowel_s_spread_is_that_of_the_closed_form() {
         let deviation = found.deviation.unwrap() / found.value;
         assert!((deviation / together - 1.0).abs() < 5e-4, "{answer:?} {deviation} {together}");
     }
-    let (most, share) = spread.mostly(SpreadAnswer::Frequency1).unwrap();
+    let (most, share) = spread.mostly(Answer::Frequency(1)).unwrap();
     assert!(most.input == Input::Stiffness && share > 0.8);
 }
 
@@ -116,17 +117,16 @@ fn a_scale_and_a_tap_take_the_place_of_the_wood() {
     assert_eq!(inputs, [Input::Diameters, Input::Length, Input::Mass, Input::Tap]);
     let deviation = |spread: &Spread, answer| spread.of(answer).unwrap().deviation.unwrap();
     // What was read is as exact as the reading, whatever the diameters are.
-    let read =
-        deviation(&settled, SpreadAnswer::Frequency1) / (0.01 * weighed.first_bending.unwrap());
+    let read = deviation(&settled, Answer::Frequency(1)) / (0.01 * weighed.first_bending.unwrap());
     assert!((read - 1.0).abs() < 1e-9, "{read}");
-    assert!((deviation(&settled, SpreadAnswer::Mass) / 1e-3 - 1.0).abs() < 1e-9);
-    for answer in SpreadAnswer::ALL {
+    assert!((deviation(&settled, Answer::Mass) / 1e-3 - 1.0).abs() < 1e-9);
+    for answer in COUNTED {
         let [open, settled] = [&open, &settled].map(|spread| deviation(spread, answer));
         // Nothing but the diameters and the length moves a balance point.
-        let less = if answer == SpreadAnswer::BalancePoint { 1.001 } else { 0.3 };
+        let less = if answer == Answer::BalancePoint { 1.001 } else { 0.3 };
         assert!(settled < less * open, "{answer:?} {settled} {open}");
     }
-    let (most, _) = settled.mostly(SpreadAnswer::Frequency2).unwrap();
+    let (most, _) = settled.mostly(Answer::Frequency(2)).unwrap();
     assert_eq!(most.input, Input::Tap);
 }
 
@@ -151,9 +151,9 @@ fn a_bat_that_was_weighed_and_tapped_before_its_edits_is_as_well_known_after_the
     assert!(after.left_out.is_empty(), "{:?}", after.left_out);
     let deviation = |spread: &Spread, answer| spread.of(answer).unwrap().deviation.unwrap();
     // The wood weighs as much as before.
-    let mass = deviation(&after, SpreadAnswer::Mass) / deviation(&before, SpreadAnswer::Mass);
+    let mass = deviation(&after, Answer::Mass) / deviation(&before, Answer::Mass);
     assert!((mass - 1.0).abs() < 1e-3, "{mass}");
-    for answer in [SpreadAnswer::Frequency1, SpreadAnswer::Frequency2, SpreadAnswer::Frequency3] {
+    for answer in [Answer::Frequency(1), Answer::Frequency(2), Answer::Frequency(3)] {
         let share = |spread: &Spread| deviation(spread, answer) / spread.of(answer).unwrap().value;
         let [before, after] = [share(&before), share(&after)];
         assert!((after / before - 1.0).abs() < 0.02, "{answer:?} {before} {after}");
@@ -186,12 +186,12 @@ fn found(bat: &Bat, scene: &Scene) -> [f64; 5] {
     [bat.inertia().mass, f1, f2, best.x, best.value]
 }
 
-const SAMPLED: [SpreadAnswer; 5] = [
-    SpreadAnswer::Mass,
-    SpreadAnswer::Frequency1,
-    SpreadAnswer::Frequency2,
-    SpreadAnswer::BestPlace,
-    SpreadAnswer::ExitSpeed,
+const SAMPLED: [Answer; 5] = [
+    Answer::Mass,
+    Answer::Frequency(1),
+    Answer::Frequency(2),
+    Answer::ExitSpeedPlace,
+    Answer::ExitSpeed,
 ];
 
 /// Standard deviations of a sample.

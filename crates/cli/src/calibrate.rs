@@ -10,10 +10,9 @@ use sweetspot::modes::solve::Request;
 use sweetspot_report::plot::calibrate as pictures_of;
 use sweetspot_report::report::{calibrate, calibrated_bat};
 use sweetspot_report::schema;
-use sweetspot_study::calibrate::calibration::{Calibration, CalibrationPlan};
+use sweetspot_study::calibrate::calibration::{Calibration, CalibrationPlan, Property};
 use sweetspot_study::calibrate::labels::MOST_MODES;
 use sweetspot_study::calibrate::readings::{BatReadings, Reading, RingDown, SpectralLine};
-use sweetspot_study::calibrate::unknowns::Unknown;
 use sweetspot_study::files::measured::{self, Beside};
 use sweetspot_study::files::readings_file;
 use sweetspot_study::measured::data::Measured;
@@ -55,7 +54,7 @@ pub struct Args {
     /// Keep as the file has it: E, G (its share of E), density, density-barrel or ratio; may be repeated
     #[arg(long, value_name = "NAME", value_parser = held(), hide_possible_values = true,
           help_heading = "The bat")]
-    hold: Vec<Unknown>,
+    hold: Vec<Property>,
 
     /// Which bending mode a line is, such as "1187 = 3", or "1187 = none"; may be repeated
     #[arg(long, value_name = "HZ = N", value_parser = label, allow_hyphen_values = true,
@@ -106,13 +105,13 @@ Examples:
       another density and stiffness in the barrel; G/E as the file has it";
 
 /// Unknowns by their names on the command line.
-fn held() -> impl clap::builder::TypedValueParser<Value = Unknown> {
+fn held() -> impl clap::builder::TypedValueParser<Value = Property> {
     choice(&["E", "G", "density", "density-barrel", "ratio"], |name| match name {
-        "E" => Unknown::YoungsModulus,
-        "G" => Unknown::ShearOverYoung,
-        "density" => Unknown::Density,
-        "density-barrel" => Unknown::BarrelDensity,
-        _ => Unknown::ModulusRatio,
+        "E" => Property::YoungsModulus,
+        "G" => Property::ShearModulus,
+        "density" => Property::Density,
+        "density-barrel" => Property::BarrelDensity,
+        _ => Property::ModulusRatio,
     })
 }
 
@@ -166,10 +165,10 @@ fn told_again(lines: &mut Vec<SpectralLine>, told: &[(f64, Option<usize>)]) -> R
 fn relabelled(args: &Args, found: &Calibration) -> Option<String> {
     let measured = args.measured.as_deref().map_or("readings.json".to_owned(), printed);
     let label = |k: &usize| {
-        let mode = found.identified.labels[*k].map_or("none".to_owned(), |mode| mode.to_string());
-        format!(" --mode \"{} = {mode}\"", found.readings.lines[*k].frequency.value)
+        let mode = found.labels.taken[*k].map_or("none".to_owned(), |mode| mode.to_string());
+        format!(" --mode \"{} = {mode}\"", found.labels.lines_hz[*k])
     };
-    let labels: String = found.identified.changed().iter().map(label).collect();
+    let labels: String = found.labels.changed().iter().map(label).collect();
     (!labels.is_empty()).then(|| {
         format!(
             "With these labels:\n  sweetspot calibrate {} {measured}{labels}\n",
@@ -196,16 +195,14 @@ pub fn run(args: &Args) -> Result<Done> {
     if let Some(folder) = &args.plots {
         pictures::write(folder, &pictures_of::pictures(bat.name(), &found), args.quiet)?;
     }
-    let file = || calibrated_bat::text((&bat, &text), &found, &name, args.regions);
+    let file = || calibrated_bat::text((&bat, &text), &found, &name);
     let out = put(&args.csv, style::table(&table), || Ok(calibrate::csv(&found)))?;
     let out = put(&args.out, out, file)?;
-    let out = put(&args.json, out, || {
-        Ok(schema::text(&calibrate::document(&bat, &found, args.regions)))
-    })?;
+    let out = put(&args.json, out, || Ok(schema::text(&calibrate::document(&bat, &found))))?;
     if let Some(mut person) = person {
         person.done();
     }
-    Ok(Done::new(out, if found.fits() { 0 } else { FAILED }))
+    Ok(Done::new(out, if found.fits { 0 } else { FAILED }))
 }
 
 /// An error about a reading or an option, by the name that it has for the user.

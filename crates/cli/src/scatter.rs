@@ -12,7 +12,7 @@ use sweetspot_report::report::{resolved, scatter};
 use sweetspot_report::schema;
 use sweetspot_study::files::scatter_file::{self, ScatterFile};
 use sweetspot_study::scatter::rows::{ScatterPlan, ScatterRows};
-use sweetspot_study::scatter::scattered::{SHARES, Scattered, WRITTEN};
+use sweetspot_study::scatter::scattered::{OutputSpread, SHARES, Scattered, WRITTEN};
 
 use crate::common::{examples, note_outside, printed, read};
 use crate::delivered::{apart, put};
@@ -117,12 +117,12 @@ pub fn run(args: &Args) -> Result<Done> {
     let tell = |some| progress.more(some);
     let found = threads::with(args.jobs.map(usize::from), || Scattered::new(&rows, &tell));
     drop(progress);
-    if found.answered() == 0 {
-        let why = found.reasons.first().cloned().unwrap_or_default();
+    if found.answered == 0 {
+        let why = found.missing.first().cloned().unwrap_or_default();
         return Err(Error::value(said_by(args), why, "bats that can be"));
     }
     if let Some(folder) = &args.plots {
-        pictures::write(folder, &drawn(&rows, &found), args.quiet)?;
+        pictures::write(folder, &drawn(&found), args.quiet)?;
     }
     if let Some(folder) = &args.bats {
         let failed = |source| Error::Write { path: folder.clone(), source };
@@ -140,7 +140,7 @@ pub fn run(args: &Args) -> Result<Done> {
     }
     let table = args.full.screen(|full| scatter::text(&rows, &found, full));
     let text = put(&args.csv, style::table(&table), || Ok(scatter::csv(&rows, &found)))?;
-    let text = put(&args.json, text, || Ok(schema::text(&scatter::document(&rows, &found))))?;
+    let text = put(&args.json, text, || Ok(schema::text(&scatter::document(&rows.bat, &found))))?;
     Ok(Done::new(text, 0))
 }
 
@@ -172,10 +172,9 @@ fn named(args: &Args, error: Error) -> Error {
     })
 }
 
-fn drawn(rows: &ScatterRows, found: &Scattered) -> Vec<Picture> {
-    let names: Vec<String> =
-        rows.plan.differences.all.iter().map(|one| one.what.name().to_owned()).collect();
-    let of_one = |one: &sweetspot_study::scatter::scattered::OutputSpread| {
+fn drawn(found: &Scattered) -> Vec<Picture> {
+    let names: Vec<String> = found.inputs.iter().map(|one| one.name.to_owned()).collect();
+    let of_one = |one: &OutputSpread| {
         let column = Column {
             name: one.name.clone(),
             unit: one.unit.to_owned(),

@@ -1,35 +1,19 @@
 //! How does another bat differ in one thing, for a central difference?
 
+use crate::inputs::Input;
 use sweetspot::base::error::Result;
 use sweetspot::bat::body::Bat;
 use sweetspot::bat::material::Material;
 use sweetspot::bat::profile::{Profile, Stations};
 use sweetspot::bat::turned::DiameterChange;
 
-/// How another bat, or the ball on its wall, differs.
+/// What another bat, or the ball on its wall, differs in.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Change {
-    /// In a property of one material, wherever the bat has it.
-    Of(Box<Material>, Property),
-    /// In a property of all materials.
-    All(Property),
-    /// In all outer diameters, by the same amount.
-    Diameters,
-    /// In all diameters of bores, by the same amount.
-    Bores,
-    /// In its length, everything on it moving along.
-    Length,
-    /// In nothing: the ball presses on another patch of its wall.
-    Patch,
-}
-
-/// A property of a material.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Property {
-    /// E, and G with it.
-    Stiffness,
-    /// Density.
-    Density,
+pub struct Parameter {
+    /// Which input. A mass on the scale is all densities, a tap the stiffness of all materials.
+    pub input: Input,
+    /// The material that alone differs, wherever the bat has it; None for all materials, and for what is none's.
+    pub of: Option<Material>,
 }
 
 /// By what factor the ball may be squeezed more or less than the patch is taken for, as
@@ -41,15 +25,20 @@ const RELATIVE_STEP: f64 = 0.05;
 const DIAMETER_STEP: f64 = 1e-4;
 const LENGTH_STEP: f64 = 1e-3;
 
-impl Change {
+impl Parameter {
+    /// What is of the whole bat.
+    pub fn whole(input: Input) -> Self {
+        Self { input, of: None }
+    }
+
     /// The step of a central difference on that bat: as a logarithm of what is relative, else in m. A patch is
     /// half and twice as large, as `hit` has it: what it does is not small.
     pub fn step(&self, bat: &Bat) -> f64 {
-        match self {
-            Self::Of(..) | Self::All(_) => RELATIVE_STEP,
-            Self::Diameters | Self::Bores => narrowest(bat.profile()).min(DIAMETER_STEP),
-            Self::Length => LENGTH_STEP.min(0.01 * bat.length()),
-            Self::Patch => PATCH_FACTOR.ln(),
+        match self.input {
+            Input::Stiffness | Input::Density | Input::Mass | Input::Tap => RELATIVE_STEP,
+            Input::Diameters | Input::Bores => narrowest(bat.profile()).min(DIAMETER_STEP),
+            Input::Length => LENGTH_STEP.min(0.01 * bat.length()),
+            Input::Patch => PATCH_FACTOR.ln(),
         }
     }
 }
@@ -67,37 +56,18 @@ fn narrowest(profile: &Profile) -> f64 {
 /// # Errors
 ///
 /// [`sweetspot::Error::Value`] where there is no such bat.
-pub fn changed(bat: &Bat, change: &Change, by: f64) -> Result<Bat> {
-    let scaled = |material: &mut Material, property: Property| match property {
-        Property::Density => material.density *= by.exp(),
-        Property::Stiffness => {
-            material.youngs_modulus *= by.exp();
-            material.shear_modulus.iter_mut().for_each(|shear| *shear *= by.exp());
-        }
-    };
+pub fn changed(bat: &Bat, parameter: &Parameter, by: f64) -> Result<Bat> {
     let all_along = || DiameterChange::band([0.0, bat.length()], by);
     let formulas = bat.profile().formulas.is_some();
-    match change {
-        Change::Patch => Ok(bat.clone()),
-        Change::All(property) => {
-            let mut other = bat.clone();
-            match property {
-                Property::Density => other.scale(by.exp(), 1.0),
-                Property::Stiffness => other.scale(1.0, by.exp()),
-            }
-            Ok(other)
-        }
-        Change::Of(which, property) => bat.with(|parts| {
-            let regions = parts.fixtures.regions.iter_mut();
-            let others = regions.flat_map(|region| region.layup.materials_mut());
-            let all = std::iter::once(&mut parts.material).chain(others);
-            all.filter(|one| **one == **which).for_each(|one| scaled(one, *property));
-        }),
-        Change::Diameters if formulas => bat.turned(&all_along()),
-        Change::Bores if formulas => bat.bored(&all_along()),
-        Change::Diameters => reshaped(bat, |stations| wider(&mut stations.outer, by)),
-        Change::Bores => reshaped(bat, |stations| wider(&mut stations.inner, by)),
-        Change::Length => {
+    match parameter.input {
+        Input::Patch => Ok(bat.clone()),
+        Input::Density | Input::Mass => heavier_and_stiffer(bat, &parameter.of, [by.exp(), 1.0]),
+        Input::Stiffness | Input::Tap => heavier_and_stiffer(bat, &parameter.of, [1.0, by.exp()]),
+        Input::Diameters if formulas => bat.turned(&all_along()),
+        Input::Bores if formulas => bat.bored(&all_along()),
+        Input::Diameters => reshaped(bat, |stations| wider(&mut stations.outer, by)),
+        Input::Bores => reshaped(bat, |stations| wider(&mut stations.inner, by)),
+        Input::Length => {
             let ratio = 1.0 + by / bat.length();
             let mut longer = bat.profile().stations.clone();
             longer.x.iter_mut().for_each(|x| *x *= ratio);
@@ -108,6 +78,29 @@ pub fn changed(bat: &Bat, change: &Change, by: f64) -> Result<Bat> {
             })
         }
     }
+}
+
+/// The bat whose materials, or that one alone, are denser and stiffer by these factors.
+fn heavier_and_stiffer(
+    bat: &Bat,
+    of: &Option<Material>,
+    [denser, stiffer]: [f64; 2],
+) -> Result<Bat> {
+    let Some(which) = of else {
+        let mut other = bat.clone();
+        other.scale(denser, stiffer);
+        return Ok(other);
+    };
+    bat.with(|parts| {
+        let regions = parts.fixtures.regions.iter_mut();
+        let others = regions.flat_map(|region| region.layup.materials_mut());
+        let all = std::iter::once(&mut parts.material).chain(others);
+        all.filter(|one| **one == *which).for_each(|one| {
+            one.density *= denser;
+            one.youngs_modulus *= stiffer;
+            one.shear_modulus.iter_mut().for_each(|shear| *shear *= stiffer);
+        });
+    })
 }
 
 fn reshaped(bat: &Bat, change: impl Fn(&mut Stations)) -> Result<Bat> {

@@ -6,8 +6,9 @@
 //! | [`ignored`] | what does a theory leave out, and what does that cost |
 //! | [`calibrate`] | what is the wood, by scale, ruler, pendulum and tap |
 //! | [`verdict`] | how far do the answers hold, by all that is known |
-//! | [`read_to`], `bat_changes` | to what step were diameters read; a bat that differs in one thing |
-//! | [`inputs`], [`spread`] | how far do the answers move with what calipers, scale and wood leave open |
+//! | [`answers`] | which answers can be asked of a bat, by which names |
+//! | [`read_to`], [`inputs`] | to what step were diameters read; what is not known exactly of a bat |
+//! | `bat_changes`, [`spread`] | a bat that differs in one input; how far the answers move with all of them |
 //! | [`advise`] | which parts of a model matter on this bat |
 //! | [`comparison`] | which bat hits harder, where, and is the difference more than the errors |
 //! | [`many`] | which bats does a study vary |
@@ -26,9 +27,10 @@ pub mod trade;
 pub mod ignored;
 pub mod calibrate;
 pub mod verdict;
+pub mod answers;
 pub mod read_to;
-pub(crate) mod bat_changes;
 pub mod inputs;
+pub(crate) mod bat_changes;
 pub mod spread;
 pub mod advise;
 pub mod comparison;

@@ -20,15 +20,14 @@
 //!
 //! JCGM 100:2008 (GUM), 5.1.2: the law of propagation of uncertainty for independent inputs.
 
-use std::f64::consts::TAU;
+use serde::{Serialize, Serializer};
 
-use serde::Serialize;
-
-use crate::bat_changes::{Change, PATCH_FACTOR, Property, changed};
+use crate::answers::{Answer, figure, quotient};
+use crate::bat_changes::{PATCH_FACTOR, Parameter, changed};
 pub use crate::inputs::{Input, Readings};
 use sweetspot::base::error::Result;
 use sweetspot::base::threads;
-use sweetspot::bat::body::{Bat, STANDARD_PIVOT};
+use sweetspot::bat::body::Bat;
 use sweetspot::bat::material::Material;
 use sweetspot::collision::figures::SwingLaw;
 use sweetspot::collision::hit::{Model, Scene};
@@ -55,57 +54,19 @@ pub struct Source {
     pub deviation: f64,
 }
 
-/// An answer that moves.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub enum SpreadAnswer {
-    /// Mass (kg).
-    #[serde(rename = "mass_kg")]
-    Mass,
-    /// Balance point from the knob end (m).
-    #[serde(rename = "balance_point_m")]
-    BalancePoint,
-    /// Moment of inertia about the point 6 in from the knob end (kg m²).
-    #[serde(rename = "inertia_pivot_kg_m2")]
-    SwingWeight,
-    /// Frequency of the first bending mode (Hz).
-    #[serde(rename = "frequency_1_hz")]
-    Frequency1,
-    /// Frequency of the second bending mode (Hz).
-    #[serde(rename = "frequency_2_hz")]
-    Frequency2,
-    /// Frequency of the third bending mode (Hz).
-    #[serde(rename = "frequency_3_hz")]
-    Frequency3,
-    /// Where the ball leaves fastest, from the knob end (m).
-    #[serde(rename = "best_place_m")]
-    BestPlace,
-    /// Exit speed there (m/s).
-    #[serde(rename = "exit_speed_m_s")]
-    ExitSpeed,
-    /// Where the zone within 1 % of it begins, from the knob end (m).
-    #[serde(rename = "zone_from_m")]
-    ZoneFrom,
-    /// Where the zone ends, from the knob end (m).
-    #[serde(rename = "zone_to_m")]
-    ZoneTo,
-}
-
-impl SpreadAnswer {
-    /// All answers, in the order in which they are counted.
-    pub const ALL: [Self; 10] = [
-        Self::Mass,
-        Self::BalancePoint,
-        Self::SwingWeight,
-        Self::Frequency1,
-        Self::Frequency2,
-        Self::Frequency3,
-        Self::BestPlace,
-        Self::ExitSpeed,
-        Self::ZoneFrom,
-        Self::ZoneTo,
-    ];
-}
+/// The answers that move, in the order in which they are counted.
+pub const COUNTED: [Answer; 10] = [
+    Answer::Mass,
+    Answer::BalancePoint,
+    Answer::Inertia,
+    Answer::Frequency(1),
+    Answer::Frequency(2),
+    Answer::Frequency(3),
+    Answer::ExitSpeedPlace,
+    Answer::ExitSpeed,
+    Answer::Zone(false),
+    Answer::Zone(true),
+];
 
 /// An answer and how far that of the bat in hand may be from it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -113,7 +74,12 @@ impl SpreadAnswer {
 #[non_exhaustive]
 pub struct Estimate {
     /// Which answer, its unit at the end.
-    pub answer: SpreadAnswer,
+    #[serde(serialize_with = "key")]
+    #[cfg_attr(feature = "schema", schemars(with = "String", extend("enum" = [
+        "mass_kg", "balance_point_m", "inertia_pivot_kg_m2", "frequency_1_hz", "frequency_2_hz",
+        "frequency_3_hz", "best_place_m", "exit_speed_m_s", "zone_from_m", "zone_to_m"
+    ])))]
+    pub answer: Answer,
     /// As it is computed.
     pub value: f64,
     /// Standard deviation of all sources together, in the unit of the value; null where a bat that differs
@@ -125,6 +91,18 @@ pub struct Estimate {
     // With its sign.
     #[serde(rename = "by_source")]
     pub parts: Vec<f64>,
+}
+
+/// The name of an answer in JSON, its unit at the end.
+fn key<S: Serializer>(answer: &Answer, out: S) -> std::result::Result<S::Ok, S::Error> {
+    match answer {
+        Answer::Frequency(order) => out.collect_str(&format_args!("frequency_{order}_hz")),
+        Answer::ExitSpeedPlace => out.serialize_str("best_place_m"),
+        Answer::ExitSpeed => out.serialize_str("exit_speed_m_s"),
+        Answer::Zone(false) => out.serialize_str("zone_from_m"),
+        Answer::Zone(true) => out.serialize_str("zone_to_m"),
+        answer => out.serialize_str(&answer.name()),
+    }
 }
 
 impl Estimate {
@@ -173,18 +151,16 @@ pub struct Analysed<'a> {
 const TOLERANCE: f64 = 1e-6;
 /// Accuracy of exit speeds for which the walls of these bats are solved.
 const WALL_TOLERANCE: f64 = 1e-3;
-const ANSWERS: usize = SpreadAnswer::ALL.len();
 
-/// The answers of one bat, or what a source makes of them, in the order of [`SpreadAnswer::ALL`]; None where
+/// The answers of one bat, or what a source makes of them, in the order of [`COUNTED`]; None where
 /// there is none, as of a place that no ball is hit at.
-type Answers = [Option<f64>; ANSWERS];
+type Answers = Vec<Option<f64>>;
 
 /// A reading of the whole bat that settles a property of all its materials.
 struct Settled {
-    property: Property,
     source: Source,
-    /// What was read; None of a bat that was edited since, whose answer is another one.
-    answer: Option<SpreadAnswer>,
+    /// What was read, by its place in [`COUNTED`]; None of a bat that was edited since, whose answer is another one.
+    answer: Option<usize>,
     /// Standard deviation of the reading, in the unit of the answer; without one, of the property that
     /// it settled, relative.
     size: f64,
@@ -202,12 +178,12 @@ impl Spread {
         if analysed.scene.hoop.wall().is_some() && analysed.spot.exit_speed_max.is_some() {
             let deviation = PATCH_FACTOR.ln();
             let source = Source { input: Input::Patch, material: String::new(), deviation };
-            open.push((Change::Patch, source));
+            open.push((Parameter::whole(Input::Patch), source));
         }
-        let changes = open.iter().map(|(change, _)| change.clone());
-        let factors = settled.iter().map(|settled| Change::All(settled.property));
-        let changes: Vec<Change> = changes.chain(factors).collect();
-        let mut slopes = analysed.slopes(&changes).into_iter();
+        let parameters = open.iter().map(|(parameter, _)| parameter.clone());
+        let factors = settled.iter().map(|settled| Parameter::whole(settled.source.input));
+        let parameters: Vec<Parameter> = parameters.chain(factors).collect();
+        let mut slopes = analysed.slopes(&parameters).into_iter();
         let mut rows: Vec<Row> = vec![];
         let mut failed = |source: &Source| {
             let what = source.input.name();
@@ -216,7 +192,7 @@ impl Spread {
         for ((_, source), slopes) in open.into_iter().zip(&mut slopes) {
             match slopes {
                 Some(slopes) => {
-                    let parts = slopes.map(|slope| Some(slope? * source.deviation));
+                    let parts = times(slopes, source.deviation);
                     rows.push((source, parts));
                 }
                 None => failed(&source),
@@ -228,10 +204,7 @@ impl Spread {
                 None => Some(factor),
             });
             match by {
-                Some(by) => {
-                    let parts = by.map(|slope| Some(slope? * settled.size));
-                    rows.push((settled.source, parts));
-                }
+                Some(by) => rows.push((settled.source, times(by, settled.size))),
                 None => failed(&settled.source),
             }
         }
@@ -247,18 +220,28 @@ impl Spread {
     }
 
     /// What is open of an answer, if there is that answer.
-    pub fn of(&self, answer: SpreadAnswer) -> Option<&Estimate> {
+    pub fn of(&self, answer: Answer) -> Option<&Estimate> {
         self.estimates.iter().find(|estimate| estimate.answer == answer)
     }
 
     /// The source that moves an answer most, and its share of the variance; None where nothing does.
-    pub fn mostly(&self, answer: SpreadAnswer) -> Option<(&Source, f64)> {
+    pub fn mostly(&self, answer: Answer) -> Option<(&Source, f64)> {
         let estimate = self.of(answer)?;
         let squares = estimate.parts.iter().map(|part| part * part);
         let (most, square) = squares.enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
         let share = square / estimate.deviation?.powi(2);
         share.is_finite().then(|| (&self.sources[most], share))
     }
+}
+
+/// What is of so many units.
+fn times(slopes: Answers, size: f64) -> Answers {
+    slopes.into_iter().map(|slope| Some(slope? * size)).collect()
+}
+
+/// The place of an answer in [`COUNTED`].
+pub fn place(answer: Answer) -> Option<usize> {
+    COUNTED.iter().position(|counted| *counted == answer)
 }
 
 /// The readings of the whole bat: a scale sets its densities, a tap its stiffness. They were of the bat
@@ -270,9 +253,8 @@ fn settled(analysed: &Analysed, readings: &Readings, left_out: &mut Vec<String>)
     let weighed = before.weighed();
     let whole = |input, deviation| Source { input, material: String::new(), deviation };
     let scale = weighed.mass.map(|mass| Settled {
-        property: Property::Density,
         source: whole(Input::Mass, readings.mass),
-        answer: (!edited).then_some(SpreadAnswer::Mass),
+        answer: place(Answer::Mass).filter(|_| !edited),
         size: if edited { readings.mass / mass } else { readings.mass },
     });
     let tap = weighed.first_bending.and_then(|note| {
@@ -282,7 +264,6 @@ fn settled(analysed: &Analysed, readings: &Readings, left_out: &mut Vec<String>)
             return None;
         }
         Some(Settled {
-            property: Property::Stiffness,
             source: whole(Input::Tap, readings.tap),
             answer,
             size: if edited { 2.0 * readings.tap } else { readings.tap * note },
@@ -298,46 +279,52 @@ fn open(
     readings: &Readings,
     settled: &[Settled],
     left_out: &mut Vec<String>,
-) -> Vec<(Change, Source)> {
+) -> Vec<(Parameter, Source)> {
     let mut open = vec![];
     let materials = materials(bat);
     let only = materials.len() == 1;
     for (place, material) in materials {
-        let properties = [Property::Stiffness, Property::Density];
-        let unsettled = |property: &Property| {
-            let of = settled.iter().find(|settled| settled.property == *property);
+        // Each property with the reading that would settle it.
+        let properties = [(Input::Stiffness, Input::Tap), (Input::Density, Input::Mass)];
+        let unsettled = |(_, reading): &(Input, Input)| {
+            let of = settled.iter().find(|settled| settled.source.input == *reading);
             of.is_none_or(|settled| !only && settled.answer.is_some())
         };
-        let unsettled: Vec<Property> = properties.into_iter().filter(unsettled).collect();
+        let unsettled: Vec<Input> =
+            properties.into_iter().filter(unsettled).map(|(property, _)| property).collect();
         let Some(scatter) = material.differs() else {
             if !unsettled.is_empty() {
                 left_out.push(format!("the scatter of {place}, of which none is known here"));
             }
             continue;
         };
-        for property in unsettled {
-            let (input, deviation) = match property {
-                Property::Stiffness => (Input::Stiffness, scatter.youngs_modulus),
-                Property::Density => (Input::Density, scatter.density),
+        for input in unsettled {
+            let deviation = match input {
+                Input::Stiffness => scatter.youngs_modulus,
+                _ => scatter.density,
             };
-            let of = if only { String::new() } else { place.clone() };
-            let source = Source { input, material: of, deviation };
-            open.push((Change::Of(Box::new(material.clone()), property), source));
+            let source = Source {
+                input,
+                material: if only { String::new() } else { place.clone() },
+                deviation,
+            };
+            open.push((Parameter { input, of: Some(material.clone()) }, source));
         }
     }
     let hollow = !barrel_walls(bat).is_empty()
         || bat.profile().stations.inner.iter().any(|inner| *inner > 0.0);
-    let bores = hollow.then_some((Change::Bores, Input::Bores, readings.diameter));
-    let outside = Some((Change::Diameters, Input::Diameters, readings.diameter));
+    let bores = hollow.then_some((Input::Bores, readings.diameter));
+    let outside = Some((Input::Diameters, readings.diameter));
     let length = match bat.profile().formulas {
-        None => Some((Change::Length, Input::Length, readings.length)),
+        None => Some((Input::Length, readings.length)),
         Some(_) => {
             left_out.push("the length, which is a formula's".to_owned());
             None
         }
     };
-    for (change, input, deviation) in outside.into_iter().chain(length).chain(bores) {
-        open.push((change, Source { input, material: String::new(), deviation }));
+    for (input, deviation) in outside.into_iter().chain(length).chain(bores) {
+        let source = Source { input, material: String::new(), deviation };
+        open.push((Parameter::whole(input), source));
     }
     open
 }
@@ -356,29 +343,29 @@ fn materials(bat: &Bat) -> Vec<(String, Material)> {
 /// Holds a reading while a property of the whole bat gives way: takes from every row what moves the
 /// answer that was read, and returns what a change of that reading by 1 does. None if the property does
 /// not move it.
-fn settle(rows: &mut [Row], factor: &Answers, answer: SpreadAnswer) -> Option<Answers> {
-    let of_reading = factor[answer as usize].filter(|slope| *slope != 0.0)?;
-    let by = factor.map(|slope| Some(slope? / of_reading));
+fn settle(rows: &mut [Row], factor: &Answers, answer: usize) -> Option<Answers> {
+    let of_reading = factor[answer].filter(|slope| *slope != 0.0)?;
+    let by: Answers = factor.iter().map(|slope| Some((*slope)? / of_reading)).collect();
     for (_, parts) in rows {
-        let Some(moved) = parts[answer as usize] else { continue };
-        *parts = std::array::from_fn(|k| Some(parts[k]? - by[k]? * moved));
+        let Some(moved) = parts[answer] else { continue };
+        let held = parts.iter().zip(&by).map(|(part, by)| Some((*part)? - (*by)? * moved));
+        *parts = held.collect();
         // Not but for round-off.
-        parts[answer as usize] = Some(0.0);
+        parts[answer] = Some(0.0);
     }
     Some(by)
 }
 
 /// The answers with what all sources together make of them.
 fn estimates(values: &Answers, rows: &[Row]) -> Vec<Estimate> {
-    let of = |(answer, value): (SpreadAnswer, &Option<f64>)| {
-        let parts: Option<Vec<f64>> =
-            rows.iter().map(|(_, parts)| parts[answer as usize]).collect();
+    let of = |(k, (answer, value)): (usize, (Answer, &Option<f64>))| {
+        let parts: Option<Vec<f64>> = rows.iter().map(|(_, parts)| parts[k]).collect();
         let size = |parts: &Vec<f64>| parts.iter().map(|part| part * part).sum::<f64>().sqrt();
         let parts = parts.filter(|parts| size(parts).is_finite());
         let deviation = parts.as_ref().map(size);
         Some(Estimate { answer, value: (*value)?, deviation, parts: parts.unwrap_or_default() })
     };
-    SpreadAnswer::ALL.into_iter().zip(values).filter_map(of).collect()
+    COUNTED.into_iter().zip(values).enumerate().filter_map(of).collect()
 }
 
 impl Analysed<'_> {
@@ -388,40 +375,34 @@ impl Analysed<'_> {
         answers(self.bat, self.solution, peak.zip(self.spot.zone))
     }
 
-    /// Which frequency is the tapped note (Hz), up to what a rough accuracy leaves of it.
-    fn tapped(&self, note: f64) -> Option<SpreadAnswer> {
-        let same = |answer: &&SpreadAnswer| {
-            let found = self.answers()[**answer as usize];
-            found.is_some_and(|found| (found / note - 1.0).abs() < 0.01)
-        };
-        [SpreadAnswer::Frequency1, SpreadAnswer::Frequency2, SpreadAnswer::Frequency3]
-            .iter()
-            .find(same)
-            .copied()
+    /// Which frequency is the tapped note (Hz), up to what a rough accuracy leaves of it, by its place.
+    fn tapped(&self, note: f64) -> Option<usize> {
+        let answers = self.answers();
+        let same = |k: &usize| answers[*k].is_some_and(|found| (found / note - 1.0).abs() < 0.01);
+        (1..=3).filter_map(|order| place(Answer::Frequency(order))).find(same)
     }
 
     /// What a change by 1 makes of every answer, by central differences; None where a bat that differs
     /// so cannot be computed.
-    fn slopes(&self, changes: &[Change]) -> Vec<Option<Answers>> {
-        let step = |change: &Change| change.step(self.bat);
-        let sides = threads::map(2 * changes.len(), |k| {
-            let change = &changes[k / 2];
-            let by = if k % 2 == 0 { -step(change) } else { step(change) };
+    fn slopes(&self, parameters: &[Parameter]) -> Vec<Option<Answers>> {
+        let sides = threads::map(2 * parameters.len(), |k| {
+            let parameter = &parameters[k / 2];
+            let step = parameter.step(self.bat);
+            let by = if k % 2 == 0 { -step } else { step };
             let mut scene = self.scene.clone();
-            if *change == Change::Patch {
+            if parameter.input == Input::Patch {
                 // δ goes as the square of the patch's radius.
                 let ball = &mut scene.ball;
                 let compression = by.exp() * ball.patch_compression();
                 ball.contact_radius_m = Some((ball.radius_m * compression).sqrt());
             }
-            self.beside(&changed(self.bat, change, by)?, scene)
+            self.beside(&changed(self.bat, parameter, by)?, scene)
         });
-        let slope = |(change, sides): (&Change, &[Result<Answers>])| {
+        let slope = |(parameter, sides): (&Parameter, &[Result<Answers>])| {
             let [Ok(less), Ok(more)] = sides else { return None };
-            let over = 2.0 * step(change);
-            Some(std::array::from_fn(|k| Some((more[k]? - less[k]?) / over)))
+            Some(quotient(more, less, 2.0 * parameter.step(self.bat)))
         };
-        changes.iter().zip(sides.chunks(2)).map(slope).collect()
+        parameters.iter().zip(sides.chunks(2)).map(slope).collect()
     }
 
     /// The answers of another bat in that scene, by as many modes and such steps. Its wall is solved anew, roughly:
@@ -454,29 +435,20 @@ impl Analysed<'_> {
         let peak = looked.fastest();
         let hit = peak.map(|peak| ([peak.x, peak.value], looked.zone(peak)));
         let hit = answers(bat, &solution, hit);
-        Ok(std::array::from_fn(|k| notes[k].or(hit[k])))
+        Ok(notes.iter().zip(&hit).map(|(note, hit)| note.or(*hit)).collect())
     }
 }
 
 /// The answers of a bat, its modes, and where and how fast (m, m/s) the fastest ball leaves, with the
 /// zone around it (m).
 fn answers(bat: &Bat, solution: &Solution, hit: Option<([f64; 2], [f64; 2])>) -> Answers {
-    let inertia = bat.inertia();
-    let frequency = |k: usize| solution.modes.get(k).map(|mode| mode.omega / TAU);
-    let ([best, speed], [from, to]) = hit.unwrap_or(([f64::NAN; 2], [f64::NAN; 2]));
-    let of = |answer: SpreadAnswer| match answer {
-        SpreadAnswer::Mass => Some(inertia.mass),
-        SpreadAnswer::BalancePoint => Some(inertia.balance_point),
-        SpreadAnswer::SwingWeight => Some(inertia.about(STANDARD_PIVOT)),
-        SpreadAnswer::Frequency1 => frequency(0),
-        SpreadAnswer::Frequency2 => frequency(1),
-        SpreadAnswer::Frequency3 => frequency(2),
-        SpreadAnswer::BestPlace => hit.map(|_| best),
-        SpreadAnswer::ExitSpeed => hit.map(|_| speed),
-        SpreadAnswer::ZoneFrom => hit.map(|_| from),
-        SpreadAnswer::ZoneTo => hit.map(|_| to),
+    let of = |answer: Answer| match answer {
+        Answer::ExitSpeedPlace => hit.map(|([best, _], _)| best),
+        Answer::ExitSpeed => hit.map(|([_, speed], _)| speed),
+        Answer::Zone(end) => hit.map(|(_, zone)| zone[usize::from(end)]),
+        answer => figure(answer, bat, solution).map(|figure| figure.value),
     };
-    SpreadAnswer::ALL.map(of)
+    COUNTED.into_iter().map(of).collect()
 }
 
 /// Relative standard deviation of every frequency of a bat of one wood by the wood alone, without a

@@ -79,7 +79,7 @@ pub fn shares(table: &Table, rows: &Rows) -> String {
 
 fn of_one(name: &str, varied: &[String], indices: &Indices) -> String {
     let columns = Columns::new([first(44, ""), labels(16, "alone"), labels(16, "with others")]);
-    let shown = |share: &Share| format!("{:.3} ± {:.3}", share.value, share.deviation);
+    let shown = |share: &Share| format!("{:.3} ± {:.3}", share.value, share.sd);
     let mut out =
         format!("\nWhat makes {name} vary (degree {}, {} rows)\n", indices.degree, indices.rows);
     out += &columns.heads();

@@ -9,7 +9,7 @@ use crate::parts::part::Fact;
 use crate::parts::units::Units;
 use crate::report::trust::about;
 use sweetspot::bat::body::STANDARD_PIVOT;
-use sweetspot_study::spread::SpreadAnswer;
+use sweetspot_study::answers::Answer;
 
 /// The numbers of the summary, in SI, as they stand in the page's data; None for an unknown number.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -80,7 +80,7 @@ impl Summary {
             shown::speed(units, self.ball_speed_m_s)
         );
         let zone = format!("{} to {} from the knob", shown::bare(units, from), length(units, to));
-        let [tip, scene] = [(tip, SpreadAnswer::BestPlace), (scene, SpreadAnswer::ExitSpeed)]
+        let [tip, scene] = [(tip, Answer::ExitSpeedPlace), (scene, Answer::ExitSpeed)]
             .map(|(note, answer)| with_open(note, about(analysis, answer, units)));
         let (place, width) = (length(units, x), length(units, to - from));
         vec![
@@ -99,7 +99,7 @@ impl Summary {
                 true => String::new(),
                 false => format!("then {} Hz", others.join(" and ")),
             };
-            let note = with_open(note, about(analysis, SpreadAnswer::Frequency1, units));
+            let note = with_open(note, about(analysis, Answer::Frequency(1), units));
             let value = format!("{} Hz", shown::decimals(*first, 1));
             facts.push(fact("frequencies_hz", "First bending frequency", value, note));
         }
@@ -115,21 +115,21 @@ impl Summary {
         let from_tip = |x: f64| format!("{} from the tip", length(units, self.length_m - x));
         let (balance, weight) = (self.balance_point_m, self.inertia_pivot_kg_m2);
         let along = |x: f64| length(units, x);
-        let open = |answer: SpreadAnswer| about(analysis, answer, units);
+        let open = |answer: Answer| about(analysis, answer, units);
         let mut facts = vec![
             fact("length_m", "Length", along(self.length_m), String::new()),
             fact(
                 "mass_kg",
                 "Mass",
                 shown::mass(units, self.mass_kg),
-                with_open(String::new(), open(SpreadAnswer::Mass)),
+                with_open(String::new(), open(Answer::Mass)),
             ),
             fact("balance_point_m", "Balance point", along(balance), from_tip(balance)),
             fact(
                 "inertia_pivot_kg_m2",
                 "Swing weight",
                 shown::inertia(units, weight),
-                with_open("about 6 in from the knob".to_owned(), open(SpreadAnswer::SwingWeight)),
+                with_open("about 6 in from the knob".to_owned(), open(Answer::Inertia)),
             ),
         ];
         if let Some(x) = self.center_of_percussion_m {

@@ -8,8 +8,8 @@ use crate::plot::svg::{Mark, Pen, Svg};
 use crate::plot::theme::{GRID, Ink, MUTED, SERIES, TEXT};
 use crate::plot::words::{Anchor, LABEL, width};
 use crate::report::calibrate::{short, shown};
-use sweetspot_study::calibrate::calibration::{Calibration, Estimated, NINETY_FIVE, OUTLIER};
-use sweetspot_study::calibrate::fit::Residual;
+use sweetspot_study::calibrate::calibration::{Calibration, Estimated, NINETY_FIVE};
+use sweetspot_study::calibrate::fit::{OUTLIER, Residual};
 
 /// Height of a row and of half a bar in it (px).
 const ROW: f64 = 34.0;
@@ -18,8 +18,8 @@ const BAR: f64 = 8.0;
 /// Both pictures, the second only where something was measured.
 pub fn pictures(name: &str, found: &Calibration) -> Vec<Picture> {
     let mut all = vec![wood(name, &found.parameters)];
-    if !found.fit.residuals.is_empty() {
-        all.push(residuals(name, &found.fit.residuals));
+    if !found.data.is_empty() {
+        all.push(residuals(name, &found.data));
     }
     all
 }
@@ -29,10 +29,10 @@ fn wood(name: &str, parameters: &[Estimated]) -> Picture {
     let title = "What the readings say of the wood";
     let facts = "95 of 100 cases: light before, dark after; the line is what was found";
     let ends = |one: &Estimated| {
-        let before = one.prior.value / one.value;
+        let before = one.prior / one.value;
         let wide =
             |centre: f64, sd: f64| [-1.0, 1.0].map(|s| centre * (s * NINETY_FIVE * sd).exp());
-        [wide(before, one.prior.deviation), one.interval.map(|end| end / one.value)]
+        [wide(before, one.prior_relative_sd), one.interval95.map(|end| end / one.value)]
     };
     let all: Vec<[[f64; 2]; 2]> = parameters.iter().map(ends).collect();
     let labels: Vec<String> = parameters
@@ -62,7 +62,7 @@ fn residuals(name: &str, all: &[Residual]) -> Picture {
     let title = "Which readings fit";
     let facts =
         "measured less computed; circle: with it, bar: from all others; beyond 3 it does not fit";
-    let values = all.iter().flat_map(|one| [one.left_out, one.deviations]);
+    let values = all.iter().flat_map(|one| [one.left_out_sd, one.residual_sd]);
     let x = Axis::around("standard deviations", values.chain([-4.0, 4.0]), 9);
     let labels: Vec<String> = all.iter().map(|one| one.datum.kind.name()).collect();
     let (mut svg, plane) = rows((title, [name, facts]), &labels, x);
@@ -70,12 +70,12 @@ fn residuals(name: &str, all: &[Residual]) -> Picture {
     for (k, (one, label)) in all.iter().zip(&labels).enumerate() {
         let middle = middle(&plane, k);
         let ink = if one.is_outlier() { SERIES[1] } else { SERIES[0] };
-        let ends = [one.left_out.min(0.0), one.left_out.max(0.0)];
+        let ends = [one.left_out_sd.min(0.0), one.left_out_sd.max(0.0)];
         bar(&mut svg, &plane, (ends, middle), (ink, 0.7));
-        svg.mark(Mark::Circle, [plane.across(one.deviations), middle], 4.0, TEXT, false);
+        svg.mark(Mark::Circle, [plane.across(one.residual_sd), middle], 4.0, TEXT, false);
         let words =
-            format!("{label}: {:+.1}, from all others {:+.1}", one.deviations, one.left_out);
-        svg.hover(&[([plane.across(one.left_out), middle], words.clone())], 1);
+            format!("{label}: {:+.1}, from all others {:+.1}", one.residual_sd, one.left_out_sd);
+        svg.hover(&[([plane.across(one.left_out_sd), middle], words.clone())], 1);
         said.push(words);
     }
     line(&mut svg, &plane, 0.0, Pen::new(TEXT, 1.2));

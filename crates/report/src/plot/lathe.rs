@@ -15,7 +15,8 @@ use sweetspot::base::number::signed;
 use sweetspot::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
 use sweetspot::bat::body::Bat;
 use sweetspot::bat::profile::Section;
-use sweetspot_study::lathe::map::{LatheMap, TurnedBand};
+use sweetspot_study::lathe::found::TurnedBand;
+use sweetspot_study::lathe::map::LatheMap;
 use sweetspot_study::many::answers::Answer;
 
 /// Height of a strip's bat and of the words above it (px).
@@ -69,15 +70,15 @@ pub fn picture(sheet: Sheet, map: &LatheMap) -> Option<Picture> {
         let lying = Lying { plane: &plane, axis, per_metre };
         let most = strip.most();
         label(&mut svg, frame, upper, strip);
-        for (band, change) in map.bands.iter().zip(&strip.changes) {
+        for (band, change) in map.found.bands.iter().zip(&strip.changes) {
             let Some(change) = change else { continue };
             let share = if most > 0.0 { change.abs() / most } else { 0.0 };
             let ink = if *change >= 0.0 { SERIES[0] } else { SERIES[1] };
             let opacity = rounded(FULL * share);
             if opacity > 0.0 {
-                lying.filled(&mut svg, &between(bat, &outline, band.ends), (ink, opacity));
+                lying.filled(&mut svg, &between(bat, &outline, band.ends()), (ink, opacity));
             }
-            let middle = plane.across(0.5 * (band.ends[0] + band.ends[1]));
+            let middle = plane.across(0.5 * (band.from_m + band.to_m));
             told.push(([middle, axis], strip.of(sheet, band, *change)));
         }
         lying.outline(&mut svg, &outline, Pen::new(FRAME, 0.9));
@@ -151,7 +152,7 @@ impl Strip {
     }
 
     fn of(&self, sheet: Sheet, band: &TurnedBand, change: f64) -> String {
-        let [from, to] = band.ends.map(|x| place::along(sheet, x));
+        let [from, to] = band.ends().map(|x| place::along(sheet, x));
         format!("{}, {from} to {to}: {} {}", self.name, self.shown(change), self.unit)
     }
 }
@@ -163,9 +164,8 @@ fn strips(sheet: Sheet, map: &LatheMap) -> Vec<Strip> {
     let answers = &map.terms.answers;
     let mut all = vec![];
     let mut add = |answer: Answer, name: &str, unit: (&'static str, f64, i32), exponent: f64| {
-        let Some(k) = answers.iter().position(|known| *known == answer) else { return };
-        let of = |band: &TurnedBand| band.slopes.as_ref()?.by_law(exponent)[k].map(|f| f.value);
-        let changes: Vec<Option<f64>> = map.bands.iter().map(of).collect();
+        let of = |band: &TurnedBand| band.derivative(answer, exponent).map(|change| change / MM);
+        let changes: Vec<Option<f64>> = map.found.bands.iter().map(of).collect();
         if changes.iter().any(Option::is_some) {
             let (unit, scale, decimals) = (unit.0, unit.1 * per, unit.2);
             all.push(Strip { name: name.to_owned(), unit, scale, decimals, changes });
@@ -181,7 +181,7 @@ fn strips(sheet: Sheet, map: &LatheMap) -> Vec<Strip> {
     add(Answer::Node(1), "node of mode 1, outward", length, 0.0);
     add(Answer::ExitSpeedPlace, "sweet spot, outward", length, 0.0);
     add(Answer::ExitSpeed, "fastest ball, same swing", speed, 0.0);
-    if let Some(own) = map.exponents().get(2) {
+    if let Some(own) = map.terms.exponents().get(2) {
         add(Answer::ExitSpeed, &format!("fastest ball, swing law n = {own}"), speed, *own);
     }
     add(Answer::ExitSpeed, "fastest ball, same energy of the swing", speed, 0.5);

@@ -120,7 +120,7 @@ pub fn tornado(answer: &str, varied: &[String], indices: &Indices) -> Picture {
 fn bar(svg: &mut Svg, plane: &Plane, (share, middle): (&Share, f64), (high, opacity): (f64, f64)) {
     let [from, to] = [0.0, share.value.clamp(0.0, 1.0)].map(|value| plane.across(value));
     svg.rect([[from, middle - high * BAR], [to, middle + high * BAR]], SERIES[0], opacity, None);
-    let ends = [-1.0, 1.0].map(|sign| (share.value + sign * share.deviation).clamp(0.0, 1.0));
+    let ends = [-1.0, 1.0].map(|sign| (share.value + sign * share.sd).clamp(0.0, 1.0));
     let ends = ends.map(|value| [plane.across(value), middle]);
     svg.line(&ends, Pen::new(MUTED, 1.2));
 }

@@ -2,7 +2,7 @@
 
 use crate::parts::units::Units;
 use sweetspot::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
-use sweetspot_study::spread::SpreadAnswer;
+use sweetspot_study::answers::Answer;
 
 /// What an answer counts in.
 #[derive(Clone, Copy)]
@@ -15,14 +15,12 @@ pub enum AnswerUnit {
 }
 
 impl AnswerUnit {
-    pub fn of(answer: SpreadAnswer) -> Self {
-        match answer {
-            SpreadAnswer::Mass => Self::Mass,
-            SpreadAnswer::SwingWeight => Self::Inertia,
-            SpreadAnswer::Frequency1 | SpreadAnswer::Frequency2 | SpreadAnswer::Frequency3 => {
-                Self::Frequency
-            }
-            SpreadAnswer::ExitSpeed => Self::Speed,
+    pub fn of(answer: Answer) -> Self {
+        match answer.unit() {
+            "kg" => Self::Mass,
+            "kg m²" => Self::Inertia,
+            "Hz" => Self::Frequency,
+            "m/s" => Self::Speed,
             _ => Self::Length,
         }
     }

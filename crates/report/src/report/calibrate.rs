@@ -2,15 +2,18 @@
 
 use std::fmt::Write;
 
-use crate::csv::Csv;
+use crate::csv;
+use crate::parts::table::Column;
 use crate::parts::terminal::wrapped;
 use crate::parts::units::in_trade;
 use crate::report::columns::{Columns, first, labels, numbers};
-use crate::schema::calibrate as file;
+use crate::schema::calibrate::CalibrateFile;
 use sweetspot::base::number::{percent, significant};
 use sweetspot::bat::body::Bat;
 use sweetspot::files::schema::document::{BatName, Format, Generator};
-use sweetspot_study::calibrate::calibration::{Calibration, Estimated, Property, Verdict};
+use sweetspot_study::calibrate::calibration::{
+    Calibration, Estimated, Property, Verdict, WithoutOutliers,
+};
 use sweetspot_study::calibrate::fit::{DatumKind, Residual};
 use sweetspot_study::calibrate::next::Proposal;
 
@@ -19,13 +22,13 @@ pub fn text(bat: &Bat, found: &Calibration) -> String {
     let mut out = format!("What the wood of {} is\n", bat.name());
     out += &parameters(&found.parameters);
     out += &data(found, bat.inches());
-    for tone in &found.readings.ring_down {
+    for tone in &found.loss_factors {
         let _ = writeln!(
             out,
             "Mode {} dies out with a loss factor of {} (damping ratio {})",
             tone.mode,
-            significant(tone.loss_factor(), 3),
-            significant(tone.damping_ratio(), 3)
+            significant(tone.loss_factor, 3),
+            significant(tone.damping_ratio, 3)
         );
     }
     out += "In words\n";
@@ -48,7 +51,7 @@ fn parameters(all: &[Estimated]) -> String {
             short(one.property).to_owned(),
             shown(one.property, one.value),
             within(one),
-            shown(one.property, one.prior.value),
+            shown(one.property, one.prior),
             percent(one.learned.max(0.0), 0),
             verdict(one),
         ]);
@@ -58,7 +61,7 @@ fn parameters(all: &[Estimated]) -> String {
 
 /// The 95 % interval about the value, in per cent.
 fn within(one: &Estimated) -> String {
-    let [low, high] = one.interval.map(|end| 100.0 * (end / one.value - 1.0));
+    let [low, high] = one.interval95.map(|end| 100.0 * (end / one.value - 1.0));
     match format!("{:.1}", -low) == format!("{high:.1}") {
         true => format!("± {high:.1} %"),
         false => format!("{low:+.1}/{high:+.1} %"),
@@ -76,11 +79,11 @@ fn data(found: &Calibration, us: bool) -> String {
     ]);
     let mut out = format!(
         "Readings beside the bat of that wood: chi2 {} of {} data\n",
-        significant(found.fit.misfit(), 3),
-        found.data()
+        significant(found.misfit(), 3),
+        found.expected
     );
     out += &columns.heads();
-    for one in &found.fit.residuals {
+    for one in &found.data {
         let sd = |value: f64| format!("{value:+.1} sd");
         let flag = if one.is_outlier() { "does not fit" } else { "" };
         let name = one.datum.kind.name();
@@ -94,16 +97,16 @@ fn data(found: &Calibration, us: bool) -> String {
         };
         out += &columns.row([
             name,
-            significant(per * one.datum.reading.value, 5),
+            significant(per * one.datum.measured, 5),
             significant(per * one.computed, 5),
-            sd(one.deviations),
-            sd(one.left_out),
+            sd(one.residual_sd),
+            sd(one.left_out_sd),
             flag.to_owned(),
         ]);
     }
-    let lines = found.readings.lines.iter().zip(&found.identified.labels);
-    for (line, _) in lines.filter(|(_, label)| label.is_none()) {
-        let hz = significant(line.frequency.value, 5);
+    let lines = found.labels.lines_hz.iter().zip(&found.labels.taken);
+    for (hz, _) in lines.filter(|(_, label)| label.is_none()) {
+        let hz = significant(*hz, 5);
         let _ = writeln!(out, "{hz} Hz is no bending mode of this bat");
     }
     out
@@ -135,7 +138,7 @@ fn verdict(one: &Estimated) -> String {
         Verdict::Determined => "determine it".to_owned(),
         Verdict::Partly => "say it in part".to_owned(),
         Verdict::OnlyTogether => {
-            let with = one.correlated.map_or("another", |(other, _)| short(other));
+            let with = one.correlated_with.map_or("another", short);
             format!("only with {with}")
         }
         Verdict::NotDetermined => "do not say it".to_owned(),
@@ -156,7 +159,7 @@ pub fn words(found: &Calibration) -> Vec<String> {
         );
     }
     for one in found.parameters.iter().filter(|one| one.verdict == Verdict::OnlyTogether) {
-        let Some((other, r)) = one.correlated else { continue };
+        let Some((other, r)) = one.correlated_with.zip(one.correlation) else { continue };
         let sign = if r > 0.0 { "quotient" } else { "product" };
         all.push(format!(
             "{} and {} are known only together (correlation {r:.2}): the readings say a {sign}.",
@@ -188,17 +191,17 @@ fn list(labels: &[Option<usize>]) -> String {
 
 /// What the labels were taken for, where they were sought.
 fn labelled(found: &Calibration) -> Vec<String> {
-    let identified = &found.identified;
+    let identified = &found.labels;
     let mut all = vec![];
-    if let Some((told, chi2)) = &identified.told {
+    if let Some((told, chi2)) = identified.told.as_ref().zip(identified.told_chi2) {
         let changed = |k: &usize| {
             let name =
                 |label: Option<usize>| label.map_or("no mode".to_owned(), |m| format!("mode {m}"));
             format!(
                 "{} Hz was told as {} and fits as {}",
-                found.readings.lines[*k].frequency.value,
+                identified.lines_hz[*k],
                 name(told[*k]),
-                name(identified.labels[*k])
+                name(identified.taken[*k])
             )
         };
         let changed: Vec<String> = identified.changed().iter().map(changed).collect();
@@ -206,17 +209,17 @@ fn labelled(found: &Calibration) -> Vec<String> {
             "As modes {} the lines do not fit this bat in any wood (chi2 {}). {}: the wood above is that of \
              these labels.",
             list(told),
-            significant(*chi2, 3),
+            significant(chi2, 3),
             changed.join("; ")
         ));
     } else if found.readings.lines.iter().any(|line| line.mode.is_none()) {
-        let taken = match identified.labels.len() {
+        let taken = match identified.taken.len() {
             1 => "line was taken for mode",
             _ => "lines were taken for modes",
         };
-        all.push(format!("The {taken} {}.", list(&identified.labels)));
+        all.push(format!("The {taken} {}.", list(&identified.taken)));
     }
-    if let Some(((labels, _), margin)) = identified.second.as_ref().zip(identified.margin) {
+    if let Some((labels, margin)) = identified.second.as_ref().zip(identified.margin) {
         let unsure = if identified.is_sure() {
             ""
         } else {
@@ -257,31 +260,32 @@ fn foreign(found: &Calibration, one: &Estimated) -> Option<String> {
         },
         shown(one.property, one.value),
         significant(times, 3),
-        shown(one.property, one.prior.value)
+        shown(one.property, one.prior)
     ))
 }
 
 fn mismatch(found: &Calibration) -> Option<String> {
-    if found.readings_agree() {
+    if found.readings_agree {
         return None;
     }
     let name = |residual: &Residual| {
-        format!("{} ({:+.1} sd)", residual.datum.kind.name(), residual.left_out)
+        format!("{} ({:+.1} sd)", residual.datum.kind.name(), residual.left_out_sd)
     };
-    let outliers: Vec<String> =
-        found.outliers.iter().map(|k| name(&found.fit.residuals[*k])).collect();
+    let outliers = found.data.iter().filter(|residual| residual.is_outlier());
+    let outliers: Vec<String> = outliers.map(name).collect();
     let which = match outliers.is_empty() {
         true => "No one reading stands out".to_owned(),
         false => format!("Beside all others these are far off: {}", outliers.join(", ")),
     };
-    let without = found.without.as_ref().map_or(String::new(), |(_, chi2, data)| {
-        format!(" Without them chi2 is {} of {data}.", significant(*chi2, 3))
+    let without = found.without_outliers.as_ref().map_or(String::new(), |without| {
+        let WithoutOutliers { chi2, expected, .. } = without;
+        format!(" Without them chi2 is {} of {expected}.", significant(*chi2, 3))
     });
     Some(format!(
         "The readings do not fit this bat: errors would have to be {} times larger. {which}: the \
          profile, the label or the reading is another one than the file says, and no wood mends \
          that.{without}",
-        significant(found.birge(), 2)
+        significant(found.errors_larger_by, 2)
     ))
 }
 
@@ -310,122 +314,31 @@ fn advice(found: &Calibration) -> String {
 }
 
 /// The `sweetspot-calibrate/1` document.
-pub fn document(bat: &Bat, found: &Calibration, split: Option<f64>) -> file::CalibrateFile {
-    let identified = &found.identified;
-    let residuals = &found.fit.residuals;
-    file::CalibrateFile {
+pub fn document(bat: &Bat, found: &Calibration) -> CalibrateFile {
+    CalibrateFile {
         format: Format::new(),
         generator: Generator::this(),
         bat: BatName::of(bat),
-        regions_at_m: split,
-        parameters: found.parameters.iter().map(parameter).collect(),
-        covariance: found.covariance.clone(),
-        data: residuals.iter().map(datum).collect(),
-        chi2: found.fit.chi2,
-        expected: found.data(),
-        errors_larger_by: found.birge(),
-        model: found.readings.model,
-        fits: found.fits(),
-        steps: found.fit.steps,
-        labels: file::LabelsFound {
-            lines_hz: found.readings.lines.iter().map(|line| line.frequency.value).collect(),
-            taken: identified.labels.clone(),
-            chi2: identified.chi2,
-            told: identified.told.as_ref().map(|(labels, _)| labels.clone()),
-            told_chi2: identified.told.as_ref().map(|(_, chi2)| *chi2),
-            second: identified.second.as_ref().map(|(labels, _)| labels.clone()),
-            second_chi2: identified.second.as_ref().map(|(_, chi2)| *chi2),
-            margin: identified.margin,
-        },
-        outliers: found.outliers.iter().map(|k| residuals[*k].datum.kind.name()).collect(),
-        without_outliers: found.without.as_ref().map(|(parameters, chi2, expected)| {
-            let parameters = parameters.iter().map(parameter).collect();
-            file::WithoutOutliers { parameters, chi2: *chi2, expected: *expected }
-        }),
-        loss_factors: found
-            .readings
-            .ring_down
-            .iter()
-            .map(|tone| file::LossFound {
-                mode: tone.mode,
-                damping_ratio: tone.damping_ratio(),
-                loss_factor: tone.loss_factor(),
-            })
-            .collect(),
-        next: found
-            .proposals
-            .iter()
-            .map(|one| file::NextMeasurement {
-                name: one.kind.name(),
-                sd: one.sigma,
-                factors: one.factors.clone(),
-            })
-            .collect(),
+        found: found.clone(),
         advice: advice(found),
         words: words(found),
     }
 }
 
-fn parameter(one: &Estimated) -> file::ParameterFound {
-    file::ParameterFound {
-        name: one.property.name(),
-        unit: one.property.unit(),
-        value: one.value,
-        interval95: one.interval,
-        relative_sd: one.deviation,
-        prior: one.prior.value,
-        prior_relative_sd: one.prior.deviation,
-        learned: one.learned,
-        correlated_with: one.correlated.map(|(other, _)| other.name()),
-        correlation: one.correlated.map(|(_, r)| r),
-        verdict: match one.verdict {
-            Verdict::Determined => "determined",
-            Verdict::Partly => "partly",
-            Verdict::OnlyTogether => "only_together",
-            Verdict::NotDetermined => "not_determined",
-            Verdict::Held => "held",
-        },
-    }
-}
-
-fn datum(one: &Residual) -> file::DatumFound {
-    file::DatumFound {
-        name: one.datum.kind.name(),
-        measured: one.datum.reading.value,
-        reading_sd: one.datum.reading.deviation,
-        sd: one.datum.sigma,
-        computed: one.computed,
-        residual_sd: one.deviations,
-        left_out_sd: one.left_out,
-    }
-}
+/// The columns of the parameters in files.
+const COLUMNS: [Column<Estimated>; 9] = [
+    Column::in_files("name", |one| one.property.name().into()),
+    Column::in_files("unit", |one| one.unit.into()),
+    Column::in_files("value", |one| one.value.into()),
+    Column::in_files("low95", |one| one.interval95[0].into()),
+    Column::in_files("high95", |one| one.interval95[1].into()),
+    Column::in_files("relative_sd", |one| one.relative_sd.into()),
+    Column::in_files("prior", |one| one.prior.into()),
+    Column::in_files("prior_relative_sd", |one| one.prior_relative_sd.into()),
+    Column::in_files("learned", |one| one.learned.into()),
+];
 
 /// Every parameter as a line of CSV.
 pub fn csv(found: &Calibration) -> String {
-    let mut table = Csv::new([
-        "name",
-        "unit",
-        "value",
-        "low95",
-        "high95",
-        "relative_sd",
-        "prior",
-        "prior_relative_sd",
-        "learned",
-    ]);
-    for one in &found.parameters {
-        let [low, high] = one.interval;
-        table.row([
-            one.property.name().into(),
-            one.property.unit().into(),
-            one.value.into(),
-            low.into(),
-            high.into(),
-            one.deviation.into(),
-            one.prior.value.into(),
-            one.prior.deviation.into(),
-            one.learned.into(),
-        ]);
-    }
-    table.text()
+    csv::rows(&COLUMNS, &found.parameters)
 }

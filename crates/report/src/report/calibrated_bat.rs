@@ -11,23 +11,18 @@ use sweetspot::bat::body::Bat;
 use sweetspot::bat::material::Material;
 use sweetspot::files::document::Document;
 use sweetspot::files::json_node::Node;
-use sweetspot_study::calibrate::calibration::{Calibration, Verdict};
+use sweetspot_study::calibrate::calibration::{Calibration, Estimated, Verdict};
 
 /// Members that a calibrated file has anew, or no more: densities and moduli are known now.
 const ANEW: [&str; 4] = ["source", "comment", "material", "weighed"];
 
-/// The text of the file. `before` is the bat and what its file says, `measured` the name of the readings, `split`
-/// where the barrel begins (m), if there are two regions.
+/// The text of the file. `before` is the bat and what its file says, `measured` the name of the readings.
 ///
 /// # Errors
 ///
 /// [`sweetspot::Error::Input`] where the text is no JSON object.
-pub fn text(
-    (bat, before): (&Bat, &str),
-    found: &Calibration,
-    measured: &str,
-    split: Option<f64>,
-) -> Result<String> {
+pub fn text((bat, before): (&Bat, &str), found: &Calibration, measured: &str) -> Result<String> {
+    let split = found.regions_at_m;
     Node::root(&Document::new("bat".to_owned(), before))?.members()?;
     let before = before.trim_start_matches('\u{feff}');
     let old: Map<String, Value> = serde_json::from_str(before).unwrap_or_default();
@@ -57,7 +52,7 @@ pub fn text(
             new.insert(key, value);
         }
     }
-    regions(&mut new, found, split);
+    regions(&mut new, found);
     // The new file may lie in another folder than the table that the old one names.
     if new.get("profile").is_some_and(|profile| profile.get("csv").is_some()) {
         new["profile"] = json!(resolved::profile(bat.unedited().profile()));
@@ -72,18 +67,19 @@ fn weighed(found: &Calibration) -> Option<Value> {
     if found.readings.mass.is_some() {
         weighed.insert("mass".to_owned(), json!(found.bat.unedited().inertia().mass));
     }
-    let first = found.fit.shown.frequencies.first();
-    if let Some(first) = first.filter(|_| found.identified.labels.contains(&Some(1))) {
-        weighed.insert("first_bending_hz".to_owned(), json!(first.value));
+    let first = found.first_frequency.filter(|_| found.labels.taken.contains(&Some(1)));
+    if let Some(first) = first {
+        weighed.insert("first_bending_hz".to_owned(), json!(first));
     }
     (!weighed.is_empty()).then_some(Value::Object(weighed))
 }
 
 /// Regions whose material is written out and was that of the bat have the new one too.
-fn regions(file: &mut Map<String, Value>, found: &Calibration, split: Option<f64>) {
+fn regions(file: &mut Map<String, Value>, found: &Calibration) {
     let wood = found.bat.material();
     let known = found.bat.unedited().fixtures().regions.iter();
-    let listed = file.get_mut("regions").and_then(Value::as_array_mut).filter(|_| split.is_none());
+    let listed = file.get_mut("regions").and_then(Value::as_array_mut);
+    let listed = listed.filter(|_| found.regions_at_m.is_none());
     for (region, listed) in known.zip(listed.into_iter().flatten()) {
         if region.layup.outer == *wood && listed.get("material").is_some() {
             listed["material"] = json!(material(found, wood));
@@ -99,8 +95,8 @@ fn material(found: &Calibration, own: &Material) -> Material {
 
 /// Values with their intervals, a line each.
 fn intervals(found: &Calibration) -> Vec<String> {
-    let line = |one: &sweetspot_study::calibrate::calibration::Estimated| {
-        let [low, high] = one.interval.map(|value| shown(one.property, value));
+    let line = |one: &Estimated| {
+        let [low, high] = one.interval95.map(|value| shown(one.property, value));
         let unsaid = match one.verdict {
             Verdict::NotDetermined | Verdict::Held => "; the readings do not say it",
             _ => "",
@@ -109,11 +105,11 @@ fn intervals(found: &Calibration) -> Vec<String> {
             "{}: {}, 95 % from {low} to {high} (standard deviation {}){unsaid}",
             one.property.name(),
             shown(one.property, one.value),
-            percent(one.deviation, 2)
+            percent(one.relative_sd, 2)
         )
     };
     let mut all: Vec<String> = found.parameters.iter().map(line).collect();
-    if !found.fits() {
+    if !found.fits {
         all.push("The readings do not fit this bat: the intervals are too narrow.".to_owned());
     }
     all

@@ -7,16 +7,15 @@ use crate::parts::units::Units;
 use crate::report::hit_json::scene_out;
 use crate::report::lathe_table::{TableUnits, legend, table};
 use crate::report::text::edited;
-use crate::schema::lathe as file;
+use crate::schema::lathe::LatheFile;
 use sweetspot::base::number::significant;
 use sweetspot::bat::body::STANDARD_PIVOT;
 use sweetspot::collision::hit::{Model, Scene};
 use sweetspot::files::schema::document::{Format, Generator};
-use sweetspot_study::comparison::contender::Figure;
-use sweetspot_study::lathe::gauges::{Rivals, WhyNotSmooth};
-use sweetspot_study::lathe::map::{LatheMap, TurnedBand};
+use sweetspot_study::lathe::found::{TurnedBand, WholeChange};
+use sweetspot_study::lathe::gauges::WhyNotSmooth;
+use sweetspot_study::lathe::map::LatheMap;
 use sweetspot_study::lathe::recipe::{RecipeCut, least_wood};
-use sweetspot_study::lathe::workpiece::Method;
 use sweetspot_study::many::answers::Answer;
 
 const MM: f64 = 1e-3;
@@ -48,17 +47,11 @@ pub fn screen(map: &LatheMap, scene: &Scene, units: Units) -> Option<String> {
     Some(out + &below(map, TableUnits::of(units, map.piece.bat().inches())))
 }
 
-/// The change of answer k by the derivative.
-fn derivative(band: &TurnedBand, exponent: f64, k: usize) -> Option<f64> {
-    let found = band.slopes.as_ref()?.by_law(exponent);
-    found[k].map(|figure| figure.value)
-}
-
 /// Everything for the terminal.
 pub fn text(map: &LatheMap, scene: &Scene, units: Units) -> String {
     let shown = TableUnits::of(units, map.piece.bat().inches());
     let mut out = title(map, scene, units);
-    out += &table(map, shown, &derivative);
+    out += &table(map, shown, TurnedBand::derivative);
     let depth = if shown.us() {
         format!("{} in", significant(map.terms.cut / 0.0254, 3))
     } else {
@@ -68,14 +61,9 @@ pub fn text(map: &LatheMap, scene: &Scene, units: Units) -> String {
         "\nThe same, still per {}, when {depth} come off and all is solved again\n",
         shown.per_name()
     );
-    let exponents = map.exponents();
-    let finite = |band: &TurnedBand, exponent: f64, k: usize| {
-        let law = exponents.iter().position(|n| *n == exponent)?;
-        band.finite.as_ref()?[law][k]
-    };
-    out += &table(map, shown, &finite);
+    out += &table(map, shown, TurnedBand::when_cut);
     out += &("\n".to_owned() + &wrapped(&legend(map, shown), 2) + &below(map, shown));
-    if let Some(check) = map.check {
+    if let Some(check) = map.found.check.formula_against_difference {
         let line = format!(
             "Check: formula and whole bats agree on the frequencies to {check:.0e} of the largest change."
         );
@@ -99,8 +87,9 @@ pub fn strongest(map: &LatheMap, units: Units) -> Vec<String> {
     let laws = [(0.0, "the same swing"), (0.5, "a swing of the same energy")];
     let line = |what: &str, answer: Answer, exponent: f64| {
         let (band, change) = map.strongest(answer, exponent)?;
-        let [from, to] = band.ends.map(|x| shown.place(x));
-        Some(format!("{from} to {to}: {}{what}", shown.sentence(answer, change * shown.per())?))
+        let [from, to] = band.ends().map(|x| shown.place(x));
+        let change = change / MM * shown.per();
+        Some(format!("{from} to {to}: {}{what}", shown.sentence(answer, change)?))
     };
     let mut lines: Vec<String> = [Answer::ExitSpeedPlace, Answer::Frequency(1)]
         .into_iter()
@@ -133,11 +122,11 @@ fn below(map: &LatheMap, shown: TableUnits) -> String {
                     modes anew: sweetspot hit counts them.";
         out += &wrapped(line, 2);
     }
-    for rival in &map.piece.rivals {
-        let [a, b] = rival.peaks;
+    for rival in &map.found.not_smooth_at {
         let name = rival.answer.name();
-        let [one, other] =
-            [a, b].map(|peak| format!("{} at {}", significant(peak.value, 4), shown.place(peak.x)));
+        let [one, other] = [0, 1].map(|k| {
+            format!("{} at {}", significant(rival.value[k], 4), shown.place(rival.x_m[k]))
+        });
         let line = match rival.why {
             WhyNotSmooth::Rivals => format!(
                 "No derivative of {name}: it is {one} and {other}, and a cut may make it jump."
@@ -152,8 +141,8 @@ fn below(map: &LatheMap, shown: TableUnits) -> String {
         };
         out += &wrapped(&line, 2);
     }
-    for band in map.bands.iter().filter(|band| band.reason.is_some()) {
-        let [from, to] = band.ends.map(|x| shown.place(x));
+    for band in map.found.bands.iter().filter(|band| band.reason.is_some()) {
+        let [from, to] = band.ends().map(|x| shown.place(x));
         let reason = band.reason.as_deref().unwrap_or_default();
         out += &wrapped(&format!("{from} to {to}: {reason}."), 2);
     }
@@ -194,14 +183,14 @@ fn recipes(map: &LatheMap, shown: TableUnits) -> Vec<String> {
 /// Knob weight, cup, hole and cork, solved.
 fn wholes(map: &LatheMap, shown: TableUnits) -> String {
     let mut out = String::from("\nSolved, for a derivative does not tell it (same swing)\n");
-    for whole in &map.wholes {
-        let line = match &whole.change {
-            Err(reason) => format!("  {}: cannot be done here ({reason})", whole.what),
-            Ok(found) => {
-                let of = |(k, answer): (usize, &Answer)| shown.sentence(*answer, found[0][k]?);
-                let all: Vec<String> =
-                    map.terms.answers.iter().enumerate().filter_map(of).collect();
-                format!("  {}: {}", whole.what, all.join(", "))
+    for whole in &map.found.done_to_the_end {
+        let WholeChange { what, reason, .. } = whole;
+        let line = match reason {
+            Some(reason) => format!("  {what}: cannot be done here ({reason})"),
+            None => {
+                let of = |answer: &Answer| shown.sentence(*answer, whole.of(*answer)?);
+                let all: Vec<String> = map.terms.answers.iter().filter_map(of).collect();
+                format!("  {what}: {}", all.join(", "))
             }
         };
         out += &wrapped(&line, 4);
@@ -209,28 +198,10 @@ fn wholes(map: &LatheMap, shown: TableUnits) -> String {
     out
 }
 
-/// Places of the curves along the bat.
-const CURVE: usize = 240;
-
 /// The `sweetspot-lathe/1` document.
-pub fn document(map: &LatheMap, scene: &Scene, model: Model) -> file::LatheFile {
+pub fn document(map: &LatheMap, scene: &Scene, model: Model) -> LatheFile {
     let bat = map.piece.bat();
-    let places: Vec<f64> = (0..=CURVE).map(|k| bat.length() * k as f64 / CURVE as f64).collect();
-    let frequency = |answer: &Answer| match answer {
-        Answer::Frequency(order) => {
-            let per = map.curve(*order, &places)?;
-            let per = per.into_iter().map(|density| density * MM * MM).collect();
-            Some((format!("{}_per_mm_mm", answer.name()), per))
-        }
-        _ => None,
-    };
-    let output = |(answer, value): (&Answer, &Option<Figure>)| file::Output {
-        name: answer.name(),
-        value: value.map(|value| value.value),
-        error: value.map(|value| value.error).filter(|error| *error > 0.0),
-        method: Method::of(*answer).name().to_owned(),
-    };
-    file::LatheFile {
+    LatheFile {
         format: Format::new(),
         generator: Generator::this(),
         bat_name: bat.name().to_owned(),
@@ -238,109 +209,14 @@ pub fn document(map: &LatheMap, scene: &Scene, model: Model) -> file::LatheFile 
         model: model.name().to_owned(),
         scene: scene_out(bat, scene),
         theory: map.piece.solution().theory.name().to_owned(),
-        per: "mm of diameter taken off".to_owned(),
-        swing_exponent: map.terms.exponent,
-        outputs: map.terms.answers.iter().zip(map.piece.values()).map(output).collect(),
-        bands: map.bands.iter().map(|band| lathe_band(map, band)).collect(),
-        curves: file::Curves {
-            density: map.terms.answers.iter().filter_map(frequency).collect(),
-            x_m: places,
-        },
-        added_mass: added_mass(map),
-        done_to_the_end: done_to_the_end(map),
-        not_smooth_at: not_smooth(map),
-        check: file::Check { formula_against_difference: map.check },
-        tolerance_met: map.piece.met,
+        found: map.found.clone(),
     }
-}
-
-/// Values by the names of the answers; of hits alone if asked so.
-fn changes(map: &LatheMap, of_hits: bool, value: impl Fn(usize) -> Option<f64>) -> file::Changes {
-    let all = map.terms.answers.iter().enumerate();
-    let all = all.filter(|(_, answer)| !of_hits || answer.of_a_hit());
-    all.map(|(k, answer)| (answer.name(), value(k))).collect()
-}
-
-fn lathe_band(map: &LatheMap, band: &TurnedBand) -> file::LatheBand {
-    let slopes = band.slopes.as_ref();
-    let by = |of_hits: bool, exponent: f64| {
-        let found = slopes?.by_law(exponent);
-        Some(changes(map, of_hits, |k| found[k].map(|figure| figure.value * MM)))
-    };
-    let errors = slopes.map(|slopes| {
-        changes(map, false, |k| slopes.same_swing[k].map(|figure| figure.error * MM))
-    });
-    let exponents = map.exponents();
-    let finite = band.finite.as_ref().map(|found| file::FiniteCut {
-        cut_mm: map.terms.cut / MM,
-        change: changes(map, false, |k| found[0][k].map(|value| value * MM)),
-        same_energy: changes(map, true, |k| found[1][k].map(|value| value * MM)),
-        by_law: exponents
-            .get(2)
-            .map(|_| changes(map, true, |k| found[2][k].map(|value| value * MM))),
-    });
-    file::LatheBand {
-        from_m: band.ends[0],
-        to_m: band.ends[1],
-        diameter_m: band.diameter,
-        change: by(false, 0.0),
-        change_same_energy: by(true, 0.5),
-        change_by_law: exponents.get(2).and_then(|n| by(true, *n)),
-        error: errors,
-        finite,
-        reason: band.reason.clone(),
-    }
-}
-
-fn added_mass(map: &LatheMap) -> file::AddedMass {
-    let told = |k: &usize| map.weights.iter().any(|weight| weight.per_kilogram[*k].is_some());
-    let of = |k: usize| {
-        let per_g = |value: f64| 1e-3 * value;
-        let all = map.weights.iter().map(|weight| weight.per_kilogram[k].map(per_g)).collect();
-        (map.terms.answers[k].name(), all)
-    };
-    file::AddedMass {
-        x_m: map.weights.iter().map(|weight| weight.x).collect(),
-        per_g: (0..map.terms.answers.len()).filter(told).map(of).collect(),
-    }
-}
-
-fn done_to_the_end(map: &LatheMap) -> Vec<file::DoneToTheEnd> {
-    let one = |whole: &sweetspot_study::lathe::map::WholeChange| {
-        let by = |law: usize| {
-            let found = whole.change.as_ref().ok()?.get(law)?;
-            Some(changes(map, law > 0, |k| found[k]))
-        };
-        file::DoneToTheEnd {
-            what: whole.what.to_owned(),
-            change: by(0),
-            change_same_energy: by(1),
-            change_by_law: by(2),
-            reason: whole.change.as_ref().err().cloned(),
-        }
-    };
-    map.wholes.iter().map(one).collect()
-}
-
-fn not_smooth(map: &LatheMap) -> Vec<file::NotSmooth> {
-    let one = |rivals: &Rivals| file::NotSmooth {
-        name: rivals.answer.name(),
-        why: match rivals.why {
-            WhyNotSmooth::Rivals => "rivals",
-            WhyNotSmooth::Corner => "corner",
-            WhyNotSmooth::Cut => "cut",
-        }
-        .to_owned(),
-        x_m: rivals.peaks.map(|peak| peak.x),
-        value: rivals.peaks.map(|peak| peak.value),
-    };
-    map.piece.rivals.iter().map(one).collect()
 }
 
 /// A line for each band, SI, per mm of diameter taken off.
 pub fn csv(map: &LatheMap) -> String {
     let mut names: Vec<String> = ["from_m", "to_m", "diameter_m"].map(str::to_owned).to_vec();
-    let exponents = map.exponents();
+    let exponents = map.terms.exponents();
     for answer in &map.terms.answers {
         let name = answer.name();
         names.extend(["", "_error", "_finite"].map(|end| format!("{name}{end}")));
@@ -350,22 +226,13 @@ pub fn csv(map: &LatheMap) -> String {
         }
     }
     let mut table = Csv::new(names);
-    for band in &map.bands {
-        let mut row: Vec<Cell> = [band.ends[0], band.ends[1], band.diameter].map(Cell::from).into();
-        let by = |exponent: f64, k: usize| {
-            let found = band.slopes.as_ref()?.by_law(exponent);
-            found[k]
-        };
-        for (k, answer) in map.terms.answers.iter().enumerate() {
-            let slope = by(0.0, k);
-            row.push(slope.map(|figure| figure.value * MM).into());
-            row.push(slope.map(|figure| figure.error * MM).into());
-            row.push(band.finite.as_ref().and_then(|found| found[0][k]).map(|v| v * MM).into());
-            if answer.of_a_hit() {
-                for exponent in &exponents[1..] {
-                    row.push(by(*exponent, k).map(|figure| figure.value * MM).into());
-                }
-            }
+    for band in &map.found.bands {
+        let mut row: Vec<Cell> = [band.from_m, band.to_m, band.diameter_m].map(Cell::from).into();
+        for answer in &map.terms.answers {
+            let slope = band.derivative(*answer, 0.0);
+            row.extend([slope, band.error(*answer), band.when_cut(*answer, 0.0)].map(Cell::from));
+            let laws = exponents[1..].iter().filter(|_| answer.of_a_hit());
+            row.extend(laws.map(|exponent| Cell::from(band.derivative(*answer, *exponent))));
         }
         table.row(row);
     }

@@ -4,7 +4,8 @@ use crate::parts::units::Units;
 use crate::report::columns::{Column, Columns, numbers};
 use sweetspot::base::number::{rounded, signed};
 use sweetspot::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
-use sweetspot_study::lathe::map::{LatheMap, TurnedBand};
+use sweetspot_study::lathe::found::TurnedBand;
+use sweetspot_study::lathe::map::LatheMap;
 use sweetspot_study::many::answers::Answer;
 
 /// In which units the table counts: a table has one system.
@@ -78,13 +79,13 @@ impl TableUnits {
     }
 }
 
-/// A column: its head in two lines, width, decimals, what it means, and what is shown of a band's change per metre.
+/// A column: its head in two lines, width, decimals, what it means, and what is shown of a band's change.
 struct LatheColumn {
     head: [String; 2],
     means: &'static str,
     width: usize,
     decimals: usize,
-    answer: usize,
+    answer: Answer,
     exponent: f64,
     /// How many of the column's unit are one SI unit.
     scale: f64,
@@ -138,17 +139,17 @@ fn shown(map: &LatheMap, units: TableUnits) -> Vec<LatheColumn> {
         if us { us_unit } else { si }
     };
     let mut add = |answer: Answer, head: &str, width: usize, unit: (&str, f64, usize), exponent| {
-        if let Some(k) = answers.iter().position(|known| *known == answer) {
+        if answers.contains(&answer) {
             let means = meaning(answer, exponent);
             let head = [head.to_owned(), unit.0.to_owned()];
             let (scale, decimals) = (unit.1, unit.2);
-            all.push(LatheColumn { head, means, width, decimals, answer: k, exponent, scale });
+            all.push(LatheColumn { head, means, width, decimals, answer, exponent, scale });
         }
     };
     let length = pick(("mm", 1e3, 2), ("mil", 1.0 / THOU, 1));
     let speed = pick(("m/s", 1.0, 3), ("mph", miles_per_hour(1.0), 3));
     add(Answer::Mass, "mass", 7, pick(("g", 1e3, 2), ("oz", ounces(1.0), 3)), 0.0);
-    let own = map.exponents().get(2).copied();
+    let own = map.terms.exponents().get(2).copied();
     // A law of the batter's own takes its room.
     if own.is_none() {
         add(Answer::BalancePoint, "bal.", 7, length, 0.0);
@@ -171,12 +172,12 @@ fn shown(map: &LatheMap, units: TableUnits) -> Vec<LatheColumn> {
     all
 }
 
-/// The table of what `value` finds of a band for a swing law's exponent and the k-th answer, per metre of diameter
+/// The table of what `value` finds of a band for an answer and a swing law's exponent, per millimetre of diameter
 /// taken off.
 pub fn table(
     map: &LatheMap,
     units: TableUnits,
-    value: &dyn Fn(&TurnedBand, f64, usize) -> Option<f64>,
+    value: fn(&TurnedBand, Answer, f64) -> Option<f64>,
 ) -> String {
     let shown = shown(map, units);
     let place = numbers(6, "from");
@@ -185,14 +186,15 @@ pub fn table(
     let unit = if units.us { "in" } else { "cm" };
     let second = shown.iter().map(|shown| shown.head[1].clone());
     out += &columns.row([unit.to_owned()].into_iter().chain(second));
-    for band in &map.bands {
-        let x = band.ends[0];
-        let x = if units.us { inches(x) } else { 100.0 * x };
+    for band in &map.found.bands {
+        let x = if units.us { inches(band.from_m) } else { 100.0 * band.from_m };
         let cell = |shown: &LatheColumn| {
-            let mut value = value(band, shown.exponent, shown.answer)? * units.per() * shown.scale;
+            let per_metre = value(band, shown.answer, shown.exponent)? / 1e-3;
+            let mut value = per_metre * units.per() * shown.scale;
             if shown.head[1] == "%" {
                 // Of the hands' acceleration as it is.
-                value /= map.piece.values()[shown.answer]?.value;
+                let mut outputs = map.found.outputs.iter();
+                value /= outputs.find(|output| output.name == shown.answer)?.value?;
             }
             value.is_finite().then(|| signed(value, shown.decimals))
         };

@@ -1,20 +1,20 @@
 //! How much bats of one model differ: table, JSON, CSV, the bats.
 
-use std::collections::BTreeMap;
-
 use crate::csv::Csv;
 use crate::parts::cell::Cell;
 use crate::parts::terminal::wrapped;
 use crate::parts::units::in_trade;
 use crate::report::columns::{Columns, first, labels, numbers};
-use crate::schema::scatter as file;
+use crate::schema::scatter::ScatterResult;
 use sweetspot::base::number::{percent, significant};
 use sweetspot::bat::body::Bat;
 use sweetspot::files::schema::document::{BatName, Format, Generator};
 use sweetspot_study::many::indices::{Indices, Share};
-use sweetspot_study::scatter::rows::{Output, ScatterRows};
-use sweetspot_study::scatter::scattered::{OutputSpread, Percentile, SHARES, Scattered, WRITTEN};
-use sweetspot_study::scatter::spreads::{Differs, SCRAMBLES};
+use sweetspot_study::scatter::rows::ScatterRows;
+use sweetspot_study::scatter::scattered::{
+    InputSpread, OutputSpread, Percentile, ReasonCounted, SHARES, Scattered, WRITTEN,
+};
+use sweetspot_study::scatter::spreads::{Difference, Differs};
 
 /// Shares below this are not told.
 const LITTLE: f64 = 0.005;
@@ -26,8 +26,8 @@ pub fn text(rows: &ScatterRows, found: &Scattered, full: bool) -> String {
     let (count, name) = (rows.count(), rows.bat.name());
     let said = format!("{count} bats like {name}, {} of them as accurate as asked", found.met);
     let mut out = wrapped(&said, 2);
-    for (why, count) in reasons(found).iter().take(REASONS) {
-        out += &wrapped(&format!("  {count}: {why}"), 4);
+    for ReasonCounted { reason, rows } in found.reasons.iter().take(REASONS) {
+        out += &wrapped(&format!("  {rows}: {reason}"), 4);
     }
     let us = rows.bat.inches();
     if !full {
@@ -38,11 +38,11 @@ pub fn text(rows: &ScatterRows, found: &Scattered, full: bool) -> String {
     }
     for output in found.outputs.iter().filter(|_| full) {
         if let Some(indices) = &output.indices {
-            out += &shares(rows, output, indices);
+            out += &shares(&found.inputs, output, indices);
         }
     }
     out += "In words\n";
-    words(rows, found).iter().for_each(|line| out += &wrapped(&format!("  {line}"), 4));
+    words(found).iter().for_each(|line| out += &wrapped(&format!("  {line}"), 4));
     out
 }
 
@@ -97,56 +97,34 @@ fn spread(output: &OutputSpread, us: bool) -> String {
     out + &columns.row(row("  ±", &|one| error(one, per)))
 }
 
-fn shares(rows: &ScatterRows, output: &OutputSpread, indices: &Indices) -> String {
+fn shares(inputs: &[InputSpread], output: &OutputSpread, indices: &Indices) -> String {
     let columns = Columns::new([first(44, ""), labels(16, "alone"), labels(16, "with others")]);
     // A share below 0 is sampling.
-    let shown = |share: &Share| format!("{:.3} ± {:.3}", share.value.max(0.0), share.deviation);
+    let shown = |share: &Share| format!("{:.3} ± {:.3}", share.value.max(0.0), share.sd);
     let mut out = format!("What makes {} vary\n", output.name);
     out += &columns.heads();
     let mut order: Vec<usize> = (0..indices.total.len()).collect();
     order.sort_by(|a, b| indices.total[*b].value.total_cmp(&indices.total[*a].value));
     for k in order.into_iter().filter(|k| indices.total[*k].value >= LITTLE) {
-        let cells = [called(rows, k), shown(&indices.first[k]), shown(&indices.total[k])];
+        let cells = [called(&inputs[k]), shown(&indices.first[k]), shown(&indices.total[k])];
         out += &columns.row(&cells);
     }
     out + &columns.row(["not explained by the surface".to_owned(), shown(&indices.unexplained)])
 }
 
-/// What differs, by its place, with what it is given.
-fn called(rows: &ScatterRows, k: usize) -> String {
-    let name = rows.plan.differences.all[k].what.name();
-    match given(rows, k) {
-        given if given.is_empty() => name.to_owned(),
+/// What differs, with what it is given.
+fn called(InputSpread { name, given, .. }: &InputSpread) -> String {
+    match &given[..] {
+        [] => (*name).to_owned(),
         given => format!("{name} given {}", given.join(", ")),
     }
 }
 
-/// Those before it that something goes with.
-fn given(rows: &ScatterRows, k: usize) -> Vec<String> {
-    let differences = &rows.plan.differences;
-    let before = |(a, b, r): &(usize, usize, f64)| {
-        let (early, late) = (*a.min(b), *a.max(b));
-        (late == k && *r != 0.0).then(|| differences.all[early].what.name().to_owned())
-    };
-    differences.correlations.iter().filter_map(before).collect()
-}
-
-fn reasons(found: &Scattered) -> Vec<(String, usize)> {
-    let mut all: BTreeMap<&String, usize> = BTreeMap::new();
-    found
-        .reasons
-        .iter()
-        .filter(|why| !why.is_empty())
-        .for_each(|why| *all.entry(why).or_default() += 1);
-    let mut all: Vec<(String, usize)> = all.into_iter().map(|(why, n)| (why.clone(), n)).collect();
-    all.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
-    all
-}
-
 /// One sentence an output.
-pub fn words(rows: &ScatterRows, found: &Scattered) -> Vec<String> {
-    let mut all: Vec<String> = found.outputs.iter().filter_map(|one| sentence(rows, one)).collect();
-    let missing = found.reasons.len() - found.answered();
+pub fn words(found: &Scattered) -> Vec<String> {
+    let of = |output| sentence(&found.inputs, output);
+    let mut all: Vec<String> = found.outputs.iter().filter_map(of).collect();
+    let missing = found.missing.len() - found.answered;
     if missing > 0 {
         all.push(format!("{missing} bats have not every answer and were left out of the shares."));
     }
@@ -154,7 +132,7 @@ pub fn words(rows: &ScatterRows, found: &Scattered) -> Vec<String> {
 }
 
 /// "Of the spread of f1_hz, 93 % is youngs_modulus given density, 6 % density."
-fn sentence(rows: &ScatterRows, output: &OutputSpread) -> Option<String> {
+fn sentence(inputs: &[InputSpread], output: &OutputSpread) -> Option<String> {
     let Some(indices) = &output.indices else {
         let known = output.percentiles.first()?.value;
         let same =
@@ -166,65 +144,20 @@ fn sentence(rows: &ScatterRows, output: &OutputSpread) -> Option<String> {
     let seen = order.into_iter().filter(|k| indices.first[*k].value >= LITTLE).take(3);
     let part = |(i, k): (usize, usize)| {
         let is = if i == 0 { " is" } else { "" };
-        format!("{}{is} {}", percent(indices.first[k].value, 0), called(rows, k))
+        format!("{}{is} {}", percent(indices.first[k].value, 0), called(&inputs[k]))
     };
     let parts: Vec<String> = seen.enumerate().map(part).collect();
     (!parts.is_empty()).then(|| format!("Of the spread of {}, {}.", output.name, parts.join(", ")))
 }
 
 /// The `sweetspot-scatter-result/1` document.
-pub fn document(rows: &ScatterRows, found: &Scattered) -> file::ScatterResult {
-    let all = rows.plan.differences.all.iter().enumerate();
-    let asked = rows.plan.outputs.contains(&Output::AtImpact);
-    file::ScatterResult {
+pub fn document(bat: &Bat, found: &Scattered) -> ScatterResult {
+    ScatterResult {
         format: Format::new(),
         generator: Generator::this(),
-        bat: BatName::of(&rows.bat),
-        points: rows.count(),
-        seed: rows.plan.seed,
-        scrambles: SCRAMBLES,
-        answered: found.answered(),
-        met: found.met,
-        reasons: reasons(found)
-            .into_iter()
-            .map(|(reason, rows)| file::ReasonCounted { reason, rows })
-            .collect(),
-        impact_m: asked.then_some(rows.impact),
-        inputs: all
-            .map(|(k, one)| file::InputSpread {
-                name: one.what.name().to_owned(),
-                sd: one.deviation,
-                given: given(rows, k),
-            })
-            .collect(),
-        outputs: found.outputs.iter().map(output).collect(),
-        words: words(rows, found),
-    }
-}
-
-fn output(one: &OutputSpread) -> file::OutputResult {
-    let share = |share: &Share| file::ShareResult { value: share.value, sd: share.deviation };
-    file::OutputResult {
-        name: one.name.clone(),
-        unit: one.unit,
-        mean: one.moments.map(|[mean, _]| mean),
-        sd: one.moments.map(|[_, sd]| sd),
-        percentiles: one
-            .percentiles
-            .iter()
-            .map(|one| file::PercentileResult {
-                percent: (1e4 * one.share).round() / 100.0,
-                value: one.value,
-                error: one.error,
-            })
-            .collect(),
-        shares: one.indices.as_ref().map(|indices| file::SharesResult {
-            degree: indices.degree,
-            rows: indices.rows,
-            first: indices.first.iter().map(share).collect(),
-            total: indices.total.iter().map(share).collect(),
-            unexplained: share(&indices.unexplained),
-        }),
+        bat: BatName::of(bat),
+        found: found.clone(),
+        words: words(found),
     }
 }
 
@@ -240,8 +173,8 @@ pub fn csv(rows: &ScatterRows, found: &Scattered) -> String {
     let first = ["row", "scramble"].map(str::to_owned).into_iter();
     let outputs = found.outputs.iter().map(|output| output.name.clone());
     let mut table = Csv::new(first.chain(inputs).chain(outputs).chain(["error".to_owned()]));
-    let each = rows.count() / SCRAMBLES;
-    for (row, why) in found.reasons.iter().enumerate() {
+    let each = found.points / found.scrambles;
+    for (row, why) in found.missing.iter().enumerate() {
         let values = rows.values(row as u64);
         let mut cells: Vec<Cell> = vec![row.into(), (row / each as usize).into()];
         cells.extend((0..all.len()).map(|k| Cell::from(rows.told(&values, k))));
@@ -260,7 +193,7 @@ pub fn told(
     share: f64,
 ) -> String {
     let values = rows.values(row as u64);
-    let one = |(k, difference): (usize, &sweetspot_study::scatter::spreads::Difference)| {
+    let one = |(k, difference): (usize, &Difference)| {
         let value = significant(rows.told(&values, k), 6);
         match difference.what.unit() {
             "" => format!("{} {value}", difference.what.name()),

@@ -14,8 +14,9 @@ use sweetspot::bat::material::{Material, Scatter};
 use sweetspot::collision::figures::BarrelSpeed;
 use sweetspot::collision::hit::Model;
 use sweetspot::modes::mode::Mode;
+use sweetspot_study::answers::Answer;
 use sweetspot_study::read_to::diameters_read_to;
-use sweetspot_study::spread::{Input, Source, Spread, SpreadAnswer, of_frequencies};
+use sweetspot_study::spread::{Estimate, Input, Source, Spread, of_frequencies};
 use sweetspot_study::verdict::{Doubt, Verdict};
 
 /// The bat, the answers, and how far to trust them: 24 lines at most.
@@ -32,11 +33,11 @@ pub fn screen(analysis: &Analysis, units: Units) -> String {
 pub fn in_short(analysis: &Analysis, units: Units) -> String {
     let Analysis { bat, spread, task, verdict, .. } = analysis;
     let [Some(place), Some(speed)] =
-        [SpreadAnswer::BestPlace, SpreadAnswer::ExitSpeed].map(|of| spread.of(of))
+        [Answer::ExitSpeedPlace, Answer::ExitSpeed].map(|of| spread.of(of))
     else {
         return "Sweet spot: ball and bat do not meet.\n".to_owned();
     };
-    let open = |answer: SpreadAnswer| {
+    let open = |answer: Answer| {
         about(analysis, answer, units).map_or(String::new(), |open| format!(", {open},"))
     };
     let shown = |kind: AnswerUnit, value: f64| kind.shown(units, value);
@@ -44,10 +45,10 @@ pub fn in_short(analysis: &Analysis, units: Units) -> String {
         "Sweet spot: {} from the knob{} {} from the tip; there the ball leaves at {}{} after a swing of {} and a \
          pitch of {}.",
         shown(AnswerUnit::Length, place.value),
-        open(SpreadAnswer::BestPlace),
+        open(Answer::ExitSpeedPlace),
         shown(AnswerUnit::Length, bat.length() - place.value),
         shown(AnswerUnit::Speed, speed.value),
-        open(SpreadAnswer::ExitSpeed),
+        open(Answer::ExitSpeed),
         shown(AnswerUnit::Speed, BarrelSpeed::of(bat, &task.scene, BarrelSpeed::BROADCAST).speed),
         shown(AnswerUnit::Speed, task.scene.ball_speed)
     );
@@ -103,30 +104,30 @@ pub fn table(analysis: &Analysis, units: Units) -> String {
     let columns =
         Columns::new([first(15, ""), first(28, "computed"), first(28, head[0]), first(9, head[1])]);
     let mut out = columns.heads();
-    let mut row = |what: &str, answer: SpreadAnswer| {
+    let mut row = |what: &str, answer: Answer| {
         let Some(estimate) = spread.of(answer) else { return };
         let kind = AnswerUnit::of(answer);
         let mostly = spread.mostly(answer).map_or("", |(source, _)| word(source));
         let open = about(analysis, answer, units).unwrap_or_default();
         let value = kind.shown(units, estimate.value);
         out += &columns.row([&format!("  {what}"), &value, &open, mostly]);
-        if answer == SpreadAnswer::BestPlace {
+        if answer == Answer::ExitSpeedPlace {
             let tip = kind.shown(units, analysis.bat.length() - estimate.value);
             out += &columns.row(["    from tip", &tip, "", ""]);
         }
     };
-    row("sweet spot", SpreadAnswer::BestPlace);
-    row("fastest ball", SpreadAnswer::ExitSpeed);
+    row("sweet spot", Answer::ExitSpeedPlace);
+    row("fastest ball", Answer::ExitSpeed);
     // Around a later contact speeds come and go within a millimetre.
     if !analysis.verdict.doubts.contains(&Doubt::LaterContact) {
-        row("1 % less at", SpreadAnswer::ZoneFrom);
-        row("     and at", SpreadAnswer::ZoneTo);
+        row("1 % less at", Answer::Zone(false));
+        row("     and at", Answer::Zone(true));
     }
-    row("swing weight", SpreadAnswer::SwingWeight);
-    row("mass", SpreadAnswer::Mass);
-    row("f1", SpreadAnswer::Frequency1);
-    row("f2", SpreadAnswer::Frequency2);
-    row("f3", SpreadAnswer::Frequency3);
+    row("swing weight", Answer::Inertia);
+    row("mass", Answer::Mass);
+    row("f1", Answer::Frequency(1));
+    row("f2", Answer::Frequency(2));
+    row("f3", Answer::Frequency(3));
     out
 }
 
@@ -191,23 +192,18 @@ fn doubted(doubt: &Doubt, units: Units) -> String {
 /// How far an answer may be from that of the bat in hand, `± 0.54 cm`; None where that is not open. What the ball
 /// does has more to it where the wall is beyond its theory or left out, and everything where the bat is not what its
 /// file says.
-pub fn about(analysis: &Analysis, answer: SpreadAnswer, units: Units) -> Option<String> {
+pub fn about(analysis: &Analysis, answer: Answer, units: Units) -> Option<String> {
     let spread = &analysis.spread;
     spread.mostly(answer)?;
     let deviation = spread.of(answer)?.deviation?;
     // No slope tells how far it jumps.
-    if answer == SpreadAnswer::BestPlace && analysis.verdict.doubts.contains(&Doubt::LaterContact) {
+    if answer == Answer::ExitSpeedPlace && analysis.verdict.doubts.contains(&Doubt::LaterContact) {
         return Some("may jump far".to_owned());
     }
-    let of_ball = [
-        SpreadAnswer::BestPlace,
-        SpreadAnswer::ExitSpeed,
-        SpreadAnswer::ZoneFrom,
-        SpreadAnswer::ZoneTo,
-    ];
+    let of_ball =
+        [Answer::ExitSpeedPlace, Answer::ExitSpeed, Answer::Zone(false), Answer::Zone(true)];
     let ball = analysis.verdict.ball_is_open() && of_ball.contains(&answer);
-    let stiff = [SpreadAnswer::Mass, SpreadAnswer::BalancePoint, SpreadAnswer::SwingWeight]
-        .contains(&answer);
+    let stiff = [Answer::Mass, Answer::BalancePoint, Answer::Inertia].contains(&answer);
     let bent = analysis.verdict.bending_is_open() && !stiff;
     let more = ball || bent || analysis.verdict.bat_is_open();
     // Of what is a lower limit one unit is enough.
@@ -259,8 +255,7 @@ fn bat_first(analysis: &Analysis, units: Units) -> String {
     if told.is_empty() {
         return format!("The bat first: nothing of it was counted as open.{left_out}");
     }
-    let range =
-        spread.of(SpreadAnswer::Frequency1).and_then(|open| Some((open.value, open.range()?)));
+    let range = spread.of(Answer::Frequency(1)).and_then(|open| Some((open.value, open.range()?)));
     let range = range.map_or(String::new(), |(value, [low, high])| {
         let digits = decimals(0.5 * (high - low));
         format!(
@@ -297,13 +292,13 @@ fn settled_by(analysis: &Analysis, units: Units) -> Option<String> {
     /// From this share of the variance on it is worth a tap.
     const MOST: f64 = 0.5;
     let Analysis { bat, solution, spread, task, .. } = analysis;
-    let by = |answer: SpreadAnswer, input: Input| {
+    let by = |answer: Answer, input: Input| {
         spread.mostly(answer).is_some_and(|(of, share)| of.input == input && share > MOST)
     };
     // A note that is known no better than the answer settles nothing.
-    let frequency = spread.of(SpreadAnswer::Frequency1);
+    let frequency = spread.of(Answer::Frequency(1));
     let open = frequency.and_then(|of| Some(of.deviation? / of.value)).unwrap_or(0.0);
-    if by(SpreadAnswer::Frequency1, Input::Stiffness) && open > 2.0 * task.readings.tap {
+    if by(Answer::Frequency(1), Input::Stiffness) && open > 2.0 * task.readings.tap {
         let known = percent(task.readings.tap, 0);
         let free = bat.fixtures().rigid_modes() == 2;
         let node = solution.modes.first().and_then(|mode| mode.nodes.first()).filter(|_| free);
@@ -315,7 +310,7 @@ fn settled_by(analysis: &Analysis, units: Units) -> Option<String> {
              known to {known}."
         ));
     }
-    by(SpreadAnswer::Mass, Input::Density).then(|| {
+    by(Answer::Mass, Input::Density).then(|| {
         let known = AnswerUnit::Mass.about(units, task.readings.mass);
         format!(
             "Weigh it, type the \"mass\" into \"weighed\" of its file, and it is known to {known}."
@@ -354,18 +349,17 @@ fn computation(analysis: &Analysis) -> String {
 fn far_more_exact(analysis: &Analysis) -> bool {
     const SMALL: f64 = 0.1;
     let Analysis { solution, hits, spread, verdict, .. } = analysis;
-    let open = |answer: SpreadAnswer| {
+    let open = |answer: Answer| {
         spread.of(answer).map(|of| of.deviation.filter(|_| !spread.sources.is_empty()))
     };
-    let frequencies =
-        [SpreadAnswer::Frequency1, SpreadAnswer::Frequency2, SpreadAnswer::Frequency3];
-    let frequency = |(answer, mode): (SpreadAnswer, &Mode)| match open(answer) {
+    let frequencies = [Answer::Frequency(1), Answer::Frequency(2), Answer::Frequency(3)];
+    let frequency = |(answer, mode): (Answer, &Mode)| match open(answer) {
         None => true,
         Some(open) => {
             open.is_some_and(|open| mode.error.total() * mode.frequency() <= SMALL * open)
         }
     };
-    let speed = match (open(SpreadAnswer::ExitSpeed), hits.worst()) {
+    let speed = match (open(Answer::ExitSpeed), hits.worst()) {
         (Some(open), Some((impact, outcome))) => {
             let closing = impact.bat_speed + analysis.task.scene.ball_speed;
             open.is_some_and(|open| outcome.error * closing <= SMALL * open)

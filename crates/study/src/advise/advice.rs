@@ -116,7 +116,7 @@ pub fn advise_telling(bat: &Bat, modes: usize, tolerance: f64, tell: Tell) -> Re
         smallest_model,
         out_of_scope: outside(&bat),
         full_model: FullModel {
-            tolerance_met: solved.solution.worst() <= tolerance && solved.solution.complete(),
+            tolerance_met: solved.solution.worst() <= tolerance && solved.solution.complete,
             solved,
         },
     })

@@ -2,31 +2,24 @@
 //!
 //! [`Calibration::new`] from a bat and what was measured of it.
 
-pub use crate::calibrate::estimated::{Estimated, Property, Verdict};
-use crate::calibrate::fit::{Fit, Residual, Search};
+use serde::Serialize;
+
+use crate::calibrate::estimated::estimated;
+pub use crate::calibrate::estimated::{Estimated, Verdict};
+use crate::calibrate::fit::{DatumKind, Fit, Residual, Search, misfit};
 use crate::calibrate::labels::{
     LabelChoice, Labelled, Labels, MOST_MODES, best, contradict, strangers,
 };
 use crate::calibrate::next::{BEYOND, Proposal, proposals};
-use crate::calibrate::posterior::Posterior;
-use crate::calibrate::readings::{BatReadings, Priors, Reading};
-use crate::calibrate::unknowns::{Logs, UNKNOWNS, Unknown, form};
+use crate::calibrate::readings::{BatReadings, Priors, RingDown};
+pub use crate::calibrate::unknowns::Property;
+use crate::calibrate::unknowns::{Logs, UNKNOWNS, form};
 use crate::calibrate::wood::WoodenBat;
 use sweetspot::base::error::{Error, Result};
-use sweetspot::bat::body::Bat;
+use sweetspot::bat::body::{Bat, STANDARD_PIVOT};
 
-/// Left out by more standard deviations than this, a datum does not fit the others.
-pub const OUTLIER: f64 = 3.0;
-/// What was learned of a parameter that is determined, and of one that is not: `1 − σ²/σ₀²`.
-const DETERMINED: f64 = 0.9;
-const UNDETERMINED: f64 = 0.1;
-/// Two parameters that go together so much are known only together, unless both are known to a twentieth.
-const TOGETHER: f64 = 0.95;
-const WELL_KNOWN: f64 = 0.05;
 /// 95 of 100 of a normal distribution lie within this many standard deviations.
 pub const NINETY_FIVE: f64 = 1.959_963_984_540_054;
-/// 95 of 100 of any distribution lie between these shares of it.
-const ENDS: [f64; 2] = [0.025, 0.975];
 /// Labels that cost less than this more than the best ones may be the right ones: of tones of random wood a
 /// labelling that is ahead by 8 is right in 97 of 100 cases with two tones and in all with more.
 const SURE: f64 = 8.0;
@@ -37,25 +30,36 @@ const EXPLAINS: f64 = 24.0;
 pub struct CalibrationPlan {
     /// Where the barrel's region begins (m), if there are two.
     pub split: Option<f64>,
-    /// Unknowns that stay as the file has them.
-    pub held: Vec<Unknown>,
+    /// Propertys that stay as the file has them.
+    pub held: Vec<Property>,
 }
 
-/// What the labels of the lines come to.
-#[derive(Debug, Clone, PartialEq)]
+/// Which mode each line was taken for, in the order of the readings; null for a line of no bending mode.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Identified {
-    /// Labels that were told, with the χ² they come to; None where none were told or all are kept.
-    pub told: Option<(Labels, f64)>,
-    /// Labels that were taken.
-    pub labels: Labels,
-    /// Measured modes whose shapes are like no bending mode.
-    pub unlike: usize,
-    /// χ² of the labels that were taken, strangers included.
+    /// Frequencies of the lines (Hz).
+    pub lines_hz: Vec<f64>,
+    /// The labels that were taken.
+    pub taken: Labels,
+    /// Their chi2.
+    // That of strangers included.
     pub chi2: f64,
-    /// The best labels that contradict these and their χ², if others were looked at.
-    pub second: Option<(Labels, f64)>,
-    /// By how much the second best labels cost more in the search, over all wood: below 8 they may be the right ones.
+    /// The labels of the readings, where others were taken.
+    pub told: Option<Labels>,
+    /// Their chi2.
+    pub told_chi2: Option<f64>,
+    /// The second best labels, where others were looked at.
+    // The best that contradict those that were taken.
+    pub second: Option<Labels>,
+    /// Their chi2.
+    pub second_chi2: Option<f64>,
+    /// By how much they cost more in the search over all wood; below 8 they may be the right ones.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub margin: Option<f64>,
+    /// Measured modes whose shapes are like no bending mode.
+    #[serde(skip)]
+    pub unlike: usize,
 }
 
 impl Identified {
@@ -66,41 +70,96 @@ impl Identified {
 
     /// Whether half of several lines or more are no bending mode, by their frequencies or their shapes.
     pub fn is_mostly_discarded(&self) -> bool {
-        let all = self.labels.len() + self.unlike;
-        all > 1 && 2 * (strangers(&self.labels) + self.unlike) >= all
+        let all = self.taken.len() + self.unlike;
+        all > 1 && 2 * (strangers(&self.taken) + self.unlike) >= all
     }
 
     /// Lines whose label was told and is another, by their places.
     pub fn changed(&self) -> Vec<usize> {
-        let told = self.told.iter().flat_map(|(told, _)| told.iter().zip(&self.labels).enumerate());
+        let told = self.told.iter().flat_map(|told| told.iter().zip(&self.taken).enumerate());
         told.filter(|(_, (told, taken))| told.is_some() && told != taken).map(|(k, _)| k).collect()
     }
 }
 
-/// What is known of a bat's wood.
-#[derive(Debug, Clone)]
-pub struct Calibration {
+/// The wood without the data that do not fit.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct WithoutOutliers {
     /// The parameters.
     pub parameters: Vec<Estimated>,
-    /// Covariance of their logarithms, in their order.
+    /// Their chi2.
+    pub chi2: f64,
+    /// The number of data that remain.
+    pub expected: usize,
+}
+
+/// The loss factor by a tone that died out.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct LossFound {
+    /// Number of the bending mode.
+    pub mode: usize,
+    /// Damping ratio.
+    pub damping_ratio: f64,
+    /// Loss factor, twice that.
+    pub loss_factor: f64,
+}
+
+/// What is known of a bat's wood: the members of a calibration's document that are of the fit.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Calibration {
+    /// Where the barrel's region begins (m), if there are two.
+    pub regions_at_m: Option<f64>,
+    /// The parameters of the wood.
+    pub parameters: Vec<Estimated>,
+    /// Covariance of the natural logarithms of the parameters, in their order; scatter reads it.
     pub covariance: Vec<Vec<f64>>,
-    /// The fit.
-    pub fit: Fit,
+    /// What was measured, beside what the bat of that wood shows.
+    pub data: Vec<Residual>,
+    /// Sum of squares of all residuals and of what was known before, each over its standard deviation.
+    pub chi2: f64,
+    /// What it would be by chance: the number of data.
+    pub expected: usize,
+    /// How many times larger all errors would have to be for both to be equal.
+    // Birge's ratio.
+    pub errors_larger_by: f64,
+    /// How far the beam was taken to be off in a frequency, relative.
+    pub model: f64,
+    /// Whether the readings fit this bat.
+    // None is an outlier, the fit has settled, χ² of the data is not far above their number, no label that was told is
+    // another, no other labels come near, and most of the lines are bending modes.
+    pub fits: bool,
+    /// Steps of the fit.
+    pub steps: usize,
     /// Which mode each line was taken for.
-    pub identified: Identified,
-    /// Data that do not fit the others, by their places in [`Fit::residuals`].
-    pub outliers: Vec<usize>,
-    /// The parameters without those, and χ² with the number of data that remain.
-    pub without: Option<(Vec<Estimated>, f64, usize)>,
-    /// Which measurements are missing, and what each would do to the parameters' standard deviations.
-    pub proposals: Vec<Proposal>,
+    pub labels: Identified,
+    /// Names of the data that do not fit the others.
+    #[cfg_attr(feature = "schema", schemars(with = "Vec<String>"))]
+    pub outliers: Vec<DatumKind>,
+    /// The parameters without those; null where there are none.
+    pub without_outliers: Option<WithoutOutliers>,
+    /// Loss factors, frequency by frequency.
+    pub loss_factors: Vec<LossFound>,
+    /// What a further measurement would do.
+    pub next: Vec<Proposal>,
+    /// Whether the readings fit the wood that was found, whatever the labels.
+    #[serde(skip)]
+    pub readings_agree: bool,
+    /// The first frequency of the wood that was found (Hz), if it was looked at.
+    #[serde(skip)]
+    pub first_frequency: Option<f64>,
     /// Whether G is of its kind, as the file has none.
+    #[serde(skip)]
     pub typical_shear: bool,
     /// The name of the file's material, if it has one.
+    #[serde(skip)]
     pub material: Option<String>,
     /// The bat of the wood that was found.
+    #[serde(skip)]
     pub bat: Bat,
     /// What was measured.
+    #[serde(skip)]
     pub readings: BatReadings,
 }
 
@@ -127,7 +186,7 @@ impl Calibration {
     /// };
     /// let found = Calibration::new(&bat, readings, &CalibrationPlan::default())?;
     /// let modulus = &found.parameters[0];
-    /// println!("E = {:.3e} Pa within {:?}", modulus.value, modulus.interval);
+    /// println!("E = {:.3e} Pa within {:?}", modulus.value, modulus.interval95);
     /// # Ok(())
     /// # }
     /// ```
@@ -137,8 +196,7 @@ impl Calibration {
     /// [`Error::Value`] where nothing was measured, where readings are none of this bat, and those of
     /// [`WoodenBat::new`] and of a solve.
     pub fn new(bat: &Bat, readings: BatReadings, plan: &CalibrationPlan) -> Result<Self> {
-        let pivot =
-            readings.pendulum.map_or(sweetspot::bat::body::STANDARD_PIVOT, |swing| swing.pivot);
+        let pivot = readings.pendulum.map_or(STANDARD_PIVOT, |swing| swing.pivot);
         check(bat, &readings, pivot)?;
         let wood = WoodenBat::new(bat, plan.split, pivot)?;
         let mut search =
@@ -146,7 +204,7 @@ impl Calibration {
         if search.free().is_empty() {
             return Err(Error::value("--hold", "everything", "something that is not held"));
         }
-        let (taken, identified) = labelled(&search)?;
+        let (taken, labels) = labelled(&search)?;
         let mut fit = taken.fit;
         if let Some(about) = another_wood(&search, &fit)? {
             search.about = about;
@@ -157,57 +215,49 @@ impl Calibration {
         let properties = Property::of(wood.regions());
         let parts: Vec<Vec<f64>> =
             properties.iter().map(|property| property.parts(fit.covariance.len())).collect();
-        let outliers: Vec<usize> = (0..fit.residuals.len())
-            .filter(|k| fit.residuals[*k].left_out.abs() > OUTLIER)
-            .collect();
-        let without = without(&search, &fit, &outliers)?;
+        let outliers = fit.residuals.iter().filter(|residual| residual.is_outlier());
+        let outliers: Vec<DatumKind> = outliers.map(|residual| residual.datum.kind).collect();
+        let readings_agree = outliers.is_empty() && is_near(&fit);
         let covariance = |a: &Vec<f64>| parts.iter().map(|b| form(&open, a, b)).collect();
+        let expected = fit.residuals.len();
         Ok(Self {
-            parameters,
+            regions_at_m: plan.split,
             covariance: parts.iter().map(covariance).collect(),
-            proposals: proposals(&search, &fit, &parts),
-            identified,
+            chi2: fit.chi2,
+            expected,
+            errors_larger_by: (fit.chi2 / expected as f64).sqrt(),
+            model: readings.model,
+            fits: readings_agree
+                && labels.changed().is_empty()
+                && labels.is_sure()
+                && !labels.is_mostly_discarded()
+                && !parameters.iter().any(Estimated::is_foreign_density),
+            parameters,
+            steps: fit.steps,
+            labels,
             outliers,
-            without,
+            without_outliers: without(&search, &fit)?,
+            loss_factors: readings.ring_down.iter().map(LossFound::of).collect(),
+            next: proposals(&search, &fit, &parts),
+            readings_agree,
+            first_frequency: fit.shown.frequencies.first().map(|first| first.value),
             typical_shear: wood.typical_shear,
             material: bat.material().name.clone(),
             bat: wood.of(&fit.logs)?,
-            fit,
+            data: fit.residuals,
             readings,
         })
     }
 
-    /// How many data there are.
-    pub fn data(&self) -> usize {
-        self.fit.residuals.len()
-    }
-
-    /// Whether the data fit the bat: none is an outlier, the fit has settled, χ² of the data is not far above their
-    /// number, no label that was told is another, no other labels come near, and most of the lines are bending modes.
-    pub fn fits(&self) -> bool {
-        let labels = &self.identified;
-        self.outliers.is_empty()
-            && is_near(&self.fit)
-            && labels.changed().is_empty()
-            && labels.is_sure()
-            && !labels.is_mostly_discarded()
-            && !self.parameters.iter().any(Estimated::is_foreign_density)
-    }
-
-    /// Whether the readings fit the wood that was found, whatever the labels.
-    pub fn readings_agree(&self) -> bool {
-        self.outliers.is_empty() && is_near(&self.fit)
-    }
-
-    /// How many times larger all errors would have to be for χ² to be the number of data (Birge's ratio).
-    pub fn birge(&self) -> f64 {
-        (self.fit.chi2 / self.data() as f64).sqrt()
+    /// χ² of the data alone.
+    pub fn misfit(&self) -> f64 {
+        misfit(&self.data)
     }
 
     /// The loss factor of the wood, the mean of all tones that were heard dying out; None without one.
     pub fn loss_factor(&self) -> Option<f64> {
-        let all = &self.readings.ring_down;
-        let sum: f64 = all.iter().map(|tone| tone.loss_factor()).sum();
+        let all = &self.loss_factors;
+        let sum: f64 = all.iter().map(|tone| tone.loss_factor).sum();
         (!all.is_empty()).then(|| sum / all.len() as f64)
     }
 
@@ -217,15 +267,15 @@ impl Calibration {
         let sought = self.parameters.iter().enumerate();
         let sought = sought.filter(|(_, parameter)| parameter.verdict != Verdict::Held);
         let (k, least) = sought.min_by(|a, b| a.1.learned.total_cmp(&b.1.learned))?;
-        let best = self.proposals.iter().min_by(|a, b| a.factors[k].total_cmp(&b.factors[k]))?;
+        let best = self.next.iter().min_by(|a, b| a.factors[k].total_cmp(&b.factors[k]))?;
         Some((least, best, best.factors[k]))
     }
 }
 
-impl Residual {
-    /// Whether it does not fit the others.
-    pub fn is_outlier(&self) -> bool {
-        self.left_out.abs() > OUTLIER
+impl LossFound {
+    fn of(tone: &RingDown) -> Self {
+        let (damping_ratio, loss_factor) = (tone.damping_ratio(), tone.loss_factor());
+        Self { mode: tone.mode, damping_ratio, loss_factor }
     }
 }
 
@@ -268,7 +318,7 @@ fn check(bat: &Bat, readings: &BatReadings, pivot: f64) -> Result<()> {
 
 /// Whether a fit has settled near its data.
 fn is_near(fit: &Fit) -> bool {
-    fit.settled && fit.misfit() <= far(fit.residuals.len())
+    fit.settled && misfit(&fit.residuals) <= far(fit.residuals.len())
 }
 
 /// The wood that what was known before is taken to be about, where the file's is another one: of E and density whatever
@@ -278,7 +328,7 @@ fn another_wood(search: &Search, fit: &Fit) -> Result<Option<Logs>> {
     const RARE: f64 = 10.0;
     /// A wood of which nothing was known.
     const ANY: f64 = 1e3;
-    if fit.chi2 - fit.misfit() < RARE || !fit.settled {
+    if fit.chi2 - misfit(&fit.residuals) < RARE || !fit.settled {
         return Ok(None);
     }
     let priors = Priors { youngs_modulus: ANY, correlation: 0.0, ..search.readings.priors };
@@ -330,104 +380,32 @@ fn taken(
         return Err(Error::value("lines", "none that may be a bending mode of this bat", expected));
     };
     let second = found.find(|second| contradict(&second.labels, &best.labels));
+    let (told, told_chi2) = told.unzip();
+    let margin = second.as_ref().map(|second| second.price - best.price);
+    let (second, second_chi2) = second.map(|second| (second.labels, second.chi2)).unzip();
+    let lines = search.readings.lines.iter();
     let identified = Identified {
-        told,
-        labels: best.labels.clone(),
-        unlike: search.readings.unlike,
+        lines_hz: lines.map(|line| line.frequency.value).collect(),
+        taken: best.labels.clone(),
         chi2: best.chi2,
-        margin: second.as_ref().map(|second| second.price - best.price),
-        second: second.map(|second| (second.labels, second.chi2)),
+        told,
+        told_chi2,
+        second,
+        second_chi2,
+        margin,
+        unlike: search.readings.unlike,
     };
     Ok((best, identified))
 }
 
-/// The parameters and what is known of them; the covariance of all unknowns, in which those that were held have what
-/// was known before.
-fn estimated(search: &Search, fit: &Fit) -> Result<(Vec<Estimated>, Vec<Vec<f64>>)> {
-    let properties = Property::of(search.wood.regions());
-    let unknowns = fit.covariance.len();
-    let data: Vec<_> = fit.residuals.iter().map(|residual| residual.datum).collect();
-    let posterior = Posterior::of(search, &data, fit)?;
-    let (before, left) = (search.prior(), posterior.covariance());
-    let free = search.free();
-    // What a held property has of its own: nothing was learned of it.
-    let own_of = |property: Property| match free.contains(&property.own()) {
-        true => 0.0,
-        false => {
-            let (own, parts) = (property.own(), property.parts(unknowns));
-            before[own][own].min(form(&before, &parts, &parts))
-        }
-    };
-    let mut open = left.clone();
-    properties.iter().for_each(|one| open[one.own()][one.own()] += own_of(*one));
-    let start = search.wood.materials(&[0.0; UNKNOWNS]);
-    let value = |property: Property| {
-        let centre = match property {
-            Property::YoungsModulus => start[0].youngs_modulus,
-            Property::ShearModulus => start[0].shear_modulus.unwrap_or(0.0),
-            Property::Density | Property::BarrelDensity => start[0].density,
-            Property::ModulusRatio => 1.0,
-        };
-        let parts = property.parts(unknowns);
-        let log: f64 = parts.iter().zip(&fit.logs).map(|(part, log)| part * log).sum();
-        (centre, centre * log.exp())
-    };
-    let of = |property: Property| {
-        let parts = property.parts(unknowns);
-        let (centre, value) = value(property);
-        let own = property.own();
-        let is_free = free.contains(&own);
-        let variance = form(&open, &parts, &parts).min(form(&before, &parts, &parts));
-        let prior = Reading { value: centre, deviation: form(&before, &parts, &parts).sqrt() };
-        let learned = |parts: &[f64]| 1.0 - form(&left, parts, parts) / form(&before, parts, parts);
-        let interval =
-            ENDS.map(|share| centre * posterior.quantile(&parts, own_of(property), share).exp());
-        let mut single = vec![0.0; unknowns];
-        single[own] = 1.0;
-        let learned = if is_free { learned(&single).min(learned(&parts)) } else { 0.0 };
-        let others = properties.iter().filter(|other| **other != property);
-        let correlation = |other: &Property| {
-            let theirs = other.parts(unknowns);
-            let sizes = form(&open, &theirs, &theirs) * form(&open, &parts, &parts);
-            let r = form(&open, &parts, &theirs) / sizes.sqrt();
-            (sizes > 0.0).then_some((*other, r))
-        };
-        let correlated =
-            others.filter_map(correlation).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
-        let together = correlated.is_some_and(|(_, r)| r.abs() > TOGETHER);
-        let verdict = match learned {
-            _ if !is_free => Verdict::Held,
-            learned if learned <= UNDETERMINED => Verdict::NotDetermined,
-            _ if together && variance.sqrt() > WELL_KNOWN => Verdict::OnlyTogether,
-            learned if learned > DETERMINED => Verdict::Determined,
-            _ => Verdict::Partly,
-        };
-        Estimated {
-            property,
-            value,
-            deviation: variance.sqrt(),
-            interval,
-            prior,
-            learned,
-            correlated,
-            verdict,
-        }
-    };
-    let all = properties.iter().map(|property| of(*property)).collect();
-    Ok((all, open))
-}
-
 /// The fit without what does not fit, if anything does not and two data are left.
-fn without(
-    search: &Search,
-    fit: &Fit,
-    outliers: &[usize],
-) -> Result<Option<(Vec<Estimated>, f64, usize)>> {
-    let kept = fit.residuals.iter().enumerate().filter(|(k, _)| !outliers.contains(k));
-    let kept: Vec<_> = kept.map(|(_, residual)| residual.datum).collect();
-    if outliers.is_empty() || kept.len() < 2 {
+fn without(search: &Search, fit: &Fit) -> Result<Option<WithoutOutliers>> {
+    let kept = fit.residuals.iter().filter(|residual| !residual.is_outlier());
+    let kept: Vec<_> = kept.map(|residual| residual.datum).collect();
+    if kept.len() == fit.residuals.len() || kept.len() < 2 {
         return Ok(None);
     }
     let again = search.fit(&kept, fit.shown.frequencies.len(), &[0.0; UNKNOWNS])?;
-    Ok(Some((estimated(search, &again)?.0, again.chi2, kept.len())))
+    let (parameters, _) = estimated(search, &again)?;
+    Ok(Some(WithoutOutliers { parameters, chi2: again.chi2, expected: kept.len() }))
 }

@@ -10,7 +10,7 @@
 //! them in logarithms. A bat of several materials, of which one is sought, is solved at some values of E as well.
 
 use crate::calibrate::fit::Search;
-use crate::calibrate::unknowns::{Logs, UNKNOWNS, Unknown};
+use crate::calibrate::unknowns::{Logs, Property, UNKNOWNS};
 use crate::calibrate::wood::Slopes;
 use sweetspot::base::error::Result;
 use sweetspot::base::threads;
@@ -50,14 +50,14 @@ impl Chart {
     pub fn of(search: &Search, modes: usize) -> Result<Self> {
         let wood = search.wood;
         let rest = weighed(search)?;
-        let open = !search.held.contains(&Unknown::YoungsModulus);
+        let open = !search.held.contains(&Property::YoungsModulus);
         let most = STIFFEST.ln();
         let stiffness = match open && !wood.is_of_one_material() {
             true => between([-most, most], SOLVED[1]),
             false => vec![0.0],
         };
         let known = wood.shear_over_young();
-        let shear = if search.held.contains(&Unknown::ShearOverYoung) || known > ISOTROPIC {
+        let shear = if search.held.contains(&Property::ShearModulus) || known > ISOTROPIC {
             vec![0.0]
         } else {
             // The file's own value belongs to the stretch, whatever it is.
@@ -119,7 +119,7 @@ fn weighed(search: &Search) -> Result<Logs> {
     let shown = search.wood.shown(&logs, 0)?.mass;
     let own: f64 = shown.by[2] + shown.by[3];
     let wood = mass.value - (shown.value - own);
-    if own > 0.0 && wood > 0.0 && !search.held.contains(&Unknown::Density) {
+    if own > 0.0 && wood > 0.0 && !search.held.contains(&Property::Density) {
         logs[2] = (wood / own).ln();
         logs[3] = logs[2];
     }

@@ -1,89 +1,27 @@
-//! What was found of a parameter of the wood?
+//! What was found of a property of the wood?
 
 use serde::Serialize;
 
-use crate::calibrate::readings::Reading;
-use crate::calibrate::unknowns::UNKNOWNS;
+use crate::calibrate::fit::{Fit, Search};
+use crate::calibrate::posterior::Posterior;
+use crate::calibrate::unknowns::{Property, UNKNOWNS, form};
+use sweetspot::base::error::Result;
 
 /// E or density further from the file's than this many standard deviations of what was known before, and than that
 /// factor, is not that material.
 const FOREIGN: [f64; 2] = [3.0, 1.25];
-
-/// A parameter of the wood, in the order in which they are told.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Property {
-    /// E (Pa), of the handle where there are two regions.
-    YoungsModulus,
-    /// G (Pa), of the handle where there are two regions; with the file's shear coefficient κ, of which only the product κG is found.
-    ShearModulus,
-    /// Density (kg/m³), of the handle where there are two regions.
-    Density,
-    /// Density of the barrel (kg/m³).
-    BarrelDensity,
-    /// E of the barrel over E of the handle.
-    ModulusRatio,
-}
-
-impl Property {
-    /// Those of the given number of regions.
-    pub fn of(regions: usize) -> &'static [Self] {
-        const ALL: [Property; UNKNOWNS] = [
-            Property::YoungsModulus,
-            Property::ShearModulus,
-            Property::Density,
-            Property::BarrelDensity,
-            Property::ModulusRatio,
-        ];
-        const ONE: [Property; 3] =
-            [Property::YoungsModulus, Property::ShearModulus, Property::Density];
-        if regions == 1 { &ONE } else { &ALL }
-    }
-
-    /// Its name, as in a bat file.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::YoungsModulus => "youngs_modulus",
-            Self::ShearModulus => "shear_modulus",
-            Self::Density => "density",
-            Self::BarrelDensity => "density_barrel",
-            Self::ModulusRatio => "youngs_modulus_ratio",
-        }
-    }
-
-    /// Its unit.
-    pub fn unit(self) -> &'static str {
-        match self {
-            Self::YoungsModulus | Self::ShearModulus => "Pa",
-            Self::Density | Self::BarrelDensity => "kg/m³",
-            Self::ModulusRatio => "",
-        }
-    }
-
-    /// The unknown that is its own: of G, G/E.
-    pub(super) fn own(self) -> usize {
-        match self {
-            Self::YoungsModulus => 0,
-            Self::ShearModulus => 1,
-            Self::Density => 2,
-            Self::BarrelDensity => 3,
-            Self::ModulusRatio => 4,
-        }
-    }
-
-    /// Its logarithm as a sum of unknowns.
-    pub(super) fn parts(self, unknowns: usize) -> Vec<f64> {
-        let mut parts = vec![0.0; unknowns];
-        parts[self.own()] = 1.0;
-        if self == Self::ShearModulus {
-            parts[0] = 1.0;
-        }
-        parts
-    }
-}
+/// What was learned of a parameter that is determined, and of one that is not: `1 − σ²/σ₀²`.
+const DETERMINED: f64 = 0.9;
+const UNDETERMINED: f64 = 0.1;
+/// Two parameters that go together so much are known only together, unless both are known to a twentieth.
+const TOGETHER: f64 = 0.95;
+const WELL_KNOWN: f64 = 0.05;
+/// 95 of 100 of any distribution lie between these shares of it.
+const ENDS: [f64; 2] = [0.025, 0.975];
 
 /// How well the readings determine a parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
     /// The readings alone say it.
@@ -98,23 +36,34 @@ pub enum Verdict {
     Held,
 }
 
-/// What was found of a parameter.
-#[derive(Debug, Clone, PartialEq)]
+/// A parameter of the wood.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Estimated {
-    /// Which.
+    /// Its name, as in a bat file.
+    #[serde(rename = "name")]
+    #[cfg_attr(feature = "schema", schemars(with = "String"))]
     pub property: Property,
-    /// Its value, SI.
+    /// Its unit.
+    pub unit: &'static str,
+    /// Its value.
     pub value: f64,
-    /// Standard deviation of its logarithm.
-    pub deviation: f64,
     /// Where it lies in 95 of 100 cases.
-    pub interval: [f64; 2],
-    /// Value and standard deviation of the logarithm before anything was measured.
-    pub prior: Reading,
-    /// What was learned, `1 − σ²/σ₀²`; of G, of G/E.
+    pub interval95: [f64; 2],
+    /// Standard deviation of its natural logarithm.
+    pub relative_sd: f64,
+    /// Value before anything was measured.
+    pub prior: f64,
+    /// Standard deviation of its natural logarithm before anything was measured.
+    pub prior_relative_sd: f64,
+    /// How much the readings say of it, from 0 to 1: one less its variance over that before.
+    // Of G, of G/E.
     pub learned: f64,
-    /// The parameter that it goes with most, and the correlation.
-    pub correlated: Option<(Property, f64)>,
+    /// The parameter that it goes with most.
+    #[cfg_attr(feature = "schema", schemars(with = "Option<String>"))]
+    pub correlated_with: Option<Property>,
+    /// Correlation of their logarithms.
+    pub correlation: Option<f64>,
     /// How well it is determined.
     pub verdict: Verdict,
 }
@@ -123,13 +72,137 @@ impl Estimated {
     /// How many times the file's it is, where that is more than pieces of one material differ by.
     pub fn foreign(&self) -> Option<f64> {
         let own = matches!(self.property, Property::YoungsModulus | Property::Density);
-        let (times, [deviations, factor]) = (self.value / self.prior.value, FOREIGN);
-        let far = times.ln().abs() > (deviations * self.prior.deviation).max(factor.ln());
+        let (times, [deviations, factor]) = (self.value / self.prior, FOREIGN);
+        let far = times.ln().abs() > (deviations * self.prior_relative_sd).max(factor.ln());
         (own && far).then_some(times)
     }
 
     /// Whether it is a density that no material of the file's kind has: then the profile is another one.
     pub(super) fn is_foreign_density(&self) -> bool {
         self.property == Property::Density && self.foreign().is_some()
+    }
+}
+
+/// The parameters and what is known of them; the covariance of all unknowns, in which those that were held have what
+/// was known before.
+pub(super) fn estimated(search: &Search, fit: &Fit) -> Result<(Vec<Estimated>, Vec<Vec<f64>>)> {
+    let known = Known::of(search, fit)?;
+    let all = known.properties.iter().map(|property| known.estimated(*property)).collect();
+    Ok((all, known.open))
+}
+
+/// What is known of the unknowns, before and after.
+struct Known<'a> {
+    search: &'a Search<'a>,
+    fit: &'a Fit,
+    properties: &'static [Property],
+    free: Vec<usize>,
+    posterior: Posterior,
+    /// Covariance before anything was measured, and after that of what was sought.
+    before: Vec<Vec<f64>>,
+    left: Vec<Vec<f64>>,
+    /// The latter, in which what was held has what was known before.
+    open: Vec<Vec<f64>>,
+}
+
+impl<'a> Known<'a> {
+    fn of(search: &'a Search<'a>, fit: &'a Fit) -> Result<Self> {
+        let data: Vec<_> = fit.residuals.iter().map(|residual| residual.datum).collect();
+        let posterior = Posterior::of(search, &data, fit)?;
+        let (before, left) = (search.prior(), posterior.covariance());
+        let (properties, free) = (Property::of(search.wood.regions()), search.free());
+        let open = left.clone();
+        let mut known = Self { search, fit, properties, free, posterior, before, left, open };
+        for one in properties {
+            known.open[*one as usize][*one as usize] += known.of_its_own(*one);
+        }
+        Ok(known)
+    }
+
+    fn is_free(&self, property: Property) -> bool {
+        self.free.contains(&(property as usize))
+    }
+
+    /// Its logarithm as a sum of the unknowns.
+    fn parts(&self, property: Property) -> Vec<f64> {
+        property.parts(self.before.len())
+    }
+
+    /// What a held property has of its own: nothing was learned of it.
+    fn of_its_own(&self, property: Property) -> f64 {
+        if self.is_free(property) {
+            return 0.0;
+        }
+        let (own, parts) = (property as usize, self.parts(property));
+        self.before[own][own].min(form(&self.before, &parts, &parts))
+    }
+
+    /// The file's value and the one found.
+    fn values(&self, property: Property) -> [f64; 2] {
+        let start = &self.search.wood.materials(&[0.0; UNKNOWNS])[0];
+        let centre = match property {
+            Property::YoungsModulus => start.youngs_modulus,
+            Property::ShearModulus => start.shear_modulus.unwrap_or(0.0),
+            Property::Density | Property::BarrelDensity => start.density,
+            Property::ModulusRatio => 1.0,
+        };
+        let parts = self.parts(property);
+        let log: f64 = parts.iter().zip(&self.fit.logs).map(|(part, log)| part * log).sum();
+        [centre, centre * log.exp()]
+    }
+
+    /// How much was learned of it and of its own unknown, the less of both.
+    fn learned(&self, property: Property) -> f64 {
+        if !self.is_free(property) {
+            return 0.0;
+        }
+        let of =
+            |parts: &[f64]| 1.0 - form(&self.left, parts, parts) / form(&self.before, parts, parts);
+        let mut own = vec![0.0; self.before.len()];
+        own[property as usize] = 1.0;
+        of(&own).min(of(&self.parts(property)))
+    }
+
+    /// The parameter that it goes with most, and the correlation.
+    fn correlated(&self, property: Property) -> Option<(Property, f64)> {
+        let parts = self.parts(property);
+        let correlation = |other: &Property| {
+            let theirs = self.parts(*other);
+            let sizes = form(&self.open, &theirs, &theirs) * form(&self.open, &parts, &parts);
+            let r = form(&self.open, &parts, &theirs) / sizes.sqrt();
+            (sizes > 0.0).then_some((*other, r))
+        };
+        let others = self.properties.iter().filter(|other| **other != property);
+        others.filter_map(correlation).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))
+    }
+
+    fn estimated(&self, property: Property) -> Estimated {
+        let parts = self.parts(property);
+        let [centre, value] = self.values(property);
+        let known = form(&self.before, &parts, &parts);
+        let deviation = form(&self.open, &parts, &parts).min(known).sqrt();
+        let own = self.of_its_own(property);
+        let end = |share| centre * self.posterior.quantile(&parts, own, share).exp();
+        let (learned, correlated) = (self.learned(property), self.correlated(property));
+        let together = correlated.is_some_and(|(_, r)| r.abs() > TOGETHER);
+        Estimated {
+            property,
+            unit: property.unit(),
+            value,
+            interval95: ENDS.map(end),
+            relative_sd: deviation,
+            prior: centre,
+            prior_relative_sd: known.sqrt(),
+            learned,
+            correlated_with: correlated.map(|(other, _)| other),
+            correlation: correlated.map(|(_, r)| r),
+            verdict: match learned {
+                _ if !self.is_free(property) => Verdict::Held,
+                learned if learned <= UNDETERMINED => Verdict::NotDetermined,
+                _ if together && deviation > WELL_KNOWN => Verdict::OnlyTogether,
+                learned if learned > DETERMINED => Verdict::Determined,
+                _ => Verdict::Partly,
+            },
+        }
     }
 }

@@ -18,7 +18,7 @@
 use serde::Serialize;
 
 use crate::calibrate::readings::{BatReadings, Reading};
-use crate::calibrate::unknowns::{Logs, Unknown, covariance, form};
+use crate::calibrate::unknowns::{Logs, Property, covariance, form};
 use crate::calibrate::wood::{BatObservations, Slopes, WoodenBat};
 use sweetspot::base::error::Result;
 use sweetspot::base::linear::{dot, inverse};
@@ -32,9 +32,9 @@ const SETTLED: f64 = 1e-7;
 /// Beyond this many standard deviations of what was known before, and that factor, a fit has run away.
 const RUNAWAY: [f64; 2] = [4.0, 8.0];
 
-/// What a datum is of.
+/// What a datum is of; in a document by its name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
+#[serde(into = "String")]
 pub enum DatumKind {
     /// Mass (kg).
     Mass,
@@ -68,17 +68,36 @@ impl DatumKind {
     }
 }
 
+impl From<DatumKind> for String {
+    fn from(kind: DatumKind) -> Self {
+        kind.name()
+    }
+}
+
 /// Something that was measured.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Datum {
-    /// What.
+    /// Its name.
+    #[serde(rename = "name")]
+    #[cfg_attr(feature = "schema", schemars(with = "String"))]
     pub kind: DatumKind,
     /// Which of the lines it is; None for what is no line.
+    #[serde(skip)]
     pub line: Option<usize>,
-    /// The reading.
-    pub reading: Reading,
-    /// σ of reading and model together.
-    pub sigma: f64,
+    /// What was read.
+    pub measured: f64,
+    /// How far the reading may be off.
+    pub reading_sd: f64,
+    /// How far reading and beam together may be off.
+    pub sd: f64,
+}
+
+impl Datum {
+    /// How far it is from what a bat shows, `(y − y(θ))/σ`.
+    fn deviations(&self, computed: f64) -> f64 {
+        (self.measured - computed) / self.sd
+    }
 }
 
 /// The data of these readings, the lines taken for those modes; None where a line is of none of them.
@@ -93,8 +112,9 @@ pub fn data(readings: &BatReadings, modes: &[Option<usize>]) -> Vec<Datum> {
         Some((DatumKind::Frequency((*mode)?), Some(k), line.frequency))
     });
     let datum = |(kind, line, reading): (DatumKind, Option<usize>, Reading)| {
-        let model = if line.is_some() { readings.model * reading.value } else { 0.0 };
-        Datum { kind, line, reading, sigma: reading.deviation.hypot(model) }
+        let Reading { value: measured, deviation: reading_sd } = reading;
+        let model = if line.is_some() { readings.model * measured } else { 0.0 };
+        Datum { kind, line, measured, reading_sd, sd: reading_sd.hypot(model) }
     };
     rigid.chain(lines).map(datum).collect()
 }
@@ -106,23 +126,43 @@ pub struct Search<'a> {
     pub wood: &'a WoodenBat,
     /// What was measured and known before.
     pub readings: &'a BatReadings,
-    /// Unknowns that stay as the file has them.
-    pub held: &'a [Unknown],
+    /// Propertys that stay as the file has them.
+    pub held: &'a [Property],
     /// The wood that what was known before is about: that of the file, all 0, or one far from it.
     pub about: Logs,
 }
 
-/// A datum beside what the fitted bat shows.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// Left out by more standard deviations than this, a datum does not fit the others.
+pub const OUTLIER: f64 = 3.0;
+
+/// Something that was measured.
+// Beside what the bat of the wood that was found shows.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Residual {
-    /// The datum.
+    /// What was measured.
+    #[serde(flatten)]
     pub datum: Datum,
-    /// What the bat shows.
+    /// What the bat of that wood shows.
     pub computed: f64,
-    /// `(y − y(θ))/σ`.
-    pub deviations: f64,
-    /// Residual from the fit to all other data, `z/√(1 − h)`.
-    pub left_out: f64,
+    /// Measured less computed, in standard deviations.
+    // `(y − y(θ))/σ`.
+    pub residual_sd: f64,
+    /// Measured less what the fit to all other data predicts, in standard deviations.
+    // `z/√(1 − h)`.
+    pub left_out_sd: f64,
+}
+
+impl Residual {
+    /// Whether it does not fit the others.
+    pub fn is_outlier(&self) -> bool {
+        self.left_out_sd.abs() > OUTLIER
+    }
+}
+
+/// χ² of the data alone: how far the bat is from what was measured, whatever was known before.
+pub fn misfit(data: &[Residual]) -> f64 {
+    data.iter().map(|residual| residual.residual_sd.powi(2)).sum()
 }
 
 /// A fit.
@@ -142,13 +182,6 @@ pub struct Fit {
     pub residuals: Vec<Residual>,
     /// Everything that the bat shows.
     pub shown: BatObservations,
-}
-
-impl Fit {
-    /// χ² of the data alone: how far the bat is from what was measured, whatever was known before.
-    pub fn misfit(&self) -> f64 {
-        self.residuals.iter().map(|residual| residual.deviations.powi(2)).sum()
-    }
 }
 
 fn times(matrix: &[Vec<f64>], vector: &[f64]) -> Vec<f64> {
@@ -171,7 +204,7 @@ impl Search<'_> {
 
     /// Which unknowns are free, by their places.
     pub fn free(&self) -> Vec<usize> {
-        let unknowns = Unknown::of(self.wood.regions()).iter().enumerate();
+        let unknowns = Property::of(self.wood.regions()).iter().enumerate();
         unknowns.filter(|(_, unknown)| !self.held.contains(unknown)).map(|(k, _)| k).collect()
     }
 
@@ -225,18 +258,18 @@ impl Search<'_> {
         (steps, settled): (usize, bool),
     ) -> Fit {
         let Linear { chi2, covariance: of_free, .. } = linear;
-        let (free, unknowns) = (self.free(), Unknown::of(self.wood.regions()).len());
+        let (free, unknowns) = (self.free(), Property::of(self.wood.regions()).len());
         let mut covariance = vec![vec![0.0; unknowns]; unknowns];
         for (i, row) in free.iter().zip(&of_free) {
             free.iter().zip(row).for_each(|(j, entry)| covariance[*i][*j] = *entry);
         }
         let residual = |datum: &Datum| {
             let Slopes { value, by } = datum.kind.of(&shown);
-            let z = (datum.reading.value - value) / datum.sigma;
+            let z = datum.deviations(value);
             let by = &by[..unknowns];
-            let leverage = form(&covariance, by, by) / datum.sigma.powi(2);
+            let leverage = form(&covariance, by, by) / datum.sd.powi(2);
             let left_out = z / (1.0 - leverage).max(1e-9).sqrt();
-            Residual { datum: *datum, computed: value, deviations: z, left_out }
+            Residual { datum: *datum, computed: value, residual_sd: z, left_out_sd: left_out }
         };
         let residuals = data.iter().map(residual).collect();
         Fit { logs, covariance, chi2, steps, settled, residuals, shown }
@@ -244,7 +277,7 @@ impl Search<'_> {
 
     /// χ², half its downward gradient and the covariance, of the free unknowns.
     fn linear(&self, data: &[Datum], shown: &BatObservations, logs: &Logs) -> Linear {
-        // Unknowns that are held count in what was known before, where they are not as the file has them.
+        // Propertys that are held count in what was known before, where they are not as the file has them.
         let known = inverse(&self.prior()).unwrap_or_default();
         let away: Vec<f64> = logs.iter().zip(&self.about).map(|(log, mean)| log - mean).collect();
         let (free, at) = (self.free(), &away[..known.len()]);
@@ -254,9 +287,9 @@ impl Search<'_> {
             free.iter().map(|i| free.iter().map(|j| known[*i][*j]).collect()).collect();
         for datum in data {
             let Slopes { value, by } = datum.kind.of(shown);
-            let z = (datum.reading.value - value) / datum.sigma;
+            let z = datum.deviations(value);
             chi2 += z * z;
-            let slopes: Vec<f64> = free.iter().map(|k| by[*k] / datum.sigma).collect();
+            let slopes: Vec<f64> = free.iter().map(|k| by[*k] / datum.sd).collect();
             for (i, slope) in slopes.iter().enumerate() {
                 gradient[i] += slope * z;
                 weights[i].iter_mut().zip(&slopes).for_each(|(w, other)| *w += slope * other);

@@ -8,6 +8,8 @@
 //!
 //! so that no bat need be solved to say what it would be worth.
 
+use serde::Serialize;
+
 use crate::calibrate::fit::{DatumKind, Fit, Search};
 use crate::calibrate::unknowns::form;
 use crate::calibrate::wood::Slopes;
@@ -15,14 +17,17 @@ use crate::calibrate::wood::Slopes;
 /// Modes beyond the highest one measured that are solved; the first of them is thought of.
 pub const BEYOND: usize = 2;
 
-/// A measurement that was not made, and what it would do.
-#[derive(Debug, Clone, PartialEq)]
+/// A measurement that was not made.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Proposal {
-    /// What would be measured.
+    /// Its name.
+    #[serde(rename = "name")]
+    #[cfg_attr(feature = "schema", schemars(with = "String"))]
     pub kind: DatumKind,
-    /// Standard deviation that it is thought to have, in the unit of the datum.
-    pub sigma: f64,
-    /// Factor on the standard deviation of every parameter, in their order.
+    /// Standard deviation that it is thought to have, of reading and beam.
+    pub sd: f64,
+    /// Factor on the interval of every parameter, in their order.
     pub factors: Vec<f64>,
 }
 
@@ -51,7 +56,7 @@ pub fn proposals(search: &Search, fit: &Fit, parameters: &[Vec<f64>]) -> Vec<Pro
             let taken = form(&fit.covariance, parameter, by).powi(2) / whole;
             if before > 0.0 { (1.0 - taken / before).max(0.0).sqrt() } else { 1.0 }
         };
-        Proposal { kind, sigma, factors: parameters.iter().map(factor).collect() }
+        Proposal { kind, sd: sigma, factors: parameters.iter().map(factor).collect() }
     };
     all.map(proposal).collect()
 }

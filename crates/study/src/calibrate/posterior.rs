@@ -18,7 +18,7 @@
 use std::f64::consts::SQRT_2;
 
 use crate::calibrate::fit::{Datum, Fit, Search};
-use crate::calibrate::unknowns::{Unknown, form};
+use crate::calibrate::unknowns::{Property, form};
 use sweetspot::base::error::Result;
 use sweetspot::base::threads;
 
@@ -65,8 +65,8 @@ impl Posterior {
         let before = search.prior()[SHEAR][SHEAR].sqrt();
         // The curve bends: its tails may lie further out than the Gaussian at the best fit says.
         let step = REACH * before.min(1.5 * own) / (VALUES / 2) as f64;
-        let held: Vec<Unknown> =
-            search.held.iter().copied().chain([Unknown::ShearOverYoung]).collect();
+        let held: Vec<Property> =
+            search.held.iter().copied().chain([Property::ShearModulus]).collect();
         let along = Search { held: &held, ..*search };
         let modes = fit.shown.frequencies.len();
         let fits = threads::map(VALUES, |k| {

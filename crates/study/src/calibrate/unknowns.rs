@@ -7,31 +7,32 @@ use serde::Serialize;
 
 use crate::calibrate::readings::{Priors, ShearPrior};
 
-/// A property that is sought.
+/// A property of the wood. The logarithm of each is sought; of G, that of G/E, the same all along the bat.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-#[non_exhaustive]
-pub enum Unknown {
-    /// E, of the handle where there are two regions.
+pub enum Property {
+    /// E (Pa), of the handle where there are two regions.
     YoungsModulus,
-    /// G over E, the same all along the bat.
-    ShearOverYoung,
-    /// Density, of the handle where there are two regions.
+    /// G (Pa), of the handle where there are two regions; with the file's shear coefficient κ, of which only the product κG is found.
+    ShearModulus,
+    /// Density (kg/m³), of the handle where there are two regions.
     Density,
-    /// Density of the barrel.
+    /// Density of the barrel (kg/m³).
+    #[serde(rename = "density_barrel")]
     BarrelDensity,
     /// E of the barrel over E of the handle.
+    #[serde(rename = "youngs_modulus_ratio")]
     ModulusRatio,
 }
 
 /// How many there are at most.
 pub const UNKNOWNS: usize = 5;
 
-impl Unknown {
+impl Property {
     /// All of them, in their order.
     pub const ALL: [Self; UNKNOWNS] = [
         Self::YoungsModulus,
-        Self::ShearOverYoung,
+        Self::ShearModulus,
         Self::Density,
         Self::BarrelDensity,
         Self::ModulusRatio,
@@ -41,6 +42,36 @@ impl Unknown {
     pub fn of(regions: usize) -> &'static [Self] {
         if regions == 1 { &Self::ALL[..3] } else { &Self::ALL }
     }
+
+    /// Its name, as in a bat file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::YoungsModulus => "youngs_modulus",
+            Self::ShearModulus => "shear_modulus",
+            Self::Density => "density",
+            Self::BarrelDensity => "density_barrel",
+            Self::ModulusRatio => "youngs_modulus_ratio",
+        }
+    }
+
+    /// Its unit.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::YoungsModulus | Self::ShearModulus => "Pa",
+            Self::Density | Self::BarrelDensity => "kg/m³",
+            Self::ModulusRatio => "",
+        }
+    }
+
+    /// Its logarithm as a sum of the given number of unknowns.
+    pub(super) fn parts(self, unknowns: usize) -> Vec<f64> {
+        let mut parts = vec![0.0; unknowns];
+        parts[self as usize] = 1.0;
+        if self == Self::ShearModulus {
+            parts[0] = 1.0;
+        }
+        parts
+    }
 }
 
 /// Logarithms of all properties over those of the bat file; those of one region are the first three.
@@ -48,20 +79,20 @@ pub type Logs = [f64; UNKNOWNS];
 
 /// The covariance of the unknowns of the given number of regions before anything was measured.
 pub fn covariance(priors: &Priors, regions: usize) -> Vec<Vec<f64>> {
-    let unknowns = Unknown::of(regions);
+    let unknowns = Property::of(regions);
     unknowns.iter().map(|a| unknowns.iter().map(|b| entry(priors, *a, *b)).collect()).collect()
 }
 
-fn entry(priors: &Priors, a: Unknown, b: Unknown) -> f64 {
-    use Unknown::{BarrelDensity, Density, ModulusRatio, ShearOverYoung, YoungsModulus};
+fn entry(priors: &Priors, a: Property, b: Property) -> f64 {
+    use Property::{BarrelDensity, Density, ModulusRatio, ShearModulus, YoungsModulus};
     match (a, b) {
         (YoungsModulus, YoungsModulus) => priors.youngs_modulus.powi(2),
-        (ShearOverYoung, ShearOverYoung) => match priors.shear {
+        (ShearModulus, ShearModulus) => match priors.shear {
             ShearPrior::OverYoung(deviation) => deviation.powi(2),
             ShearPrior::Alone(deviation) => deviation.powi(2) + priors.youngs_modulus.powi(2),
         },
         // G by itself does not go with E, so that G/E goes against it.
-        (ShearOverYoung, other) | (other, ShearOverYoung) => match priors.shear {
+        (ShearModulus, other) | (other, ShearModulus) => match priors.shear {
             ShearPrior::OverYoung(_) => 0.0,
             ShearPrior::Alone(_) => -entry(priors, YoungsModulus, other),
         },
@@ -96,7 +127,7 @@ mod tests {
             for shear in [ShearPrior::OverYoung(0.35), ShearPrior::Alone(0.35)] {
                 let all = covariance(&Priors { shear, ..Priors::default() }, regions);
                 assert!(inverse(&all).is_some());
-                assert_eq!(all.len(), Unknown::of(regions).len());
+                assert_eq!(all.len(), Property::of(regions).len());
                 let sum = form(&all, &vec![1.0; all.len()], &vec![1.0; all.len()]);
                 assert!((sum - all.iter().flatten().sum::<f64>()).abs() < 1e-15);
                 if let ShearPrior::Alone(own) = shear {

@@ -15,6 +15,7 @@
 //! changes by its own size in, and three times as steep it may be. The first and the last line are estimates, no bounds; the tests hold
 //! all of them to hits computed far more accurately.
 
+pub use crate::answers::Figure;
 use crate::verdict::Verdict;
 use sweetspot::base::error::Result;
 use sweetspot::bat::body::{Bat, STANDARD_PIVOT};
@@ -27,29 +28,6 @@ use sweetspot::collision::sweep::{Sweep, Trial, sweep};
 use sweetspot::collision::sweet_spot::{HitsAlong, Peak, SweetSpot};
 use sweetspot::modes::solve::Request;
 
-/// A value and how far it may be off, both in the unit of the value.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Figure {
-    /// The value.
-    pub value: f64,
-    /// How far it may be off, 0 or more.
-    pub error: f64,
-}
-
-impl Figure {
-    /// A value and its error.
-    pub fn new(value: f64, error: f64) -> Self {
-        Self { value, error }
-    }
-
-    /// A value that is off by no more than some roundings of itself.
-    pub fn exact(value: f64) -> Self {
-        Self { value, error: EXACT * value.abs() }
-    }
-}
-
-/// What masses and lengths are exact to, relative.
-const EXACT: f64 = 1e-13;
 /// Where a place is sought exit speeds are as accurate as this, relative to the closing speed.
 const SOUGHT: f64 = 1e-6;
 /// A place is located to this share of the bat at best.

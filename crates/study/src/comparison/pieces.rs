@@ -11,14 +11,15 @@
 //! between two that are picked from the shelf. A bat beside itself with an edit is one piece: its wood
 //! scatters both alike.
 
+use crate::answers::Answer;
 use crate::comparison::contender::Contender;
-use crate::spread::{Analysed, Input, Readings, Spread, SpreadAnswer};
+use crate::spread::{Analysed, COUNTED, Input, Readings, Spread, place};
 use sweetspot::bat::body::Bat;
 use sweetspot::bat::edit::Change;
 use sweetspot::collision::hit::Model;
 
-/// Standard deviations by the wood alone, in the order of [`SpreadAnswer::ALL`]; None where there is none known.
-pub type ByWood = [Option<f64>; SpreadAnswer::ALL.len()];
+/// Standard deviations by the wood alone, in the order of [`COUNTED`]; None where there is none known.
+pub type ByWood = [Option<f64>; COUNTED.len()];
 
 /// What the wood leaves open of every answer of a bat.
 pub fn by_wood(contender: &Contender, model: Model) -> ByWood {
@@ -34,9 +35,9 @@ pub fn by_wood(contender: &Contender, model: Model) -> ByWood {
     let spread = Spread::new(&analysed, &Readings::default());
     let wood = |k: usize| matches!(spread.sources[k].input, Input::Stiffness | Input::Density);
     if !(0..spread.sources.len()).any(wood) {
-        return [None; SpreadAnswer::ALL.len()];
+        return [None; COUNTED.len()];
     }
-    SpreadAnswer::ALL.map(|answer| {
+    COUNTED.map(|answer| {
         let estimate = spread.of(answer)?;
         estimate.deviation?;
         let parts = estimate.parts.iter().enumerate().filter(|(k, _)| wood(*k));
@@ -44,19 +45,19 @@ pub fn by_wood(contender: &Contender, model: Model) -> ByWood {
     })
 }
 
-/// The answer that a row of figures is, by its key.
-pub fn answer(key: &str) -> Option<SpreadAnswer> {
-    Some(match key {
-        "mass" => SpreadAnswer::Mass,
-        "balance_point" => SpreadAnswer::BalancePoint,
-        "swing_weight" => SpreadAnswer::SwingWeight,
-        "frequency_1" => SpreadAnswer::Frequency1,
-        "frequency_2" => SpreadAnswer::Frequency2,
-        "frequency_3" => SpreadAnswer::Frequency3,
-        "best_exit_speed" => SpreadAnswer::ExitSpeed,
-        "best_place" => SpreadAnswer::BestPlace,
-        "zone_from" => SpreadAnswer::ZoneFrom,
-        "zone_to" => SpreadAnswer::ZoneTo,
+/// The answer that a row of figures is, by its key: its place in [`COUNTED`].
+pub fn answer(key: &str) -> Option<usize> {
+    place(match key {
+        "mass" => Answer::Mass,
+        "balance_point" => Answer::BalancePoint,
+        "swing_weight" => Answer::Inertia,
+        "frequency_1" => Answer::Frequency(1),
+        "frequency_2" => Answer::Frequency(2),
+        "frequency_3" => Answer::Frequency(3),
+        "best_exit_speed" => Answer::ExitSpeed,
+        "best_place" => Answer::ExitSpeedPlace,
+        "zone_from" => Answer::Zone(false),
+        "zone_to" => Answer::Zone(true),
         _ => return None,
     })
 }

@@ -113,8 +113,7 @@ fn between_pieces(figures: &mut [ComparedFigure], bats: &[Contender], model: Mod
     let others = (1..bats.len()).filter(|bat| !one_piece(&bats[0].bat, &bats[*bat].bat));
     for bat in others {
         for row in &mut *figures {
-            let answer =
-                answer(row.key.trim_end_matches("_from_tip")).map(|answer| answer as usize);
+            let answer = answer(row.key.trim_end_matches("_from_tip"));
             let open = |bat: usize| by_wood[bat][answer?];
             let by = open(0).zip(open(bat)).map(|(a, b)| a.hypot(b)).filter(|by| *by > 0.0);
             row.values[bat].iter_mut().for_each(|figure| figure.between_pieces = by);

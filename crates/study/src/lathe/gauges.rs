@@ -17,14 +17,18 @@
 //! themselves move with the distance and with the modes: a gauge is sought again by each ([`Gauge::again`]), and
 //! what that does to a derivative is part of its error, `δ(dv*/dp) = v_xp δx`.
 
+use serde::Serialize;
+
 pub use crate::lathe::probe::Probe;
 use crate::many::answers::Answer;
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::strike::Glance;
 use sweetspot::collision::sweet_spot::{HitsAlong, Peak};
 
-/// Why an answer is not smooth.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// Why an output is not smooth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
 pub enum WhyNotSmooth {
     /// Two places along the bat have it nearly alike, so that a small change makes the best one jump: no derivative.
     Rivals,
@@ -34,15 +38,31 @@ pub enum WhyNotSmooth {
     Cut,
 }
 
-/// An answer that is not smooth.
-#[derive(Debug, Clone, PartialEq)]
+/// An output that is not smooth. Rivals and a corner leave it without a derivative; after a cut the finite change of
+/// some band is another one than the derivative says.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Rivals {
-    /// The answer.
+    /// The output.
+    #[serde(rename = "name")]
+    #[cfg_attr(feature = "schema", schemars(with = "String"))]
     pub answer: Answer,
-    /// The best place and the other one, with their values: the rival, the place after a finite cut, or the same.
-    pub peaks: [Peak; 2],
-    /// Why.
+    /// Why: two places along the bat are nearly as good, there is a corner at the best place, or a finite cut
+    /// makes it jump.
     pub why: WhyNotSmooth,
+    /// The best place and the other, or that after the cut (m).
+    // The same where there is a corner.
+    pub x_m: [f64; 2],
+    /// The values there.
+    pub value: [f64; 2],
+}
+
+impl Rivals {
+    /// An answer with its best place and the other one.
+    pub(super) fn of(answer: Answer, why: WhyNotSmooth, peaks: [Peak; 2]) -> Self {
+        let [x_m, value] = [peaks.map(|peak| peak.x), peaks.map(|peak| peak.value)];
+        Self { answer, why, x_m, value }
+    }
 }
 
 /// An answer as a sum of readings at fixed places: `Σ factor · reading`.
@@ -269,7 +289,7 @@ impl<'a> OuterHalf<'a> {
         let rival = self.rival(probe, peak);
         if let Some(other) = rival.or(corner.then_some(peak)) {
             let why = if rival.is_some() { WhyNotSmooth::Rivals } else { WhyNotSmooth::Corner };
-            self.rivals.push(Rivals { answer, peaks: [peak, other], why });
+            self.rivals.push(Rivals::of(answer, why, [peak, other]));
             return (None, Some(value));
         }
         let wanted = if place { Wanted::Place } else { Wanted::Value };
@@ -364,7 +384,7 @@ impl<'a> OuterHalf<'a> {
         let (Some((x, by)), false) = (stencil.edge(x, floor), corner) else {
             let edge = Peak { x, value: floor };
             let answer = Answer::Zone(end == 1);
-            self.rivals.push(Rivals { answer, peaks: [edge; 2], why: WhyNotSmooth::Corner });
+            self.rivals.push(Rivals::of(answer, WhyNotSmooth::Corner, [edge; 2]));
             return (None, Some(x));
         };
         let reach = self.reach();

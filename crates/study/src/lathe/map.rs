@@ -4,9 +4,12 @@
 //! it. Cups, holes, corks and knob weights are solved.
 
 use crate::comparison::contender::Figure;
+use crate::lathe::found::{
+    AddedMass, Changes, Check, Curves, FiniteCut, LatheFound, Output, TurnedBand, WholeChange,
+};
 use crate::lathe::gauges::{Rivals, WhyNotSmooth};
 use crate::lathe::samples::{by_added_mass, frequency_density};
-use crate::lathe::workpiece::{Care, HitTerms, Slopes, Workpiece};
+use crate::lathe::workpiece::{Care, HitTerms, Method, Slopes, Workpiece};
 use crate::many::answers::Answer;
 use sweetspot::base::error::{Error, Result};
 use sweetspot::base::threads;
@@ -29,55 +32,26 @@ pub struct LatheTerms {
     pub answers: Vec<Answer>,
 }
 
-/// A stretch of the bat and what happens if it is turned down.
-#[derive(Debug, Clone)]
-pub struct TurnedBand {
-    /// From where to where (m from the knob end).
-    pub ends: [f64; 2],
-    /// Diameter in the middle (m).
-    pub diameter: f64,
-    /// Derivatives per metre of diameter taken off; None under a sleeve.
-    pub slopes: Option<Slopes>,
-    /// Changes per metre of diameter when the finite cut comes off, for swings by each of [`LatheMap::exponents`];
-    /// None where it cannot come off.
-    pub finite: Option<Vec<Vec<Option<f64>>>>,
-    /// Why something of it is missing.
-    pub reason: Option<String>,
-}
-
-/// What a mass at a place does, per kg.
-#[derive(Debug, Clone)]
-pub struct AddedWeight {
-    /// Where the mass is (m from the knob end).
-    pub x: f64,
-    /// Change of each answer per kg; None for those that are not of frequencies or the rigid body.
-    pub per_kilogram: Vec<Option<f64>>,
-}
-
-/// A change that is done to the end.
-#[derive(Debug, Clone)]
-pub struct WholeChange {
-    /// What is done.
-    pub what: &'static str,
-    /// Changes of the answers for swings by each of [`LatheMap::exponents`], or why it cannot be done.
-    pub change: std::result::Result<Vec<Vec<Option<f64>>>, String>,
-}
-
-/// What cuts and weights do to a bat.
+/// What cuts and weights do to a bat, and the bat.
 pub struct LatheMap {
     /// The bat on the lathe.
     pub piece: Workpiece,
     /// What was asked.
     pub terms: LatheTerms,
-    /// The bands.
-    pub bands: Vec<TurnedBand>,
-    /// Weights along the bat.
-    pub weights: Vec<AddedWeight>,
-    /// Knob weight, cup, hole and cork.
-    pub wholes: Vec<WholeChange>,
-    /// The largest difference between formula and differences of whole bats, relative to the largest change
-    /// of that frequency; None where no frequency was looked at by both.
-    pub check: Option<f64>,
+    /// What was found.
+    pub found: LatheFound,
+}
+
+/// Changes of the answers, in their order, for swings by each of some laws.
+type ByLaw = Vec<Vec<Option<f64>>>;
+
+/// A band, turned down.
+struct Cut {
+    ends: [f64; 2],
+    /// Derivatives per metre of diameter taken off; None under a sleeve.
+    slopes: Option<Slopes>,
+    /// Changes per metre of diameter when the finite cut comes off, or why it cannot.
+    finite: std::result::Result<ByLaw, String>,
 }
 
 /// Bands of that width (m) from the knob end to the tip; less than half a band that is left over is with the last.
@@ -102,6 +76,10 @@ const APART: f64 = 0.1;
 /// What half of a cut leaves of that distance where the answer only curves: a half by the second order, a quarter by
 /// the third.
 const CURVED: std::ops::RangeInclusive<f64> = 0.15..=0.8;
+/// Places of the curves along the bat.
+const CURVE: usize = 240;
+/// A millimetre (m).
+const MM: f64 = 1e-3;
 /// More pieces of a profile than this make a map take long.
 const MANY: usize = 200;
 
@@ -125,14 +103,11 @@ impl LatheMap {
         Self::new(bat, request, Some(hit), terms).map(Some)
     }
 
-    /// The band where a cut changes an answer most, by that swing law's exponent, and the change per metre of
+    /// The band where a cut changes an answer most, by that swing law's exponent, and the change per millimetre of
     /// diameter that is taken off it.
     pub fn strongest(&self, answer: Answer, exponent: f64) -> Option<(&TurnedBand, f64)> {
-        let k = self.terms.answers.iter().position(|known| *known == answer)?;
-        let all = self.bands.iter().filter_map(|band| {
-            let slopes = band.slopes.as_ref()?;
-            Some((band, slopes.by_law(exponent)[k]?.value))
-        });
+        let bands = self.found.bands.iter();
+        let all = bands.filter_map(|band| Some((band, band.derivative(answer, exponent)?)));
         all.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))
     }
 
@@ -153,13 +128,12 @@ impl LatheMap {
     /// let bands = bands(bat.length(), 0.14);
     /// let terms = LatheTerms { bands, cut: 5e-4, exponent: 0.0, answers };
     /// let map = LatheMap::new(&bat, &request, Some(&hit), terms)?;
-    /// for band in &map.bands {
-    ///     let slopes = band.slopes.as_ref().expect("there is no sleeve");
-    ///     let place = slopes.same_swing[2].expect("there is a best place");
-    ///     println!("{:.2} m: {:+.2} mm per mm", band.ends[0], place.value);
+    /// for band in &map.found.bands {
+    ///     let place = band.derivative(Answer::ExitSpeedPlace, 0.0).expect("there is a best place");
+    ///     println!("{:.2} m: {:+.2} mm per mm", band.from_m, 1e3 * place);
     /// }
     /// // A millimetre off half of the way to the barrel moves the sweet spot outward.
-    /// # let moved = |k: usize| map.bands[k].slopes.as_ref().unwrap().same_swing[2].unwrap().value;
+    /// # let moved = |k: usize| map.found.bands[k].derivative(Answer::ExitSpeedPlace, 0.0).unwrap();
     /// assert!(moved(4) > 0.0 && moved(5) < 0.0);
     /// # Ok(())
     /// # }
@@ -175,32 +149,97 @@ impl LatheMap {
         terms: LatheTerms,
     ) -> Result<Self> {
         let borders: Vec<f64> = terms.bands.iter().flatten().copied().collect();
-        let piece = Workpiece::new(bat, &borders, request, hit, &terms.answers)?;
-        let mut map =
-            Self { piece, terms, bands: vec![], weights: vec![], wholes: vec![], check: None };
-        map.bands = map.turned()?;
-        let cuts = map.cuts_that_jump()?;
-        map.piece.rivals.extend(cuts);
-        map.check = map.checked();
-        map.weights = map.weighted();
-        map.wholes = map.done_to_the_end(bat);
-        Ok(map)
+        let mut piece = Workpiece::new(bat, &borders, request, hit, &terms.answers)?;
+        let found = Mapping { piece: &piece, terms: &terms }.found(bat)?;
+        piece.rivals.clone_from(&found.not_smooth_at);
+        Ok(Self { piece, terms, found })
     }
+}
 
+impl LatheTerms {
     /// The swing laws of finite changes: the same swing, the same energy, and the batter's own.
     pub fn exponents(&self) -> Vec<f64> {
-        let own = Some(self.terms.exponent).filter(|n| *n != 0.0 && *n != 0.5);
+        let own = Some(self.exponent).filter(|n| *n != 0.0 && *n != 0.5);
         [0.0, 0.5].into_iter().chain(own).collect()
+    }
+}
+
+/// A map that is being made.
+struct Mapping<'a> {
+    piece: &'a Workpiece,
+    terms: &'a LatheTerms,
+}
+
+impl Mapping<'_> {
+    fn found(&self, bat: &Bat) -> Result<LatheFound> {
+        let cuts = self.turned()?;
+        let mut not_smooth_at = self.piece.rivals.clone();
+        not_smooth_at.extend(self.cuts_that_jump(&cuts)?);
+        let output = |(answer, value): (&Answer, &Option<Figure>)| Output {
+            name: *answer,
+            value: value.map(|value| value.value),
+            error: value.map(|value| value.error).filter(|error| *error > 0.0),
+            method: Method::of(*answer),
+        };
+        Ok(LatheFound {
+            per: "mm of diameter taken off",
+            swing_exponent: self.terms.exponent,
+            outputs: self.terms.answers.iter().zip(self.piece.values()).map(output).collect(),
+            bands: cuts.iter().map(|cut| self.band(cut)).collect(),
+            curves: self.curves(),
+            added_mass: self.added_mass(),
+            done_to_the_end: self.done_to_the_end(bat),
+            not_smooth_at,
+            check: Check { formula_against_difference: self.checked(&cuts) },
+            tolerance_met: self.piece.met,
+        })
+    }
+
+    /// Values by the names of the answers; of hits alone if asked so.
+    fn named(&self, of_hits: bool, value: impl Fn(usize) -> Option<f64>) -> Changes {
+        let all = self.terms.answers.iter().enumerate();
+        let all = all.filter(|(_, answer)| !of_hits || answer.of_a_hit());
+        all.map(|(k, answer)| (answer.name(), value(k))).collect()
+    }
+
+    /// A band with its changes per millimetre.
+    fn band(&self, Cut { ends, slopes, finite }: &Cut) -> TurnedBand {
+        let own = self.terms.exponents().get(2).copied();
+        let by = |of_hits: bool, exponent: f64| {
+            let found = slopes.as_ref()?.by_law(exponent);
+            Some(self.named(of_hits, |k| found[k].map(|figure| figure.value * MM)))
+        };
+        let error = |slopes: &Slopes| {
+            self.named(false, |k| slopes.same_swing[k].map(|figure| figure.error * MM))
+        };
+        let cut = |found: &ByLaw| {
+            let by = |law: usize| self.named(law > 0, |k| found[law][k].map(|value| value * MM));
+            let (cut_mm, by_law) = (self.terms.cut / MM, own.map(|_| by(2)));
+            FiniteCut { cut_mm, change: by(0), same_energy: by(1), by_law }
+        };
+        let middle = 0.5 * (ends[0] + ends[1]);
+        TurnedBand {
+            from_m: ends[0],
+            to_m: ends[1],
+            diameter_m: 2.0 * self.piece.bat().profile().at(middle).outer,
+            change: by(false, 0.0),
+            change_same_energy: by(true, 0.5),
+            change_by_law: own.and_then(|own| by(true, own)),
+            error: slopes.as_ref().map(error),
+            finite: finite.as_ref().ok().map(cut),
+            reason: finite.as_ref().err().cloned(),
+            inertia: slopes.as_ref().map(|slopes| slopes.inertia),
+        }
     }
 
     /// Changes from the bat as it is.
-    fn less(&self, found: &[Vec<Option<f64>>], per: f64) -> Vec<Vec<Option<f64>>> {
+    fn less(&self, found: &[Vec<Option<f64>>], per: f64) -> ByLaw {
         let change =
             |(now, was): (&Option<f64>, &Option<Figure>)| Some(((*now)? - (*was)?.value) / per);
         found.iter().map(|now| now.iter().zip(self.piece.values()).map(change).collect()).collect()
     }
 
-    fn turned(&self) -> Result<Vec<TurnedBand>> {
+    fn turned(&self) -> Result<Vec<Cut>> {
         let bat = self.piece.bat();
         let sleeved: Vec<bool> =
             self.terms.bands.iter().map(|ends| bat.is_sleeved(*ends)).collect();
@@ -208,7 +247,7 @@ impl LatheMap {
         let bare = self.terms.bands.iter().zip(&sleeved).filter(|(_, sleeved)| !**sleeved);
         let changes: Vec<DiameterChange> = bare.map(|(ends, _)| off(ends)).collect();
         let mut slopes = self.piece.slopes(&changes, Care::TwoSteps)?.into_iter();
-        let exponents = self.exponents();
+        let exponents = self.terms.exponents();
         let finite = threads::map(self.terms.bands.len(), |k| {
             if sleeved[k] {
                 return Err("a sleeve is around it".to_owned());
@@ -217,25 +256,19 @@ impl LatheMap {
             let found = self.piece.cut(&change, &exponents);
             found.map(|found| self.less(&found, self.terms.cut)).map_err(|error| reason(&error))
         });
-        let band = |(k, finite): (usize, std::result::Result<_, String>)| {
-            let ends = self.terms.bands[k];
-            TurnedBand {
-                ends,
-                diameter: 2.0 * bat.profile().at(0.5 * (ends[0] + ends[1])).outer,
-                slopes: if sleeved[k] { None } else { slopes.next() },
-                reason: finite.as_ref().err().cloned(),
-                finite: finite.ok(),
-            }
+        let cut = |(k, finite)| {
+            let slopes = if sleeved[k] { None } else { slopes.next() };
+            Cut { ends: self.terms.bands[k], slopes, finite }
         };
-        Ok(finite.into_iter().enumerate().map(band).collect())
+        Ok(finite.into_iter().enumerate().map(cut).collect())
     }
 
     /// Searched answers whose finite cut of a band does not go where the derivative points: where both are apart by
     /// more than [`APART`], half of the cut tells a curve, by which half of the distance is left, from a jump.
-    fn cuts_that_jump(&self) -> Result<Vec<Rivals>> {
+    fn cuts_that_jump(&self, cuts: &[Cut]) -> Result<Vec<Rivals>> {
         let answers = &self.terms.answers;
-        let of_band = |band: &TurnedBand| -> Result<Vec<Rivals>> {
-            let (Some(slopes), Some(finite)) = (&band.slopes, &band.finite) else {
+        let of_band = |band: &Cut| -> Result<Vec<Rivals>> {
+            let (Some(slopes), Ok(finite)) = (&band.slopes, &band.finite) else {
                 return Ok(vec![]);
             };
             let pair = |k: usize, change: Option<f64>| {
@@ -264,13 +297,10 @@ impl LatheMap {
             }
             let (was, is) =
                 (self.piece.peaks(None)?, self.piece.peaks(Some(&change(self.terms.cut)))?);
-            let one = |k: usize| {
-                let peaks = [was[k]?, is[k]?];
-                Some(Rivals { answer: answers[k], peaks, why: WhyNotSmooth::Cut })
-            };
+            let one = |k: usize| Some(Rivals::of(answers[k], WhyNotSmooth::Cut, [was[k]?, is[k]?]));
             Ok(far.into_iter().filter_map(one).collect())
         };
-        let all = threads::map(self.bands.len(), |k| of_band(&self.bands[k]));
+        let all = threads::map(cuts.len(), |k| of_band(&cuts[k]));
         let mut told: Vec<Rivals> = vec![];
         for jump in all.into_iter().collect::<Result<Vec<_>>>()?.into_iter().flatten() {
             // Once is enough.
@@ -282,13 +312,13 @@ impl LatheMap {
     }
 
     /// How far formula and differences are apart.
-    fn checked(&self) -> Option<f64> {
+    fn checked(&self, cuts: &[Cut]) -> Option<f64> {
         let all = |k: usize| {
-            let of = |band: &TurnedBand| {
+            let of = |band: &Cut| {
                 let slopes = band.slopes.as_ref()?;
                 Some([slopes.same_swing[k]?.value, slopes.checked[k]?])
             };
-            let pairs: Vec<[f64; 2]> = self.bands.iter().filter_map(of).collect();
+            let pairs: Vec<[f64; 2]> = cuts.iter().filter_map(of).collect();
             let largest = pairs.iter().fold(0.0_f64, |most, [formula, _]| most.max(formula.abs()));
             let off = pairs.iter().fold(0.0_f64, |most, [a, b]| most.max((a - b).abs()));
             (largest > 0.0).then(|| off / largest)
@@ -297,7 +327,7 @@ impl LatheMap {
     }
 
     /// What a mass does in the middle of each band.
-    fn weighted(&self) -> Vec<AddedWeight> {
+    fn added_mass(&self) -> AddedMass {
         let body = self.piece.bat().inertia();
         let arm = body.balance_point - STANDARD_PIVOT;
         let at = |x: f64, answer: &Answer| match answer {
@@ -316,33 +346,53 @@ impl LatheMap {
             }
             _ => None,
         };
-        let weight = |band: &[f64; 2]| {
-            let x = 0.5 * (band[0] + band[1]);
-            let per_kilogram = self.terms.answers.iter().map(|answer| at(x, answer)).collect();
-            AddedWeight { x, per_kilogram }
+        let middle = |band: &[f64; 2]| 0.5 * (band[0] + band[1]);
+        let x_m: Vec<f64> = self.terms.bands.iter().map(middle).collect();
+        let per_g = |answer: &Answer| {
+            let all = x_m.iter().map(|x| at(*x, answer).map(|per_kilogram| 1e-3 * per_kilogram));
+            let all: Vec<Option<f64>> = all.collect();
+            all.iter().any(Option::is_some).then(|| (answer.name(), all))
         };
-        self.terms.bands.iter().map(weight).collect()
+        AddedMass { per_g: self.terms.answers.iter().filter_map(per_g).collect(), x_m }
     }
 
     /// What cannot be told from a derivative, solved.
     fn done_to_the_end(&self, bat: &Bat) -> Vec<WholeChange> {
-        let exponents = self.exponents();
+        let exponents = self.terms.exponents();
         let all = usual_changes(bat.length());
         threads::map(all.len(), |k| {
             let (what, change) = &all[k];
             let edit = Edit { name: None, change: change.clone() };
             let found = bat.edited(&[edit]).and_then(|bat| self.piece.measure(&bat, &exponents));
-            let change = found.map(|found| self.less(&found, 1.0)).map_err(|error| reason(&error));
-            WholeChange { what, change }
+            let found = found.map(|found| self.less(&found, 1.0));
+            let by = |law: usize| {
+                let found = found.as_ref().ok()?.get(law)?;
+                Some(self.named(law > 0, |k| found[k]))
+            };
+            WholeChange {
+                what,
+                change: by(0),
+                change_same_energy: by(1),
+                change_by_law: by(2),
+                reason: found.as_ref().err().map(reason),
+            }
         })
     }
 
-    /// A frequency's change per metre of diameter taken off and metre of length, at these places (m).
-    pub fn curve(&self, order: usize, places: &[f64]) -> Option<Vec<f64>> {
-        let solution = self.piece.solution();
-        let mode = solution.modes.get(order - 1)?;
-        let bat = self.piece.bat();
-        Some(places.iter().map(|x| -0.5 * frequency_density(bat, solution, mode, *x)).collect())
+    /// Every frequency's change per millimetre of diameter taken off and millimetre of length, along the bat.
+    fn curves(&self) -> Curves {
+        let (bat, solution) = (self.piece.bat(), self.piece.solution());
+        let at = |k: usize| bat.length() * k as f64 / CURVE as f64;
+        let x_m: Vec<f64> = (0..=CURVE).map(at).collect();
+        let frequency = |answer: &Answer| match answer {
+            Answer::Frequency(order) => {
+                let mode = solution.modes.get(order - 1)?;
+                let density = |x: &f64| -0.5 * frequency_density(bat, solution, mode, *x) * MM * MM;
+                Some((format!("{}_per_mm_mm", answer.name()), x_m.iter().map(density).collect()))
+            }
+            _ => None,
+        };
+        Curves { density: self.terms.answers.iter().filter_map(frequency).collect(), x_m }
     }
 }
 

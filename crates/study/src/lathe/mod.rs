@@ -7,6 +7,7 @@
 //! | [`probe`], [`gauges`] | which places of a hit does an answer read, and how |
 //! | [`slopes`], [`quotient`] | how an answer changes with the diameter; by differences |
 //! | [`workpiece`] | the bat on the lathe: its answers, and how they change with its diameter |
+//! | [`found`] | what a map says, as its document has it |
 //! | [`map`] | what a cut does band by band, what a weight does, and what has to be solved |
 //! | [`recipe`] | how little wood has to come off for a wish |
 
@@ -17,5 +18,6 @@ pub mod gauges;
 pub mod slopes;
 pub mod quotient;
 pub mod workpiece;
+pub mod found;
 pub mod map;
 pub mod recipe;

@@ -11,7 +11,8 @@
 //! kept to the last digit: where the least wood for the first wish alone lowers it by more than is allowed, what is
 //! allowed is the second row of G.
 
-use crate::lathe::map::{LatheMap, TurnedBand};
+use crate::lathe::found::TurnedBand;
+use crate::lathe::map::LatheMap;
 use crate::many::answers::Answer;
 
 /// A stretch (m from the knob end) and the depth that comes off its diameter (m).
@@ -34,21 +35,19 @@ pub fn least_wood(
     (answer, by): (Answer, f64),
     most: f64,
 ) -> Option<Vec<RecipeCut>> {
-    let index = |wanted: Answer| map.terms.answers.iter().position(|answer| *answer == wanted);
-    let first = index(answer)?;
     let of_band = |band: &TurnedBand| {
-        let slopes = band.slopes.as_ref()?;
-        let width = band.ends[1] - band.ends[0];
-        let row = [slopes.same_swing[first]?.value, slopes.inertia, width];
-        Some(Stretch { ends: band.ends, row })
+        let per_metre = 1e3 * band.derivative(answer, 0.0)?;
+        Some(Stretch {
+            ends: band.ends(),
+            row: [per_metre, band.inertia?, band.to_m - band.from_m],
+        })
     };
-    let found = recipe(&map.bands.iter().filter_map(of_band).collect::<Vec<_>>(), by, most)?;
+    let bands = &map.found.bands;
+    let found = recipe(&bands.iter().filter_map(of_band).collect::<Vec<_>>(), by, most)?;
     let within = |cut: &RecipeCut| {
-        let own = map
-            .bands
-            .iter()
-            .filter(|band| band.ends[0] < cut.ends[1] && band.ends[1] > cut.ends[0]);
-        own.map(|band| band.diameter).all(|diameter| cut.depth <= DEEPEST * diameter)
+        let inside = |band: &&TurnedBand| band.from_m < cut.ends[1] && band.to_m > cut.ends[0];
+        let mut own = bands.iter().filter(inside);
+        own.all(|band| cut.depth <= DEEPEST * band.diameter_m)
     };
     found.iter().all(within).then_some(found)
 }

@@ -1,10 +1,14 @@
 //! How does each answer change with the diameter, and how was that found?
 
+use serde::Serialize;
+
 use crate::comparison::contender::Figure;
 use crate::many::answers::Answer;
 
 /// How a derivative was found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
 pub enum Method {
     /// Rayleigh's quotient, stationary in the motion.
     Formula,
@@ -23,15 +27,6 @@ impl Method {
             }
             Answer::Frequency(_) => Self::Formula,
             _ => Self::Difference,
-        }
-    }
-
-    /// What it is called in documents.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Formula => "formula",
-            Self::Exact => "exact",
-            Self::Difference => "difference",
         }
     }
 }

@@ -5,13 +5,13 @@
 //! formula ([`crate::lathe::samples`]), all else by central differences of whole bats with elements, number
 //! of modes and effort held fixed. [`Workpiece::measure`] gives the answers of a bat that is changed by much.
 
+use crate::answers::{Answer, figure, on_the_bat, quotient};
 use crate::comparison::contender::Figure;
 use crate::lathe::gauges::{Gauge, GaugeHits, OuterHalf, Rivals};
 use crate::lathe::quotient::{Quotient, Raw, WAYS, Ways, joined};
 use crate::lathe::same_plan::SamePlan;
 use crate::lathe::samples::{BodySlope, SectionSlopes};
 pub use crate::lathe::slopes::{Method, Slopes};
-use crate::many::answers::{Answer, figure, on_the_bat};
 use sweetspot::base::error::Result;
 use sweetspot::base::threads;
 use sweetspot::bat::body::{Bat, STANDARD_PIVOT};
@@ -150,8 +150,8 @@ impl Workpiece {
         };
         if swing != 0.0 {
             let (fast, slow) = (readings(FASTER)?, readings(-FASTER)?);
-            for (k, (fast, slow)) in fast.into_iter().zip(slow).enumerate() {
-                let by_swing = fast.zip(slow).map(|(a, b)| (a - b) / (2.0 * FASTER * swing));
+            let by_swing = quotient(&fast, &slow, 2.0 * FASTER * swing);
+            for (k, by_swing) in by_swing.into_iter().enumerate() {
                 if self.answers[k].of_a_hit() {
                     self.by_swing[k] = by_swing;
                 }
@@ -293,11 +293,8 @@ impl Workpiece {
             (Err(error), Err(_)) => return Err(error),
         };
         let run = if central { 2.0 * step } else { step };
-        let slopes = |(thick, thin): (&Vec<Option<f64>>, &Vec<Option<f64>>)| {
-            let slope = |(a, b): (&Option<f64>, &Option<f64>)| Some(((*a)? - (*b)?) / run);
-            thick.iter().zip(thin).map(slope).collect()
-        };
-        let by_way = std::array::from_fn(|k| slopes((&thick.by_way[k], &thin.by_way[k])));
+        let slopes = |k: usize| quotient(&thick.by_way[k], &thin.by_way[k], run);
+        let by_way = std::array::from_fn(slopes);
         Ok(Quotient { central, by_way })
     }
 

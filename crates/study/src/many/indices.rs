@@ -20,6 +20,8 @@
 //! System Safety 93 (2008) 964, Eqs 36 to 39. B. Efron, "The Jackknife, the Bootstrap and Other Resampling
 //! Plans" (SIAM, 1982), Eq. 3.1.
 
+use serde::Serialize;
+
 use crate::many::hash::mixed;
 use sweetspot::base::linear::dot;
 
@@ -39,28 +41,30 @@ pub enum VariateKind {
     Share,
 }
 
-/// A share of the variance, and how far sampling may have put it off (one standard deviation).
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// A share of a variance.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Share {
     /// The share.
     pub value: f64,
-    /// Its standard deviation.
-    pub deviation: f64,
+    /// Standard deviation of what sampling leaves open.
+    pub sd: f64,
 }
 
-/// What makes an answer vary.
-#[derive(Debug, Clone, PartialEq)]
+/// Shares of a variance, by a polynomial surface in what differs.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Indices {
-    /// By each number alone.
-    pub first: Vec<Share>,
-    /// By each number, alone and with others.
-    pub total: Vec<Share>,
-    /// What the polynomials do not follow.
-    pub unexplained: Share,
-    /// Their degree.
+    /// Degree of the surface.
     pub degree: usize,
-    /// Rows that were fitted.
+    /// Rows that it was laid through.
     pub rows: usize,
+    /// By each input alone (first order), in the order of the inputs.
+    pub first: Vec<Share>,
+    /// By each input, alone and with others (total).
+    pub total: Vec<Share>,
+    /// What the surface does not follow.
+    pub unexplained: Share,
 }
 
 impl Indices {
@@ -103,8 +107,8 @@ impl Indices {
         let told = |k: usize| {
             let mean = parts.iter().map(|part| part[k]).sum::<f64>() / GROUPS as f64;
             let squares = parts.iter().map(|part| (part[k] - mean).powi(2)).sum::<f64>();
-            let deviation = (squares * (GROUPS - 1) as f64 / GROUPS as f64).sqrt();
-            Share { value: whole[k], deviation }
+            let sd = (squares * (GROUPS - 1) as f64 / GROUPS as f64).sqrt();
+            Share { value: whole[k], sd }
         };
         Some(Self {
             first: (0..count).map(told).collect(),
@@ -299,7 +303,7 @@ mod tests {
         let total = [(v1 + v13) / v, v2 / v, v13 / v];
         for (found, known) in found.first.iter().zip(first).chain(found.total.iter().zip(total)) {
             let off = (found.value - known).abs();
-            assert!(off < 2e-3 && off < 4.0 * found.deviation + 2e-3, "{found:?} {known}");
+            assert!(off < 2e-3 && off < 4.0 * found.sd + 2e-3, "{found:?} {known}");
         }
         assert!(found.unexplained.value.abs() < 2e-3, "{:?}", found.unexplained);
         assert_eq!(found.degree, 10);

@@ -7,7 +7,6 @@
 //! | [`distribution`] | which value lies below that share of all |
 //! | [`design`] | which values does row k have |
 //! | [`indices`] | which of the drawn numbers make an answer vary |
-//! | [`answers`] | which answers can be asked of a bat, by which names |
 //! | [`rows`] | what comes of each of some bats |
 
 pub mod hash;
@@ -15,5 +14,6 @@ pub mod sobol;
 pub mod distribution;
 pub mod indices;
 pub mod design;
-pub mod answers;
 pub mod rows;
+
+pub use crate::answers;

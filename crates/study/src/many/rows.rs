@@ -5,8 +5,8 @@
 
 use std::ops::Range;
 
-use crate::comparison::contender::{Figure, Sought, exit_speed};
-use crate::many::answers::{Answer, figure, on_the_bat};
+use crate::answers::{Answer, Figure, figure, on_the_bat};
+use crate::comparison::contender::{Sought, exit_speed};
 use sweetspot::base::error::{Error, Result};
 use sweetspot::base::threads;
 use sweetspot::bat::body::Bat;

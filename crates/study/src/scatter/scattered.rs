@@ -1,8 +1,12 @@
 //! Percentiles with errors, and what makes them so.
 
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
 use crate::many::indices::Indices;
 use crate::many::rows::in_groups;
-use crate::scatter::rows::{ScatterRows, value};
+use crate::scatter::rows::{Output, ScatterRows, value};
 use crate::scatter::spreads::SCRAMBLES;
 
 /// The percentiles that are told, as shares.
@@ -14,43 +18,91 @@ const ROUND_OFF: f64 = 1e-9;
 /// Of Student's distribution with seven degrees of freedom 95 % lie within this many standard deviations.
 const STUDENT: f64 = 2.364_624_251;
 
-/// A percentile, and how far sampling may have put it off in 95 of 100 cases.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// A percentile.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Percentile {
-    /// Which, as a share.
-    pub share: f64,
+    /// Which, in per cent.
+    pub percent: f64,
     /// Its value.
     pub value: f64,
-    /// Half the 95 % interval, by what eight scrambles differ; None where one of them has no answer.
+    /// Half of its 95 % interval, by what the scrambles differ.
+    // None where one of them has no answer.
     pub error: Option<f64>,
 }
 
-/// An output, how it is spread and what spreads it.
-#[derive(Debug, Clone)]
+/// An output.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct OutputSpread {
     /// Its name.
     pub name: String,
     /// Its unit.
     pub unit: &'static str,
-    /// The values of all rows; None where a row has none.
-    pub values: Vec<Option<f64>>,
-    /// The percentiles of [`SHARES`]; none without an answer.
+    /// The mean of all rows.
+    // None without two answers, and so is the standard deviation.
+    pub mean: Option<f64>,
+    /// The standard deviation of all rows.
+    pub sd: Option<f64>,
+    /// The percentiles.
+    // Those of [`SHARES`]; none without an answer.
     pub percentiles: Vec<Percentile>,
-    /// Mean and standard deviation; None without two answers.
-    pub moments: Option<[f64; 2]>,
-    /// What makes it vary, by what differs; None where it does not or rows are too few.
+    /// What makes it vary; null where it does not or rows are too few.
+    #[serde(rename = "shares")]
     pub indices: Option<Indices>,
+    /// The values of all rows; None where a row has none.
+    #[serde(skip)]
+    pub values: Vec<Option<f64>>,
 }
 
-/// What came of all rows.
-#[derive(Debug, Clone)]
+/// Why rows have no answer.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct ReasonCounted {
+    /// Why.
+    pub reason: String,
+    /// How many rows.
+    pub rows: usize,
+}
+
+/// Something that differs.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct InputSpread {
+    /// Its name.
+    pub name: &'static str,
+    /// Its standard deviation: of a logarithm, of a factor, or of an amount (m for turning and impact).
+    pub sd: f64,
+    /// Those before it that it goes with: it is meant with them known.
+    pub given: Vec<&'static str>,
+}
+
+/// What came of all rows: the members of a scatter's document that are of them.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Scattered {
-    /// The outputs.
+    /// Rows that were drawn.
+    pub points: u64,
+    /// Which rows.
+    pub seed: u64,
+    /// Scrambles of Sobol's sequence that share them.
+    pub scrambles: u64,
+    /// Rows with all their answers.
+    pub answered: usize,
+    /// Rows as accurate as asked.
+    pub met: usize,
+    /// Why others have no answer, and how many.
+    // The commonest first.
+    pub reasons: Vec<ReasonCounted>,
+    /// Where the ball is hit in the middle (m); null where nothing is asked of it.
+    pub impact_m: Option<f64>,
+    /// What differs.
+    pub inputs: Vec<InputSpread>,
+    /// What was asked, how it is spread, and what spreads it.
     pub outputs: Vec<OutputSpread>,
     /// Why a row has no answer, row by row; empty where it has.
-    pub reasons: Vec<String>,
-    /// How many rows are as accurate as asked.
-    pub met: usize,
+    #[serde(skip)]
+    pub missing: Vec<String>,
 }
 
 impl Scattered {
@@ -88,20 +140,20 @@ impl Scattered {
     pub fn new(rows: &ScatterRows, tell: &(impl Fn(u64) + Sync)) -> Self {
         let (count, asked) = (rows.count(), rows.plan.outputs.len());
         let mut values: Vec<Vec<Option<f64>>> = vec![vec![]; asked];
-        let (mut reasons, mut met) = (vec![], 0);
+        let (mut missing, mut met) = (vec![], 0);
         let walls = rows.plan.setup.may_solve_wall(&rows.bat);
         for found in in_groups(0..count, walls, |some| rows.answers(some), tell) {
             let (all, why, good) = match found {
                 Ok(found) => {
                     let all: Vec<_> = found.figures.iter().map(value).collect();
-                    let missing = all.iter().any(Option::is_none);
-                    let why = if missing { "the bat has no such answer" } else { "" };
-                    (all, why.to_owned(), found.met && !missing)
+                    let whole = all.iter().all(Option::is_some);
+                    let why = if whole { "" } else { "the bat has no such answer" };
+                    (all, why.to_owned(), found.met && whole)
                 }
                 Err(error) => (vec![None; asked], error.to_string(), false),
             };
             values.iter_mut().zip(all).for_each(|(column, value)| column.push(value));
-            reasons.push(why);
+            missing.push(why);
             met += usize::from(good);
         }
         let whole = |row: usize| values.iter().all(|column| column[row].is_some());
@@ -114,24 +166,37 @@ impl Scattered {
                 .zip(&numbers)
                 .filter_map(|(row, numbers)| Some((numbers.clone(), values[*row]?)))
                 .collect();
-            let moments = moments(&values);
-            let differ = moments.is_some_and(|[mean, sd]| sd > ROUND_OFF * mean.abs());
+            let (mean, sd) = moments(&values).unzip();
+            let differ = mean.zip(sd).is_some_and(|(mean, sd)| sd > ROUND_OFF * f64::abs(mean));
             let indices = differ.then(|| Indices::grouped(&rows.kinds(), rows.groups(), &fitted));
             OutputSpread {
                 name: output.name(),
                 unit: output.unit(),
+                mean,
+                sd,
                 percentiles: percentiles(&values),
-                moments,
                 indices: indices.flatten(),
                 values,
             }
         });
-        Self { outputs: outputs.collect(), reasons, met }
-    }
-
-    /// Rows with all their answers.
-    pub fn answered(&self) -> usize {
-        self.reasons.iter().filter(|why| why.is_empty()).count()
+        let differences = &rows.plan.differences;
+        let input = |k: usize| InputSpread {
+            name: differences.all[k].what.name(),
+            sd: differences.all[k].deviation,
+            given: differences.given(k),
+        };
+        Self {
+            points: count,
+            seed: rows.plan.seed,
+            scrambles: SCRAMBLES,
+            answered: missing.iter().filter(|why| why.is_empty()).count(),
+            met,
+            reasons: counted(&missing),
+            impact_m: rows.plan.outputs.contains(&Output::AtImpact).then_some(rows.impact),
+            inputs: (0..differences.all.len()).map(input).collect(),
+            outputs: outputs.collect(),
+            missing,
+        }
     }
 
     /// The row whose output k is nearest to its percentile of that place in [`SHARES`].
@@ -144,6 +209,16 @@ impl Scattered {
     }
 }
 
+/// How often each reason stands there, the commonest first.
+fn counted(missing: &[String]) -> Vec<ReasonCounted> {
+    let mut all: BTreeMap<&String, usize> = BTreeMap::new();
+    missing.iter().filter(|why| !why.is_empty()).for_each(|why| *all.entry(why).or_default() += 1);
+    let counted = |(why, rows): (&String, usize)| ReasonCounted { reason: why.clone(), rows };
+    let mut all: Vec<ReasonCounted> = all.into_iter().map(counted).collect();
+    all.sort_by_key(|counted| std::cmp::Reverse(counted.rows));
+    all
+}
+
 /// The percentiles, each with the error that eight scrambles show: the mean of theirs, and Student's interval of it. Where a
 /// scramble has too few rows for a percentile, the value is that of all rows together.
 fn percentiles(values: &[Option<f64>]) -> Vec<Percentile> {
@@ -153,26 +228,28 @@ fn percentiles(values: &[Option<f64>]) -> Vec<Percentile> {
     let fewest = each.iter().map(Vec::len).min().unwrap_or(0) as f64;
     let of = |share: f64| {
         let together = percentile(&all, share)?;
+        let percent = (1e4 * share).round() / 100.0;
         let own: Option<Vec<f64>> = each.iter().map(|one| percentile(one, share)).collect();
         let Some(own) = own else {
-            return Some(Percentile { share, value: together, error: None });
+            return Some(Percentile { percent, value: together, error: None });
         };
         let count = own.len() as f64;
         let mean = own.iter().sum::<f64>() / count;
         let squares = own.iter().map(|v| (v - mean).powi(2)).sum::<f64>();
         let error = Some(STUDENT * (squares / (count - 1.0) / count).sqrt());
         let enough = fewest * share.min(1.0 - share) >= 0.5;
-        Some(Percentile { share, value: if enough { mean } else { together }, error })
+        Some(Percentile { percent, value: if enough { mean } else { together }, error })
     };
     SHARES.iter().filter_map(|share| of(*share)).collect()
 }
 
-fn moments(values: &[Option<f64>]) -> Option<[f64; 2]> {
+/// Mean and standard deviation.
+fn moments(values: &[Option<f64>]) -> Option<(f64, f64)> {
     let known: Vec<f64> = values.iter().flatten().copied().collect();
     let count = known.len() as f64;
     let mean = known.iter().sum::<f64>() / count;
     let squares = known.iter().map(|value| (value - mean).powi(2)).sum::<f64>();
-    (known.len() > 1).then(|| [mean, (squares / (count - 1.0)).sqrt()])
+    (known.len() > 1).then(|| (mean, (squares / (count - 1.0)).sqrt()))
 }
 
 fn sorted(values: &[Option<f64>]) -> Vec<f64> {
@@ -214,9 +291,9 @@ mod tests {
             ];
             for (within, values) in within.iter_mut().zip(&values) {
                 for one in
-                    percentiles(values).iter().filter(|one| (0.04..0.96).contains(&one.share))
+                    percentiles(values).iter().filter(|one| (4.0..96.0).contains(&one.percent))
                 {
-                    let off = one.value - standard_normal(one.share);
+                    let off = one.value - standard_normal(0.01 * one.percent);
                     *within += usize::from(off.abs() <= one.error.unwrap());
                 }
             }

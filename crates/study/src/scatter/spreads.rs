@@ -111,6 +111,15 @@ impl Differences {
         each.flat_map(|(k, one)| std::iter::repeat_n(k, one.what.numbers(length))).collect()
     }
 
+    /// The names of those before one that it goes with.
+    pub fn given(&self, k: usize) -> Vec<&'static str> {
+        let before = |(a, b, r): &(usize, usize, f64)| {
+            let (early, late) = (*a.min(b), *a.max(b));
+            (late == k && *r != 0.0).then(|| self.all[early].what.name())
+        };
+        self.correlations.iter().filter_map(before).collect()
+    }
+
     /// The eight designs of together the given number of points of a bat of that length (m).
     ///
     /// # Errors

@@ -3,13 +3,45 @@
 //! Every answer has one name, that of the member in the other documents of the program, with its unit at the
 //! end.
 
-use crate::comparison::contender::Figure;
+use serde::Serialize;
+
 use sweetspot::base::error::{Complaint, Error, Result};
 use sweetspot::bat::body::{Bat, STANDARD_PIVOT};
 use sweetspot::modes::solve::Solution;
 
-/// Something that is asked of a bat.
+/// A value and how far it may be off, both in the unit of the value.
 #[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Figure {
+    /// The value.
+    pub value: f64,
+    /// How far it may be off, 0 or more.
+    pub error: f64,
+}
+
+/// What masses and lengths are exact to, relative.
+const EXACT: f64 = 1e-13;
+
+impl Figure {
+    /// A value and its error.
+    pub fn new(value: f64, error: f64) -> Self {
+        Self { value, error }
+    }
+
+    /// A value that is off by no more than some roundings of itself.
+    pub fn exact(value: f64) -> Self {
+        Self { value, error: EXACT * value.abs() }
+    }
+}
+
+/// The quotient of a difference, answer by answer: of a bat with more of something and one with less, `run` apart.
+pub fn quotient(more: &[Option<f64>], less: &[Option<f64>], run: f64) -> Vec<Option<f64>> {
+    let slope = |(more, less): (&Option<f64>, &Option<f64>)| Some(((*more)? - (*less)?) / run);
+    more.iter().zip(less).map(slope).collect()
+}
+
+/// Something that is asked of a bat; in a document by its name.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(into = "String")]
 #[non_exhaustive]
 pub enum Answer {
     /// Mass of the bat (kg).
@@ -50,6 +82,12 @@ pub enum Answer {
     HandsVelocityAt(f64),
     /// Acceleration that the hands feel of a hit there (m, m/s²).
     HandsAccelerationAt(f64),
+}
+
+impl From<Answer> for String {
+    fn from(answer: Answer) -> Self {
+        answer.name()
+    }
 }
 
 /// Names of the answers that have no number in them.
@@ -194,7 +232,7 @@ impl Answer {
     }
 
     /// Whether it is what the hands feel.
-    pub(super) fn of_the_hands(self) -> bool {
+    pub(crate) fn of_the_hands(self) -> bool {
         matches!(
             self,
             Self::HandsVelocity
