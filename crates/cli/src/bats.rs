@@ -1,6 +1,6 @@
 //! `sweetspot bats`: what is built in.
 
-use sweetspot::base::error::Result;
+use sweetspot::Result;
 use sweetspot::bat::body::Bat;
 use sweetspot::files::built_in::bat_names;
 use sweetspot_report::parts::cell::Quantity::Words;

@@ -2,8 +2,7 @@
 
 use std::path::PathBuf;
 
-use sweetspot::base::error::Result;
-use sweetspot::base::file;
+use sweetspot::Result;
 use sweetspot::base::units::PSI;
 use sweetspot::bat::material::{BUILT_IN, BuiltIn};
 use sweetspot_report::parts::terminal::wrapped;
@@ -12,6 +11,7 @@ use sweetspot_report::schema;
 use sweetspot_report::schema::materials::MaterialsFile;
 
 use crate::done::Done;
+use crate::output::put;
 use crate::style;
 use crate::value::unit_system;
 use sweetspot_report::report::columns::{Columns, first, numbers};
@@ -27,8 +27,7 @@ use sweetspot_report::report::columns::{Columns, first, numbers};
 pub struct Args {
     /// Units of the table: si, us or both
     #[arg(long, value_name = "SYSTEM", default_value = "both", value_parser = unit_system(),
-          hide_possible_values = true,
-          help_heading = "Output")]
+          hide_possible_values = true, help_heading = "Output")]
     units: Units,
 
     /// Write JSON to this file (- = standard output, and no table then)
@@ -49,13 +48,8 @@ const POUND_PER_CUBIC_INCH: f64 = 0.453_592_37 / (0.0254 * 0.0254 * 0.0254);
 const MPSI: f64 = 1e6 * PSI;
 
 pub fn run(args: &Args) -> Result<Done> {
-    let table = || style::table(&table(args.units));
-    let document = || schema::text(&MaterialsFile::built_in());
-    let text = match &args.json {
-        Some(path) if path.as_os_str() == "-" => document(),
-        Some(path) => file::write(path, document().as_bytes()).map(|()| table())?,
-        None => table(),
-    };
+    let table = style::table(&table(args.units));
+    let text = put(&args.json, table, || Ok(schema::text(&MaterialsFile::built_in())))?;
     Ok(Done::new(text, 0))
 }
 

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use crate::done::{Done, NOT_REACHED, warn};
 use crate::{diagnostic, style, verbs};
-use sweetspot::base::error::Error;
+use sweetspot::Error;
 use sweetspot_report::report::mistakes;
 
 /// Runs the verb on the command line; what it answers goes to standard output, what is wrong to

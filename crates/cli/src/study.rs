@@ -3,8 +3,9 @@
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
-use sweetspot::base::error::{Complaint, Error, Result};
+use sweetspot::base::error::Complaint;
 use sweetspot::base::threads;
+use sweetspot::{Error, Result};
 use sweetspot_report::many::folder::StudyFolder;
 use sweetspot_report::many::fresh;
 use sweetspot_report::many::source::Study;
@@ -16,7 +17,7 @@ use sweetspot_study::files::study_rows::Rows;
 
 use crate::common::{examples, note_outside};
 use crate::done::{Done, NOT_REACHED, warn};
-use crate::pictures;
+use crate::output::draw;
 use crate::progress::Counted;
 use crate::style;
 
@@ -97,9 +98,7 @@ pub fn run(args: &Args) -> Result<Done> {
     threads::with(jobs, || folder.make(&missing, args.npz, &tell))?;
     drop(progress);
     let table = Table::read(&folder, rows)?;
-    if let Some(folder) = &args.plots {
-        pictures::write(folder, &drawn(&table, rows, &pairs), args.quiet)?;
-    }
+    draw(&args.plots, args.quiet, || Ok(drawn(&table, rows, &pairs)))?;
     let mut text = summary::text(&table, rows);
     if args.summary {
         text += &summary::shares(&table, rows);
