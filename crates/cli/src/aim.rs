@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use sweetspot::base::error::Complaint;
 use sweetspot::base::{file, typed};
+use sweetspot::collision::setup::Setup;
 use sweetspot::collision::sweet_spot::FINE;
 use sweetspot::{Bat, Error, Result};
 use sweetspot_report::plot::picture::Picture;
@@ -22,10 +23,10 @@ use sweetspot_study::files::aim_file::AimFile;
 use sweetspot_study::files::{aim_text, rules_file};
 use sweetspot_study::lathe::workpiece::HitTerms;
 
-use crate::common::{BatFileArgs, Prepared, SolveArgs, about, examples, note_outside};
+use crate::common::{BatFileArgs, Prepared, SolveArgs, about, as_options, examples, note_outside};
 use crate::done::{Done, NOT_REACHED};
 use crate::output::{FullArgs, OutputArgs, apart, make, put};
-use crate::scene::SceneArgs;
+use crate::scene::{self, SceneArgs};
 use crate::value::LITTLE;
 
 /// The least change of a bat that meets a wish: where to cut, at what price
@@ -167,9 +168,9 @@ pub fn run(args: &Args) -> Result<Done> {
     let wish = wish(args, aim_file.as_ref())?;
     let bat = args.bat.read(args.output.quiet)?;
     let Prepared { bat, request, warning } = args.solve.prepare(bat, 10, &args.output)?;
-    let model = args.scene.model()?;
-    let (scene, law) = args.scene.scene(&bat, Some(request.tolerance))?;
-    args.scene.warn(&args.output);
+    let (setup, model) = args.scene.setup()?;
+    let (scene, law) = setup.scene(&bat, Some(request.tolerance)).map_err(as_options)?;
+    scene::warn(&setup, &args.output);
     let hit = HitTerms { scene: scene.clone(), model, exactly: false };
     let terms = Terms { request, hit, law };
     let placed = |error: Error| placed(error, aim_file.as_ref(), args);
@@ -181,7 +182,8 @@ pub fn run(args: &Args) -> Result<Done> {
     let outcome =
         outcome.read_back(written.with(|parts| parts.inches = bat.inches())?, &wish, &terms)?;
     drop(progress);
-    args.output.draw(&args.plots, &outcome.start, |sheet| drawn(args, sheet, &outcome, &terms))?;
+    args.output
+        .draw(&args.plots, &outcome.start, |sheet| drawn(sheet, &setup, &outcome, &terms))?;
     if let Some(folder) = &args.template {
         template(folder, &outcome)?;
     }
@@ -259,9 +261,9 @@ fn placed(error: Error, aim_file: Option<&AimFile>, args: &Args) -> Error {
 }
 
 /// Pictures of both bats side by side, and of the difference of their diameters.
-fn drawn(args: &Args, sheet: Sheet, outcome: &Outcome, terms: &Terms) -> Result<Vec<Picture>> {
+fn drawn(sheet: Sheet, setup: &Setup, outcome: &Outcome, terms: &Terms) -> Result<Vec<Picture>> {
     let entry = |bat: &Bat| -> Result<Entry> {
-        let (scene, _) = args.scene.scene(bat, Some(terms.request.tolerance))?;
+        let (scene, _) = setup.scene(bat, Some(terms.request.tolerance)).map_err(as_options)?;
         Ok(Entry { bat: bat.clone(), scene, law: terms.law, request: terms.request })
     };
     let looks = Looks {
@@ -269,7 +271,7 @@ fn drawn(args: &Args, sheet: Sheet, outcome: &Outcome, terms: &Terms) -> Result<
         exactly: false,
         every: 0.0254,
         look: FINE,
-        barrel: args.scene.barrel_speed(),
+        barrel: setup.barrel_speed(),
     };
     let compared_bats = Comparison::new(vec![entry(&outcome.start)?, entry(&outcome.bat)?], looks)?;
     let mut all = vec![change::picture(sheet, &outcome.start, &outcome.bat)];

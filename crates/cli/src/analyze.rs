@@ -26,12 +26,12 @@ use sweetspot_study::lathe::map::LatheMap;
 use sweetspot_study::lathe::workpiece::HitTerms;
 use sweetspot_study::spread::Readings;
 
-use crate::common::{BatArgs, SolveArgs, Solved, command_line, examples, printed};
+use crate::common::{BatArgs, SolveArgs, Solved, as_options, command_line, examples, printed};
 use crate::done::Done;
 use crate::guarantee::{self, GuaranteeArgs};
 use crate::hit::verdict as hit_verdict;
 use crate::output::{OutputArgs, apart, make};
-use crate::scene::SceneArgs;
+use crate::scene::{self, SceneArgs};
 use crate::value::{READING, SCALE, Use};
 
 /// A bat on one screen
@@ -126,7 +126,7 @@ Examples:
 const MODES: usize = 10;
 
 pub fn run(args: &Args) -> Result<Done> {
-    let model = args.scene.model()?;
+    let (setup, model) = args.scene.setup()?;
     // A report that cannot be written is told before it is computed.
     let made = [&args.out, &args.plots];
     args.report.as_deref().map(|path| page::file::expected(path, &made)).transpose()?;
@@ -145,8 +145,8 @@ pub fn run(args: &Args) -> Result<Done> {
     };
     let (Solved { bat, solution, warning }, proven) =
         args.guarantee.solve_for(bat, &args.bat, &solve, &args.output)?;
-    let (scene, law) = args.scene.scene(&bat, Some(args.solve.tol))?;
-    args.scene.warn(&args.output);
+    let (scene, law) = setup.scene(&bat, Some(args.solve.tol)).map_err(as_options)?;
+    scene::warn(&setup, &args.output);
     let inputs = args.report.as_ref().map(|_| inputs(args, &text)).transpose()?;
     let hits = Request { theory: solution.theory, ..args.solve.request(modes) };
     let proof = args.solve.request(args.solve.modes_within(solution.modes.len().max(MODES), 1));

@@ -4,8 +4,7 @@ use std::io::{IsTerminal, StdinLock, stdin};
 use std::path::{Path, PathBuf};
 
 use sweetspot::base::file;
-use sweetspot::modes::solve::Request;
-use sweetspot::{Bat, Error, Result};
+use sweetspot::{Bat, Error, Request, Result};
 use sweetspot_report::plot::calibrate as pictures_of;
 use sweetspot_report::report::{calibrate, calibrated_bat};
 use sweetspot_report::schema;

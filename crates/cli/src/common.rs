@@ -5,15 +5,14 @@ use std::time::Duration;
 
 use sweetspot::base::error::Complaint;
 use sweetspot::base::units::shown_length;
-use sweetspot::bat::theory::Theory;
 use sweetspot::files::bat_file::Named;
 use sweetspot::files::built_in;
 use sweetspot::modes::prepared;
 use sweetspot::modes::request::MOST_MODES;
-use sweetspot::modes::solve::{self, Request, Solution, Solver};
+use sweetspot::modes::solve;
 use sweetspot::modes::theory_choice::{self, Choice};
 use sweetspot::modes::up_to::modes_up_to;
-use sweetspot::{Bat, Error, Result};
+use sweetspot::{Bat, Error, Request, Result, Solution, Solver, Theory};
 use sweetspot_report::parts::terminal::wrapped;
 
 use crate::done::{NOT_REACHED, printable};

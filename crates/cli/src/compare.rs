@@ -16,11 +16,11 @@ use sweetspot_study::measured::place::{End, ToldPoints};
 use sweetspot_study::measured::study::Study;
 
 use crate::beside::BesideArgs;
-use crate::common::{Prepared, SolveArgs, command_line, examples, printed, read};
+use crate::common::{Prepared, SolveArgs, as_options, command_line, examples, printed, read};
 use crate::done::Done;
 use crate::edits::{EditArgs, WhatIf, edited, what_if};
 use crate::output::{CsvArgs, FullArgs, OutputArgs, apart};
-use crate::scene::SceneArgs;
+use crate::scene::{self, SceneArgs};
 use crate::value::{PLACE, SPACING};
 
 /// Bats side by side, or one beside its measured modes
@@ -196,7 +196,7 @@ fn bats_beside(args: &Args) -> Result<Done> {
     if let Some(path) = &args.report {
         page::file::expected_page(path, &[&args.plots])?;
     }
-    let model = args.scene.model()?;
+    let (setup, model) = args.scene.setup()?;
     let mut warnings = vec![];
     let mut entries = vec![];
     let bats = bats(args)?;
@@ -205,17 +205,17 @@ fn bats_beside(args: &Args) -> Result<Done> {
         let modes = args.count.map_or(10, usize::from);
         let prepared = args.solve.prepare(bat, modes, &args.output)?;
         let tolerance = args.count.is_none().then_some(prepared.request.tolerance);
-        let (scene, law) = args.scene.scene(&prepared.bat, tolerance)?;
+        let (scene, law) = setup.scene(&prepared.bat, tolerance).map_err(as_options)?;
         warnings.extend(prepared.warning.map(|w| format!("{}: {w}", path.display())));
         entries.push(Entry { bat: prepared.bat, scene, law, request: prepared.request });
     }
-    args.scene.warn(&args.output);
+    scene::warn(&setup, &args.output);
     let terms = Terms {
         model,
         exactly: args.count.is_some(),
         every: args.every,
         look: FINE,
-        barrel: args.scene.barrel_speed(),
+        barrel: setup.barrel_speed(),
     };
     let compared = Comparison::new(entries, terms)?;
     for_people(args, &compared)?;

@@ -3,11 +3,9 @@
 use std::path::PathBuf;
 
 use sweetspot::base::error::Complaint;
-use sweetspot::bat::body::Bat;
-use sweetspot::modes::solve::Request;
 use sweetspot::motion::frf::{Frf, ResponseKind, Sample};
 use sweetspot::motion::peaks::Peak;
-use sweetspot::{Error, Result, Theory};
+use sweetspot::{Bat, Error, Request, Result, Theory};
 use sweetspot_report::exchange::frf_uff::{self, Measured};
 use sweetspot_report::plot::{self, picture::Picture, sheet::Sheet};
 use sweetspot_report::report::frf::{self as report, ToldResponse};

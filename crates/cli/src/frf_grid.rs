@@ -2,10 +2,9 @@
 
 use faer::c64;
 
-use sweetspot::bat::body::Bat;
-use sweetspot::modes::solve::{self, Request};
+use sweetspot::modes::solve;
 use sweetspot::motion::frf::Frf;
-use sweetspot::{Error, Result};
+use sweetspot::{Bat, Error, Request, Result};
 use uff58::six_digits;
 
 use crate::value::{FREQUENCY, TOP_FREQUENCY};

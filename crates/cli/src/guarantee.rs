@@ -1,7 +1,6 @@
 //! `--guarantee` and `--within`: what is proven of the modes that a verb finds.
 
-use sweetspot::Result;
-use sweetspot::bat::body::Bat;
+use sweetspot::{Bat, Result};
 use sweetspot_proof::enclosure::guarantee::guarantee;
 use sweetspot_proof::enclosure::within::{Within, band};
 use sweetspot_report::report::proven::Proven;

@@ -15,10 +15,10 @@ use sweetspot_report::report::{hit_json, hit_text, sketch, trust};
 use sweetspot_report::schema::hit::HitFile;
 use sweetspot_study::verdict::Verdict;
 
-use crate::common::{BatArgs, Prepared, SolveArgs, examples, on_the_bat};
+use crate::common::{BatArgs, Prepared, SolveArgs, as_options, examples, on_the_bat};
 use crate::done::Done;
 use crate::output::{CsvArgs, FullArgs, OutputArgs};
-use crate::scene::SceneArgs;
+use crate::scene::{self, SceneArgs};
 use crate::value::PLACE;
 
 /// How fast the ball leaves, place by place, and the sweet spot
@@ -124,13 +124,13 @@ impl PlaceArgs {
 pub fn run(args: &Args) -> Result<Done> {
     args.csv.beside(&args.output.json)?;
     let bat = args.bat.read(&args.output)?;
-    let model = args.scene.model()?;
+    let (setup, model) = args.scene.setup()?;
     args.solve.refuse_budget("hit")?;
     let prepared = args.bat.prepare(bat, args.bat.count(), &args.solve, &args.output)?;
     let Prepared { bat, request, warning } = prepared;
     let tolerance = (!args.bat.asked()).then_some(request.tolerance);
-    let (scene, law) = args.scene.scene(&bat, tolerance)?;
-    args.scene.warn(&args.output);
+    let (scene, law) = setup.scene(&bat, tolerance).map_err(as_options)?;
+    scene::warn(&setup, &args.output);
     let places = args.place.places(&bat)?;
     let progress = args.output.progress("modes");
     let tell = |share, what: &str| progress.say(share, what);

@@ -4,18 +4,17 @@ use std::path::PathBuf;
 
 use sweetspot::base::mistakes::Mistakes;
 use sweetspot::base::units::shown_length;
-use sweetspot::modes::solve::Request;
-use sweetspot::{Bat, Error, Result};
+use sweetspot::{Bat, Error, Request, Result};
 use sweetspot_report::plot::lathe as plot;
 use sweetspot_report::report::lathe as report;
 use sweetspot_study::lathe::map::{LatheMap, LatheTerms, bands, best_place};
 use sweetspot_study::lathe::workpiece::HitTerms;
 use sweetspot_study::many::answers::Answer;
 
-use crate::common::{BatArgs, Prepared, SolveArgs, examples, on_the_bat};
+use crate::common::{BatArgs, Prepared, SolveArgs, as_options, examples, on_the_bat};
 use crate::done::Done;
 use crate::output::{CsvArgs, FullArgs, OutputArgs};
-use crate::scene::SceneArgs;
+use crate::scene::{self, SceneArgs};
 use crate::value::{LITTLE, PLACE, SPACING};
 
 /// What a millimetre off the diameter does, inch by inch
@@ -98,15 +97,6 @@ enum BandArg {
     Stretch([f64; 2]),
 }
 
-impl BandArg {
-    fn width(&self) -> Option<f64> {
-        match self {
-            Self::Width(width) => Some(*width),
-            Self::Stretch(_) => None,
-        }
-    }
-}
-
 fn band(text: &str) -> std::result::Result<BandArg, String> {
     match text.split_once(" to ") {
         Some((from, to)) => {
@@ -126,12 +116,12 @@ pub fn run(args: &Args) -> Result<Done> {
     args.csv.beside(&args.output.json)?;
     args.solve.refuse_budget("lathe")?;
     let bat = args.bat.read(&args.output)?;
-    let model = args.scene.model()?;
+    let (setup, model) = args.scene.setup()?;
     let prepared = args.bat.prepare(bat, args.bat.count(), &args.solve, &args.output)?;
     let Prepared { bat, request, warning } = prepared;
     let tolerance = (!args.bat.asked()).then_some(request.tolerance);
-    let (scene, law) = args.scene.scene(&bat, tolerance)?;
-    args.scene.warn(&args.output);
+    let (scene, law) = setup.scene(&bat, tolerance).map_err(as_options)?;
+    scene::warn(&setup, &args.output);
     let (bands, cut) = stretches(args, &bat)?;
     let at = args.at.map(|x| on_the_bat(&bat, "--at", x)).transpose()?;
     let hit = HitTerms { scene, model, exactly: args.bat.asked() };
@@ -152,7 +142,7 @@ pub fn run(args: &Args) -> Result<Done> {
     // Who asks for outputs, a depth or a stretch wants the tables of them.
     let asked = args.outputs.is_some()
         || args.depth.is_some()
-        || args.bands.iter().any(|band| band.width().is_none());
+        || args.bands.iter().any(|band| matches!(band, BandArg::Stretch(_)));
     let table = match report::screen(&map, &hit.scene, units).filter(|_| !asked) {
         Some(screen) => args.full.screen(|full| if full { all() } else { screen.clone() }),
         None => all(),
@@ -169,12 +159,13 @@ pub fn run(args: &Args) -> Result<Done> {
 fn stretches(args: &Args, bat: &Bat) -> Result<(Vec<[f64; 2]>, f64)> {
     let mut mistakes = Mistakes::default();
     let length = bat.length();
-    let stretches = args.bands.iter().filter_map(|band| match band {
-        BandArg::Stretch(ends) => Some(*ends),
-        BandArg::Width(_) => None,
-    });
-    let mut all: Vec<[f64; 2]> = stretches.collect();
-    let widths: Vec<f64> = args.bands.iter().filter_map(BandArg::width).collect();
+    let (mut widths, mut all) = (vec![], vec![]);
+    for band in &args.bands {
+        match band {
+            BandArg::Width(width) => widths.push(*width),
+            BandArg::Stretch(ends) => all.push(*ends),
+        }
+    }
     if !(widths.is_empty() || widths.len() == 1 && all.is_empty()) {
         let found = format!("{} width(s) and {} stretch(es)", widths.len(), all.len());
         mistakes.add(Error::value("--bands", found, "one width, or stretches alone"));

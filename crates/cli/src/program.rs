@@ -3,7 +3,8 @@
 use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
 
-use crate::done::{Done, NOT_REACHED, warn};
+use crate::done::{Done, NOT_REACHED};
+use crate::output::warn;
 use crate::{diagnostic, style, verbs};
 use sweetspot::Error;
 use sweetspot_report::report::mistakes;
@@ -34,7 +35,7 @@ pub fn run() -> ExitCode {
         }
         _ => {
             if let Some(warning) = warning {
-                warn(&warning);
+                warn(&format!("warning: {warning}"), false);
             }
             ExitCode::from(code)
         }

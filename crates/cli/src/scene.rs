@@ -1,13 +1,9 @@
 //! The options of a hit.
 
-use std::cell::OnceCell;
 use std::path::Path;
 
 use sweetspot::Result;
-use sweetspot::bat::body::Bat;
-use sweetspot::collision::ball::Ball;
-use sweetspot::collision::figures::{BarrelSpeed, SwingLaw};
-use sweetspot::collision::hit::{Model, Scene};
+use sweetspot::collision::hit::Model;
 use sweetspot::collision::setup::Setup;
 use sweetspot::collision::wall_choice::WallChoice;
 use sweetspot::files::balls::{ball, is_built_in};
@@ -129,10 +125,6 @@ pub struct SceneArgs {
     #[arg(long, value_name = "KAPPA",
           value_parser = |s: &str| not_negative(s, "loss share"))]
     loss_share: Option<f64>,
-
-    /// The ball, once it is known.
-    #[arg(skip)]
-    read: OnceCell<Ball>,
 }
 
 impl SceneArgs {
@@ -141,26 +133,17 @@ impl SceneArgs {
         (!is_built_in(&self.ball)).then(|| Path::new(&self.ball))
     }
 
-    /// The ball, with what the command line says of it; its file, which may be a pipe, is read once.
-    fn ball(&self) -> Result<Ball> {
-        if let Some(known) = self.read.get() {
-            return Ok(known.clone());
-        }
-        let ball = ball(&self.ball, self.ball_stiffness).map_err(as_options)?;
-        Ok(self.read.get_or_init(|| ball).clone())
-    }
-
-    /// What these options say, whichever bat it is.
-    fn setup(&self) -> Result<Setup> {
+    /// What these options say, whichever bat it is, with the model that they make; a file of the ball is read.
+    pub fn setup(&self) -> Result<(Setup, Model)> {
         let model = Model::all().into_iter().find(|model| model.name() == self.model);
-        Ok(Setup {
+        let setup = Setup {
             model: model.unwrap_or(Model::Contact),
             swing_speed: self.swing_speed,
             bat_speed: self.bat_speed,
             bat_speed_at: self.bat_speed_at,
             pivot: self.pivot,
             pitch: self.pitch,
-            ball: self.ball()?,
+            ball: ball(&self.ball, self.ball_stiffness).map_err(as_options)?,
             cor: self.cor,
             hands: self.hands,
             wall: WallChoice::named(&self.wall),
@@ -172,28 +155,16 @@ impl SceneArgs {
             decay: self.decay,
             pulse_duration: self.pulse_duration,
             loss_share: self.loss_share,
-        })
+        };
+        let model = setup.model().map_err(as_options)?;
+        Ok((setup, model))
     }
+}
 
-    /// The scene on that bat, and where its swing is from; `tolerance` as [`Setup::scene`] takes it.
-    pub fn scene(&self, bat: &Bat, tolerance: Option<f64>) -> Result<(Scene, Option<SwingLaw>)> {
-        self.setup()?.scene(bat, tolerance).map_err(as_options)
-    }
-
-    /// The speed of a point of the barrel, where that was given.
-    pub fn barrel_speed(&self) -> Option<BarrelSpeed> {
-        self.bat_speed.map(|speed| BarrelSpeed { speed, from_tip: self.bat_speed_at })
-    }
-
-    pub fn model(&self) -> Result<Model> {
-        self.setup()?.model().map_err(as_options)
-    }
-
-    /// Warns of speeds that nobody has.
-    pub fn warn(&self, output: &OutputArgs) {
-        for (member, strange) in self.setup().iter().flat_map(Setup::warnings) {
-            output.warn(&format!("warning: --{} {strange}", member.replace('_', "-")));
-        }
+/// Warns of speeds that nobody has.
+pub fn warn(setup: &Setup, output: &OutputArgs) {
+    for (member, strange) in setup.warnings() {
+        output.warn(&format!("warning: --{} {strange}", member.replace('_', "-")));
     }
 }
 

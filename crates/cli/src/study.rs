@@ -16,8 +16,8 @@ use sweetspot_report::plot::picture::Picture;
 use sweetspot_study::files::study_rows::Rows;
 
 use crate::common::{examples, note_outside};
-use crate::done::{Done, NOT_REACHED, warn};
-use crate::output::draw;
+use crate::done::{Done, NOT_REACHED};
+use crate::output::{draw, warn};
 use crate::progress::Counted;
 use crate::style;
 
@@ -87,7 +87,7 @@ pub fn run(args: &Args) -> Result<Done> {
     }
     let folder = StudyFolder::open(&args.out, &study)?;
     // Before the work, which may take hours.
-    rows.warnings().iter().for_each(|warning| warn(warning));
+    rows.warnings().iter().for_each(|told| warn(&format!("warning: {told}"), false));
     let jobs = args.jobs.map(usize::from);
     let missing = threads::with(jobs, || folder.missing(args.npz))?;
     let division = folder.division();

@@ -17,7 +17,7 @@ use sweetspot_report::report::columns::{Column, Columns, first, labels, numbers}
 pub type Shown<T> = (Column, fn(&T) -> String);
 
 /// The line of the heads, and a line for every row.
-pub fn table<T, const N: usize>(columns: [Shown<T>; N], rows: &[T]) -> String {
+pub fn table<T>(columns: impl IntoIterator<Item = Shown<T>>, rows: &[T]) -> String {
     let (layout, shown): (Vec<_>, Vec<_>) = columns.into_iter().unzip();
     let layout = Columns::new(layout);
     let line = |row: &T| layout.row(shown.iter().map(|of| of(row)));

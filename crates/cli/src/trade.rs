@@ -3,8 +3,7 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
-use sweetspot::Result;
-use sweetspot::modes::solve::Request;
+use sweetspot::{Request, Result};
 use sweetspot_report::plot::{front, sets};
 use sweetspot_report::report::{trade, u_curve};
 use sweetspot_report::schema;

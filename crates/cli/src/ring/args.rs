@@ -3,9 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use sweetspot::base::file;
-use sweetspot::modes::solve::Solution;
 use sweetspot::motion::sound::Sound;
-use sweetspot::{Bat, Result};
+use sweetspot::{Bat, Result, Solution};
 use sweetspot_report::exchange::wav;
 use sweetspot_study::ignored::thinnest_wall;
 

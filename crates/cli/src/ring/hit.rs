@@ -14,16 +14,17 @@ use sweetspot_report::report::aftermath::{self, AfterHit};
 use sweetspot_report::report::{hit_json, hit_text};
 use sweetspot_study::ignored;
 
-use crate::common::{Prepared, on_the_bat};
+use crate::common::{Prepared, as_options, on_the_bat};
 use crate::done::Done;
 use crate::output::put;
 use crate::ring::args::{Args, csv, period, places, times, write_sound};
+use crate::scene;
 
 /// A hit, and what comes of it.
 pub fn run(args: &Args, bat: Bat, x: f64) -> Result<Done> {
     let x = on_the_bat(&bat, "--hit", x)?;
     let count = asked(args, &bat)?;
-    let model = args.scene.model()?;
+    let (setup, model) = args.scene.setup()?;
     if model != Model::Contact {
         let expected = "contact, the model with a force in time";
         return Err(Error::value("--model", model.name(), expected));
@@ -31,8 +32,8 @@ pub fn run(args: &Args, bat: Bat, x: f64) -> Result<Done> {
     let prepared = args.bat.prepare(bat, count, &args.solve, &args.output)?;
     let Prepared { bat, request, warning } = prepared;
     let tolerance = (!args.bat.asked()).then_some(request.tolerance);
-    let (scene, _) = args.scene.scene(&bat, tolerance)?;
-    args.scene.warn(&args.output);
+    let (scene, _) = setup.scene(&bat, tolerance).map_err(as_options)?;
+    scene::warn(&setup, &args.output);
     let solution = solve(&bat, &request)?;
     args.solve.say_raised(&solution, &args.output);
     let effort = Effort { completed: !args.bat.asked(), ..Effort::default() };
