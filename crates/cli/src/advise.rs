@@ -1,17 +1,14 @@
 //! `sweetspot advise BAT`: which physics this bat needs.
 
-use std::path::PathBuf;
-
-use sweetspot::base::error::Result;
+use sweetspot::Result;
 use sweetspot_report::parts::terminal;
 use sweetspot_report::report::advice;
 use sweetspot_report::schema::advice::AdviceFile;
 use sweetspot_study::advise::advice::{Advice, MOST_MODES, advise_telling};
 
-use crate::common::{OutputArgs, examples, read};
-use crate::done::{Done, NOT_REACHED};
-use crate::edits::EditArgs;
-use crate::full_option::FullArgs;
+use crate::common::{BatFileArgs, examples};
+use crate::done::Done;
+use crate::output::{FullArgs, OutputArgs};
 use crate::value::tolerance;
 
 /// Which physics this bat needs, and which it can do without
@@ -21,17 +18,13 @@ use crate::value::tolerance;
 /// with how far that may be off. Below it is the smallest model whose frequencies are still within
 /// --tol of the full one's, and what no beam model has.
 #[derive(clap::Args)]
-#[command(after_long_help = examples(EXAMPLES))]
+#[command(after_long_help = examples(EXAMPLES), next_help_heading = "The bat")]
 pub struct Args {
-    /// Bat file (JSON), or the name of a built-in bat such as r161
-    #[arg(help_heading = "The bat")]
-    bat: PathBuf,
-
     #[command(flatten)]
-    edits: EditArgs,
+    bat: BatFileArgs,
 
     /// Number of bending modes
-    #[arg(short = 'n', long = "modes", value_name = "N", default_value = "5", help_heading = "The bat",
+    #[arg(short = 'n', long = "modes", value_name = "N", default_value = "5",
           value_parser = clap::value_parser!(u16).range(1..=MOST_MODES as i64))]
     count: u16,
 
@@ -56,7 +49,7 @@ Examples:
       the same figures as JSON";
 
 pub fn run(args: &Args) -> Result<Done> {
-    let bat = read(&args.bat, &args.edits, args.output.quiet)?;
+    let bat = args.bat.read(args.output.quiet)?;
     let progress = args.output.progress("the full model");
     let tell = |share, what: &str| progress.say(share, what);
     let advice = advise_telling(&bat, args.count.into(), args.tol, &tell)?;
@@ -71,15 +64,13 @@ pub fn run(args: &Args) -> Result<Done> {
 
 /// The exit code, after a word about frequencies that are less accurate than the tolerance.
 fn verdict(args: &Args, advice: &Advice) -> u8 {
-    if advice.full_model.tolerance_met {
-        return 0;
-    }
-    let solution = &advice.full_model.solved.solution;
-    args.output.warn(&format!(
-        "accuracy not reached: asked {:e}, the full model is within {:.1e}; {}",
-        args.tol,
-        solution.worst(),
-        solution.ending
-    ));
-    NOT_REACHED
+    let full = &advice.full_model;
+    let solution = &full.solved.solution;
+    args.output.reached((!full.tolerance_met).then(|| {
+        let (worst, ending) = (solution.worst(), &solution.ending);
+        format!(
+            "accuracy not reached: asked {:e}, the full model is within {worst:.1e}; {ending}",
+            args.tol
+        )
+    }))
 }

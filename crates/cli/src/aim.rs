@@ -2,10 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use sweetspot::base::error::{Complaint, Error, Result};
+use sweetspot::base::error::Complaint;
 use sweetspot::base::{file, typed};
-use sweetspot::bat::body::Bat;
+use sweetspot::collision::setup::Setup;
 use sweetspot::collision::sweet_spot::FINE;
+use sweetspot::{Bat, Error, Result};
+use sweetspot_report::plot::picture::Picture;
+use sweetspot_report::plot::sheet::Sheet;
 use sweetspot_report::plot::{change, compared};
 use sweetspot_report::report::{aimed, aimed_text};
 use sweetspot_report::template::pages::pages;
@@ -20,13 +23,10 @@ use sweetspot_study::files::aim_file::AimFile;
 use sweetspot_study::files::{aim_text, rules_file};
 use sweetspot_study::lathe::workpiece::HitTerms;
 
-use crate::common::{OutputArgs, Prepared, SolveArgs, examples, note_outside, read};
-use crate::delivered::{apart, put};
+use crate::common::{BatFileArgs, Prepared, SolveArgs, about, as_options, examples, note_outside};
 use crate::done::{Done, NOT_REACHED};
-use crate::edits::EditArgs;
-use crate::full_option::FullArgs;
-use crate::pictures;
-use crate::scene::SceneArgs;
+use crate::output::{FullArgs, OutputArgs, apart, make, put};
+use crate::scene::{self, SceneArgs};
 use crate::value::LITTLE;
 
 /// The least change of a bat that meets a wish: where to cut, at what price
@@ -39,15 +39,11 @@ use crate::value::LITTLE;
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES))]
 pub struct Args {
-    /// Bat file (JSON), or the name of a built-in bat such as r161
-    #[arg(help_heading = "The bat")]
-    bat: PathBuf,
+    #[command(flatten)]
+    bat: BatFileArgs,
 
     /// Aim file (JSON): targets, rules, limits; options add to it
     aim: Option<PathBuf>,
-
-    #[command(flatten)]
-    edits: EditArgs,
 
     /// A target, such as "swing weight -3 %"; may be repeated
     ///
@@ -76,7 +72,7 @@ pub struct Args {
     diameter: Vec<String>,
 
     /// The greatest slope of the surface where it is changed, such as 0.25: radius over length
-    #[arg(long, value_name = "SLOPE", allow_hyphen_values = true, value_parser = slope)]
+    #[arg(long, value_name = "SLOPE", value_parser = slope)]
     slope: Option<f64>,
 
     /// Rules of a game: mlb, ncaa, ncaa-wood, nfhs, nfhs-wood, usa-baseball, softball, or a rule file
@@ -91,11 +87,11 @@ pub struct Args {
     free: Vec<String>,
 
     /// Distance of the stations that are written [default: 10 mm, of a bat in inches 0.5 in]
-    #[arg(long, value_name = "m", allow_hyphen_values = true, value_parser = spacing)]
+    #[arg(long, value_name = "m", value_parser = spacing)]
     stations: Option<f64>,
 
     /// What diameters are rounded to [default: 0.1 mm, of a bat in inches 0.005 in]
-    #[arg(long, value_name = "m", allow_hyphen_values = true, value_parser = spacing)]
+    #[arg(long, value_name = "m", value_parser = spacing)]
     round: Option<f64>,
 
     /// Write the new bat into this file
@@ -107,7 +103,7 @@ pub struct Args {
     cuts: Option<PathBuf>,
 
     /// What a pass of the lathe takes off the diameter at most
-    #[arg(long, value_name = "m", default_value = "1 mm", allow_hyphen_values = true, value_parser = spacing,
+    #[arg(long, value_name = "m", default_value = "1 mm", value_parser = spacing,
           help_heading = "Output")]
     pass: f64,
 
@@ -170,11 +166,11 @@ pub fn run(args: &Args) -> Result<Done> {
         aim_file
     });
     let wish = wish(args, aim_file.as_ref())?;
-    let bat = read(&args.bat, &args.edits, args.output.quiet)?;
+    let bat = args.bat.read(args.output.quiet)?;
     let Prepared { bat, request, warning } = args.solve.prepare(bat, 10, &args.output)?;
-    let model = args.scene.model()?;
-    let (scene, law) = args.scene.scene(&bat, Some(request.tolerance))?;
-    args.scene.warn(&args.output);
+    let (setup, model) = args.scene.setup()?;
+    let (scene, law) = setup.scene(&bat, Some(request.tolerance)).map_err(as_options)?;
+    scene::warn(&setup, &args.output);
     let hit = HitTerms { scene: scene.clone(), model, exactly: false };
     let terms = Terms { request, hit, law };
     let placed = |error: Error| placed(error, aim_file.as_ref(), args);
@@ -186,14 +182,8 @@ pub fn run(args: &Args) -> Result<Done> {
     let outcome =
         outcome.read_back(written.with(|parts| parts.inches = bat.inches())?, &wish, &terms)?;
     drop(progress);
-    if let Some(folder) = &args.plots {
-        let law = terms.law;
-        draw(args, &outcome, &terms, |bat| {
-            let (scene, _) = args.scene.scene(bat, Some(request.tolerance))?;
-            Ok((scene, law))
-        })
-        .and_then(|drawn| pictures::write(folder, &drawn, args.output.quiet))?;
-    }
+    args.output
+        .draw(&args.plots, &outcome.start, |sheet| drawn(sheet, &setup, &outcome, &terms))?;
     if let Some(folder) = &args.template {
         template(folder, &outcome)?;
     }
@@ -210,11 +200,7 @@ pub fn run(args: &Args) -> Result<Done> {
 /// The wish of the file with what the options add.
 fn wish(args: &Args, aim_file: Option<&AimFile>) -> Result<Wish> {
     let mut wish = aim_file.map_or_else(Wish::default, |file| file.wish.clone());
-    let option = |option: &'static str| {
-        move |complaint: Complaint| {
-            Error::Value(Complaint { field: option.to_owned(), ..complaint })
-        }
-    };
+    let option = |option: &'static str| move |complaint| about(option, complaint);
     for text in &args.targets {
         wish.targets.push(aim_text::target(text).map_err(option("--target"))?);
     }
@@ -249,7 +235,7 @@ fn placed(error: Error, aim_file: Option<&AimFile>, args: &Args) -> Error {
     let of_file = aim_file.map_or([0; 3], |file| {
         [file.wish.targets.len(), file.wish.diameter.len(), file.wish.keep.len()]
     });
-    let named = |complaint: Complaint| {
+    let place = |complaint: Complaint| {
         let number = |key: &str| {
             let rest = complaint.field.strip_prefix(key)?.strip_prefix('[')?;
             rest.split_once(']')?.0.parse::<usize>().ok()
@@ -261,10 +247,7 @@ fn placed(error: Error, aim_file: Option<&AimFile>, args: &Args) -> Error {
         ];
         for (key, option, from, said) in options {
             if let Some(text) = number(key).and_then(|k| said.get(k.checked_sub(from)?)) {
-                return Error::Value(Complaint {
-                    field: format!("{option} \"{text}\""),
-                    ..complaint
-                });
+                return about(format!("{option} \"{text}\""), complaint);
             }
         }
         let field = complaint.field.clone();
@@ -273,34 +256,23 @@ fn placed(error: Error, aim_file: Option<&AimFile>, args: &Args) -> Error {
             None => Error::Value(complaint),
         }
     };
-    error.placed(named)
+    error.placed(place)
 }
 
 /// Pictures of both bats side by side, and of the difference of their diameters.
-fn draw(
-    args: &Args,
-    outcome: &Outcome,
-    terms: &Terms,
-    scene: impl Fn(
-        &Bat,
-    ) -> Result<(
-        sweetspot::collision::Scene,
-        Option<sweetspot::collision::figures::SwingLaw>,
-    )>,
-) -> Result<Vec<sweetspot_report::plot::picture::Picture>> {
+fn drawn(sheet: Sheet, setup: &Setup, outcome: &Outcome, terms: &Terms) -> Result<Vec<Picture>> {
     let entry = |bat: &Bat| -> Result<Entry> {
-        let (scene, law) = scene(bat)?;
-        Ok(Entry { bat: bat.clone(), scene, law, request: terms.request })
+        let (scene, _) = setup.scene(bat, Some(terms.request.tolerance)).map_err(as_options)?;
+        Ok(Entry { bat: bat.clone(), scene, law: terms.law, request: terms.request })
     };
     let looks = Looks {
         model: terms.hit.model,
         exactly: false,
         every: 0.0254,
         look: FINE,
-        barrel: args.scene.barrel_speed(),
+        barrel: setup.barrel_speed(),
     };
     let compared_bats = Comparison::new(vec![entry(&outcome.start)?, entry(&outcome.bat)?], looks)?;
-    let sheet = args.output.sheet(&outcome.start);
     let mut all = vec![change::picture(sheet, &outcome.start, &outcome.bat)];
     all.extend(compared::pictures(sheet, &compared_bats)?);
     Ok(all)
@@ -308,8 +280,7 @@ fn draw(
 
 /// The template's files.
 fn template(folder: &Path, outcome: &Outcome) -> Result<()> {
-    let failed = |source| Error::Write { path: folder.to_owned(), source };
-    std::fs::create_dir_all(folder).map_err(failed)?;
+    make(folder)?;
     for paper in PAPERS {
         let pages = pages(&outcome.bat, &outcome.start, paper);
         let name = |rest: String| folder.join(format!("template_{}{rest}", paper.name));

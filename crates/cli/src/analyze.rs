@@ -1,18 +1,16 @@
 //! `sweetspot analyze BAT`: everything about a bat on one screen.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use sweetspot::base::error::{Error, Result};
 use sweetspot::base::file;
 use sweetspot::collision::columns;
 use sweetspot::files::schema::document::{Format, Generator};
-use sweetspot::modes::solve::Request;
+use sweetspot::{Bat, Request, Result};
 use sweetspot_report::analysis::{Analysis, Proof, Task};
 use sweetspot_report::csv;
 use sweetspot_report::page;
 use sweetspot_report::page::content::Report;
 use sweetspot_report::parts::input::Input;
-use sweetspot_report::parts::units::Units;
 use sweetspot_report::plot::sets;
 use sweetspot_report::report::json::{self, ShapePoints};
 use sweetspot_report::report::proven::{self, Proven};
@@ -28,13 +26,12 @@ use sweetspot_study::lathe::map::LatheMap;
 use sweetspot_study::lathe::workpiece::HitTerms;
 use sweetspot_study::spread::Readings;
 
-use crate::common::{BatArgs, OutputArgs, SolveArgs, Solved, command_line, examples, printed};
-use crate::delivered::apart;
+use crate::common::{BatArgs, SolveArgs, Solved, as_options, command_line, examples, printed};
 use crate::done::Done;
 use crate::guarantee::{self, GuaranteeArgs};
 use crate::hit::verdict as hit_verdict;
-use crate::pictures;
-use crate::scene::SceneArgs;
+use crate::output::{OutputArgs, apart, make};
+use crate::scene::{self, SceneArgs};
 use crate::value::{READING, SCALE, Use};
 
 /// A bat on one screen
@@ -129,7 +126,7 @@ Examples:
 const MODES: usize = 10;
 
 pub fn run(args: &Args) -> Result<Done> {
-    let model = args.scene.model()?;
+    let (setup, model) = args.scene.setup()?;
     // A report that cannot be written is told before it is computed.
     let made = [&args.out, &args.plots];
     args.report.as_deref().map(|path| page::file::expected(path, &made)).transpose()?;
@@ -148,19 +145,12 @@ pub fn run(args: &Args) -> Result<Done> {
     };
     let (Solved { bat, solution, warning }, proven) =
         args.guarantee.solve_for(bat, &args.bat, &solve, &args.output)?;
-    let (scene, law) = args.scene.scene(&bat, Some(args.solve.tol))?;
-    args.scene.warn(&args.output);
+    let (scene, law) = setup.scene(&bat, Some(args.solve.tol)).map_err(as_options)?;
+    scene::warn(&setup, &args.output);
     let inputs = args.report.as_ref().map(|_| inputs(args, &text)).transpose()?;
     let hits = Request { theory: solution.theory, ..args.solve.request(modes) };
     let proof = args.solve.request(args.solve.modes_within(solution.modes.len().max(MODES), 1));
-    let readings = Readings::of(&bat);
-    let readings = Readings {
-        diameter: args.calipers.unwrap_or(readings.diameter),
-        length: args.rule,
-        mass: args.scale,
-        ..readings
-    };
-    let task = Task { model, scene, law, hits, proof, readings };
+    let task = Task { model, scene, law, hits, proof, readings: readings(args, &bat) };
     let tell = |share: f64, what: &str| progress.say(share, what);
     let analysis = Analysis::telling(bat, solution, task, &tell)?;
     let lathe = match args.full || args.plots.is_some() || args.report.is_some() {
@@ -168,56 +158,19 @@ pub fn run(args: &Args) -> Result<Done> {
         false => None,
     };
     drop(progress);
-    if let Some(folder) = &args.out {
-        write_out(args, &analysis, proven.as_ref(), folder)?;
-    }
-    if let Some(folder) = &args.plots {
-        let sheet = args.output.sheet(&analysis.bat);
-        let pictures = sets::of_analysis(sheet, &analysis, lathe.as_ref())?;
-        pictures::write(folder, &pictures, args.output.quiet)?;
-    }
-    if let Some((path, inputs)) = args.report.as_ref().zip(inputs) {
-        let us = args.output.sheet(&analysis.bat).us;
-        let report =
-            Report { us, ..Report::new(&analysis, command_line(), inputs, lathe.as_ref())? };
-        page::file::write(path, &report)?;
-    }
-    let all = || AnalysisFile {
-        format: Format::new(),
-        generator: Generator::this(),
-        modes: modes_file(args, &analysis, proven.as_ref()),
-        hit: hit_file(&analysis),
-        strength: analysis.strength.clone(),
-        open: trust::open(&analysis),
-        hoop: hoop_file(&analysis),
-    };
-    let code = match &proven {
-        Some(proven) => guarantee::verdict(proven, &args.solve, &args.output),
-        None => args.solve.verdict(&analysis.solution, &args.output),
-    };
-    let code = code.max(hit_verdict(&args.solve, &analysis.hits, &args.output));
-    let table = if args.full {
-        let cuts = lathe.map(|map| report::lathe::in_short(&map, args.output.units(&analysis.bat)));
-        let cuts = cuts.filter(|cuts| !cuts.is_empty()).map(|cuts| format!("\n{cuts}"));
-        table(&analysis, &args.output) + &cuts.unwrap_or_default()
-    } else {
-        let more = analysis.barrel.as_ref().and_then(report::hoop::in_a_line);
-        trust::screen(&analysis, args.output.units(&analysis.bat)) + more.as_deref().unwrap_or(MORE)
-    };
-    let table = match &proven {
-        Some(proven) => format!("{table}\n{}", proven::text(proven)),
-        None => table,
-    };
-    let table = table + &written(args);
-    let text = args.output.deliver(table, all)?;
+    let answer = Answer { args, analysis, proven, lathe };
+    answer.write(inputs)?;
+    let code = answer.verdict();
+    let text = args.output.deliver(answer.screen(), || answer.document())?;
     let warning = warning.or(of_theory.filter(|_| !args.output.quiet));
     Ok(Done::new(text, code).with(warning))
 }
 
-/// The barrel of a hollow bat, in short.
-fn barrel(analysis: &Analysis, units: Units) -> String {
-    let told = |barrel| format!("\n{}", report::hoop::in_short(barrel, units));
-    analysis.barrel.as_ref().map_or(String::new(), told)
+/// How far the readings of the bat may be off: as told, else as usual.
+fn readings(args: &Args, bat: &Bat) -> Readings {
+    let usual = Readings::of(bat);
+    let diameter = args.calipers.unwrap_or(usual.diameter);
+    Readings { diameter, length: args.rule, mass: args.scale, ..usual }
 }
 
 /// What a short answer ends with.
@@ -239,19 +192,112 @@ fn reading(of: &Use, text: &str) -> std::result::Result<f64, String> {
     }
 }
 
-/// What was written for people to look at, and where.
-fn written(args: &Args) -> String {
-    let report = args.report.iter().map(|path| printed(path));
-    let folders = [&args.plots, &args.out].into_iter().flatten().map(|path| printed(path));
-    let all: Vec<String> = report.chain(folders).map(|path| format!("  {path}\n")).collect();
-    if all.is_empty() { String::new() } else { format!("\nWrote:\n{}", all.concat()) }
-}
-
 /// The files as the report shows them.
 fn inputs(args: &Args, bat: &str) -> Result<Vec<Input>> {
     let mut all = Input::of_bat(args.bat.path(), bat)?;
     all.extend(args.scene.ball_file().map(Input::read).transpose()?);
     Ok(all)
+}
+
+/// What was found of the bat.
+struct Answer<'a> {
+    args: &'a Args,
+    analysis: Analysis,
+    /// What is proven of its modes, where that was asked.
+    proven: Option<Proven>,
+    /// What a cut does, where that is told.
+    lathe: Option<LatheMap>,
+}
+
+impl Answer<'_> {
+    /// The exit code, after a word about what is less accurate than asked.
+    fn verdict(&self) -> u8 {
+        let Args { solve, output, .. } = self.args;
+        let code = match &self.proven {
+            Some(proven) => guarantee::verdict(proven, solve, output),
+            None => solve.verdict(&self.analysis.solution, output),
+        };
+        code.max(hit_verdict(solve, &self.analysis.hits, output))
+    }
+
+    /// What is printed: a screen or everything, what is proven, and what was written for people to look at, and where.
+    fn screen(&self) -> String {
+        let Self { args, analysis, .. } = self;
+        let units = args.output.units(&analysis.bat);
+        let mut text = if args.full {
+            let cuts = self.lathe.as_ref().map(|map| report::lathe::in_short(map, units));
+            let cuts = cuts.filter(|cuts| !cuts.is_empty()).map(|cuts| format!("\n{cuts}"));
+            everything(analysis, &args.output) + &cuts.unwrap_or_default()
+        } else {
+            let more = analysis.barrel.as_ref().and_then(report::hoop::in_a_line);
+            trust::screen(analysis, units) + more.as_deref().unwrap_or(MORE)
+        };
+        if let Some(proven) = &self.proven {
+            text += &format!("\n{}", proven::text(proven));
+        }
+        let written = [&args.report, &args.plots, &args.out].into_iter().flatten();
+        let written: String = written.map(|path| format!("  {}\n", printed(path))).collect();
+        if written.is_empty() { text } else { format!("{text}\nWrote:\n{written}") }
+    }
+
+    /// All of it in one document.
+    fn document(&self) -> AnalysisFile {
+        AnalysisFile {
+            format: Format::new(),
+            generator: Generator::this(),
+            modes: self.modes(),
+            hit: self.hit(),
+            strength: self.analysis.strength.clone(),
+            open: trust::open(&self.analysis),
+            hoop: self.hoop(),
+        }
+    }
+
+    fn modes(&self) -> ModesFile {
+        let Analysis { bat, solution, .. } = &self.analysis;
+        let timing = !self.args.reproducible;
+        let mut document = json::modes(bat, solution, ShapePoints::Even(101), timing);
+        self.proven.iter().for_each(|proven| proven::write(&mut document, proven));
+        document
+    }
+
+    fn hit(&self) -> HitFile {
+        let Analysis { bat, task, hits, figures, .. } = &self.analysis;
+        HitFile {
+            figures: Some(hit_json::figures(figures)),
+            ..hit_json::hit(bat, task.model, &task.scene, &hits.impacts, &figures.spot)
+        }
+    }
+
+    fn hoop(&self) -> Option<HoopFile> {
+        const SAMPLES: usize = 41;
+        let barrel = self.analysis.barrel.as_ref()?;
+        Some(hoop::document(&self.analysis.bat, barrel, &[], SAMPLES))
+    }
+
+    /// Writes what was asked for: the folder of documents, pictures, the report with those files.
+    fn write(&self, inputs: Option<Vec<Input>>) -> Result<()> {
+        let Self { args, analysis, lathe, .. } = self;
+        let lathe = lathe.as_ref();
+        if let Some(folder) = &args.out {
+            make(folder)?;
+            let write = |name: &str, text: String| file::write(&folder.join(name), text.as_bytes());
+            write("modes.json", schema::text(&self.modes()))?;
+            write("hit.json", schema::text(&self.hit()))?;
+            if let Some(hoop) = self.hoop() {
+                write("hoop.json", schema::text(&hoop))?;
+            }
+            write("curve.csv", csv::impacts(&columns::CURVE, &analysis.hits.impacts))?;
+        }
+        let drawn = |sheet| sets::of_analysis(sheet, analysis, lathe);
+        args.output.draw(&args.plots, &analysis.bat, drawn)?;
+        if let Some((path, inputs)) = args.report.as_ref().zip(inputs) {
+            let us = args.output.sheet(&analysis.bat).us;
+            let report = Report::new(analysis, command_line(), inputs, lathe)?;
+            page::file::write(path, &Report { us, ..report })?;
+        }
+        Ok(())
+    }
 }
 
 /// The nodes of the first three modes and the sweet spot.
@@ -264,12 +310,13 @@ fn rows(analysis: &Analysis) -> Vec<SketchRow> {
 }
 
 /// Everything, on several screens.
-fn table(analysis: &Analysis, output: &OutputArgs) -> String {
-    let Analysis { bat, solution, task, hits, figures, .. } = analysis;
+fn everything(analysis: &Analysis, output: &OutputArgs) -> String {
+    let Analysis { bat, solution, task, hits, figures, barrel, .. } = analysis;
     let units = output.units(bat);
     let few: Vec<_> = hits.impacts.iter().step_by(10).cloned().collect();
+    let barrel = barrel.iter().map(|one| format!("\n{}", report::hoop::in_short(one, units)));
     format!(
-        "{}\n{}\n{}\n{}{}{}{}\n{}{}\n{}\n{}\n{}{}{}\n{}\n{}",
+        "{}\n{}\n{}\n{}{}{}{}\n{}{}\n{}\n{}\n{}{}{}\n{}\n{}{}",
         text::summary(bat, units),
         output.sketch(bat, &rows(analysis)),
         text::modes(bat, solution, 3, units),
@@ -285,48 +332,8 @@ fn table(analysis: &Analysis, output: &OutputArgs) -> String {
         hit_text::why(figures, units),
         hit_text::beyond(hits, &task.scene, units),
         hit_text::figures(figures, units),
-        aftermath::strengths(&analysis.strength, units)
-    ) + &barrel(analysis, units)
-}
-
-fn modes_file(args: &Args, analysis: &Analysis, proven: Option<&Proven>) -> ModesFile {
-    let shapes = ShapePoints::Even(101);
-    let mut document = json::modes(&analysis.bat, &analysis.solution, shapes, !args.reproducible);
-    proven.iter().for_each(|proven| proven::write(&mut document, proven));
-    document
-}
-
-fn hit_file(analysis: &Analysis) -> HitFile {
-    let Analysis { bat, task, hits, figures, .. } = analysis;
-    HitFile {
-        figures: Some(hit_json::figures(figures)),
-        ..hit_json::hit(bat, task.model, &task.scene, &hits.impacts, &figures.spot)
-    }
-}
-
-fn hoop_file(analysis: &Analysis) -> Option<HoopFile> {
-    const SAMPLES: usize = 41;
-    let barrel = analysis.barrel.as_ref()?;
-    Some(hoop::document(&analysis.bat, barrel, &[], SAMPLES))
-}
-
-fn write_out(
-    args: &Args,
-    analysis: &Analysis,
-    proven: Option<&Proven>,
-    folder: &Path,
-) -> Result<()> {
-    let failed = |source| Error::Write { path: folder.to_owned(), source };
-    std::fs::create_dir_all(folder).map_err(failed)?;
-    let modes = schema::text(&modes_file(args, analysis, proven));
-    file::write(&folder.join("modes.json"), modes.as_bytes())?;
-    file::write(&folder.join("hit.json"), schema::text(&hit_file(analysis)).as_bytes())?;
-    if let Some(hoop) = hoop_file(analysis) {
-        file::write(&folder.join("hoop.json"), schema::text(&hoop).as_bytes())?;
-    }
-    file::write(
-        &folder.join("curve.csv"),
-        csv::impacts(&columns::CURVE, &analysis.hits.impacts).as_bytes(),
+        aftermath::strengths(&analysis.strength, units),
+        barrel.collect::<String>(),
     )
 }
 

@@ -2,9 +2,10 @@
 
 use std::fmt::Write;
 
+use sweetspot::Profile;
 use sweetspot::base::marks;
 use sweetspot::base::number::rounded;
-use sweetspot::bat::profile::{Interpolation, Profile, Stations};
+use sweetspot::bat::profile::{Interpolation, Stations};
 
 /// What a bat maker measures; lengths in `unit`.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,8 +1,7 @@
 //! `sweetspot bats`: what is built in.
 
-use sweetspot::base::error::Result;
-use sweetspot::bat::body::Bat;
 use sweetspot::files::built_in::bat_names;
+use sweetspot::{Bat, Result};
 use sweetspot_report::parts::cell::Quantity::Words;
 use sweetspot_report::parts::part::Part;
 use sweetspot_report::parts::table::{Column, Table};

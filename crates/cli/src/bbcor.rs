@@ -2,13 +2,12 @@
 
 use std::path::PathBuf;
 
-use sweetspot::base::error::Result;
 use sweetspot::base::mistakes::Mistakes;
-use sweetspot::bat::body::Bat;
 use sweetspot::collision::bbcor::Protocol;
 use sweetspot::collision::hit::{Model, Scene};
 use sweetspot::collision::sweep::Trial;
 use sweetspot::collision::wall_choice::WallChoice;
+use sweetspot::{Bat, Result};
 use sweetspot_report::csv;
 use sweetspot_report::parts::terminal;
 use sweetspot_report::plot::bbcor as plot;
@@ -16,12 +15,10 @@ use sweetspot_report::report::bbcor as report;
 use sweetspot_report::schema::bbcor::BbcorFile;
 
 use crate::cannon::CannonArgs;
-use crate::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples, on_the_bat};
-use crate::csv_option::CsvArgs;
+use crate::common::{BatArgs, Prepared, SolveArgs, examples, on_the_bat};
 use crate::done::Done;
-use crate::full_option::FullArgs;
 use crate::hit::verdict;
-use crate::pictures;
+use crate::output::{CsvArgs, FullArgs, OutputArgs};
 use crate::value::PLACE;
 
 /// BBCOR as laboratories measure it, computed
@@ -42,13 +39,11 @@ pub struct Args {
     cannon: CannonArgs,
 
     /// Where the scan begins, from the knob end [default: 12 in from the tip]
-    #[arg(long, value_name = "m", help_heading = "The test", allow_hyphen_values = true,
-          value_parser = |s: &str| PLACE.read(s))]
+    #[arg(long, value_name = "m", help_heading = "The test", value_parser = PLACE)]
     from: Option<f64>,
 
     /// Where the scan ends, from the knob end [default: 1 in from the tip]
-    #[arg(long, value_name = "m", help_heading = "The test", allow_hyphen_values = true,
-          value_parser = |s: &str| PLACE.read(s))]
+    #[arg(long, value_name = "m", help_heading = "The test", value_parser = PLACE)]
     to: Option<f64>,
 
     /// Whether a hollow barrel's wall gives way by its own hoop modes: auto, on or off
@@ -98,11 +93,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let tested = protocol.test(&bat, &accuracy, &tell)?;
     drop(progress);
     args.solve.say_raised(&tested.sweep.solution, &args.output);
-    if let Some(folder) = &args.plots {
-        let picture: Vec<_> =
-            plot::picture(args.output.sheet(&tested.bat), &tested).into_iter().collect();
-        pictures::write(folder, &picture, args.output.quiet)?;
-    }
+    args.output.draw(&args.plots, &tested.bat, |sheet| Ok(plot::picture(sheet, &tested)))?;
     let code = verdict(&args.solve, &tested.sweep, &args.output);
     let table = args.full.screen(|full| {
         let (title, parts) = report::report(&tested, args.output.units(&tested.bat), full);

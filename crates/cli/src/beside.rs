@@ -1,6 +1,6 @@
 //! What a person knows of a universal file of measured modes that the file does not say.
 
-use sweetspot::base::error::Result;
+use sweetspot::Result;
 use sweetspot_study::files::measured::Beside;
 use sweetspot_study::files::measured::places::{self, Places};
 use sweetspot_study::measured::data::FrequencyUnit;

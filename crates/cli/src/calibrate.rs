@@ -3,10 +3,8 @@
 use std::io::{IsTerminal, StdinLock, stdin};
 use std::path::{Path, PathBuf};
 
-use sweetspot::base::error::{Complaint, Error, Result};
 use sweetspot::base::file;
-use sweetspot::bat::body::Bat;
-use sweetspot::modes::solve::Request;
+use sweetspot::{Bat, Error, Request, Result};
 use sweetspot_report::plot::calibrate as pictures_of;
 use sweetspot_report::report::{calibrate, calibrated_bat};
 use sweetspot_report::schema;
@@ -23,12 +21,12 @@ use crate::asking::dialogue::Dialogue;
 use crate::asking::draft;
 use crate::asking::readings_asked::asked;
 use crate::beside::BesideArgs;
-use crate::common::{Prepared, examples, prepare, printed, read_with_text, warn};
-use crate::delivered::{apart, put};
+use crate::common::{Prepared, about, examples, prepare, printed, read_with_text};
 use crate::done::{Done, FAILED};
 use crate::edits::EditArgs;
+use crate::output::{apart, draw, put, warn};
+use crate::style;
 use crate::value::{PLACE, TheoryChoice, choice};
-use crate::{pictures, style};
 
 /// What a bat's wood is: E, G and density from scale, ruler, pendulum and tap
 ///
@@ -37,7 +35,7 @@ use crate::{pictures, style};
 /// for another mode, and names the measurement that would tell most. Without a file of readings it asks. A mismatch
 /// is told, not fitted away: the exit code is then 1.
 #[derive(clap::Args)]
-#[command(after_long_help = examples(EXAMPLES))]
+#[command(after_long_help = examples(EXAMPLES), next_help_heading = "Output")]
 pub struct Args {
     /// Bat file (JSON), or the name of a built-in bat such as r161
     #[arg(help_heading = "The bat")]
@@ -48,7 +46,7 @@ pub struct Args {
     measured: Option<PathBuf>,
 
     /// Two regions of wood, the barrel's from this place on, such as "42 cm"
-    #[arg(long, value_name = "m", value_parser = |s: &str| PLACE.read(s), help_heading = "The bat")]
+    #[arg(long, value_name = "m", value_parser = PLACE, help_heading = "The bat")]
     regions: Option<f64>,
 
     /// Keep as the file has it: E, G (its share of E), density, density-barrel or ratio; may be repeated
@@ -69,27 +67,27 @@ pub struct Args {
     ask: bool,
 
     /// Write the answers as a readings file
-    #[arg(long, value_name = "FILE", conflicts_with = "measured", help_heading = "Output")]
+    #[arg(long, value_name = "FILE", conflicts_with = "measured")]
     readings: Option<PathBuf>,
 
     /// Write the bat of the wood that was found to this file (- = standard output, and no table then)
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
 
     /// Write JSON to this file (- = standard output, and no table then)
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
 
     /// Write the properties as CSV to this file (- = standard output, and no table then)
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
 
     /// Draw what was known before and after, and what does not fit, into this folder, as SVG and PNG
-    #[arg(long, value_name = "DIR", help_heading = "Output")]
+    #[arg(long, value_name = "DIR")]
     plots: Option<PathBuf>,
 
     /// No warnings on standard error
-    #[arg(long, help_heading = "Output")]
+    #[arg(long)]
     quiet: bool,
 }
 
@@ -192,9 +190,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let plan = CalibrationPlan { split: args.regions, held: args.hold.clone() };
     let found = Calibration::new(&bat, readings, &plan).map_err(as_told(args))?;
     let table = calibrate::text(&bat, &found) + &relabelled(args, &found).unwrap_or_default();
-    if let Some(folder) = &args.plots {
-        pictures::write(folder, &pictures_of::pictures(bat.name(), &found), args.quiet)?;
-    }
+    draw(&args.plots, args.quiet, || Ok(pictures_of::pictures(bat.name(), &found)))?;
     let file = || calibrated_bat::text((&bat, &text), &found, &name);
     let out = put(&args.csv, style::table(&table), || Ok(calibrate::csv(&found)))?;
     let out = put(&args.out, out, file)?;
@@ -215,7 +211,7 @@ fn as_told(args: &Args) -> impl Fn(Error) -> Error + '_ {
                 "--hold" | "bat" | "edits" => complaint.field.clone(),
                 field => format!("{file}: {field}"),
             };
-            Error::Value(Complaint { field, ..complaint })
+            about(field, complaint)
         })
     }
 }

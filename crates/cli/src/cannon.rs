@@ -1,10 +1,10 @@
 //! What a laboratory's cannon shoots at a bat at rest.
 
-use sweetspot::base::error::{Error, Result};
 use sweetspot::base::mistakes::Mistakes;
 use sweetspot::collision::ball::Ball;
 use sweetspot::collision::bbcor::TEST_SPEED;
 use sweetspot::files::balls::ball;
+use sweetspot::{Error, Result};
 
 use crate::value::{CANNON_SPEED, STIFFNESS, cor};
 
@@ -17,17 +17,15 @@ pub struct CannonArgs {
     ball: String,
 
     /// The ball is a linear spring of this stiffness, in place of its own force law
-    #[arg(long, value_name = "N/m", allow_hyphen_values = true,
-          value_parser = |s: &str| STIFFNESS.read(s))]
+    #[arg(long, value_name = "N/m", value_parser = STIFFNESS)]
     ball_stiffness: Option<f64>,
 
     /// The ball's coefficient of restitution at the test speed, in place of its own
-    #[arg(long, value_name = "E", allow_hyphen_values = true, value_parser = cor)]
+    #[arg(long, value_name = "E", value_parser = cor)]
     cor: Option<f64>,
 
     /// Speed of the ball [default: 136 mph]
-    #[arg(long, value_name = "m/s", allow_hyphen_values = true,
-          value_parser = |s: &str| CANNON_SPEED.read(s))]
+    #[arg(long, value_name = "m/s", value_parser = CANNON_SPEED)]
     speed: Option<f64>,
 }
 

@@ -1,33 +1,24 @@
 //! Options that several verbs share.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use serde::Serialize;
-use sweetspot::base::error::{Complaint, Error, Result};
-use sweetspot::base::file;
+use sweetspot::base::error::Complaint;
 use sweetspot::base::units::shown_length;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::theory::Theory;
 use sweetspot::files::bat_file::Named;
 use sweetspot::files::built_in;
 use sweetspot::modes::prepared;
 use sweetspot::modes::request::MOST_MODES;
-use sweetspot::modes::solve::{self, Request, Solution, Solver};
+use sweetspot::modes::solve;
 use sweetspot::modes::theory_choice::{self, Choice};
 use sweetspot::modes::up_to::modes_up_to;
+use sweetspot::{Bat, Error, Request, Result, Solution, Solver, Theory};
 use sweetspot_report::parts::terminal::wrapped;
-use sweetspot_report::parts::units::Units;
-use sweetspot_report::plot::sheet::Sheet;
-use sweetspot_report::report::sketch::{self, Glyphs, SketchRow};
-use sweetspot_report::schema;
 
 use crate::done::{NOT_REACHED, printable};
 use crate::edits::EditArgs;
-use crate::progress::{self, Progress};
-use crate::style;
-use crate::value::{TOP_FREQUENCY, TheoryChoice, budget, solver, theory, tolerance, unit_system};
+use crate::output::{OutputArgs, warn};
+use crate::value::{TOP_FREQUENCY, TheoryChoice, budget, solver, theory, tolerance};
 
 /// The end of a verb's help: commands to try, how values are written, and the bats that are built in.
 pub fn examples(commands: &str) -> String {
@@ -39,6 +30,24 @@ pub fn examples(commands: &str) -> String {
          Places count from the knob end.\n\n{}",
         wrapped(&format!("Built-in bats: {}.", built_in::bat_names().join(", ")), 0).trim_end()
     )
+}
+
+/// Which bat, and what is changed about it.
+#[derive(clap::Args)]
+pub struct BatFileArgs {
+    /// Bat file (JSON), or the name of a built-in bat such as r161
+    #[arg(help_heading = "The bat")]
+    bat: PathBuf,
+
+    #[command(flatten)]
+    edits: EditArgs,
+}
+
+impl BatFileArgs {
+    /// Reads the bat, edits it and passes its warnings on.
+    pub fn read(&self, quiet: bool) -> Result<Bat> {
+        read(&self.bat, &self.edits, quiet)
+    }
 }
 
 /// Which bat, and how many of its modes.
@@ -54,8 +63,7 @@ pub struct BatArgs {
     count: Option<u16>,
 
     /// All bending modes up to this frequency, such as 2000 or "2 kHz", in place of a number
-    #[arg(long, value_name = "HZ", conflicts_with = "count", allow_hyphen_values = true,
-          value_parser = |s: &str| TOP_FREQUENCY.read(s))]
+    #[arg(long, value_name = "HZ", conflicts_with = "count", value_parser = TOP_FREQUENCY)]
     up_to: Option<f64>,
 
     #[command(flatten)]
@@ -80,7 +88,7 @@ impl BatArgs {
 
     /// Reads the bat and passes its warnings on.
     pub fn read(&self, output: &OutputArgs) -> Result<Bat> {
-        self.read_with_text(output).map(|(bat, _)| bat)
+        read(&self.bat, &self.edits, output.quiet)
     }
 
     /// Reads the bat, passes its warnings on, and returns the text of its file too.
@@ -114,7 +122,10 @@ impl BatArgs {
         for _ in 0..=Theory::ALL.len() {
             let prepared = solve.prepare(bat.clone(), modes, output)?;
             let found = modes_up_to(&prepared.bat, &prepared.request, limit);
-            let found = found.map_err(|error| named("--up-to", error))?;
+            let found = found.map_err(|error| match error {
+                Error::Value(limit) if limit.field == "frequency limit" => about("--up-to", limit),
+                other => other,
+            })?;
             if found == modes {
                 return Ok(prepared);
             }
@@ -129,16 +140,6 @@ impl BatArgs {
             modes = found;
         }
         solve.prepare(bat, modes, output)
-    }
-}
-
-/// An error about a value, by the option that gave it.
-fn named(option: &str, error: Error) -> Error {
-    match error {
-        Error::Value(complaint) if complaint.field == "frequency limit" => {
-            Error::Value(Complaint { field: option.to_owned(), ..complaint })
-        }
-        other => other,
     }
 }
 
@@ -170,8 +171,7 @@ pub struct SolveArgs {
     degree: Option<u8>,
 
     /// The most accurate answer within this time, in place of --tol
-    #[arg(long, value_name = "s", conflicts_with_all = ["tol", "elements"],
-          value_parser = budget)]
+    #[arg(long, value_name = "s", conflicts_with_all = ["tol", "elements"], value_parser = budget)]
     pub budget: Option<Duration>,
 
     /// Eigensolver: auto (statics), statics, dense, shift-invert or arpack
@@ -260,75 +260,6 @@ impl SolveArgs {
     }
 }
 
-/// What is printed, and where.
-#[derive(clap::Args)]
-#[command(next_help_heading = "Output")]
-pub struct OutputArgs {
-    /// Write JSON to this file (- = standard output, and no table then)
-    #[arg(long, value_name = "FILE")]
-    pub json: Option<PathBuf>,
-
-    /// Units of the tables, and of pictures and reports, which count in one: si, us or both (the bat
-    /// file's first; pictures and reports in it)
-    #[arg(long, value_name = "SYSTEM", default_value = "both", value_parser = unit_system(),
-          hide_possible_values = true)]
-    units: Units,
-
-    /// No warnings and no progress on standard error
-    #[arg(long)]
-    pub quiet: bool,
-}
-
-impl OutputArgs {
-    /// The units that a bat is answered in: those asked for, and of both those of its file first.
-    pub fn units(&self, bat: &Bat) -> Units {
-        self.units.of(bat)
-    }
-
-    /// Writes the JSON where it was asked for; what is left for standard output.
-    pub fn deliver<D: Serialize>(
-        &self,
-        table: String,
-        document: impl FnOnce() -> D,
-    ) -> Result<String> {
-        let text = || schema::text(&document());
-        match &self.json {
-            Some(path) if path.as_os_str() == "-" => Ok(text()),
-            Some(path) => file::write(path, text().as_bytes()).map(|()| style::table(&table)),
-            None => Ok(style::table(&table)),
-        }
-    }
-
-    /// What the pictures of a bat are drawn on: the units asked for, else those of its file.
-    pub fn sheet(&self, bat: &Bat) -> Sheet {
-        Sheet::file(self.units(bat).us_first())
-    }
-
-    /// The bat and its places drawn with what this terminal can show.
-    pub fn sketch(&self, bat: &Bat, rows: &[SketchRow]) -> String {
-        sketch::draw(bat, rows, self.units(bat), glyphs())
-    }
-
-    /// Says something on standard error.
-    pub fn warn(&self, text: &str) {
-        warn(text, self.quiet);
-    }
-
-    /// What takes so long, for a person at a terminal.
-    pub fn progress(&self, what: &str) -> Progress {
-        Progress::new(self.quiet, what)
-    }
-}
-
-/// Block elements where the locale says that characters are UTF-8.
-pub fn glyphs() -> Glyphs {
-    let set = |name| std::env::var(name).ok().filter(|value| !value.is_empty());
-    // The first of them that is set is the one that counts.
-    let locale = ["LC_ALL", "LC_CTYPE", "LANG"].into_iter().find_map(set).unwrap_or_default();
-    let locale = locale.to_ascii_lowercase();
-    if locale.contains("utf-8") || locale.contains("utf8") { Glyphs::Blocks } else { Glyphs::Ascii }
-}
-
 /// What a file is called, as text.
 pub fn printed(path: &Path) -> String {
     printable(&path.display().to_string())
@@ -364,6 +295,11 @@ pub fn note_outside(file: &Path, outside: &[PathBuf], quiet: bool) {
     }
 }
 
+/// A complaint about what has that name for the user.
+pub fn about(field: impl Into<String>, complaint: Complaint) -> Error {
+    Error::Value(Complaint { field: field.into(), ..complaint })
+}
+
 /// An error about members of a scene, which are options here.
 pub fn as_options(error: Error) -> Error {
     let option = |name: &str| format!("--{}", name.replace('_', "-"));
@@ -391,16 +327,6 @@ pub fn prepare(bat: Bat, asked: TheoryChoice, request: Request, quiet: bool) -> 
     let prepared = prepared::prepare(&bat, &Request { theory, ..request })?;
     let (request, warning) = (prepared.request, prepared.warning.filter(|_| !quiet));
     Ok(Prepared { bat: prepared.bat.into_owned(), request, warning })
-}
-
-/// Says something on standard error, unless nothing is to be said.
-pub fn warn(text: &str, quiet: bool) {
-    if !quiet {
-        // A closed standard error is no reason to stop.
-        progress::beside(|| {
-            let _ = writeln!(std::io::stderr(), "{}", printable(text));
-        });
-    }
 }
 
 /// The command as it was typed, so that a shell reads it again.

@@ -2,11 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use sweetspot::base::error::{Error, Result};
 use sweetspot::base::file;
-use sweetspot::bat::body::Bat;
 use sweetspot::collision::sweet_spot::FINE;
 use sweetspot::modes::request::MOST_MODES;
+use sweetspot::{Bat, Error, Result};
 use sweetspot_report::report::{self, comparison, comparison_data, comparison_screen};
 use sweetspot_report::{page, plot};
 use sweetspot_study::comparison::contender::Terms;
@@ -17,13 +16,11 @@ use sweetspot_study::measured::place::{End, ToldPoints};
 use sweetspot_study::measured::study::Study;
 
 use crate::beside::BesideArgs;
-use crate::common::{OutputArgs, Prepared, SolveArgs, command_line, examples, printed, read};
-use crate::delivered::{apart, put};
-use crate::done::{Done, NOT_REACHED};
+use crate::common::{Prepared, SolveArgs, as_options, command_line, examples, printed, read};
+use crate::done::Done;
 use crate::edits::{EditArgs, WhatIf, edited, what_if};
-use crate::full_option::FullArgs;
-use crate::pictures;
-use crate::scene::SceneArgs;
+use crate::output::{CsvArgs, FullArgs, OutputArgs, apart};
+use crate::scene::{self, SceneArgs};
 use crate::value::{PLACE, SPACING};
 
 /// Bats side by side, or one beside its measured modes
@@ -66,8 +63,7 @@ pub struct Args {
     tip_first: bool,
 
     /// Where the first measured point is, from the knob end [default: by its coordinate]
-    #[arg(long, value_name = "m", requires = "measured", allow_hyphen_values = true,
-          value_parser = |s: &str| PLACE.read(s))]
+    #[arg(long, value_name = "m", requires = "measured", value_parser = PLACE)]
     origin: Option<f64>,
 
     #[command(flatten)]
@@ -79,22 +75,20 @@ pub struct Args {
     count: Option<u16>,
 
     /// Distance of the places where exit speeds are compared
-    #[arg(long, value_name = "m", default_value = "1 in", allow_hyphen_values = true,
-          value_parser = |s: &str| SPACING.read(s))]
+    #[arg(long, value_name = "m", default_value = "1 in", value_parser = SPACING)]
     every: f64,
 
-    /// Write CSV to this file (- = standard output, and no table then)
-    #[arg(long, value_name = "FILE")]
-    csv: Option<PathBuf>,
+    #[command(flatten)]
+    csv: CsvArgs,
 
     /// Draw into this folder, as SVG and PNG: profiles, modes, exit speeds and their differences,
     /// energies (ledger_A and so on), force and compression, the hands' motion; of measured modes the
     /// MAC, the mass orthogonality, and the shapes on each other
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", help_heading = "Output")]
     plots: Option<PathBuf>,
 
     /// Write all of it on one page for people into this file (.html): what differs first
-    #[arg(long, value_name = "FILE", conflicts_with = "measured")]
+    #[arg(long, value_name = "FILE", conflicts_with = "measured", help_heading = "Output")]
     report: Option<PathBuf>,
 
     #[command(flatten)]
@@ -150,7 +144,7 @@ const MOST: usize = 6;
 
 pub fn run(args: &Args) -> Result<Done> {
     let json = ("--json", &args.output.json);
-    apart(&[json, ("--csv", &args.csv), ("--report", &args.report)])?;
+    apart(&[json, ("--csv", &args.csv.csv), ("--report", &args.report)])?;
     args.solve.refuse_budget("compare")?;
     match &args.measured {
         Some(file) => measured_beside(args, file),
@@ -176,13 +170,8 @@ fn measured_beside(args: &Args, file: &Path) -> Result<Done> {
     let told = ToldPoints { first, origin: args.origin };
     let study = Study::new(&bat, measured, &request, args.count.is_some(), told)?;
     args.solve.say_raised(&study.solution, &args.output);
-    if let Some(folder) = &args.plots {
-        pictures::write(
-            folder,
-            &plot::measured::pictures(args.output.sheet(&bat), bat.name(), &study),
-            args.output.quiet,
-        )?;
-    }
+    let drawn = |sheet| Ok(plot::measured::pictures(sheet, bat.name(), &study));
+    args.output.draw(&args.plots, &bat, drawn)?;
     let units = args.output.units(&bat);
     let text = args.full.screen(|full| report::measured::text(&bat, &study, units, full));
     let name = path.display().to_string();
@@ -207,7 +196,7 @@ fn bats_beside(args: &Args) -> Result<Done> {
     if let Some(path) = &args.report {
         page::file::expected_page(path, &[&args.plots])?;
     }
-    let model = args.scene.model()?;
+    let (setup, model) = args.scene.setup()?;
     let mut warnings = vec![];
     let mut entries = vec![];
     let bats = bats(args)?;
@@ -216,17 +205,17 @@ fn bats_beside(args: &Args) -> Result<Done> {
         let modes = args.count.map_or(10, usize::from);
         let prepared = args.solve.prepare(bat, modes, &args.output)?;
         let tolerance = args.count.is_none().then_some(prepared.request.tolerance);
-        let (scene, law) = args.scene.scene(&prepared.bat, tolerance)?;
+        let (scene, law) = setup.scene(&prepared.bat, tolerance).map_err(as_options)?;
         warnings.extend(prepared.warning.map(|w| format!("{}: {w}", path.display())));
         entries.push(Entry { bat: prepared.bat, scene, law, request: prepared.request });
     }
-    args.scene.warn(&args.output);
+    scene::warn(&setup, &args.output);
     let terms = Terms {
         model,
         exactly: args.count.is_some(),
         every: args.every,
         look: FINE,
-        barrel: args.scene.barrel_speed(),
+        barrel: setup.barrel_speed(),
     };
     let compared = Comparison::new(entries, terms)?;
     for_people(args, &compared)?;
@@ -235,7 +224,7 @@ fn bats_beside(args: &Args) -> Result<Done> {
         true => comparison::text(&compared, units),
         false => comparison_screen::screen(&compared, units),
     });
-    let text = put(&args.csv, table, || Ok(comparison_data::csv(&compared)))?;
+    let text = args.csv.deliver(table, || comparison_data::csv(&compared))?;
     let text = args.output.deliver(text, || comparison_data::document(&compared, &files))?;
     let warning = (!warnings.is_empty()).then(|| warnings.join("; "));
     Ok(Done::new(text, verdict(args, &compared)).with(warning))
@@ -265,12 +254,11 @@ fn bats(args: &Args) -> Result<Vec<(&Path, Bat)>> {
 
 /// Pictures and the page, where they were asked for.
 fn for_people(args: &Args, compared: &Comparison) -> Result<()> {
-    let sheet = args.output.sheet(&compared.bats[0].bat);
-    if let Some(folder) = &args.plots {
-        pictures::write(folder, &plot::compared::pictures(sheet, compared)?, args.output.quiet)?;
-    }
+    let first = &compared.bats[0].bat;
+    args.output.draw(&args.plots, first, |sheet| plot::compared::pictures(sheet, compared))?;
     if let Some(path) = &args.report {
-        let page = page::compared::page(compared, &command_line(), sheet.us)?;
+        let us = args.output.sheet(first).us;
+        let page = page::compared::page(compared, &command_line(), us)?;
         file::write(path, page.as_bytes())?;
     }
     Ok(())
@@ -279,13 +267,7 @@ fn for_people(args: &Args, compared: &Comparison) -> Result<()> {
 /// The exit code, after a word about bats whose exit speeds are less accurate than asked.
 fn verdict(args: &Args, compared: &Comparison) -> u8 {
     let short = compared.bats.iter().filter(|bat| !bat.sweep.met() && args.solve.enforced());
-    let names: Vec<&str> = short.map(|bat| bat.bat.name()).collect();
-    if names.is_empty() {
-        return 0;
-    }
-    args.output.warn(&format!(
-        "accuracy of the exit speeds not reached for {}: see the errors",
-        names.join(", ")
-    ));
-    NOT_REACHED
+    let names = short.map(|bat| bat.bat.name()).collect::<Vec<_>>().join(", ");
+    let said = format!("accuracy of the exit speeds not reached for {names}: see the errors");
+    args.output.reached((!names.is_empty()).then_some(said))
 }

@@ -2,9 +2,9 @@
 
 use clap::Command;
 use clap_complete::{Shell, generate};
-use sweetspot::base::error::Result;
 
 use crate::done::Done;
+use sweetspot::Result;
 
 /// Print the completions for a shell
 ///

@@ -2,11 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use sweetspot::base::error::{Complaint, Error, Result};
+use clap::ValueEnum;
+use sweetspot::base::error::Complaint;
 use sweetspot::base::file;
 use sweetspot::files::built_in;
 use sweetspot::files::document::Document;
-use sweetspot::modes::solve::{self, Request};
+use sweetspot::modes::solve;
+use sweetspot::{Error, Request, Result};
 use sweetspot_report::exchange::modes_file::{self, ModeTable};
 use sweetspot_report::exchange::{csv, modes_uff, npz, vtu};
 use sweetspot_report::report::json::{self, ShapePoints};
@@ -80,13 +82,9 @@ enum Format {
 }
 
 impl Format {
-    fn name(self) -> &'static str {
-        match self {
-            Self::Uff => "uff",
-            Self::Vtu => "vtu",
-            Self::Csv => "csv",
-            Self::Npz => "npz",
-        }
+    /// What it is called on the command line, which is the ending of its files.
+    fn name(self) -> String {
+        self.to_possible_value().map_or(String::new(), |value| value.get_name().to_owned())
     }
 }
 

@@ -3,12 +3,14 @@
 use std::io::Write;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
-use sweetspot::base::error::{Complaint, Error, Excerpt, FilePosition};
+use sweetspot::Error;
+use sweetspot::base::error::{Complaint, Excerpt, FilePosition};
 use sweetspot::base::marks;
 use sweetspot_report::schema;
 use sweetspot_report::schema::mistakes::ErrorFile;
 
 use crate::done::printable;
+use crate::style::{broken, columns};
 
 /// Columns of a terminal that is not wide.
 const WIDTH: usize = 80;
@@ -129,18 +131,7 @@ fn summary(shown: &[Error], more: usize) -> String {
 
 /// A text below the excerpt, in lines that fit beside its name.
 fn footer(name: &str, text: &str) -> String {
-    let most = WIDTH - name.len() - 12;
-    let mut lines = vec![String::new()];
-    for word in printable(text).split(' ') {
-        let line = lines.last_mut().expect("there is one from the beginning");
-        if !line.is_empty() && columns(line) + 1 + columns(word) > most {
-            lines.push(word.to_owned());
-        } else {
-            *line += if line.is_empty() { "" } else { " " };
-            *line += word;
-        }
-    }
-    lines.join("\n")
+    broken(&printable(text), WIDTH - name.len() - 12)
 }
 
 /// A part of a line of a file: tabs as spaces, and nothing that does anything to a terminal.
@@ -153,9 +144,4 @@ fn outdented(before: String) -> String {
     const DEEP: usize = 20;
     let text = before.trim_start_matches(' ');
     if before.len() - text.len() > DEEP { format!("…{text}") } else { before }
-}
-
-/// Columns of a text; what may be wide counts as wide.
-fn columns(text: &str) -> usize {
-    text.chars().map(|c| if c < '\u{1100}' { 1 } else { 2 }).sum()
 }

@@ -1,7 +1,5 @@
 //! What a verb leaves: text, exit code, warning.
 
-use std::io::{self, Write};
-
 pub use sweetspot::base::marks::written_out as printable;
 
 /// What is left to do when a verb is done.
@@ -28,9 +26,3 @@ impl Done {
 pub const FAILED: u8 = 1;
 /// The asked accuracy could not be reached; the best answer, if there is one, is given.
 pub const NOT_REACHED: u8 = 3;
-
-/// Says something on standard error that does not stop the work.
-pub fn warn(warning: &str) {
-    // A closed standard error is no reason to fail.
-    let _ = writeln!(io::stderr(), "warning: {}", printable(warning));
-}

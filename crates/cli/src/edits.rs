@@ -6,90 +6,48 @@
 
 use clap::{Arg, ArgAction, ArgMatches, Command, FromArgMatches};
 
-use sweetspot::base::error::{Complaint, Error, Result, nearest};
+use sweetspot::base::error::{Complaint, nearest};
 use sweetspot::base::typed;
 use sweetspot::base::units::{self, Quantity};
-use sweetspot::bat::body::Bat;
 use sweetspot::bat::edit::{Bore, Change, Cork, Cup, Cut, Edit, ScaleDiameter, Shorten, Sleeve};
-use sweetspot::bat::material::{BUILT_IN, Material};
+use sweetspot::bat::material::BUILT_IN;
 use sweetspot::bat::part::{Field, MemberKind, Part, Slot};
+use sweetspot::{Bat, Error, Material, Result};
 
 use crate::value::{DIAMETER, LITTLE, PART_MASS, PLACE, Use};
 
-/// What is told of an option: the change, what stands for its value in the help, what it does, a value that fits.
-struct EditOption {
-    verb: &'static str,
-    long: &'static str,
-    value: &'static str,
-    help: &'static str,
-    example: &'static str,
-}
-
-const OPTIONS: [EditOption; 9] = [
-    EditOption {
-        verb: "cut",
-        long: "cut",
-        value: "WHERE, DEPTH",
-        help: "Turn wood off a stretch; the depth is of the diameter, smooth at both ends",
-        example: "24 in to 30 in, 1 mm",
-    },
-    EditOption {
-        verb: "knob",
-        long: "knob",
-        value: "kg",
-        help: "Put a weight on the knob end",
-        example: "2 oz",
-    },
-    EditOption {
-        verb: "cup",
-        long: "cup",
-        value: "DEEP, WIDE",
-        help: "Cup the tip",
-        example: "1 in deep, 1.5 in",
-    },
-    EditOption {
-        verb: "bore",
-        long: "bore",
-        value: "WHERE, WIDE",
-        help: "Drill a stretch out",
-        example: "26 in to 33 in, 1 in",
-    },
-    EditOption {
-        verb: "cork",
-        long: "cork",
-        value: "WHERE, WIDE, OF",
-        help: "Drill a stretch out and fill it, with a built-in material or one of this density and \
-               Young's modulus (and shear modulus)",
-        example: "26 in to 33 in, 1 in, 200 kg/m^3, 20 MPa",
-    },
-    EditOption {
-        verb: "sleeve",
-        long: "sleeve",
-        value: "WHERE, THICK, OF",
-        help: "Put a layer around a stretch",
-        example: "24 in to 30 in, 1 mm, aluminium-7075",
-    },
-    EditOption {
-        verb: "shorten",
-        long: "shorten",
-        value: "END, LENGTH",
-        help: "Saw a length off the knob or the tip",
-        example: "tip 0.5 in",
-    },
-    EditOption {
-        verb: "scale_diameter",
-        long: "scale-diameter",
-        value: "WHERE, BY",
-        help: "Multiply the diameters of a stretch, smooth at both ends",
-        example: "4 in to 12 in, 1.05",
-    },
-    EditOption {
-        verb: "wood",
-        long: "wood",
-        value: "NAME",
-        help: "Make the bat of another wood",
-        example: "white-ash-dynamic",
-    },
+/// What is told of each change: its option, what stands for its value in the help, what it does, a value that fits.
+const OPTIONS: [[&str; 4]; 9] = [
+    [
+        "cut",
+        "WHERE, DEPTH",
+        "Turn wood off a stretch; the depth is of the diameter, smooth at both ends",
+        "24 in to 30 in, 1 mm",
+    ],
+    ["knob", "kg", "Put a weight on the knob end", "2 oz"],
+    ["cup", "DEEP, WIDE", "Cup the tip", "1 in deep, 1.5 in"],
+    ["bore", "WHERE, WIDE", "Drill a stretch out", "26 in to 33 in, 1 in"],
+    [
+        "cork",
+        "WHERE, WIDE, OF",
+        "Drill a stretch out and fill it, with a built-in material or one of this density and \
+         Young's modulus (and shear modulus)",
+        "26 in to 33 in, 1 in, 200 kg/m^3, 20 MPa",
+    ],
+    [
+        "sleeve",
+        "WHERE, THICK, OF",
+        "Put a layer around a stretch",
+        "24 in to 30 in, 1 mm, aluminium-7075",
+    ],
+    ["shorten", "END, LENGTH", "Saw a length off the knob or the tip", "tip 0.5 in"],
+    [
+        "scale-diameter",
+        "WHERE, BY",
+        "Multiply the diameters of a stretch, smooth at both ends",
+        "4 in to 12 in, 1.05",
+    ],
+    ["wood", "NAME", "Make the bat of another wood", "white-ash-dynamic"],
 ];
 
 /// What is changed about the bat after it was weighed, in the order typed.
@@ -143,10 +101,9 @@ fn option(verb: &str) -> String {
 
 impl clap::Args for EditArgs {
     fn augment_args(command: Command) -> Command {
-        OPTIONS.iter().fold(command, |command, told| {
-            let EditOption { verb, long, value, help, example } = *told;
-            let arg = Arg::new(verb)
-                .long(long)
+        OPTIONS.into_iter().fold(command, |command, [name, value, help, example]| {
+            let arg = Arg::new(name)
+                .long(name)
                 .value_name(value)
                 .help(help)
                 .long_help(format!("{help}, such as \"{example}\""))
@@ -156,7 +113,7 @@ impl clap::Args for EditArgs {
                 .action(ArgAction::Append)
                 .allow_hyphen_values(true)
                 .hide_short_help(true)
-                .value_parser(move |text: &str| read(verb, text));
+                .value_parser(move |text: &str| read(name, text));
             command.arg(arg)
         })
     }
@@ -169,9 +126,9 @@ impl clap::Args for EditArgs {
 impl FromArgMatches for EditArgs {
     fn from_arg_matches(matches: &ArgMatches) -> std::result::Result<Self, clap::Error> {
         let mut typed: Vec<(usize, Change)> = vec![];
-        for verb in Change::VERBS {
-            let places = matches.indices_of(verb).into_iter().flatten();
-            let changes = matches.get_many::<Change>(verb).into_iter().flatten().cloned();
+        for [name, ..] in OPTIONS {
+            let places = matches.indices_of(name).into_iter().flatten();
+            let changes = matches.get_many::<Change>(name).into_iter().flatten().cloned();
             typed.extend(places.zip(changes));
         }
         typed.sort_by_key(|(place, _)| *place);
@@ -209,19 +166,12 @@ pub fn what_if(text: &str) -> std::result::Result<WhatIf, String> {
     let edit = |one: &str| {
         let one = one.trim();
         let (verb, rest) = one.split_once(char::is_whitespace).unwrap_or((one, ""));
-        let known = Change::VERBS.into_iter().find(|known| *known == verb.replace('-', "_"));
-        let change = match known {
-            Some(known) => read(known, rest)?,
-            None => {
-                let verbs = Change::VERBS.map(option);
-                let verbs: Vec<&str> = verbs.iter().map(String::as_str).collect();
-                let hint = nearest(verb, &verbs)
-                    .map_or(String::new(), |near| format!("; did you mean {near}?"));
-                let expected = verbs.join(", ");
-                return Err(format!("found \"{verb}\", expected one of {expected}{hint}"));
-            }
-        };
-        Ok(Edit { name: name.clone(), change })
+        let names = OPTIONS.map(|[name, ..]| name);
+        if !names.contains(&&*option(verb)) {
+            let (expected, hint) = (names.join(", "), hint(verb, &names));
+            return Err(format!("found \"{verb}\", expected one of {expected}{hint}"));
+        }
+        Ok(Edit { name: name.clone(), change: read(&option(verb), rest)? })
     };
     let edits: std::result::Result<Vec<Edit>, String> =
         list.split(';').filter(|one| !one.trim().is_empty()).map(edit).collect();
@@ -232,10 +182,15 @@ pub fn what_if(text: &str) -> std::result::Result<WhatIf, String> {
     }
 }
 
-/// A change from its words.
-fn read(verb: &str, text: &str) -> std::result::Result<Change, String> {
+/// What is said of a word that is near one of these names.
+fn hint(word: &str, names: &[&str]) -> String {
+    nearest(word, names).map_or(String::new(), |near| format!("; did you mean {near}?"))
+}
+
+/// A change, by the name of its option, from its words.
+fn read(name: &str, text: &str) -> std::result::Result<Change, String> {
     let blank = || Material::new(1.0, 1.0).expect("both are above 0");
-    let change = match verb {
+    let change = match name {
         "cut" => filled(Cut::default(), text).map(Change::Cut),
         "cup" => filled(Cup::default(), text).map(Change::Cup),
         "bore" => filled(Bore::default(), text).map(Change::Bore),
@@ -248,12 +203,11 @@ fn read(verb: &str, text: &str) -> std::result::Result<Change, String> {
             filled(Sleeve { from, to, thickness, material }, text).map(Change::Sleeve)
         }
         "shorten" => filled(Shorten::default(), text).map(Change::Shorten),
-        "scale_diameter" => filled(ScaleDiameter::default(), text).map(Change::ScaleDiameter),
+        "scale-diameter" => filled(ScaleDiameter::default(), text).map(Change::ScaleDiameter),
         "wood" => material(&items(text)).map(Change::Wood),
         _ => PART_MASS.read(text).map(Change::Knob),
     };
-    let of = OPTIONS.iter().find(|option| option.verb == verb);
-    let example = of.map_or("", |option| option.example);
+    let example = OPTIONS.into_iter().find(|[of, ..]| *of == name).map_or("", |[.., like]| like);
     change.map_err(|said| format!("{said}; written as \"{example}\""))
 }
 
@@ -385,12 +339,10 @@ fn material(items: &[&str]) -> std::result::Result<Material, String> {
     match items {
         [name] => Material::named(name).ok_or_else(|| {
             let names: Vec<&str> = BUILT_IN.iter().map(|known| known.name).collect();
-            let hint = nearest(name, &names)
-                .map_or(String::new(), |near| format!("; did you mean {near}?"));
             format!(
-                "found \"{name}\", expected a built-in material ({}) or a density and a Young's \
-                 modulus{hint}",
-                names.join(", ")
+                "found \"{name}\", expected a built-in material ({}) or a density and a Young's modulus{}",
+                names.join(", "),
+                hint(name, &names)
             )
         }),
         [density, modulus] | [density, modulus, _] => {

@@ -6,9 +6,9 @@ use std::path::Path;
 use clap::Command;
 use serde_json::Value;
 
-use sweetspot::base::error::{Error, Result};
 use sweetspot::base::file;
 use sweetspot::files::built_in;
+use sweetspot::{Error, Result};
 
 /// The command line with the verb `analyze` before a bat that stands alone: a word that ends in .json, has a separator
 /// of paths or is the name of a built-in bat, and is no verb.

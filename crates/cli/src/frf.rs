@@ -2,14 +2,12 @@
 
 use std::path::PathBuf;
 
-use sweetspot::base::error::{Complaint, Error, Result};
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::theory::Theory;
-use sweetspot::modes::solve::Request;
+use sweetspot::base::error::Complaint;
 use sweetspot::motion::frf::{Frf, ResponseKind, Sample};
 use sweetspot::motion::peaks::Peak;
+use sweetspot::{Bat, Error, Request, Result, Theory};
 use sweetspot_report::exchange::frf_uff::{self, Measured};
-use sweetspot_report::plot::{self, picture::Picture};
+use sweetspot_report::plot::{self, picture::Picture, sheet::Sheet};
 use sweetspot_report::report::frf::{self as report, ToldResponse};
 use sweetspot_report::report::frf_set::{self, RowOfSet};
 use sweetspot_report::schema::frf::FrfSetFile;
@@ -18,12 +16,10 @@ use sweetspot_study::measured::response::{Laid, MeasuredResponse};
 use uff58::Stamp;
 
 use crate::beside::PlacesArgs;
-use crate::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples, on_the_bat};
-use crate::delivered::{apart, put};
+use crate::common::{BatArgs, Prepared, SolveArgs, about, examples, on_the_bat};
 use crate::done::Done;
 use crate::frf_grid::{Grid, GridArgs};
-use crate::full_option::FullArgs;
-use crate::pictures;
+use crate::output::{CsvArgs, FullArgs, OutputArgs, apart, put};
 use crate::value::{PLACE, choice, file_unit, named};
 
 /// How the bat answers a shaker or a tap, over frequency
@@ -41,13 +37,12 @@ pub struct Args {
     bat: BatArgs,
 
     /// Where the force is, from the knob end [default: as measured]
-    #[arg(long, value_name = "m", help_heading = "The force", allow_hyphen_values = true,
-          required_unless_present = "measured", value_parser = |s: &str| PLACE.read(s))]
+    #[arg(long, value_name = "m", help_heading = "The force", required_unless_present = "measured",
+          value_parser = PLACE)]
     at: Option<f64>,
 
     /// Where the answer is looked at [default: as measured, else where the force is]
-    #[arg(long, value_name = "m", help_heading = "The force", allow_hyphen_values = true,
-          value_parser = |s: &str| PLACE.read(s))]
+    #[arg(long, value_name = "m", help_heading = "The force", value_parser = PLACE)]
     to: Option<f64>,
 
     /// What is answered: receptance (deflection), mobility (velocity) or accelerance [default: as
@@ -79,17 +74,15 @@ pub struct Args {
     places: PlacesArgs,
 
     /// Damping of the computed modes: material, or measured: that of the measured peaks, mode by mode
-    #[arg(long, value_name = "WHOSE", requires = "measured", default_value = "material",
-          help_heading = "A measured response", hide_possible_values = true,
+    #[arg(long, value_name = "WHOSE", requires = "measured", default_value = "material", hide_possible_values = true,
           value_parser = choice(&["material", "measured"], |name| match name {
               "measured" => DampedBy::Measured,
               _ => DampedBy::Material,
-          }))]
+          }), help_heading = "A measured response")]
     damping: DampedBy,
 
-    /// Write CSV to this file (- = standard output, and no table then)
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    csv: Option<PathBuf>,
+    #[command(flatten)]
+    csv: CsvArgs,
 
     /// Write a universal file, datasets 151, 164, 2411 and 58, to this file (- = standard output,
     /// and no table then). It has six digits for a frequency, so that all are rounded to that many
@@ -139,7 +132,7 @@ enum DampedBy {
 
 pub fn run(args: &Args) -> Result<Done> {
     args.solve.refuse_budget("frf")?;
-    let files = [("--json", &args.output.json), ("--csv", &args.csv), ("--uff", &args.uff)];
+    let files = [("--json", &args.output.json), ("--csv", &args.csv.csv), ("--uff", &args.uff)];
     apart(&files)?;
     let bat = args.bat.read(&args.output)?;
     let known = known(args)?;
@@ -249,7 +242,13 @@ impl Answered {
         }
     }
 
-    fn picture(&mut self, args: &Args, bat: &Bat, name: &str) -> Result<Option<Picture>> {
+    fn picture(
+        &mut self,
+        args: &Args,
+        sheet: Sheet,
+        bat: &Bat,
+        name: &str,
+    ) -> Result<Option<Picture>> {
         // After what is said: looking at more frequencies may add to the modes.
         let drawn = self.frf.receptances(&args.grid.drawn(&self.rising))?;
         let kind = self.kind;
@@ -268,7 +267,7 @@ impl Answered {
             peaks: &self.peaks,
             measured: self.laid.as_ref().map_or(&[], |laid| &laid.measured),
         };
-        Ok(plot::response::picture(args.output.sheet(bat), &subject, name))
+        Ok(plot::response::picture(sheet, &subject, name))
     }
 
     /// The exit code, after a word where an accuracy was not reached.
@@ -318,13 +317,10 @@ fn one(args: &Args, bat: Bat, measured: Option<&MeasuredResponse>) -> Result<Don
     let told = answered.told(args, &bat, measured);
     let document = report::document(&told);
     let table = args.full.screen(|full| report::text(&told, full, args.grid.counted()));
-    if let Some(folder) = &args.plots {
-        let picture = answered.picture(args, &bat, "response")?;
-        pictures::write(folder, picture.as_slice(), args.output.quiet)?;
-    }
+    args.output.draw(&args.plots, &bat, |sheet| answered.picture(args, sheet, &bat, "response"))?;
     let Answered { samples, grid, kind, places: [at, to], .. } = &answered;
     let text = args.output.deliver(table, || document)?;
-    let text = put(&args.csv, text, || Ok(report::csv(*kind, samples)))?;
+    let text = args.csv.deliver(text, || report::csv(*kind, samples))?;
     let text = put(&args.uff, text, || {
         let (kind, at, to, even) = (*kind, *at, *to, grid.even);
         let measured = Measured { bat: bat.name(), kind, at, to, even };
@@ -350,48 +346,43 @@ fn all(args: &Args, bat: Bat, measured: &[(usize, MeasuredResponse)]) -> Result<
     let (mut rows, mut pictures, mut code) = (vec![], vec![], 0);
     let mut answers = vec![];
     for (number, measured) in measured {
-        let named = |error: Error| {
-            error.placed(|complaint| {
-                let field = format!("{}, response {number}", complaint.field);
-                Error::Value(Complaint { field, ..complaint })
-            })
+        let of_it = |complaint: Complaint| {
+            about(format!("{}, response {number}", complaint.field), complaint)
         };
-        let mut answered = Answered::new(args, (&bat, &request), Some(measured)).map_err(named)?;
+        let answered = Answered::new(args, (&bat, &request), Some(measured));
+        let mut answered = answered.map_err(|error| error.placed(of_it))?;
         code = code.max(answered.verdict(args));
         let told = answered.told(args, &bat, Some(measured));
         rows.extend(RowOfSet::new(*number, &told));
         answers.push(report::document(&told));
         if args.plots.is_some() {
-            pictures.extend(answered.picture(args, &bat, &format!("response_{number}"))?);
+            let sheet = args.output.sheet(&bat);
+            pictures.extend(answered.picture(args, sheet, &bat, &format!("response_{number}"))?);
         }
     }
     drop(progress);
-    if let Some(folder) = &args.plots {
-        pictures::write(folder, &pictures, args.output.quiet)?;
-    }
+    args.output.draw(&args.plots, &bat, |_| Ok(pictures))?;
     let source = &measured[0].1.source;
     let units = args.output.units(&bat);
     let table = args.full.screen(|full| frf_set::text(&bat, source, &rows, (units, full)));
     let numbers = rows.iter().map(|row| row.number).collect();
     let text = args.output.deliver(table, || FrfSetFile::new(numbers, answers))?;
-    let text = put(&args.csv, text, || Ok(frf_set::csv(&rows)))?;
+    let text = args.csv.deliver(text, || frf_set::csv(&rows))?;
     Ok(Done::new(text, code).with(warning))
 }
 
 /// Where the force is and where the answer is watched (m): as told, else as measured.
 fn places(args: &Args, bat: &Bat, measured: Option<&MeasuredResponse>) -> Result<[f64; 2]> {
-    let [at, to] = [measured.and_then(|m| m.at), measured.and_then(|m| m.to)];
-    let Some(at) = args.at.or(at) else {
+    let missing = |what: &str, options: &str| {
         let source = measured.map_or(String::new(), |m| m.source.clone());
-        let expected = "its node in a dataset 15 or 2411, or --places, or --at and --to";
-        return Err(Error::value(source, "no place of the force", expected));
+        let expected = format!("its node in a dataset 15 or 2411, or --places, or {options}");
+        Error::value(source, format!("no place of the {what}"), expected)
     };
-    let here = measured.is_none_or(|m| m.drive_point);
-    let Some(to) = args.to.or(to).or(here.then_some(at)) else {
-        let source = measured.map_or(String::new(), |m| m.source.clone());
-        let expected = "its node in a dataset 15 or 2411, or --places, or --to";
-        return Err(Error::value(source, "no place of the answer", expected));
-    };
+    let at = args.at.or(measured.and_then(|m| m.at));
+    let at = at.ok_or_else(|| missing("force", "--at and --to"))?;
+    let here = measured.is_none_or(|m| m.drive_point).then_some(at);
+    let to = args.to.or(measured.and_then(|m| m.to)).or(here);
+    let to = to.ok_or_else(|| missing("answer", "--to"))?;
     // A place of the file's own is told as that.
     let named = |option: Option<f64>, name: &str, what: &str| match (option, measured) {
         (None, Some(measured)) => {

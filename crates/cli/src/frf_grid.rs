@@ -2,10 +2,9 @@
 
 use faer::c64;
 
-use sweetspot::base::error::{Error, Result};
-use sweetspot::bat::body::Bat;
-use sweetspot::modes::solve::{self, Request};
+use sweetspot::modes::solve;
 use sweetspot::motion::frf::Frf;
+use sweetspot::{Bat, Error, Request, Result};
 use uff58::six_digits;
 
 use crate::value::{FREQUENCY, TOP_FREQUENCY};
@@ -15,15 +14,13 @@ use crate::value::{FREQUENCY, TOP_FREQUENCY};
 #[command(next_help_heading = "The force")]
 pub struct GridArgs {
     /// Lowest frequency [default: a tenth of that of mode 1]
-    #[arg(long, value_name = "Hz", allow_hyphen_values = true,
-          value_parser = |s: &str| FREQUENCY.read(s))]
+    #[arg(long, value_name = "Hz", value_parser = FREQUENCY)]
     pub from_hz: Option<f64>,
 
     /// Highest frequency [default: a fifth beyond the last mode's]
     ///
     /// There are as many modes as it needs.
-    #[arg(long, value_name = "Hz", allow_hyphen_values = true,
-          value_parser = |s: &str| TOP_FREQUENCY.read(s))]
+    #[arg(long, value_name = "Hz", value_parser = TOP_FREQUENCY)]
     pub to_hz: Option<f64>,
 
     /// Number of frequencies from the lowest to the highest [default: 61]
@@ -38,9 +35,8 @@ pub struct GridArgs {
     linear: bool,
 
     /// These frequencies and no others, comma-separated, in place of a range
-    #[arg(long, value_name = "Hz,Hz,…", value_delimiter = ',', allow_hyphen_values = true,
-          conflicts_with_all = ["from_hz", "to_hz", "points", "linear"],
-          value_parser = |s: &str| FREQUENCY.read(s))]
+    #[arg(long, value_name = "Hz,Hz,…", value_delimiter = ',',
+          conflicts_with_all = ["from_hz", "to_hz", "points", "linear"], value_parser = FREQUENCY)]
     frequencies: Vec<f64>,
 }
 

@@ -1,13 +1,13 @@
 //! `--guarantee` and `--within`: what is proven of the modes that a verb finds.
 
-use sweetspot::base::error::Result;
-use sweetspot::bat::body::Bat;
+use sweetspot::{Bat, Result};
 use sweetspot_proof::enclosure::guarantee::guarantee;
 use sweetspot_proof::enclosure::within::{Within, band};
 use sweetspot_report::report::proven::Proven;
 
-use crate::common::{BatArgs, OutputArgs, Prepared, SolveArgs, Solved};
+use crate::common::{BatArgs, Prepared, SolveArgs, Solved};
 use crate::done::NOT_REACHED;
+use crate::output::OutputArgs;
 use crate::value::LITTLE;
 
 #[derive(clap::Args)]

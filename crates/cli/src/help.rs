@@ -4,6 +4,8 @@ use std::fmt::Display;
 
 use clap::{Arg, Command};
 
+use crate::style::broken;
+
 /// Columns of what is said of a verb, and of an option on lines of its own.
 const PROSE: usize = 80;
 const BELOW: usize = 70;
@@ -80,21 +82,5 @@ fn columns(arg: &Arg) -> usize {
 
 /// The text in lines of at most the given number of columns; its own line ends stay.
 fn lines(text: impl Display, width: usize) -> String {
-    let text = text.to_string();
-    let mut out: Vec<String> = Vec::new();
-    for paragraph in text.lines() {
-        let mut line = String::new();
-        for word in paragraph.split(' ') {
-            let longer = line.chars().count() + 1 + word.chars().count();
-            if !line.is_empty() && longer > width {
-                out.push(std::mem::take(&mut line));
-            }
-            if !line.is_empty() {
-                line.push(' ');
-            }
-            line += word;
-        }
-        out.push(line);
-    }
-    out.join("\n").replace(TOGETHER, " ")
+    broken(&text.to_string(), width).replace(TOGETHER, " ")
 }

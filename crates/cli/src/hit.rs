@@ -2,13 +2,12 @@
 
 use std::path::PathBuf;
 
-use sweetspot::base::error::{Error, Result};
 use sweetspot::base::units::{inches, shown_length};
-use sweetspot::bat::body::Bat;
 use sweetspot::collision::figures::Figures;
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::sweep::{RoundsEnd, Sweep, Trial, sweep_telling};
 use sweetspot::modes::solve::Solution;
+use sweetspot::{Bat, Error, Result};
 use sweetspot_report::csv;
 use sweetspot_report::parts::terminal::wrapped;
 use sweetspot_report::plot::profile;
@@ -17,12 +16,10 @@ use sweetspot_report::report::{hit_json, hit_text, sketch, trust};
 use sweetspot_report::schema::hit::HitFile;
 use sweetspot_study::verdict::Verdict;
 
-use crate::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples};
-use crate::csv_option::CsvArgs;
-use crate::done::{Done, NOT_REACHED};
-use crate::full_option::FullArgs;
-use crate::pictures;
-use crate::scene::SceneArgs;
+use crate::common::{BatArgs, Prepared, SolveArgs, as_options, examples, on_the_bat};
+use crate::done::Done;
+use crate::output::{CsvArgs, FullArgs, OutputArgs};
+use crate::scene::{self, SceneArgs};
 use crate::value::PLACE;
 
 /// How fast the ball leaves, place by place, and the sweet spot
@@ -51,7 +48,7 @@ pub struct Args {
 
     /// Draw into this folder, as SVG and PNG: the bat, exit speed and energies along it (without
     /// --at); force, compression and the hands' motion, of the hit --at or at the sweet spot
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", help_heading = "Output")]
     plots: Option<PathBuf>,
 
     #[command(flatten)]
@@ -84,13 +81,11 @@ Examples:
 #[command(next_help_heading = "The hit")]
 pub struct PlaceArgs {
     /// First impact point [default: half the length]
-    #[arg(long, value_name = "m", allow_hyphen_values = true,
-          value_parser = |s: &str| PLACE.read(s), conflicts_with = "at")]
+    #[arg(long, value_name = "m", value_parser = PLACE, conflicts_with = "at")]
     from: Option<f64>,
 
     /// Last impact point [default: the tip]
-    #[arg(long, value_name = "m", allow_hyphen_values = true,
-          value_parser = |s: &str| PLACE.read(s), conflicts_with = "at")]
+    #[arg(long, value_name = "m", value_parser = PLACE, conflicts_with = "at")]
     to: Option<f64>,
 
     /// Number of impact points, both ends included [default: 101]
@@ -99,29 +94,18 @@ pub struct PlaceArgs {
     points: Option<u32>,
 
     /// One impact point
-    #[arg(long, value_name = "m", allow_hyphen_values = true,
-          value_parser = |s: &str| PLACE.read(s))]
+    #[arg(long, value_name = "m", value_parser = PLACE)]
     at: Option<f64>,
 }
 
 impl PlaceArgs {
     /// The impact points on this bat (m).
     fn places(&self, bat: &Bat) -> Result<Vec<f64>> {
-        let length = bat.length();
-        let on_the_bat = |name: &str, x: f64| {
-            // A tip given in inches may be a rounding beyond the last station.
-            if (0.0..=length * (1.0 + 4.0 * f64::EPSILON)).contains(&x) {
-                Ok(x.min(length))
-            } else {
-                let expected = format!("a place on the bat, 0 to {}", shown_length(length));
-                Err(Error::value(name, shown_length(x), expected))
-            }
-        };
         if let Some(x) = self.at {
-            return Ok(vec![on_the_bat("--at", x)?]);
+            return Ok(vec![on_the_bat(bat, "--at", x)?]);
         }
-        let from = on_the_bat("--from", self.from.unwrap_or(0.5 * length))?;
-        let to = on_the_bat("--to", self.to.unwrap_or(length))?;
+        let from = on_the_bat(bat, "--from", self.from.unwrap_or(0.5 * bat.length()))?;
+        let to = on_the_bat(bat, "--to", self.to.unwrap_or(bat.length()))?;
         if to < from {
             let expected = format!("a place beyond --from, {}", shown_length(from));
             return Err(Error::value("--to", shown_length(to), expected));
@@ -141,13 +125,13 @@ impl PlaceArgs {
 pub fn run(args: &Args) -> Result<Done> {
     args.csv.beside(&args.output.json)?;
     let bat = args.bat.read(&args.output)?;
-    let model = args.scene.model()?;
+    let (setup, model) = args.scene.setup()?;
     args.solve.refuse_budget("hit")?;
     let prepared = args.bat.prepare(bat, args.bat.count(), &args.solve, &args.output)?;
     let Prepared { bat, request, warning } = prepared;
     let tolerance = (!args.bat.asked()).then_some(request.tolerance);
-    let (scene, law) = args.scene.scene(&bat, tolerance)?;
-    args.scene.warn(&args.output);
+    let (scene, law) = setup.scene(&bat, tolerance).map_err(as_options)?;
+    scene::warn(&setup, &args.output);
     let places = args.place.places(&bat)?;
     let progress = args.output.progress("modes");
     let tell = |share, what: &str| progress.say(share, what);
@@ -158,15 +142,13 @@ pub fn run(args: &Args) -> Result<Done> {
     progress.say(1.0, "the sweet spot");
     let hitter = Hitter::new(model, &scene, &bat, &sweep.solution, sweep.effort)?;
     let figures = Figures::new(&bat, &hitter, law)?;
-    if let Some(folder) = &args.plots {
-        let sheet = args.output.sheet(&bat);
+    args.output.draw(&args.plots, &bat, |sheet| {
         let subject =
             profile::MarkedBat { name: bat.name(), bat: &bat, swing_pivot: Some(scene.pivot) };
         let hits = Hits { bat: &bat, model, scene: &scene, sweep: &sweep, spot: &figures.spot };
-        let mut pictures = vec![profile::picture(sheet, &[subject])];
-        pictures.extend(hits.pictures(sheet, args.place.at)?);
-        pictures::write(folder, &pictures, args.output.quiet)?;
-    }
+        let hits = hits.pictures(sheet, args.place.at)?;
+        Ok([profile::picture(sheet, &[subject])].into_iter().chain(hits))
+    })?;
     drop(progress);
     let table = table(args, &bat, trial, &sweep, &figures);
     let document = || HitFile {
@@ -235,9 +217,8 @@ pub fn verdict(solve: &SolveArgs, sweep: &Sweep, output: &OutputArgs) -> u8 {
         let place = format!("{:.1} cm ({:.1} in)", 100.0 * impact.x, inches(impact.x));
         format!("; the worst is known to {:.1e}, at {place} from the knob{limit}", outcome.error)
     });
-    output.warn(&format!(
+    output.reached(Some(format!(
         "accuracy of the exit speeds not reached{reason}{worst}; error.exit_speed of every impact says \
          how far it is known"
-    ));
-    NOT_REACHED
+    )))
 }

@@ -2,12 +2,10 @@
 
 use std::path::PathBuf;
 
-use sweetspot::base::error::Result;
 use sweetspot::base::mistakes::Mistakes;
-use sweetspot::bat::body::Bat;
 use sweetspot::collision::hit::{Model, Scene};
 use sweetspot::collision::sweep::Trial;
-use sweetspot::modes::solve::Request;
+use sweetspot::{Bat, Request, Result};
 use sweetspot_report::exchange::barrel::BarrelGrid;
 use sweetspot_report::exchange::hoop_files;
 use sweetspot_report::parts::terminal::{LINES, fitting};
@@ -18,12 +16,10 @@ use sweetspot_study::trampoline::thickness::wall_sweep as thicknesses;
 use uff58::Stamp;
 
 use crate::cannon::CannonArgs;
-use crate::common::{OutputArgs, Prepared, examples, on_the_bat, prepare, read};
-use crate::delivered::{apart, put};
-use crate::done::{Done, NOT_REACHED};
+use crate::common::{Prepared, examples, on_the_bat, prepare, read};
+use crate::done::Done;
 use crate::edits::EditArgs;
-use crate::full_option::FullArgs;
-use crate::pictures;
+use crate::output::{CsvArgs, FullArgs, OutputArgs, apart, put};
 use crate::value::{PLACE, TheoryChoice, tolerance};
 
 /// How the barrel of a hollow bat rings, and what its wall does to the ball
@@ -49,8 +45,7 @@ pub struct Args {
     count: Option<u16>,
 
     /// Where the ball meets the bat, from the knob end [default: 6 in from the tip]
-    #[arg(long, value_name = "m", help_heading = "The test", allow_hyphen_values = true,
-          value_parser = |s: &str| PLACE.read(s))]
+    #[arg(long, value_name = "m", help_heading = "The test", value_parser = PLACE)]
     at: Option<f64>,
 
     #[command(flatten)]
@@ -66,13 +61,12 @@ pub struct Args {
     tol: f64,
 
     /// Samples of each mode's shape in the JSON
-    #[arg(long, value_name = "N", help_heading = "Output", default_value_t = 41,
-          value_parser = clap::value_parser!(u16).range(0..=10_000))]
+    #[arg(long, value_name = "N", default_value_t = 41,
+          value_parser = clap::value_parser!(u16).range(0..=10_000), help_heading = "Output")]
     shape_points: u16,
 
-    /// Write CSV to this file (- = standard output, and no table then)
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    csv: Option<PathBuf>,
+    #[command(flatten)]
+    csv: CsvArgs,
 
     /// Write the modes to this universal file, on a cylinder of points
     #[arg(long, value_name = "FILE", help_heading = "Output")]
@@ -87,8 +81,8 @@ pub struct Args {
     vtu: Option<PathBuf>,
 
     /// Points around the barrel in these files
-    #[arg(long, value_name = "N", default_value_t = 48, help_heading = "Output",
-          value_parser = clap::value_parser!(u16).range(3..=360))]
+    #[arg(long, value_name = "N", default_value_t = 48,
+          value_parser = clap::value_parser!(u16).range(3..=360), help_heading = "Output")]
     around: u16,
 
     /// Draw into this folder, as SVG and PNG: the modes around and along the barrel; with --wall-sweep
@@ -125,7 +119,7 @@ const ALONG: usize = 61;
 pub fn run(args: &Args) -> Result<Done> {
     apart(&[
         ("--json", &args.output.json),
-        ("--csv", &args.csv),
+        ("--csv", &args.csv.csv),
         ("--uff", &args.uff),
         ("--vtu", &args.vtu),
     ])?;
@@ -141,13 +135,10 @@ pub fn run(args: &Args) -> Result<Done> {
     };
     drop(progress);
     let count = modes(args);
-    if let Some(folder) = &args.plots {
-        let sheet = args.output.sheet(&bat);
-        let mut all: Vec<_> =
-            plot::picture(sheet, &bat, &barrel, count.min(MOST_DRAWN)).into_iter().collect();
-        all.extend(wall_sweep::picture(sheet, bat.name(), &tried));
-        pictures::write(folder, &all, args.output.quiet)?;
-    }
+    args.output.draw(&args.plots, &bat, |sheet| {
+        let modes = plot::picture(sheet, &bat, &barrel, count.min(MOST_DRAWN));
+        Ok(modes.into_iter().chain(wall_sweep::picture(sheet, bat.name(), &tried)))
+    })?;
     let units = args.output.units(&bat);
     let sweep = if args.wall_sweep { report::sweep(&tried, units) } else { String::new() };
     let few = args.count.map_or(FEW, usize::from);
@@ -158,13 +149,10 @@ pub fn run(args: &Args) -> Result<Done> {
     });
     let samples = usize::from(args.shape_points);
     let text = args.output.deliver(table, || report::document(&bat, &barrel, &tried, samples))?;
-    let text = put(&args.csv, text, || Ok(report::csv(&bat, &barrel)))?;
+    let text = args.csv.deliver(text, || report::csv(&bat, &barrel))?;
     let text = exchanged(args, &bat, &barrel, text)?;
-    let unmet = barrel.unmet();
-    if let Some(unmet) = &unmet {
-        args.output.warn(&format!("accuracy not reached: {unmet}"));
-    }
-    let code = if unmet.is_none() { 0 } else { NOT_REACHED };
+    let code =
+        args.output.reached(barrel.unmet().map(|unmet| format!("accuracy not reached: {unmet}")));
     Ok(Done::new(text, code).with(warning))
 }
 

@@ -2,22 +2,19 @@
 
 use std::path::PathBuf;
 
-use sweetspot::base::error::{Error, Result};
+use sweetspot::base::mistakes::Mistakes;
 use sweetspot::base::units::shown_length;
-use sweetspot::bat::body::Bat;
-use sweetspot::modes::solve::Request;
+use sweetspot::{Bat, Error, Request, Result};
 use sweetspot_report::plot::lathe as plot;
 use sweetspot_report::report::lathe as report;
 use sweetspot_study::lathe::map::{LatheMap, LatheTerms, bands, best_place};
 use sweetspot_study::lathe::workpiece::HitTerms;
 use sweetspot_study::many::answers::Answer;
 
-use crate::common::{BatArgs, OutputArgs, Prepared, SolveArgs, examples, on_the_bat};
-use crate::csv_option::CsvArgs;
-use crate::done::{Done, NOT_REACHED};
-use crate::full_option::FullArgs;
-use crate::pictures;
-use crate::scene::SceneArgs;
+use crate::common::{BatArgs, Prepared, SolveArgs, as_options, examples, on_the_bat};
+use crate::done::Done;
+use crate::output::{CsvArgs, FullArgs, OutputArgs};
+use crate::scene::{self, SceneArgs};
 use crate::value::{LITTLE, PLACE, SPACING};
 
 /// What a millimetre off the diameter does, inch by inch
@@ -35,18 +32,16 @@ pub struct Args {
     bat: BatArgs,
 
     /// Width of the bands, or one band such as "60 cm to 63 cm"; several bands by several options
-    #[arg(long, value_name = "m", default_value = "1 in", help_heading = "The map",
-          allow_hyphen_values = true, value_parser = band)]
+    #[arg(long, value_name = "m", default_value = "1 in",
+          allow_hyphen_values = true, value_parser = band, help_heading = "The map")]
     bands: Vec<BandArg>,
 
     /// Where the ball is hit for vibration and hands [default: the sweet spot]
-    #[arg(long, value_name = "m", help_heading = "The map", allow_hyphen_values = true,
-          value_parser = |s: &str| PLACE.read(s))]
+    #[arg(long, value_name = "m", value_parser = PLACE, help_heading = "The map")]
     at: Option<f64>,
 
     /// Depth of the finite cut that stands beside every derivative, of the diameter [default: 0.5 mm]
-    #[arg(long, value_name = "m", help_heading = "The map",
-          allow_hyphen_values = true, value_parser = |s: &str| LITTLE.read(s))]
+    #[arg(long, value_name = "m", value_parser = LITTLE, help_heading = "The map")]
     depth: Option<f64>,
 
     /// Look at these alone, such as f1_hz,mass_kg,exit_speed_max.value
@@ -56,8 +51,8 @@ pub struct Args {
     /// exit_speed_max.x_m, zone_m[0], zone_m[1], vibration_min.value, vibration_min.x_m, bbcor_max,
     /// hands_velocity_min.value, hands_acceleration_min.value, and, of a hit at a place,
     /// exit_speed_m_s@0.70, vibration_j@0.70, hands_velocity_m_s@0.70, hands_acceleration_m_s2@0.70.
-    #[arg(long, value_name = "NAMES", help_heading = "The map", value_delimiter = ',',
-          value_parser = |s: &str| Answer::named(s.trim()).map_err(|error| error.to_string()))]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',',
+          value_parser = |s: &str| Answer::named(s.trim()).map_err(|error| error.to_string()), help_heading = "The map")]
     outputs: Option<Vec<Answer>>,
 
     #[command(flatten)]
@@ -102,15 +97,6 @@ enum BandArg {
     Stretch([f64; 2]),
 }
 
-impl BandArg {
-    fn width(&self) -> Option<f64> {
-        match self {
-            Self::Width(width) => Some(*width),
-            Self::Stretch(_) => None,
-        }
-    }
-}
-
 fn band(text: &str) -> std::result::Result<BandArg, String> {
     match text.split_once(" to ") {
         Some((from, to)) => {
@@ -130,12 +116,12 @@ pub fn run(args: &Args) -> Result<Done> {
     args.csv.beside(&args.output.json)?;
     args.solve.refuse_budget("lathe")?;
     let bat = args.bat.read(&args.output)?;
-    let model = args.scene.model()?;
+    let (setup, model) = args.scene.setup()?;
     let prepared = args.bat.prepare(bat, args.bat.count(), &args.solve, &args.output)?;
     let Prepared { bat, request, warning } = prepared;
     let tolerance = (!args.bat.asked()).then_some(request.tolerance);
-    let (scene, law) = args.scene.scene(&bat, tolerance)?;
-    args.scene.warn(&args.output);
+    let (scene, law) = setup.scene(&bat, tolerance).map_err(as_options)?;
+    scene::warn(&setup, &args.output);
     let (bands, cut) = stretches(args, &bat)?;
     let at = args.at.map(|x| on_the_bat(&bat, "--at", x)).transpose()?;
     let hit = HitTerms { scene, model, exactly: args.bat.asked() };
@@ -150,49 +136,42 @@ pub fn run(args: &Args) -> Result<Done> {
     progress.say(0.0, "bats with a cut");
     let map = LatheMap::new(&bat, &request, Some(&hit), terms)?;
     drop(progress);
-    if let Some(folder) = &args.plots {
-        let picture: Vec<_> = plot::picture(args.output.sheet(&bat), &map).into_iter().collect();
-        pictures::write(folder, &picture, args.output.quiet)?;
-    }
+    args.output.draw(&args.plots, &bat, |sheet| Ok(plot::picture(sheet, &map)))?;
     let units = args.output.units(map.piece.bat());
     let all = || report::text(&map, &hit.scene, units);
     // Who asks for outputs, a depth or a stretch wants the tables of them.
     let asked = args.outputs.is_some()
         || args.depth.is_some()
-        || args.bands.iter().any(|band| band.width().is_none());
+        || args.bands.iter().any(|band| matches!(band, BandArg::Stretch(_)));
     let table = match report::screen(&map, &hit.scene, units).filter(|_| !asked) {
         Some(screen) => args.full.screen(|full| if full { all() } else { screen.clone() }),
         None => all(),
     };
     let out = args.output.deliver(table, || report::document(&map, &hit.scene, model))?;
     let text = args.csv.deliver(out, || report::csv(&map))?;
-    let code = if map.piece.met || !args.solve.enforced() { 0 } else { NOT_REACHED };
-    if code != 0 {
-        args.output.warn("accuracy not reached: error of every change says how far it is known");
-    }
+    let unmet = (!map.piece.met && args.solve.enforced())
+        .then_some("accuracy not reached: error of every change says how far it is known");
+    let code = args.output.reached(unmet.map(str::to_owned));
     Ok(Done::new(text, code).with(warning))
 }
 
 /// The bands and the depth of the finite cut, all that is wrong with them at once.
 fn stretches(args: &Args, bat: &Bat) -> Result<(Vec<[f64; 2]>, f64)> {
-    let mut wrong: Vec<Error> = vec![];
+    let mut mistakes = Mistakes::default();
     let length = bat.length();
-    let stretches = args.bands.iter().filter_map(|band| match band {
-        BandArg::Stretch(ends) => Some(*ends),
-        BandArg::Width(_) => None,
-    });
-    let mut all: Vec<[f64; 2]> = stretches.collect();
-    let widths: Vec<f64> = args.bands.iter().filter_map(BandArg::width).collect();
+    let (mut widths, mut all) = (vec![], vec![]);
+    for band in &args.bands {
+        match band {
+            BandArg::Width(width) => widths.push(*width),
+            BandArg::Stretch(ends) => all.push(*ends),
+        }
+    }
     if !(widths.is_empty() || widths.len() == 1 && all.is_empty()) {
         let found = format!("{} width(s) and {} stretch(es)", widths.len(), all.len());
-        wrong.push(Error::value("--bands", found, "one width, or stretches alone"));
+        mistakes.add(Error::value("--bands", found, "one width, or stretches alone"));
     }
     for ends in &mut all {
-        let x = on_the_bat(bat, "--bands", ends[1]);
-        match x {
-            Ok(x) => ends[1] = x,
-            Err(error) => wrong.push(error),
-        }
+        ends[1] = mistakes.some(on_the_bat(bat, "--bands", ends[1])).unwrap_or(ends[1]);
     }
     all.sort_by(|a, b| a[0].total_cmp(&b[0]));
     if let Some(two) = all.windows(2).find(|two| two[1][0] < two[0][1] - 1e-12) {
@@ -201,7 +180,7 @@ fn stretches(args: &Args, bat: &Bat) -> Result<(Vec<[f64; 2]>, f64)> {
             "bands that do not overlap: the one before ends at {}",
             shown_length(two[0][1])
         );
-        wrong.push(Error::value("--bands", found, expected));
+        mistakes.add(Error::value("--bands", found, expected));
     }
     if let ([width], true) = (&widths[..], all.is_empty()) {
         let width = *width;
@@ -211,19 +190,15 @@ fn stretches(args: &Args, bat: &Bat) -> Result<(Vec<[f64; 2]>, f64)> {
         } else {
             let expected =
                 format!("a width from 1 mm to the bat's length, {}", shown_length(length));
-            wrong.push(Error::value("--bands", shown_length(width), expected));
+            mistakes.add(Error::value("--bands", shown_length(width), expected));
         }
     }
     let depth = args.depth.unwrap_or(DEPTH);
     if !(depth > 0.0 && depth <= 0.02) {
         let found = format!("{} mm", 1e3 * depth);
-        wrong.push(Error::value("--depth", found, "a depth above 0 and up to 20 mm"));
+        mistakes.add(Error::value("--depth", found, "a depth above 0 and up to 20 mm"));
     }
-    match wrong.len() {
-        0 => Ok((all, depth)),
-        1 => Err(wrong.remove(0)),
-        _ => Err(Error::Several { shown: wrong, more: 0 }),
-    }
+    mistakes.end((all, depth))
 }
 
 /// What is looked at where nothing is named.

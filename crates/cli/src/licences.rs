@@ -1,8 +1,7 @@
 //! `sweetspot licences`: whose work is in the program, and on what terms.
 
-use sweetspot::base::error::Result;
-
 use crate::done::Done;
+use sweetspot::Result;
 
 /// Print the licences of this program and of everything in it
 ///

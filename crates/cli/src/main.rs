@@ -5,7 +5,7 @@
 //! | `own_file`, `memory` | files of a user's own; the system's memory |
 //! | `done`, `style`, `diagnostic` | what a verb leaves; colours; how a mistake is shown, to people and to programs |
 //! | `value`, `help`, `stop`, `progress`, `edits` | values with units; help that fits; signals; how far a computation is; what-ifs |
-//! | `common`, `guarantee`, `delivered`, `csv_option`, `full_option`, `bat_text`, `pictures`, `scene`, `cannon` | options of several verbs: the bat, the tolerance, proofs, files and standard output, pictures, the scene of a hit, the ball of a test |
+//! | `output`, `common`, `guarantee`, `bat_text`, `scene`, `cannon` | options of several verbs: files, standard output and pictures; the bat, the tolerance; proofs; a bat file's text; the scene of a hit; the ball of a test |
 //! | `asking`, `tables`, `frf_grid` | questions to the user; the promises as tables; the frequencies of `frf` |
 //! | the rest | one verb each; `first_word` and `verbs` know which was typed, `program` runs it |
 
@@ -15,20 +15,17 @@ mod own_file;
 mod done;
 mod style;
 mod diagnostic;
-mod delivered;
 mod value;
 mod help;
 mod progress;
 mod stop;
 #[allow(unsafe_code)]
 mod memory;
+mod output;
 mod edits;
 mod common;
-mod csv_option;
-mod full_option;
 mod guarantee;
 mod bat_text;
-mod pictures;
 mod scene;
 mod cannon;
 mod asking;

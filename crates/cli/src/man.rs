@@ -4,10 +4,12 @@ use std::path::{Path, PathBuf};
 
 use clap::Command;
 use clap_mangen::Man;
-use sweetspot::base::error::{Error, Result, nearest};
+use sweetspot::base::error::nearest;
 use sweetspot::base::file;
+use sweetspot::{Error, Result};
 
 use crate::done::Done;
+use crate::output::make;
 
 /// Print a manual page, or write all of them
 ///
@@ -55,8 +57,7 @@ pub fn run(args: &Args, command: Command) -> Result<Done> {
 
 /// Writes every page; says what was written.
 fn all(folder: &Path, command: &Command) -> Result<Done> {
-    let failed = |source| Error::Write { path: folder.to_owned(), source };
-    std::fs::create_dir_all(folder).map_err(failed)?;
+    make(folder)?;
     let mut out = String::new();
     for verb in [command].into_iter().chain(command.get_subcommands()) {
         let name = verb.get_display_name().unwrap_or(verb.get_name());

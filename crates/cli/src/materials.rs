@@ -2,8 +2,7 @@
 
 use std::path::PathBuf;
 
-use sweetspot::base::error::Result;
-use sweetspot::base::file;
+use sweetspot::Result;
 use sweetspot::base::units::PSI;
 use sweetspot::bat::material::{BUILT_IN, BuiltIn};
 use sweetspot_report::parts::terminal::wrapped;
@@ -12,9 +11,11 @@ use sweetspot_report::schema;
 use sweetspot_report::schema::materials::MaterialsFile;
 
 use crate::done::Done;
+use crate::output::put;
 use crate::style;
+use crate::tables::{self, Shown};
 use crate::value::unit_system;
-use sweetspot_report::report::columns::{Columns, first, numbers};
+use sweetspot_report::report::columns::{first, numbers};
 
 /// The built-in materials with their sources
 ///
@@ -27,8 +28,7 @@ use sweetspot_report::report::columns::{Columns, first, numbers};
 pub struct Args {
     /// Units of the table: si, us or both
     #[arg(long, value_name = "SYSTEM", default_value = "both", value_parser = unit_system(),
-          hide_possible_values = true,
-          help_heading = "Output")]
+          hide_possible_values = true, help_heading = "Output")]
     units: Units,
 
     /// Write JSON to this file (- = standard output, and no table then)
@@ -49,43 +49,40 @@ const POUND_PER_CUBIC_INCH: f64 = 0.453_592_37 / (0.0254 * 0.0254 * 0.0254);
 const MPSI: f64 = 1e6 * PSI;
 
 pub fn run(args: &Args) -> Result<Done> {
-    let table = || style::table(&table(args.units));
-    let document = || schema::text(&MaterialsFile::built_in());
-    let text = match &args.json {
-        Some(path) if path.as_os_str() == "-" => document(),
-        Some(path) => file::write(path, document().as_bytes()).map(|()| table())?,
-        None => table(),
-    };
+    let table = style::table(&table(args.units));
+    let text = put(&args.json, table, || Ok(schema::text(&MaterialsFile::built_in())))?;
     Ok(Done::new(text, 0))
 }
 
+/// The columns of a system of units: density, Young's modulus and shear modulus.
+fn columns(us: bool) -> [Shown<BuiltIn>; 3] {
+    fn shear(material: &BuiltIn, unit: f64) -> String {
+        material.shear_modulus.map_or("-".to_owned(), |g| format!("{:.3}", g / unit))
+    }
+    match us {
+        false => [
+            (numbers(10, "ρ kg/m³"), |m| format!("{:.1}", m.density)),
+            (numbers(10, "E GPa"), |m| format!("{:.2}", 1e-9 * m.youngs_modulus)),
+            (numbers(10, "G GPa"), |m| shear(m, 1e9)),
+        ],
+        true => [
+            (numbers(10, "ρ lb/in³"), |m| format!("{:.4}", m.density / POUND_PER_CUBIC_INCH)),
+            (numbers(10, "E Mpsi"), |m| format!("{:.3}", m.youngs_modulus / MPSI)),
+            (numbers(10, "G Mpsi"), |m| shear(m, MPSI)),
+        ],
+    }
+}
+
+/// A line for each material, and below it where the numbers are from and where it breaks.
 fn table(units: Units) -> String {
-    let si = |m: Option<&BuiltIn>| match m {
-        None => ["ρ kg/m³", "E GPa", "G GPa"].map(str::to_owned),
-        Some(m) => [
-            format!("{:.1}", m.density),
-            format!("{:.2}", 1e-9 * m.youngs_modulus),
-            m.shear_modulus.map_or("-".to_owned(), |g| format!("{:.3}", 1e-9 * g)),
-        ],
-    };
-    let us = |m: Option<&BuiltIn>| match m {
-        None => ["ρ lb/in³", "E Mpsi", "G Mpsi"].map(str::to_owned),
-        Some(m) => [
-            format!("{:.4}", m.density / POUND_PER_CUBIC_INCH),
-            format!("{:.3}", m.youngs_modulus / MPSI),
-            m.shear_modulus.map_or("-".to_owned(), |g| format!("{:.3}", g / MPSI)),
-        ],
-    };
-    let columns = Columns::new([first(20, "")].into_iter().chain((0..6).map(|_| numbers(10, ""))));
-    let line = |m: Option<&BuiltIn>| {
-        let systems = [(Units::Us, si(m)), (Units::Si, us(m))].into_iter();
-        let cells = systems.filter(|(other, _)| units != *other).flat_map(|(_, cells)| cells);
-        let name = m.map_or("Material", |m| m.name).to_owned();
-        columns.row([name].into_iter().chain(cells))
-    };
-    let mut out = line(None);
-    for material in BUILT_IN.iter() {
-        out += &line(Some(material));
+    let name: Shown<BuiltIn> = (first(20, "Material"), |m| m.name.to_owned());
+    let systems = [(Units::Us, false), (Units::Si, true)].into_iter();
+    let systems = systems.filter(|(other, _)| units != *other).flat_map(|(_, us)| columns(us));
+    let lines = tables::table([name].into_iter().chain(systems), &BUILT_IN);
+    let mut lines = lines.lines();
+    let mut out = format!("{}\n", lines.next().unwrap_or_default());
+    for (material, line) in BUILT_IN.iter().zip(lines) {
+        out += &format!("{line}\n");
         out += &wrapped(&format!("  {}", material.source), 2);
         out += &strength(material, units);
         out += "  no loss factor known: undamped\n";

@@ -2,11 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use sweetspot::base::error::{Error, Result};
 use sweetspot::base::file;
-use sweetspot::bat::body::Bat;
 use sweetspot::beam::assembly::{Pencil, write_matrix_market};
-use sweetspot::modes::solve::Solution;
+use sweetspot::{Bat, Error, Result, Solution};
 use sweetspot_report::csv;
 use sweetspot_report::exchange::npz;
 use sweetspot_report::plot::sets;
@@ -14,12 +12,10 @@ use sweetspot_report::report::json::{self, ShapePoints};
 use sweetspot_report::report::proven;
 use sweetspot_report::report::{sketch, text, trust};
 
-use crate::common::{BatArgs, OutputArgs, SolveArgs, Solved, examples};
-use crate::csv_option::CsvArgs;
+use crate::common::{BatArgs, SolveArgs, Solved, examples};
 use crate::done::Done;
-use crate::full_option::FullArgs;
 use crate::guarantee::{self, GuaranteeArgs};
-use crate::pictures;
+use crate::output::{CsvArgs, FullArgs, OutputArgs, make};
 
 /// How the bat rings: frequencies, nodes, shapes
 ///
@@ -41,7 +37,7 @@ pub struct Args {
     guarantee: GuaranteeArgs,
 
     /// Samples of each shape in the JSON: a number, or "nodes" for the mesh's
-    #[arg(long, value_name = "N", help_heading = "Output", default_value = "101", value_parser = shape_points)]
+    #[arg(long, value_name = "N", default_value = "101", value_parser = shape_points, help_heading = "Output")]
     shape_points: ShapePoints,
 
     /// Write K and M of the mesh into this folder: stiffness.mtx and mass.mtx (Matrix Market), and
@@ -94,13 +90,8 @@ pub fn run(args: &Args) -> Result<Done> {
     if let Some(folder) = &args.matrices {
         write_matrices(folder, &bat, &solution)?;
     }
-    if let Some(folder) = &args.plots {
-        pictures::write(
-            folder,
-            &sets::of_modes(args.output.sheet(&bat), &bat, &solution, None),
-            args.output.quiet,
-        )?;
-    }
+    let drawn = |sheet| Ok(sets::of_modes(sheet, &bat, &solution, None));
+    args.output.draw(&args.plots, &bat, drawn)?;
     let units = args.output.units(&bat);
     let summary = text::summary(&bat, units);
     let modes = |nodes| {
@@ -136,8 +127,8 @@ fn write_matrices(folder: &Path, bat: &Bat, solution: &Solution) -> Result<()> {
         return Err(Error::value("--matrices", found, expected));
     }
     let pencil = Pencil::of(bat, &solution.mesh, solution.degree, solution.theory);
+    make(folder)?;
     let failed = |source| Error::Write { path: folder.to_owned(), source };
-    std::fs::create_dir_all(folder).map_err(failed)?;
     for (name, matrix) in [("stiffness.mtx", &pencil.stiffness), ("mass.mtx", &pencil.mass)] {
         let mut text = Vec::new();
         write_matrix_market(matrix, &mut text).map_err(failed)?;

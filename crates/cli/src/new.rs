@@ -3,12 +3,10 @@
 use std::io::{IsTerminal, Write, stderr, stdin};
 use std::path::{Path, PathBuf};
 
-use sweetspot::base::error::Result;
 use sweetspot::base::file;
-use sweetspot::bat::body::Bat;
 use sweetspot::collision::hit::Model;
 use sweetspot::collision::setup::Setup;
-use sweetspot::modes::solve::{Request, solve};
+use sweetspot::{Bat, Request, Result, solve};
 use sweetspot_report::analysis::{Analysis, Task};
 use sweetspot_report::parts::terminal::wrapped;
 use sweetspot_report::parts::units::Units;
@@ -20,10 +18,11 @@ use crate::asking::ask::shown_density;
 use crate::asking::dialogue::Dialogue;
 use crate::asking::draft;
 use crate::asking::interview::asked;
-use crate::asking::new_options::{called, given, refuse_existing};
+use crate::asking::new_options::{called, refuse_existing};
 use crate::bat_text::{self, Measured};
-use crate::common::{Prepared, glyphs, prepare, printed};
+use crate::common::{Prepared, prepare, printed};
 use crate::done::Done;
+use crate::output::glyphs;
 use crate::style;
 use crate::value::TheoryChoice;
 
@@ -33,19 +32,21 @@ pub fn run(args: &Args) -> Result<Done> {
     if let Some(path) = &args.file {
         refuse_existing(path, args.force)?;
     }
-    if !args.ask && !stdin().is_terminal() {
-        let measured = given(args)?;
-        return made(args, &measured, &bat_text::text(&measured));
-    }
+    let alone = !args.ask && !stdin().is_terminal();
     let of = args.name.as_deref().unwrap_or_default();
-    let mut person = Dialogue::kept(stdin().lock(), ("new", &draft(args)), of);
+    let mut person = match alone {
+        true => Dialogue::nobody(),
+        false => Dialogue::kept(stdin().lock(), ("new", &draft(args)), of),
+    };
     let Some(measured) = person.hold(|person| asked(args, person))? else {
         return Ok(Done::new(String::new(), 0));
     };
     let text = bat_text::text(&measured);
     let done = made(args, &measured, &text).inspect_err(|_| {
-        // Show the bat, too, unless standard error is closed.
-        let _ = write!(stderr(), "The bat, which was not written:\n{text}");
+        if !alone {
+            // Show the bat, too, unless standard error is closed.
+            let _ = write!(stderr(), "The bat, which was not written:\n{text}");
+        }
     })?;
     person.done();
     Ok(done)

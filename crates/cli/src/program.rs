@@ -3,9 +3,10 @@
 use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
 
-use crate::done::{Done, NOT_REACHED, warn};
+use crate::done::{Done, NOT_REACHED};
+use crate::output::warn;
 use crate::{diagnostic, style, verbs};
-use sweetspot::base::error::Error;
+use sweetspot::Error;
 use sweetspot_report::report::mistakes;
 
 /// Runs the verb on the command line; what it answers goes to standard output, what is wrong to
@@ -34,7 +35,7 @@ pub fn run() -> ExitCode {
         }
         _ => {
             if let Some(warning) = warning {
-                warn(&warning);
+                warn(&format!("warning: {warning}"), false);
             }
             ExitCode::from(code)
         }

@@ -2,9 +2,8 @@
 
 use std::io::IsTerminal;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::thread::{Builder, JoinHandle};
+use std::thread::{Builder, sleep};
 use std::time::{Duration, Instant};
 
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -27,7 +26,7 @@ pub struct Progress {
 
 enum ProgressLook {
     Not,
-    Bar(ProgressBar, Waiting),
+    Bar(ProgressBar),
     Lines(Mutex<Line>),
 }
 
@@ -35,12 +34,6 @@ enum ProgressLook {
 struct Line {
     at: Instant,
     any: bool,
-}
-
-/// The thread that shows the bar when it is time to.
-struct Waiting {
-    stop: Option<Sender<()>>,
-    thread: Option<JoinHandle<()>>,
 }
 
 impl Progress {
@@ -60,7 +53,7 @@ impl Progress {
             left.map_or(what.to_owned(), |left| format!("{} left  {what}", HumanDuration(left)));
         match &self.shown {
             ProgressLook::Not => {}
-            ProgressLook::Bar(bar, _) => {
+            ProgressLook::Bar(bar) => {
                 if bar.position() == 0 && share > 0.0 {
                     bar.set_style(style("{spinner} {bar:24} {percent:>3} %, {wide_msg}"));
                 }
@@ -124,34 +117,28 @@ impl ProgressLook {
         let bar = ProgressBar::with_draw_target(Some(STEPS), ProgressDrawTarget::hidden());
         bar.set_style(style("{spinner} {elapsed}  {wide_msg}"));
         bar.set_message(what.to_owned());
-        let (stop, stopped) = channel();
         let shown = bar.clone();
         let wait = move || {
-            let mut wait = PATIENCE;
-            while stopped.recv_timeout(wait) == Err(RecvTimeoutError::Timeout) {
-                if wait == PATIENCE {
-                    shown.set_draw_target(ProgressDrawTarget::stderr());
-                    *last() = Some(shown.clone());
-                }
-                shown.tick();
-                wait = TICK;
+            sleep(PATIENCE);
+            let mut last = last();
+            // What is done by then is not shown.
+            if !shown.is_finished() {
+                shown.set_draw_target(ProgressDrawTarget::stderr());
+                shown.enable_steady_tick(TICK);
+                *last = Some(shown.clone());
             }
         };
         // Where no thread can be started nothing is shown.
-        let thread = Builder::new().spawn(wait).ok();
-        Self::Bar(bar, Waiting { stop: Some(stop), thread })
+        let _ = Builder::new().spawn(wait);
+        Self::Bar(bar)
     }
 }
 
 impl Drop for Progress {
     fn drop(&mut self) {
-        let ProgressLook::Bar(bar, waiting) = &mut self.shown else { return };
-        waiting.stop.take();
-        if let Some(thread) = waiting.thread.take() {
-            // The thread only draws: its failure is ignored.
-            let _ = thread.join();
-        }
-        *last() = None;
+        let ProgressLook::Bar(bar) = &self.shown else { return };
+        let mut last = last();
+        *last = None;
         bar.finish_and_clear();
     }
 }

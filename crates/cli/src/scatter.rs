@@ -1,9 +1,10 @@
 //! `sweetspot scatter BAT SCATTER`: how much bats of one model differ.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use sweetspot::base::error::{Complaint, Error, Result};
+use sweetspot::base::error::Complaint;
 use sweetspot::base::{file, threads};
+use sweetspot::{Error, Result};
 use sweetspot_report::many::summary::sorted;
 use sweetspot_report::many::table::Column;
 use sweetspot_report::plot::many;
@@ -14,13 +15,11 @@ use sweetspot_study::files::scatter_file::{self, ScatterFile};
 use sweetspot_study::scatter::rows::{ScatterPlan, ScatterRows};
 use sweetspot_study::scatter::scattered::{OutputSpread, SHARES, Scattered, WRITTEN};
 
-use crate::common::{examples, note_outside, printed, read};
-use crate::delivered::{apart, put};
+use crate::common::{self, BatFileArgs, examples, note_outside, printed};
 use crate::done::Done;
-use crate::edits::EditArgs;
-use crate::full_option::FullArgs;
+use crate::output::{FullArgs, apart, draw, make, put};
 use crate::progress::Counted;
-use crate::{pictures, style};
+use crate::style;
 
 /// How much bats of one model, and swings of one batter, differ
 ///
@@ -30,16 +29,12 @@ use crate::{pictures, style};
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES))]
 pub struct Args {
-    /// Bat file (JSON), or the name of a built-in bat such as r161
-    #[arg(help_heading = "The bat")]
-    bat: PathBuf,
+    #[command(flatten)]
+    bat: BatFileArgs,
 
     /// Scatter file (JSON): what differs [without it: the wood, by 22 % in stiffness and 10 % in density]
     #[arg(help_heading = "The bat")]
     scatter: Option<PathBuf>,
-
-    #[command(flatten)]
-    edits: EditArgs,
 
     /// Bats that are drawn, a power of two from 64 to 1048576
     #[arg(long, value_name = "N", default_value = "1024")]
@@ -99,7 +94,7 @@ pub fn run(args: &Args) -> Result<Done> {
         args.scatter.iter().for_each(|file| note_outside(file, &outside, args.quiet));
         said
     });
-    let bat = read(&args.bat, &args.edits, args.quiet)?;
+    let bat = args.bat.read(args.quiet)?;
     let said = match said {
         Some(said) => said,
         None => scatter_file::of_wood(&bat).ok_or_else(|| {
@@ -121,27 +116,28 @@ pub fn run(args: &Args) -> Result<Done> {
         let why = found.missing.first().cloned().unwrap_or_default();
         return Err(Error::value(said_by(args), why, "bats that can be"));
     }
-    if let Some(folder) = &args.plots {
-        pictures::write(folder, &drawn(&found), args.quiet)?;
-    }
+    draw(&args.plots, args.quiet, || Ok(drawn(&found)))?;
     if let Some(folder) = &args.bats {
-        let failed = |source| Error::Write { path: folder.clone(), source };
-        std::fs::create_dir_all(folder).map_err(failed)?;
-        for percentile in WRITTEN {
-            let Some(row) = found.nearest(of, percentile) else { continue };
-            let share = SHARES[percentile];
-            let source = scatter::told(&rows, &found, (row, of), share);
-            let Some(bat) = scatter::bat(&rows.bat_of(row as u64)?, &source, share) else {
-                continue;
-            };
-            let path = folder.join(format!("p{:02.0}.json", 100.0 * share));
-            file::write(&path, schema::text(&resolved::resolved(&bat)).as_bytes())?;
-        }
+        write_bats(folder, &rows, &found, of)?;
     }
     let table = args.full.screen(|full| scatter::text(&rows, &found, full));
     let text = put(&args.csv, style::table(&table), || Ok(scatter::csv(&rows, &found)))?;
     let text = put(&args.json, text, || Ok(schema::text(&scatter::document(&rows.bat, &found))))?;
     Ok(Done::new(text, 0))
+}
+
+/// Writes the bats nearest to some percentiles of an output into a folder.
+fn write_bats(folder: &Path, rows: &ScatterRows, found: &Scattered, of: usize) -> Result<()> {
+    make(folder)?;
+    for percentile in WRITTEN {
+        let Some(row) = found.nearest(of, percentile) else { continue };
+        let share = SHARES[percentile];
+        let source = scatter::told(rows, found, (row, of), share);
+        let Some(bat) = scatter::bat(&rows.bat_of(row as u64)?, &source, share) else { continue };
+        let path = folder.join(format!("p{:02.0}.json", 100.0 * share));
+        file::write(&path, schema::text(&resolved::resolved(&bat)).as_bytes())?;
+    }
+    Ok(())
 }
 
 /// The output whose percentiles the written bats are of, by its place.
@@ -168,7 +164,7 @@ fn named(args: &Args, error: Error) -> Error {
             "points" => "--points".to_owned(),
             field => format!("{file}: {}", field.trim_matches('`')),
         };
-        Error::Value(Complaint { field, ..complaint })
+        common::about(field, complaint)
     })
 }
 

@@ -1,18 +1,15 @@
 //! The options of a hit.
 
-use std::cell::OnceCell;
 use std::path::Path;
 
-use sweetspot::base::error::Result;
-use sweetspot::bat::body::Bat;
-use sweetspot::collision::ball::Ball;
-use sweetspot::collision::figures::{BarrelSpeed, SwingLaw};
-use sweetspot::collision::hit::{Model, Scene};
+use sweetspot::Result;
+use sweetspot::collision::hit::Model;
 use sweetspot::collision::setup::Setup;
 use sweetspot::collision::wall_choice::WallChoice;
 use sweetspot::files::balls::{ball, is_built_in};
 
-use crate::common::{OutputArgs, as_options};
+use crate::common::as_options;
+use crate::output::OutputArgs;
 use crate::value::{
     CONTACT_TIME, PART_MASS, PIVOT, PLACE, PLAY_SPEED, STIFFNESS, SWING_WEIGHT, cor, swing_speed,
 };
@@ -33,31 +30,27 @@ pub struct SceneArgs {
     ///
     /// The default moves the barrel of a 33 in bat at 72 mph 6 in from the tip, as an average batter
     /// of the major leagues does.
-    #[arg(long, value_name = "rad/s", default_value = "43 rad/s", allow_hyphen_values = true,
-          value_parser = swing_speed)]
+    #[arg(long, value_name = "rad/s", default_value = "43 rad/s", value_parser = swing_speed)]
     swing_speed: f64,
 
     /// Speed of a point of the barrel, such as "72 mph", in place of the angular speed
-    #[arg(long, value_name = "m/s", allow_hyphen_values = true,
-          conflicts_with_all = ["swing_speed", "reference_inertia"],
-          value_parser = |s: &str| PLAY_SPEED.read(s))]
+    #[arg(long, value_name = "m/s", conflicts_with_all = ["swing_speed", "reference_inertia"],
+          value_parser = PLAY_SPEED)]
     bat_speed: Option<f64>,
 
     /// Distance of that point from the tip
-    #[arg(long, value_name = "m", default_value = "6 in", allow_hyphen_values = true,
-          requires = "bat_speed", value_parser = |s: &str| PLACE.read(s))]
+    #[arg(long, value_name = "m", default_value = "6 in", requires = "bat_speed",
+          value_parser = PLACE)]
     bat_speed_at: f64,
 
     /// Rotation centre of the swing beyond the knob end (negative: inside)
-    #[arg(long, value_name = "m", default_value = "2.5 in", allow_hyphen_values = true,
-          value_parser = |s: &str| PIVOT.read(s))]
+    #[arg(long, value_name = "m", default_value = "2.5 in", value_parser = PIVOT)]
     pivot: f64,
 
     /// Speed of the ball towards the bat, at the plate
     ///
     /// A ball that is thrown at 90 mph has about 83 mph left there.
-    #[arg(long, value_name = "m/s", default_value = "83 mph", allow_hyphen_values = true,
-          value_parser = |s: &str| PLAY_SPEED.read(s))]
+    #[arg(long, value_name = "m/s", default_value = "83 mph", value_parser = PLAY_SPEED)]
     pitch: f64,
 
     /// Ball: baseball, humid-baseball, softball or a ball file
@@ -71,17 +64,15 @@ pub struct SceneArgs {
     ///
     /// In place of its own force law. A dynamic stiffness measured on a rigid cylinder is meant:
     /// F²/(m v²) for the largest force F at the speed v.
-    #[arg(long, value_name = "N/m", allow_hyphen_values = true,
-          value_parser = |s: &str| STIFFNESS.read(s))]
+    #[arg(long, value_name = "N/m", value_parser = STIFFNESS)]
     ball_stiffness: Option<f64>,
 
     /// Coefficient of restitution, in place of the ball's own
-    #[arg(long, value_name = "E", allow_hyphen_values = true, value_parser = cor)]
+    #[arg(long, value_name = "E", value_parser = cor)]
     cor: Option<f64>,
 
     /// Where the hands feel the hit, from the knob end
-    #[arg(long, value_name = "m", default_value = "6 in", allow_hyphen_values = true,
-          value_parser = |s: &str| PLACE.read(s))]
+    #[arg(long, value_name = "m", default_value = "6 in", value_parser = PLACE)]
     hands: f64,
 
     /// Whether a hollow barrel's wall gives way by its own hoop modes: auto, on or off
@@ -95,54 +86,45 @@ pub struct SceneArgs {
     /// Stiffness of a hollow barrel's wall under the ball
     ///
     /// For the contact model; in place of the wall's own hoop modes (--wall).
-    #[arg(long, value_name = "N/m", allow_hyphen_values = true,
-          value_parser = |s: &str| STIFFNESS.read(s))]
+    #[arg(long, value_name = "N/m", value_parser = STIFFNESS)]
     wall_stiffness: Option<f64>,
 
     /// Mass of that wall's own vibration [default: none, a spring in series]
-    #[arg(long, value_name = "kg", requires = "wall_stiffness",
-          allow_hyphen_values = true, value_parser = |s: &str| PART_MASS.read(s))]
+    #[arg(long, value_name = "kg", requires = "wall_stiffness", value_parser = PART_MASS)]
     wall_mass: Option<f64>,
 
     /// The swing speed is that of a bat with this swing weight
     ///
     /// The moment of inertia about a point 6 in from the knob, such as "10000 oz in2". With
     /// --swing-exponent, without which it changes no swing.
-    #[arg(long, value_name = "kg m2", allow_hyphen_values = true,
-          value_parser = |s: &str| SWING_WEIGHT.read(s))]
+    #[arg(long, value_name = "kg m2", value_parser = SWING_WEIGHT)]
     reference_inertia: Option<f64>,
 
     /// How swings slow down with the swing weight
     ///
     /// A bat of another inertia I is swung at (I_ref/I)^N times the speed: 0 is the same angular
     /// speed, 0.5 the same energy of rotation.
-    #[arg(long, value_name = "N", requires = "reference_inertia",
-          allow_hyphen_values = true, value_parser = |s: &str| not_negative(s, "exponent"))]
+    #[arg(long, value_name = "N", requires = "reference_inertia", value_parser = |s: &str| not_negative(s, "exponent"))]
     swing_exponent: Option<f64>,
 
     /// Size of the empirical loss (energy-loss)
-    #[arg(long, value_name = "G", allow_hyphen_values = true,
+    #[arg(long, value_name = "G",
           value_parser = |s: &str| not_negative(s, "gamma"))]
     gamma: Option<f64>,
 
     /// Power with which that loss falls with the mode number (energy-loss)
-    #[arg(long, value_name = "P", allow_hyphen_values = true,
+    #[arg(long, value_name = "P",
           value_parser = |s: &str| not_negative(s, "decay"))]
     decay: Option<f64>,
 
     /// Duration of the force (pulse) [default: 0.75 ms]
-    #[arg(long, value_name = "s", allow_hyphen_values = true,
-          value_parser = |s: &str| CONTACT_TIME.read(s))]
+    #[arg(long, value_name = "s", value_parser = CONTACT_TIME)]
     pulse_duration: Option<f64>,
 
     /// Share of the vibration's energy the ball need not lose (pulse) [default: 0.6]
-    #[arg(long, value_name = "KAPPA", allow_hyphen_values = true,
+    #[arg(long, value_name = "KAPPA",
           value_parser = |s: &str| not_negative(s, "loss share"))]
     loss_share: Option<f64>,
-
-    /// The ball, once it is known.
-    #[arg(skip)]
-    read: OnceCell<Ball>,
 }
 
 impl SceneArgs {
@@ -151,26 +133,17 @@ impl SceneArgs {
         (!is_built_in(&self.ball)).then(|| Path::new(&self.ball))
     }
 
-    /// The ball, with what the command line says of it; its file, which may be a pipe, is read once.
-    fn ball(&self) -> Result<Ball> {
-        if let Some(known) = self.read.get() {
-            return Ok(known.clone());
-        }
-        let ball = ball(&self.ball, self.ball_stiffness).map_err(as_options)?;
-        Ok(self.read.get_or_init(|| ball).clone())
-    }
-
-    /// What these options say, whichever bat it is.
-    fn setup(&self) -> Result<Setup> {
+    /// What these options say, whichever bat it is, with the model that they make; a file of the ball is read.
+    pub fn setup(&self) -> Result<(Setup, Model)> {
         let model = Model::all().into_iter().find(|model| model.name() == self.model);
-        Ok(Setup {
+        let setup = Setup {
             model: model.unwrap_or(Model::Contact),
             swing_speed: self.swing_speed,
             bat_speed: self.bat_speed,
             bat_speed_at: self.bat_speed_at,
             pivot: self.pivot,
             pitch: self.pitch,
-            ball: self.ball()?,
+            ball: ball(&self.ball, self.ball_stiffness).map_err(as_options)?,
             cor: self.cor,
             hands: self.hands,
             wall: WallChoice::named(&self.wall),
@@ -182,28 +155,16 @@ impl SceneArgs {
             decay: self.decay,
             pulse_duration: self.pulse_duration,
             loss_share: self.loss_share,
-        })
+        };
+        let model = setup.model().map_err(as_options)?;
+        Ok((setup, model))
     }
+}
 
-    /// The scene on that bat, and where its swing is from; `tolerance` as [`Setup::scene`] takes it.
-    pub fn scene(&self, bat: &Bat, tolerance: Option<f64>) -> Result<(Scene, Option<SwingLaw>)> {
-        self.setup()?.scene(bat, tolerance).map_err(as_options)
-    }
-
-    /// The speed of a point of the barrel, where that was given.
-    pub fn barrel_speed(&self) -> Option<BarrelSpeed> {
-        self.bat_speed.map(|speed| BarrelSpeed { speed, from_tip: self.bat_speed_at })
-    }
-
-    pub fn model(&self) -> Result<Model> {
-        self.setup()?.model().map_err(as_options)
-    }
-
-    /// Warns of speeds that nobody has.
-    pub fn warn(&self, output: &OutputArgs) {
-        for (member, strange) in self.setup().iter().flat_map(Setup::warnings) {
-            output.warn(&format!("warning: --{} {strange}", member.replace('_', "-")));
-        }
+/// Warns of speeds that nobody has.
+pub fn warn(setup: &Setup, output: &OutputArgs) {
+    for (member, strange) in setup.warnings() {
+        output.warn(&format!("warning: --{} {strange}", member.replace('_', "-")));
     }
 }
 

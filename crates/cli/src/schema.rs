@@ -1,6 +1,6 @@
 //! `sweetspot schema [FILE]`: what the files look like.
 
-use sweetspot::base::error::Result;
+use sweetspot::Result;
 use sweetspot_report::formats::{self, FileKind};
 
 use crate::done::Done;

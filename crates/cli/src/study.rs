@@ -3,8 +3,9 @@
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
-use sweetspot::base::error::{Complaint, Error, Result};
+use sweetspot::base::error::Complaint;
 use sweetspot::base::threads;
+use sweetspot::{Error, Result};
 use sweetspot_report::many::folder::StudyFolder;
 use sweetspot_report::many::fresh;
 use sweetspot_report::many::source::Study;
@@ -15,8 +16,8 @@ use sweetspot_report::plot::picture::Picture;
 use sweetspot_study::files::study_rows::Rows;
 
 use crate::common::{examples, note_outside};
-use crate::done::{Done, NOT_REACHED, warn};
-use crate::pictures;
+use crate::done::{Done, NOT_REACHED};
+use crate::output::{draw, warn};
 use crate::progress::Counted;
 use crate::style;
 
@@ -86,7 +87,7 @@ pub fn run(args: &Args) -> Result<Done> {
     }
     let folder = StudyFolder::open(&args.out, &study)?;
     // Before the work, which may take hours.
-    rows.warnings().iter().for_each(|warning| warn(warning));
+    rows.warnings().iter().for_each(|told| warn(&format!("warning: {told}"), false));
     let jobs = args.jobs.map(usize::from);
     let missing = threads::with(jobs, || folder.missing(args.npz))?;
     let division = folder.division();
@@ -97,9 +98,7 @@ pub fn run(args: &Args) -> Result<Done> {
     threads::with(jobs, || folder.make(&missing, args.npz, &tell))?;
     drop(progress);
     let table = Table::read(&folder, rows)?;
-    if let Some(folder) = &args.plots {
-        pictures::write(folder, &drawn(&table, rows, &pairs), args.quiet)?;
-    }
+    draw(&args.plots, args.quiet, || Ok(drawn(&table, rows, &pairs)))?;
     let mut text = summary::text(&table, rows);
     if args.summary {
         text += &summary::shares(&table, rows);

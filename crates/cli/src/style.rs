@@ -31,6 +31,28 @@ pub fn table(text: &str) -> String {
     if coloured(stdout().is_terminal()) { headings(&text) } else { text }
 }
 
+/// The text in lines of at most the given number of columns; its own line ends stay.
+pub fn broken(text: &str, width: usize) -> String {
+    let mut out: Vec<String> = Vec::new();
+    for paragraph in text.lines() {
+        let mut line = String::new();
+        for word in paragraph.split(' ') {
+            if !line.is_empty() && columns(&line) + 1 + columns(word) > width {
+                out.push(std::mem::take(&mut line));
+            }
+            line += if line.is_empty() { "" } else { " " };
+            line += word;
+        }
+        out.push(line);
+    }
+    out.join("\n")
+}
+
+/// Columns of a text; what may be wide counts as wide.
+pub fn columns(text: &str) -> usize {
+    text.chars().map(|c| if c < '\u{1100}' { 1 } else { 2 }).sum()
+}
+
 /// A line that begins at the margin over one that does not is a heading, up to its colon if that
 /// comes soon, or up to its columns.
 fn headings(text: &str) -> String {

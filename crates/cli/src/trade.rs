@@ -3,10 +3,9 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
-use sweetspot::base::error::Result;
-use sweetspot::modes::solve::Request;
 use sweetspot_report::parts::part::Part;
 use sweetspot_report::parts::terminal;
+use sweetspot::{Request, Result};
 use sweetspot_report::plot::{front, sets};
 use sweetspot_report::report::{trade, u_curve};
 use sweetspot_report::schema;
@@ -15,14 +14,12 @@ use sweetspot_study::trade::measure::measure;
 use sweetspot_study::trade::reference::Reference;
 use sweetspot_study::trade::u_curve as curve;
 
-use crate::common::{Prepared, examples, prepare, read};
-use crate::delivered::{apart, put};
+use crate::common::{BatFileArgs, Prepared, examples, prepare};
 use crate::done::Done;
-use crate::edits::EditArgs;
-use crate::full_option::FullArgs;
+use crate::output::{CsvArgs, FullArgs, draw, put};
 use crate::progress::Progress;
+use crate::style;
 use crate::value::{TheoryChoice, budget, theory};
-use crate::{pictures, style};
 
 /// What accuracy costs on this bat, measured here and now
 ///
@@ -33,12 +30,8 @@ use crate::{pictures, style};
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES))]
 pub struct Args {
-    /// Bat file (JSON), or the name of a built-in bat such as r161
-    #[arg(help_heading = "The bat")]
-    bat: PathBuf,
-
     #[command(flatten)]
-    edits: EditArgs,
+    bat: BatFileArgs,
 
     /// Number of bending modes
     #[arg(short = 'n', long = "modes", value_name = "N", default_value = "5", help_heading = "The bat",
@@ -49,8 +42,7 @@ pub struct Args {
     ///
     /// auto is the simplest whose estimated shift of every frequency is within 1e-4.
     #[arg(long, value_name = "THEORY", default_value = "auto", value_parser = theory(),
-          hide_possible_values = true,
-          help_heading = "Accuracy")]
+          hide_possible_values = true, help_heading = "Accuracy")]
     theory: TheoryChoice,
 
     /// Error against the number of cubic elements, for every solver, instead
@@ -65,9 +57,8 @@ pub struct Args {
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     json: Option<PathBuf>,
 
-    /// Write CSV to this file (- = standard output, and no table then)
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    csv: Option<PathBuf>,
+    #[command(flatten)]
+    csv: CsvArgs,
 
     /// Draw the front, or the U-curves of the first and the last mode, into this folder, as SVG and PNG
     #[arg(long, value_name = "DIR", help_heading = "Output")]
@@ -96,11 +87,11 @@ const U_CURVE: u64 = 120;
 const MOST: usize = 1_000_000;
 
 pub fn run(args: &Args) -> Result<Done> {
-    apart(&[("--json", &args.json), ("--csv", &args.csv)])?;
+    args.csv.beside(&args.json)?;
     let modes = usize::from(args.count);
     let theory = args.theory.0.unwrap_or_default();
     let request = Request { modes, theory, ..Request::default() };
-    let bat = read(&args.bat, &args.edits, args.quiet)?;
+    let bat = args.bat.read(args.quiet)?;
     let Prepared { bat, request, warning } = prepare(bat, args.theory, request, args.quiet)?;
     let theory = request.theory;
     let progress = Progress::new(args.quiet, "the reference");
@@ -123,10 +114,8 @@ pub fn run(args: &Args) -> Result<Done> {
         let (screen, rows) = (args.full.screen(said), trade::csv(&trade));
         (screen, schema::text(&TradeFile::of(&bat, trade)), rows, pictures)
     };
-    if let Some(folder) = &args.plots {
-        pictures::write(folder, &pictures, args.quiet)?;
-    }
-    let text = put(&args.csv, style::table(&table), || Ok(rows))?;
+    draw(&args.plots, args.quiet, || Ok(pictures))?;
+    let text = args.csv.deliver(style::table(&table), || rows)?;
     let text = put(&args.json, text, || Ok(document))?;
     Ok(Done::new(text, 0).with(warning))
 }

@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::PathBuf;
 
-use sweetspot::base::error::{Complaint, Error, Result};
+use sweetspot::base::error::Complaint;
 use sweetspot::base::file;
 use sweetspot::base::number::significant;
 use sweetspot::base::telling::Tell;
+use sweetspot::{Error, Result};
 use sweetspot_proof::bundled::CASES;
 use sweetspot_proof::hit_promise::{self, CheckedHit};
 use sweetspot_proof::hoop_promise::{self, CheckedHoop};
@@ -20,12 +21,10 @@ use sweetspot_report::parts::terminal::wrapped;
 use sweetspot_report::proof_page;
 
 use crate::done::{Done, FAILED};
-use crate::full_option::FullArgs;
+use crate::output::FullArgs;
 use crate::progress::Progress;
-use crate::tables::{
-    extremes_table, hit_promise_table, hoop_promise_table, promise_table, proven_promise_table,
-};
-use sweetspot_report::report::columns::{Columns, first, labels, numbers};
+use crate::tables::{self, Shown, table};
+use sweetspot_report::report::columns::{first, labels, numbers};
 
 /// Every known answer beside ours
 ///
@@ -82,7 +81,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let progress = Progress::new(args.quiet, "known answers");
     let tell = |share, what: &str| progress.say(share, what);
     if args.extremes {
-        let (out, good) = extremes_table::table(&tell);
+        let (out, good) = tables::extremes(&tell);
         return Ok(Done::new(out, if good { 0 } else { FAILED }));
     }
     if let Some(path) = &args.page {
@@ -98,23 +97,19 @@ pub fn run(args: &Args) -> Result<Done> {
     if args.cases.is_empty() {
         let rows = promise::rows(&tell)?;
         let hits = hit_promise::rows(&tell)?;
-        out += if args.promise { "" } else { "\n" };
         if args.promise {
-            out += &promise_table::table(&rows);
-            out += &hit_promise_table::table(&hits);
             let hoops = hoop_promise::rows(&tell, hoop_promise::BARRELS)?;
-            out += &hoop_promise_table::table(&hoops);
+            out += &(tables::beams(&rows) + &tables::hits(&hits) + &tables::hoops(&hoops));
             good &= hoops.iter().all(CheckedHoop::holds);
+        } else {
+            out.push('\n');
         }
-        out += &promise_table::summary(&rows);
-        out.push('\n');
-        out += &hit_promise_table::summary(&hits);
+        out += &(tables::beams_in_short(&rows) + "\n" + &tables::hits_in_short(&hits));
         screen += &promises(&rows, &hits);
         if args.promise {
             let proven = proven_promise::rows(&tell)?;
-            out.push('\n');
-            out += &proven_promise_table::summary(&proven);
-            good &= proven_promise_table::holds(&proven);
+            out += &format!("\n{}", tables::proven(&proven));
+            good &= proven.iter().all(|row| row.broken == 0);
         }
         good &= Summary::of(&rows).holds() && hit_promise::Summary::of(&hits).holds();
     }
@@ -150,29 +145,39 @@ fn page(path: &std::path::Path, tell: Tell) -> Result<Done> {
     Ok(Done::new(wrapped(&proof_page::verdict(&answers), 0), code))
 }
 
+/// A case by its file, its name, and its numbers.
+type KnownCase = (&'static str, String, Vec<KnownNumber>);
+
 /// Every known answer beside ours.
 fn known_answers(args: &Args, tell: Tell, out: &mut String) -> Result<Vec<KnownNumber>> {
     let asked = |name: &str| args.cases.is_empty() || args.cases.iter().any(|case| case == name);
-    let mut all = vec![];
-    if args.summary {
-        *out += &of_cases().heads();
-    }
+    let mut cases: Vec<KnownCase> = vec![];
     for (k, (name, text)) in CASES.iter().enumerate().filter(|(_, (name, _))| asked(name)) {
         tell(k as f64 / CASES.len() as f64, name);
         let (case, rows) = run_case(name, text)?;
-        if args.summary {
-            let missed = rows.iter().filter(|row| row.missed()).count();
-            let worst = rows.iter().map(KnownNumber::share).fold(0.0, f64::max);
-            let [rows, missed] = [rows.len(), missed].map(|count| count.to_string());
-            *out += &of_cases().row([name.to_string(), rows, missed, format!("{worst:.3}")]);
-        } else {
-            *out += &wrapped(&format!("{} ({name})", case.name), 2);
+        cases.push((*name, case.name, rows));
+    }
+    if args.summary {
+        let columns: [Shown<KnownCase>; 4] = [
+            (first(33, "case"), |(name, ..)| (*name).to_owned()),
+            (numbers(6, "rows"), |(.., rows)| rows.len().to_string()),
+            (numbers(8, "missed"), |(.., rows)| {
+                rows.iter().filter(|row| row.missed()).count().to_string()
+            }),
+            (numbers(23, "worst error/tolerance"), |(.., rows)| {
+                format!("{:.3}", rows.iter().map(KnownNumber::share).fold(0.0, f64::max))
+            }),
+        ];
+        *out += &table(columns, &cases);
+    } else {
+        for (name, title, rows) in &cases {
+            *out += &wrapped(&format!("{title} ({name})"), 2);
             *out += "  quantity                expected            got    error tolerance\n";
             rows.iter().for_each(|row| line(row, out));
             out.push('\n');
         }
-        all.extend(rows);
     }
+    let all: Vec<KnownNumber> = cases.into_iter().flat_map(|(.., rows)| rows).collect();
     *out += &counts(&all);
     Ok(all)
 }
@@ -210,27 +215,27 @@ fn kinds(all: &[KnownNumber]) -> String {
         }
         kinds.entry(kind).or_default().push(row);
     }
-    let columns = Columns::new([
-        first(20, "kind"),
-        numbers(6, "rows"),
-        numbers(23, "worst error/tolerance"),
-        labels(29, "case"),
-    ]);
-    let mut out = columns.heads();
-    for (kind, rows) in &kinds {
-        let worst = rows.iter().max_by(|a, b| a.share().total_cmp(&b.share()));
-        let Some(worst) = worst else { continue };
-        let share = format!("{:.3}", worst.share());
-        out += &columns.row([kind, &rows.len().to_string(), &share, &worst.case]);
+    fn worst<'a>(rows: &[&'a KnownNumber]) -> Option<&'a KnownNumber> {
+        rows.iter().copied().max_by(|a, b| a.share().total_cmp(&b.share()))
     }
-    out
+    let columns: [Shown<(String, Vec<&KnownNumber>)>; 4] = [
+        (first(20, "kind"), |(kind, _)| kind.clone()),
+        (numbers(6, "rows"), |(_, rows)| rows.len().to_string()),
+        (numbers(23, "worst error/tolerance"), |(_, rows)| {
+            worst(rows).map_or(String::new(), |worst| format!("{:.3}", worst.share()))
+        }),
+        (labels(29, "case"), |(_, rows)| {
+            worst(rows).map_or(String::new(), |worst| worst.case.clone())
+        }),
+    ];
+    table(columns, &kinds.into_iter().collect::<Vec<_>>())
 }
 
 /// The promise about stated errors: a sentence each where it is kept, else bat by bat.
 fn promises(rows: &[CheckedBat], hits: &[CheckedHit]) -> String {
     let (all, struck) = (Summary::of(rows), hit_promise::Summary::of(hits));
     let mut out = match all.holds() {
-        false => promise_table::summary(rows),
+        false => tables::beams_in_short(rows),
         true => wrapped(
             &format!(
                 "Errors on bats with exact frequencies, true over stated, at most: frequencies {:.2}, nodes {:.2}, \
@@ -241,7 +246,7 @@ fn promises(rows: &[CheckedBat], hits: &[CheckedHit]) -> String {
         ),
     };
     out += &match struck.holds() {
-        false => hit_promise_table::summary(hits),
+        false => tables::hits_in_short(hits),
         true => wrapped(
             &format!(
                 "Errors of exit speeds on {} random hits, true over stated, at most: {:.2}.",
@@ -251,15 +256,6 @@ fn promises(rows: &[CheckedBat], hits: &[CheckedHit]) -> String {
         ),
     };
     out
-}
-
-fn of_cases() -> Columns {
-    Columns::new([
-        first(33, "case"),
-        numbers(6, "rows"),
-        numbers(8, "missed"),
-        numbers(23, "worst error/tolerance"),
-    ])
 }
 
 fn line(row: &KnownNumber, out: &mut String) {

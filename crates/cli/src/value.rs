@@ -1,15 +1,17 @@
 //! Values on the command line: how they are read, and how they are said.
 
+use std::any::TypeId;
+use std::ffi::OsStr;
 use std::time::Duration;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Arg, Command};
 use sweetspot::base::error::Complaint;
 use sweetspot::base::number::significant;
 use sweetspot::base::typed;
 use sweetspot::base::units::{self, Quantity};
-use sweetspot::bat::theory::Theory;
 use sweetspot::collision::ball::restitution;
-use sweetspot::modes::solve::Solver;
+use sweetspot::{Solver, Theory};
 use sweetspot_report::parts::units::Units;
 
 /// The unit of length of a universal file, such as `mm`, with the unit of force that goes with it.
@@ -23,6 +25,7 @@ pub fn file_unit(text: &str) -> std::result::Result<uff58::Units, String> {
 /// A bare number is in SI, unless it is implausible so and plausible in a unit of the trade: then
 /// both readings are told (90 for a pitch is 201 mph in SI, and somebody means 90 mph). Files are read
 /// without this, as they are made by programs too.
+#[derive(Clone, Copy)]
 pub struct Use {
     quantity: Quantity,
     /// Smallest and largest plausible size, in SI.
@@ -89,7 +92,7 @@ impl Use {
         format!("{least} to {most} {}", self.quantity.unit())
     }
 
-    /// A value from the command line in SI, for an option's `value_parser`.
+    /// A value from the command line in SI.
     pub fn read(&self, text: &str) -> std::result::Result<f64, String> {
         self.sensible(text, self.quantity.si().0)
             .and_then(|()| units::parse_or_si(text, self.quantity))
@@ -119,6 +122,30 @@ impl Use {
         );
         Err(Complaint::new("", text, expected))
     }
+}
+
+impl TypedValueParser for Use {
+    type Value = f64;
+
+    fn parse_ref(
+        &self,
+        command: &Command,
+        option: Option<&Arg>,
+        text: &OsStr,
+    ) -> std::result::Result<f64, clap::Error> {
+        let of = *self;
+        (move |text: &str| of.read(text)).parse_ref(command, option, text)
+    }
+}
+
+/// The command, in which every number may begin with a minus.
+pub fn with_minus(command: Command) -> Command {
+    let command =
+        command.mut_args(|arg| match arg.get_value_parser().type_id() == TypeId::of::<f64>() {
+            true => arg.allow_hyphen_values(true),
+            false => arg,
+        });
+    command.mut_subcommands(with_minus)
 }
 
 /// The angular speed of a swing; who gives a speed of the barrel is shown how.

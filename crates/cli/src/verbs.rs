@@ -6,15 +6,16 @@ use std::io::IsTerminal;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::parser::ValueSource;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
-use sweetspot::base::error::{Complaint, Error, Result, nearest};
+use sweetspot::base::error::{Complaint, nearest};
 use sweetspot::base::file;
 use sweetspot::files::built_in;
+use sweetspot::{Error, Result};
 
 use crate::done::{Done, printable};
 use crate::{
     advise, aim, analyze, bats, bbcor, calibrate, compare, completions, convert, diagnostic,
     first_word, frf, help, hit, hoop, lathe, licences, man, materials, modes, new, ring, scatter,
-    scene, schema, stop, study, style, trade, validate,
+    scene, schema, stop, study, style, trade, validate, value,
 };
 use sweetspot_report::report::mistakes;
 
@@ -112,7 +113,8 @@ pub fn run() -> Result<Done> {
 /// `ring --hit` alone in that verb.
 fn parse(words: Vec<OsString>) -> std::result::Result<Cli, clap::Error> {
     let scene = scene::SceneArgs::augment_args(clap::Command::new("scene"));
-    let matches = help::grouped(help::fitted(Cli::command())).try_get_matches_from(words);
+    let command = help::grouped(help::fitted(value::with_minus(Cli::command())));
+    let matches = command.try_get_matches_from(words);
     let matches = matches.map_err(|said| bat_for_a_verb(near_tips(said)))?;
     if let Some(("ring", ring)) = matches.subcommand().filter(|(_, m)| !given(m, "hit")) {
         let stray = scene.get_arguments().find(|arg| given(ring, arg.get_id().as_str()));

@@ -3,14 +3,16 @@
 //! A dialogue is a function of its answers. To go back is to leave the last answer out and to ask from
 //! the beginning, passing over what is known; a draft is a file of the answers.
 
+use std::borrow::Cow;
 use std::io::{BufRead, Read as _, Write};
 use std::path::Path;
 
-use sweetspot::base::error::{Complaint, Error, Result};
+use sweetspot::base::error::Complaint;
+use sweetspot::{Error, Result};
 use sweetspot_report::parts::terminal::wrapped;
 
 use crate::asking::draft::{Answers, Draft};
-use crate::common::printed;
+use crate::common::{about, printed};
 use crate::done::printable;
 
 /// A person gives up sooner, and a program that answers without end is stopped.
@@ -41,20 +43,39 @@ impl From<Error> for Halt {
 pub type Asked<T> = std::result::Result<T, Halt>;
 
 /// A question.
+#[derive(Clone)]
 pub struct Question<'a> {
-    /// The word by which its answer stands in a draft.
+    /// The word by which its answer stands in a draft, which is the name of the option that says the same.
     pub name: &'static str,
     /// What is asked.
-    pub text: &'a str,
+    pub text: Cow<'a, str>,
     /// What an empty line means.
     pub usual: Option<&'a str>,
     /// What a question mark is answered with.
     pub help: &'a str,
 }
 
+impl<'a> Question<'a> {
+    /// A question, and what an empty line means; [`Self::of`] puts a unit in the place of `@`.
+    pub const fn new(
+        name: &'static str,
+        text: &'a str,
+        usual: Option<&'a str>,
+        help: &'a str,
+    ) -> Self {
+        Self { name, text: Cow::Borrowed(text), usual, help }
+    }
+
+    /// The question about a value in that unit.
+    pub fn of(self, unit: &str) -> Self {
+        Self { text: self.text.replace('@', unit).into(), ..self }
+    }
+}
+
 /// Whoever answers, line by line; questions go to standard error.
 pub struct Dialogue<R> {
-    answers: R,
+    /// None where nobody is there to ask.
+    answers: Option<R>,
     /// Right answers, each after the name of its question.
     given: Vec<[String; 2]>,
     /// How many of them have been passed over since the beginning.
@@ -71,14 +92,25 @@ impl<R: BufRead> Dialogue<R> {
     /// A dialogue that is kept nowhere.
     #[cfg(test)]
     pub fn new(answers: R) -> Self {
-        Self { answers, given: vec![], passed: 0, draft: None, before: None }
+        Self { answers: Some(answers), ..Self::nobody() }
+    }
+
+    /// A dialogue with nobody: every question has its usual answer, if it has one.
+    pub fn nobody() -> Self {
+        Self { answers: None, given: vec![], passed: 0, draft: None, before: None }
+    }
+
+    /// Whether somebody is there to ask.
+    pub fn is_there(&self) -> bool {
+        self.answers.is_some()
     }
 
     /// A dialogue about that bat, which may not have a name yet, that is kept in a draft. Where there is one of this
     /// bat, [`Self::hold`] asks whether to go on with it.
     pub fn kept(answers: R, draft: (&str, &Path), of: &str) -> Self {
         let (draft, before) = Draft::of(draft, of);
-        let dialogue = Self { answers, given: vec![], passed: 0, draft: Some(draft), before };
+        let answers = Some(answers);
+        let dialogue = Self { answers, draft: Some(draft), before, ..Self::nobody() };
         if let (Some(draft), None) = (&dialogue.draft, &dialogue.before) {
             dialogue.tell(&draft.said());
         }
@@ -119,7 +151,7 @@ impl<R: BufRead> Dialogue<R> {
             format!("Go on with the draft of '{of}' ({count} {answers} in {draft}), yes or no");
         let help = "Yes goes on after its last answer. No begins anew: the draft is written over by the \
                     next answer.";
-        let question = Question { name: "go on", text: &text, usual: None, help };
+        let question = Question::new("go on", &text, None, help);
         if self.answered(&question, yes_or_no)?.1 {
             self.given = before.given;
             self.tell(&format!("Going on after the {count} {answers} in {draft}."));
@@ -147,7 +179,7 @@ impl<R: BufRead> Dialogue<R> {
 
     /// Prints a line that asks nothing, unless it was printed before the answers that are known.
     pub fn say(&self, text: &str) {
-        if self.passed == self.given.len() {
+        if self.is_there() && self.passed == self.given.len() {
             self.tell(text);
         }
     }
@@ -163,12 +195,31 @@ impl<R: BufRead> Dialogue<R> {
         self.draft.as_ref().and_then(Draft::path).map(printed)
     }
 
+    /// What an option says, or else the answer to the question of its name.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] about the option; as [`Self::ask`].
+    pub fn told<T>(
+        &mut self,
+        option: &Option<String>,
+        question: &Question,
+        read: impl Fn(&str) -> Read<T>,
+    ) -> Asked<T> {
+        let Some(text) = option else { return self.ask(question, read) };
+        Ok(read(text).map_err(|complaint| about(format!("--{}", question.name), complaint))?)
+    }
+
     /// Asks until the answer is one.
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] at the end of the answers, or after too many wrong ones.
+    /// [`Error::Value`] at the end of the answers, after too many wrong ones, or where nobody is there to answer.
     pub fn ask<T>(&mut self, question: &Question, read: impl Fn(&str) -> Read<T>) -> Asked<T> {
+        if !self.is_there() {
+            let usual = question.usual.ok_or_else(|| missing(&format!("--{}", question.name)))?;
+            return Ok(read(usual).map_err(Error::Value)?);
+        }
         if let Some(value) = self.known(question, &read) {
             return Ok(value);
         }
@@ -233,8 +284,9 @@ impl<R: BufRead> Dialogue<R> {
         let _ = write!(std::io::stderr(), "{}{}: ", text.join("\n"), printable(&hint));
         let mut line = vec![];
         let failed = |source| Error::Read { path: "standard input".into(), source };
-        let mut answers = (&mut self.answers).take(LONGEST);
-        if answers.read_until(b'\n', &mut line).map_err(failed)? == 0 {
+        let answers = self.answers.as_mut();
+        let read = answers.map(|answers| answers.take(LONGEST).read_until(b'\n', &mut line));
+        if read.transpose().map_err(failed)?.unwrap_or(0) == 0 {
             let _ = writeln!(std::io::stderr());
             return Err(self.ended(question, "the end of the answers"));
         }
@@ -263,6 +315,11 @@ impl<R: BufRead> Dialogue<R> {
     }
 }
 
+/// An error about what nobody has said.
+pub fn missing(what: &str) -> Error {
+    Error::value("new", "none", format!("{what}, or --ask to answer questions"))
+}
+
 fn yes_or_no(text: &str) -> Read<bool> {
     match text.to_lowercase().as_str() {
         "y" | "yes" => Ok(true),
@@ -276,8 +333,7 @@ mod tests {
     use super::*;
     use crate::asking::ask::mass;
 
-    const MASS: Question =
-        Question { name: "mass", text: "Mass", usual: None, help: "On a scale." };
+    const MASS: Question = Question::new("mass", "Mass", None, "On a scale.");
 
     #[test]
     fn a_wrong_answer_is_asked_again_and_the_end_of_answers_is_an_error() {

@@ -2,12 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use sweetspot::base::error::{Complaint, Error, Result};
 use sweetspot::base::units::inches;
+use sweetspot::{Error, Result};
 use sweetspot_proof::bundled::bundled_bat;
 
 use crate::asking::ask;
-use crate::bat_text::Measured;
+use crate::common::about;
 
 /// Write a bat file, by asking or from options
 ///
@@ -37,8 +37,8 @@ pub struct Args {
     pub name: Option<String>,
 
     /// Unit of the file's lengths: in or cm
-    #[arg(long, value_name = "in|cm", help_heading = "The bat",
-          value_parser = ["in", "cm"], hide_possible_values = true)]
+    #[arg(long, value_name = "in|cm", help_heading = "The bat", value_parser = ["in", "cm"],
+          hide_possible_values = true)]
     pub unit: Option<String>,
 
     /// Length, such as "33.5 in"; a bare number is in the file's unit
@@ -94,71 +94,31 @@ Examples:
 
 const SOURCE: &str = "measured with ruler, calipers and scale";
 
-/// From options alone; what is missing is said.
-pub fn given(args: &Args) -> Result<Measured> {
-    let missing =
-        |what: &str| Error::value("new", "none", format!("{what}, or --ask to answer questions"));
-    let unit = unit(args.unit.as_deref());
-    let stations = match (&args.like, args.stations.is_empty()) {
-        (None, true) => return Err(missing("--station or --like")),
-        (Some(name), _) => like(name, length(args, unit)?, unit)?,
-        (None, false) => stations(args, unit)?,
-    };
-    let wall = args.wall.as_ref().map(|wall| ask::wall(wall, &stations, unit));
-    let cup = args.cup.as_ref().map(|cup| ask::cup(cup, &stations, unit));
-    Ok(Measured {
-        wall: wall.transpose().map_err(of_option("--wall"))?.flatten(),
-        cup: cup.transpose().map_err(of_option("--cup"))?.flatten(),
-        name: args.name.clone().unwrap_or_else(|| "My bat".to_owned()),
-        source: source(args),
-        material: args.material.clone().ok_or_else(|| missing("--material"))?,
-        mass: Some(args.mass.clone().ok_or_else(|| missing("--mass"))?),
-        unit,
-        stations,
-        balance: None,
-        tap: None,
-        tape: None,
-    })
-}
-
-/// What is wrong with the value of an option.
-pub fn of_option(name: &str) -> impl Fn(Complaint) -> Error {
-    move |complaint| Error::Value(Complaint { field: name.to_owned(), ..complaint })
-}
-
-pub fn unit(name: Option<&str>) -> &'static str {
-    if name == Some("cm") { "cm" } else { "in" }
-}
-
 pub fn source(args: &Args) -> String {
     let of =
         |like: &String| format!("the diameters of {like} as built in, stretched to the length");
     args.like.as_ref().map_or(SOURCE.to_owned(), of)
 }
 
-/// `--length` in the file's unit.
-pub fn length(args: &Args, unit: &str) -> Result<Option<f64>> {
-    let read = |text: &String| ask::length(text, unit).map_err(of_option("--length"));
-    args.length.as_ref().map(read).transpose()
-}
-
 /// The stations of the options; the last must be the tip.
-pub fn stations(args: &Args, unit: &str) -> Result<Vec<[f64; 2]>> {
-    let length = length(args, unit)?;
+pub fn stations(given: &[String], length: Option<f64>, unit: &str) -> Result<Vec<[f64; 2]>> {
     let mut stations: Vec<[f64; 2]> = Vec::new();
-    for text in &args.stations {
+    for text in given {
         let end = length.unwrap_or(f64::INFINITY);
         let measured = ask::station(text, None, &stations, end, unit);
         // An empty text is not a station.
         let missing = || Error::value("--station", "nothing", "a place and its diameter");
-        stations.push(measured.map_err(of_option("--station"))?.ok_or_else(missing)?);
+        let measured = measured.map_err(|complaint| about("--station", complaint))?;
+        stations.push(measured.ok_or_else(missing)?);
     }
     let last = stations.last().map_or(0.0, |s| s[0]);
-    if let Some(length) = length.filter(|length| *length > last) {
-        let found = format!("the last one at {last} {unit}");
-        return Err(Error::value("--station", found, format!("one at the tip, {length} {unit}")));
+    match length.filter(|length| *length > last) {
+        Some(length) => {
+            let found = format!("the last one at {last} {unit}");
+            Err(Error::value("--station", found, format!("one at the tip, {length} {unit}")))
+        }
+        None => Ok(stations),
     }
-    Ok(stations)
 }
 
 /// The stations of a built-in bat, as long as that; lengths in `unit`.

@@ -2,16 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use sweetspot::base::error::Result;
 use sweetspot::base::file;
-use sweetspot::bat::body::Bat;
-use sweetspot::modes::solve::Solution;
 use sweetspot::motion::sound::Sound;
+use sweetspot::{Bat, Result, Solution};
 use sweetspot_report::exchange::wav;
 use sweetspot_study::ignored::thinnest_wall;
 
-use crate::common::{BatArgs, OutputArgs, SolveArgs, examples};
-use crate::full_option::FullArgs;
+use crate::common::{BatArgs, SolveArgs, examples};
+use crate::output::{FullArgs, OutputArgs};
 use crate::scene::SceneArgs;
 use crate::value::{IMPULSE, PLACE, RINGING_TIME};
 use sweetspot_report::csv::Csv;
@@ -32,18 +30,18 @@ pub struct Args {
     pub bat: BatArgs,
 
     /// Hit a ball there, from the knob end
-    #[arg(long, value_name = "m", help_heading = "The hit", conflicts_with_all = ["at", "initial", "bending_only"],
-          allow_hyphen_values = true, value_parser = |s: &str| PLACE.read(s))]
+    #[arg(long, value_name = "m", help_heading = "The hit",
+          conflicts_with_all = ["at", "initial", "bending_only"], value_parser = PLACE)]
     pub hit: Option<f64>,
 
     /// Places to watch after a hit, separated by commas [default: the hands]
-    #[arg(long, value_name = "m,m,…", help_heading = "The hit", requires = "hit", value_delimiter = ',',
-          allow_hyphen_values = true, value_parser = |s: &str| PLACE.read(s))]
+    #[arg(long, value_name = "m,m,…", help_heading = "The hit", requires = "hit",
+          value_delimiter = ',', value_parser = PLACE)]
     pub watch: Vec<f64>,
 
     /// How long to watch after a hit [default: three periods of mode 1]
-    #[arg(long, value_name = "s", help_heading = "The hit", requires = "hit", allow_hyphen_values = true,
-          value_parser = |s: &str| RINGING_TIME.read(s))]
+    #[arg(long, value_name = "s", help_heading = "The hit", requires = "hit",
+          value_parser = RINGING_TIME)]
     pub until: Option<f64>,
 
     /// Write force, motion and strain at the watched places to this CSV file (- = standard output, and no
@@ -55,13 +53,13 @@ pub struct Args {
     pub scene: SceneArgs,
 
     /// Where it is struck or pushed, from the knob end
-    #[arg(long, value_name = "m", help_heading = "A blow, a push or a release", requires = "load", allow_hyphen_values = true,
-          value_parser = |s: &str| PLACE.read(s))]
+    #[arg(long, value_name = "m", requires = "load", value_parser = PLACE,
+          help_heading = "A blow, a push or a release")]
     pub at: Option<f64>,
 
     /// The impulse of the blow
-    #[arg(long, value_name = "N s", help_heading = "A blow, a push or a release", requires = "at", allow_hyphen_values = true, group = "load",
-          value_parser = |s: &str| IMPULSE.read(s))]
+    #[arg(long, value_name = "N s", requires = "at", group = "load", value_parser = IMPULSE,
+          help_heading = "A blow, a push or a release")]
     pub impulse: Option<f64>,
 
     /// Push it with the force in this CSV file
@@ -71,9 +69,9 @@ pub struct Args {
     #[arg(
         long,
         value_name = "FILE",
-        help_heading = "A blow, a push or a release",
         requires = "at",
-        group = "load"
+        group = "load",
+        help_heading = "A blow, a push or a release"
     )]
     pub force: Option<PathBuf>,
 
@@ -83,14 +81,14 @@ pub struct Args {
     #[arg(
         long,
         value_name = "FILE",
-        help_heading = "A blow, a push or a release",
-        conflicts_with = "at"
+        conflicts_with = "at",
+        help_heading = "A blow, a push or a release"
     )]
     pub initial: Option<PathBuf>,
 
     /// Instants, separated by commas [default: nine over a period of mode 1]
-    #[arg(long, value_name = "s,s,…", help_heading = "Output", value_delimiter = ',', allow_hyphen_values = true,
-          value_parser = |s: &str| RINGING_TIME.read(s))]
+    #[arg(long, value_name = "s,s,…", help_heading = "Output", value_delimiter = ',',
+          value_parser = RINGING_TIME)]
     pub times: Vec<f64>,
 
     /// Leave out the rigid motion
@@ -160,11 +158,21 @@ pub fn write_sound(path: &Path, bat: &Bat, sound: &Sound) -> Result<Vec<String>>
     Ok(assumed.into_iter().chain(ping).collect())
 }
 
-/// The instants asked for, or nine over a period of mode 1.
+/// The period of mode 1 (s), or what is near that of most bats where there is no mode.
+pub fn period(solution: &Solution) -> f64 {
+    solution.modes.first().map_or(0.01, |mode| 1.0 / mode.frequency())
+}
+
+/// The instants asked for, or nine over a period of mode 1 (s).
 pub fn times(args: &Args, solution: &Solution) -> Vec<f64> {
-    let period = solution.modes.first().map_or(0.01, |mode| 1.0 / mode.frequency());
-    let nine = || (0..=8).map(|k| period * f64::from(k) / 8.0).collect();
+    let nine = || (0..=8).map(|k| period(solution) * f64::from(k) / 8.0).collect();
     if args.times.is_empty() { nine() } else { args.times.clone() }
+}
+
+/// The even points from end to end (m).
+pub fn places(args: &Args, bat: &Bat) -> Vec<f64> {
+    let last = f64::from(args.shape_points - 1);
+    (0..args.shape_points).map(|k| bat.length() * f64::from(k) / last).collect()
 }
 
 pub fn csv(x: &[f64], times: &[f64], frames: &[Vec<f64>]) -> String {

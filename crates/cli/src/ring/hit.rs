@@ -1,37 +1,30 @@
 //! `ring --hit`: how the bat moves and what it bears after a hit.
 
-use sweetspot::base::error::{Error, Result};
 use sweetspot::base::units::shown_length;
-use sweetspot::bat::body::Bat;
 use sweetspot::collision::aftermath::{Aftermath, Instant};
 use sweetspot::collision::hit::{Effort, Model};
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::strength::breaking_swing;
-use sweetspot::modes::solve::{Solution, solve};
+use sweetspot::{Bat, Error, Result, Solution, solve};
 use sweetspot_report::parts::terminal::{LINES, fitting, wrapped};
+use sweetspot_report::plot::picture::Picture;
 use sweetspot_report::plot::ringing;
+use sweetspot_report::plot::sheet::Sheet;
 use sweetspot_report::report::aftermath::{self, AfterHit};
 use sweetspot_report::report::{hit_json, hit_text};
 use sweetspot_study::ignored;
 
-use crate::common::{Prepared, on_the_bat};
-use crate::delivered::put;
+use crate::common::{Prepared, as_options, on_the_bat};
 use crate::done::Done;
-use crate::pictures;
-use crate::ring::args::{Args, csv, times, write_sound};
+use crate::output::put;
+use crate::ring::args::{Args, csv, period, places, times, write_sound};
+use crate::scene;
 
 /// A hit, and what comes of it.
 pub fn run(args: &Args, bat: Bat, x: f64) -> Result<Done> {
-    /// Modes whose sum is a bat's strain to a few per cent.
-    const ENOUGH: usize = 40;
     let x = on_the_bat(&bat, "--hit", x)?;
-    let count = if args.bat.asked() { args.bat.count() } else { ENOUGH };
-    let count = args.solve.modes_within(count, bat.profile().pieces.len());
-    if let Some(place) = args.watch.iter().find(|x| !(0.0..=bat.length()).contains(*x)) {
-        on_the_bat(&bat, "--watch", *place)?;
-    }
-    args.solve.refuse_budget("ring --hit")?;
-    let model = args.scene.model()?;
+    let count = asked(args, &bat)?;
+    let (setup, model) = args.scene.setup()?;
     if model != Model::Contact {
         let expected = "contact, the model with a force in time";
         return Err(Error::value("--model", model.name(), expected));
@@ -39,8 +32,8 @@ pub fn run(args: &Args, bat: Bat, x: f64) -> Result<Done> {
     let prepared = args.bat.prepare(bat, count, &args.solve, &args.output)?;
     let Prepared { bat, request, warning } = prepared;
     let tolerance = (!args.bat.asked()).then_some(request.tolerance);
-    let (scene, _) = args.scene.scene(&bat, tolerance)?;
-    args.scene.warn(&args.output);
+    let (scene, _) = setup.scene(&bat, tolerance).map_err(as_options)?;
+    scene::warn(&setup, &args.output);
     let solution = solve(&bat, &request)?;
     args.solve.say_raised(&solution, &args.output);
     let effort = Effort { completed: !args.bat.asked(), ..Effort::default() };
@@ -51,8 +44,7 @@ pub fn run(args: &Args, bat: Bat, x: f64) -> Result<Done> {
         return Err(Error::value("--hit", found, "a place where ball and bat meet"));
     };
     let after = Aftermath::new(&bat, &solution, x, force);
-    let period = solution.modes.first().map_or(0.01, |mode| 1.0 / mode.frequency());
-    let until = args.until.unwrap_or(3.0 * period);
+    let until = args.until.unwrap_or(3.0 * period(&solution));
     if !(until > 0.0 && until < 1e3) {
         return Err(Error::value("--until", format!("{until:?} s"), "above 0 and below 1000 s"));
     }
@@ -62,50 +54,57 @@ pub fn run(args: &Args, bat: Bat, x: f64) -> Result<Done> {
         load.reached_at_swing_rad_s =
             breaking_swing(&bat, &solution, (&scene, effort), (x, until), load.limit);
     }
-    let units = args.output.units(&bat);
-    let mut heard = String::new();
-    if let Some(path) = &args.wav {
-        for told in write_sound(path, &bat, &after.sound(&solution))? {
-            heard += &wrapped(&format!("Sound: {told}"), 2);
-        }
-    }
-    if let Some(folder) = &args.plots {
-        let seen = report.watched.iter().map(|seen| (seen.x_m, &seen.spectrum[..])).collect();
-        let picture = ringing::AfterHit {
-            bat: bat.name(),
-            length: bat.length(),
-            after: &after,
-            watched: seen,
-            until: report.until,
-            envelope: &report.envelope,
-            damped: report.damped,
-        };
-        let pictures = picture.pictures(args.output.sheet(&bat));
-        pictures::write(folder, &pictures, args.output.quiet)?;
-    }
+    let sound = args.wav.as_ref().map(|path| write_sound(path, &bat, &after.sound(&solution)));
+    let heard = sound.transpose()?.into_iter().flatten();
+    let heard: String = heard.map(|told| wrapped(&format!("Sound: {told}"), 2)).collect();
+    args.output.draw(&args.plots, &bat, |sheet| Ok(drawn(sheet, &bat, &after, &report)))?;
     let code = args.solve.verdict(&solution, &args.output);
-    let document = || {
-        let ignored = ignored::in_hit(&bat, &scene);
-        aftermath::document(&after, &report, hit_json::impact(&bat, &impact), ignored)
-    };
-    let asked = !(args.watch.is_empty() && args.times.is_empty());
     let text = args.full.screen(|full| {
+        let units = args.output.units(&bat);
         let scene = hit_text::scene(&bat, &scene, model.name(), units);
         let hit = aftermath::impact(&impact, units);
         let text = scene + &hit + &aftermath::text(&report, units, full);
-        (if full || asked { text } else { fitting(&text, LINES) }) + &heard
+        let all = full || !(args.watch.is_empty() && args.times.is_empty());
+        (if all { text } else { fitting(&text, LINES) }) + &heard
     });
-    let text = args.output.deliver(text, document)?;
+    let text = args.output.deliver(text, || {
+        let ignored = ignored::in_hit(&bat, &scene);
+        aftermath::document(&after, &report, hit_json::impact(&bat, &impact), ignored)
+    })?;
     let text = put(&args.history, text, || Ok(aftermath::history(&report)))?;
     let text = put(&args.csv, text, || Ok(frames_after(args, &bat, &solution, &after)))?;
     Ok(Done::new(text, code).with(warning))
 }
 
+/// How many modes are asked for, where all that is asked can be.
+fn asked(args: &Args, bat: &Bat) -> Result<usize> {
+    /// Modes whose sum is a bat's strain to a few per cent.
+    const ENOUGH: usize = 40;
+    if let Some(place) = args.watch.iter().find(|x| !(0.0..=bat.length()).contains(*x)) {
+        on_the_bat(bat, "--watch", *place)?;
+    }
+    args.solve.refuse_budget("ring --hit")?;
+    let count = if args.bat.asked() { args.bat.count() } else { ENOUGH };
+    Ok(args.solve.modes_within(count, bat.profile().pieces.len()))
+}
+
+/// The motion of the watched places, their spectrum and the strain along the bat.
+fn drawn(sheet: Sheet, bat: &Bat, after: &Aftermath, report: &AfterHit) -> Vec<Picture> {
+    let picture = ringing::AfterHit {
+        bat: bat.name(),
+        length: bat.length(),
+        after,
+        watched: report.watched.iter().map(|seen| (seen.x_m, &seen.spectrum[..])).collect(),
+        until: report.until,
+        envelope: &report.envelope,
+        damped: report.damped,
+    };
+    picture.pictures(sheet)
+}
+
 /// The bat's deflections after a hit as CSV, the instants in their order.
 fn frames_after(args: &Args, bat: &Bat, solution: &Solution, after: &Aftermath) -> String {
-    let last = f64::from(args.shape_points - 1);
-    let places = (0..args.shape_points).map(|k| bat.length() * f64::from(k) / last);
-    let places: Vec<f64> = places.collect();
+    let places = places(args, bat);
     let mut times = times(args, solution);
     times.sort_by(f64::total_cmp);
     let deflections = |now: &Instant| places.iter().map(|x| after.motion(*x, now)[0]).collect();

@@ -10,10 +10,9 @@ mod args;
 mod hit;
 mod motion;
 
-use sweetspot::base::error::Result;
-
-use crate::delivered::apart;
 use crate::done::Done;
+use crate::output::apart;
+use sweetspot::Result;
 
 pub use args::Args;
 

@@ -2,9 +2,7 @@
 
 use std::io::{IsTerminal, stdout};
 
-use sweetspot::base::error::{Error, Result};
 use sweetspot::base::file;
-use sweetspot::bat::body::Bat;
 use sweetspot::files::force_file;
 use sweetspot::files::schema::document::{Format, Generator};
 use sweetspot::files::shape_file;
@@ -12,14 +10,14 @@ use sweetspot::motion::force::ForceHistory;
 use sweetspot::motion::ringing::Ringing;
 use sweetspot::motion::shape::InitialShape;
 use sweetspot::motion::sound::Sound;
+use sweetspot::{Bat, Error, Result, Solution};
 use sweetspot_report::plot::ringing::{self, Moving};
 use sweetspot_report::report::motion::{self, Frames};
 use sweetspot_report::schema::ring::{Motion, RingFile};
 
 use crate::common::{Solved, on_the_bat};
 use crate::done::Done;
-use crate::pictures;
-use crate::ring::args::{Args, csv, times, write_sound};
+use crate::ring::args::{Args, csv, places, times, write_sound};
 
 /// The motion, and its table.
 pub fn run(args: &Args, bat: Bat) -> Result<Done> {
@@ -35,8 +33,7 @@ pub fn run(args: &Args, bat: Bat) -> Result<Done> {
         Cause::Push(x, history) => ringing.pushed(x, history),
         Cause::Shape(shape) => ringing.release(&bat, &shape),
     };
-    let last = f64::from(args.shape_points - 1);
-    let x: Vec<f64> = (0..args.shape_points).map(|k| bat.length() * f64::from(k) / last).collect();
+    let x = places(args, &bat);
     if let Some((path, (x, impulse))) = args.wav.as_ref().zip(args.at.zip(args.impulse)) {
         for told in write_sound(path, &bat, &Sound::of_blow(&solution, x, [impulse, 0.0]))? {
             args.output.warn(&format!("note: {told}"));
@@ -52,32 +49,14 @@ pub fn run(args: &Args, bat: Bat) -> Result<Done> {
             (0..x.len()).map(sum).collect()
         })
         .collect();
-    if let Some(folder) = &args.plots {
-        let moving = Moving { bat: bat.name(), x: &x, times: &times, frames: &frames };
-        let picture = ringing::moving(args.output.sheet(&bat), &moving);
-        pictures::write(folder, picture.as_slice(), args.output.quiet)?;
-    }
+    let moving = Moving { bat: bat.name(), x: &x, times: &times, frames: &frames };
+    args.output.draw(&args.plots, &bat, |sheet| Ok(ringing::moving(sheet, &moving)))?;
     let screen = motion::screen(
         (&bat, &solution),
         &Frames { x: &x, times: &times, frames: &frames },
         args.output.units(&bat),
     );
     let table = csv(&x, &times, &frames);
-    let document = || {
-        RingFile::Motion(Motion {
-            format: Format::new(),
-            generator: Generator::this(),
-            edits: bat.edits().to_vec(),
-            modes: solution.modes.len(),
-            theory: solution.theory.name(),
-            rigid_motion: !args.bending_only && solution.rigid_modes > 0,
-            at_m: args.at,
-            impulse_n_s: args.impulse,
-            x_m: x,
-            times_s: times,
-            deflection_m: frames,
-        })
-    };
     let code = args.solve.verdict(&solution, &args.output);
     let text = match &args.csv {
         Some(path) if path.as_os_str() != "-" => {
@@ -90,7 +69,31 @@ pub fn run(args: &Args, bat: Bat) -> Result<Done> {
         None if stdout().is_terminal() => screen,
         _ => table,
     };
-    Ok(Done::new(args.output.deliver(text, document)?, code).with(warning))
+    let text = args.output.deliver(text, || document(args, (&bat, &solution), x, times, frames))?;
+    Ok(Done::new(text, code).with(warning))
+}
+
+/// The motion as a document: at these places and instants, a row of deflections for each instant.
+fn document(
+    args: &Args,
+    (bat, solution): (&Bat, &Solution),
+    x_m: Vec<f64>,
+    times_s: Vec<f64>,
+    deflection_m: Vec<Vec<f64>>,
+) -> RingFile {
+    RingFile::Motion(Motion {
+        format: Format::new(),
+        generator: Generator::this(),
+        edits: bat.edits().to_vec(),
+        modes: solution.modes.len(),
+        theory: solution.theory.name(),
+        rigid_motion: !args.bending_only && solution.rigid_modes > 0,
+        at_m: args.at,
+        impulse_n_s: args.impulse,
+        x_m,
+        times_s,
+        deflection_m,
+    })
 }
 
 /// What sets the bat in motion.

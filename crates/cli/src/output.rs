@@ -1,0 +1,228 @@
+//! What is said of an answer, and where does it go?
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+use sweetspot::base::file;
+use sweetspot::{Bat, Error, Result};
+use sweetspot_report::parts::units::Units;
+use sweetspot_report::plot::picture::{self, Picture};
+use sweetspot_report::plot::sheet::Sheet;
+use sweetspot_report::report::sketch::{self, Glyphs, SketchRow};
+use sweetspot_report::schema;
+
+use crate::common::printed;
+use crate::done::{NOT_REACHED, printable};
+use crate::progress::{self, Progress};
+use crate::style;
+use crate::value::unit_system;
+
+/// What is printed, and where.
+#[derive(clap::Args)]
+#[command(next_help_heading = "Output")]
+pub struct OutputArgs {
+    /// Write JSON to this file (- = standard output, and no table then)
+    #[arg(long, value_name = "FILE")]
+    pub json: Option<PathBuf>,
+
+    /// Units of the tables, and of pictures and reports, which count in one: si, us or both (the bat
+    /// file's first; pictures and reports in it)
+    #[arg(long, value_name = "SYSTEM", default_value = "both", value_parser = unit_system(),
+          hide_possible_values = true)]
+    units: Units,
+
+    /// No warnings and no progress on standard error
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+impl OutputArgs {
+    /// The units that a bat is answered in: those asked for, and of both those of its file first.
+    pub fn units(&self, bat: &Bat) -> Units {
+        self.units.of(bat)
+    }
+
+    /// Writes the JSON where it was asked for; what is left for standard output.
+    pub fn deliver<D: Serialize>(
+        &self,
+        table: String,
+        document: impl FnOnce() -> D,
+    ) -> Result<String> {
+        put(&self.json, style::table(&table), || Ok(schema::text(&document())))
+    }
+
+    /// What the pictures of a bat are drawn on: the units asked for, else those of its file.
+    pub fn sheet(&self, bat: &Bat) -> Sheet {
+        Sheet::file(self.units(bat).us_first())
+    }
+
+    /// The bat and its places drawn with what this terminal can show.
+    pub fn sketch(&self, bat: &Bat, rows: &[SketchRow]) -> String {
+        sketch::draw(bat, rows, self.units(bat), glyphs())
+    }
+
+    /// Draws into that folder, if one was asked for, in the units of that bat.
+    pub fn draw<P: IntoIterator<Item = Picture>>(
+        &self,
+        folder: &Option<PathBuf>,
+        bat: &Bat,
+        pictures: impl FnOnce(Sheet) -> Result<P>,
+    ) -> Result<()> {
+        draw(folder, self.quiet, || pictures(self.sheet(bat)))
+    }
+
+    /// The exit code, after a word about what was not reached, if something was not.
+    pub fn reached(&self, short: Option<String>) -> u8 {
+        match short {
+            Some(short) => {
+                self.warn(&short);
+                NOT_REACHED
+            }
+            None => 0,
+        }
+    }
+
+    /// Says something on standard error.
+    pub fn warn(&self, text: &str) {
+        warn(text, self.quiet);
+    }
+
+    /// What takes so long, for a person at a terminal.
+    pub fn progress(&self, what: &str) -> Progress {
+        Progress::new(self.quiet, what)
+    }
+}
+
+/// Block elements where the locale says that characters are UTF-8.
+pub fn glyphs() -> Glyphs {
+    let set = |name| std::env::var(name).ok().filter(|value| !value.is_empty());
+    // The first of them that is set is the one that counts.
+    let locale = ["LC_ALL", "LC_CTYPE", "LANG"].into_iter().find_map(set).unwrap_or_default();
+    let locale = locale.to_ascii_lowercase();
+    if locale.contains("utf-8") || locale.contains("utf8") { Glyphs::Blocks } else { Glyphs::Ascii }
+}
+
+/// `--csv`: the answer as a table for other programs, in a file or in place of the text.
+#[derive(clap::Args)]
+pub struct CsvArgs {
+    /// Write CSV to this file (- = standard output, and no table then)
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    pub csv: Option<PathBuf>,
+}
+
+impl CsvArgs {
+    /// Refuses CSV where the JSON goes already.
+    pub fn beside(&self, json: &Option<PathBuf>) -> Result<()> {
+        apart(&[("--json", json), ("--csv", &self.csv)])
+    }
+
+    /// Writes the table where it was asked for; what goes to standard output then.
+    pub fn deliver(&self, text: String, table: impl FnOnce() -> String) -> Result<String> {
+        put(&self.csv, text, || Ok(table()))
+    }
+}
+
+/// `--full`: everything, where one screen is not all.
+#[derive(clap::Args)]
+pub struct FullArgs {
+    /// Everything, not one screen alone
+    #[arg(long, help_heading = "Output")]
+    pub full: bool,
+}
+
+/// The last line of a screen that is not all.
+pub const MORE: &str = "Everything else: --full\n";
+
+impl FullArgs {
+    /// What is printed: all there is, or what a screen holds, and where the rest is.
+    pub fn screen(&self, said: impl Fn(bool) -> String) -> String {
+        let all = said(true);
+        match (!self.full).then(|| said(false)) {
+            Some(first) if first != all => first + MORE,
+            _ => all,
+        }
+    }
+}
+
+/// Says something on standard error, unless nothing is to be said.
+pub fn warn(text: &str, quiet: bool) {
+    if !quiet {
+        // A closed standard error is no reason to stop.
+        progress::beside(|| {
+            let _ = writeln!(std::io::stderr(), "{}", printable(text));
+        });
+    }
+}
+
+/// Draws into that folder, if one was asked for; says which pictures of an earlier run still lie there, or that there are
+/// none.
+pub fn draw<P: IntoIterator<Item = Picture>>(
+    folder: &Option<PathBuf>,
+    quiet: bool,
+    pictures: impl FnOnce() -> Result<P>,
+) -> Result<()> {
+    let Some(folder) = folder else { return Ok(()) };
+    let pictures: Vec<Picture> = pictures()?.into_iter().collect();
+    if pictures.is_empty() {
+        warn("note: there is nothing to draw, and no pictures were written", quiet);
+        return Ok(());
+    }
+    let others = picture::write(folder, &pictures)?;
+    if !others.is_empty() {
+        let (folder, names) = (printed(folder), others.join(", "));
+        warn(&format!("note: {folder} still holds pictures of an earlier run: {names}"), quiet);
+    }
+    Ok(())
+}
+
+/// Makes a folder, if it is not there.
+///
+/// # Errors
+///
+/// [`Error::Write`].
+pub fn make(folder: &Path) -> Result<()> {
+    let failed = |source| Error::Write { path: folder.to_owned(), source };
+    std::fs::create_dir_all(folder).map_err(failed)
+}
+
+/// Every document goes to a place of its own: of these options, no two name one file, or both
+/// standard output. To be asked before anything is computed or written.
+///
+/// # Errors
+///
+/// [`Error::Value`] about the second.
+pub fn apart(named: &[(&str, &Option<PathBuf>)]) -> Result<()> {
+    let named = named.iter().filter_map(|(option, path)| Some((*option, path.as_deref()?)));
+    let named: Vec<(&str, &Path)> = named.collect();
+    for (k, (second, path)) in named.iter().enumerate() {
+        let stdout = path.as_os_str() == "-";
+        let alike = |(_, other): &&(&str, &Path)| match stdout {
+            true => other == path,
+            false => file::is_one(other, path),
+        };
+        let Some((first, other)) = named[..k].iter().find(alike) else { continue };
+        let found = format!("{} beside {first} {}", path.display(), other.display());
+        let expected =
+            if stdout { "one of them on standard output" } else { "another name for one of them" };
+        return Err(Error::value(*second, found, expected));
+    }
+    Ok(())
+}
+
+/// Writes a text to its file; what takes the place of `table` if that is standard output.
+///
+/// # Errors
+///
+/// [`Error::Write`].
+pub fn put(
+    path: &Option<PathBuf>,
+    table: String,
+    text: impl FnOnce() -> Result<String>,
+) -> Result<String> {
+    match path {
+        Some(path) if path.as_os_str() == "-" => text(),
+        Some(path) => file::write(path, text()?.as_bytes()).map(|()| table),
+        None => Ok(table),
+    }
+}
