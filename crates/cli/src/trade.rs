@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
+use sweetspot::{Request, Result};
 use sweetspot_report::parts::part::Part;
 use sweetspot_report::parts::terminal;
-use sweetspot::{Request, Result};
 use sweetspot_report::plot::{front, sets};
 use sweetspot_report::report::{trade, u_curve};
 use sweetspot_report::schema;

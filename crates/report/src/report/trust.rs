@@ -16,7 +16,7 @@ use sweetspot::collision::hit::Model;
 use sweetspot::modes::mode::Mode;
 use sweetspot_study::answers::Answer;
 use sweetspot_study::read_to::diameters_read_to;
-use sweetspot_study::spread::{Estimate, Input, Source, Spread, of_frequencies};
+use sweetspot_study::spread::{Input, Source, Spread, of_frequencies};
 use sweetspot_study::verdict::{Doubt, Verdict};
 
 /// The bat, the answers, and how far to trust them: 24 lines at most.
