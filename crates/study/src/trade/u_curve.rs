@@ -127,7 +127,8 @@ impl MeshErrors {
 impl Losses {
     /// The losses of a curve of errors by number of elements; None of a curve without points.
     fn of(series: &[(usize, f64)]) -> Option<Self> {
-        let (best_elements, least_error) = best(series)?;
+        let least = series.iter().min_by(|a, b| a.1.total_cmp(&b.1));
+        let (best_elements, least_error) = *least?;
         let [eight_digits, four_digits, nothing] = THRESHOLDS.map(|threshold| {
             let beyond = series.iter().find(|(n, error)| *n > best_elements && *error >= threshold);
             beyond.map(|at| at.0)
@@ -166,11 +167,6 @@ impl Curve {
             _ => &[SolverFrequency::Own, SolverFrequency::Recomputed],
         }
     }
-}
-
-/// The point of the least error.
-pub fn best(series: &[(usize, f64)]) -> Option<(usize, f64)> {
-    series.iter().copied().min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 /// 8, 16, 32, … and `most`, from the first that has an element in every piece of the profile and
@@ -329,7 +325,7 @@ mod tests {
                 at(SolverFrequency::Own, 512) > 100.0 * at(SolverFrequency::Recomputed, 512),
                 "{column:?}"
             );
-            let (least, _) = best(&column.series(SolverFrequency::Own, 0)).unwrap();
+            let least = column.own_lost_at.as_ref().unwrap().best_elements;
             assert!(least < 512 && column.end.is_none(), "{column:?}");
         }
     }
