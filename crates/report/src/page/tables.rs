@@ -137,7 +137,7 @@ pub fn figures(analysis: &Analysis, units: Units) -> Table {
     table.row(["bat speed there".to_owned(), speed(units, best.bat_speed)]);
     of_the_hit(outcome, units).into_iter().for_each(|(what, value)| table.row([what, &value]));
     for (what, value) in hit_text::stated(figures, units) {
-        table.row([what, value]);
+        table.row([what, value.replace('-', "−")]);
     }
     table
 }

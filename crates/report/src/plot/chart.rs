@@ -199,6 +199,9 @@ impl<'a> Chart<'a> {
         };
         svg.height = strip.bottom + NUMBERS + 4.0;
         svg.read_off = self.read_off.then_some([first.left, first.top, first.right, first.bottom]);
+        // Marks at the lower edge lie on the axis, not below it.
+        let strip = Plane::strip(strip, &self.x);
+        strip.below(&mut svg);
         for (panel, frame) in self.panels.iter().zip(&frames) {
             let mut plane = Plane::strip(*frame, &self.x);
             plane.y = panel.y.clone().unwrap_or(plane.y);
@@ -207,12 +210,10 @@ impl<'a> Chart<'a> {
             }
             panel.draw(&mut svg, &plane);
         }
-        let strip = Plane::strip(strip, &self.x);
         let told = place::rows(&mut svg, &strip, &self.rows);
         if let Some(from) = self.guides {
             place::guides(&mut svg, &strip, (&self.rows, &told), first.top + from);
         }
-        strip.below(&mut svg);
         Picture::new(self.name, self.title, alt, svg)
     }
 }

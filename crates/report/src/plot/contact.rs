@@ -114,6 +114,8 @@ fn diagram<'a>(
     };
     let told = curves.iter().zip(&peaks).map(|(c, peak)| format!("{} {}", c.name, words(*peak)));
     let told = told.collect::<Vec<_>>().join(", ");
+    // Dashes on a whole line are seen.
+    let curves = curves.into_iter().rev().collect();
     let panel = Panel::around(DIAGRAM, (what, unit), curves, &[0.0]);
     match peaks[..] {
         [peak] => {
@@ -147,6 +149,7 @@ fn hysteresis(sheet: Sheet, subjects: &[ContactCurves]) -> Picture {
         format!("Force against the ball's compression, up and back down, {name}, {facts}: {lost}.");
     let told = if alone { facts } else { format!("{facts}; {lost}").into() };
     let loops = curves.clone();
+    let curves = curves.into_iter().rev().collect();
     let panel = Panel::around(HEIGHT, ("force", sheet.force()), curves, &[0.0]);
     let panel = panel.note(if alone { &lost } else { "" }).over(|svg, plane| {
         for curve in &loops {

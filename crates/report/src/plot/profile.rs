@@ -39,7 +39,8 @@ pub fn picture(sheet: Sheet, subjects: &[MarkedBat]) -> Picture {
         }
         proportions(svg, times, [plane.frame.right, plane.frame.top + 14.0]);
     });
-    let curves = subjects.iter().enumerate().flat_map(|(k, s)| curves(k, s)).collect();
+    // Dashes on a whole line are seen.
+    let curves = subjects.iter().enumerate().flat_map(|(k, s)| curves(k, s)).rev().collect();
     let diameters = Panel::around(DIAGRAM, ("diameter", sheet.length()), curves, &[0.0]);
     let ((title, facts), alt) = (words(sheet, subjects), described(subjects, &rows));
     let names: Vec<&str> = subjects.iter().map(|s| s.name).collect();

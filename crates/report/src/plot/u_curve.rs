@@ -39,6 +39,8 @@ pub fn picture(name: &str, columns: &[Column], mode: usize) -> Option<Picture> {
     let names: Vec<&str> = curves.iter().map(|curve| curve.name.as_str()).collect();
     let alt = format!("{title} of {name}; {facts}. Curves: {}.", names.join(", "));
     let chart = Chart::new(&file, &title, [name, facts], x).keys(&curves);
+    // Dashes on a whole line are seen.
+    let curves = curves.into_iter().rev().collect();
     Some(chart.panel(Panel::new(DIAGRAM, y, curves)).picture(Sheet::file(false), &alt))
 }
 
