@@ -61,8 +61,7 @@ fn diagram(svg: &mut Svg, left: f64, (title, most): (&str, f64), series: &[Serie
     plane.draw(svg);
     series.iter().for_each(|series| series.draw(svg, &plane));
     plane.below(svg);
-    let all: Vec<&Series> = series.iter().collect();
-    legend_between(svg, &all, [left, 50.0, frame.right]);
+    legend_between(svg, series, [left, 50.0, frame.right]);
 }
 
 /// Ours, the rigid bat's and the WPI report's loss.
@@ -92,6 +91,5 @@ fn known(case: &Case, name: &str, error: f64) -> Series {
     let wanted = Known::Hit(KnownFigure::ExitSpeedMPerS);
     let checks = case.checks.iter().filter(|check| check.quantity == wanted);
     let points = checks.filter_map(|check| Some(Some([100.0 * check.at?, check.expected])));
-    let points = Series::curve(name, 1, points.collect());
-    Series { joined: false, mark: Some(Mark::Circle), error, ..points }
+    Series { error, ..Series::curve(name, 1, points.collect()).dots(Mark::Circle) }
 }

@@ -1,7 +1,7 @@
 //! How far the numbers may be trusted: what is certified, what was left out and what that costs.
 
 use crate::analysis::Analysis;
-use crate::page::shown::{self, length, speed};
+use crate::page::shown::{self, speed};
 use crate::parts::units::Units;
 use crate::report::advice;
 use crate::report::hit_text;
@@ -175,31 +175,6 @@ pub fn left_out_of_hit(analysis: &Analysis) -> Vec<String> {
 pub fn needed(analysis: &Analysis) -> Vec<String> {
     let told = analysis.advice.as_ref().map_or(vec![], advice::recommendation);
     told.iter().map(|text| shown::sentence(text)).collect()
-}
-
-/// Why the ball leaves fastest where it does.
-pub fn why(analysis: &Analysis, units: Units) -> Option<String> {
-    let figures = &analysis.figures;
-    let (peak, rigid) = (figures.spot.exit_speed_max?, figures.rigid_best?);
-    if let Some(text) = hit_text::lives_on_later(figures, units) {
-        return Some(text);
-    }
-    let here = figures.best.as_ref().and_then(|best| best.outcome.as_ref());
-    let (Some(there), Some(here)) = (figures.vibration_at_rigid_best, here) else {
-        return Some("Further out the bat gives way more than its speed makes up for.".to_owned());
-    };
-    let wall = match here.energy.wall {
-        0.0 => String::new(),
-        kept => format!(", and {} to its wall", units.energy(kept, 0)),
-    };
-    Some(format!(
-        "A bat that does not bend would be best at {}, but there this one loses {} to vibration, and \
-         at its sweet spot, {} from there, {}{wall}.",
-        length(units, rigid.x),
-        units.energy(there, 0),
-        length(units, (peak.x - rigid.x).abs()),
-        units.energy(here.energy.vibration, 0),
-    ))
 }
 
 /// A text made for a terminal as one line; None if it is empty.

@@ -15,7 +15,7 @@ use crate::parts::input::Input;
 use crate::parts::part::{Fold, Part, Section};
 use crate::parts::units::Units;
 use crate::plot::sets::of_analysis;
-use crate::report::{edits, hoop, hoop_notes, lathe};
+use crate::report::{edits, hit_text, hoop, hoop_notes, lathe};
 use sweetspot::base::error::Result;
 use sweetspot::collision::aftermath::Aftermath;
 use sweetspot::collision::hit::Model;
@@ -140,7 +140,7 @@ impl<'a> Report<'a> {
             return vec![Part::Missing(NO_HIT)];
         }
         let headline = Part::Facts("headline", self.summary.headline(units, self.analysis));
-        let why = accuracy::why(self.analysis, units).map(Part::Text);
+        let why = hit_text::reason(&self.analysis.figures, units).map(Part::Text);
         [Part::Picture("sweet_spot"), headline].into_iter().chain(why).collect()
     }
 

@@ -3,13 +3,13 @@
 use std::f64::consts::TAU;
 
 use crate::analysis::Analysis;
-use crate::page::shown::{self, NONE, bare, decimals, length, length_unit, speed};
+use crate::page::shown::{self, NONE, bare, decimals, length_unit, speed};
 use crate::parts::table::Table;
 use crate::parts::units::Units;
+use crate::report::hit_text::{self, SpotLine};
 use sweetspot::base::number;
-use sweetspot::base::units::{gravities, inches, ounces};
+use sweetspot::base::units::{inches, ounces};
 use sweetspot::bat::body::Bat;
-use sweetspot::collision::figures::{Moved, Swung};
 use sweetspot::collision::hit::Outcome;
 use sweetspot::collision::sweet_spot::{Peak, SweetSpot};
 use sweetspot_study::trampoline::barrel::Barrel;
@@ -80,30 +80,11 @@ pub fn nodes(analysis: &Analysis, units: Units) -> Table {
 pub fn sweet_spots(analysis: &Analysis, units: Units) -> Table {
     let unit = length_unit(units);
     let [knob, tip] = ["knob", "tip"].map(|end| format!("From the {end}, {unit}"));
-    let head = ["Sweet spot by", &knob, &tip, "There"];
-    let mut table = Table::new("The sweet spot by each of its definitions", &head);
-    let (spot, whole) = (&analysis.figures.spot, analysis.bat.length());
-    let mut line = |what: &str, x: Option<f64>, value: String| {
-        let Some(x) = x else { return };
-        table.row([what.to_owned(), bare(units, x), bare(units, whole - x), value]);
-    };
-    let mut peak = |what: &str, peak: Option<Peak>, value: &dyn Fn(f64) -> String| {
-        line(what, peak.map(|p| p.x), peak.map_or(String::new(), |p| value(p.value)));
-    };
-    peak("fastest ball", spot.exit_speed_max, &|v| speed(units, v));
-    peak("least vibration", spot.vibration_min, &|energy| units.energy(energy, 2));
-    peak("least hand speed (rms, undamped)", spot.hands_velocity_min, &|v| speed(units, v));
-    if analysis.bat.damped() {
-        peak("least hand shaking (rms)", spot.hands_acceleration_min, &|a| {
-            format!("{:.0} times gravity", gravities(a))
-        });
-    }
-    line("node of mode 1", spot.node_mode_1, NONE.to_owned());
-    line("node of mode 2", spot.node_mode_2, NONE.to_owned());
-    line("centre of percussion of this swing", spot.center_of_percussion, NONE.to_owned());
-    if let Some([from, to]) = spot.zone {
-        line("within 1 % of the best speed, from", Some(from), NONE.to_owned());
-        line("and to", Some(to), NONE.to_owned());
+    let mut table =
+        Table::new("The sweet spot by each of its definitions", &["Sweet spot by", &knob, &tip]);
+    let bat = &analysis.bat;
+    for SpotLine { what, x } in hit_text::spot_lines(bat, &analysis.figures.spot, units) {
+        table.row([what, bare(units, x), bare(units, bat.length() - x)]);
     }
     table
 }
@@ -150,43 +131,20 @@ pub fn ledger(analysis: &Analysis, units: Units) -> Table {
 /// The figures by which bats are compared; empty where no ball is hit.
 pub fn figures(analysis: &Analysis, units: Units) -> Table {
     let figures = &analysis.figures;
-    let mut table =
-        Table::new("Figures at the sweet spot (computed, not certified)", &["Figure", "Value"]);
+    let mut table = Table::new(hit_text::STATED, &["Figure", "Value"]);
     let Some(best) = &figures.best else { return table };
     let Some(outcome) = &best.outcome else { return table };
-    let mut line = |what: &str, value: String| table.row([what.to_owned(), value]);
-    line("bat speed there", speed(units, best.bat_speed));
-    of_the_hit(outcome, units).into_iter().for_each(|(what, value)| line(what, value));
-    for (what, peak) in [
-        ("largest BBCOR, of a free bat", figures.bbcor_max),
-        ("largest BBCOR, of a bat held 6 in from the knob", figures.bbcor_pivoted_max),
-    ] {
-        let Some(peak) = peak else { continue };
-        line(what, format!("{:.3} at {}", peak.value, length(units, peak.x)));
-    }
-    if let Some([knob, tip]) = figures.spot.inch_off {
-        let lost = |v: Option<f64>| {
-            v.map_or("no hit".to_owned(), |v| signed(units, v - outcome.exit_speed))
-        };
-        line("1 in off towards the knob", lost(knob));
-        line("1 in off towards the tip", lost(tip));
-    }
-    for swung in &figures.swings {
-        let (what, value) = swung_by(swung, units);
-        line(&what, value);
+    table.row(["bat speed there".to_owned(), speed(units, best.bat_speed)]);
+    of_the_hit(outcome, units).into_iter().for_each(|(what, value)| table.row([what, &value]));
+    for (what, value) in hit_text::stated(figures, units) {
+        table.row([what, value.replace('-', "−")]);
     }
     table
 }
 
+/// What its force and its duration are, where the model knows them.
 fn of_the_hit(outcome: &Outcome, units: Units) -> Vec<(&'static str, String)> {
-    let three = |value: f64| format!("{value:.3}");
-    let mut lines = vec![
-        ("exit speed of the ball", speed(units, outcome.exit_speed)),
-        ("collision efficiency e_A", three(outcome.collision_efficiency)),
-        ("BBCOR, of a free bat", three(outcome.bbcor)),
-        ("BBCOR, of a bat held 6 in from the knob", three(outcome.bbcor_pivoted)),
-        ("impulse on the ball", shown::impulse(units, outcome.impulse)),
-    ];
+    let mut lines = vec![("impulse on the ball", shown::impulse(units, outcome.impulse))];
     if let Some(time) = outcome.contact_time {
         lines.push(("time of contact", format!("{:.3} ms", 1e3 * time)));
     }
@@ -194,17 +152,6 @@ fn of_the_hit(outcome: &Outcome, units: Units) -> Vec<(&'static str, String)> {
         lines.push(("largest force", shown::force(units, force)));
     }
     lines
-}
-
-/// The fastest ball of a batter who swings bats by that law.
-fn swung_by(swung: &Swung, units: Units) -> (String, String) {
-    let what = match swung.exponent {
-        0.0 => "swung at the same angular speed".to_owned(),
-        0.5 => "swung with the same energy of rotation".to_owned(),
-        n => format!("swung at a speed as (swing weight)^{}", -n),
-    };
-    let best = swung.best.map_or("no hit".into(), |best| speed(units, best.value));
-    (format!("{what}, {:.2} rad/s", swung.swing), best)
 }
 
 /// A change of speed.

@@ -25,6 +25,8 @@ pub struct Axis {
     /// How many of the unit that the ticks count in are one of the values: 100 for values in m and
     /// ticks in cm.
     pub per: f64,
+    /// The name of that unit, empty where there is none.
+    pub unit: &'static str,
     /// How values lie between the ends.
     pub scale: Scale,
 }
@@ -50,7 +52,7 @@ impl Axis {
         let by = if least == 0.0 { 1.0 } else { least };
         let same = (to - from).abs() <= least;
         let [from, to] = if same { [from.min(to) - by, from.max(to) + by] } else { [from, to] };
-        Self { label: label.into(), from, to, per: 1.0, scale: Scale::Linear }
+        Self { label: label.into(), from, to, per: 1.0, unit: "", scale: Scale::Linear }
     }
 
     /// As long as those values need, with a tick at both ends, and no more ticks than that.
@@ -73,19 +75,30 @@ impl Axis {
         let from = (low.log10() + 1e-9).floor();
         let to = (high.log10() - 1e-9).ceil().max(from + 1.0);
         let [from, to] = [from, to].map(|power| 10f64.powf(power));
-        Self { label: label.into(), from, to, per: 1.0, scale: Scale::Log }
+        Self { label: label.into(), from, to, per: 1.0, unit: "", scale: Scale::Log }
     }
 
     /// This axis, whose ends were given in that unit, for values in SI.
     pub fn counted_in(self, unit: Unit) -> Self {
-        let Unit { name, per } = unit;
-        let label = format!("{} ({name})", self.label);
-        Self { label, from: self.from / per, to: self.to / per, per, ..self }
+        let Unit { name: unit, per } = unit;
+        let label = if unit.is_empty() { self.label } else { format!("{} ({unit})", self.label) };
+        Self { label, from: self.from / per, to: self.to / per, per, unit, ..self }
+    }
+
+    /// As long as those values in SI need, in that unit, with a tick at both ends and no more ticks than that.
+    pub fn measured(
+        label: &str,
+        unit: Unit,
+        values: impl Iterator<Item = f64>,
+        most: usize,
+    ) -> Self {
+        Self::around(label, values.map(|value| unit.per * value), most).counted_in(unit)
     }
 
     /// Half a turn to either side (deg).
     pub fn of_a_turn(label: &str) -> Self {
-        Self { scale: Scale::Turn, ..Self::new(label, [-180.0, 180.0]) }
+        let axis = Self::new(label, [-180.0, 180.0]).counted_in(Unit { name: "deg", per: 1.0 });
+        Self { scale: Scale::Turn, ..axis }
     }
 
     /// How far along the axis a value is: 0 at its beginning, 1 at its end.

@@ -1,12 +1,10 @@
 //! How much thicker or thinner a bat has become along it.
 
 use crate::plot::axis::Axis;
+use crate::plot::chart::{Chart, Panel};
 use crate::plot::picture::Picture;
-use crate::plot::plane::{Frame, NUMBERS, Plane, head, ticks_up};
-use crate::plot::series::{Series, hover};
+use crate::plot::series::{Series, heights};
 use crate::plot::sheet::{Sheet, Unit};
-use crate::plot::svg::{Pen, Svg};
-use crate::plot::theme::FRAME;
 use sweetspot::bat::body::Bat;
 
 /// Height of the diagram (px).
@@ -23,35 +21,19 @@ pub fn picture(sheet: Sheet, old: &Bat, new: &Bat) -> Picture {
     let at = |k: usize| {
         let share = (k as f64 + 0.5) / PLACES as f64;
         let [was, is] = [old, new].map(|bat| bat.profile().at(share * bat.length()).outer);
-        [share * new.length(), 2.0 * (is - was)]
+        Some([share * new.length(), 2.0 * (is - was)])
     };
-    let points: Vec<[f64; 2]> = (0..PLACES).map(at).collect();
-    let most = points.iter().map(|[_, by]| *by).fold(0.0, f64::max);
-    let least = points.iter().map(|[_, by]| *by).fold(0.0, f64::min);
-    let title = "Change of the diameter";
-    let mut svg = Svg::on(sheet);
-    head(&mut svg, title, [old.name(), "below the line wood is turned off"]);
-    let top = sheet.head() + 10.0;
-    let bottom = top + DIAGRAM;
-    svg.height = bottom + NUMBERS + 4.0;
-    let values = [small.per * least, small.per * most, 0.0].into_iter();
-    let y = Axis::around("change of the diameter", values, ticks_up(DIAGRAM)).counted_in(small);
-    let x = Axis::new("from the knob end", [0.0, length.per * new.length()]).counted_in(length);
-    let plane = Plane { frame: Frame::across(sheet, [top, bottom]), x, y };
-    plane.draw(&mut svg);
-    plane.below(&mut svg);
-    let zero = [plane.x.from, plane.x.to].map(|x| plane.at([x, 0.0]));
-    svg.line(&zero, Pen::new(FRAME, 1.4));
-    let curve = Series::curve("change", 0, points.into_iter().map(Some).collect());
-    let curve = curve.units(length.name, small.name);
-    curve.draw(&mut svg, &plane);
-    hover(&mut svg, &plane, &[&curve]);
+    let curves = vec![Series::curve("change", 0, (0..PLACES).map(at).collect())];
     let alt = format!(
         "Change of the diameter of {} along it: {:.2} {unit} at most off, {:.2} {unit} at most added.",
         old.name(),
-        -small.per * least,
-        small.per * most,
+        -small.per * heights(&curves).fold(0.0, f64::min),
+        small.per * heights(&curves).fold(0.0, f64::max),
         unit = small.name
     );
-    Picture::new("change", title, &alt, svg)
+    let x = Axis::new("from the knob end", [0.0, length.per * new.length()]).counted_in(length);
+    let title = "Change of the diameter";
+    let chart = Chart::new("change", title, [old.name(), "below the line wood is turned off"], x);
+    let panel = Panel::around(DIAGRAM, ("change of the diameter", small), curves, &[0.0]).zero();
+    chart.panel(panel).picture(sheet, &alt)
 }

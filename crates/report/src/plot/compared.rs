@@ -1,19 +1,15 @@
 //! Several bats in the same pictures, and how much faster one hits than another.
 
 use crate::plot::axis::Axis;
+use crate::plot::chart::{Chart, Panel};
 use crate::plot::picture::Picture;
 use crate::plot::place;
-use crate::plot::plane::{Frame, NUMBERS, Plane, head, ticks_up};
-use crate::plot::series::{Series, hover, legend};
+use crate::plot::series::{Series, heights};
+use crate::plot::sets::{Hits, of_touches};
 use crate::plot::sheet::Sheet;
-use crate::plot::svg::{Pen, Svg};
-use crate::plot::theme::FRAME;
-use crate::plot::{contact, exit_speed, hands, ledger, profile, shapes, spot};
+use crate::plot::{exit_speed, ledger, profile, shapes, spot};
 use crate::report::comparison::letter;
 use sweetspot::base::error::Result;
-use sweetspot::collision::aftermath::Aftermath;
-use sweetspot::collision::hitter::Hitter;
-use sweetspot::collision::sweet_spot::Peak;
 use sweetspot_study::comparison::contender::Contender;
 use sweetspot_study::comparison::table::Comparison;
 
@@ -28,7 +24,7 @@ const DIAGRAM: f64 = 230.0;
 ///
 /// # Errors
 ///
-/// As [`Hitter::new`].
+/// As [`Hits::pictures`].
 pub fn pictures(sheet: Sheet, comparison: &Comparison) -> Result<Vec<Picture>> {
     let bats = &comparison.bats;
     let names: Vec<String> = (0..bats.len()).map(|k| name(comparison, k)).collect();
@@ -54,7 +50,11 @@ pub fn pictures(sheet: Sheet, comparison: &Comparison) -> Result<Vec<Picture>> {
     all.extend(shapes::picture(sheet, &bent, MODES));
     all.extend(exit_speed::picture(sheet, &along));
     all.extend(ledgers(sheet, comparison, &names));
-    all.extend(touches(sheet, comparison, &names)?);
+    let hits = both().filter_map(|(Contender { bat, scene, sweep, spot, .. }, name)| {
+        let model = comparison.terms.model;
+        Some((name.as_str(), Hits { bat, model, scene, sweep, spot }, spot.exit_speed_max?.x))
+    });
+    all.extend(of_touches(sheet, &hits.collect::<Vec<_>>())?);
     all.extend(difference(sheet, comparison, &names));
     Ok(all)
 }
@@ -70,24 +70,6 @@ fn ledgers(sheet: Sheet, comparison: &Comparison, names: &[String]) -> Vec<Pictu
     comparison.bats.iter().enumerate().filter_map(of).collect()
 }
 
-/// The hits at the sweet spots, and what the hands feel of them.
-fn touches(sheet: Sheet, comparison: &Comparison, names: &[String]) -> Result<Vec<Picture>> {
-    let (mut touched, mut felt) = (vec![], vec![]);
-    let model = comparison.terms.model;
-    for (Contender { bat, scene, sweep, spot, .. }, name) in comparison.bats.iter().zip(names) {
-        let Some(Peak { x, .. }) = spot.exit_speed_max else { continue };
-        let hitter = Hitter::new(model, scene, bat, &sweep.solution, sweep.effort)?;
-        touched.extend(contact::ContactCurves::new(name, &hitter, x));
-        felt.extend(hitter.force(x).map(|force| {
-            let after = Aftermath::new(bat, &sweep.solution, x, force);
-            hands::HandCurves { name, after, x: scene.hands }
-        }));
-    }
-    let mut all = contact::pictures(sheet, &touched);
-    all.extend(hands::picture(sheet, &felt));
-    Ok(all)
-}
-
 /// A letter as in the tables, and the name.
 fn name(comparison: &Comparison, k: usize) -> String {
     format!("{}: {}", letter(k), comparison.bats[k].bat.name())
@@ -99,30 +81,17 @@ fn difference(sheet: Sheet, comparison: &Comparison, names: &[String]) -> Option
         let rows = comparison.from_tip.iter().zip(&comparison.by_tip);
         rows.map(|(x, row)| Some([*x, row.difference(bat)?.by])).collect()
     };
-    let (length, speed) = (sheet.length(), sheet.speed());
-    let curve =
-        |bat: usize| Series::curve(&names[bat], bat, at(bat)).units(length.name, speed.name);
+    let curve = |bat: usize| Series::curve(&names[bat], bat, at(bat));
     let curves: Vec<Series> = (1..names.len()).map(curve).collect();
-    let values = || curves.iter().flat_map(|c| c.points.iter().flatten().map(|[_, v]| *v));
-    let last = *comparison.from_tip.last()?;
-    values().next()?;
-    let mut svg = Svg::on(sheet);
-    let title = "Exit speed less that of the first bat";
-    head(&mut svg, title, ["", &format!("at the same distance from the tip; 0 is {}", names[0])]);
-    let top = legend(&mut svg, &curves.iter().collect::<Vec<_>>()) + 18.0;
-    let bottom = top + DIAGRAM;
-    svg.height = bottom + NUMBERS + 4.0;
-    let values = values().map(|v| speed.per * v).chain([0.0]);
-    let y = Axis::around("difference", values, ticks_up(DIAGRAM)).counted_in(speed);
+    let (length, last) = (sheet.length(), *comparison.from_tip.last()?);
+    heights(&curves).next()?;
+    let facts = format!("at the same distance from the tip; 0 is {}", names[0]);
     let x = Axis::new("from the tip", [0.0, length.per * last]).counted_in(length);
-    let plane = Plane { frame: Frame::across(sheet, [top, bottom]), x, y };
-    plane.draw(&mut svg);
-    plane.below(&mut svg);
-    let zero = [plane.x.from, plane.x.to].map(|x| plane.at([x, 0.0]));
-    svg.line(&zero, Pen::new(FRAME, 1.4));
-    curves.iter().rev().for_each(|curve| curve.draw(&mut svg, &plane));
-    hover(&mut svg, &plane, &curves.iter().collect::<Vec<_>>());
-    Some(Picture::new("difference", title, &described(sheet, &curves, names), svg))
+    let title = "Exit speed less that of the first bat";
+    let alt = described(sheet, &curves, names);
+    let chart = Chart::new("difference", title, ["", &facts], x).keys(&curves);
+    let panel = Panel::around(DIAGRAM, ("difference", sheet.speed()), curves, &[0.0]).zero();
+    Some(chart.panel(panel).picture(sheet, &alt))
 }
 
 fn described(sheet: Sheet, curves: &[Series], names: &[String]) -> String {

@@ -3,23 +3,21 @@
 use std::borrow::Cow;
 
 use crate::plot::axis::Axis;
+use crate::plot::chart::{Chart, Panel};
 use crate::plot::picture::Picture;
 use crate::plot::place::{along, mark};
-use crate::plot::plane::{Frame, NUMBERS, Plane, head, ticks_up};
 use crate::plot::route::Point;
-use crate::plot::series::{Series, bats, digits, hover};
+use crate::plot::series::{Series, bats, digits};
 use crate::plot::sheet::{Sheet, Unit};
 use crate::plot::svg::{Mark, Pen, Svg};
 use crate::plot::theme::{Ink, SERIES, TEXT, TINT};
-use crate::plot::words::SMALL;
 use sweetspot::collision::history::Moment;
 use sweetspot::collision::hitter::Hitter;
 
 /// Instants in every piece of the recorded force.
 const PARTS: usize = 6;
-/// Of each of the diagrams in time, and between them (px).
+/// Height of each of the diagrams in time (px).
 const DIAGRAM: f64 = 150.0;
-const BETWEEN: f64 = 32.0;
 
 /// A hit in time, and what the bat is called.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,120 +64,102 @@ fn second<'a>(sheet: Sheet, subjects: &[ContactCurves<'a>]) -> [Cow<'a, str>; 2]
     }
 }
 
-/// The names of several bats and where each is hit; where they end (px).
-fn names(svg: &mut Svg, subjects: &[ContactCurves]) -> f64 {
-    let sheet = svg.sheet;
+/// The names of several bats and where each is hit.
+fn keys(sheet: Sheet, subjects: &[ContactCurves]) -> Vec<Series> {
     let name = |s: &ContactCurves| format!("{}, {}", s.name, along(sheet, s.x));
-    let names: Vec<String> = subjects.iter().map(name).collect();
-    bats(svg, &names.iter().map(String::as_str).collect::<Vec<_>>())
+    bats(&subjects.iter().map(name).collect::<Vec<_>>())
 }
 
 /// Force and compression, one below the other.
 fn in_time(sheet: Sheet, subjects: &[ContactCurves]) -> Picture {
-    let mut svg = Svg::on(sheet);
-    let title = "The ball on the bat";
     let end = subjects.iter().map(ContactCurves::end).fold(0.0, f64::max);
     let [name, mut facts] = second(sheet, subjects);
     if subjects.len() == 1 {
         facts = format!("{facts}, over after {} ms", digits(end, 3)).into();
     }
-    head(&mut svg, title, [&name, &facts]);
-    let top = names(&mut svg, subjects) + 20.0;
-    let frame = |k: usize| {
-        let top = top + k as f64 * (DIAGRAM + BETWEEN);
-        Frame::across(sheet, [top, top + DIAGRAM])
-    };
-    svg.height = frame(1).bottom + NUMBERS + 4.0;
-    let x = Axis::new("time since the first touch (ms)", [0.0, end]);
-    let force = diagram(&mut svg, (frame(0), &x), subjects, ("force", sheet.force(), |m| m.force));
-    let of = ("compression", sheet.small(), (|m| m.compression) as fn(&Moment) -> f64);
-    let pressed = diagram(&mut svg, (frame(1), &x), subjects, of);
-    Plane { frame: frame(1), x, y: Axis::new("", [0.0, 1.0]) }.below(&mut svg);
-    let alt = format!("Force and compression in time, {name}: {facts}; {force}, {pressed}.");
-    Picture::new("contact", title, &alt, svg)
+    let x = Axis::new("time since the first touch", [0.0, end]).counted_in(Unit::MS);
+    let (force, pushed) = diagram(subjects, 0, ("force", sheet.force(), |m| m.force));
+    let (squeeze, pressed) =
+        diagram(subjects, 1, ("compression", sheet.small(), |m| m.compression));
+    let alt = format!("Force and compression in time, {name}: {facts}; {pushed}, {pressed}.");
+    let chart = Chart::new("contact", "The ball on the bat", [&name, &facts], x);
+    let chart = chart.keys(&keys(sheet, subjects)).panel(force).panel(squeeze);
+    chart.picture(sheet, &alt)
 }
 
 /// One quantity of all bats in time; its peaks in words.
-fn diagram(
-    svg: &mut Svg,
-    (frame, x): (Frame, &Axis),
+fn diagram<'a>(
     subjects: &[ContactCurves],
+    row: usize,
     (what, unit, of): (&str, Unit, fn(&Moment) -> f64),
-) -> String {
+) -> (Panel<'a>, String) {
     let alone = subjects.len() == 1;
     let curve = |(k, s): (usize, &ContactCurves)| {
         let points = s.moments.iter().map(|m| Some([1e3 * m.time, of(m)])).collect();
-        let series =
-            Series::curve(if alone { what } else { s.name }, k, points).units("ms", unit.name);
         // A single bat's two diagrams have two colours.
-        if alone && what != "force" { series.pen(Pen::new(SERIES[1], 2.0)) } else { series }
+        match alone {
+            true => Series::curve(what, row, points).pen(Pen::new(SERIES[row], 2.0)),
+            false => Series::curve(s.name, k, points),
+        }
     };
     let curves: Vec<Series> = subjects.iter().enumerate().map(curve).collect();
-    let values = curves.iter().flat_map(|c| c.points.iter().flatten().map(|[_, v]| *v));
-    let values = values.map(|v| unit.per * v).chain([0.0]);
-    let y = Axis::around(what, values, ticks_up(DIAGRAM)).counted_in(unit);
-    let plane = Plane { frame, x: x.clone(), y };
-    plane.draw(svg);
-    let mut told = vec![];
-    for (k, curve) in curves.iter().enumerate() {
-        curve.draw(svg, &plane);
-        let peak =
-            curve.points.iter().flatten().fold([0.0; 2], |a, b| if b[1] > a[1] { *b } else { a });
-        let words = format!(
-            "at most {} {}, after {} ms",
-            digits(unit.per * peak[1], 3),
-            unit.name,
-            digits(peak[0], 3)
-        );
-        if alone {
-            svg.mark(Mark::Circle, plane.at(peak), 3.0, TEXT, true);
-            svg.text([frame.left, frame.top - 8.0], SMALL, &words);
-        } else {
-            mark(svg, k, plane.at(peak));
+    let peak = |curve: &Series| {
+        let points = curve.points.iter().flatten();
+        points.fold([0.0; 2], |a, b| if b[1] > a[1] { *b } else { a })
+    };
+    let peaks: Vec<[f64; 2]> = curves.iter().map(peak).collect();
+    let words = |[time, value]: [f64; 2]| {
+        let [value, time] = [digits(unit.per * value, 3), digits(time, 3)];
+        format!("at most {value} {}, after {time} ms", unit.name)
+    };
+    let told = curves.iter().zip(&peaks).map(|(c, peak)| format!("{} {}", c.name, words(*peak)));
+    let told = told.collect::<Vec<_>>().join(", ");
+    // Dashes on a whole line are seen.
+    let curves = curves.into_iter().rev().collect();
+    let panel = Panel::around(DIAGRAM, (what, unit), curves, &[0.0]);
+    match peaks[..] {
+        [peak] => {
+            let panel = panel.note(&words(peak)).over(move |svg, plane| {
+                svg.mark(Mark::Circle, plane.at(peak), 3.0, TEXT, true);
+            });
+            (panel, told)
         }
-        told.push(format!("{} {words}", curve.name));
+        _ => {
+            let panel = panel.over(move |svg, plane| {
+                peaks.iter().enumerate().for_each(|(k, peak)| mark(svg, k, plane.at(*peak)));
+            });
+            (panel, format!("{what}: {told}"))
+        }
     }
-    hover(svg, &plane, &curves.iter().collect::<Vec<_>>());
-    if alone { told.concat() } else { format!("{what}: {}", told.join(", ")) }
 }
 
 /// Force against compression.
 fn hysteresis(sheet: Sheet, subjects: &[ContactCurves]) -> Picture {
     const HEIGHT: f64 = 320.0;
-    let mut svg = Svg::on(sheet);
-    let title = "What the ball takes and gives back";
     let ([name, facts], lost) = (second(sheet, subjects), lost(sheet.energy(), subjects));
     let alone = subjects.len() == 1;
-    let told = format!("{facts}; {lost}");
-    head(&mut svg, title, [&name, if alone { &facts } else { &told }]);
-    let top = names(&mut svg, subjects) + 20.0;
-    let frame = Frame::across(sheet, [top, top + HEIGHT]);
-    svg.height = frame.bottom + NUMBERS + 4.0;
-    let (squeeze, force) = (sheet.small(), sheet.force());
-    let curve = |(k, s)| Series::curve("ball", k, around(s)).units(squeeze.name, force.name);
+    let curve = |(k, s)| {
+        let curve = Series::curve("ball", k, around(s));
+        if alone { curve.filled(SERIES[1], TINT) } else { curve }
+    };
     let curves: Vec<Series> = subjects.iter().enumerate().map(curve).collect();
-    let points = || curves.iter().flat_map(|c| c.points.iter().flatten());
-    let values = |k: usize, unit: Unit| points().map(move |at| unit.per * at[k]).chain([0.0]);
-    let x = Axis::around("compression of the ball", values(0, squeeze), 11).counted_in(squeeze);
-    let y = Axis::around("force", values(1, force), ticks_up(HEIGHT)).counted_in(force);
-    let plane = Plane { frame, x, y };
-    plane.draw(&mut svg);
-    for curve in &curves {
-        let around: Vec<Point> = curve.points.iter().flatten().map(|at| plane.at(*at)).collect();
-        if alone {
-            svg.area(&around, SERIES[1], TINT, None);
-        }
-        curve.draw(&mut svg, &plane);
-        arrows(&mut svg, &around, curve.pen.ink);
-    }
-    if alone {
-        svg.text([frame.left, top - 8.0], SMALL, &lost);
-    }
-    plane.below(&mut svg);
-    hover(&mut svg, &plane, &curves.iter().collect::<Vec<_>>());
+    let squeezed = curves.iter().flat_map(|c| c.points.iter().flatten()).map(|at| at[0]);
+    let x = Axis::measured("compression of the ball", sheet.small(), squeezed.chain([0.0]), 11);
     let alt =
         format!("Force against the ball's compression, up and back down, {name}, {facts}: {lost}.");
-    Picture::new("hysteresis", title, &alt, svg)
+    let told = if alone { facts } else { format!("{facts}; {lost}").into() };
+    let loops = curves.clone();
+    let curves = curves.into_iter().rev().collect();
+    let panel = Panel::around(HEIGHT, ("force", sheet.force()), curves, &[0.0]);
+    let panel = panel.note(if alone { &lost } else { "" }).over(|svg, plane| {
+        for curve in &loops {
+            let points = curve.points.iter().flatten();
+            arrows(svg, &points.map(|at| plane.at(*at)).collect::<Vec<_>>(), curve.pen.ink);
+        }
+    });
+    let title = "What the ball takes and gives back";
+    let chart = Chart::new("hysteresis", title, [&name, &told], x).keys(&keys(sheet, subjects));
+    chart.panel(panel).picture(sheet, &alt)
 }
 
 /// The loop of a hit: compression (m) and force (N).

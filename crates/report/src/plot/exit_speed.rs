@@ -1,12 +1,11 @@
 //! How fast the ball leaves along the bat, and where the sweet spot is by each definition.
 
-use crate::plot::axis::Axis;
+use crate::plot::chart::{Chart, Panel};
 use crate::plot::picture::Picture;
 use crate::plot::place::{self, PlaceRow};
-use crate::plot::plane::{Frame, NUMBERS, Plane, head, ticks_up};
-use crate::plot::series::{Series, hover, legend};
+use crate::plot::series::{Series, heights};
 use crate::plot::sheet::Sheet;
-use crate::plot::svg::{Pen, Svg};
+use crate::plot::svg::Pen;
 use crate::plot::theme::{SERIES, series};
 use sweetspot::bat::body::Bat;
 use sweetspot::collision::hit::Impact;
@@ -36,49 +35,30 @@ pub fn picture(sheet: Sheet, subjects: &[SpeedCurves]) -> Option<Picture> {
         .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [f64::min(a, x), f64::max(b, x)]);
     let alone = subjects.len() == 1;
     let all = subjects.iter().enumerate();
-    let curves: Vec<Series> = all.flat_map(|(k, s)| curves(sheet, k, s, alone)).collect();
-    let values = || curves.iter().flat_map(|c| c.points.iter().flatten().map(|[_, v]| *v));
-    if from >= to || values().next().is_none() {
+    let curves: Vec<Series> = all.flat_map(|(k, s)| curves(k, s, alone)).collect();
+    if from >= to || heights(&curves).next().is_none() {
         return None;
     }
     let rows = sweet_spots(sheet, subjects);
-    let mut svg = Svg::on(sheet);
     let (title, name, facts) = words(sheet, subjects);
-    head(&mut svg, title, [name, &facts]);
-    let keys = keys(&curves, alone);
-    let keys: Vec<&Series> = keys.iter().collect();
-    let top = legend(&mut svg, &keys) + 12.0 + NUMBERS;
-    let side = top + DIAGRAM;
-    let bottom = side + 6.0 + place::height(sheet, &rows);
-    svg.height = bottom + NUMBERS + 4.0;
+    let alt = described(subjects, &rows);
     let bats: Vec<(&str, f64)> = subjects.iter().map(|s| (s.name, s.bat.length())).collect();
-    let [x, tip] = place::axes(sheet, [from, to], &bats);
-    let fast = sheet.speed();
-    let y = Axis::around("exit speed", values().map(|v| fast.per * v), ticks_up(DIAGRAM));
-    let frame = Frame::across(sheet, [top, side]);
-    let plane = Plane { frame, x, y: y.counted_in(fast) };
-    svg.read_off = Some([frame.left, top, frame.right, side]);
-    let strip = Plane { frame: Frame { top: side + 6.0, bottom, ..frame }, ..plane.clone() };
-    zone(&mut svg, &plane, subjects);
-    plane.above(&mut svg, &tip);
-    diagram(&mut svg, &plane, (subjects, &curves));
-    place::rows(&mut svg, &strip, &rows);
-    strip.below(&mut svg);
-    Some(Picture::new("exit_speed", title, &described(subjects, &rows), svg))
-}
-
-/// The curves, and the fastest ball on each.
-fn diagram(svg: &mut Svg, plane: &Plane, (subjects, curves): (&[SpeedCurves], &[Series])) {
-    plane.draw(svg);
-    curves.iter().rev().for_each(|curve| curve.draw(svg, plane));
-    for (k, subject) in subjects.iter().enumerate() {
-        let peak = subject.spot.exit_speed_max.map(|peak| [peak.x, peak.value]);
-        let seen = |at: &[f64; 2]| plane.x.holds(at[0]) && plane.y.holds(at[1]);
-        if let Some(at) = peak.filter(seen) {
-            place::mark(svg, k, plane.at(at));
+    let zone = match subjects {
+        [one] => one.spot.zone,
+        _ => None,
+    };
+    let chart = Chart::along(sheet, ("exit_speed", title), [name, &facts], ([from, to], &bats));
+    let chart = chart.keys(&keys(&curves, alone)).rows(rows).read_off();
+    let panel = Panel::around(DIAGRAM, ("exit speed", sheet.speed()), curves, &[]);
+    let panel = panel.band(zone, SERIES[0]).over(|svg, plane| {
+        let fastest = subjects.iter().map(|s| s.spot.exit_speed_max);
+        for (k, peak) in fastest.enumerate() {
+            let at = peak.map(|peak| [peak.x, peak.value]);
+            let at = at.filter(|at| plane.x.holds(at[0]) && plane.y.holds(at[1]));
+            at.into_iter().for_each(|at| place::mark(svg, k, plane.at(at)));
         }
-    }
-    hover(svg, plane, &curves.iter().collect::<Vec<_>>());
+    });
+    Some(chart.panel(panel).picture(sheet, &alt))
 }
 
 fn words<'a>(sheet: Sheet, subjects: &[SpeedCurves<'a>]) -> (&'static str, &'a str, String) {
@@ -106,10 +86,10 @@ fn described(subjects: &[SpeedCurves], rows: &[PlaceRow]) -> String {
 }
 
 /// As the bat is, and if it did not bend; the wall of a hollow one may give way too.
-fn curves(sheet: Sheet, k: usize, subject: &SpeedCurves, alone: bool) -> Vec<Series> {
+fn curves(k: usize, subject: &SpeedCurves, alone: bool) -> Vec<Series> {
     let curve = |name: &str, of: &dyn Fn(&Impact) -> Option<f64>| {
         let points = subject.impacts.iter().map(|i| Some([i.x, of(i)?])).collect();
-        Series::curve(name, k, points).units(sheet.length().name, sheet.speed().name)
+        Series::curve(name, k, points)
     };
     let wall = |impact: &Impact| impact.outcome.as_ref().is_some_and(|o| o.energy.wall > 0.0);
     let rings = subject.impacts.iter().any(wall);
@@ -139,14 +119,6 @@ fn keys(curves: &[Series], alone: bool) -> Vec<Series> {
     named
 }
 
-/// Where a single bat's exit speed is within 1 % of its best.
-fn zone(svg: &mut Svg, plane: &Plane, subjects: &[SpeedCurves]) {
-    let [one] = subjects else { return };
-    if let Some(zone) = one.spot.zone {
-        plane.band(svg, zone, SERIES[0]);
-    }
-}
-
 /// A row for every definition that has a place.
 fn sweet_spots(sheet: Sheet, subjects: &[SpeedCurves]) -> Vec<PlaceRow> {
     type Of = fn(&SpeedCurves) -> Option<f64>;
@@ -162,8 +134,12 @@ fn sweet_spots(sheet: Sheet, subjects: &[SpeedCurves]) -> Vec<PlaceRow> {
             s.spot.hands_acceleration_min.filter(|_| s.bat.damped()).map(|p| p.x)
         }),
     ];
-    let mut rows: Vec<PlaceRow> =
-        all.iter().filter_map(|(what, of)| row(sheet, subjects, what, *of)).collect();
+    let lengths: Vec<f64> = subjects.iter().map(|s| s.bat.length()).collect();
+    let row = |(what, of): &(&str, Of)| {
+        let places: Vec<Option<f64>> = subjects.iter().map(of).collect();
+        PlaceRow::named(sheet, what, &lengths, &places)
+    };
+    let mut rows: Vec<PlaceRow> = all.iter().filter_map(row).collect();
     let zones: Vec<(usize, [f64; 2])> =
         subjects.iter().enumerate().filter_map(|(k, s)| Some((k, s.spot.zone?))).collect();
     if let [(_, [from, to])] = zones.as_slice() {
@@ -174,22 +150,4 @@ fn sweet_spots(sheet: Sheet, subjects: &[SpeedCurves]) -> Vec<PlaceRow> {
         rows.insert(1.min(rows.len()), PlaceRow::of_stretches("within 1 %".into(), zones));
     }
     rows
-}
-
-fn row(
-    sheet: Sheet,
-    subjects: &[SpeedCurves],
-    what: &str,
-    of: impl Fn(&SpeedCurves) -> Option<f64>,
-) -> Option<PlaceRow> {
-    let places: Vec<(usize, f64)> =
-        subjects.iter().enumerate().filter_map(|(k, s)| Some((k, of(s)?))).collect();
-    let label = match (subjects, places.as_slice()) {
-        (_, []) => return None,
-        ([one], [(_, x)]) => format!("{what}: {}", place::shown(sheet, *x, one.bat.length())),
-        _ => {
-            format!("{what}: {}", place::listed(sheet, &places))
-        }
-    };
-    Some(PlaceRow::of_places(label, places))
 }

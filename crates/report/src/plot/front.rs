@@ -1,9 +1,10 @@
 //! Time against error, as measured on a bat: what is worth its time.
 
 use crate::plot::axis::Axis;
+use crate::plot::chart::{Chart, Panel};
 use crate::plot::picture::Picture;
-use crate::plot::plane::{Frame, NUMBERS, Plane, head};
-use crate::plot::series::{Series, legend, short};
+use crate::plot::plane::Plane;
+use crate::plot::series::{Series, short};
 use crate::plot::sheet::Sheet;
 use crate::plot::svg::{MARKS, Mark, Pen, Svg};
 use crate::plot::theme::{SERIES, TEXT};
@@ -25,33 +26,23 @@ pub fn picture(name: &str, trade: &Trade) -> Option<Picture> {
     let floor = reference.floor;
     let at = |run: &Run| [1e6 * run.seconds, run.error.max(floor)];
     runs.first()?;
-    let solvers = solvers(runs, at);
-    let best: Vec<_> = front(runs).map(|run| Some(at(run))).collect();
-    let pen = Pen::new(TEXT, 1.4);
-    let best = Series::curve("front: nothing is faster and as accurate", 0, best).pen(pen);
+    let mut curves = solvers(runs, at);
+    let (pen, best) = (Pen::new(TEXT, 1.4), front(runs).map(|run| Some(at(run))).collect());
+    let best = Series::curve("front: nothing is faster and as accurate", 0, best).pen(pen).untold();
     let planner = Series::curve("ringed: the planner's choice for that tolerance", 0, vec![]);
-    let planner = Series { joined: false, mark: Some(Mark::Circle), pen, ..planner };
-    let title = "Speed against accuracy";
+    curves.extend([best, planner.dots(Mark::Circle).pen(pen)]);
     let facts = format!("{} frequencies, every run measured here and now", reference.omegas.len());
-    let sheet = Sheet::file(false);
-    let mut svg = Svg::on(sheet);
-    head(&mut svg, title, [name, &facts]);
-    let keys: Vec<&Series> = solvers.iter().chain([&best, &planner]).collect();
-    let top = legend(&mut svg, &keys) + 16.0;
-    let frame = Frame::across(sheet, [top, top + DIAGRAM]);
-    svg.height = frame.bottom + NUMBERS + 4.0;
     let x = Axis::logarithmic("time (µs)", runs.iter().map(|run| at(run)[0]));
     let errors = runs.iter().map(|run| at(run)[1]);
     let y = Axis::logarithmic("largest relative error of a frequency", errors);
-    let plane = Plane { frame, x, y };
-    plane.draw(&mut svg);
-    solvers.iter().chain([&best]).for_each(|series| series.draw(&mut svg, &plane));
-    planned(&mut svg, &plane, runs, at);
-    plane.below(&mut svg);
-    let told: Vec<_> = front(runs).map(|run| (plane.at(at(run)), told(run))).collect();
-    svg.hover(&told, 60);
     let alt = format!("{name}: {facts}. {}", words.join(". "));
-    Some(Picture::new("front", title, &alt, svg))
+    let chart = Chart::new("front", "Speed against accuracy", [name, &facts], x).keys(&curves);
+    let panel = Panel::new(DIAGRAM, y, curves).over(|svg, plane| {
+        planned(svg, plane, runs, at);
+        let told: Vec<_> = front(runs).map(|run| (plane.at(at(run)), told(run))).collect();
+        svg.hover(&told, 60);
+    });
+    Some(chart.panel(panel).picture(Sheet::file(false), &alt))
 }
 
 /// The runs of every solver.
@@ -59,8 +50,7 @@ fn solvers(runs: &[Run], at: impl Fn(&Run) -> [f64; 2]) -> Vec<Series> {
     let of = |(k, solver): (usize, Solver)| {
         let own = runs.iter().filter(|run| run.choice.solver == solver);
         let points: Vec<_> = own.map(|run| Some(at(run))).collect();
-        let series = Series::curve(solver_name(solver), k, points);
-        Series { joined: false, mark: Some(MARKS[k]), ..series }
+        Series::curve(solver_name(solver), k, points).dots(MARKS[k]).untold()
     };
     let all = SOLVERS.into_iter().enumerate().map(of);
     all.filter(|series| !series.points.is_empty()).collect()

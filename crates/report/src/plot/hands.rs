@@ -1,29 +1,22 @@
 //! What the hands feel: displacement and velocity of the handle after a hit.
 
 use crate::plot::axis::Axis;
+use crate::plot::chart::{Chart, Panel};
 use crate::plot::picture::Picture;
 use crate::plot::place::along;
-use crate::plot::plane::{Frame, NUMBERS, Plane, head, ticks_up};
-use crate::plot::series::{Series, bats, hover, short};
+use crate::plot::series::{Series, bats, heights, short};
 use crate::plot::sheet::{Paper, Sheet, Unit};
-use crate::plot::svg::{Pen, Svg};
-use crate::plot::theme::{FRAME, SERIES};
-use crate::plot::words::SMALL;
+use crate::plot::svg::Pen;
+use crate::plot::theme::SERIES;
 use sweetspot::collision::aftermath::{Aftermath, Instant};
 
 /// Instants of a curve, and at most of all.
 const INSTANTS: usize = 700;
 const IN_ALL: usize = 1800;
-/// Of each of the diagrams, and between them (px).
+/// Height of each of the diagrams (px).
 const DIAGRAM: f64 = 150.0;
-const BETWEEN: f64 = 18.0;
 /// What is drawn.
 const KINDS: [&str; 2] = ["displacement", "velocity"];
-
-/// What that is counted in.
-fn unit_of(sheet: Sheet, kind: usize) -> Unit {
-    if kind == 0 { sheet.small() } else { sheet.speed() }
-}
 
 /// A bat after a hit, and where it is held.
 pub struct HandCurves<'a> {
@@ -44,33 +37,28 @@ pub fn picture(sheet: Sheet, subjects: &[HandCurves]) -> Option<Picture> {
     let instants = INSTANTS.min(IN_ALL / subjects.len());
     let times: Vec<f64> = (0..=instants).map(|k| until * k as f64 / instants as f64).collect();
     let motions: Vec<_> = subjects.iter().map(|s| motions(&s.after, s.x, &times)).collect();
-    let mut svg = Svg::on(sheet);
-    let title = "What the hands feel";
-    let (name, facts) = words(sheet, subjects);
-    head(&mut svg, title, [name, &facts]);
-    let top = bats(&mut svg, &subjects.iter().map(|s| s.name).collect::<Vec<_>>()) + 14.0;
-    let frame = |k: usize| {
-        let top = top + 6.0 + k as f64 * (DIAGRAM + BETWEEN);
-        Frame::across(sheet, [top, top + DIAGRAM])
-    };
-    svg.height = frame(1).bottom + NUMBERS + 4.0;
-    let along = Axis::new("time since the first touch (ms)", [0.0, 1e3 * until]);
+    let (name, mut facts) = words(sheet, subjects);
+    let (note, band) = told(subjects);
+    let alt = format!("Motion of the handle in time, {name}: {facts}.");
+    let note = if sheet.paper == Paper::File { note } else { "" };
+    if note.is_empty() {
+        facts = format!("{facts}; {}", told(subjects).0);
+    }
+    let x = Axis::new("time since the first touch", [0.0, 1e3 * until]).counted_in(Unit::MS);
+    let names: Vec<&str> = subjects.iter().map(|s| s.name).collect();
+    let mut chart =
+        Chart::new("hands", "What the hands feel", [name, &facts], x).keys(&bats(&names));
     let mut peaks = vec![];
-    for (k, what) in KINDS.into_iter().enumerate() {
-        let unit = unit_of(sheet, k);
-        let values = || motions.iter().flatten().map(|m| unit.per * m[k + 1]);
-        let y = Axis::around(what, values().chain([0.0]), ticks_up(DIAGRAM)).counted_in(unit);
-        let plane = Plane { frame: frame(k), x: along.clone(), y };
-        diagram(&mut svg, &plane, k, (subjects, &motions));
-        let most = values().map(f64::abs).fold(0.0, f64::max);
+    for (kind, what) in KINDS.into_iter().enumerate() {
+        let unit = if kind == 0 { sheet.small() } else { sheet.speed() };
+        let curves = curves(kind, subjects, &motions);
+        let most = heights(&curves).map(|value| (unit.per * value).abs()).fold(0.0, f64::max);
         peaks.push(format!("{what} up to {} {}", short(most), unit.name));
+        let panel = Panel::around(DIAGRAM, (what, unit), curves, &[0.0]).zero();
+        let panel = panel.band(band, SERIES[5]).note(if kind == 0 { note } else { "" });
+        chart = chart.panel(panel);
     }
-    match sheet.paper {
-        Paper::File => svg.text([sheet.left(), frame(0).top - 6.0], SMALL, told(subjects)),
-        _ => svg.facts = format!("{facts}; {}", told(subjects)),
-    }
-    let alt = format!("Motion of the handle in time, {name}: {facts}. {}.", peaks.join(", "));
-    Some(Picture::new("hands", title, &alt, svg))
+    Some(chart.picture(sheet, &format!("{alt} {}.", peaks.join(", "))))
 }
 
 /// What the second line says.
@@ -84,44 +72,27 @@ fn words<'a>(sheet: Sheet, subjects: &[HandCurves<'a>]) -> (&'a str, String) {
     }
 }
 
-/// What the curves are.
-fn told(subjects: &[HandCurves]) -> &'static str {
+/// What the curves are, and when the ball is on a single bat (ms).
+fn told(subjects: &[HandCurves]) -> (&'static str, Option<[f64; 2]>) {
     match subjects {
-        [_] => {
-            "against the undisturbed swing, whose way is upwards; tinted: the ball is on the bat"
-        }
-        _ => "against the undisturbed swing, whose way is upwards",
+        [one] => (
+            "against the undisturbed swing, whose way is upwards; tinted: the ball is on the bat",
+            Some([0.0, 1e3 * one.after.end()]),
+        ),
+        _ => ("against the undisturbed swing, whose way is upwards", None),
     }
 }
 
-/// Displacements or velocities of all bats; below the second is the axis of time.
-fn diagram(
-    svg: &mut Svg,
-    plane: &Plane,
-    kind: usize,
-    (subjects, motions): (&[HandCurves], &[Vec<[f64; 3]>]),
-) {
-    let (what, unit) = (KINDS[kind], unit_of(svg.sheet, kind));
-    if let [one] = subjects {
-        plane.band(svg, [0.0, 1e3 * one.after.end()], SERIES[5]);
-    }
-    plane.draw(svg);
-    let zero = [plane.x.from, plane.x.to].map(|t| plane.at([t, 0.0]));
-    svg.line(&zero, Pen::new(FRAME, 1.2));
+/// Displacements or velocities of all bats.
+fn curves(kind: usize, subjects: &[HandCurves], motions: &[Vec<[f64; 3]>]) -> Vec<Series> {
     let curve = |(k, (s, motions)): (usize, (&HandCurves, &Vec<[f64; 3]>))| {
         let points = motions.iter().map(|m| Some([m[0], m[kind + 1]])).collect();
         match subjects.len() {
-            1 => Series::curve(what, kind, points).pen(Pen::new(SERIES[kind], 1.7)),
+            1 => Series::curve(KINDS[kind], kind, points).pen(Pen::new(SERIES[kind], 1.7)),
             _ => Series::curve(s.name, k, points),
         }
-        .units("ms", unit.name)
     };
-    let curves: Vec<Series> = subjects.iter().zip(motions).enumerate().map(curve).collect();
-    curves.iter().rev().for_each(|curve| curve.draw(svg, plane));
-    hover(svg, plane, &curves.iter().collect::<Vec<_>>());
-    if kind == 1 {
-        plane.below(svg);
-    }
+    subjects.iter().zip(motions).enumerate().map(curve).collect()
 }
 
 /// Time (ms), displacement (m) and velocity (m/s) at a place; where hardly anything moves beside the

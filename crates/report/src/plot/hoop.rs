@@ -2,10 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use crate::plot::axis::Axis;
+use crate::plot::chart::{Chart, Panel};
 use crate::plot::picture::Picture;
 use crate::plot::place;
-use crate::plot::plane::{Frame, NUMBERS, Plane, head};
+use crate::plot::plane::{Frame, Plane};
 use crate::plot::route::Point;
 use crate::plot::sheet::Sheet;
 use crate::plot::svg::{Pen, Svg};
@@ -32,33 +32,21 @@ pub fn picture(sheet: Sheet, bat: &Bat, barrel: &Barrel, most: usize) -> Option<
     if lowest.is_empty() {
         return None;
     }
-    let stretch = [barrel.hoop().from(), barrel.hoop().to()];
-    let [knob, tip] = place::axes(sheet, stretch, &[(bat.name(), bat.length())]);
-    let mut svg = Svg::on(sheet);
-    let title = "Hoop modes of the barrel";
-    let facts = "along it, and around it where it moves most; dashed: at rest; not to scale";
-    head(&mut svg, title, [bat.name(), facts]);
-    let top = sheet.head() + NUMBERS;
-    let bottom = top + ROW * lowest.len() as f64;
     let size = Size::on(sheet);
-    let frame = Frame {
-        right: sheet.width() - WORDS - size.across() - 20.0,
-        ..Frame::across(sheet, [top, bottom])
-    };
-    svg.height = bottom + NUMBERS + 4.0;
-    let plane = Plane { frame, x: knob, y: Axis::new("", [0.0, 1.0]) };
-    plane.above(&mut svg, &tip);
     let modes = barrel.hoop().modes();
-    for (k, mode) in lowest.iter().enumerate() {
-        let axis = top + ROW * (k as f64 + 0.5);
-        // By its place among all: two modes may be alike in every number.
-        let Some(number) = modes.iter().position(|one| std::ptr::eq(one, *mode)) else { continue };
-        let outline = barrel.hoop().outline(number, ALONG);
-        side(&mut svg, &plane, (axis, size.moved), (bat, mode, &outline));
-        around(&mut svg, [frame.right + 12.0 + 0.5 * size.across(), axis], size, (mode, &outline));
-        named(&mut svg, [sheet.width() - WORDS, axis], mode);
-    }
-    plane.below(&mut svg);
+    let panel = Panel::plain(ROW * lowest.len() as f64).over(|svg, plane| {
+        let Frame { top, right, .. } = plane.frame;
+        for (k, mode) in lowest.iter().enumerate() {
+            let axis = top + ROW * (k as f64 + 0.5);
+            // By its place among all: two modes may be alike in every number.
+            let number = modes.iter().position(|one| std::ptr::eq(one, *mode));
+            let Some(number) = number else { continue };
+            let outline = barrel.hoop().outline(number, ALONG);
+            side(svg, plane, (axis, size.moved), (bat, mode, &outline));
+            around(svg, [right + 12.0 + 0.5 * size.across(), axis], size, (mode, &outline));
+            named(svg, [sheet.width() - WORDS, axis], mode);
+        }
+    });
     let told = |mode: &&HoopMode| {
         let x = place::shown(sheet, mode.largest_at_m, bat.length());
         let (n, m, hertz) = (mode.harmonic, mode.order, mode.frequency_hz);
@@ -66,7 +54,13 @@ pub fn picture(sheet: Sheet, bat: &Bat, barrel: &Barrel, most: usize) -> Option<
     };
     let told: Vec<String> = lowest.iter().map(told).collect();
     let alt = format!("{}: {}.", bat.name(), told.join("; "));
-    Some(Picture::new("hoop", title, &alt, svg))
+    let stretch = [barrel.hoop().from(), barrel.hoop().to()];
+    let called = ("hoop", "Hoop modes of the barrel");
+    let facts = "along it, and around it where it moves most; dashed: at rest; not to scale";
+    let bats = (stretch, &[(bat.name(), bat.length())][..]);
+    let chart = Chart::along(sheet, called, [bat.name(), facts], bats);
+    let chart = chart.right(WORDS + size.across() + 20.0 - sheet.right());
+    Some(chart.panel(panel).picture(sheet, &alt))
 }
 
 /// How large a ring is drawn.

@@ -1,15 +1,15 @@
 //! The bat coloured by what a cut does there, a strip for each output.
 
-use crate::plot::axis::Axis;
+use crate::plot::chart::{Chart, Panel};
 use crate::plot::outline::Lying;
 use crate::plot::picture::Picture;
 use crate::plot::place;
-use crate::plot::plane::{Frame, NUMBERS, Plane, head};
+use crate::plot::plane::Frame;
 use crate::plot::profile::widest;
 use crate::plot::series::digits;
 use crate::plot::sheet::Sheet;
 use crate::plot::svg::{Pen, Svg};
-use crate::plot::theme::{FRAME, SERIES};
+use crate::plot::theme::{FRAME, Ink, SERIES};
 use crate::plot::words::{Anchor, LABEL, SMALL, fitted};
 use sweetspot::base::number::signed;
 use sweetspot::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
@@ -48,47 +48,36 @@ pub fn picture(sheet: Sheet, map: &LatheMap) -> Option<Picture> {
         return None;
     }
     let bat = map.piece.bat();
-    let length = bat.length();
-    let [knob, tip] = place::axes(sheet, [0.0, length], &[(bat.name(), length)]);
+    let (name, length) = (bat.name(), bat.length());
     let per = if sheet.us { "1/32 in" } else { "mm" };
-    let title = "What a cut does";
     let facts = format!("per {per} taken off the diameter there; blue rises, red falls");
-    let mut svg = Svg::on(sheet);
-    head(&mut svg, title, [bat.name(), &facts]);
-    let top = sheet.head() + NUMBERS;
     let each = WORDS + BAT + 9.0;
-    let frame = Frame::across(sheet, [top, top + each * strips.len() as f64 + 4.0]);
-    svg.height = frame.bottom + NUMBERS + 4.0;
-    let plane = Plane { frame, x: knob, y: Axis::new("", [0.0, 1.0]) };
-    plane.above(&mut svg, &tip);
     let per_metre = 0.5 * BAT / widest(bat);
     let outline = few_sections(bat);
-    let mut told = vec![];
-    for (k, strip) in strips.iter().enumerate() {
-        let upper = top + each * k as f64;
-        let axis = upper + WORDS + 0.5 * BAT;
-        let lying = Lying { plane: &plane, axis, per_metre };
-        let most = strip.most();
-        label(&mut svg, frame, upper, strip);
-        for (band, change) in map.found.bands.iter().zip(&strip.changes) {
-            let Some(change) = change else { continue };
-            let share = if most > 0.0 { change.abs() / most } else { 0.0 };
-            let ink = if *change >= 0.0 { SERIES[0] } else { SERIES[1] };
-            let opacity = rounded(FULL * share);
-            if opacity > 0.0 {
-                lying.filled(&mut svg, &between(bat, &outline, band.ends()), (ink, opacity));
+    let panel = Panel::plain(each * strips.len() as f64 + 4.0).over(|svg, plane| {
+        let mut told = vec![];
+        for (k, strip) in strips.iter().enumerate() {
+            let upper = plane.frame.top + each * k as f64;
+            let lying = Lying { plane, axis: upper + WORDS + 0.5 * BAT, per_metre };
+            label(svg, plane.frame, upper, strip);
+            for (band, change) in map.found.bands.iter().zip(&strip.changes) {
+                let Some(change) = change else { continue };
+                let (ink, opacity) = strip.look(*change);
+                if opacity > 0.0 {
+                    lying.filled(svg, &between(bat, &outline, band.ends()), (ink, opacity));
+                }
+                let middle = plane.across(0.5 * (band.from_m + band.to_m));
+                told.push(([middle, lying.axis], strip.of(sheet, band, *change)));
             }
-            let middle = plane.across(0.5 * (band.from_m + band.to_m));
-            told.push(([middle, axis], strip.of(sheet, band, *change)));
+            lying.outline(svg, &outline, Pen::new(FRAME, 0.9));
         }
-        lying.outline(&mut svg, &outline, Pen::new(FRAME, 0.9));
-    }
-    svg.hover(&told, MOST_TOLD);
-    plane.below(&mut svg);
+        svg.hover(&told, MOST_TOLD);
+    });
     let named: Vec<String> = strips.iter().map(Strip::range).collect();
-    let alt =
-        format!("{}: what a cut does along the bat, {facts}. {}.", bat.name(), named.join("; "));
-    Some(Picture::new("lathe", title, &alt, svg))
+    let alt = format!("{name}: what a cut does along the bat, {facts}. {}.", named.join("; "));
+    let bats = ([0.0, length], &[(name, length)][..]);
+    let chart = Chart::along(sheet, ("lathe", "What a cut does"), [name, &facts], bats);
+    Some(chart.panel(panel).picture(sheet, &alt))
 }
 
 /// Few sections that tell the bat's shape: evenly spaced ones, and its stations with both sides of steps.
@@ -115,10 +104,6 @@ fn between(bat: &Bat, outline: &[(f64, Section)], [from, to]: [f64; 2]) -> Vec<(
     [ends[0]].into_iter().chain(inside).chain([ends[1]]).collect()
 }
 
-fn rounded(opacity: f64) -> f64 {
-    (100.0 * opacity).round() / 100.0
-}
-
 fn label(svg: &mut Svg, frame: Frame, top: f64, strip: &Strip) {
     let range = strip.range();
     let (name, numbers) = range.split_once(": ").unwrap_or((&range, ""));
@@ -131,6 +116,14 @@ fn label(svg: &mut Svg, frame: Frame, top: f64, strip: &Strip) {
 impl Strip {
     fn most(&self) -> f64 {
         self.changes.iter().flatten().fold(0.0, |most: f64, change| most.max(change.abs()))
+    }
+
+    /// The colour of a change and how much of it covers the bat, by its share of the largest.
+    fn look(&self, change: f64) -> (Ink, f64) {
+        let most = self.most();
+        let share = if most > 0.0 { change.abs() / most } else { 0.0 };
+        let ink = if change >= 0.0 { SERIES[0] } else { SERIES[1] };
+        (ink, (100.0 * FULL * share).round() / 100.0)
     }
 
     /// Its name and how far the changes go.

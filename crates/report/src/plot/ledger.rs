@@ -1,15 +1,12 @@
 //! Where the energy of a hit goes, along the bat.
 
-use crate::plot::axis::Axis;
+use crate::plot::chart::{Chart, Panel};
 use crate::plot::picture::Picture;
-use crate::plot::place;
-use crate::plot::plane::{Frame, NUMBERS, Plane, head, ticks_up};
-use crate::plot::route::Point;
-use crate::plot::series::{Tag, digits, room, short, tags};
+use crate::plot::plane::Plane;
+use crate::plot::series::{Series, Tag, digits, room, short, tags};
 use crate::plot::sheet::{Sheet, Unit};
 use crate::plot::svg::{Pen, Svg};
 use crate::plot::theme::{Ink, MUTED, PAPER, SERIES, TEXT};
-use crate::plot::words::{LABEL, width};
 use sweetspot::bat::body::Bat;
 use sweetspot::collision::hit::{Energy, Impact};
 
@@ -90,19 +87,8 @@ pub fn picture(
     let seen = |layer: &Layer| layer.energies.iter().flatten().any(|e| *e > UNSEEN * greatest);
     let layers: Vec<Layer> = layers(impacts).into_iter().filter(seen).collect();
     let names: Vec<&str> = layers.iter().map(|layer| layer.name.as_str()).collect();
-    let [knob, tip] = place::axes(sheet, [first, last], &[(name, bat.length())]);
-    let mut svg = Svg::on(sheet);
-    let top = if sheet.narrow() { keys(&mut svg, &layers) } else { sheet.head() } + NUMBERS;
-    let frame = Frame::across(sheet, [top, top + DIAGRAM]);
-    let beside = sheet.width() - room(&names, 220.0);
-    let frame = Frame { right: if sheet.narrow() { frame.right } else { beside }, ..frame };
     let stacks = stacked(&layers);
-    let heights = stacks.last()?.iter().flatten().copied().chain([0.0, greatest, up_to]);
     let unit = sheet.energy();
-    let y = Axis::around("energy", heights.map(|v| unit.per * v), ticks_up(DIAGRAM));
-    let plane = Plane { frame, x: knob, y: y.counted_in(unit) };
-    svg.height = frame.bottom + NUMBERS + 4.0;
-    svg.read_off = Some([frame.left, frame.top, frame.right, frame.bottom]);
     let least = initial.iter().copied().fold(f64::INFINITY, f64::min);
     let sum = if greatest - least < 1e-6 * greatest {
         format!("{} {} before the hit", short(unit.per * greatest), unit.name)
@@ -110,17 +96,24 @@ pub fn picture(
         let [least, greatest] = [least, greatest].map(|energy| short(unit.per * energy));
         format!("{least} to {greatest} {} before the hit", unit.name)
     };
-    let title = "Where the energy goes";
     let held = if bat.fixtures().holding() { ", as the hands see it" } else { "" };
     let facts = format!("{sum}{held}, {}", books(unit, impacts, greatest));
-    head(&mut svg, title, [name, &facts]);
-    plane.draw(&mut svg);
-    draw(&mut svg, &plane, impacts, (&layers, &stacks));
-    plane.above(&mut svg, &tip);
-    plane.below(&mut svg);
     let alt =
         format!("{name}: {facts}. Stacked against the place of the hit: {}.", names.join(", "));
-    Some(Picture::new("ledger", title, &alt, svg))
+    let before = |i: &Impact| Some([i.x, i.outcome.as_ref()?.energy.initial]);
+    let before = Series::curve("", 0, impacts.iter().map(before).collect());
+    let mut curves = vec![before.pen(Pen::new(TEXT, 1.5)).untold()];
+    curves.extend(areas(impacts, &layers, &stacks));
+    let (keys, beside) = match sheet.narrow() {
+        true => (&curves[1..], 0.0),
+        false => (&[][..], room(&names, 220.0) - sheet.right()),
+    };
+    let ends = ([first, last], &[(name, bat.length())][..]);
+    let called = ("ledger", "Where the energy goes");
+    let chart = Chart::along(sheet, called, [name, &facts], ends).keys(keys).right(beside);
+    let panel = Panel::around(DIAGRAM, ("energy", unit), curves, &[0.0, greatest, up_to]);
+    let panel = panel.over(|svg, plane| named(svg, plane, impacts, (&layers, &stacks)));
+    Some(chart.read_off().panel(panel).picture(sheet, &alt))
 }
 
 /// Whether everything is there after the hit.
@@ -148,71 +141,49 @@ pub fn stacked(layers: &[Layer]) -> Vec<Vec<Option<f64>>> {
     layers.iter().map(on_top).collect()
 }
 
-/// Lower and upper edge of a layer at every impact (px).
-type Edges = Vec<Option<[Point; 2]>>;
+/// Each layer as a filled outline, wherever there were hits.
+fn areas(impacts: &[Impact], layers: &[Layer], stacks: &[Vec<Option<f64>>]) -> Vec<Series> {
+    let area = |(layer, above): (&Layer, &Vec<Option<f64>>)| {
+        let edge = |k: usize| {
+            let (energy, above) = (layer.energies[k]?, above[k]?);
+            Some([impacts[k].x, above - energy, above])
+        };
+        let edges: Vec<Option<[f64; 3]>> = (0..impacts.len()).map(edge).collect();
+        let mut points = vec![];
+        for run in edges.split(Option::is_none) {
+            let lower = run.iter().flatten().map(|[x, low, _]| Some([*x, *low]));
+            let upper = run.iter().rev().flatten().map(|[x, _, high]| Some([*x, *high]));
+            points.extend(lower.chain(upper).chain([None]));
+        }
+        let (ink, opacity) = layer.look;
+        let area = Series::curve(&layer.name, 0, points).pen(Pen::new(PAPER, 0.8));
+        area.filled(ink, opacity).untold()
+    };
+    layers.iter().zip(stacks).map(area).collect()
+}
 
-fn draw(
+/// The names of the layers beside the frame, where there is room, and their energies where a pointer rests.
+fn named(
     svg: &mut Svg,
     plane: &Plane,
     impacts: &[Impact],
     (layers, stacks): (&[Layer], &[Vec<Option<f64>>]),
 ) {
-    let (floor, unit) = (vec![Some(0.0); impacts.len()], svg.sheet.energy());
-    let below = std::iter::once(&floor).chain(stacks);
+    let unit = svg.sheet.energy();
     let mut names: Vec<Tag> = vec![];
-    for (layer, (below, above)) in layers.iter().zip(below.zip(stacks)) {
-        let at = |i: &Impact, v: &Option<f64>| Some(plane.at([i.x, (*v)?]));
-        let edges: Edges = impacts
-            .iter()
-            .zip(below.iter().zip(above))
-            .map(|(i, (low, high))| Some([at(i, low)?, at(i, high)?]))
-            .collect();
-        filled(svg, &edges, layer);
-        if let Some([low, high]) = edges.iter().flatten().last() {
-            names.push((0.5 * (low[1] + high[1]), layer.name.clone(), TEXT));
-        }
-        let told = |(at, energy): (&Option<[Point; 2]>, &Option<f64>)| {
-            let [low, high] = (*at)?;
-            let words = format!("{}: {} {}", layer.name, short(unit.per * (*energy)?), unit.name);
-            Some(([low[0], 0.5 * (low[1] + high[1])], words))
+    for (layer, above) in layers.iter().zip(stacks) {
+        let middle = |k: usize| {
+            let (energy, above) = (layer.energies[k]?, above[k]?);
+            Some((plane.at([impacts[k].x, above - 0.5 * energy]), energy))
         };
-        let told: Vec<_> = edges.iter().zip(&layer.energies).filter_map(told).collect();
+        let words =
+            |energy: f64| format!("{}: {} {}", layer.name, short(unit.per * energy), unit.name);
+        let told = (0..impacts.len()).filter_map(middle);
+        let told: Vec<_> = told.map(|(at, energy)| (at, words(energy))).collect();
+        names.extend(told.last().map(|([_, y], _)| (*y, layer.name.clone(), TEXT)));
         svg.hover(&told, 60 / layers.len().max(1));
-    }
-    let before = |i: &Impact| Some(plane.at([i.x, i.outcome.as_ref()?.energy.initial]));
-    let line: Vec<Option<Point>> = impacts.iter().map(before).collect();
-    for run in line.split(Option::is_none) {
-        let run: Vec<Point> = run.iter().flatten().copied().collect();
-        svg.line(&run, Pen::new(TEXT, 1.5));
     }
     if !svg.sheet.narrow() {
         tags(svg, plane.frame, &names);
-    }
-}
-
-/// The layers' names above the diagram, each with its colour; where they end (px).
-fn keys(svg: &mut Svg, layers: &[Layer]) -> f64 {
-    const SIDE: f64 = 11.0;
-    let (mut x, mut y) = (12.0, svg.sheet.head() + 10.0);
-    for Layer { name, look: (ink, opacity), .. } in layers {
-        let wide = SIDE + 6.0 + width(name, LABEL);
-        if x > 12.0 && x + wide > svg.width - 4.0 {
-            (x, y) = (12.0, y + 18.0);
-        }
-        svg.rect([[x, y - SIDE + 1.0], [x + SIDE, y + 1.0]], *ink, *opacity, None);
-        svg.text([x + SIDE + 6.0, y], LABEL, name);
-        x += wide + 14.0;
-    }
-    y + 8.0
-}
-
-/// A layer wherever there were hits.
-fn filled(svg: &mut Svg, edges: &Edges, layer: &Layer) {
-    let (ink, opacity) = layer.look;
-    for run in edges.split(Option::is_none) {
-        let lower = run.iter().flatten().map(|edge| edge[0]);
-        let upper = run.iter().flatten().rev().map(|edge| edge[1]);
-        let around: Vec<Point> = lower.chain(upper).collect();
-        svg.area(&around, ink, opacity, Some(Pen::new(PAPER, 0.8)));
     }
 }

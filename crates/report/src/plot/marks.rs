@@ -1,6 +1,6 @@
 //! The places of a bat that matter, and what it is made of and bears, as rows.
 
-use crate::plot::place::{self, PlaceRow};
+use crate::plot::place::PlaceRow;
 use crate::plot::series::{digits, short};
 use crate::plot::sheet::Sheet;
 use sweetspot::base::units::ounces;
@@ -21,16 +21,10 @@ pub struct MarkedBat<'a> {
 
 /// Balance points, pivots, centres of percussion; what one bat is made of and bears.
 pub fn marked(sheet: Sheet, subjects: &[MarkedBat]) -> Vec<PlaceRow> {
+    let lengths: Vec<f64> = subjects.iter().map(|s| s.bat.length()).collect();
     let of = |what: &str, place: &dyn Fn(&MarkedBat) -> Option<f64>| {
-        let places: Vec<(usize, f64)> =
-            subjects.iter().enumerate().filter_map(|(k, s)| Some((k, place(s)?))).collect();
-        let label = match (subjects, places.as_slice()) {
-            ([one], [(_, x)]) => format!("{what}: {}", place::shown(sheet, *x, one.bat.length())),
-            _ => {
-                format!("{what}: {}", place::listed(sheet, &places))
-            }
-        };
-        (!places.is_empty()).then(|| PlaceRow::of_places(label, places))
+        let places: Vec<Option<f64>> = subjects.iter().map(place).collect();
+        PlaceRow::named(sheet, what, &lengths, &places)
     };
     let on_bat = |s: &MarkedBat| (STANDARD_PIVOT <= s.bat.length()).then_some(STANDARD_PIVOT);
     let standard = |s: &MarkedBat| s.bat.inertia().center_of_percussion(on_bat(s)?);

@@ -1,24 +1,23 @@
 //! Measured modes beside computed ones: how alike they are, and the shapes on each other.
 
 use crate::plot::axis::Axis;
+use crate::plot::chart::{Chart, Panel};
 use crate::plot::matrix::{self, Matrix};
 use crate::plot::picture::Picture;
-use crate::plot::place;
-use crate::plot::plane::{Frame, NUMBERS, Plane, head};
-use crate::plot::series::{Series, digits, hover, legend};
+use crate::plot::plane::Frame;
+use crate::plot::series::{Series, digits, heights};
 use crate::plot::sheet::Sheet;
 use crate::plot::svg::{MARKS, Pen, Svg};
-use crate::plot::theme::{FRAME, SERIES};
+use crate::plot::theme::SERIES;
 use crate::plot::words::{LABEL, SMALL, fitted};
 use sweetspot_study::measured::study::{Pair, Shapes, Study};
 
 /// Shapes in one picture.
 const MOST: usize = 8;
-/// Height of a shape's diagram (px), and between two.
+/// Height of a shape's diagram (px).
 const ROW: f64 = 76.0;
-const BETWEEN: f64 = 10.0;
-/// Right of the frame, where a mode is named.
-const RIGHT: f64 = 150.0;
+/// Right of the frame, where a mode is named (px).
+const RIGHT: f64 = 122.0;
 /// Points of a computed curve, and measured ones that are drawn at most.
 const POINTS: usize = 160;
 const DRAWN: usize = 400;
@@ -86,39 +85,6 @@ fn on_each_other(sheet: Sheet, bat: &str, study: &Study, shapes: &Shapes) -> Opt
         return None;
     }
     let length = study.solution.modes[pairs[0].computed].shape.length();
-    let [knob, tip] = place::axes(sheet, [0.0, length], &[(bat, length)]);
-    let top = sheet.head() + 20.0 + NUMBERS;
-    let frame = |k: usize| {
-        let top = top + (ROW + BETWEEN) * k as f64;
-        Frame { right: sheet.width() - RIGHT, ..Frame::across(sheet, [top, top + ROW]) }
-    };
-    let last = frame(pairs.len() - 1).bottom;
-    let mut svg = Svg::on(sheet);
-    svg.height = last + NUMBERS + 4.0;
-    let title = "Measured shapes on computed ones";
-    head(&mut svg, title, [bat, "the measured ones scaled to the computed"]);
-    for (k, pair) in pairs.iter().enumerate() {
-        let [curve, points] = series(sheet, study, shapes, pair);
-        let both = curve.points.iter().chain(&points.points).flatten().map(|[_, w]| w.abs());
-        // A little more than the largest, so that numbers of two diagrams do not meet.
-        let high = 1.2 * both.fold(1.0, f64::max);
-        let plane = Plane { frame: frame(k), x: knob.clone(), y: Axis::new("", [-high, high]) };
-        plane.draw(&mut svg);
-        let zero = [plane.x.from, plane.x.to].map(|x| plane.at([x, 0.0]));
-        svg.line(&zero, Pen::new(FRAME, 1.0));
-        if k == 0 {
-            legend(&mut svg, &[&curve, &points]);
-            plane.above(&mut svg, &tip);
-        }
-        for series in [&curve, &points] {
-            series.draw(&mut svg, &plane);
-            hover(&mut svg, &plane, &[series]);
-        }
-        beside(&mut svg, plane.frame, study, pair);
-        if k + 1 == pairs.len() {
-            plane.below(&mut svg);
-        }
-    }
     let told = |pair: &&Pair| {
         let mac = pair.mac.unwrap_or(0.0);
         format!(
@@ -129,11 +95,22 @@ fn on_each_other(sheet: Sheet, bat: &str, study: &Study, shapes: &Shapes) -> Opt
     };
     let all: Vec<String> = pairs.iter().map(told).collect();
     let alt = format!("Measured deflections as points on computed curves: {}.", all.join("; "));
-    Some(Picture::new("measured_shapes", title, &alt, svg))
+    let called = ("measured_shapes", "Measured shapes on computed ones");
+    let of = [bat, "the measured ones scaled to the computed"];
+    let mut chart = Chart::along(sheet, called, of, ([0.0, length], &[(bat, length)]));
+    chart = chart.keys(&series(study, shapes, pairs[0])).right(RIGHT);
+    for pair in pairs {
+        let curves = series(study, shapes, pair);
+        // A little more than the largest, so that numbers of two diagrams do not meet.
+        let high = 1.2 * heights(&curves).map(f64::abs).fold(1.0, f64::max);
+        let panel = Panel::new(ROW, Axis::new("", [-high, high]), curves).zero();
+        chart = chart.panel(panel.over(move |svg, plane| beside(svg, plane.frame, study, pair)));
+    }
+    Some(chart.picture(sheet, &alt))
 }
 
-/// A computed curve, and the measured points over the scale between them.
-fn series(sheet: Sheet, study: &Study, shapes: &Shapes, pair: &Pair) -> [Series; 2] {
+/// The measured points over the scale between them and a computed curve, and that curve below them.
+fn series(study: &Study, shapes: &Shapes, pair: &Pair) -> Vec<Series> {
     let shape = &study.solution.modes[pair.computed].shape;
     let at = |k: usize| shape.length() * k as f64 / POINTS as f64;
     let computed = (0..=POINTS).map(|k| Some([at(k), shape.deflection(at(k))])).collect();
@@ -142,15 +119,14 @@ fn series(sheet: Sheet, study: &Study, shapes: &Shapes, pair: &Pair) -> [Series;
     // Of very many, points beside each other are one on paper.
     let values = values.step_by(shapes.placed.x.len().div_ceil(DRAWN));
     let measured = values.map(|(x, w)| Some([*x, (w / scale?).re])).collect();
-    let points = Series::curve("measured", 1, measured).units(sheet.length().name, "");
-    let points = Series { joined: false, mark: Some(MARKS[0]), ..points };
-    [Series::curve("computed", 0, computed).pen(Pen::new(SERIES[0], 1.7)), points]
+    let computed = Series::curve("computed", 0, computed).pen(Pen::new(SERIES[0], 1.7)).untold();
+    vec![Series::curve("measured", 1, measured).dots(MARKS[0]), computed]
 }
 
 /// Which modes, their frequencies, and the MAC.
 fn beside(svg: &mut Svg, frame: Frame, study: &Study, pair: &Pair) {
     let (x, y) = (frame.right + 12.0, frame.top + 16.0);
-    let room = RIGHT - 20.0;
+    let room = svg.width - x - 8.0;
     let measured = &study.measured.modes[pair.measured];
     let computed = &study.solution.modes[pair.computed];
     svg.text([x, y], LABEL, &fitted(&measured.name, LABEL, room));

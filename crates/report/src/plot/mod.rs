@@ -39,6 +39,8 @@ pub mod axis;
 pub mod plane;
 pub mod series;
 pub mod place;
+pub mod chart;
+pub mod bars;
 pub mod outline;
 pub mod marks;
 pub mod profile;

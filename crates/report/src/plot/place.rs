@@ -78,6 +78,24 @@ impl PlaceRow {
         Self { label, places, stretches: vec![] }
     }
 
+    /// A row of what each bat of these lengths (m) has at one of these places (m), with the places in its label; None
+    /// where no bat has any.
+    pub fn named(
+        sheet: Sheet,
+        what: &str,
+        lengths: &[f64],
+        places: &[Option<f64>],
+    ) -> Option<Self> {
+        let places = places.iter().enumerate().filter_map(|(k, x)| Some((k, (*x)?)));
+        let places: Vec<(usize, f64)> = places.collect();
+        let told = match (lengths, &places[..]) {
+            (_, []) => return None,
+            ([length], [(_, x)]) => shown(sheet, *x, *length),
+            _ => listed(sheet, &places),
+        };
+        Some(Self::of_places(format!("{what}: {told}"), places))
+    }
+
     /// A row of stretches (m), each with the number of its bat.
     pub fn of_stretches(label: String, stretches: Vec<(usize, [f64; 2])>) -> Self {
         Self { label, places: vec![], stretches }

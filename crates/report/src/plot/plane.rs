@@ -31,6 +31,12 @@ impl Frame {
     pub fn across(sheet: Sheet, [top, bottom]: [f64; 2]) -> Self {
         Self { left: sheet.left(), top, right: sheet.width() - sheet.right(), bottom }
     }
+
+    /// A frame of that height as wide as this one, so far below it (px).
+    pub fn below(self, apart: f64, height: f64) -> Self {
+        let top = self.bottom + apart;
+        Self { top, bottom: top + height, ..self }
+    }
 }
 
 /// A diagram.
@@ -64,6 +70,11 @@ pub fn ticks_up(height: f64) -> usize {
 }
 
 impl Plane {
+    /// A frame with an axis along it and none upwards.
+    pub fn strip(frame: Frame, x: &Axis) -> Self {
+        Self { frame, x: x.clone(), y: Axis::new("", [0.0, 1.0]) }
+    }
+
     /// The pixel of a pair of values.
     pub fn at(&self, [a, b]: [f64; 2]) -> Point {
         let Frame { left, top, right, bottom } = self.frame;
@@ -117,6 +128,17 @@ impl Plane {
         let mut ticks = axis.ticks(ticks_along(self.frame, axis));
         ticks.retain(|tick| tick.value >= 0.0);
         along(svg, self.frame, (axis, &ticks), [self.frame.top, -TICK, -9.0, -26.0]);
+    }
+
+    /// A line across the frame at a value of y.
+    pub fn level(&self, svg: &mut Svg, value: f64, pen: Pen) {
+        svg.line(&[self.x.from, self.x.to].map(|x| self.at([x, value])), pen);
+    }
+
+    /// A line from top to bottom of the frame at a value of x.
+    pub fn upright(&self, svg: &mut Svg, value: f64, pen: Pen) {
+        let x = self.across(value);
+        svg.line(&[[x, self.frame.top], [x, self.frame.bottom]], pen);
     }
 
     /// A stretch of x, tinted from top to bottom.

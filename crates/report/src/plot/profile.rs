@@ -1,12 +1,12 @@
 //! Bats from the side, their diameter along them, and the places that matter.
 
-use crate::plot::axis::Axis;
+use crate::plot::chart::{Chart, Panel};
 use crate::plot::marks::marked;
 use crate::plot::outline::{Lying, sections};
 use crate::plot::picture::Picture;
-use crate::plot::place::{self, PlaceRow};
-use crate::plot::plane::{Frame, NUMBERS, Plane, head, ticks_up};
-use crate::plot::series::{Series, bats, digits, hover, short};
+use crate::plot::place::PlaceRow;
+use crate::plot::plane::Frame;
+use crate::plot::series::{Series, bats, digits, short};
 use crate::plot::sheet::Sheet;
 use crate::plot::svg::{Pen, Svg};
 use crate::plot::theme::series;
@@ -27,49 +27,26 @@ pub fn picture(sheet: Sheet, subjects: &[MarkedBat]) -> Picture {
     let rows: Vec<PlaceRow> = marked(sheet, subjects);
     let lengths: Vec<(&str, f64)> = subjects.iter().map(|s| (s.name, s.bat.length())).collect();
     let ends = ends(longest, &rows);
-    let [knob, tip] = place::axes(sheet, ends, &lengths);
     let thickest = subjects.iter().map(|s| widest(s.bat)).fold(0.0, f64::max);
     let Frame { left, right, .. } = Frame::across(sheet, [0.0; 2]);
     let [times, per_metre] = thickness(thickest, (right - left) / (ends[1] - ends[0]));
     let each = 2.0 * thickest * per_metre + 26.0;
-    let mut svg = Svg::on(sheet);
-    let top = bats(&mut svg, &subjects.iter().map(|s| s.name).collect::<Vec<_>>()) + NUMBERS;
-    let side = top + each * subjects.len() as f64 + 6.0;
-    let below = side + DIAGRAM + 6.0;
-    let bottom = below + place::height(sheet, &rows);
-    let plane = |top, bottom| {
-        let frame = Frame::across(sheet, [top, bottom]);
-        Plane { frame, x: knob.clone(), y: Axis::new("", [0.0, 1.0]) }
-    };
-    let (lying, strip) = (plane(top, side), plane(below, bottom));
-    svg.height = bottom + NUMBERS + 6.0;
-    let (title, facts) = words(sheet, subjects);
-    head(&mut svg, &title, ["", &facts]);
-    lying.above(&mut svg, &tip);
-    for (k, subject) in subjects.iter().enumerate() {
-        let axis = top + each * (k as f64 + 0.5) + 4.0;
-        let lying = Lying { plane: &lying, axis, per_metre };
-        lying.draw(&mut svg, subject.bat, series(k).0);
-    }
-    proportions(&mut svg, times, [right, top + 14.0]);
-    diameters(&mut svg, plane(side, side + DIAGRAM), subjects);
-    let told = place::rows(&mut svg, &strip, &rows);
-    place::guides(&mut svg, &strip, (&rows, &told), top + 0.5 * each + 4.0);
-    strip.below(&mut svg);
-    Picture::new("profile", &title, &described(subjects, &rows), svg)
-}
-
-/// The diameters along the bats.
-fn diameters(svg: &mut Svg, plane: Plane, subjects: &[MarkedBat]) {
-    let (sheet, unit) = (svg.sheet, svg.sheet.length());
-    let all = subjects.iter().map(|s| 2.0 * unit.per * widest(s.bat)).chain([0.0]);
-    let plane =
-        Plane { y: Axis::around("diameter", all, ticks_up(DIAGRAM)).counted_in(unit), ..plane };
-    plane.draw(svg);
-    let curves: Vec<Series> =
-        subjects.iter().enumerate().flat_map(|(k, s)| curves(sheet, k, s)).collect();
-    curves.iter().for_each(|curve| curve.draw(svg, &plane));
-    hover(svg, &plane, &curves.iter().collect::<Vec<_>>());
+    let axis = |k: usize| each * (k as f64 + 0.5) + 4.0;
+    let lying = Panel::plain(each * subjects.len() as f64).over(|svg, plane| {
+        for (k, subject) in subjects.iter().enumerate() {
+            let lying = Lying { plane, axis: plane.frame.top + axis(k), per_metre };
+            lying.draw(svg, subject.bat, series(k).0);
+        }
+        proportions(svg, times, [plane.frame.right, plane.frame.top + 14.0]);
+    });
+    // Dashes on a whole line are seen.
+    let curves = subjects.iter().enumerate().flat_map(|(k, s)| curves(k, s)).rev().collect();
+    let diameters = Panel::around(DIAGRAM, ("diameter", sheet.length()), curves, &[0.0]);
+    let ((title, facts), alt) = (words(sheet, subjects), described(subjects, &rows));
+    let names: Vec<&str> = subjects.iter().map(|s| s.name).collect();
+    let chart = Chart::along(sheet, ("profile", &title), ["", &facts], (ends, &lengths));
+    let chart = chart.keys(&bats(&names)).panel(lying).panel(diameters);
+    chart.rows(rows).guides(axis(0)).picture(sheet, &alt)
 }
 
 /// What the pictures' first two lines say.
@@ -137,18 +114,18 @@ fn proportions(svg: &mut Svg, times: f64, at: [f64; 2]) {
 }
 
 /// The outer diameter, and the inner one where there is a bore.
-fn curves(sheet: Sheet, k: usize, MarkedBat { name, bat, .. }: &MarkedBat) -> Vec<Series> {
+fn curves(k: usize, MarkedBat { name, bat, .. }: &MarkedBat) -> Vec<Series> {
     const MOST: usize = 300;
-    let (unit, all) = (sheet.length().name, sections(bat.profile(), MOST));
+    let all = sections(bat.profile(), MOST);
     let outer = all.iter().map(|(x, at)| Some([*x, 2.0 * at.outer])).collect();
-    let mut curves = vec![Series::curve(name, k, outer).units(unit, unit)];
+    let mut curves = vec![Series::curve(name, k, outer)];
     if all.iter().any(|(_, at)| at.inner > 0.0) {
         let bore = |(x, at): &(f64, sweetspot::bat::profile::Section)| {
             (at.inner > 0.0).then_some([*x, 2.0 * at.inner])
         };
         let inner = Series::curve(&format!("{name}, bore"), k, all.iter().map(bore).collect());
         let pen = Pen { width: 1.2, ..inner.pen };
-        curves.push(inner.pen(pen).units(unit, unit));
+        curves.push(inner.pen(pen));
     }
     curves
 }

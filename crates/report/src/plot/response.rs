@@ -3,20 +3,19 @@
 use faer::c64;
 
 use crate::plot::axis::Axis;
+use crate::plot::chart::{Chart, Panel};
 use crate::plot::picture::Picture;
 use crate::plot::place::along;
-use crate::plot::plane::{Frame, NUMBERS, Plane, head};
-use crate::plot::series::{Series, hover, legend, short};
-use crate::plot::sheet::Sheet;
-use crate::plot::svg::{MARKS, Pen, Svg};
+use crate::plot::series::{Series, short};
+use crate::plot::sheet::{Sheet, Unit};
+use crate::plot::svg::{MARKS, Pen};
 use crate::plot::theme::SERIES;
 use crate::report::frf::{phase, unit};
 use sweetspot::motion::frf::ResponseKind;
 use sweetspot::motion::peaks::Peak;
 
-/// Heights of size and phase, and between them (px).
+/// Heights of size and phase (px).
 const DIAGRAMS: [f64; 2] = [230.0, 150.0];
-const BETWEEN: f64 = 18.0;
 /// What is less than that share of the largest is not drawn: an antiresonance may be 0.
 const LEAST: f64 = 1e-8;
 /// Points of a curve in a picture.
@@ -53,41 +52,25 @@ pub fn picture(sheet: Sheet, subject: &ResponseCurves, name: &str) -> Option<Pic
     if most <= 0.0 {
         return None;
     }
-    let size = curve("computed", 0, sized(values)).units("Hz", unit(kind));
-    let other = curve("measured", 1, sized(measured)).units("Hz", unit(kind));
     let tops = peaks.iter().filter_map(|peak| Some(Some([peak.frequency, peak.height?])));
-    let tops = Series::curve("peaks", 2, tops.collect()).units("Hz", unit(kind));
-    let tops = Series { joined: false, mark: Some(MARKS[0]), ..tops };
+    let tops = Series::curve("peaks", 2, tops.collect()).dots(MARKS[0]);
+    let seen = |curves: [Series; 2]| curves.into_iter().filter(|curve| !curve.points.is_empty());
+    let sizes_of = [curve("measured", 1, sized(measured)), curve("computed", 0, sized(values))];
+    let turns = [
+        curve("phase, computed", 0, turned(values)),
+        curve("phase, measured", 1, turned(measured)),
+    ];
+    let tops = Some(tops).filter(|tops| !tops.points.is_empty());
+    let keys: Vec<Series> = seen(sizes_of).chain(tops).collect();
     let title = format!("{} over frequency", capital(kind.name()));
     let [forced, watched] = [at, to].map(|x| along(sheet, x));
     let facts = format!("force at {forced}, answer at {watched} from the knob end");
-    let mut svg = Svg::on(sheet);
-    head(&mut svg, &title, [bat, &facts]);
-    let named: Vec<&Series> =
-        [&other, &size, &tops].into_iter().filter(|s| !s.points.is_empty()).collect();
-    let top = legend(&mut svg, &named) + 14.0;
-    let first = Frame::across(sheet, [top, top + DIAGRAMS[0]]);
-    let below = first.bottom + BETWEEN;
-    let second = Frame::across(sheet, [below, below + DIAGRAMS[1]]);
-    svg.height = second.bottom + NUMBERS + 4.0;
     // A number at the very end would leave a narrow picture.
-    let x = Axis::new("frequency (Hz)", [low, low + 1.02 * (high - low)]);
+    let x = Axis::new("frequency", [low, low + 1.02 * (high - low)]).counted_in(Unit::HZ);
     let drawn = sizes().filter(|size| *size >= LEAST * most).chain([most]);
-    let y = Axis::logarithmic(&format!("{} ({})", kind.name(), unit(kind)), drawn);
-    let plane = Plane { frame: first, x: x.clone(), y };
-    plane.draw(&mut svg);
-    named.iter().for_each(|series| series.draw(&mut svg, &plane));
-    hover(&mut svg, &plane, &named);
-    let turn = Axis::of_a_turn("phase (deg)");
-    let plane = Plane { frame: second, x, y: turn };
-    plane.draw(&mut svg);
-    let turns = curve("phase, computed", 0, turned(values)).units("Hz", "deg");
-    let others = curve("phase, measured", 1, turned(measured)).units("Hz", "deg");
-    let named: Vec<&Series> =
-        [&others, &turns].into_iter().filter(|s| !s.points.is_empty()).collect();
-    named.iter().for_each(|series| series.draw(&mut svg, &plane));
-    hover(&mut svg, &plane, &named);
-    plane.below(&mut svg);
+    let size =
+        Axis::logarithmic(kind.name(), drawn).counted_in(Unit { name: unit(kind), per: 1.0 });
+    let turn = Axis::of_a_turn("phase");
     let told = peaks.iter().map(|peak| {
         let height = peak.height.map_or("without bound".into(), short);
         format!("mode {} at {} Hz, {height}", peak.mode, short(peak.frequency))
@@ -95,7 +78,11 @@ pub fn picture(sheet: Sheet, subject: &ResponseCurves, name: &str) -> Option<Pic
     let told: Vec<String> = told.collect();
     let peaks = if told.is_empty() { "none".to_owned() } else { told.join("; ") };
     let alt = format!("{title} of {bat}: {facts}. Peaks ({}): {peaks}.", unit(kind));
-    Some(Picture::new(name, &title, &alt, svg))
+    let chart = Chart::new(name, &title, [bat, &facts], x).keys(&keys);
+    let sizes = keys.into_iter().rev().collect();
+    let chart = chart.panel(Panel::new(DIAGRAMS[0], size, sizes));
+    let chart = chart.panel(Panel::new(DIAGRAMS[1], turn, seen(turns).collect()));
+    Some(chart.picture(sheet, &alt))
 }
 
 fn curve(name: &str, k: usize, points: Vec<Option<[f64; 2]>>) -> Series {

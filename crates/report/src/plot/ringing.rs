@@ -2,19 +2,19 @@
 //! the whole bat after a blow, under a force or from a shape.
 
 use crate::plot::axis::Axis;
+use crate::plot::chart::{Chart, Panel};
 use crate::plot::picture::Picture;
-use crate::plot::place::{along, axes};
-use crate::plot::plane::{Frame, NUMBERS, Plane, head, ticks_up};
-use crate::plot::series::{Series, hover, legend, short};
+use crate::plot::place::along;
+use crate::plot::plane::ticks_up;
+use crate::plot::series::{Series, heights, short};
 use crate::plot::sheet::{Sheet, Unit};
-use crate::plot::svg::{MARKS, Pen, Svg};
-use crate::plot::theme::{FRAME, SERIES};
+use crate::plot::svg::MARKS;
+use crate::plot::theme::SERIES;
 use sweetspot::collision::aftermath::{Aftermath, Line, Strained};
 
-/// Heights of a diagram of motion and of one that is alone (px), and between two.
+/// Heights of a diagram of motion and of one that is alone (px).
 const MOTION: f64 = 130.0;
 const ALONE: f64 = 250.0;
-const BETWEEN: f64 = 18.0;
 /// Instants of a curve, and at most of all.
 const INSTANTS: usize = 900;
 const IN_ALL: usize = 3600;
@@ -67,48 +67,28 @@ impl AfterHit<'_> {
         let kinds = [("displacement", sheet.small()), ("velocity", sheet.speed())];
         let kinds = kinds.into_iter().chain(self.damped.then_some(("acceleration", shaken)));
         let kinds: Vec<(&str, Unit)> = kinds.collect();
-        let curves = |kind: usize, unit: Unit| -> Vec<Series> {
+        let curves = |kind: usize| -> Vec<Series> {
             let curve = |(k, (x, _)): (usize, &(f64, &[Line]))| {
                 let value = |now| self.after.motion(*x, now)[kind];
                 let points = instants.iter().map(|now| Some([1e3 * now.time, value(now)]));
-                let name = Self::name(sheet, *x);
-                Series::curve(&name, k, points.collect()).units("ms", unit.name)
+                Series::curve(&Self::name(sheet, *x), k, points.collect())
             };
             self.watched.iter().take(MOST).enumerate().map(curve).collect()
         };
         let title = "Motion after the hit";
         let facts = format!("{}; against the swing; tinted: the ball is there", self.facts(sheet));
-        let mut svg = Svg::on(sheet);
-        head(&mut svg, title, [self.bat, &facts]);
-        let named = curves(0, kinds[0].1);
-        let top = legend(&mut svg, &named.iter().collect::<Vec<_>>()) + 14.0;
-        let frame = |k: usize| {
-            let top = top + k as f64 * (MOTION + BETWEEN);
-            Frame::across(sheet, [top, top + MOTION])
-        };
-        svg.height = frame(kinds.len() - 1).bottom + NUMBERS + 4.0;
-        let x = Axis::new("time since the first touch (ms)", [0.0, 1e3 * self.until]);
+        let x = Axis::new("time since the first touch", [0.0, 1e3 * self.until]);
+        let chart = Chart::new("motion", title, [self.bat, &facts], x.counted_in(Unit::MS));
+        let mut chart = chart.keys(&curves(0));
         let mut told = vec![];
-        for (k, (what, unit)) in kinds.iter().enumerate() {
-            let all = curves(k, *unit);
-            let values = || all.iter().flat_map(|c| c.points.iter().flatten()).map(|at| at[1]);
-            let scaled = values().map(|v| unit.per * v).chain([0.0]);
-            let y = Axis::around(what, scaled, ticks_up(MOTION)).counted_in(*unit);
-            let plane = Plane { frame: frame(k), x: x.clone(), y };
-            plane.band(&mut svg, [0.0, 1e3 * self.after.end()], SERIES[5]);
-            plane.draw(&mut svg);
-            let zero = [plane.x.from, plane.x.to].map(|t| plane.at([t, 0.0]));
-            svg.line(&zero, Pen::new(FRAME, 1.2));
-            all.iter().rev().for_each(|curve| curve.draw(&mut svg, &plane));
-            hover(&mut svg, &plane, &all.iter().collect::<Vec<_>>());
-            if k + 1 == kinds.len() {
-                plane.below(&mut svg);
-            }
-            let most = values().map(|v| (unit.per * v).abs()).fold(0.0, f64::max);
-            told.push(format!("{what} up to {} {}", short(most), unit.name));
+        for (k, (what, unit)) in kinds.into_iter().enumerate() {
+            let all = curves(k);
+            told.push(format!("{what} up to {}", most(&all, unit)));
+            let panel = Panel::around(MOTION, (what, unit), all, &[0.0]).zero();
+            chart = chart.panel(panel.band(Some([0.0, 1e3 * self.after.end()]), SERIES[5]));
         }
         let alt = format!("{title} of {}, {facts}. {}.", self.bat, told.join(", "));
-        Some(Picture::new("motion", title, &alt, svg))
+        Some(chart.picture(sheet, &alt))
     }
 
     /// Velocity of every mode at the watched places when the ball has left: a line each.
@@ -128,26 +108,21 @@ impl AfterHit<'_> {
                 let (f, size) = (line.frequency_hz, line.velocity_m_s);
                 [Some([f, 0.0]), Some([f, size]), None]
             };
-            let points =
-                lines.iter().filter(|line| line.frequency_hz <= end).flat_map(stem).collect();
-            let name = Self::name(sheet, *x);
-            Series::curve(&name, k, points).units("Hz", unit.name)
+            let points = lines.iter().filter(|line| line.frequency_hz <= end).flat_map(stem).collect();
+            Series::curve(&Self::name(sheet, *x), k, points)
         };
-        let curves: Vec<Series> = self.watched.iter().take(MOST).enumerate().map(curve).collect();
+        let stems: Vec<Series> = self.watched.iter().take(MOST).enumerate().map(curve).collect();
         // The ends of lines that lie on each other are told apart by their marks.
         let ends = |(k, stems): (usize, &Series)| {
             let points = stems.points.iter().skip(1).step_by(3).copied().collect();
-            Series { joined: false, mark: Some(MARKS[k % MARKS.len()]), points, ..stems.clone() }
+            Series { points, ..stems.clone() }.dots(MARKS[k % MARKS.len()]).untold()
         };
-        let ends: Vec<Series> = curves.iter().enumerate().map(ends).collect();
+        let mut curves: Vec<Series> = stems.iter().enumerate().map(ends).collect();
         let title = "Spectrum when the ball has left";
         let facts = format!("{}; velocity of every mode", self.facts(sheet));
-        let (mut svg, frame) = alone(sheet, title, [self.bat, &facts], &ends);
-        let values = [0.0, unit.per * largest].into_iter();
-        let y = Axis::around("velocity", values, ticks_up(ALONE)).counted_in(unit);
-        let plane = Plane { frame, x: Axis::new("frequency (Hz)", [0.0, 1.05 * end]), y };
-        drawn(&mut svg, &plane, &curves);
-        ends.iter().for_each(|ends| ends.draw(&mut svg, &plane));
+        let x = Axis::new("frequency", [0.0, 1.05 * end]).counted_in(Unit::HZ);
+        let chart = Chart::new("spectrum", title, [self.bat, &facts], x).keys(&curves);
+        curves.extend(stems);
         let told = lines().filter(|line| line.velocity_m_s >= 0.1 * largest).map(|line| {
             format!(
                 "{} Hz {} {}",
@@ -158,7 +133,8 @@ impl AfterHit<'_> {
         });
         let told = told.collect::<Vec<_>>().join(", ");
         let alt = format!("{title}, {}, {facts}. Largest: {told}.", self.bat);
-        Some(Picture::new("spectrum", title, &alt, svg))
+        let y = Axis::measured("velocity", unit, [0.0, largest].into_iter(), ticks_up(ALONE));
+        Some(chart.panel(Panel::new(ALONE, y, curves).zero()).picture(sheet, &alt))
     }
 
     /// The largest strain of the surface at every place.
@@ -169,25 +145,22 @@ impl AfterHit<'_> {
             return None;
         }
         let share = Unit { name: "%", per: 100.0 };
-        let curve = Series::curve("largest strain", 0, points);
-        let curve = curve.units(sheet.length().name, share.name);
         let title = "Largest strain along the bat";
         let facts = format!("{}; at the outermost fibre", self.facts(sheet));
-        let mut svg = Svg::on(sheet);
-        head(&mut svg, title, [self.bat, &facts]);
-        let top = sheet.head() + NUMBERS + 6.0;
-        let frame = Frame::across(sheet, [top, top + ALONE]);
-        svg.height = frame.bottom + NUMBERS + 4.0;
-        let [x, tip] = axes(sheet, [0.0, self.length], &[(self.bat, self.length)]);
-        let values = [0.0, share.per * most.strain].into_iter();
-        let y = Axis::around("strain", values, ticks_up(ALONE)).counted_in(share);
-        let plane = Plane { frame, x, y };
-        plane.above(&mut svg, &tip);
-        drawn(&mut svg, &plane, &[curve]);
         let [at, size] = [along(sheet, most.x_m), short(share.per * most.strain)];
         let alt = format!("{title} of {}, {facts}: {size} % at {at}.", self.bat);
-        Some(Picture::new("strain", title, &alt, svg))
+        let ends = ([0.0, self.length], &[(self.bat, self.length)][..]);
+        let chart = Chart::along(sheet, ("strain", title), [self.bat, &facts], ends);
+        let curves = vec![Series::curve("largest strain", 0, points)];
+        let panel = Panel::around(ALONE, ("strain", share), curves, &[0.0]).zero();
+        Some(chart.panel(panel).picture(sheet, &alt))
     }
+}
+
+/// The largest size that curves have, with its unit.
+fn most(curves: &[Series], unit: Unit) -> String {
+    let most = heights(curves).map(|value| (unit.per * value).abs()).fold(0.0, f64::max);
+    format!("{} {}", short(most), unit.name)
 }
 
 /// A bat that moves, instant by instant.
@@ -214,7 +187,7 @@ pub fn moving(sheet: Sheet, subject: &Moving) -> Option<Picture> {
     let curve = |(k, frame): (usize, &usize)| {
         let points = x.iter().zip(&frames[*frame]).map(|(x, w)| Some([*x, *w])).collect();
         let name = format!("{} ms", short(1e3 * times[*frame]));
-        Series::curve(&name, k, points).units(sheet.length().name, unit.name)
+        Series::curve(&name, k, points)
     };
     let curves: Vec<Series> = shown.iter().enumerate().map(curve).collect();
     let title = "Deflection along the bat in time";
@@ -222,42 +195,10 @@ pub fn moving(sheet: Sheet, subject: &Moving) -> Option<Picture> {
         true => format!("{count} of {} instants", frames.len()),
         false => String::new(),
     };
-    let mut svg = Svg::on(sheet);
-    head(&mut svg, title, [bat, &facts]);
-    let top = legend(&mut svg, &curves.iter().collect::<Vec<_>>()) + NUMBERS + 12.0;
-    let frame = Frame::across(sheet, [top, top + ALONE]);
-    svg.height = frame.bottom + NUMBERS + 4.0;
-    let [along, tip] = axes(sheet, [0.0, length], &[(bat, length)]);
-    let values = || curves.iter().flat_map(|c| c.points.iter().flatten()).map(|at| at[1]);
-    let scaled = values().map(|w| unit.per * w).chain([0.0]);
-    let y = Axis::around("deflection", scaled, ticks_up(ALONE)).counted_in(unit);
-    let plane = Plane { frame, x: along, y };
-    plane.above(&mut svg, &tip);
-    drawn(&mut svg, &plane, &curves);
-    let most = values().map(|w| (unit.per * w).abs()).fold(0.0, f64::max);
     let [from, to] = [times[shown[0]], times[shown[count - 1]]].map(|t| short(1e3 * t));
-    let alt = format!("{title}, {bat}, {from} to {to} ms: up to {} {}.", short(most), unit.name);
-    Some(Picture::new("deflection", title, &alt, svg))
-}
-
-/// A drawing of one diagram with these names above it, and its frame.
-fn alone(sheet: Sheet, title: &str, [bat, facts]: [&str; 2], curves: &[Series]) -> (Svg, Frame) {
-    let mut svg = Svg::on(sheet);
-    head(&mut svg, title, [bat, facts]);
-    let top = legend(&mut svg, &curves.iter().collect::<Vec<_>>()) + 14.0;
-    let frame = Frame::across(sheet, [top, top + ALONE]);
-    svg.height = frame.bottom + NUMBERS + 4.0;
-    (svg, frame)
-}
-
-/// A diagram with its line of 0 and its curves.
-fn drawn(svg: &mut Svg, plane: &Plane, curves: &[Series]) {
-    plane.draw(svg);
-    if plane.y.holds(0.0) {
-        let zero = [plane.x.from, plane.x.to].map(|x| plane.at([x, 0.0]));
-        svg.line(&zero, Pen::new(FRAME, 1.2));
-    }
-    curves.iter().rev().for_each(|curve| curve.draw(svg, plane));
-    hover(svg, plane, &curves.iter().collect::<Vec<_>>());
-    plane.below(svg);
+    let alt = format!("{title}, {bat}, {from} to {to} ms: up to {}.", most(&curves, unit));
+    let ends = ([0.0, length], &[(bat, length)][..]);
+    let chart = Chart::along(sheet, ("deflection", title), [bat, &facts], ends).keys(&curves);
+    let panel = Panel::around(ALONE, ("deflection", unit), curves, &[0.0]).zero();
+    Some(chart.panel(panel).picture(sheet, &alt))
 }

@@ -3,7 +3,7 @@
 use crate::plot::plane::{Frame, Plane};
 use crate::plot::route::Point;
 use crate::plot::svg::{Mark, Pen, Svg};
-use crate::plot::theme::{FRAME, Ink};
+use crate::plot::theme::{FRAME, Ink, SERIES};
 use crate::plot::words::{LABEL, SMALL, fitted, width};
 
 /// A curve, or points.
@@ -21,15 +21,24 @@ pub struct Series {
     pub error: f64,
     /// In the units of the axes; None is a gap.
     pub points: Vec<Option<[f64; 2]>>,
-    /// The unit of x and y as they stand where a pointer rests; none where nothing stands.
-    pub units: Option<[&'static str; 2]>,
+    /// What the inside of the closed line through its points is filled with, and how much of that covers what is
+    /// below.
+    pub fill: Option<(Ink, f64)>,
+    /// Whether a pointer that rests on it is told name and values.
+    pub told: bool,
 }
 
 impl Series {
     /// A curve in the pen of the k-th.
     pub fn curve(name: &str, k: usize, points: Vec<Option<[f64; 2]>>) -> Self {
         let (pen, name) = (Pen::of(k), name.to_owned());
-        Self { name, pen, joined: true, mark: None, error: 0.0, points, units: None }
+        Self { name, pen, joined: true, mark: None, error: 0.0, points, fill: None, told: true }
+    }
+
+    /// The same value from end to end, thin and grey, as a limit is drawn.
+    pub fn level(name: &str, value: f64, ends: [f64; 2]) -> Self {
+        let points = ends.map(|x| Some([x, value])).to_vec();
+        Self::curve(name, 0, points).pen(Pen::new(SERIES[5], 1.4)).untold()
     }
 
     /// This series drawn with that pen.
@@ -37,9 +46,19 @@ impl Series {
         Self { pen, ..self }
     }
 
-    /// This series with the units of its points, for those who read them off.
-    pub fn units(self, x: &'static str, y: &'static str) -> Self {
-        Self { units: Some([x, y]), ..self }
+    /// This series as points of that mark, which no line joins.
+    pub fn dots(self, mark: Mark) -> Self {
+        Self { joined: false, mark: Some(mark), ..self }
+    }
+
+    /// This series without words where a pointer rests.
+    pub fn untold(self) -> Self {
+        Self { told: false, ..self }
+    }
+
+    /// This series with its inside filled.
+    pub fn filled(self, ink: Ink, opacity: f64) -> Self {
+        Self { fill: Some((ink, opacity)), ..self }
     }
 
     /// The parts of it that have no gap and are inside of the frame.
@@ -53,6 +72,9 @@ impl Series {
     pub fn draw(&self, svg: &mut Svg, plane: &Plane) {
         for run in self.runs(plane) {
             let points: Vec<Point> = run.iter().map(|point| plane.at(*point)).collect();
+            if let Some((ink, opacity)) = self.fill {
+                svg.area(&points, ink, opacity, None);
+            }
             if self.joined {
                 svg.line(&points, self.pen);
             }
@@ -79,7 +101,9 @@ impl Series {
 
     /// A sample of it, that wide.
     fn sample(&self, svg: &mut Svg, [x, y]: Point, wide: f64) {
-        if self.joined {
+        if let Some((ink, opacity)) = self.fill {
+            svg.rect([[x, y - 5.6], [x + wide, y + 5.4]], ink, opacity, None);
+        } else if self.joined {
             svg.line(&[[x, y], [x + wide, y]], self.pen);
         }
         if let Some(mark) = self.mark {
@@ -88,12 +112,18 @@ impl Series {
     }
 }
 
+/// The values of all curves.
+pub fn heights(curves: &[Series]) -> impl Iterator<Item = f64> {
+    curves.iter().flat_map(|curve| curve.points.iter().flatten()).map(|[_, value]| *value)
+}
+
 /// What stands where a pointer rests on curves: sixty places on them in all, no curve needs more to
 /// be read.
-pub fn hover(svg: &mut Svg, plane: &Plane, curves: &[&Series]) {
+pub fn hover(svg: &mut Svg, plane: &Plane, curves: &[Series]) {
     const MOST: usize = 60;
-    for curve in curves {
-        let Some([x, y]) = curve.units else { continue };
+    let told: Vec<&Series> = curves.iter().filter(|curve| curve.told).collect();
+    let [x, y] = [plane.x.unit, plane.y.unit];
+    for curve in &told {
         let name = fitted(&curve.name, LABEL, 240.0);
         let words = |[a, b]: [f64; 2]| {
             let [a, b] = [a * plane.x.per, b * plane.y.per].map(short);
@@ -102,7 +132,7 @@ pub fn hover(svg: &mut Svg, plane: &Plane, curves: &[&Series]) {
         };
         let all = curve.runs(plane).concat();
         let points: Vec<_> = all.into_iter().map(|at| (plane.at(at), words(at))).collect();
-        svg.hover(&points, (MOST / curves.len()).max(8));
+        svg.hover(&points, (MOST / told.len()).max(8));
     }
 }
 
@@ -129,19 +159,22 @@ pub fn digits(value: f64, count: i32) -> String {
 }
 
 /// Names in a row with samples below the head; as many rows as they need. The base line of the last
-/// is given back.
-pub fn legend(svg: &mut Svg, series: &[&Series]) -> f64 {
+/// is given back, without names the end of the head.
+pub fn legend(svg: &mut Svg, series: &[Series]) -> f64 {
     let sheet = svg.sheet;
+    if series.is_empty() {
+        return sheet.head();
+    }
     let left = if sheet.narrow() { 12.0 } else { sheet.left() };
     let ends = [left, sheet.head() + 10.0, svg.width - 12.0];
     legend_between(svg, series, ends)
 }
 
 /// A legend between two ends, its first row at `y`.
-pub fn legend_between(svg: &mut Svg, series: &[&Series], [left, mut y, right]: [f64; 3]) -> f64 {
+pub fn legend_between(svg: &mut Svg, series: &[Series], [left, mut y, right]: [f64; 3]) -> f64 {
     const SAMPLE: f64 = 28.0;
     let mut x = left;
-    for series in series {
+    for series in series.iter().filter(|series| !series.name.is_empty()) {
         let name = fitted(&series.name, LABEL, right - left - SAMPLE - 7.0);
         let wide = SAMPLE + 7.0 + width(&name, LABEL);
         if x > left && x + wide > right {
@@ -154,14 +187,11 @@ pub fn legend_between(svg: &mut Svg, series: &[&Series], [left, mut y, right]: [
     y
 }
 
-/// The names of several bats below the head, each with the line of its number; where they end (px).
-pub fn bats(svg: &mut Svg, names: &[&str]) -> f64 {
-    if names.len() < 2 {
-        return svg.sheet.head();
-    }
-    let all: Vec<Series> =
-        names.iter().enumerate().map(|(k, name)| Series::curve(name, k, vec![])).collect();
-    legend(svg, &all.iter().collect::<Vec<_>>()) + 6.0
+/// The names of several bats, each with the line of its number; a single bat is named in the head.
+pub fn bats<S: AsRef<str>>(names: &[S]) -> Vec<Series> {
+    let all = names.iter().enumerate();
+    let all = all.map(|(k, name)| Series::curve(name.as_ref(), k, vec![]));
+    all.filter(|_| names.len() > 1).collect()
 }
 
 /// A name beside a frame: the height that it belongs to, the words, their colour.

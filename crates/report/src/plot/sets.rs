@@ -55,24 +55,37 @@ impl Hits<'_> {
     ///
     /// As [`Hitter::new`].
     pub fn pictures(&self, sheet: Sheet, at: Option<f64>) -> Result<Vec<Picture>> {
-        let Self { bat, model, scene, sweep, spot } = *self;
+        let Self { bat, sweep, spot, .. } = *self;
         let (name, impacts) = (bat.name(), &sweep.impacts);
         let along = exit_speed::SpeedCurves { name, bat, impacts, spot };
         let mut all: Vec<Picture> = exit_speed::picture(sheet, &[along]).into_iter().collect();
         all.extend(ledger::picture(sheet, name, bat, impacts, 0.0));
         if let Some(x) = at.or(spot.exit_speed_max.map(|peak| peak.x)) {
-            let hitter = Hitter::new(model, scene, bat, &sweep.solution, sweep.effort)?;
-            let touch = contact::ContactCurves::new(name, &hitter, x);
-            all.extend(contact::pictures(sheet, touch.as_slice()));
-            let felt = hitter.force(x).map(|force| hands::HandCurves {
-                name,
-                after: Aftermath::new(bat, &sweep.solution, x, force),
-                x: scene.hands,
-            });
-            all.extend(hands::picture(sheet, felt.as_slice()));
+            all.extend(of_touches(sheet, &[(name, *self, x)])?);
         }
         Ok(all)
     }
+}
+
+/// The touch of ball and bat of a hit on each of these bats, with its name in the picture and its place (m), and what
+/// the hands feel of it: `contact`, `hysteresis` and `hands`, where the model tells them.
+///
+/// # Errors
+///
+/// As [`Hitter::new`].
+pub fn of_touches(sheet: Sheet, hits: &[(&str, Hits, f64)]) -> Result<Vec<Picture>> {
+    let (mut touched, mut felt) = (vec![], vec![]);
+    for (name, Hits { bat, model, scene, sweep, .. }, x) in hits {
+        let hitter = Hitter::new(*model, scene, bat, &sweep.solution, sweep.effort)?;
+        touched.extend(contact::ContactCurves::new(name, &hitter, *x));
+        felt.extend(hitter.force(*x).map(|force| {
+            let after = Aftermath::new(bat, &sweep.solution, *x, force);
+            hands::HandCurves { name, after, x: scene.hands }
+        }));
+    }
+    let mut all = contact::pictures(sheet, &touched);
+    all.extend(hands::picture(sheet, &felt));
+    Ok(all)
 }
 
 /// All that belong to an analysis: the bat with its sweet spot (`sweet_spot`), its modes, its hits, the

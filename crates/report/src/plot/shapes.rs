@@ -1,10 +1,10 @@
 //! Bending modes drawn on the bat, with their frequencies and nodes.
 
-use crate::plot::axis::Axis;
+use crate::plot::chart::{Chart, Panel};
 use crate::plot::outline::sections;
 use crate::plot::picture::Picture;
 use crate::plot::place;
-use crate::plot::plane::{Frame, NUMBERS, Plane, head};
+use crate::plot::plane::{Frame, Plane};
 use crate::plot::route::Point;
 use crate::plot::series::{bats, digits};
 use crate::plot::sheet::Sheet;
@@ -44,23 +44,18 @@ pub fn picture(sheet: Sheet, subjects: &[ShapeCurves], most: usize) -> Option<Pi
     }
     let longest = subjects.iter().map(|s| s.bat.length()).fold(0.0, f64::max);
     let lengths: Vec<(&str, f64)> = subjects.iter().map(|s| (s.name, s.bat.length())).collect();
-    let [knob, tip] = place::axes(sheet, [0.0, longest], &lengths);
-    let mut svg = Svg::on(sheet);
-    let top = bats(&mut svg, &subjects.iter().map(|s| s.name).collect::<Vec<_>>()) + NUMBERS;
     let row = ROW.max(18.0 * subjects.len() as f64 + 26.0);
-    let bottom = top + row * count as f64;
-    let frame = Frame { right: sheet.width() - RIGHT, ..Frame::across(sheet, [top, bottom]) };
-    let plane = Plane { frame, x: knob, y: Axis::new("", [0.0, 1.0]) };
-    svg.height = bottom + NUMBERS + 4.0;
+    let panel = Panel::plain(row * count as f64).over(|svg, plane| {
+        for order in 0..count {
+            let axis = plane.frame.top + row * (order as f64 + 0.5) - 2.0;
+            mode_row(svg, plane, axis, (subjects, order));
+        }
+    });
     let (title, name, facts) = words(sheet, subjects);
-    head(&mut svg, title, [name, &facts]);
-    plane.above(&mut svg, &tip);
-    for order in 0..count {
-        let axis = top + row * (order as f64 + 0.5) - 2.0;
-        mode_row(&mut svg, &plane, axis, (subjects, order));
-    }
-    plane.below(&mut svg);
-    Some(Picture::new("shapes", title, &described(sheet, subjects, count), svg))
+    let names: Vec<&str> = subjects.iter().map(|s| s.name).collect();
+    let chart = Chart::along(sheet, ("shapes", title), [name, &facts], ([0.0, longest], &lengths));
+    let chart = chart.keys(&bats(&names)).right(RIGHT - sheet.right()).panel(panel);
+    Some(chart.picture(sheet, &described(sheet, subjects, count)))
 }
 
 fn words<'a>(sheet: Sheet, subjects: &[ShapeCurves<'a>]) -> (&'static str, &'a str, String) {

@@ -12,6 +12,15 @@ pub struct Unit {
     pub per: f64,
 }
 
+impl Unit {
+    /// Numbers without a unit.
+    pub const NONE: Self = Self { name: "", per: 1.0 };
+    /// Milliseconds, of times that are counted in them already.
+    pub const MS: Self = Self { name: "ms", per: 1.0 };
+    /// Hertz.
+    pub const HZ: Self = Self { name: "Hz", per: 1.0 };
+}
+
 /// Where a picture will stand.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Paper {

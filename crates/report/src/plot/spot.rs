@@ -1,6 +1,5 @@
 //! Bats drawn large with their sweet spots on them.
 
-use crate::plot::axis::Axis;
 use crate::plot::outline::Lying;
 use crate::plot::picture::Picture;
 use crate::plot::place;
@@ -53,7 +52,7 @@ pub fn picture(sheet: Sheet, subjects: &[SpotMarks]) -> Option<Picture> {
         let axis = top + named + ABOVE + per_metre * widest(subject.bat);
         let bottom = axis + per_metre * widest(subject.bat) + BELOW;
         let frame = Frame { left: SIDE, top, right: sheet.width() - SIDE, bottom };
-        let plane = Plane { frame, x: knob.clone(), y: Axis::new("", [0.0, 1.0]) };
+        let plane = Plane::strip(frame, &knob);
         if named > 0.0 {
             let words = fitted(subject.name, LABEL, sheet.width() - 2.0 * SIDE);
             svg.text([SIDE, top + 14.0], LABEL.ink(series(k).0), &words);
@@ -62,7 +61,7 @@ pub fn picture(sheet: Sheet, subjects: &[SpotMarks]) -> Option<Picture> {
         top = bottom;
     }
     let frame = Frame { left: SIDE, top: first, right: sheet.width() - SIDE, bottom: top };
-    Plane { frame, x: knob, y: Axis::new("", [0.0, 1.0]) }.below(&mut svg);
+    Plane::strip(frame, &knob).below(&mut svg);
     svg.height = top + NUMBERS;
     let alt = format!("{title} drawn on {}. {facts}", names(subjects));
     Some(Picture::new("sweet_spot", title, &alt, svg))

@@ -1,11 +1,11 @@
 //! Error against the number of elements, solver by solver.
 
 use crate::plot::axis::Axis;
+use crate::plot::chart::{Chart, Panel};
 use crate::plot::picture::Picture;
-use crate::plot::plane::{Frame, NUMBERS, Plane, head};
-use crate::plot::series::{Series, hover, legend};
+use crate::plot::series::Series;
 use crate::plot::sheet::Sheet;
-use crate::plot::svg::{MARKS, Pen, Svg};
+use crate::plot::svg::{MARKS, Pen};
 use crate::plot::theme::SERIES;
 use sweetspot_study::trade::reference::solver_name;
 use sweetspot_study::trade::u_curve::{Curve, SolverFrequency};
@@ -28,27 +28,20 @@ pub fn picture(name: &str, curves: &[Curve], mode: usize) -> Option<Picture> {
     let points = || drawn.iter().flat_map(|c: &Series| c.points.iter().flatten());
     points().next()?;
     let x = Axis::logarithmic("number of cubic elements", points().map(|at| at[0]));
+    let x = Axis { unit: "elements", ..x };
     let y = Axis::logarithmic("relative error of the frequency", points().map(|at| at[1]));
     let title = format!("Error against elements, mode {}", mode + 1);
     let facts = "own: as the solver's eigenvalue says; again: from the energies of its shape";
-    let sheet = Sheet::file(false);
-    let mut svg = Svg::on(sheet);
-    head(&mut svg, &title, [name, facts]);
-    let top = legend(&mut svg, &drawn.iter().collect::<Vec<_>>()) + 16.0;
-    let frame = Frame::across(sheet, [top, top + DIAGRAM]);
-    svg.height = frame.bottom + NUMBERS + 4.0;
-    let plane = Plane { frame, x, y };
-    plane.draw(&mut svg);
-    drawn.iter().for_each(|series| series.draw(&mut svg, &plane));
-    plane.below(&mut svg);
-    hover(&mut svg, &plane, &drawn.iter().collect::<Vec<_>>());
     let file = match mode {
         0 => "u_curve".to_owned(),
         _ => format!("u_curve_mode_{}", mode + 1),
     };
     let names: Vec<&str> = drawn.iter().map(|series| series.name.as_str()).collect();
     let alt = format!("{title} of {name}; {facts}. Curves: {}.", names.join(", "));
-    Some(Picture::new(&file, &title, &alt, svg))
+    let chart = Chart::new(&file, &title, [name, facts], x).keys(&curves);
+    // Dashes on a whole line are seen.
+    let curves = curves.into_iter().rev().collect();
+    Some(chart.panel(Panel::new(DIAGRAM, y, curves)).picture(Sheet::file(false), &alt))
 }
 
 fn series(curve: &Curve, way: SolverFrequency, (k, mode): (usize, usize)) -> Series {
@@ -62,6 +55,6 @@ fn series(curve: &Curve, way: SolverFrequency, (k, mode): (usize, usize)) -> Ser
     let dash =
         if way == SolverFrequency::Recomputed && curve.ways().len() > 1 { "4 3" } else { "" };
     let pen = Pen::new(SERIES[k % 6], 1.6).dashed(dash);
-    let series = Series::curve(&name, k, points).pen(pen).units("elements", "");
+    let series = Series::curve(&name, k, points).pen(pen);
     Series { mark: Some(MARKS[k % MARKS.len()]), ..series }
 }

@@ -139,17 +139,20 @@ pub fn curve(impacts: &[Impact], units: Units) -> String {
 
 /// One sentence: why the ball leaves fastest where it does.
 pub fn why(figures: &Figures, units: Units) -> String {
+    reason(figures, units).map_or(String::new(), |text| wrapped(&text, 0))
+}
+
+/// Why the ball leaves fastest where it does; None where none does.
+pub fn reason(figures: &Figures, units: Units) -> Option<String> {
     let place = |x: f64| units.inline(units.show(centimetres(x), in_inches(x)));
-    let (Some(peak), Some(rigid)) = (figures.spot.exit_speed_max, figures.rigid_best) else {
-        return String::new();
-    };
+    let (peak, rigid) = (figures.spot.exit_speed_max?, figures.rigid_best?);
     if let Some(text) = lives_on_later(figures, units) {
-        return wrapped(&text, 0);
+        return Some(text);
     }
     let here = figures.best.as_ref().and_then(|best| best.outcome.as_ref());
     let (Some(there), Some(here)) = (figures.vibration_at_rigid_best, here) else {
         let text = "Why there: further out the bat gives way more than its speed makes up for.";
-        return wrapped(text, 0);
+        return Some(text.to_owned());
     };
     let kept = here.energy.wall;
     let (wall, of_wall) = match kept > 0.0 {
@@ -157,7 +160,7 @@ pub fn why(figures: &Figures, units: Units) -> String {
         false => ("", String::new()),
     };
     let way = if peak.x > rigid.x { "towards the tip" } else { "towards the handle" };
-    let text = format!(
+    Some(format!(
         "Why there: a bat that does not bend would be best at {}; vibration takes {} there and {} \
          at the sweet spot, {} {way}{of_wall}. Further out {wall}recoil and vibration take more than \
          the bat's speed there makes up for.",
@@ -165,12 +168,11 @@ pub fn why(figures: &Figures, units: Units) -> String {
         units.energy(there, 2),
         units.energy(here.energy.vibration, 2),
         place((peak.x - rigid.x).abs())
-    );
-    wrapped(&text, 0)
+    ))
 }
 
 /// What a best place is that is best because the bat catches up with the ball late or again; None of any other.
-pub fn lives_on_later(figures: &Figures, units: Units) -> Option<String> {
+fn lives_on_later(figures: &Figures, units: Units) -> Option<String> {
     let best = figures.best.as_ref()?;
     let has = |flag: &str| best.flags.contains(&flag);
     let (again, late) = (has("second_contact"), has("late_contact"));
@@ -229,21 +231,21 @@ pub fn beyond(sweep: &Sweep, scene: &Scene, units: Units) -> String {
     wrapped(&text, 0)
 }
 
-/// The sweet spot by each definition, from knob and tip. Nobody feels the shaking of a bat that
-/// nothing damps, which has no end: it is left out.
-pub fn sweet_spot(bat: &Bat, spot: &SweetSpot, units: Units) -> String {
-    let mut out =
-        String::from("Sweet spot                             from knob            from tip\n");
+/// The sweet spot by one of its definitions.
+pub struct SpotLine {
+    /// The definition, with what is largest or least there.
+    pub what: String,
+    /// Where it is (m from the knob end).
+    pub x: f64,
+}
+
+/// The sweet spot by each definition. Nobody feels the shaking of a bat that nothing damps, which has no end: it is
+/// left out.
+pub fn spot_lines(bat: &Bat, spot: &SweetSpot, units: Units) -> Vec<SpotLine> {
+    let mut lines = vec![];
     let mut line = |what: &str, x: Option<f64>, value: Option<String>| {
-        let Some(x) = x else { return };
-        let place = |x: f64| {
-            let [cm, inch] = [(100.0 * x, "cm"), (inches(x), "in")];
-            let told = |(x, unit)| format!("{x:.2} {unit}");
-            units.pick(cm, inch).into_iter().map(told).collect::<Vec<_>>().join(", ")
-        };
         let what = value.map_or(what.to_owned(), |value| format!("{what}, {value}"));
-        let text = format!("  {what:<36} {:<19}  {}", place(x), place(bat.length() - x));
-        let _ = writeln!(out, "{text}");
+        lines.extend(x.map(|x| SpotLine { what, x }));
     };
     let mut peak = |what: &str, peak: Option<Peak>, shown: &dyn Fn(f64) -> String| {
         line(what, peak.map(|p| p.x), peak.map(|p| shown(p.value)));
@@ -270,6 +272,22 @@ pub fn sweet_spot(bat: &Bat, spot: &SweetSpot, units: Units) -> String {
         line("within 1 % of the best: from", Some(from), None);
         line("                        to", Some(to), None);
     }
+    lines
+}
+
+/// The sweet spot by each definition, from knob and tip.
+pub fn sweet_spot(bat: &Bat, spot: &SweetSpot, units: Units) -> String {
+    let mut out =
+        String::from("Sweet spot                             from knob            from tip\n");
+    for SpotLine { what, x } in spot_lines(bat, spot, units) {
+        let place = |x: f64| {
+            let [cm, inch] = [(100.0 * x, "cm"), (inches(x), "in")];
+            let told = |(x, unit)| format!("{x:.2} {unit}");
+            units.pick(cm, inch).into_iter().map(told).collect::<Vec<_>>().join(", ")
+        };
+        let text = format!("  {what:<36} {:<19}  {}", place(x), place(bat.length() - x));
+        let _ = writeln!(out, "{text}");
+    }
     if let Some(apart) = spot.looked_every {
         let [apart, inch] = [1e3 * apart, inches(apart)];
         let apart = units.inline(units.show(format!("{apart:.1} mm"), format!("{inch:.2} in")));
@@ -283,16 +301,14 @@ pub fn sweet_spot(bat: &Bat, spot: &SweetSpot, units: Units) -> String {
 }
 
 /// What is stated of a bat: efficiency, BBCOR, what an inch costs, swings.
-pub fn figures(figures: &Figures, units: Units) -> String {
+pub fn stated(figures: &Figures, units: Units) -> Vec<(String, String)> {
     let Some(outcome) = figures.best.as_ref().and_then(|best| best.outcome.as_ref()) else {
-        return String::new();
+        return vec![];
     };
-    let mut out = String::from("Figures at the sweet spot (computed, not certified)\n");
+    let mut lines = vec![];
     let speed = |v: f64| units.inline(units.speed(v));
     let place = |x: f64| units.inline(units.show(centimetres(x), in_inches(x)));
-    let mut line = |what: &str, value: String| {
-        let _ = writeln!(out, "  {what:<36} {value}");
-    };
+    let mut line = |what: &str, value: String| lines.push((what.to_owned(), value));
     line("bat-ball speed", speed(outcome.exit_speed));
     line("collision efficiency e_A", format!("{:.3}", outcome.collision_efficiency));
     line("BBCOR there, of a free bat", format!("{:.3}", outcome.bbcor));
@@ -327,7 +343,18 @@ pub fn figures(figures: &Figures, units: Units) -> String {
         let best = swung.best.map_or("no hit".to_owned(), |best| speed(best.value));
         line(&what, format!("{:.2} rad/s: {best}", swung.swing));
     }
-    out
+    lines
+}
+
+/// What stands above that.
+pub const STATED: &str = "Figures at the sweet spot (computed, not certified)";
+
+/// What is stated of a bat, a line each.
+pub fn figures(figures: &Figures, units: Units) -> String {
+    let lines = stated(figures, units);
+    let line = |(what, value): &(String, String)| format!("  {what:<36} {value}\n");
+    let lines: String = lines.iter().map(line).collect();
+    if lines.is_empty() { lines } else { format!("{STATED}\n{lines}") }
 }
 
 /// How the sweet spot moves, in mm towards the tip, and how the best speed changes.
