@@ -12,6 +12,9 @@ use std::process::{Command, Output, Stdio};
 
 use common::folder::Folder;
 use serde_json::Value;
+use sweetspot_study::files::aim_file::AimForm;
+use sweetspot_study::files::scatter_file::ScatterForm;
+use sweetspot_study::files::written::WrittenFile;
 
 const BAT: &str = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
   "profile": { "unit": "in", "x": [0, 33], "diameter": [1.7, 1.7] } }"#;
@@ -569,8 +572,8 @@ fn files_outside_of_the_folder_are_read_of_a_named_file_alone_and_said() {
             let path = folder.0.join("in/file.json");
             let wrong = match verb {
                 "study" => sweetspot_report::many::source::Study::read(&path).err(),
-                "scatter" => sweetspot_study::files::scatter_file::from_file(&path).err(),
-                _ => sweetspot_study::files::aim_file::AimFile::read(&path).err(),
+                "scatter" => ScatterForm::from_file(&path).err(),
+                _ => AimForm::from_file(&path).err(),
             };
             assert_eq!(wrong.is_some(), outside, "{text}");
             let said = wrong.map_or(String::new(), |error| error.to_string());

@@ -13,7 +13,8 @@ use sweetspot_report::plot::{calibrate, change, many};
 use sweetspot_report::template::pages::pages;
 use sweetspot_report::template::sheet::{Drawn, PAPERS};
 use sweetspot_study::calibrate::calibration::{Calibration, CalibrationPlan};
-use sweetspot_study::files::readings_file;
+use sweetspot_study::files::readings_file::ReadingsForm;
+use sweetspot_study::files::written::WrittenFile;
 use sweetspot_study::many::indices::{Indices, VariateKind};
 use sweetspot_study::many::sobol::Sobol;
 
@@ -48,7 +49,7 @@ fn what_readings_say_of_the_wood_is_drawn_whole() {
             r#"{{ "format": "sweetspot-readings/1", "mass": "0.869 kg", "balance_point": "56.1 cm",
                 "pendulum": {{ "pivot": "6 in", "period": "1.470 s" }}, "lines": [{lines}] }}"#
         );
-        readings_file::from_text("readings.json", &text).unwrap()
+        ReadingsForm::from_text("readings.json", &text, "".as_ref()).unwrap()
     };
     let few = reading(r#"{ "hz": 174.5, "mode": 1 }"#);
     // The second is of none of its modes.

@@ -12,7 +12,8 @@ use sweetspot_study::calibrate::calibration::{Calibration, CalibrationPlan, Prop
 use sweetspot_study::calibrate::labels::MOST_MODES;
 use sweetspot_study::calibrate::readings::{BatReadings, Reading, RingDown, SpectralLine};
 use sweetspot_study::files::measured::{self, Beside};
-use sweetspot_study::files::readings_file;
+use sweetspot_study::files::readings_file::ReadingsForm;
+use sweetspot_study::files::written::WrittenFile;
 use sweetspot_study::measured::data::Measured;
 use sweetspot_study::measured::pairing::LEAST;
 use sweetspot_study::measured::study::{ALIKE, Shapes, Study};
@@ -244,8 +245,8 @@ fn readings(args: &Args, bat: &Bat) -> Result<Option<MeasuredArgs>> {
             file::write(path, text.as_bytes())?;
         }
         // Answers that say nothing must not be given again.
-        let readings =
-            readings_file::from_text("the answers", &text).inspect_err(|_| person.done())?;
+        let readings = ReadingsForm::from_text("the answers", &text, Path::new(""))
+            .inspect_err(|_| person.done())?;
         return Ok(Some(MeasuredArgs {
             readings,
             name: "answers".to_owned(),
@@ -260,7 +261,7 @@ fn readings(args: &Args, bat: &Bat) -> Result<Option<MeasuredArgs>> {
         let expected = "a universal file (.uff, .unv): readings have their units";
         return Err(Error::value("--unit, --places or --frequency-unit", name, expected));
     } else {
-        readings_file::from_file(path)?
+        ReadingsForm::from_file(path)?
     };
     Ok(Some(MeasuredArgs { readings, name, person: None }))
 }

@@ -11,7 +11,8 @@ use sweetspot_report::plot::many;
 use sweetspot_report::plot::picture::Picture;
 use sweetspot_report::report::{resolved, scatter};
 use sweetspot_report::schema;
-use sweetspot_study::files::scatter_file::{self, ScatterFile};
+use sweetspot_study::files::scatter_file::{self, ScatterFile, ScatterForm};
+use sweetspot_study::files::written::WrittenFile;
 use sweetspot_study::scatter::rows::{ScatterPlan, ScatterRows};
 use sweetspot_study::scatter::scattered::{OutputSpread, SHARES, Scattered, WRITTEN};
 
@@ -89,7 +90,7 @@ Examples:
 
 pub fn run(args: &Args) -> Result<Done> {
     apart(&[("--json", &args.json), ("--csv", &args.csv)])?;
-    let said = args.scatter.as_deref().map(scatter_file::named_by_a_person).transpose()?;
+    let said = args.scatter.as_deref().map(ScatterForm::named_by_a_person).transpose()?;
     let said = said.map(|(said, outside)| {
         args.scatter.iter().for_each(|file| note_outside(file, &outside, args.quiet));
         said

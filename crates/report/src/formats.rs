@@ -4,7 +4,6 @@ use serde_json::{Map, Value, json};
 
 use crate::page::data::Data;
 use crate::schema::advice::AdviceFile;
-use crate::schema::aim::{AimForm, RulesForm};
 use crate::schema::aimed::AimedFile;
 use crate::schema::analysis::AnalysisFile;
 use crate::schema::bbcor::BbcorFile;
@@ -18,16 +17,25 @@ use crate::schema::materials::MaterialsFile;
 use crate::schema::measured::MeasuredFile;
 use crate::schema::mistakes::ErrorFile;
 use crate::schema::modes::ModesFile;
-use crate::schema::readings::ReadingsForm;
 use crate::schema::ring::RingFile;
-use crate::schema::scatter::{ScatterForm, ScatterResult};
-use crate::schema::study::{StudyForm, StudyManifest};
+use crate::schema::scatter::ScatterResult;
+use crate::schema::study::StudyManifest;
 use crate::schema::trade::{TradeFile, UCurveFile};
 use crate::schema::{DRAFT, id, of};
 use sweetspot::files::schema::ball::BallFile;
 use sweetspot::files::schema::bat::BatFile;
 use sweetspot::files::schema::document::{Document, format};
 use sweetspot_proof::case::Case;
+#[cfg(feature = "aim")]
+use sweetspot_study::files::aim_file::AimForm;
+use sweetspot_study::files::readings_file::ReadingsForm;
+#[cfg(feature = "aim")]
+use sweetspot_study::files::rules_file::RulesForm;
+use sweetspot_study::files::scatter_file::ScatterForm;
+use sweetspot_study::files::study_file::StudyForm;
+
+/// How many there are: wishes and rules of games are read with the feature `aim`.
+const COUNT: usize = if cfg!(feature = "aim") { 29 } else { 27 };
 
 /// A kind of file that has a schema.
 #[derive(Debug, Clone, Copy)]
@@ -38,11 +46,13 @@ pub struct FileKind {
 
 impl FileKind {
     /// What is read first, then what is written.
-    pub const ALL: [Self; 29] = [
+    pub const ALL: [Self; COUNT] = [
         Self::of::<BatFile>(),
         Self::of::<BallFile>(),
         Self::of::<StudyForm>(),
+        #[cfg(feature = "aim")]
         Self::of::<AimForm>(),
+        #[cfg(feature = "aim")]
         Self::of::<RulesForm>(),
         Self::of::<ReadingsForm>(),
         Self::of::<ScatterForm>(),

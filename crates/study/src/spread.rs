@@ -39,8 +39,7 @@ use sweetspot::collision::wall_choice::hoop_request;
 use sweetspot::modes::solve::{Request, Solution, solve};
 
 /// Something that is not known exactly.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 #[non_exhaustive]
 pub struct Source {
     /// What it is: E (and G with it) or density of a material from piece to piece, readings of diameters,
@@ -69,16 +68,15 @@ pub const COUNTED: [Answer; 10] = [
 ];
 
 /// An answer and how far that of the bat in hand may be from it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 #[non_exhaustive]
 pub struct Estimate {
     /// Which answer, its unit at the end.
     #[serde(serialize_with = "key")]
-    #[cfg_attr(feature = "schema", schemars(with = "String", extend("enum" = [
+    #[schemars(with = "String", extend("enum" = [
         "mass_kg", "balance_point_m", "inertia_pivot_kg_m2", "frequency_1_hz", "frequency_2_hz",
         "frequency_3_hz", "best_place_m", "exit_speed_m_s", "zone_from_m", "zone_to_m"
-    ])))]
+    ]))]
     pub answer: Answer,
     /// As it is computed.
     pub value: f64,
@@ -114,8 +112,7 @@ impl Estimate {
 
 /// What is not known exactly of a bat, and how far each answer may be off by it: to first order, the
 /// sources taken as independent.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 #[non_exhaustive]
 pub struct Spread {
     /// What is open.

@@ -138,7 +138,8 @@ fn tones(text: &str) -> Read<Vec<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use sweetspot_study::files::readings_file::from_text;
+    use sweetspot_study::files::readings_file::ReadingsForm;
+    use sweetspot_study::files::written::WrittenFile;
 
     #[test]
     fn answers_are_a_readings_file() {
@@ -149,7 +150,7 @@ mod tests {
             "31 oz ± 0.1\n?\n16.5 in ± 1/32 in\nlong\n14.7 s\n581, 174\n174.5, 581.3\n40\n";
         let text =
             Dialogue::new(answers.as_bytes()).hold(|person| asked(person, &bat)).unwrap().unwrap();
-        let read = from_text("answers", &text).unwrap();
+        let read = ReadingsForm::from_text("answers", &text, "".as_ref()).unwrap();
         assert!((read.pendulum.unwrap().period.value - 1.47).abs() < 1e-12);
         assert_eq!(read.lines.len(), 2);
         assert_eq!(read.ring_down[0].cycles, 40.0);
@@ -160,6 +161,9 @@ mod tests {
         let nothing = "\n\n\n\n\n";
         let text =
             Dialogue::new(nothing.as_bytes()).hold(|person| asked(person, &bat)).unwrap().unwrap();
-        assert_eq!(from_text("answers", &text).unwrap(), Default::default());
+        assert_eq!(
+            ReadingsForm::from_text("answers", &text, "".as_ref()).unwrap(),
+            Default::default()
+        );
     }
 }

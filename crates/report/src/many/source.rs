@@ -16,9 +16,10 @@ use sweetspot::files::bat_file::without_table;
 use sweetspot::files::built_in;
 use sweetspot::files::document::Document;
 use sweetspot::files::folder::{Folder, Outside, json as json_at};
-use sweetspot_study::files::study_file::StudyFile;
+use sweetspot_study::files::study_file::{StudyFile, StudyForm};
 use sweetspot_study::files::study_rows::{BatText, Rows, reason};
 use sweetspot_study::files::study_vary::VariedFile;
+use sweetspot_study::files::written::WrittenFile;
 
 /// A file that a study was made from.
 #[derive(Debug, Clone)]
@@ -82,7 +83,7 @@ impl Study {
     }
 
     fn in_folder(name: &str, text: &str, folder: Folder) -> Result<Self> {
-        let mut study = StudyFile::from_text(name, text)?;
+        let mut study = StudyForm::from_text(name, text, folder.path())?;
         let own = Path::new(name).file_name().map_or(name.into(), |own| own.to_string_lossy());
         let mut sources = vec![Source { name: own.into_owned(), text: text.to_owned() }];
         let bats = bats(folder, &study, &mut sources)
@@ -116,7 +117,7 @@ impl Study {
     pub fn arrived(text: &str) -> Result<Self> {
         let parcel: Parcel = serde_json::from_str(text)
             .map_err(|error| Error::value("study", error, "one sent by this version"))?;
-        let mut study = StudyFile::from_text("study", &parcel.study)?;
+        let mut study = StudyForm::from_text("study", &parcel.study, Path::new(""))?;
         let mut tables = parcel.tables.iter().cloned();
         for varied in &mut study.varied {
             varied.replace_tables(|_| Ok(tables.next().unwrap_or_default()))?;

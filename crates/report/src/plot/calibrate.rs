@@ -45,7 +45,8 @@ fn residuals(name: &str, all: &[Residual]) -> Picture {
         let label = one.datum.kind.name();
         let ink = if one.is_outlier() { SERIES[1] } else { SERIES[0] };
         let ends = [one.left_out_sd.min(0.0), one.left_out_sd.max(0.0)];
-        let told = format!("{label}: {:+.1}, from all others {:+.1}", one.residual_sd, one.left_out_sd);
+        let told =
+            format!("{label}: {:+.1}, from all others {:+.1}", one.residual_sd, one.left_out_sd);
         let (bars, dot) = (vec![Bar { ends, high: 1.0, look: (ink, 0.7) }], Some(one.residual_sd));
         BarRow { label, bars, spans: vec![], dot, told: (one.left_out_sd, told) }
     };

@@ -82,8 +82,7 @@ pub fn tornado(answer: &str, varied: &[String], indices: &Indices) -> Picture {
             high,
             look: (SERIES[0], opacity),
         };
-        let open =
-            |share: &Share| [-1.0, 1.0].map(|sign| within(share.value + sign * share.sd));
+        let open = |share: &Share| [-1.0, 1.0].map(|sign| within(share.value + sign * share.sd));
         let told = format!("{}: alone {:.3}, with others {:.3}", varied[k], alone.value, all.value);
         BarRow {
             label: varied[k].clone(),

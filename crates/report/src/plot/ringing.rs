@@ -108,7 +108,8 @@ impl AfterHit<'_> {
                 let (f, size) = (line.frequency_hz, line.velocity_m_s);
                 [Some([f, 0.0]), Some([f, size]), None]
             };
-            let points = lines.iter().filter(|line| line.frequency_hz <= end).flat_map(stem).collect();
+            let points =
+                lines.iter().filter(|line| line.frequency_hz <= end).flat_map(stem).collect();
             Series::curve(&Self::name(sheet, *x), k, points)
         };
         let stems: Vec<Series> = self.watched.iter().take(MOST).enumerate().map(curve).collect();

@@ -38,10 +38,10 @@ pub fn picture(name: &str, curves: &[Curve], mode: usize) -> Option<Picture> {
     };
     let names: Vec<&str> = drawn.iter().map(|series| series.name.as_str()).collect();
     let alt = format!("{title} of {name}; {facts}. Curves: {}.", names.join(", "));
-    let chart = Chart::new(&file, &title, [name, facts], x).keys(&curves);
+    let chart = Chart::new(&file, &title, [name, facts], x).keys(&drawn);
     // Dashes on a whole line are seen.
-    let curves = curves.into_iter().rev().collect();
-    Some(chart.panel(Panel::new(DIAGRAM, y, curves)).picture(Sheet::file(false), &alt))
+    let drawn = drawn.into_iter().rev().collect();
+    Some(chart.panel(Panel::new(DIAGRAM, y, drawn)).picture(Sheet::file(false), &alt))
 }
 
 fn series(curve: &Curve, way: SolverFrequency, (k, mode): (usize, usize)) -> Series {

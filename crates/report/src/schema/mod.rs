@@ -22,12 +22,10 @@ pub mod compare;
 pub mod frf;
 pub mod advice;
 pub mod trade;
-pub mod readings;
 pub mod calibrate;
 pub mod mistakes;
 pub mod study;
 pub mod lathe;
-pub mod aim;
 pub mod aimed;
 pub mod scatter;
 

@@ -15,8 +15,7 @@ use sweetspot::bat::body::Bat;
 use sweetspot::modes::tuned::tuned;
 
 /// What a bat's model needs.
-#[derive(Debug, Clone, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, Serialize, schemars::JsonSchema)]
 pub struct Advice {
     /// Number of modes that were looked at.
     pub modes: usize,
@@ -35,8 +34,7 @@ pub struct Advice {
 }
 
 /// The full model.
-#[derive(Debug, Clone, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, Serialize, schemars::JsonSchema)]
 pub struct FullModel {
     /// The model and what it says of the modes.
     #[serde(flatten)]

@@ -11,8 +11,7 @@ use sweetspot::modes::damping::Damped;
 use sweetspot::modes::solve::Solution;
 
 /// What materials and dashpots damp.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Damping {
     /// Bounds of every mode's damping ratio by the materials alone.
     // A mode's damping ratio ζ is half the mean of the loss factors, weighed by the strain energy in each

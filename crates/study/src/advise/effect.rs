@@ -51,11 +51,10 @@ impl Serialize for Switch {
 }
 
 /// What one part of the model does; shifts are null where the modes are others altogether.
-#[derive(Debug, Clone, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, Serialize, schemars::JsonSchema)]
 pub struct Effect {
     /// What is switched, in words.
-    #[cfg_attr(feature = "schema", schemars(with = "String"))]
+    #[schemars(with = "String")]
     pub switch: Switch,
     /// Whether the bat file says so; false where a typical value was tried.
     pub known: bool,

@@ -12,15 +12,14 @@ use sweetspot::bat::theory::Theory;
 use sweetspot::modes::solve::{Request, Solution, solve};
 
 /// What of a bat is in a model.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Model {
     /// Beam theory.
-    #[cfg_attr(feature = "schema", schemars(with = "String", extend("enum" = Theory::ALL.map(Theory::name))))]
+    #[schemars(with = "String", extend("enum" = Theory::ALL.map(Theory::name)))]
     pub theory: Theory,
     /// What the model has beside the bare bat, in words.
     // In the order of [`ModelPart::ALL`].
-    #[cfg_attr(feature = "schema", schemars(with = "Vec<String>"))]
+    #[schemars(with = "Vec<String>")]
     pub parts: Vec<ModelPart>,
 }
 
@@ -65,8 +64,7 @@ impl Model {
 }
 
 /// A model and what it says of the modes.
-#[derive(Debug, Clone, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, Serialize, schemars::JsonSchema)]
 pub struct Solved {
     /// The model: a theory and the parts of the bat it includes.
     #[serde(flatten)]

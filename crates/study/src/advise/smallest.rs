@@ -10,8 +10,7 @@ use sweetspot::base::telling::Tell;
 use sweetspot::bat::theory::Theory;
 
 /// The smallest model within the tolerance.
-#[derive(Debug, Clone, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, Serialize, schemars::JsonSchema)]
 pub struct Smallest {
     /// The model and what it says of the modes.
     #[serde(flatten)]

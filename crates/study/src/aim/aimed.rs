@@ -12,8 +12,7 @@ use crate::many::answers::Answer;
 use sweetspot::bat::body::Bat;
 
 /// What came of a wish.
-#[derive(Debug, Clone, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, Serialize, schemars::JsonSchema)]
 pub struct Outcome {
     /// Whether every target is met and every limit kept.
     pub met: bool,
@@ -74,8 +73,7 @@ pub struct Outcome {
 }
 
 /// A target and what came of it; SI, in the unit of its name.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct AimedTarget {
     /// Name of the output.
     pub name: String,
@@ -128,12 +126,11 @@ impl AimedTarget {
 }
 
 /// A choice besides the shape.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Choice {
     /// What: length_m, density_kg_m3 or knob_weight_kg.
     #[serde(rename = "name")]
-    #[cfg_attr(feature = "schema", schemars(with = "String"))]
+    #[schemars(with = "String")]
     pub what: ExtraKind,
     /// The value before.
     pub start: f64,
@@ -142,12 +139,11 @@ pub struct Choice {
 }
 
 /// An output before and after.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Output {
     /// Its name.
     #[serde(rename = "name", serialize_with = "by_name")]
-    #[cfg_attr(feature = "schema", schemars(with = "String"))]
+    #[schemars(with = "String")]
     pub answer: Answer,
     /// Of the bat as it was.
     pub start: Option<f64>,

@@ -12,8 +12,7 @@ use sweetspot::base::error::Result;
 use sweetspot::base::threads;
 
 /// Targets that cannot be had together: without any one of them the others can.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Conflict {
     /// The targets, with how near each comes.
     pub members: Vec<Reach>,
@@ -29,8 +28,7 @@ pub struct Conflict {
 }
 
 /// How near a target comes with the other members of the conflict met.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Reach {
     /// Name of the output.
     pub name: String,

@@ -5,8 +5,7 @@ use serde::Serialize;
 use crate::aim::laying::Station;
 
 /// A change at a station.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct StationCut {
     /// Where (m).
     pub x_m: f64,

@@ -17,8 +17,7 @@ use sweetspot::bat::body::Bat;
 use sweetspot::bat::profile::{Interpolation, Profile, Radii, SAME_PLACE, Stations};
 
 /// A station of the new bat.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Station {
     /// Where it is (m).
     #[serde(rename = "x_m")]

@@ -50,8 +50,7 @@ pub enum Rule {
 }
 
 /// Rules, and whether the new bat keeps them.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct RulesKept {
     /// Short name.
     pub name: String,
@@ -70,11 +69,10 @@ pub struct RulesKept {
 }
 
 /// A rule, and what came of it.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Ruled {
     /// Which, as a rule file calls it.
-    #[cfg_attr(feature = "schema", schemars(with = "String"))]
+    #[schemars(with = "String")]
     pub rule: Rule,
     /// Its limit (SI); null where it has no number.
     pub limit: Option<f64>,

@@ -35,8 +35,7 @@ pub struct CalibrationPlan {
 }
 
 /// Which mode each line was taken for, in the order of the readings; null for a line of no bending mode.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Identified {
     /// Frequencies of the lines (Hz).
     pub lines_hz: Vec<f64>,
@@ -82,8 +81,7 @@ impl Identified {
 }
 
 /// The wood without the data that do not fit.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct WithoutOutliers {
     /// The parameters.
     pub parameters: Vec<Estimated>,
@@ -94,8 +92,7 @@ pub struct WithoutOutliers {
 }
 
 /// The loss factor by a tone that died out.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct LossFound {
     /// Number of the bending mode.
     pub mode: usize,
@@ -106,8 +103,7 @@ pub struct LossFound {
 }
 
 /// What is known of a bat's wood: the members of a calibration's document that are of the fit.
-#[derive(Debug, Clone, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, Serialize, schemars::JsonSchema)]
 pub struct Calibration {
     /// Where the barrel's region begins (m), if there are two.
     pub regions_at_m: Option<f64>,
@@ -135,7 +131,7 @@ pub struct Calibration {
     /// Which mode each line was taken for.
     pub labels: Identified,
     /// Names of the data that do not fit the others.
-    #[cfg_attr(feature = "schema", schemars(with = "Vec<String>"))]
+    #[schemars(with = "Vec<String>")]
     pub outliers: Vec<DatumKind>,
     /// The parameters without those; null where there are none.
     pub without_outliers: Option<WithoutOutliers>,

@@ -20,8 +20,7 @@ const WELL_KNOWN: f64 = 0.05;
 const ENDS: [f64; 2] = [0.025, 0.975];
 
 /// How well the readings determine a parameter.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
     /// The readings alone say it.
@@ -37,12 +36,11 @@ pub enum Verdict {
 }
 
 /// A parameter of the wood.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Estimated {
     /// Its name, as in a bat file.
     #[serde(rename = "name")]
-    #[cfg_attr(feature = "schema", schemars(with = "String"))]
+    #[schemars(with = "String")]
     pub property: Property,
     /// Its unit.
     pub unit: &'static str,
@@ -60,7 +58,7 @@ pub struct Estimated {
     // Of G, of G/E.
     pub learned: f64,
     /// The parameter that it goes with most.
-    #[cfg_attr(feature = "schema", schemars(with = "Option<String>"))]
+    #[schemars(with = "Option<String>")]
     pub correlated_with: Option<Property>,
     /// Correlation of their logarithms.
     pub correlation: Option<f64>,

@@ -75,12 +75,11 @@ impl From<DatumKind> for String {
 }
 
 /// Something that was measured.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Datum {
     /// Its name.
     #[serde(rename = "name")]
-    #[cfg_attr(feature = "schema", schemars(with = "String"))]
+    #[schemars(with = "String")]
     pub kind: DatumKind,
     /// Which of the lines it is; None for what is no line.
     #[serde(skip)]
@@ -137,8 +136,7 @@ pub const OUTLIER: f64 = 3.0;
 
 /// Something that was measured.
 // Beside what the bat of the wood that was found shows.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Residual {
     /// What was measured.
     #[serde(flatten)]

@@ -18,12 +18,11 @@ use crate::calibrate::wood::Slopes;
 pub const BEYOND: usize = 2;
 
 /// A measurement that was not made.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Proposal {
     /// Its name.
     #[serde(rename = "name")]
-    #[cfg_attr(feature = "schema", schemars(with = "String"))]
+    #[schemars(with = "String")]
     pub kind: DatumKind,
     /// Standard deviation that it is thought to have, of reading and beam.
     pub sd: f64,

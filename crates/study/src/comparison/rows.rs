@@ -69,8 +69,7 @@ pub struct ComparedFigure {
 }
 
 /// A figure of a bat; its difference is left out for the first bat, and where that has no such figure.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Compared {
     /// The value.
     pub value: f64,
@@ -86,8 +85,7 @@ pub struct Compared {
 }
 
 /// How a bat differs from the reference.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Difference {
     /// The value less that of the first bat.
     #[serde(rename = "difference")]

@@ -5,8 +5,7 @@ use serde::Serialize;
 use crate::comparison::rows::ComparedFigure;
 
 /// A stretch of the barrel where one of two bats hits harder, or neither.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Stretch {
     /// Where it begins and ends, as distances from the tip (m).
     pub from_tip_m: [f64; 2],
@@ -21,8 +20,7 @@ pub struct Stretch {
 }
 
 /// Which of two bats hits harder.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, schemars::JsonSchema)]
 pub enum Harder {
     /// This one.
     #[serde(rename = "this")]

@@ -1,35 +1,26 @@
 //! What does somebody want of a bat, as it is written down: the `sweetspot-aim/1` file.
 
+use std::ops::Bound::{Excluded, Included, Unbounded};
 use std::path::{Path, PathBuf};
 
-use crate::aim::wish::{Amount, Ask, DiameterLimit, FreeChoice, Goal, SLOPES, Target, Wish};
+use schemars::{JsonSchema, json_schema};
+
+use crate::aim::rules::RuleSet;
+use crate::aim::wish::{self, Ask, DiameterLimit, FreeChoice, Goal, SLOPES, Target, Wish};
 use crate::files::aim_text;
-use crate::files::rules_file::{self, truth};
+use crate::files::form::{Form, amount, at, few, later, number, text, truth};
+use crate::files::rules_file;
+use crate::files::written::{Written, WrittenFile, object, written};
 use sweetspot::base::error::{Complaint, Error, Result};
-use sweetspot::base::mistakes::{self, Mistakes};
+use sweetspot::base::mistakes::Mistakes;
 use sweetspot::base::number::shortest;
 use sweetspot::base::units::Quantity;
 use sweetspot::files::document::Document;
 use sweetspot::files::folder::{Folder, Outside};
 use sweetspot::files::json_node::{Node, Object};
 use sweetspot::files::part_file;
-
-const KEYS: &[&str] = &[
-    "format",
-    "name",
-    "targets",
-    "rules",
-    "remove_only",
-    "add",
-    "keep",
-    "diameter",
-    "stations",
-    "round",
-    "slope_at_most",
-    "free",
-    "$schema",
-];
-const WAYS: [&str; 4] = ["change", "value", "at_least", "at_most"];
+use sweetspot::files::schema::amount::Amount;
+use sweetspot::files::schema::part::Material;
 
 /// An aim file, with which later mistakes find their place.
 pub struct AimFile {
@@ -39,37 +30,15 @@ pub struct AimFile {
 }
 
 impl AimFile {
-    /// Reads an aim file; a rule file that it names is sought from its folder.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::Read`], or [`Error::Input`] with line and column, or several of them.
-    pub fn read(path: &Path) -> Result<Self> {
-        let document = Document::read(path)?;
-        let wish = wish(&document, &Folder::closed(path.parent().unwrap_or(Path::new(""))))?;
-        Ok(Self { document, wish })
-    }
-
     /// Reads an aim file that a person has named, and the files outside of its folder that it names.
     ///
     /// # Errors
     ///
-    /// As [`Self::read`].
+    /// [`Error::Read`], or [`Error::Input`] with line and column, or several of them.
     pub fn named_by_a_person(path: &Path) -> Result<(Self, Vec<PathBuf>)> {
         let (document, outside) = (Document::read(path)?, Outside::default());
-        let wish = wish(&document, &Folder::of(path, &outside))?;
+        let wish = AimForm::from_document(&document, &Folder::of(path, &outside))?;
         Ok((Self { document, wish }, outside.paths()))
-    }
-
-    /// Reads one from text; `file` is what messages call it.
-    ///
-    /// # Errors
-    ///
-    /// As [`Self::read`].
-    pub fn from_text(file: &str, text: &str) -> Result<Self> {
-        let document = Document::new(file.to_owned(), text);
-        let wish = wish(&document, &Folder::closed(Path::new("")))?;
-        Ok(Self { document, wish })
     }
 
     /// An error about the wish, at its place in the file.
@@ -79,80 +48,142 @@ impl AimFile {
     }
 }
 
-fn wish(document: &Document, folder: &Folder) -> Result<Wish> {
-    let root = Node::root(document)?.members()?;
-    root.check_format("sweetspot-aim/1")?;
-    let mut mistakes = Mistakes::default();
-    let root = root.only(KEYS, &mut mistakes);
-    let format = "\"format\": \"sweetspot-aim/1\"";
-    mistakes.note(root.require("format", format).map(|_| ()));
-    mistakes.note(root.string("$schema"));
-    mistakes.note(root.string("name"));
-    let mut wish = Wish::default();
-    if let Some(node) = root.get("targets") {
-        wish.targets = mistakes.note(list(node, target));
+written! {
+    /// What somebody wants of a bat: targets, rules of a game, limits of the diameter, what may change and what
+    /// stays. Places count from the knob end.
+    AimForm("aim", "Aim file") {
+        /// What it is called.
+        name = text();
+        /// What is aimed at. The command line may add more.
+        targets = few(MOST, in_words::<AimParts>(TARGET, aim_text::target));
+        /// Rules of a game: a built-in name, or a rule file from this file's folder.
+        rules = text().like("mlb");
+        /// Whether wood may only be taken off. Without it false.
+        remove_only = truth();
+        /// Whether wood may be added to a bat that was weighed, which otherwise is only cut. Without it false.
+        add = truth();
+        /// Stretches that stay as they are. Without it the knob, 0 to 30 mm.
+        keep = few(MOST, in_words::<AimEnds>(STRETCH, aim_text::stretch));
+        /// Limits of the diameter, which hold along the whole curve.
+        diameter = few(MOST, object::<AimLimit>());
+        /// Distance of the stations that are written. Without it 10 mm, or 0.5 in of a bat in inches.
+        stations = spacing();
+        /// What diameters are rounded to. Without it 0.1 mm, or 0.005 in of a bat in inches.
+        round = spacing();
+        /// Greatest slope of the surface where it is changed: change of the radius over length, 0.01 to 10. Where the
+        /// bat is steeper already it becomes no steeper.
+        slope_at_most = number().within(SLOPES, "a slope from 0.01 to 10");
+        /// What may change besides the shape.
+        free = object::<AimFree>();
     }
-    if let Some(node) = root.get("rules") {
-        wish.rules = mistakes.some(rules(node, folder));
+    |of| -> Wish {
+        let usual = Wish::default();
+        let set = of.at("rules").zip(rules).map(|(node, name)| rule_set(node, &name, of.folder));
+        let rules = of.mistakes.note(set.transpose());
+        let (remove_only, add) = (remove_only.unwrap_or_default(), add.unwrap_or_default());
+        if let Some(node) = of.at("add").filter(|_| add && remove_only) {
+            let error = node.error("\"add\" beside \"remove_only\"", "one of them");
+            of.mistakes.add(error);
+        }
+        Ok(Wish {
+            targets: targets.unwrap_or(usual.targets),
+            rules,
+            remove_only,
+            add,
+            keep: keep.unwrap_or(usual.keep),
+            diameter: diameter.unwrap_or(usual.diameter),
+            stations,
+            round,
+            slope: slope_at_most,
+            free: free.unwrap_or(usual.free),
+        })
     }
-    wish.remove_only = mistakes.note(truth(&root, "remove_only"));
-    wish.add = mistakes.note(truth(&root, "add"));
-    if let Some(node) = root.get("add").filter(|_| wish.add && wish.remove_only) {
-        mistakes.add(node.error("\"add\" beside \"remove_only\"", "one of them"));
-    }
-    if let Some(node) = root.get("keep") {
-        wish.keep = mistakes.note(list(node, stretch));
-    }
-    if let Some(node) = root.get("diameter") {
-        wish.diameter = mistakes.note(list(node, limit));
-    }
-    wish.stations = mistakes.note(root.get("stations").map(spacing).transpose());
-    wish.round = mistakes.note(root.get("round").map(spacing).transpose());
-    wish.slope = mistakes.note(root.get("slope_at_most").map(slope).transpose());
-    if let Some(node) = root.get("free") {
-        wish.free = mistakes.note(free(node));
-    }
-    mistakes.end(wish)
 }
 
-fn list<T>(node: &Node, one: impl Fn(&Node) -> Result<T>) -> Result<Vec<T>> {
-    /// What a search takes grows faster than their number.
-    const MOST: usize = 20;
-    let items = node.items()?;
-    if items.len() > MOST {
-        return Err(node.error(format!("{} items", items.len()), format!("{MOST} at most")));
-    }
-    mistakes::all(items.iter().map(one))
+/// What a search takes grows faster than the number of targets, stretches and limits.
+const MOST: usize = 20;
+/// What the parts and words of a list of targets are.
+const TARGET: [&str; 2] = [
+    "A target: in words, as on the command line, or in parts.",
+    "In words, such as \"swing weight -3 % within 5 oz in2\".",
+];
+/// The same of stretches.
+const STRETCH: [&str; 2] =
+    ["A stretch of the bat: in words, or its ends.", "In words, such as \"0 to 30 mm\"."];
+
+/// Something in words or in parts; what it is, and what the words are.
+fn in_words<W: Written<Made: 'static> + 'static>(
+    [said, of_words]: [&'static str; 2],
+    read: fn(&str) -> std::result::Result<W::Made, Complaint>,
+) -> Form<W::Made> {
+    let parts = object::<W>();
+    Form::looking(
+        move |generator| {
+            let words = json_schema!({ "description": of_words, "type": "string" });
+            let either = [words, generator.subschema_for::<W>()];
+            json_schema!({ "description": said, "anyOf": either })
+        },
+        move |node| match node.is_object() {
+            true => parts.read(node),
+            false => read(&node.string()?).map_err(|complaint| node.complain(complaint)),
+        },
+    )
 }
 
-fn rules(node: &Node, folder: &Folder) -> Result<crate::aim::rules::RuleSet> {
-    let name = node.string()?;
-    rules_file::named_in(&name, folder).map_err(|error| match error {
+fn rule_set(node: &Node, name: &str, folder: &Folder) -> Result<RuleSet> {
+    rules_file::named_in(name, folder).map_err(|error| match error {
         Error::Read { source, .. } => {
             node.error(format!("{name}, which cannot be read ({source})"), "a rule file")
         }
-        error => {
-            error.placed(|complaint| node.complain(Complaint { field: String::new(), ..complaint }))
-        }
+        error => at(node, error),
     })
 }
 
 /// A distance above 0.
-fn spacing(node: &Node) -> Result<f64> {
-    let value = node.quantity(Quantity::Length)?;
-    match value > 0.0 && value <= 0.1 {
-        true => Ok(value),
-        false => Err(node.error(node.shown(), "a length above 0, 100 mm at most")),
+fn spacing() -> Form<f64> {
+    let range = (Excluded(0.0), Included(0.1));
+    amount(Quantity::Length).within(range, "a length above 0, 100 mm at most")
+}
+
+/// A number in SI, or a text with a unit, a % or words.
+#[derive(Debug, Clone, PartialEq, JsonSchema)]
+#[schemars(untagged)]
+pub enum AimNumber {
+    /// In SI.
+    Number(f64),
+    /// In words.
+    Words(String),
+}
+
+written! {
+    /// A target in parts: one of change and value, or at_least and at_most.
+    AimParts {
+        /// By how much it is to change: a number in SI, or a text with a unit, in % of what it is, or with where
+        /// to.
+        change = later::<AimNumber>().like("-3 %").like("1 cm outward");
+        /// What it is to be.
+        value = later::<AimNumber>().like("180 Hz").like("6.5 in from the tip");
+        /// What it is to be at least.
+        at_least = later::<AimNumber>().like("99.5 %");
+        /// What it is to be at most.
+        at_most = later::<AimNumber>().like("31 oz");
+        /// What is aimed at: the name of an output, drop, or what people call it.
+        name = Form::of::<String>(goal).like("inertia_pivot_kg_m2").like("sweet spot"),
+            needed "\"name\": what is aimed at, such as \"f1_hz\"";
+        /// How far beside change or value it may be.
+        within = later::<AimNumber>().like("5 oz in2");
+    }
+    |of| -> Target {
+        // All others are of the goal.
+        let ask = name.map(|goal| ask(&of.object, goal)).transpose()?;
+        let (goal, ask) = name.zip(ask).unwrap_or((Goal::Drop, Ask::Between(None, None)));
+        Ok(Target { goal, ask })
     }
 }
 
-/// A slope above 0.
-fn slope(node: &Node) -> Result<f64> {
-    let value = node.number()?;
-    match SLOPES.contains(&value) {
-        true => Ok(value),
-        false => Err(node.error(node.shown(), "a slope from 0.01 to 10")),
-    }
+/// What is aimed at.
+fn goal(node: &Node) -> Result<Option<Goal>> {
+    aim_text::goal(&node.string()?).map(Some).map_err(|complaint| node.complain(complaint))
 }
 
 /// The words of a value: a text as it is, a number as it is written.
@@ -174,27 +205,9 @@ fn said<T>(
     read(&text, goal).map_err(|complaint| node.complain(complaint))
 }
 
-fn target(node: &Node) -> Result<Target> {
-    if !node.is_object() {
-        // A target in words, as on the command line.
-        let text = node.string()?;
-        return aim_text::target(&text).map_err(|complaint| node.complain(complaint));
-    }
-    let mut mistakes = Mistakes::default();
-    let keys: Vec<&str> = WAYS.into_iter().chain(["name", "within"]).collect();
-    let object = node.object(&keys, &mut mistakes)?;
-    let name = object.require("name", "\"name\": what is aimed at, such as \"f1_hz\"");
-    let goal = name.and_then(|node| {
-        aim_text::goal(&node.string()?).map_err(|complaint| node.complain(complaint))
-    });
-    let goal = match goal {
-        Ok(goal) => goal,
-        Err(error) => return mistakes.and(Err(error)),
-    };
-    let ask = ask(&object, goal);
-    mistakes.and(ask.map(|ask| Target { goal, ask }))
-}
+const WAYS: [&str; 4] = ["change", "value", "at_least", "at_most"];
 
+/// What is wished of a goal.
 fn ask(object: &Object, goal: Goal) -> Result<Ask> {
     let mut mistakes = Mistakes::default();
     let of = |key: &str| object.get(key).map(|node| said(node, goal, aim_text::value)).transpose();
@@ -217,11 +230,10 @@ fn ask(object: &Object, goal: Goal) -> Result<Ask> {
                 let found = "\"within\" beside \"at_least\" or \"at_most\"";
                 return Err(node.key().error(found, "it beside \"change\" or \"value\" alone"));
             }
-            if let (Some(Amount::Si(least)), Some(Amount::Si(most))) = (least, most)
+            if let (Some(wish::Amount::Si(least)), Some(wish::Amount::Si(most))) = (least, most)
                 && least > most
             {
-                let found = "\"at_least\" above \"at_most\"";
-                return Err(object.node.error(found, "limits that leave something between them"));
+                return Err(nothing_between(object));
             }
             Ok(Ask::Between(least, most))
         }
@@ -231,87 +243,95 @@ fn ask(object: &Object, goal: Goal) -> Result<Ask> {
     }
 }
 
-fn ends(object: &Object, mistakes: &mut Mistakes) -> [Option<f64>; 2] {
-    ["from", "to"].map(|key| {
-        let node = object.get(key).map(|node| node.quantity(Quantity::Length));
-        mistakes.note(node.transpose())
+written! {
+    /// The ends of a stretch.
+    AimEnds {
+        /// Where it begins.
+        from = amount(Quantity::Length), needed ENDS;
+        /// Where it ends.
+        to = amount(Quantity::Length), needed ENDS;
+    }
+    |of| -> [f64; 2] {
+        of.sound()?;
+        match from >= 0.0 && from < to {
+            true => Ok([from, to]),
+            false => Err(of.node().error(format!("{from} m to {to} m"), RISING)),
+        }
+    }
+}
+
+const ENDS: &str = "\"from\" and \"to\": a stretch of the bat";
+const RISING: &str = "a stretch that ends after it begins";
+
+written! {
+    /// What the diameter may be on a stretch.
+    AimLimit with { "anyOf": [{ "required": ["at_least"] }, { "required": ["at_most"] }] } {
+        /// Where the stretch begins. Without it at the knob end.
+        from = amount(Quantity::Length);
+        /// Where it ends. Without it at the tip.
+        to = amount(Quantity::Length);
+        /// Least diameter.
+        at_least = above_0();
+        /// Greatest diameter.
+        at_most = above_0();
+    }
+    |of| -> DiameterLimit {
+        let some = of.object.require_some(&["at_least", "at_most"]);
+        of.mistakes.note(some);
+        let (from, to) = (from.unwrap_or(0.0), to.unwrap_or(f64::INFINITY));
+        if from < 0.0 || from >= to {
+            let end = if to.is_finite() { format!("{to} m") } else { "the tip".to_owned() };
+            of.mistakes.add(of.object.node.error(format!("{from} m to {end}"), RISING));
+        }
+        if at_least.zip(at_most).is_some_and(|(least, most)| least > most) {
+            of.mistakes.add(nothing_between(&of.object));
+        }
+        Ok(DiameterLimit { from, to, at_least, at_most })
+    }
+}
+
+/// A diameter.
+fn above_0() -> Form<f64> {
+    amount(Quantity::Length).within((Excluded(0.0), Unbounded), "a diameter above 0")
+}
+
+/// An error about limits of which the lower one is above the other.
+fn nothing_between(object: &Object) -> Error {
+    let expected = "limits that leave something between them";
+    object.node.error("\"at_least\" above \"at_most\"", expected)
+}
+
+written! {
+    /// What may change besides the shape.
+    AimFree {
+        /// Least and greatest length; everything on the bat moves with it.
+        length = range(Quantity::Length);
+        /// Least and greatest density of the bat's own material, its moduli as they are.
+        density = range(Quantity::Density);
+        /// Materials, of which the one that needs the least change is taken.
+        wood = few(MOST, Form::of::<Material>(|node| part_file::whole_material(node)));
+        /// Greatest weight on the knob end.
+        knob_weight = amount(Quantity::Mass)
+            .within((Excluded(0.0), Excluded(1.0)), "a mass above 0, such as \"2 oz\"");
+    }
+    |_| -> FreeChoice {
+        Ok(FreeChoice { length, density, woods: wood.unwrap_or_default(), knob_weight })
+    }
+}
+
+/// The least and the greatest value.
+fn range(quantity: Quantity) -> Form<[f64; 2]> {
+    Form::of::<(Amount, Amount)>(move |node| {
+        let items = node.items()?;
+        let [from, to] = items.as_slice() else {
+            return Err(node.error(format!("{} values", items.len()), "[least, greatest]"));
+        };
+        let range = [from.quantity(quantity)?, to.quantity(quantity)?];
+        match range[0] > 0.0 && range[0] < range[1] {
+            true => Ok(range),
+            false => Err(node.error("a range that does not rise", "[least, greatest], above 0")),
+        }
     })
-}
-
-fn stretch(node: &Node) -> Result<[f64; 2]> {
-    if !node.is_object() {
-        return aim_text::stretch(&node.string()?).map_err(|complaint| node.complain(complaint));
-    }
-    let mut mistakes = Mistakes::default();
-    let object = node.object(&["from", "to"], &mut mistakes)?;
-    for key in ["from", "to"] {
-        mistakes.note(object.require(key, "\"from\" and \"to\": a stretch of the bat").map(|_| ()));
-    }
-    let [from, to] = ends(&object, &mut mistakes).map(Option::unwrap_or_default);
-    mistakes.end(())?;
-    if from >= 0.0 && from < to {
-        Ok([from, to])
-    } else {
-        Err(node.error(format!("{from} m to {to} m"), "a stretch that ends after it begins"))
-    }
-}
-
-fn limit(node: &Node) -> Result<DiameterLimit> {
-    let mut mistakes = Mistakes::default();
-    let object = node.object(&["from", "to", "at_least", "at_most"], &mut mistakes)?;
-    mistakes.note(object.require_some(&["at_least", "at_most"]));
-    let [from, to] = ends(&object, &mut mistakes);
-    let (from, to) = (from.unwrap_or(0.0), to.unwrap_or(f64::INFINITY));
-    let mut of = |key: &str| {
-        let node = object.get(key).map(|node| match node.quantity(Quantity::Length)? {
-            value if value > 0.0 => Ok(value),
-            _ => Err(node.error(node.shown(), "a diameter above 0")),
-        });
-        mistakes.note(node.transpose())
-    };
-    let (at_least, at_most) = (of("at_least"), of("at_most"));
-    if from < 0.0 || from >= to {
-        let end = if to.is_finite() { format!("{to} m") } else { "the tip".to_owned() };
-        mistakes
-            .add(node.error(format!("{from} m to {end}"), "a stretch that ends after it begins"));
-    }
-    if let (Some(least), Some(most)) = (at_least, at_most)
-        && least > most
-    {
-        let found = "\"at_least\" above \"at_most\"";
-        mistakes.add(node.error(found, "limits that leave something between them"));
-    }
-    mistakes.end(DiameterLimit { from, to, at_least, at_most })
-}
-
-fn free(node: &Node) -> Result<FreeChoice> {
-    let mut mistakes = Mistakes::default();
-    let object = node.object(&["length", "density", "wood", "knob_weight"], &mut mistakes)?;
-    let mut range = |key: &str, quantity: Quantity| {
-        let read = object.get(key).map(|node| {
-            let items = node.items()?;
-            let [from, to] = items.as_slice() else {
-                return Err(node.error(format!("{} values", items.len()), "[least, greatest]"));
-            };
-            let range = [from.quantity(quantity)?, to.quantity(quantity)?];
-            if range[0] > 0.0 && range[0] < range[1] {
-                Ok(range)
-            } else {
-                Err(node.error("a range that does not rise", "[least, greatest], above 0"))
-            }
-        });
-        mistakes.note(read.transpose())
-    };
-    let (length, density) =
-        (range("length", Quantity::Length), range("density", Quantity::Density));
-    let woods = object.get("wood").map_or(Ok(vec![]), |node| list(node, part_file::whole_material));
-    let woods = mistakes.note(woods);
-    let weight = object.get("knob_weight").map(|node| match node.quantity(Quantity::Mass)? {
-        value if value > 0.0 && value < 1.0 => Ok(value),
-        _ => Err(node.error(node.shown(), "a mass above 0, such as \"2 oz\"")),
-    });
-    let knob_weight = mistakes.note(weight.transpose());
-    mistakes.end(FreeChoice { length, density, woods, knob_weight })
 }
 
 #[cfg(test)]
@@ -319,7 +339,7 @@ mod tests {
     use super::*;
 
     fn told(text: &str) -> Vec<String> {
-        match AimFile::from_text("aim.json", text) {
+        match AimForm::from_text("aim.json", text, Path::new("")) {
             Ok(_) => vec![],
             Err(Error::Several { shown, .. }) => shown.iter().map(Error::to_string).collect(),
             Err(one) => vec![one.to_string()],
@@ -334,9 +354,10 @@ mod tests {
                          { "name": "mass_kg", "at_most": "31 oz" }, "f1 same" ],
             "rules": "mlb", "remove_only": true, "keep": [ { "from": 0, "to": "30 mm" } ],
             "diameter": [ { "from": "4 in", "to": "18 in", "at_least": "24 mm" } ], "stations": "10 mm" }"#;
-        let wish = AimFile::from_text("aim.json", text).map(|file| file.wish).unwrap();
+        let wish = AimForm::from_text("aim.json", text, Path::new("")).unwrap();
         assert_eq!(wish.targets.len(), 4);
-        let Ask::Change(Amount::Si(by), Some(Amount::Si(within))) = wish.targets[1].ask else {
+        let Ask::Change(wish::Amount::Si(by), Some(wish::Amount::Si(within))) = wish.targets[1].ask
+        else {
             panic!("{:?}", wish.targets)
         };
         assert!(by == 0.01 && (within - 0.000_254).abs() < 1e-18);

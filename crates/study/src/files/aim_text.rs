@@ -288,10 +288,7 @@ fn asked(text: &str, verb: Option<Verb>, rest: &str, goal: Goal) -> Said<Ask> {
         (None | Some(Verb::Keep), WishedChange::AtLeast(least)) => {
             Ok(Ask::Between(Some(value(least, goal)?), None))
         }
-        (Some(Verb::Keep), WishedChange::To(size)) | (None, WishedChange::To(size)) => {
-            Ok(Ask::Value(value(size, goal)?, None))
-        }
-        (Some(Verb::Less | Verb::More), WishedChange::To(size)) => {
+        (None | Some(Verb::Keep | Verb::Less | Verb::More), WishedChange::To(size)) => {
             Ok(Ask::Value(value(size, goal)?, None))
         }
         (Some(Verb::Less), WishedChange::Plain(size) | WishedChange::Less(size))

@@ -1,10 +1,14 @@
 //! How a share, and a reading with its uncertainty, is written down.
 
+use schemars::JsonSchema;
+
 use crate::calibrate::readings::Reading;
+use crate::files::form::{Form, sound};
 use sweetspot::base::error::{Complaint, Result};
 use sweetspot::base::typed;
 use sweetspot::base::units::{self, Quantity};
 use sweetspot::files::json_node::Node;
+use sweetspot::files::schema::amount::Amount;
 
 /// Marks between a reading and how far it may be off.
 const MARKS: [&str; 3] = ["±", "+/-", "+-"];
@@ -36,17 +40,27 @@ pub fn deviation(
     }
 }
 
+/// A share, as a number or as a text in per cent.
+#[derive(Debug, Clone, PartialEq, JsonSchema)]
+#[schemars(untagged)]
+pub enum ShareForm {
+    /// Such as 0.04.
+    Number(f64),
+    /// Such as 4 %.
+    Text(#[schemars(regex(pattern = "%\\s*$"))] String),
+}
+
 /// A share as a number or in per cent, `0.04` or `"4 %"`, from 0 to 1, the ends excluded.
-pub(crate) fn share(node: &Node) -> Result<f64> {
-    let expected = "a share such as \"4 %\" or 0.04";
-    let value = match node.string() {
-        Ok(text) => percent(&text),
-        Err(_) => node.number().ok(),
-    };
-    match value {
-        Some(value) if value > 0.0 && value < 1.0 => Ok(value),
-        _ => Err(node.error(node.shown(), format!("{expected}, above 0 and below 1"))),
-    }
+pub(crate) fn share() -> Form<f64> {
+    Form::of::<ShareForm>(|node| {
+        let value = match node.string() {
+            Ok(text) => percent(&text),
+            Err(_) => node.number().ok(),
+        };
+        let value = value.filter(|value| *value > 0.0 && *value < 1.0);
+        let expected = "a share such as \"4 %\" or 0.04, above 0 and below 1";
+        value.ok_or_else(|| node.error(node.shown(), expected))
+    })
 }
 
 /// The value of `"4 %"`; None for a text without the sign.
@@ -55,28 +69,30 @@ pub(crate) fn percent(text: &str) -> Option<f64> {
     typed::number(number).map(|value| 0.01 * value)
 }
 
+/// A reading: a bare number in SI, or a text with its unit, on request with its standard deviation after ±, +/- or +-,
+/// in a unit of its own, in that of the reading, or in per cent.
+#[derive(Debug, Clone, PartialEq, JsonSchema)]
+#[schemars(untagged)]
+pub enum UncertainAmount {
+    /// In SI.
+    Number(f64),
+    /// With its unit.
+    Text(String),
+}
+
 /// A reading with or without its standard deviation: `"0.869 kg ± 1 g"`, `"174.5 Hz ± 0.2 %"`, `"0.869 kg"` or a
 /// number in SI; without it as `usual`. The reading is in that range.
-///
-/// # Errors
-///
-/// What is wrong with one of both.
-pub(crate) fn reading(
-    node: &Node,
-    quantity: Quantity,
-    usual: f64,
-    [low, high]: [f64; 2],
-) -> Result<Reading> {
+pub(crate) fn reading(quantity: Quantity, usual: f64, range: [f64; 2]) -> Form<Reading> {
+    let read = move |node: &Node| read(node, quantity, usual, range);
+    Form::of::<UncertainAmount>(read).measuring(quantity)
+}
+
+fn read(node: &Node, quantity: Quantity, usual: f64, [low, high]: [f64; 2]) -> Result<Reading> {
     let of = |value: f64, deviation: f64| {
-        let si = quantity.si().0;
-        if !(low..=high).contains(&value) {
-            let expected = format!("{} from {low} to {high} {si}", quantity.name());
-            return Err(node.error(node.shown(), expected));
-        }
-        if !(deviation > 0.0 && deviation < value) {
-            let expected = "an uncertainty above 0 and below the reading";
-            return Err(node.error(node.shown(), expected));
-        }
+        let expected = format!("{} from {low} to {high} {}", quantity.name(), quantity.si().0);
+        sound(node, (low..=high).contains(&value), &expected)?;
+        let expected = "an uncertainty above 0 and below the reading";
+        sound(node, deviation > 0.0 && deviation < value, expected)?;
         Ok(Reading { value, deviation })
     };
     let text = match node.string() {
@@ -92,17 +108,27 @@ pub(crate) fn reading(
     of(value, deviation)
 }
 
+/// A member of the scene.
+#[derive(Debug, Clone, PartialEq, JsonSchema)]
+#[schemars(untagged)]
+pub enum Said {
+    /// A number in SI, or a text with its unit.
+    Amount(Amount),
+    /// A word, such as the model.
+    Word(#[schemars(regex(pattern = "^[a-z-]+$"))] String),
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use sweetspot::files::document::Document;
 
-    fn read(text: &str) -> Result<Reading> {
+    fn reading_of(text: &str) -> Result<Reading> {
         let text = format!("{{ \"mass\": {text} }}");
         let document = Document::new("readings.json".into(), &text);
         let root = Node::root(&document)?.members()?;
         let node = root.get("mass").expect("a member");
-        reading(node, Quantity::Mass, 1e-3, [0.1, 5.0])
+        reading(Quantity::Mass, 1e-3, [0.1, 5.0]).read(node)
     }
 
     #[test]
@@ -114,14 +140,14 @@ mod tests {
             ("\"0.8 kg\"", 0.8, 1e-3),
             ("0.8", 0.8, 1e-3),
         ] {
-            let found = read(text).unwrap();
+            let found = reading_of(text).unwrap();
             assert!((found.value - value).abs() < 1e-15, "{text} {found:?}");
             assert!((found.deviation - deviation).abs() < 1e-15, "{text} {found:?}");
         }
         for wrong in
             ["\"0.8 ± 1 g\"", "\"0.8 kg ± 0 g\"", "\"0.8 kg ± 1 mm\"", "9", "\"1 kg ± 2 kg\""]
         {
-            assert!(read(wrong).is_err(), "{wrong}");
+            assert!(reading_of(wrong).is_err(), "{wrong}");
         }
     }
 }

@@ -1,15 +1,16 @@
 //! The rules of a game as they are written down: the `sweetspot-rules/1` file. Some travel with the program;
 //! a file of one's own may say the same or more.
 
+use std::ops::Bound::{Excluded, Unbounded};
 use std::path::Path;
 
 use crate::aim::rules::{Rule, RuleSet};
+use crate::files::form::{Form, amount, list, number, text, truth};
+use crate::files::written::{WrittenFile, written};
 use sweetspot::base::error::{Complaint, Error, Result};
-use sweetspot::base::mistakes::{self, Mistakes};
 use sweetspot::base::units::Quantity;
 use sweetspot::files::document::Document;
 use sweetspot::files::folder::Folder;
-use sweetspot::files::json_node::{Node, Object};
 
 /// The rules that travel with the program: name and file.
 pub const BUILT_IN: [(&str, &str); 7] = [
@@ -21,24 +22,6 @@ pub const BUILT_IN: [(&str, &str); 7] = [
     ("usa-baseball", include_str!("../../../../rules/usa-baseball.json")),
     ("softball", include_str!("../../../../rules/softball.json")),
 ];
-
-/// A rule of its limit in SI.
-type Made = fn(f64) -> Rule;
-
-/// The rules with a length, a mass, or something else that has a unit.
-const MEASURED: [(&str, Quantity, Made); 7] = [
-    ("diameter_at_most", Quantity::Length, Rule::DiameterAtMost),
-    ("length_at_most", Quantity::Length, Rule::LengthAtMost),
-    ("mass_at_most", Quantity::Mass, Rule::MassAtMost),
-    ("inertia_at_least", Quantity::Inertia, Rule::InertiaAtLeast),
-    ("cup_depth_at_most", Quantity::Length, Rule::CupDepthAtMost),
-    ("cup_diameter_at_least", Quantity::Length, Rule::CupDiameterAtLeast),
-    ("cup_diameter_at_most", Quantity::Length, Rule::CupDiameterAtMost),
-];
-/// Those that are numbers.
-const COUNTED: [(&str, Made); 2] =
-    [("drop_at_most", Rule::DropAtMost), ("bbcor_at_most", Rule::BbcorAtMost)];
-const WORDS: [&str; 7] = ["format", "$schema", "name", "game", "source", "date", "ask"];
 
 /// The rules of that name, or of a file, whose name ends in `.json`.
 ///
@@ -60,10 +43,10 @@ pub fn named_in(name: &str, folder: &Folder) -> Result<RuleSet> {
 
 fn named_by(name: &str, read: impl Fn(&str) -> Result<Document>) -> Result<RuleSet> {
     if let Some((name, text)) = BUILT_IN.iter().find(|(known, _)| *known == name) {
-        return from_document(&Document::new((*name).to_owned(), text));
+        return RulesForm::from_text(name, text, Path::new(""));
     }
     if name.ends_with(".json") {
-        return from_document(&read(name)?);
+        return RulesForm::from_document(&read(name)?, &Folder::closed(Path::new("")));
     }
     let names = BUILT_IN.map(|(name, _)| name);
     let expected = format!("{}, or a rule file (.json)", names.join(", "));
@@ -72,58 +55,55 @@ fn named_by(name: &str, read: impl Fn(&str) -> Result<Document>) -> Result<RuleS
     ))
 }
 
-fn from_document(document: &Document) -> Result<RuleSet> {
-    let root = Node::root(document)?.members()?;
-    root.check_format("sweetspot-rules/1")?;
-    let mut mistakes = Mistakes::default();
-    let measured = MEASURED.map(|(key, ..)| key);
-    let counted = COUNTED.map(|(key, _)| key);
-    let known = [&WORDS[..], &measured, &counted, &["one_piece"]].concat();
-    let root = root.only(&known, &mut mistakes);
-    let format = "\"format\": \"sweetspot-rules/1\"";
-    mistakes.note(root.require("format", format).map(|_| ()));
-    mistakes.note(root.string("$schema"));
-    let mut text = |key: &str, expected: &str| {
-        mistakes.note(root.require(key, expected).and_then(Node::string))
-    };
-    let name = text("name", "\"name\": a short name");
-    let source = text("source", "\"source\": where the numbers are from");
-    let date = text("date", "\"date\": of the source");
-    let game = mistakes.note(root.string("game")).unwrap_or_default();
-    let ask = root
-        .get("ask")
-        .map_or(Ok(vec![]), |node| mistakes::all(node.items()?.iter().map(Node::string)));
-    let ask = mistakes.note(ask);
-    let mut rules = vec![];
-    for (key, quantity, rule) in MEASURED {
-        let value = mistakes
-            .note(root.get(key).map(|node| positive(node, node.quantity(quantity))).transpose());
-        rules.extend(value.map(rule));
+written! {
+    /// The rules of a game, as far as they are numbers, with their source and date. What is computed by them
+    /// certifies nothing: the rules in their newest edition do, and their laboratories.
+    RulesForm("rules", "Rule file") {
+        /// Short name.
+        name = text(), needed "\"name\": a short name";
+        /// Which game they are of.
+        game = text();
+        /// Where the numbers are from.
+        source = text(), needed "\"source\": where the numbers are from";
+        /// Year or date of the source.
+        date = text(), needed "\"date\": of the source";
+        /// What the rules ask besides, which nothing here computes.
+        ask = list(text());
+        /// Greatest diameter anywhere.
+        diameter_at_most = above_0(Quantity::Length).map(Rule::DiameterAtMost);
+        /// Greatest length.
+        length_at_most = above_0(Quantity::Length).map(Rule::LengthAtMost);
+        /// Greatest mass.
+        mass_at_most = above_0(Quantity::Mass).map(Rule::MassAtMost);
+        /// Least moment of inertia about the point 6 in from the knob end.
+        inertia_at_least = above_0(Quantity::Inertia).map(Rule::InertiaAtLeast);
+        /// Greatest depth of a cup in the tip.
+        cup_depth_at_most = above_0(Quantity::Length).map(Rule::CupDepthAtMost);
+        /// Least diameter of a cup.
+        cup_diameter_at_least = above_0(Quantity::Length).map(Rule::CupDiameterAtLeast);
+        /// Greatest diameter of a cup.
+        cup_diameter_at_most = above_0(Quantity::Length).map(Rule::CupDiameterAtMost);
+        /// Greatest drop: length in inches less mass in ounces.
+        drop_at_most = number().map(Rule::DropAtMost);
+        /// Greatest BBCOR.
+        bbcor_at_most = number().map(Rule::BbcorAtMost);
+        /// Whether the bat must be one piece.
+        one_piece = truth();
     }
-    for (key, rule) in COUNTED {
-        let value = mistakes.note(root.get(key).map(Node::number).transpose());
-        rules.extend(value.map(rule));
+    |_| -> RuleSet {
+        let measured = [diameter_at_most, length_at_most, mass_at_most, inertia_at_least];
+        let of_cup = [cup_depth_at_most, cup_diameter_at_least, cup_diameter_at_most];
+        let others =
+            [drop_at_most, bbcor_at_most, one_piece.filter(|one| *one).map(|_| Rule::OnePiece)];
+        let rules = measured.into_iter().chain(of_cup).chain(others).flatten().collect();
+        let (game, ask) = (game.unwrap_or_default(), ask.unwrap_or_default());
+        Ok(RuleSet { name, game, source, date, rules, ask })
     }
-    if mistakes.note(truth(&root, "one_piece")) {
-        rules.push(Rule::OnePiece);
-    }
-    mistakes.end(RuleSet { name, game, source, date, rules, ask })
 }
 
-fn positive(node: &Node, value: Result<f64>) -> Result<f64> {
-    match value? {
-        value if value > 0.0 => Ok(value),
-        _ => Err(node.error(node.shown(), "a value above 0")),
-    }
-}
-
-/// A member that is true or false; false without it.
-pub(crate) fn truth(root: &Object, key: &str) -> Result<bool> {
-    let Some(node) = root.get(key) else { return Ok(false) };
-    match node.value().as_bool() {
-        Some(truth) => Ok(truth),
-        None => Err(node.error(node.shown(), "true or false")),
-    }
+/// An amount above 0.
+fn above_0(quantity: Quantity) -> Form<f64> {
+    amount(quantity).within((Excluded(0.0), Unbounded), "a value above 0")
 }
 
 #[cfg(test)]

@@ -1,43 +1,28 @@
 //! What differs between bats of one model and swings of one batter, as somebody wrote it down?
 //!
-//! [`from_text`] reads a `sweetspot-scatter/1` file and tells all its mistakes at once. A covariance in it is the
-//! result of a calibration, `sweetspot-calibrate/1`.
+//! The `sweetspot-scatter/1` file. A covariance in it is the result of a calibration, `sweetspot-calibrate/1`.
 
-use std::path::{Path, PathBuf};
+use std::collections::BTreeMap;
+use std::ops::Bound::{Excluded, Included};
 
-use crate::files::amounts::share;
+use crate::files::amounts::{Said, share};
+use crate::files::asked;
+use crate::files::form::{amount, at, later, text};
+use crate::files::written::{Members, object, written};
 use crate::many::answers::Answer;
 use crate::scatter::rows::{AT_IMPACT, Output};
 use crate::scatter::spreads::{Difference, Differences, Differs};
 use crate::scatter::turning::Turning;
-use sweetspot::base::error::{Complaint, Error, Result};
-use sweetspot::base::mistakes::{self, Mistakes};
+use sweetspot::base::error::{Complaint, Result};
 use sweetspot::base::units::Quantity;
 use sweetspot::bat::body::Bat;
 use sweetspot::bat::material::Scatter;
 use sweetspot::collision::ball::Ball;
 use sweetspot::collision::setup::Setup;
 use sweetspot::files::balls;
-use sweetspot::files::document::Document;
-use sweetspot::files::folder::{Folder, Outside};
-use sweetspot::files::json_node::{Node, Object};
+use sweetspot::files::json_node::Node;
 use sweetspot::files::scene_file;
 
-/// Members that are no difference.
-const OTHERS: [&str; 9] =
-    ["format", "$schema", "name", "ball", "scene", "outputs", "tol", "correlation", "covariance"];
-/// Members that are, and how each varies.
-const DIFFERENCES: [(&str, &str); 9] = [
-    ("density", "lognormal"),
-    ("youngs_modulus", "lognormal"),
-    ("shear_over_young", "lognormal"),
-    ("turning", "normal"),
-    ("moisture", "normal"),
-    ("swing_speed", "normal"),
-    ("pitch", "normal"),
-    ("cor", "normal"),
-    ("impact", "normal"),
-];
 /// Outputs of a file that names none.
 const USUAL: [&str; 6] = [
     "f1_hz",
@@ -83,218 +68,185 @@ pub fn of_wood(bat: &Bat) -> Option<ScatterFile> {
     })
 }
 
-/// Reads a scatter file.
-///
-/// # Errors
-///
-/// [`Error::Read`], or [`Error::Input`] with line and column, or several of them.
-pub fn from_file(path: impl AsRef<Path>) -> Result<ScatterFile> {
-    let path = path.as_ref();
-    let folder = path.parent().unwrap_or(Path::new(""));
-    from_document(&Document::read(path)?, &Folder::closed(folder))
-}
-
-/// Reads a scatter file that a person has named, and the files outside of its folder that it names.
-///
-/// # Errors
-///
-/// As [`from_file`].
-pub fn named_by_a_person(path: &Path) -> Result<(ScatterFile, Vec<PathBuf>)> {
-    let outside = Outside::default();
-    let file = from_document(&Document::read(path)?, &Folder::of(path, &outside))?;
-    Ok((file, outside.paths()))
-}
-
-/// Reads it from text; `file` is what messages call it, ball and covariance are sought in `folder`.
-///
-/// ```
-/// use sweetspot_study::files::scatter_file::from_text;
-///
-/// # fn main() -> sweetspot::Result<()> {
-/// let text = r#"{ "format": "sweetspot-scatter/1", "density": { "lognormal": "4 %" } }"#;
-/// assert_eq!(from_text("scatter.json", text, "".as_ref())?.differences.all.len(), 1);
-/// # Ok(())
-/// # }
-/// ```
-///
-/// # Errors
-///
-/// As [`from_file`].
-pub fn from_text(file: &str, text: &str, folder: &Path) -> Result<ScatterFile> {
-    from_document(&Document::new(file.to_owned(), text), &Folder::closed(folder))
-}
-
-fn from_document(document: &Document, folder: &Folder) -> Result<ScatterFile> {
-    let root = Node::root(document)?.members()?;
-    root.check_format("sweetspot-scatter/1")?;
-    let mut mistakes = Mistakes::default();
-    let keys: Vec<&str> = OTHERS.into_iter().chain(DIFFERENCES.map(|(key, _)| key)).collect();
-    let root = root.only(&keys, &mut mistakes);
-    let format = "\"format\": \"sweetspot-scatter/1\"";
-    mistakes.note(root.require("format", format).map(|_| ()));
-    mistakes.note(root.string("$schema"));
-    mistakes.note(root.string("name"));
-    let ball =
-        mistakes.some(root.get("ball").map_or(Ok(Ball::baseball()), |node| ball(node, folder)));
-    let ball = ball.unwrap_or_else(Ball::baseball);
-    let setup = root.get("scene").map(|node| scene_file::read(node, ball.clone()));
-    let setup = mistakes.some(setup.unwrap_or(Ok(Setup { ball, ..Setup::default() })));
-    let all = mistakes.note(differences(&root));
-    let mut differences = Differences { all, correlations: vec![] };
-    if let Some(node) = root.get("covariance") {
-        mistakes.note(covariance(node, &root, folder, &mut differences));
+written! {
+    /// What differs between bats of one model and swings of one batter, for sweetspot scatter: standard deviations, in
+    /// the order in which correlated ones are told. At least one of them.
+    ScatterForm("scatter", "Scatter file") {
+        /// What the scatter is called.
+        name = text();
+        /// The ball: a ball file, from the folder of this one, or the name of a built-in ball. Without it a baseball.
+        ball = text();
+        /// How the bat is hit in the middle: the options of sweetspot hit, such as swing_speed, by their names.
+        scene = later::<BTreeMap<String, Said>>();
+        /// What is asked of every bat, by name; exit_speed_m_s@impact is the speed where the ball is hit.
+        outputs = later::<Vec<String>>().saying("minItems", 1).like(["f1_hz", AT_IMPACT].to_vec());
+        /// Wanted accuracy of frequencies, relative, and of exit speeds, relative to the closing speed. Without it 1e-4.
+        tol = share();
+        /// Triples of two that differ and the correlation of their normal numbers; of the later one its part that the
+        /// earlier one leaves open is told.
+        correlation = later::<Vec<(String, String, f64)>>();
+        /// Density and moduli as a calibration left them, in place of these three: its result, from the folder of this
+        /// file.
+        covariance = text();
+        /// Density of the wood.
+        density = object::<LognormalForm>().map(differing(Differs::Density));
+        /// Young's modulus of the wood; G goes with it.
+        youngs_modulus = object::<LognormalForm>().map(differing(Differs::YoungsModulus));
+        /// G/E of the wood.
+        shear_over_young = object::<LognormalForm>().map(differing(Differs::ShearOverYoung));
+        /// What the lathe misses of the diameter: a smooth curve.
+        turning = object::<TurningForm>();
+        /// Moisture, as a share of the mass; E and G fall by 1.3 % for each per cent.
+        moisture = object::<NormalForm>().map(differing(Differs::Moisture));
+        /// Speed of the swing, relative.
+        swing_speed = object::<NormalForm>().map(differing(Differs::SwingSpeed));
+        /// Speed of the pitch, relative.
+        pitch = object::<NormalForm>().map(differing(Differs::Pitch));
+        /// Coefficient of restitution of the ball, as an amount.
+        cor = object::<CorForm>().map(differing(Differs::Cor));
+        /// Where the ball is hit.
+        impact = object::<ImpactForm>();
     }
-    if let Some(node) = root.get("correlation") {
-        mistakes.note(correlations(node, &mut differences));
-    }
-    let at = root.get("impact").map(|node| impact(node)).transpose();
-    let impact = mistakes.note(at).flatten();
-    let outputs = mistakes.note(outputs(&root, &differences));
-    let tolerance = root.get("tol").map_or(Ok(TOLERANCE), share);
-    let tolerance = mistakes.note(tolerance);
-    mistakes.end(())?;
-    if differences.all.is_empty() {
-        let expected = "one at least, such as \"density\": { \"lognormal\": \"4 %\" }";
-        return Err(root.node.error("nothing that differs", expected));
-    }
-    // Correlations that no numbers can have are told here, where their place is known.
-    if let Err(error) = differences.designs(1.0, 64, 0) {
-        let node = root.get("correlation").or(root.get("covariance")).unwrap_or(&root.node);
-        let placed = |c: Complaint| node.complain(Complaint { field: String::new(), ..c });
-        return Err(error.placed(placed));
-    }
-    let setup = setup.unwrap_or_default();
-    Ok(ScatterFile { differences, setup, impact, outputs, tolerance })
-}
-
-/// A built-in ball, or that of a file.
-fn ball(node: &Node, folder: &Folder) -> Result<Ball> {
-    balls::ball_in(&node.string()?, folder).map_err(|error| named_in_vain(node, error))
-}
-
-/// What is wrong with a file that a node names: said where it does.
-fn named_in_vain(node: &Node, error: Error) -> Error {
-    error.placed(|complaint| node.complain(Complaint { field: String::new(), ..complaint }))
-}
-
-/// Everything that differs, in the order of the file.
-fn differences(root: &Object) -> Result<Vec<Difference>> {
-    let known = |key: &String| DIFFERENCES.iter().find(|(name, _)| name == key);
-    let here = root.keys().iter().filter_map(|(key, node)| Some((known(key)?, node)));
-    mistakes::all(here.map(|((key, way), node)| difference(key, way, node)))
-}
-
-fn difference(key: &str, way: &'static str, node: &Node) -> Result<Difference> {
-    let mut mistakes = Mistakes::default();
-    let more = match key {
-        "turning" => Some("along"),
-        "impact" => Some("at"),
-        _ => None,
-    };
-    let keys: Vec<&str> = std::iter::once(way).chain(more).collect();
-    let object = node.object(&keys, &mut mistakes)?;
-    let example = match key {
-        "turning" => "\"0.1 mm\"",
-        "impact" => "\"0.5 in\"",
-        "cor" => "0.016",
-        _ => "\"4 %\"",
-    };
-    let deviation =
-        object.require(way, &format!("\"{way}\": a standard deviation, such as {example}"));
-    let length = |node: &Node, most: f64, said: &str| {
-        let value = node.quantity(Quantity::Length)?;
-        if value > 0.0 && value <= most { Ok(value) } else { Err(node.error(node.shown(), said)) }
-    };
-    let deviation = deviation.and_then(|node| match key {
-        "turning" => length(node, 2e-3, "a length above 0 and up to 2 mm"),
-        "impact" => length(node, 0.2, "a length above 0 and up to 0.2 m"),
-        "cor" => match share(node)? {
-            cor if cor <= 0.1 => Ok(cor),
-            _ => Err(node.error(node.shown(), "a standard deviation above 0 and up to 0.1")),
-        },
-        _ => share(node),
-    });
-    let along = object.get("along").map(|node| {
-        let value = node.quantity(Quantity::Length)?;
-        match (0.02..=2.0).contains(&value) {
-            true => Ok(value),
-            false => Err(node.error(node.shown(), "a length from 0.02 to 2 m")),
+    |of| -> ScatterFile {
+        let setup = setup(of, ball);
+        let (impact, middle) = impact.unzip();
+        let wood = [density, youngs_modulus, shear_over_young, turning, moisture];
+        let found = [&wood[..], &[swing_speed, pitch, cor, impact]].concat();
+        // In the order of the file.
+        let named = |key: &String| found.iter().flatten().find(|one| one.what.name() == key);
+        let all = of.object.keys().iter().filter_map(|(key, _)| named(key).copied()).collect();
+        let mut differences = Differences { all, correlations: vec![] };
+        if let Some(name) = covariance {
+            let calibrated = calibrated(of, &name, &mut differences);
+            of.mistakes.note(calibrated);
         }
-    });
-    let along = mistakes.note(along.transpose()).unwrap_or(ALONG);
-    mistakes.and(deviation.map(|deviation| Difference {
-        what: match key {
-            "density" => Differs::Density,
-            "youngs_modulus" => Differs::YoungsModulus,
-            "shear_over_young" => Differs::ShearOverYoung,
-            "turning" => Differs::Turned(Turning { deviation, along }),
-            "moisture" => Differs::Moisture,
-            "swing_speed" => Differs::SwingSpeed,
-            "pitch" => Differs::Pitch,
-            "cor" => Differs::Cor,
-            _ => Differs::Impact,
-        },
-        deviation,
-    }))
+        if let Some(node) = of.at("correlation") {
+            let read = correlations(node, &differences);
+            differences.correlations.extend(of.mistakes.note(read));
+        }
+        let outputs = asked(of.at("outputs"), &differences);
+        let outputs = of.mistakes.note(outputs);
+        of.sound()?;
+        let node = of.node();
+        if differences.all.is_empty() {
+            let expected = "one at least, such as \"density\": { \"lognormal\": \"4 %\" }";
+            return Err(node.error("nothing that differs", expected));
+        }
+        // Correlations that no numbers can have are told here, where their place is known.
+        let node = of.at("correlation").or(of.at("covariance")).unwrap_or(node);
+        differences.designs(1.0, 64, 0).map_err(|error| at(node, error))?;
+        let (impact, tolerance) = (middle.flatten(), tol.unwrap_or(TOLERANCE));
+        Ok(ScatterFile { differences, setup, impact, outputs, tolerance })
+    }
 }
 
-/// Where the ball is hit in the middle, if that is said.
-fn impact(node: &Node) -> Result<Option<f64>> {
-    let Ok(object) = node.members() else { return Ok(None) };
-    object.get("at").map(|node| node.quantity(Quantity::Length)).transpose()
+written! {
+    /// A factor whose logarithm is normal.
+    LognormalForm {
+        /// Standard deviation of the natural logarithm.
+        lognormal = share(), needed "\"lognormal\": a standard deviation, such as \"4 %\"";
+    }
+    |_| -> f64 { Ok(lognormal) }
+}
+
+written! {
+    /// A normal number.
+    NormalForm {
+        /// Standard deviation.
+        normal = share(), needed "\"normal\": a standard deviation, such as \"4 %\"";
+    }
+    |_| -> f64 { Ok(normal) }
+}
+
+written! {
+    /// How the ball differs.
+    CorForm {
+        /// Standard deviation.
+        normal = share()
+            .within((Excluded(0.0), Included(0.1)), "a standard deviation above 0 and up to 0.1"),
+            needed "\"normal\": a standard deviation, such as 0.016";
+    }
+    |_| -> f64 { Ok(normal) }
+}
+
+written! {
+    /// What the lathe misses.
+    TurningForm {
+        /// Standard deviation of the diameter.
+        normal = amount(Quantity::Length).like("0.1 mm")
+            .within((Excluded(0.0), Included(2e-3)), "a length above 0 and up to 2 mm"),
+            needed "\"normal\": a standard deviation, such as \"0.1 mm\"";
+        /// How far along the bat an error reaches. Without it 12 in.
+        along = amount(Quantity::Length).like("12 in")
+            .within(0.02..=2.0, "a length from 0.02 to 2 m");
+    }
+    |_| -> Difference {
+        let turning = Turning { deviation: normal, along: along.unwrap_or(ALONG) };
+        Ok(Difference { what: Differs::Turned(turning), deviation: normal })
+    }
+}
+
+written! {
+    /// Where the ball is hit.
+    ImpactForm {
+        /// Standard deviation of the place.
+        normal = amount(Quantity::Length).like("0.5 in")
+            .within((Excluded(0.0), Included(0.2)), "a length above 0 and up to 0.2 m"),
+            needed "\"normal\": a standard deviation, such as \"0.5 in\"";
+        /// The place in the middle, from the knob end. Without it where the ball leaves fastest.
+        at = amount(Quantity::Length).like("27.7 in");
+    }
+    |_| -> (Difference, Option<f64>) {
+        Ok((Difference { what: Differs::Impact, deviation: normal }, at))
+    }
+}
+
+/// Something that differs by that.
+fn differing(what: Differs) -> impl Fn(f64) -> Difference {
+    move |deviation| Difference { what, deviation }
+}
+
+/// How the bat is hit in the middle, with the ball of that name.
+fn setup(of: &mut Members, ball: Option<String>) -> Setup {
+    let node = of.at("ball").zip(ball);
+    let ball =
+        node.map(|(node, name)| balls::ball_in(&name, of.folder).map_err(|error| at(node, error)));
+    let ball = of.mistakes.some(ball.transpose()).flatten().unwrap_or_else(Ball::baseball);
+    let setup = of.at("scene").map(|node| scene_file::read(node, ball.clone()));
+    of.mistakes.note(setup.unwrap_or(Ok(Setup { ball, ..Setup::default() })))
 }
 
 /// Triples of two that differ and their correlation.
-fn correlations(node: &Node, differences: &mut Differences) -> Result<()> {
-    let all = differences.all.clone();
+fn correlations(node: &Node, differences: &Differences) -> Result<Vec<(usize, usize, f64)>> {
+    let all = &differences.all;
     let names: Vec<&str> = all.iter().map(|one| one.what.name()).collect();
-    let place = |node: &Node| {
+    let expected = [
+        "two names and their correlation, such as [\"density\", \"youngs_modulus\", 0.6]",
+        "another one than the first",
+    ];
+    asked::correlations(node, expected, |node| {
         let name = node.string()?;
-        let found = all.iter().position(|one| one.what.name() == name);
-        match found.filter(|k| !matches!(all[*k].what, Differs::Turned(_))) {
-            Some(k) => Ok(k),
-            None => {
-                let expected =
-                    format!("something that differs in one number, one of {}", names.join(", "));
-                let complaint = Complaint::new("", node.shown(), expected);
-                Err(node.complain(complaint.or_nearest(&name, &names)))
-            }
-        }
-    };
-    let read = mistakes::all(node.items()?.iter().map(|item| {
-        let [a, b, r] = &item.items()?[..] else {
-            let expected = "two names and their correlation, such as \
-                            [\"density\", \"youngs_modulus\", 0.6]";
-            return Err(item.error(item.shown(), expected));
-        };
-        let (first, second, value) = (place(a)?, place(b)?, r.number()?);
-        if first == second {
-            return Err(b.error(b.shown(), "another one than the first"));
-        }
-        match value.abs() < 1.0 {
-            true => Ok((first, second, value)),
-            false => Err(r.error(r.shown(), "a number between -1 and 1")),
-        }
-    }))?;
-    differences.correlations.extend(read);
-    Ok(())
+        let is_meant =
+            |one: &Difference| one.what.name() == name && !matches!(one.what, Differs::Turned(_));
+        all.iter().position(is_meant).ok_or_else(|| {
+            let expected =
+                format!("something that differs in one number, one of {}", names.join(", "));
+            let complaint = Complaint::new("", node.shown(), expected);
+            node.complain(complaint.or_nearest(&name, &names))
+        })
+    })
 }
 
 /// Density and moduli as a calibration left them: what it found goes before what the file says.
-fn covariance(
-    node: &Node,
-    root: &Object,
-    folder: &Folder,
-    differences: &mut Differences,
-) -> Result<()> {
+fn calibrated(of: &Members, name: &str, differences: &mut Differences) -> Result<()> {
     for key in ["density", "youngs_modulus", "shear_over_young"] {
-        if let Some(other) = root.get(key) {
+        if let Some(other) = of.at(key) {
             let found = format!("\"{key}\" beside \"covariance\"");
             return Err(other.key().error(found, "one of them: the calibration says it"));
         }
     }
-    let document =
-        folder.json(&node.string()?, "calibrate").map_err(|error| named_in_vain(node, error))?;
+    let node = of.at("covariance").unwrap_or(of.node());
+    let document = of.folder.json(name, "calibrate").map_err(|error| at(node, error))?;
     let file = Node::root(&document)?.members()?;
     file.check_format("sweetspot-calibrate/1")?;
     let listed = file.require("parameters", "\"parameters\" of a calibration")?.items()?;
@@ -338,32 +290,15 @@ fn usual() -> Result<Vec<Output>> {
 }
 
 /// What is asked; where a place that is hit differs, the speed there too if nothing is named.
-fn outputs(root: &Object, differences: &Differences) -> Result<Vec<Output>> {
-    let at_impact = differences.all.iter().any(|one| one.what == Differs::Impact);
-    let Some(node) = root.get("outputs") else {
-        let mut all = usual()?;
-        all.extend(at_impact.then_some(Output::AtImpact));
-        return Ok(all);
+fn asked(node: Option<&Node>, differences: &Differences) -> Result<Vec<Output>> {
+    let Some(node) = node else {
+        let at_impact = differences.all.iter().any(|one| one.what == Differs::Impact);
+        let all = usual()?.into_iter().chain(at_impact.then_some(Output::AtImpact));
+        return Ok(all.collect());
     };
-    let items = node.items()?;
-    if items.is_empty() {
-        return Err(node.error("an empty list", "one name at least, such as \"f1_hz\""));
-    }
-    let mut seen: Vec<Output> = vec![];
-    mistakes::all(items.iter().map(|item| {
-        let name = item.string()?;
-        let output = match name == AT_IMPACT {
-            true => Output::AtImpact,
-            false => Output::Of(Answer::named(&name).map_err(|error: Error| {
-                error.placed(|complaint| {
-                    item.complain(Complaint { field: String::new(), ..complaint })
-                })
-            })?),
-        };
-        if seen.contains(&output) {
-            return Err(item.error(item.shown(), "every output once"));
-        }
-        seen.push(output);
-        Ok(output)
-    }))
+    let outputs = asked::outputs(node, |name| match name == AT_IMPACT {
+        true => Ok(Output::AtImpact),
+        false => Answer::named(name).map(Output::Of),
+    })?;
+    Ok(outputs.into_iter().map(|(_, output)| output).collect())
 }

@@ -1,36 +1,26 @@
-//! Which bats does somebody want to vary, and what is asked of them?
-//!
-//! [`StudyFile::from_text`] reads a `sweetspot-study/1` file.
+//! Which bats does somebody want to vary, and what is asked of them? The `sweetspot-study/1` file.
 
-use serde_json::{Map, Value};
+use std::collections::BTreeMap;
+use std::ops::Bound::Excluded;
 
-use crate::files::study_vary::{Varied, VariedFile, varied};
+use schemars::JsonSchema;
+use serde_json::{Map, Value, json};
+
+use crate::files::amounts::Said;
+use crate::files::asked;
+use crate::files::form::{Form, later, number, text, whole};
+use crate::files::study_vary::{VariationForm, Varied, VariedFile, varied};
+use crate::files::written::{Members, written};
 use crate::many::answers::Answer;
 use crate::many::design::{Axis, Design, Spread, Wanted};
 use crate::many::rows::Asked;
 use sweetspot::base::error::{Complaint, Error, FilePosition, Result};
-use sweetspot::base::mistakes::{self, Mistakes};
+use sweetspot::base::mistakes;
 use sweetspot::collision::ball::Ball;
-use sweetspot::files::document::Document;
-use sweetspot::files::json_node::{Node, Object};
+use sweetspot::files::json_node::Node;
 use sweetspot::files::scene_file;
 
-const KEYS: &[&str] = &[
-    "format",
-    "name",
-    "bat",
-    "ball",
-    "scene",
-    "vary",
-    "correlations",
-    "design",
-    "points",
-    "seed",
-    "outputs",
-    "tol",
-    "$schema",
-];
-const SPREADS: &[(&str, Spread)] = &[
+const SPREADS: [(&str, Spread); 3] = [
     ("sobol", Spread::Sobol),
     ("latin-hypercube", Spread::LatinHypercube),
     ("random", Spread::Random),
@@ -64,15 +54,6 @@ pub struct StudyFile {
 }
 
 impl StudyFile {
-    /// Reads a study from text; `file` is what messages call it.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::Input`] with line and column, or several of them.
-    pub fn from_text(file: &str, text: &str) -> Result<Self> {
-        from_document(&Document::new(file.to_owned(), text))
-    }
-
     /// Whether anything varies in such a document.
     pub fn varies(&self, subject: VariedFile) -> bool {
         self.varied.iter().any(|varied| varied.subject == subject)
@@ -119,58 +100,87 @@ impl StudyFile {
     }
 }
 
-fn from_document(document: &Document) -> Result<StudyFile> {
-    let root = Node::root(document)?.members()?;
-    root.check_format("sweetspot-study/1")?;
-    let mut mistakes = Mistakes::default();
-    let root = root.only(KEYS, &mut mistakes);
-    let format = "\"format\": \"sweetspot-study/1\"";
-    mistakes.note(root.require("format", format).map(|_| ()));
-    mistakes.note(root.string("$schema"));
-    mistakes.note(root.string("name"));
-    let bats = root.require("bat", "\"bat\": a bat file or the name of a built-in bat");
-    let bats = mistakes.note(bats.and_then(bats_named));
-    let ball = mistakes.note(root.string("ball"));
-    let scene = mistakes.note(scene(&root));
-    let mut wanted = Wanted { points: POINTS, ..Wanted::default() };
-    let varied = root.get("vary").map_or(Ok(vec![]), |node| varied(node, &mut wanted));
-    let varied = mistakes.note(varied);
-    let outputs = root.require("outputs", "\"outputs\": a list of names, such as \"f1_hz\"");
-    let (outputs, answers) = mistakes.note(outputs.and_then(answers)).into_iter().unzip();
-    let tolerance = root.get("tol").map_or(Ok(1e-4), tolerance);
-    let tolerance = mistakes.note(tolerance);
-    for (key, number) in [("points", &mut wanted.points), ("seed", &mut wanted.seed)] {
-        if let Some(node) = root.get(key) {
-            *number = mistakes.note(node.whole());
+/// One bat or several.
+#[derive(Debug, Clone, PartialEq, JsonSchema)]
+#[schemars(untagged)]
+pub enum Bats {
+    /// A file, a folder or a name.
+    One(String),
+    /// Some of them.
+    Several(#[schemars(length(min = 1))] Vec<String>),
+}
+
+written! {
+    /// Many bats: some that are or one that varies, how they are hit, and what is asked of each. Places count from
+    /// the knob end.
+    StudyForm("study", "Study file") {
+        /// What the study is called.
+        name = text();
+        /// The bats: a bat file or a folder of them, from the study's folder, or the name of a built-in bat; one or a
+        /// list.
+        bat = Form::of::<Bats>(bats_named),
+            needed "\"bat\": a bat file or the name of a built-in bat";
+        /// The ball: a ball file, from the study's folder, or the name of a built-in ball. Without it a baseball.
+        ball = text();
+        /// How the bat is hit: the options of sweetspot hit, such as swing_speed, by their names.
+        scene = later::<BTreeMap<String, Said>>();
+        /// What varies, by its path: bat., ball. or scene. and the path in that document, such as
+        /// bat.material.density. Lists are gone through in every combination; what is drawn shares one set of
+        /// points. Without it each bat as it is.
+        vary = later::<BTreeMap<String, VariationForm>>().saying("minProperties", 1);
+        /// Triples of two paths that are drawn and the correlation of their normal scores.
+        correlations = later::<Vec<(String, String, f64)>>();
+        /// How points are spread. Without it sobol.
+        design = Form::of::<String>(|node| node.word(&SPREADS))
+            .saying("enum", json!(SPREADS.map(|(name, _)| name)));
+        /// Points drawn for each combination of the lists. Without it 1000.
+        points = whole().saying("minimum", 1);
+        /// Another seed draws other points. Without it 0.
+        seed = whole();
+        /// What is asked of every bat, by name.
+        outputs = Form::of::<Vec<String>>(|node| asked::outputs(node, Answer::named))
+            .saying("minItems", 1)
+            .like(json!(["f1_hz", "exit_speed_max.value", "exit_speed_m_s@0.70"])),
+            needed "\"outputs\": a list of names, such as \"f1_hz\"";
+        /// Wanted accuracy of frequencies, relative, and of exit speeds, relative to the closing speed. Without it 1e-4.
+        tol = number()
+            .within((Excluded(0.0), Excluded(1.0)), "a number between 0 and 1, such as 1e-4");
+    }
+    |of| -> StudyFile {
+        let (outputs, answers) = outputs.into_iter().unzip();
+        let scene = scene_of(of.at("scene"));
+        let scene = of.mistakes.note(scene);
+        let spread = design.unwrap_or(Wanted::default().spread);
+        let (points, seed) = (points.unwrap_or(POINTS), seed.unwrap_or_default());
+        let mut wanted = Wanted { points, seed, spread, ..Wanted::default() };
+        let varied = of.at("vary").map_or(Ok(vec![]), |node| varied(node, &mut wanted));
+        let varied = of.mistakes.note(varied);
+        if let Some(node) = of.at("correlations") {
+            let correlations = correlations_of(node, &varied);
+            wanted.correlations = of.mistakes.note(correlations);
         }
+        of.sound()?;
+        let drawing = ["design", "points", "seed"].into_iter().filter(|key| of.at(key).is_some());
+        let idle = if wanted.drawn.is_empty() { drawing.collect() } else { vec![] };
+        let design = Design::new(wanted).map_err(|error| of_design(of, error))?;
+        let asked = Asked { answers, tolerance: tol.unwrap_or(1e-4) };
+        let place = of.at("vary").or(of.at("bat")).unwrap_or(of.node()).place();
+        let naming = ["bat", "ball"].map(|key| of.at(key).unwrap_or(of.node()).place());
+        Ok(StudyFile { bats: bat, ball, scene, varied, design, asked, outputs, idle, place, naming })
     }
-    if let Some(node) = root.get("design") {
-        wanted.spread = mistakes.note(node.word(SPREADS));
-    }
-    if let Some(node) = root.get("correlations") {
-        wanted.correlations = mistakes.note(correlations(node, &varied));
-    }
-    mistakes.end(())?;
-    let placed = |error: Error| {
-        error.placed(|complaint| {
-            let key = match &*complaint.field {
-                "correlation" => "correlations",
-                "vary" => "vary",
-                _ => "points",
-            };
-            let node = root.get(key).unwrap_or(&root.node);
-            node.complain(Complaint { field: String::new(), ..complaint })
-        })
-    };
-    let says = |key: &&str| root.get(key).is_some();
-    let drawing = ["design", "points", "seed"].into_iter().filter(says);
-    let idle = if wanted.drawn.is_empty() { drawing.collect() } else { vec![] };
-    let design = Design::new(wanted).map_err(placed)?;
-    let asked = Asked { answers, tolerance };
-    let place = root.get("vary").or(root.get("bat")).unwrap_or(&root.node).place();
-    let of = |key: &str| root.get(key).unwrap_or(&root.node).place();
-    let naming = ["bat", "ball"].map(of);
-    Ok(StudyFile { bats, ball, scene, varied, design, asked, outputs, idle, place, naming })
+}
+
+/// What is wrong with a design, where the study says it.
+fn of_design(of: &Members, error: Error) -> Error {
+    error.placed(|complaint| {
+        let key = match &*complaint.field {
+            "correlation" => "correlations",
+            "vary" => "vary",
+            _ => "points",
+        };
+        let node = of.at(key).unwrap_or(of.node());
+        node.complain(Complaint { field: String::new(), ..complaint })
+    })
 }
 
 /// One bat, or a list of them.
@@ -187,71 +197,31 @@ fn bats_named(node: &Node) -> Result<Vec<String>> {
 }
 
 /// The members of the scene, each of which was read once to see that it can be.
-fn scene(root: &Object) -> Result<Map<String, Value>> {
-    let Some(node) = root.get("scene") else { return Ok(Map::new()) };
+fn scene_of(node: Option<&Node>) -> Result<Map<String, Value>> {
+    let Some(node) = node else { return Ok(Map::new()) };
     scene_file::read(node, Ball::baseball())?;
     let members = node.members()?;
     let said = members.keys().iter().filter(|(key, _)| key != "comment");
     Ok(said.map(|(key, node)| (key.clone(), node.value())).collect())
 }
 
-fn tolerance(node: &Node) -> Result<f64> {
-    let value = node.number()?;
-    match value > 0.0 && value < 1.0 {
-        true => Ok(value),
-        false => Err(node.error(node.shown(), "a number between 0 and 1, such as 1e-4")),
-    }
-}
-
-/// Answers by the names that they are asked for.
-fn answers(node: &Node) -> Result<Vec<(String, Answer)>> {
-    let items = node.items()?;
-    if items.is_empty() {
-        return Err(node.error("an empty list", "one name at least, such as \"f1_hz\""));
-    }
-    let mut seen: Vec<Answer> = vec![];
-    mistakes::all(items.iter().map(|item| {
-        let name = item.string()?;
-        let answer = Answer::named(&name).map_err(|error| {
-            error.placed(|complaint| item.complain(Complaint { field: String::new(), ..complaint }))
-        })?;
-        if seen.contains(&answer) {
-            return Err(item.error(item.shown(), "every output once"));
-        }
-        seen.push(answer);
-        Ok((name, answer))
-    }))
-}
-
-fn correlations(node: &Node, varied: &[Varied]) -> Result<Vec<(usize, usize, f64)>> {
-    let drawn = |node: &Node| {
+fn correlations_of(node: &Node, varied: &[Varied]) -> Result<Vec<(usize, usize, f64)>> {
+    let expected = [
+        "two paths and their correlation, such as \
+         [\"bat.material.density\", \"bat.material.youngs_modulus\", 0.6]",
+        "another path than the first",
+    ];
+    let all = asked::correlations(node, expected, |node| {
         let path = node.string()?;
-        let found = varied.iter().find(|varied| varied.path == path);
-        match found.map(Varied::axis) {
+        match varied.iter().find(|varied| varied.path == path).map(Varied::axis) {
             Some(Axis::Drawn(k)) => Ok(k),
             _ => Err(node.error(node.shown(), "the path of a number that is drawn")),
         }
-    };
-    let items = node.items()?;
-    let all = mistakes::all(items.iter().map(|item| {
-        let [a, b, r] = &item.items()?[..] else {
-            let expected = "two paths and their correlation, such as \
-                            [\"bat.material.density\", \"bat.material.youngs_modulus\", 0.6]";
-            return Err(item.error(item.shown(), expected));
-        };
-        let (first, second) = (drawn(a)?, drawn(b)?);
-        if first == second {
-            return Err(b.error(b.shown(), "another path than the first"));
-        }
-        let r_value = r.number()?;
-        match r_value.abs() < 1.0 {
-            true => Ok((first, second, r_value)),
-            false => Err(r.error(r.shown(), "a number between -1 and 1")),
-        }
-    }))?;
+    })?;
     let pair = |(a, b, _): &(usize, usize, f64)| [*a.min(b), *a.max(b)];
-    for (k, item) in items.iter().enumerate() {
+    for k in 0..all.len() {
         if all[..k].iter().any(|other| pair(other) == pair(&all[k])) {
+            let item = node.item(k);
             return Err(item.error(item.shown(), "one correlation of each two paths"));
         }
     }

@@ -5,6 +5,8 @@
 
 use serde_json::{Value, json};
 
+use crate::files::form::later;
+use crate::files::written::{Written, written};
 use crate::many::design::{Axis, Row, Wanted};
 use crate::many::distribution::Distribution;
 use sweetspot::base::error::{Complaint, Error, FilePosition, Result};
@@ -15,9 +17,27 @@ use sweetspot::base::typed;
 use sweetspot::base::units::{self, Quantity};
 use sweetspot::collision::setup::Setup;
 use sweetspot::files::json_node::Node;
+use sweetspot::files::schema::amount::Amount;
 
-/// How something varies.
-const WAYS: [&str; 6] = ["values", "grid", "uniform", "normal", "lognormal", "triangular"];
+written! {
+    /// How a member varies: one of these. Numbers of one way are all bare or all in the same unit.
+    VariationForm with { "minProperties": 1, "maxProperties": 1 } {
+        /// These values, one after the other.
+        values = later::<Vec<Value>>().saying("minItems", 1);
+        /// From, to, and how many values at even distances.
+        grid = later::<(Amount, Amount, u64)>();
+        /// Every value between the two alike.
+        uniform = later::<(Amount, Amount)>();
+        /// Mean and standard deviation.
+        normal = later::<(Amount, Amount)>();
+        /// Median, and the standard deviation of the natural logarithm.
+        lognormal = later::<(Amount, f64)>();
+        /// The least value, the likeliest, the greatest.
+        triangular = later::<(Amount, Amount, Amount)>();
+    }
+    |_| -> () { Ok(()) }
+}
+
 /// The documents whose members may vary.
 const SUBJECTS: &[(&str, VariedFile)] =
     &[("bat", VariedFile::Bat), ("ball", VariedFile::Ball), ("scene", VariedFile::Scene)];
@@ -282,10 +302,10 @@ fn led(path: &str, key: &Node) -> Result<(VariedFile, Vec<Step>)> {
 /// How a member varies, noted in what the design is made of.
 fn way(node: &Node, wanted: &mut Wanted) -> Result<Variation> {
     let mut mistakes = Mistakes::default();
-    let object = node.object(&WAYS, &mut mistakes)?;
+    let object = node.object(VariationForm::KEYS, &mut mistakes)?;
     mistakes.end(())?;
-    let Some((way, node)) = object.one_of(&WAYS)? else {
-        let expected = format!("one of {}", WAYS.join(", "));
+    let Some((way, node)) = object.one_of(VariationForm::KEYS)? else {
+        let expected = format!("one of {}", VariationForm::KEYS.join(", "));
         return Err(node.error("nothing that says how it varies", expected));
     };
     let items = node.items()?;

@@ -12,8 +12,7 @@ use crate::many::answers::Answer;
 pub type Changes = BTreeMap<String, Option<f64>>;
 
 /// What cuts and weights do to a bat.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct LatheFound {
     /// What changes of bands are per.
     pub per: &'static str,
@@ -38,11 +37,10 @@ pub struct LatheFound {
 }
 
 /// Something that changes with the bat.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Output {
     /// Its name, the unit at the end.
-    #[cfg_attr(feature = "schema", schemars(with = "String"))]
+    #[schemars(with = "String")]
     pub name: Answer,
     /// Its value for the bat as it is; null where it has none.
     pub value: Option<f64>,
@@ -53,8 +51,7 @@ pub struct Output {
 }
 
 /// A stretch of the bat and what happens per millimetre of diameter that is taken off it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct TurnedBand {
     /// Where it begins (m).
     pub from_m: f64,
@@ -82,8 +79,7 @@ pub struct TurnedBand {
 }
 
 /// A finite cut of a band, solved whole.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct FiniteCut {
     /// How much comes off the diameter (mm).
     pub cut_mm: f64,
@@ -99,8 +95,7 @@ pub struct FiniteCut {
 
 /// Densities of the frequencies' changes: Hz per millimetre of diameter taken off and millimetre of length, named
 /// such as `f1_hz_per_mm_mm`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Curves {
     /// Places (m).
     pub x_m: Vec<f64>,
@@ -110,8 +105,7 @@ pub struct Curves {
 }
 
 /// What a mass fixed to the axis of the bat does, by formula.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct AddedMass {
     /// Places (m).
     pub x_m: Vec<f64>,
@@ -121,8 +115,7 @@ pub struct AddedMass {
 }
 
 /// A change that was solved.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct WholeChange {
     /// What is done.
     pub what: &'static str,
@@ -139,8 +132,7 @@ pub struct WholeChange {
 }
 
 /// How well the map holds.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Check {
     /// Largest distance of a frequency's formula and the difference of whole bats, relative to the largest change
     /// of that frequency; null where there was no difference.

@@ -26,8 +26,7 @@ use sweetspot::collision::strike::Glance;
 use sweetspot::collision::sweet_spot::{HitsAlong, Peak};
 
 /// Why an output is not smooth.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum WhyNotSmooth {
     /// Two places along the bat have it nearly alike, so that a small change makes the best one jump: no derivative.
@@ -40,12 +39,11 @@ pub enum WhyNotSmooth {
 
 /// An output that is not smooth. Rivals and a corner leave it without a derivative; after a cut the finite change of
 /// some band is another one than the derivative says.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Rivals {
     /// The output.
     #[serde(rename = "name")]
-    #[cfg_attr(feature = "schema", schemars(with = "String"))]
+    #[schemars(with = "String")]
     pub answer: Answer,
     /// Why: two places along the bat are nearly as good, there is a corner at the best place, or a finite cut
     /// makes it jump.

@@ -6,8 +6,7 @@ use crate::comparison::contender::Figure;
 use crate::many::answers::Answer;
 
 /// How a derivative was found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Method {
     /// Rayleigh's quotient, stationary in the motion.

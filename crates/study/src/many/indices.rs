@@ -42,8 +42,7 @@ pub enum VariateKind {
 }
 
 /// A share of a variance.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Share {
     /// The share.
     pub value: f64,
@@ -52,8 +51,7 @@ pub struct Share {
 }
 
 /// Shares of a variance, by a polynomial surface in what differs.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Indices {
     /// Degree of the surface.
     pub degree: usize,

@@ -13,8 +13,7 @@ use sweetspot::base::error::{Error, Result};
 use sweetspot::base::number::significant;
 
 /// An end of the bat.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum End {
     /// The knob end, where the hands are.
@@ -43,8 +42,7 @@ pub struct ToldPoints {
 }
 
 /// The points on the bat.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Placed {
     /// What was assumed to place the points on the bat, a sentence each.
     pub assumed: Vec<String>,

@@ -63,8 +63,7 @@ pub struct RigidMode {
 }
 
 /// What measured shapes say of themselves and of the computed ones.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Shapes {
     /// The points on the bat, and the shapes there.
     #[serde(flatten)]

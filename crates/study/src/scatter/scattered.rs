@@ -19,8 +19,7 @@ const ROUND_OFF: f64 = 1e-9;
 const STUDENT: f64 = 2.364_624_251;
 
 /// A percentile.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Percentile {
     /// Which, in per cent.
     pub percent: f64,
@@ -32,8 +31,7 @@ pub struct Percentile {
 }
 
 /// An output.
-#[derive(Debug, Clone, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, Serialize, schemars::JsonSchema)]
 pub struct OutputSpread {
     /// Its name.
     pub name: String,
@@ -56,8 +54,7 @@ pub struct OutputSpread {
 }
 
 /// Why rows have no answer.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct ReasonCounted {
     /// Why.
     pub reason: String,
@@ -66,8 +63,7 @@ pub struct ReasonCounted {
 }
 
 /// Something that differs.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct InputSpread {
     /// Its name.
     pub name: &'static str,
@@ -78,8 +74,7 @@ pub struct InputSpread {
 }
 
 /// What came of all rows: the members of a scatter's document that are of them.
-#[derive(Debug, Clone, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, Serialize, schemars::JsonSchema)]
 pub struct Scattered {
     /// Rows that were drawn.
     pub points: u64,

@@ -5,8 +5,7 @@ use serde::Serialize;
 use crate::trade::reference::Choice;
 
 /// One mesh and solver, timed.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Run {
     /// The mesh and the solver.
     #[serde(flatten)]

@@ -16,8 +16,7 @@ use sweetspot::beam::rule::DEGREES;
 use sweetspot::modes::solve::{Request, Solution, Solver, solve};
 
 /// Speed against accuracy on one bat, as measured.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Trade {
     /// Number of modes.
     pub modes: usize,

@@ -9,8 +9,7 @@ use sweetspot::bat::theory::Theory;
 use sweetspot::modes::solve::{Request, Solution, Solver, solve};
 
 /// A mesh and the solver for it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, schemars::JsonSchema)]
 pub struct Choice {
     /// Degree of the elements' deflection.
     pub degree: usize,
@@ -18,7 +17,7 @@ pub struct Choice {
     pub elements: usize,
     /// How the eigenvalues are found.
     #[serde(serialize_with = "by_name")]
-    #[cfg_attr(feature = "schema", schemars(with = "String", extend("enum" = SOLVERS.map(solver_name))))]
+    #[schemars(with = "String", extend("enum" = SOLVERS.map(solver_name)))]
     pub solver: Solver,
     /// Unknowns of the assembled matrices.
     pub degrees_of_freedom: usize,
@@ -56,14 +55,13 @@ pub(crate) fn by_name<S: Serializer>(solver: &Solver, to: S) -> Result<S::Ok, S:
 }
 
 /// The frequencies everything is measured against, and how far they may be trusted.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Reference {
     /// How they were found.
     #[serde(flatten)]
     pub choice: Choice,
     /// Beam theory.
-    #[cfg_attr(feature = "schema", schemars(with = "String", extend("enum" = Theory::ALL.map(Theory::name))))]
+    #[schemars(with = "String", extend("enum" = Theory::ALL.map(Theory::name)))]
     pub theory: Theory,
     /// Frequency of each mode (Hz).
     pub frequencies_hz: Vec<f64>,
@@ -79,8 +77,7 @@ pub struct Reference {
 }
 
 /// Another discretisation.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Confirmation {
     /// Its mesh and its solver.
     #[serde(flatten)]

@@ -7,7 +7,6 @@ use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
-#[cfg(feature = "schema")]
 use crate::trade::reference;
 use crate::trade::reference::{Reference, by_name, solver_name};
 use sweetspot::base::error::{Error, Result};
@@ -29,12 +28,11 @@ pub const SOLVERS: &[Solver] = &[
 ];
 
 /// The errors of one solver as elements are added.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Curve {
     /// How the eigenvalues are found.
     #[serde(serialize_with = "by_name")]
-    #[cfg_attr(feature = "schema", schemars(with = "String", extend("enum" = reference::SOLVERS.map(solver_name))))]
+    #[schemars(with = "String", extend("enum" = reference::SOLVERS.map(solver_name)))]
     pub solver: Solver,
     /// Points by rising number of elements.
     pub points: Vec<MeshErrors>,
@@ -47,13 +45,12 @@ pub struct Curve {
 }
 
 /// Why a column ends.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, schemars::JsonSchema)]
 pub struct End {
     /// The number of elements that was not reached.
     pub elements: usize,
     /// The solver's error, "too large" or "no time".
-    #[cfg_attr(feature = "schema", schemars(with = "String"))]
+    #[schemars(with = "String")]
     pub reason: Reason,
 }
 
@@ -72,8 +69,7 @@ pub enum Reason {
 }
 
 /// The errors at one number of elements.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct MeshErrors {
     /// Number of elements.
     pub elements: usize,
@@ -87,8 +83,7 @@ pub struct MeshErrors {
 }
 
 /// Numbers of elements at which a frequency is lost; null where it is not.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Losses {
     /// The number of elements with the least error.
     pub best_elements: usize,

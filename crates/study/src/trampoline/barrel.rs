@@ -81,8 +81,7 @@ pub struct Barrel {
 }
 
 /// What the modes were found with.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct HoopModel {
     /// Where the stretch that is modelled begins (m).
     pub from_m: f64,
@@ -108,8 +107,7 @@ pub struct BarrelStruck {
 }
 
 /// The rebound of a ball from the bat at rest and free, without and with its wall.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Rebound {
     /// The ball.
     pub ball: Ball,

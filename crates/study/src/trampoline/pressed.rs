@@ -18,8 +18,7 @@ const DEFLECTIONS: [f64; 2] = [0.04 * 0.0254, 0.07 * 0.0254];
 const SOFTBALL: f64 = 0.042;
 
 /// The wall under a ball at one place.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct PressedWall {
     /// Where the ball meets the bat (m).
     pub x_m: f64,
@@ -46,8 +45,7 @@ pub struct PressedWall {
 }
 
 /// What a harmonic has of the wall's giving way.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct HarmonicShare {
     /// Waves around the barrel.
     pub harmonic: usize,
@@ -58,8 +56,7 @@ pub struct HarmonicShare {
 }
 
 /// The barrel pressed between two opposite sides, each with the ball's patch.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct BarrelCompression {
     /// By how much both sides together are pressed in (m).
     pub deflection_m: f64,

@@ -11,8 +11,7 @@ use sweetspot::bat::turned::DiameterChange;
 pub const FACTORS: [f64; 9] = [0.6, 0.7, 0.8, 0.9, 1.0, 1.2, 1.4, 1.7, 2.0];
 
 /// The bat with another wall.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct WallTried {
     /// Thickness of the barrel's wall over what it is.
     pub factor: f64,
