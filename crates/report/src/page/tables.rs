@@ -10,6 +10,7 @@ use crate::report::hit_text::{self, SpotLine};
 use sweetspot::base::number;
 use sweetspot::base::units::{inches, ounces};
 use sweetspot::bat::body::Bat;
+use sweetspot::collision::figures::Moved;
 use sweetspot::collision::hit::Outcome;
 use sweetspot::collision::sweet_spot::{Peak, SweetSpot};
 use sweetspot_study::trampoline::barrel::Barrel;
