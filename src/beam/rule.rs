@@ -270,15 +270,15 @@ mod tests {
             let n = f64::from(power);
             let values: Vec<f64> = rule.points.iter().map(|p| p.s.powi(power)).collect();
             let [mut left, mut right] = [[0.0; MOST_POINTS]; 2];
-            rule.once_from_left(&values, &mut left);
-            rule.once_from_right(&values, &mut right);
+            rule.combine(&rule.once_from_left, &values, &mut left);
+            rule.combine(&rule.once_from_right, &values, &mut right);
             for (at, (left, right)) in rule.points.iter().zip(left.iter().zip(right)) {
                 let exact = at.s.powf(n + 1.0) / (n + 1.0);
                 assert!((left - exact).abs() < 1e-15);
                 assert!((right - (1.0 / (n + 1.0) - exact)).abs() < 1e-15);
             }
-            rule.twice_from_left(&values, &mut left);
-            rule.twice_from_right(&values, &mut right);
+            rule.combine(&rule.twice_from_left, &values, &mut left);
+            rule.combine(&rule.twice_from_right, &values, &mut right);
             for (at, (left, right)) in rule.points.iter().zip(left.iter().zip(right)) {
                 let s = at.s;
                 let exact = s.powf(n + 2.0) / ((n + 1.0) * (n + 2.0));
