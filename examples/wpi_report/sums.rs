@@ -1,4 +1,4 @@
-//! Sums of modes in time: what each takes part after a blow, and what the first of them make together.
+//! Sums of modes in time: how far a blow moves each, and what the first of them make together.
 
 use sweetspot::motion::oscillator::Oscillator;
 
