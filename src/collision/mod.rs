@@ -1,9 +1,8 @@
 //! What do ball and bat do when they meet, and where is the sweet spot?
 //!
-//! Say who meets whom in a [`hit::Scene`], then [`sweep::sweep`] strikes the bat at all places with
-//! as many modes as the accuracy needs. A [`hitter::Hitter`] strikes it once more anywhere,
-//! [`sweet_spot::SweetSpot::find`] looks for the best places and [`figures::Figures`] has the rest
-//! of what catalogues state. [`aftermath`] goes on after the ball.
+//! Say who meets whom in a [`hit::Scene`], then [`sweep::sweep`] strikes the bat at all places with as many modes as the
+//! accuracy needs. A [`hitter::Hitter`] strikes it once more anywhere, [`sweet_spot::SweetSpot::find`] looks for the best
+//! places and [`figures::Figures`] has the rest of what catalogues state. [`aftermath`] goes on after the ball.
 //!
 //! | module | question |
 //! |---|---|
@@ -55,8 +54,7 @@ pub mod batch;
 pub mod swing;
 pub mod bbcor;
 
-pub use contact::collider::{Law, LawTerms};
-pub use contact::force_law::{ForceLaw, Top};
+pub use contact::{collider::Law, collider::LawTerms, force_law::ForceLaw, force_law::Top};
 pub use hit::{Effort, Impact, Model, Outcome, Scene};
-pub use {ball::Ball, ball::LawOf, hitter::Hitter};
-pub use {sweep::Sweep, sweet_spot::SweetSpot, swing::Hit, swing::Swing};
+pub use {ball::Ball, ball::LawOf, hitter::Hitter, sweep::Sweep};
+pub use {sweet_spot::SweetSpot, swing::Hit, swing::Swing};

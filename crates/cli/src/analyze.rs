@@ -26,11 +26,11 @@ use sweetspot_study::lathe::map::LatheMap;
 use sweetspot_study::lathe::workpiece::HitTerms;
 use sweetspot_study::spread::Readings;
 
-use crate::common::{BatArgs, SolveArgs, Solved, as_options, command_line, examples, printed};
+use crate::common::{BatArgs, SolveArgs, Solved, as_options, command_line, examples};
 use crate::done::Done;
 use crate::guarantee::{self, GuaranteeArgs};
 use crate::hit::verdict as hit_verdict;
-use crate::output::{OutputArgs, apart, make};
+use crate::output::{OutputArgs, apart, make, printed};
 use crate::scene::{self, SceneArgs};
 use crate::value::{READING, SCALE, Use};
 

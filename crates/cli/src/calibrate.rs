@@ -22,10 +22,10 @@ use crate::asking::dialogue::Dialogue;
 use crate::asking::draft;
 use crate::asking::readings_asked::asked;
 use crate::beside::BesideArgs;
-use crate::common::{Prepared, about, examples, prepare, printed, read_with_text};
+use crate::common::{Prepared, about, examples, prepare, read_with_text};
 use crate::done::{Done, FAILED};
 use crate::edits::EditArgs;
-use crate::output::{apart, draw, put, warn};
+use crate::output::{apart, draw, printed, put, warn};
 use crate::style;
 use crate::value::{PLACE, TheoryChoice, choice};
 

@@ -15,7 +15,7 @@ use sweetspot::modes::up_to::modes_up_to;
 use sweetspot::{Bat, Error, Request, Result, Solution, Solver, Theory};
 use sweetspot_report::parts::terminal::wrapped;
 
-use crate::done::{NOT_REACHED, printable};
+use crate::done::NOT_REACHED;
 use crate::edits::EditArgs;
 use crate::output::{OutputArgs, warn};
 use crate::value::{TOP_FREQUENCY, TheoryChoice, budget, solver, theory, tolerance};
@@ -258,11 +258,6 @@ impl SolveArgs {
         ));
         NOT_REACHED
     }
-}
-
-/// What a file is called, as text.
-pub fn printed(path: &Path) -> String {
-    printable(&path.display().to_string())
 }
 
 /// Reads a bat, edits it and passes its warnings on.

@@ -16,10 +16,10 @@ use sweetspot_study::measured::place::{End, ToldPoints};
 use sweetspot_study::measured::study::Study;
 
 use crate::beside::BesideArgs;
-use crate::common::{Prepared, SolveArgs, as_options, command_line, examples, printed, read};
+use crate::common::{Prepared, SolveArgs, as_options, command_line, examples, read};
 use crate::done::Done;
 use crate::edits::{EditArgs, WhatIf, edited, what_if};
-use crate::output::{CsvArgs, FullArgs, OutputArgs, apart};
+use crate::output::{CsvArgs, FullArgs, OutputArgs, apart, printed};
 use crate::scene::{self, SceneArgs};
 use crate::value::{PLACE, SPACING};
 

@@ -20,9 +20,9 @@ use crate::asking::draft;
 use crate::asking::interview::asked;
 use crate::asking::new_options::{called, refuse_existing};
 use crate::bat_text::{self, Measured};
-use crate::common::{Prepared, prepare, printed};
+use crate::common::{Prepared, prepare};
 use crate::done::Done;
-use crate::output::glyphs;
+use crate::output::{glyphs, printed};
 use crate::style;
 use crate::value::TheoryChoice;
 

@@ -12,7 +12,6 @@ use sweetspot_report::plot::sheet::Sheet;
 use sweetspot_report::report::sketch::{self, Glyphs, SketchRow};
 use sweetspot_report::schema;
 
-use crate::common::printed;
 use crate::done::{NOT_REACHED, printable};
 use crate::progress::{self, Progress};
 use crate::style;
@@ -143,6 +142,11 @@ impl FullArgs {
             _ => all,
         }
     }
+}
+
+/// What a file is called, as text.
+pub fn printed(path: &Path) -> String {
+    printable(&path.display().to_string())
 }
 
 /// Says something on standard error, unless nothing is to be said.

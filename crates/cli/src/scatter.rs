@@ -16,9 +16,9 @@ use sweetspot_study::files::written::WrittenFile;
 use sweetspot_study::scatter::rows::{ScatterPlan, ScatterRows};
 use sweetspot_study::scatter::scattered::{OutputSpread, SHARES, Scattered, WRITTEN};
 
-use crate::common::{self, BatFileArgs, examples, note_outside, printed};
+use crate::common::{self, BatFileArgs, examples, note_outside};
 use crate::done::Done;
-use crate::output::{FullArgs, apart, draw, make, put};
+use crate::output::{FullArgs, apart, draw, make, printed, put};
 use crate::progress::Counted;
 use crate::style;
 

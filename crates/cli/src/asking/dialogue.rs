@@ -12,8 +12,9 @@ use sweetspot::{Error, Result};
 use sweetspot_report::parts::terminal::wrapped;
 
 use crate::asking::draft::{Answers, Draft};
-use crate::common::{about, printed};
+use crate::common::about;
 use crate::done::printable;
+use crate::output::printed;
 
 /// A person gives up sooner, and a program that answers without end is stopped.
 const MOST_TRIES: usize = 50;

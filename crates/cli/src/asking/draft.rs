@@ -10,8 +10,8 @@ use std::path::{Path, PathBuf};
 
 use crate::own_file::{AtPath, OwnFile, look};
 
-use crate::common::printed;
 use crate::done::printable;
+use crate::output::printed;
 
 /// The first line of a draft, before the verb that it is of and [`GOES_ON`], by which it is told from a file of
 /// somebody's own.

@@ -10,7 +10,7 @@ use crate::asking::dialogue::{Asked, Dialogue, Question, Read, missing};
 use crate::asking::draft::NAME;
 use crate::asking::new_options::{Args, called, like, refuse_existing, source, stations};
 use crate::bat_text::Measured;
-use crate::common::printed;
+use crate::output::printed;
 
 const WELCOME: &str = "A bat file. An empty line takes what stands in [ ]; ? explains a question, \
                        back goes to the one before, quit leaves and keeps the answers.";

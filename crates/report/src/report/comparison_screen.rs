@@ -43,9 +43,9 @@ pub fn screen(comparison: &Comparison, units: Units) -> String {
     // What is doubted stands on the screen before what can be read off a table.
     let left = LINES.saturating_sub(out.lines().count() + trust.lines().count());
     let said = fitting(&words, left);
-    let rest = match said == words {
-        true => "",
-        false => "Where along the barrel which bat is faster: --full\n",
+    let rest = match left > 0 && said != words {
+        true => "Where along the barrel which bat is faster: --full\n",
+        false => "",
     };
     let out = if left == 0 { out.replace("\n\n", "\n") } else { out };
     out + &fitting(&words, left.saturating_sub(rest.lines().count())) + rest + &trust
