@@ -47,7 +47,7 @@ fn a_solution_and_a_hit_as_json_say_what_their_fields_say() {
     let json = serde_json::to_value(&solution).unwrap();
     assert_eq!(json["theory"], solution.theory.name());
     assert_eq!(json["modes"][1]["omega"], solution.modes[1].omega);
-    assert_eq!(json["met"], solution.met());
+    assert_eq!(json["ending"], "Reached");
     let scene = Scene { swing: 45.0, ball_speed: 38.0, ..Scene::default() };
     let accuracy = Accuracy { exit_speed: 1e-3, ..Accuracy::plain() };
     let hits = sweep(&bat, Model::Contact, &scene, &accuracy, &[0.7]).unwrap();

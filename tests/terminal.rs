@@ -153,7 +153,7 @@ fn a_long_wait_shows_a_bar_with_the_time_left_and_takes_it_away() {
     let folder = Folder::new("bar");
     let trade = format!("trade {} -n 3 --budget '3 s'", mesh("dowel"));
     let Some(seen) = seen(&folder, &trade, &[]) else { return };
-    let (waiting, table) = seen.split_once("Front:").unwrap();
+    let (waiting, table) = seen.split_once("Speed against accuracy").unwrap();
     assert!(waiting.contains(" %, ") && waiting.contains(" left  "), "{waiting}");
     let line = waiting.rsplit("\u{1b}[2K").next().unwrap();
     assert!(!line.contains(" left ") && !table.contains(" left  "), "{line}");

@@ -382,6 +382,9 @@ impl Analysed<'_> {
     /// What a change by 1 makes of every answer, by central differences; None where a bat that differs
     /// so cannot be computed.
     fn slopes(&self, parameters: &[Parameter]) -> Vec<Option<Answers>> {
+        let patch = parameters.iter().any(|parameter| parameter.input == Input::Patch);
+        // The ball's patch leaves the bat's modes as they are.
+        let known = patch.then(|| self.modes(self.bat).ok()).flatten();
         let sides = threads::map(2 * parameters.len(), |k| {
             let parameter = &parameters[k / 2];
             let step = parameter.step(self.bat);
@@ -393,7 +396,10 @@ impl Analysed<'_> {
                 let compression = by.exp() * ball.patch_compression();
                 ball.contact_radius_m = Some((ball.radius_m * compression).sqrt());
             }
-            self.beside(&changed(self.bat, parameter, by)?, scene)
+            let known = known.clone().filter(|_| parameter.input == Input::Patch);
+            let bat = changed(self.bat, parameter, by)?;
+            let solution = known.map_or_else(|| self.modes(&bat), Ok)?;
+            self.beside(&bat, solution, scene)
         });
         let slope = |(parameter, sides): (&Parameter, &[Result<Answers>])| {
             let [Ok(less), Ok(more)] = sides else { return None };
@@ -402,17 +408,17 @@ impl Analysed<'_> {
         parameters.iter().zip(sides.chunks(2)).map(slope).collect()
     }
 
+    /// As many modes of another bat as the hits of this one take, three at least if they are asked for.
+    fn modes(&self, bat: &Bat) -> Result<Solution> {
+        let modes = self.hits.solution.modes.len().max(self.solution.modes.len().min(3));
+        let theory = self.solution.theory;
+        solve(bat, &Request { modes, tolerance: TOLERANCE, theory, ..Request::default() })
+    }
+
     /// The answers of another bat in that scene, by as many modes and such steps. Its wall is solved anew, roughly:
     /// of the two sides of a difference alike.
-    fn beside(&self, bat: &Bat, scene: Scene) -> Result<Answers> {
+    fn beside(&self, bat: &Bat, mut solution: Solution, scene: Scene) -> Result<Answers> {
         let modes = self.hits.solution.modes.len();
-        let request = Request {
-            modes: modes.max(self.solution.modes.len().min(3)),
-            tolerance: TOLERANCE,
-            theory: self.solution.theory,
-            ..Request::default()
-        };
-        let mut solution = solve(bat, &request)?;
         let notes = answers(bat, &solution, None);
         if self.spot.exit_speed_max.is_none() {
             return Ok(notes);

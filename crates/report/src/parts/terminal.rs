@@ -102,7 +102,7 @@ mod tests {
 
     #[test]
     fn a_text_that_is_too_long_loses_whole_statements_and_headings_of_nothing() {
-        let long = "word ".repeat(30);
+        let long = "word ".repeat(25);
         let [first, second] = ["one", "two"].map(|name| wrapped(&format!("  {name}: {long}"), 4));
         assert_eq!((first.lines().count(), first.contains("\n    word")), (2, true));
         let text = format!("Table\n  a\n  b\n\nWords\n{first}{second}");

@@ -72,11 +72,12 @@ impl Series {
     pub fn draw(&self, svg: &mut Svg, plane: &Plane) {
         for run in self.runs(plane) {
             let points: Vec<Point> = run.iter().map(|point| plane.at(*point)).collect();
-            if let Some((ink, opacity)) = self.fill {
-                svg.area(&points, ink, opacity, None);
-            }
-            if self.joined {
-                svg.line(&points, self.pen);
+            match self.fill {
+                Some((ink, opacity)) => {
+                    svg.area(&points, ink, opacity, self.joined.then_some(self.pen));
+                }
+                None if self.joined => svg.line(&points, self.pen),
+                None => {}
             }
             for (value, point) in run.iter().zip(&points) {
                 self.error_bar(svg, plane, *value);

@@ -117,7 +117,7 @@ fn ways(curves: &[Curve]) -> Vec<(&Curve, SolverFrequency)> {
 /// The error of one mode (from 0) by rising number of elements.
 fn table(curves: &[Curve], mode: usize) -> Table {
     let ways = ways(curves);
-    let mut table = Table::new("Errors", &["elements"]);
+    let mut table = Table::new("Errors", &["n"]);
     table.units.push("");
     for (curve, way) in &ways {
         table.head.push(solver_name(curve.solver).to_owned());

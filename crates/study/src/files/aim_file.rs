@@ -309,7 +309,7 @@ written! {
         /// Least and greatest density of the bat's own material, its moduli as they are.
         density = range(Quantity::Density);
         /// Materials, of which the one that needs the least change is taken.
-        wood = few(MOST, Form::of::<Material>(|node| part_file::whole_material(node)));
+        wood = few(MOST, Form::of::<Material>(part_file::whole_material));
         /// Greatest weight on the knob end.
         knob_weight = amount(Quantity::Mass)
             .within((Excluded(0.0), Excluded(1.0)), "a mass above 0, such as \"2 oz\"");

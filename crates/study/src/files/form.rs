@@ -14,9 +14,12 @@ use sweetspot::base::units::Quantity;
 use sweetspot::files::json_node::Node;
 use sweetspot::files::schema::amount::{Amount, Measures};
 
+/// Reads a value of a file, with its place in every mistake.
+type Reader<T> = Box<dyn Fn(&Node) -> Result<T>>;
+
 /// How a value is written.
 pub struct Form<T> {
-    read: Box<dyn Fn(&Node) -> Result<T>>,
+    read: Reader<T>,
     schema: Box<dyn Fn(&mut SchemaGenerator) -> Schema>,
     /// Keywords of the schema besides.
     more: Map<String, Value>,
