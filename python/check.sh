@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-if [ "$1" != all ]; then
+if [ "${1:?a folder of cargo, or all}" != all ]; then
     cp "$1/debug/lib_core.so" python/package/sweetspot/_core.abi3.so
     PYTHONPATH=$PWD/python/package target/python/bin/pytest -q python/tests
     exit

@@ -53,7 +53,7 @@
 //! // Five bending modes, every frequency within 1e-8 of the exact beam's; whether shear counts is found out.
 //! let asked = Request { modes: 5, tolerance: 1e-8, ..Request::default() };
 //! let solution = solve(&bat, &asked)?;
-//! assert!(solution.met);
+//! assert!(solution.met());
 //! for mode in &solution.modes {
 //!     println!("{:.4} Hz within {:.0e}", mode.frequency(), mode.error.total());
 //! }
@@ -112,7 +112,7 @@
 //!
 //! True errors of frequencies, nodes, modal masses and exit speeds are within three times the stated ones,
 //! always; the stated are within thirty times the true in nine cases of ten, and `sweetspot validate --promise` checks
-//! both. Where an accuracy cannot be reached the best answer comes with [`Solution::met`] false.
+//! both. Where an accuracy cannot be reached the best answer comes with the reason in [`Solution::ending`].
 //!
 //! # Conventions
 //!

@@ -16,8 +16,8 @@ use sweetspot_report::template::sheet::{Drawn, PAPERS, Page};
 use sweetspot_study::aim::aimed::Outcome;
 use sweetspot_study::aim::bench::Terms;
 use sweetspot_study::aim::wish::{Amount, Ask, DiameterLimit, FreeChoice, Goal, Target, Wish};
+use sweetspot_study::answers::Answer;
 use sweetspot_study::lathe::workpiece::HitTerms;
-use sweetspot_study::many::answers::Answer;
 use sweetspot_study::many::rows::{Asked, Trial};
 
 const OZ_IN2: f64 = 0.028_349_523_125 * 0.0254 * 0.0254;

@@ -120,7 +120,7 @@ fn walls_of_other_thickness_give_way_as_another_program_found() {
             |(pressed, rebound)| [pressed.stiffness_n_m * 1e-6, rebound.stiff],
         );
         assert!((found.wall.as_ref().unwrap().thickness_m - wall).abs() < 1e-12);
-        let first = found.first.unwrap();
+        let first = found.first_hz.unwrap();
         // A table's digits, and the frequency as well as a hit needs it.
         assert!((first - frequency).abs() < 0.5 + 3e-4 * frequency, "{wall}: {first} Hz");
         assert!((pressed / stiffness - 1.0).abs() < 0.01, "{wall}: {pressed} MN/m");

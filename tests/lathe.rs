@@ -15,12 +15,12 @@ use sweetspot::collision::sweep::{Accuracy, sweep};
 use sweetspot::collision::{Hitter, Model, Scene, SweetSpot};
 use sweetspot::modes::solve::Solution;
 use sweetspot::{Bat, Request, Theory, solve};
+use sweetspot_study::answers::Answer;
 use sweetspot_study::comparison::contender::Figure;
 use sweetspot_study::lathe::map::{LatheMap, LatheTerms, bands};
 use sweetspot_study::lathe::recipe::least_wood;
 use sweetspot_study::lathe::samples::{SectionSlopes, by_added_mass};
 use sweetspot_study::lathe::workpiece::{Care, HitTerms, Slopes, Workpiece};
-use sweetspot_study::many::answers::Answer;
 
 const MM: f64 = 1e-3;
 const INCH: f64 = 0.0254;

@@ -34,9 +34,9 @@ use sweetspot_report::plot::{
     wall_sweep as thickness,
 };
 use sweetspot_report::report::aftermath::AfterHit;
+use sweetspot_study::answers::Answer;
 use sweetspot_study::lathe::map::{LatheMap, LatheTerms, bands};
 use sweetspot_study::lathe::workpiece::HitTerms;
-use sweetspot_study::many::answers::Answer;
 use sweetspot_study::trade::measure::measure;
 use sweetspot_study::trampoline::barrel::{Barrel, BarrelTest};
 use sweetspot_study::trampoline::thickness::wall_sweep;

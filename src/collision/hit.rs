@@ -128,7 +128,8 @@ impl Scene {
         (2.0 * energy / self.ball.mass_kg).sqrt()
     }
 
-    /// e₀ of a ball that is met with that energy (J, of the relative motion): that of a rigid wall.
+    /// e₀ of a ball that is met with that energy (J, of the relative motion): that on a rigid wall, at the speed
+    /// at which it would bring as much there.
     pub fn restitution(&self, energy: f64) -> f64 {
         self.ball.restitution_at(self.speed_on_wall(energy)).unwrap_or(self.cor)
     }

@@ -19,7 +19,8 @@ const STALLED: f64 = 0.7;
 /// Refinements before the answer is given as it is.
 const MOST_ROUNDS: usize = 12;
 
-/// Is told of every bat that is solved, and how: a test sets it, to see that no bat is solved twice in the same way.
+/// Is told of every bat that is solved by itself (those of a batch are not told), and how: a test sets it, to see that
+/// no bat is solved twice in the same way.
 #[doc(hidden)]
 pub static SOLVED: OnceLock<fn(&Bat, &Request)> = OnceLock::new();
 

@@ -21,7 +21,8 @@ use crate::modes::referee::Solver;
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[must_use]
 pub enum Ending {
-    /// Every frequency is within the tolerance by its own estimate, and no mode is missing.
+    /// Every frequency is within the tolerance by its own estimate, and no mode is missing; of a search within a time,
+    /// it ended in time and no mode is missing.
     Reached,
     /// Round-off alone is larger than the tolerance: this share of a frequency.
     RoundOff(f64),
@@ -108,7 +109,7 @@ impl Solution {
         self.modes.iter().map(|mode| mode.error.round_off).fold(0.0, f64::max)
     }
 
-    /// Whether every frequency is within the wanted tolerance by its own estimate, and no mode is missing.
+    /// Whether what was asked was reached ([`Ending::Reached`]).
     pub fn met(&self) -> bool {
         self.ending == Ending::Reached
     }

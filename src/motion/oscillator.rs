@@ -6,7 +6,7 @@
 //! w(x, t) = Σ φ_n(x) q_n(t),    m_n (q̈_n + 2 ζ_n ω_n q̇_n + ω_n² q_n) = 0 after t = 0
 //! ```
 //!
-//! A rigid motion, `ω = 0`, is one too: put in front of the list it takes part.
+//! A rigid motion is one too, with `ω = 0`.
 
 use faer::c64;
 

@@ -6,7 +6,7 @@ use sweetspot::base::units::{inches, shown_length};
 use sweetspot::collision::figures::Figures;
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::sweep::{RoundsEnd, Sweep, Trial, sweep_telling};
-use sweetspot::modes::solve::Solution;
+use sweetspot::modes::solve::Ending;
 use sweetspot::{Bat, Error, Result};
 use sweetspot_report::csv;
 use sweetspot_report::parts::terminal::wrapped;
@@ -197,8 +197,12 @@ pub fn verdict(solve: &SolveArgs, sweep: &Sweep, output: &OutputArgs) -> u8 {
     if sweep.met() || !solve.enforced() {
         return 0;
     }
-    let Solution { ending, .. } = &sweep.solution;
-    let reason = if sweep.solution.met() { String::new() } else { format!(" ({ending})") };
+    let reason = match &sweep.solution.ending {
+        Ending::Reached => String::new(),
+        // Modes are sought far better than hits need them: round-off below what was asked is no reason.
+        Ending::RoundOff(share) if *share <= solve.tol => format!(" ({})", Ending::Stalled),
+        ending => format!(" ({ending})"),
+    };
     let worst = sweep.worst().map_or(String::new(), |(impact, outcome)| {
         let limit = match sweep.end {
             _ if outcome.wall > 0.5 * outcome.error => {

@@ -7,9 +7,9 @@ use sweetspot::base::units::shown_length;
 use sweetspot::{Bat, Error, Request, Result};
 use sweetspot_report::plot::lathe as plot;
 use sweetspot_report::report::lathe as report;
+use sweetspot_study::answers::Answer;
 use sweetspot_study::lathe::map::{LatheMap, LatheTerms, bands, best_place};
 use sweetspot_study::lathe::workpiece::HitTerms;
-use sweetspot_study::many::answers::Answer;
 
 use crate::common::{BatArgs, Prepared, SolveArgs, as_options, examples, on_the_bat};
 use crate::done::Done;

@@ -124,8 +124,13 @@ impl ProgressLook {
             // What is done by then is not shown.
             if !shown.is_finished() {
                 shown.set_draw_target(ProgressDrawTarget::stderr());
-                shown.enable_steady_tick(TICK);
                 *last = Some(shown.clone());
+            }
+            drop(last);
+            // A thread of the bar's own would end the program where none can be started.
+            while !shown.is_finished() {
+                shown.tick();
+                sleep(TICK);
             }
         };
         // Where no thread can be started nothing is shown.

@@ -65,7 +65,8 @@ pub fn run(args: &Args, bat: Bat, x: f64) -> Result<Done> {
         let hit = aftermath::impact(&impact, units);
         let text = scene + &hit + &aftermath::text(&report, units, full);
         let all = full || !(args.watch.is_empty() && args.times.is_empty());
-        (if all { text } else { fitting(&text, LINES) }) + &heard
+        let room = LINES.saturating_sub(heard.lines().count());
+        (if all { text } else { fitting(&text, room) }) + &heard
     });
     let text = args.output.deliver(text, || {
         let ignored = ignored::in_hit(&bat, &scene);

@@ -15,9 +15,9 @@ use sweetspot::base::number::signed;
 use sweetspot::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
 use sweetspot::bat::body::Bat;
 use sweetspot::bat::profile::Section;
+use sweetspot_study::answers::Answer;
 use sweetspot_study::lathe::found::TurnedBand;
 use sweetspot_study::lathe::map::LatheMap;
-use sweetspot_study::many::answers::Answer;
 
 /// Height of a strip's bat and of the words above it (px).
 const BAT: f64 = 34.0;

@@ -17,8 +17,8 @@ use sweetspot_study::aim::conflict::Conflict;
 use sweetspot_study::aim::cuts::cuts;
 use sweetspot_study::aim::rules::{Rule, Ruled};
 use sweetspot_study::aim::wish::{Band, Goal};
+use sweetspot_study::answers::Answer;
 use sweetspot_study::files::rules_file;
-use sweetspot_study::many::answers::Answer;
 
 /// A value of a goal with its unit, in one system of units.
 pub fn shown(goal: Goal, value: f64, us: bool) -> String {

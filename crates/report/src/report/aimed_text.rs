@@ -13,7 +13,7 @@ use sweetspot_study::aim::bench::ExtraKind;
 use sweetspot_study::aim::cuts::{StationCut, cuts};
 use sweetspot_study::aim::rules::{Rule, Ruled, RulesKept};
 use sweetspot_study::aim::wish::{Band, Goal};
-use sweetspot_study::many::answers::Answer;
+use sweetspot_study::answers::Answer;
 
 /// A section that has less of its strength left is told.
 const WEAK: f64 = 0.5;

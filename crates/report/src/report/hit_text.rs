@@ -312,13 +312,13 @@ pub fn stated(figures: &Figures, units: Units) -> Vec<(String, String)> {
     line("bat-ball speed", speed(outcome.exit_speed));
     line("collision efficiency e_A", format!("{:.3}", outcome.collision_efficiency));
     line("BBCOR there, of a free bat", format!("{:.3}", outcome.bbcor));
-    line("  of one held 6 in from the knob", format!("{:.3}", outcome.bbcor_pivoted));
+    line("BBCOR there, held 6 in from the knob", format!("{:.3}", outcome.bbcor_pivoted));
     let most = |peak: Peak| format!("{:.3} at {}", peak.value, place(peak.x));
     if let Some(peak) = figures.bbcor_max {
         line("largest BBCOR, of a free bat", most(peak));
     }
     if let Some(peak) = figures.bbcor_pivoted_max {
-        line("  of one held 6 in from the knob", most(peak));
+        line("largest BBCOR, held 6 in from the knob", most(peak));
     }
     if let Some([knob, tip]) = figures.spot.inch_off {
         let lost = |v: f64| {

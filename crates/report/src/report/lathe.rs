@@ -12,11 +12,11 @@ use sweetspot::base::number::significant;
 use sweetspot::bat::body::STANDARD_PIVOT;
 use sweetspot::collision::hit::{Model, Scene};
 use sweetspot::files::schema::document::{Format, Generator};
+use sweetspot_study::answers::Answer;
 use sweetspot_study::lathe::found::{TurnedBand, WholeChange};
 use sweetspot_study::lathe::gauges::WhyNotSmooth;
 use sweetspot_study::lathe::map::LatheMap;
 use sweetspot_study::lathe::recipe::{RecipeCut, least_wood};
-use sweetspot_study::many::answers::Answer;
 
 const MM: f64 = 1e-3;
 

@@ -4,9 +4,9 @@ use crate::parts::units::Units;
 use crate::report::columns::{Column, Columns, numbers};
 use sweetspot::base::number::{rounded, signed};
 use sweetspot::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
+use sweetspot_study::answers::Answer;
 use sweetspot_study::lathe::found::TurnedBand;
 use sweetspot_study::lathe::map::LatheMap;
-use sweetspot_study::many::answers::Answer;
 
 /// In which units the table counts: a table has one system.
 #[derive(Debug, Clone, Copy)]

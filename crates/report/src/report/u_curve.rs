@@ -80,10 +80,10 @@ pub fn report(
             .to_owned(),
     );
     notes.push(
-        "where frequency 1 is lost: the first n beyond the best with as few digits".to_owned(),
+        "where frequency 1 is lost: the first n beyond the best whose error leaves 8, 4 or no digits".to_owned(),
     );
     let lost: Vec<Lost> = ways(curves).into_iter().filter_map(Lost::of).collect();
-    let above = "> n: not up to n elements".to_owned();
+    let above = "> n: not reached with n elements".to_owned();
     let mut parts = vec![
         Part::List(notes),
         Part::Table(Table::of("Where frequency 1 is lost", &LOSSES, &lost, Units::Si)),

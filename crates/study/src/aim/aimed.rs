@@ -1,6 +1,6 @@
 //! What came of a wish: the bat that meets it or comes nearest, with how it was found.
 
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 
 use crate::aim::bench::ExtraKind;
 use crate::aim::conflict::Conflict;
@@ -8,7 +8,7 @@ use crate::aim::laying::Station;
 use crate::aim::limits::KEPT;
 use crate::aim::rules::RulesKept;
 use crate::aim::wish::{Band, Grid};
-use crate::many::answers::Answer;
+use crate::answers::Answer;
 use sweetspot::bat::body::Bat;
 
 /// What came of a wish.
@@ -142,17 +142,13 @@ pub struct Choice {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Output {
     /// Its name.
-    #[serde(rename = "name", serialize_with = "by_name")]
+    #[serde(rename = "name")]
     #[schemars(with = "String")]
     pub answer: Answer,
     /// Of the bat as it was.
     pub start: Option<f64>,
     /// Of the new bat.
     pub found: Option<f64>,
-}
-
-fn by_name<S: Serializer>(answer: &Answer, to: S) -> Result<S::Ok, S::Error> {
-    to.serialize_str(&answer.name())
 }
 
 impl Outcome {

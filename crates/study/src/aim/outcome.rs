@@ -13,7 +13,7 @@ use crate::aim::rounding::{Rounded, Rounding};
 use crate::aim::rules::{Rule, RulesKept};
 use crate::aim::search::{Found, MISSED, Search, Weights};
 use crate::aim::wish::{Band, Grid, Wish};
-use crate::many::answers::Answer;
+use crate::answers::Answer;
 use sweetspot::base::error::{Error, Result};
 use sweetspot::base::golden;
 use sweetspot::bat::body::Bat;
@@ -57,7 +57,7 @@ impl Outcome {
     /// use sweetspot_study::aim::aimed::Outcome;
     /// use sweetspot_study::aim::wish::{Amount, Ask, Goal, Target, Wish};
     /// use sweetspot_study::lathe::workpiece::HitTerms;
-    /// use sweetspot_study::many::answers::Answer;
+    /// use sweetspot_study::answers::Answer;
     /// use sweetspot::{Bat, Request};
     ///
     /// # fn main() -> sweetspot::Result<()> {

@@ -4,7 +4,7 @@
 //! shape. [`Wish::bands`] makes of its targets what each answer may be, in SI, of the bat in hand.
 
 use crate::aim::rules::{Rule, RuleSet};
-use crate::many::answers::Answer;
+use crate::answers::Answer;
 use sweetspot::base::error::{Complaint, Error, Result};
 use sweetspot::base::number::significant;
 use sweetspot::base::units::{self, Quantity, inches, ounces};

@@ -30,7 +30,7 @@ const EXPLAINS: f64 = 24.0;
 pub struct CalibrationPlan {
     /// Where the barrel's region begins (m), if there are two.
     pub split: Option<f64>,
-    /// Propertys that stay as the file has them.
+    /// Properties that stay as the file has them.
     pub held: Vec<Property>,
 }
 

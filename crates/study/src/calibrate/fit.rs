@@ -125,7 +125,7 @@ pub struct Search<'a> {
     pub wood: &'a WoodenBat,
     /// What was measured and known before.
     pub readings: &'a BatReadings,
-    /// Propertys that stay as the file has them.
+    /// Properties that stay as the file has them.
     pub held: &'a [Property],
     /// The wood that what was known before is about: that of the file, all 0, or one far from it.
     pub about: Logs,
@@ -275,7 +275,7 @@ impl Search<'_> {
 
     /// χ², half its downward gradient and the covariance, of the free unknowns.
     fn linear(&self, data: &[Datum], shown: &BatObservations, logs: &Logs) -> Linear {
-        // Propertys that are held count in what was known before, where they are not as the file has them.
+        // Properties that are held count in what was known before, where they are not as the file has them.
         let known = inverse(&self.prior()).unwrap_or_default();
         let away: Vec<f64> = logs.iter().zip(&self.about).map(|(log, mean)| log - mean).collect();
         let (free, at) = (self.free(), &away[..known.len()]);

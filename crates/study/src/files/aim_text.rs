@@ -1,8 +1,8 @@
 //! How is a wish said in words: "sweet spot 1 cm outward", "swing weight -3 % within 5 oz in2"?
 
 use crate::aim::wish::{Amount, Ask, DiameterLimit, FreeChoice, Goal, Target};
+use crate::answers::Answer;
 use crate::files::wish_words::{self, Verb, WishedChange, after, before};
-use crate::many::answers::Answer;
 use sweetspot::base::error::{Complaint, Error, nearest};
 use sweetspot::base::typed;
 use sweetspot::base::units::{self, Quantity};

@@ -5,11 +5,11 @@
 use std::collections::BTreeMap;
 use std::ops::Bound::{Excluded, Included};
 
+use crate::answers::Answer;
 use crate::files::amounts::{Said, share};
 use crate::files::asked;
 use crate::files::form::{amount, at, later, text};
 use crate::files::written::{Members, object, written};
-use crate::many::answers::Answer;
 use crate::scatter::rows::{AT_IMPACT, Output};
 use crate::scatter::spreads::{Difference, Differences, Differs};
 use crate::scatter::turning::Turning;

@@ -6,12 +6,12 @@ use std::ops::Bound::Excluded;
 use schemars::JsonSchema;
 use serde_json::{Map, Value, json};
 
+use crate::answers::Answer;
 use crate::files::amounts::Said;
 use crate::files::asked;
 use crate::files::form::{Form, later, number, text, whole};
 use crate::files::study_vary::{VariationForm, Varied, VariedFile, varied};
 use crate::files::written::{Members, written};
-use crate::many::answers::Answer;
 use crate::many::design::{Axis, Design, Spread, Wanted};
 use crate::many::rows::Asked;
 use sweetspot::base::error::{Complaint, Error, FilePosition, Result};

@@ -9,10 +9,10 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
+use crate::answers::on_the_bat;
 use crate::comparison::contender::Figure;
 use crate::files::study_file::StudyFile;
 use crate::files::study_vary::VariedFile;
-use crate::many::answers::on_the_bat;
 use crate::many::design::{MOST_ROWS, Row};
 use crate::many::rows::{Asked, Found, Trial};
 use sweetspot::base::error::{Error, Result};

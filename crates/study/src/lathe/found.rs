@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+use crate::answers::Answer;
 use crate::lathe::gauges::Rivals;
 use crate::lathe::slopes::Method;
-use crate::many::answers::Answer;
 
 /// Changes of outputs by their names, such as `f1_hz`; null where an output has none.
 pub type Changes = BTreeMap<String, Option<f64>>;

@@ -19,8 +19,8 @@
 
 use serde::Serialize;
 
+use crate::answers::Answer;
 pub use crate::lathe::probe::Probe;
-use crate::many::answers::Answer;
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::strike::Glance;
 use sweetspot::collision::sweet_spot::{HitsAlong, Peak};

@@ -3,6 +3,7 @@
 //! A band's derivative is for fractions of a millimetre; a finite cut of the same band, solved whole, stands beside
 //! it. Cups, holes, corks and knob weights are solved.
 
+use crate::answers::Answer;
 use crate::comparison::contender::Figure;
 use crate::lathe::found::{
     AddedMass, Changes, Check, Curves, FiniteCut, LatheFound, Output, TurnedBand, WholeChange,
@@ -10,7 +11,6 @@ use crate::lathe::found::{
 use crate::lathe::gauges::{Rivals, WhyNotSmooth};
 use crate::lathe::samples::{by_added_mass, frequency_density};
 use crate::lathe::workpiece::{Care, HitTerms, Method, Slopes, Workpiece};
-use crate::many::answers::Answer;
 use sweetspot::base::error::{Error, Result};
 use sweetspot::base::threads;
 use sweetspot::bat::body::{Bat, STANDARD_PIVOT};
@@ -117,7 +117,7 @@ impl LatheMap {
     /// use sweetspot::collision::{Model, Scene};
     /// use sweetspot_study::lathe::map::{LatheMap, LatheTerms, bands};
     /// use sweetspot_study::lathe::workpiece::HitTerms;
-    /// use sweetspot_study::many::answers::Answer;
+    /// use sweetspot_study::answers::Answer;
     /// use sweetspot::{Bat, Request, Theory};
     ///
     /// # fn main() -> sweetspot::Result<()> {

@@ -11,9 +11,9 @@
 //! kept to the last digit: where the least wood for the first wish alone lowers it by more than is allowed, what is
 //! allowed is the second row of G.
 
+use crate::answers::Answer;
 use crate::lathe::found::TurnedBand;
 use crate::lathe::map::LatheMap;
-use crate::many::answers::Answer;
 
 /// A stretch (m from the knob end) and the depth that comes off its diameter (m).
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
+use crate::answers::Answer;
 use crate::comparison::contender::Figure;
-use crate::many::answers::Answer;
 
 /// How a derivative was found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, schemars::JsonSchema)]

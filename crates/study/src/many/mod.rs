@@ -15,5 +15,3 @@ pub mod distribution;
 pub mod indices;
 pub mod design;
 pub mod rows;
-
-pub use crate::answers;

@@ -6,8 +6,8 @@
 
 use std::ops::Range;
 
+use crate::answers::Answer;
 use crate::comparison::contender::Figure;
-use crate::many::answers::Answer;
 use crate::many::design::Design;
 use crate::many::indices::VariateKind;
 use crate::many::rows::{Asked, Found, Trial};

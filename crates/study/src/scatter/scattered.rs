@@ -106,7 +106,7 @@ impl Scattered {
     /// ```
     /// use sweetspot::Bat;
     /// use sweetspot::collision::setup::Setup;
-    /// use sweetspot_study::many::answers::Answer;
+    /// use sweetspot_study::answers::Answer;
     /// use sweetspot_study::scatter::rows::{Output, ScatterPlan, ScatterRows};
     /// use sweetspot_study::scatter::scattered::Scattered;
     /// use sweetspot_study::scatter::spreads::{Difference, Differences, Differs};

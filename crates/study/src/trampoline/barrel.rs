@@ -99,7 +99,7 @@ pub struct HoopModel {
 #[derive(Debug, Clone)]
 pub struct BarrelStruck {
     /// Frequency of the first mode of harmonic 2 (Hz), as accurate as the hit needs it.
-    pub first: Option<f64>,
+    pub first_hz: Option<f64>,
     /// The wall under the ball; None where the ball does not meet the stretch that is modelled.
     pub wall: Option<PressedWall>,
     /// How the ball comes back; None without a wall under it and for a ball without a force law.
@@ -218,7 +218,7 @@ impl BarrelStruck {
             (Some(wall), Some(_)) => rebound(bat, &solved, test, wall)?,
             _ => None,
         };
-        Ok(Self { first: first(solved.hoop()).map(|mode| mode.frequency_hz), wall, rebound })
+        Ok(Self { first_hz: first(solved.hoop()).map(|mode| mode.frequency_hz), wall, rebound })
     }
 }
 

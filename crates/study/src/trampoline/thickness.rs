@@ -43,7 +43,7 @@ pub fn wall_sweep(bat: &Bat, known: &Barrel, tell: &dyn Fn(f64)) -> Vec<WallTrie
     let tried = |(k, factor): (usize, f64)| {
         tell(k as f64 / FACTORS.len() as f64);
         let other = with_wall(bat, known, factor).ok()?;
-        let BarrelStruck { first, wall, rebound } = struck(&other, factor)?;
+        let BarrelStruck { first_hz: first, wall, rebound } = struck(&other, factor)?;
         let (wall, rebound) = (wall?, rebound?);
         Some(WallTried {
             factor,
