@@ -137,7 +137,10 @@ pub fn figures(analysis: &Analysis, units: Units) -> Table {
     let Some(outcome) = &best.outcome else { return table };
     table.row(["bat speed there".to_owned(), speed(units, best.bat_speed)]);
     of_the_hit(outcome, units).into_iter().for_each(|(what, value)| table.row([what, &value]));
-    for (what, value) in hit_text::stated(figures, units) {
+    // The wall has a part of the page to itself.
+    let mut solid = figures.clone();
+    solid.wall = None;
+    for (what, value) in hit_text::stated(&solid, units) {
         table.row([what, value.replace('-', "−")]);
     }
     table
