@@ -294,7 +294,7 @@ impl Study {
         self.0.rows.numbers().into_iter().map(|k| columns[k][0].clone()).collect()
     }
 
-    /// What is strange and stops nobody, a sentence each: of the bats, and of what varies without effect.
+    /// What is strange but no mistake, a sentence each: of the bats, and of what varies without effect.
     fn warnings(&self, py: Python<'_>) -> PyResult<Vec<String>> {
         free(py, || Ok(self.0.rows.warnings()))
     }
@@ -316,7 +316,7 @@ impl Study {
         (division.rows, division.rows_per_part)
     }
 
-    /// Some parts of so many rows, each as the bytes of a CSV file, on so many threads, all if none are named.
+    /// Some parts of that number of rows, each as the bytes of a CSV file, on that number of threads (all without one).
     fn parts(
         &self,
         py: Python<'_>,

@@ -58,7 +58,7 @@ pub fn read(path: &Path) -> Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Reads a whole file that nobody has named at this moment: another file names it, or it lies where one is
+/// Reads a whole file that was not named on the command line: another file names it, or it lies where one is
 /// expected. A pipe, on which a reader may wait for ever, and a device are none.
 ///
 /// # Errors
@@ -96,7 +96,7 @@ pub fn note(path: &Path) {
     }
 }
 
-/// Writes a file so that whoever looks sees the old one or the new one, never half of one.
+/// Writes a file so that readers see the old one or the new one, never half of one.
 ///
 /// # Errors
 ///
@@ -330,7 +330,7 @@ pub fn remove_lost(folder: &Path) {
     }
 }
 
-/// A new file in the folder of the target, under a name that nobody can foresee and that is short
+/// A new file in the folder of the target, under a name that cannot be guessed and that is short
 /// however long the target's is.
 fn new_part(target: &Path) -> io::Result<(PathBuf, File)> {
     const TRIES: usize = 16;

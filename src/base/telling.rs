@@ -1,4 +1,4 @@
-//! Progress of a long computation, for whoever waits.
+//! Progress of a long computation, for the person who waits.
 
 /// Called again and again with the share of the work that is done (0 to 1) and what comes next. It
 /// may be called from several threads.

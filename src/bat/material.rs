@@ -290,7 +290,7 @@ pub struct BuiltIn {
 /// E at a span of 14 depths (so it contains some shear), G the mean of the two longitudinal
 /// planes, density 1.12 times the specific gravity. The `-dynamic` ones are what models of real
 /// bats are given to ring or break as measured, 20 to 50 % stiffer. The two kinds are kept
-/// apart, so that nobody mixes them unawares.
+/// apart, so that they are not mixed unawares.
 ///
 /// A strength is the modulus of rupture of small clear pieces at 12 % moisture, bent slowly until
 /// they break: the mean of a species. A strain to failure is of blows as fast as a hit.

@@ -67,7 +67,7 @@ static POINTS: LazyLock<Vec<Vec<GaussPoint>>> = LazyLock::new(|| {
     (0..=MOST_POINTS).map(rule).collect()
 });
 
-/// How many points hold a part of an element whose sections are multiplied by so many Legendre polynomials.
+/// Number of points for a part of an element whose sections are multiplied by that number of Legendre polynomials.
 ///
 /// n points integrate `e^{zt}` on [0, 1] to `z^{2n} (n!)⁴/((2n)!)³`. `P_k` is nearly `cos kθ` with `ξ = cos
 /// θ`, a section whose radius goes from r₀ to r₁ nearly `e^{4t ln r₁/r₀}`; and n points are exact for the

@@ -130,7 +130,7 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
         }
     }
 
-    /// Room for what the sections of so many elements are worth at their points, as far as the theory asks for it.
+    /// Room for the values of the sections at the points of that number of elements, as far as the theory asks for it.
     #[inline(always)]
     fn make_room(&mut self, count: usize, over: bool) {
         let (samples, theory) = (count * self.rule.count(), self.theory);

@@ -29,7 +29,7 @@ pub struct Blow<'a> {
 /// Strikes every bat and shows what came of it to `visit`, with its place among the bats; those whose exit
 /// speeds ask for the same modes come one after the other.
 ///
-/// A bat's hits are a function of itself, its blow and `model`, a bat like the others, whoever is beside it.
+/// A bat's hits depend on itself, its blow and `model`, a bat like the others, and not on the bats beside it.
 ///
 /// ```
 /// use sweetspot::collision::batch::{Blow, each};

@@ -108,7 +108,7 @@ impl Setup {
         "loss_share",
     ];
 
-    /// Speeds that nobody has, most likely bare numbers in other units: the member, and what to say of it.
+    /// Implausible speeds, most likely bare numbers in other units: the member, and what to say of it.
     pub fn warnings(&self) -> Vec<(&'static str, String)> {
         let all = [
             ("pitch", self.pitch, 60.0, "m/s", "\"90 mph\""),

@@ -306,7 +306,7 @@ impl Layout {
         over
     }
 
-    /// So many elements on each stretch, so many times as short as waves and tapers ask for.
+    /// That number of elements on each stretch, that many times as short as waves and tapers ask for.
     fn divided(&mut self, survey: &Survey, stations: &Stations, shorter: f64) {
         let counts = stations.stretches.iter().map(|stretch| {
             let length: f64 = stretch.clone().map(|k| self.length(survey.piece(k))).sum();

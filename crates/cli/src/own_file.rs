@@ -26,7 +26,7 @@ pub struct OwnFile {
 pub enum AtPath {
     /// Nothing, not even a link that leads nowhere.
     Free,
-    /// A file of this program that nobody holds, and what it says.
+    /// A file of this program that no other process holds, and its text.
     Own(OwnFile, String),
     /// A file that another run holds.
     Held,

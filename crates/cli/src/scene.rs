@@ -161,7 +161,7 @@ impl SceneArgs {
     }
 }
 
-/// Warns of speeds that nobody has.
+/// Warns of implausible speeds.
 pub fn warn(setup: &Setup, output: &OutputArgs) {
     for (member, strange) in setup.warnings() {
         output.warn(&format!("warning: --{} {strange}", member.replace('_', "-")));

@@ -71,7 +71,7 @@ struct Barrel {
     known: Option<([[f64; MODES]; 2], f64)>,
 }
 
-/// All published barrels and so many random ones at all tolerances.
+/// All published barrels and that number of random ones at all tolerances.
 ///
 /// # Errors
 ///

@@ -114,7 +114,7 @@ struct Line<'a> {
 }
 
 /// The cases of one bat as one table, a line for each mode: measured, computed by others, ours
-/// with and without shear, nodes. A column that nobody fills is left out; without modes there is no
+/// with and without shear, nodes. An empty column is left out; without modes there is no
 /// table.
 ///
 /// # Errors

@@ -1,4 +1,4 @@
-//! Everything there is to say of a bat and its hits, computed once, for whoever shows it.
+//! All results of a bat and its hits, computed once, for screens, pages and files.
 
 use sweetspot::base::error::Result;
 use sweetspot::base::telling::{Tell, nobody};
@@ -70,8 +70,8 @@ pub struct Analysis {
     pub spread: Spread,
     /// How far the answers hold, by all that is known of them.
     pub verdict: Verdict,
-    /// What the model needs; None for a bat of so many pieces that it would take long, and where it could not be
-    /// found, for the reason in [`Self::failed`].
+    /// What the model needs; None for a bat of more than a thousand pieces, where it would take long, and where it could
+    /// not be found, for the reason in [`Self::failed`].
     pub advice: Option<Advice>,
     /// How the barrel of a hollow bat rings, and what its wall does to the ball; None for others, and where it
     /// could not be found, for the reason in [`Self::failed`].

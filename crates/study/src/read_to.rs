@@ -42,7 +42,7 @@ const CHANCE: f64 = 1e-3;
 const FEWEST: usize = 3;
 
 /// The coarsest step to which all outer diameters of a bat were read, before its edits; None where they lie on
-/// no grid, as of calipers, and for a formula, which nobody read.
+/// no grid, as of calipers, and for a formula, which was not read off an instrument.
 pub fn diameters_read_to(bat: &Bat) -> Option<ReadTo> {
     let profile = bat.unedited().profile();
     if profile.formulas.is_some() {

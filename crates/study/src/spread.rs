@@ -231,7 +231,7 @@ impl Spread {
     }
 }
 
-/// What is of so many units.
+/// What a change of that size makes of the answers, by what a change of 1 does.
 fn times(slopes: Answers, size: f64) -> Answers {
     slopes.into_iter().map(|slope| Some(slope? * size)).collect()
 }

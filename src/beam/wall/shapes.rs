@@ -25,7 +25,7 @@ pub struct Shapes {
 }
 
 impl Shapes {
-    /// Functions up to that degree at so many Gauss points.
+    /// Functions up to that degree at that number of Gauss points.
     pub fn new(degree: usize, points: usize) -> Self {
         let mut shapes = Self {
             count: degree + 1,

@@ -29,8 +29,8 @@ pub struct Collider {
 
 /// Touches that are followed; what more could give is part of the error.
 const MOST_TOUCHES: usize = 64;
-/// A ball that has flown for so long (s), or for so many times the longest step, about a hundred times as long as it
-/// was pressed, is gone: by then a swung bat has turned away, and hands that would bring it back have moved.
+/// A ball counts as gone after a flight of this time (s), or of this multiple of the longest step, about a hundred times
+/// as long as it was pressed: by then a swung bat has turned away, and hands that would bring it back have moved.
 const LONGEST_FLIGHT: f64 = 0.02;
 const FLIGHT_IN_STEPS: f64 = 100.0;
 

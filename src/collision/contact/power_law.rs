@@ -155,7 +155,7 @@ mod tests {
         }
     }
 
-    /// What a law that says nothing of its own gets by differences.
+    /// A law without derivatives gets them by differences.
     #[test]
     fn the_force_on_the_way_back_moves_with_the_largest_compression() {
         #[derive(Clone, Copy)]

@@ -92,7 +92,7 @@ pub fn each(
 /// with its place among the bats: all that [`solve`](crate::modes::solve::solve) gives but the time it took. Bats of which the same is
 /// asked come one after the other.
 ///
-/// A bat's solution is a function of itself, its request and the model, whoever is beside it. Where a mesh
+/// A bat's solution depends on itself, its request and the model, and not on the bats beside it. Where a mesh
 /// or another solver is asked for a bat is solved on its own.
 pub fn solutions(
     model: &Bat,

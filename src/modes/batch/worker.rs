@@ -58,7 +58,7 @@ pub struct Worker<R, const N: usize, const W: usize> {
     solutions: Vec<Option<Solution>>,
 }
 
-/// What a bat chooses for itself where nobody chooses for it.
+/// Choices that each bat makes for itself unless they are given.
 #[derive(Clone, Copy)]
 pub struct Choices {
     /// Lanczos steps.

@@ -75,7 +75,7 @@ impl<'a> Question<'a> {
 
 /// Whoever answers, line by line; questions go to standard error.
 pub struct Dialogue<R> {
-    /// None where nobody is there to ask.
+    /// None where there is no person to ask.
     answers: Option<R>,
     /// Right answers, each after the name of its question.
     given: Vec<[String; 2]>,
@@ -96,7 +96,7 @@ impl<R: BufRead> Dialogue<R> {
         Self { answers: Some(answers), ..Self::nobody() }
     }
 
-    /// A dialogue with nobody: every question has its usual answer, if it has one.
+    /// A dialogue without a person: every question has its usual answer, if it has one.
     pub fn nobody() -> Self {
         Self { answers: None, given: vec![], passed: 0, draft: None, before: None }
     }
@@ -215,7 +215,7 @@ impl<R: BufRead> Dialogue<R> {
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] at the end of the answers, after too many wrong ones, or where nobody is there to answer.
+    /// [`Error::Value`] at the end of the answers, after too many wrong ones, or where there is no person to answer.
     pub fn ask<T>(&mut self, question: &Question, read: impl Fn(&str) -> Read<T>) -> Asked<T> {
         if !self.is_there() {
             let usual = question.usual.ok_or_else(|| missing(&format!("--{}", question.name)))?;
@@ -316,7 +316,7 @@ impl<R: BufRead> Dialogue<R> {
     }
 }
 
-/// An error about what nobody has said.
+/// An error about an answer that is missing.
 pub fn missing(what: &str) -> Error {
     Error::value("new", "none", format!("{what}, or --ask to answer questions"))
 }

@@ -1,4 +1,4 @@
-//! The report: everything about a bat on one page, for whoever makes or swings it.
+//! The report: everything about a bat on one page, for those who make or swing it.
 //!
 //! What it says of one bat ([`content`]) or of several ([`compared`]) is a list of [parts](crate::parts),
 //! the same whether it is written as a page ([`html`]) or as Markdown ([`markdown`]). The page is one file that

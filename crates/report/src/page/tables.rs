@@ -15,7 +15,7 @@ use sweetspot::collision::hit::Outcome;
 use sweetspot::collision::sweet_spot::{Peak, SweetSpot};
 use sweetspot_study::trampoline::barrel::Barrel;
 
-/// So many modes have their nodes listed, and so many their energies.
+/// Number of modes whose nodes are listed, and of those whose energies are.
 const LISTED: usize = 6;
 const LARGEST: usize = 3;
 

@@ -15,7 +15,7 @@ pub struct MarkedBat<'a> {
     pub name: &'a str,
     /// The bat.
     pub bat: &'a Bat,
-    /// Rotation centre beyond the knob end (m), negative inside the handle; none if nobody swings.
+    /// Rotation centre beyond the knob end (m), negative inside the handle; none if the bat is not swung.
     pub swing_pivot: Option<f64>,
 }
 

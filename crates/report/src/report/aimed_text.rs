@@ -178,7 +178,7 @@ fn targets(outcome: &Outcome, us: bool) -> String {
     out + "\n"
 }
 
-/// By how much a target is missed, with digits of its own where that is little.
+/// By how much a target is missed, with more digits where that is little.
 fn missed_by(band: &Band, value: f64, us: bool) -> String {
     let limit = if value > band.high { band.high } else { band.low };
     let by = (value - limit).abs();
@@ -322,7 +322,7 @@ fn cut_list(outcome: &Outcome, (pass, us): (f64, bool), most: usize) -> String {
     out
 }
 
-/// The rows that are shown: every so many where there are more.
+/// The rows that are shown: every second, third or later one where there are too many.
 fn cut_rows(all: &[StationCut], us: bool, most: usize) -> String {
     let adds = all.iter().any(StationCut::adds);
     let columns = Columns::new([

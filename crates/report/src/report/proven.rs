@@ -61,7 +61,7 @@ pub fn write(document: &mut file::ModesFile, proven: &Proven) {
     });
 }
 
-/// The ends in so many decimals that they differ, each rounded outwards.
+/// The ends, each rounded outwards, with as many decimals as they need to differ.
 pub fn decimals([lower, upper]: [f64; 2]) -> [String; 2] {
     let width = (upper - lower).max(1e-14 * upper.abs()).max(f64::MIN_POSITIVE);
     let places = (1.0 - width.log10()).ceil().clamp(0.0, 17.0);

@@ -1,4 +1,4 @@
-//! A model of a bat: a theory and the parts that it has; solved once, whoever asks.
+//! A model of a bat: a theory and the parts that it has; solved once for all questions.
 
 use std::rc::Rc;
 

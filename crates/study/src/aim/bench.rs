@@ -32,7 +32,7 @@ pub struct Terms {
     pub law: Option<SwingLaw>,
 }
 
-/// A free choice besides the shape. A change by one unit counts as much as so many millimetres of diameter all
+/// A free choice besides the shape. A change by one unit counts as much as that number of millimetres of diameter all
 /// along the bat: less than what it does to the goals, so that it is taken before the shape is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Extra {

@@ -27,7 +27,7 @@ pub struct Pendulum {
 pub struct SpectralLine {
     /// Frequency (Hz).
     pub frequency: Reading,
-    /// Which bending mode it was taken for, from 1; None where nobody said so.
+    /// Which bending mode it was taken for, from 1; None if it was not said.
     pub mode: Option<usize>,
 }
 

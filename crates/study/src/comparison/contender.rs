@@ -207,7 +207,7 @@ pub struct Sought<'a> {
 }
 
 impl<'a> Sought<'a> {
-    /// Looks along the outer half of that hitter's bat, in so many steps; places are located to that share of it.
+    /// Looks along the outer half of that hitter's bat, in that number of steps; places are located to that share of it.
     pub fn new(hitter: &'a Hitter<'a>, look: (usize, f64)) -> Self {
         let looked = HitsAlong::outer(look, hitter);
         let length = hitter.profile.length();

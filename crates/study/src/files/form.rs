@@ -142,7 +142,7 @@ pub fn list<T: 'static>(item: Form<T>) -> Form<Vec<T>> {
     few(usize::MAX, item)
 }
 
-/// A list of at most so many.
+/// A list of at most that number of values.
 pub fn few<T: 'static>(most: usize, item: Form<T>) -> Form<Vec<T>> {
     let Form { read, schema, more, measures } = item;
     let look = Form { read: Box::new(|_| Ok(())), schema, more, measures };

@@ -34,7 +34,7 @@ const USUAL: [&str; 6] = [
 ];
 /// Accuracy where none is asked for.
 const TOLERANCE: f64 = 1e-4;
-/// How far along a bat a lathe's error reaches where nobody says so (m): 12 in.
+/// How far along a bat a lathe's error reaches unless the file says so (m): 12 in.
 const ALONG: f64 = 0.3048;
 
 /// What a file says.
@@ -52,7 +52,7 @@ pub struct ScatterFile {
     pub tolerance: f64,
 }
 
-/// What differs where nobody says it: the wood, from piece to piece of one species, stiffness and density each by
+/// What differs unless the file says it: the wood, from piece to piece of one species, stiffness and density each by
 /// itself ([`sweetspot::bat::material::Material::scatter`]), the usual outputs asked. None for a bat that is not of wood.
 pub fn of_wood(bat: &Bat) -> Option<ScatterFile> {
     let Scatter { youngs_modulus, density } = bat.material().scatter()?;

@@ -343,7 +343,7 @@ impl Rows {
     }
 }
 
-/// Why there is no answer, without the place in a text that nobody wrote.
+/// Why there is no answer, without the place in the text of a row, which the program made.
 pub fn reason(error: &Error) -> String {
     match error {
         Error::Value(complaint) | Error::Input { complaint, .. } => {

@@ -1,4 +1,4 @@
-//! What of a study is strange, or without effect, and stops nobody?
+//! What of a study is strange, or without effect, but no mistake?
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ use sweetspot::base::threads;
 use sweetspot::bat::body::Bat;
 
 impl Rows {
-    /// What is strange and stops nobody, to be told before the work: of the bats, as their files have them and as
+    /// What is strange but no mistake, to be told before the work: of the bats, as their files have them and as
     /// the study varies them, of the scene, and of what varies or is said without effect.
     pub fn warnings(&self) -> Vec<String> {
         /// Of the given number of bats at most.

@@ -85,7 +85,7 @@ const MANY: usize = 200;
 
 impl LatheMap {
     /// A map of wide bands and few answers, for who only wants to know where a cut does most; None for a bat
-    /// of so many pieces that it would take long.
+    /// of more pieces than are computed anew.
     ///
     /// # Errors
     ///
@@ -396,7 +396,7 @@ impl Mapping<'_> {
     }
 }
 
-/// Why something cannot be done to the bat, without the name of an edit that nobody typed.
+/// Why something cannot be done to the bat, without the name of the edit, which the program made.
 fn reason(error: &Error) -> String {
     match error {
         Error::Value(complaint) => complaint.found.clone(),

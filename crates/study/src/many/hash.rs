@@ -19,7 +19,7 @@ pub fn mixed(number: u64) -> u64 {
     z ^ (z >> 31)
 }
 
-/// A number that tells a text from others: whoever wants two texts of one number can make them.
+/// A number that tells a text from others by chance: two texts of one number can be made on purpose.
 pub fn of_text(text: &str) -> u64 {
     let start = mixed(text.len() as u64);
     text.as_bytes().chunks(8).fold(start, |hash, bytes| {

@@ -104,7 +104,7 @@ impl Asked {
     /// What is asked of each of some bats that are like `model`, in their order; `trial` is told the number of a
     /// bat and the bat as it is tuned to its tap.
     ///
-    /// What is answered of a bat is a function of itself and the model, whoever is beside it.
+    /// The answers of a bat depend on itself and the model, and not on the bats beside it.
     ///
     /// # Errors
     ///
