@@ -7,6 +7,7 @@ use std::hint::black_box;
 use criterion::{Criterion, criterion_group, criterion_main};
 use sweetspot::bat::formula::Formula;
 use sweetspot::bat::profile::FormulaPiece;
+use sweetspot::modes::hoop::response::{Fineness, Response};
 use sweetspot::modes::hoop::{Hoop, HoopRequest, Patch};
 use sweetspot::{Bat, Material, Profile};
 
@@ -43,10 +44,22 @@ fn hoops(criterion: &mut Criterion) {
     criterion.bench_function("first ten hoop modes within 1e-8", |bencher| {
         bencher.iter(|| Hoop::of(black_box(&bat), &finest).unwrap());
     });
-    let hoop = Hoop::of(&bat, &HoopRequest::default()).unwrap();
+    let mut few = bat.clone();
+    criterion.bench_function("the wall of a hit within 1e-4", |bencher| {
+        bencher.iter(|| {
+            // Another wall each time: one that is known is not solved again.
+            few = few
+                .with(|parts| {
+                    parts.material.poisson_ratio = parts.material.poisson_ratio.map(|nu| nu - 1e-9)
+                })
+                .unwrap();
+            Response::of(black_box(&few), Fineness::for_exit_speed(1e-4)).unwrap()
+        });
+    });
+    let response = Response::of(&bat, Fineness::for_exit_speed(1e-4)).unwrap();
     let patch = Patch::under(0.6858, 0.0366, 0.0333, 0.008);
     criterion.bench_function("the wall under a ball", |bencher| {
-        bencher.iter(|| hoop.under(black_box(&patch)));
+        bencher.iter(|| response.under(black_box(&patch)));
     });
 }
 

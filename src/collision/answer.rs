@@ -195,13 +195,13 @@ impl Hitter<'_> {
                 };
                 let left_out = answered.left_out(shears, few.iter().zip(changes).map(change));
                 let steps = answered.steps(left_out, |accuracy| counted(&felt, accuracy, 1.0));
-                /// Share of what a mode fewer of each harmonic changes that is stated of those left out.
-                const FEWER: f64 = 0.5;
-                // A wall of fewer modes, and one softer by all that may be missing.
+                // A wall softer by all that may be missing, and by what modes that follow the force at once are late:
+                // `y = C F − D F″ + …`, and `F″` of a half sine is `(π/T)² F`. On a stiff bat T is 2.86 to 3.14 times the
+                // time in which the ball would be pressed at its first speed; a wall makes it longer.
                 let wall = self.under(x).map_or(0.0, |under| {
-                    let fewer = under.fewer.before(self.bent(x, modes.clone(), beyond));
-                    let softer = DrivingPoint { rest: felt.rest + under.unsure, ..felt.clone() };
-                    counted(&fewer, accuracy, FEWER) + counted(&softer, accuracy, 1.0)
+                    let late = under.late * (std::f64::consts::PI / (2.86 * self.pressed)).powi(2);
+                    let rest = felt.rest + under.unsure + late;
+                    counted(&DrivingPoint { rest, ..felt.clone() }, accuracy, 1.0)
                 });
                 [left_out, steps, wall]
             });

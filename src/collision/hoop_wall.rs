@@ -1,9 +1,7 @@
 //! How does a hollow barrel's own wall give way under a ball?
 //!
-//! Every hoop mode of the wall ([`crate::modes::hoop`]) is one more mode of the contact, and what a
-//! harmonic has beyond its kept modes is added as the modes of bending that are left out are
-//! ([`complete`]). A ball presses on a patch, so that
-//! the sum over the harmonics ends:
+//! Every hoop mode of the wall ([`crate::modes::hoop`]) is one more mode of the contact. What a harmonic has beyond its
+//! kept modes follows the force at once. A ball presses on a patch, so that the sum over the harmonics ends:
 //!
 //! ```text
 //! y″ + 2ζωy′ + ω²y = −c F       c = (g_n Ū)²/M of every mode (n, m), ζ = η/2
@@ -14,18 +12,17 @@
 //! A motion that goes as `cos nθ`, n ≠ 1, has neither momentum nor angular momentum: rigid motion and
 //! bending stay as they are.
 
-use std::collections::BTreeMap;
-use std::fmt;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::f64::consts::TAU;
+use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
 use crate::base::error::Result;
 use crate::bat::body::Bat;
 use crate::collision::contact::touch::DrivingPoint;
-use crate::collision::struck::{complete, taken};
-use crate::collision::wall_table::WallTable;
-use crate::modes::hoop::{Hoop, HoopMode, HoopRequest, Patch, Share};
+use crate::modes::compliance::taken;
+use crate::modes::hoop::response::{Fineness, Response};
+use crate::modes::hoop::{Patch, Share};
 
 /// Energy of all hoop modes of a harmonic.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -40,20 +37,22 @@ pub struct HarmonicEnergy {
 /// A hole that begins so near to the tip (m) is a cup in it, and the barrel is solid.
 pub const CUP: f64 = 0.04;
 
-/// The wall of a hollow barrel, its hoop modes solved, for balls of one size.
+/// The wall of a hollow barrel as balls of one size feel it.
+#[derive(Debug, Clone)]
 pub struct HoopWall {
+    /// The bat whose wall it is.
     bat: Bat,
     ball_radius: f64,
-    request: HoopRequest,
-    hoop: Hoop,
-    /// What is known along the barrel, by the ball's compression in bits.
-    tables: Mutex<BTreeMap<u64, Arc<WallTable>>>,
+    fineness: Fineness,
+    response: Response,
+    /// Harmonic, ω (rad/s) and damping ratio of every mode.
+    modes: Vec<(usize, [f64; 2])>,
 }
 
 /// Modes and flexibility of a wall at one place.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct WallSeries {
-    /// `c` of every hoop mode (1/kg), the last of each harmonic as heavy as stands for those beyond it.
+    /// `c` of every hoop mode (1/kg).
     pub gains: Vec<f64>,
     /// Flexibility that is left (m/N).
     pub rest: f64,
@@ -64,14 +63,14 @@ pub struct WallSeries {
 pub struct WallFelt {
     /// All modes.
     pub full: WallSeries,
-    /// One mode fewer of every harmonic, to see what the modes that are left out do.
-    pub fewer: WallSeries,
     /// `C_n` (m/N) of every harmonic.
     pub flexibility: Vec<(usize, f64)>,
     /// `Σ C_n` (m/N): deflection under the ball per force.
     pub soft: f64,
     /// `Σ D_n` (m s²/N).
     pub slow: f64,
+    /// What of that the modes leave out (m s²/N).
+    pub late: f64,
     /// Flexibility (m/N) that may be missing: of harmonics left out, by the modes' own errors, and by the
     /// elements close to the patch.
     pub unsure: f64,
@@ -87,51 +86,64 @@ impl WallSeries {
 }
 
 impl HoopWall {
-    /// The wall of that bat for balls of that radius (m).
+    /// The wall of that bat for balls of that radius (m), for exit speeds within that share of the closing speed.
     ///
     /// # Errors
     ///
-    /// As [`Hoop::of`].
-    pub fn of(bat: &Bat, ball_radius: f64, request: &HoopRequest) -> Result<Arc<Self>> {
-        let (hoop, tables) = (Hoop::of(bat, request)?, Mutex::default());
-        let (bat, request) = (bat.clone(), request.clone());
-        Ok(Arc::new(Self { bat, ball_radius, request, hoop, tables }))
+    /// As [`Response::of`].
+    pub fn of(bat: &Bat, ball_radius: f64, tolerance: f64) -> Result<Arc<Self>> {
+        Self::solved(bat, ball_radius, Fineness::for_exit_speed(tolerance))
     }
 
-    /// The wall of another bat, solved to the same accuracy; of a bat with the same wall this one.
+    fn solved(bat: &Bat, ball_radius: f64, fineness: Fineness) -> Result<Arc<Self>> {
+        let response = Response::of(bat, fineness)?;
+        let (bat, modes) = (bat.clone(), response.modes());
+        Ok(Arc::new(Self { bat, ball_radius, fineness, response, modes }))
+    }
+
+    /// The wall of another bat to the same accuracy; of a bat with the same wall this one.
     ///
     /// # Errors
     ///
-    /// As [`Hoop::of`].
+    /// As [`Response::of`].
     pub fn on(self: &Arc<Self>, bat: &Bat) -> Result<Arc<Self>> {
         let same = self.bat.profile() == bat.profile() && self.bat.layups() == bat.layups();
-        if same { Ok(Arc::clone(self)) } else { Self::of(bat, self.ball_radius, &self.request) }
-    }
-
-    /// The hoop modes.
-    pub fn hoop(&self) -> &Hoop {
-        &self.hoop
-    }
-
-    /// What was asked of them.
-    pub fn request(&self) -> &HoopRequest {
-        &self.request
+        if same { Ok(Arc::clone(self)) } else { Self::solved(bat, self.ball_radius, self.fineness) }
     }
 
     /// ω (rad/s) and damping ratio of every mode.
     pub fn modes(&self) -> Vec<[f64; 2]> {
-        self.hoop.modes().iter().map(|mode| [mode.omega, mode.damping_ratio]).collect()
+        self.modes.iter().map(|(_, mode)| *mode).collect()
+    }
+
+    /// The lowest frequency of harmonic 2 (Hz).
+    pub fn first_hz(&self) -> Option<f64> {
+        let first = self.modes.iter().find(|(harmonic, _)| *harmonic == 2);
+        first.map(|(_, [omega, _])| omega / TAU)
+    }
+
+    /// The harmonics that are counted.
+    pub fn harmonics(&self) -> Vec<usize> {
+        self.response.harmonics()
+    }
+
+    /// How far a frequency may be off, relative.
+    pub fn off(&self) -> f64 {
+        self.response.off()
+    }
+
+    /// From where to where the wall is modelled (m).
+    pub fn ends(&self) -> [f64; 2] {
+        self.response.ends()
     }
 
     /// The energies (J) of all modes, summed by harmonic.
     pub fn by_harmonic(&self, energies: &[f64]) -> Vec<HarmonicEnergy> {
         let mut all: Vec<HarmonicEnergy> = vec![];
-        for (mode, energy) in self.hoop.modes().iter().zip(energies) {
-            match all.last_mut().filter(|known| known.harmonic == mode.harmonic) {
+        for ((harmonic, _), energy) in self.modes.iter().zip(energies) {
+            match all.last_mut().filter(|known| known.harmonic == *harmonic) {
                 Some(known) => known.energy_j += energy,
-                None => {
-                    all.push(HarmonicEnergy { harmonic: mode.harmonic, energy_j: *energy });
-                }
+                None => all.push(HarmonicEnergy { harmonic: *harmonic, energy_j: *energy }),
             }
         }
         all
@@ -142,105 +154,77 @@ impl HoopWall {
         Patch::under(x, self.ball_radius, self.bat.profile().at(x).outer, compression)
     }
 
+    /// How each harmonic gives way at `x` (m) under a ball that is compressed by that much (m); None where the
+    /// modelled stretch ends.
+    pub fn shares(&self, x: f64, compression: f64) -> Option<Vec<Share>> {
+        let patch = self.patch(x, compression);
+        self.response.covers(&patch).then(|| self.response.under(&patch))
+    }
+
     /// The wall at `x` (m) under a ball that is compressed by that much (m). Where the modelled stretch
     /// ends it does not give way.
     pub fn under(&self, x: f64, compression: f64) -> WallFelt {
-        let (patch, modes) = (self.patch(x, compression), self.hoop.modes());
-        if !self.hoop.covers(&patch) {
-            let none = WallSeries { gains: vec![0.0; modes.len()], rest: 0.0 };
-            return WallFelt { full: none.clone(), fewer: none, ..WallFelt::default() };
-        }
-        let (table, mut felt, mut from) = (self.table(compression), WallFelt::default(), 0);
-        for share in table.at(x, |nodes| self.looked_at(nodes, compression)) {
-            let all = [share.flexibility, share.slowness];
-            let own = &modes[from..from + share.gains.len()];
+        let mut felt = WallFelt::default();
+        let Some(shares) = self.shares(x, compression) else {
+            let none = WallSeries { gains: vec![0.0; self.modes.len()], rest: 0.0 };
+            return WallFelt { full: none, ..felt };
+        };
+        let mut from = 0;
+        for share in shares {
+            let own = &self.modes[from..from + share.gains.len()];
             from += share.gains.len();
-            felt.full.take(share.gains.clone(), own, share.gains.len(), all);
-            felt.fewer.take(share.gains.clone(), own, own.len().saturating_sub(1), all);
-            // ω is off by a relative error, 1/ω² by twice that.
-            let doubt = own.iter().zip(&share.gains);
-            let doubt = doubt.map(|(mode, gain)| 2.0 * mode.error * gain / mode.omega.powi(2));
-            let [of_modes, _] = taken(&share.gains, |k| own[k].omega.powi(2));
+            let [of_modes, of_slow] = taken(&share.gains, |k| own[k].1[0].powi(2));
             let local = (share.flexibility - of_modes).max(0.0);
-            felt.unsure += doubt.sum::<f64>() + LOCAL * local;
+            felt.full.gains.extend(share.gains);
+            felt.full.rest += local;
+            felt.late += (share.slowness - of_slow).max(0.0);
+            // ω is off by a relative error, 1/ω² by twice that.
+            felt.unsure += 2.0 * self.off() * of_modes + self.fineness.missed * local;
             felt.flexibility.push((share.harmonic, share.flexibility));
             felt.soft += share.flexibility;
             felt.slow += share.slowness;
         }
-        felt.unsure += beyond(&felt.flexibility, &patch, self.hoop.radius(x));
+        let patch = self.patch(x, compression);
+        let beyond = beyond(&felt.flexibility, &patch, self.response.radius(x));
+        felt.full.rest += beyond;
+        felt.soft += beyond;
+        felt.unsure += BEYOND * beyond;
         felt
-    }
-
-    fn looked_at(&self, places: &[f64], compression: f64) -> Vec<Vec<Share>> {
-        let patches: Vec<Patch> = places.iter().map(|x| self.patch(*x, compression)).collect();
-        self.hoop.under_each(&patches)
-    }
-
-    /// The places at which the wall is looked at for that compression.
-    fn table(&self, compression: f64) -> Arc<WallTable> {
-        let mut tables = self.tables.lock().unwrap_or_else(PoisonError::into_inner);
-        let half = self.patch(self.hoop.to(), compression).half_length;
-        let ends = [self.hoop.from() + half, self.hoop.to() - half, self.hoop.to()];
-        let step = half / if self.request.tol < FINE { 8.0 } else { 4.0 };
-        let table = tables.entry(compression.to_bits());
-        Arc::clone(table.or_insert_with(|| Arc::new(WallTable::new(ends, step))))
     }
 
     /// `Σ C_n` (m/N) and `Σ D_n` (m s²/N) at `x` (m), or where the modelled stretch is nearest to it, under a ball
     /// that is compressed by that much (m).
     pub fn somewhere(&self, x: f64, compression: f64) -> [f64; 2] {
-        let from = self.hoop.from() + self.patch(x, compression).half_length;
-        let felt = self.under(x.max(from).min(self.hoop.to()), compression);
+        let [from, to] = self.ends();
+        let from = from + self.patch(x, compression).half_length;
+        let felt = self.under(x.max(from).min(to), compression);
         [felt.soft, felt.slow]
     }
 }
 
-/// Share of the flexibility beyond the modes that elements may miss: that of the wall close to the patch,
-/// where frequencies do not tell how good the elements are. On bats with walls of 1.4 and 3 mm, open and with a
-/// plug, they miss up to 0.013 of it at rough tolerances and 0.004 at fine ones; a true error may be
-/// three times as large as the stated one.
-const LOCAL: f64 = 0.005;
-/// Hoop modes better than this are felt at places twice as close.
-const FINE: f64 = 1e-4;
-
-impl WallSeries {
-    /// Adds a harmonic by the given number of its modes; those that are not taken weigh nothing.
-    fn take(&mut self, mut gains: Vec<f64>, modes: &[HoopMode], count: usize, all: [f64; 2]) {
-        let square = |k: usize| modes[k].omega.powi(2);
-        self.rest += complete(&mut gains[..count], square, all, [0.0; 2]);
-        gains[count..].fill(0.0);
-        self.gains.extend(gains);
-    }
-}
-
-impl fmt::Debug for HoopWall {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let modes = self.hoop.modes().len();
-        f.debug_struct("HoopWall").field("bat", &self.bat.name()).field("modes", &modes).finish()
-    }
-}
+/// Share of the flexibility of harmonics beyond the last that may be missing.
+const BEYOND: f64 = 0.3;
 
 impl PartialEq for HoopWall {
     /// Walls of one bat, for one ball, to one accuracy: their answers are equal.
     fn eq(&self, other: &Self) -> bool {
-        (&self.bat, self.ball_radius, &self.request)
-            == (&other.bat, other.ball_radius, &other.request)
+        (&self.bat, self.ball_radius, self.fineness)
+            == (&other.bat, other.ball_radius, other.fineness)
     }
 }
 
-/// Flexibility (m/N) of the harmonics above the last that is counted, by an estimate from above: what a
-/// wall gives way to `cos nθ` falls at least as `1/n³` (a ring bends as `1/n⁴`), times the share `g_n²`
-/// that a patch of that half width over the radius has in it.
+/// Flexibility (m/N) of the harmonics above the last that is counted: beside the share `g_n²` that the patch has in a
+/// harmonic it goes on falling by the power of n of the last two.
 fn beyond(flexibility: &[(usize, f64)], patch: &Patch, radius: f64) -> f64 {
-    const FALL: i32 = 3;
     const FAR: usize = 60;
     let share = |n: usize| patch.share(n, radius).powi(2);
-    let last = flexibility.iter().map(|(n, _)| *n).max().unwrap_or(0);
-    // Of the last two, since one may lie where the patch takes nothing.
-    let known = flexibility.iter().filter(|(n, _)| *n > 0 && n + 2 > last);
-    let by_share = known.map(|(n, soft)| soft / share(*n).max(1e-2) * (*n as f64).powi(FALL));
-    let most = by_share.fold(0.0, f64::max);
-    (last + 1..last + FAR).map(|n| most * share(n) / (n as f64).powi(FALL)).sum()
+    let [.., (n, before), (last, soft)] = flexibility else { return 0.0 };
+    // Where the patch takes nothing of one of them, as a ring bends.
+    let own = |n: usize, soft: f64| soft / share(n).max(1e-2);
+    let (before, soft) = (own(*n, *before), own(*last, *soft));
+    let fall = (before / soft).ln() / (*last as f64 / *n as f64).ln();
+    let fall = if fall.is_finite() { fall.clamp(2.0, 4.0) } else { 4.0 };
+    (last + 1..last + FAR).map(|n| soft * share(n) * (*last as f64 / n as f64).powf(fall)).sum()
 }
 
 /// How stiff the barrel's wall is under a ball (N/m), before anything is solved: the least of `3 E h^{5/2}

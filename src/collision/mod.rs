@@ -8,7 +8,7 @@
 //! |---|---|
 //! | [`contact`] | how hard does a ball push back; what happens while they touch, and when do they touch again |
 //! | [`ball`] | what ball |
-//! | [`struck`], `wall_table`, [`hoop_wall`] | how does the bat give way to a ball, anywhere; how does a barrel's wall |
+//! | [`struck`], [`hoop_wall`] | how does the bat give way to a ball, anywhere; how does a barrel's wall |
 //! | [`rigid`], [`energy_loss`], [`pulse`] | the simpler models: no bending, an empirical loss, a known pulse |
 //! | [`columns`] | which figures of a hit are told, and by which names |
 //! | [`wall_choice`], [`setup`] | does the wall give way in this hit; how is a bat hit, whichever bat it is |
@@ -24,7 +24,6 @@ pub mod contact;
 pub mod ball;
 #[doc(hidden)]
 pub mod struck;
-pub(crate) mod wall_table;
 pub mod hoop_wall;
 pub mod rigid;
 pub mod energy_loss;

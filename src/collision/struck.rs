@@ -3,7 +3,7 @@
 use crate::base::linear::dot;
 use crate::bat::body::Bat;
 use crate::collision::contact::touch::DrivingPoint;
-use crate::modes::compliance::{Flexible, RigidMotion};
+use crate::modes::compliance::{Flexible, RigidMotion, taken};
 use crate::modes::mode::Mode;
 use crate::modes::solve::Solution;
 
@@ -106,14 +106,6 @@ impl<'a> Struck<'a> {
         };
         self.solution.modes.iter().map(doubt).collect()
     }
-}
-
-/// `Σ c/ω²` (m/N) and `Σ c/ω⁴` (m s²/N) of modes with those gains, `square(k)` the ω² of mode k.
-pub fn taken(gains: &[f64], square: impl Fn(usize) -> f64) -> [f64; 2] {
-    gains.iter().enumerate().fold([0.0; 2], |[soft, slow], (k, gain)| {
-        let square = square(k);
-        [soft + gain / square, slow + gain / (square * square)]
-    })
 }
 
 /// Lets the last of some modes stand for all beyond it, as [`Struck::felt`] says, and returns the

@@ -10,7 +10,7 @@ use crate::collision::hit::{Model, Scene};
 use crate::collision::hoop_wall::{
     HoopInHit, HoopWall, WhyRigid, restitution_with_wall, rough_stiffness,
 };
-use crate::modes::hoop::{HoopRequest, rings};
+use crate::modes::hoop::rings;
 
 /// Whether a hollow barrel's wall gives way by its own hoop modes.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -56,8 +56,8 @@ impl Scene {
             // What a person says of a wall overrides what its shape says.
             _ if self.wall.is_some() => HoopInHit::None,
             (WallChoice::On, Model::Contact) => {
-                let request = hoop_request(tolerance.unwrap_or(USUAL));
-                HoopInHit::Counted(HoopWall::of(bat, self.ball.radius_m, &request)?)
+                let tolerance = tolerance.unwrap_or(USUAL);
+                HoopInHit::Counted(HoopWall::of(bat, self.ball.radius_m, tolerance)?)
             }
             (WallChoice::On, _) => {
                 let found = format!("on with `model` {}", model.name());
@@ -84,7 +84,7 @@ impl Scene {
         if rigid.error() <= SHARE * tolerance {
             return rigid;
         }
-        match HoopWall::of(bat, self.ball.radius_m, &hoop_request(tolerance)) {
+        match HoopWall::of(bat, self.ball.radius_m, tolerance) {
             Ok(wall) => HoopInHit::Counted(wall),
             Err(error) => HoopInHit::LeftOut(WhyRigid::Unsolved(error.to_string())),
         }
@@ -111,22 +111,3 @@ impl Scene {
 
 /// The tolerance of exit speeds where none is told.
 const USUAL: f64 = 1e-4;
-
-/// The hoop modes that exit speeds of that tolerance need. A mode that is far faster than the hit follows
-/// the force: one of every harmonic is kept in any case.
-///
-/// On made-up bats, a baseball bat of 3 mm and softball bats of 1.9 mm with and without a plug, modes to 6 kHz leave
-/// 3e-4 of the closing speed at most, to 9 kHz 1.4e-4, to 12 kHz 5e-5 and to 18 kHz 2e-5; harmonics beyond 8 are
-/// 6e-4 of the flexibility, beyond 10 1e-4.
-pub fn hoop_request(tolerance: f64) -> HoopRequest {
-    let (last, up_to_hz) = match tolerance {
-        t if t >= 1e-3 => (8, 6e3),
-        t if t >= 1e-4 => (11, 15e3),
-        // Finer than this the wall is not known: the patch leaves a thousand times as much open.
-        _ => (14, 24e3),
-    };
-    let harmonics = std::iter::once(0).chain(2..=last).collect();
-    // A frequency may be off by more than what it does: half of a hit's spring is the ball.
-    let tol = (2.0 * tolerance).clamp(1e-5, 3e-3);
-    HoopRequest { tol, harmonics, up_to_hz, least: 1, eased: true, ..HoopRequest::default() }
-}

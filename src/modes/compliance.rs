@@ -347,3 +347,10 @@ impl Flexible {
         all
     }
 }
+/// `Σ c/ω²` (m/N) and `Σ c/ω⁴` (m s²/N) of modes with those gains, `square(k)` the ω² of mode k.
+pub fn taken(gains: &[f64], square: impl Fn(usize) -> f64) -> [f64; 2] {
+    gains.iter().enumerate().fold([0.0; 2], |[soft, slow], (k, gain)| {
+        let square = square(k);
+        [soft + gain / square, slow + gain / (square * square)]
+    })
+}

@@ -35,7 +35,6 @@ use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::hoop_wall::{HoopInHit, HoopWall, barrel_walls};
 use sweetspot::collision::sweep::Sweep;
 use sweetspot::collision::sweet_spot::{FEW, HitsAlong, SweetSpot};
-use sweetspot::collision::wall_choice::hoop_request;
 use sweetspot::modes::solve::{Request, Solution, solve};
 
 /// Something that is not known exactly.
@@ -427,8 +426,7 @@ impl Analysed<'_> {
         let swing = self.law.map_or(self.scene.swing, |law| law.swing(bat));
         let hoop = match &scene.hoop {
             HoopInHit::Counted(_) => {
-                let request = hoop_request(WALL_TOLERANCE);
-                HoopInHit::Counted(HoopWall::of(bat, scene.ball.radius_m, &request)?)
+                HoopInHit::Counted(HoopWall::of(bat, scene.ball.radius_m, WALL_TOLERANCE)?)
             }
             other => other.clone(),
         };

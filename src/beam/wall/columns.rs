@@ -34,6 +34,8 @@ pub struct Grading {
     pub least_kink: f64,
     /// Towards a corner of layers.
     pub corner: usize,
+    /// Towards a corner of layers that are far softer than the wall beside them, which goes on.
+    pub soft: usize,
 }
 
 /// A layer of a column, or a part of one: an element.
@@ -82,15 +84,20 @@ struct Border {
 pub fn columns(layers: &Layers, grading: Grading) -> Vec<Column> {
     let stretches = &layers.stretches;
     let first = &stretches[0];
-    let mut lefts = vec![end(first, &first.radii(first.from), grading.knob, grading)];
+    let of = |left: &Stretch, right: &Stretch| match left.stays_stiff(right, &layers.materials) {
+        true => Grading { corner: grading.soft, ..grading },
+        false => grading,
+    };
+    let own = of(first, first);
+    let mut lefts = vec![end(first, &first.radii(first.from), grading.knob, own)];
     let mut rights = vec![];
     for pair in stretches.windows(2) {
-        let [left, right] = between(&pair[0], &pair[1], grading);
+        let [left, right] = between(&pair[0], &pair[1], of(&pair[0], &pair[1]));
         rights.push(left);
         lefts.push(right);
     }
     let last = &stretches[stretches.len() - 1];
-    rights.push(end(last, &last.radii(last.to), grading.tip, grading));
+    rights.push(end(last, &last.radii(last.to), grading.tip, of(last, last)));
     let mut columns = vec![];
     let shortest = (last.to - first.from) / MOST;
     for ((stretch, left), right) in stretches.iter().zip(&lefts).zip(&rights) {

@@ -16,7 +16,7 @@ const SAME_SLOPE: f64 = 1e-7;
 const FORMULA_POINTS: usize = 16;
 
 /// A stretch where all radii are smooth and the materials do not change.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Stretch {
     /// Where it begins (m).
     pub from: f64,
@@ -30,7 +30,7 @@ pub struct Stretch {
 }
 
 /// The wall between two places of a bat.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Layers {
     /// The stretches, from the knob on.
     pub stretches: Vec<Stretch>,
@@ -135,6 +135,32 @@ impl Stretch {
         (0..=10).map(outer).fold(0.0, f64::max)
     }
 
+    /// Whether the stiffest layer goes on into the next stretch between the same radii, and all others are far softer.
+    pub fn stays_stiff(&self, next: &Self, materials: &[Elastic]) -> bool {
+        /// With less of the stiffness of the wall than this share a layer makes no corner that counts.
+        const SOFT: f64 = 0.1;
+        let (ours, theirs) = (self.radii(self.to), next.radii(next.from));
+        let stiffness = |material: usize| materials[material].normal[1][1];
+        let all = || self.materials.iter().chain(&next.materials);
+        let Some(stiffest) = all().max_by(|a, b| stiffness(**a).total_cmp(&stiffness(**b))) else {
+            return false;
+        };
+        let place = |of: &Self, radii: &[f64]| {
+            let mut layers = of.materials.iter().zip(radii.windows(2));
+            layers
+                .find(|(material, _)| *material == stiffest)
+                .map(|(_, radii)| [radii[0], radii[1]])
+        };
+        let goes_on = match (place(self, &ours), place(next, &theirs)) {
+            (Some(a), Some(b)) => a.iter().zip(b).all(|(a, b)| (a - b).abs() <= SAME_RADIUS * b),
+            _ => false,
+        };
+        let soft = |material: &usize| {
+            material == stiffest || stiffness(*material) < SOFT * stiffness(*stiffest)
+        };
+        goes_on && all().all(soft)
+    }
+
     /// By how much the slope of each border changes where the next stretch goes on with the same layers; None
     /// where it does not.
     pub fn kinks(&self, next: &Self) -> Option<Vec<f64>> {
@@ -204,6 +230,14 @@ impl Layers {
         let each: Option<Vec<Vec<f64>>> =
             self.stretches.windows(2).map(|pair| pair[0].kinks(&pair[1])).collect();
         Some(each?.concat())
+    }
+
+    /// Whether all corners are those of layers far softer than the wall, which goes on beside them.
+    pub fn stays_stiff(&self) -> bool {
+        let goes_on = |pair: &[Stretch]| {
+            pair[0].kinks(&pair[1]).is_some() || pair[0].stays_stiff(&pair[1], &self.materials)
+        };
+        self.stretches.windows(2).all(goes_on)
     }
 
     /// The index of a material.

@@ -11,6 +11,7 @@ use crate::beam::wall::columns::{Grading, columns};
 use crate::beam::wall::elastic::Elastic;
 use crate::beam::wall::layers::Layers;
 use crate::beam::wall::unknowns::{EndHold, WallMesh};
+use crate::eigen::fronts::Fronts;
 use crate::modes::hoop::request::HoopRequest;
 use crate::modes::hoop::spectrum::{Spectrum, count_below, keep};
 use crate::modes::hoop::system::Wall;
@@ -105,7 +106,7 @@ impl<'a> Climb<'a> {
             // A free end at the knob is one of the bat; elsewhere the motion has died out.
             let knob = if self.layers.stretches[0].from == 0.0 { end } else { 0 };
             let least_kink = self.least_kink;
-            let grading = Grading { knob, tip: end, kink, least_kink, corner };
+            let grading = Grading { knob, tip: end, kink, least_kink, corner, soft: corner };
             let mesh = WallMesh::new(columns(self.layers, grading), degrees);
             let mesh = Arc::new(mesh.map_err(|error| error.to_string())?);
             Ok(Wall { mesh, materials: self.materials.clone() })
@@ -119,7 +120,7 @@ impl<'a> Climb<'a> {
     /// that move there by more than a tenth of their largest motion are left out.
     pub fn harmonic(&self, n: usize) -> Result<Climbed> {
         let HoopRequest { tol, least, up_to_hz, .. } = *self.request;
-        let first = usize::from(self.request.allowed(n, 1.0) < 3e-3);
+        let first = usize::from(tol < 3e-3);
         let coarse = self.wall(first)?;
         let least = least.max(1);
         let below = count_below(coarse, n, self.ends, TAU * up_to_hz);
@@ -145,10 +146,7 @@ impl<'a> Climb<'a> {
                 now.keep(&kept);
                 keep(&mut errors, &kept);
             }
-            let lowest = now.omegas.first().copied().unwrap_or(1.0);
-            let allowed = |omega: &f64| self.request.allowed(n, omega / lowest);
-            let allowed: Vec<f64> = now.omegas.iter().map(allowed).collect();
-            let within = |errors: &[f64]| errors.iter().zip(&allowed).all(|(e, a)| e <= a);
+            let within = |errors: &[f64]| errors.iter().all(|error| *error <= tol);
             if k + 1 == LADDER.len() || within(&errors) {
                 // Motions of n = 0 are waves along the whole bat: theirs are of the stretch that is modelled.
                 let dies_out = self.cut && n >= 2;
@@ -156,8 +154,9 @@ impl<'a> Climb<'a> {
                 let cut: Vec<f64> = (0..errors.len()).map(of_cut).collect();
                 errors.iter_mut().zip(&cut).for_each(|(error, cut)| *error += cut);
                 let met = within(&errors);
-                let cut = cut.iter().zip(&allowed).map(|(cut, allowed)| cut / allowed);
-                return Ok(Climbed { spectrum: now, errors, cut: cut.fold(0.0, f64::max), met });
+                let cut = cut.iter().map(|cut| cut / tol).fold(0.0, f64::max);
+                now.factors = Fronts::default();
+                return Ok(Climbed { spectrum: now, errors, cut, met });
             }
             before = omegas;
             k += 1;
@@ -191,7 +190,7 @@ fn cut_off(spectrum: &Spectrum, mode: usize) -> f64 {
 const PLACES: usize = 8;
 
 /// Whether a mode moves where the stretch begins by more than a tenth of its largest motion.
-fn in_handle(spectrum: &Spectrum, mode: usize) -> bool {
+pub(crate) fn in_handle(spectrum: &Spectrum, mode: usize) -> bool {
     let columns = &spectrum.system.mesh.columns;
     let size = |x: f64| spectrum.radial(mode, x).abs();
     let middles =

@@ -1,23 +1,28 @@
 //! How does the wall of a hollow bat ring when its sections do not stay round?
 //!
 //! [`Hoop::of`](solve::Hoop::of) solves the wall as a solid of revolution, one harmonic `cos nθ` after the
-//! other, to a tolerance, and says how it gives way under a ball.
+//! other, to a tolerance. [`Response::of`](response::Response::of) has what a hit needs of it: how the wall gives way under
+//! a ball.
 //!
 //! | file | question |
 //! |---|---|
 //! | [`request`] | what is asked |
+//! | [`patch`] | where does a ball press |
 //! | [`system`], [`spectrum`] | stiffness and mass of one harmonic; its lowest modes on one mesh |
-//! | [`patch`] | how does the wall give way where a ball presses |
+//! | [`surface`] | how does a ball load the outer surface, and how does that give way |
 //! | `climb` | how fine must the elements be for a tolerance |
+//! | [`response`] | what of all that does a hit need, and which walls share it |
 //! | [`solve`] | the modes to a tolerance, with an error for each |
 
 pub mod request;
+pub mod patch;
 #[doc(hidden)]
 pub mod system;
 #[doc(hidden)]
 pub mod spectrum;
-pub mod patch;
+pub mod surface;
 pub(crate) mod climb;
+pub mod response;
 pub mod solve;
 
 pub use crate::beam::wall::extent::rings;

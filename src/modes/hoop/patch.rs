@@ -12,13 +12,6 @@
 //!
 //! where f is the load of F = 1, the work of that pressure.
 
-use std::f64::consts::PI;
-
-use crate::base::linear::dot;
-use crate::base::quadrature::gauss;
-use crate::eigen::fronts::SIDES;
-use crate::modes::hoop::spectrum::Spectrum;
-
 /// Where a ball presses on the barrel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Patch {
@@ -71,68 +64,6 @@ fn parabola(k: f64) -> f64 {
         return 1.0 - square / 10.0 * (1.0 - square / 28.0 * (1.0 - square / 54.0));
     }
     3.0 * (k.sin() - k * k.cos()) / k.powi(3)
-}
-
-/// How a harmonic gives way under patches on a barrel of those radii (m), up to [`SIDES`] of them.
-pub(crate) fn shares(spectrum: &Spectrum, patches: &[(Patch, f64)]) -> Vec<Share> {
-    let system = &spectrum.system;
-    let (n, free) = (system.n, system.unknowns.count);
-    let load = |(patch, r): &(Patch, f64)| load(spectrum, patch, patch.share(n, *r));
-    let loads: Vec<Vec<f64>> = patches.iter().map(load).collect();
-    let side = |s: usize, i: usize| loads.get(s).map_or(0.0, |load| load[i]);
-    let beside = |i: usize| std::array::from_fn(|s| side(s, i));
-    let mut given: Vec<[f64; SIDES]> = (0..free).map(beside).collect();
-    spectrum.factors.solve_together(&mut given);
-    let turn = if n == 0 { 2.0 * PI } else { PI };
-    let share = |(s, load): (usize, &Vec<f64>)| {
-        let gain = |motion: &Vec<f64>| dot(load, motion).powi(2) / turn;
-        let mut given: Vec<f64> = given.iter().map(|x| x[s]).collect();
-        given.resize(load.len(), 0.0);
-        let mut moved = vec![0.0; load.len()];
-        system.mass(&given, &mut moved);
-        if let Some(rigid) = &spectrum.rigid {
-            let part = dot(rigid, &moved);
-            given.iter_mut().zip(rigid).for_each(|(x, r)| *x -= part * r);
-            system.mass(&given, &mut moved);
-        }
-        Share {
-            harmonic: n,
-            gains: spectrum.motions.iter().map(gain).collect(),
-            flexibility: dot(load, &given) / turn,
-            slowness: dot(&given, &moved) / turn,
-        }
-    };
-    loads.iter().enumerate().map(share).collect()
-}
-
-/// The load of a patch of resultant 1, all unknowns.
-fn load(spectrum: &Spectrum, patch: &Patch, share: f64) -> Vec<f64> {
-    let system = &spectrum.system;
-    let mut load = vec![0.0; system.unknowns.all()];
-    let columns = &system.mesh.columns;
-    let ends = [columns[0].from, columns[columns.len() - 1].to];
-    let (from, to) = (patch.x - patch.half_length, patch.x + patch.half_length);
-    let weight = |x: f64| 1.0 - ((x - patch.x) / patch.half_length).powi(2);
-    let mut points = vec![];
-    let rule = gauss(system.mesh.degrees[0] + 3);
-    for column in columns {
-        let (a, b) = (column.from.max(from), column.to.min(to));
-        if b > a {
-            points.extend(rule.iter().map(|(s, w)| {
-                let x = a + (b - a) * s;
-                (x, w * (b - a) * weight(x))
-            }));
-        }
-    }
-    let total: f64 = points.iter().map(|(_, weight)| weight).sum();
-    if total <= 0.0 {
-        system.load(patch.x.clamp(ends[0], ends[1]), share, &mut load);
-        return load;
-    }
-    for (x, weight) in points {
-        system.load(x, share * weight / total, &mut load);
-    }
-    load
 }
 
 #[cfg(test)]

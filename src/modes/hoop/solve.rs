@@ -11,9 +11,7 @@ use crate::bat::body::Bat;
 use crate::beam::wall::extent::{Extent, Limit};
 use crate::beam::wall::layers::Layers;
 use crate::beam::wall::unknowns::EndHold;
-use crate::eigen::fronts::SIDES;
 use crate::modes::hoop::climb::{Climb, thinnest};
-use crate::modes::hoop::patch::{Patch, Share, shares};
 use crate::modes::hoop::request::{HoopRequest, KnobSide};
 use crate::modes::hoop::spectrum::Spectrum;
 
@@ -239,36 +237,6 @@ impl Hoop {
     /// What was assumed or is worth a warning.
     pub fn notes(&self) -> &[Note] {
         &self.notes
-    }
-
-    /// Outer radius at `x` (m).
-    pub fn radius(&self, x: f64) -> f64 {
-        self.spectra.first().map_or(0.0, |spectrum| spectrum.system.radius(x))
-    }
-
-    /// Whether the ball presses on the modelled stretch: at the tip it may overhang, at the knob side not.
-    pub fn covers(&self, patch: &Patch) -> bool {
-        patch.x - patch.half_length >= self.from && patch.x <= self.to
-    }
-
-    /// How each harmonic gives way under a patch.
-    pub fn under(&self, patch: &Patch) -> Vec<Share> {
-        self.under_each(std::slice::from_ref(patch)).remove(0)
-    }
-
-    /// How each harmonic gives way under each of some patches; patches that are neighbours take less time
-    /// together than one by one.
-    pub fn under_each(&self, patches: &[Patch]) -> Vec<Vec<Share>> {
-        let placed: Vec<(Patch, f64)> = patches.iter().map(|p| (*p, self.radius(p.x))).collect();
-        let spectra: Vec<&Spectrum> = self.spectra.iter().filter(|s| s.system.n != 1).collect();
-        let of = |k: usize| -> Vec<Share> {
-            placed.chunks(SIDES).flat_map(|few| shares(spectra[k], few)).collect()
-        };
-        let mut all = vec![vec![]; patches.len()];
-        for shares in threads::map(spectra.len(), of) {
-            all.iter_mut().zip(shares).for_each(|(all, share)| all.push(share));
-        }
-        all
     }
 
     /// Modal mass of mode `mode` of [`Self::modes`] (kg), the largest radial motion of the outer surface being 1:

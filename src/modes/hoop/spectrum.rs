@@ -21,10 +21,25 @@ pub struct Spectrum {
     pub motions: Vec<Vec<f64>>,
     /// Loss factors: those of the materials in the proportion of the strain energies.
     pub losses: Vec<f64>,
-    /// The rigid motion along the bat that harmonic 0 has, of mass 1.
-    pub rigid: Option<Vec<f64>>,
+    /// The rigid motion along the bat that harmonic 0 has, of mass 1, and M times it.
+    pub rigid: Option<(Vec<f64>, Vec<f64>)>,
+    /// Shift of the factors (1/s²).
+    shift: f64,
+    /// Rigid motions among the lowest that the iteration finds.
+    skipped: usize,
     /// Products with the inverse.
     pub steps: usize,
+}
+
+/// What is wanted of the modes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Figures {
+    /// Their frequencies as the iteration has them.
+    Frequencies,
+    /// Motions beside those.
+    Motions,
+    /// Motions, and frequencies and loss factors from the strains.
+    Strains,
 }
 
 /// Why a wall cannot be solved.
@@ -39,15 +54,31 @@ const CLUSTERED: usize = 40;
 const SHIFT: f64 = 4e5;
 
 impl Spectrum {
-    /// The `count` lowest modes, rigid ones left out, with that residual.
-    ///
-    /// Lanczos on `D^{−½} L⁻¹ M L⁻ᵀ D^{−½}` of `K = L D Lᵀ`. Harmonic 0 is held at one place along the bat, its
-    /// rigid motion taken out of what M sees; harmonic 1 is shifted.
+    /// The wall with its factors, and no modes yet. Harmonic 0 is held at one place along the bat; harmonic 1 is
+    /// shifted.
     ///
     /// # Errors
     ///
-    /// [`Error::NotConverged`] if a mode does not converge; [`Error::Factorization`] where round-off makes the
-    /// stiffness indefinite.
+    /// [`Error::Factorization`] where round-off makes the stiffness indefinite.
+    pub fn new(wall: &Wall, n: usize, ends: [EndHold; 2]) -> Result<Self> {
+        let system = System::new(wall, n, ends);
+        let shift = if n == 1 { SHIFT } else { 0.0 };
+        let factors = system.factors(shift);
+        if !factors.pivots().iter().all(|pivot| *pivot > 0.0 && pivot.is_finite()) {
+            let unknowns = system.unknowns.count;
+            return Err(Error::Factorization { unknowns, reason: TOO_THIN });
+        }
+        let rigid = (system.unknowns.held > 0).then(|| rigid_along(&system));
+        let skipped = if n == 1 { rigid_motions(n, ends) } else { 0 };
+        let (omegas, motions, losses) = (vec![], vec![], vec![]);
+        Ok(Self { system, factors, shift, omegas, motions, losses, rigid, skipped, steps: 0 })
+    }
+
+    /// The `count` lowest modes, rigid ones left out, with that residual; their frequencies from the strains.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NotConverged`] if a mode does not converge; as [`Self::new`].
     pub fn of(
         wall: &Wall,
         n: usize,
@@ -55,7 +86,9 @@ impl Spectrum {
         count: usize,
         residual: f64,
     ) -> Result<Self> {
-        Self::solved(wall, n, ends, count, residual, false)
+        let mut spectrum = Self::new(wall, n, ends)?;
+        spectrum.solve(count, residual, Figures::Strains)?;
+        Ok(spectrum)
     }
 
     /// The frequencies alone, as the iteration has them.
@@ -70,39 +103,31 @@ impl Spectrum {
         count: usize,
         residual: f64,
     ) -> Result<Vec<f64>> {
-        Ok(Self::solved(wall, n, ends, count, residual, true)?.omegas)
+        let mut spectrum = Self::new(wall, n, ends)?;
+        spectrum.solve(count, residual, Figures::Frequencies)?;
+        Ok(spectrum.omegas)
     }
 
-    fn solved(
-        wall: &Wall,
-        n: usize,
-        ends: [EndHold; 2],
-        count: usize,
-        residual: f64,
-        quick: bool,
-    ) -> Result<Self> {
-        let system = System::new(wall, n, ends);
-        let shift = if n == 1 { SHIFT } else { 0.0 };
-        let factors = system.factors(shift);
-        let unknowns = &system.unknowns;
-        let (size, all) = (unknowns.count, unknowns.all());
-        let rigid = (unknowns.held > 0).then(|| rigid_along(&system));
-        let skipped = if n == 1 { rigid_motions(n, ends) } else { 0 };
-        if !factors.pivots().iter().all(|pivot| *pivot > 0.0 && pivot.is_finite()) {
-            return Err(Error::Factorization { unknowns: size, reason: TOO_THIN });
-        }
+    /// Lanczos on `D^{−½} L⁻¹ M L⁻ᵀ D^{−½}` of `K = L D Lᵀ`, the rigid motion of harmonic 0 taken out of what M sees.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NotConverged`] if a mode does not converge.
+    pub fn solve(&mut self, count: usize, residual: f64, figures: Figures) -> Result<()> {
+        let (system, factors) = (&self.system, &self.factors);
+        let (size, all) = (system.unknowns.count, system.unknowns.all());
         let scale: Vec<f64> = factors.pivots().iter().map(|d| 1.0 / d.sqrt()).collect();
         let back = |z: &[f64], x: &mut [f64]| {
             x[..size].iter_mut().zip(z).zip(&scale).for_each(|((x, z), s)| *x = z * s);
             x[size..].fill(0.0);
             factors.backward(&mut x[..size]);
-            if let Some((motion, momentum)) = &rigid {
+            if let Some((motion, momentum)) = &self.rigid {
                 let part = dot(momentum, x);
                 x.iter_mut().zip(motion).for_each(|(x, r)| *x -= part * r);
             }
         };
         let mut lanczos = Lanczos::<f64>::default();
-        let total = (count + skipped).min(size);
+        let total = (count + self.skipped).min(size);
         let wanted = Wanted { count: total, residual, earliest: 8, clustered: CLUSTERED };
         let space = Space { known: &[], allow: &mut |_| {} };
         let (mut x, mut y) = (vec![0.0; all], vec![0.0; all]);
@@ -112,25 +137,28 @@ impl Spectrum {
             factors.forward(&mut y[..size]);
             image.iter_mut().zip(&y).zip(&scale).for_each(|((image, y), s)| *image = y * s);
         })?;
-        let (mut omegas, mut motions, mut losses) = (vec![], vec![], vec![]);
+        self.steps = lanczos.steps;
         let pairs = lanczos.vectors.chunks_exact(size).zip(&lanczos.values);
-        for (z, value) in pairs.skip(skipped) {
-            if quick {
-                omegas.push((1.0 / value - shift).sqrt());
+        for (z, value) in pairs.skip(self.skipped) {
+            self.omegas.push((1.0 / value - self.shift).sqrt());
+            if figures == Figures::Frequencies {
                 continue;
             }
             back(z, &mut x);
-            let (strain, mass) = system.energies(&x);
-            let stored: f64 = strain.iter().sum();
-            let of = system.materials.iter();
-            let lost: f64 = strain.iter().zip(of).map(|(s, m)| s * m.loss_factor).sum();
+            let mut mass = *value;
+            if figures == Figures::Strains {
+                let (strain, moved) = system.energies(&x);
+                mass = moved;
+                let stored: f64 = strain.iter().sum();
+                let of = system.materials.iter();
+                let lost: f64 = strain.iter().zip(of).map(|(s, m)| s * m.loss_factor).sum();
+                *self.omegas.last_mut().expect("just pushed") = (stored / mass).sqrt();
+                self.losses.push(lost / stored);
+            }
             let scale = 1.0 / mass.sqrt();
-            omegas.push((stored / mass).sqrt());
-            losses.push(lost / stored);
-            motions.push(x.iter().map(|x| x * scale).collect());
+            self.motions.push(x.iter().map(|x| x * scale).collect());
         }
-        let (rigid, steps) = (rigid.map(|(motion, _)| motion), lanczos.steps);
-        Ok(Self { system, factors, omegas, motions, losses, rigid, steps })
+        Ok(())
     }
 }
 

@@ -260,18 +260,6 @@ impl System {
         (c, (2.0 * (x - column.from) / (column.to - column.from) - 1.0).clamp(-1.0, 1.0))
     }
 
-    /// Adds `weight` times the radial displacement of the outer surface at `x` to a load.
-    pub fn load(&self, x: f64, weight: f64, load: &mut [f64]) {
-        let (c, along) = self.place(x);
-        let part = self.mesh.cells[c].len() - 1;
-        let q = self.mesh.degrees[1];
-        for (i, f) in along.iter().enumerate() {
-            for (unknown, share) in self.links[c][part].of(i * (q + 1) + 1) {
-                load[*unknown] += weight * f * share;
-            }
-        }
-    }
-
     /// How many eigenvalues are below `bound` (1/s²); rigid motions count.
     pub fn count_below(&self, bound: f64) -> usize {
         self.factors(-bound).negative()

@@ -26,7 +26,7 @@ pub fn scene(analysis: &Analysis, units: Units) -> Table {
         line(("  its mass", format!("{} kg", shown::plain(wall.mass))));
     }
     if let Some(wall) = scene.hoop.wall() {
-        let modes = format!("by {} hoop modes", wall.hoop().modes().len());
+        let modes = format!("by {} hoop modes", wall.modes().len());
         line(("the barrel's wall gives way", modes));
     }
     if analysis.bat.fixtures().holding() {

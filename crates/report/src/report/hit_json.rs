@@ -4,7 +4,7 @@ use crate::schema::hit as file;
 use sweetspot::bat::body::Bat;
 use sweetspot::collision::columns;
 use sweetspot::collision::figures::{BarrelSpeed, Figures};
-use sweetspot::collision::hit::{Impact, Model, Scene, Wall, greater};
+use sweetspot::collision::hit::{Impact, Model, Scene, Wall};
 use sweetspot::collision::sweet_spot::SweetSpot;
 use sweetspot::files::schema::document::{Format, Generator};
 use sweetspot_study::ignored;
@@ -55,17 +55,17 @@ fn wall(bat: &Bat, scene: &Scene) -> Option<file::Wall> {
         return Some(file::Wall { stiffness_n_m: stiffness, mass_kg: mass, hoop: None });
     }
     let wall = scene.hoop.wall()?;
-    let (hoop, x) = (wall.hoop(), bat.length() - BarrelSpeed::BROADCAST);
+    let x = bat.length() - BarrelSpeed::BROADCAST;
     let compression = scene.ball.patch_compression();
     let [soft, slow] = wall.somewhere(x, compression);
     Some(file::Wall {
         stiffness_n_m: 1.0 / soft,
         mass_kg: slow / (soft * soft),
         hoop: Some(file::HoopInHit {
-            harmonics: wall.request().harmonics.clone(),
-            modes: hoop.modes().len(),
-            frequency_error: hoop.modes().iter().map(|mode| mode.error).fold(0.0, greater),
-            stretch_m: [hoop.from(), hoop.to()],
+            harmonics: wall.harmonics(),
+            modes: wall.modes().len(),
+            frequency_error: wall.off(),
+            stretch_m: wall.ends(),
             patch_compression_m: compression,
         }),
     })

@@ -37,11 +37,11 @@ fn unpressed(barrel: &Barrel, units: Units) -> Option<String> {
         return Some(format!("{ball} does not meet the stretch that is modelled"));
     }
     let Ball { radius_m: radius, .. } = test.ball;
-    let patch = Patch::under(test.at, radius, hoop.radius(test.at), test.ball.patch_compression());
-    if hoop.covers(&patch) {
+    // How long a patch is does not depend on the barrel's radius.
+    let half = Patch::under(test.at, radius, radius, test.ball.patch_compression()).half_length;
+    if test.at - half >= hoop.from() {
         return Some(format!("{ball} meets the bat where it is solid: no wall gives way there"));
     }
-    let half = patch.half_length;
     let first = hoop.from() + half;
     let needs = match first <= hoop.to() {
         true => format!("a ball from {} on is computed (--at)", place(first)),

@@ -11,15 +11,14 @@ use sweetspot::collision::wall_figures::WallFigures;
 
 /// What of the wall gives way, and why it is counted.
 pub fn wall_words(bat: &Bat, scene: &Scene, wall: &HoopWall) -> String {
-    let modes = wall.hoop().modes();
-    let last = modes.iter().map(|mode| mode.harmonic).max().unwrap_or(0);
+    let last = wall.harmonics().into_iter().max().unwrap_or(0);
     let why = scene.gain_by_wall(bat).map_or(String::new(), |gain| {
         format!(": by estimate that is {} of BBCOR", significant(gain, 1))
     });
     format!(
         "the barrel's wall gives way by {} hoop modes of its own, of harmonics 0 and 2 to {last} around \
          it{why}",
-        modes.len()
+        wall.modes().len()
     )
 }
 

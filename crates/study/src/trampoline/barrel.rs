@@ -16,7 +16,6 @@ use sweetspot::collision::hit::{Model, Scene};
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::hoop_wall::{HoopInHit, HoopWall};
 use sweetspot::collision::sweep::{Accuracy, sweep};
-use sweetspot::collision::wall_choice::hoop_request;
 use sweetspot::collision::wall_figures::WallBbcor;
 use sweetspot::modes::hoop::{Hoop, HoopMode, HoopRequest, KnobSide};
 
@@ -211,14 +210,14 @@ impl BarrelStruck {
     pub fn of(bat: &Bat, test: &BarrelTest) -> Result<Self> {
         let solved = match &test.known {
             Some(known) => known.on(bat)?,
-            None => HoopWall::of(bat, test.ball.radius_m, &hoop_request(test.accuracy.exit_speed))?,
+            None => HoopWall::of(bat, test.ball.radius_m, test.accuracy.exit_speed)?,
         };
-        let mut wall = PressedWall::under(solved.hoop(), bat, &test.ball, test.at);
+        let mut wall = PressedWall::under(&solved, bat, &test.ball, test.at);
         let rebound = match (&mut wall, test.ball.stiffness) {
             (Some(wall), Some(_)) => rebound(bat, &solved, test, wall)?,
             _ => None,
         };
-        Ok(Self { first_hz: first(solved.hoop()).map(|mode| mode.frequency_hz), wall, rebound })
+        Ok(Self { first_hz: solved.first_hz(), wall, rebound })
     }
 }
 

@@ -4,7 +4,8 @@ use serde::Serialize;
 
 use sweetspot::bat::body::Bat;
 use sweetspot::collision::ball::Ball;
-use sweetspot::modes::hoop::{Hoop, Patch, Share};
+use sweetspot::collision::hoop_wall::HoopWall;
+use sweetspot::modes::hoop::Share;
 
 /// By how much a barrel is pressed in by the test of its compression (m): 0.04 in for baseball bats, 0.07 in
 /// for softball bats.
@@ -68,19 +69,17 @@ impl PressedWall {
     /// The wall at `x` (m) under a ball that is compressed by as much as its patch takes
     /// ([`Ball::patch_compression`]); None where the patch is not on
     /// the stretch that is modelled.
-    pub fn under(hoop: &Hoop, bat: &Bat, ball: &Ball, x: f64) -> Option<Self> {
+    pub fn under(wall: &HoopWall, bat: &Bat, ball: &Ball, x: f64) -> Option<Self> {
         let section = bat.profile().at(x);
         let compression_m = ball.patch_compression();
-        let patch = Patch::under(x, ball.radius_m, section.outer, compression_m);
-        if section.inner <= 0.0 || !hoop.covers(&patch) {
-            return None;
-        }
+        let patch = wall.patch(x, compression_m);
+        let shares = wall.shares(x, compression_m).filter(|_| section.inner > 0.0)?;
         let share = |share: Share| HarmonicShare {
             harmonic: share.harmonic,
             flexibility_m_n: share.flexibility,
             modes: share.gains.len(),
         };
-        let by_harmonic: Vec<HarmonicShare> = hoop.under(&patch).into_iter().map(share).collect();
+        let by_harmonic: Vec<HarmonicShare> = shares.into_iter().map(share).collect();
         Some(Self {
             x_m: x,
             from_tip_m: bat.length() - x,

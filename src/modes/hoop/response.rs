@@ -1,0 +1,423 @@
+//! How does the wall respond to a ball, as accurately as a hit needs it?
+//!
+//! One mesh and a few modes do: an exit speed within 1e-4 needs the wall's frequencies within 4e-4 and its
+//! flexibility within 1e-3. Of the wall only figures are kept: how modes move the outer surface, and how it gives
+//! way to every load on it.
+//!
+//! ```text
+//! K = L D Lᵀ,   y_s = D^{−½} L⁻¹ e_s for every function s of the outer surface
+//! C(load) = Σ load_s load_t y_s·y_t          the same for any patch, anywhere
+//! ```
+//!
+//! Walls that differ in stiffness and density alone share one solve: with E and ρ of the stiffest material taken out,
+//! `ω = ω̂ √(E/ρ)`, `C = Ĉ/E`, `c = ĉ/ρ`.
+
+use std::f64::consts::{PI, TAU};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+use crate::base::error::{Error, Result};
+use crate::base::lanes::vectorized;
+use crate::base::threads;
+use crate::bat::body::Bat;
+use crate::beam::wall::columns::{Grading, columns};
+use crate::beam::wall::elastic::Elastic;
+use crate::beam::wall::extent::{Extent, Limit};
+use crate::beam::wall::layers::Layers;
+use crate::beam::wall::unknowns::{EndHold, WallMesh};
+use crate::eigen::fronts::{Fronts, SIDES};
+use crate::modes::compliance::taken;
+use crate::modes::hoop::climb::in_handle;
+use crate::modes::hoop::patch::{Patch, Share};
+use crate::modes::hoop::spectrum::{Figures, Spectrum, count_below};
+use crate::modes::hoop::surface::Surface;
+use crate::modes::hoop::system::Wall;
+
+/// How fine a wall is solved for a hit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fineness {
+    /// Degrees of the elements along the bat and across the wall.
+    degrees: [usize; 2],
+    /// Geometric steps towards the tip, kinks and corners.
+    steps: [usize; 3],
+    /// Radii of the handle that are modelled before the taper.
+    lead: f64,
+    /// The last harmonic.
+    last: usize,
+    /// Modes are kept up to this frequency (Hz); what is faster follows the force.
+    up_to_hz: f64,
+    /// The modes of a harmonic are left to its flexibility where that is late by less than this share of what n = 2
+    /// would be late by, had it no mode below those that are kept.
+    little: f64,
+    /// How far frequencies may be off, relative, on a smooth wall, and beside corners of its layers.
+    off: [f64; 2],
+    /// Share of the flexibility beyond the modes that elements may miss: that of the wall close to the patch, where
+    /// frequencies do not tell how good the elements are.
+    pub(crate) missed: f64,
+}
+
+impl Fineness {
+    /// For exit speeds within that share of the closing speed.
+    pub fn for_exit_speed(tolerance: f64) -> Self {
+        match tolerance {
+            t if t >= 1e-3 => Self {
+                degrees: [5, 2],
+                steps: [0, 0, 1],
+                lead: 0.0,
+                last: 6,
+                up_to_hz: 9e3,
+                little: 0.06,
+                off: [2e-3, 4e-3],
+                missed: 0.02,
+            },
+            t if t >= 1e-4 => Self {
+                degrees: [6, 3],
+                steps: [1, 1, 1],
+                lead: 5.0,
+                last: 8,
+                up_to_hz: 16e3,
+                little: 0.06,
+                off: [5e-5, 4e-4],
+                missed: 0.005,
+            },
+            // Finer than this the wall is not known: the patch leaves a thousand times as much open.
+            _ => Self {
+                degrees: [8, 5],
+                steps: [3, 2, 3],
+                lead: f64::INFINITY,
+                last: 14,
+                up_to_hz: 45e3,
+                little: 0.003,
+                off: [1e-6, 1e-5],
+                missed: 0.002,
+            },
+        }
+    }
+}
+
+/// The wall of a bat as balls feel it, solved once.
+#[derive(Debug, Clone)]
+pub struct Response {
+    solved: Arc<Solved>,
+    /// E (Pa) and ρ (kg/m³) of the stiffest material.
+    scale: [f64; 2],
+}
+
+/// The figures of a wall whose stiffest material has E = 1 and ρ = 1.
+#[derive(Debug)]
+struct Solved {
+    surface: Surface,
+    harmonics: Vec<Harmonic>,
+    /// How far frequencies may be off, relative.
+    off: f64,
+}
+
+/// What a harmonic has of it.
+#[derive(Debug)]
+struct Harmonic {
+    n: usize,
+    /// Angular frequencies of its modes, rising.
+    omegas: Vec<f64>,
+    losses: Vec<f64>,
+    /// How far each function of the surface moves in each mode.
+    motions: Vec<Vec<f64>>,
+    /// `y_s·y_t` of all functions of the surface, row by row.
+    flexibility: Vec<f64>,
+    /// `1/ω²` of all that its modes leave to the flexibility.
+    slow: f64,
+}
+
+/// What a wall's response depends on.
+#[derive(Debug, Clone, PartialEq)]
+struct Key {
+    layers: Layers,
+    cut: bool,
+    fineness: Fineness,
+    /// The frequency up to which modes are kept, where E = 1 and ρ = 1.
+    up_to: f64,
+}
+
+/// A wall that is being solved, or was.
+type Cell = Arc<OnceLock<std::result::Result<Arc<Solved>, String>>>;
+
+/// The walls that were asked for last.
+static KNOWN: Mutex<Vec<(Key, Cell)>> = Mutex::new(vec![]);
+/// So many of them are kept, of a quarter of a megabyte each.
+const KEPT: usize = 16;
+
+impl Response {
+    /// The wall of a hollow bat. The last few walls are known: of a bat with the same wall, or one that differs in
+    /// stiffness and density alone, nothing is solved anew.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] for a solid bat, a wall of wood and walls that do not meet in the barrel, and where no mode
+    /// can be found.
+    pub fn of(bat: &Bat, fineness: Fineness) -> Result<Self> {
+        let extent = Extent::of(bat, fineness.lead)?;
+        let mut layers = Layers::of(bat, extent.from, extent.to)?;
+        let scale = normalise(&mut layers.materials);
+        let unit = (scale[0] / scale[1]).sqrt();
+        let cut = extent.limit == Limit::Handle;
+        let key = Key { layers, cut, fineness, up_to: stepped(TAU * fineness.up_to_hz / unit) };
+        let cell = {
+            let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+            let cell = match known.iter().position(|(other, _)| *other == key) {
+                Some(at) => known.remove(at).1,
+                None => Cell::default(),
+            };
+            known.truncate(KEPT - 1);
+            known.insert(0, (key.clone(), Arc::clone(&cell)));
+            cell
+        };
+        let solved = threads::made(&cell, || key.solve().map(Arc::new).map_err(|e| e.to_string()));
+        let solved = solved.as_ref().map_err(|said| {
+            Error::value("profile", said, "a wall whose hoop modes can be found")
+        })?;
+        Ok(Self { solved: Arc::clone(solved), scale })
+    }
+
+    /// Whether both were had by one solve.
+    pub fn shares_with(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.solved, &other.solved)
+    }
+
+    /// Harmonic, ω (rad/s) and damping ratio of every mode, by harmonic.
+    pub fn modes(&self) -> Vec<(usize, [f64; 2])> {
+        let unit = (self.scale[0] / self.scale[1]).sqrt();
+        let of = |harmonic: &Harmonic| -> Vec<(usize, [f64; 2])> {
+            let modes = harmonic.omegas.iter().zip(&harmonic.losses);
+            modes.map(|(omega, loss)| (harmonic.n, [omega * unit, 0.5 * loss])).collect()
+        };
+        self.solved.harmonics.iter().flat_map(of).collect()
+    }
+
+    /// The harmonics that are counted.
+    pub fn harmonics(&self) -> Vec<usize> {
+        self.solved.harmonics.iter().map(|harmonic| harmonic.n).collect()
+    }
+
+    /// How far a frequency may be off, relative.
+    pub fn off(&self) -> f64 {
+        self.solved.off
+    }
+
+    /// From where to where the wall is modelled (m).
+    pub fn ends(&self) -> [f64; 2] {
+        self.solved.surface.ends()
+    }
+
+    /// Outer radius at `x` (m).
+    pub fn radius(&self, x: f64) -> f64 {
+        self.solved.surface.radius(x)
+    }
+
+    /// Whether the ball presses on the modelled stretch: at the tip it may overhang, at the knob side not.
+    pub fn covers(&self, patch: &Patch) -> bool {
+        let [from, to] = self.ends();
+        patch.x - patch.half_length >= from && patch.x <= to
+    }
+
+    /// How each harmonic gives way under a patch.
+    pub fn under(&self, patch: &Patch) -> Vec<Share> {
+        let (radius, load) = (self.radius(patch.x), self.solved.surface.load(patch));
+        let of = |harmonic: &Harmonic| {
+            let size = self.solved.surface.functions.len();
+            harmonic.under(&load, size, patch.share(harmonic.n, radius), self.scale)
+        };
+        self.solved.harmonics.iter().map(of).collect()
+    }
+}
+
+impl Harmonic {
+    /// How it gives way under a load of that resultant, E and ρ being those.
+    fn under(&self, load: &[(usize, f64)], size: usize, g: f64, [e, rho]: [f64; 2]) -> Share {
+        let turn = if self.n == 0 { TAU } else { PI };
+        let mut soft = 0.0;
+        for (s, a) in load {
+            let row = &self.flexibility[s * size..(s + 1) * size];
+            soft += a * load.iter().map(|(t, b)| b * row[*t]).sum::<f64>();
+        }
+        let moved = |motion: &Vec<f64>| load.iter().map(|(s, a)| a * motion[*s]).sum::<f64>();
+        let gain = |motion: &Vec<f64>| g * g * moved(motion).powi(2) / turn;
+        let gains: Vec<f64> = self.motions.iter().map(gain).collect();
+        let soft = g * g * soft / turn;
+        let [here, slow] = taken(&gains, |k| self.omegas[k].powi(2));
+        let slowness = slow + self.slow * (soft - here).max(0.0);
+        Share {
+            harmonic: self.n,
+            gains: gains.into_iter().map(|gain| gain / rho).collect(),
+            flexibility: soft / e,
+            slowness: slowness * rho / (e * e),
+        }
+    }
+}
+
+impl Key {
+    fn solve(&self) -> Result<Solved> {
+        let Fineness { degrees: [p, q], steps: [end, kink, corner], last, off, .. } = self.fineness;
+        // A composite is soft in shear across its wall, which takes a degree more.
+        let across = if self.layers.materials.iter().any(differs) { q.max(3) } else { q };
+        let knob = if self.layers.stretches[0].from == 0.0 { end } else { 0 };
+        let grading = Grading { knob, tip: end, kink, least_kink: LEAST_KINK, corner, soft: 0 };
+        let mesh = WallMesh::new(columns(&self.layers, grading), [p, across])?;
+        let surface = Surface::of(&mesh);
+        let (mesh, materials) = (Arc::new(mesh), self.layers.materials.clone().into());
+        let wall = Wall { mesh, materials };
+        let harmonics: Vec<usize> = std::iter::once(0).chain(2..=last).collect();
+        let of = |k: usize| self.harmonic(&wall, &surface, harmonics[k]);
+        let harmonics = threads::map(harmonics.len(), of).into_iter().collect::<Result<_>>()?;
+        let smooth = self.layers.kinks().is_some() || self.layers.stays_stiff();
+        Ok(Solved { surface, harmonics, off: off[usize::from(!smooth)] })
+    }
+
+    fn harmonic(&self, wall: &Wall, surface: &Surface, n: usize) -> Result<Harmonic> {
+        const RESIDUAL: f64 = 1e-4;
+        let ends = [EndHold::Free; 2];
+        let mut spectrum = Spectrum::new(wall, n, ends)?;
+        let [from, to] = surface.ends();
+        // Six inches from the tip, or where a short wall is.
+        let middle = (to - 0.1524).max(0.5 * (from + to));
+        let radius = surface.radius(middle);
+        let patch = Patch::under(middle, 0.0366, radius, 0.008);
+        let all = surface.under(&spectrum, &patch);
+        let square = all.flexibility / all.slowness;
+        let count = match n {
+            0 => 0,
+            _ if (2.0 / n as f64).powf(FALLS) * self.up_to * self.up_to
+                < self.fineness.little * square =>
+            {
+                0
+            }
+            _ => count_below(wall, n, ends, self.up_to),
+        };
+        if count > 0 {
+            let losses = wall.materials.iter().map(|m| m.loss_factor);
+            let same = losses.clone().all(|loss| loss == wall.materials[0].loss_factor);
+            let figures = if same { Figures::Motions } else { Figures::Strains };
+            spectrum.solve(count, RESIDUAL, figures)?;
+            if same {
+                spectrum.losses = vec![wall.materials[0].loss_factor; count];
+            }
+            if self.cut {
+                let kept: Vec<bool> = (0..count).map(|mode| !in_handle(&spectrum, mode)).collect();
+                spectrum.keep(&kept);
+            }
+        }
+        let radial: Vec<Option<(usize, f64)>> = surface.radial(&spectrum.system.unknowns).collect();
+        let on_surface = |motion: &Vec<f64>| -> Vec<f64> {
+            radial.iter().map(|of| of.map_or(0.0, |(u, sign)| sign * motion[u])).collect()
+        };
+        let motions: Vec<Vec<f64>> = spectrum.motions.iter().map(on_surface).collect();
+        let mut harmonic = Harmonic {
+            n,
+            motions,
+            flexibility: flexibility(&spectrum.factors, surface, &radial),
+            slow: 0.0,
+            omegas: spectrum.omegas,
+            losses: spectrum.losses,
+        };
+        let modes =
+            harmonic.under(&surface.load(&patch), radial.len(), patch.share(n, radius), [1.0; 2]);
+        let [soft, slow] = taken(&modes.gains, |k| harmonic.omegas[k].powi(2));
+        let [soft, slow] = [all.flexibility - soft, all.slowness - slow];
+        harmonic.slow = if soft > 0.0 { (slow / soft).max(0.0) } else { 0.0 };
+        Ok(harmonic)
+    }
+}
+
+/// By this power of n what a harmonic has of the giving way under a ball falls: n = 3 to 8 on a barrel of 3 mm.
+const FALLS: f64 = 3.6;
+/// Least change of slope to which the elements are graded.
+const LEAST_KINK: f64 = 0.02;
+
+/// `y_s·y_t` of the unknowns of the surface, row by row; 0 where no patch presses on both.
+fn flexibility(factors: &Fronts, surface: &Surface, radial: &[Option<(usize, f64)>]) -> Vec<f64> {
+    let size = radial.len();
+    let tiles: Vec<Tile> = (0..size)
+        .step_by(SIDES)
+        .map(|first| {
+            let functions = first..(first + SIDES).min(size);
+            let mut sides = vec![[0.0; SIDES]; factors.pivots().len()];
+            for (s, of) in radial[functions.clone()].iter().enumerate() {
+                if let Some((unknown, sign)) = of {
+                    sides[*unknown][s] = *sign;
+                }
+            }
+            factors.halfway_together(&mut sides);
+            let begin = sides.iter().position(|side| *side != [0.0; SIDES]).unwrap_or(0);
+            Tile { functions, begin, sides }
+        })
+        .collect();
+    let mut products = vec![0.0; size * size];
+    for (k, one) in tiles.iter().enumerate() {
+        for other in &tiles[k..] {
+            let gap = surface.gap(one.functions.end - 1, other.functions.start);
+            if gap > WIDEST {
+                break;
+            }
+            let begin = one.begin.max(other.begin);
+            let block = vectorized!(block(&one.sides[begin..], &other.sides[begin..]));
+            for (s, row) in one.functions.clone().zip(&block) {
+                for (t, value) in other.functions.clone().zip(row) {
+                    (products[s * size + t], products[t * size + s]) = (*value, *value);
+                }
+            }
+        }
+    }
+    products
+}
+
+/// `D^{−½} L⁻¹` of a few functions of the surface side by side, and the first unknown where that is not 0.
+struct Tile {
+    functions: std::ops::Range<usize>,
+    begin: usize,
+    sides: Vec<[f64; SIDES]>,
+}
+
+/// No patch is longer (m): half of a softball that is squeezed flat.
+const WIDEST: f64 = 0.1;
+
+/// Products of all columns of one with all of the other.
+#[inline(always)]
+fn block(one: &[[f64; SIDES]], other: &[[f64; SIDES]]) -> [[f64; SIDES]; SIDES] {
+    let mut block = [[0.0; SIDES]; SIDES];
+    for (x, y) in one.iter().zip(other) {
+        for (row, x) in block.iter_mut().zip(x) {
+            (0..SIDES).for_each(|t| row[t] += x * y[t]);
+        }
+    }
+    block
+}
+
+/// Takes E and ρ of the stiffest material out of all of them, and returns both. What is left is rounded to twelve
+/// digits: materials that differ by E and ρ alone are then the same.
+fn normalise(materials: &mut [Elastic]) -> [f64; 2] {
+    let around = |of: &Elastic| of.normal[1][1];
+    let stiffest = materials.iter().max_by(|a, b| around(a).total_cmp(&around(b)));
+    let [e, rho] = stiffest.map_or([1.0; 2], |of| [around(of), of.density]);
+    for of in materials {
+        of.normal.iter_mut().flatten().for_each(|c| *c = rounded(*c / e));
+        for shear in [&mut of.shear_xr, &mut of.shear_rt, &mut of.shear_xt] {
+            *shear = rounded(*shear / e);
+        }
+        of.density = rounded(of.density / rho);
+    }
+    [e, rho]
+}
+
+/// The number to forty bits.
+fn rounded(x: f64) -> f64 {
+    const DROPPED: u64 = 1 << 12;
+    f64::from_bits((x.to_bits() + DROPPED / 2) & !(DROPPED - 1))
+}
+
+/// The next of a series of numbers that rise by a tenth each: bats that differ a little then keep the same modes.
+fn stepped(x: f64) -> f64 {
+    const STEP: f64 = 1.1;
+    STEP.powf((x.ln() / STEP.ln()).ceil())
+}
+
+/// Whether a material differs in its directions.
+fn differs(of: &Elastic) -> bool {
+    of.shear_xr != of.shear_xt || of.normal[0][0] != of.normal[2][2]
+}
