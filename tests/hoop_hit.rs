@@ -17,16 +17,17 @@ use sweetspot::collision::contact::collider::Collider;
 use sweetspot::collision::contact::encounter::Encounter;
 use sweetspot::collision::contact::power_law::PowerLaw;
 use sweetspot::collision::contact::touch::DrivingPoint;
-use sweetspot::collision::hoop_wall::{HoopInHit, HoopWall, WallSeries};
+use sweetspot::collision::hoop_wall::{HoopInHit, HoopWall, WallSeries, heard};
 use sweetspot::collision::sweep::{Accuracy, Sweep, sweep};
 use sweetspot::collision::wall_choice::WallChoice;
 use sweetspot::collision::{Ball, Hitter, Model, Scene};
-use sweetspot::modes::hoop::Patch;
 use sweetspot::modes::hoop::response::{Fineness, Response};
 use sweetspot::modes::hoop::spectrum::Spectrum;
 use sweetspot::modes::hoop::surface::Surface;
 use sweetspot::modes::hoop::system::Wall;
-use sweetspot::{Bat, Theory};
+use sweetspot::modes::hoop::{Hoop, HoopRequest, Patch};
+use sweetspot::motion::sound::{Sound, Tone};
+use sweetspot::{Bat, Request, Theory, solve};
 use sweetspot_proof::bundled::bundled_bat;
 
 /// Of a usual ball (m).
@@ -510,4 +511,48 @@ fn walls_that_differ_in_scale_alone_share_a_solve() {
             assert!(gains.take(3).all(|(one, other)| (other * rho / one - 1.0).abs() < 1e-9));
         }
     }
+}
+
+/// A blow's tones against the modes of the ladder, whose modal masses and motions share nothing with those of a hit; and
+/// a place where a mode stands still is silent in it.
+#[test]
+fn the_ping_is_as_loud_as_its_modes_are_moved() {
+    let bat = Shape::baseball(0.0030).bat(true);
+    let ball = Ball::baseball();
+    let solution = solve(&bat, &Request::plain()).unwrap();
+    let wall = wall(&bat, 1e-3);
+    let pressed = heard(&bat, &ball).unwrap();
+    let blow = [0.1, 0.0];
+    let of = |x: f64| Sound::of_blow(&solution, x, blow, Some(&pressed));
+    let request = HoopRequest { harmonics: vec![2], up_to_hz: 3000.0, ..HoopRequest::default() };
+    let hoop = Hoop::of(&bat, &request).unwrap();
+    const PLACES: usize = 4001;
+    for (k, mode) in hoop.modes().iter().enumerate().take(2) {
+        let outline = hoop.outline(k, PLACES);
+        for x in [0.62, 0.69, 0.75, 0.80] {
+            let patch = wall.patch(x, COMPRESSION);
+            let weight = |x: f64| (1.0 - ((x - patch.x) / patch.half_length).powi(2)).max(0.0);
+            let along = || outline.x_m.iter().zip(&outline.radial);
+            let moved: f64 = along().map(|(x, u)| weight(*x) * u).sum();
+            let mean = moved / along().map(|(x, _)| weight(*x)).sum::<f64>();
+            let gain = (patch.share(2, 0.0333) * mean).powi(2) / hoop.modal_mass(k);
+            let expected = blow[0] * gain * mode.omega;
+            let near = |tone: &&Tone| (tone.frequency_hz / mode.frequency_hz - 1.0).abs() < 4e-3;
+            let tone = *of(x).tones.iter().find(near).expect("the mode is heard");
+            let off = (tone.amplitude_m_s2 - expected).abs();
+            let most = blow[0] * mode.omega * patch.share(2, 0.0333).powi(2) / hoop.modal_mass(k);
+            assert!(off < 0.01 * most, "{k} {x}: {} {expected}", tone.amplitude_m_s2);
+        }
+    }
+    // The second mode of two waves has a node in the barrel.
+    let second = |x: f64| wall.tones(x, COMPRESSION)[1].gain;
+    let places: Vec<f64> = (0..2000).map(|k| 0.6 + 0.22 * f64::from(k) / 2000.0).collect();
+    let gains: Vec<f64> = places.iter().map(|x| second(*x)).collect();
+    let largest = gains.iter().copied().fold(0.0, f64::max);
+    let inside = gains.windows(3).find(|g| g[1] < g[0] && g[1] <= g[2]).expect("a node");
+    assert!(inside[1] < 1e-3 * largest, "{inside:?} {largest}");
+    // Loudness is that of the bat: a blow at a node of the first bending mode is quieter than one at the tip.
+    let peak = |x: f64| of(x).samples(48_000).into_iter().fold(0.0, |m: f64, p| m.max(p.abs()));
+    let (node, tip) = (peak(solution.modes[0].nodes[1]), peak(bat.length()));
+    assert!(node < 0.7 * tip && tip <= 1.0, "{node} {tip}");
 }

@@ -23,7 +23,7 @@ use crate::modes::compliance::RigidMotion;
 use crate::modes::mode::Mode;
 use crate::modes::solve::Solution;
 use crate::motion::phi::exponential;
-use crate::motion::sound::Sound;
+use crate::motion::sound::{Sound, WallTones};
 
 /// A bat driven by a recorded force.
 pub struct Aftermath<'a> {
@@ -309,9 +309,17 @@ impl<'a> Aftermath<'a> {
         self.modes.iter().zip(&now.modes).map(line).collect()
     }
 
-    /// What the hit sounds like, where the ball met the bat; the solution is the one it was made of.
-    pub fn sound(&self, solution: &Solution) -> Sound {
-        Sound::new(solution, self.lines(self.place).iter().map(|line| line.acceleration_m_s2))
+    /// What the hit sounds like, where the ball met the bat, with what the wall of a hollow barrel adds; the solution is
+    /// the one it was made of.
+    pub fn sound(&self, solution: &Solution, wall: Option<WallTones>) -> Sound {
+        let lines = self.lines(self.place);
+        let amplitudes = lines.iter().map(|line| line.acceleration_m_s2);
+        let of_piece = |piece: &Piece| {
+            let powers = piece.powers.iter().enumerate();
+            piece.length * powers.map(|(k, c)| c / (k + 1) as f64).sum::<f64>()
+        };
+        let blow = [self.pieces.iter().map(of_piece).sum(), self.end()];
+        Sound::of_modes(solution, amplitudes, self.place, blow, wall)
     }
 
     /// Nothing has moved yet.

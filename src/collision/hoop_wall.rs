@@ -19,10 +19,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::base::error::Result;
 use crate::bat::body::Bat;
+use crate::collision::ball::Ball;
 use crate::collision::contact::touch::DrivingPoint;
 use crate::modes::compliance::taken;
 use crate::modes::hoop::response::{Fineness, Response};
-use crate::modes::hoop::{Patch, Share};
+use crate::modes::hoop::{Patch, Share, rings};
+use crate::motion::sound::WallTone;
 
 /// Energy of all hoop modes of a harmonic.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -154,6 +156,18 @@ impl HoopWall {
         Patch::under(x, self.ball_radius, self.bat.profile().at(x).outer, compression)
     }
 
+    /// The modes under a ball that presses at `x` (m), compressed by that much (m).
+    pub fn tones(&self, x: f64, compression: f64) -> Vec<WallTone> {
+        let shares = self.shares(x, compression).unwrap_or_default();
+        let gains = shares.into_iter().flat_map(|share| share.gains);
+        let tone = |((_, [omega, damping_ratio]), gain): (&(usize, [f64; 2]), f64)| WallTone {
+            omega: *omega,
+            damping_ratio: *damping_ratio,
+            gain,
+        };
+        self.modes.iter().zip(gains).map(tone).collect()
+    }
+
     /// How each harmonic gives way at `x` (m) under a ball that is compressed by that much (m); None where the
     /// modelled stretch ends.
     pub fn shares(&self, x: f64, compression: f64) -> Option<Vec<Share>> {
@@ -225,6 +239,14 @@ fn beyond(flexibility: &[(usize, f64)], patch: &Patch, radius: f64) -> f64 {
     let fall = (before / soft).ln() / (*last as f64 / *n as f64).ln();
     let fall = if fall.is_finite() { fall.clamp(2.0, 4.0) } else { 4.0 };
     (last + 1..last + FAR).map(|n| soft * share(n) * (*last as f64 / n as f64).powf(fall)).sum()
+}
+
+/// The tones of a hollow barrel's wall under that ball, by place (m); None of a bat without a wall whose hoop modes can be
+/// found.
+pub fn heard(bat: &Bat, ball: &Ball) -> Option<impl Fn(f64) -> Vec<WallTone> + use<>> {
+    let wall = rings(bat).then(|| HoopWall::of(bat, ball.radius_m, 1e-3).ok()).flatten()?;
+    let compression = ball.patch_compression();
+    Some(move |x: f64| wall.tones(x, compression))
 }
 
 /// How stiff the barrel's wall is under a ball (N/m), before anything is solved: the least of `3 E h^{5/2}

@@ -9,7 +9,8 @@
 //! S(ωT) = |cos(ωT/2) / (1 − (ωT/π)²)|
 //! ```
 //!
-//! How well a mode radiates is left out, and so are the barrel's walls, which ring in hollow bats.
+//! The wall of a hollow barrel rings beside: of a hoop mode of gain c under what presses there `aₙ = J c ωₙ S(ωₙ T)`. How
+//! well a mode radiates is left out.
 
 use std::f64::consts::PI;
 
@@ -36,6 +37,9 @@ pub struct Tone {
 pub struct Sound {
     /// The modes that are heard, by rising frequency.
     pub tones: Vec<Tone>,
+    /// Largest acceleration that such a blow may give anywhere along the bat (m/s²), by which the sound is scaled: a
+    /// blow on a node is quieter.
+    pub loudest_m_s2: f64,
     /// The loss factor that stands in for that of the bat's material, which has none; null where the
     /// bat's own damping is heard.
     pub assumed_loss_factor: Option<f64>,
@@ -52,9 +56,23 @@ const HEARD: f64 = 20_000.0;
 /// Shortest and longest that a sound is (s).
 const LENGTHS: [f64; 2] = [0.3, 3.0];
 
+/// A hoop mode of a barrel's wall under what presses on it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WallTone {
+    /// ω (rad/s).
+    pub omega: f64,
+    /// Damping ratio.
+    pub damping_ratio: f64,
+    /// `c = (g Ū)²/M` (1/kg), [`crate::modes::hoop::patch`].
+    pub gain: f64,
+}
+
+/// The hoop modes of the wall under what presses at a place (m).
+pub type WallTones<'a> = &'a dyn Fn(f64) -> Vec<WallTone>;
+
 impl Sound {
     /// Modes with these accelerations (m/s²) at the beginning, in the order of the solution.
-    pub fn new(solution: &Solution, amplitudes: impl Iterator<Item = f64>) -> Self {
+    fn new(solution: &Solution, amplitudes: impl Iterator<Item = f64>) -> Self {
         let damped = |k: usize| solution.damping.modes.get(k).filter(|damped| damped.decay > 0.0);
         let own = (0..solution.modes.len()).any(|k| damped(k).is_some());
         let decay = |k: usize, mode: &Mode| match own {
@@ -71,23 +89,48 @@ impl Sound {
             amplitude_m_s2: amplitude,
         };
         let assumed_loss_factor = (!own).then_some(ASSUMED_LOSS);
-        Self { tones: heard.map(tone).collect(), assumed_loss_factor }
+        Self { tones: heard.map(tone).collect(), loudest_m_s2: 0.0, assumed_loss_factor }
     }
 
-    /// A blow of that impulse (N s) and duration (s, 0 for one at once) at `x` (m).
-    pub fn of_blow(solution: &Solution, x: f64, [impulse, duration]: [f64; 2]) -> Self {
-        let amplitude = |mode: &Mode| {
-            let shape = mode.shape.deflection(x);
-            impulse * shape * shape * mode.omega * half_sine(mode.omega * duration)
-                / mode.modal_mass
-        };
-        Self::new(solution, solution.modes.iter().map(amplitude))
+    /// Modes with these accelerations (m/s²) at the beginning, after a blow of that impulse (N s) and duration (s) at `x`
+    /// (m), and with them the wall.
+    pub fn of_modes(
+        solution: &Solution,
+        amplitudes: impl Iterator<Item = f64>,
+        x: f64,
+        blow: [f64; 2],
+        wall: Option<WallTones>,
+    ) -> Self {
+        /// Places along the bat at which it is tried how loud it may be.
+        const PLACES: usize = 100;
+        let mut sound = Self::new(solution, amplitudes);
+        let total =
+            |tones: &[Tone]| tones.iter().map(|tone| tone.amplitude_m_s2.abs()).sum::<f64>();
+        let length = solution.modes.first().map_or(0.0, |mode| mode.shape.length());
+        let places = (0..=PLACES).map(|k| length * k as f64 / PLACES as f64);
+        let there = places.map(|x| {
+            let bending = Self::new(solution, bending(solution, x, blow));
+            total(&bending.tones) + wall.map_or(0.0, |wall| total(&rung(wall(x), blow, true)))
+        });
+        let loudest = there.fold(0.0, f64::max);
+        if let Some(wall) = wall {
+            sound.tones.extend(rung(wall(x), blow, sound.assumed_loss_factor.is_some()));
+            sound.tones.sort_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz));
+        }
+        sound.loudest_m_s2 = loudest.max(total(&sound.tones));
+        sound
+    }
+
+    /// A blow of that impulse (N s) and duration (s, 0 for one at once) at `x` (m), with what the wall of a hollow barrel
+    /// adds.
+    pub fn of_blow(solution: &Solution, x: f64, blow: [f64; 2], wall: Option<WallTones>) -> Self {
+        Self::of_modes(solution, bending(solution, x, blow), x, blow, wall)
     }
 
     /// A tap on the tip with something hard, of 1 N s: what is heard is scaled anyway.
-    pub fn of_tap(solution: &Solution) -> Self {
+    pub fn of_tap(solution: &Solution, wall: Option<WallTones>) -> Self {
         let tip = solution.modes.first().map_or(0.0, |mode| mode.shape.length());
-        Self::of_blow(solution, tip, [1.0, TAP])
+        Self::of_blow(solution, tip, [1.0, TAP], wall)
     }
 
     /// The sound at time `t` (s), in m/s².
@@ -105,14 +148,40 @@ impl Sound {
         (1000.0_f64.ln() / slowest).clamp(LENGTHS[0], LENGTHS[1])
     }
 
-    /// Samples at that rate (1/s), the largest 1 or −1; silence where nothing sounds.
+    /// Samples at that rate (1/s), 1 for the loudest that such a blow may be; silence where nothing sounds.
     pub fn samples(&self, rate: u32) -> Vec<f64> {
         let count = (self.length() * f64::from(rate)) as u32;
-        let all: Vec<f64> = (0..count).map(|k| self.at(f64::from(k) / f64::from(rate))).collect();
-        let largest = all.iter().fold(0.0_f64, |most, p| most.max(p.abs()));
-        let scale = if largest > 0.0 { 1.0 / largest } else { 0.0 };
-        all.into_iter().map(|p| scale * p).collect()
+        let scale = if self.loudest_m_s2 > 0.0 { 1.0 / self.loudest_m_s2 } else { 0.0 };
+        (0..count).map(|k| scale * self.at(f64::from(k) / f64::from(rate))).collect()
     }
+}
+
+/// The accelerations (m/s²) of all modes where a blow of that impulse (N s) and duration (s) struck.
+fn bending(
+    solution: &Solution,
+    x: f64,
+    [impulse, duration]: [f64; 2],
+) -> impl Iterator<Item = f64> {
+    solution.modes.iter().map(move |mode| {
+        let shape = mode.shape.deflection(x);
+        impulse * shape * shape * mode.omega * half_sine(mode.omega * duration) / mode.modal_mass
+    })
+}
+
+/// The tones of a wall after such a blow; of a material without a loss factor with the assumed one, if `assumed`.
+fn rung(wall: Vec<WallTone>, [impulse, duration]: [f64; 2], assumed: bool) -> Vec<Tone> {
+    let tone = |WallTone { omega, damping_ratio, gain }: WallTone| {
+        let ratio = match assumed && damping_ratio == 0.0 {
+            true => 0.5 * ASSUMED_LOSS,
+            false => damping_ratio,
+        };
+        Tone {
+            frequency_hz: omega / (2.0 * PI),
+            decay_1_s: ratio * omega,
+            amplitude_m_s2: impulse * gain * omega * half_sine(omega * duration),
+        }
+    };
+    wall.into_iter().map(tone).filter(|tone| tone.frequency_hz < HEARD).collect()
 }
 
 /// `S(ωT)`: what a half sine drives of what a blow of the same impulse at once would.
@@ -152,14 +221,14 @@ mod tests {
     fn a_tone_has_its_mode_and_dies_out_with_its_damping() {
         let bat = Bat::builtin("r161").unwrap();
         let solution = solve(&bat, &Request::plain()).unwrap();
-        let sound = Sound::of_tap(&solution);
+        let sound = Sound::of_tap(&solution, None);
         assert_eq!(sound.assumed_loss_factor, Some(ASSUMED_LOSS));
         for (tone, mode) in sound.tones.iter().zip(&solution.modes) {
             assert_eq!(tone.frequency_hz, mode.frequency());
             assert!((tone.decay_1_s / (0.5 * ASSUMED_LOSS * mode.omega) - 1.0).abs() < 1e-12);
         }
         let lossy = bat.with(|parts| parts.material.loss_factor = 0.03).unwrap();
-        let sound = Sound::of_tap(&solve(&lossy, &Request::plain()).unwrap());
+        let sound = Sound::of_tap(&solve(&lossy, &Request::plain()).unwrap(), None);
         assert_eq!(sound.assumed_loss_factor, None);
         let Tone { frequency_hz, decay_1_s, .. } = sound.tones[0];
         assert!((decay_1_s / (0.015 * 2.0 * PI * frequency_hz) - 1.0).abs() < 1e-3);
@@ -169,7 +238,7 @@ mod tests {
     fn a_mode_is_silent_where_it_is_struck_at_its_node() {
         let bat = Bat::builtin("r161").unwrap();
         let solution = solve(&bat, &Request::plain()).unwrap();
-        let sound = Sound::of_blow(&solution, solution.modes[0].nodes[1], [1.0, 0.0]);
+        let sound = Sound::of_blow(&solution, solution.modes[0].nodes[1], [1.0, 0.0], None);
         let [first, second] = [0, 1].map(|k| sound.tones[k].amplitude_m_s2);
         assert!(first < 1e-9 * second, "{first} {second}");
     }

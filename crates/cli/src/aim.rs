@@ -2,25 +2,17 @@
 
 use std::path::{Path, PathBuf};
 
-use sweetspot::base::error::Complaint;
-use sweetspot::base::{file, typed};
-use sweetspot::collision::setup::Setup;
-use sweetspot::collision::sweet_spot::FINE;
+use sweetspot::base::{error::Complaint, file, typed};
+use sweetspot::collision::{setup::Setup, sweet_spot::FINE};
 use sweetspot::{Bat, Error, Result};
-use sweetspot_report::plot::picture::Picture;
-use sweetspot_report::plot::sheet::Sheet;
-use sweetspot_report::plot::{change, compared};
+use sweetspot_report::plot::{change, compared, picture::Picture, sheet::Sheet};
 use sweetspot_report::report::{aimed, aimed_text};
-use sweetspot_report::template::pages::pages;
-use sweetspot_report::template::pdf::pdf;
-use sweetspot_report::template::sheet::PAPERS;
-use sweetspot_study::aim::aimed::Outcome;
-use sweetspot_study::aim::bench::Terms;
+use sweetspot_report::template::{pages::pages, pdf::pdf, sheet::PAPERS};
 use sweetspot_study::aim::wish::{FreeChoice, SLOPES, Wish};
+use sweetspot_study::aim::{aimed::Outcome, bench::Terms};
 use sweetspot_study::comparison::contender::Terms as Looks;
 use sweetspot_study::comparison::table::{Comparison, Entry};
-use sweetspot_study::files::aim_file::AimFile;
-use sweetspot_study::files::{aim_text, rules_file};
+use sweetspot_study::files::{aim_file::AimFile, aim_text, rules_file};
 use sweetspot_study::lathe::workpiece::HitTerms;
 
 use crate::common::{BatFileArgs, Prepared, SolveArgs, about, as_options, examples, note_outside};

@@ -15,15 +15,13 @@ use sweetspot_report::plot::sets;
 use sweetspot_report::report::json::{self, ShapePoints};
 use sweetspot_report::report::proven::{self, Proven};
 use sweetspot_report::report::sketch::{self, SketchRow};
-use sweetspot_report::report::text;
-use sweetspot_report::report::{self, advice, aftermath, hit_json, hit_text, hoop, trust};
+use sweetspot_report::report::{self, advice, aftermath, hit_json, hit_text, hoop, text, trust};
 use sweetspot_report::schema;
 use sweetspot_report::schema::analysis::AnalysisFile;
 use sweetspot_report::schema::hit::HitFile;
 use sweetspot_report::schema::hoop::HoopFile;
 use sweetspot_report::schema::modes::ModesFile;
-use sweetspot_study::lathe::map::LatheMap;
-use sweetspot_study::lathe::workpiece::HitTerms;
+use sweetspot_study::lathe::{map::LatheMap, workpiece::HitTerms};
 use sweetspot_study::spread::Readings;
 
 use crate::common::{BatArgs, SolveArgs, Solved, as_options, command_line, examples};

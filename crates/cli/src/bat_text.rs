@@ -3,8 +3,7 @@
 use std::fmt::Write;
 
 use sweetspot::Profile;
-use sweetspot::base::marks;
-use sweetspot::base::number::rounded;
+use sweetspot::base::{marks, number::rounded};
 use sweetspot::bat::profile::{Interpolation, Stations};
 
 /// What a bat maker measures; lengths in `unit`.

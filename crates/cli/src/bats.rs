@@ -2,11 +2,8 @@
 
 use sweetspot::files::built_in::bat_names;
 use sweetspot::{Bat, Result};
-use sweetspot_report::parts::cell::Quantity::Words;
-use sweetspot_report::parts::part::Part;
 use sweetspot_report::parts::table::{Column, Table};
-use sweetspot_report::parts::terminal;
-use sweetspot_report::parts::units::Units;
+use sweetspot_report::parts::{cell::Quantity::Words, part::Part, terminal, units::Units};
 
 use crate::done::Done;
 use crate::style;

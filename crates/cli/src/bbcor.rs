@@ -3,10 +3,8 @@
 use std::path::PathBuf;
 
 use sweetspot::base::mistakes::Mistakes;
-use sweetspot::collision::bbcor::Protocol;
 use sweetspot::collision::hit::{Model, Scene};
-use sweetspot::collision::sweep::Trial;
-use sweetspot::collision::wall_choice::WallChoice;
+use sweetspot::collision::{bbcor::Protocol, sweep::Trial, wall_choice::WallChoice};
 use sweetspot::{Bat, Result};
 use sweetspot_report::csv;
 use sweetspot_report::parts::terminal;

@@ -12,11 +12,9 @@ use sweetspot_study::calibrate::calibration::{Calibration, CalibrationPlan, Prop
 use sweetspot_study::calibrate::labels::MOST_MODES;
 use sweetspot_study::calibrate::readings::{BatReadings, Reading, RingDown, SpectralLine};
 use sweetspot_study::files::measured::{self, Beside};
-use sweetspot_study::files::readings_file::ReadingsForm;
-use sweetspot_study::files::written::WrittenFile;
-use sweetspot_study::measured::data::Measured;
-use sweetspot_study::measured::pairing::LEAST;
+use sweetspot_study::files::{readings_file::ReadingsForm, written::WrittenFile};
 use sweetspot_study::measured::study::{ALIKE, Shapes, Study};
+use sweetspot_study::measured::{data::Measured, pairing::LEAST};
 
 use crate::asking::dialogue::Dialogue;
 use crate::asking::draft;

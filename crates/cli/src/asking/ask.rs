@@ -1,9 +1,7 @@
 //! What a person with a bat, a ruler, calipers and a scale answers.
 
-use sweetspot::base::error::Complaint;
-use sweetspot::base::number::rounded;
-use sweetspot::base::typed;
 use sweetspot::base::units::{self, Quantity, inches};
+use sweetspot::base::{error::Complaint, number::rounded, typed};
 use sweetspot::bat::material::{BUILT_IN, BuiltIn};
 
 use crate::asking::dialogue::Read;

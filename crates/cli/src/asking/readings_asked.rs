@@ -5,10 +5,8 @@ use std::io::BufRead;
 use serde_json::{Value, json};
 
 use sweetspot::Bat;
-use sweetspot::base::error::Complaint;
-use sweetspot::base::number::rounded;
-use sweetspot::base::typed;
 use sweetspot::base::units::{self, Quantity, inches};
+use sweetspot::base::{error::Complaint, number::rounded, typed};
 use sweetspot_report::schema;
 use sweetspot_study::files::amounts::{deviation, with_deviation};
 

@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use sweetspot::base::file;
-use sweetspot::motion::sound::Sound;
+use sweetspot::collision::ball::Ball;
+use sweetspot::collision::hoop_wall::heard;
+use sweetspot::motion::sound::{Sound, WallTones};
 use sweetspot::{Bat, Result, Solution};
 use sweetspot_report::exchange::wav;
 use sweetspot_study::ignored::thinnest_wall;
@@ -141,8 +143,16 @@ Examples:
   sweetspot ring meshes/r161.json --hit \"60 cm\" --wav sting.wav
       the crack of a ball hit 10 cm closer to the handle than it should be";
 
-/// Writes a sound of a bat; what was assumed for it and what is not in it is given back.
-pub fn write_sound(path: &Path, bat: &Bat, sound: &Sound) -> Result<Vec<String>> {
+/// Writes what a bat sounds like with its wall under such a ball; what was assumed for it and what is not in it is given
+/// back.
+pub fn write_sound(
+    path: &Path,
+    bat: &Bat,
+    ball: &Ball,
+    sound: impl FnOnce(Option<WallTones>) -> Sound,
+) -> Result<Vec<String>> {
+    let wall = heard(bat, ball);
+    let sound = sound(wall.as_ref().map(|wall| wall as WallTones));
     file::write(path, &wav::file(&sound.samples(wav::RATE)))?;
     let assumed = sound.assumed_loss_factor.map(|loss| {
         format!(
@@ -150,9 +160,8 @@ pub fn write_sound(path: &Path, bat: &Bat, sound: &Sound) -> Result<Vec<String>>
              (give the material a \"loss_factor\")"
         )
     });
-    let ping = thinnest_wall(bat).map(|_| {
-        "the ping of this hollow barrel is not in it: its wall rings in hoop modes, which are not \
-         bending (sweetspot hoop has their frequencies)"
+    let ping = thinnest_wall(bat).filter(|_| wall.is_none()).map(|_| {
+        "the ping of this hollow barrel is not in it: the hoop modes of its wall cannot be found"
             .to_owned()
     });
     Ok(assumed.into_iter().chain(ping).collect())

@@ -2,9 +2,8 @@
 
 use sweetspot::base::units::shown_length;
 use sweetspot::collision::aftermath::{Aftermath, Instant};
-use sweetspot::collision::hit::{Effort, Model};
-use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::strength::breaking_swing;
+use sweetspot::collision::{Effort, Hitter, Model};
 use sweetspot::{Bat, Error, Result, Solution, solve};
 use sweetspot_report::parts::terminal::{LINES, fitting, wrapped};
 use sweetspot_report::plot::picture::Picture;
@@ -54,7 +53,10 @@ pub fn run(args: &Args, bat: Bat, x: f64) -> Result<Done> {
         load.reached_at_swing_rad_s =
             breaking_swing(&bat, &solution, (&scene, effort), (x, until), load.limit);
     }
-    let sound = args.wav.as_ref().map(|path| write_sound(path, &bat, &after.sound(&solution)));
+    let sound = args
+        .wav
+        .as_ref()
+        .map(|path| write_sound(path, &bat, &scene.ball, |wall| after.sound(&solution, wall)));
     let heard = sound.transpose()?.into_iter().flatten();
     let heard: String = heard.map(|told| wrapped(&format!("Sound: {told}"), 2)).collect();
     args.output.draw(&args.plots, &bat, |sheet| Ok(drawn(sheet, &bat, &after, &report)))?;

@@ -3,13 +3,14 @@
 use std::io::{IsTerminal, stdout};
 
 use sweetspot::base::file;
+use sweetspot::collision::ball::Ball;
 use sweetspot::files::force_file;
 use sweetspot::files::schema::document::{Format, Generator};
 use sweetspot::files::shape_file;
 use sweetspot::motion::force::ForceHistory;
 use sweetspot::motion::ringing::Ringing;
 use sweetspot::motion::shape::InitialShape;
-use sweetspot::motion::sound::Sound;
+use sweetspot::motion::sound::{Sound, WallTones};
 use sweetspot::{Bat, Error, Result, Solution};
 use sweetspot_report::plot::ringing::{self, Moving};
 use sweetspot_report::report::motion::{self, Frames};
@@ -35,7 +36,8 @@ pub fn run(args: &Args, bat: Bat) -> Result<Done> {
     };
     let x = places(args, &bat);
     if let Some((path, (x, impulse))) = args.wav.as_ref().zip(args.at.zip(args.impulse)) {
-        for told in write_sound(path, &bat, &Sound::of_blow(&solution, x, [impulse, 0.0]))? {
+        let sound = |wall: Option<WallTones>| Sound::of_blow(&solution, x, [impulse, 0.0], wall);
+        for told in write_sound(path, &bat, &Ball::baseball(), sound)? {
             args.output.warn(&format!("note: {told}"));
         }
     }

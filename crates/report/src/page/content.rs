@@ -18,9 +18,9 @@ use crate::plot::sets::of_analysis;
 use crate::report::{edits, hit_text, hoop, hoop_notes, lathe};
 use sweetspot::base::error::Result;
 use sweetspot::collision::aftermath::Aftermath;
-use sweetspot::collision::hit::Model;
-use sweetspot::collision::hitter::Hitter;
-use sweetspot::motion::sound::Sound;
+use sweetspot::collision::hoop_wall::heard;
+use sweetspot::collision::{Hitter, Model};
+use sweetspot::motion::sound::{Sound, WallTones};
 use sweetspot_study::lathe::map::LatheMap;
 
 /// What a report is made from.
@@ -304,12 +304,14 @@ fn cuts(map: &LatheMap, units: Units) -> Vec<String> {
 /// A tap on the tip, and the hit at the sweet spot where its force is known.
 fn sounds(analysis: &Analysis) -> Result<(Sound, Option<Sound>)> {
     let Analysis { bat, solution, task, hits, figures, .. } = analysis;
-    let tap = Sound::of_tap(solution);
+    let wall = heard(bat, &task.scene.ball);
+    let wall = wall.as_ref().map(|wall| wall as WallTones);
+    let tap = Sound::of_tap(solution, wall);
     let Some(best) = figures.spot.exit_speed_max else { return Ok((tap, None)) };
     let hitter = Hitter::new(task.model, &task.scene, bat, &hits.solution, hits.effort)?;
-    let hit = hitter
-        .force(best.x)
-        .map(|force| Aftermath::new(bat, &hits.solution, best.x, force).sound(&hits.solution));
+    let hit = hitter.force(best.x).map(|force| {
+        Aftermath::new(bat, &hits.solution, best.x, force).sound(&hits.solution, wall)
+    });
     Ok((tap, hit))
 }
 

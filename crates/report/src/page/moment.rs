@@ -13,8 +13,7 @@ use sweetspot::base::number::rounded;
 use sweetspot::bat::body::Bat;
 use sweetspot::collision::aftermath::{Aftermath, Instant};
 use sweetspot::collision::history::Moment as Squeezed;
-use sweetspot::collision::hit::Model;
-use sweetspot::collision::hitter::Hitter;
+use sweetspot::collision::{Hitter, Model};
 
 /// A hit in time, as numbers for drawing: rounded to what a picture shows.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]

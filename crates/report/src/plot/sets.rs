@@ -9,10 +9,7 @@ use crate::plot::{
 use sweetspot::base::error::Result;
 use sweetspot::bat::body::Bat;
 use sweetspot::collision::aftermath::Aftermath;
-use sweetspot::collision::hit::{Model, Scene};
-use sweetspot::collision::hitter::Hitter;
-use sweetspot::collision::sweep::Sweep;
-use sweetspot::collision::sweet_spot::SweetSpot;
+use sweetspot::collision::{Hitter, Model, Scene, Sweep, SweetSpot};
 use sweetspot::modes::solve::Solution;
 use sweetspot_study::lathe::map::LatheMap;
 use sweetspot_study::trade::u_curve::Curve;

@@ -12,9 +12,8 @@ use sweetspot::base::units::{gravities, inches, miles_per_hour};
 use sweetspot::bat::body::Bat;
 use sweetspot::collision::columns::{self, Column};
 use sweetspot::collision::figures::{BarrelSpeed, Figures, Moved};
-use sweetspot::collision::hit::{Impact, Model, Scene};
-use sweetspot::collision::sweep::Sweep;
 use sweetspot::collision::sweet_spot::{Peak, SweetSpot};
+use sweetspot::collision::{Impact, Model, Scene, Sweep};
 use sweetspot_study::ignored;
 
 /// What the flags of hits mean, and the letters that stand for them in the table.

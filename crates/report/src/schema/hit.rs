@@ -4,10 +4,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use sweetspot::bat::edit::Edit;
-use sweetspot::collision::ball::Ball;
 use sweetspot::collision::figures;
 use sweetspot::collision::hit::{Energy, Separation};
-use sweetspot::collision::sweet_spot::SweetSpot;
+use sweetspot::collision::{Ball, SweetSpot};
 use sweetspot::files::schema::document::{Document, Format, Generator};
 
 /// Hits along a bat: exit speeds, forces, energies and the sweet spot. SI, the unit in every name;
