@@ -152,8 +152,7 @@ impl Barrel {
         let change = |bat: &Bat, end: KnobSide| {
             let (tol, harmonics) = (test.tol, vec![2]);
             let up_to_hz = 0.0;
-            let request =
-                HoopRequest { tol, harmonics, up_to_hz, least: 1, end, ..HoopRequest::default() };
+            let request = HoopRequest { tol, harmonics, up_to_hz, least: 1, end };
             Some(first(&Hoop::of(bat, &request).ok()?)?.omega / known? - 1.0)
         };
         let model = HoopModel {
