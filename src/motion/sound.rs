@@ -37,8 +37,8 @@ pub struct Tone {
 pub struct Sound {
     /// The modes that are heard, by rising frequency.
     pub tones: Vec<Tone>,
-    /// Largest acceleration that such a blow may give anywhere along the bat (m/s²), by which the sound is scaled: a
-    /// blow on a node is quieter.
+    /// Largest acceleration that such a blow gives anywhere on the outer half (m/s²), by which the sound is scaled: a blow
+    /// on a node is quieter.
     pub loudest_m_s2: f64,
     /// The loss factor that stands in for that of the bat's material, which has none; null where the
     /// bat's own damping is heard.
@@ -101,23 +101,23 @@ impl Sound {
         blow: [f64; 2],
         wall: Option<WallTones>,
     ) -> Self {
-        /// Places along the bat at which it is tried how loud it may be.
-        const PLACES: usize = 100;
+        /// Places of the outer half at which it is tried how loud it may be.
+        const PLACES: usize = 16;
         let mut sound = Self::new(solution, amplitudes);
-        let total =
-            |tones: &[Tone]| tones.iter().map(|tone| tone.amplitude_m_s2.abs()).sum::<f64>();
         let length = solution.modes.first().map_or(0.0, |mode| mode.shape.length());
-        let places = (0..=PLACES).map(|k| length * k as f64 / PLACES as f64);
+        let places = (0..=PLACES).map(|k| length * (0.5 + 0.5 * k as f64 / PLACES as f64));
+        let assumed = sound.assumed_loss_factor.is_some();
         let there = places.map(|x| {
-            let bending = Self::new(solution, bending(solution, x, blow));
-            total(&bending.tones) + wall.map_or(0.0, |wall| total(&rung(wall(x), blow, true)))
+            let mut other = Self::new(solution, bending(solution, x, blow));
+            other.tones.extend(wall.map_or(vec![], |wall| rung(wall(x), blow, assumed)));
+            other.peak()
         });
         let loudest = there.fold(0.0, f64::max);
         if let Some(wall) = wall {
-            sound.tones.extend(rung(wall(x), blow, sound.assumed_loss_factor.is_some()));
+            sound.tones.extend(rung(wall(x), blow, assumed));
             sound.tones.sort_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz));
         }
-        sound.loudest_m_s2 = loudest.max(total(&sound.tones));
+        sound.loudest_m_s2 = loudest.max(sound.peak());
         sound
     }
 
@@ -142,6 +142,14 @@ impl Sound {
         self.tones.iter().map(tone).sum()
     }
 
+    /// The largest acceleration of the first instants (m/s²), in which all that sounds is loudest.
+    fn peak(&self) -> f64 {
+        const INSTANTS: u32 = 1000;
+        const WITHIN: f64 = 0.02;
+        let at = |k| self.at(WITHIN * f64::from(k) / f64::from(INSTANTS)).abs();
+        (0..INSTANTS).map(at).fold(0.0, f64::max)
+    }
+
     /// How long something is heard (s): until the slowest tone is a thousandth of itself.
     pub fn length(&self) -> f64 {
         let slowest = self.tones.iter().map(|tone| tone.decay_1_s).fold(f64::INFINITY, f64::min);
@@ -151,8 +159,10 @@ impl Sound {
     /// Samples at that rate (1/s), 1 for the loudest that such a blow may be; silence where nothing sounds.
     pub fn samples(&self, rate: u32) -> Vec<f64> {
         let count = (self.length() * f64::from(rate)) as u32;
-        let scale = if self.loudest_m_s2 > 0.0 { 1.0 / self.loudest_m_s2 } else { 0.0 };
-        (0..count).map(|k| scale * self.at(f64::from(k) / f64::from(rate))).collect()
+        let all: Vec<f64> = (0..count).map(|k| self.at(f64::from(k) / f64::from(rate))).collect();
+        let largest = all.iter().fold(self.loudest_m_s2, |most, p| most.max(p.abs()));
+        let scale = if largest > 0.0 { 1.0 / largest } else { 0.0 };
+        all.into_iter().map(|p| scale * p).collect()
     }
 }
 
