@@ -144,9 +144,9 @@ impl Sound {
 
     /// The largest acceleration of the first instants (m/s²), in which all that sounds is loudest.
     fn peak(&self) -> f64 {
-        const INSTANTS: u32 = 1000;
-        const WITHIN: f64 = 0.02;
-        let at = |k| self.at(WITHIN * f64::from(k) / f64::from(INSTANTS)).abs();
+        /// As many of the instants of a usual sound file (44.1 kHz) as there are in 20 ms.
+        const INSTANTS: u32 = 882;
+        let at = |k| self.at(f64::from(k) / 44_100.0).abs();
         (0..INSTANTS).map(at).fold(0.0, f64::max)
     }
 
