@@ -51,11 +51,11 @@ fn a_struck_bat_sounds_at_its_own_frequencies() {
         ["ring", &bat, "--at", "0.84 m", "--impulse", "1 N s", "--csv", "blow.csv", "--quiet"];
     folder.text(&[&blow[..], &["--wav", "blow.wav"]].concat());
     folder.text(&["ring", &bat, "--hit", "60 cm", "--wav", "hit.wav", "--quiet"]);
-    // Nowhere is a blow louder than at the tip; a hit 24 cm from it is quieter.
-    for (name, loud) in [("blow.wav", 29_000.0..=32_767.0), ("hit.wav", 1000.0..=29_000.0)] {
+    for name in ["blow.wav", "hit.wav"] {
         let samples = samples(&std::fs::read(folder.0.join(name)).unwrap());
         let largest = samples.iter().fold(0.0_f64, |most, sample| most.max(sample.abs()));
-        assert!(loud.contains(&largest), "{name}: {largest}");
+        // Both are scaled by the loudest such blow on the outer half: neither silent nor cut off.
+        assert!((1000.0..=32_767.0).contains(&largest), "{name}: {largest}");
         assert!(samples.len() > 10_000, "{name}");
         // A line of the first mode is there, and it is the highest around it.
         let first = strength(&samples, hertz[0]);
