@@ -39,6 +39,7 @@ pub struct Sound {
     pub tones: Vec<Tone>,
     /// Largest acceleration that such a blow gives anywhere on the outer half (m/s²), by which the sound is scaled: a blow
     /// on a node is quieter.
+    #[serde(skip)]
     pub loudest_m_s2: f64,
     /// The loss factor that stands in for that of the bat's material, which has none; null where the
     /// bat's own damping is heard.
