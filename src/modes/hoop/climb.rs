@@ -201,7 +201,7 @@ pub(crate) fn in_handle(spectrum: &Spectrum, mode: usize) -> bool {
 
 /// Round-off of a frequency, relative: 1e-9 where the wall is a hundredth of the radius, and growing as
 /// `(R/h)^3.5` (measured on tubes of h/R from 0.01 to 1e-4).
-fn round_off(layers: &Layers) -> f64 {
+pub(crate) fn round_off(layers: &Layers) -> f64 {
     let (_, thickness, radius) = thinnest(layers);
     1e-9 * (0.01 * radius / thickness).powf(3.5)
 }

@@ -1,6 +1,7 @@
 //! Which functions of the mesh move the outer surface, and how does a ball's patch load them?
 
 use std::f64::consts::PI;
+use std::ops::Range;
 
 use crate::base::linear::dot;
 use crate::base::quadrature::gauss;
@@ -65,11 +66,14 @@ impl Surface {
         [self.strips[0].ends[0], self.strips[self.strips.len() - 1].ends[1]]
     }
 
-    /// How far the strips of a function and of a later one are apart (m); 0 where they share one.
-    pub fn gap(&self, one: usize, later: usize) -> f64 {
-        let has = |strip: &&Strip, k| strip.made_of.iter().flatten().any(|(of, _)| *of == k);
-        let end = self.strips.iter().rfind(|strip| has(strip, one)).map(|strip| strip.ends[1]);
-        let start = self.strips.iter().find(|strip| has(strip, later)).map(|strip| strip.ends[0]);
+    /// How far the strips of some functions and of a later one are apart (m); 0 where they share one.
+    pub fn gap(&self, some: Range<usize>, later: usize) -> f64 {
+        let has = |strip: &Strip, k: &Range<usize>| {
+            strip.made_of.iter().flatten().any(|(of, _)| k.contains(of))
+        };
+        let end = self.strips.iter().rfind(|strip| has(strip, &some)).map(|strip| strip.ends[1]);
+        let later = later..later + 1;
+        let start = self.strips.iter().find(|strip| has(strip, &later)).map(|strip| strip.ends[0]);
         start.zip(end).map_or(0.0, |(start, end)| (start - end).max(0.0))
     }
 
