@@ -2,6 +2,7 @@
 
 use crate::common;
 
+use common::commands::{wider, words};
 use common::folder::Folder;
 use serde_json::Value;
 
@@ -175,62 +176,153 @@ fn diameters_read_to_a_sixteenth_are_off_by_its_share_and_a_person_may_say_other
 const LOOSE: &str = r#"{ "format": "sweetspot-study/1", "bat": "r161", "points": 8,
     "vary": { "bat.material.density": { "lognormal": [650, 0.04] } }, "outputs": ["f1_hz", "mass_kg"] }"#;
 
-/// A verb has at most 24 lines, five of them 40, and says where the rest is; what was asked for is all there.
+/// Verbs whose screen has 40 lines.
+const TALL: [&str; 5] = ["hit", "modes", "lathe", "frf", "validate"];
+
+/// What each of two bats is asked, `BAT` standing for its name.
+const OF_BATS: [&str; 22] = [
+    "hit BAT",
+    "hit BAT --model pulse",
+    "hit BAT --model energy-loss",
+    "hit BAT --wall off",
+    r#"hit BAT --hands "6 in" --units us"#,
+    r#"hit BAT --pitch "95 mph""#,
+    "modes BAT",
+    "modes BAT -n 20",
+    "modes BAT -n 60",
+    "lathe BAT",
+    r#"frf BAT --at "28 in" --to "2 in""#,
+    "bbcor BAT",
+    r#"ring BAT --hit "60 cm""#,
+    r#"ring BAT --hit "60 cm" --watch "2 in,4 in,6 in,8 in""#,
+    "advise BAT",
+    "advise BAT -n 10",
+    r#"trade BAT --budget "300 ms""#,
+    r#"trade BAT --u-curve --budget "300 ms""#,
+    r#"aim BAT --target "mass -2 %" --rules ncaa"#,
+    "compare BAT torpedo --units si",
+    "analyze BAT",
+    "analyze BAT --report page.md --plots pictures --out files",
+];
+
+/// What other bats are asked.
+const OF_OTHERS: [&str; 38] = [
+    "analyze cone --report page.md",
+    "analyze corked --model pulse",
+    "analyze two_piece --model rigid --report page.md",
+    "analyze r161 --guarantee",
+    "analyze long.json",
+    "modes r161 --guarantee",
+    "modes two_piece --guarantee",
+    "modes composite_made_up",
+    "modes long.json",
+    r#"hit corked --swing-speed "55 rad/s""#,
+    "hit dowel",
+    "hit two_piece -n 3",
+    "lathe torpedo",
+    "lathe house",
+    "lathe two_piece --units si",
+    "lathe r161 --outputs f1_hz",
+    r#"lathe r161 --depth "1 mm" --units us"#,
+    "advise two_piece -n 10",
+    "hoop bbcor_made_up",
+    "hoop two_piece -n 10",
+    "hoop two_piece -n 10 --wall-sweep",
+    r#"ring corked --hit "65 cm""#,
+    "scatter r161 --points 64",
+    r#"aim northwestern_aluminium --target "swing weight -3 %""#,
+    r#"aim bbcor_made_up_open --target "mass -2 %""#,
+    "compare r161 bbcor_made_up_open",
+    r#"compare house corked --hands "6 in""#,
+    "compare northwestern_aluminium northwestern_wood",
+    "compare r161 torpedo house",
+    "compare cone tanh dowel --units us",
+    "compare r161 bbcor_made_up_open softball_made_up two_piece",
+    "compare r161 torpedo house corked cone --model pulse",
+    "compare r161 northwestern_aluminium northwestern_wood dowel cone tanh",
+    "compare r161 bbcor_made_up_open composite_made_up two_piece softball_made_up_open corked",
+    "compare long.json r161 torpedo",
+    "compare r161 --measured modes.uff",
+    "compare torpedo --measured modes.uff",
+    "calibrate torpedo modes.uff",
+];
+
+/// What is over of a screen: lines, columns, no word about `--full`, or a `--full` without more.
+fn over(folder: &Folder, command: &str) -> Option<String> {
+    let args = words(command);
+    let args: Vec<&str> = args.iter().map(String::as_str).collect();
+    let text = |more: &[&str]| {
+        let output = folder.run(&[&args[..], &["--quiet"], more].concat());
+        assert!(output.status.code().is_some_and(|code| code < 2), "{command}: {output:?}");
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let screen = text(&[]);
+    let most = if TALL.contains(&args[0]) { 40 } else { 24 };
+    let (lines, wide) = (screen.lines().count(), wider(&screen, 80));
+    let said = screen.contains("verything else: --full") || screen.contains("All else: --full");
+    let more = || text(&["--full"]).lines().count() >= lines;
+    let good = lines <= most && wide.is_empty() && said && more();
+    (!good).then(|| format!("{command}: {lines} lines, {most} at most\n{screen}"))
+}
+
+/// A verb has at most 24 lines of 80 columns, five of them 40, and says where the rest is.
 #[test]
 fn a_screen_is_a_screen_and_full_has_the_rest() {
     let folder = Folder::new("screens");
-    let lines = |args: &[&str]| folder.text(args).lines().count();
-    for bat in ["r161", "bbcor_made_up"] {
-        for verb in ["hit", "modes", "lathe"] {
-            assert!(lines(&[verb, bat]) <= 40, "{verb} {bat}");
-            assert!(folder.text(&[verb, bat]).ends_with("Everything else: --full\n"), "{verb}");
-            assert!(lines(&[verb, bat, "--full"]) > 60, "{verb} {bat}");
-        }
-        for (most, args) in [
-            (40, &["frf", bat, "--at", "28 in", "--to", "2 in"][..]),
-            (24, &["bbcor", bat]),
-            (24, &["ring", bat, "--hit", "60 cm"]),
-            (24, &["advise", bat]),
-            (24, &["trade", bat, "--budget", "300 ms"]),
-            (24, &["trade", bat, "--u-curve", "--budget", "300 ms"]),
-            (24, &["aim", bat, "--target", "mass -2 %"]),
-            (24, &["compare", bat, "torpedo", "--quiet"]),
-        ] {
-            let screen = folder.text(args);
-            assert!(screen.lines().count() <= most, "{screen}");
-            assert!(screen.ends_with("Everything else: --full\n"), "{screen}");
-            let full = lines(&[args, &["--full"]].concat());
-            assert!(full > screen.lines().count() + 1, "{full}\n{screen}");
-        }
-        assert!(lines(&["analyze", bat]) <= 24, "{bat}");
-    }
-    folder.text(&["modes", "r161", "--json", "modes.json"]);
+    let named =
+        "A bat of an ash that somebody turned in a barn on a winter day, and that nobody has swung";
+    let text = std::fs::read_to_string(concat!(env!("SWEETSPOT_TOP"), "/meshes/r161.json"));
+    folder.write("long.json", text.unwrap().replace("Louisville Slugger R161", named));
+    folder.text(&["modes", "r161", "--json", "modes.json", "--quiet"]);
     folder.run(&["convert", "modes.json", "--to", "uff", "--out", "modes.uff"]);
-    for args in [
-        &["hoop", "bbcor_made_up"][..],
-        &["hoop", "two_piece"],
-        &["ring", "corked", "--hit", "65 cm"],
-        &["compare", "bbcor_made_up", "bbcor_made_up_open"],
-        &["scatter", "r161", "--points", "64"],
-        &["compare", "r161", "--measured", "modes.uff"],
+    let of_bats = ["r161", "bbcor_made_up"]
+        .into_iter()
+        .flat_map(|bat| OF_BATS.map(|command| command.replace("BAT", bat)));
+    let commands = of_bats.chain(OF_OTHERS.map(str::to_owned));
+    let faults: Vec<String> = commands.filter_map(|command| over(&folder, &command)).collect();
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+/// What a screen has no room for is named where it says `--full`; there it is all.
+#[test]
+fn what_is_cut_short_is_named_and_full_has_it() {
+    let folder = Folder::new("cut-short");
+    for (args, named, cut) in [
+        (&["modes", "composite_made_up", "-n", "20"][..], "nodes, damping. ", "    20  17720"),
+        (&["hit", "corked"], "modes left out", "20 modes; what is left out"),
+        (&["compare", "cone", "tanh", "dowel"], "where along the barrel, trust. ", "By distance"),
+        (&["hoop", "two_piece", "--wall-sweep"], "what the wall does. ", "Barrel compression"),
+        (&["aim", "northwestern_aluminium", "--target", "mass -2 %"], "cuts. ", "--cuts FILE"),
     ] {
-        let (screen, full) = (lines(args), lines(&[args, &["--full"]].concat()));
-        assert!(screen <= 24 && full > screen, "{args:?}: {screen} {full}");
+        let screen = folder.text(&[args, &["--quiet"]].concat());
+        let last = screen.lines().last().unwrap();
+        let told = format!("Cut short: {named}");
+        assert!(last.starts_with(&told) && last.ends_with("Everything else: --full"), "{screen}");
+        let full = folder.text(&[args, &["--quiet", "--full"]].concat());
+        assert!(full.contains(cut) && !full.contains("Cut short"), "{args:?}: {full}");
     }
-    assert!(lines(&["bats"]) <= 24 && lines(&["lathe", "two_piece"]) <= 40);
-    folder.write("loose.json", LOOSE);
-    assert!(lines(&["study", "loose.json", "--out", "loose"]) <= 24);
-    let made = ["new", "made.json", "--name", "M", "--length", "33 in", "--mass", "31 oz"];
-    assert!(lines(&[&made[..], &["--material", "white-ash", "--like", "r161"]].concat()) <= 24);
-    // What was asked for is all there.
+}
+
+#[test]
+fn what_was_asked_for_is_all_there() {
+    let folder = Folder::new("asked");
+    let lines = |args: &[&str]| folder.text(args).lines().count();
     let rows = |points: &str| lines(&["hit", "r161", "--points", points]);
     assert_eq!(rows("90") - rows("80"), 10);
     let rows = |points: &str| lines(&["frf", "r161", "--at", "0.6", "--points", points]);
     assert_eq!(rows("90") - rows("80"), 10);
-    assert_eq!(
-        lines(&["hoop", "bbcor_made_up", "-n", "10"]),
-        lines(&["hoop", "bbcor_made_up", "--full"])
-    );
+    let ten = folder.text(&["hoop", "bbcor_made_up", "-n", "10"]);
+    assert_eq!(ten.lines().filter(|line| line.contains("within")).count(), 10);
+    assert!(lines(&["bats"]) <= 24);
+    folder.write("loose.json", LOOSE);
+    assert!(lines(&["study", "loose.json", "--out", "loose"]) <= 24);
+    assert!(lines(&["study", "loose.json", "--out", "loose", "--summary"]) <= 24);
+    for mass in ["31 oz", "8 oz"] {
+        let made =
+            ["new", "made.json", "--force", "--name", "M", "--length", "33 in", "--mass", mass];
+        let args = [&made[..], &["--material", "white-ash", "--like", "r161"]].concat();
+        assert!(lines(&args) <= 24, "{mass}");
+    }
 }
 
 /// Known answers: counts, every miss and the worst of each kind on a screen, every number with `--full`.

@@ -8,7 +8,7 @@ use sweetspot_study::advise::advice::{Advice, MOST_MODES, advise_telling};
 
 use crate::common::{BatFileArgs, examples};
 use crate::done::Done;
-use crate::output::{FullArgs, OutputArgs};
+use crate::output::{LINES, OutputArgs};
 use crate::value::tolerance;
 
 /// Which physics this bat needs, and which it can do without
@@ -34,9 +34,6 @@ pub struct Args {
     tol: f64,
 
     #[command(flatten)]
-    full: FullArgs,
-
-    #[command(flatten)]
     output: OutputArgs,
 }
 
@@ -55,7 +52,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let advice = advise_telling(&bat, args.count.into(), args.tol, &tell)?;
     drop(progress);
     let code = verdict(args, &advice);
-    let table = args.full.screen(|full| {
+    let table = args.output.screen(LINES, |full| {
         let (title, parts) = advice::report(&advice, args.output.units(&bat), full);
         terminal::text(&title, &parts)
     });

@@ -17,7 +17,7 @@ use sweetspot_study::lathe::workpiece::HitTerms;
 
 use crate::common::{BatFileArgs, Prepared, SolveArgs, about, as_options, examples, note_outside};
 use crate::done::{Done, NOT_REACHED};
-use crate::output::{FullArgs, OutputArgs, apart, make, put};
+use crate::output::{LINES, OutputArgs, apart, make, put};
 use crate::scene::{self, SceneArgs};
 use crate::value::LITTLE;
 
@@ -112,9 +112,6 @@ pub struct Args {
     scene: SceneArgs,
 
     #[command(flatten)]
-    full: FullArgs,
-
-    #[command(flatten)]
     solve: SolveArgs,
 
     #[command(flatten)]
@@ -183,7 +180,7 @@ pub fn run(args: &Args) -> Result<Done> {
         file::write(path, text.as_bytes())?;
     }
     let us = args.output.units(&bat).us_first();
-    let table = args.full.screen(|full| aimed_text::text(&outcome, (args.pass, us, full)));
+    let table = args.output.screen(LINES, |full| aimed_text::text(&outcome, (args.pass, us, full)));
     let table = put(&args.cuts, table, || Ok(aimed::cuts_csv(&outcome, args.pass)))?;
     let text = args.output.deliver(table, || aimed::document(&outcome, args.pass))?;
     Ok(Done::new(text, if outcome.met { 0 } else { NOT_REACHED }).with(warning))

@@ -28,7 +28,7 @@ use crate::common::{BatArgs, SolveArgs, Solved, as_options, command_line, exampl
 use crate::done::Done;
 use crate::guarantee::{self, GuaranteeArgs};
 use crate::hit::verdict as hit_verdict;
-use crate::output::{OutputArgs, apart, make, printed};
+use crate::output::{LINES, OutputArgs, Screen, apart, make, printed};
 use crate::scene::{self, SceneArgs};
 use crate::value::{READING, SCALE, Use};
 
@@ -73,11 +73,6 @@ pub struct Args {
     #[arg(long, value_name = "kg", default_value = "1 g", help_heading = "How it was measured",
           value_parser = |s: &str| reading(&SCALE, s))]
     scale: f64,
-
-    /// Everything, on several screens: a sketch, ten modes, the hits along the barrel, what the model
-    /// needs, figures
-    #[arg(long, help_heading = "Output")]
-    full: bool,
 
     /// Write modes.json, hit.json and curve.csv into this folder, of a hollow bat also hoop.json
     #[arg(long, value_name = "DIR", help_heading = "Output")]
@@ -151,7 +146,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let task = Task { model, scene, law, hits, proof, readings: readings(args, &bat) };
     let tell = |share: f64, what: &str| progress.say(share, what);
     let analysis = Analysis::telling(bat, solution, task, &tell)?;
-    let lathe = match args.full || args.plots.is_some() || args.report.is_some() {
+    let lathe = match args.output.full || args.plots.is_some() || args.report.is_some() {
         true => lathe(args, &analysis)?,
         false => None,
     };
@@ -172,7 +167,10 @@ fn readings(args: &Args, bat: &Bat) -> Readings {
 }
 
 /// What a short answer ends with.
-const MORE: &str = "Everything else: --full; on a page to look at: --report FILE.html\n";
+const MORE: &str = "Everything else: --full; on a page to look at: --report FILE.html";
+
+/// Lines of a proof that a screen has: its heads, and the modes of the answers.
+const FEW: usize = 5;
 
 /// What a cut does, in wide bands, for the same hits.
 fn lathe(args: &Args, analysis: &Analysis) -> Result<Option<LatheMap>> {
@@ -222,20 +220,22 @@ impl Answer<'_> {
     fn screen(&self) -> String {
         let Self { args, analysis, .. } = self;
         let units = args.output.units(&analysis.bat);
-        let mut text = if args.full {
-            let cuts = self.lathe.as_ref().map(|map| report::lathe::in_short(map, units));
-            let cuts = cuts.filter(|cuts| !cuts.is_empty()).map(|cuts| format!("\n{cuts}"));
-            everything(analysis, &args.output) + &cuts.unwrap_or_default()
-        } else {
-            let more = analysis.barrel.as_ref().and_then(report::hoop::in_a_line);
-            trust::screen(analysis, units) + more.as_deref().unwrap_or(MORE)
-        };
-        if let Some(proven) = &self.proven {
-            text += &format!("\n{}", proven::text(proven));
-        }
+        let proof = self.proven.as_ref().map_or(String::new(), proven::text);
         let written = [&args.report, &args.plots, &args.out].into_iter().flatten();
         let written: String = written.map(|path| format!("  {}\n", printed(path))).collect();
-        if written.is_empty() { text } else { format!("{text}\nWrote:\n{written}") }
+        let written = if written.is_empty() { written } else { format!("Wrote:\n{written}") };
+        if args.output.full {
+            let cuts = self.lathe.as_ref().map(|map| report::lathe::in_short(map, units));
+            let more = [cuts.unwrap_or_default(), proof, written].into_iter();
+            let more = more.filter(|told| !told.is_empty()).map(|told| format!("\n{told}"));
+            return everything(analysis, &args.output) + &more.collect::<String>();
+        }
+        let [answers, trust] = trust::screen(analysis, units);
+        let few: String = proof.lines().take(FEW).map(|line| format!("{line}\n")).collect();
+        let more = analysis.barrel.as_ref().and_then(report::hoop::in_a_line);
+        let room = LINES.saturating_sub(written.lines().count());
+        let screen = Screen::from([(0, "", answers), (1, "", trust), (0, "", few)]);
+        screen.fitted(room, "", more.as_deref().unwrap_or(MORE)) + &written
     }
 
     /// All of it in one document.
@@ -317,7 +317,7 @@ fn everything(analysis: &Analysis, output: &OutputArgs) -> String {
         "{}\n{}\n{}\n{}{}{}{}\n{}{}\n{}\n{}\n{}{}{}\n{}\n{}{}",
         text::summary(bat, units),
         output.sketch(bat, &rows(analysis)),
-        text::modes(bat, solution, 3, units),
+        text::modes(bat, solution, 3, units).concat(),
         trust::text(analysis, units),
         text::model(bat, solution),
         proof(analysis),

@@ -16,7 +16,7 @@ use crate::cannon::CannonArgs;
 use crate::common::{BatArgs, Prepared, SolveArgs, examples, on_the_bat};
 use crate::done::Done;
 use crate::hit::verdict;
-use crate::output::{CsvArgs, FullArgs, OutputArgs};
+use crate::output::{CsvArgs, LINES, OutputArgs};
 use crate::value::PLACE;
 
 /// BBCOR as laboratories measure it, computed
@@ -51,9 +51,6 @@ pub struct Args {
     #[arg(long, value_name = "WHEN", default_value = "auto", help_heading = "The test",
           value_parser = ["auto", "on", "off"], hide_possible_values = true)]
     wall: String,
-
-    #[command(flatten)]
-    full: FullArgs,
 
     #[command(flatten)]
     solve: SolveArgs,
@@ -93,7 +90,7 @@ pub fn run(args: &Args) -> Result<Done> {
     args.solve.say_raised(&tested.sweep.solution, &args.output);
     args.output.draw(&args.plots, &tested.bat, |sheet| Ok(plot::picture(sheet, &tested)))?;
     let code = verdict(&args.solve, &tested.sweep, &args.output);
-    let table = args.full.screen(|full| {
+    let table = args.output.screen(LINES, |full| {
         let (title, parts) = report::report(&tested, args.output.units(&tested.bat), full);
         terminal::text(&title, &parts)
     });

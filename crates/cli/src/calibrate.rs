@@ -23,7 +23,7 @@ use crate::beside::BesideArgs;
 use crate::common::{Prepared, about, examples, prepare, read_with_text};
 use crate::done::{Done, FAILED};
 use crate::edits::EditArgs;
-use crate::output::{apart, draw, printed, put, warn};
+use crate::output::{FullArgs, LINES, apart, draw, printed, put, warn};
 use crate::style;
 use crate::value::{PLACE, TheoryChoice, choice};
 
@@ -85,9 +85,8 @@ pub struct Args {
     #[arg(long, value_name = "DIR")]
     plots: Option<PathBuf>,
 
-    /// No warnings on standard error
-    #[arg(long)]
-    quiet: bool,
+    #[command(flatten)]
+    said: FullArgs,
 }
 
 const EXAMPLES: &str = "\
@@ -182,14 +181,17 @@ pub fn run(args: &Args) -> Result<Done> {
         ("--readings", &args.readings),
     ];
     apart(&written)?;
-    let (bat, text) = read_with_text(&args.bat, &EditArgs::default(), args.quiet)?;
+    let (bat, text) = read_with_text(&args.bat, &EditArgs::default(), args.said.quiet)?;
     let Some(told) = readings(args, &bat)? else { return Ok(Done::new(String::new(), 0)) };
     let MeasuredArgs { mut readings, name, person } = told;
     told_again(&mut readings.lines, &args.mode)?;
     let plan = CalibrationPlan { split: args.regions, held: args.hold.clone() };
     let found = Calibration::new(&bat, readings, &plan).map_err(as_told(args))?;
-    let table = calibrate::text(&bat, &found) + &relabelled(args, &found).unwrap_or_default();
-    draw(&args.plots, args.quiet, || Ok(pictures_of::pictures(bat.name(), &found)))?;
+    let table = args.said.screen(LINES, |_| {
+        let [wood, data, words] = calibrate::text(&bat, &found);
+        [wood, data, words, (0, "", relabelled(args, &found).unwrap_or_default())]
+    });
+    draw(&args.plots, args.said.quiet, || Ok(pictures_of::pictures(bat.name(), &found)))?;
     let file = || calibrated_bat::text((&bat, &text), &found, &name);
     let out = put(&args.csv, style::table(&table), || Ok(calibrate::csv(&found)))?;
     let out = put(&args.out, out, file)?;
@@ -254,7 +256,7 @@ fn readings(args: &Args, bat: &Bat) -> Result<Option<MeasuredArgs>> {
     let name = path.file_name().map_or(printed(path), |name| printed(Path::new(name)));
     let beside = args.beside.read()?;
     let readings = if measured::has_modes(path) {
-        of_modes(measured::read(path, &beside)?, bat, args.quiet)?
+        of_modes(measured::read(path, &beside)?, bat, args.said.quiet)?
     } else if beside != Beside::default() {
         let expected = "a universal file (.uff, .unv): readings have their units";
         return Err(Error::value("--unit, --places or --frequency-unit", name, expected));

@@ -19,7 +19,7 @@ use crate::beside::BesideArgs;
 use crate::common::{Prepared, SolveArgs, as_options, command_line, examples, read};
 use crate::done::Done;
 use crate::edits::{EditArgs, WhatIf, edited, what_if};
-use crate::output::{CsvArgs, FullArgs, OutputArgs, apart, printed};
+use crate::output::{CsvArgs, LINES, OutputArgs, apart, printed};
 use crate::scene::{self, SceneArgs};
 use crate::value::{PLACE, SPACING};
 
@@ -90,9 +90,6 @@ pub struct Args {
     /// Write all of it on one page for people into this file (.html): what differs first
     #[arg(long, value_name = "FILE", conflicts_with = "measured", help_heading = "Output")]
     report: Option<PathBuf>,
-
-    #[command(flatten)]
-    full: FullArgs,
 
     #[command(flatten)]
     scene: SceneArgs,
@@ -173,7 +170,7 @@ fn measured_beside(args: &Args, file: &Path) -> Result<Done> {
     let drawn = |sheet| Ok(plot::measured::pictures(sheet, bat.name(), &study));
     args.output.draw(&args.plots, &bat, drawn)?;
     let units = args.output.units(&bat);
-    let text = args.full.screen(|full| report::measured::text(&bat, &study, units, full));
+    let text = args.output.screen(LINES, |full| report::measured::text(&bat, &study, units, full));
     let name = path.display().to_string();
     let text = args.output.deliver(text, || report::measured::document(&bat, &name, &study))?;
     let code = args.solve.verdict(&study.solution, &args.output);
@@ -220,8 +217,8 @@ fn bats_beside(args: &Args) -> Result<Done> {
     let compared = Comparison::new(entries, terms)?;
     for_people(args, &compared)?;
     let units = args.output.units(&compared.bats[0].bat);
-    let table = args.full.screen(|full| match full {
-        true => comparison::text(&compared, units),
+    let table = args.output.screen(LINES, |full| match full {
+        true => comparison::text(&compared, units).into(),
         false => comparison_screen::screen(&compared, units),
     });
     let text = args.csv.deliver(table, || comparison_data::csv(&compared))?;

@@ -19,7 +19,7 @@ use crate::beside::PlacesArgs;
 use crate::common::{BatArgs, Prepared, SolveArgs, about, examples, on_the_bat};
 use crate::done::Done;
 use crate::frf_grid::{Grid, GridArgs};
-use crate::output::{CsvArgs, FullArgs, OutputArgs, apart, put};
+use crate::output::{CsvArgs, MANY, OutputArgs, apart, put};
 use crate::value::{PLACE, choice, file_unit, named};
 
 /// How the bat answers a shaker or a tap, over frequency
@@ -97,9 +97,6 @@ pub struct Args {
     /// Draw size and phase, with the peaks, into this folder, as SVG and PNG
     #[arg(long, value_name = "DIR", help_heading = "Output")]
     plots: Option<PathBuf>,
-
-    #[command(flatten)]
-    full: FullArgs,
 
     #[command(flatten)]
     solve: SolveArgs,
@@ -316,7 +313,9 @@ fn one(args: &Args, bat: Bat, measured: Option<&MeasuredResponse>) -> Result<Don
     drop(progress);
     let told = answered.told(args, &bat, measured);
     let document = report::document(&told);
-    let table = args.full.screen(|full| report::text(&told, full, args.grid.counted()));
+    let every = args.grid.counted();
+    let most = if every { usize::MAX } else { MANY };
+    let table = args.output.screen(most, |full| report::text(&told, full, every));
     args.output.draw(&args.plots, &bat, |sheet| answered.picture(args, sheet, &bat, "response"))?;
     let Answered { samples, grid, kind, places: [at, to], .. } = &answered;
     let text = args.output.deliver(table, || document)?;
@@ -364,7 +363,7 @@ fn all(args: &Args, bat: Bat, measured: &[(usize, MeasuredResponse)]) -> Result<
     args.output.draw(&args.plots, &bat, |_| Ok(pictures))?;
     let source = &measured[0].1.source;
     let units = args.output.units(&bat);
-    let table = args.full.screen(|full| frf_set::text(&bat, source, &rows, (units, full)));
+    let table = args.output.screen(MANY, |full| frf_set::text(&bat, source, &rows, (units, full)));
     let numbers = rows.iter().map(|row| row.number).collect();
     let text = args.output.deliver(table, || FrfSetFile::new(numbers, answers))?;
     let text = args.csv.deliver(text, || frf_set::csv(&rows))?;

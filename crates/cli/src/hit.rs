@@ -18,7 +18,7 @@ use sweetspot_study::verdict::Verdict;
 
 use crate::common::{BatArgs, Prepared, SolveArgs, as_options, examples, on_the_bat};
 use crate::done::Done;
-use crate::output::{CsvArgs, FullArgs, OutputArgs};
+use crate::output::{CsvArgs, MANY, OutputArgs};
 use crate::scene::{self, SceneArgs};
 use crate::value::PLACE;
 
@@ -50,9 +50,6 @@ pub struct Args {
     /// --at); force, compression and the hands' motion, of the hit --at or at the sweet spot
     #[arg(long, value_name = "DIR", help_heading = "Output")]
     plots: Option<PathBuf>,
-
-    #[command(flatten)]
-    full: FullArgs,
 
     #[command(flatten)]
     csv: CsvArgs,
@@ -168,27 +165,28 @@ fn table(args: &Args, bat: &Bat, trial: Trial, sweep: &Sweep, figures: &Figures)
     let known = Verdict::of((bat, scene), sweep, figures.best.as_ref(), figures.wall);
     let doubts = trust::doubts(&known, units);
     let doubts: String = doubts.iter().map(|doubt| wrapped(doubt, 0)).collect();
-    let above = hit_text::scene(bat, scene, model.name(), units) + hit_text::meaning(model);
-    let spot = [
-        hit_text::sweet_spot(bat, &figures.spot, units),
-        hit_text::why(figures, units),
-        hit_text::beyond(sweep, scene, units),
-        doubts + trust::IN_ANALYZE,
-    ]
-    .concat();
-    let all = hit_text::impacts(bat, &sweep.impacts, units);
-    args.full.screen(|full| {
-        if full {
-            let sketch = args.output.sketch(bat, &sketch::of_hit(bat, &figures.spot));
-            let more = hit_text::figures(figures, units);
-            let moves = hit_text::moves(bat, figures, units);
-            return format!("{above}\n{all}\n{sketch}\n{spot}\n{more}\n{moves}");
-        }
+    let above = hit_text::scene(bat, scene, model.name(), units) + &hit_text::meaning(model);
+    let most = if args.place.points.is_some() { usize::MAX } else { MANY };
+    args.output.screen(most, |full| {
         let best = figures.spot.exit_speed_max.map(|peak| peak.x);
-        let some = hit_text::some(&sweep.impacts, best);
-        let shown =
-            if args.place.asked() { all.clone() } else { hit_text::impacts(bat, &some, units) };
-        format!("{above}\n{shown}\n{spot}")
+        let shown = match full || args.place.asked() {
+            true => hit_text::impacts(bat, &sweep.impacts, units),
+            false => hit_text::impacts(bat, &hit_text::some(&sweep.impacts, best), units),
+        };
+        let [mut sketch, mut more] = [const { String::new() }; 2];
+        if full {
+            sketch = args.output.sketch(bat, &sketch::of_hit(bat, &figures.spot)) + "\n";
+            let moves = hit_text::moves(bat, figures, units);
+            more = format!("\n{}\n{moves}", hit_text::figures(figures, units));
+        }
+        let spot = hit_text::sweet_spot(bat, &figures.spot, units);
+        [
+            (0, "", format!("{above}\n{shown}\n{sketch}{spot}")),
+            (2, "why there", hit_text::why(figures, units)),
+            (3, "modes left out", hit_text::beyond(sweep, scene, units)),
+            (1, "trust", doubts.clone() + trust::IN_ANALYZE),
+            (0, "", more),
+        ]
     })
 }
 

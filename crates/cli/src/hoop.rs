@@ -8,7 +8,6 @@ use sweetspot::collision::sweep::Trial;
 use sweetspot::{Bat, Request, Result};
 use sweetspot_report::exchange::barrel::BarrelGrid;
 use sweetspot_report::exchange::hoop_files;
-use sweetspot_report::parts::terminal::{LINES, fitting};
 use sweetspot_report::plot::{hoop as plot, wall_sweep};
 use sweetspot_report::report::hoop as report;
 use sweetspot_study::trampoline::barrel::{Barrel, BarrelTest};
@@ -19,7 +18,7 @@ use crate::cannon::CannonArgs;
 use crate::common::{Prepared, examples, on_the_bat, prepare, read};
 use crate::done::Done;
 use crate::edits::EditArgs;
-use crate::output::{CsvArgs, FullArgs, OutputArgs, apart, put};
+use crate::output::{CsvArgs, LINES, OutputArgs, apart, put};
 use crate::value::{PLACE, TheoryChoice, tolerance};
 
 /// How the barrel of a hollow bat rings, and what its wall does to the ball
@@ -91,9 +90,6 @@ pub struct Args {
     plots: Option<PathBuf>,
 
     #[command(flatten)]
-    full: FullArgs,
-
-    #[command(flatten)]
     output: OutputArgs,
 }
 
@@ -142,10 +138,9 @@ pub fn run(args: &Args) -> Result<Done> {
     let units = args.output.units(&bat);
     let sweep = if args.wall_sweep { report::sweep(&tried, units) } else { String::new() };
     let few = args.count.map_or(FEW, usize::from);
-    let asked = args.count.is_some() || args.wall_sweep;
-    let table = args.full.screen(|full| {
-        let text = report::text(&bat, &barrel, if full { count } else { few }, units);
-        if full || asked { text + &sweep } else { fitting(&text, LINES) }
+    let table = args.output.screen(LINES, |full| {
+        let [modes, wall] = report::text(&bat, &barrel, if full { count } else { few }, units);
+        [(2, "modes", modes), (3, "what the wall does", wall), (1, "other walls", sweep.clone())]
     });
     let samples = usize::from(args.shape_points);
     let text = args.output.deliver(table, || report::document(&bat, &barrel, &tried, samples))?;

@@ -13,7 +13,7 @@ use sweetspot_study::lathe::workpiece::HitTerms;
 
 use crate::common::{BatArgs, Prepared, SolveArgs, as_options, examples, on_the_bat};
 use crate::done::Done;
-use crate::output::{CsvArgs, FullArgs, OutputArgs};
+use crate::output::{CsvArgs, MANY, OutputArgs, Screen};
 use crate::scene::{self, SceneArgs};
 use crate::value::{LITTLE, PLACE, SPACING};
 
@@ -60,9 +60,6 @@ pub struct Args {
 
     #[command(flatten)]
     solve: SolveArgs,
-
-    #[command(flatten)]
-    full: FullArgs,
 
     #[command(flatten)]
     csv: CsvArgs,
@@ -138,15 +135,22 @@ pub fn run(args: &Args) -> Result<Done> {
     drop(progress);
     args.output.draw(&args.plots, &bat, |sheet| Ok(plot::picture(sheet, &map)))?;
     let units = args.output.units(map.piece.bat());
-    let all = || report::text(&map, &hit.scene, units);
     // Who asks for outputs, a depth or a stretch wants the tables of them.
     let asked = args.outputs.is_some()
         || args.depth.is_some()
         || args.bands.iter().any(|band| matches!(band, BandArg::Stretch(_)));
-    let table = match report::screen(&map, &hit.scene, units).filter(|_| !asked) {
-        Some(screen) => args.full.screen(|full| if full { all() } else { screen.clone() }),
-        None => all(),
-    };
+    let screen = report::screen(&map, &hit.scene, units).filter(|_| !asked);
+    let table = args.output.screen(MANY, |full| match screen.clone().filter(|_| !full) {
+        Some(screen) => Screen::from(screen),
+        None => {
+            let [title, slopes, cuts, below] = report::text(&map, &hit.scene, units);
+            let [slope, cut] = if args.depth.is_some() { [3, 1] } else { [1, 3] };
+            let tables = [(slope, "derivatives", slopes), (cut, "finite cuts", cuts)];
+            let [slopes, cuts] = tables;
+            let below = (2, "what is solved", below);
+            [(0, "", title), slopes, cuts, below].into()
+        }
+    });
     let out = args.output.deliver(table, || report::document(&map, &hit.scene, model))?;
     let text = args.csv.deliver(out, || report::csv(&map))?;
     let unmet = (!map.piece.met && args.solve.enforced())

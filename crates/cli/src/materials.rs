@@ -15,7 +15,7 @@ use crate::output::put;
 use crate::style;
 use crate::tables::{self, Shown};
 use crate::value::unit_system;
-use sweetspot_report::report::columns::{first, numbers};
+use sweetspot_report::parts::columns::{first, numbers};
 
 /// The built-in materials with their sources
 ///

@@ -15,7 +15,7 @@ use sweetspot_report::report::{sketch, text, trust};
 use crate::common::{BatArgs, SolveArgs, Solved, examples};
 use crate::done::Done;
 use crate::guarantee::{self, GuaranteeArgs};
-use crate::output::{CsvArgs, FullArgs, OutputArgs, make};
+use crate::output::{CsvArgs, MANY, OutputArgs, Screen, make};
 
 /// How the bat rings: frequencies, nodes, shapes
 ///
@@ -52,9 +52,6 @@ pub struct Args {
     /// Leave the timing out of the JSON, so that equal input gives equal bytes
     #[arg(long, help_heading = "Output")]
     reproducible: bool,
-
-    #[command(flatten)]
-    full: FullArgs,
 
     #[command(flatten)]
     csv: CsvArgs,
@@ -94,18 +91,25 @@ pub fn run(args: &Args) -> Result<Done> {
     args.output.draw(&args.plots, &bat, drawn)?;
     let units = args.output.units(&bat);
     let summary = text::summary(&bat, units);
-    let modes = |nodes| {
-        text::modes(&bat, &solution, nodes, units)
-            + &proven.as_ref().map_or(String::new(), proven::text)
-    };
+    let proof = proven.as_ref().map_or(String::new(), proven::text);
     let trust = trust::of_wood(&bat);
-    let table = args.full.screen(|full| {
+    let table = args.output.screen(MANY, |full| {
+        let shown = if full { solution.modes.len() } else { FIRST_NODES };
+        let [modes, damping, nodes] = text::modes(&bat, &solution, shown, units);
         if !full {
-            return format!("{summary}\n{}{trust}", modes(FIRST_NODES));
+            return Screen::from([
+                (0, "", format!("{summary}\n")),
+                (2, "modes", modes),
+                (3, "damping", damping),
+                (4, "nodes", nodes),
+                (1, "proof", proof.clone()),
+                (0, "", trust.clone()),
+            ]);
         }
         let sketch = args.output.sketch(&bat, &sketch::of_modes(&bat, &solution));
-        let (modes, model) = (modes(solution.modes.len()), text::model(&bat, &solution));
-        format!("{summary}\n{sketch}\n{modes}\n{model}{trust}")
+        let model = text::model(&bat, &solution);
+        let modes = modes + &damping + &nodes + &proof;
+        format!("{summary}\n{sketch}\n{modes}\n{model}{trust}").into()
     });
     let document = || {
         let mut document = json::modes(&bat, &solution, args.shape_points, !args.reproducible);

@@ -22,7 +22,7 @@ use crate::asking::new_options::{called, refuse_existing};
 use crate::bat_text::{self, Measured};
 use crate::common::{Prepared, prepare};
 use crate::done::Done;
-use crate::output::{glyphs, printed};
+use crate::output::{LINES, Screen, glyphs, printed};
 use crate::style;
 use crate::value::TheoryChoice;
 
@@ -80,13 +80,15 @@ fn shown(bat: &Bat, measured: &Measured, path: &Path) -> String {
     ];
     let units = if measured.unit == "in" { Units::Us } else { Units::Si };
     let [name, page] = [path, &path.with_extension("html")].map(quoted);
-    format!(
-        "{}{}\n{}\nWrote {name}. Next:\n  sweetspot analyze {name} --report {page}\n\n{}",
+    let above = format!(
+        "{}{}\n{}\nWrote {name}. Next:\n  sweetspot analyze {name} --report {page}\n\n",
         wrapped(bat.name(), 0),
         sketch::draw(bat, &rows, units, glyphs()),
         wrapped(&verdict(bat, measured), 0),
-        sweet_spot(bat, units),
-    )
+    );
+    let screen = Screen::from([(0, "", above), (1, "", sweet_spot(bat, units))]);
+    let all = screen.text();
+    screen.fitted(LINES, &all, &format!("Everything else: sweetspot analyze {name} --full"))
 }
 
 /// Where the bat is best and how fast the ball leaves there, as `analyze` has it, or why that is not known.

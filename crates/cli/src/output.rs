@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 use sweetspot::base::file;
 use sweetspot::{Bat, Error, Result};
+pub use sweetspot_report::parts::terminal::{LINES, MANY, Screen};
 use sweetspot_report::parts::units::Units;
 use sweetspot_report::plot::picture::{self, Picture};
 use sweetspot_report::plot::sheet::Sheet;
@@ -31,6 +32,10 @@ pub struct OutputArgs {
           hide_possible_values = true)]
     units: Units,
 
+    /// Everything, not one screen alone
+    #[arg(long)]
+    pub full: bool,
+
     /// No warnings and no progress on standard error
     #[arg(long)]
     pub quiet: bool,
@@ -40,6 +45,11 @@ impl OutputArgs {
     /// The units that a bat is answered in: those asked for, and of both those of its file first.
     pub fn units(&self, bat: &Bat) -> Units {
         self.units.of(bat)
+    }
+
+    /// What is printed: all there is, or what a screen of at most so many lines holds, and where the rest is.
+    pub fn screen<S: Into<Screen>>(&self, most: usize, said: impl Fn(bool) -> S) -> String {
+        screen(self.full, most, said)
     }
 
     /// Writes the JSON where it was asked for; what is left for standard output.
@@ -122,26 +132,29 @@ impl CsvArgs {
     }
 }
 
-/// `--full`: everything, where one screen is not all.
+/// How much is said, of a verb without units.
 #[derive(clap::Args)]
 pub struct FullArgs {
     /// Everything, not one screen alone
     #[arg(long, help_heading = "Output")]
-    pub full: bool,
+    full: bool,
+
+    /// No warnings and no progress on standard error
+    #[arg(long, help_heading = "Output")]
+    pub quiet: bool,
 }
 
-/// The last line of a screen that is not all.
-pub const MORE: &str = "Everything else: --full\n";
-
 impl FullArgs {
-    /// What is printed: all there is, or what a screen holds, and where the rest is.
-    pub fn screen(&self, said: impl Fn(bool) -> String) -> String {
-        let all = said(true);
-        match (!self.full).then(|| said(false)) {
-            Some(first) if first != all => first + MORE,
-            _ => all,
-        }
+    /// What is printed, as of [`OutputArgs::screen`].
+    pub fn screen<S: Into<Screen>>(&self, most: usize, said: impl Fn(bool) -> S) -> String {
+        screen(self.full, most, said)
     }
+}
+
+/// All there is, or what a screen of at most so many lines holds, and where the rest is.
+fn screen<S: Into<Screen>>(full: bool, most: usize, said: impl Fn(bool) -> S) -> String {
+    let all = said(true).into().text();
+    if full { all } else { said(false).into().fitted(most, &all, "Everything else: --full") }
 }
 
 /// What a file is called, as text.

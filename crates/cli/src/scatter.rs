@@ -18,7 +18,7 @@ use sweetspot_study::scatter::scattered::{OutputSpread, SHARES, Scattered, WRITT
 
 use crate::common::{self, BatFileArgs, examples, note_outside};
 use crate::done::Done;
-use crate::output::{FullArgs, apart, draw, make, printed, put};
+use crate::output::{FullArgs, LINES, apart, draw, make, printed, put};
 use crate::progress::Counted;
 use crate::style;
 
@@ -70,11 +70,7 @@ pub struct Args {
     plots: Option<PathBuf>,
 
     #[command(flatten)]
-    full: FullArgs,
-
-    /// No warnings and no progress on standard error
-    #[arg(long, help_heading = "Output")]
-    quiet: bool,
+    said: FullArgs,
 }
 
 const EXAMPLES: &str = "\
@@ -92,10 +88,10 @@ pub fn run(args: &Args) -> Result<Done> {
     apart(&[("--json", &args.json), ("--csv", &args.csv)])?;
     let said = args.scatter.as_deref().map(ScatterForm::named_by_a_person).transpose()?;
     let said = said.map(|(said, outside)| {
-        args.scatter.iter().for_each(|file| note_outside(file, &outside, args.quiet));
+        args.scatter.iter().for_each(|file| note_outside(file, &outside, args.said.quiet));
         said
     });
-    let bat = args.bat.read(args.quiet)?;
+    let bat = args.bat.read(args.said.quiet)?;
     let said = match said {
         Some(said) => said,
         None => scatter_file::of_wood(&bat).ok_or_else(|| {
@@ -109,7 +105,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let plan = ScatterPlan { differences, setup, impact, outputs, tolerance, points, seed };
     let of = output(args, &plan)?;
     let rows = ScatterRows::new(&bat, plan).map_err(|error| named(args, error))?;
-    let progress = Counted::new(args.quiet, "bats", points, 0);
+    let progress = Counted::new(args.said.quiet, "bats", points, 0);
     let tell = |some| progress.more(some);
     let found = threads::with(args.jobs.map(usize::from), || Scattered::new(&rows, &tell));
     drop(progress);
@@ -117,11 +113,11 @@ pub fn run(args: &Args) -> Result<Done> {
         let why = found.missing.first().cloned().unwrap_or_default();
         return Err(Error::value(said_by(args), why, "bats that can be"));
     }
-    draw(&args.plots, args.quiet, || Ok(drawn(&found)))?;
+    draw(&args.plots, args.said.quiet, || Ok(drawn(&found)))?;
     if let Some(folder) = &args.bats {
         write_bats(folder, &rows, &found, of)?;
     }
-    let table = args.full.screen(|full| scatter::text(&rows, &found, full));
+    let table = args.said.screen(LINES, |full| scatter::text(&rows, &found, full));
     let text = put(&args.csv, style::table(&table), || Ok(scatter::csv(&rows, &found)))?;
     let text = put(&args.json, text, || Ok(schema::text(&scatter::document(&rows.bat, &found))))?;
     Ok(Done::new(text, 0))

@@ -17,7 +17,7 @@ use sweetspot_study::files::study_rows::Rows;
 
 use crate::common::{examples, note_outside};
 use crate::done::{Done, NOT_REACHED};
-use crate::output::{draw, warn};
+use crate::output::{FullArgs, LINES, draw, warn};
 use crate::progress::Counted;
 use crate::style;
 
@@ -65,9 +65,8 @@ pub struct Args {
     #[arg(long, requires = "fresh", help_heading = "Output")]
     yes: bool,
 
-    /// No progress on standard error
-    #[arg(long, help_heading = "Output")]
-    quiet: bool,
+    #[command(flatten)]
+    said: FullArgs,
 }
 
 const EXAMPLES: &str = "\
@@ -79,7 +78,7 @@ Examples:
 
 pub fn run(args: &Args) -> Result<Done> {
     let (study, outside) = Study::named_by_a_person(&args.study)?;
-    note_outside(&args.study, &outside, args.quiet);
+    note_outside(&args.study, &outside, args.said.quiet);
     let rows = &study.rows;
     let pairs = pairs(rows, &args.scatter)?;
     if args.fresh {
@@ -93,16 +92,15 @@ pub fn run(args: &Args) -> Result<Done> {
     let division = folder.division();
     let left: u64 =
         missing.iter().map(|k| division.part(*k)).map(|rows| rows.end - rows.start).sum();
-    let progress = Counted::new(args.quiet, "bats", division.rows, division.rows - left);
+    let progress = Counted::new(args.said.quiet, "bats", division.rows, division.rows - left);
     let tell = |some| progress.more(some);
     threads::with(jobs, || folder.make(&missing, args.npz, &tell))?;
     drop(progress);
     let table = Table::read(&folder, rows)?;
-    draw(&args.plots, args.quiet, || Ok(drawn(&table, rows, &pairs)))?;
-    let mut text = summary::text(&table, rows);
-    if args.summary {
-        text += &summary::shares(&table, rows);
-    }
+    draw(&args.plots, args.said.quiet, || Ok(drawn(&table, rows, &pairs)))?;
+    let said = summary::text(&table, rows);
+    let shares = if args.summary { summary::shares(&table, rows) } else { String::new() };
+    let text = args.said.screen(LINES, |_| [(1, "", said.clone()), (2, "shares", shares.clone())]);
     // A row without an answer is a row; where all are, nothing that was asked was reached.
     Ok(Done::new(style::table(&text), if table.met == 0 { NOT_REACHED } else { 0 }))
 }

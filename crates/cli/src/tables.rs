@@ -10,8 +10,8 @@ use sweetspot_proof::hit_promise::{self, CheckedHit, ReferenceCourse};
 use sweetspot_proof::hoop_promise::CheckedHoop;
 use sweetspot_proof::promise::{BATS, CheckedBat, DIGITS, Summary};
 use sweetspot_proof::proven_promise::ProvenBat;
+use sweetspot_report::parts::columns::{Column, Columns, first, labels, numbers};
 use sweetspot_report::parts::terminal::wrapped;
-use sweetspot_report::report::columns::{Column, Columns, first, labels, numbers};
 
 /// A column, and what it shows of a row.
 pub type Shown<T> = (Column, fn(&T) -> String);

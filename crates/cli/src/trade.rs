@@ -16,7 +16,7 @@ use sweetspot_study::trade::u_curve as curve;
 
 use crate::common::{BatFileArgs, Prepared, examples, prepare};
 use crate::done::Done;
-use crate::output::{CsvArgs, FullArgs, draw, put};
+use crate::output::{CsvArgs, FullArgs, LINES, draw, put};
 use crate::progress::Progress;
 use crate::style;
 use crate::value::{TheoryChoice, budget, theory};
@@ -65,11 +65,7 @@ pub struct Args {
     plots: Option<PathBuf>,
 
     #[command(flatten)]
-    full: FullArgs,
-
-    /// No warnings and no progress on standard error
-    #[arg(long, help_heading = "Output")]
-    quiet: bool,
+    said: FullArgs,
 }
 
 const EXAMPLES: &str = "\
@@ -91,10 +87,10 @@ pub fn run(args: &Args) -> Result<Done> {
     let modes = usize::from(args.count);
     let theory = args.theory.0.unwrap_or_default();
     let request = Request { modes, theory, ..Request::default() };
-    let bat = args.bat.read(args.quiet)?;
-    let Prepared { bat, request, warning } = prepare(bat, args.theory, request, args.quiet)?;
+    let bat = args.bat.read(args.said.quiet)?;
+    let Prepared { bat, request, warning } = prepare(bat, args.theory, request, args.said.quiet)?;
     let theory = request.theory;
-    let progress = Progress::new(args.quiet, "the reference");
+    let progress = Progress::new(args.said.quiet, "the reference");
     let tell = |share, what: &str| progress.say(share, what);
     let told = |(title, parts): &(String, Vec<Part>)| terminal::text(title, parts);
     let time = |seconds| args.budget.unwrap_or(Duration::from_secs(seconds));
@@ -104,17 +100,17 @@ pub fn run(args: &Args) -> Result<Done> {
         let columns = curve::measure(&bat, &reference, solvers, MOST, time, &tell);
         let pictures = sets::of_u_curve(bat.name(), &columns, modes);
         let said = |full| told(&u_curve::report(&bat, (&reference, &columns), full));
-        let (screen, rows) = (args.full.screen(said), u_curve::csv(&columns));
+        let (screen, rows) = (args.said.screen(LINES, said), u_curve::csv(&columns));
         let document = schema::text(&UCurveFile::of(&bat, reference, columns));
         (screen, document, rows, pictures)
     } else {
         let trade = measure(&bat, modes, theory, time(TRADE), &tell)?;
         let pictures = front::picture(bat.name(), &trade).into_iter().collect();
         let said = |full| told(&trade::report(&bat, &trade, full));
-        let (screen, rows) = (args.full.screen(said), trade::csv(&trade));
+        let (screen, rows) = (args.said.screen(LINES, said), trade::csv(&trade));
         (screen, schema::text(&TradeFile::of(&bat, trade)), rows, pictures)
     };
-    draw(&args.plots, args.quiet, || Ok(pictures))?;
+    draw(&args.plots, args.said.quiet, || Ok(pictures))?;
     let text = args.csv.deliver(style::table(&table), || rows)?;
     let text = put(&args.json, text, || Ok(document))?;
     Ok(Done::new(text, 0).with(warning))

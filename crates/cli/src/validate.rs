@@ -21,10 +21,10 @@ use sweetspot_report::parts::terminal::wrapped;
 use sweetspot_report::proof_page;
 
 use crate::done::{Done, FAILED};
-use crate::output::FullArgs;
+use crate::output::{FullArgs, MANY};
 use crate::progress::Progress;
 use crate::tables::{self, Shown, table};
-use sweetspot_report::report::columns::{first, labels, numbers};
+use sweetspot_report::parts::columns::{first, labels, numbers};
 
 /// Every known answer beside ours
 ///
@@ -59,11 +59,7 @@ pub struct Args {
     extremes: bool,
 
     #[command(flatten)]
-    full: FullArgs,
-
-    /// No progress on standard error
-    #[arg(long)]
-    quiet: bool,
+    said: FullArgs,
 }
 
 const EXAMPLES: &str = "\
@@ -78,7 +74,7 @@ Examples:
       true beside stated errors, bat by bat and tolerance by tolerance";
 
 pub fn run(args: &Args) -> Result<Done> {
-    let progress = Progress::new(args.quiet, "known answers");
+    let progress = Progress::new(args.said.quiet, "known answers");
     let tell = |share, what: &str| progress.say(share, what);
     if args.extremes {
         let (out, good) = tables::extremes(&tell);
@@ -117,7 +113,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let text = if asked {
         out
     } else {
-        args.full.screen(|full| if full { &out } else { &screen }.clone())
+        args.said.screen(MANY, |full| if full { &out } else { &screen }.clone())
     };
     Ok(Done::new(text, if good { 0 } else { FAILED }))
 }

@@ -11,7 +11,7 @@ use sweetspot_report::exchange::wav;
 use sweetspot_study::ignored::thinnest_wall;
 
 use crate::common::{BatArgs, SolveArgs, examples};
-use crate::output::{FullArgs, OutputArgs};
+use crate::output::OutputArgs;
 use crate::scene::SceneArgs;
 use crate::value::{IMPULSE, PLACE, RINGING_TIME};
 use sweetspot_report::csv::Csv;
@@ -116,9 +116,6 @@ pub struct Args {
     /// A material without a loss factor gets one for the sound only, and that is said.
     #[arg(long, value_name = "FILE", help_heading = "Output", conflicts_with_all = ["initial", "force"])]
     pub wav: Option<PathBuf>,
-
-    #[command(flatten)]
-    pub full: FullArgs,
 
     #[command(flatten)]
     pub solve: SolveArgs,

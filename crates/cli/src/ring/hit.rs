@@ -5,7 +5,7 @@ use sweetspot::collision::aftermath::{Aftermath, Instant};
 use sweetspot::collision::strength::breaking_swing;
 use sweetspot::collision::{Effort, Hitter, Model};
 use sweetspot::{Bat, Error, Result, Solution, solve};
-use sweetspot_report::parts::terminal::{LINES, fitting, wrapped};
+use sweetspot_report::parts::terminal::{LINES, wrapped};
 use sweetspot_report::plot::picture::Picture;
 use sweetspot_report::plot::ringing;
 use sweetspot_report::plot::sheet::Sheet;
@@ -61,14 +61,12 @@ pub fn run(args: &Args, bat: Bat, x: f64) -> Result<Done> {
     let heard: String = heard.map(|told| wrapped(&format!("Sound: {told}"), 2)).collect();
     args.output.draw(&args.plots, &bat, |sheet| Ok(drawn(sheet, &bat, &after, &report)))?;
     let code = args.solve.verdict(&solution, &args.output);
-    let text = args.full.screen(|full| {
+    let text = args.output.screen(LINES, |full| {
         let units = args.output.units(&bat);
         let scene = hit_text::scene(&bat, &scene, model.name(), units);
         let hit = aftermath::impact(&impact, units);
         let text = scene + &hit + &aftermath::text(&report, units, full);
-        let all = full || !(args.watch.is_empty() && args.times.is_empty());
-        let room = LINES.saturating_sub(heard.lines().count());
-        (if all { text } else { fitting(&text, room) }) + &heard
+        [(1, "motion and strength", text), (0, "", heard.clone())]
     });
     let text = args.output.deliver(text, || {
         let ignored = ignored::in_hit(&bat, &scene);

@@ -18,6 +18,7 @@ use sweetspot_report::schema::ring::{Motion, RingFile};
 
 use crate::common::{Solved, on_the_bat};
 use crate::done::Done;
+use crate::output::{LINES, Screen};
 use crate::ring::args::{Args, csv, places, times, write_sound};
 
 /// The motion, and its table.
@@ -58,6 +59,7 @@ pub fn run(args: &Args, bat: Bat) -> Result<Done> {
         &Frames { x: &x, times: &times, frames: &frames },
         args.output.units(&bat),
     );
+    let most = if args.output.full { usize::MAX } else { LINES };
     let table = csv(&x, &times, &frames);
     let code = args.solve.verdict(&solution, &args.output);
     let text = match &args.csv {
@@ -68,7 +70,7 @@ pub fn run(args: &Args, bat: Bat) -> Result<Done> {
         // With JSON asked for, the table is not thrown in besides.
         None if args.output.json.is_some() => String::new(),
         // Numbers by the hundred are for a file or another program.
-        None if stdout().is_terminal() => screen,
+        None if stdout().is_terminal() => Screen::from(screen).fitted(most, "", motion::MORE),
         _ => table,
     };
     let text = args.output.deliver(text, || document(args, (&bat, &solution), x, times, frames))?;

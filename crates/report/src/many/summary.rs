@@ -3,18 +3,17 @@
 use std::fmt::Write;
 
 use crate::many::table::{Column, Reason, Table};
+use crate::parts::columns::{Columns, first, labels, numbers};
 use crate::parts::terminal::wrapped;
-use crate::report::columns::{Columns, first, labels, numbers};
+use crate::report::shares::shares_of;
 use sweetspot::base::number::significant;
 use sweetspot_study::files::study_rows::Rows;
 use sweetspot_study::files::study_vary::Varied;
 use sweetspot_study::many::design::Axis;
-use sweetspot_study::many::indices::{Indices, Share};
+use sweetspot_study::many::indices::Indices;
 
 /// Reasons that are shown.
 const REASONS: usize = 5;
-/// Shares below this are told together.
-const LITTLE: f64 = 0.005;
 
 /// How many rows there are, why some have no answer, and percentiles of every answer.
 pub fn text(table: &Table, rows: &Rows) -> String {
@@ -66,7 +65,12 @@ pub fn shares(table: &Table, rows: &Rows) -> String {
     for column in answers(table, rows) {
         let name = &column.name;
         match table.shares(rows, name) {
-            Ok(indices) => out += &of_one(name, &names(rows), &indices),
+            Ok(indices) => {
+                let Indices { degree, rows: of, .. } = &indices;
+                out += &format!("\nWhat makes {name} vary (degree {degree}, {of} rows)\n");
+                let rest = "what no polynomial follows";
+                out += &shares_of(&names(rows), &indices, f64::NEG_INFINITY, rest).concat();
+            }
             Err(why) => out += &wrapped(&format!("\nWhat makes {name} vary is not told: {why}"), 0),
         }
     }
@@ -75,28 +79,6 @@ pub fn shares(table: &Table, rows: &Rows) -> String {
          other the later one has what the earlier ones leave open.",
         0,
     )
-}
-
-fn of_one(name: &str, varied: &[String], indices: &Indices) -> String {
-    let columns = Columns::new([first(44, ""), labels(16, "alone"), labels(16, "with others")]);
-    let shown = |share: &Share| format!("{:.3} ± {:.3}", share.value, share.sd);
-    let mut out =
-        format!("\nWhat makes {name} vary (degree {}, {} rows)\n", indices.degree, indices.rows);
-    out += &columns.heads();
-    let mut order: Vec<usize> = (0..varied.len()).collect();
-    order.sort_by(|a, b| indices.total[*b].value.total_cmp(&indices.total[*a].value));
-    let (told, little): (Vec<usize>, Vec<usize>) =
-        order.into_iter().partition(|k| indices.total[*k].value >= LITTLE);
-    for k in told {
-        let cells = [varied[k].clone(), shown(&indices.first[k]), shown(&indices.total[k])];
-        out += &columns.row(&cells);
-    }
-    if !little.is_empty() {
-        let names: Vec<&str> = little.iter().map(|k| varied[*k].as_str()).collect();
-        out += &wrapped(&format!("less than {LITTLE} each: {}", names.join(", ")), 2);
-    }
-    let rest = [String::from("what no polynomial follows"), shown(&indices.unexplained)];
-    out + &columns.row(&rest)
 }
 
 /// The columns of the answers, without their errors.

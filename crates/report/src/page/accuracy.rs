@@ -152,7 +152,7 @@ pub fn method(analysis: &Analysis) -> Vec<String> {
     if !solution.damping.modes.is_empty() {
         told.push(format!("Damping: {}.", solution.damping.kind));
     }
-    let meaning = one_line(hit_text::meaning(analysis.task.model));
+    let meaning = one_line(&hit_text::meaning(analysis.task.model));
     told.extend(meaning.map(|meaning| format!("The hit: {meaning}.")));
     told.iter().map(|text| shown::sentence(text)).collect()
 }

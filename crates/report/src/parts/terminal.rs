@@ -1,7 +1,9 @@
-//! A report on a terminal: sentences of at most 80 columns, tables as wide as they are.
+//! A report on a terminal: sentences and tables of at most 80 columns, and a screen that says what it leaves out.
 
+use std::cmp::Reverse;
 use std::fmt::Write;
 
+use crate::parts::columns::{Columns, WIDE, labels, numbers};
 use crate::parts::part::{Fact, Part};
 use crate::parts::table::Table;
 
@@ -48,31 +50,78 @@ fn table(table: &Table) -> String {
     let width = |k: usize| lines.iter().map(|line| long(line.get(k))).max().unwrap_or(0);
     let is_number =
         |k: usize| !table.rows.iter().any(|row| row[k].starts_with(char::is_alphabetic));
-    let columns: Vec<_> = (0..table.head.len()).map(|k| (width(k), is_number(k))).collect();
-    let mut out = String::from("\n");
-    for line in lines {
-        let cells = line.iter().zip(&columns).map(|(cell, &(width, number))| match number {
-            true => format!("  {cell:>width$}"),
-            false => format!("  {cell:<width$}"),
-        });
-        out += cells.collect::<String>().trim_end();
-        out.push('\n');
-    }
-    out
+    let columns = (0..table.head.len()).map(|k| match is_number(k) {
+        true => numbers(width(k) + 2, ""),
+        false => labels(width(k), ""),
+    });
+    let columns = Columns::new(columns);
+    lines.iter().fold("\n".to_owned(), |out, line| out + &columns.row(*line))
 }
 
-/// Lines of most screens but the last, which says where the rest is; `tests/first_screens.rs` holds every verb to its
-/// number.
-pub const LINES: usize = 23;
+/// Lines of a screen, and of those of the verbs that have tables along the bat or mode by mode.
+pub const LINES: usize = 24;
+pub const MANY: usize = 40;
+
+/// A piece of a screen: how soon it is cut short, the highest number first and 0 never; what is said to be cut then;
+/// its text.
+pub type Piece = (u8, &'static str, String);
+
+/// What a screen has, from top to bottom.
+pub struct Screen(Vec<Piece>);
+
+impl From<String> for Screen {
+    fn from(text: String) -> Self {
+        [(1, "", text)].into()
+    }
+}
+
+impl<const N: usize> From<[Piece; N]> for Screen {
+    fn from(pieces: [Piece; N]) -> Self {
+        Self(pieces.into())
+    }
+}
+
+impl Screen {
+    /// All of it, as it is.
+    pub fn text(&self) -> String {
+        self.0.iter().map(|(.., text)| &**text).collect()
+    }
+
+    /// At most so many lines, of 80 columns where words end there: `all` if that fits, else what of this does, what was
+    /// cut short, and where the rest is.
+    pub fn fitted(mut self, most: usize, all: &str, rest: &str) -> String {
+        let whole = self.text() == all;
+        let narrow = |line: &str| wrapped(line, 4);
+        self.0.iter_mut().for_each(|(.., text)| *text = text.lines().map(narrow).collect());
+        let mut over = (self.text().lines().count() + 1).saturating_sub(most);
+        if over < 2 && whole {
+            return self.text();
+        }
+        let mut last: Vec<&mut Piece> = self.0.iter_mut().filter(|piece| piece.0 > 0).collect();
+        last.sort_by_key(|piece| Reverse(piece.0));
+        let mut cut = vec![];
+        for (_, name, text) in last.into_iter().filter(|piece| !piece.2.is_empty()) {
+            let lines = text.lines().count();
+            *text = fitting(text, lines.saturating_sub(over));
+            let fewer = lines - text.lines().count();
+            cut.extend((fewer > 0 && !name.is_empty()).then_some(*name));
+            over = over.saturating_sub(fewer);
+        }
+        let names = cut.join(", ");
+        let cut = if cut.is_empty() { names } else { format!("Cut short: {names}. ") };
+        self.text() + &wrapped(&(cut + rest), 0)
+    }
+}
 
 /// A text of at most `most` lines: its last statements are left out, each with all lines into which [`wrapped`] broke
 /// it, and so are headings that nothing follows.
-pub fn fitting(text: &str, most: usize) -> String {
+fn fitting(text: &str, most: usize) -> String {
     let mut lines: Vec<&str> = text.lines().collect();
     let indent = |line: &str| line.len() - line.trim_start().len();
     let goes_on = |above: &str, line: &str| {
         let word = line.split_whitespace().next().unwrap_or_default();
-        indent(line) > 0 && above.chars().count() + 1 + word.chars().count() >= 80
+        let sentence = !word.is_empty() && !above.trim_start().contains("  ");
+        sentence && above.chars().count() + 1 + word.chars().count() >= WIDE
     };
     while lines.len() > most {
         let Some(mut cut) = lines.pop() else { break };
@@ -87,7 +136,7 @@ pub fn fitting(text: &str, most: usize) -> String {
 /// Breaks a line at its last spaces before column 80, the rest indented; ends the line.
 pub fn wrapped(text: &str, indent: usize) -> String {
     let (mut out, mut rest, mut lead) = (String::new(), text, 0);
-    while let Some((end, _)) = rest.char_indices().nth(80 - lead) {
+    while let Some((end, _)) = rest.char_indices().nth(WIDE - lead) {
         let Some(space) = rest[..end].rfind(' ').filter(|at| *at > 0) else { break };
         let _ = writeln!(out, "{:lead$}{}", "", rest[..space].trim_end());
         (rest, lead) = (rest[space..].trim_start(), indent);
@@ -110,5 +159,25 @@ mod tests {
         assert_eq!(fitting(&text, 8), format!("Table\n  a\n  b\n\nWords\n{first}"));
         assert_eq!(fitting(&text, 6), "Table\n  a\n  b\n");
         assert_eq!(fitting(&text, 2), "Table\n  a\n");
+        let margin = wrapped(&long, 0);
+        assert_eq!((margin.lines().count(), fitting(&margin, 1)), (2, String::new()));
+        let rows = format!("  1{:>76}\n  2{:>76}\n", 3, 4);
+        assert_eq!(fitting(&rows, 1), format!("  1{:>76}\n", 3));
+    }
+
+    #[test]
+    fn a_screen_cuts_first_what_matters_least_and_says_what() {
+        let rows = |count: usize| "  row\n".repeat(count);
+        let screen =
+            || Screen::from([(0, "", rows(3)), (2, "late", rows(3)), (1, "soon", rows(3))]);
+        let all = screen().text();
+        assert_eq!(screen().fitted(9, &all, "More: --full"), all);
+        assert_eq!(screen().fitted(10, "", "More: --full"), all.clone() + "More: --full\n");
+        let one = screen().fitted(8, &all, "More: --full");
+        assert_eq!(one, rows(7) + "Cut short: late. More: --full\n");
+        let both = screen().fitted(6, &all, "More: --full");
+        assert_eq!(both, rows(5) + "Cut short: late, soon. More: --full\n");
+        let wide = Screen::from("word ".repeat(20)).fitted(24, "", "");
+        assert!(wide.lines().all(|line| line.chars().count() <= WIDE), "{wide}");
     }
 }

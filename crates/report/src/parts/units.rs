@@ -81,6 +81,12 @@ impl Units {
         self.show(format!("{metres:.4} m"), format!("{:.2} in", inches(metres)))
     }
 
+    /// A place, given in metres, in cm and in inches to that number of decimals, as running text.
+    pub fn place(self, metres: f64, decimals: usize) -> String {
+        let si = format!("{:.decimals$} cm", 100.0 * metres);
+        self.beside(si, format!("{:.decimals$} in", inches(metres)))
+    }
+
     /// A mass, given in kilograms.
     pub fn mass(self, kilograms: f64) -> String {
         self.show(format!("{kilograms:.4} kg"), format!("{:.2} oz", ounces(kilograms)))

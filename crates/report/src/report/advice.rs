@@ -30,8 +30,11 @@ pub fn report(advice: &Advice, units: Units, full: bool) -> (String, Vec<Part<'s
     ];
     let hertz = row("everything on, Hz", &whole.frequencies_hz, |f| shown(*f));
     let rows = by_effect(advice, |effect, k| Some(percent(effect.shift(k)?)));
-    parts.extend(tables(advice.modes, &[vec![hertz], rows].concat()));
-    advice.effects.iter().for_each(|effect| parts.extend(others(effect, advice.modes)));
+    let modes = if full { advice.modes } else { advice.modes.min(ABREAST) };
+    parts.extend(tables(modes, &[vec![hertz], rows].concat()));
+    advice.effects.iter().for_each(|effect| parts.extend(others(effect, modes)));
+    let more = || Part::Text(format!("Modes {} to {}: --full", modes + 1, advice.modes));
+    parts.extend((modes < advice.modes).then(more));
     if full {
         parts.extend(nodes(advice, units));
         parts.extend(bodies(advice, units));

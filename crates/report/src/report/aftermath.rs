@@ -4,9 +4,9 @@ use std::fmt::Write;
 
 use crate::csv::Csv;
 use crate::parts::cell::Cell;
+use crate::parts::columns::{Columns, numbers};
 use crate::parts::terminal::wrapped;
 use crate::parts::units::Units;
-use crate::report::columns::{Columns, numbers};
 use crate::schema::hit::Impact;
 use crate::schema::ring as file;
 use sweetspot::base::units::{gravities, inches, miles_per_hour};
@@ -84,15 +84,11 @@ pub fn impact(impact: &hit::Impact, units: Units) -> String {
     let Some(outcome) = &impact.outcome else { return String::new() };
     format!(
         "     at {}\n     the ball leaves at {}, after {:.2} ms, {:.1} kN at most\n",
-        place(impact.x, units),
+        units.place(impact.x, 2),
         units.inline(units.speed(outcome.exit_speed)),
         1e3 * outcome.contact_time.unwrap_or(0.0),
         1e-3 * outcome.peak_force.unwrap_or(0.0)
     )
-}
-
-fn place(x: f64, units: Units) -> String {
-    units.inline(units.show(format!("{:.2} cm", 100.0 * x), format!("{:.2} in", inches(x))))
 }
 
 /// The tables for the terminal, `full` with strains along the bat and the spectrum. A strength that is known says the
@@ -122,7 +118,7 @@ pub fn text(report: &AfterHit, units: Units, full: bool) -> String {
 fn motion(seen: &Watched, damped: bool, units: Units) -> String {
     let PeakMotion { displacement_m: moved, velocity_m_s: speed, acceleration_m_s2 } = seen.peak;
     let [a, b, c] = seen.when.map(|t| format!("at {:.2} ms", 1e3 * t));
-    let (place, begins) = (place(seen.x_m, units), 1e3 * seen.begins_s);
+    let (place, begins) = (units.place(seen.x_m, 2), 1e3 * seen.begins_s);
     let mut out = format!("  at {place}, which begins to move after {begins:.2} ms\n");
     let mut line = |what: &str, size: String, when: String| {
         let _ = writeln!(out, "{}", format!("    {what:<36} {size} {when}").trim_end());
@@ -154,7 +150,7 @@ fn strains(report: &AfterHit, units: Units) -> String {
             "  {what:<24} {:.3} %, {} at {}, {:.2} ms",
             100.0 * worst.strain,
             units.first().stress(worst.stress_pa, 1),
-            place(worst.x_m, units),
+            units.place(worst.x_m, 2),
             1e3 * worst.time_s
         );
     }
@@ -163,7 +159,7 @@ fn strains(report: &AfterHit, units: Units) -> String {
 
 /// The modes that a place hears, once the ball has left.
 fn spectrum(seen: &Watched, damped: bool, units: Units) -> String {
-    let (place, lines) = (place(seen.x_m, units), &seen.spectrum);
+    let (place, lines) = (units.place(seen.x_m, 2), &seen.spectrum);
     let mut out =
         format!("\nSpectrum at {place} when the ball has left: amplitude of every mode\n");
     let us = units.us_first();
@@ -193,7 +189,7 @@ fn along(report: &AfterHit, units: Units) -> String {
     let mut out = String::from("\nAlong the bat, the largest in the whole time\n");
     let every = (report.envelope.len() / 10).max(1);
     for at in report.envelope.iter().step_by(every) {
-        let place = format!("at {}", place(at.x_m, units));
+        let place = format!("at {}", units.place(at.x_m, 2));
         let stress = units.first().stress(at.stress_pa, 1);
         let _ = writeln!(out, "  {place:<24} {:.3} %, {stress}", 100.0 * at.strain);
     }
@@ -250,7 +246,7 @@ pub fn reached(load: &Load, units: Units) -> String {
     };
     format!(
         "{most} at {}: {:.0} % of the {bears} {test}; {swing}",
-        place(load.at.x_m, units),
+        units.place(load.at.x_m, 2),
         100.0 * load.share
     )
 }
@@ -266,7 +262,7 @@ pub fn strengths(all: &[Strength], units: Units) -> String {
     for at in all {
         for load in &at.limits {
             let text = reached(load, units);
-            out += &wrapped(&format!("  hit at {}: {text}", place(at.x_m, units)), 4);
+            out += &wrapped(&format!("  hit at {}: {text}", units.place(at.x_m, 2)), 4);
         }
     }
     out + &beyond(all.iter().flat_map(|at| &at.limits))

@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
-use crate::parts::terminal::wrapped;
+use crate::parts::columns::{Columns, first, labels, numbers};
+use crate::parts::terminal::{Piece, wrapped};
 use crate::report::aimed::{asked, called, conflict_words, shown, size, warning};
-use crate::report::columns::{Columns, first, labels, numbers};
 use sweetspot::base::number::{rounded, shortest, signed, significant};
 use sweetspot::base::units::{inches, ounce_square_inches, ounces};
 use sweetspot::bat::weighed::Weighed;
@@ -29,7 +29,7 @@ const FIRST: [Answer; 5] = [
 ];
 
 /// What there is to say, in one system of units; `full` with all answers and more stations.
-pub fn text(outcome: &Outcome, (pass, us, full): (f64, bool, bool)) -> String {
+pub fn text(outcome: &Outcome, (pass, us, full): (f64, bool, bool)) -> [Piece; 5] {
     let mut out = head(outcome, us);
     out += &targets(outcome, us);
     if let Some(conflict) = &outcome.conflict {
@@ -37,13 +37,16 @@ pub fn text(outcome: &Outcome, (pass, us, full): (f64, bool, bool)) -> String {
             &wrapped(&format!("Conflict: {}.", conflict_words(conflict, &outcome.targets, us)), 0);
         out += "\n";
     }
-    out += &before_and_after(outcome, us, full);
-    if let Some(set) = &outcome.rules {
-        out += &of_rules(set, us);
-    }
-    out += &choices(outcome, us);
-    out += &cut_list(outcome, (pass, us), SHOWN[usize::from(!full)]);
-    if full { out } else { out.replace("\n\n", "\n") }
+    let rules = outcome.rules.as_ref().map_or(String::new(), |set| of_rules(set, us));
+    let cuts = cut_list(outcome, (pass, us), SHOWN[usize::from(!full)]);
+    [
+        (0, "", out),
+        (2, "before and after", before_and_after(outcome, us, full)),
+        (1, "rules", rules),
+        (0, "", choices(outcome, us)),
+        (3, "cuts", cuts),
+    ]
+    .map(|(when, name, text)| (when, name, if full { text } else { text.replace("\n\n", "\n") }))
 }
 
 /// The norm of a change (mm), in the maker's unit.
@@ -124,10 +127,8 @@ fn to_know(outcome: &Outcome, us: bool) -> Vec<String> {
         ));
     }
     if outcome.limits_broken_m > 0.0 {
-        let by = match us {
-            true => format!("{:.5} in", inches(outcome.limits_broken_m)),
-            false => format!("{:.4} mm", 1e3 * outcome.limits_broken_m),
-        };
+        let by = outcome.limits_broken_m;
+        let by = if us { format!("{:.5} in", inches(by)) } else { format!("{:.4} mm", 1e3 * by) };
         told.push(format!("a limit of the diameter is broken by {by}"));
     }
     if let Some((slope, by)) = outcome.slope.zip(outcome.steeper_by) {
@@ -135,10 +136,9 @@ fn to_know(outcome: &Outcome, us: bool) -> Vec<String> {
         told.push(format!("the limit {} of the slope {kept}", shortest(slope)));
     }
     if outcome.kept_within_m > 5e-8 {
-        let by = match us {
-            true => format!("{} in", significant(inches(outcome.kept_within_m), 2)),
-            false => format!("{:.1} μm", 1e6 * outcome.kept_within_m),
-        };
+        let by = outcome.kept_within_m;
+        let inch = format!("{} in", significant(inches(by), 2));
+        let by = if us { inch } else { format!("{:.1} μm", 1e6 * by) };
         told.push(format!(
             "where the bat is kept, the curve through its stations moves by {by} at most"
         ));

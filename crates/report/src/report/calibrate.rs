@@ -3,10 +3,10 @@
 use std::fmt::Write;
 
 use crate::csv;
+use crate::parts::columns::{Columns, first, labels, numbers};
 use crate::parts::table::Column;
-use crate::parts::terminal::wrapped;
+use crate::parts::terminal::{Piece, wrapped};
 use crate::parts::units::in_trade;
-use crate::report::columns::{Columns, first, labels, numbers};
 use crate::schema::calibrate::CalibrateFile;
 use sweetspot::base::number::{percent, significant};
 use sweetspot::bat::body::Bat;
@@ -18,22 +18,17 @@ use sweetspot_study::calibrate::fit::{DatumKind, Residual};
 use sweetspot_study::calibrate::next::Proposal;
 
 /// Parameters, data and words, 80 columns wide.
-pub fn text(bat: &Bat, found: &Calibration) -> String {
-    let mut out = format!("What the wood of {} is\n", bat.name());
-    out += &parameters(&found.parameters);
-    out += &data(found, bat.inches());
+pub fn text(bat: &Bat, found: &Calibration) -> [Piece; 3] {
+    let above = format!("What the wood of {} is\n{}", bat.name(), parameters(&found.parameters));
+    let mut out = String::new();
     for tone in &found.loss_factors {
-        let _ = writeln!(
-            out,
-            "Mode {} dies out with a loss factor of {} (damping ratio {})",
-            tone.mode,
-            significant(tone.loss_factor, 3),
-            significant(tone.damping_ratio, 3)
-        );
+        let [lost, damped] = [tone.loss_factor, tone.damping_ratio].map(|v| significant(v, 3));
+        let told = format!("dies out with a loss factor of {lost} (damping ratio {damped})");
+        out += &format!("Mode {} {told}\n", tone.mode);
     }
     out += "In words\n";
     words(found).iter().for_each(|line| out += &wrapped(&format!("  {line}"), 4));
-    out
+    [(0, "", above), (2, "readings", data(found, bat.inches())), (1, "words", out)]
 }
 
 fn parameters(all: &[Estimated]) -> String {
@@ -88,13 +83,10 @@ fn data(found: &Calibration, us: bool) -> String {
         let flag = if one.is_outlier() { "does not fit" } else { "" };
         let name = one.datum.kind.name();
         let ending = ["_kg_m2", "_kg", "_m"].into_iter().find(|ending| name.ends_with(ending));
-        let (name, per) = match ending.filter(|_| us) {
-            None => (name, 1.0),
-            Some(ending) => {
-                let (unit, per) = in_trade(&ending[1..], us);
-                (format!("{}, {unit}", name.trim_end_matches(ending)), per)
-            }
-        };
+        let (name, per) = ending.filter(|_| us).map_or((name.clone(), 1.0), |ending| {
+            let (unit, per) = in_trade(&ending[1..], us);
+            (format!("{}, {unit}", name.trim_end_matches(ending)), per)
+        });
         out += &columns.row([
             name,
             significant(per * one.datum.measured, 5),

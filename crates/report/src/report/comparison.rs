@@ -1,8 +1,8 @@
 //! Several bats side by side: tables of 80 columns, and words.
 
+use crate::parts::columns::{Columns, first, numbers};
 use crate::parts::terminal::wrapped;
 use crate::parts::units::Units;
-use crate::report::columns::{Columns, first, numbers};
 use crate::report::edits;
 use crate::report::trust::doubts;
 use sweetspot::base::number::significant;
@@ -15,6 +15,7 @@ use sweetspot_study::comparison::rows::{
 use sweetspot_study::comparison::stretches::{Harder, Stretch};
 use sweetspot_study::comparison::table::Comparison;
 use sweetspot_study::ignored::in_hit;
+use sweetspot_study::verdict::Doubt;
 
 /// What matters of bats side by side, in this order, by the keys of the rows: all else comes after it.
 pub const FIRST: [&str; 10] = [
@@ -112,22 +113,22 @@ pub fn text(comparison: &Comparison, units: Units) -> String {
     out
 }
 
-/// The bats, each in a line; `full` with how their bending was computed and all that was left out.
+/// The bats, each in a line with what there is to doubt; `full` with how their bending was computed and all that was
+/// left out.
 pub fn bats(comparison: &Comparison, units: Units, full: bool) -> String {
     let mut out = String::from("Bats compared; A is the one the others are measured by\n");
-    for (k, Contender { bat, scene, sweep, .. }) in comparison.bats.iter().enumerate() {
-        let (solution, left_out) = (&sweep.solution, in_hit(bat, scene));
-        let more = match (full, left_out.is_empty()) {
-            (true, _) => {
-                format!(" ({}, {} modes)", solution.theory.name(), solution.modes.len())
-            }
-            (false, false) => " (hollow, its wall taken as rigid)".to_owned(),
-            (false, true) => String::new(),
+    for (k, Contender { bat, scene, sweep, verdict, .. }) in comparison.bats.iter().enumerate() {
+        let solution = &sweep.solution;
+        let about: Vec<&str> = verdict.doubts.iter().map(Doubt::about).collect();
+        let more = match full {
+            true => format!(" ({}, {} modes)", solution.theory.name(), solution.modes.len()),
+            false if about.is_empty() => String::new(),
+            false => format!(" (in doubt: {})", about.join(", ").replace('_', " ")),
         };
         out += &wrapped(&format!("  {}  {}{more}", letter(k), bat.name()), 5);
         let edited =
             (!bat.edits().is_empty()).then(|| format!("edited: {}", edits::listed(bat, units)));
-        let left_out = left_out.into_iter().filter(|_| full);
+        let left_out = in_hit(bat, scene).into_iter().filter(|_| full);
         let notes = edited.into_iter().chain(left_out.map(|effect| format!("left out: {effect}")));
         notes.for_each(|note| out += &wrapped(&format!("     {note}"), 5));
     }
@@ -306,10 +307,8 @@ fn by_place(title: &str, rows: &[(&f64, &ComparedFigure)], bat: usize, units: Un
         .iter()
         .filter(hit)
         .map(|(distance, row)| {
-            let [cm, inch] = [(100.0 * **distance, "cm"), (inches(**distance), "in")];
-            let told = |(x, unit)| format!("{x:.2} {unit}");
-            let place: Vec<String> = units.pick(cm, inch).into_iter().map(told).collect();
-            compared(row, bat, &format!("  at {}", place.join(", ")), units)
+            let place = units.positions(&[**distance]).join(", ");
+            compared(row, bat, &format!("  at {place}"), units)
         })
         .collect();
     if lines.is_empty() {
@@ -382,9 +381,7 @@ pub fn words(comparison: &Comparison, units: Units) -> Vec<String> {
 
 /// Where along the barrel that bat or the first is faster; empty where neither is hit.
 pub fn along(comparison: &Comparison, bat: usize, units: Units) -> String {
-    let place = |x: f64| {
-        units.inline(units.show(format!("{:.1} cm", 100.0 * x), format!("{:.1} in", inches(x))))
-    };
+    let place = |x: f64| units.place(x, 1);
     let stretch = |s: &Stretch| stretch(s, letter(bat), &place, units);
     let parts: Vec<String> = comparison.stretches(bat).iter().map(stretch).collect();
     parts.join("; ")
@@ -459,9 +456,7 @@ pub fn of_pieces(comparison: &Comparison, bat: usize) -> String {
 
 fn by_speed(v: f64, units: Units) -> String {
     let digits = |v: f64| if v >= 0.1 { format!("{v:.2}") } else { format!("{v:.1e}") };
-    units.inline(
-        units.show(format!("{} m/s", digits(v)), format!("{} mph", digits(miles_per_hour(v)))),
-    )
+    units.beside(format!("{} m/s", digits(v)), format!("{} mph", digits(miles_per_hour(v))))
 }
 
 fn stretch(s: &Stretch, name: char, place: &dyn Fn(f64) -> String, units: Units) -> String {

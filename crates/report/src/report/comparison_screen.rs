@@ -1,20 +1,19 @@
 //! Several bats side by side on a screen: what differs and matters, then where along the barrel.
 
-use crate::parts::terminal::{LINES, fitting, wrapped};
+use crate::parts::columns::{Columns, WIDE, first, numbers};
+use crate::parts::terminal::{Screen, wrapped};
 use crate::parts::units::Units;
-use crate::report::columns::{Columns, first, numbers};
 use crate::report::comparison::{FIRST, Row, along, bats, figures, hit, letter, rows, swung};
 use crate::report::trust::doubts;
-use sweetspot_study::comparison::contender::Contender;
 use sweetspot_study::comparison::rows::ComparedFigure;
 use sweetspot_study::comparison::table::Comparison;
 
 /// What a screen has no room for, of that which matters.
 const LEFT: [&str; 4] = ["zone_from", "zone_to", "length", "balance_point"];
 
-/// What differs, and where along the barrel: of two bats 24 lines, of five 40 at most. Several bats count in one
-/// system of units, that of the first one's file unless another is asked for.
-pub fn screen(comparison: &Comparison, units: Units) -> String {
+/// What differs, and where along the barrel, as far as a screen has room for it. Several bats count in one system of
+/// units, that of the first one's file unless another is asked for.
+pub fn screen(comparison: &Comparison, units: Units) -> Screen {
     let one = units.first();
     let mut out = bats(comparison, one, false) + &hit(comparison, units);
     let (differing, same) = ordered(comparison, one);
@@ -23,7 +22,7 @@ pub fn screen(comparison: &Comparison, units: Units) -> String {
         (2, _) => {
             let keyed = |row: &Row| comparison.figures.iter().find(|figure| figure.key == row.key);
             let all: Vec<&ComparedFigure> = differing.iter().filter_map(keyed).collect();
-            figures(&all, 1, units)
+            figures(&all, 1, units).trim_start().to_owned()
         }
         _ => table(comparison, &differing),
     };
@@ -32,7 +31,6 @@ pub fn screen(comparison: &Comparison, units: Units) -> String {
         let same: Vec<String> = same.iter().map(name).collect();
         out += &wrapped(&format!("No difference beyond the errors: {}", same.join(", ")), 2);
     }
-    let trust = doubted(comparison, one) + &beside_pieces(comparison, one);
     let mut words = String::from("In words, by distance from the tip\n");
     for bat in 1..comparison.bats.len() {
         let parts = along(comparison, bat, one);
@@ -41,26 +39,26 @@ pub fn screen(comparison: &Comparison, units: Units) -> String {
         words += &wrapped(&format!("  {}: {hit}.{swung}", letter(bat)), 4);
     }
     // What is doubted stands on the screen before what can be read off a table.
-    let left = LINES.saturating_sub(out.lines().count() + trust.lines().count());
-    let said = fitting(&words, left);
-    let rest = match left > 0 && said != words {
-        true => "Where along the barrel which bat is faster: --full\n",
-        false => "",
-    };
-    let out = if left == 0 { out.replace("\n\n", "\n") } else { out };
-    out + &fitting(&words, left.saturating_sub(rest.lines().count())) + rest + &trust
+    let trust = doubted(comparison, one) + &beside_pieces(comparison, one);
+    [(0, "", out), (2, "where along the barrel", words), (1, "trust", trust)].into()
 }
 
 /// Figures whose scatter is told.
 const OF_WOOD: [&str; 4] = ["best_exit_speed", "swing_weight", "mass", "frequency_1"];
 
-/// What there is to doubt of each bat's hits.
-pub fn doubted(comparison: &Comparison, units: Units) -> String {
-    let of = |(k, bat): (usize, &Contender)| {
-        let all = doubts(&bat.verdict, units).into_iter();
-        all.map(|text| wrapped(&format!("Trust, {}: {text}", letter(k)), 7)).collect::<String>()
-    };
-    comparison.bats.iter().enumerate().map(of).collect()
+/// What there is to doubt of the bats' hits, each once with all bats of which it is true.
+fn doubted(comparison: &Comparison, units: Units) -> String {
+    let mut all: Vec<(String, Vec<String>)> = vec![];
+    for (k, bat) in comparison.bats.iter().enumerate() {
+        for text in doubts(&bat.verdict, units) {
+            match all.iter_mut().find(|(told, _)| *told == text) {
+                Some((_, of)) => of.push(letter(k).to_string()),
+                None => all.push((text, vec![letter(k).to_string()])),
+            }
+        }
+    }
+    let line = |(text, of): (String, Vec<String>)| format!("Trust, {}: {text}", of.join(", "));
+    all.into_iter().map(|one| wrapped(&line(one), 7)).collect()
 }
 
 /// The differences beside what two pieces of one material differ by; of one piece that this cancels.
@@ -107,16 +105,18 @@ fn ordered(comparison: &Comparison, units: Units) -> (Vec<Row>, Vec<Row>) {
     all.into_iter().partition(|row| row.differs)
 }
 
-/// The values of all bats, and below them what each other one has more than the first.
+/// The values of as many bats as there is room for, at least of the first, and what each other one has more.
 fn table(comparison: &Comparison, differing: &[Row]) -> String {
-    let width = (48 / comparison.bats.len()).min(10);
-    let bats = (0..comparison.bats.len()).map(|k| numbers(width, letter(k)));
-    let heads = first(32, "What differs, and by how much");
-    let columns = Columns::new([heads].into_iter().chain(bats));
-    let mut out = format!("\n{}", columns.heads());
-    for Row { label, values, differences, .. } in differing {
-        out += &columns.row([format!("  {label}")].iter().chain(values));
-        out += &columns.row([String::new(), String::new()].iter().chain(differences));
-    }
-    out
+    const WIDTH: usize = 9;
+    let count = comparison.bats.len();
+    let shown = if count == 3 { count } else { 1 };
+    let label = (WIDE - WIDTH * (count + shown - 1)).min(32);
+    let heads = (0..shown).map(|k| numbers(WIDTH, letter(k)));
+    let heads = heads.chain((1..count).map(|k| numbers(WIDTH, format!("{} less A", letter(k)))));
+    let heads = [first(label, "What differs, and by how much")].into_iter().chain(heads);
+    let columns = Columns::new(heads);
+    let rows = differing.iter().map(|Row { label, values, differences, .. }| {
+        columns.row([&format!("  {label}")].into_iter().chain(&values[..shown]).chain(differences))
+    });
+    columns.heads() + &rows.collect::<String>()
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
-use crate::report::columns::{Columns, numbers};
+use crate::parts::columns::{Columns, numbers};
 use crate::schema::modes as file;
 use sweetspot::base::number::significant;
 use sweetspot::modes::damping::DampingMethod;

@@ -3,9 +3,9 @@
 use std::fmt::Write;
 
 use crate::csv::Csv;
+use crate::parts::columns::{Columns, numbers};
 use crate::parts::terminal::wrapped;
 use crate::parts::units::Units;
-use crate::report::columns::{Columns, numbers};
 use crate::report::text::edited;
 use crate::schema::frf::{
     FrfFile, Height, MeasuredAnswer, MeasuredValues, PeakBeside, PeakLine, ResponseValues,
@@ -131,10 +131,6 @@ pub fn csv(kind: ResponseKind, samples: &[Sample]) -> String {
     table.text()
 }
 
-fn place(x: f64, units: Units) -> String {
-    units.inline(units.length(x))
-}
-
 /// Degrees; 0 of nothing.
 pub fn phase(re: f64, im: f64) -> f64 {
     // A zero without a sign: on the negative axis it would turn the phase over.
@@ -160,12 +156,8 @@ pub fn text(told: &ToldResponse, full: bool, every: bool) -> String {
     let ToldResponse { bat, kind, places: [at, to], frf, samples, asked, peaks, measured, units } =
         *told;
     let most = if full { usize::MAX } else { PEAKS };
-    let name = kind.name();
-    let title = format!(
-        "Frequency response: {name} from a force at {} to {}",
-        place(at, units),
-        place(to, units)
-    );
+    let [at, to] = [at, to].map(|x| units.inline(units.length(x)));
+    let title = format!("Frequency response: {} from a force at {at} to {to}", kind.name());
     let mut out = wrapped(&title, 4) + &edited(bat, units);
     if full || every || measured.is_none() {
         out += &answers(told, if full || every { usize::MAX } else { FREQUENCIES });

@@ -1,10 +1,10 @@
 //! The measured responses of one file beside the computed ones: a row each.
 
 use crate::csv;
+use crate::parts::columns::{Columns, numbers};
 use crate::parts::table::Column;
 use crate::parts::terminal::wrapped;
 use crate::parts::units::Units;
-use crate::report::columns::{Columns, numbers};
 use crate::report::frf::{FRAC, ToldResponse, damping};
 use crate::report::text::edited;
 use sweetspot::bat::body::Bat;

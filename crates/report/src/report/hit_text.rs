@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use crate::parts::columns::{Columns, numbers};
 use crate::parts::terminal::wrapped;
 use crate::parts::units::Units;
 use crate::report::curve;
@@ -52,11 +53,12 @@ pub fn some(impacts: &[Impact], best: Option<f64>) -> Vec<Impact> {
 pub fn impacts(bat: &Bat, impacts: &[Impact], units: Units) -> String {
     // A wall that gives way has a column of its own.
     let walls = impacts.iter().any(|i| i.outcome.as_ref().is_some_and(|o| o.energy.wall > 0.0));
-    let row = |cells: [String; 9]| row(cells, walls);
+    let widths = if walls { [8, 8, 9, 9, 8, 9, 8, 9, 8] } else { [9, 9, 10, 10, 9, 10, 9, 9, 0] };
+    let used = widths.into_iter().take(if walls { 9 } else { 8 });
+    let table = Columns::new(used.map(|width| numbers(width, "")));
     let heads = ["from", "from", "bat", "exit", "exit", "rigid", "e_A", "vibra-", "wall"];
-    let mut out = row(heads.map(str::to_owned));
-    let heads = ["knob", "tip", "speed", "speed", "speed", "bat", "", "tion", ""];
-    out += &row(heads.map(str::to_owned));
+    let mut out = table.row(heads);
+    out += &table.row(["knob", "tip", "speed", "speed", "speed", "bat", "", "tion", ""]);
     let (near, far) = if units.us_first() { ("in", "mph") } else { ("cm", "m/s") };
     let (tip, second) = match units {
         Units::Si => ("cm", ""),
@@ -65,7 +67,7 @@ pub fn impacts(bat: &Bat, impacts: &[Impact], units: Units) -> String {
         Units::BothUsFirst => ("in", "m/s"),
     };
     let energy = units.of_energy().0;
-    out += &row([near, tip, far, far, second, far, "", energy, energy].map(str::to_owned));
+    out += &table.row([near, tip, far, far, second, far, "", energy, energy]);
     let length = |x: f64, unit: &str| {
         let value = if unit == "in" { inches(x) } else { 100.0 * x };
         // Adding 0 turns a length of −0 into 0.
@@ -100,20 +102,9 @@ pub fn impacts(bat: &Bat, impacts: &[Impact], units: Units) -> String {
         let letters = FLAGS.iter().filter(|flag| impact.flags.contains(&flag.0)).map(|flag| flag.1);
         let marks: String = letters.collect();
         let gap = if marks.is_empty() { "" } else { " " };
-        let _ = writeln!(out, "{}{gap}{marks}", row(cells).trim_end_matches('\n'));
+        let _ = writeln!(out, "{}{gap}{marks}", table.row(cells).trim_end_matches('\n'));
     }
     out + &legend(impacts)
-}
-
-/// Right-aligned cells, 76 columns: eight, or nine with that of the wall.
-fn row(cells: [String; 9], walls: bool) -> String {
-    let widths = if walls { [8, 8, 9, 9, 8, 9, 8, 9, 8] } else { [9, 9, 10, 10, 9, 10, 9, 9, 0] };
-    let line: String = cells
-        .iter()
-        .zip(widths)
-        .take(if walls { 9 } else { 8 })
-        .fold(String::new(), |line, (cell, width)| format!("{line}{cell:>width$}"));
-    format!("{}\n", line.trim_end())
 }
 
 /// Exit speed along the barrel, drawn.
@@ -143,7 +134,7 @@ pub fn why(figures: &Figures, units: Units) -> String {
 
 /// Why the ball leaves fastest where it does; None where none does.
 pub fn reason(figures: &Figures, units: Units) -> Option<String> {
-    let place = |x: f64| units.inline(units.show(centimetres(x), in_inches(x)));
+    let place = |x: f64| units.place(x, 1);
     let (peak, rigid) = (figures.spot.exit_speed_max?, figures.rigid_best?);
     if let Some(text) = lives_on_later(figures, units) {
         return Some(text);
@@ -181,36 +172,29 @@ fn lives_on_later(figures: &Figures, units: Units) -> Option<String> {
         (false, true) => "pushes it again as it is leaving",
     };
     let first = figures.spot.first_separation_max.map_or(String::new(), |first| {
-        let place = units.inline(units.show(centimetres(first.x), in_inches(first.x)));
+        let place = units.place(first.x, 1);
         let speed = units.inline(units.speed(first.value));
         format!(" By its first contact alone the ball leaves fastest at {place}, with {speed}.")
     });
     Some(format!("The fastest ball is so fast because the bat's vibration {how}.{first}"))
 }
 
-fn centimetres(x: f64) -> String {
-    format!("{:.1} cm", 100.0 * x)
-}
-
-fn in_inches(x: f64) -> String {
-    format!("{:.1} in", inches(x))
-}
-
 /// What a model is, wherever its results are printed; an empirical one says so.
-pub fn meaning(model: Model) -> &'static str {
-    match model {
-        Model::Rigid => "     the bat does not bend in this model\n",
+pub fn meaning(model: Model) -> String {
+    let told = match model {
+        Model::Rigid => "the bat does not bend in this model",
         Model::EnergyLoss(_) => {
-            "     empirical: the loss to vibration is the WPI report's fit, not derived, and\n     \
-             energy is not conserved (energy_j.imbalance in the JSON)\n"
+            "empirical: the loss to vibration is the WPI report's fit, not derived, and energy is not conserved \
+             (energy_j.imbalance in the JSON)"
         }
         Model::Pulse(_) => {
-            "     the force is a half sine of a given duration, and the ball's loss a given share\n"
+            "the force is a half sine of a given duration, and the ball's loss a given share"
         }
         Model::Contact => {
-            "     ball and modes in contact; the ball gives back less energy than it absorbs\n"
+            "ball and modes in contact; the ball gives back less energy than it absorbs"
         }
-    }
+    };
+    wrapped(&format!("     {told}"), 5)
 }
 
 /// What is left out of a hit with as many modes as it needs.
@@ -219,9 +203,8 @@ pub fn beyond(sweep: &Sweep, scene: &Scene, units: Units) -> String {
     let closing = |i: &Impact| i.bat_speed + scene.ball_speed;
     let fastest = sweep.impacts.iter().map(closing).fold(0.0, f64::max);
     let change = truncation * fastest;
-    let shown = |speed: f64, unit: &str| format!("{speed:.1e} {unit}");
-    let change =
-        units.inline(units.show(shown(change, "m/s"), shown(miles_per_hour(change), "mph")));
+    let mph = miles_per_hour(change);
+    let change = units.beside(format!("{change:.1e} m/s"), format!("{mph:.1e} mph"));
     let count = sweep.solution.modes.len();
     let text = format!(
         "{count} modes; what is left out of those above changes an exit speed by {change} at most, \
@@ -279,17 +262,12 @@ pub fn sweet_spot(bat: &Bat, spot: &SweetSpot, units: Units) -> String {
     let mut out =
         String::from("Sweet spot                             from knob            from tip\n");
     for SpotLine { what, x } in spot_lines(bat, spot, units) {
-        let place = |x: f64| {
-            let [cm, inch] = [(100.0 * x, "cm"), (inches(x), "in")];
-            let told = |(x, unit)| format!("{x:.2} {unit}");
-            units.pick(cm, inch).into_iter().map(told).collect::<Vec<_>>().join(", ")
-        };
-        let text = format!("  {what:<36} {:<19}  {}", place(x), place(bat.length() - x));
-        let _ = writeln!(out, "{text}");
+        let [knob, tip] = [x, bat.length() - x].map(|x| units.positions(&[x]).join(", "));
+        let _ = writeln!(out, "  {what:<36} {knob:<19}  {tip}");
     }
     if let Some(apart) = spot.looked_every {
-        let [apart, inch] = [1e3 * apart, inches(apart)];
-        let apart = units.inline(units.show(format!("{apart:.1} mm"), format!("{inch:.2} in")));
+        let inch = format!("{:.2} in", inches(apart));
+        let apart = units.beside(format!("{:.1} mm", 1e3 * apart), inch);
         let text = format!(
             "Places were tried every {apart} only: the bat hits the ball again there, and all places would take more \
              than about ten times as long as a usual hit. A narrower peak may be missed."
@@ -306,7 +284,7 @@ pub fn stated(figures: &Figures, units: Units) -> Vec<(String, String)> {
     };
     let mut lines = vec![];
     let speed = |v: f64| units.inline(units.speed(v));
-    let place = |x: f64| units.inline(units.show(centimetres(x), in_inches(x)));
+    let place = |x: f64| units.place(x, 1);
     let mut line = |what: &str, value: String| lines.push((what.to_owned(), value));
     line("bat-ball speed", speed(outcome.exit_speed));
     line("collision efficiency e_A", format!("{:.3}", outcome.collision_efficiency));
@@ -320,13 +298,11 @@ pub fn stated(figures: &Figures, units: Units) -> Vec<(String, String)> {
         line("largest BBCOR, held 6 in from the knob", most(peak));
     }
     if let Some([knob, tip]) = figures.spot.inch_off {
-        let lost = |v: f64| {
-            units.show(
-                format!("{:+.2} m/s", v - outcome.exit_speed),
-                format!("{:+.1} mph", miles_per_hour(v - outcome.exit_speed)),
-            )
+        let lost = |speed: f64| {
+            let by = speed - outcome.exit_speed;
+            units.beside(format!("{by:+.2} m/s"), format!("{:+.1} mph", miles_per_hour(by)))
         };
-        let lost = |v: Option<f64>| v.map_or("no hit".to_owned(), |v| units.inline(lost(v)));
+        let lost = |speed: Option<f64>| speed.map_or("no hit".to_owned(), lost);
         line("1 in off towards the knob", lost(knob));
         line("1 in off towards the tip", lost(tip));
     }

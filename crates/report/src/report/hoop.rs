@@ -1,10 +1,10 @@
 //! How a barrel rings and what its wall does to a ball: the document, the table, in sentences, and in short.
 
 use crate::csv::rows;
+use crate::parts::columns::{Columns, first, labels, numbers};
 use crate::parts::table::Column;
 use crate::parts::terminal::wrapped;
 use crate::parts::units::Units;
-use crate::report::columns::{Columns, first, labels, numbers};
 use crate::report::hoop_notes::notes;
 use crate::report::text::edited;
 use crate::schema::hoop::{HoopFile, ShapedMode};
@@ -64,8 +64,8 @@ pub fn csv(bat: &Bat, barrel: &Barrel) -> String {
     rows(&COLUMNS, &modes)
 }
 
-/// Everything for the terminal, with the lowest modes, at most the given number.
-pub fn text(bat: &Bat, barrel: &Barrel, most: usize, units: Units) -> String {
+/// The lowest modes, at most the given number, and what the wall does, for the terminal.
+pub fn text(bat: &Bat, barrel: &Barrel, most: usize, units: Units) -> [String; 2] {
     let mut out = format!("Hoop modes of {}\n{}", bat.name(), edited(bat, units));
     let [from, to] = [barrel.hoop().from(), barrel.hoop().to()];
     let stretch = format!(
@@ -74,9 +74,7 @@ pub fn text(bat: &Bat, barrel: &Barrel, most: usize, units: Units) -> String {
         units.inline(units.length(to))
     );
     out += &wrapped(&stretch, 2);
-    out += &modes(bat, barrel, most, units);
-    out += &sentences(barrel, units);
-    out
+    [out + &modes(bat, barrel, most, units), sentences(barrel, units)]
 }
 
 /// The lowest modes of two and more waves around.
@@ -211,7 +209,7 @@ pub fn in_a_line(barrel: &Barrel) -> Option<String> {
     let lowest = barrel.hoop().lowest(1);
     let hertz = lowest.first()?.frequency_hz;
     Some(format!(
-        "Hoop modes from {hertz:.0} Hz: sweetspot hoop. All else: --full or --report FILE.html\n"
+        "Hoop modes from {hertz:.0} Hz: sweetspot hoop. All else: --full or --report FILE.html"
     ))
 }
 

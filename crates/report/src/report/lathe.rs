@@ -47,29 +47,24 @@ pub fn screen(map: &LatheMap, scene: &Scene, units: Units) -> Option<String> {
     Some(out + &below(map, TableUnits::of(units, map.piece.bat().inches())))
 }
 
-/// Everything for the terminal.
-pub fn text(map: &LatheMap, scene: &Scene, units: Units) -> String {
+/// Everything for the terminal: the title, both tables, and what stands below them.
+pub fn text(map: &LatheMap, scene: &Scene, units: Units) -> [String; 4] {
     let shown = TableUnits::of(units, map.piece.bat().inches());
-    let mut out = title(map, scene, units);
-    out += &table(map, shown, TurnedBand::derivative);
-    let depth = if shown.us() {
-        format!("{} in", significant(map.terms.cut / 0.0254, 3))
-    } else {
-        format!("{} mm", significant(map.terms.cut / MM, 3))
-    };
-    out += &format!(
-        "\nThe same, still per {}, when {depth} come off and all is solved again\n",
-        shown.per_name()
+    let (per, unit) = if shown.us() { (0.0254, "in") } else { (MM, "mm") };
+    let cuts = format!(
+        "\nThe same, still per {}, when {} {unit} come off and all is solved again\n{}",
+        shown.per_name(),
+        significant(map.terms.cut / per, 3),
+        table(map, shown, TurnedBand::when_cut)
     );
-    out += &table(map, shown, TurnedBand::when_cut);
-    out += &("\n".to_owned() + &wrapped(&legend(map, shown), 2) + &below(map, shown));
+    let mut out = "\n".to_owned() + &wrapped(&legend(map, shown), 2) + &below(map, shown);
     if let Some(check) = map.found.check.formula_against_difference {
         let line = format!(
             "Check: formula and whole bats agree on the frequencies to {check:.0e} of the largest change."
         );
         out += &wrapped(&line, 2);
     }
-    out
+    [title(map, scene, units), table(map, shown, TurnedBand::derivative), cuts, out]
 }
 
 /// Where a cut does most, in three lines.

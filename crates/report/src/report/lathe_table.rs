@@ -1,7 +1,7 @@
 //! The table of a lathe map: a row for each band, a column for each answer.
 
+use crate::parts::columns::{Column, Columns, numbers};
 use crate::parts::units::Units;
-use crate::report::columns::{Column, Columns, numbers};
 use sweetspot::base::number::{rounded, signed};
 use sweetspot::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
 use sweetspot_study::answers::Answer;

@@ -4,13 +4,12 @@ use std::fmt::Write;
 
 use faer::c64;
 
+use crate::parts::columns::{Columns, labels, numbers};
 use crate::parts::terminal::wrapped;
 use crate::parts::units::Units;
-use crate::report::columns::{Columns, labels, numbers};
 use crate::report::text::edited;
 use crate::schema::measured as file;
 use sweetspot::base::number::{percent, signed};
-use sweetspot::base::units::inches;
 use sweetspot::bat::body::Bat;
 use sweetspot::files::schema::document::{Format, Generator};
 use sweetspot_study::measured::pairing::{LEAST, octaves};
@@ -46,9 +45,7 @@ fn source(study: &Study, units: Units) -> String {
         None => wrapped(&format!("{text}, frequencies alone"), 10),
         Some(shapes) => {
             let x = &shapes.placed.x;
-            let place =
-                |x: f64| units.show(format!("{:.2} cm", 100.0 * x), format!("{:.2} in", inches(x)));
-            let [first, last] = [x[0], x[x.len() - 1]].map(|x| units.inline(place(x)));
+            let [first, last] = [x[0], x[x.len() - 1]].map(|x| units.place(x, 2));
             let count = x.len();
             wrapped(&format!("{text} at {count} points, {first} to {last} from the knob end"), 10)
         }

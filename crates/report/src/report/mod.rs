@@ -3,7 +3,6 @@
 //! [`text`] and [`hit_text`] make tables of modes and hits, [`json`] and [`hit_json`] their documents; a verb's own file
 //! has its screen. Columns that pictures and CSV share are in [`columns`]. Nothing here computes physics.
 
-pub mod columns;
 pub mod curve;
 pub mod resolved;
 pub mod damped;
@@ -35,6 +34,7 @@ pub mod hoop_notes;
 pub mod hoop;
 pub mod calibrate;
 pub mod calibrated_bat;
+pub mod shares;
 pub mod scatter;
 pub mod mistakes;
 #[cfg(feature = "aim")]

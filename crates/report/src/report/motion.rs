@@ -1,8 +1,8 @@
 //! How a bat moves after a blow, on one screen.
 
+use crate::parts::columns::{Columns, numbers};
 use crate::parts::terminal::wrapped;
 use crate::parts::units::Units;
-use crate::report::columns::{Columns, numbers};
 use sweetspot::base::units::inches;
 use sweetspot::bat::body::Bat;
 use sweetspot::modes::solve::Solution;
@@ -18,7 +18,7 @@ pub struct Frames<'a> {
 }
 
 /// What a screen ends with.
-const MORE: &str = "Every place at every instant: --csv FILE (- = here); drawn: --plots DIR\n";
+pub const MORE: &str = "Every place at every instant: --csv FILE (- = here); drawn: --plots DIR";
 
 /// The deflection of both ends at every instant, and the largest along the bat with its place.
 pub fn screen((bat, solution): (&Bat, &Solution), motion: &Frames, units: Units) -> String {
@@ -40,5 +40,5 @@ pub fn screen((bat, solution): (&Bat, &Solution), motion: &Frames, units: Units)
         let time = format!("{:.3}", 1e3 * time);
         out += &columns.row([time, moved(*knob), moved(*tip), moved(*most), at(*x)]);
     }
-    out + MORE
+    out
 }

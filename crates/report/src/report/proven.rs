@@ -1,7 +1,7 @@
 //! How are proven frequencies said: with both ends, rounded outwards?
 
+use crate::parts::columns::{Columns, first, numbers};
 use crate::parts::terminal::wrapped;
-use crate::report::columns::{Columns, first, numbers};
 use crate::schema::modes as file;
 use sweetspot_proof::enclosure::guarantee::Guarantee;
 use sweetspot_proof::enclosure::within::{Band, Within};

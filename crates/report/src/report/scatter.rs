@@ -2,22 +2,21 @@
 
 use crate::csv::Csv;
 use crate::parts::cell::Cell;
+use crate::parts::columns::{Columns, first, numbers};
 use crate::parts::terminal::wrapped;
 use crate::parts::units::in_trade;
-use crate::report::columns::{Columns, first, labels, numbers};
+use crate::report::shares::{LITTLE, shares_of};
 use crate::schema::scatter::ScatterResult;
 use sweetspot::base::number::{percent, significant};
 use sweetspot::bat::body::Bat;
 use sweetspot::files::schema::document::{BatName, Format, Generator};
-use sweetspot_study::many::indices::{Indices, Share};
+use sweetspot_study::many::indices::Indices;
 use sweetspot_study::scatter::rows::ScatterRows;
 use sweetspot_study::scatter::scattered::{
     InputSpread, OutputSpread, Percentile, ReasonCounted, SHARES, Scattered, WRITTEN,
 };
 use sweetspot_study::scatter::spreads::{Difference, Differs};
 
-/// Shares below this are not told.
-const LITTLE: f64 = 0.005;
 /// Reasons that are shown.
 const REASONS: usize = 3;
 
@@ -98,18 +97,9 @@ fn spread(output: &OutputSpread, us: bool) -> String {
 }
 
 fn shares(inputs: &[InputSpread], output: &OutputSpread, indices: &Indices) -> String {
-    let columns = Columns::new([first(44, ""), labels(16, "alone"), labels(16, "with others")]);
-    // A share below 0 is sampling.
-    let shown = |share: &Share| format!("{:.3} ± {:.3}", share.value.max(0.0), share.sd);
-    let mut out = format!("What makes {} vary\n", output.name);
-    out += &columns.heads();
-    let mut order: Vec<usize> = (0..indices.total.len()).collect();
-    order.sort_by(|a, b| indices.total[*b].value.total_cmp(&indices.total[*a].value));
-    for k in order.into_iter().filter(|k| indices.total[*k].value >= LITTLE) {
-        let cells = [called(&inputs[k]), shown(&indices.first[k]), shown(&indices.total[k])];
-        out += &columns.row(&cells);
-    }
-    out + &columns.row(["not explained by the surface".to_owned(), shown(&indices.unexplained)])
+    let names: Vec<String> = inputs.iter().map(called).collect();
+    let [told, _, rest] = shares_of(&names, indices, 0.0, "not explained by the surface");
+    format!("What makes {} vary\n{told}{rest}", output.name)
 }
 
 /// What differs, with what it is given.

@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
+use crate::parts::columns::{Columns, first, numbers};
 use crate::parts::terminal::wrapped;
 use crate::parts::units::Units;
-use crate::report::columns::{Columns, first, numbers};
 use crate::report::damped;
 use crate::report::edits;
 use sweetspot::base::units::ounces;
@@ -76,11 +76,11 @@ fn as_known(frequency: f64, error: f64) -> String {
 /// The nodes of this many modes fit a screen or two.
 const MOST_NODES: usize = 20;
 
-/// The modes: frequencies with their errors, and the nodes of the first `with_nodes` modes.
-pub fn modes(bat: &Bat, solution: &Solution, with_nodes: usize, units: Units) -> String {
+/// The modes: frequencies with their errors, how they die out, and the nodes of the first `with_nodes` modes.
+pub fn modes(bat: &Bat, solution: &Solution, with_nodes: usize, units: Units) -> [String; 3] {
     let mut out = wrapped(&format!("Bending modes ({})", bat.fixtures().freedom()), 2);
     if solution.modes.is_empty() {
-        return out;
+        return [out, String::new(), String::new()];
     }
     let columns = Columns::new([
         numbers(6, "mode"),
@@ -105,7 +105,7 @@ pub fn modes(bat: &Bat, solution: &Solution, with_nodes: usize, units: Units) ->
             },
         ]);
     }
-    out + &damped::table(solution) + &nodes(bat, solution, with_nodes, units)
+    [out, damped::table(solution), nodes(bat, solution, with_nodes, units)]
 }
 
 /// Where the first modes stand still.

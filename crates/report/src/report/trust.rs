@@ -1,10 +1,10 @@
 //! The answers on one screen, each beside how far that of the bat in hand may be from it, and why.
 
 use crate::analysis::Analysis;
+use crate::parts::columns::{Columns, WIDE, first};
 use crate::parts::terminal::wrapped;
 use crate::parts::units::Units;
 use crate::report::answer_unit::{AnswerUnit, decimals};
-use crate::report::columns::{Columns, first};
 use crate::report::text::edited;
 use crate::schema::analysis as file;
 use sweetspot::base::number::{percent, significant};
@@ -19,14 +19,13 @@ use sweetspot_study::read_to::diameters_read_to;
 use sweetspot_study::spread::{Input, Source, Spread, of_frequencies};
 use sweetspot_study::verdict::{Doubt, Verdict};
 
-/// The bat, the answers, and how far to trust them: 24 lines at most.
-pub fn screen(analysis: &Analysis, units: Units) -> String {
+/// The bat and the answers, and how far to trust them.
+pub fn screen(analysis: &Analysis, units: Units) -> [String; 2] {
     let name = analysis.bat.name();
     let mut out = format!("{}\n", name.chars().take(WIDE).collect::<String>());
     out += &edited(&analysis.bat, units);
     out += &wrapped(&scene(analysis, units), 2);
-    out += &table(analysis, units);
-    out + &reasons(analysis, units)
+    [out + &table(analysis, units), reasons(analysis, units)]
 }
 
 /// The sweet spot in a sentence, with what there is to doubt of it.
@@ -65,9 +64,6 @@ fn reasons(analysis: &Analysis, units: Units) -> String {
     let lines = told.iter().map(|text| wrapped(&format!("  {text}"), 2));
     format!("How far to trust it\n{}", lines.collect::<String>())
 }
-
-/// Columns of a terminal.
-const WIDE: usize = 80;
 
 /// The hit in a line.
 fn scene(analysis: &Analysis, units: Units) -> String {
@@ -157,11 +153,9 @@ fn doubted(doubt: &Doubt, units: Units) -> String {
         Doubt::Density(text) => format!("Look at the file: {text}"),
         Doubt::Shear(text) => format!("Shear is left out: {text}."),
         Doubt::Dent(wall) => {
-            let deep = |length: f64| match units {
-                Units::Us => format!("{:.2}", inches(length)),
-                _ => format!("{:.1}", 1e3 * length),
-            };
-            let unit = if units == Units::Us { "in" } else { "mm" };
+            let us = units == Units::Us;
+            let (per, digits, unit) = if us { (inches(1.0), 2, "in") } else { (1e3, 1, "mm") };
+            let deep = |length: f64| format!("{:.digits$}", per * length);
             let [low, high] = wall.bbcor.range;
             format!(
                 "The wall dents by {} of its {} {unit}: beyond half of it this theory ends; the ball's figures are \

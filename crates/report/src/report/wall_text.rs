@@ -24,7 +24,7 @@ pub fn wall_words(bat: &Bat, scene: &Scene, wall: &HoopWall) -> String {
 
 /// What a hollow barrel's wall does at a place, and to BBCOR there.
 pub fn wall_facts(wall: &WallFigures, units: Units) -> Vec<Fact> {
-    let short = |x: f64| units.inline(units.show(millimetres(x), format!("{:.2} in", inches(x))));
+    let short = |x: f64| units.beside(format!("{:.1} mm", 1e3 * x), format!("{:.2} in", inches(x)));
     let [along, around] = wall.patch_half_lengths_m.map(|half| 2.0 * half);
     let [low, high] = wall.bbcor.range;
     let deep =
@@ -45,8 +45,4 @@ pub fn wall_facts(wall: &WallFigures, units: Units) -> Vec<Fact> {
     ];
     let fact = |(label, value)| Fact { key: "", label, value, note: String::new() };
     lines.into_iter().chain(deep).map(fact).collect()
-}
-
-fn millimetres(x: f64) -> String {
-    format!("{:.1} mm", 1e3 * x)
 }

@@ -1,6 +1,9 @@
 //! Tables for the terminal: every column says once how wide it is, on which side its cells stand, and
 //! what its head is.
 
+/// Columns of a screen.
+pub const WIDE: usize = 80;
+
 /// A column of a table.
 pub struct Column {
     head: String,
@@ -38,18 +41,24 @@ impl Columns {
         self.row(self.0.iter().map(|column| &column.head))
     }
 
-    /// One line, without blanks at its end.
+    /// One line, without blanks at its end. A cell that is too wide takes the blanks after it, and a line of more than
+    /// 80 columns all that can be spared.
     pub fn row<S: AsRef<str>>(&self, cells: impl IntoIterator<Item = S>) -> String {
-        let mut line = String::new();
+        let (mut line, mut end) = (String::new(), 0);
         for (Column { width, gap, left, .. }, cell) in self.0.iter().zip(cells) {
-            let cell = cell.as_ref();
-            line += gap;
+            let (from, cell) = (end + gap.len(), cell.as_ref());
+            end = from + width;
+            let spare = if *left { 0 } else { width.saturating_sub(cell.chars().count()) };
             // Two numbers do not touch, even where one is too wide.
-            let touches = !left && cell.chars().count() >= *width && !line.ends_with(' ');
-            line += if touches && !line.is_empty() { " " } else { "" };
-            line += &if *left { format!("{cell:<width$}") } else { format!("{cell:>width$}") };
+            let apart = usize::from(!left && !line.is_empty() && !line.ends_with(' '));
+            let blanks =
+                (from + spare).saturating_sub(line.chars().count()).max(gap.len()).max(apart);
+            line += &format!("{:blanks$}{cell}", "");
         }
         line.truncate(line.trim_end().len());
+        while let Some(at) = line.rfind("  ").filter(|_| line.chars().count() > WIDE) {
+            line.remove(at);
+        }
         line + "\n"
     }
 }
@@ -65,5 +74,14 @@ mod tests {
         assert_eq!(columns.row(["ash", "174.5", "met"]), "ash  174.5  met\n");
         assert_eq!(columns.row(["ash", "", ""]), "ash\n");
         assert_eq!(columns.row(["willow", "174.512", "met"]), "willow 174.512  met\n");
+        assert_eq!(columns.row(["willow", "174", "met"]), "willow 174  met\n");
+    }
+
+    #[test]
+    fn a_row_of_more_than_80_columns_spares_its_blanks() {
+        let columns = Columns::new([first(40, ""), numbers(30, ""), numbers(10, "")]);
+        let row = columns.row(["  name", "174.5", "+0.02295 kg m²"]);
+        assert_eq!(row, format!("  name{:54}174.5 +0.02295 kg m²\n", ""));
+        assert_eq!(row.trim_end().chars().count(), WIDE);
     }
 }
