@@ -316,7 +316,7 @@ const PART: &str = ".sweetspot-";
 const OF_A_PART: &str = ".part";
 
 /// Removes what programs that were killed have left in a folder: files that were being written, and that
-/// nobody holds any more. What cannot be looked at stays.
+/// no program holds any more. A file that cannot be read stays.
 pub fn remove_lost(folder: &Path) {
     let Ok(entries) = fs::read_dir(folder) else { return };
     for path in entries.flatten().map(|entry| entry.path()) {

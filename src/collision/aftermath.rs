@@ -314,11 +314,7 @@ impl<'a> Aftermath<'a> {
     pub fn sound(&self, solution: &Solution, wall: Option<WallTones>) -> Sound {
         let lines = self.lines(self.place);
         let amplitudes = lines.iter().map(|line| line.acceleration_m_s2);
-        let of_piece = |piece: &Piece| {
-            let powers = piece.powers.iter().enumerate();
-            piece.length * powers.map(|(k, c)| c / (k + 1) as f64).sum::<f64>()
-        };
-        let blow = [self.pieces.iter().map(of_piece).sum(), self.end()];
+        let blow = [self.pushed(&[self.end()])[0][1], self.end()];
         Sound::of_modes(solution, amplitudes, self.place, blow, wall)
     }
 

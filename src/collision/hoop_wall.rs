@@ -244,7 +244,7 @@ fn beyond(flexibility: &[(usize, f64)], patch: &Patch, radius: f64) -> f64 {
 /// The tones of a hollow barrel's wall under that ball, by place (m); None of a bat without a wall whose hoop modes can be
 /// found.
 pub fn heard(bat: &Bat, ball: &Ball) -> Option<impl Fn(f64) -> Vec<WallTone> + use<>> {
-    let wall = rings(bat).then(|| HoopWall::of(bat, ball.radius_m, 1e-3).ok()).flatten()?;
+    let wall = rings(bat).then(|| HoopWall::of(bat, ball.radius_m, 1e-4).ok()).flatten()?;
     let compression = ball.patch_compression();
     Some(move |x: f64| wall.tones(x, compression))
 }

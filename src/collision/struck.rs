@@ -111,7 +111,7 @@ impl<'a> Struck<'a> {
 /// Lets the last of some modes stand for all beyond it, as [`Struck::felt`] says, and returns the
 /// flexibility (m/N) that is still missing then; `all` are C (m/N) and D (m s²/N) of every mode there
 /// is, `unsure` what these are not known to. Without a mode all is flexibility.
-pub fn complete(
+fn complete(
     gains: &mut [f64],
     square: impl Fn(usize) -> f64,
     [soft, slow]: [f64; 2],

@@ -150,9 +150,9 @@ impl<'a> HitsAlong<'a> {
         Self::by([0.5 * length, length], look, hitter)
     }
 
-    /// Looks along a stretch (m) in so many steps, and locates places to that share of it: fewer steps do where
-    /// the best places are known to be near others, and a wider share where only their distance from others is
-    /// told. Where the bat catches up with the ball late or again the steps are finer.
+    /// Looks along a stretch (m) in `steps` steps, and locates places to `share` of it. Fewer steps are enough where the
+    /// best places are known to be near others, and a wider share where only their distance from others is told.
+    /// Where the bat catches up with the ball late or again, the steps are finer.
     pub fn by(ends: [f64; 2], (steps, share): (usize, f64), hitter: &'a Hitter<'a>) -> Self {
         let length = ends[1] - ends[0];
         let parts = steps * BETWEEN_LATER;

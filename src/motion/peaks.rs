@@ -59,8 +59,8 @@ pub fn around(natural: f64, ratio: f64) -> Vec<f64> {
 /// The peaks of a response between the ends of a rising grid (Hz) without repetitions, by rising frequency. `modes` are
 /// natural frequencies and damping ratios, `size` is the response's size at a frequency.
 ///
-/// A mode whose response at this place is hidden by others has no peak, and a hump between modes,
-/// farther than eight half-widths from each, is none.
+/// A mode whose response at this place is hidden by others has no peak. A hump between modes, farther
+/// than eight half-widths from each, does not count.
 pub fn of(grid: &[f64], modes: &[[f64; 2]], size: &impl Fn(f64) -> f64) -> Vec<Peak> {
     let sizes: Vec<f64> = grid.iter().map(|f| size(*f)).collect();
     let nearest = |f: f64| {

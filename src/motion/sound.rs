@@ -41,8 +41,8 @@ pub struct Sound {
     /// on a node is quieter.
     #[serde(skip)]
     pub loudest_m_s2: f64,
-    /// The loss factor that stands in for that of the bat's material, which has none; null where the
-    /// bat's own damping is heard.
+    /// The loss factor that stands in for that of a material that has none; null where the bat's own damping is
+    /// heard.
     pub assumed_loss_factor: Option<f64>,
 }
 
@@ -107,15 +107,18 @@ impl Sound {
         let mut sound = Self::new(solution, amplitudes);
         let length = solution.modes.first().map_or(0.0, |mode| mode.shape.length());
         let places = (0..=PLACES).map(|k| length * (0.5 + 0.5 * k as f64 / PLACES as f64));
-        let assumed = sound.assumed_loss_factor.is_some();
         let there = places.map(|x| {
             let mut other = Self::new(solution, bending(solution, x, blow));
-            other.tones.extend(wall.map_or(vec![], |wall| rung(wall(x), blow, assumed)));
+            other.tones.extend(wall.map_or(vec![], |wall| rung(wall(x), blow)));
             other.peak()
         });
         let loudest = there.fold(0.0, f64::max);
         if let Some(wall) = wall {
-            sound.tones.extend(rung(wall(x), blow, assumed));
+            let there = wall(x);
+            if there.iter().any(|tone| tone.damping_ratio == 0.0) {
+                sound.assumed_loss_factor = Some(ASSUMED_LOSS);
+            }
+            sound.tones.extend(rung(there, blow));
             sound.tones.sort_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz));
         }
         sound.loudest_m_s2 = loudest.max(sound.peak());
@@ -179,13 +182,10 @@ fn bending(
     })
 }
 
-/// The tones of a wall after such a blow; of a material without a loss factor with the assumed one, if `assumed`.
-fn rung(wall: Vec<WallTone>, [impulse, duration]: [f64; 2], assumed: bool) -> Vec<Tone> {
+/// The tones of a wall after such a blow; of a material without a loss factor with the assumed one.
+fn rung(wall: Vec<WallTone>, [impulse, duration]: [f64; 2]) -> Vec<Tone> {
     let tone = |WallTone { omega, damping_ratio, gain }: WallTone| {
-        let ratio = match assumed && damping_ratio == 0.0 {
-            true => 0.5 * ASSUMED_LOSS,
-            false => damping_ratio,
-        };
+        let ratio = if damping_ratio == 0.0 { 0.5 * ASSUMED_LOSS } else { damping_ratio };
         Tone {
             frequency_hz: omega / (2.0 * PI),
             decay_1_s: ratio * omega,

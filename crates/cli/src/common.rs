@@ -188,7 +188,7 @@ impl SolveArgs {
         Request { modes, tolerance: self.tol, elements, degree, solver: self.solver, theory }
     }
 
-    /// These arguments with the theory that so many modes need, where none was named, and what is to be said of it.
+    /// These arguments with the theory that the modes need, if none was named, and what is to be said of it.
     pub fn of_hits(&self, bat: &Bat, modes: usize) -> Result<(Self, Option<String>)> {
         let Choice { theory, warning } = match self.theory.0 {
             Some(theory) => Choice { theory, warning: None },

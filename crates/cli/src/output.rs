@@ -47,7 +47,7 @@ impl OutputArgs {
         self.units.of(bat)
     }
 
-    /// What is printed: all there is, or what a screen of at most so many lines holds, and where the rest is.
+    /// What is printed: everything, or what a screen of at most `most` lines holds, and where the rest is.
     pub fn screen<S: Into<Screen>>(&self, most: usize, said: impl Fn(bool) -> S) -> String {
         screen(self.full, most, said)
     }
@@ -151,7 +151,7 @@ impl FullArgs {
     }
 }
 
-/// All there is, or what a screen of at most so many lines holds, and where the rest is.
+/// Everything, or what a screen of at most `most` lines holds, and where the rest is.
 fn screen<S: Into<Screen>>(full: bool, most: usize, said: impl Fn(bool) -> S) -> String {
     let all = said(true).into().text();
     if full { all } else { said(false).into().fitted(most, &all, "Everything else: --full") }

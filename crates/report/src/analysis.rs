@@ -64,8 +64,8 @@ pub struct Analysis {
     pub strength: Vec<Strength>,
     /// Accuracy of the solver on a dowel, whose frequencies are known.
     pub proof: Proof,
-    /// What calipers, scale and wood leave open; uncounted for a bat of so many pieces that it would
-    /// take long.
+    /// What calipers, scale and wood leave open; not counted for a bat whose many pieces would
+    /// make it slow.
     pub spread: Spread,
     /// How far the answers hold, by all that is known of them.
     pub verdict: Verdict,

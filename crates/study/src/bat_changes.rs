@@ -12,7 +12,8 @@ use sweetspot::bat::turned::DiameterChange;
 pub struct Parameter {
     /// Which input. A mass on the scale is all densities, a tap the stiffness of all materials.
     pub input: Input,
-    /// The material that alone differs, wherever the bat has it; None for all materials, and for what is none's.
+    /// The material that alone differs, wherever the bat has it; None for all materials, and for
+    /// what belongs to no material.
     pub of: Option<Material>,
 }
 

@@ -84,11 +84,12 @@ struct Border {
 pub fn columns(layers: &Layers, grading: Grading) -> Vec<Column> {
     let stretches = &layers.stretches;
     let first = &stretches[0];
-    let of = |left: &Stretch, right: &Stretch| match left.stays_stiff(right, &layers.materials) {
+    let graded = |soft: bool| match soft {
         true => Grading { corner: grading.soft, ..grading },
         false => grading,
     };
-    let own = of(first, first);
+    let of = |left: &Stretch, right: &Stretch| graded(left.stays_stiff(right, &layers.materials));
+    let own = graded(first.is_soft_within(&layers.materials));
     let mut lefts = vec![end(first, &first.radii(first.from), grading.knob, own)];
     let mut rights = vec![];
     for pair in stretches.windows(2) {
@@ -97,7 +98,12 @@ pub fn columns(layers: &Layers, grading: Grading) -> Vec<Column> {
         lefts.push(right);
     }
     let last = &stretches[stretches.len() - 1];
-    rights.push(end(last, &last.radii(last.to), grading.tip, of(last, last)));
+    rights.push(end(
+        last,
+        &last.radii(last.to),
+        grading.tip,
+        graded(last.is_soft_within(&layers.materials)),
+    ));
     let mut columns = vec![];
     let shortest = (last.to - first.from) / MOST;
     for ((stretch, left), right) in stretches.iter().zip(&lefts).zip(&rights) {

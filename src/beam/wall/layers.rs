@@ -137,28 +137,21 @@ impl Stretch {
 
     /// Whether the stiffest layer goes on into the next stretch between the same radii, and all others are far softer.
     pub fn stays_stiff(&self, next: &Self, materials: &[Elastic]) -> bool {
-        /// With less of the stiffness of the wall than this share a layer makes no corner that counts.
-        const SOFT: f64 = 0.1;
-        let (ours, theirs) = (self.radii(self.to), next.radii(next.from));
-        let stiffness = |material: usize| materials[material].normal[1][1];
-        let all = || self.materials.iter().chain(&next.materials);
-        let Some(stiffest) = all().max_by(|a, b| stiffness(**a).total_cmp(&stiffness(**b))) else {
-            return false;
+        let all = self.materials.iter().chain(&next.materials);
+        let Some(stiffest) = stiff_among(all, materials) else { return false };
+        let place = |of: &Self, radii: Vec<f64>| {
+            let at = of.materials.iter().position(|material| *material == stiffest)?;
+            Some([radii[at], radii[at + 1]])
         };
-        let place = |of: &Self, radii: &[f64]| {
-            let mut layers = of.materials.iter().zip(radii.windows(2));
-            layers
-                .find(|(material, _)| *material == stiffest)
-                .map(|(_, radii)| [radii[0], radii[1]])
-        };
-        let goes_on = match (place(self, &ours), place(next, &theirs)) {
+        match (place(self, self.radii(self.to)), place(next, next.radii(next.from))) {
             (Some(a), Some(b)) => a.iter().zip(b).all(|(a, b)| (a - b).abs() <= SAME_RADIUS * b),
             _ => false,
-        };
-        let soft = |material: &usize| {
-            material == stiffest || stiffness(*material) < SOFT * stiffness(*stiffest)
-        };
-        goes_on && all().all(soft)
+        }
+    }
+
+    /// Whether all its layers but the stiffest are far softer.
+    pub fn is_soft_within(&self, materials: &[Elastic]) -> bool {
+        stiff_among(self.materials.iter(), materials).is_some()
     }
 
     /// By how much the slope of each border changes where the next stretch goes on with the same layers; None
@@ -237,7 +230,9 @@ impl Layers {
         let goes_on = |pair: &[Stretch]| {
             pair[0].kinks(&pair[1]).is_some() || pair[0].stays_stiff(&pair[1], &self.materials)
         };
-        self.stretches.windows(2).all(goes_on)
+        let ends = [&self.stretches[0], &self.stretches[self.stretches.len() - 1]];
+        let soft = ends.into_iter().all(|end| end.is_soft_within(&self.materials));
+        soft && self.stretches.windows(2).all(goes_on)
     }
 
     /// The index of a material.
@@ -303,6 +298,19 @@ impl Layers {
         }
         Ok(())
     }
+}
+
+/// The stiffest of some layers' materials if all others are far softer.
+fn stiff_among<'a>(
+    layers: impl Iterator<Item = &'a usize> + Clone,
+    materials: &[Elastic],
+) -> Option<usize> {
+    /// With less of the stiffness of the wall than this share a layer makes no corner that counts.
+    const SOFT: f64 = 0.1;
+    let stiffness = |material: &usize| materials[*material].normal[1][1];
+    let stiffest = layers.clone().max_by(|a, b| stiffness(a).total_cmp(&stiffness(b)))?;
+    let soft = |one: &usize| one == stiffest || stiffness(one) < SOFT * stiffness(stiffest);
+    layers.clone().all(soft).then_some(*stiffest)
 }
 
 /// Whether a wall with these radii touches one with those over some of its thickness.

@@ -9,16 +9,19 @@
 //! C(load) = Σ load_s load_t y_s·y_t          the same for any patch, anywhere
 //! ```
 //!
-//! Walls that differ in stiffness and density alone share one solve: with E and ρ of the stiffest material taken out,
-//! `ω = ω̂ √(E/ρ)`, `C = Ĉ/E`, `c = ĉ/ρ`.
+//! Stiffness and density are scales. With E, the stiffness around the bat, and ρ of the stiffest material taken out,
+//! `ω = ω̂ √(E/ρ)`, `C = Ĉ/E`, `c = ĉ/ρ`. Walls that differ in these alone share one solve if they keep the same modes.
 
+use std::collections::VecDeque;
 use std::f64::consts::{PI, TAU};
+use std::ops::Range;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use crate::base::error::{Error, Result};
 use crate::base::lanes::vectorized;
 use crate::base::threads;
 use crate::bat::body::Bat;
+use crate::bat::profile::SAME_PLACE;
 use crate::beam::wall::columns::{Grading, columns};
 use crate::beam::wall::elastic::Elastic;
 use crate::beam::wall::extent::{Extent, Limit};
@@ -45,8 +48,8 @@ pub struct Fineness {
     last: usize,
     /// Modes are kept up to this frequency (Hz); what is faster follows the force.
     up_to_hz: f64,
-    /// The modes of a harmonic are left to its flexibility where that is late by less than this share of what n = 2
-    /// would be late by, had it no mode below those that are kept.
+    /// A harmonic keeps no modes if `(2/n)^3.6 (ω_kept/ω_n)²` is below this number: ω_kept is the frequency up to which
+    /// modes are kept, `1/ω_n²` the harmonic's `D/C`.
     little: f64,
     /// How far frequencies may be off, relative, on a smooth wall, and beside corners of its layers.
     off: [f64; 2],
@@ -98,11 +101,11 @@ impl Fineness {
 #[derive(Debug, Clone)]
 pub struct Response {
     solved: Arc<Solved>,
-    /// E (Pa) and ρ (kg/m³) of the stiffest material.
+    /// Stiffness around the bat, c_θθ (Pa), and density (kg/m³) of the stiffest material.
     scale: [f64; 2],
 }
 
-/// The figures of a wall whose stiffest material has E = 1 and ρ = 1.
+/// The figures of a wall whose stiffest material has c_θθ = 1 and ρ = 1.
 #[derive(Debug)]
 struct Solved {
     surface: Surface,
@@ -111,7 +114,7 @@ struct Solved {
     off: f64,
 }
 
-/// What a harmonic has of it.
+/// The figures of one harmonic.
 #[derive(Debug)]
 struct Harmonic {
     n: usize,
@@ -120,8 +123,8 @@ struct Harmonic {
     losses: Vec<f64>,
     /// How far each function of the surface moves in each mode.
     motions: Vec<Vec<f64>>,
-    /// `y_s·y_t` of all functions of the surface, row by row.
-    flexibility: Vec<f64>,
+    /// How it gives way under loads on the surface.
+    flexibility: Flexibility,
     /// `1/ω²` of all that its modes leave to the flexibility.
     slow: f64,
 }
@@ -132,7 +135,7 @@ struct Key {
     layers: Layers,
     cut: bool,
     fineness: Fineness,
-    /// The frequency up to which modes are kept, where E = 1 and ρ = 1.
+    /// The frequency up to which modes are kept, where c_θθ = 1 and ρ = 1.
     up_to: f64,
 }
 
@@ -141,12 +144,14 @@ type Cell = Arc<OnceLock<std::result::Result<Arc<Solved>, String>>>;
 
 /// The walls that were asked for last.
 static KNOWN: Mutex<Vec<(Key, Cell)>> = Mutex::new(vec![]);
-/// So many of them are kept, of a quarter of a megabyte each.
+/// At most this many are kept, and fewer if they have more numbers than [`NUMBERS`] together.
 const KEPT: usize = 16;
+/// 32 MB.
+const NUMBERS: usize = 4_000_000;
 
 impl Response {
-    /// The wall of a hollow bat. The last few walls are known: of a bat with the same wall, or one that differs in
-    /// stiffness and density alone, nothing is solved anew.
+    /// The wall of a hollow bat. The last few walls are known: for a bat with the same wall, or with one that differs by a
+    /// few per cent in stiffness and density alone, nothing is solved anew.
     ///
     /// # Errors
     ///
@@ -161,13 +166,18 @@ impl Response {
         let key = Key { layers, cut, fineness, up_to: stepped(TAU * fineness.up_to_hz / unit) };
         let cell = {
             let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
-            let cell = match known.iter().position(|(other, _)| *other == key) {
+            let asked = match known.iter().position(|(other, _)| *other == key) {
                 Some(at) => known.remove(at).1,
                 None => Cell::default(),
             };
-            known.truncate(KEPT - 1);
-            known.insert(0, (key.clone(), Arc::clone(&cell)));
-            cell
+            known.insert(0, (key.clone(), Arc::clone(&asked)));
+            known.truncate(KEPT);
+            let mut numbers = 0;
+            known.retain(|(_, cell)| {
+                numbers += cell.get().and_then(|of| of.as_ref().ok()).map_or(0, |of| of.numbers());
+                numbers <= NUMBERS || Arc::ptr_eq(cell, &asked)
+            });
+            asked
         };
         let solved = threads::made(&cell, || key.solve().map(Arc::new).map_err(|e| e.to_string()));
         let solved = solved.as_ref().map_err(|said| {
@@ -211,36 +221,43 @@ impl Response {
         self.solved.surface.radius(x)
     }
 
-    /// Whether the ball presses on the modelled stretch: at the tip it may overhang, at the knob side not.
+    /// Whether the ball presses on the modelled stretch: at the tip it may overhang, at the knob side not. A patch that is
+    /// longer than that of any ball is not covered.
     pub fn covers(&self, patch: &Patch) -> bool {
         let [from, to] = self.ends();
-        patch.x - patch.half_length >= from && patch.x <= to
+        let short = 2.0 * patch.half_length <= WIDEST;
+        short && patch.x - patch.half_length >= from && patch.x <= to * (1.0 + SAME_PLACE)
     }
 
     /// How each harmonic gives way under a patch.
     pub fn under(&self, patch: &Patch) -> Vec<Share> {
         let (radius, load) = (self.radius(patch.x), self.solved.surface.load(patch));
         let of = |harmonic: &Harmonic| {
-            let size = self.solved.surface.functions.len();
-            harmonic.under(&load, size, patch.share(harmonic.n, radius), self.scale)
+            harmonic.under(&load, patch.share(harmonic.n, radius), self.scale)
         };
         self.solved.harmonics.iter().map(of).collect()
     }
 }
 
+impl Solved {
+    /// How many numbers it has.
+    fn numbers(&self) -> usize {
+        let of = |harmonic: &Harmonic| {
+            let kept = harmonic.flexibility.0.iter().map(|(_, row)| row.len()).sum::<usize>();
+            kept + harmonic.motions.iter().map(Vec::len).sum::<usize>()
+        };
+        self.harmonics.iter().map(of).sum()
+    }
+}
+
 impl Harmonic {
     /// How it gives way under a load of that resultant, E and ρ being those.
-    fn under(&self, load: &[(usize, f64)], size: usize, g: f64, [e, rho]: [f64; 2]) -> Share {
+    fn under(&self, load: &[(usize, f64)], g: f64, [e, rho]: [f64; 2]) -> Share {
         let turn = if self.n == 0 { TAU } else { PI };
-        let mut soft = 0.0;
-        for (s, a) in load {
-            let row = &self.flexibility[s * size..(s + 1) * size];
-            soft += a * load.iter().map(|(t, b)| b * row[*t]).sum::<f64>();
-        }
         let moved = |motion: &Vec<f64>| load.iter().map(|(s, a)| a * motion[*s]).sum::<f64>();
         let gain = |motion: &Vec<f64>| g * g * moved(motion).powi(2) / turn;
         let gains: Vec<f64> = self.motions.iter().map(gain).collect();
-        let soft = g * g * soft / turn;
+        let soft = g * g * self.flexibility.under(load) / turn;
         let [here, slow] = taken(&gains, |k| self.omegas[k].powi(2));
         let slowness = slow + self.slow * (soft - here).max(0.0);
         Share {
@@ -269,9 +286,10 @@ impl Key {
     fn solve(&self) -> Result<Solved> {
         let Fineness { last, off, .. } = self.fineness;
         let (wall, surface) = self.mesh()?;
-        let harmonics: Vec<usize> = std::iter::once(0).chain(2..=last).collect();
-        let of = |k: usize| self.harmonic(&wall, &surface, harmonics[k]);
-        let harmonics = threads::map(harmonics.len(), of).into_iter().collect::<Result<_>>()?;
+        let harmonics = std::iter::once(0).chain(2..=last);
+        // One after the other: whoever solves a wall that others wait for does so alone.
+        let harmonics = harmonics.map(|n| self.harmonic(&wall, &surface, n));
+        let harmonics = harmonics.collect::<Result<_>>()?;
         let smooth = self.layers.kinks().is_some() || self.layers.stays_stiff();
         let off = off[usize::from(!smooth)] + round_off(&self.layers);
         Ok(Solved { surface, harmonics, off })
@@ -318,13 +336,12 @@ impl Key {
         let mut harmonic = Harmonic {
             n,
             motions,
-            flexibility: flexibility(&spectrum.factors, surface, &radial),
+            flexibility: Flexibility::of(&spectrum.factors, surface, &radial),
             slow: 0.0,
             omegas: spectrum.omegas,
             losses: spectrum.losses,
         };
-        let modes =
-            harmonic.under(&surface.load(&patch), radial.len(), patch.share(n, radius), [1.0; 2]);
+        let modes = harmonic.under(&surface.load(&patch), patch.share(n, radius), [1.0; 2]);
         let [soft, slow] = taken(&modes.gains, |k| harmonic.omegas[k].powi(2));
         let [soft, slow] = [all.flexibility - soft, all.slowness - slow];
         harmonic.slow = if soft > 0.0 { (slow / soft).max(0.0) } else { 0.0 };
@@ -337,13 +354,25 @@ const FALLS: f64 = 3.6;
 /// Least change of slope to which the elements are graded.
 const LEAST_KINK: f64 = 0.02;
 
-/// `y_s·y_t` of the unknowns of the surface, row by row; 0 where no patch presses on both.
-fn flexibility(factors: &Fronts, surface: &Surface, radial: &[Option<(usize, f64)>]) -> Vec<f64> {
-    let size = radial.len();
-    let tiles: Vec<Tile> = (0..size)
-        .step_by(SIDES)
-        .map(|first| {
-            let functions = first..(first + SIDES).min(size);
+/// `y_s·y_t` of the functions of a surface: for each s the first t, and all from there to s; it is 0 for those before,
+/// which no patch presses on together with s.
+#[derive(Debug, Default)]
+struct Flexibility(Vec<(usize, Vec<f64>)>);
+
+/// `D^{−½} L⁻¹` of a few functions of the surface side by side, and the first unknown where that is not 0.
+struct Tile {
+    functions: Range<usize>,
+    begin: usize,
+    sides: Vec<[f64; SIDES]>,
+}
+
+impl Flexibility {
+    /// That of a wall with those factors; `radial` has the unknown and the sign of each function.
+    fn of(factors: &Fronts, surface: &Surface, radial: &[Option<(usize, f64)>]) -> Self {
+        let mut rows = vec![];
+        let mut near: VecDeque<Tile> = VecDeque::new();
+        for first in (0..radial.len()).step_by(SIDES) {
+            let functions = first..(first + SIDES).min(radial.len());
             let mut sides = vec![[0.0; SIDES]; factors.pivots().len()];
             for (s, of) in radial[functions.clone()].iter().enumerate() {
                 if let Some((unknown, sign)) = of {
@@ -352,37 +381,40 @@ fn flexibility(factors: &Fronts, surface: &Surface, radial: &[Option<(usize, f64
             }
             factors.halfway_together(&mut sides);
             let begin = sides.iter().position(|side| *side != [0.0; SIDES]).unwrap_or(0);
-            Tile { functions, begin, sides }
-        })
-        .collect();
-    let mut products = vec![0.0; size * size];
-    for (k, one) in tiles.iter().enumerate() {
-        for other in &tiles[k..] {
-            let gap = surface.gap(one.functions.clone(), other.functions.start);
-            if gap > WIDEST {
-                break;
+            near.push_back(Tile { functions: functions.clone(), begin, sides });
+            while surface.gap(near[0].functions.clone(), first) > WIDEST {
+                near.pop_front();
             }
-            let begin = one.begin.max(other.begin);
-            let block = vectorized!(block(&one.sides[begin..], &other.sides[begin..]));
-            for (s, row) in one.functions.clone().zip(&block) {
-                for (t, value) in other.functions.clone().zip(row) {
-                    (products[s * size + t], products[t * size + s]) = (*value, *value);
+            let from = near[0].functions.start;
+            let mut own = vec![vec![0.0; functions.end - from]; functions.len()];
+            let last = &near[near.len() - 1];
+            for other in &near {
+                let begin = last.begin.max(other.begin);
+                let block = vectorized!(block(&last.sides[begin..], &other.sides[begin..]));
+                for (row, block) in own.iter_mut().zip(&block) {
+                    let to = &mut row[other.functions.start - from..other.functions.end - from];
+                    to.iter_mut().zip(block).for_each(|(to, value)| *to = *value);
                 }
             }
+            rows.extend(own.into_iter().map(|row| (from, row)));
         }
+        Self(rows)
     }
-    products
+
+    /// `Σ load_s load_t y_s·y_t` of a load whose functions rise.
+    fn under(&self, load: &[(usize, f64)]) -> f64 {
+        let of = |(k, (s, a)): (usize, &(usize, f64))| {
+            let (from, row) = &self.0[*s];
+            let before = load[..k].iter().filter(|(t, _)| t >= from);
+            let before: f64 = before.map(|(t, b)| b * row[t - from]).sum();
+            a * (2.0 * before + a * row[s - from])
+        };
+        load.iter().enumerate().map(of).sum()
+    }
 }
 
-/// `D^{−½} L⁻¹` of a few functions of the surface side by side, and the first unknown where that is not 0.
-struct Tile {
-    functions: std::ops::Range<usize>,
-    begin: usize,
-    sides: Vec<[f64; SIDES]>,
-}
-
-/// No patch is longer (m): half of a softball that is squeezed flat.
-const WIDEST: f64 = 0.1;
+/// No patch is longer (m): a softball squeezed flat, under twice its compression.
+const WIDEST: f64 = 0.15;
 
 /// Products of all columns of one with all of the other.
 #[inline(always)]
@@ -447,24 +479,49 @@ mod tests {
             let key = Key { layers, cut: true, fineness, up_to: TAU * 1e3 };
             let solved = key.solve().unwrap();
             let (wall, surface) = key.mesh().unwrap();
-            let size = surface.functions.len();
             for harmonic in
                 solved.harmonics.iter().filter(|harmonic| [0, 2, 5].contains(&harmonic.n))
             {
                 let spectrum = Spectrum::new(&wall, harmonic.n, [EndHold::Free; 2]).unwrap();
                 for k in 0..60 {
                     let x = extent.from + (extent.to - extent.from) * f64::from(k) / 59.0;
-                    for compression in [0.002, 0.008, 0.032] {
+                    for compression in [0.002, 0.008, 0.07] {
                         let radius = surface.radius(x);
                         let patch = Patch::under(x, 0.0366, radius, compression);
                         let exact = surface.under(&spectrum, &patch).flexibility;
                         let load = surface.load(&patch);
                         let g = patch.share(harmonic.n, radius);
-                        let kept = harmonic.under(&load, size, g, [1.0; 2]).flexibility;
+                        let kept = harmonic.under(&load, g, [1.0; 2]).flexibility;
                         let off = (kept / exact - 1.0).abs();
                         assert!(off < 1e-8, "{name} n {} {x} {compression}: {off:e}", harmonic.n);
                     }
                 }
+            }
+        }
+    }
+    /// `D` is extrapolated from one place where a harmonic has no modes, and is that of the modes where it has them:
+    /// along the barrel the sum is within 2 % of solves.
+    #[test]
+    fn the_slowness_of_a_wall_is_that_of_solves() {
+        for name in ["bbcor_made_up", "northwestern_aluminium", "composite_made_up"] {
+            let bat = Bat::builtin(name).unwrap();
+            let fineness = Fineness::for_exit_speed(1e-4);
+            let response = Response::of(&bat, fineness).unwrap();
+            let extent = Extent::of(&bat, fineness.lead).unwrap();
+            let layers = Layers::of(&bat, extent.from, extent.to).unwrap();
+            let (wall, surface) = Key { layers, cut: true, fineness, up_to: 1.0 }.mesh().unwrap();
+            let spectra: Vec<Spectrum> = response
+                .harmonics()
+                .into_iter()
+                .map(|n| Spectrum::new(&wall, n, [EndHold::Free; 2]).unwrap())
+                .collect();
+            for from_tip in [0.0, 0.02, 0.05, 0.1, 0.2, 0.28] {
+                let x = extent.to - from_tip;
+                let patch = Patch::under(x, 0.0366, surface.radius(x), 0.008);
+                let solves = spectra.iter().map(|of| surface.under(of, &patch).slowness);
+                let (exact, kept): (f64, f64) =
+                    (solves.sum(), response.under(&patch).iter().map(|share| share.slowness).sum());
+                assert!((kept / exact - 1.0).abs() < 0.02, "{name} {from_tip}: {kept:e} {exact:e}");
             }
         }
     }

@@ -105,8 +105,8 @@ impl Hoop {
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] for a solid bat, a wall of wood, walls that do not meet in the barrel, and a request that
-    /// is none; [`Error::NotConverged`] if an iteration fails.
+    /// [`Error::Value`] for a solid bat, a wall of wood, walls that do not meet in the barrel, and an impossible
+    /// request; [`Error::NotConverged`] if an iteration fails.
     pub fn of(bat: &Bat, request: &HoopRequest) -> Result<Self> {
         let tol = request.tol;
         if !(tol > 0.0 && tol < 1.0) {

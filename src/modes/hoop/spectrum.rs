@@ -15,7 +15,7 @@ pub struct Spectrum {
     pub system: System,
     /// The factors of the stiffness (for n = 1 of `K + shift M`).
     pub factors: Fronts,
-    /// Angular frequencies (rad/s), rising, from the strains.
+    /// Angular frequencies (rad/s), rising, from the strains or the iteration.
     pub omegas: Vec<f64>,
     /// Motions in all unknowns, `xᵀMx = 1` without the factor π.
     pub motions: Vec<Vec<f64>>,
@@ -27,8 +27,6 @@ pub struct Spectrum {
     shift: f64,
     /// Rigid motions among the lowest that the iteration finds.
     skipped: usize,
-    /// Products with the inverse.
-    pub steps: usize,
 }
 
 /// What is wanted of the modes.
@@ -71,7 +69,7 @@ impl Spectrum {
         let rigid = (system.unknowns.held > 0).then(|| rigid_along(&system));
         let skipped = if n == 1 { rigid_motions(n, ends) } else { 0 };
         let (omegas, motions, losses) = (vec![], vec![], vec![]);
-        Ok(Self { system, factors, shift, omegas, motions, losses, rigid, skipped, steps: 0 })
+        Ok(Self { system, factors, shift, omegas, motions, losses, rigid, skipped })
     }
 
     /// The `count` lowest modes, rigid ones left out, with that residual; their frequencies from the strains.
@@ -137,7 +135,6 @@ impl Spectrum {
             factors.forward(&mut y[..size]);
             image.iter_mut().zip(&y).zip(&scale).for_each(|((image, y), s)| *image = y * s);
         })?;
-        self.steps = lanczos.steps;
         let pairs = lanczos.vectors.chunks_exact(size).zip(&lanczos.values);
         for (z, value) in pairs.skip(self.skipped) {
             self.omegas.push((1.0 / value - self.shift).sqrt());

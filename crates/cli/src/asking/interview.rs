@@ -162,8 +162,8 @@ fn measured_along<R: BufRead>(
     Ok(stations)
 }
 
-/// A name whose file is not there yet, unless the command names a file. Where nobody is there to give another, the file
-/// is looked for when it is written.
+/// A name whose file is not there yet, unless the command names a file. If `there` is false, no person can give another
+/// name, and the file is looked for when it is written.
 fn free(args: &Args, name: &str, there: bool) -> Read<String> {
     let path = called(name);
     if !there || args.file.is_some() || refuse_existing(&path, args.force).is_ok() {

@@ -153,7 +153,7 @@ pub fn write_sound(
     file::write(path, &wav::file(&sound.samples(wav::RATE)))?;
     let assumed = sound.assumed_loss_factor.map(|loss| {
         format!(
-            "the bat has no damping of its own; a loss factor of {loss} is taken for the sound only \
+            "the material has no damping of its own; a loss factor of {loss} is taken for the sound only \
              (give the material a \"loss_factor\")"
         )
     });

@@ -34,7 +34,7 @@ pub struct MovedBarrel {
 }
 
 impl BarrelGrid {
-    /// The stretch of a bat that its hoop modes are of, at so many places with so many points around.
+    /// The stretch of a bat that its hoop modes are of, at `places` places with `around` points around each.
     pub fn of(bat: &Bat, hoop: &Hoop, places: usize, around: usize) -> Self {
         let (from, to) = (hoop.from(), hoop.to());
         let ring = |k: usize| from + (to - from) * k as f64 / (places.max(2) - 1) as f64;

@@ -1,7 +1,7 @@
 //! Where do the rows of a study go, and which of them are there?
 //!
-//! A folder holds a manifest and parts of so many rows. Both are written whole, and a part depends on the study
-//! and its number alone: so whatever is there is right, and what is missing can be made at any time.
+//! A folder holds a manifest and parts of equally many rows. Both are written whole, and a part depends on the
+//! study and its number alone. A part that is there is therefore right, and a missing one can be made at any time.
 
 use std::env::consts::{ARCH, OS};
 use std::path::{Path, PathBuf};

@@ -59,7 +59,7 @@ pub fn made(
 ) -> String {
     let mut table = Csv::new(study.rows.columns().into_iter().map(|[name, _]| name));
     let of = |some| if stop.load(Relaxed) { vec![] } else { study.rows.cells(some) };
-    for cells in in_groups(rows, study.rows.solves_walls(), of, tell) {
+    for cells in in_groups(rows, of, tell) {
         table.row(cells.into_iter().map(Cell::Written));
     }
     table.text()

@@ -64,13 +64,15 @@ pub fn sounds(tap: &Sound, hit: Option<&Sound>) -> String {
     let hit = hit.map_or(String::new(), |_| button("hit", "Hear the hit"));
     let loss = match tap.assumed_loss_factor {
         Some(loss) => {
-            format!(" The bat has no damping of its own: the sound takes a loss factor of {loss}.")
+            format!(
+                " The material has no damping of its own: the sound takes a loss factor of {loss}."
+            )
         }
         None => String::new(),
     };
     format!(
         "<div class=\"sounds moving\">\n<div class=\"controls\">\n{hit}{}</div>\n\
-         <p class=\"remark\">The bat's own modes, as they ring and die out where it is struck.{loss}</p>\n\
+         <p class=\"remark\">The modes of the bat and of a hollow barrel's wall, as they ring and die out where it is struck.{loss}</p>\n\
          </div>\n",
         button("tap", "Hear a tap on the tip")
     )

@@ -87,8 +87,8 @@ impl Screen {
         self.0.iter().map(|(.., text)| &**text).collect()
     }
 
-    /// At most so many lines, of 80 columns where words end there: `all` if that fits, else what of this does, what was
-    /// cut short, and where the rest is.
+    /// At most `most` lines, broken between words at 80 columns: `all` if it fits, else the pieces that fit, the names of
+    /// those that were cut short, and `rest`, which says where the rest is.
     pub fn fitted(mut self, most: usize, all: &str, rest: &str) -> String {
         let whole = self.text() == all;
         let narrow = |line: &str| wrapped(line, 4);

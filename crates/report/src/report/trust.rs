@@ -338,8 +338,8 @@ fn computation(analysis: &Analysis) -> String {
     format!("The computation{verdict}: {told}{of}.")
 }
 
-/// Whether the errors of the computation are a tenth at most of what is open of every answer that has one. Of a hit
-/// that is in doubt nobody knows how much is open.
+/// Whether the errors of the computation are a tenth at most of what is open of every answer that has one. What is open
+/// of a doubtful hit is not known.
 fn far_more_exact(analysis: &Analysis) -> bool {
     const SMALL: f64 = 0.1;
     let Analysis { solution, hits, spread, verdict, .. } = analysis;

@@ -114,8 +114,8 @@ fn without_null(member: &mut Map<String, Value>) {
     }
 }
 
-/// Comments are broken into lines for the source alone, and how wide a number is in this program is
-/// nobody's concern.
+/// Comments are broken into lines for the source alone, and the width of a number in this program
+/// does not belong in a schema.
 fn plain(schema: &mut Schema) {
     if let Some(Value::String(text)) = schema.get_mut("description") {
         *text = text.split_whitespace().collect::<Vec<_>>().join(" ");

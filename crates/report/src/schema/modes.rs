@@ -182,7 +182,7 @@ pub struct Proof {
     pub proven: usize,
     /// How many motions were tried.
     pub trials: usize,
-    /// On so many stretches the trials are polynomials.
+    /// Number of stretches on which the trials are polynomials.
     pub cells: usize,
     /// Degree of the trials' deflection.
     pub degree: usize,

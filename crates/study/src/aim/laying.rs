@@ -71,7 +71,7 @@ struct StationPlace {
 
 /// A place beside a station, as a share of the way to the next.
 const BESIDE: f64 = 1e-6;
-/// A smaller change than this share of the rounding is none.
+/// A change smaller than this share of the rounding does not count.
 const NOTHING: f64 = 0.25;
 /// So far beside the changed diameter the curve through stations may run, as a share of the rounding; where
 /// nothing changes, so far beside the old one (m).

@@ -319,7 +319,7 @@ impl Writing<'_> {
     /// What the norm would be less by, per SI unit of each goal: of a least change only, which a bat that misses
     /// something, one that is hardly changed and one at which the search stopped short are not.
     fn prices(&self, found: &Found, norm: f64) -> Vec<Option<f64>> {
-        /// A change of less than that (mm) is none.
+        /// A smaller change (mm) does not count.
         const NONE: f64 = 1e-3;
         let all = vec![true; self.bands.len()];
         let least = !missed(found, &self.bands, &all) && found.stopped.is_none() && norm > NONE;

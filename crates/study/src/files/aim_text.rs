@@ -322,8 +322,8 @@ fn asked(text: &str, verb: Option<Verb>, rest: &str, goal: Goal) -> Said<Ask> {
     }
 }
 
-/// A change by a word. A lighter bat has the greater drop, which nobody means by "drop 1 lighter"; up and down are no
-/// ways along a bat.
+/// A change by a word. A lighter bat has the greater drop, but "drop 1 lighter" does not ask for one. Up and down are not
+/// directions along a bat.
 fn moved(rest: &str, size: &str, goal: Goal, sign: f64) -> Said<Amount> {
     if goal == Goal::Drop && wish_words::of_weight(rest) {
         return Err(wrong(

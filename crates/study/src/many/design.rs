@@ -160,8 +160,8 @@ impl Design {
         Row { picks: vec![0; self.lists.len()], values }
     }
 
-    /// Rows that differ from this one in one place alone: by so many other values of a list, or by both quartiles
-    /// of a distribution.
+    /// Rows that differ from this one along one axis alone: by `some` other values of a list, or by both quartiles of
+    /// a distribution.
     pub fn beside(&self, row: &Row, axis: Axis, some: u64) -> Vec<Row> {
         let other = |change: &dyn Fn(&mut Row)| {
             let mut other = row.clone();

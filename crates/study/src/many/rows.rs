@@ -64,16 +64,14 @@ impl Found {
 pub const TOGETHER: u64 = 16;
 
 /// What `of` makes of some rows, in their order, on all cores; `tell` is told of rows that are done, how many
-/// more there are. Where each row has a wall of its own, of some 50 MB, one is solved after the other.
+/// more there are.
 pub fn in_groups<T: Send>(
     rows: Range<u64>,
-    walls: bool,
     of: impl Fn(Range<u64>) -> Vec<T> + Sync,
     tell: impl Fn(u64) + Sync,
 ) -> Vec<T> {
-    let together = if walls { 1 } else { TOGETHER };
-    let from = |group: usize| rows.end.min(rows.start + group as u64 * together);
-    let groups = (rows.end - rows.start).div_ceil(together) as usize;
+    let from = |group: usize| rows.end.min(rows.start + group as u64 * TOGETHER);
+    let groups = (rows.end - rows.start).div_ceil(TOGETHER) as usize;
     let group = |group: usize| {
         let (first, end) = (from(group), from(group + 1));
         let found = of(first..end);

@@ -120,7 +120,7 @@ struct DirectionPoints {
     how: String,
 }
 
-/// One of two ways, how well the other fits if it can be, and why it is this one if nobody said so.
+/// One of two ways, how well the other fits if it can be, and why it is this one if the file does not say.
 struct Choice {
     chosen: DirectionPoints,
     other: Option<f64>,

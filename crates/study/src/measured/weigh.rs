@@ -2,8 +2,8 @@
 //!
 //! `M` is `∫ρA φ*ψ dx`, with `∫ρI φ*′ψ′ dx` where the theory turns the sections, and whatever is
 //! attached. A curve is given by its values at points, the spline through them between. Absorbers
-//! are left out: near its frequency one moves many times as far as the bat beneath it, by a factor
-//! that the slightest error of the frequency changes, and nobody measured it.
+//! are left out: near its frequency an absorber moves many times as far as the bat beneath it. This factor was not
+//! measured, and a small error of the frequency changes it.
 //!
 //! A measurement knows no rotation, so that sections are taken as turning with the slope. Where the
 //! beam shears they turn by less, which on an R161 leaves 0.01 between modes 4 and 5 and 0.05

@@ -167,8 +167,8 @@ fn whirling(study: &Study, shapes: &Shapes) -> Option<String> {
     })
 }
 
-/// Shapes with momentum that a free bat's bending has not. Without a computed partner nobody knows
-/// what the points do to a shape.
+/// Shapes with momentum, which the bending of a free bat does not have. Without a computed partner the influence of
+/// the points on a shape is not known.
 fn rigid(study: &Study, shapes: &Shapes) -> Option<String> {
     let (own, sampled) = (shapes.rigid_share.as_ref()?, shapes.sampled_rigid_share.as_ref()?);
     let one = |row: usize| {

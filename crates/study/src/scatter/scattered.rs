@@ -136,8 +136,7 @@ impl Scattered {
         let (count, asked) = (rows.count(), rows.plan.outputs.len());
         let mut values: Vec<Vec<Option<f64>>> = vec![vec![]; asked];
         let (mut missing, mut met) = (vec![], 0);
-        let walls = rows.plan.setup.may_solve_wall(&rows.bat);
-        for found in in_groups(0..count, walls, |some| rows.answers(some), tell) {
+        for found in in_groups(0..count, |some| rows.answers(some), tell) {
             let (all, why, good) = match found {
                 Ok(found) => {
                     let all: Vec<_> = found.figures.iter().map(value).collect();

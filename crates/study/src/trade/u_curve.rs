@@ -164,8 +164,8 @@ impl Curve {
     }
 }
 
-/// 8, 16, 32, … and `most`, from the first that has an element in every piece of the profile and
-/// bends in so many ways on.
+/// 8, 16, 32, … and `most`, from the first number of elements on that has one in every piece of the profile and at
+/// least `modes` modes.
 pub fn counts(bat: &Bat, modes: usize, most: usize) -> Vec<usize> {
     let least = bat.profile().pieces.len().max(modes.div_ceil(2) + 1);
     let doubled = std::iter::successors(Some(8), |n| Some(2 * n)).take_while(|n| *n < most);

@@ -32,7 +32,7 @@ pub fn read(path: &Path, beside: &Beside) -> Result<Measured> {
     Ok(placed(&universal, &name, beside)?.sorted())
 }
 
-/// A damping ratio above this is none of a bat.
+/// No bat has a damping ratio above this.
 const MUCH: f64 = 0.2;
 /// Nodes nearer than this along the axis (of the span) are one point.
 const SAME: f64 = 1e-4;
