@@ -1,25 +1,21 @@
 //! What a report says, in order, whatever it is written as.
 
 use crate::analysis::Analysis;
-use crate::page::accuracy;
 use crate::page::data::Data;
 use crate::page::figure::Figure;
 use crate::page::html::Page;
-use crate::page::inputs;
 use crate::page::moment::{Moment, moments};
-use crate::page::players;
 use crate::page::shown::sentence;
 use crate::page::summary::{NO_HIT, Summary};
 use crate::page::tables;
+use crate::page::{accuracy, inputs, players};
 use crate::parts::input::Input;
 use crate::parts::part::{Fold, Part, Section};
 use crate::parts::units::Units;
 use crate::plot::sets::of_analysis;
 use crate::report::{edits, hit_text, hoop, hoop_notes, lathe};
-use sweetspot::base::error::Result;
-use sweetspot::collision::aftermath::Aftermath;
-use sweetspot::collision::hoop_wall::heard;
-use sweetspot::collision::{Hitter, Model};
+use sweetspot::base::{error::Result, number::rounded};
+use sweetspot::collision::{Hitter, Model, aftermath::Aftermath, hoop_wall::heard};
 use sweetspot::motion::sound::{Sound, WallTones};
 use sweetspot_study::lathe::map::LatheMap;
 
@@ -306,11 +302,19 @@ fn sounds(analysis: &Analysis) -> Result<(Sound, Option<Sound>)> {
     let Analysis { bat, solution, task, hits, figures, .. } = analysis;
     let wall = heard(bat, &task.scene.ball);
     let wall = wall.as_ref().map(|wall| wall as WallTones);
-    let tap = Sound::of_tap(solution, wall);
+    let short = |mut sound: Sound| {
+        for tone in &mut sound.tones {
+            tone.frequency_hz = rounded(tone.frequency_hz, 2);
+            tone.decay_1_s = rounded(tone.decay_1_s, 3);
+            tone.amplitude_m_s2 = rounded(tone.amplitude_m_s2, 1);
+        }
+        sound
+    };
+    let tap = short(Sound::of_tap(solution, wall));
     let Some(best) = figures.spot.exit_speed_max else { return Ok((tap, None)) };
     let hitter = Hitter::new(task.model, &task.scene, bat, &hits.solution, hits.effort)?;
     let hit = hitter.force(best.x).map(|force| {
-        Aftermath::new(bat, &hits.solution, best.x, force).sound(&hits.solution, wall)
+        short(Aftermath::new(bat, &hits.solution, best.x, force).sound(&hits.solution, wall))
     });
     Ok((tap, hit))
 }
