@@ -304,7 +304,6 @@ fn sounds(analysis: &Analysis) -> Result<(Sound, Option<Sound>)> {
     let wall = wall.as_ref().map(|wall| wall as WallTones);
     let short = |mut sound: Sound| {
         for tone in &mut sound.tones {
-            tone.frequency_hz = rounded(tone.frequency_hz, 2);
             tone.decay_1_s = rounded(tone.decay_1_s, 3);
             tone.amplitude_m_s2 = rounded(tone.amplitude_m_s2, 1);
         }
