@@ -191,6 +191,11 @@ impl<'a> HitsAlong<'a> {
         self.places[k]
     }
 
+    /// Where it looked (m), rising.
+    pub fn places(&self) -> &[f64] {
+        &self.places
+    }
+
     /// Values at the places of the look; −∞ where there is none.
     pub fn values(&self, value: impl Fn(&Glance) -> Option<f64>) -> Vec<f64> {
         let of = |glance: &Option<Glance>| glance.as_ref().and_then(&value);
@@ -282,6 +287,14 @@ impl<'a> HitsAlong<'a> {
         let found = brent(between, here, self.width, at);
         // The ends of the interval may be the best, where the search only comes near.
         Some(if found.value > here.value { found } else { here })
+    }
+
+    /// Whether a value above `level` was seen, or may hide between two places, farther from `x` than two steps.
+    pub fn may_exceed(&self, level: f64, x: f64, value: impl Fn(&Glance) -> Option<f64>) -> bool {
+        let (seen, near) =
+            (self.values(value), 2.0 * (self.ends[1] - self.ends[0]) / self.steps as f64);
+        let far = |k: &usize| (0.5 * (self.place(*k) + self.place(k + 1)) - x).abs() > near;
+        (0..self.last()).filter(far).any(|k| highest_between(&self.places, &seen, k) > level)
     }
 
     /// How far from the peak the exit speed stays within 1 %, by the Illinois method on both sides.

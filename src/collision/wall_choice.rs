@@ -74,6 +74,22 @@ impl Scene {
         Ok(Self { hoop, ..self })
     }
 
+    /// This scene with the wall of that bat solved to 1e-3 of the closing speed, if a wall is counted: enough for the
+    /// differences of bats whose walls are all solved so.
+    ///
+    /// # Errors
+    ///
+    /// As [`HoopWall::of`].
+    pub fn with_rough_wall(&self, bat: &Bat) -> Result<Self> {
+        let hoop = match &self.hoop {
+            HoopInHit::Counted(_) => {
+                HoopInHit::Counted(HoopWall::of(bat, self.ball.radius_m, 1e-3)?)
+            }
+            other => other.clone(),
+        };
+        Ok(Self { hoop, ..self.clone() })
+    }
+
     /// The wall where it may change an exit speed by more than a share of the tolerance; where its modes cannot be
     /// found it stays rigid, and the reason is kept.
     fn where_it_matters(&self, bat: &Bat, tolerance: f64) -> HoopInHit {

@@ -32,7 +32,7 @@ use sweetspot::bat::material::Material;
 use sweetspot::collision::figures::SwingLaw;
 use sweetspot::collision::hit::{Model, Scene};
 use sweetspot::collision::hitter::Hitter;
-use sweetspot::collision::hoop_wall::{HoopInHit, HoopWall, barrel_walls};
+use sweetspot::collision::hoop_wall::barrel_walls;
 use sweetspot::collision::sweep::Sweep;
 use sweetspot::collision::sweet_spot::{FEW, HitsAlong, SweetSpot};
 use sweetspot::modes::solve::{Request, Solution, solve};
@@ -145,8 +145,6 @@ pub struct Analysed<'a> {
 /// Relative accuracy of the modes of the bats that differ: a small part of what 0.1 mm do to a frequency,
 /// some thousandths.
 const TOLERANCE: f64 = 1e-6;
-/// Accuracy of exit speeds for which the walls of these bats are solved.
-const WALL_TOLERANCE: f64 = 1e-3;
 
 /// The answers of one bat, or what a source makes of them, in the order of [`COUNTED`]; None where
 /// there is none, as of a place that no ball is hit at.
@@ -424,13 +422,7 @@ impl Analysed<'_> {
         }
         solution.modes.truncate(modes);
         let swing = self.law.map_or(self.scene.swing, |law| law.swing(bat));
-        let hoop = match &scene.hoop {
-            HoopInHit::Counted(_) => {
-                HoopInHit::Counted(HoopWall::of(bat, scene.ball.radius_m, WALL_TOLERANCE)?)
-            }
-            other => other.clone(),
-        };
-        let scene = Scene { swing, hoop, ..scene };
+        let scene = Scene { swing, ..scene.with_rough_wall(bat)? };
         let hitter = Hitter::new(self.model, &scene, bat, &solution, self.hits.effort)?;
         let looked = HitsAlong::outer(FEW, &hitter);
         let peak = looked.fastest();

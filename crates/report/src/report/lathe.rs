@@ -94,8 +94,7 @@ pub fn strongest(map: &LatheMap, units: Units) -> Vec<String> {
         .into_iter()
         .filter_map(|(exponent, law)| line(&format!(" for {law}"), Answer::ExitSpeed, exponent));
     let balls: Vec<String> = balls.collect();
-    let wall = if map.piece.has_rigid_wall() { " (the wall rigid)" } else { "" };
-    lines.extend((!balls.is_empty()).then(|| balls.join("; ") + wall));
+    lines.extend((!balls.is_empty()).then(|| balls.join("; ")));
     lines
 }
 
@@ -112,11 +111,6 @@ fn below(map: &LatheMap, shown: TableUnits) -> String {
         out += &wrapped(&line, 2);
     }
     out += &wholes(map, shown);
-    if map.piece.has_rigid_wall() {
-        let line = "In all hits here the wall of the barrel is rigid, for every cut would need its hoop \
-                    modes anew: sweetspot hit counts them.";
-        out += &wrapped(line, 2);
-    }
     for rival in &map.found.not_smooth_at {
         let name = rival.answer.name();
         let [one, other] = [0, 1].map(|k| {
@@ -130,8 +124,8 @@ fn below(map: &LatheMap, shown: TableUnits) -> String {
                 format!("No derivative of {name}: there is a corner, {one}.")
             }
             WhyNotSmooth::Cut => format!(
-                "The derivative of {name} does not tell the finite cut of some band: it jumps from \
-                 {one} to {other}."
+                "The derivative of {name} does not tell the finite cut of some band: it is {one}, \
+                 and after the cut {other}."
             ),
         };
         out += &wrapped(&line, 2);

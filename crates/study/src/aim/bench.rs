@@ -258,9 +258,10 @@ impl Bench {
         rigid_wall(bat, &Scene { hoop: scene.hoop.left_out(), ..scene.clone() })
     }
 
-    /// How that bat is swung.
+    /// How that bat is swung and hit. The wall of every bat would have to be solved, and stays rigid.
     fn swung(&self, bat: &Bat) -> HitTerms {
         let mut hit = self.terms.hit.clone();
+        hit.scene.hoop = hit.scene.hoop.left_out();
         if let Some(law) = self.terms.law {
             hit.scene.swing = law.swing(bat);
         }

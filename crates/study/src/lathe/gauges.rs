@@ -18,9 +18,12 @@
 //! what that does to a derivative is part of its error, `δ(dv*/dp) = v_xp δx`.
 
 use serde::Serialize;
+use std::cell::OnceCell;
 
 use crate::answers::Answer;
 pub use crate::lathe::probe::Probe;
+use crate::lathe::probe::searched;
+use crate::lathe::stencil::{Stencil, by_slope};
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::strike::Glance;
 use sweetspot::collision::sweet_spot::{HitsAlong, Peak};
@@ -97,7 +100,7 @@ struct Sought {
     x: f64,
     /// Distance of the places of a difference (m).
     apart: f64,
-    /// How far the best place may be from there on a bat of other modes (m).
+    /// How far off (m) the best place may be on a bat of other modes.
     reach: f64,
 }
 
@@ -184,17 +187,50 @@ impl GaugeHits {
 
 /// The outer half of a bat after a look along it, from which gauges are made.
 pub struct OuterHalf<'a> {
-    looked: HitsAlong<'a>,
+    /// The look, made when it is needed first.
+    looked: OnceCell<HitsAlong<'a>>,
+    /// The best places of a bat that is nearly this one, and a wide look along this bat where that is needed.
+    beside: Option<(&'a BestPlaces, Option<HitsAlong<'a>>)>,
     hitter: &'a Hitter<'a>,
     ends: [f64; 2],
-    /// What was found of a probe.
-    found: Vec<(Probe, Option<Greatest>)>,
+    /// What was found.
+    found: BestPlaces,
     /// Answers without a derivative.
     pub rivals: Vec<Rivals>,
 }
 
+/// Where a bat is best.
+#[derive(Clone, Default)]
+pub struct BestPlaces {
+    /// What was found of each probe; None where there is none.
+    by_probe: Vec<(Probe, Option<Greatest>)>,
+    /// The stretch (m) outside of which no value is nearly as good as the best.
+    good: [f64; 2],
+    /// The ends of the zone (m).
+    zone: [f64; 2],
+}
+
+impl BestPlaces {
+    /// Where the best value is that an answer tells, or whose place or zone it tells.
+    pub fn peak(&self, answer: Answer) -> Option<Peak> {
+        let probe = match answer {
+            Answer::Zone(_) => Probe::Speed,
+            _ => searched(answer)?.0,
+        };
+        Some(self.of(probe)?.as_ref()?.peak)
+    }
+
+    fn of(&self, probe: Probe) -> Option<&Option<Greatest>> {
+        self.by_probe.iter().find(|(known, _)| *known == probe).map(|(_, found)| found)
+    }
+}
+
 /// Steps of a look along the outer half.
 const STEPS: usize = 128;
+/// Steps of a look along a bat whose best places are nearly known, which only has to see that no other place is better.
+const WIDE: usize = 32;
+/// What part of the distance from the best value to the worst is good.
+const GOOD: f64 = 0.25;
 /// Distance of the places of a difference along the bat, as a share of the length: 3 mm of 84 cm. The
 /// difference is of the fourth order.
 const APART: f64 = 1.0 / 280.0;
@@ -211,7 +247,7 @@ const LOCATED: f64 = 2e-5;
 
 /// The greatest value and what it is like around its place.
 #[derive(Clone, Copy)]
-struct Greatest {
+pub(super) struct Greatest {
     peak: Peak,
     /// Value, slope and second derivative there by differences, and the distance of their places (m); None where
     /// the place is an end of the stretch.
@@ -223,9 +259,54 @@ struct Greatest {
 impl<'a> OuterHalf<'a> {
     /// Looks along the outer half of a bat of that length (m).
     pub fn new(hitter: &'a Hitter<'a>, length: f64) -> Self {
-        let ends = [0.5 * length, length];
-        let looked = HitsAlong::by(ends, (STEPS, LOCATED), hitter);
-        Self { looked, hitter, ends, found: vec![], rivals: vec![] }
+        let (looked, ends) = (OnceCell::new(), [0.5 * length, length]);
+        Self { looked, beside: None, hitter, ends, found: BestPlaces::default(), rivals: vec![] }
+    }
+
+    /// Follows the known best places of a bat that is nearly this one. They are sought anew only where they are lost or,
+    /// unless the bats differ by their swing alone, where another place may be better.
+    pub fn beside(
+        hitter: &'a Hitter<'a>,
+        length: f64,
+        known: &'a BestPlaces,
+        same_bat: bool,
+    ) -> Self {
+        let new = Self::new(hitter, length);
+        let share = (known.good[1] - known.good[0]) / (new.ends[1] - new.ends[0]);
+        let look = ((share * WIDE as f64).ceil() as usize, LOCATED);
+        let wide = (!same_bat).then(|| HitsAlong::by(known.good, look, hitter));
+        Self { beside: Some((known, wide)), ..new }
+    }
+
+    /// What was found.
+    pub fn found(self) -> BestPlaces {
+        if let Some((known, _)) = self.beside {
+            return BestPlaces { by_probe: self.found.by_probe, ..*known };
+        }
+        let (looked, mut good) = (self.looked(), [self.ends[1], self.ends[0]]);
+        let (places, last) = (looked.places(), looked.places().len() - 1);
+        for (probe, _) in &self.found.by_probe {
+            let values =
+                looked.values(|glance| Some(probe.sign() * probe.of(self.hitter, glance)?));
+            let [best, worst] = values
+                .iter()
+                .filter(|value| value.is_finite())
+                .fold([f64::MIN, f64::MAX], |[best, worst], value| {
+                    [best.max(*value), worst.min(*value)]
+                });
+            let floor = best - GOOD * (best - worst);
+            for k in (0..=last).filter(|k| values[*k] >= floor) {
+                good[0] = good[0].min(places[k.saturating_sub(1)]);
+                good[1] = good[1].max(places[(k + 1).min(last)]);
+            }
+        }
+        let fastest = self.found.of(Probe::Speed).and_then(Option::as_ref);
+        let zone = fastest.map_or(self.ends, |fastest| looked.zone(fastest.peak));
+        BestPlaces { by_probe: self.found.by_probe, good, zone }
+    }
+
+    fn looked(&self) -> &HitsAlong<'a> {
+        self.looked.get_or_init(|| HitsAlong::by(self.ends, (STEPS, LOCATED), self.hitter))
     }
 
     /// The gauge and the value of an answer about a hit; None where there is no such answer, and no gauge
@@ -246,15 +327,6 @@ impl<'a> OuterHalf<'a> {
                 None => (None, None),
             },
         }
-    }
-
-    /// Where the best value is that an answer tells, or whose place or zone it tells.
-    pub fn peak(&mut self, answer: Answer) -> Option<Peak> {
-        let probe = match answer {
-            Answer::Zone(_) => Probe::Speed,
-            _ => searched(answer)?.0,
-        };
-        Some(self.greatest(probe)?.peak)
     }
 
     fn value(&self, probe: Probe, x: f64) -> Option<f64> {
@@ -301,33 +373,49 @@ impl<'a> OuterHalf<'a> {
 
     /// Another place that is nearly as good.
     fn rival(&self, probe: Probe, best: Peak) -> Option<Peak> {
-        let sign = probe.sign();
-        let values = self.looked.values(|glance| Some(sign * probe.of(self.hitter, glance)?));
-        let place =
-            |k: usize| self.ends[0] + (self.ends[1] - self.ends[0]) * k as f64 / STEPS as f64;
+        if self.beside.is_some() {
+            return None;
+        }
+        let (sign, looked) = (probe.sign(), self.looked());
+        let values = looked.values(|glance| Some(sign * probe.of(self.hitter, glance)?));
+        let (places, last) = (looked.places(), values.len() - 1);
         let near = NEARLY * best.value.abs();
-        let apart = 2.5 * (place(1) - place(0));
+        let apart = 2.5 * (self.ends[1] - self.ends[0]) / STEPS as f64;
         let top = |j: &usize| {
             let up = *j == 0 || values[*j] >= values[j - 1];
-            up && (*j == STEPS || values[*j] >= values[j + 1]) && (place(*j) - best.x).abs() > apart
+            up && (*j == last || values[*j] >= values[j + 1]) && (places[*j] - best.x).abs() > apart
         };
-        let rival = (0..=STEPS).filter(top).find(|j| sign * best.value - values[*j] <= near);
-        rival.map(|j| Peak { x: place(j), value: sign * values[j] })
+        let rival = (0..=last).filter(top).find(|j| sign * best.value - values[*j] <= near);
+        rival.map(|j| Peak { x: places[j], value: sign * values[j] })
     }
 
     /// The greatest speed or BBCOR, or the least of the others.
     fn greatest(&mut self, probe: Probe) -> Option<Greatest> {
-        if let Some((_, found)) = self.found.iter().find(|(known, _)| *known == probe) {
+        if let Some(found) = self.found.of(probe) {
             return *found;
         }
-        let found = self.sought(probe);
-        self.found.push((probe, found));
+        let found = self.followed(probe).or_else(|| self.sought(probe));
+        self.found.by_probe.push((probe, found));
         found
+    }
+
+    /// The best place near that of the bat that is nearly this one.
+    fn followed(&self, probe: Probe) -> Option<Greatest> {
+        let (known, wide) = self.beside.as_ref()?;
+        let Greatest { peak, smooth, .. } = known.of(probe)?.as_ref()?;
+        let (sign, (_, apart)) = (probe.sign(), (*smooth)?);
+        let (x, by) = Stencil { apart, ..self.stencil(probe) }.polished(peak.x, self.reach())?;
+        let of = |glance: &Glance| Some(sign * probe.of(self.hitter, glance)?);
+        let other = wide.as_ref().is_some_and(|wide| wide.may_exceed(sign * by[0], x, of));
+        let best = sign * by[2] < 0.0 && !other;
+        let found =
+            Greatest { peak: Peak { x, value: by[0] }, smooth: Some((by, apart)), corner: false };
+        best.then_some(found)
     }
 
     fn sought(&self, probe: Probe) -> Option<Greatest> {
         let sign = probe.sign();
-        let found = self.looked.greatest(|glance| Some(sign * probe.of(self.hitter, glance)?))?;
+        let found = self.looked().greatest(|glance| Some(sign * probe.of(self.hitter, glance)?))?;
         let found = Peak { x: found.x, value: sign * found.value };
         if self.ends.contains(&found.x) {
             return Some(Greatest { peak: found, smooth: None, corner: false });
@@ -373,9 +461,13 @@ impl<'a> OuterHalf<'a> {
         }
         let sign = peak.value.signum();
         let floor = peak.value * (1.0 - NEARLY * sign);
-        let x = self.looked.zone(peak)[end];
         let apart = smooth.map_or(APART * self.ends[1], |(_, apart)| apart);
         let stencil = Stencil { apart, ..self.stencil(Probe::Speed) };
+        let followed = |(known, _): &(&BestPlaces, _)| stencil.edge(known.zone[end], floor);
+        if let Some((x, _)) = self.beside.as_ref().and_then(followed) {
+            return (None, Some(x));
+        }
+        let x = self.looked().zone(peak)[end];
         if !self.inside(x, stencil.apart) {
             return (None, Some(x));
         }
@@ -395,86 +487,4 @@ impl<'a> OuterHalf<'a> {
     fn inside(&self, x: f64, apart: f64) -> bool {
         x - 2.0 * apart > self.ends[0] && x + 2.0 * apart < self.ends[1]
     }
-}
-
-/// What a searched answer reads, and whether it is the place.
-fn searched(answer: Answer) -> Option<(Probe, bool)> {
-    Some(match answer {
-        Answer::ExitSpeed => (Probe::Speed, false),
-        Answer::ExitSpeedPlace => (Probe::Speed, true),
-        Answer::Vibration => (Probe::Vibration, false),
-        Answer::VibrationPlace => (Probe::Vibration, true),
-        Answer::Bbcor => (Probe::Bbcor, false),
-        Answer::HandsVelocity => (Probe::HandsVelocity, false),
-        Answer::HandsAcceleration => (Probe::HandsAcceleration, false),
-        _ => return None,
-    })
-}
-
-/// Differences of a reading along the bat, of the fourth order, by places so far apart.
-#[derive(Clone, Copy)]
-struct Stencil<'a> {
-    hitter: &'a Hitter<'a>,
-    probe: Probe,
-    /// Distance of the places (m).
-    apart: f64,
-}
-
-impl Stencil<'_> {
-    /// The value at `x` and its first two derivatives along the bat.
-    fn derivatives(&self, x: f64) -> Option<[f64; 3]> {
-        let h = self.apart;
-        let at = |k: f64| self.probe.read(self.hitter, self.hitter.glance(x + k * h).as_ref());
-        let within = x - 2.0 * h >= 0.0 && x + 2.0 * h <= self.hitter.profile.length();
-        within.then_some(())?;
-        let [a, b, c, d, e] = [at(-2.0)?, at(-1.0)?, at(0.0)?, at(1.0)?, at(2.0)?];
-        let slope = (8.0 * (d - b) - (e - a)) / (12.0 * h);
-        Some([c, slope, (16.0 * (b + d) - 30.0 * c - a - e) / (12.0 * h * h)])
-    }
-
-    /// Newton's steps to where the slope is 0, and the derivatives there; None where that is farther off than
-    /// `reach` (m).
-    fn polished(&self, start: f64, reach: f64) -> Option<(f64, [f64; 3])> {
-        const NEWTON: usize = 12;
-        let mut x = start;
-        for _ in 0..NEWTON {
-            let by = self.derivatives(x)?;
-            let step = -by[1] / by[2];
-            if !step.is_finite() || (x + step - start).abs() > reach {
-                return None;
-            }
-            if step.abs() < 1e-9 * self.hitter.profile.length() {
-                return Some((x, by));
-            }
-            x += step;
-        }
-        None
-    }
-
-    /// Newton's steps from some micrometres to as near as numbers are to where the value is `floor`, and the
-    /// derivatives there; None where they lead elsewhere.
-    fn edge(&self, start: f64, floor: f64) -> Option<(f64, [f64; 3])> {
-        const NEWTON: usize = 4;
-        let mut x = start;
-        for _ in 0..NEWTON {
-            let by = self.derivatives(x)?;
-            let step = (floor - by[0]) / by[1];
-            if !step.is_finite() || (x + step - start).abs() >= self.apart {
-                return None;
-            }
-            if step.abs() < 1e-7 * self.hitter.profile.length() {
-                return Some((x, by));
-            }
-            x += step;
-        }
-        None
-    }
-}
-
-/// So many times the slope of a reading along the bat at `x`.
-fn by_slope(x: f64, probe: Probe, h: f64, factor: f64) -> Vec<(f64, Probe, f64)> {
-    let unit = factor / (12.0 * h);
-    [(-2.0, 1.0), (-1.0, -8.0), (1.0, 8.0), (2.0, -1.0)]
-        .map(|(k, weight)| (x + k * h, probe, weight * unit))
-        .to_vec()
 }

@@ -236,7 +236,10 @@ impl Mapping<'_> {
     fn less(&self, found: &[Vec<Option<f64>>], per: f64) -> ByLaw {
         let change =
             |(now, was): (&Option<f64>, &Option<Figure>)| Some(((*now)? - (*was)?.value) / per);
-        found.iter().map(|now| now.iter().zip(self.piece.values()).map(change).collect()).collect()
+        found
+            .iter()
+            .map(|now| now.iter().zip(self.piece.compared()).map(change).collect())
+            .collect()
     }
 
     fn turned(&self) -> Result<Vec<Cut>> {
@@ -246,7 +249,7 @@ impl Mapping<'_> {
         let off = |ends: &[f64; 2]| DiameterChange::band(*ends, -1.0);
         let bare = self.terms.bands.iter().zip(&sleeved).filter(|(_, sleeved)| !**sleeved);
         let changes: Vec<DiameterChange> = bare.map(|(ends, _)| off(ends)).collect();
-        let mut slopes = self.piece.slopes(&changes, Care::TwoSteps)?.into_iter();
+        let mut slopes = self.piece.slopes(&changes, Care::Checked)?.into_iter();
         let exponents = self.terms.exponents();
         let finite = threads::map(self.terms.bands.len(), |k| {
             if sleeved[k] {
@@ -295,9 +298,8 @@ impl Mapping<'_> {
             if far.is_empty() {
                 return Ok(vec![]);
             }
-            let (was, is) =
-                (self.piece.peaks(None)?, self.piece.peaks(Some(&change(self.terms.cut)))?);
-            let one = |k: usize| Some(Rivals::of(answers[k], WhyNotSmooth::Cut, [was[k]?, is[k]?]));
+            let peaks = self.piece.peaks(&change(self.terms.cut))?;
+            let one = |k: usize| Some(Rivals::of(answers[k], WhyNotSmooth::Cut, peaks[k]?));
             Ok(far.into_iter().filter_map(one).collect())
         };
         let all = threads::map(cuts.len(), |k| of_band(&cuts[k]));

@@ -1,5 +1,6 @@
 //! What is read of a hit?
 
+use crate::answers::Answer;
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::strike::Glance;
 
@@ -51,4 +52,18 @@ impl Probe {
             _ => true,
         }
     }
+}
+
+/// What a searched answer reads, and whether it is the place.
+pub(super) fn searched(answer: Answer) -> Option<(Probe, bool)> {
+    Some(match answer {
+        Answer::ExitSpeed => (Probe::Speed, false),
+        Answer::ExitSpeedPlace => (Probe::Speed, true),
+        Answer::Vibration => (Probe::Vibration, false),
+        Answer::VibrationPlace => (Probe::Vibration, true),
+        Answer::Bbcor => (Probe::Bbcor, false),
+        Answer::HandsVelocity => (Probe::HandsVelocity, false),
+        Answer::HandsAcceleration => (Probe::HandsAcceleration, false),
+        _ => return None,
+    })
 }

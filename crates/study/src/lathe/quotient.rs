@@ -44,17 +44,82 @@ impl Quotient {
     }
 }
 
-/// The derivative from differences by one step or two. Its error is that of the step, and how far the ways are
-/// apart, or `usual`ly of such an answer.
-pub(super) fn joined(differences: &[Quotient], k: usize, usual: f64) -> Option<Figure> {
-    let [first, rest @ ..] = differences else { return None };
-    let whole = first.by_way[0][k]?;
-    let Some(second) = rest.first() else { return Some(Figure::new(whole, 0.0)) };
-    let half = second.by_way[0][k]?;
-    let apart = first.apart(k).max(usual);
-    match first.central && second.central {
-        // The half step's error is a third of the difference.
-        true => Some(Figure::new(whole, 4.0 / 3.0 * (whole - half).abs() + apart)),
-        false => Some(Figure::new(2.0 * half - whole, (whole - half).abs() + apart)),
+/// The differences of a change: by the whole step, and by half of it where that was looked at.
+pub(super) struct Differences {
+    /// By the whole step.
+    pub whole: Quotient,
+    /// By half of it.
+    pub half: Option<Quotient>,
+    /// By the whole step, the wall solved finely.
+    pub finer: Option<Quotient>,
+}
+
+/// What is usual among changes, answer by answer.
+#[derive(Default)]
+pub(super) struct Usual {
+    /// How far the ways are apart, at the mean: where two ways agree by luck, what they do elsewhere tells more.
+    apart: Vec<f64>,
+    /// The largest error of the step; None where no step was halved.
+    step: Vec<Option<f64>>,
+    /// What a fine wall changes, as a share of the derivative, and the derivative's usual size.
+    wall: Vec<[f64; 2]>,
+}
+
+impl Usual {
+    pub(super) fn of(found: &[Differences], answers: usize) -> Self {
+        let mean =
+            |k: usize| found.iter().map(|of| of.whole.apart(k)).sum::<f64>() / found.len() as f64;
+        let largest = |k: usize| found.iter().filter_map(|of| of.step(k)).reduce(f64::max);
+        let wall = |k: usize| {
+            let pair = |of: &Differences| {
+                let finer = of.finer.as_ref()?.by_way[0][k]?;
+                Some([(finer - of.whole.by_way[0][k]?).abs(), finer.abs()])
+            };
+            let pairs: Vec<[f64; 2]> = found.iter().filter_map(pair).collect();
+            let sum = |which: usize| pairs.iter().map(|pair| pair[which]).sum::<f64>();
+            let share = if sum(1) > 0.0 { sum(0) / sum(1) } else { 0.0 };
+            [share, sum(1) / pairs.len().max(1) as f64]
+        };
+        Self {
+            apart: (0..answers).map(mean).collect(),
+            step: (0..answers).map(largest).collect(),
+            wall: (0..answers).map(wall).collect(),
+        }
+    }
+}
+
+impl Differences {
+    pub(super) fn new(whole: Quotient) -> Self {
+        Self { whole, half: None, finer: None }
+    }
+
+    /// The error of a central difference by its step, four thirds of what half of the step changes.
+    fn step(&self, k: usize) -> Option<f64> {
+        let half = self.half.as_ref().filter(|half| half.central && self.whole.central)?;
+        Some(4.0 / 3.0 * (self.whole.by_way[0][k]? - half.by_way[0][k]?).abs())
+    }
+
+    /// The derivative. Its error is that of the step, which is taken to be the largest that was seen where this step was
+    /// not halved, how far the ways are apart, or usually of such an answer, and what a finer wall changes of the
+    /// derivatives that were looked at so.
+    pub(super) fn joined(&self, k: usize, usual: &Usual) -> Option<Figure> {
+        let whole = self.whole.by_way[0][k]?;
+        let [share, size] = usual.wall[k];
+        let apart = self.whole.apart(k).max(usual.apart[k]) + share * (whole.abs() + size);
+        if let Some(half) = self.half.as_ref().filter(|half| !(half.central && self.whole.central))
+        {
+            let half = half.by_way[0][k]?;
+            return Some(Figure::new(2.0 * half - whole, (whole - half).abs() + apart));
+        }
+        Some(match self.step(k).or(usual.step[k]) {
+            Some(step) => Figure::new(whole, step + apart),
+            None => Figure::new(whole, 0.0),
+        })
+    }
+
+    /// Two steps as one of the fourth order, where both were taken and are central.
+    pub(super) fn fourth_order(&self, k: usize) -> Option<f64> {
+        let half = self.half.as_ref().filter(|half| half.central && self.whole.central)?;
+        Some((4.0 * half.by_way[0][k]? - self.whole.by_way[0][k]?) / 3.0)
     }
 }

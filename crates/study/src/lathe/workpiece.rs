@@ -7,8 +7,9 @@
 
 use crate::answers::{Answer, figure, on_the_bat, quotient};
 use crate::comparison::contender::Figure;
-use crate::lathe::gauges::{Gauge, GaugeHits, OuterHalf, Rivals};
-use crate::lathe::quotient::{Quotient, Raw, WAYS, Ways, joined};
+use crate::lathe::gauges::{BestPlaces, Gauge, GaugeHits, OuterHalf, Rivals};
+use crate::lathe::look::{By, Hit, Look, with_modes};
+use crate::lathe::quotient::{Differences, Quotient, Raw, Usual, WAYS, Ways};
 use crate::lathe::same_plan::SamePlan;
 use crate::lathe::samples::{BodySlope, SectionSlopes};
 pub use crate::lathe::slopes::{Method, Slopes};
@@ -16,9 +17,8 @@ use sweetspot::base::error::Result;
 use sweetspot::base::threads;
 use sweetspot::bat::body::{Bat, STANDARD_PIVOT};
 use sweetspot::bat::turned::DiameterChange;
-use sweetspot::collision::hit::{Effort, Model, Scene};
+use sweetspot::collision::hit::{Model, Scene};
 use sweetspot::collision::hitter::Hitter;
-use sweetspot::collision::hoop_wall::{HoopInHit, WhyRigid};
 use sweetspot::collision::sweep::{Trial, sweep};
 use sweetspot::collision::sweet_spot::Peak;
 use sweetspot::modes::solve::{Request, Solution};
@@ -37,10 +37,11 @@ pub struct HitTerms {
 /// How much work a difference is worth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Care {
-    /// One step: two bats for each change. The error is not known and stated as 0.
+    /// Two bats for each change. The error is not known and stated as 0.
     OneStep,
-    /// Two steps: four bats for each change; their difference is the error.
-    TwoSteps,
+    /// The error is known: two bats more for some of the changes, with half of the step, and for those that are
+    /// one-sided.
+    Checked,
 }
 
 /// A bat whose diameter may be changed between borders, with its answers.
@@ -49,27 +50,25 @@ pub struct Workpiece {
     plan: SamePlan,
     solution: Solution,
     samples: SectionSlopes,
-    hit: Option<Hit>,
     answers: Vec<Answer>,
     values: Vec<Option<Figure>>,
-    gauges: Vec<Option<Gauge>>,
-    by_swing: Vec<Option<f64>>,
+    /// How it is hit for all differences: a wall is solved roughly, of all bats alike.
+    hit: Option<Hit>,
+    /// What a look along it saw then.
+    look: Look,
+    /// How it is hit with the wall solved as accurately as asked, and the gauges then; None where no wall is rough.
+    finer: Option<(Hit, Vec<Option<Gauge>>)>,
     /// Answers without a derivative, as two places compete.
     pub rivals: Vec<Rivals>,
     /// Whether all answers are as accurate as asked.
     pub met: bool,
 }
 
-/// How the bat is hit, once modes and steps are planned.
-struct Hit {
-    scene: Scene,
-    model: Model,
-    effort: Effort,
-}
-
 /// The largest change of the diameter in a difference (m): 20 μm of radius either way. Half of it changes a
 /// derivative of the exit speed by less than 1e-7 m/s per mm.
 const STEP: f64 = 4e-5;
+/// Between how many steps along a list of changes the step is halved: five of them tell the error of all.
+const HALF_STEPS: usize = 4;
 /// Step of the swing for a derivative by it, relative.
 const FASTER: f64 = 1e-3;
 /// Where a barrel is hit so that modes and steps are planned, as shares of the length.
@@ -95,57 +94,72 @@ impl Workpiece {
         let mut modes = answers.iter().map(|answer| answer.modes()).max().unwrap_or(0);
         let (mut hit, mut met, mut off) = (None, true, 0.0);
         if let Some(terms) = terms.filter(|_| answers.iter().any(|answer| answer.of_a_hit())) {
-            let scene = Scene { hoop: terms.scene.hoop.left_out(), ..terms.scene.clone() };
-            let trial = Trial { model: terms.model, scene: &scene };
+            let trial = Trial { model: terms.model, scene: &terms.scene };
             let accuracy = trial.accuracy(request, terms.exactly);
             let places: Vec<f64> = ALONG.iter().map(|share| share * bat.length()).collect();
-            let sweep = sweep(&bat, terms.model, &scene, &accuracy, &places)?;
+            let sweep = sweep(&bat, terms.model, &terms.scene, &accuracy, &places)?;
             (modes, met) = (modes.max(sweep.solution.modes.len()), sweep.met());
             off = sweep.worst().map_or(0.0, |(_, outcome)| outcome.error);
-            let (model, effort) = (terms.model, sweep.effort);
+            let (model, effort, scene) = (terms.model, sweep.effort, terms.scene.clone());
             hit = Some(Hit { scene, model, effort });
         }
         let (plan, solution) = SamePlan::new(&bat, &Request { modes, ..*request })?;
         met &= solution.worst() <= request.tolerance;
         let samples = SectionSlopes::new(&bat, &solution);
         let mut piece = Self {
-            values: answers.iter().map(|answer| figure(*answer, &bat, &solution)).collect(),
-            gauges: vec![None; answers.len()],
-            by_swing: answers.iter().map(|answer| (!answer.of_a_hit()).then_some(0.0)).collect(),
             answers: answers.to_vec(),
+            values: vec![],
             rivals: vec![],
             bat,
             plan,
             solution,
             samples,
-            hit,
+            hit: None,
+            look: Look::default(),
+            finer: None,
             met,
         };
-        piece.look(off)?;
-        Ok(piece)
+        piece.look = piece.looked(hit.as_ref(), off)?;
+        (piece.values, piece.rivals) = (piece.look.values.clone(), piece.look.rivals.clone());
+        if let Some(fine) = hit.as_ref().filter(|hit| hit.scene.hoop.wall().is_some()) {
+            let scene = fine.scene.with_rough_wall(&piece.bat)?;
+            let rough = Hit { scene, ..*fine };
+            let look = piece.looked(Some(&rough), off)?;
+            let fine = hit.replace(rough);
+            piece.finer = fine.zip(Some(std::mem::replace(&mut piece.look, look).gauges));
+        }
+        Ok(Self { hit, ..piece })
     }
 
     /// Looks along the bat for the places that answers about a hit read; exit speeds may be off by that share
     /// of the closing speed.
-    fn look(&mut self, off: f64) -> Result<()> {
-        let Some(hit) = &self.hit else { return Ok(()) };
-        let hitter = hit.hitter(&self.bat, &self.solution, &hit.scene)?;
-        let length = self.bat.length();
+    fn looked(&self, hit: Option<&Hit>, off: f64) -> Result<Look> {
+        let (bat, solution) = (&self.bat, &self.solution);
+        let mut look = Look {
+            values: self.answers.iter().map(|answer| figure(*answer, bat, solution)).collect(),
+            gauges: vec![None; self.answers.len()],
+            by_swing: self.answers.iter().map(|a| (!a.of_a_hit()).then_some(0.0)).collect(),
+            ..Look::default()
+        };
+        let Some(hit) = hit else { return Ok(look) };
+        let hitter = hit.hitter(bat, solution, &hit.scene)?;
+        let length = bat.length();
         let half_wave = length / (hitter.modes_used() + 1) as f64;
         let mut along = OuterHalf::new(&hitter, length);
         for (k, answer) in self.answers.iter().enumerate().filter(|(_, a)| a.of_a_hit()) {
             let (gauge, value) = along.gauge(*answer);
             let closing = hit.scene.swing.abs() * (length + hit.scene.pivot) + hit.scene.ball_speed;
             let error = gauge.as_ref().map_or(0.0, |gauge| gauge.error(off * closing, half_wave));
-            self.values[k] = value.map(|value| Figure::new(value, error));
-            self.gauges[k] = gauge;
+            look.values[k] = value.map(|value| Figure::new(value, error));
+            look.gauges[k] = gauge;
         }
-        self.rivals = std::mem::take(&mut along.rivals);
+        look.rivals = std::mem::take(&mut along.rivals);
+        look.best = along.found();
         let swing = hit.scene.swing;
         let readings = |faster: f64| -> Result<Vec<Option<f64>>> {
             let scene = Scene { swing: swing * (1.0 + faster), ..hit.scene.clone() };
-            let hitter = hit.hitter(&self.bat, &self.solution, &scene)?;
-            let [read] = Self::readings(&hitter, [&self.gauges]);
+            let hitter = hit.hitter(bat, solution, &scene)?;
+            let [read] = Self::readings(&hitter, [&look.gauges]);
             Ok(read)
         };
         if swing != 0.0 {
@@ -153,17 +167,11 @@ impl Workpiece {
             let by_swing = quotient(&fast, &slow, 2.0 * FASTER * swing);
             for (k, by_swing) in by_swing.into_iter().enumerate() {
                 if self.answers[k].of_a_hit() {
-                    self.by_swing[k] = by_swing;
+                    look.by_swing[k] = by_swing;
                 }
             }
         }
-        Ok(())
-    }
-
-    /// Whether a wall that could give way is rigid in the answers about a hit.
-    pub fn has_rigid_wall(&self) -> bool {
-        let rigid = HoopInHit::LeftOut(WhyRigid::ManyBats);
-        self.hit.as_ref().is_some_and(|hit| hit.scene.hoop == rigid)
+        Ok(look)
     }
 
     /// What gauges read of a bat that is hit.
@@ -196,6 +204,11 @@ impl Workpiece {
         &self.answers
     }
 
+    /// The answers of the bat as it is, by the hits that changed bats have; None where it has none.
+    pub fn compared(&self) -> &[Option<Figure>] {
+        &self.look.values
+    }
+
     /// The answers of the bat as it is; None where it has none.
     pub fn values(&self) -> &[Option<Figure>] {
         &self.values
@@ -209,38 +222,40 @@ impl Workpiece {
     /// Those of [`Bat::turned`] and of [`sweetspot::solve()`].
     pub fn slopes(&self, changes: &[DiameterChange], care: Care) -> Result<Vec<Slopes>> {
         let differs = |answer: &Answer| Method::of(*answer) == Method::Difference;
-        let steps: &[f64] = match care {
-            _ if !self.answers.iter().any(differs) => &[],
-            Care::OneStep => &[1.0],
-            Care::TwoSteps => &[1.0, 0.5],
-        };
-        let ways = match care {
-            Care::TwoSteps if !steps.is_empty() => self.ways()?,
-            _ => None,
-        };
-        let now = match steps {
-            [] => Raw::default(),
-            _ => self.raw(&self.bat, ways.as_ref())?,
-        };
-        let all = threads::map(changes.len() * steps.len(), |k| {
-            let (step, look) = (k % steps.len(), &changes[k / steps.len()]);
-            // How much the ways differ is seen by one step.
-            let ways = ways.as_ref().filter(|_| step == 0);
-            self.difference(look, steps[step], &now, ways)
+        if !self.answers.iter().any(differs) {
+            let one = |change| self.one(change, None, &Usual::default());
+            return Ok(changes.iter().map(one).collect());
+        }
+        let ways = if care == Care::Checked { self.ways()? } else { None };
+        let way = ways.as_ref().map_or(By::Gauges, By::EveryWay);
+        let now = self.raw(&self.bat, way)?;
+        let whole = threads::map(changes.len(), |k| self.difference(&changes[k], 1.0, &now, way));
+        let whole: Vec<Quotient> = whole.into_iter().collect::<Result<_>>()?;
+        // What is one-sided is known by two steps alone.
+        let last = (changes.len() - 1).max(1);
+        let looked = |k: &usize| !whole[*k].central || (*k * HALF_STEPS) % last < HALF_STEPS;
+        let halved: Vec<usize> =
+            (0..changes.len()).filter(|k| care == Care::Checked && looked(k)).collect();
+        // How much the ways differ is seen by one step.
+        let half = threads::map(halved.len(), |k| {
+            self.difference(&changes[halved[k]], 0.5, &now, By::Gauges)
         });
-        let all: Vec<Quotient> = all.into_iter().collect::<Result<_>>()?;
-        let of_change = |k: usize| &all[k * steps.len()..(k + 1) * steps.len()];
-        // Where two ways agree by luck, what they do elsewhere tells more.
-        let usual = |answer: usize| {
-            let of = |k: usize| of_change(k).first().map_or(0.0, |first| first.apart(answer));
-            (0..changes.len()).map(of).sum::<f64>() / changes.len() as f64
-        };
-        let usual: Vec<f64> = (0..self.answers.len()).map(usual).collect();
-        let one = |(k, change): (usize, &DiameterChange)| self.one(change, of_change(k), &usual);
-        Ok(changes.iter().enumerate().map(one).collect())
+        let half: Vec<Quotient> = half.into_iter().collect::<Result<_>>()?;
+        let mut found: Vec<Differences> = whole.into_iter().map(Differences::new).collect();
+        halved.iter().zip(half).for_each(|(k, half)| found[*k].half = Some(half));
+        if let Some(finer) = self.finer.as_ref().filter(|_| care == Care::Checked) {
+            let by = By::FinerWall(finer);
+            let now = self.raw(&self.bat, by)?;
+            for k in halved {
+                found[k].finer = Some(self.difference(&changes[k], 1.0, &now, by)?);
+            }
+        }
+        let usual = Usual::of(&found, self.answers.len());
+        let one = |(change, found)| self.one(change, Some(found), &usual);
+        Ok(changes.iter().zip(&found).map(one).collect())
     }
 
-    fn one(&self, change: &DiameterChange, found: &[Quotient], usual: &[f64]) -> Slopes {
+    fn one(&self, change: &DiameterChange, found: Option<&Differences>, usual: &Usual) -> Slopes {
         let radius = |x: f64| [0.5 * change.at(x), 0.0];
         let body = self.samples.body(STANDARD_PIVOT, radius);
         let of = |(k, answer): (usize, &Answer)| match (Method::of(*answer), answer) {
@@ -250,20 +265,19 @@ impl Workpiece {
                 let [value, error] = self.samples.frequency(mode, radius);
                 Some(Figure::new(value, error))
             }
-            _ => joined(found, k, usual[k]),
+            _ => found?.joined(k, usual),
         };
         let swing = self.hit.as_ref().map_or(0.0, |hit| hit.scene.swing);
         // Two steps as one of the fourth order.
         let check = |(k, answer): (usize, &Answer)| {
             let Answer::Frequency(_) = answer else { return None };
-            let [whole, half] = [found.first()?, found.get(1)?].map(|d| d.by_way[0][k]);
-            Some((4.0 * half? - whole?) / 3.0).filter(|_| found.iter().all(|d| d.central))
+            found?.fourth_order(k)
         };
         Slopes {
             checked: self.answers.iter().enumerate().map(check).collect(),
             same_swing: self.answers.iter().enumerate().map(of).collect(),
             inertia: body.inertia,
-            by_swing: self.by_swing.clone(),
+            by_swing: self.look.by_swing.clone(),
             gain: -swing / self.bat.inertia().about(STANDARD_PIVOT) * body.inertia,
         }
     }
@@ -274,7 +288,7 @@ impl Workpiece {
         change: &DiameterChange,
         share: f64,
         now: &Raw,
-        ways: Option<&Ways>,
+        by: By,
     ) -> Result<Quotient> {
         let all = change.stretches().iter().flat_map(|stretch| stretch.diameter);
         let largest = all.fold(0.0, |largest: f64, by| largest.max(by.abs()));
@@ -287,9 +301,9 @@ impl Workpiece {
         let [more, less] = [step, -step].map(|step| self.bat.turned(&change.scaled(step)));
         let central = more.is_ok() && less.is_ok();
         let (thick, thin) = match (more, less) {
-            (Ok(more), Ok(less)) => (self.raw(&more, ways)?, self.raw(&less, ways)?),
-            (Ok(more), Err(_)) => (self.raw(&more, ways)?, now.clone()),
-            (Err(_), Ok(less)) => (now.clone(), self.raw(&less, ways)?),
+            (Ok(more), Ok(less)) => (self.raw(&more, by)?, self.raw(&less, by)?),
+            (Ok(more), Err(_)) => (self.raw(&more, by)?, now.clone()),
+            (Err(_), Ok(less)) => (now.clone(), self.raw(&less, by)?),
             (Err(error), Err(_)) => return Err(error),
         };
         let run = if central { 2.0 * step } else { step };
@@ -299,10 +313,10 @@ impl Workpiece {
     }
 
     /// What differences are taken of, on this plan: nodes, modal masses, and what the gauges read.
-    fn raw(&self, bat: &Bat, ways: Option<&Ways>) -> Result<Raw> {
+    fn raw(&self, bat: &Bat, by: By) -> Result<Raw> {
         let solution = self.plan.solve(bat)?;
         let read = match &self.hit {
-            Some(hit) => self.every_way(hit, bat, &solution, ways)?,
+            Some(hit) => self.every_way(hit, bat, &solution, by)?,
             None => [0; WAYS].map(|_| vec![None; self.answers.len()]),
         };
         let of = |(answer, read): (&Answer, Option<f64>)| match *answer {
@@ -327,7 +341,7 @@ impl Workpiece {
         let sought = |solution: &Solution, share: f64| -> Result<Vec<Option<Gauge>>> {
             let hitter = hit.hitter(&self.bat, solution, &hit.scene)?;
             let of = |gauge: &Option<Gauge>| Some(gauge.as_ref()?.again(&hitter, share));
-            Ok(threads::map(self.gauges.len(), |k| of(&self.gauges[k])))
+            Ok(threads::map(self.look.gauges.len(), |k| of(&self.look.gauges[k])))
         };
         let closer = sought(&self.solution, 0.5)?;
         if !hit.effort.completed {
@@ -346,14 +360,18 @@ impl Workpiece {
         hit: &Hit,
         bat: &Bat,
         solution: &Solution,
-        ways: Option<&Ways>,
+        by: By,
     ) -> Result<[Vec<Option<f64>>; WAYS]> {
+        let (hit, gauges) = match by {
+            By::FinerWall((finer, gauges)) => (finer, gauges),
+            _ => (hit, &self.look.gauges),
+        };
         let hitter = hit.hitter(bat, solution, &hit.scene)?;
-        let Some(Ways { closer, fewer }) = ways else {
-            let [all] = Self::readings(&hitter, [&self.gauges]);
+        let By::EveryWay(Ways { closer, fewer }) = by else {
+            let [all] = Self::readings(&hitter, [gauges]);
             return Ok([0; WAYS].map(|_| all.clone()));
         };
-        let [all, by_closer] = Self::readings(&hitter, [&self.gauges, closer]);
+        let [all, by_closer] = Self::readings(&hitter, [gauges, closer]);
         let few = |k: usize| {
             let Some((count, gauges)) = fewer.get(k) else { return Ok(all.clone()) };
             let solution = with_modes(solution, *count);
@@ -372,22 +390,23 @@ impl Workpiece {
     pub fn cut(&self, change: &DiameterChange, exponents: &[f64]) -> Result<Vec<Vec<Option<f64>>>> {
         let bat = self.bat.turned(change)?;
         let solution = self.plan.solve(&bat)?;
-        self.measured(&bat, &solution, exponents)
+        self.measured(&bat, &solution, exponents, true)
     }
 
-    /// Where each searched answer is best, on the bat as it is or after a cut.
+    /// Where each searched answer is best, on the bat as it is and after a cut.
     ///
     /// # Errors
     ///
     /// As [`Self::slopes`].
-    pub fn peaks(&self, change: Option<&DiameterChange>) -> Result<Vec<Option<Peak>>> {
+    pub fn peaks(&self, change: &DiameterChange) -> Result<Vec<Option<[Peak; 2]>>> {
         let Some(hit) = &self.hit else { return Ok(vec![None; self.answers.len()]) };
-        let turned = change.map(|change| self.bat.turned(change)).transpose()?;
-        let solution = turned.as_ref().map(|bat| self.plan.solve(bat)).transpose()?;
-        let bat = turned.as_ref().unwrap_or(&self.bat);
-        let hitter = hit.hitter(bat, solution.as_ref().unwrap_or(&self.solution), &hit.scene)?;
-        let mut along = OuterHalf::new(&hitter, bat.length());
-        Ok(self.answers.iter().map(|answer| along.peak(*answer)).collect())
+        let bat = self.bat.turned(change)?;
+        let solution = self.plan.solve(&bat)?;
+        let hitter = hit.hitter(&bat, &solution, &hit.scene)?;
+        let mut along = OuterHalf::beside(&hitter, bat.length(), &self.look.best, false);
+        self.answers.iter().for_each(|answer| drop(along.gauge(*answer)));
+        let (was, is) = (&self.look.best, along.found());
+        Ok(self.answers.iter().map(|a| Some([was.peak(*a)?, is.peak(*a)?])).collect())
     }
 
     /// The answers of any other bat, with elements of its own and as many modes, for batters who swing it at
@@ -397,50 +416,44 @@ impl Workpiece {
     ///
     /// Those of [`sweetspot::solve()`] and of a hit.
     pub fn measure(&self, bat: &Bat, exponents: &[f64]) -> Result<Vec<Vec<Option<f64>>>> {
-        self.measured(bat, &self.plan.solve_anew(bat)?, exponents)
+        self.measured(bat, &self.plan.solve_anew(bat)?, exponents, false)
     }
 
+    /// The answers of another bat, whose best places are `beside` those of this one or anywhere.
     fn measured(
         &self,
         bat: &Bat,
         solution: &Solution,
         exponents: &[f64],
+        beside: bool,
     ) -> Result<Vec<Vec<Option<f64>>>> {
         let still = |answer: &Answer| figure(*answer, bat, solution).map(|figure| figure.value);
         let still: Vec<Option<f64>> = self.answers.iter().map(still).collect();
         let Some(hit) = &self.hit else { return Ok(vec![still; exponents.len()]) };
         let inertia = |bat: &Bat| bat.inertia().about(STANDARD_PIVOT);
         let ratio = inertia(&self.bat) / inertia(bat);
-        let one = |exponent: &f64| {
+        let one = |exponent: &f64, known: Option<&BestPlaces>, same_bat: bool| {
             let swing = hit.scene.swing * ratio.powf(*exponent);
             let scene = Scene { swing, ..hit.scene.clone() };
             let hitter = hit.hitter(bat, solution, &scene)?;
-            let mut along = OuterHalf::new(&hitter, bat.length());
+            let mut along = match known {
+                Some(known) => OuterHalf::beside(&hitter, bat.length(), known, same_bat),
+                None => OuterHalf::new(&hitter, bat.length()),
+            };
             let of = |(answer, known): (&Answer, &Option<f64>)| {
                 if answer.of_a_hit() { along.gauge(*answer).1 } else { *known }
             };
-            Ok(self.answers.iter().zip(&still).map(of).collect())
+            let all: Vec<Option<f64>> = self.answers.iter().zip(&still).map(of).collect();
+            Ok((all, along.found()))
         };
-        exponents.iter().map(one).collect()
+        let (mut known, mut all) = (beside.then(|| self.look.best.clone()), vec![]);
+        for exponent in exponents {
+            let (values, best) = one(exponent, known.as_ref(), !all.is_empty())?;
+            known = Some(best);
+            all.push(values);
+        }
+        Ok(all)
     }
-}
-
-impl Hit {
-    fn hitter<'a>(
-        &self,
-        bat: &'a Bat,
-        solution: &'a Solution,
-        scene: &'a Scene,
-    ) -> Result<Hitter<'a>> {
-        Hitter::new(self.model, scene, bat, solution, self.effort)
-    }
-}
-
-/// The first modes of a solution.
-fn with_modes(solution: &Solution, count: usize) -> Solution {
-    let mut fewer = solution.clone();
-    fewer.modes.truncate(count);
-    fewer
 }
 
 fn exact(answer: Answer, body: &BodySlope) -> Option<Figure> {

@@ -1,0 +1,65 @@
+//! How is a bat on the lathe hit, and what does a look along it see?
+
+use crate::comparison::contender::Figure;
+use crate::lathe::gauges::{BestPlaces, Gauge, Rivals};
+use crate::lathe::quotient::Ways;
+use sweetspot::base::error::Result;
+use sweetspot::bat::body::Bat;
+use sweetspot::collision::hit::{Effort, Model, Scene};
+use sweetspot::collision::hitter::Hitter;
+use sweetspot::modes::solve::Solution;
+
+/// How the bat is hit, once modes and steps are planned.
+pub(super) struct Hit {
+    /// Swing, ball and pitch.
+    pub scene: Scene,
+    /// How a hit is computed.
+    pub model: Model,
+    /// Modes and steps.
+    pub effort: Effort,
+}
+
+/// What a look along the bat saw.
+#[derive(Default)]
+pub(super) struct Look {
+    /// The answers.
+    pub values: Vec<Option<Figure>>,
+    /// How those about a hit are read.
+    pub gauges: Vec<Option<Gauge>>,
+    /// Their derivatives by the swing.
+    pub by_swing: Vec<Option<f64>>,
+    /// Where the bat is best.
+    pub best: BestPlaces,
+    /// Answers without a derivative.
+    pub rivals: Vec<Rivals>,
+}
+
+/// In which ways a difference is taken.
+#[derive(Clone, Copy)]
+pub(super) enum By<'a> {
+    /// By the gauges.
+    Gauges,
+    /// And by those of the other ways.
+    EveryWay(&'a Ways),
+    /// By the finer wall alone.
+    FinerWall(&'a (Hit, Vec<Option<Gauge>>)),
+}
+
+impl Hit {
+    /// Bat and ball in that scene.
+    pub fn hitter<'a>(
+        &self,
+        bat: &'a Bat,
+        solution: &'a Solution,
+        scene: &'a Scene,
+    ) -> Result<Hitter<'a>> {
+        Hitter::new(self.model, scene, bat, solution, self.effort)
+    }
+}
+
+/// The first modes of a solution.
+pub(super) fn with_modes(solution: &Solution, count: usize) -> Solution {
+    let mut fewer = solution.clone();
+    fewer.modes.truncate(count);
+    fewer
+}
