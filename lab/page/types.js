@@ -58,6 +58,7 @@
  * @typedef {object} Opened
  * @property {number} id
  * @property {BatFile} bat
+ * @property {string} bat_file        the text of it
  * @property {string | null} differs  what changed by becoming stations, in a sentence with numbers; null if nothing did
  * @property {string[]} parts         regions, attachments, supports and edits that stay, in words
  * @property {string[]} warnings      what is strange of the bat
@@ -128,10 +129,10 @@
  */
 
 /**
- * `lathe`: what 0.1 mm off the diameter (0.005 in) does, band by band along the bat.
+ * `lathe`: what a millimetre off the diameter (1/32 in) does, band by band along the bat, by its derivative.
  * @typedef {object} Lathe
  * @property {number} id
- * @property {string} depth          what is taken off, in words
+ * @property {string} depth          what is taken off: "mm" or "1/32 in"
  * @property {{ from_m: number, to_m: number }[]} bands
  * @property {{ what: string, changes: (Shown | null)[] }[]} effects  a change for every band
  * @property {string[]} strongest    in sentences
@@ -153,7 +154,7 @@
  * @typedef {object} Aimed
  * @property {number} id
  * @property {boolean} met
- * @property {BatFile} bat           the new bat
+ * @property {string} bat_file       the text of the new bat's file, its profile as {@link BatFile} has it
  * @property {string} text           what changed, what it costs, and what cannot be had together
  */
 

@@ -1,0 +1,140 @@
+// Draws the exit speed along the barrel and what is left in vibration, above the same places, with a line that reads off.
+
+import { byId, drawn, made, pathOf, put, ticks, write } from "./svg.js";
+import { inUs, say, shownAs } from "./units.js";
+
+const LEFT = 52, RIGHT = 14, TOP = 30, GAP = 44, FOOT = 42;
+
+export class Chart {
+  /** @param {SVGSVGElement} svg @param {import("./bench.js").Bench} bench */
+  constructor(svg, bench) {
+    Object.assign(this, { svg, bench, share: null, ranges: null });
+    this.slider = byId("read-off");
+    new ResizeObserver(() => this.draw()).observe(svg.parentElement);
+    for (const what of ["shown", "figures", "history"]) bench.on(what, () => this.draw());
+    for (const what of ["pointermove", "pointerdown"]) svg.addEventListener(what, (event) => this.follow(event));
+    this.slider.addEventListener("input", () => { this.share = Number(this.slider.value) / 1000; this.draw(); });
+  }
+
+  draw() {
+    const { bench, svg } = this, hit = bench.hit?.answer;
+    const width = Math.max(svg.parentElement.clientWidth, 240), tall = width < 600 ? 170 : 230, low = width < 600 ? 70 : 84;
+    const height = TOP + tall + GAP + low + FOOT;
+    put(svg, { viewBox: `0 0 ${width} ${height}`, width, height });
+    if (!hit?.curve?.x_m.length) { svg.replaceChildren(); return; }
+    const before = bench.reference && bench.hitOf(bench.reference);
+    const curves = [hit.curve, ...(before ? [before.curve] : [])];
+    // While the bat changes the axes only grow.
+    const wanted = this.rangesOf(curves), held = bench.changing && this.ranges?.units === inUs() ? this.ranges : null;
+    const joined = (name) => held ? [Math.min(held[name][0], wanted[name][0]), Math.max(held[name][1], wanted[name][1])] : wanted[name];
+    this.ranges = { units: inUs(), place: joined("place"), speed: joined("speed"), energy: joined("energy") };
+    this.width = width;
+    svg.replaceChildren();
+    const upper = { top: TOP, tall, range: this.ranges.speed }, lower = { top: TOP + tall + GAP, tall: low, range: this.ranges.energy };
+    this.zone(hit, TOP, lower.top + low);
+    this.plot(upper, "speed", 5, "Exit speed");
+    this.plot(lower, "energy", 3, "Left in vibration");
+    this.places(lower.top + low);
+    const line = (curve, name, plot, kind, what) => curve[name] && drawn(svg, "path", { class: what,
+      d: pathOf(curve.x_m.map((x, k) => [this.x(x), curve[name][k] === null ? null : this.y(plot, curve[name][k] * shownAs(kind)[0])])) });
+    if (before) line(before.curve, "exit_m_s", upper, "speed", "line before");
+    if (before) line(before.curve, "vibration_j", lower, "energy", "line before");
+    line(hit.curve, "stiff_m_s", upper, "speed", "line stiff");
+    line(hit.curve, "exit_m_s", upper, "speed", `line exit${bench.certified ? "" : " preview"}`);
+    line(hit.curve, "vibration_j", lower, "energy", `line exit${bench.certified ? "" : " preview"}`);
+    if (hit.best) {
+      drawn(svg, "circle", { class: "spot", cx: this.x(hit.best.place.x_m), cy: this.y(upper, hit.best.speed.value * shownAs("speed")[0]), r: 5.5 });
+    }
+    this.legend(width, Boolean(before), Boolean(hit.curve.stiff_m_s));
+    this.hair(hit, upper, lower);
+    put(svg, { "aria-label": hit.best ? `Exit speed along the barrel, at most ${hit.best.speed.text}, ${hit.best.place.text} from the knob`
+      : "Exit speed along the barrel" });
+  }
+
+  rangesOf(curves) {
+    const all = (...names) => curves.flatMap((curve) => names.flatMap((name) => curve[name] ?? [])).filter(Number.isFinite);
+    const speeds = all("exit_m_s", "stiff_m_s").map((value) => value * shownAs("speed")[0]);
+    const energies = all("vibration_j").map((value) => value * shownAs("energy")[0]);
+    const places = all("x_m"), step = inUs() ? 20 : 10;
+    return {
+      place: [Math.min(...places), Math.max(...places)],
+      speed: [Math.floor(Math.min(...speeds) / step) * step, Math.ceil(Math.max(...speeds) / step) * step],
+      energy: [0, Math.max(1, ...energies) * 1.05],
+    };
+  }
+
+  x(x_m) {
+    const [from, to] = this.ranges.place;
+    return LEFT + (x_m - from) / (to - from) * (this.width - LEFT - RIGHT);
+  }
+
+  y({ top, tall, range: [from, to] }, value) { return top + tall * (1 - (value - from) / (to - from)); }
+
+  plot(plot, kind, count, name) {
+    const { svg, width } = this, unit = shownAs(kind)[2];
+    for (const value of ticks(...plot.range, count)) {
+      const y = this.y(plot, value);
+      drawn(svg, "line", { class: "grid", x1: LEFT, x2: width - RIGHT, y1: y, y2: y });
+      write(drawn(svg, "text", { x: LEFT - 8, y: y + 5, "text-anchor": "end" }), String(value));
+    }
+    write(drawn(svg, "text", { class: "title", x: 0, y: plot.top - 12 }), `${name} (${unit})`);
+  }
+
+  places(bottom) {
+    const { svg, width } = this, factor = shownAs("place")[0], [from, to] = this.ranges.place;
+    drawn(svg, "line", { class: "base", x1: LEFT, x2: width - RIGHT, y1: bottom, y2: bottom });
+    for (const value of ticks(from * factor, to * factor, width < 600 ? 4 : 8)) {
+      const x = this.x(value / factor);
+      drawn(svg, "line", { class: "base", x1: x, x2: x, y1: bottom, y2: bottom + 5 });
+      write(drawn(svg, "text", { x, y: bottom + 20, "text-anchor": "middle" }), String(value));
+    }
+    write(drawn(svg, "text", { x: width - RIGHT, y: bottom + 38, "text-anchor": "end" }), `${shownAs("place")[2]} from the knob`);
+  }
+
+  zone({ zone }, top, bottom) {
+    if (!zone) return;
+    const [a, b] = zone.map((place) => this.x(place.x_m));
+    drawn(this.svg, "rect", { class: "zone", x: a, width: Math.max(b - a, 1), y: top, height: bottom - top });
+  }
+
+  legend(width, before, stiff) {
+    const { svg } = this, entries = [...(stiff ? [["line stiff", "if the bat were stiff"]] : []), ...(before ? [["line before", "before"]] : [])];
+    let right = width - RIGHT;
+    for (const [what, words] of entries.reverse()) {
+      const text = drawn(svg, "text", { x: right, y: TOP - 12, "text-anchor": "end" });
+      write(text, words);
+      const start = right - text.getComputedTextLength() - 8;
+      drawn(svg, "line", { class: what, x1: start - 24, x2: start, y1: TOP - 17, y2: TOP - 17 });
+      right = start - 42;
+    }
+  }
+
+  follow(event) {
+    if (!this.ranges) return;
+    const box = this.svg.getBoundingClientRect(), px = (event.clientX - box.left) / box.width * this.width;
+    this.share = Math.min(Math.max((px - LEFT) / (this.width - LEFT - RIGHT), 0), 1);
+    this.slider.value = String(Math.round(1000 * this.share));
+    this.draw();
+  }
+
+  /** The line that reads off, and what it reads. */
+  hair(hit, upper, lower) {
+    const { svg } = this, [from, to] = this.ranges.place;
+    if (this.share === null) {
+      if (!hit.best) return;
+      this.slider.value = String(Math.round(1000 * (hit.best.place.x_m - from) / (to - from)));
+    }
+    const place = this.share === null ? hit.best.place.x_m : from + this.share * (to - from), { curve } = hit;
+    const near = curve.x_m.reduce((best, x, k) => Math.abs(x - place) < Math.abs(curve.x_m[best] - place) ? k : best, 0);
+    if (this.share !== null) {
+      const x = this.x(curve.x_m[near]);
+      drawn(svg, "line", { class: "hairline", x1: x, x2: x, y1: upper.top, y2: lower.top + lower.tall });
+    }
+    const spot = this.share === null;
+    const words = [["From the knob", spot ? hit.best.place.text : say("place", curve.x_m[near])],
+      ["Exit speed", spot ? hit.best.speed.text : say("speed", curve.exit_m_s[near])],
+      ...(curve.vibration_j ? [["Left in vibration", spot ? hit.vibration?.energy.text ?? "–" : say("energy", curve.vibration_j[near])]] : [])];
+    put(this.slider, { "aria-valuetext": words.map((pair) => pair.join(" ")).join(", ") });
+    byId("reading").replaceChildren(...words.map(([name, value]) => made("span", {}, made("i", {}, name), value)));
+  }
+}

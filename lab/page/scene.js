@@ -1,0 +1,46 @@
+// The swing, the pitch and the ball of the hit.
+
+import { byId, write } from "./svg.js";
+import { inUs, say, whenUnits } from "./units.js";
+
+/** The program's own scene: rad/s, and mph at the plate. */
+const SWING = 43, PITCH = 83, MPH = 0.44704;
+/** Beyond the knob the swing turns (m); a bat's speed is told so far from its tip (m). */
+const PIVOT = 0.0635, TOLD_AT = 0.1524;
+
+export class SceneOfHit {
+  /** @param {import("./bench.js").Bench} bench */
+  constructor(bench) {
+    this.bench = bench;
+    for (const name of ["swing", "pitch", "ball"]) byId(name).addEventListener("input", () => this.changed());
+    byId("scene-back").addEventListener("click", () => { this.set({}); this.changed(); });
+    bench.on("shown", () => this.words());
+    whenUnits(() => this.words());
+  }
+
+  /** Shows a scene in the controls. */
+  set(scene) {
+    const number = (value, unit) => typeof value === "string" ? Number.parseFloat(value) : value === undefined ? NaN : value / unit;
+    byId("swing").value = String(number(scene.swing_speed, 1) || SWING);
+    byId("pitch").value = String(Number.isFinite(number(scene.pitch, MPH)) ? number(scene.pitch, MPH) : PITCH);
+    byId("ball").value = scene.ball ?? "baseball";
+    this.words();
+  }
+
+  /** What the controls say, without what is as at the start. */
+  changed() {
+    const [swing, pitch] = ["swing", "pitch"].map((name) => Number(byId(name).value)), ball = byId("ball").value;
+    const { swing_speed: _, pitch: __, ball: ___, ...others } = this.bench.scene;
+    this.bench.setScene({ ...others, ...(swing === SWING ? {} : { swing_speed: `${swing} rad/s` }),
+      ...(pitch === PITCH ? {} : { pitch: `${pitch} mph` }), ...(ball === "baseball" ? {} : { ball }) });
+    this.words();
+  }
+
+  words() {
+    const { body } = this.bench, swing = Number(byId("swing").value), pitch = MPH * Number(byId("pitch").value);
+    const speed = body ? swing * (body.length.value - TOLD_AT + PIVOT) : NaN;
+    write(byId("swing-words"), `${swing.toFixed(1)} rad/s: ${say("speed", speed)}, ${inUs() ? "6 in" : "15.24 cm"} from the tip`);
+    write(byId("pitch-words"), `${say("speed", pitch)} at the plate`);
+    for (const name of ["swing", "pitch"]) byId(name).setAttribute("aria-valuetext", byId(`${name}-words`).textContent);
+  }
+}
