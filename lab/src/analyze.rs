@@ -1,0 +1,60 @@
+//! How far may the bat in hand be off, and what does the wall of its barrel do?
+
+use serde_json::{Value, json};
+use sweetspot::base::error::Result;
+use sweetspot_report::analysis::{Analysis, Task};
+use sweetspot_report::report::{hoop, trust};
+use sweetspot_study::answers::Answer;
+use sweetspot_study::spread::Readings;
+use sweetspot_study::trampoline::barrel::Barrel;
+
+use crate::asked::{Question, request};
+use crate::hit::Solved;
+use crate::shown::{answer as told, note, shown};
+
+/// The lines of the program's table: a sweet spot first, then what the bat weighs and how it rings.
+const LINES: [(&str, Answer); 9] = [
+    ("sweet spot", Answer::ExitSpeedPlace),
+    ("fastest ball", Answer::ExitSpeed),
+    ("1 % less at", Answer::Zone(false)),
+    ("and at", Answer::Zone(true)),
+    ("swing weight", Answer::Inertia),
+    ("mass", Answer::Mass),
+    ("f1", Answer::Frequency(1)),
+    ("f2", Answer::Frequency(2)),
+    ("f3", Answer::Frequency(3)),
+];
+
+pub fn answer(of: &Question) -> Result<Value> {
+    let Solved { bat, request: hits, solution, scene, law, model } =
+        Solved::new(of, request(), true)?;
+    let readings = Readings::of(&bat);
+    let task = Task { model, scene, law, hits, proof: request(), readings };
+    let analysis = Analysis::new(bat, solution, task)?;
+    let line = |(what, answer): &(&str, Answer)| {
+        let estimate = analysis.spread.of(*answer)?;
+        let open = trust::about(&analysis, *answer, of.units).unwrap_or_default();
+        let by = analysis.spread.mostly(*answer).map_or("", |(source, _)| trust::word(source));
+        let value = told(*answer, of.units, estimate.value);
+        Some(json!({ "what": what, "value": value, "open": open, "by": by }))
+    };
+    let answers: Vec<Value> = LINES.iter().filter_map(line).collect();
+    Ok(json!({
+        "answers": answers,
+        "trust": trust::trust(&analysis, of.units),
+        "barrel": analysis.barrel.as_ref().map(|one| barrel(of, one)),
+    }))
+}
+
+/// The lowest hoop modes, and what the wall does, in sentences.
+fn barrel(of: &Question, barrel: &Barrel) -> Value {
+    /// Modes that are told.
+    const FEW: usize = 5;
+    let modes = barrel.hoop().lowest(FEW).into_iter().map(|mode| {
+        let frequency = mode.frequency_hz;
+        let text = told(Answer::Frequency(1), of.units, frequency)["text"].clone();
+        let text = text.as_str().unwrap_or_default().to_owned();
+        json!({ "frequency": shown(frequency, text), "note": note(frequency) })
+    });
+    json!({ "hoop": modes.collect::<Vec<_>>(), "words": hoop::answers(barrel, of.units) })
+}
