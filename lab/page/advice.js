@@ -84,7 +84,7 @@ export class Wishes {
     if (number !== bench.number) { say("The bat was changed meanwhile, so the wish was dropped."); return; }
     if (answer.error) { say(answer.error); return; }
     say(answer.met ? `"${words}": done. Undo takes it back.` : `"${words}" cannot be had; the bat is as it was.`);
-    if (answer.met) bench.once(answer.bat);
+    if (answer.met) await bench.adopt(answer.bat_file);
     write(byId("wish-text"), answer.text);
     byId("wish-text").hidden = false;
   }

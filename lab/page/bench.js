@@ -94,9 +94,9 @@ export class Bench extends EventTarget {
     const answer = await this.quick.ask({ ask: "open", bat: text, units: this.units });
     if (!answer) return null;
     if (answer.error) return [answer.error, ...(answer.mistakes ?? []).map((mistake) => mistake.text)].join("\n");
-    // A table of stations has no file of its own yet.
-    const isFile = text.trimStart().startsWith("{"), own = isFile ? text : fileText(answer.bat);
-    const body = this.near.ask({ ...this.question("body", own) });
+    // A bat file stays as it was written; a table of stations becomes one.
+    const own = text.trimStart().startsWith("{") ? text : answer.bat_file;
+    const body = this.near.ask(this.question("body", own));
     if (body.error) return body.error;
     this.known.set(own, answer);
     if (scene) this.scene = scene;
@@ -170,6 +170,13 @@ export class Bench extends EventTarget {
     if (number !== this.number) return;
     if (answer.error) this.tell("slowTrouble", answer.error);
     else { this.analyzed = answer; this.tell("figures"); }
+  }
+
+  /** A bat that the core made of this one, as a step like any other. */
+  async adopt(text) {
+    const { number } = this, answer = await this.quick.ask({ ask: "open", bat: text, units: this.units });
+    if (!answer || answer.error || number !== this.number) return false;
+    return this.once(answer.bat);
   }
 
   say(words) {

@@ -19,7 +19,7 @@ export class Chart {
   draw() {
     const { bench, svg } = this, hit = bench.hit?.answer;
     const width = Math.max(svg.parentElement.clientWidth, 240), tall = width < 600 ? 170 : 230, low = width < 600 ? 70 : 84;
-    const height = TOP + tall + GAP + low + FOOT;
+    const both = Boolean(hit?.curve?.vibration_j), height = TOP + tall + (both ? GAP + low : 0) + FOOT;
     put(svg, { viewBox: `0 0 ${width} ${height}`, width, height });
     if (!hit?.curve?.x_m.length) { svg.replaceChildren(); return; }
     const before = bench.reference && bench.hitOf(bench.reference);
@@ -31,10 +31,11 @@ export class Chart {
     this.width = width;
     svg.replaceChildren();
     const upper = { top: TOP, tall, range: this.ranges.speed }, lower = { top: TOP + tall + GAP, tall: low, range: this.ranges.energy };
-    this.zone(hit, TOP, lower.top + low);
+    const bottom = both ? lower.top + low : TOP + tall;
+    this.zone(hit, TOP, bottom);
     this.plot(upper, "speed", 5, "Exit speed");
-    this.plot(lower, "energy", 3, "Left in vibration");
-    this.places(lower.top + low);
+    if (both) this.plot(lower, "energy", 3, "Left in vibration");
+    this.places(bottom);
     const line = (curve, name, plot, kind, what) => curve[name] && drawn(svg, "path", { class: what,
       d: pathOf(curve.x_m.map((x, k) => [this.x(x), curve[name][k] === null ? null : this.y(plot, curve[name][k] * shownAs(kind)[0])])) });
     if (before) line(before.curve, "exit_m_s", upper, "speed", "line before");
@@ -46,7 +47,7 @@ export class Chart {
       drawn(svg, "circle", { class: "spot", cx: this.x(hit.best.place.x_m), cy: this.y(upper, hit.best.speed.value * shownAs("speed")[0]), r: 5.5 });
     }
     this.legend(width, Boolean(before), Boolean(hit.curve.stiff_m_s));
-    this.hair(hit, upper, lower);
+    this.hair(hit, bottom);
     put(svg, { "aria-label": hit.best ? `Exit speed along the barrel, at most ${hit.best.speed.text}, ${hit.best.place.text} from the knob`
       : "Exit speed along the barrel" });
   }
@@ -118,7 +119,7 @@ export class Chart {
   }
 
   /** The line that reads off, and what it reads. */
-  hair(hit, upper, lower) {
+  hair(hit, bottom) {
     const { svg } = this, [from, to] = this.ranges.place;
     if (this.share === null) {
       if (!hit.best) return;
@@ -128,7 +129,7 @@ export class Chart {
     const near = curve.x_m.reduce((best, x, k) => Math.abs(x - place) < Math.abs(curve.x_m[best] - place) ? k : best, 0);
     if (this.share !== null) {
       const x = this.x(curve.x_m[near]);
-      drawn(svg, "line", { class: "hairline", x1: x, x2: x, y1: upper.top, y2: lower.top + lower.tall });
+      drawn(svg, "line", { class: "hairline", x1: x, x2: x, y1: TOP, y2: bottom });
     }
     const spot = this.share === null;
     const words = [["From the knob", spot ? hit.best.place.text : say("place", curve.x_m[near])],

@@ -30,7 +30,7 @@ const FIGURES = [
   { id: "outer", name: "1 % slower outside", kind: "place", line: "and at", find: ({ hit }) => ofPlace(hit?.zone?.[1]) },
   { id: "mass", name: "Mass", kind: "mass", line: "mass", find: ({ body }) => body.mass },
   { id: "balance", name: "Balance point", kind: "place", find: ({ body }) => body.balance },
-  { id: "drop", name: "Drop", kind: "number", find: ({ body }) => body.drop, more: () => "inches less ounces" },
+  { id: "drop", name: "Drop", kind: "number", find: ({ body }) => body.drop, more: () => "ounces less inches" },
   { id: "vibration", name: "Left in vibration", kind: "energy", find: ({ hit }) => hit?.vibration?.energy ?? null,
     more: () => "at the sweet spot" },
   mode(0), mode(1), mode(2),
@@ -64,6 +64,10 @@ export class Figures {
       row.row.classList.toggle("same", row.change.textContent === "same");
       const line = figure.line && analyzed?.answers.find(({ what }) => what === figure.line);
       write(row.open, line?.open ? line.open.startsWith("±") ? line.open : `± ${line.open}` : "");
+      // The wall of a hollow barrel is stiff in the quick answers; the slow one has it.
+      if (body.hollow && line && found && line.value.text !== found.text && hit) {
+        write(row.more, `${line.value.text} with the wall giving way`);
+      }
       // What comes from the hit is a preview until it is certified; the rigid figures are always exact.
       const rigid = figure.find({ body, hit: null }) !== null;
       row.row.classList.toggle("preview", !rigid && !certified);

@@ -76,6 +76,10 @@ function words(bench, drag) {
     const said = [...new Set([...body.warnings, ...(hit?.answer.doubts ?? []), ...(analyzed?.trust ?? [])])];
     byId("trust").replaceChildren(...said.map((text) => made("li", {}, text)));
     write(byId("why"), bench.certified ? hit.answer.why ?? "" : "");
+    const known = bench.certified ? [...hit.answer.spots.map(({ what, place }) => [what, `${place.text} from the knob`]),
+      ...hit.answer.figures.map(({ what, text }) => [what, text])] : [];
+    byId("spots").hidden = known.length === 0;
+    byId("spot-rows").replaceChildren(...known.map(([what, text]) => made("tr", {}, made("th", { scope: "row" }, what), made("td", {}, text))));
   });
   bench.on("history", () => {
     byId("undo").disabled = !bench.history.canUndo;
@@ -126,10 +130,10 @@ async function begin() {
   new Wishes(bench);
   const scene = new SceneOfHit(bench), keep = new Keep(bench, about);
   bench.on("scene", (what) => scene.set(what));
-  new Lessons(bench, bats, drag);
+  const lessons = new Lessons(bench, bats, voice);
   controls(bench, drag);
   // For trials of the page: what it holds, and the parts that answer.
-  window.lab = { bench, drag, picture, voice };
+  window.lab = { bench, drag, picture, voice, keep, lessons };
   await first(bench, keep, bats);
   addEventListener("beforeunload", (event) => { if (keep.lost) event.preventDefault(); });
 }

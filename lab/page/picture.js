@@ -7,7 +7,7 @@ import { inUs } from "./units.js";
 /** Room (px) around the bat. */
 const ABOVE = 62, BELOW = 46, SIDE = 16;
 /** How much larger diameters are drawn than lengths, from narrow pictures to wide ones. */
-const LARGER = { narrow: 4, wide: 3.2 };
+const LARGER = { narrow: 4, wide: 3 };
 
 /**
  * Where things are on the picture (px), frozen while a pointer is down.
@@ -17,17 +17,18 @@ const LARGER = { narrow: 4, wide: 3.2 };
 export class Picture {
   /** @param {SVGSVGElement} svg @param {import("./bench.js").Bench} bench */
   constructor(svg, bench) {
-    Object.assign(this, { svg, bench, frozen: false, picked: -1, reach: 40, lathe: null });
+    Object.assign(this, { svg, bench, frozen: false, picked: -1, reach: 80, lathe: null });
     const layer = (name) => drawn(svg, "g", { class: name });
     this.axis = layer("axis");
     this.small = layer("small");
     this.below = layer("below");
-    this.ghost = drawn(svg, "path", { class: "rest" });
-    this.body = drawn(svg, "path", { class: "bat", id: "outline" });
+    // The bat before lies over the wood and under the edge: it is seen only where it differs.
+    this.wood = drawn(svg, "path", { class: "wood", id: "outline" });
     this.bore = drawn(svg, "path", { class: "bore" });
+    this.ghost = drawn(svg, "path", { class: "before" });
+    this.edge = drawn(svg, "path", { class: "edge" });
     this.above = layer("above");
     this.handles = layer("handles");
-    svg.append(this.ghost);
     new ResizeObserver(() => this.draw()).observe(svg.parentElement);
   }
 
@@ -60,7 +61,8 @@ export class Picture {
     if (!bench.body) return;
     if (!this.frozen) this.fit();
     const { body } = bench, outline = this.outline(body.outline);
-    put(this.body, { d: outline });
+    put(this.wood, { d: outline });
+    put(this.edge, { d: outline });
     put(this.bore, { d: this.boreOf(body.outline) });
     const before = bench.reference && bench.bodyOf(bench.reference);
     put(this.ghost, { d: before && !before.error ? this.outline(before.outline) : "" });

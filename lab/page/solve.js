@@ -21,6 +21,7 @@ export class Near {
     try {
       length = core.answer();
     } catch {
+      // What went wrong is the answer to an empty question; this core is not used again.
       core.room(0);
       length = core.answer();
       this.begin();

@@ -10,8 +10,9 @@ function answered(text) {
   try {
     length = core.answer();
   } catch {
+    // What went wrong is the answer to an empty question.
     core.room(0);
-      length = core.answer();
+    length = core.answer();
   }
   // The memory may have grown meanwhile, and the old view of it be gone.
   return new TextDecoder().decode(new Uint8Array(core.memory.buffer, core.answer_at(), length));
