@@ -78,7 +78,7 @@ export class Wishes {
     bench.slow.drop();
     say(`"${words}" is being computed; a minute at most.`);
     byId("wish-stop").hidden = false;
-    const answer = await bench.slow.ask({ ...bench.question("aim"), targets });
+    const answer = await bench.slow.ask({ ...bench.question("aim"), targets, remove_only: byId("remove-only").checked });
     byId("wish-stop").hidden = true;
     if (!answer) { say("Stopped; the bat is as it was."); return; }
     if (number !== bench.number) { say("The bat was changed meanwhile, so the wish was dropped."); return; }

@@ -3,7 +3,7 @@
 import { byId, drawn, made, pathOf, put, ticks, write } from "./svg.js";
 import { inUs, say, shownAs } from "./units.js";
 
-const LEFT = 52, RIGHT = 14, TOP = 30, GAP = 44, FOOT = 42;
+const LEFT = 52, RIGHT = 14, TOP = 38, GAP = 52, FOOT = 42;
 
 export class Chart {
   /** @param {SVGSVGElement} svg @param {import("./bench.js").Bench} bench */
@@ -33,7 +33,7 @@ export class Chart {
     const upper = { top: TOP, tall, range: this.ranges.speed }, lower = { top: TOP + tall + GAP, tall: low, range: this.ranges.energy };
     const bottom = both ? lower.top + low : TOP + tall;
     this.zone(hit, TOP, bottom);
-    this.plot(upper, "speed", 5, "Exit speed");
+    this.plot(upper, "speed", 5, bench.body.hollow ? "Exit speed, stiff wall" : "Exit speed");
     if (both) this.plot(lower, "energy", 3, "Left in vibration");
     this.places(bottom);
     const line = (curve, name, plot, kind, what) => curve[name] && drawn(svg, "path", { class: what,
@@ -78,7 +78,7 @@ export class Chart {
       drawn(svg, "line", { class: "grid", x1: LEFT, x2: width - RIGHT, y1: y, y2: y });
       write(drawn(svg, "text", { x: LEFT - 8, y: y + 5, "text-anchor": "end" }), String(value));
     }
-    write(drawn(svg, "text", { class: "title", x: 0, y: plot.top - 12 }), `${name} (${unit})`);
+    write(drawn(svg, "text", { class: "title", x: 0, y: plot.top - 18 }), `${name} (${unit})`);
   }
 
   places(bottom) {
@@ -102,10 +102,10 @@ export class Chart {
     const { svg } = this, entries = [...(stiff ? [["line stiff", "if the bat were stiff"]] : []), ...(before ? [["line before", "before"]] : [])];
     let right = width - RIGHT;
     for (const [what, words] of entries.reverse()) {
-      const text = drawn(svg, "text", { x: right, y: TOP - 12, "text-anchor": "end" });
+      const text = drawn(svg, "text", { x: right, y: TOP - 18, "text-anchor": "end" });
       write(text, words);
       const start = right - text.getComputedTextLength() - 8;
-      drawn(svg, "line", { class: what, x1: start - 24, x2: start, y1: TOP - 17, y2: TOP - 17 });
+      drawn(svg, "line", { class: what, x1: start - 24, x2: start, y1: TOP - 23, y2: TOP - 23 });
       right = start - 42;
     }
   }

@@ -8,8 +8,8 @@ import { inUs } from "./units.js";
 const NEAR = { mouse: 16, pen: 20, touch: 30 };
 /** Further (px) from its station than this a pointer moves it finely, as with Shift. */
 const FAR = 90;
-/** A fine pointer moves a diameter by so much (mm) a pixel. */
-const FINE = 0.1;
+/** A fine pointer moves a diameter by so much (mm) a pixel, a coarse one by so much at most: fingers are blunt. */
+const FINE = 0.1, COARSE = 0.4;
 /** Reaches (mm) that `[` and `]` go through. */
 const REACHES = [0, 10, 20, 30, 40, 60, 80, 120, 160, 200];
 
@@ -102,7 +102,7 @@ export class Drag {
     const away = (this.lastY - y) * (gesture.lower ? -1 : 1);
     this.lastY = y;
     const fine = event.shiftKey || Math.abs(x - picture.x(gesture.stations.x[gesture.k])) > FAR;
-    gesture.by += fine ? FINE * away : 2 * away / picture.frame.across;
+    gesture.by += (fine ? FINE : Math.min(2 / picture.frame.across, COARSE)) * away;
     this.draw();
   }
 

@@ -13,6 +13,7 @@ import { signed } from "./units.js";
  * @property {(of: { body: any, hit: any }) => string} [more]
  * @property {string} [line]
  * @property {boolean} [large]
+ * @property {boolean} [hit] whether the wall of a hollow barrel would change it
  */
 
 const ofPlace = (place) => place && { value: place.x_m, text: place.text };
@@ -21,9 +22,9 @@ const mode = (k) => ({ id: `f${k + 1}`, name: `Note ${k + 1}`, kind: "frequency"
 
 /** @type {Figure[]} */
 const FIGURES = [
-  { id: "spot", name: "Sweet spot, from the knob", kind: "place", large: true, line: "sweet spot",
+  { id: "spot", name: "Sweet spot, from the knob", kind: "place", large: true, hit: true, line: "sweet spot",
     find: ({ hit }) => ofPlace(hit?.best?.place), more: ({ hit }) => hit?.best ? `${hit.best.place.from_tip} from the tip` : "" },
-  { id: "speed", name: "Fastest ball", kind: "speed", large: true, line: "fastest ball", find: ({ hit }) => hit?.best?.speed ?? null },
+  { id: "speed", name: "Fastest ball", kind: "speed", large: true, hit: true, line: "fastest ball", find: ({ hit }) => hit?.best?.speed ?? null },
   { id: "swing", name: "Swing weight", kind: "inertia", large: true, line: "swing weight", find: ({ body }) => body.swing_weight,
     more: () => "about 6 in from the knob" },
   { id: "inner", name: "1 % slower inside", kind: "place", line: "1 % less at", find: ({ hit }) => ofPlace(hit?.zone?.[0]) },
@@ -33,7 +34,7 @@ const FIGURES = [
   { id: "drop", name: "Drop", kind: "number", find: ({ body }) => body.drop, more: () => "ounces less inches" },
   { id: "vibration", name: "Left in vibration", kind: "energy", find: ({ hit }) => hit?.vibration?.energy ?? null,
     more: () => "at the sweet spot" },
-  mode(0), mode(1), mode(2),
+  mode(0), mode(1),
 ];
 
 export class Figures {
@@ -42,9 +43,9 @@ export class Figures {
     this.bench = bench;
     this.rows = FIGURES.map((figure) => {
       const parts = Object.fromEntries(["value", "change", "open", "more"].map((name) => [name, made("dd", { class: name })]));
-      const row = made("div", { id: `figure-${figure.id}` }, made("dt", {}, figure.name), ...Object.values(parts));
+      const name = made("dt", {}, figure.name), row = made("div", { id: `figure-${figure.id}` }, name, ...Object.values(parts));
       byId(figure.large ? "headline" : "facts").append(row);
-      return { figure, row, ...parts };
+      return { figure, row, name, ...parts };
     });
     this.told = 0;
     for (const what of ["shown", "figures", "pins", "history"]) bench.on(what, () => this.draw());
@@ -58,6 +59,7 @@ export class Figures {
     for (const row of this.rows) {
       const { figure } = row, found = figure.find(shown);
       write(row.value, found?.text ?? "–");
+      write(row.name, figure.hit && body.hollow ? `${figure.name}, stiff wall` : figure.name);
       write(row.more, found ? figure.more?.(shown) ?? "" : "");
       const old = before && figure.find(before);
       write(row.change, found && old ? signed(figure.kind, found.value - old.value) : "");
@@ -66,7 +68,7 @@ export class Figures {
       write(row.open, line?.open ? line.open.startsWith("±") ? line.open : `± ${line.open}` : "");
       // The wall of a hollow barrel is stiff in the quick answers; the slow one has it.
       if (body.hollow && line && found && line.value.text !== found.text && hit) {
-        write(row.more, `${line.value.text} with the wall giving way`);
+        write(row.more, `${line.value.text} as the wall gives way`);
       }
       // What comes from the hit is a preview until it is certified; the rigid figures are always exact.
       const rigid = figure.find({ body, hit: null }) !== null;

@@ -75,12 +75,14 @@ function words(bench, drag) {
     const { hit, body, analyzed } = bench;
     const said = [...new Set([...body.warnings, ...(hit?.answer.doubts ?? []), ...(analyzed?.trust ?? [])])];
     byId("trust").replaceChildren(...said.map((text) => made("li", {}, text)));
+    byId("doubts").hidden = said.length === 0;
     write(byId("why"), bench.certified ? hit.answer.why ?? "" : "");
     const known = bench.certified ? [...hit.answer.spots.map(({ what, place }) => [what, `${place.text} from the knob`]),
       ...hit.answer.figures.map(({ what, text }) => [what, text])] : [];
     byId("spots").hidden = known.length === 0;
     byId("spot-rows").replaceChildren(...known.map(([what, text]) => made("tr", {}, made("th", { scope: "row" }, what), made("td", {}, text))));
   });
+  bench.on("opened", () => { drag.picture.picked = -1; });
   bench.on("history", () => {
     byId("undo").disabled = !bench.history.canUndo;
     byId("redo").disabled = !bench.history.canRedo;

@@ -5,7 +5,7 @@ import { drawn, put, pathOf, ticks, write } from "./svg.js";
 import { inUs } from "./units.js";
 
 /** Room (px) around the bat. */
-const ABOVE = 62, BELOW = 46, SIDE = 16;
+const ABOVE = 62, BELOW = 56, SIDE = 16;
 /** How much larger diameters are drawn than lengths, from narrow pictures to wide ones. */
 const LARGER = { narrow: 4, wide: 3 };
 
@@ -92,11 +92,9 @@ export class Picture {
     for (const value of ticks(0, length / unit, width < 600 ? 5 : 9)) {
       const x = this.x(value * unit);
       drawn(axis, "line", { x1: x, x2: x, y1: y, y2: y + 5 });
-      if (width - x < 70 && width >= 400) continue;
       write(drawn(axis, "text", { x, y: y + 20, "text-anchor": value === 0 ? "start" : "middle" }), String(value));
     }
-    const words = width < 400 ? (inUs() ? "in" : "cm") : inUs() ? "in from the knob" : "cm from the knob";
-    write(drawn(axis, "text", { x: width - 2, y: height - 2, "text-anchor": "end" }), words);
+    write(drawn(axis, "text", { x: this.x(length), y: y + 40, "text-anchor": "end" }), inUs() ? "in from the knob" : "cm from the knob");
   }
 
   /** The bat as it is, in true proportion, over the handle where there is room. */
@@ -201,10 +199,11 @@ export class Picture {
     lathe.bands.forEach(({ from_m, to_m }, k) => {
       const { outline } = bench.body, [a, b] = [this.x(1000 * from_m), this.x(1000 * to_m)];
       const inside = outline.radius_m.filter((_, j) => outline.x_m[j] >= from_m && outline.x_m[j] <= to_m);
-      const radius = 1000 * Math.max(...inside, 4), share = most > 0 ? values[k] / most : 0;
-      const band = drawn(below, "rect", { class: share < 0 ? "less" : "more", x: a, width: Math.max(b - a - 0.5, 1),
-        y: this.up(radius) - 7, height: 2 * (this.frame.middle - this.up(radius)) + 14 });
-      band.style.opacity = Math.abs(share).toFixed(3);
+      const top = this.up(1000 * Math.max(...inside, 0)), share = most > 0 ? values[k] / most : 0;
+      for (const y of [top - 12, 2 * this.frame.middle - top + 3]) {
+        const band = drawn(below, "rect", { class: share < 0 ? "less" : "more", x: a, width: Math.max(b - a - 1, 1), y, height: 9 });
+        band.style.opacity = Math.abs(share).toFixed(3);
+      }
     });
   }
 }
