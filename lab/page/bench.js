@@ -10,6 +10,8 @@ const CERTIFIED_AFTER = 60, SLOW_AFTER = 500;
 const QUICK = 10;
 /** Answers that are kept. */
 const KEPT = 40;
+/** Mistakes that are listed, and letters of one. */
+const LISTED = 5, LETTERS = 400;
 /** Bats that can be pinned. */
 export const PINS = 4;
 
@@ -17,6 +19,15 @@ export const PINS = 4;
  * What `open` said of a text, and what is edited of it.
  * @typedef {{ bat: any, differs: string | null, parts: string[], warnings: string[] }} Known
  */
+
+/** What is wrong with a bat, each mistake on its own line. */
+function wrong({ error, mistakes = [] }) {
+  const short = (text) => text.length > LETTERS ? `${text.slice(0, LETTERS)}…` : text;
+  if (mistakes.length === 0) return short(error);
+  const lines = mistakes.slice(0, LISTED).map(({ text, line }) => short(line ? `Line ${line}: ${text}` : text));
+  const more = mistakes.length - lines.length;
+  return [...lines, ...(more > 0 ? [`and ${more} more`] : [])].join("\n");
+}
 
 export class Bench extends EventTarget {
   /**
@@ -93,11 +104,11 @@ export class Bench extends EventTarget {
   async open(text, scene) {
     const answer = await this.quick.ask({ ask: "open", bat: text, units: this.units });
     if (!answer) return null;
-    if (answer.error) return [answer.error, ...(answer.mistakes ?? []).map((mistake) => mistake.text)].join("\n");
+    if (answer.error) return wrong(answer);
     // A bat file stays as it was written; a table of stations becomes one.
     const own = text.trimStart().startsWith("{") ? text : answer.bat_file;
     const body = this.near.ask(this.question("body", own));
-    if (body.error) return body.error;
+    if (body.error) return wrong(body);
     this.known.set(own, answer);
     if (scene) this.scene = scene;
     if (this.history) this.history.open(own); else this.history = new History(own);
@@ -112,7 +123,7 @@ export class Bench extends EventTarget {
   show(text) {
     const body = this.near.ask(this.question("body", text));
     if (body.error) {
-      this.say(body.error);
+      this.say(wrong(body));
       return false;
     }
     Object.assign(this, { text, body });
@@ -131,7 +142,7 @@ export class Bench extends EventTarget {
     else this.ask(this.lastTook < QUICK ? "sure" : "live");
     clearTimeout(this.later);
     clearTimeout(this.slowLater);
-    this.later = setTimeout(() => this.certified || this.ask("sure"), CERTIFIED_AFTER);
+    this.later = setTimeout(() => this.certified || this.trouble || this.ask("sure"), CERTIFIED_AFTER);
     this.slowLater = setTimeout(() => this.askSlow(), SLOW_AFTER);
   }
 
@@ -144,7 +155,7 @@ export class Bench extends EventTarget {
       if (!this.changing) this.keep(key, answer);
     }
     // An answer to an earlier bat is a preview of this one at best, and never overwrites a later answer.
-    if (answer.error) { if (number === this.number) this.say(answer.error); }
+    if (answer.error) { if (number === this.number) this.fail(answer.error); }
     else if (number >= (this.hit?.number ?? 0)) this.take(answer, number);
   }
 
@@ -156,7 +167,7 @@ export class Bench extends EventTarget {
 
   /** What takes a second or more: how far the bat in hand may be off. */
   async askSlow() {
-    if (this.changing) return;
+    if (this.changing || this.trouble && !this.hit) return;
     const { number } = this, key = this.keyOf("analyze");
     let answer = this.kept.get(key);
     if (!answer) {
@@ -177,6 +188,14 @@ export class Bench extends EventTarget {
     const { number } = this, answer = await this.quick.ask({ ask: "open", bat: text, units: this.units });
     if (!answer || answer.error || number !== this.number) return false;
     return this.once(answer.bat);
+  }
+
+  /** There is no answer to the bat shown: nothing of another one may stand in its place. */
+  fail(words) {
+    this.hit = null;
+    clearTimeout(this.later);
+    this.tell("figures");
+    this.say(words);
   }
 
   say(words) {

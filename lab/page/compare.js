@@ -35,6 +35,7 @@ export class Compare {
 
   draw() {
     const { bench } = this, { pins } = bench;
+    byId("pinned").classList.toggle("some", pins.length > 0);
     byId("pin").disabled = pins.length >= PINS || !bench.body;
     if (pins.length === 0) {
       byId("pins").replaceChildren(made("caption", {}, "Pin a bat to keep it here, four at most, and go on with the one above."));

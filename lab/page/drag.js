@@ -43,8 +43,9 @@ export class Drag {
     svg.addEventListener("pointercancel", (event) => event.pointerId === this.pointer && this.back());
     svg.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
     svg.addEventListener("keydown", (event) => this.key(event));
-    svg.addEventListener("focusin", (event) => this.focused(event));
-    svg.addEventListener("focusout", () => this.pointer === null && this.finish());
+    // Not on the picture itself: browsers let what hears of the focus have it.
+    svg.parentElement.addEventListener("focusin", (event) => this.focused(event));
+    svg.parentElement.addEventListener("focusout", () => this.pointer === null && this.finish());
     addEventListener("keydown", (event) => {
       if (event.key === "Escape" && this.gesture) { event.preventDefault(); this.back(); }
     });

@@ -35,9 +35,13 @@ function standing(svg) {
 }
 
 export class Keep {
-  /** @param {import("./bench.js").Bench} bench @param {{ address: string | null }} about */
-  constructor(bench, about) {
-    Object.assign(this, { bench, about });
+  /**
+   * @param {import("./bench.js").Bench} bench
+   * @param {{ address: string | null }} about
+   * @param {Blob} page as it was when it was opened
+   */
+  constructor(bench, about, page) {
+    Object.assign(this, { bench, about, page });
     this.dialog = byId("opening");
     byId("open").addEventListener("click", () => this.dialog.showModal());
     byId("file").addEventListener("change", ({ target }) => this.file(target.files[0]));
@@ -47,7 +51,8 @@ export class Keep {
     addEventListener("hashchange", () => this.fromAddress());
     const buttons = [["save-bat", "Bat file", () => this.files("bat")], ["save-csv", "Table (CSV)", () => this.files("csv")],
       ["save-template", "Template, true size", () => this.files("template")], ["save-svg", "Picture (SVG)", () => this.svg()],
-      ["save-png", "Picture (PNG)", () => this.png()], ["link", "Copy a link", () => this.link()], ["print", "Print", () => print()]];
+      ["save-png", "Picture (PNG)", () => this.png()], ["link", "Copy a link", () => this.link()],
+      ["save-page", "This page with the bat in it", () => this.whole()], ["print", "Print", () => print()]];
     byId("keep-buttons").append(...buttons.map(([id, words, act]) => {
       const button = made("button", { type: "button", id }, words);
       button.addEventListener("click", act);
@@ -141,6 +146,14 @@ export class Keep {
     pen.drawImage(image, 0, 0, svg.clientWidth, svg.clientHeight);
     URL.revokeObjectURL(image.src);
     canvas.toBlob((blob) => save(`${this.name}.png`, [blob], "image/png"));
+  }
+
+  /** The page as it was opened, with this bat as its first: one file that needs nothing else. */
+  async whole() {
+    const text = JSON.stringify(this.bench.text).replaceAll("<", "\\u003c"), page = await this.page.text();
+    const from = page.indexOf(">", page.indexOf('id="bat"')) + 1, to = page.indexOf("<", from);
+    save(`${this.name}-lab.html`, [page.slice(0, from), text, page.slice(to)], "text/html");
+    this.say("Written: send this file, and whoever opens it has the bat and the lab.");
   }
 
   /** A link where the page has an address, else the fragment to paste into any copy's "Open". */

@@ -104,6 +104,7 @@ async function first(bench, keep, bats) {
 }
 
 async function begin() {
+  const page = new Blob(["<!doctype html>\n", document.documentElement.outerHTML]);
   document.documentElement.classList.add("js");
   const bats = data("bats", {}), about = data("about", { address: null }), woods = data("materials", []);
   let module;
@@ -130,7 +131,7 @@ async function begin() {
   new Changes(bench, woods);
   new Lathe(bench, picture);
   new Wishes(bench);
-  const scene = new SceneOfHit(bench), keep = new Keep(bench, about);
+  const scene = new SceneOfHit(bench), keep = new Keep(bench, about, page);
   bench.on("scene", (what) => scene.set(what));
   const lessons = new Lessons(bench, bats, voice);
   controls(bench, drag);
