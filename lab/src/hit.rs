@@ -115,8 +115,6 @@ pub fn live(of: &Question) -> Result<Value> {
     let Solved { bat, solution, scene, model, .. } = &solved;
     let hitter = Hitter::new(*model, scene, bat, solution, Effort::default())?;
     let looked = HitsAlong::outer(STEPS, &hitter);
-    let half = 0.5 * bat.length();
-    let x: Vec<f64> = (0..=STEPS.0).map(|k| half + half * k as f64 / STEPS.0 as f64).collect();
     let speeds = looked.values(|glance: &Glance| Some(glance.exit_speed));
     let speeds: Vec<Option<f64>> = speeds.into_iter().map(|v| v.is_finite().then_some(v)).collect();
     let hit = looked.fastest().map_or_else(no_hit, |peak| {
@@ -125,7 +123,7 @@ pub fn live(of: &Question) -> Result<Value> {
     });
     let answer = json!({
         "certified": false, "unmet": null,
-        "curve": { "x_m": x, "exit_m_s": speeds },
+        "curve": { "x_m": looked.places(), "exit_m_s": speeds },
         "spots": [], "figures": [], "why": null, "doubts": [],
     });
     Ok(with(with(answer, modes(of, &solved)), hit))

@@ -191,6 +191,11 @@ impl<'a> HitsAlong<'a> {
         self.places[k]
     }
 
+    /// The places of the look (m), rising.
+    pub fn places(&self) -> &[f64] {
+        &self.places
+    }
+
     /// Values at the places of the look; −∞ where there is none.
     pub fn values(&self, value: impl Fn(&Glance) -> Option<f64>) -> Vec<f64> {
         let of = |glance: &Option<Glance>| glance.as_ref().and_then(&value);

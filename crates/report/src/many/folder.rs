@@ -195,7 +195,8 @@ impl<'a> StudyFolder<'a> {
         let archive = npz::columns(&columns);
         // A page writes no files.
         #[cfg(target_arch = "wasm32")]
-        let archive = Err(std::io::Error::other(format!("{} columns: no archive in a page", columns.len())));
+        let archive =
+            Err(std::io::Error::other(format!("{} columns: no archive in a page", columns.len())));
         archive.map_err(|source| Error::Write { path: path.with_extension("npz"), source })
     }
 
