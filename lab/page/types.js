@@ -113,8 +113,6 @@
  * @property {[Place, Place] | null} zone  within 1 % of it
  * @property {{ energy: Shown, initial: Shown } | null} vibration  left in vibration at the sweet spot
  * @property {{ what: string, place: Place }[]} spots     every definition of the sweet spot (`sure`)
- * @property {{ what: string, text: string }[]} figures   as `hit --full` lists them (`sure`)
- * @property {string | null} why     why the sweet spot is there (`sure`)
  * @property {string[]} doubts       what limits trust (`sure`)
  */
 
@@ -124,6 +122,8 @@
  * @typedef {object} Analyzed
  * @property {number} id
  * @property {{ what: string, value: Shown, open: string, by: string }[]} answers  the lines of its table
+ * @property {{ what: string, text: string }[]} figures   as `hit --full` lists them
+ * @property {string | null} why     why the sweet spot is there
  * @property {string[]} trust        how far to trust it, in sentences
  * @property {{ hoop: { frequency: Shown, note: string }[], words: string[] } | null} barrel  of a hollow bat
  */

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 use sweetspot::base::error::Result;
 use sweetspot_report::analysis::{Analysis, Task};
-use sweetspot_report::report::{hoop, trust};
+use sweetspot_report::report::{hit_text, hoop, trust};
 use sweetspot_study::answers::Answer;
 use sweetspot_study::spread::Readings;
 use sweetspot_study::trampoline::barrel::Barrel;
@@ -39,8 +39,13 @@ pub fn answer(of: &Question) -> Result<Value> {
         Some(json!({ "what": what, "value": value, "open": open, "by": by }))
     };
     let answers: Vec<Value> = LINES.iter().filter_map(line).collect();
+    let stated = hit_text::stated(&analysis.figures, of.units).into_iter();
+    let stated: Vec<Value> =
+        stated.map(|(what, text)| json!({ "what": what, "text": text })).collect();
     Ok(json!({
         "answers": answers,
+        "figures": stated,
+        "why": hit_text::reason(&analysis.figures, of.units),
         "trust": trust::trust(&analysis, of.units),
         "barrel": analysis.barrel.as_ref().map(|one| barrel(of, one)),
     }))

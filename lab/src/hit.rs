@@ -3,13 +3,13 @@
 use serde_json::{Value, json};
 use sweetspot::base::error::Result;
 use sweetspot::bat::body::Bat;
-use sweetspot::collision::figures::{Figures, SwingLaw};
+use sweetspot::collision::figures::SwingLaw;
 use sweetspot::collision::hit::{Effort, Model, Scene};
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::setup::Setup;
 use sweetspot::collision::strike::Glance;
 use sweetspot::collision::sweep::{Sweep, Trial, sweep};
-use sweetspot::collision::sweet_spot::{HitsAlong, Peak};
+use sweetspot::collision::sweet_spot::{HitsAlong, Peak, SweetSpot};
 use sweetspot::collision::wall_choice::WallChoice;
 use sweetspot::modes::prepared::prepare;
 use sweetspot::modes::solve::{Request, Solution, solve};
@@ -124,7 +124,7 @@ pub fn live(of: &Question) -> Result<Value> {
     let answer = json!({
         "certified": false, "unmet": null,
         "curve": { "x_m": looked.places(), "exit_m_s": speeds },
-        "spots": [], "figures": [], "why": null, "doubts": [],
+        "spots": [], "doubts": [],
     });
     Ok(with(with(answer, modes(of, &solved)), hit))
 }
@@ -132,15 +132,15 @@ pub fn live(of: &Question) -> Result<Value> {
 /// What `sweetspot hit` answers, the wall of a hollow barrel stiff.
 pub fn sure(of: &Question) -> Result<Value> {
     let solved = Solved::new(of, request(), false)?;
-    let Solved { bat, solution, scene, law, model, .. } = &solved;
+    let Solved { bat, solution, scene, model, .. } = &solved;
     let hits = solved.sweep()?;
     let hitter = Hitter::new(*model, scene, bat, &hits.solution, hits.effort)?;
-    let figures = Figures::new(bat, &hitter, *law)?;
-    let spot = &figures.spot;
+    let spot = SweetSpot::find(&hitter);
+    let there = spot.exit_speed_max.map(|peak| hitter.strike(peak.x));
     let x: Vec<f64> = hits.impacts.iter().map(|impact| impact.x).collect();
     let speeds: Vec<Option<f64>> =
         hits.impacts.iter().map(|impact| Some(impact.outcome.as_ref()?.exit_speed)).collect();
-    let energy = figures.best.as_ref().and_then(|best| Some(&best.outcome.as_ref()?.energy));
+    let energy = there.as_ref().and_then(|there| Some(&there.outcome.as_ref()?.energy));
     let energy = [energy.map(|e| e.vibration), energy.map(|e| e.initial)];
     let hit = spot.exit_speed_max.zip(spot.zone);
     let hit = hit.map_or_else(no_hit, |(peak, zone)| best(of, &solved, peak, zone, energy));
@@ -149,21 +149,15 @@ pub fn sure(of: &Question) -> Result<Value> {
         (false, _) => Some(format!("frequencies: {}", solution.ending)),
         (_, false) => Some("exit speeds are less accurate than was asked".to_owned()),
     };
-    let verdict = Verdict::of((bat, scene), &hits, figures.best.as_ref(), figures.wall);
-    let spots: Vec<Value> = hit_text::spot_lines(bat, spot, of.units)
+    let verdict = Verdict::of((bat, scene), &hits, there.as_ref(), None);
+    let spots: Vec<Value> = hit_text::spot_lines(bat, &spot, of.units)
         .into_iter()
         .map(|line| json!({ "what": line.what.trim(), "place": shown::place(bat, of.units, line.x) }))
-        .collect();
-    let stated: Vec<Value> = hit_text::stated(&figures, of.units)
-        .into_iter()
-        .map(|(what, text)| json!({ "what": what, "text": text }))
         .collect();
     let answer = json!({
         "certified": unmet.is_none(), "unmet": unmet,
         "curve": { "x_m": x, "exit_m_s": speeds },
-        "spots": spots, "figures": stated,
-        "why": hit_text::reason(&figures, of.units),
-        "doubts": trust::doubts(&verdict, of.units),
+        "spots": spots, "doubts": trust::doubts(&verdict, of.units),
     });
     Ok(with(with(answer, modes(of, &solved)), hit))
 }
