@@ -32,12 +32,13 @@ function wrong({ error, mistakes = [] }) {
 export class Bench extends EventTarget {
   /**
    * @param {import("./solve.js").Near} near
-   * @param {import("./solve.js").Far} quick
-   * @param {import("./solve.js").Far} slow
+   * @param {import("./solve.js").Far} quick  previews, and whatever a hand waits for
+   * @param {import("./solve.js").Far} sure  certified answers: nobody waits behind them
+   * @param {import("./solve.js").Far} slow  what takes a second or more, ended when the bat changes
    */
-  constructor(near, quick, slow) {
+  constructor(near, quick, sure, slow) {
     super();
-    Object.assign(this, { near, quick, slow, number: 0, text: "", scene: {}, history: null, lastTook: Infinity });
+    Object.assign(this, { near, quick, sure, slow, number: 0, text: "", scene: {}, history: null, lastTook: Infinity });
     /** @type {Map<string, Known>} */
     this.known = new Map();
     /** @type {Map<string, any>} */
@@ -58,6 +59,9 @@ export class Bench extends EventTarget {
   get opened() { return this.known.get(this.text) ?? null; }
   /** Whether what is drawn belongs to the bat shown, and was computed as accurately as asked. */
   get certified() { return this.hit !== null && this.hit.number === this.number && this.hit.answer.certified; }
+
+  /** Whether the bat shown has no answer. */
+  get hopeless() { return this.failed === this.number; }
 
   question(ask, text = this.text) {
     const scene = Object.keys(this.scene).length ? { scene: this.scene } : {};
@@ -142,13 +146,13 @@ export class Bench extends EventTarget {
     else this.ask(this.lastTook < QUICK ? "sure" : "live");
     clearTimeout(this.later);
     clearTimeout(this.slowLater);
-    this.later = setTimeout(() => this.certified || this.trouble || this.ask("sure"), CERTIFIED_AFTER);
+    this.later = setTimeout(() => this.certified || this.hopeless || this.ask("sure"), CERTIFIED_AFTER);
     this.slowLater = setTimeout(() => this.askSlow(), SLOW_AFTER);
   }
 
   async ask(kind) {
     const { number } = this, key = this.keyOf(kind);
-    const answer = await this.quick.ask(this.question(kind));
+    const answer = await (kind === "sure" ? this.sure : this.quick).ask(this.question(kind));
     if (!answer) return;
     if (kind === "sure" && !answer.error) {
       this.lastTook = answer.took;
@@ -167,7 +171,7 @@ export class Bench extends EventTarget {
 
   /** What takes a second or more: how far the bat in hand may be off. */
   async askSlow() {
-    if (this.changing || this.trouble && !this.hit) return;
+    if (this.changing || this.hopeless) return;
     const { number } = this, key = this.keyOf("analyze");
     let answer = this.kept.get(key);
     if (!answer) {
@@ -192,10 +196,9 @@ export class Bench extends EventTarget {
 
   /** There is no answer to the bat shown: nothing of another one may stand in its place. */
   fail(words) {
-    this.hit = null;
-    clearTimeout(this.later);
-    this.tell("figures");
+    Object.assign(this, { hit: null, failed: this.number });
     this.say(words);
+    this.tell("figures");
   }
 
   say(words) {

@@ -92,7 +92,7 @@ export class Figures {
     write(badge, certified ? "certified" : "preview");
     const unmet = hit?.number === bench.number ? hit.answer.unmet : null;
     write(byId("badge-words"), certified ? "every number is the program's own, within its stated error"
-      : unmet ?? (bench.trouble && !hit ? "there is no answer for this bat" : hit ? "being computed to its full accuracy" : "being computed"));
+      : unmet ?? (bench.hopeless ? "there is no answer for this bat" : hit ? "being computed to its full accuracy" : "being computed"));
     if (!certified || bench.changing) return;
     // Said at most once a second, and only what is certified.
     clearTimeout(this.telling);

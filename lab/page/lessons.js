@@ -185,6 +185,6 @@ export class Lessons {
 
   /** Waits for the certified answer. */
   async settled() {
-    while (!this.bench.certified && !this.bench.trouble) await new Promise((then) => setTimeout(then, 30));
+    while (!this.bench.certified && !this.bench.hopeless) await new Promise((then) => setTimeout(then, 30));
   }
 }

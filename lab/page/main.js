@@ -76,9 +76,9 @@ function words(bench, drag) {
     const said = [...new Set([...body.warnings, ...(hit?.answer.doubts ?? []), ...(analyzed?.trust ?? [])])];
     byId("trust").replaceChildren(...said.map((text) => made("li", {}, text)));
     byId("doubts").hidden = said.length === 0;
-    write(byId("why"), bench.certified ? hit.answer.why ?? "" : "");
+    write(byId("why"), analyzed?.why ?? "");
     const known = bench.certified ? [...hit.answer.spots.map(({ what, place }) => [what, `${place.text} from the knob`]),
-      ...hit.answer.figures.map(({ what, text }) => [what, text])] : [];
+      ...(analyzed?.figures ?? []).map(({ what, text }) => [what, text])] : [];
     byId("spots").hidden = known.length === 0;
     byId("spot-rows").replaceChildren(...known.map(([what, text]) => made("tr", {}, made("th", { scope: "row" }, what), made("td", {}, text))));
   });
@@ -115,7 +115,8 @@ async function begin() {
     return;
   }
   const program = byId("worker").textContent;
-  const bench = new Bench(new Near(module), new Far(module, program, LIMITS[0]), new Far(module, program, LIMITS[1]));
+  const far = (limit) => new Far(module, program, limit);
+  const bench = new Bench(new Near(module), far(LIMITS[0]), far(LIMITS[0]), far(LIMITS[1]));
   const picture = new Picture(byId("picture"), bench), voice = new Voice(bench);
   let reach = () => {};
   const table = { draw() {} };

@@ -67,7 +67,7 @@ export class Picture {
     const before = bench.reference && bench.bodyOf(bench.reference);
     put(this.ghost, { d: before && !before.error ? this.outline(before.outline) : "" });
     if (!this.frozen) this.drawAxis();
-    this.drawSmall(body);
+    if (!this.frozen) this.drawSmall(body);
     this.drawHandles();
     this.drawFound();
   }

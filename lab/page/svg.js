@@ -1,22 +1,23 @@
 // Small helpers for elements of the page and of its pictures; words always go in as text, never as markup.
 
-const SVG = "http://www.w3.org/2000/svg";
+/* global shared */
 
 /** The element of the page with that id. */
 export const byId = (id) => document.getElementById(id);
 
-/** Gives an element these attributes; one that is null is taken off. */
+/** Gives an element these attributes; one that is null is taken off, and one that stays is not touched. */
 export function put(element, attributes) {
   for (const [name, value] of Object.entries(attributes)) {
-    if (value === null) element.removeAttribute(name);
-    else element.setAttribute(name, typeof value === "number" ? Number(value.toFixed(2)) : value);
+    const text = value === null ? null : typeof value === "number" ? String(Number(value.toFixed(2))) : String(value);
+    if (element.getAttribute(name) === text) continue;
+    if (text === null) element.removeAttribute(name);
+    else element.setAttribute(name, text);
   }
   return element;
 }
 
 /** A new SVG element at the end of another. */
-export const drawn = (parent, name, attributes = {}) =>
-  parent.appendChild(put(document.createElementNS(SVG, name), attributes));
+export const drawn = (parent, name, attributes = {}) => put(shared.drawn(parent, name, {}), attributes);
 
 /** A new element of the page with these attributes and children. */
 export function made(name, attributes = {}, ...children) {
