@@ -58,7 +58,7 @@ const NO_BAT: &str = "<script type=\"application/json\" id=\"bat\">null</script>
 pub fn run(args: &Args) -> Result<Done> {
     let page = PAGE.ok_or(Error::NotBuilt {
         what: "the page",
-        advice: "`lab/build && cargo build --release -p sweetspot-cli --features lab` in the source builds it in",
+        advice: "`lab/build && cargo install --path crates/cli --features lab` in the source builds it in",
     })?;
     let (page, name) = match &args.bat {
         Some(path) => {
