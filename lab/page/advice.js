@@ -1,6 +1,6 @@
 // What takes the core longer: where a cut does what, and the least change that meets a wish.
 
-import { byId, made, write } from "./svg.js";
+import { byId, made, put, write } from "./svg.js";
 
 /** Wishes as `sweetspot aim` takes them, and what stands on their buttons. */
 const WISHES = [
@@ -14,46 +14,58 @@ const QUIET = 700;
 export class Lathe {
   /** @param {import("./bench.js").Bench} bench @param {import("./picture.js").Picture} picture */
   constructor(bench, picture) {
-    Object.assign(this, { bench, picture, answer: null });
+    Object.assign(this, { bench, picture, answer: null, on: false });
+    byId("lathe-on").addEventListener("click", () => this.turn(!this.on));
     byId("lathe-of").addEventListener("change", () => this.chosen());
-    byId("lathe-of").addEventListener("pointerdown", () => this.ask());
-    byId("lathe-of").addEventListener("focus", () => this.ask());
     bench.on("shown", () => this.gone());
   }
 
-  /** The bat has changed: what a cut does is not known any more. */
+  /** Colours the bat from now on, or no more. */
+  turn(on) {
+    this.on = on;
+    put(byId("lathe-on"), { "aria-pressed": String(on) });
+    if (!on) this.gone();
+    else if (this.answer) this.chosen();
+    else this.ask();
+  }
+
+  /** The bat has changed: what a cut does is not known any more, and asked again when it rests. */
   gone() {
     this.answer = this.picture.lathe = null;
     byId("lathe-strongest").replaceChildren();
+    byId("lathe-choice").hidden = true;
     clearTimeout(this.later);
-    if (byId("lathe-of").value !== "") this.later = setTimeout(() => this.ask(), QUIET);
+    if (this.on) this.later = setTimeout(() => this.ask(), QUIET);
+    else this.picture.draw();
   }
 
   async ask() {
-    const { bench } = this, { number } = bench;
-    if (!bench.body || this.answer || this.asked === number) return;
-    this.asked = number;
-    write(byId("lathe-words"), "What a cut does is being computed…");
+    const { bench } = this, { number } = bench, say = (words) => write(byId("lathe-words"), words);
+    if (!bench.body || bench.changing) return;
+    say("What a cut does is being computed…");
     const answer = await bench.slow.ask(bench.question("lathe"));
-    this.asked = undefined;
-    if (!answer || number !== bench.number) return;
-    if (answer.error) { write(byId("lathe-words"), answer.error); return; }
+    if (!answer || number !== bench.number || !this.on) return;
+    if (answer.error) { say(answer.error); return; }
     this.answer = answer;
     const select = byId("lathe-of"), wanted = select.value;
-    if (select.children.length !== answer.effects.length + 1) {
-      select.replaceChildren(made("option", { value: "" }, "nothing"), ...answer.effects.map(({ what }) => made("option", { value: what }, what)));
-      select.value = wanted;
-    }
-    write(byId("lathe-words"), `${answer.depth} taken off: blue makes it more, orange less, the deeper the colour the stronger.`);
+    select.replaceChildren(...answer.effects.map(({ what }) => made("option", { value: what }, what)));
+    if (answer.effects.some(({ what }) => what === wanted)) select.value = wanted;
+    byId("lathe-choice").hidden = false;
     byId("lathe-strongest").replaceChildren(...answer.strongest.map((words) => made("li", {}, words)));
     this.chosen();
   }
 
+  /** Colours the bat by the effect that is chosen. */
   chosen() {
     const { answer, picture } = this, what = byId("lathe-of").value;
     const effect = answer?.effects.find((one) => one.what === what);
     picture.lathe = effect ? { bands: answer.bands, changes: effect.changes } : null;
-    if (what && !answer) this.ask();
+    if (effect) {
+      const [blue, orange] = what.startsWith("sweet spot") ? ["outwards", "inwards"] : ["up", "down"];
+      const largest = effect.changes.toSorted((a, b) => Math.abs(b?.value ?? 0) - Math.abs(a?.value ?? 0))[0];
+      write(byId("lathe-words"), `${answer.depth} off the diameter: where the bat is blue it moves ${what} ${blue}, where orange ${orange}, ` +
+        `${largest?.text ?? "nothing"} at most.`);
+    }
     picture.draw();
   }
 }

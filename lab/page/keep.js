@@ -22,13 +22,15 @@ export const fileName = (name) => name.toLowerCase().replace(/[^a-z0-9]+/g, "-")
 /** A picture of the page as a file of its own, with the colours that it has now. */
 function standing(svg) {
   const copy = svg.cloneNode(true), from = [svg, ...svg.querySelectorAll("*")], to = [copy, ...copy.querySelectorAll("*")];
+  // What the hand takes hold of is no part of the bat.
+  const inHand = [...copy.querySelectorAll(".handles, .reach, .blow")];
   const kept = ["fill", "fill-opacity", "stroke", "stroke-width", "stroke-dasharray", "opacity", "font-family", "font-size", "font-weight", "text-anchor"];
   from.forEach((element, k) => {
     const style = getComputedStyle(element);
     for (const name of kept) to[k].style.setProperty(name, style.getPropertyValue(name));
     for (const name of ["tabindex", "role", "class", "id"]) to[k].removeAttribute(name);
   });
-  copy.querySelectorAll("circle[r='22'], circle[r='13']").forEach((hit) => hit.remove());
+  inHand.forEach((element) => element.remove());
   copy.setAttribute("xmlns", "http://www.w3.org/2000/svg");
   copy.style.background = getComputedStyle(document.body).backgroundColor;
   return new XMLSerializer().serializeToString(copy);

@@ -154,8 +154,8 @@ export class Lessons {
     write(byId("lesson-next"), this.step === count ? "Answer" : "Next");
     if (step) {
       write(byId("lesson-words"), step.say);
-      this.mark(byId(step.see));
       await this.run(lesson.id, this.step);
+      this.mark(byId(step.see));
     } else {
       write(byId("lesson-words"), this.step === count ? lesson.question : lesson.answer(this.bench));
       this.mark(null);

@@ -48,6 +48,9 @@ function controls(bench, drag) {
   }
   whenUnits(() => {
     byId(inUs() ? "units-1" : "units-0").checked = true;
+    // Who counts in inches counts in their parts.
+    byId("step").value = inUs() ? "0.396875" : "0.1";
+    drag.step = Number(byId("step").value);
     if (!bench.text) return;
     bench.show(bench.text);
     bench.tell("history");

@@ -34,8 +34,9 @@ export class Picture {
 
   /** The frame that fits the bat into the width there is. */
   fit() {
-    const { body } = this.bench, width = Math.max(this.svg.parentElement.clientWidth, 240);
-    const length = 1000 * body.length.value, along = (width - 2 * SIDE) / length;
+    const { body, reference } = this.bench, width = Math.max(this.svg.parentElement.clientWidth, 240);
+    const before = reference ? this.bench.bodyOf(reference).length?.value ?? 0 : 0;
+    const length = 1000 * Math.max(body.length.value, before), along = (width - 2 * SIDE) / length;
     const across = along * (width < 600 ? LARGER.narrow : LARGER.wide);
     const widest = Math.max(1000 * body.widest.value, 40), half = widest / 2 * across;
     const height = ABOVE + 2 * half + BELOW;
