@@ -63,8 +63,8 @@ export class Lathe {
     if (effect) {
       const [blue, orange] = what.startsWith("sweet spot") ? ["outwards", "inwards"] : ["up", "down"];
       const largest = effect.changes.toSorted((a, b) => Math.abs(b?.value ?? 0) - Math.abs(a?.value ?? 0))[0];
-      write(byId("lathe-words"), `${answer.depth} off the diameter: where the bat is blue it moves ${what} ${blue}, where orange ${orange}, ` +
-        `${largest?.text ?? "nothing"} at most.`);
+      write(byId("lathe-words"), `${answer.depth} off the diameter: where the bat is blue it moves ${what} ${blue}, where orange ${orange}; ` +
+        `at most: ${largest?.text ?? "nothing"}.`);
     }
     picture.draw();
   }

@@ -1,7 +1,7 @@
 // The bat's figures in words: each with its difference from the bat before, and how far the bat in hand may be off.
 
 import { byId, made, put, write } from "./svg.js";
-import { signed } from "./units.js";
+import { noteSaid, signed } from "./units.js";
 
 /**
  * A figure of the list: where it stands in the core's answers, and the line of `analyze` with its ±.
@@ -18,7 +18,7 @@ import { signed } from "./units.js";
 
 const ofPlace = (place) => place && { value: place.x_m, text: place.text };
 const mode = (k) => ({ id: `f${k + 1}`, name: `Note ${k + 1}`, kind: "frequency", line: `f${k + 1}`,
-  find: ({ hit }) => hit?.modes[k]?.frequency ?? null, more: ({ hit }) => hit?.modes[k]?.note ?? "" });
+  find: ({ hit }) => hit?.modes[k]?.frequency ?? null, more: ({ hit }) => noteSaid(hit?.modes[k]?.note ?? "") });
 
 /** @type {Figure[]} */
 const FIGURES = [

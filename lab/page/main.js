@@ -119,7 +119,7 @@ async function begin() {
   }
   const program = byId("worker").textContent;
   const far = (limit) => new Far(module, program, limit);
-  const bench = new Bench(new Near(module), far(LIMITS[0]), far(LIMITS[0]), far(LIMITS[1]));
+  const bench = new Bench(await Near.of(module), far(LIMITS[0]), far(LIMITS[0]), far(LIMITS[1]));
   const picture = new Picture(byId("picture"), bench), voice = new Voice(bench);
   let reach = () => {};
   const table = { draw() {} };

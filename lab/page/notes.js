@@ -1,7 +1,7 @@
 // The bat's notes in a table, and where it is struck to hear them.
 
 import { byId, drawn, made, write } from "./svg.js";
-import { inUs, say, signed } from "./units.js";
+import { inUs, noteSaid, say, signed } from "./units.js";
 
 export class Notes {
   /** @param {import("./bench.js").Bench} bench @param {import("./sound.js").Voice} voice @param {import("./picture.js").Picture} picture */
@@ -30,10 +30,10 @@ export class Notes {
     const rows = hit.modes.map((mode, k) => {
       const old = before?.modes[k]?.frequency;
       const places = mode.nodes.map(({ text }) => text.replace(/\s*(cm|in)$/, "")).join("   ");
-      return [String(mode.order), mode.frequency.text, old ? signed("frequency", mode.frequency.value - old.value) : "", mode.note, places];
+      return [String(mode.order), mode.frequency.text, old ? signed("frequency", mode.frequency.value - old.value) : "", noteSaid(mode.note), places];
     });
     const hoop = bench.analyzed?.barrel?.hoop ?? [];
-    const walls = hoop.map(({ frequency, note }, k) => [`wall ${k + 1}`, frequency.text, "", note, ""]);
+    const walls = hoop.map(({ frequency, note }, k) => [`wall ${k + 1}`, frequency.text, "", noteSaid(note), ""]);
     const line = (cells) => made("tr", {}, ...cells.map((cell, k) => made(k === 0 ? "th" : "td", k === 0 ? { scope: "row" } : {}, cell)));
     byId("modes").replaceChildren(made("thead", {}, made("tr", {}, ...head.map((name) => made("th", { scope: "col" }, name)))),
       made("tbody", {}, ...[...rows, ...walls].map(line)));

@@ -1,20 +1,20 @@
 // Asks the core: at once on the main thread, or in a worker with one question under way and the newest waiting.
 
-/** The core of the main thread: for what is done within a frame. */
+/** The core of the main thread: for what is done within a frame. Another one stands ready, should it fail. */
 export class Near {
   /** @param {WebAssembly.Module} module */
-  constructor(module) {
-    this.module = module;
-    this.begin();
+  static async of(module) {
+    const near = new Near();
+    // Browsers start a large module on the main thread only when they are not waited for.
+    near.fresh = async () => (await WebAssembly.instantiate(module, {})).exports;
+    [near.core, near.spare] = [await near.fresh(), await near.fresh()];
+    return near;
   }
 
-  begin() {
-    this.core = new WebAssembly.Instance(this.module, {}).exports;
-  }
-
-  /** The answer to a question; after a panic a new core is there. */
+  /** The answer to a question. */
   ask(question) {
     const { core } = this, bytes = new TextEncoder().encode(JSON.stringify({ id: 0, ...question }));
+    if (!core) return { id: 0, error: "The core is starting again; try once more." };
     const at = core.room(bytes.length);
     new Uint8Array(core.memory.buffer, at, bytes.length).set(bytes);
     let length;
@@ -24,7 +24,8 @@ export class Near {
       // What went wrong is the answer to an empty question; this core is not used again.
       core.room(0);
       length = core.answer();
-      this.begin();
+      [this.core, this.spare] = [this.spare, null];
+      this.fresh().then((exports) => { if (this.core) this.spare = exports; else this.core = exports; });
     }
     return JSON.parse(new TextDecoder().decode(new Uint8Array(core.memory.buffer, core.answer_at(), length)));
   }

@@ -46,6 +46,12 @@ export function signed(kind, value) {
   return Number(text) === 0 ? "same" : `${value < 0 ? "−" : "+"}${text} ${unit}`.trim();
 }
 
+/** A note of the core, such as "F3 -12", as it is said: how many hundredths of a half tone off it is. */
+export function noteSaid(note) {
+  const [, name, sign, cents] = /^(\S+) ([+-])(\d+)$/.exec(note) ?? [];
+  return name === undefined ? note : Number(cents) === 0 ? name : `${name} ${sign === "-" ? "−" : "+"}${cents} cents`;
+}
+
 const LENGTHS = { mm: 1, cm: 10, m: 1000, in: INCH, inch: INCH, inches: INCH, '"': INCH, "″": INCH, "”": INCH };
 const PARTS = { "½": "1/2", "¼": "1/4", "¾": "3/4", "⅛": "1/8", "⅜": "3/8", "⅝": "5/8", "⅞": "7/8" };
 
