@@ -111,10 +111,14 @@ export class Bench extends EventTarget {
     if (answer.error) return wrong(answer);
     // A bat file stays as it was written; a table of stations becomes one.
     const own = text.trimStart().startsWith("{") ? text : answer.bat_file;
-    const body = this.near.ask(this.question("body", own));
-    if (body.error) return wrong(body);
-    this.known.set(own, answer);
+    const before = this.scene;
     if (scene) this.scene = scene;
+    const body = this.near.ask(this.question("body", own));
+    if (body.error) {
+      this.scene = before;
+      return wrong(body);
+    }
+    this.known.set(own, answer);
     if (this.history) this.history.open(own); else this.history = new History(own);
     if (this.against === "before") this.against = "opened";
     this.show(own);

@@ -84,7 +84,7 @@ export class Keep {
   /** Opens what was pasted: a link, a bat file or a table. */
   async take(text) {
     try {
-      const link = /#1\.[-\w]+\s*$/.test(text) && !text.trimStart().startsWith("{");
+      const link = /#\d+\.[-\w]*\s*$/.test(text) && !text.trimStart().startsWith("{");
       const { bat, scene } = link ? await unpacked(text) : { bat: text, scene: undefined };
       const problem = text.trim() === "" ? "There is nothing to open." : await this.bench.open(bat, scene);
       this.wrong(problem);
@@ -96,9 +96,8 @@ export class Keep {
 
   /** Opens the bat of the address; true if there is one. */
   async fromAddress() {
-    if (location.hash.length < 3) return false;
-    const mark = location.hash;
-    await this.take(mark.startsWith("#1.") ? mark : "");
+    if (!/^#\d+\./.test(location.hash)) return false;
+    await this.take(location.hash);
     return this.bench.body !== null;
   }
 

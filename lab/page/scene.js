@@ -12,9 +12,11 @@ export class SceneOfHit {
   /** @param {import("./bench.js").Bench} bench */
   constructor(bench) {
     this.bench = bench;
-    for (const name of ["swing", "pitch", "ball"]) byId(name).addEventListener("input", () => this.changed());
+    for (const name of ["swing", "pitch", "ball", "batter"]) byId(name).addEventListener("input", () => this.changed());
     byId("scene-back").addEventListener("click", () => { this.set({}); this.changed(); });
     bench.on("shown", () => this.words());
+    // The swing that is known is that of the bat as it was opened.
+    bench.on("opened", () => { if (byId("batter").value !== "0") this.changed(); });
     whenUnits(() => this.words());
   }
 
@@ -24,20 +26,24 @@ export class SceneOfHit {
     byId("swing").value = String(number(scene.swing_speed, 1) || SWING);
     byId("pitch").value = String(Number.isFinite(number(scene.pitch, MPH)) ? number(scene.pitch, MPH) : PITCH);
     byId("ball").value = scene.ball ?? "baseball";
+    byId("batter").value = scene.swing_exponent ? "0.5" : "0";
     this.words();
   }
 
   /** What the controls say, without what is as at the start. */
   changed() {
     const [swing, pitch] = ["swing", "pitch"].map((name) => Number(byId(name).value)), ball = byId("ball").value;
-    const { swing_speed: _, pitch: __, ball: ___, ...others } = this.bench.scene;
-    this.bench.setScene({ ...others, ...(swing === SWING ? {} : { swing_speed: `${swing} rad/s` }),
+    const { swing_speed: _, pitch: _p, ball: _b, reference_inertia: _i, swing_exponent: _e, ...others } = this.bench.scene;
+    const exponent = Number(byId("batter").value), known = this.bench.bodyOf(this.bench.history.opened).swing_weight.value;
+    this.bench.setScene({ ...others, ...(exponent ? { reference_inertia: known, swing_exponent: exponent } : {}), ...(swing === SWING ? {} : { swing_speed: `${swing} rad/s` }),
       ...(pitch === PITCH ? {} : { pitch: `${pitch} mph` }), ...(ball === "baseball" ? {} : { ball }) });
     this.words();
   }
 
   words() {
-    const { body } = this.bench, swing = Number(byId("swing").value), pitch = MPH * Number(byId("pitch").value);
+    const { body, scene } = this.bench, slower = body && scene.swing_exponent
+      ? (scene.reference_inertia / body.swing_weight.value) ** scene.swing_exponent : 1;
+    const swing = slower * Number(byId("swing").value), pitch = MPH * Number(byId("pitch").value);
     const speed = body ? swing * (body.length.value - TOLD_AT + PIVOT) : NaN;
     write(byId("swing-words"), `${swing.toFixed(1)} rad/s: ${say("speed", speed)}, ${inUs() ? "6 in" : "15.24 cm"} from the tip`);
     write(byId("pitch-words"), `${say("speed", pitch)} at the plate`);
