@@ -7,10 +7,11 @@ use sweetspot_report::report::{hit_text, hoop, trust};
 use sweetspot_study::answers::Answer;
 use sweetspot_study::spread::Readings;
 use sweetspot_study::trampoline::barrel::Barrel;
+use sweetspot_study::verdict::Doubt;
 
 use crate::asked::{Question, request};
 use crate::hit::Solved;
-use crate::shown::{answer as told, note, shown};
+use crate::shown::{self, note};
 
 /// The lines of the program's table: a sweet spot first, then what the bat weighs and how it rings.
 const LINES: [(&str, Answer); 9] = [
@@ -35,10 +36,13 @@ pub fn answer(of: &Question) -> Result<Value> {
         let estimate = analysis.spread.of(*answer)?;
         let open = trust::about(&analysis, *answer, of.units).unwrap_or_default();
         let by = analysis.spread.mostly(*answer).map_or("", |(source, _)| trust::word(source));
-        let value = told(*answer, of.units, estimate.value);
+        let value = shown::answer(*answer, of.units, estimate.value);
         Some(json!({ "what": what, "value": value, "open": open, "by": by }))
     };
-    let answers: Vec<Value> = LINES.iter().filter_map(line).collect();
+    // Around a later contact speeds come and go within a millimetre: no zone is told.
+    let later = analysis.verdict.doubts.contains(&Doubt::LaterContact);
+    let told = LINES.iter().filter(|(_, answer)| !(later && matches!(answer, Answer::Zone(_))));
+    let answers: Vec<Value> = told.filter_map(line).collect();
     let stated = hit_text::stated(&analysis.figures, of.units).into_iter();
     let stated: Vec<Value> =
         stated.map(|(what, text)| json!({ "what": what, "text": text })).collect();
@@ -57,9 +61,8 @@ fn barrel(of: &Question, barrel: &Barrel) -> Value {
     const FEW: usize = 5;
     let modes = barrel.hoop().lowest(FEW).into_iter().map(|mode| {
         let frequency = mode.frequency_hz;
-        let text = told(Answer::Frequency(1), of.units, frequency)["text"].clone();
-        let text = text.as_str().unwrap_or_default().to_owned();
-        json!({ "frequency": shown(frequency, text), "note": note(frequency) })
+        let told = shown::answer(Answer::Frequency(1), of.units, frequency);
+        json!({ "frequency": told, "note": note(frequency) })
     });
     json!({ "hoop": modes.collect::<Vec<_>>(), "words": hoop::answers(barrel, of.units) })
 }

@@ -22,6 +22,9 @@ from report import CONTRAST, SMALL_TEXT, TOO_WIDE
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 failures = []
 
+# Pictures lie on the page's own ground.
+CONTRAST = CONTRAST.replace('svg && svg.querySelector(":scope > rect")', "null")
+
 # Of the page: the bat shown, whether it is certified, and what is read off.
 TEXT = "lab.bench.text"
 CERTIFIED = "document.getElementById('badge').textContent === 'certified' && lab.bench.certified"
@@ -61,7 +64,7 @@ def opened(browser, page, **wishes):
     """The page as if for the first time, with its first answer."""
     browser.send("Storage.clearDataForOrigin", origin="file://", storageTypes="all")
     browser.open(page, **wishes)
-    check(waited(browser, "!!(window.lab && lab.bench.body)"), "the page does not begin")
+    check(waited(browser, "!!window.lab?.bench?.body"), "the page does not begin")
     certain(browser, "the first bat")
 
 
@@ -86,6 +89,14 @@ def mouse(browser, kind, x, y, **more):
 def touch(browser, kind, *points):
     points = [{"x": x, "y": y, "id": k} for k, (x, y) in enumerate(points)]
     browser.send("Input.dispatchTouchEvent", type=kind, touchPoints=points)
+
+
+def clicked(browser, name):
+    """Clicks an element by the mouse."""
+    x, y = browser.run(f"""(() => {{ const one = document.getElementById('{name}'); one.scrollIntoView({{ block: 'center' }});
+      const box = one.getBoundingClientRect(); return [box.x + box.width / 2, box.y + box.height / 2]; }})()""")
+    mouse(browser, "mousePressed", x, y, button="left", buttons=1, clickCount=1)
+    mouse(browser, "mouseReleased", x, y, button="left", clickCount=1)
 
 
 def pulled(browser, mm, by, steps=12, shift=False, between=None):
@@ -247,6 +258,8 @@ def disturbed(browser, page, sweetspot, folder):
     touch(browser, "touchStart", (x, y), (x + 120, y + 5))
     touch(browser, "touchMove", (x, y - 15), (x + 120, y + 30))
     touch(browser, "touchEnd")
+    touch(browser, "touchStart", (x, y))
+    touch(browser, "touchMove", (x, y + 12))
     touch(browser, "touchCancel")
     browser.send("Emulation.setTouchEmulationEnabled", enabled=False)
     check(waited(browser, "!lab.bench.changing", 3), "two fingers do not end")
@@ -331,10 +344,12 @@ def strangers(browser, page, sweetspot, folder):
     certain(browser, "a table's bat")
     quiet(browser, "strangers")
     # A bat that takes too long is given up in words, and the next one is answered.
-    thin = json.dumps(bat).replace("26.1", "0.01").replace("26.9", "0.01")
-    browser.run(f"lab.bench.open({json.dumps(thin)})")
-    check(waited(browser, "/No answer|seconds|ended|within/.test(document.getElementById('trouble').textContent) || lab.bench.certified", 30),
-          "a bat that takes too long has no end")
+    thin = json.loads(json.dumps(bat))
+    thin["profile"]["diameter"] = [0.01 if 20 < size < 28 else size for size in thin["profile"]["diameter"]]
+    browser.run(f"lab.bench.open({json.dumps(json.dumps(thin))})")
+    check(browser.run(TEXT) == json.dumps(thin), "a thin bat is not opened")
+    check(waited(browser, "/No answer within/.test(document.getElementById('trouble').textContent)", 30),
+          f"a bat that takes too long has no end: {browser.run('lab.bench.trouble')}, {browser.run(CERTIFIED)}")
     browser.run(f"lab.bench.open({json.dumps(json.dumps(bat))})")
     certain(browser, "the bat after the one that took too long")
     # A mistake of ours is said, and the next answer is right.
@@ -352,8 +367,9 @@ def policy(browser, page):
       const button = document.createElement('button'); button.setAttribute('onclick', 'bad.push("handler")');
       document.body.append(button); button.click(); button.remove();
       const script = document.createElement('script'); script.textContent = 'bad.push("script")'; document.body.append(script);
-      try { eval('bad.push("eval")'); } catch {}
       const image = new Image(); image.onload = () => bad.push('image'); image.src = 'https://example.invalid/x.png'; })()""")
+    # Not while the debugger itself evaluates, which may.
+    browser.run("new Promise(then => setTimeout(() => { try { (0, eval)('bad.push(\"eval\")'); } catch {} then(); }))")
     fetched = browser.run("fetch('https://example.invalid/').then(() => 'fetched', () => 'refused')")
     check(fetched == "refused" and browser.run("bad.length") == 0, f"the policy lets through {browser.run('bad')}")
     asked = [event for event in browser.events if event["method"] == "Network.responseReceived"]
@@ -368,7 +384,7 @@ def lessons(browser, page):
     opened(browser, page)
     for name in browser.run("lab.lessons.list.map(one => one.id)"):
         of = f"lab.lessons.list.find(one => one.id === '{name}')"
-        browser.run(f"document.getElementById('lesson-{name}').click()")
+        clicked(browser, f"lesson-{name}")
         for k in range(browser.run(f"{of}.steps.length")):
             see = browser.run(f"{of}.steps[{k}].see")
             check(browser.run(f"document.getElementById('{see}')?.checkVisibility() ?? false"), f"{name}, step {k}: no {see}")
@@ -376,13 +392,13 @@ def lessons(browser, page):
             time.sleep(0.3)
             certain(browser, f"{name}, step {k}")
             time.sleep(0.5)
-            browser.run("document.getElementById('lesson-next').click()")
+            clicked(browser, "lesson-next")
         check(browser.run("document.getElementById('lesson-words').textContent") == browser.run(f"{of}.question"), f"{name}: no question")
         holds = f"(() => {{ try {{ return {of}.holds(lab.bench, lab.voice.last); }} catch {{ return false; }} }})()"
         check(waited(browser, holds, 15), f"{name}: the page's numbers do not bear the answer out")
-        browser.run("document.getElementById('lesson-next').click()")
+        clicked(browser, "lesson-next")
         check(len(browser.run("document.getElementById('lesson-words').textContent")) > 10, f"{name}: no answer")
-        browser.run("document.getElementById('lesson-end').click()")
+        clicked(browser, "lesson-end")
     quiet(browser, "lessons")
 
 

@@ -4,7 +4,8 @@
     lab_core.py CORE.wasm PROGRAM
 
 Twenty bats: all of meshes/ and five that are edited. Frequencies and nodes agree to 1e-12, hits to 1e-11 (relative: the
-elementary functions of the two machines differ in their last bits), and every text is one that the program prints.
+elementary functions of the two machines differ in their last bits), the place of the fastest ball to 1e-8, and every
+text is one that the program prints.
 """
 
 import json
@@ -15,6 +16,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 MODES, HITS = 1e-12, 1e-11
+# Where a maximum is: so near to it values differ by their last bits alone.
+PEAK = 1e-8
 # What is done to an R161.
 EDITS = {
     "knob": [{"knob": "2 oz"}],
@@ -87,7 +90,7 @@ def compare(core, program, name, path):
     near(body["swing_weight"]["value"], summary["inertia_pivot_kg_m2"], MODES, f"{name}, swing weight")
     near(sure["curve"]["exit_m_s"], [one["exit_speed_m_s"] for one in hit["impacts"]], HITS, f"{name}, exit speed")
     spot = hit["sweet_spot"]
-    near(sure["best"]["place"]["x_m"], spot["exit_speed_max"]["x_m"], HITS, f"{name}, sweet spot")
+    near(sure["best"]["place"]["x_m"], spot["exit_speed_max"]["x_m"], PEAK, f"{name}, sweet spot")
     near(sure["best"]["speed"]["value"], spot["exit_speed_max"]["value"], HITS, f"{name}, fastest ball")
     near([place["x_m"] for place in sure["zone"]], spot["zone_m"], HITS, f"{name}, zone")
     check(sure["certified"], f"{name}: not certified: {sure['unmet']}")

@@ -3,13 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use sweetspot::base::file;
-use sweetspot::files::built_in;
 use sweetspot::{Bat, Error, Result};
 use sweetspot_report::report::resolved::{resolved, text_in_columns};
-use sweetspot_report::schema;
 
-use crate::common::{EditArgs, examples, read_with_text};
+use crate::common::{examples, read_with_text};
 use crate::done::Done;
+use crate::edits::EditArgs;
 use crate::output::printed;
 
 /// A page in which the bat is pulled about and answers at once
@@ -58,7 +57,7 @@ const NO_BAT: &str = "<script type=\"application/json\" id=\"bat\">null</script>
 pub fn run(args: &Args) -> Result<Done> {
     let page = PAGE.ok_or(Error::NotBuilt {
         what: "the page",
-        advice: "`lab/build && cargo install --path crates/cli --features lab` in the source builds it in",
+        advice: "build it in, in the source: `lab/build && cargo install --path crates/cli --features lab`",
     })?;
     let (page, name) = match &args.bat {
         Some(path) => {
