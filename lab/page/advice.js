@@ -1,6 +1,6 @@
 // What takes the core longer: where a cut does what, and the least change that meets a wish.
 
-import { byId, made, put, write } from "./svg.js";
+import { button, byId, made, put, write } from "./svg.js";
 
 /** Wishes as `sweetspot aim` takes them, and what stands on their buttons. */
 const WISHES = [
@@ -63,8 +63,8 @@ export class Lathe {
     if (effect) {
       const [blue, orange] = what.startsWith("sweet spot") ? ["outwards", "inwards"] : ["up", "down"];
       const largest = effect.changes.toSorted((a, b) => Math.abs(b?.value ?? 0) - Math.abs(a?.value ?? 0))[0];
-      write(byId("lathe-words"), `${answer.depth} off the diameter: where the bat is blue it moves ${what} ${blue}, where orange ${orange}; ` +
-        `at most: ${largest?.text ?? "nothing"}.`);
+      write(byId("lathe-words"), `${answer.depth} off the diameter: where the bat is blue it moves ${what} ${blue}, ` +
+        `where orange ${orange}; at most: ${largest?.text ?? "nothing"}.`);
     }
     picture.draw();
   }
@@ -74,14 +74,9 @@ export class Wishes {
   /** @param {import("./bench.js").Bench} bench */
   constructor(bench) {
     this.bench = bench;
-    byId("wish-buttons").append(...WISHES.map(({ id, words, targets }) => {
-      const button = made("button", { type: "button", id: `wish-${id}` }, words);
-      button.addEventListener("click", () => this.ask(words, targets));
-      return button;
-    }));
-    const stop = made("button", { type: "button", id: "wish-stop", hidden: "" }, "Stop");
-    stop.addEventListener("click", () => bench.slow.drop());
-    byId("wish-buttons").append(stop);
+    byId("wish-buttons").append(...WISHES.map(({ id, words, targets }) =>
+      button(words, { id: `wish-${id}` }, () => this.ask(words, targets))),
+    button("Stop", { id: "wish-stop", hidden: "" }, () => bench.slow.drop()));
     bench.on("shown", () => { byId("wish-text").hidden = true; });
   }
 
@@ -90,7 +85,8 @@ export class Wishes {
     bench.slow.drop();
     say(`"${words}" is being computed; a minute at most.`);
     byId("wish-stop").hidden = false;
-    const answer = await bench.slow.ask({ ...bench.question("aim"), targets, remove_only: byId("remove-only").checked });
+    const only = byId("remove-only").checked;
+    const answer = await bench.slow.ask({ ...bench.question("aim"), targets, remove_only: only });
     byId("wish-stop").hidden = true;
     if (!answer) { say("Stopped; the bat is as it was."); return; }
     if (number !== bench.number) { say("The bat was changed meanwhile, so the wish was dropped."); return; }

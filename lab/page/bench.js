@@ -97,7 +97,8 @@ export class Bench extends EventTarget {
   /** The bat that differences count from; null where it is the one shown. */
   get reference() {
     const { history, against } = this;
-    const text = against === "opened" ? history?.opened : against === "before" ? history?.before : this.pins[against]?.text;
+    const text = against === "opened" ? history?.opened
+      : against === "before" ? history?.before : this.pins[against]?.text;
     return text && text !== this.text ? text : null;
   }
 

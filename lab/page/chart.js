@@ -1,4 +1,5 @@
-// Draws the exit speed along the barrel and what is left in vibration, above the same places, with a line that reads off.
+// Draws the exit speed along the barrel and what is left in vibration, above the same places, with a line that reads
+// off.
 
 import { byId, drawn, made, pathOf, put, ticks, write } from "./svg.js";
 import { inUs, say, shownAs } from "./units.js";
@@ -18,7 +19,7 @@ export class Chart {
 
   draw() {
     const { bench, svg } = this, hit = bench.hit?.answer;
-    const width = Math.max(svg.parentElement.clientWidth, 240), tall = width < 600 ? 170 : 230, low = width < 600 ? 70 : 84;
+    const width = Math.max(svg.parentElement.clientWidth, 240), [tall, low] = width < 600 ? [170, 70] : [230, 84];
     const both = Boolean(hit?.curve?.vibration_j), height = TOP + tall + (both ? GAP + low : 0) + FOOT;
     put(svg, { viewBox: `0 0 ${width} ${height}`, width, height });
     if (!hit?.curve?.x_m.length) { svg.replaceChildren(); return; }
@@ -26,34 +27,41 @@ export class Chart {
     const curves = [hit.curve, ...(before ? [before.curve] : [])];
     // While the bat changes the axes only grow.
     const wanted = this.rangesOf(curves), held = bench.changing && this.ranges?.units === inUs() ? this.ranges : null;
-    const joined = (name) => held ? [Math.min(held[name][0], wanted[name][0]), Math.max(held[name][1], wanted[name][1])] : wanted[name];
+    const joined = (name) => held ? [Math.min(held[name][0], wanted[name][0]), Math.max(held[name][1], wanted[name][1])]
+      : wanted[name];
     this.ranges = { units: inUs(), place: joined("place"), speed: joined("speed"), energy: joined("energy") };
     this.width = width;
     svg.replaceChildren();
-    const upper = { top: TOP, tall, range: this.ranges.speed }, lower = { top: TOP + tall + GAP, tall: low, range: this.ranges.energy };
+    const upper = { top: TOP, tall, range: this.ranges.speed };
+    const lower = { top: TOP + tall + GAP, tall: low, range: this.ranges.energy };
     const bottom = both ? lower.top + low : TOP + tall;
     this.zone(hit, TOP, bottom);
     this.plot(upper, "speed", 5, bench.body.hollow ? "Exit speed, stiff wall" : "Exit speed");
     if (both) this.plot(lower, "energy", 3, "Left in vibration");
     this.places(bottom);
-    const line = (curve, name, plot, kind, what) => curve[name] && drawn(svg, "path", { class: what,
-      d: pathOf(curve.x_m.map((x, k) => [this.x(x), curve[name][k] === null ? null : this.y(plot, curve[name][k] * shownAs(kind)[0])])) });
+    const line = (curve, name, plot, kind, what) => {
+      const height = (value) => value === null ? null : this.y(plot, value * shownAs(kind)[0]);
+      const points = curve[name]?.map((value, k) => [this.x(curve.x_m[k]), height(value)]);
+      if (points) drawn(svg, "path", { class: what, d: pathOf(points) });
+    };
     if (before) line(before.curve, "exit_m_s", upper, "speed", "line before");
     if (before) line(before.curve, "vibration_j", lower, "energy", "line before");
     line(hit.curve, "stiff_m_s", upper, "speed", "line stiff");
     line(hit.curve, "exit_m_s", upper, "speed", `line exit${bench.certified ? "" : " preview"}`);
     line(hit.curve, "vibration_j", lower, "energy", `line exit${bench.certified ? "" : " preview"}`);
     if (hit.best) {
-      drawn(svg, "circle", { class: "spot", cx: this.x(hit.best.place.x_m), cy: this.y(upper, hit.best.speed.value * shownAs("speed")[0]), r: 5.5 });
+      const cy = this.y(upper, hit.best.speed.value * shownAs("speed")[0]);
+      drawn(svg, "circle", { class: "spot", cx: this.x(hit.best.place.x_m), cy, r: 5.5 });
     }
     this.legend(width, Boolean(before), Boolean(hit.curve.stiff_m_s));
     this.hair(hit, bottom);
-    put(svg, { "aria-label": hit.best ? `Exit speed along the barrel, at most ${hit.best.speed.text}, ${hit.best.place.text} from the knob`
-      : "Exit speed along the barrel" });
+    const most = hit.best ? `, at most ${hit.best.speed.text}, ${hit.best.place.text} from the knob` : "";
+    put(svg, { "aria-label": `Exit speed along the barrel${most}` });
   }
 
   rangesOf(curves) {
-    const all = (...names) => curves.flatMap((curve) => names.flatMap((name) => curve[name] ?? [])).filter(Number.isFinite);
+    const all = (...names) =>
+      curves.flatMap((curve) => names.flatMap((name) => curve[name] ?? [])).filter(Number.isFinite);
     const speeds = all("exit_m_s", "stiff_m_s").map((value) => value * shownAs("speed")[0]);
     const energies = all("vibration_j").map((value) => value * shownAs("energy")[0]);
     const places = all("x_m"), step = inUs() ? 20 : 10;
@@ -89,7 +97,8 @@ export class Chart {
       drawn(svg, "line", { class: "base", x1: x, x2: x, y1: bottom, y2: bottom + 5 });
       write(drawn(svg, "text", { x, y: bottom + 20, "text-anchor": "middle" }), String(value));
     }
-    write(drawn(svg, "text", { x: width - RIGHT, y: bottom + 38, "text-anchor": "end" }), `${shownAs("place")[2]} from the knob`);
+    const name = drawn(svg, "text", { x: width - RIGHT, y: bottom + 38, "text-anchor": "end" });
+    write(name, `${shownAs("place")[2]} from the knob`);
   }
 
   zone({ zone }, top, bottom) {
@@ -99,9 +108,9 @@ export class Chart {
   }
 
   legend(width, before, stiff) {
-    const { svg } = this, entries = [...(stiff ? [["line stiff", "if the bat were stiff"]] : []), ...(before ? [["line before", "before"]] : [])];
+    const { svg } = this, entries = [[before, "line before", "before"], [stiff, "line stiff", "if the bat were stiff"]];
     let right = width - RIGHT;
-    for (const [what, words] of entries.reverse()) {
+    for (const [, what, words] of entries.filter(([there]) => there)) {
       const text = drawn(svg, "text", { x: right, y: TOP - 18, "text-anchor": "end" });
       write(text, words);
       const start = right - text.getComputedTextLength() - 8;
@@ -126,7 +135,8 @@ export class Chart {
       this.slider.value = String(Math.round(1000 * (hit.best.place.x_m - from) / (to - from)));
     }
     const place = this.share === null ? hit.best.place.x_m : from + this.share * (to - from), { curve } = hit;
-    const near = curve.x_m.reduce((best, x, k) => Math.abs(x - place) < Math.abs(curve.x_m[best] - place) ? k : best, 0);
+    const off = (k) => Math.abs(curve.x_m[k] - place);
+    const near = curve.x_m.reduce((best, _, k) => off(k) < off(best) ? k : best, 0);
     if (this.share !== null) {
       const x = this.x(curve.x_m[near]);
       drawn(svg, "line", { class: "hairline", x1: x, x2: x, y1: TOP, y2: bottom });
@@ -134,7 +144,11 @@ export class Chart {
     const spot = this.share === null;
     const words = [["From the knob", spot ? hit.best.place.text : say("place", curve.x_m[near])],
       ["Exit speed", spot ? hit.best.speed.text : say("speed", curve.exit_m_s[near])],
-      ...(curve.vibration_j ? [["Left in vibration", spot ? hit.vibration?.energy.text ?? "–" : say("energy", curve.vibration_j[near])]] : [])];
+    ];
+    if (curve.vibration_j) {
+      const here = say("energy", curve.vibration_j[near]);
+      words.push(["Left in vibration", spot ? hit.vibration?.energy.text ?? "–" : here]);
+    }
     put(this.slider, { "aria-valuetext": words.map((pair) => pair.join(" ")).join(", ") });
     byId("reading").replaceChildren(...words.map(([name, value]) => made("span", {}, made("i", {}, name), value)));
   }

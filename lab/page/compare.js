@@ -1,7 +1,7 @@
 // The built-in bats to choose from, and up to four pinned bats beside the one that is shown.
 
 import { PINS } from "./bench.js";
-import { byId, made, write } from "./svg.js";
+import { button, byId, headOf, made, write } from "./svg.js";
 import { signed } from "./units.js";
 
 /** What the table of pinned bats shows. */
@@ -38,21 +38,24 @@ export class Compare {
     byId("pinned").classList.toggle("some", pins.length > 0);
     byId("pin").disabled = pins.length >= PINS || !bench.body;
     if (pins.length === 0) {
-      byId("pins").replaceChildren(made("caption", {}, "Pin a bat to keep it here, four at most, and go on with the one above."));
+      const words = "Pin a bat to keep it here, four at most, and go on with the one above.";
+      byId("pins").replaceChildren(made("caption", {}, words));
       return;
     }
     const shown = { body: bench.body, hit: bench.hit?.answer ?? null };
-    const head = made("tr", {}, ...["", ...COLUMNS.map(([name]) => name), ""].map((name) => made("th", { scope: "col" }, name)));
     const rows = pins.map(({ text }, k) => {
       const of = { body: bench.bodyOf(text), hit: bench.hitOf(text) };
       const cells = COLUMNS.map(([, kind, find]) => {
         const found = find(of), now = find(shown), change = found && now ? signed(kind, found.value - now.value) : "";
         return made("td", {}, found?.text ?? "…", made("small", { class: change === "same" ? "same" : "" }, change));
       });
-      return this.row(`Pin ${k + 1}`, of.body.name, cells, [["Show", () => this.open(text)], ["Unpin", () => bench.unpin(k)]]);
+      const small = { class: "small-button" };
+      return this.row(`Pin ${k + 1}`, of.body.name, cells,
+        [button("Show", small, () => this.open(text)), button("Unpin", small, () => bench.unpin(k))]);
     });
     const own = COLUMNS.map(([, , find]) => made("td", {}, find(shown)?.text ?? "…"));
-    byId("pins").replaceChildren(made("thead", {}, head), made("tbody", {}, this.row("Shown", bench.body.name, own, []), ...rows));
+    const first = this.row("Shown", bench.body.name, own, []);
+    byId("pins").replaceChildren(headOf(["", ...COLUMNS.map(([name]) => name), ""]), made("tbody", {}, first, ...rows));
   }
 
   /** A pinned bat is shown as one step more, so that Undo leads back. */
@@ -61,12 +64,7 @@ export class Compare {
     if (bench.show(text)) bench.commit();
   }
 
-  row(title, name, cells, acts) {
-    const buttons = acts.map(([words, act]) => {
-      const button = made("button", { type: "button", class: "small-button" }, words);
-      button.addEventListener("click", act);
-      return button;
-    });
+  row(title, name, cells, buttons) {
     const words = made("th", { scope: "row" }, title, made("small", {}, ""));
     write(words.lastChild, name);
     return made("tr", {}, words, ...cells, made("td", {}, ...buttons));

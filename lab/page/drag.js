@@ -56,7 +56,8 @@ export class Drag {
   /** The point of the picture (px) of an event. */
   at(event) {
     const box = this.picture.svg.getBoundingClientRect(), { frame } = this.picture;
-    return [(event.clientX - box.left) / box.width * frame.width, (event.clientY - box.top) / box.height * frame.height];
+    const [right, down] = [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height];
+    return [right * frame.width, down * frame.height];
   }
 
   /** The station nearest to a point on one of the two edges; −1 where none is near. */

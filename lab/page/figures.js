@@ -23,12 +23,16 @@ const mode = (k) => ({ id: `f${k + 1}`, name: `Note ${k + 1}`, kind: "frequency"
 /** @type {Figure[]} */
 const FIGURES = [
   { id: "spot", name: "Sweet spot, from the knob", kind: "place", large: true, hit: true, line: "sweet spot",
-    find: ({ hit }) => ofPlace(hit?.best?.place), more: ({ hit }) => hit?.best ? `${hit.best.place.from_tip} from the tip` : "" },
-  { id: "speed", name: "Fastest ball", kind: "speed", large: true, hit: true, line: "fastest ball", find: ({ hit }) => hit?.best?.speed ?? null },
-  { id: "swing", name: "Swing weight", kind: "inertia", large: true, line: "swing weight", find: ({ body }) => body.swing_weight,
-    more: () => "about 6 in from the knob" },
-  { id: "inner", name: "1 % slower inside", kind: "place", line: "1 % less at", find: ({ hit }) => ofPlace(hit?.zone?.[0]) },
-  { id: "outer", name: "1 % slower outside", kind: "place", line: "and at", find: ({ hit }) => ofPlace(hit?.zone?.[1]) },
+    find: ({ hit }) => ofPlace(hit?.best?.place),
+    more: ({ hit }) => hit?.best ? `${hit.best.place.from_tip} from the tip` : "" },
+  { id: "speed", name: "Fastest ball", kind: "speed", large: true, hit: true, line: "fastest ball",
+    find: ({ hit }) => hit?.best?.speed ?? null },
+  { id: "swing", name: "Swing weight", kind: "inertia", large: true, line: "swing weight",
+    find: ({ body }) => body.swing_weight, more: () => "about 6 in from the knob" },
+  { id: "inner", name: "1 % slower inside", kind: "place", line: "1 % less at",
+    find: ({ hit }) => ofPlace(hit?.zone?.[0]) },
+  { id: "outer", name: "1 % slower outside", kind: "place", line: "and at",
+    find: ({ hit }) => ofPlace(hit?.zone?.[1]) },
   { id: "mass", name: "Mass", kind: "mass", line: "mass", find: ({ body }) => body.mass },
   { id: "balance", name: "Balance point", kind: "place", find: ({ body }) => body.balance },
   { id: "drop", name: "Drop", kind: "number", find: ({ body }) => body.drop, more: () => "ounces less inches" },
@@ -42,8 +46,9 @@ export class Figures {
   constructor(bench) {
     this.bench = bench;
     this.rows = FIGURES.map((figure) => {
-      const parts = Object.fromEntries(["value", "change", "open", "more"].map((name) => [name, made("dd", { class: name })]));
-      const name = made("dt", {}, figure.name), row = made("div", { id: `figure-${figure.id}` }, name, ...Object.values(parts));
+      const kinds = ["value", "change", "open", "more"], name = made("dt", {}, figure.name);
+      const parts = Object.fromEntries(kinds.map((kind) => [kind, made("dd", { class: kind })]));
+      const row = made("div", { id: `figure-${figure.id}` }, name, ...Object.values(parts));
       byId(figure.large ? "headline" : "facts").append(row);
       return { figure, row, name, ...parts };
     });
@@ -92,7 +97,8 @@ export class Figures {
     write(badge, certified ? "certified" : "preview");
     const unmet = hit?.number === bench.number ? hit.answer.unmet : null;
     write(byId("badge-words"), certified ? "every number is the program's own, within its stated error"
-      : unmet ?? (bench.hopeless ? "there is no answer for this bat" : hit ? "being computed to its full accuracy" : "being computed"));
+      : unmet ?? (bench.hopeless ? "there is no answer for this bat"
+        : hit ? "being computed to its full accuracy" : "being computed"));
     if (!certified || bench.changing) return;
     // Said at most once a second, and only what is certified.
     clearTimeout(this.telling);

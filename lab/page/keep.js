@@ -1,7 +1,7 @@
 // Opens bats, keeps them in the browser, and writes them as files, pictures and links.
 
 import { fragment, unpacked } from "./link.js";
-import { byId, made, write } from "./svg.js";
+import { button, byId, made, write } from "./svg.js";
 
 /** Where the browser keeps the bat, and the largest file (bytes) that is opened. */
 const SHELF = "sweetspot-lab", LARGEST_FILE = 1 << 20;
@@ -17,15 +17,17 @@ function save(name, parts, type) {
 }
 
 /** A name of a file made of a bat's name. */
-export const fileName = (name) => name.toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "").slice(0, 40) || "bat";
+export const fileName = (name) =>
+  name.toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "").slice(0, 40) || "bat";
 
 /** A picture of the page as a file of its own, with the colours that it has now. */
 function standing(svg) {
-  const copy = svg.cloneNode(true), from = [svg, ...svg.querySelectorAll("*")], to = [copy, ...copy.querySelectorAll("*")];
+  const copy = svg.cloneNode(true), all = (one) => [one, ...one.querySelectorAll("*")], to = all(copy);
   // What the hand takes hold of is no part of the bat.
   const inHand = [...copy.querySelectorAll(".handles, .reach, .blow")];
-  const kept = ["fill", "fill-opacity", "stroke", "stroke-width", "stroke-dasharray", "opacity", "font-family", "font-size", "font-weight", "text-anchor"];
-  from.forEach((element, k) => {
+  const kept = ["fill", "fill-opacity", "stroke", "stroke-width", "stroke-dasharray", "opacity", "font-family",
+    "font-size", "font-weight", "text-anchor"];
+  all(svg).forEach((element, k) => {
     const style = getComputedStyle(element);
     for (const name of kept) to[k].style.setProperty(name, style.getPropertyValue(name));
     for (const name of ["tabindex", "role", "class", "id"]) to[k].removeAttribute(name);
@@ -51,15 +53,16 @@ export class Keep {
     addEventListener("dragover", (event) => event.preventDefault());
     addEventListener("drop", (event) => { event.preventDefault(); this.file(event.dataTransfer?.files[0]); });
     addEventListener("hashchange", () => this.fromAddress());
-    const buttons = [["save-bat", "Bat file", () => this.files("bat")], ["save-csv", "Table (CSV)", () => this.files("csv")],
-      ["save-template", "Template, true size", () => this.files("template")], ["save-svg", "Picture (SVG)", () => this.svg()],
-      ["save-png", "Picture (PNG)", () => this.png()], ["link", "Copy a link", () => this.link()],
-      ["save-page", "This page with the bat in it", () => this.whole()], ["print", "Print", () => print()]];
-    byId("keep-buttons").append(...buttons.map(([id, words, act]) => {
-      const button = made("button", { type: "button", id }, words);
-      button.addEventListener("click", act);
-      return button;
-    }));
+    byId("keep-buttons").append(
+      button("Bat file", { id: "save-bat" }, () => this.files("bat")),
+      button("Table (CSV)", { id: "save-csv" }, () => this.files("csv")),
+      button("Template, true size", { id: "save-template" }, () => this.files("template")),
+      button("Picture (SVG)", { id: "save-svg" }, () => this.svg()),
+      button("Picture (PNG)", { id: "save-png" }, () => this.png()),
+      button("Copy a link", { id: "link" }, () => this.link()),
+      button("This page with the bat in it", { id: "save-page" }, () => this.whole()),
+      button("Print", { id: "print" }, () => print()),
+    );
     for (const what of ["history", "figures"]) bench.on(what, () => this.command());
     bench.on("history", () => this.remember());
   }
@@ -76,7 +79,8 @@ export class Keep {
 
   async file(file) {
     if (!file) return;
-    if (file.size > LARGEST_FILE) this.wrong(`${file.name} has ${Math.round(file.size / 1024)} kB; a bat file or a table has a few.`);
+    const size = Math.round(file.size / 1024);
+    if (file.size > LARGEST_FILE) this.wrong(`${file.name} has ${size} kB; a bat file or a table has a few.`);
     else await this.take(await file.text());
     byId("file").value = "";
   }
@@ -142,7 +146,8 @@ export class Keep {
     const svg = byId("picture"), image = new Image(), size = 2;
     image.src = URL.createObjectURL(new Blob([standing(svg)], { type: "image/svg+xml" }));
     await image.decode();
-    const canvas = made("canvas", { width: size * svg.clientWidth, height: size * svg.clientHeight }), pen = canvas.getContext("2d");
+    const canvas = made("canvas", { width: size * svg.clientWidth, height: size * svg.clientHeight });
+    const pen = canvas.getContext("2d");
     pen.scale(size, size);
     pen.drawImage(image, 0, 0, svg.clientWidth, svg.clientHeight);
     URL.revokeObjectURL(image.src);
@@ -161,7 +166,8 @@ export class Keep {
   async link() {
     const { bench, about } = this, mark = await fragment(bench.text, bench.scene);
     const home = location.protocol.startsWith("http") ? location.href.split("#")[0] : about.address;
-    const text = `${home ?? ""}${mark}`, told = home ? "The link" : "This page has no address, so the bat itself, to paste into Open of any copy,";
+    const text = `${home ?? ""}${mark}`;
+    const told = home ? "The link" : "This page has no address, so the bat itself, to paste into Open of any copy,";
     try {
       await navigator.clipboard.writeText(text);
       this.say(`${told} is copied: ${text.length} characters.`);

@@ -32,7 +32,8 @@ export async function drained(stream, most) {
  */
 export async function fragment(bat, scene) {
   const { source, ...rest } = JSON.parse(bat);
-  const text = JSON.stringify({ format: "sweetspot-lab/1", bat: rest, ...(Object.keys(scene).length ? { scene } : {}) });
+  const set = Object.keys(scene).length ? { scene } : {};
+  const text = JSON.stringify({ format: "sweetspot-lab/1", bat: rest, ...set });
   const packed = new Blob([text]).stream().pipeThrough(new CompressionStream("deflate-raw"));
   return `#${VERSION}${toLetters(await drained(packed, MOST))}`;
 }

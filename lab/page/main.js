@@ -34,7 +34,8 @@ function controls(bench, drag) {
   byId("undo").addEventListener("click", () => { drag.finish(); bench.step(-1); });
   byId("redo").addEventListener("click", () => { drag.finish(); bench.step(1); });
   addEventListener("keydown", (event) => {
-    if (!(event.ctrlKey || event.metaKey) || event.target.closest("input:not([type=range]):not([type=radio]), textarea")) return;
+    const typing = event.target.closest("input:not([type=range], [type=radio], [type=checkbox]), textarea");
+    if (typing || !(event.ctrlKey || event.metaKey)) return;
     const key = event.key.toLowerCase(), by = key === "y" || (key === "z" && event.shiftKey) ? 1 : key === "z" ? -1 : 0;
     if (by === 0) return;
     event.preventDefault();
@@ -80,10 +81,12 @@ function words(bench, drag) {
     byId("trust").replaceChildren(...said.map((text) => made("li", {}, text)));
     byId("doubts").hidden = said.length === 0;
     write(byId("why"), analyzed?.why ?? "");
-    const known = bench.certified ? [...hit.answer.spots.map(({ what, place }) => [what, `${place.text} from the knob`]),
+    const spots = hit?.answer.spots ?? [];
+    const known = bench.certified ? [...spots.map(({ what, place }) => [what, `${place.text} from the knob`]),
       ...(analyzed?.figures ?? []).map(({ what, text }) => [what, text])] : [];
     byId("spots").hidden = known.length === 0;
-    byId("spot-rows").replaceChildren(...known.map(([what, text]) => made("tr", {}, made("th", { scope: "row" }, what), made("td", {}, text))));
+    byId("spot-rows").replaceChildren(...known.map(([what, text]) =>
+      made("tr", {}, made("th", { scope: "row" }, what), made("td", {}, text))));
   });
   bench.on("opened", () => { drag.picture.picked = -1; });
   bench.on("history", () => {
@@ -123,7 +126,8 @@ async function begin() {
   const picture = new Picture(byId("picture"), bench), voice = new Voice(bench);
   let reach = () => {};
   const table = { draw() {} };
-  const drag = new Drag(picture, bench, { tapped: (place) => voice.strike(place), picked: () => { reach(); table.draw(); } });
+  const calls = { tapped: (place) => voice.strike(place), picked: () => { reach(); table.draw(); } };
+  const drag = new Drag(picture, bench, calls);
   reach = words(bench, drag);
   for (const what of ["shown", "figures", "pins"]) bench.on(what, () => picture.draw());
   const stations = new Table(bench, drag);

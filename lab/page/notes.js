@@ -1,10 +1,14 @@
 // The bat's notes in a table, and where it is struck to hear them.
 
-import { byId, drawn, made, write } from "./svg.js";
+import { byId, drawn, headOf, made, write } from "./svg.js";
 import { inUs, noteSaid, say, signed } from "./units.js";
 
 export class Notes {
-  /** @param {import("./bench.js").Bench} bench @param {import("./sound.js").Voice} voice @param {import("./picture.js").Picture} picture */
+  /**
+   * @param {import("./bench.js").Bench} bench
+   * @param {import("./sound.js").Voice} voice
+   * @param {import("./picture.js").Picture} picture
+   */
   constructor(bench, voice, picture) {
     Object.assign(this, { bench, voice, picture });
     for (const what of ["shown", "figures"]) bench.on(what, () => this.draw());
@@ -30,13 +34,14 @@ export class Notes {
     const rows = hit.modes.map((mode, k) => {
       const old = before?.modes[k]?.frequency;
       const places = mode.nodes.map(({ text }) => text.replace(/\s*(cm|in)$/, "")).join("   ");
-      return [String(mode.order), mode.frequency.text, old ? signed("frequency", mode.frequency.value - old.value) : "", noteSaid(mode.note), places];
+      const change = old ? signed("frequency", mode.frequency.value - old.value) : "";
+      return [String(mode.order), mode.frequency.text, change, noteSaid(mode.note), places];
     });
     const hoop = bench.analyzed?.barrel?.hoop ?? [];
     const walls = hoop.map(({ frequency, note }, k) => [`wall ${k + 1}`, frequency.text, "", noteSaid(note), ""]);
-    const line = (cells) => made("tr", {}, ...cells.map((cell, k) => made(k === 0 ? "th" : "td", k === 0 ? { scope: "row" } : {}, cell)));
-    byId("modes").replaceChildren(made("thead", {}, made("tr", {}, ...head.map((name) => made("th", { scope: "col" }, name)))),
-      made("tbody", {}, ...[...rows, ...walls].map(line)));
+    const line = ([name, ...cells]) =>
+      made("tr", {}, made("th", { scope: "row" }, name), ...cells.map((cell) => made("td", {}, cell)));
+    byId("modes").replaceChildren(headOf(head), made("tbody", {}, ...[...rows, ...walls].map(line)));
     write(byId("barrel-words"), bench.analyzed?.barrel?.words.join(" ")
       ?? (bench.body.hollow ? "How the wall of the barrel rings is being computed; it takes some seconds." : ""));
   }
@@ -48,10 +53,12 @@ export class Notes {
     this.words();
     const strongest = answer.tones.toSorted((a, b) => b.amplitude_m_s2 - a.amplitude_m_s2).slice(0, 3)
       .filter((tone, _, [first]) => tone.amplitude_m_s2 > 0.02 * first.amplitude_m_s2);
-    write(byId("heard"), `Struck ${say("place", place_m)} from the knob: ` +
-      (strongest.length ? `loudest ${strongest.map((tone) => say("frequency", tone.frequency_hz)).join(", ")}.` : "nothing to hear."));
+    const tones = strongest.map((tone) => say("frequency", tone.frequency_hz)).join(", ");
+    const loudest = tones ? `loudest ${tones}` : "nothing to hear";
+    write(byId("heard"), `Struck ${say("place", place_m)} from the knob: ${loudest}.`);
     picture.blow?.remove();
-    picture.blow = drawn(picture.svg, "circle", { class: "blow", cx: picture.x(1000 * place_m), cy: frame.middle, r: 14 });
+    const where = { cx: picture.x(1000 * place_m), cy: frame.middle };
+    picture.blow = drawn(picture.svg, "circle", { class: "blow", ...where, r: 14 });
     clearTimeout(this.fading);
     this.fading = setTimeout(() => picture.blow?.remove(), 900);
   }

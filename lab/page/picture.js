@@ -95,7 +95,8 @@ export class Picture {
       drawn(axis, "line", { x1: x, x2: x, y1: y, y2: y + 5 });
       write(drawn(axis, "text", { x, y: y + 20, "text-anchor": value === 0 ? "start" : "middle" }), String(value));
     }
-    write(drawn(axis, "text", { x: this.x(length), y: y + 40, "text-anchor": "end" }), inUs() ? "in from the knob" : "cm from the knob");
+    const name = drawn(axis, "text", { x: this.x(length), y: y + 40, "text-anchor": "end" });
+    write(name, inUs() ? "in from the knob" : "cm from the knob");
   }
 
   /** The bat as it is, in true proportion, over the handle where there is room. */
@@ -172,10 +173,10 @@ export class Picture {
       return 1000 * body.outline.radius_m[Math.max(k, 0)];
     };
     if (answer.zone) {
-      const [a, b] = answer.zone.map((place) => place.x_m), inside = [[a, radiusAt(a)], [b, radiusAt(b)]];
-      body.outline.x_m.forEach((x, k) => { if (x > a && x < b) inside.splice(-1, 0, [x, 1000 * body.outline.radius_m[k]]); });
-      const upper = inside.map(([x, radius]) => [this.x(1000 * x), this.up(radius)]);
-      drawn(above, "path", { class: "zone", d: `${pathOf([...upper, ...upper.map(([x, y]) => [x, 2 * middle - y]).reverse()])}Z` });
+      const [a, b] = answer.zone.map((place) => place.x_m), between = body.outline.x_m.filter((x) => x > a && x < b);
+      const upper = [a, ...between, b].map((x) => [this.x(1000 * x), this.up(radiusAt(x))]);
+      const lower = upper.map(([x, y]) => [x, 2 * middle - y]).reverse();
+      drawn(above, "path", { class: "zone", d: `${pathOf([...upper, ...lower])}Z` });
     }
     const apart = Math.min(22, frame.across * 9);
     answer.modes.forEach((mode, row) => mode.nodes.forEach(({ x_m }) => {
@@ -186,8 +187,8 @@ export class Picture {
     if (answer.best) {
       const x = this.x(1000 * answer.best.place.x_m), top = this.up(radiusAt(answer.best.place.x_m));
       drawn(above, "line", { class: "spot-line", x1: x, x2: x, y1: 30, y2: 2 * middle - top });
-      const anchor = frame.width - x < 120 ? "end" : "middle";
-      const label = drawn(above, "text", { class: "spot-words", x: anchor === "end" ? frame.width - 4 : x, y: 22, "text-anchor": anchor });
+      const [anchor, at] = frame.width - x < 120 ? ["end", frame.width - 4] : ["middle", x];
+      const label = drawn(above, "text", { class: "spot-words", x: at, y: 22, "text-anchor": anchor });
       write(label, `sweet spot ${answer.best.place.text}`);
     }
   }
@@ -202,7 +203,8 @@ export class Picture {
       const inside = outline.radius_m.filter((_, j) => outline.x_m[j] >= from_m && outline.x_m[j] <= to_m);
       const top = this.up(1000 * Math.max(...inside, 0)), share = most > 0 ? values[k] / most : 0;
       for (const y of [top - 12, 2 * this.frame.middle - top + 3]) {
-        const band = drawn(below, "rect", { class: share < 0 ? "less" : "more", x: a, width: Math.max(b - a - 1, 1), y, height: 9 });
+        const width = Math.max(b - a - 1, 1);
+        const band = drawn(below, "rect", { class: share < 0 ? "less" : "more", x: a, width, y, height: 9 });
         band.style.opacity = Math.abs(share).toFixed(3);
       }
     });

@@ -22,7 +22,7 @@ export class SceneOfHit {
 
   /** Shows a scene in the controls. */
   set(scene) {
-    const number = (value, unit) => typeof value === "string" ? Number.parseFloat(value) : value === undefined ? NaN : value / unit;
+    const number = (value, unit) => typeof value === "string" ? Number.parseFloat(value) : (value ?? NaN) / unit;
     byId("swing").value = String(number(scene.swing_speed, 1) || SWING);
     byId("pitch").value = String(Number.isFinite(number(scene.pitch, MPH)) ? number(scene.pitch, MPH) : PITCH);
     byId("ball").value = scene.ball ?? "baseball";
@@ -33,10 +33,16 @@ export class SceneOfHit {
   /** What the controls say, without what is as at the start. */
   changed() {
     const [swing, pitch] = ["swing", "pitch"].map((name) => Number(byId(name).value)), ball = byId("ball").value;
-    const { swing_speed: _, pitch: _p, ball: _b, reference_inertia: _i, swing_exponent: _e, ...others } = this.bench.scene;
-    const exponent = Number(byId("batter").value), known = this.bench.bodyOf(this.bench.history.opened).swing_weight.value;
-    this.bench.setScene({ ...others, ...(exponent ? { reference_inertia: known, swing_exponent: exponent } : {}), ...(swing === SWING ? {} : { swing_speed: `${swing} rad/s` }),
-      ...(pitch === PITCH ? {} : { pitch: `${pitch} mph` }), ...(ball === "baseball" ? {} : { ball }) });
+    const { bench } = this, scene = { ...bench.scene }, exponent = Number(byId("batter").value);
+    for (const name of ["swing_speed", "pitch", "ball", "reference_inertia", "swing_exponent"]) delete scene[name];
+    if (swing !== SWING) scene.swing_speed = `${swing} rad/s`;
+    if (pitch !== PITCH) scene.pitch = `${pitch} mph`;
+    if (ball !== "baseball") scene.ball = ball;
+    if (exponent) {
+      scene.reference_inertia = bench.bodyOf(bench.history.opened).swing_weight.value;
+      scene.swing_exponent = exponent;
+    }
+    bench.setScene(scene);
     this.words();
   }
 
@@ -45,7 +51,8 @@ export class SceneOfHit {
       ? (scene.reference_inertia / body.swing_weight.value) ** scene.swing_exponent : 1;
     const swing = slower * Number(byId("swing").value), pitch = MPH * Number(byId("pitch").value);
     const speed = body ? swing * (body.length.value - TOLD_AT + PIVOT) : NaN;
-    write(byId("swing-words"), `${swing.toFixed(1)} rad/s: ${say("speed", speed)}, ${inUs() ? "6 in" : "15.24 cm"} from the tip`);
+    const where = inUs() ? "6 in" : "15.24 cm";
+    write(byId("swing-words"), `${swing.toFixed(1)} rad/s: ${say("speed", speed)}, ${where} from the tip`);
     write(byId("pitch-words"), `${say("speed", pitch)} at the plate`);
     for (const name of ["swing", "pitch"]) byId(name).setAttribute("aria-valuetext", byId(`${name}-words`).textContent);
   }

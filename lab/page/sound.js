@@ -40,7 +40,8 @@ export class Voice {
     this.context ??= new AudioContext();
     this.context.resume();
     const { bench } = this;
-    const answer = await bench.quick.ask({ ...bench.question("sound"), x_m: place_m, blow: this.chosen("blow"), held: this.chosen("held") });
+    const how = { blow: this.chosen("blow"), held: this.chosen("held") };
+    const answer = await bench.quick.ask({ ...bench.question("sound"), x_m: place_m, ...how });
     if (!answer) return;
     if (answer.error) { bench.say(answer.error); return; }
     this.last = answer;

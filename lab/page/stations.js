@@ -60,7 +60,8 @@ export function moved(stations, k, diameter, reach) {
   const [from, to] = stretch(stations.x, k);
   return stations.diameter.map((old, j) => {
     if (j === k) return target;
-    const share = j < from || j > to || !movable(stations, j) ? 0 : bump(Math.abs(stations.x[j] - stations.x[k]), reach);
+    const follows = j >= from && j <= to && movable(stations, j);
+    const share = follows ? bump(Math.abs(stations.x[j] - stations.x[k]), reach) : 0;
     return share > 0 ? Math.round(100 * held(j, old + share * by)) / 100 : old;
   });
 }
@@ -91,7 +92,7 @@ export function withBore(bat, k, mm) {
   return withProfile(bat, { inner_diameter: bat.profile.inner_diameter.with(k, written(mm, bat.profile.unit)) });
 }
 
-/** The bat file with one station at another place (mm) between its neighbours; the last one moves the tip. Else null. */
+/** The bat file with a station at another place (mm) between its neighbours, the last being the tip; else null. */
 export function withPlace(bat, k, mm) {
   const { x } = stationsOf(bat);
   if (k === 0 || mm < x[k - 1] + APART || (k < x.length - 1 && mm > x[k + 1] - APART) || mm > 1500) return null;
@@ -101,7 +102,8 @@ export function withPlace(bat, k, mm) {
 /** The bat file with its columns changed alike. */
 function eachColumn(bat, change) {
   const { x, diameter, inner_diameter: inner } = bat.profile;
-  return withProfile(bat, { x: change(x), diameter: change(diameter), ...(inner ? { inner_diameter: change(inner) } : {}) });
+  const bore = inner ? { inner_diameter: change(inner) } : {};
+  return withProfile(bat, { x: change(x), diameter: change(diameter), ...bore });
 }
 
 /** The bat file without station `k`; null for an end, or where fewer than three would be left. */

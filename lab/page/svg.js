@@ -26,6 +26,17 @@ export function made(name, attributes = {}, ...children) {
   return element;
 }
 
+/** A new button with these words, and what it does. */
+export function button(words, attributes, act) {
+  const element = made("button", { type: "button", ...attributes }, words);
+  element.addEventListener("click", act);
+  return element;
+}
+
+/** The head of a table. */
+export const headOf = (names) =>
+  made("thead", {}, made("tr", {}, ...names.map((name) => made("th", { scope: "col" }, name))));
+
 /** Writes words into an element, if they are other words. */
 export function write(element, words) {
   if (element.textContent !== words) element.textContent = words;

@@ -1,7 +1,7 @@
 // The stations as numbers to type: the one that is picked below the picture, and all of them in a table.
 
 import { movable, stationsOf, withBore, withDiameters, withMore, without, withPlace, limits } from "./stations.js";
-import { byId, made, write } from "./svg.js";
+import { button, byId, headOf, made, write } from "./svg.js";
 import { inUs, lengthTyped, sixtyFourths } from "./units.js";
 
 /** A diameter (mm) as it stands in a field. */
@@ -16,7 +16,8 @@ export class Table {
     byId("diameter").addEventListener("change", (event) => this.typed(drag.picture.picked, "diameter", event.target));
     byId("place").addEventListener("change", (event) => this.typed(drag.picture.picked, "place", event.target));
     for (const name of ["diameter", "place"]) {
-      byId(name).addEventListener("keydown", (event) => event.key === "Enter" && event.target.dispatchEvent(new Event("change")));
+      byId(name).addEventListener("keydown", ({ key, target }) =>
+        key === "Enter" && target.dispatchEvent(new Event("change")));
     }
     byId("previous").addEventListener("click", () => this.other(-1));
     byId("next").addEventListener("click", () => this.other(1));
@@ -40,11 +41,18 @@ export class Table {
     let next = null;
     if (what === "diameter") {
       const [least, most] = limits(stations, k);
-      if (mm < least || mm > most) { wrong(`A station is between ${least} and ${most} mm thick here; ${field.value} is not.`); return; }
+      if (mm < least || mm > most) {
+        wrong(`A station is between ${least} and ${most} mm thick here; ${field.value} is not.`);
+        return;
+      }
       next = withDiameters(file, stations.diameter.with(k, mm));
     } else {
       next = what === "bore" ? withBore(file, k, mm) : withPlace(file, k, mm);
-      if (!next) { wrong(what === "bore" ? "The bore must leave a wall of 0.5 mm." : "A station stays between its neighbours, 1 mm from them; the first is the knob end."); return; }
+      if (!next) {
+        wrong(what === "bore" ? "The bore must leave a wall of 0.5 mm."
+          : "A station stays between its neighbours, 1 mm from them; the first is the knob end.");
+        return;
+      }
     }
     bench.once(next);
     this.draw();
@@ -63,7 +71,8 @@ export class Table {
   fill(field, text, on, what) {
     field.disabled = !on;
     field.title = text && what === "diameter" && inUs() ? sixtyFourths(Number(text) * 25.4) : unitOf(what);
-    if (document.activeElement !== field || this.bench.changing) field.value = on || text ? `${text} ${unitOf(what)}` : "";
+    if (document.activeElement === field && !this.bench.changing) return;
+    field.value = text ? `${text} ${unitOf(what)}` : "";
   }
 
   all(stations) {
@@ -72,12 +81,13 @@ export class Table {
       this.form = form;
       const names = ["Station", `From the knob (${unitOf("place")})`, `Diameter (${unitOf("diameter")})`,
         ...(stations.inner ? [`Bore (${unitOf("diameter")})`] : []), ""];
-      const head = made("thead", {}, made("tr", {}, ...names.map((name) => made("th", { scope: "col" }, name))));
-      table.replaceChildren(head, made("tbody", {}, ...stations.x.map((_, k) => this.row(k, Boolean(stations.inner)))));
+      const rows = stations.x.map((_, k) => this.row(k, Boolean(stations.inner)));
+      table.replaceChildren(headOf(names), made("tbody", {}, ...rows));
     }
     stations.x.forEach((x, k) => {
       const row = table.tBodies[0].rows[k];
-      const values = [placeText(x), diameterText(stations.diameter[k]), ...(stations.inner ? [diameterText(stations.inner[k])] : [])];
+      const bore = stations.inner ? [diameterText(stations.inner[k])] : [];
+      const values = [placeText(x), diameterText(stations.diameter[k]), ...bore];
       values.forEach((value, j) => {
         const field = row.cells[j + 1].firstChild;
         if (document.activeElement !== field) field.value = value;
@@ -89,20 +99,20 @@ export class Table {
 
   row(k, hollow) {
     const field = (what) => {
-      const input = made("input", { inputmode: "decimal", autocomplete: "off", "aria-label": `${what} of station ${k + 1}` });
+      const name = `${what} of station ${k + 1}`;
+      const input = made("input", { inputmode: "decimal", autocomplete: "off", "aria-label": name });
       input.addEventListener("change", () => { input.blur(); this.typed(k, what, input); });
       return made("td", {}, input);
     };
-    const button = (words, label, act) => {
-      const element = made("button", { type: "button", class: "small-button", "aria-label": label, title: label }, words);
-      element.addEventListener("click", () => {
-        const next = act(this.bench.file, k);
-        if (next) this.bench.once(next);
-        else this.bench.say("The ends stay, three stations stay, and a new station needs 2 mm of room.");
-      });
-      return element;
-    };
-    return made("tr", {}, made("th", { scope: "row" }, String(k + 1)), field("place"), field("diameter"), ...(hollow ? [field("bore")] : []),
-      made("td", {}, button("+", `Add a station after ${k + 1}`, withMore), button("−", `Take station ${k + 1} out`, without)));
+    const named = (label) => ({ class: "small-button", "aria-label": label, title: label });
+    const change = (words, label, act) => button(words, named(label), () => {
+      const next = act(this.bench.file, k);
+      if (next) this.bench.once(next);
+      else this.bench.say("The ends stay, three stations stay, and a new station needs 2 mm of room.");
+    });
+    const fields = [field("place"), field("diameter"), ...(hollow ? [field("bore")] : [])];
+    const more = change("+", `Add a station after ${k + 1}`, withMore);
+    const less = change("−", `Take station ${k + 1} out`, without);
+    return made("tr", {}, made("th", { scope: "row" }, String(k + 1)), ...fields, made("td", {}, more, less));
   }
 }
