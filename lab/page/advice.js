@@ -46,10 +46,12 @@ export class Lathe {
     const answer = await bench.slow.ask(bench.question("lathe"));
     if (!answer || number !== bench.number || !this.on) return;
     if (answer.error) { say(answer.error); return; }
-    this.answer = answer;
+    // Of some bats a cut's effect on the hit is not known.
+    const effects = answer.effects.filter(({ changes }) => changes.some((change) => change !== null));
+    this.answer = { ...answer, effects };
     const select = byId("lathe-of"), wanted = select.value;
-    select.replaceChildren(...answer.effects.map(({ what }) => made("option", { value: what }, what)));
-    if (answer.effects.some(({ what }) => what === wanted)) select.value = wanted;
+    select.replaceChildren(...effects.map(({ what }) => made("option", { value: what }, what)));
+    if (effects.some(({ what }) => what === wanted)) select.value = wanted;
     byId("lathe-choice").hidden = false;
     byId("lathe-strongest").replaceChildren(...answer.strongest.map((words) => made("li", {}, words)));
     this.chosen();
@@ -63,7 +65,8 @@ export class Lathe {
     if (effect) {
       const [blue, orange] = what.startsWith("sweet spot") ? ["outwards", "inwards"] : ["up", "down"];
       const largest = effect.changes.toSorted((a, b) => Math.abs(b?.value ?? 0) - Math.abs(a?.value ?? 0))[0];
-      write(byId("lathe-words"), `${answer.depth} off the diameter: where the bat is blue it moves ${what} ${blue}, ` +
+      const depth = /^\d/.test(answer.depth) ? answer.depth : `1 ${answer.depth}`;
+      write(byId("lathe-words"), `${depth} off the diameter: where the bat is blue it moves ${what} ${blue}, ` +
         `where orange ${orange}; at most: ${largest?.text ?? "nothing"}.`);
     }
     picture.draw();

@@ -55,7 +55,8 @@ export class Compare {
     });
     const own = COLUMNS.map(([, , find]) => made("td", {}, find(shown)?.text ?? "…"));
     const first = this.row("Shown", bench.body.name, own, []);
-    byId("pins").replaceChildren(headOf(["", ...COLUMNS.map(([name]) => name), ""]), made("tbody", {}, first, ...rows));
+    const caption = made("caption", {}, "Below each figure of a pinned bat: how it differs from the bat shown.");
+    byId("pins").replaceChildren(caption, headOf(["", ...COLUMNS.map(([name]) => name), ""]), made("tbody", {}, first, ...rows));
   }
 
   /** A pinned bat is shown as one step more, so that Undo leads back. */

@@ -120,5 +120,6 @@ export class Figures {
     }
     select.value = String(bench.against);
     byId("figures").classList.toggle("compared", bench.reference !== null);
+    byId("figures").classList.toggle("hollow", bench.body.hollow);
   }
 }

@@ -6,7 +6,7 @@ import { inUs, lengthTyped, sixtyFourths } from "./units.js";
 
 /** A diameter (mm) as it stands in a field. */
 const diameterText = (mm) => inUs() ? (mm / 25.4).toFixed(3) : Number(mm.toFixed(2)).toString();
-const placeText = (mm) => inUs() ? Number((mm / 25.4).toFixed(3)).toString() : Number((mm / 10).toFixed(3)).toString();
+const placeText = (mm) => inUs() ? Number((mm / 25.4).toFixed(3)).toString() : Number((mm / 10).toFixed(2)).toString();
 const unitOf = (what) => inUs() ? "in" : what === "place" ? "cm" : "mm";
 
 export class Table {
