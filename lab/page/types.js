@@ -91,12 +91,20 @@
  * @property {Shown} swing_weight
  * @property {Shown} drop            ounces less inches
  * @property {Shown} widest          largest diameter
+ * @property {string[]} fixtures     what is fixed to the bat and what holds it, before its edits
+ * @property {string[]} edits        one for each edit of the file, in their order
  * @property {string[]} warnings
  */
 
 /**
  * A bending mode. `note` is the nearest note and how far it is off: "F3 +12 cents".
  * @typedef {{ order: number, frequency: Shown, note: string, nodes: Place[] }} ModeShown
+ */
+
+/**
+ * The hit along the barrel: null where ball and bat do not meet. `stiff_m_s`, if the bat did not bend, in `sure` alone.
+ * @typedef {{ x_m: number[], exit_m_s: (number | null)[], stiff_m_s?: (number | null)[],
+ *             vibration_j: (number | null)[] }} Curve
  */
 
 /**
@@ -108,7 +116,7 @@
  * @property {string | null} unmet   why it was not reached, in words
  * @property {ModeShown[]} modes     the first three
  * @property {{ x_m: number[], w: number[][] }} shapes  of those modes, the largest 1
- * @property {{ x_m: number[], exit_m_s: (number | null)[] }} curve
+ * @property {Curve} curve
  * @property {{ place: Place, speed: Shown } | null} best  the sweet spot by the fastest ball
  * @property {[Place, Place] | null} zone  within 1 % of it
  * @property {{ energy: Shown, initial: Shown } | null} vibration  left in vibration at the sweet spot

@@ -9,6 +9,7 @@ use sweetspot_report::report::answer_unit::AnswerUnit;
 use sweetspot_study::answers::Answer;
 
 use crate::asked::Question;
+use crate::open::{edits, fixtures};
 use crate::shown::{answer as told, drop, shown};
 
 /// Places of the outline on every piece of the profile, and on the longest ones.
@@ -30,6 +31,8 @@ pub fn answer(of: &Question) -> Result<Value> {
         "swing_weight": told(Answer::Inertia, *units, inertia.about(STANDARD_PIVOT)),
         "drop": drop(inertia.mass, bat.length()),
         "widest": length(2.0 * bat.profile().widest()),
+        "fixtures": fixtures(bat, *units),
+        "edits": edits(bat, *units),
         "warnings": bat.warnings(),
     }))
 }

@@ -3,6 +3,7 @@
 use serde_json::{Value, json};
 use sweetspot::base::error::Result;
 use sweetspot::bat::body::Bat;
+use sweetspot::collision::columns::{self, Column};
 use sweetspot::collision::figures::SwingLaw;
 use sweetspot::collision::hit::{Effort, Model, Scene};
 use sweetspot::collision::hitter::Hitter;
@@ -115,15 +116,20 @@ pub fn live(of: &Question) -> Result<Value> {
     let Solved { bat, solution, scene, model, .. } = &solved;
     let hitter = Hitter::new(*model, scene, bat, solution, Effort::default())?;
     let looked = HitsAlong::outer(STEPS, &hitter);
-    let speeds = looked.values(|glance: &Glance| Some(glance.exit_speed));
-    let speeds: Vec<Option<f64>> = speeds.into_iter().map(|v| v.is_finite().then_some(v)).collect();
+    let along = |value: fn(&Glance) -> Option<f64>| -> Vec<Option<f64>> {
+        looked.values(value).into_iter().map(|v| v.is_finite().then_some(v)).collect()
+    };
     let hit = looked.fastest().map_or_else(no_hit, |peak| {
         let vibration = hitter.glance(peak.x).and_then(|glance| glance.vibration);
         best(of, &solved, peak, looked.zone(peak), [vibration, None])
     });
     let answer = json!({
         "certified": false, "unmet": null,
-        "curve": { "x_m": looked.places(), "exit_m_s": speeds },
+        "curve": {
+            "x_m": looked.places(),
+            "exit_m_s": along(|glance| Some(glance.exit_speed)),
+            "vibration_j": along(|glance| glance.vibration),
+        },
         "spots": [], "doubts": [],
     });
     Ok(with(with(answer, modes(of, &solved)), hit))
@@ -137,9 +143,9 @@ pub fn sure(of: &Question) -> Result<Value> {
     let hitter = Hitter::new(*model, scene, bat, &hits.solution, hits.effort)?;
     let spot = SweetSpot::find(&hitter);
     let there = spot.exit_speed_max.map(|peak| hitter.strike(peak.x));
-    let x: Vec<f64> = hits.impacts.iter().map(|impact| impact.x).collect();
-    let speeds: Vec<Option<f64>> =
-        hits.impacts.iter().map(|impact| Some(impact.outcome.as_ref()?.exit_speed)).collect();
+    let along = |column: Column| -> Vec<Option<f64>> {
+        hits.impacts.iter().map(|impact| column.at(impact)).collect()
+    };
     let energy = there.as_ref().and_then(|there| Some(&there.outcome.as_ref()?.energy));
     let energy = [energy.map(|e| e.vibration), energy.map(|e| e.initial)];
     let hit = spot.exit_speed_max.zip(spot.zone);
@@ -156,7 +162,12 @@ pub fn sure(of: &Question) -> Result<Value> {
         .collect();
     let answer = json!({
         "certified": unmet.is_none(), "unmet": unmet,
-        "curve": { "x_m": x, "exit_m_s": speeds },
+        "curve": {
+            "x_m": along(columns::X),
+            "exit_m_s": along(columns::EXIT_SPEED),
+            "stiff_m_s": along(columns::RIGID_EXIT_SPEED),
+            "vibration_j": along(columns::VIBRATION),
+        },
         "spots": spots, "doubts": trust::doubts(&verdict, of.units),
     });
     Ok(with(with(answer, modes(of, &solved)), hit))

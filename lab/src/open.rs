@@ -15,7 +15,7 @@ use sweetspot::modes::prepared::prepare;
 use sweetspot::modes::solve::{Request, solve};
 use sweetspot_report::parts::units::Units;
 use sweetspot_report::report::answer_unit::AnswerUnit;
-use sweetspot_report::report::edits;
+use sweetspot_report::report::edits::words;
 use sweetspot_report::report::resolved::{resolved, text_in_columns};
 
 use crate::asked::{BAT, request};
@@ -106,7 +106,12 @@ fn differs(old: &Bat, new: &Bat) -> Result<String> {
 
 /// What stays on the bat whatever is dragged.
 fn parts(bat: &Bat, units: Units) -> Vec<String> {
-    let fixtures = bat.fixtures();
+    [fixtures(bat, units), edits(bat, units)].concat()
+}
+
+/// What is fixed to the bat and what holds it, before its edits.
+pub fn fixtures(bat: &Bat, units: Units) -> Vec<String> {
+    let fixtures = bat.unedited().fixtures();
     let place = |x: f64| AnswerUnit::Length.shown(units, x);
     let stretch =
         |what: &str, from: f64, to: f64| format!("{what}, {} to {}", place(from), place(to));
@@ -118,6 +123,10 @@ fn parts(bat: &Bat, units: Units) -> Vec<String> {
     parts.extend(fixtures.joints.iter().map(|one| format!("a joint at {}", place(one.x))));
     parts.extend(fixtures.supports.iter().map(|one| format!("a support at {}", place(one.x))));
     parts.extend(fixtures.grip.iter().map(|one| stretch("hands", one.from, one.to)));
-    parts.extend(bat.edits().iter().map(|edit| edits::words(&edit.change, units, bat.inches())));
     parts
+}
+
+/// The edits of the bat, in their order.
+pub fn edits(bat: &Bat, units: Units) -> Vec<String> {
+    bat.edits().iter().map(|edit| words(&edit.change, units, bat.inches())).collect()
 }
