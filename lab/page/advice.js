@@ -1,6 +1,7 @@
 // What takes the core longer: where a cut does what, and the least change that meets a wish.
 
 import { button, byId, made, put, write } from "./svg.js";
+import { say } from "./units.js";
 
 /** Wishes as `sweetspot aim` takes them, and what stands on their buttons. */
 const WISHES = [
@@ -62,14 +63,22 @@ export class Lathe {
     const { answer, picture } = this, what = byId("lathe-of").value;
     const effect = answer?.effects.find((one) => one.what === what);
     picture.lathe = effect ? { bands: answer.bands, changes: effect.changes } : null;
-    if (effect) {
-      const [blue, orange] = what.startsWith("sweet spot") ? ["outwards", "inwards"] : ["up", "down"];
-      const largest = effect.changes.toSorted((a, b) => Math.abs(b?.value ?? 0) - Math.abs(a?.value ?? 0))[0];
-      const depth = /^\d/.test(answer.depth) ? answer.depth : `1 ${answer.depth}`;
-      write(byId("lathe-words"), `${depth} off the diameter: where the bat is blue it moves ${what} ${blue}, ` +
-        `where orange ${orange}; at most: ${largest?.text ?? "nothing"}.`);
-    }
+    if (effect) this.tell(what, effect.changes);
     picture.draw();
+  }
+
+  /** The colours in words: where a cut does most, and how much. */
+  tell(what, changes) {
+    const { bands, depth } = this.answer, off = /^\d/.test(depth) ? depth : `1 ${depth}`;
+    const [blue, orange] = what === "sweet spot" ? ["outwards", "inwards"] : ["up", "down"];
+    const most = (sign) => {
+      const values = changes.map((change) => sign * (change?.value ?? 0)), k = values.indexOf(Math.max(...values));
+      if (!(values[k] > 0)) return "nowhere";
+      const [from] = say("place", bands[k].from_m).split(" ");
+      return `most at ${from} to ${say("place", bands[k].to_m)}: ${changes[k].text}`;
+    };
+    write(byId("lathe-words"), `${off} off the diameter moves it ${blue} where the bat is blue (${most(1)}), ` +
+      `and ${orange} where it is orange (${most(-1)}).`);
   }
 }
 
@@ -86,7 +95,7 @@ export class Wishes {
   async ask(words, targets) {
     const { bench } = this, { number } = bench, say = (text) => write(byId("wish-state"), text);
     bench.slow.drop();
-    say(`"${words}" is being computed; a minute at most.`);
+    say(`"${words}" is being computed; half a minute at most.`);
     byId("wish-stop").hidden = false;
     const only = byId("remove-only").checked;
     const answer = await bench.slow.ask({ ...bench.question("aim"), targets, remove_only: only });
