@@ -96,8 +96,9 @@ fn every_bat_opens_as_stations_that_are_the_same_bat() {
         let text = answer["bat_file"].as_str().unwrap();
         let opened = Bat::from_text("opened", text, Path::new("")).unwrap();
         let [old, new] = [&bat, &opened].map(|bat| bat.inertia().about(STANDARD_PIVOT));
-        // What is said to three decimals of a per cent; a change nobody is told of is a rounding.
-        let most = if answer["differs"].is_null() { 1e-9 } else { 1e-3 };
+        // What is said to three decimals of a per cent. Nobody is told of a rounding to 1e-9 in: of two diameters half of
+        // that each, over a wall of 0.1 in.
+        let most = if answer["differs"].is_null() { 1e-8 } else { 1e-3 };
         assert!((new / old - 1.0).abs() < most, "{name}: {old} {new} {}", answer["differs"]);
         assert_eq!(opened.inches(), bat.inches(), "{name}");
         assert_eq!(serde_json::from_str::<Value>(text).unwrap(), answer["bat"], "{name}");
