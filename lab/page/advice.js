@@ -70,15 +70,14 @@ export class Lathe {
   /** The colours in words: where a cut does most, and how much. */
   tell(what, changes) {
     const { bands, depth } = this.answer, off = /^\d/.test(depth) ? depth : `1 ${depth}`;
-    const [blue, orange] = what === "sweet spot" ? ["outwards", "inwards"] : ["up", "down"];
-    const most = (sign) => {
+    const ways = what === "sweet spot" ? ["outwards", "inwards"] : ["up", "down"];
+    const said = [1, -1].map((sign, j) => {
       const values = changes.map((change) => sign * (change?.value ?? 0)), k = values.indexOf(Math.max(...values));
-      if (!(values[k] > 0)) return "nowhere";
-      const [from] = say("place", bands[k].from_m).split(" ");
-      return `most at ${from} to ${say("place", bands[k].to_m)}: ${changes[k].text}`;
-    };
-    write(byId("lathe-words"), `${off} off the diameter moves it ${blue} where the bat is blue (${most(1)}), ` +
-      `and ${orange} where it is orange (${most(-1)}).`);
+      if (!(values[k] > 0)) return "";
+      const [from] = say("place", bands[k].from_m).split(" "), there = `${from} to ${say("place", bands[k].to_m)}`;
+      return `${ways[j]} where the bat is ${["blue", "orange"][j]} (most at ${there}: ${changes[k].text})`;
+    });
+    write(byId("lathe-words"), `${off} off the diameter moves it ${said.filter(Boolean).join(", and ")}.`);
   }
 }
 
