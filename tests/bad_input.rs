@@ -1632,7 +1632,7 @@ fn a_wrong_command_line_is_refused() {
     for (args, says) in rows {
         faults.extend(folder.misanswer(args, says));
     }
-    for verb in ["fit", "tune", "sweep", "lab"] {
+    for verb in ["fit", "tune", "sweep"] {
         let says = format!("\"{verb}\" is not supported yet");
         faults.extend(folder.misanswer(&[verb, "bat.json"], &[&says]));
     }

@@ -38,7 +38,14 @@ fn sources() -> Vec<(String, String)> {
         (name, code.to_owned())
     };
     let crates = CRATES.map(|name| top().join("crates").join(name).join("src"));
-    [source()].iter().chain(&crates).flat_map(|source| files(source)).map(code).collect()
+    let lab = ["lab/src", "lab/clock/src"].map(|name| top().join(name));
+    [source()]
+        .iter()
+        .chain(&crates)
+        .chain(&lab)
+        .flat_map(|source| files(source))
+        .map(code)
+        .collect()
 }
 
 /// Whether a file beyond the engine belongs to a verb, by the words of its path.

@@ -124,6 +124,18 @@ pub struct Named {
     pub outside: Vec<PathBuf>,
 }
 
+/// The profile of a table of stations (CSV), and whether it is in inches; `file` is what messages call it.
+///
+/// # Errors
+///
+/// [`Error::Input`] with line and column, or several of them.
+pub fn profile_of_table(file: &str, text: &str) -> Result<(Profile, bool)> {
+    let table = StationTable::from_csv(Document::new(file.to_owned(), text), 1.0)?;
+    let profile = table.stations(Interpolation::Pchip).and_then(Profile::new);
+    let inches = table.in_inches();
+    profile.map(|profile| (profile, inches)).map_err(|error| table.locate(error))
+}
+
 /// A profile, as a bat file in `folder` has it, with the columns of its table in place of that table's name: bare
 /// numbers in the unit of the profile.
 ///

@@ -44,7 +44,7 @@ pub fn fitted(command: Command) -> Command {
 /// The verbs by what people come for; all others stand under the last heading.
 const GROUPS: [(&str, &[&str]); 5] = [
     ("Describe a bat", &["new"]),
-    ("Look at it", &["analyze", "modes", "hit"]),
+    ("Look at it", &["analyze", "lab", "modes", "hit"]),
     ("Change it", &["lathe", "aim", "compare"]),
     ("Many bats", &["study"]),
     ("More", &[]),

@@ -43,6 +43,7 @@ mod frf_grid;
 mod frf;
 mod trade;
 mod lathe;
+mod lab;
 mod study;
 mod aim;
 mod scatter;

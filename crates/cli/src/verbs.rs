@@ -14,8 +14,8 @@ use sweetspot::{Error, Result};
 use crate::done::{Done, printable};
 use crate::{
     advise, aim, analyze, bats, bbcor, calibrate, compare, completions, convert, diagnostic,
-    first_word, frf, help, hit, hoop, lathe, licences, man, materials, modes, new, ring, scatter,
-    scene, schema, stop, study, style, trade, validate, value,
+    first_word, frf, help, hit, hoop, lab, lathe, licences, man, materials, modes, new, ring,
+    scatter, scene, schema, stop, study, style, trade, validate, value,
 };
 use sweetspot_report::report::mistakes;
 
@@ -51,6 +51,7 @@ enum Verb {
     Calibrate(calibrate::Args),
     Ring(ring::Args),
     Frf(frf::Args),
+    Lab(lab::Args),
     Lathe(lathe::Args),
     Aim(aim::Args),
     Trade(trade::Args),
@@ -70,7 +71,7 @@ enum Verb {
 }
 
 /// Verbs of the trade that this version does not know yet.
-const LATER_VERBS: &[&str] = &["fit", "tune", "sweep", "lab"];
+const LATER_VERBS: &[&str] = &["fit", "tune", "sweep"];
 
 /// Parses the command line and runs the verb. Wrong usage ends the program here.
 pub fn run() -> Result<Done> {
@@ -91,6 +92,7 @@ pub fn run() -> Result<Done> {
         Verb::Calibrate(args) => calibrate::run(&args),
         Verb::Ring(args) => ring::run(&args),
         Verb::Frf(args) => frf::run(&args),
+        Verb::Lab(args) => lab::run(&args),
         Verb::Lathe(args) => lathe::run(&args),
         Verb::Aim(args) => aim::run(&args),
         Verb::Trade(args) => trade::run(&args),

@@ -9,6 +9,7 @@ use std::sync::atomic::AtomicBool;
 
 use serde_json::Value;
 
+#[cfg(not(target_arch = "wasm32"))]
 use crate::exchange::npz;
 use crate::many::part::{self, Division, ROWS};
 use crate::many::source::Study;
@@ -190,8 +191,13 @@ impl<'a> StudyFolder<'a> {
     fn numbers(&self, k: u64, part: &[u8]) -> Result<Vec<u8>> {
         let path = self.part(k);
         let columns = part::columns(&self.study.rows, self.division.part(k), (&path, part))?;
-        npz::columns(&columns)
-            .map_err(|source| Error::Write { path: path.with_extension("npz"), source })
+        #[cfg(not(target_arch = "wasm32"))]
+        let archive = npz::columns(&columns);
+        // A page writes no files.
+        #[cfg(target_arch = "wasm32")]
+        let archive =
+            Err(std::io::Error::other(format!("{} columns: no archive in a page", columns.len())));
+        archive.map_err(|source| Error::Write { path: path.with_extension("npz"), source })
     }
 
     fn manifest(&self) -> StudyManifest {

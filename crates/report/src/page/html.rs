@@ -13,7 +13,7 @@ use crate::parts::part::Fact;
 use crate::parts::part::{Fold, Part, Section};
 
 const STYLE: &str = include_str!("style.css");
-const SCRIPT: &str = include_str!("script.js");
+const SCRIPT: &str = concat!(include_str!("shared.js"), include_str!("script.js"));
 
 /// Nothing may be fetched from anywhere, whatever a bat is called.
 const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; \

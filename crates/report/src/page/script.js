@@ -2,17 +2,11 @@
 // the bat as it is heard.
 "use strict";
 (() => {
+  const { drawn, samples } = shared;
   const data = JSON.parse(document.getElementById("data").textContent);
   const calm = matchMedia("(prefers-reduced-motion: reduce)");
   const length = data.outline.length_mm;
   document.documentElement.classList.add("js");
-
-  /** A new SVG element within another. */
-  const drawn = (parent, name, attributes) => {
-    const element = document.createElementNS("http://www.w3.org/2000/svg", name);
-    for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
-    return parent.appendChild(element);
-  };
 
   /** Scrolls by itself, by keyboard too, only where it is too wide. */
   const scrolls = new ResizeObserver((seen) => seen.forEach(({ target }) => {
@@ -352,16 +346,11 @@
   const heard = ({ tones }) => {
     speaker ??= new AudioContext();
     speaker.resume();
-    const rate = speaker.sampleRate, slowest = Math.min(...tones.map((tone) => tone.decay_1_s));
-    const seconds = Math.min(Math.max(Math.log(1000) / slowest, 0.3), 3);
-    const buffer = speaker.createBuffer(1, Math.ceil(seconds * rate), rate), wave = buffer.getChannelData(0);
-    for (const { frequency_hz: f, decay_1_s: decay, amplitude_m_s2: a } of tones) {
-      for (let k = 0; k < wave.length; k += 1) {
-        wave[k] += a * Math.exp(-decay * k / rate) * Math.sin(2 * Math.PI * f * k / rate);
-      }
-    }
+    const rate = speaker.sampleRate, wave = samples(tones, rate);
     const largest = wave.reduce((most, p) => Math.max(most, Math.abs(p)), 0);
     wave.forEach((p, k) => { wave[k] = 0.9 * p / largest; });
+    const buffer = speaker.createBuffer(1, wave.length, rate);
+    buffer.copyToChannel(wave, 0);
     const source = speaker.createBufferSource();
     source.buffer = buffer;
     source.connect(speaker.destination);

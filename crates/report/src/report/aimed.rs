@@ -1,15 +1,11 @@
 //! The bat that meets a wish: its file, its document, its cut list.
 
-use serde_json::{Value, json};
-
 use crate::csv::Csv;
-use crate::report::resolved::profile;
-use crate::schema;
+use crate::report::resolved::{profile, text_in_columns};
 use crate::schema::aimed::AimedFile;
 use sweetspot::base::number::{rounded, shortest, signed, significant};
 use sweetspot::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
 use sweetspot::bat::body::Bat;
-use sweetspot::bat::profile::Interpolation;
 use sweetspot::files::schema::document::{BatName, Format, Generator};
 use sweetspot::files::schema::resolved::ResolvedBat;
 use sweetspot_study::aim::aimed::{AimedTarget, Outcome};
@@ -159,32 +155,7 @@ pub fn source(outcome: &Outcome) -> String {
 /// The text of the new bat's file: columns in mm, or in inches as the old one.
 pub fn bat_text(outcome: &Outcome) -> String {
     let bat = &outcome.bat;
-    let mut value = schema::value(&resolved(bat, &source(outcome)));
-    let (unit, per) = if bat.inches() { ("in", inches(1.0)) } else { ("mm", 1e3) };
-    let stations = &bat.profile().stations;
-    let column = |values: &[f64], factor: f64| {
-        let all = values.iter().map(|value| shortest(rounded(factor * per * value, 9)));
-        format!("[{}]", all.collect::<Vec<_>>().join(", "))
-    };
-    let hollow = stations.inner.iter().any(|r| *r > 0.0);
-    let interpolation = match stations.interpolation {
-        Interpolation::Pchip => "pchip",
-        _ => "linear",
-    };
-    let mut profile = json!({
-        "interpolation": interpolation, "unit": unit, "x": "@x", "diameter": "@diameter",
-    });
-    if hollow {
-        profile["inner_diameter"] = Value::from("@inner");
-    }
-    value["profile"] = profile;
-    let columns = [
-        ("\"@x\"", column(&stations.x, 1.0)),
-        ("\"@diameter\"", column(&stations.outer, 2.0)),
-        ("\"@inner\"", column(&stations.inner, 2.0)),
-    ];
-    let text = format!("{value:#}\n");
-    columns.iter().fold(text, |text, (mark, column)| text.replace(mark, column))
+    text_in_columns(&resolved(bat, &source(outcome)), &bat.profile().stations, bat.inches())
 }
 
 /// What a maker should know before turning: a barrel that rules forbid, with the rule.

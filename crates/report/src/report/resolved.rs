@@ -1,5 +1,10 @@
 //! The bat in the JSON files: as it was understood, and a bat file in its own right.
 
+use serde_json::{Value, json};
+
+use crate::schema;
+use sweetspot::base::number::{rounded, shortest};
+use sweetspot::base::units::inches;
 use sweetspot::bat::body::Bat;
 use sweetspot::bat::profile::{FormulaPiece, Formulas, Interpolation, Profile, Stations};
 use sweetspot::bat::weighed::Weighed;
@@ -23,6 +28,35 @@ pub fn resolved(bat: &Bat) -> ResolvedBat {
         weighed: Some(bat.weighed()).filter(|weighed| *weighed != Weighed::default()),
         edits,
     }
+}
+
+/// The text of a bat file with these stations as its profile: diameters in mm or in inches, to 10⁻⁹ of either.
+pub fn text_in_columns(bat: &ResolvedBat, stations: &Stations, in_inches: bool) -> String {
+    let mut value = schema::value(bat);
+    let (unit, per) = if in_inches { ("in", inches(1.0)) } else { ("mm", 1e3) };
+    let column = |values: &[f64], factor: f64| {
+        let all = values.iter().map(|value| shortest(rounded(factor * per * value, 9)));
+        format!("[{}]", all.collect::<Vec<_>>().join(", "))
+    };
+    let hollow = stations.inner.iter().any(|r| *r > 0.0);
+    let interpolation = match stations.interpolation {
+        Interpolation::Pchip => "pchip",
+        _ => "linear",
+    };
+    let mut profile = json!({
+        "interpolation": interpolation, "unit": unit, "x": "@x", "diameter": "@diameter",
+    });
+    if hollow {
+        profile["inner_diameter"] = Value::from("@inner");
+    }
+    value["profile"] = profile;
+    let columns = [
+        ("\"@x\"", column(&stations.x, 1.0)),
+        ("\"@diameter\"", column(&stations.outer, 2.0)),
+        ("\"@inner\"", column(&stations.inner, 2.0)),
+    ];
+    let text = format!("{value:#}\n");
+    columns.iter().fold(text, |text, (mark, column)| text.replace(mark, column))
 }
 
 /// A profile as it was understood, which names no other file.

@@ -82,7 +82,7 @@ fn scene(analysis: &Analysis, units: Units) -> String {
 }
 
 /// What moves an answer, in a word.
-fn word(source: &Source) -> &'static str {
+pub fn word(source: &Source) -> &'static str {
     match source.input {
         Input::Diameters => "diameters",
         Input::Patch => "wall",

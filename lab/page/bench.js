@@ -1,0 +1,273 @@
+// The one state of the page: the bat that is shown, its scene, every step there was, and the core's answers to it.
+
+import { History } from "./history.js";
+import { fileText } from "./stations.js";
+import { inUs } from "./units.js";
+
+/** Quiet ms before the certified answer is asked for, and before the slow one. */
+const CERTIFIED_AFTER = 60, SLOW_AFTER = 500;
+/** A certified answer that took less (ms) is asked for in every frame. */
+const QUICK = 10;
+/** Answers that are kept. */
+const KEPT = 40;
+/** Mistakes that are listed, and letters of one. */
+const LISTED = 5, LETTERS = 400;
+/** Bats that can be pinned. */
+export const PINS = 4;
+
+/**
+ * What `open` said of a text, and what is edited of it.
+ * @typedef {{ bat: any, differs: string | null, parts: string[], warnings: string[] }} Known
+ */
+
+/** What is wrong with a bat, each mistake on its own line. */
+function wrong({ error, mistakes = [] }) {
+  const short = (text) => text.length > LETTERS ? `${text.slice(0, LETTERS)}…` : text;
+  if (mistakes.length === 0) return short(error);
+  const lines = mistakes.slice(0, LISTED).map(({ text, line }) => short(line ? `Line ${line}: ${text}` : text));
+  const more = mistakes.length - lines.length;
+  return [...lines, ...(more > 0 ? [`and ${more} more`] : [])].join("\n");
+}
+
+export class Bench extends EventTarget {
+  /**
+   * @param {import("./solve.js").Near} near
+   * @param {import("./solve.js").Far} quick  previews, and whatever a hand waits for
+   * @param {import("./solve.js").Far} sure  certified answers: nobody waits behind them
+   * @param {import("./solve.js").Far} slow  what takes a second or more, ended when the bat changes
+   */
+  constructor(near, quick, sure, slow) {
+    super();
+    Object.assign(this, { near, quick, sure, slow, number: 0, text: "", scene: {}, history: null, lastTook: Infinity });
+    /** @type {Map<string, Known>} */
+    this.known = new Map();
+    /** @type {Map<string, any>} */
+    this.kept = new Map();
+    /** @type {{ text: string, scene: object }[]} */
+    this.pins = [];
+    /** What differences count from: "opened", "before", or the number of a pin. */
+    this.against = "opened";
+    Object.assign(this, { body: null, hit: null, analyzed: null, trouble: null, changing: false });
+  }
+
+  tell(what, detail) { this.dispatchEvent(new CustomEvent(what, { detail })); }
+  on(what, then) { this.addEventListener(what, (event) => then(event.detail)); }
+
+  get units() { return inUs() ? "us" : "si"; }
+  /** The file that is edited: a table of stations. */
+  get file() { return this.known.get(this.text)?.bat ?? null; }
+  get opened() { return this.known.get(this.text) ?? null; }
+  /** Whether what is drawn belongs to the bat shown, and was computed as accurately as asked. */
+  get certified() { return this.hit !== null && this.hit.number === this.number && this.hit.answer.certified; }
+
+  /** Whether the bat shown has no answer. */
+  get hopeless() { return this.failed === this.number; }
+
+  question(ask, text = this.text) {
+    const scene = Object.keys(this.scene).length ? { scene: this.scene } : {};
+    return { ask, bat: text, units: this.units, ...scene };
+  }
+
+  keep(key, answer) {
+    this.kept.set(key, answer);
+    if (this.kept.size > KEPT) this.kept.delete(this.kept.keys().next().value);
+    return answer;
+  }
+
+  keyOf(ask, text = this.text) { return JSON.stringify([ask, text, this.scene, this.units]); }
+
+  /** The rigid figures of a bat to compare with, at once. */
+  bodyOf(text) {
+    const key = this.keyOf("body", text);
+    return this.kept.get(key) ?? this.keep(key, this.near.ask(this.question("body", text)));
+  }
+
+  /** The certified answer to any bat, if it is there; else it is asked for in the slow worker, and `then` told. */
+  hitOf(text) {
+    const key = this.keyOf("sure", text), there = this.kept.get(key);
+    if (there || this.asking?.has(key)) return there ?? null;
+    (this.asking ??= new Set()).add(key);
+    this.slow.ask(this.question("sure", text)).then((answer) => {
+      this.asking.delete(key);
+      if (answer && !answer.error) this.tell("figures", this.keep(key, answer));
+    });
+    return null;
+  }
+
+  /** The bat that differences count from; null where it is the one shown. */
+  get reference() {
+    const { history, against } = this;
+    const text = against === "opened" ? history?.opened
+      : against === "before" ? history?.before : this.pins[against]?.text;
+    return text && text !== this.text ? text : null;
+  }
+
+  /**
+   * Opens the text of a bat file or a table; what is wrong with it is returned in words.
+   * @returns {Promise<string | null>}
+   */
+  async open(text, scene) {
+    const answer = await this.quick.ask({ ask: "open", bat: text, units: this.units });
+    if (!answer) return null;
+    if (answer.error) return wrong(answer);
+    // A bat file stays as it was written; a table of stations becomes one.
+    const own = text.trimStart().startsWith("{") ? text : answer.bat_file;
+    const before = this.scene;
+    if (scene) this.scene = scene;
+    const body = this.near.ask(this.question("body", own));
+    if (body.error) {
+      this.scene = before;
+      return wrong(body);
+    }
+    this.known.set(own, answer);
+    if (this.history) this.history.open(own); else this.history = new History(own);
+    if (this.against === "before") this.against = "opened";
+    this.show(own);
+    this.tell("opened", answer);
+    this.tell("history");
+    return null;
+  }
+
+  /** Shows a text that is known. Rigid figures come at once, the rest as it is answered. */
+  show(text) {
+    const body = this.near.ask(this.question("body", text));
+    if (body.error) {
+      this.say(wrong(body));
+      return false;
+    }
+    Object.assign(this, { text, body });
+    this.changed();
+    return true;
+  }
+
+  /** Everything about the shown bat is asked anew. */
+  changed() {
+    this.number += 1;
+    Object.assign(this, { analyzed: null, lathe: null, trouble: null });
+    if (this.slowFor !== undefined) { this.slow.drop(); this.asking?.clear(); this.slowFor = undefined; }
+    this.tell("shown");
+    const there = this.kept.get(this.keyOf("sure"));
+    if (there) this.take(there, this.number);
+    else this.ask(this.lastTook < QUICK ? "sure" : "live");
+    clearTimeout(this.later);
+    clearTimeout(this.slowLater);
+    this.later = setTimeout(() => this.certified || this.hopeless || this.ask("sure"), CERTIFIED_AFTER);
+    this.slowLater = setTimeout(() => this.askSlow(), SLOW_AFTER);
+  }
+
+  async ask(kind) {
+    const { number } = this, key = this.keyOf(kind);
+    const answer = await (kind === "sure" ? this.sure : this.quick).ask(this.question(kind));
+    if (!answer) return;
+    if (kind === "sure" && !answer.error) {
+      this.lastTook = answer.took;
+      if (!this.changing) this.keep(key, answer);
+    }
+    // An answer to an earlier bat is a preview of this one at best, and never overwrites a later answer.
+    if (answer.error) { if (number === this.number) this.fail(answer.error); }
+    else if (number >= (this.hit?.number ?? 0)) this.take(answer, number);
+  }
+
+  take(answer, number) {
+    if (this.hit?.number === number && this.hit.answer.certified && !answer.certified) return;
+    this.hit = { answer, number };
+    this.tell("figures");
+  }
+
+  /** What takes a second or more: how far the bat in hand may be off. */
+  async askSlow() {
+    if (this.changing || this.hopeless) return;
+    const { number } = this, key = this.keyOf("analyze");
+    let answer = this.kept.get(key);
+    if (!answer) {
+      this.slowFor = number;
+      this.tell("slow", true);
+      answer = await this.slow.ask(this.question("analyze"));
+      if (number === this.number) { this.slowFor = undefined; this.tell("slow", false); }
+      if (!answer) return;
+      if (!answer.error) this.keep(key, answer);
+    }
+    if (number !== this.number) return;
+    if (answer.error) this.tell("slowTrouble", answer.error);
+    else { this.analyzed = answer; this.tell("figures"); }
+  }
+
+  /** A bat that the core made of this one, as a step like any other. */
+  async adopt(text) {
+    const { number } = this, answer = await this.quick.ask({ ask: "open", bat: text, units: this.units });
+    if (!answer || answer.error || number !== this.number) return false;
+    return this.once(answer.bat);
+  }
+
+  /** There is no answer to the bat shown: nothing of another one may stand in its place. */
+  fail(words) {
+    Object.assign(this, { hit: null, failed: this.number });
+    this.say(words);
+    this.tell("figures");
+  }
+
+  say(words) {
+    this.trouble = words;
+    this.tell("trouble", words);
+  }
+
+  /** Shows the file with other stations or edits; `commit` makes a step of it. False where the core refuses it. */
+  edit(file) {
+    const text = fileText(file), { opened, text: old } = this;
+    if (text === old) return true;
+    this.known.set(text, { ...opened, bat: file, differs: null });
+    const fits = this.show(text), gone = fits ? old : text;
+    // What a drag only passes through is not kept.
+    if (!this.history.steps.includes(gone)) this.known.delete(gone);
+    return fits;
+  }
+
+  /** What is shown becomes a step of undo. */
+  commit() {
+    const { differs } = this.known.get(this.history.now);
+    if (this.history.push(this.text)) {
+      this.tell("history");
+      if (differs) this.say(differs);
+    }
+    if (this.certified) this.keep(this.keyOf("sure"), this.hit.answer);
+    clearTimeout(this.slowLater);
+    this.slowLater = setTimeout(() => this.askSlow(), SLOW_AFTER);
+  }
+
+  /** One change that is a step by itself. */
+  once(file) {
+    const fits = this.edit(file);
+    if (fits) this.commit();
+    return fits;
+  }
+
+  /** Steps of undo (−1) or of redo (1). */
+  step(by) {
+    const text = by < 0 ? this.history.undo() : this.history.redo();
+    if (text !== this.text) this.show(text);
+    this.tell("history");
+  }
+
+  setScene(scene) {
+    this.scene = scene;
+    this.hit = null;
+    if (this.text) this.changed();
+  }
+
+  pin() {
+    if (this.pins.length < PINS) this.pins.push({ text: this.text });
+    this.tell("pins");
+  }
+
+  unpin(k) {
+    this.pins.splice(k, 1);
+    if (typeof this.against === "number") this.against = "opened";
+    this.tell("pins");
+  }
+
+  setAgainst(what) {
+    this.against = what;
+    this.tell("shown");
+    this.tell("figures");
+  }
+}

@@ -1,0 +1,215 @@
+// Moves a station by pointer or by keys: one gesture is one step, Escape puts the bat back as it was.
+
+import { movable, moved, snapped, stationsOf, withDiameters, limits } from "./stations.js";
+import { framed } from "./svg.js";
+import { inUs } from "./units.js";
+
+/** How near (px) a pointer must be to the outline, fine and coarse. */
+const NEAR = { mouse: 16, pen: 20, touch: 30 };
+/** Further (px) from its station than this a pointer moves it finely, as with Shift. */
+const FAR = 90;
+/** A fine pointer moves a diameter by so much (mm) a pixel, a coarse one by so much at most: fingers are blunt. */
+const FINE = 0.1, COARSE = 0.4;
+/** Reaches (mm) that `[` and `]` go through. */
+const REACHES = [0, 10, 20, 30, 40, 60, 80, 120, 160, 200];
+
+/** Where a gesture began, and how far it has come. */
+class Gesture {
+  constructor(file, k) {
+    Object.assign(this, { file, k, stations: stationsOf(file), by: 0, moved: false });
+  }
+
+  /** The file with the station's diameter changed by so much (mm), snapped. */
+  after(by, step, reach) {
+    const first = this.stations.diameter[this.k];
+    const wanted = Math.abs(by) < step / 2 ? first : snapped(first + by, step);
+    return withDiameters(this.file, moved(this.stations, this.k, wanted, reach));
+  }
+}
+
+export class Drag {
+  /**
+   * @param {import("./picture.js").Picture} picture
+   * @param {import("./bench.js").Bench} bench
+   * @param {{ tapped: (place_m: number) => void, picked: () => void }} calls
+   */
+  constructor(picture, bench, calls) {
+    Object.assign(this, { picture, bench, calls, step: 0.1, gesture: null, pointer: null });
+    const { svg } = picture;
+    this.draw = framed(() => this.show());
+    svg.addEventListener("pointerdown", (event) => this.down(event));
+    svg.addEventListener("pointermove", (event) => this.move(event));
+    for (const end of ["pointerup", "lostpointercapture"]) svg.addEventListener(end, (event) => this.up(event));
+    svg.addEventListener("pointercancel", (event) => event.pointerId === this.pointer && this.back());
+    svg.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
+    svg.addEventListener("keydown", (event) => this.key(event));
+    // Not on the picture itself: browsers let what hears of the focus have it.
+    svg.parentElement.addEventListener("focusin", (event) => this.focused(event));
+    svg.parentElement.addEventListener("focusout", () => this.pointer === null && this.finish());
+    addEventListener("keydown", (event) => {
+      if (event.key === "Escape" && this.gesture) { event.preventDefault(); this.back(); }
+    });
+    // A finger on a handle draws; one beside it scrolls the page.
+    svg.addEventListener("touchstart", (event) => this.pointer !== null && event.preventDefault(), { passive: false });
+  }
+
+  /** The point of the picture (px) of an event. */
+  at(event) {
+    const box = this.picture.svg.getBoundingClientRect(), { frame } = this.picture;
+    const [right, down] = [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height];
+    return [right * frame.width, down * frame.height];
+  }
+
+  /** The station nearest to a point on one of the two edges; −1 where none is near. */
+  nearest([x, y], kind) {
+    const { picture } = this, { stations, frame } = picture, near = NEAR[kind] ?? NEAR.mouse;
+    if (!stations) return -1;
+    let best = -1, least = Infinity;
+    stations.x.forEach((place, k) => {
+      if (!movable(stations, k)) return;
+      const edge = picture.up(stations.diameter[k] / 2), other = 2 * frame.middle - edge;
+      const across = Math.min(Math.abs(y - edge), Math.abs(y - other)), along = Math.abs(x - picture.x(place));
+      const distance = Math.hypot(along, across);
+      if (across <= near && along <= near + 6 && distance < least) [best, least] = [k, distance];
+    });
+    return best;
+  }
+
+  down(event) {
+    if (this.pointer !== null || event.button !== 0 || !this.bench.body) return;
+    this.finish();
+    const point = this.at(event), k = this.nearest(point, event.pointerType), { picture, bench } = this;
+    if (k < 0) {
+      const place = picture.placeAt(point[0]) / 1000, { outline, length } = bench.body;
+      const j = outline.x_m.findLastIndex((x) => x <= place);
+      const inside = place >= 0 && place <= length.value && Math.abs(point[1] - picture.frame.middle)
+        <= 1000 * outline.radius_m[Math.max(j, 0)] * picture.frame.across;
+      if (inside) this.calls.tapped(place);
+      return;
+    }
+    event.preventDefault();
+    this.pick(k);
+    picture.handles.children[k].focus({ preventScroll: true });
+    this.gesture = new Gesture(bench.file, k);
+    this.gesture.lower = point[1] > picture.frame.middle;
+    [this.pointer, this.lastY] = [event.pointerId, point[1]];
+    picture.svg.setPointerCapture(event.pointerId);
+    picture.frozen = bench.changing = true;
+    picture.svg.classList.add("held");
+  }
+
+  move(event) {
+    if (event.pointerId !== this.pointer || !this.gesture) return;
+    const { picture, gesture } = this, [x, y] = this.at(event);
+    const away = (this.lastY - y) * (gesture.lower ? -1 : 1);
+    this.lastY = y;
+    const fine = event.shiftKey || Math.abs(x - picture.x(gesture.stations.x[gesture.k])) > FAR;
+    gesture.by += (fine ? FINE : Math.min(2 / picture.frame.across, COARSE)) * away;
+    this.draw();
+  }
+
+  /** Draws the gesture as far as it has come. */
+  show() {
+    const { gesture, bench } = this;
+    if (!gesture) return;
+    // A gesture that has come back to where it began leaves the bat as it was.
+    if (Math.abs(gesture.by) < this.step / 2) bench.text === bench.history.now || bench.show(bench.history.now);
+    else bench.edit(gesture.after(gesture.by, this.step, this.picture.reach));
+  }
+
+  up(event) {
+    if (event.pointerId !== this.pointer) return;
+    this.finish();
+  }
+
+  /** Ends the gesture: what is shown becomes a step. */
+  finish() {
+    const { gesture, bench, picture } = this;
+    if (!gesture) return;
+    this.show();
+    this.let();
+    bench.commit();
+    picture.draw();
+  }
+
+  let() {
+    Object.assign(this, { gesture: null, pointer: null });
+    this.picture.frozen = this.bench.changing = false;
+    this.picture.svg.classList.remove("held");
+  }
+
+  /** Puts the bat back as it was before the gesture. */
+  back() {
+    if (!this.gesture) return;
+    this.let();
+    this.bench.show(this.bench.history.now);
+    this.picture.draw();
+  }
+
+  pick(k) {
+    this.picture.picked = k;
+    this.picture.drawHandles();
+    this.calls.picked();
+  }
+
+  focused(event) {
+    const k = [...this.picture.handles.children].indexOf(event.target.closest(".handle"));
+    if (k >= 0 && k !== this.picture.picked) this.pick(k);
+  }
+
+  /** Another reach, while a station is held or not. */
+  setReach(mm) {
+    this.picture.reach = mm;
+    this.picture.drawReach();
+    if (this.gesture) this.draw();
+    this.calls.picked();
+  }
+
+  otherReach(by) {
+    const { reach } = this.picture;
+    const next = by > 0 ? REACHES.find((mm) => mm > reach) : REACHES.findLast((mm) => mm < reach);
+    if (next !== undefined) this.setReach(next);
+  }
+
+  /** The wheel changes the reach only while a station is held: else it scrolls the page. */
+  wheel(event) {
+    if (this.pointer === null) return;
+    event.preventDefault();
+    this.otherReach(event.deltaY < 0 ? 1 : -1);
+  }
+
+  key(event) {
+    const { picture, bench } = this, k = picture.picked;
+    if (k < 0 || event.ctrlKey || event.metaKey || event.altKey || !event.target.closest(".handle")) return;
+    const ten = inUs() && this.step > 0.1 ? 4 * this.step : 1;
+    const by = { ArrowUp: this.step, ArrowDown: -this.step, PageUp: ten, PageDown: -ten }[event.key];
+    const other = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+    if (event.key === "[" || event.key === "]") this.otherReach(event.key === "]" ? 1 : -1);
+    else if (other) this.other(other);
+    else if (by || event.key === "Home" || event.key === "End") {
+      if (this.pointer !== null) return;
+      if (this.gesture?.k !== k) { this.finish(); this.gesture = new Gesture(bench.file, k); }
+      bench.changing = true;
+      const { gesture } = this, [least, most] = limits(gesture.stations, k), first = gesture.stations.diameter[k];
+      gesture.by = by ? gesture.by + by : (event.key === "Home" ? least : most) - first;
+      gesture.by = Math.min(Math.max(gesture.by, least - first), most - first);
+      this.draw();
+      // Presses in a row are one gesture.
+      clearTimeout(this.rest);
+      this.rest = setTimeout(() => this.pointer === null && this.finish(), 900);
+    } else return;
+    event.preventDefault();
+    event.stopPropagation();
+  }
+
+  /** Goes to the next station that can be moved. */
+  other(by) {
+    const { picture } = this, { stations } = picture;
+    this.finish();
+    let k = picture.picked + by;
+    while (k >= 0 && k < stations.x.length && !movable(stations, k)) k += by;
+    if (k < 0 || k >= stations.x.length) return;
+    this.pick(k);
+    picture.handles.children[k].focus();
+  }
+}

@@ -1,0 +1,70 @@
+// Puts a bat into a link's fragment and takes it out again: "#1." and the deflated JSON in letters of addresses.
+
+/** What stands before the bat: the version of the form. */
+const VERSION = "1.";
+/** More than this is not unpacked: a small link can hold a very large file. */
+const MOST = 1 << 20;
+
+const toLetters = (bytes) => btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(""))
+  .replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");
+const fromLetters = (text) =>
+  Uint8Array.from(atob(text.replaceAll("-", "+").replaceAll("_", "/")), (letter) => letter.charCodeAt(0));
+
+/** Everything that a stream gives, `most` bytes at most. */
+export async function drained(stream, most) {
+  const parts = [], reader = stream.getReader();
+  let size = 0;
+  for (let next = await reader.read(); !next.done; next = await reader.read()) {
+    size += next.value.length;
+    if (size > most) {
+      await reader.cancel();
+      throw new Error(`the link holds more than ${most / (1 << 20)} MB; a bat file is a few kB`);
+    }
+    parts.push(next.value);
+  }
+  return new Uint8Array(await new Blob(parts).arrayBuffer());
+}
+
+/**
+ * The fragment of a bat and a scene. The source of the numbers is left out: it is longer than the bat.
+ * @param {string} bat text of a bat file
+ * @param {object} scene
+ */
+export async function fragment(bat, scene) {
+  const { source, ...rest } = JSON.parse(bat);
+  const set = Object.keys(scene).length ? { scene } : {};
+  const text = JSON.stringify({ format: "sweetspot-lab/1", bat: rest, ...set });
+  const packed = new Blob([text]).stream().pipeThrough(new CompressionStream("deflate-raw"));
+  return `#${VERSION}${toLetters(await drained(packed, MOST))}`;
+}
+
+/**
+ * The bat and the scene of a fragment, or of an address that ends in one.
+ * @param {string} text
+ * @returns {Promise<{ bat: string, scene: object }>}
+ */
+export async function unpacked(text) {
+  const mark = text.lastIndexOf("#"), inside = text.slice(mark + 1).trim();
+  if (!inside.startsWith(VERSION)) {
+    throw new Error(`the link starts with "${inside.slice(0, 8)}"; this page reads links that start with "${VERSION}"`);
+  }
+  let bytes;
+  try {
+    const packed = new Blob([fromLetters(inside.slice(VERSION.length))]).stream();
+    bytes = await drained(packed.pipeThrough(new DecompressionStream("deflate-raw")), MOST);
+  } catch (problem) {
+    if (problem.message.startsWith("the link")) throw problem;
+    throw new Error("the link is cut short or has been changed on its way; ask for it again");
+  }
+  let held;
+  try {
+    held = JSON.parse(new TextDecoder("utf-8", { fatal: true }).decode(bytes));
+  } catch {
+    throw new Error("the link does not hold a bat; ask for it again");
+  }
+  if (held?.format !== "sweetspot-lab/1" || typeof held.bat !== "object" || held.bat === null) {
+    throw new Error('the link does not hold a bat of the format "sweetspot-lab/1"');
+  }
+  const scene = held.scene && typeof held.scene === "object" && !Array.isArray(held.scene) ? held.scene : {};
+  return { bat: JSON.stringify(held.bat), scene };
+}

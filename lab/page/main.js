@@ -1,0 +1,152 @@
+// Puts the page together: unpacks the core, makes the parts, opens the first bat.
+
+import { Lathe, Wishes } from "./advice.js";
+import { Bench } from "./bench.js";
+import { Changes } from "./changes.js";
+import { Chart } from "./chart.js";
+import { Compare } from "./compare.js";
+import { Drag } from "./drag.js";
+import { Figures } from "./figures.js";
+import { Keep } from "./keep.js";
+import { Lessons } from "./lessons.js";
+import { Notes } from "./notes.js";
+import { Picture } from "./picture.js";
+import { SceneOfHit } from "./scene.js";
+import { compiled, Far, Near } from "./solve.js";
+import { Voice } from "./sound.js";
+import { byId, made, write } from "./svg.js";
+import { Table } from "./table.js";
+import { inUs, setUs, whenUnits } from "./units.js";
+
+/** The bat that the page begins with, unless it was given another. */
+const FIRST = "r161";
+/** ms that a quick answer and a slow one may take. */
+const LIMITS = [2000, 30000];
+
+/** What the build has put into the page. */
+function data(name, otherwise) {
+  const element = byId(name);
+  return element ? JSON.parse(element.textContent) : otherwise;
+}
+
+/** Buttons and keys that are about the whole page. */
+function controls(bench, drag) {
+  byId("undo").addEventListener("click", () => { drag.finish(); bench.step(-1); });
+  byId("redo").addEventListener("click", () => { drag.finish(); bench.step(1); });
+  addEventListener("keydown", (event) => {
+    const typing = event.target.closest("input:not([type=range], [type=radio], [type=checkbox]), textarea");
+    if (typing || !(event.ctrlKey || event.metaKey)) return;
+    const key = event.key.toLowerCase(), by = key === "y" || (key === "z" && event.shiftKey) ? 1 : key === "z" ? -1 : 0;
+    if (by === 0) return;
+    event.preventDefault();
+    drag.finish();
+    bench.step(by);
+  });
+  byId("reach").addEventListener("input", ({ target }) => drag.setReach(Number(target.value)));
+  byId("step").addEventListener("change", ({ target }) => { drag.step = Number(target.value); });
+  for (const input of document.querySelectorAll("input[name=units]")) {
+    input.addEventListener("change", () => setUs(input.value === "us"));
+  }
+  whenUnits(() => {
+    byId(inUs() ? "units-1" : "units-0").checked = true;
+    // Who counts in inches counts in their parts.
+    byId("step").value = inUs() ? "0.396875" : "0.1";
+    drag.step = Number(byId("step").value);
+    if (!bench.text) return;
+    bench.show(bench.text);
+    bench.tell("history");
+  });
+}
+
+/** What stands on the page of the bat itself. */
+function words(bench, drag) {
+  const reach = () => {
+    byId("reach").value = String(drag.picture.reach);
+    const { reach: mm } = drag.picture;
+    write(byId("reach-words"), mm === 0 ? "this station alone" : inUs() ? `${(mm / 25.4).toFixed(1)} in` : `${mm} mm`);
+    byId("reach").setAttribute("aria-valuetext", byId("reach-words").textContent);
+  };
+  bench.on("shown", () => {
+    const { body, opened } = bench;
+    write(byId("name"), body.name);
+    document.title = `${body.name}: bat lab`;
+    byId("trouble").hidden = true;
+    const warnings = [...body.warnings, ...(opened?.warnings ?? [])];
+    byId("trust").replaceChildren(...[...new Set(warnings)].map((text) => made("li", {}, text)));
+    reach();
+  });
+  bench.on("figures", () => {
+    const { hit, body, analyzed } = bench;
+    const said = [...new Set([...body.warnings, ...(hit?.answer.doubts ?? []), ...(analyzed?.trust ?? [])])];
+    byId("trust").replaceChildren(...said.map((text) => made("li", {}, text)));
+    byId("doubts").hidden = said.length === 0;
+    write(byId("why"), analyzed?.why ?? "");
+    const spots = hit?.answer.spots ?? [];
+    const known = bench.certified ? [...spots.map(({ what, place }) => [what, `${place.text} from the knob`]),
+      ...(analyzed?.figures ?? []).map(({ what, text }) => [what, text])] : [];
+    byId("spots").hidden = known.length === 0;
+    byId("spot-rows").replaceChildren(...known.map(([what, text]) =>
+      made("tr", {}, made("th", { scope: "row" }, what), made("td", {}, text))));
+  });
+  bench.on("opened", () => { drag.picture.picked = -1; });
+  bench.on("history", () => {
+    byId("undo").disabled = !bench.history.canUndo;
+    byId("redo").disabled = !bench.history.canRedo;
+  });
+  bench.on("trouble", (text) => { write(byId("trouble"), text); byId("trouble").hidden = false; });
+  bench.on("slowTrouble", (text) => { byId("trust").append(made("li", {}, text)); });
+  return reach;
+}
+
+/** The first bat: of the address, written into the page, kept by the browser, or built in. */
+async function first(bench, keep, bats) {
+  if (await keep.fromAddress()) return;
+  const given = data("bat", null), kept = keep.kept();
+  if (kept?.units === "us") setUs(true);
+  if (given && !(await bench.open(given))) return;
+  if (!given && kept?.bat && !(await bench.open(kept.bat, kept.scene))) { bench.tell("scene", kept.scene); return; }
+  const wrong = await bench.open(bats[FIRST]);
+  if (wrong) bench.say(wrong);
+}
+
+async function begin() {
+  const page = new Blob(["<!doctype html>\n", document.documentElement.outerHTML]);
+  document.documentElement.classList.add("js");
+  const bats = data("bats", {}), about = data("about", { address: null }), woods = data("materials", []);
+  let module;
+  try {
+    module = await compiled(byId("core").textContent);
+  } catch {
+    write(byId("badge-words"), "the core does not start: this browser is too old, or the file is cut short");
+    return;
+  }
+  const program = byId("worker").textContent;
+  const far = (limit) => new Far(module, program, limit);
+  const bench = new Bench(await Near.of(module), far(LIMITS[0]), far(LIMITS[0]), far(LIMITS[1]));
+  const picture = new Picture(byId("picture"), bench), voice = new Voice(bench);
+  let reach = () => {};
+  const table = { draw() {} };
+  const calls = { tapped: (place) => voice.strike(place), picked: () => { reach(); table.draw(); } };
+  const drag = new Drag(picture, bench, calls);
+  reach = words(bench, drag);
+  for (const what of ["shown", "figures", "pins"]) bench.on(what, () => picture.draw());
+  const stations = new Table(bench, drag);
+  table.draw = () => stations.draw();
+  new Figures(bench);
+  new Chart(byId("chart"), bench);
+  new Notes(bench, voice, picture);
+  new Compare(bench, bats);
+  new Changes(bench, woods);
+  new Lathe(bench, picture);
+  new Wishes(bench);
+  const scene = new SceneOfHit(bench), keep = new Keep(bench, about, page);
+  bench.on("scene", (what) => scene.set(what));
+  const lessons = new Lessons(bench, bats, voice);
+  controls(bench, drag);
+  // For trials of the page: what it holds, and the parts that answer.
+  window.lab = { bench, drag, picture, voice, keep, lessons };
+  await first(bench, keep, bats);
+  addEventListener("beforeunload", (event) => { if (keep.lost) event.preventDefault(); });
+}
+
+begin();

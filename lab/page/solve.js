@@ -1,0 +1,142 @@
+// Asks the core: at once on the main thread, or in a worker with one question under way and the newest waiting.
+
+/** The core of the main thread: for what is done within a frame. Another one stands ready, should it fail. */
+export class Near {
+  /** @param {WebAssembly.Module} module */
+  static async of(module) {
+    const near = new Near();
+    // Browsers start a large module on the main thread only when they are not waited for.
+    near.fresh = async () => (await WebAssembly.instantiate(module, {})).exports;
+    [near.core, near.spare] = [await near.fresh(), await near.fresh()];
+    return near;
+  }
+
+  /** The answer to a question. */
+  ask(question) {
+    const { core } = this, bytes = new TextEncoder().encode(JSON.stringify({ id: 0, ...question }));
+    if (!core) return { id: 0, error: "The core is starting again; try once more." };
+    const at = core.room(bytes.length);
+    new Uint8Array(core.memory.buffer, at, bytes.length).set(bytes);
+    let length;
+    try {
+      length = core.answer();
+    } catch {
+      // What went wrong is the answer to an empty question; this core is not used again.
+      core.room(0);
+      length = core.answer();
+      [this.core, this.spare] = [this.spare, null];
+      this.fresh().then((exports) => { if (this.core) this.spare = exports; else this.core = exports; });
+    }
+    return JSON.parse(new TextDecoder().decode(new Uint8Array(core.memory.buffer, core.answer_at(), length)));
+  }
+}
+
+/**
+ * @typedef {object} Waiting
+ * @property {number} id
+ * @property {object} question
+ * @property {(answer: object | null) => void} then called with null where a newer question took its place
+ */
+
+/** A worker that answers one question at a time. Of every kind the newest waits, and older ones are dropped. */
+export class Far {
+  /**
+   * @param {WebAssembly.Module} module
+   * @param {string} program text of worker.js
+   * @param {number} limit ms after which an answer is given up
+   */
+  constructor(module, program, limit) {
+    Object.assign(this, { module, program, limit, count: 0, under: null, ready: false });
+    /** @type {Map<string, Waiting>} */
+    this.waiting = new Map();
+    /** For trials: an answer is held back so long (ms). */
+    this.delay = 0;
+    this.begin();
+  }
+
+  begin() {
+    const address = URL.createObjectURL(new Blob([this.program], { type: "text/javascript" }));
+    this.worker = new Worker(address);
+    URL.revokeObjectURL(address);
+    this.ready = false;
+    const { worker } = this;
+    worker.onmessage = ({ data }) => {
+      if (worker !== this.worker) return;
+      if (data.ready) {
+        this.ready = true;
+        this.next();
+      } else if (this.delay > 0) {
+        setTimeout(() => worker === this.worker && this.came(data), this.delay);
+      } else {
+        this.came(data);
+      }
+    };
+    worker.onerror = () => worker === this.worker && this.end("the core could not go on");
+    worker.postMessage({ module: this.module });
+  }
+
+  /**
+   * Asks, and gives the answer; null if a newer question of its kind came first.
+   * @returns {Promise<any>}
+   */
+  ask(question) {
+    this.count += 1;
+    const id = this.count;
+    return new Promise((then) => {
+      this.waiting.get(question.ask)?.then(null);
+      this.waiting.delete(question.ask);
+      this.waiting.set(question.ask, { id, question: { ...question, id }, then });
+      this.next();
+    });
+  }
+
+  next() {
+    if (this.under || !this.ready || this.waiting.size === 0) return;
+    const [kind, first] = this.waiting.entries().next().value;
+    this.waiting.delete(kind);
+    this.under = first;
+    this.worker.postMessage({ text: JSON.stringify(first.question) });
+    this.clock = setTimeout(() => this.end(
+      `No answer within ${this.limit / 1000} s, so the calculation was ended. Change the bat and it is tried again.`,
+    ), this.limit);
+  }
+
+  came({ text, took }) {
+    clearTimeout(this.clock);
+    const { under } = this;
+    this.under = null;
+    const answer = JSON.parse(text);
+    if (answer.panic) this.anew();
+    under?.then({ ...answer, id: under.id, took });
+    this.next();
+  }
+
+  /** A new worker from the compiled module; what waits is asked there. */
+  anew() {
+    this.worker.terminate();
+    this.begin();
+  }
+
+  /** Ends the question under way with these words; what waits goes on in a new worker. */
+  end(words) {
+    clearTimeout(this.clock);
+    const { under } = this;
+    this.under = null;
+    this.anew();
+    under?.then(words ? { id: under.id, error: words } : null);
+  }
+
+  /** Drops everything: the bat is another. */
+  drop() {
+    for (const { then } of this.waiting.values()) then(null);
+    this.waiting.clear();
+    if (this.under) this.end(null);
+  }
+}
+
+/** The compiled core from the page's own text. */
+export async function compiled(letters) {
+  const bytes = Uint8Array.from(atob(letters.trim()), (letter) => letter.charCodeAt(0));
+  const plain = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+  return WebAssembly.compile(await new Response(plain).arrayBuffer());
+}

@@ -1,0 +1,157 @@
+//! What is asked, of which bat, in which scene.
+
+use std::path::Path;
+
+use serde::Deserialize;
+use serde_json::{Map, Value, json};
+use sweetspot::base::error::{Error, Result};
+use sweetspot::collision::hit::Model;
+use sweetspot::collision::setup::Setup;
+use sweetspot::files::document::Document;
+use sweetspot::files::json_node::Node;
+use sweetspot::files::{balls, scene_file};
+use sweetspot::{Bat, Request};
+use sweetspot_report::parts::units::Units;
+
+use crate::{aim, analyze, body, files, hit, lathe, open, sound};
+
+/// A request as the page writes it.
+#[derive(Deserialize)]
+struct Asked {
+    #[serde(default)]
+    id: u64,
+    ask: String,
+    #[serde(default)]
+    bat: String,
+    #[serde(default)]
+    scene: Map<String, Value>,
+    #[serde(default)]
+    units: String,
+    /// What this question asks besides.
+    #[serde(flatten)]
+    more: Map<String, Value>,
+}
+
+/// A question about a bat that could be read.
+#[derive(Clone)]
+pub struct Question {
+    /// The bat as it was asked about.
+    pub bat: Bat,
+    /// The text of its file.
+    pub text: String,
+    /// Swing, pitch and ball.
+    pub setup: Setup,
+    /// The scene as it was asked.
+    pub scene: Map<String, Value>,
+    /// The units of all texts.
+    pub units: Units,
+    /// What this question asks besides.
+    pub more: Map<String, Value>,
+}
+
+/// What messages call the bat's file.
+pub const BAT: &str = "bat.json";
+
+/// What hits and modes are asked for, as the program asks where nobody tells it.
+pub fn request() -> Request {
+    Request::default()
+}
+
+/// The answer to a request, both in JSON. What is wrong with it is said in the answer.
+pub fn answered(text: &str) -> String {
+    let asked: Asked = match serde_json::from_str(text) {
+        Ok(asked) => asked,
+        Err(error) => return failed(0, &Error::value("the request", error, "a request")),
+    };
+    let id = asked.id;
+    match answer(asked) {
+        Ok(mut answer) => {
+            answer["id"] = id.into();
+            answer.to_string()
+        }
+        Err(error) => failed(id, &error),
+    }
+}
+
+/// The answer that tells of a panic.
+pub fn panicked(words: &str) -> String {
+    json!({ "id": 0, "error": words, "panic": true }).to_string()
+}
+
+/// One question, one function.
+fn answer(asked: Asked) -> Result<Value> {
+    type Answering = fn(&Question) -> Result<Value>;
+    const QUESTIONS: [(&str, Answering); 8] = [
+        ("body", body::answer),
+        ("live", hit::live),
+        ("sure", hit::sure),
+        ("analyze", analyze::answer),
+        ("lathe", lathe::answer),
+        ("aim", aim::answer),
+        ("sound", sound::answer),
+        ("files", files::answer),
+    ];
+    // For trials of what a page does after a mistake of ours; a published core has no such question.
+    debug_assert!(asked.ask != "panic", "asked to panic");
+    let units = units(&asked.units)?;
+    if asked.ask == "open" {
+        return open::answer(&asked.bat, units);
+    }
+    let Some((_, answering)) = QUESTIONS.iter().find(|(name, _)| *name == asked.ask) else {
+        let names: Vec<&str> = QUESTIONS.iter().map(|(name, _)| *name).collect();
+        return Err(Error::value("ask", asked.ask, format!("open, {}", names.join(", "))));
+    };
+    let bat = Bat::from_text(BAT, &asked.bat, Path::new(""))?;
+    let setup = setup(&asked.scene)?;
+    let Asked { bat: text, scene, more, .. } = asked;
+    answering(&Question { bat, text, setup, scene, units, more })
+}
+
+fn units(name: &str) -> Result<Units> {
+    match name {
+        "" | "si" => Ok(Units::Si),
+        "us" => Ok(Units::Us),
+        other => Err(Error::value("units", other, "si or us")),
+    }
+}
+
+/// The scene, whose members are the options of `sweetspot hit`, the ball by its name.
+fn setup(scene: &Map<String, Value>) -> Result<Setup> {
+    let mut members = scene.clone();
+    let ball = members.remove("ball").unwrap_or_else(|| "baseball".into());
+    let known = ball.as_str().and_then(balls::built_in);
+    let ball = known
+        .ok_or_else(|| Error::value("`ball`", &ball, "baseball, humid-baseball or softball"))?;
+    let document = Document::new("scene".to_owned(), &Value::from(members).to_string());
+    let setup = scene_file::read(&Node::root(&document)?, ball)?;
+    setup.model()?;
+    Ok(setup)
+}
+
+impl Question {
+    /// A text that this question asks besides.
+    pub fn said(&self, name: &str) -> Option<&str> {
+        self.more.get(name)?.as_str()
+    }
+
+    /// The collision model.
+    pub fn model(&self) -> Result<Model> {
+        self.setup.model()
+    }
+}
+
+/// What is wrong, in one sentence and each mistake with its place in the bat's text.
+fn failed(id: u64, error: &Error) -> String {
+    let all = match error {
+        Error::Several { shown, .. } => &shown[..],
+        one => std::slice::from_ref(one),
+    };
+    let mistake = |error: &Error| match error {
+        Error::Input { place, complaint } if place.file == BAT => json!({
+            "text": complaint.to_string(), "line": place.line, "column": place.column,
+        }),
+        other => json!({ "text": other.to_string() }),
+    };
+    let mistakes: Vec<Value> = all.iter().map(mistake).collect();
+    json!({ "id": id, "error": error.to_string(), "mistakes": mistakes }).to_string()
+}

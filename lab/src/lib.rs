@@ -1,0 +1,83 @@
+//! The program's answers in a page, without a server.
+//!
+//! A page writes a request into [`room`], calls [`answer`] and reads as many bytes at [`answer_at`]. Both are JSON, as
+//! `lab/page/types.js` says. The module imports nothing, so that it can do nothing but compute.
+//!
+//! | file | question |
+//! |---|---|
+//! | `shown` | what is said of a number |
+//! | `asked` | what is asked, of which bat, in which scene |
+//! | `body` | what does the rigid bat weigh, and how does it look |
+//! | `hit` | how does it ring, how fast does the ball leave |
+//! | `analyze` | how far may the bat in hand be off |
+//! | `lathe`, `aim` | what does a cut do; which cuts meet a wish |
+//! | `sound` | how does it sound |
+//! | `open`, `files` | how does a bat come in and go out |
+
+// The names that the page calls are all that is unsafe.
+#![deny(unsafe_code)]
+
+mod shown;
+mod asked;
+mod body;
+mod hit;
+mod analyze;
+mod lathe;
+mod aim;
+mod sound;
+mod open;
+mod files;
+
+use std::cell::RefCell;
+use std::panic;
+use std::sync::Mutex;
+
+pub use asked::answered;
+
+thread_local! {
+    static ASKED: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
+    static ANSWER: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
+}
+/// The words of the last panic: after it no other part of the instance is to be trusted.
+static LAST_WORDS: Mutex<String> = Mutex::new(String::new());
+
+/// Room for a request of that many bytes.
+#[allow(unsafe_code)]
+#[unsafe(no_mangle)]
+pub extern "C" fn room(bytes: usize) -> *mut u8 {
+    ASKED.with_borrow_mut(|asked| {
+        asked.clear();
+        asked.resize(bytes, 0);
+        asked.as_mut_ptr()
+    })
+}
+
+/// Answers the request, and says how many bytes the answer has. A request of no bytes is answered by the words of the
+/// last panic.
+#[allow(unsafe_code)]
+#[unsafe(no_mangle)]
+pub extern "C" fn answer() -> usize {
+    #[cfg(target_arch = "wasm32")]
+    pulp_wasm_simd_flag::enable_simd128();
+    let asked = ASKED.take();
+    let text = match asked.is_empty() {
+        true => asked::panicked(&LAST_WORDS.lock().map_or(String::new(), |words| words.clone())),
+        false => {
+            panic::set_hook(Box::new(|info| {
+                if let Ok(mut words) = LAST_WORDS.lock() {
+                    *words = info.to_string();
+                }
+            }));
+            answered(&String::from_utf8_lossy(&asked))
+        }
+    };
+    ANSWER.replace(text.into_bytes());
+    ANSWER.with_borrow(Vec::len)
+}
+
+/// Where the answer begins.
+#[allow(unsafe_code)]
+#[unsafe(no_mangle)]
+pub extern "C" fn answer_at() -> *const u8 {
+    ANSWER.with_borrow(|answer| answer.as_ptr())
+}
