@@ -29,11 +29,16 @@ pub const LOSSES: [f64; 2] = [0.0008, 0.08];
 const MISFIT: f64 = 0.30;
 /// The share of taps a tone is heard in, at least, and how far they may spread.
 const HEARD: f64 = 0.6;
+const SOME: f64 = 0.25;
+/// A tap of whose band so much is left is not heard at all.
+const LOST: f64 = 0.8;
 const SPREAD: f64 = 0.012;
 /// Two poles for one: where the squares fall so far, both decay within that factor and they are so far apart, in δ/π.
 const TWIN: f64 = 0.35;
 const TWIN_DECAYS: f64 = 2.5;
 const TWIN_APART: f64 = 0.3;
+/// Twins of the two planes of the grain are no further apart, relative; what is further is another tone.
+const PLANES: f64 = 0.03;
 /// A tap whose five strongest tones are left so badly, and so much worse than the others, is none.
 const NO_TAP: f64 = 0.3;
 const WORSE: f64 = 4.0;
@@ -97,15 +102,12 @@ enum Window {
 /// The tones of these taps, sought at these frequencies (Hz).
 pub fn tones(taps: &[Ringing], peaks: &[f64]) -> Tones {
     let mut used = vec![true; taps.len()];
-    let mut found = heard(taps, &used, peaks);
-    for (tap, is_tap) in used.clone().iter().enumerate() {
-        *used.get_mut(tap).expect("as many") = *is_tap && !is_none(&found, tap);
+    // What is no tap has none of the tones: first those are sought that some taps share.
+    let rough = heard(taps, &used, peaks, SOME);
+    for (tap, used) in used.iter_mut().enumerate() {
+        *used = !is_none(&rough, tap);
     }
-    if used.contains(&false) && used.contains(&true) {
-        found = heard(taps, &used, peaks);
-    } else {
-        used.fill(true);
-    }
+    let found = if used.contains(&true) { heard(taps, &used, peaks, HEARD) } else { vec![] };
     let mut differences: Vec<[Option<[f64; 2]>; 2]> = vec![];
     let poles: Vec<Vec<Pole>> = found.iter().map(|one| one.whole.poles.clone()).collect();
     for (k, one) in found.iter().enumerate() {
@@ -121,13 +123,14 @@ pub fn tones(taps: &[Ringing], peaks: &[f64]) -> Tones {
     let mut tones = vec![];
     for (one, differences) in found.iter().zip(&differences) {
         for (p, pole) in one.whole.poles.iter().enumerate() {
-            let twin = one.whole.poles.get(1 - p).map(|twin| twin.hz);
+            let twin = one.whole.poles.get(1usize.wrapping_sub(p)).map(|twin| twin.hz);
+            let twin = twin.filter(|hz| (hz / pole.hz - 1.0).abs() < PLANES);
             tones.push(Tone {
                 pole: *pole,
                 deviations: deviations(one, p, differences[p], room),
                 taps: one.singles[p].len(),
                 level: one.level - most,
-                twin: twin.filter(|_| one.whole.poles.len() > 1),
+                twin,
             });
         }
     }
@@ -146,15 +149,13 @@ fn is_none(found: &[Found], tap: usize) -> bool {
     let mut strongest: Vec<&Found> = found.iter().collect();
     strongest.sort_by(|a, b| b.level.total_cmp(&a.level));
     strongest.truncate(5);
-    let of = |tap: usize| {
-        let all = strongest.iter().flat_map(|one| &one.misfits);
-        median(&all.filter(|(k, _)| *k == tap).map(|(_, misfit)| *misfit).collect::<Vec<_>>())
-    };
+    let of = |one: &&Found| one.misfits.iter().find(|(k, _)| *k == tap).map(|(_, misfit)| *misfit);
+    let own = median(&strongest.iter().filter_map(of).collect::<Vec<_>>());
     let all: Vec<f64> = strongest.iter().flat_map(|one| &one.misfits).map(|(_, m)| *m).collect();
-    of(tap) > NO_TAP && of(tap) > WORSE * median(&all)
+    own > NO_TAP && own > WORSE * quantile(&all, 0.25)
 }
 
-fn heard(taps: &[Ringing], used: &[bool], peaks: &[f64]) -> Vec<Found> {
+fn heard(taps: &[Ringing], used: &[bool], peaks: &[f64], least: f64) -> Vec<Found> {
     // First each alone, then beside the others in its band.
     let alone: Vec<Option<Pole>> = peaks.iter().map(|hz| begun(taps, used, *hz)).collect();
     let first: Vec<Pole> = apart(alone.into_iter().flatten().collect());
@@ -162,11 +163,11 @@ fn heard(taps: &[Ringing], used: &[bool], peaks: &[f64]) -> Vec<Found> {
     let mut found: Vec<Found> = first
         .iter()
         .enumerate()
-        .filter_map(|(k, pole)| tone(taps, used, &[*pole], &others(&poles, k)))
+        .filter_map(|(k, pole)| tone((taps, used, least), &[*pole], &others(&poles, k)))
         .collect();
     let poles: Vec<Vec<Pole>> = found.iter().map(|one| one.whole.poles.clone()).collect();
     let again: Vec<Option<Found>> =
-        (0..found.len()).map(|k| tone(taps, used, &poles[k][..1], &others(&poles, k))).collect();
+        (0..found.len()).map(|k| tone((taps, used, least), &poles[k][..1], &others(&poles, k))).collect();
     found = again.into_iter().flatten().collect();
     let mut kept: Vec<Found> = vec![];
     for one in found {
@@ -251,7 +252,9 @@ fn near(others: &[Pole], pole: Pole) -> Vec<Pole> {
 }
 
 /// A tone fitted to all taps, begun at one pole; twins where they are far better. None where there is no tone.
-fn tone(taps: &[Ringing], used: &[bool], start: &[Pole], others: &[Pole]) -> Option<Found> {
+fn tone(
+    (taps, used, least): (&[Ringing], &[bool], f64),
+    start: &[Pole], others: &[Pole]) -> Option<Found> {
     let beside = near(others, start[0]);
     let mut bands = bands(taps, used, start[0], Window::Whole);
     let share = |bands: &[Band], poles: &[Pole]| -> Vec<(usize, f64)> {
@@ -261,10 +264,10 @@ fn tone(taps: &[Ringing], used: &[bool], start: &[Pole], others: &[Pole]) -> Opt
         bands.iter().map(|band| (band.tap, left(band))).collect()
     };
     let first = fit(&bands, start, &beside)?;
-    let misfits = share(&bands, &first.poles);
+    let of_all = share(&bands, &first.poles);
     let enough =
-        |count: usize| count as f64 >= HEARD * used.iter().filter(|used| **used).count() as f64;
-    bands.retain(|band| misfits.iter().any(|(tap, misfit)| *tap == band.tap && *misfit < 0.9));
+        |count: usize| count as f64 >= least * used.iter().filter(|used| **used).count() as f64;
+    bands.retain(|band| of_all.iter().any(|(tap, misfit)| *tap == band.tap && *misfit < LOST));
     if bands.is_empty() {
         return None;
     }
@@ -293,7 +296,7 @@ fn tone(taps: &[Ringing], used: &[bool], start: &[Pole], others: &[Pole]) -> Opt
         return None;
     }
     let level = level(&bands, &whole.poles, &beside);
-    Some(Found { whole, misfits, singles, level })
+    Some(Found { whole, misfits: of_all, singles, level })
 }
 
 fn weigh(bands: &mut [Band], poles: &[Pole], beside: &[Pole]) {
