@@ -39,6 +39,8 @@ mod analyze;
 mod beside;
 mod compare;
 mod calibrate;
+#[cfg(feature = "audio")]
+mod tap;
 mod frf_grid;
 mod frf;
 mod trade;

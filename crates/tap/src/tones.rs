@@ -166,8 +166,9 @@ fn heard(taps: &[Ringing], used: &[bool], peaks: &[f64], least: f64) -> Vec<Foun
         .filter_map(|(k, pole)| tone((taps, used, least), &[*pole], &others(&poles, k)))
         .collect();
     let poles: Vec<Vec<Pole>> = found.iter().map(|one| one.whole.poles.clone()).collect();
-    let again: Vec<Option<Found>> =
-        (0..found.len()).map(|k| tone((taps, used, least), &poles[k][..1], &others(&poles, k))).collect();
+    let again: Vec<Option<Found>> = (0..found.len())
+        .map(|k| tone((taps, used, least), &poles[k][..1], &others(&poles, k)))
+        .collect();
     found = again.into_iter().flatten().collect();
     let mut kept: Vec<Found> = vec![];
     for one in found {
@@ -254,7 +255,9 @@ fn near(others: &[Pole], pole: Pole) -> Vec<Pole> {
 /// A tone fitted to all taps, begun at one pole; twins where they are far better. None where there is no tone.
 fn tone(
     (taps, used, least): (&[Ringing], &[bool], f64),
-    start: &[Pole], others: &[Pole]) -> Option<Found> {
+    start: &[Pole],
+    others: &[Pole],
+) -> Option<Found> {
     let beside = near(others, start[0]);
     let mut bands = bands(taps, used, start[0], Window::Whole);
     let share = |bands: &[Band], poles: &[Pole]| -> Vec<(usize, f64)> {
