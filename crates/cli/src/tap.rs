@@ -3,6 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use sweetspot::{Bat, Error, Result};
+use sweetspot_report::plot::sheet::Sheet;
+use sweetspot_report::plot::tap as plot;
 use sweetspot_report::report::calibrated_bat;
 use sweetspot_report::report::tap::TapReport;
 use sweetspot_report::schema;
@@ -16,7 +18,7 @@ use crate::calibrate::label;
 use crate::common::{examples, read_with_text};
 use crate::done::{Done, FAILED};
 use crate::edits::EditArgs;
-use crate::output::{CsvArgs, FullArgs, LINES, apart, printed, put};
+use crate::output::{CsvArgs, FullArgs, LINES, apart, draw, printed, put};
 use crate::style;
 use crate::value::{MOMENT, TOP_FREQUENCY};
 
@@ -84,6 +86,10 @@ pub struct Args {
     #[command(flatten)]
     csv: CsvArgs,
 
+    /// Draw the waveform, the spectrum and the decays into this folder, as SVG and PNG
+    #[arg(long, value_name = "DIR")]
+    plots: Option<PathBuf>,
+
     #[command(flatten)]
     said: FullArgs,
 }
@@ -127,6 +133,8 @@ pub fn run(args: &Args) -> Result<Done> {
         tapped: tapped.as_ref(),
     };
     let table = args.said.screen(LINES, |_| report.text());
+    let pictures = || Ok(plot::pictures(&report, Sheet::of(&bat)));
+    draw(&args.plots, args.said.quiet, pictures)?;
     let found = tapped.as_ref().and_then(|tapped| tapped.wood.as_ref());
     let out = args.csv.deliver(style::table(&table), || report.csv())?;
     let out = match found {

@@ -30,6 +30,8 @@ pub struct Tap {
     pub bounces: usize,
     /// Whether its ringing is used.
     pub used: bool,
+    /// Samples in which it rings.
+    pub rings: [usize; 2],
 }
 
 /// What a warning or a refusal is of.
@@ -113,7 +115,13 @@ impl Analysis {
         for (k, (heard, recording)) in heard.iter().zip(recordings).enumerate() {
             for (tap, [from, to]) in heard.taps.iter().zip(&heard.rings) {
                 let at = recording.from + tap.at as f64 / recording.rate;
-                taps.push(Tap { recording: k, at, bounces: tap.bounces, used: true });
+                taps.push(Tap {
+                    recording: k,
+                    at,
+                    bounces: tap.bounces,
+                    used: true,
+                    rings: [*from, *to],
+                });
                 let samples = &heard.samples[*from..*to];
                 ringing.push(Ringing { samples, rate: recording.rate });
             }

@@ -116,6 +116,7 @@ fn container(bytes: &[u8]) -> Option<String> {
         [b'R', b'I', b'F', b'F', ..] => "wav",
         [b'f', b'L', b'a', b'C', ..] => "flac",
         [b'O', b'g', b'g', b'S', ..] => "ogg",
+        [b'I', b'D', b'3', ..] | [0xff, 0xe0..=0xff, ..] => "mp3",
         [_, _, _, _, b'f', b't', b'y', b'p', ..] => "m4a",
         _ => return None,
     };
@@ -201,4 +202,79 @@ fn sound(
         return Err(Unreadable::sound("no sound in it", READ));
     }
     Ok((channels, rate))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A file of one second of a decaying tone, 16 bits.
+    fn wav(channels: u16) -> Vec<u8> {
+        let count = 8000;
+        let bytes = 2 * u32::from(channels) * count;
+        let mut out = b"RIFF".to_vec();
+        out.extend((36 + bytes).to_le_bytes());
+        out.extend(b"WAVEfmt \x10\0\0\0\x01\0");
+        out.extend(channels.to_le_bytes());
+        out.extend(8000_u32.to_le_bytes());
+        out.extend((8000 * 2 * u32::from(channels)).to_le_bytes());
+        out.extend((2 * channels).to_le_bytes());
+        out.extend(b"\x10\0data");
+        out.extend(bytes.to_le_bytes());
+        for n in 0..count {
+            let sound = (0.2 * f64::from(n)).sin() * (-f64::from(n) / 2000.0).exp();
+            for channel in 1..=channels {
+                out.extend(((8000.0 * f64::from(channel) * sound) as i16).to_le_bytes());
+            }
+        }
+        out
+    }
+
+    #[test]
+    fn the_louder_channel_the_part_and_the_channel_asked_for_are_taken() {
+        let read = |part| decode("x.wav", wav(2), part).unwrap();
+        let loud = read(Part::default());
+        assert_eq!((loud.rate, loud.channels, loud.samples.len()), (8000.0, 2, 8000));
+        let first = read(Part { channel: Some(1), ..Part::default() });
+        assert!((loud.largest() / first.largest() - 2.0).abs() < 1e-3);
+        let part = read(Part { from: 0.25, to: Some(0.75), channel: None });
+        assert_eq!(part.samples[..], loud.samples[2000..6000]);
+        let none = decode("x.wav", wav(2), Part { channel: Some(3), ..Part::default() });
+        assert!(none.unwrap_err().to_string().contains("channel 3"));
+    }
+
+    /// Cut and spoilt files are read or refused, and never end the program.
+    #[test]
+    fn spoilt_files_are_read_or_refused() {
+        let good = wav(1);
+        let mut state = 9_u64;
+        let mut next = |below: usize| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            (state >> 33) as usize % below
+        };
+        for _ in 0..2000 {
+            let mut bytes = good[..good.len() - next(good.len()) * (next(2))].to_vec();
+            for _ in 0..=next(4) {
+                let room = if next(2) == 0 { bytes.len().min(60) } else { bytes.len() };
+                let at = next(room.max(1));
+                if let Some(byte) = bytes.get_mut(at) {
+                    *byte = next(256) as u8;
+                }
+            }
+            if let Ok(read) = decode("x.wav", bytes, Part::default()) {
+                assert!(!read.samples.is_empty() && read.samples.iter().all(|x| x.is_finite()));
+            }
+        }
+        for bytes in [&b""[..], b"OggS", b"ID3", b"fLaC", b"....ftypM4A ", b"\xff\xfb\x90\0"] {
+            assert!(decode("x", bytes.to_vec(), Part::default()).is_err());
+        }
+    }
+
+    #[test]
+    fn voice_notes_are_refused_by_what_to_do() {
+        for (bytes, codec) in [(&b"OggS....OpusHead"[..], "Opus"), (b"#!AMR\n....", "AMR")] {
+            let told = decode("x.ogg", bytes.to_vec(), Part::default()).unwrap_err().to_string();
+            assert!(told.contains(codec) && told.contains("recorder app"), "{told}");
+        }
+    }
 }

@@ -109,10 +109,9 @@ pub fn without(samples: &[f64], rate: f64, f0: f64) -> Vec<f64> {
             }
         }
     }
-    for i in 0..columns {
-        for j in 0..i {
-            normal[i][j] = normal[j][i];
-        }
+    for i in 1..columns {
+        let (above, below) = normal.split_at_mut(i);
+        below[0].iter_mut().zip(above.iter()).for_each(|(entry, row)| *entry = row[i]);
     }
     let Some(amplitudes) = solve(normal) else { return samples.to_vec() };
     let clean = |(n, x): (usize, &f64)| {

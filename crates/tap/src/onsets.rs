@@ -21,8 +21,9 @@ const APART: f64 = 0.15;
 /// A tap falls by so much in that time (dB, s).
 const FALL: f64 = 12.0;
 const FALLEN: f64 = 0.6;
-/// Bounces rise by that (dB), between these times after a tap (s).
-const BOUNCE: f64 = 10.0;
+/// Bounces rise by that and stand so far above the quiet (dB), between these times after a tap (s).
+const BOUNCE: f64 = 5.0;
+const BOUNCE_ABOVE: f64 = 10.0;
 const BOUNCES: [f64; 2] = [0.01, 0.14];
 /// Bounces are no further below their tap than that (dB).
 const FAINT: f64 = 25.0;
@@ -95,7 +96,7 @@ fn with_bounces(high: &[f64], rate: f64, at: usize) -> Onset {
     let mut k = (BOUNCES[0] / FRAME) as usize;
     while k < loud.len() {
         let before = loud[k.saturating_sub(3)..k].iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        if loud[k] > before + BOUNCE && loud[k] > quiet + ABOVE_QUIET && loud[k] > most - FAINT {
+        if loud[k] > before + BOUNCE && loud[k] > quiet + BOUNCE_ABOVE && loud[k] > most - FAINT {
             onset.rings = begins(high, at + k * frame - frame / 2, 4 * frame);
             onset.bounces += 1;
             k += 4;

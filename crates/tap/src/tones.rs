@@ -43,7 +43,7 @@ const PLANES: f64 = 0.03;
 const NO_TAP: f64 = 0.3;
 const WORSE: f64 = 4.0;
 /// Shares of D, and errors that are never less: of f, and of ln η.
-const SEEN: f64 = 0.8;
+const SEEN: f64 = 0.7;
 const FLOOR: [f64; 2] = [5e-5, 0.01];
 
 /// A stretch in which one tap rings.

@@ -56,17 +56,19 @@ impl Within {
     }
 }
 
-/// The lines of all tones that `is_line` takes, rising.
-pub fn lines(analysis: &Analysis, is_line: impl Fn(usize) -> bool) -> Vec<HeardLine> {
+/// The lines of all tones, rising; of wood, which has two planes of the grain, twins are one.
+pub fn lines(analysis: &Analysis, wood: bool) -> Vec<HeardLine> {
     let tones = &analysis.tones;
     let losses = tones.iter().map(|tone| tone.pole.loss());
     let loss = if analysis.has_loss { losses.fold(f64::INFINITY, f64::min) } else { 0.0 };
     let loss = if loss.is_finite() { loss } else { 0.0 };
     let mut all: Vec<HeardLine> = vec![];
-    for (k, tone) in tones.iter().enumerate().filter(|(k, _)| is_line(*k)) {
+    for (k, tone) in tones.iter().enumerate() {
         // Twins follow each other; of a pair the second joins the first.
         let before = all.last_mut().filter(|line| {
-            tone.twin.is_some_and(|twin| line.tones.iter().any(|t| tones[*t].pole.hz == twin))
+            wood && tone
+                .twin
+                .is_some_and(|twin| line.tones.iter().any(|t| tones[*t].pole.hz == twin))
         });
         let stiffer = (tone.pole.hz / tones[0].pole.hz).powf(loss / PI);
         let frequency =

@@ -49,18 +49,14 @@ impl Tapped {
     /// [`Error::Value`] for a told tone that was not heard, and those of [`WoodenBat::new`] and of a solve.
     pub fn of(bat: &Bat, analysis: &Analysis, told: &[Told]) -> Result<Self> {
         let wood = WoodenBat::new(bat, None, STANDARD_PIVOT)?;
-        let heard = lines(analysis, |_| true);
+        let wall = hoops::wall(&wood);
+        let heard = lines(analysis, wall.is_none());
         let mut known: Vec<Option<Option<usize>>> = vec![None; heard.len()];
         for (hz, mode) in told {
             known[near(analysis, &heard, *hz)?] = Some(*mode);
         }
-        let (kinds, wall) = match hoops::wall(&wood) {
-            Some(wall) => {
-                let found = hoops::labels(&wood, &wall, &heard)?;
-                (found.best.clone(), Some(found))
-            }
-            None => (vec![None; heard.len()], None),
-        };
+        let wall = wall.map(|wall| hoops::labels(&wood, &wall, &heard)).transpose()?;
+        let kinds = wall.as_ref().map_or(vec![None; heard.len()], |wall| wall.best.clone());
         // Bending modes as told; of a hollow bat as found; else sought.
         let bending = |k: usize| match (known[k], kinds[k]) {
             (Some(told), _) => told,
