@@ -23,6 +23,8 @@ const LONGEST: f64 = 1.2;
 /// Early and late windows, in decay times; the early one begins as the whole.
 const EARLY: f64 = 1.3;
 const LATE: [f64; 2] = [0.8, 2.5];
+/// Tones so many half bands away still bend a band's ground.
+const BESIDE: f64 = 2.0;
 /// Loss factors of a bat's tones.
 pub const LOSSES: [f64; 2] = [0.0008, 0.08];
 /// What is left of a tone's bands, of their power beside the ground, at most.
@@ -244,7 +246,7 @@ fn bands(taps: &[Ringing], used: &[bool], pole: Pole, window: Window) -> Vec<Ban
 
 /// The poles of other tones that are in a band or near it.
 fn near(others: &[Pole], pole: Pole) -> Vec<Pole> {
-    let wide = 1.15 * half(pole);
+    let wide = BESIDE * half(pole);
     others
         .iter()
         .filter(|other| (other.hz - pole.hz).abs() < wide && !is_same(other, &pole))

@@ -19,7 +19,7 @@ const ALONE: f64 = 280.0;
 /// Stretches of a waveform that are drawn, lines of a spectrum and moments of a decay.
 const STRETCHES: usize = 700;
 const LINES: usize = 900;
-const MOMENTS: usize = 60;
+const MOMENTS: usize = 24;
 /// Window of the spectrum (s).
 const WINDOW: f64 = 0.25;
 /// Tones whose decay is drawn.
@@ -106,7 +106,7 @@ fn spectrum(report: &TapReport, sheet: Sheet, taps: &[&Tap]) -> Picture {
     });
     let alt = format!("{title}: {}.", told.collect::<Vec<_>>().join(", "));
     let x = Axis::new("frequency", [0.0, end]).counted_in(Unit::HZ);
-    let facts = "circles of tones on the sound after the taps; below, what the wood's bat has";
+    let facts = "sound after the taps with its tones; below, what the bat of that wood has";
     let chart = Chart::new("spectrum", title, [report.bat.name(), facts], x).keys(&curves);
     let panel = Panel::around(ALONE, ("level", LEVEL), curves, &[]);
     chart.panel(panel).picture(sheet, &alt)
