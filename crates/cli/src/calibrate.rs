@@ -258,7 +258,7 @@ fn readings(args: &Args, bat: &Bat) -> Result<Option<MeasuredArgs>> {
     let beside = args.beside.read()?;
     #[cfg(feature = "audio")]
     if sweetspot_tap::decode::is_recording(path) {
-        let readings = crate::tap::readings(path, bat)?;
+        let readings = crate::recording::readings(path, bat)?;
         return Ok(Some(MeasuredArgs { readings, name, person: None }));
     }
     let readings = if measured::has_modes(path) {

@@ -38,6 +38,8 @@ mod hoop;
 mod analyze;
 mod beside;
 mod compare;
+#[cfg(feature = "audio")]
+mod recording;
 mod calibrate;
 #[cfg(feature = "audio")]
 mod tap;

@@ -1,24 +1,23 @@
 //! `sweetspot tap BAT RECORDING…`: what a recording of taps says of the bat.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use sweetspot::{Bat, Error, Result};
+use sweetspot::Result;
 use sweetspot_report::plot::sheet::Sheet;
 use sweetspot_report::plot::tap as plot;
 use sweetspot_report::report::calibrated_bat;
 use sweetspot_report::report::tap::TapReport;
 use sweetspot_report::schema;
-use sweetspot_study::calibrate::readings::BatReadings;
 use sweetspot_study::tap::tapped::{Tapped, Told};
 use sweetspot_tap::analysis::Analysis;
-use sweetspot_tap::decode::{self, Part};
-use sweetspot_tap::recording::{Recording, Unreadable};
+use sweetspot_tap::decode::Part;
 
 use crate::calibrate::label;
 use crate::common::{examples, read_with_text};
 use crate::done::{Done, FAILED};
 use crate::edits::EditArgs;
-use crate::output::{CsvArgs, FullArgs, LINES, apart, draw, printed, put};
+use crate::output::{CsvArgs, FullArgs, LINES, apart, draw, put};
+use crate::recording::read;
 use crate::style;
 use crate::value::{MOMENT, TOP_FREQUENCY};
 
@@ -149,36 +148,4 @@ pub fn run(args: &Args) -> Result<Done> {
     let out = put(&args.json, out, || Ok(schema::text(&report.document())))?;
     let fails = analysis.refused.is_some() || tapped.is_some_and(|tapped| !tapped.fits());
     Ok(Done::new(out, if fails { FAILED } else { 0 }))
-}
-
-/// A recording by its file.
-fn read(path: &Path, part: Part) -> Result<Recording> {
-    decode::read(path, part).map_err(|error| match error {
-        Unreadable::File(source) => Error::Read { path: path.to_owned(), source },
-        Unreadable::Sound { found, expected } => Error::value(printed(path), found, expected),
-        other => Error::value(printed(path), other, "a recording"),
-    })
-}
-
-/// Recorded taps of a bat as lines and tones that died out, for `calibrate`.
-///
-/// # Errors
-///
-/// A file that cannot be read, and one in which there is no tone of this bat.
-pub fn readings(path: &Path, bat: &Bat) -> Result<BatReadings> {
-    let recording = read(path, Part::default())?;
-    let analysis = Analysis::of(&[recording], None);
-    if let Some(refused) = analysis.refused {
-        let found = refused.name().replace('_', " ");
-        return Err(Error::value(
-            printed(path),
-            found,
-            "taps of this bat: sweetspot tap says more",
-        ));
-    }
-    let tapped = Tapped::of(bat, &analysis, &[])?;
-    let wood = tapped.wood.ok_or_else(|| {
-        Error::value(printed(path), "no tone that is a bending mode", "taps of this bat")
-    })?;
-    Ok(wood.readings)
 }

@@ -7,8 +7,8 @@
 //! D(ν; f, δ) = Σ_n e^{(−δ + 2πi (f − ν)) n/r} = (1 − z^N)/(1 − z),   z = e^{(−δ + 2πi (f − ν))/r}
 //! ```
 //!
-//! exactly, of N samples at rate r. Frequencies f and decays δ are those of the object, amplitudes and ground those of a
-//! tap. The latter are linear and eliminated (variable projection); the former by Gauss-Newton with damped steps.
+//! exactly, of N samples at rate r. Frequencies f and decays δ are those of the object, amplitudes and ground those of
+//! a tap. The latter are linear and eliminated (variable projection); the former by Gauss-Newton with damped steps.
 //!
 //! # Source
 //!
@@ -166,8 +166,8 @@ pub struct Fit {
 const MOST_STEPS: usize = 25;
 const SETTLED: f64 = 1e-6;
 
-/// The poles that fit all bands best, begun at these; `beside` are poles of other tones, which stay. None where they run
-/// away: below a tenth or beyond ten times the decay they began with, or a frequency that leaves its band.
+/// The poles that fit all bands best, begun at these; `beside` are poles of other tones, which stay. None where they
+/// run away: below a tenth or beyond ten times the decay they began with, or a frequency that leaves its band.
 pub fn fit(bands: &[Band], start: &[Pole], beside: &[Pole]) -> Option<Fit> {
     let residual = |poles: &[Pole]| {
         let all: Vec<Pole> = poles.iter().chain(beside).copied().collect();

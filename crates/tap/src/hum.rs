@@ -1,7 +1,8 @@
 //! Hum of the mains: one frequency near 50 or 60 Hz and its harmonics, found and taken off.
 //!
 //! The hum is `Σ_h a_h cos(2π h f₀ t) + b_h sin(2π h f₀ t)`. f₀ is where the periodogram over its surroundings, its
-//! logarithm summed over 15 harmonics, is largest; the amplitudes of 20 harmonics are those of least squares over the quieter half of the recording.
+//! logarithm summed over 15 harmonics, is largest; the amplitudes of 20 harmonics are those of least squares over the
+//! quieter half of the recording.
 
 use std::f64::consts::TAU;
 

@@ -8,8 +8,8 @@ use crate::filter::{Pass, filtered, levels, quantile};
 
 /// Frame (s).
 const FRAME: f64 = 2e-3;
-/// A tap rises by that over the loudest of the three frames before, stands that above the quiet of the recording, and is
-/// at most so far below the loudest (dB).
+/// A tap rises by that over the loudest of the three frames before, stands that above the quiet of the recording, and
+/// is at most so far below the loudest (dB).
 const RISE: f64 = 9.0;
 const ABOVE_QUIET: f64 = 15.0;
 const BELOW_LOUDEST: f64 = 40.0;

@@ -156,12 +156,10 @@ impl TapReport<'_> {
             all.push(format!("The next best labels are {labels}: chi2 is {margin} larger."));
         }
         if !tapped.fits() {
-            all.push("The tones do not fit this bat: its profile is another one than the file says, or tones are of something else.".to_owned());
+            all.push(UNFIT.to_owned());
         }
-        if let Some(loss) = &tapped.loss {
-            if half(loss) > WIDE {
-                all.push("Next: move the phone or the bat a hand's breadth between taps, the phone near the barrel; that halves the ± of the loss factor.".to_owned());
-            }
+        if tapped.loss.is_some_and(|loss| half(&loss) > WIDE) {
+            all.push(NEXT.to_owned());
         }
         all
     }
@@ -218,7 +216,8 @@ impl TapReport<'_> {
         }
     }
 
-    /// The lines of the wood as a readings file: as stiff as the wood is at the lowest tone, modes as they were labelled.
+    /// The lines of the wood as a readings file: as stiff as the wood is at the lowest tone, modes as they were
+    /// labelled.
     pub fn readings(&self) -> Value {
         let found = self.tapped.and_then(|tapped| tapped.wood.as_ref());
         let (lines, tones) = match found {
@@ -245,6 +244,10 @@ impl TapReport<'_> {
     }
 }
 
+const UNFIT: &str = "The tones do not fit this bat: its profile is another one than the file says, or tones are of \
+                     something else.";
+const NEXT: &str = "Next: move the phone or the bat a hand's breadth between taps, the phone near the barrel; that halves \
+                    the ± of the loss factor.";
 const UNSURE: &str =
     "Not every label is sure: tell the mode of a tone that you know, such as --mode \"1187 = 3\".";
 

@@ -51,10 +51,7 @@ impl Tapped {
         let wood = WoodenBat::new(bat, None, STANDARD_PIVOT)?;
         let wall = hoops::wall(&wood);
         let heard = lines(analysis, wall.is_none());
-        let mut known: Vec<Option<Option<usize>>> = vec![None; heard.len()];
-        for (hz, mode) in told {
-            known[near(analysis, &heard, *hz)?] = Some(*mode);
-        }
+        let known = known(analysis, &heard, told)?;
         let wall = wall.map(|wall| hoops::labels(&wood, &wall, &heard)).transpose()?;
         let kinds = wall.as_ref().map_or(vec![None; heard.len()], |wall| wall.best.clone());
         // Bending modes as told; of a hollow bat as found; else sought.
@@ -121,6 +118,19 @@ impl Tapped {
         let unsure = |label: &ToneLabel| label.mode.is_some() && label.sure < 0.9;
         self.labels.iter().any(unsure) || self.wood.is_none()
     }
+}
+
+/// What was told of every line, if something was.
+fn known(
+    analysis: &Analysis,
+    heard: &[HeardLine],
+    told: &[Told],
+) -> Result<Vec<Option<Option<usize>>>> {
+    let mut known = vec![None; heard.len()];
+    for (hz, mode) in told {
+        known[near(analysis, heard, *hz)?] = Some(*mode);
+    }
+    Ok(known)
 }
 
 /// The line nearest to a frequency that was told.
