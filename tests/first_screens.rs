@@ -206,7 +206,7 @@ const OF_BATS: [&str; 22] = [
 ];
 
 /// What other bats are asked.
-const OF_OTHERS: [&str; 38] = [
+const OF_OTHERS: [&str; 39] = [
     "analyze cone --report page.md",
     "analyze corked --model pulse",
     "analyze two_piece --model rigid --report page.md",
