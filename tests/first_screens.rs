@@ -206,7 +206,7 @@ const OF_BATS: [&str; 22] = [
 ];
 
 /// What other bats are asked.
-const OF_OTHERS: [&str; 39] = [
+const OF_OTHERS: [&str; 38] = [
     "analyze cone --report page.md",
     "analyze corked --model pulse",
     "analyze two_piece --model rigid --report page.md",
@@ -245,7 +245,6 @@ const OF_OTHERS: [&str; 39] = [
     "compare r161 --measured modes.uff",
     "compare torpedo --measured modes.uff",
     "calibrate torpedo modes.uff",
-    "tap r161 taps.wav",
 ];
 
 /// What is over of a screen: lines, columns, no word about `--full`, or a `--full` without more.
@@ -275,7 +274,6 @@ fn a_screen_is_a_screen_and_full_has_the_rest() {
     let text = std::fs::read_to_string(concat!(env!("SWEETSPOT_TOP"), "/meshes/r161.json"));
     folder.write("long.json", text.unwrap().replace("Louisville Slugger R161", named));
     folder.text(&["modes", "r161", "--json", "modes.json", "--quiet"]);
-    folder.write("taps.wav", include_bytes!("golden/taps.wav"));
     folder.run(&["convert", "modes.json", "--to", "uff", "--out", "modes.uff"]);
     let of_bats = ["r161", "bbcor_made_up"]
         .into_iter()
