@@ -62,6 +62,10 @@ fn furnished(name: &str) -> Folder {
              "rules": "mlb", "remove_only": true, "keep": [{ "from": 0, "to": "30 mm" }],
              "diameter": [{ "from": "4 in", "to": "18 in", "at_least": "24 mm" }] }"#,
     );
+    // docs/tap.md describes it; a file's ending is a hint.
+    for name in ["taps.m4a", "one.m4a", "two.m4a"] {
+        folder.write(name, include_bytes!("golden/taps.wav"));
+    }
     // docs/wood.md describes them.
     folder.write("readings.json", include_str!("golden/readings-1.json"));
     let bats = r#"{ "format": "sweetspot-scatter/1", "density": { "lognormal": "4 %" }, "tol": 1e-2,

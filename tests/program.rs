@@ -10,6 +10,7 @@ mod aim;
 mod bad_input;
 mod bat_schema;
 mod calibrate;
+mod tap;
 mod commands;
 mod compare;
 mod compared_plots;

@@ -22,7 +22,7 @@ pub enum Numbers {
 pub type Written = (&'static str, &'static str, &'static str, Numbers);
 
 /// The formats as they are written, in the folder of [`folder`].
-pub const WRITTEN: [Written; 24] = [
+pub const WRITTEN: [Written; 25] = [
     (
         "modes",
         "modes",
@@ -122,6 +122,7 @@ pub const WRITTEN: [Written; 24] = [
         Numbers::Rough,
     ),
     ("calibrate", "calibrate", "calibrate r161.json readings-1.json", Numbers::Rough),
+    ("tap", "tap", "tap r161.json taps.wav", Numbers::Rough),
     (
         "scatter-result",
         "scatter-result",
@@ -156,6 +157,7 @@ pub fn folder(test: &str) -> Folder {
     let begins = tap.rfind("    -1\n    58\n").unwrap();
     folder.write("taps.uff", tap.to_owned() + &tap[begins..]);
     folder.write("aim-1.json", include_str!("../golden/aim-1.json"));
+    folder.write("taps.wav", include_bytes!("../golden/taps.wav"));
     folder.write("readings-1.json", include_str!("../golden/readings-1.json"));
     folder.write("scatter-1.json", include_str!("../golden/scatter-1.json"));
     folder.write("study-1.json", include_str!("../golden/study-1.json"));

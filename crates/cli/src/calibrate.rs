@@ -40,7 +40,8 @@ pub struct Args {
     #[arg(help_heading = "The bat")]
     bat: PathBuf,
 
-    /// Readings file (JSON), or a table of measured modes as for compare --measured [without it: asked]
+    /// Readings file (JSON), a table of measured modes as for compare --measured, or a recording of taps as for tap
+    /// [without it: asked]
     #[arg(help_heading = "The bat")]
     measured: Option<PathBuf>,
 
@@ -112,7 +113,7 @@ fn held() -> impl clap::builder::TypedValueParser<Value = Property> {
 }
 
 /// A line by its frequency (Hz), and the mode that it is.
-fn label(text: &str) -> std::result::Result<(f64, Option<usize>), String> {
+pub fn label(text: &str) -> std::result::Result<(f64, Option<usize>), String> {
     let expected = || {
         format!(
             "expected a frequency in Hz and the number of its bending mode, 1 to {MOST_MODES} or none, such as \"1187 = 3\""
@@ -255,6 +256,11 @@ fn readings(args: &Args, bat: &Bat) -> Result<Option<MeasuredArgs>> {
     };
     let name = path.file_name().map_or(printed(path), |name| printed(Path::new(name)));
     let beside = args.beside.read()?;
+    #[cfg(feature = "audio")]
+    if sweetspot_tap::decode::is_recording(path) {
+        let readings = crate::recording::readings(path, bat)?;
+        return Ok(Some(MeasuredArgs { readings, name, person: None }));
+    }
     let readings = if measured::has_modes(path) {
         of_modes(measured::read(path, &beside)?, bat, args.said.quiet)?
     } else if beside != Beside::default() {

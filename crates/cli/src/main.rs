@@ -38,7 +38,11 @@ mod hoop;
 mod analyze;
 mod beside;
 mod compare;
+#[cfg(feature = "audio")]
+mod recording;
 mod calibrate;
+#[cfg(feature = "audio")]
+mod tap;
 mod frf_grid;
 mod frf;
 mod trade;

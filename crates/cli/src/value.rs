@@ -66,7 +66,10 @@ pub const SWING_WEIGHT: Use = Use::new(Quantity::Inertia, [0.01, 1.0], &["oz in^
 pub const CONTACT_TIME: Use = Use::new(Quantity::Time, [0.0, 0.1], &["ms", "us"]);
 /// How long a bat is watched.
 pub const RINGING_TIME: Use = Use::new(Quantity::Time, [0.0, 2.0], &["ms", "us"]);
-/// A frequency.
+/// A moment of a recording.
+#[cfg(feature = "audio")]
+pub const MOMENT: Use = Use::new(Quantity::Time, [0.0, 3600.0], &[]);
+/// Any frequency.
 pub const FREQUENCY: Use = Use::new(Quantity::Frequency, [0.0, f64::MAX], &[]);
 /// The highest frequency that is looked at.
 pub const TOP_FREQUENCY: Use = Use::new(Quantity::Frequency, [10.0, 1e6], &["kHz"]);

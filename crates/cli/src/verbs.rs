@@ -12,6 +12,8 @@ use sweetspot::files::built_in;
 use sweetspot::{Error, Result};
 
 use crate::done::{Done, printable};
+#[cfg(feature = "audio")]
+use crate::tap;
 use crate::{
     advise, aim, analyze, bats, bbcor, calibrate, compare, completions, convert, diagnostic,
     first_word, frf, help, hit, hoop, lab, lathe, licences, man, materials, modes, new, ring,
@@ -49,6 +51,8 @@ enum Verb {
     Hoop(hoop::Args),
     Compare(compare::Args),
     Calibrate(calibrate::Args),
+    #[cfg(feature = "audio")]
+    Tap(tap::Args),
     Ring(ring::Args),
     Frf(frf::Args),
     Lab(lab::Args),
@@ -90,6 +94,8 @@ pub fn run() -> Result<Done> {
         Verb::Hoop(args) => hoop::run(&args),
         Verb::Compare(args) => compare::run(&args),
         Verb::Calibrate(args) => calibrate::run(&args),
+        #[cfg(feature = "audio")]
+        Verb::Tap(args) => tap::run(&args),
         Verb::Ring(args) => ring::run(&args),
         Verb::Frf(args) => frf::run(&args),
         Verb::Lab(args) => lab::run(&args),

@@ -20,6 +20,7 @@ use crate::schema::modes::ModesFile;
 use crate::schema::ring::RingFile;
 use crate::schema::scatter::ScatterResult;
 use crate::schema::study::StudyManifest;
+use crate::schema::tap::TapFile;
 use crate::schema::trade::{TradeFile, UCurveFile};
 use crate::schema::{DRAFT, id, of};
 use sweetspot::files::schema::ball::BallFile;
@@ -35,7 +36,7 @@ use sweetspot_study::files::scatter_file::ScatterForm;
 use sweetspot_study::files::study_file::StudyForm;
 
 /// How many there are: wishes and rules of games are read with the feature `aim`.
-const COUNT: usize = if cfg!(feature = "aim") { 29 } else { 27 };
+const COUNT: usize = if cfg!(feature = "aim") { 30 } else { 28 };
 
 /// A kind of file that has a schema.
 #[derive(Debug, Clone, Copy)]
@@ -70,6 +71,7 @@ impl FileKind {
         Self::of::<FrfSetFile>(),
         Self::of::<AdviceFile>(),
         Self::of::<CalibrateFile>(),
+        Self::of::<TapFile>(),
         Self::of::<ScatterResult>(),
         Self::of::<StudyManifest>(),
         Self::of::<AimedFile>(),

@@ -5,6 +5,7 @@
 //! | [`trade`] | what does a digit cost on this bat |
 //! | [`ignored`] | what does a theory leave out, and what does that cost |
 //! | [`calibrate`] | what is the wood, by scale, ruler, pendulum and tap |
+//! | [`tap`] | which mode is a tone of a recording, and what is the wood by all of them |
 //! | [`verdict`] | how far do the answers hold, by all that is known |
 //! | [`answers`] | which answers can be asked of a bat, by which names |
 //! | [`read_to`], [`inputs`] | to what step were diameters read; what is not known exactly of a bat |
@@ -26,6 +27,7 @@
 pub mod trade;
 pub mod ignored;
 pub mod calibrate;
+pub mod tap;
 pub mod verdict;
 pub mod answers;
 pub mod read_to;

@@ -65,3 +65,4 @@ pub mod change;
 pub mod measured;
 pub mod many;
 pub mod calibrate;
+pub mod tap;

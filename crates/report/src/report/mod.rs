@@ -33,6 +33,7 @@ pub mod lathe;
 pub mod hoop_notes;
 pub mod hoop;
 pub mod calibrate;
+pub mod tap;
 pub mod calibrated_bat;
 pub mod shares;
 pub mod scatter;

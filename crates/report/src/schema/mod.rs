@@ -23,6 +23,7 @@ pub mod frf;
 pub mod advice;
 pub mod trade;
 pub mod calibrate;
+pub mod tap;
 pub mod mistakes;
 pub mod study;
 pub mod lathe;

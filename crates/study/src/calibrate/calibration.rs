@@ -257,6 +257,14 @@ impl Calibration {
         (!all.is_empty()).then(|| sum / all.len() as f64)
     }
 
+    /// The same wood, of which a tone was heard dying out as well.
+    #[must_use]
+    pub fn with_ring_down(mut self, tone: RingDown) -> Self {
+        self.loss_factors.push(LossFound::of(&tone));
+        self.readings.ring_down.push(tone);
+        self
+    }
+
     /// The parameter that the readings say least of, of those that were sought, and the measurement that would do most
     /// for it.
     pub fn advice(&self) -> Option<(&Estimated, &Proposal, f64)> {

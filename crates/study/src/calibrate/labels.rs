@@ -89,7 +89,9 @@ pub fn best(search: &Search, told: LabelChoice, modes: usize) -> Result<Vec<Labe
     let mut cheapest: BTreeMap<Labels, (f64, Logs)> = BTreeMap::new();
     let lines = Lines::of(search.readings, told);
     chart.each(|logs, tones| {
-        let (labels, price) = lines.cheapest(tones);
+        let bending = |(k, log): (usize, &f64)| Candidate { log: *log, gap: gap(k + 1), more: 0.0 };
+        let tones: Vec<Candidate> = tones.iter().enumerate().map(bending).collect();
+        let (labels, price) = lines.cheapest(&tones);
         let price = price + prior(search, &logs);
         let entry = cheapest.entry(labels).or_insert((f64::INFINITY, logs));
         if price < entry.0 {
@@ -146,9 +148,20 @@ fn unheard(labels: &Labels) -> f64 {
     (1..highest).filter(|mode| !labels.contains(&Some(*mode))).map(gap).sum()
 }
 
-/// Price of a mode that no line is.
-fn gap(mode: usize) -> f64 {
+/// Price of a bending mode that no line is.
+pub fn gap(mode: usize) -> f64 {
     UNHEARD[usize::from(mode > 1)]
+}
+
+/// A tone of the bat that a line may be.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Candidate {
+    /// Logarithm of its frequency (Hz).
+    pub log: f64,
+    /// What it costs if it was not heard though a higher one was.
+    pub gap: f64,
+    /// What it costs to be it.
+    pub more: f64,
 }
 
 /// A line to be labelled.
@@ -164,10 +177,11 @@ struct Line {
 }
 
 /// The lines by rising frequency, so that labels rise with them.
-struct Lines(Vec<Line>);
+pub struct Lines(Vec<Line>);
 
 impl Lines {
-    fn of(readings: &BatReadings, told: LabelChoice) -> Self {
+    /// The lines of readings, with what was told of them.
+    pub fn of(readings: &BatReadings, told: LabelChoice) -> Self {
         let (labels, other) = match told {
             LabelChoice::Stays(labels) => (labels, f64::INFINITY),
             LabelChoice::Changes(labels) => (labels, CHANGED),
@@ -193,10 +207,10 @@ impl Lines {
         self.0.iter().any(|line| line.told == Some(mode) && line.other.is_infinite())
     }
 
-    /// The cheapest rising labels beside tones of these logarithms, and their price: χ² of lines within reach, of
-    /// strangers, of modes that were not heard and of changed labels. From line to line the cheapest way to every
-    /// last mode is kept.
-    fn cheapest(&self, tones: &[f64]) -> (Labels, f64) {
+    /// The cheapest rising labels beside these rising tones, which count from 1, and their price: χ² of lines within
+    /// reach, of strangers, of modes that were not heard and of changed labels. From line to line the cheapest way to
+    /// every last mode is kept.
+    pub fn cheapest(&self, tones: &[Candidate]) -> (Labels, f64) {
         let count = tones.len();
         // Price and choices by the last mode so far, 0 for none.
         let mut ways: Vec<Option<(f64, Labels)>> = vec![None; count + 1];
@@ -224,12 +238,13 @@ impl Lines {
                     _ => last + 1,
                 };
                 for mode in first..=count {
-                    let chi2 = ((line.log - tones[mode - 1]) / line.sigma).powi(2);
+                    let tone = tones[mode - 1];
+                    let chi2 = ((line.log - tone.log) / line.sigma).powi(2);
                     let stays = line.told == Some(mode);
                     if stays || (chi2 < STRANGER && !self.is_kept(mode)) {
-                        offer(Some(mode), chi2.min(10.0 * STRANGER) + skipped);
+                        offer(Some(mode), chi2.min(10.0 * STRANGER) + tone.more + skipped);
                     }
-                    skipped += gap(mode);
+                    skipped += tone.gap;
                 }
             }
             ways = next;

@@ -1,0 +1,373 @@
+//! What a recording of taps says of a bat: table, JSON, CSV, words.
+
+use std::f64::consts::LN_2;
+
+use serde_json::{Value, json};
+
+use crate::csv;
+use crate::parts::columns::{Columns, first, labels, numbers};
+use crate::parts::table::Column;
+use crate::parts::terminal::{Piece, wrapped};
+use crate::report::calibrate::{short, shown};
+use crate::schema::tap::{
+    TapFile, TapMode, TapMoment, TapRecording, TapSaid, TapSecond, TapTone, TapWithin,
+};
+use sweetspot::base::number::{percent, significant};
+use sweetspot::bat::body::Bat;
+use sweetspot::files::schema::document::{BatName, Format, Generator};
+use sweetspot_study::calibrate::calibration::{Estimated, Verdict};
+use sweetspot_study::calibrate::readings::{Reading, SpectralLine};
+use sweetspot_study::tap::heard::Within;
+use sweetspot_study::tap::hoops::BatMode;
+use sweetspot_study::tap::tapped::{Tapped, ToneLabel};
+use sweetspot_tap::analysis::{Analysis, Code, Condition, Tap};
+use sweetspot_tap::recording::Recording;
+use sweetspot_tap::tones::Tone;
+
+/// Beyond this half-width an interval is told as "about".
+const ABOUT: f64 = 0.4;
+/// A half-width of the loss factor above which moving the phone is advised.
+const WIDE: f64 = 0.1;
+
+/// Recordings of a bat's taps, and what was found.
+pub struct TapReport<'a> {
+    /// The bat.
+    pub bat: &'a Bat,
+    /// The recordings.
+    pub recordings: &'a [Recording],
+    /// Their tones.
+    pub analysis: &'a Analysis,
+    /// What the tones are; None where that was not asked, or where there are none.
+    pub tapped: Option<&'a Tapped>,
+}
+
+impl TapReport<'_> {
+    /// Recordings, tones, wood and words, 80 columns wide.
+    pub fn text(&self) -> [Piece; 3] {
+        let above = self.recordings.iter().zip(&self.analysis.conditions).enumerate();
+        let mut out: String = above.map(|(k, (one, seen))| self.heard(k, one, seen)).collect();
+        let mut wood = String::new();
+        if let Some(refused) = &self.analysis.refused {
+            out += &wrapped(said(*refused), 0);
+        } else {
+            out += &self.table();
+            wood = self.wood();
+        }
+        let words: String = self.words().iter().map(|line| wrapped(line, 2)).collect();
+        [(0, "", out), (0, "", wood), (1, "words", words)]
+    }
+
+    /// A line about a recording.
+    fn heard(&self, k: usize, recording: &Recording, seen: &Condition) -> String {
+        let own: Vec<&Tap> = self.analysis.taps.iter().filter(|tap| tap.recording == k).collect();
+        let used: Vec<&&Tap> = own.iter().filter(|tap| tap.used).collect();
+        let times = match (used.first(), used.last()) {
+            (Some(a), Some(b)) if used.len() > 1 => format!(" at {:.1} to {:.1} s", a.at, b.at),
+            (Some(a), _) => format!(" at {:.1} s", a.at),
+            _ => String::new(),
+        };
+        let mut facts = vec![format!("{} {}{times}", used.len(), plural("tap", used.len()))];
+        let others = own.len() - used.len();
+        if others > 0 && self.analysis.refused.is_none() {
+            facts.push(format!("{others} other {} left out", plural("sound", others)));
+        }
+        let kinds = [recording.container.as_deref(), recording.codec.as_deref()];
+        let rate = format!("{} kHz", significant(1e-3 * recording.rate, 4));
+        let kinds: Vec<&str> = kinds.into_iter().flatten().chain([&*rate]).collect();
+        facts.push(kinds.join(", "));
+        facts.extend(seen.hum.map(|hum| format!("{hum:.0} Hz hum left out")));
+        wrapped(&format!("{}: {}", recording.name, facts.join("; ")), 2)
+    }
+
+    fn table(&self) -> String {
+        let columns = Columns::new([
+            first(20, "tone"),
+            numbers(13, "dies to half"),
+            numbers(16, "loss factor"),
+            labels(18, "is"),
+            numbers(8, "sure"),
+        ]);
+        let mut out = columns.heads();
+        for (k, tone) in self.analysis.tones.iter().enumerate() {
+            let label = self.label(k);
+            let is = match (self.tapped, label.mode) {
+                (None, _) => String::new(),
+                (Some(_), None) => "no mode of this bat".to_owned(),
+                (Some(_), Some(mode)) => named(mode),
+            };
+            let sure = label.mode.map_or(String::new(), |_| percent(label.sure, 1));
+            out += &columns.row([
+                frequency(tone),
+                format!("{} ms", significant(1e3 * LN_2 / tone.pole.decay, 3)),
+                if self.analysis.has_loss { loss(&Within::loss(tone)) } else { "-".to_owned() },
+                is,
+                sure,
+            ]);
+        }
+        out
+    }
+
+    fn label(&self, tone: usize) -> ToneLabel {
+        self.tapped.map_or(ToneLabel::default(), |tapped| tapped.labels[tone])
+    }
+
+    /// The line about the wood.
+    fn wood(&self) -> String {
+        let Some(tapped) = self.tapped else { return String::new() };
+        let Some(found) = &tapped.wood else {
+            return wrapped(
+                "No tone is a bending mode of this bat, of any wood: the bat file is another bat's.",
+                2,
+            );
+        };
+        let open =
+            |one: &&Estimated| !matches!(one.verdict, Verdict::Held | Verdict::NotDetermined);
+        let value = |one: &Estimated| {
+            let by = 0.5 * (one.interval95[1] - one.interval95[0]) / one.value;
+            format!(
+                "{} {} ± {}",
+                short(one.property),
+                shown(one.property, one.value),
+                percent(by, 1)
+            )
+        };
+        let mut all: Vec<String> = found.parameters.iter().filter(open).map(value).collect();
+        all.extend(
+            tapped
+                .loss
+                .as_ref()
+                .map(|loss_factor| format!("loss factor at most {}", loss(loss_factor))),
+        );
+        wrapped(&format!("The wood: {}, with the density of the bat file.", all.join(", ")), 2)
+    }
+
+    /// What is to be said, a sentence or two each.
+    pub fn words(&self) -> Vec<String> {
+        let mut all: Vec<String> =
+            self.analysis.warnings.iter().map(|code| said(*code).to_owned()).collect();
+        let Some(tapped) = self.tapped else { return all };
+        if tapped.is_unsure() {
+            all.push(UNSURE.to_owned());
+        }
+        if let Some((labels, margin)) = tapped.second.as_ref().filter(|(_, margin)| *margin < 8.0) {
+            let labels = labels.iter().map(|one| one.map_or("none".to_owned(), named));
+            let labels = labels.collect::<Vec<_>>().join(", ");
+            let margin = significant(*margin, 2);
+            all.push(format!("The next best labels are {labels}: chi2 is {margin} larger."));
+        }
+        if !tapped.fits() {
+            all.push(UNFIT.to_owned());
+        }
+        if tapped.loss.is_some_and(|loss| half(&loss) > WIDE) {
+            all.push(NEXT.to_owned());
+        }
+        all
+    }
+
+    /// The `sweetspot-tap/1` document.
+    pub fn document(&self) -> TapFile {
+        let Self { bat, recordings, analysis, tapped } = self;
+        let mut warnings: Vec<TapSaid> =
+            analysis.warnings.iter().map(|code| coded(*code)).collect();
+        if tapped.is_some_and(Tapped::is_unsure) {
+            warnings.push(TapSaid { code: "unsure".to_owned(), text: UNSURE.to_owned() });
+        }
+        let second = tapped.and_then(|tapped| tapped.second.as_ref());
+        let recording = recordings.iter().zip(&analysis.conditions);
+        TapFile {
+            format: Format::new(),
+            generator: Generator::this(),
+            bat: BatName::of(bat),
+            recordings: recording.map(|(one, seen)| of_recording(one, seen)).collect(),
+            taps: analysis.taps.iter().map(|tap| of_tap(tap, analysis.refused.is_some())).collect(),
+            tones: (0..analysis.tones.len()).map(|k| self.tone(k)).collect(),
+            second: second.map(|(labels, margin)| TapSecond {
+                labels: labels.iter().map(|one| one.map(of_mode)).collect(),
+                margin: *margin,
+            }),
+            wood: tapped.and_then(|tapped| tapped.wood.clone()),
+            loss_factor_at_most: tapped.and_then(|tapped| {
+                let Within { value, interval95 } = tapped.loss?;
+                Some(TapWithin { value, interval95 })
+            }),
+            fits: tapped.map(Tapped::fits),
+            warnings,
+            refused: analysis.refused.map(coded),
+        }
+    }
+
+    fn tone(&self, k: usize) -> TapTone {
+        let (tone, label) = (&self.analysis.tones[k], self.label(k));
+        let frequency = Within::frequency(tone);
+        let loss = Some(Within::loss(tone)).filter(|_| self.analysis.has_loss);
+        TapTone {
+            frequency_hz: frequency.value,
+            frequency_interval95_hz: frequency.interval95,
+            loss_factor: loss.map(|loss| loss.value),
+            loss_factor_interval95: loss.map(|loss| loss.interval95),
+            decay_1_s: tone.pole.decay,
+            half_s: LN_2 / tone.pole.decay,
+            taps: tone.taps,
+            level_db: tone.level,
+            twin_hz: tone.twin,
+            mode: label.mode.map(of_mode),
+            computed_hz: label.computed,
+            sure: label.mode.map(|_| label.sure),
+        }
+    }
+
+    /// The lines of the wood as a readings file: as stiff as the wood is at the lowest tone, modes as they were
+    /// labelled.
+    pub fn readings(&self) -> Value {
+        let found = self.tapped.and_then(|tapped| tapped.wood.as_ref());
+        let (lines, tones) = match found {
+            Some(found) => (&found.labels, &found.readings),
+            None => return json!({ "format": "sweetspot-readings/1" }),
+        };
+        let line = |(line, mode): (&SpectralLine, &Option<usize>)| {
+            let Reading { value, deviation } = line.frequency;
+            let mode = (*mode)?;
+            Some(json!({ "hz": value, "within": deviation, "mode": mode }))
+        };
+        let lines: Vec<Value> = tones.lines.iter().zip(&lines.taken).filter_map(line).collect();
+        let died = tones.ring_down.iter();
+        let died = died.map(|t| json!({ "mode": t.mode, "cycles": t.cycles, "ratio": t.ratio }));
+        let names: Vec<&str> = self.recordings.iter().map(|one| &*one.name).collect();
+        json!({ "format": "sweetspot-readings/1", "name": names.join(", "), "lines": lines,
+                "ring_down": died.collect::<Vec<_>>() })
+    }
+
+    /// The tones as CSV.
+    pub fn csv(&self) -> String {
+        let tones: Vec<TapTone> = (0..self.analysis.tones.len()).map(|k| self.tone(k)).collect();
+        csv::rows(&COLUMNS, &tones)
+    }
+}
+
+const UNFIT: &str = "The tones do not fit this bat: its profile is another one than the file says, or tones are of \
+                     something else.";
+const NEXT: &str = "Next: move the phone or the bat a hand's breadth between taps, the phone near the barrel; that halves \
+                    the ± of the loss factor.";
+const UNSURE: &str =
+    "Not every label is sure: tell the mode of a tone that you know, such as --mode \"1187 = 3\".";
+
+/// The columns of the tones in files.
+const COLUMNS: [Column<TapTone>; 11] = [
+    Column::in_files("frequency_hz", |one| one.frequency_hz.into()),
+    Column::in_files("frequency_low95_hz", |one| one.frequency_interval95_hz[0].into()),
+    Column::in_files("frequency_high95_hz", |one| one.frequency_interval95_hz[1].into()),
+    Column::in_files("loss_factor", |one| one.loss_factor.into()),
+    Column::in_files("loss_factor_low95", |one| one.loss_factor_interval95.map(|i| i[0]).into()),
+    Column::in_files("loss_factor_high95", |one| one.loss_factor_interval95.map(|i| i[1]).into()),
+    Column::in_files("half_s", |one| one.half_s.into()),
+    Column::in_files("taps", |one| one.taps.into()),
+    Column::in_files("mode", |one| one.mode.as_ref().map_or(String::new(), mode_in_file).into()),
+    Column::in_files("computed_hz", |one| one.computed_hz.into()),
+    Column::in_files("sure", |one| one.sure.into()),
+];
+
+fn mode_in_file(mode: &TapMode) -> String {
+    match mode {
+        TapMode::Bending { order } => format!("bending {order}"),
+        TapMode::Hoop { harmonic, order } => format!("hoop {harmonic} {order}"),
+    }
+}
+
+fn plural(word: &str, count: usize) -> String {
+    if count == 1 { word.to_owned() } else { format!("{word}s") }
+}
+
+/// What a mode is called.
+pub fn named(mode: BatMode) -> String {
+    match mode {
+        BatMode::Bending(order) => format!("bending {order}"),
+        BatMode::Hoop(harmonic, order) => format!("hoop ({harmonic}, {order})"),
+    }
+}
+
+fn frequency(tone: &Tone) -> String {
+    let Within { value, interval95: [low, high] } = Within::frequency(tone);
+    let by = 0.5 * (high - low);
+    let decimals = (1 - by.log10().floor() as i32).clamp(0, 3) as usize;
+    format!("{value:.decimals$} Hz ± {by:.decimals$}")
+}
+
+fn half(loss: &Within) -> f64 {
+    0.5 * (loss.interval95[1] - loss.interval95[0]) / loss.value
+}
+
+fn loss(loss: &Within) -> String {
+    match half(loss) {
+        by if by > ABOUT => format!("about {}", significant(loss.value, 1)),
+        by => format!("{} ± {}", significant(loss.value, 3), percent(by, 0)),
+    }
+}
+
+fn of_mode(mode: BatMode) -> TapMode {
+    match mode {
+        BatMode::Bending(order) => TapMode::Bending { order },
+        BatMode::Hoop(harmonic, order) => TapMode::Hoop { harmonic, order },
+    }
+}
+
+fn of_recording(one: &Recording, seen: &Condition) -> TapRecording {
+    TapRecording {
+        file: one.name.clone(),
+        container: one.container.clone(),
+        codec: one.codec.clone(),
+        rate_hz: one.rate,
+        channels: one.channels,
+        seconds: one.seconds(),
+        largest: one.largest(),
+        clipped_share: one.clipped_share(),
+        hum_hz: seen.hum,
+        gain_rise_db: seen.gain_rise,
+    }
+}
+
+fn of_tap(tap: &Tap, refused: bool) -> TapMoment {
+    let used = tap.used && !refused;
+    let why_not = match (used, refused) {
+        (true, _) => None,
+        (false, true) => Some("no tones that all taps share"),
+        (false, false) => Some("has none of the tones that the others share"),
+    };
+    TapMoment {
+        recording: tap.recording,
+        at_s: tap.at,
+        used,
+        bounces: tap.bounces,
+        why_not: why_not.map(str::to_owned),
+    }
+}
+
+fn coded(code: Code) -> TapSaid {
+    TapSaid { code: code.name().to_owned(), text: said(code).to_owned() }
+}
+
+/// What a warning or a refusal means, and what to do.
+fn said(code: Code) -> &'static str {
+    match code {
+        Code::Clipped => {
+            "The recording is too loud and clipped: frequencies hold, loss factors do not and are left out. \
+             Record again with less gain, or tap more softly."
+        }
+        Code::AutomaticGain => {
+            "The recorder turns its gain from tap to tap: frequencies hold, loss factors do not and are left out. \
+             Turn \"enhanced recording\" or automatic gain off."
+        }
+        Code::OneTap => "There is one tap alone: five to eight make the intervals far smaller.",
+        Code::Room => {
+            "The room is heard in how the tones die: bring the phone within a hand's breadth of the barrel."
+        }
+        Code::LowRate => "The recording has few samples a second: high tones are not in it.",
+        Code::Bounces => "Taps bounced: what rings after the last bounce was taken.",
+        Code::Hum => "Hum of the mains was left out.",
+        Code::FewTones => "Only two tones were found: labels and wood rest on little.",
+        Code::NoTap => "No tap was found in it: record five to eight single taps, a second apart.",
+        Code::NoTone => {
+            "No tone was found that the taps share: tap with something hard, the phone within a hand's breadth of \
+             the barrel, the bat hung or held at a node."
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! What a recording of taps says of a bat, `sweetspot-tap/1`.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use sweetspot::files::schema::document::{BatName, Document, Format, Generator};
+use sweetspot_study::calibrate::calibration::Calibration;
+
+/// What recordings of taps say of a bat: taps, tones, which mode each tone is, and the wood. SI, the unit in every
+/// name; what does not exist is null. Later versions of the same number may have more members.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+#[schemars(title = "Taps of sweetspot, sweetspot-tap/1")]
+pub struct TapFile {
+    /// Name of the format and its version: sweetspot-tap/1.
+    pub format: Format<TapFile>,
+    /// The program that wrote the file.
+    pub generator: Generator,
+    /// The bat.
+    pub bat: BatName,
+    /// The recordings, in the order in which they were named.
+    pub recordings: Vec<TapRecording>,
+    /// The taps of all recordings.
+    pub taps: Vec<TapMoment>,
+    /// The tones, rising.
+    pub tones: Vec<TapTone>,
+    /// The next best labels; null where none come near or none were sought.
+    pub second: Option<TapSecond>,
+    /// The wood by these tones, its density that of the bat file, its stiffness that at the lowest tone; null where no
+    /// tone is a bending mode.
+    pub wood: Option<Calibration>,
+    /// The loss factor of the wood, at most: that of the bending tone that is damped least. Null where loss factors are
+    /// not to be believed.
+    pub loss_factor_at_most: Option<TapWithin>,
+    /// Whether the tones fit the bat; null where no labels were sought.
+    pub fits: Option<bool>,
+    /// What is to be said of the recordings.
+    pub warnings: Vec<TapSaid>,
+    /// Why nothing was found; null where tones were.
+    pub refused: Option<TapSaid>,
+}
+
+impl Document for TapFile {
+    const NAME: &'static str = "tap";
+}
+
+/// A recording.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct TapRecording {
+    /// Its name.
+    pub file: String,
+    /// The file's kind.
+    pub container: Option<String>,
+    /// How its sound is written.
+    pub codec: Option<String>,
+    /// Samples per second (Hz).
+    pub rate_hz: f64,
+    /// How many channels it has; one of them was listened to.
+    pub channels: usize,
+    /// How long the part is that was listened to (s).
+    pub seconds: f64,
+    /// The largest sample; full scale is 1.
+    pub largest: f64,
+    /// The share of samples above 0.9 of the largest among those above half of it.
+    pub clipped_share: f64,
+    /// Hum that was taken off (Hz).
+    pub hum_hz: Option<f64>,
+    /// By how much hiss above 5 kHz rises from tap to tap (dB).
+    pub gain_rise_db: Option<f64>,
+}
+
+/// A tap.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct TapMoment {
+    /// Which recording it is in, from 0.
+    pub recording: usize,
+    /// When it begins in its file (s).
+    pub at_s: f64,
+    /// Whether its ringing was used.
+    pub used: bool,
+    /// How often it bounced.
+    pub bounces: usize,
+    /// Why it was not used.
+    pub why_not: Option<String>,
+}
+
+/// A mode of the bat.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum TapMode {
+    /// A bending mode.
+    Bending {
+        /// Its number, from 1.
+        order: usize,
+    },
+    /// A mode of a hollow barrel's wall.
+    Hoop {
+        /// Waves around the barrel.
+        harmonic: usize,
+        /// Its number among those of its harmonic, from 1.
+        order: usize,
+    },
+}
+
+/// A tone that all taps share.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct TapTone {
+    /// Frequency (Hz).
+    pub frequency_hz: f64,
+    /// Where it lies in 95 of 100 cases (Hz).
+    pub frequency_interval95_hz: [f64; 2],
+    /// Loss factor; null where it is not to be believed.
+    pub loss_factor: Option<f64>,
+    /// Where it lies in 95 of 100 cases.
+    pub loss_factor_interval95: Option<[f64; 2]>,
+    /// Decay of the amplitude (1/s).
+    pub decay_1_s: f64,
+    /// In what time the amplitude halves (s).
+    pub half_s: f64,
+    /// In how many taps it was heard.
+    pub taps: usize,
+    /// Amplitude at the onset over that of the strongest tone (dB).
+    pub level_db: f64,
+    /// The other tone of a pair, of the other plane of the grain (Hz).
+    pub twin_hz: Option<f64>,
+    /// Which mode it is; null for none of this bat.
+    pub mode: Option<TapMode>,
+    /// What the bat of the wood that was found has there (Hz).
+    pub computed_hz: Option<f64>,
+    /// The chance that the mode is right, 0 to 1; null without one.
+    pub sure: Option<f64>,
+}
+
+/// Labels that come next.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct TapSecond {
+    /// The mode of each line, in the order of the tones, twins as one.
+    pub labels: Vec<Option<TapMode>>,
+    /// By how much their chi2 is larger.
+    pub margin: f64,
+}
+
+/// A value with its interval.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct TapWithin {
+    /// The value.
+    pub value: f64,
+    /// Where it lies in 95 of 100 cases.
+    pub interval95: [f64; 2],
+}
+
+/// Something that is said of a recording.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct TapSaid {
+    /// Its name for programs.
+    pub code: String,
+    /// What it means and what to do.
+    pub text: String,
+}

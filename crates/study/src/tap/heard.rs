@@ -1,0 +1,93 @@
+//! The tones of a recording as lines for the search of labels.
+//!
+//! A constant loss factor η makes wood stiffer with frequency: E goes as `f^(2η/π)`, so that
+//!
+//! ```text
+//! f_n = F_n (f_n/f₁)^(η/π)
+//! ```
+//!
+//! with F_n of the stiffness that there is at the lowest tone f₁. Lines are the F_n.
+//!
+//! # Source
+//!
+//! The relation of Kramers and Kronig for a loss factor that is nearly constant: A. D. Nashif, D. I. G. Jones,
+//! J. P. Henderson, Vibration Damping (Wiley, 1985), as E′ ∝ ω^(2η/π).
+
+use std::f64::consts::PI;
+
+use sweetspot_tap::analysis::Analysis;
+use sweetspot_tap::tones::Tone;
+
+use crate::calibrate::calibration::NINETY_FIVE;
+use crate::calibrate::readings::{Reading, RingDown};
+
+/// A line: a tone, or two twins.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HeardLine {
+    /// Which tones it is.
+    pub tones: Vec<usize>,
+    /// Frequency, by the stiffness at the lowest tone (Hz).
+    pub frequency: Reading,
+    /// By what the frequency that is heard is higher.
+    pub stiffer: f64,
+}
+
+/// A value with the interval that holds it in 95 of 100 cases.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Within {
+    /// The value.
+    pub value: f64,
+    /// The interval.
+    pub interval95: [f64; 2],
+}
+
+impl Within {
+    /// A frequency (Hz) of a tone.
+    pub fn frequency(tone: &Tone) -> Self {
+        let value = tone.pole.hz;
+        let by = NINETY_FIVE * tone.deviations[0] * value;
+        Self { value, interval95: [value - by, value + by] }
+    }
+
+    /// The loss factor of a tone.
+    pub fn loss(tone: &Tone) -> Self {
+        let (value, by) = (tone.pole.loss(), NINETY_FIVE * tone.deviations[1]);
+        Self { value, interval95: [-by, by].map(|by| value * by.exp()) }
+    }
+}
+
+/// The lines of all tones, rising; of wood, which has two planes of the grain, twins are one.
+pub fn lines(analysis: &Analysis, wood: bool) -> Vec<HeardLine> {
+    let tones = &analysis.tones;
+    let losses = tones.iter().map(|tone| tone.pole.loss());
+    let loss = if analysis.has_loss { losses.fold(f64::INFINITY, f64::min) } else { 0.0 };
+    let loss = if loss.is_finite() { loss } else { 0.0 };
+    let mut all: Vec<HeardLine> = vec![];
+    for (k, tone) in tones.iter().enumerate() {
+        // Twins follow each other; of a pair the second joins the first.
+        let before = all.last_mut().filter(|line| {
+            wood && tone
+                .twin
+                .is_some_and(|twin| line.tones.iter().any(|t| tones[*t].pole.hz == twin))
+        });
+        let stiffer = (tone.pole.hz / tones[0].pole.hz).powf(loss / PI);
+        let frequency =
+            Reading { value: tone.pole.hz / stiffer, deviation: tone.deviations[0] * tone.pole.hz };
+        match before {
+            Some(line) => {
+                let (a, b) = (line.frequency, frequency);
+                let half = 0.5 * (b.value - a.value);
+                let deviation = half.hypot(a.deviation.max(b.deviation));
+                line.frequency = Reading { value: a.value + half, deviation };
+                line.tones.push(k);
+            }
+            None => all.push(HeardLine { tones: vec![k], frequency, stiffer }),
+        }
+    }
+    all
+}
+
+/// A tone that died out with that loss factor, as of one cycle.
+pub fn ring_down(mode: usize, loss: f64) -> RingDown {
+    RingDown { mode, cycles: 1.0, ratio: (-PI * loss).exp() }
+}

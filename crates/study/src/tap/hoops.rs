@@ -1,0 +1,137 @@
+//! Which tones of a hollow bat are of its wall?
+//!
+//! A barrel of metal has bending modes and hoop modes among each other. Bending goes with √E, of which a metal leaves
+//! little open; the wall's tones go with that and with its thickness, all of them by one factor more. Over both factors
+//! the cheapest labels are those of the search for bending modes ([`Lines::cheapest`]), the wall's tones among the
+//! others.
+
+use std::collections::BTreeMap;
+
+use crate::calibrate::calibration::Property;
+use crate::calibrate::labels::{Candidate, LabelChoice, Labels, Lines, contradict, gap};
+use crate::calibrate::readings::{BatReadings, Priors, SpectralLine};
+use crate::calibrate::unknowns::UNKNOWNS;
+use crate::calibrate::wood::WoodenBat;
+use crate::tap::heard::HeardLine;
+use sweetspot::base::error::Result;
+use sweetspot::modes::hoop::{Hoop, HoopMode};
+
+/// How far E of a metal, and the factor of the wall's tones, are open: standard deviations of logarithms.
+pub const METAL: f64 = 0.08;
+const WALL: f64 = 0.06;
+/// The search goes so many of them both ways, in steps of the logarithm of a frequency.
+const REACH: f64 = 3.0;
+const STEP: f64 = 2e-3;
+/// What it costs to be a tone of the wall.
+const HOOP: f64 = 1.0;
+/// How many tones of the wall are looked at, and how accurately.
+const MODES: usize = 8;
+const TOLERANCE: f64 = 1e-3;
+/// Bending modes that are looked at.
+const BENDING: usize = 12;
+
+/// A mode of a bat.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BatMode {
+    /// A bending mode, from 1.
+    Bending(usize),
+    /// A mode of the wall: waves around the barrel, and its number among those.
+    Hoop(usize, usize),
+}
+
+/// Labels of lines, the best and the next that contradict them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WallLabels {
+    /// The best.
+    pub best: Vec<Option<BatMode>>,
+    /// Frequencies of the best (Hz).
+    pub computed: Vec<Option<f64>>,
+    /// χ² of every line of the best.
+    pub chi2: Vec<f64>,
+    /// The second best.
+    pub second: Option<Vec<Option<BatMode>>>,
+    /// By how much they cost more.
+    pub margin: Option<f64>,
+}
+
+/// The modes of the wall of a hollow bat; None for a bat whose wall has none, as of wood.
+pub fn wall(wood: &WoodenBat) -> Option<Vec<HoopMode>> {
+    let hoop = Hoop::first(&wood.bat, MODES, TOLERANCE).ok()?;
+    Some(hoop.lowest(MODES).into_iter().cloned().collect())
+}
+
+/// The labels of lines that may be bending modes or modes of the wall.
+///
+/// # Errors
+///
+/// As [`WoodenBat::shown`].
+pub fn labels(wood: &WoodenBat, wall: &[HoopMode], heard: &[HeardLine]) -> Result<WallLabels> {
+    let bending = wood.shown(&[0.0; UNKNOWNS], BENDING)?.frequencies;
+    let bending = bending.iter().enumerate();
+    let bending = bending.map(|(k, f)| (BatMode::Bending(k + 1), f.value.ln()));
+    let hoops =
+        wall.iter().map(|mode| (BatMode::Hoop(mode.harmonic, mode.order), mode.frequency_hz.ln()));
+    let all: Vec<(BatMode, f64)> = bending.chain(hoops).collect();
+    let lines = heard.iter().map(|line| SpectralLine { frequency: line.frequency, mode: None });
+    let readings = BatReadings { lines: lines.collect(), ..BatReadings::default() };
+    let none = vec![None; heard.len()];
+    let search = Lines::of(&readings, LabelChoice::Stays(&none));
+    let mut found: BTreeMap<Labels, (f64, Vec<f64>)> = BTreeMap::new();
+    let steps = |deviation: f64| {
+        let most = (REACH * deviation / STEP).ceil() as i32;
+        (-most..=most).map(move |k| STEP * f64::from(k))
+    };
+    for stiff in steps(0.5 * METAL) {
+        for thick in steps(WALL) {
+            let log = |(mode, log): &(BatMode, f64)| match mode {
+                BatMode::Bending(_) => log + stiff,
+                BatMode::Hoop(..) => log + stiff + thick,
+            };
+            let logs: Vec<f64> = all.iter().map(log).collect();
+            let mut order: Vec<usize> = (0..all.len()).collect();
+            order.sort_by(|a, b| logs[*a].total_cmp(&logs[*b]));
+            let candidate = |k: &usize| match all[*k].0 {
+                BatMode::Bending(mode) => Candidate { log: logs[*k], gap: gap(mode), more: 0.0 },
+                BatMode::Hoop(..) => Candidate { log: logs[*k], gap: 0.0, more: HOOP },
+            };
+            let (labels, price) = search.cheapest(&order.iter().map(candidate).collect::<Vec<_>>());
+            let labels: Labels = labels.iter().map(|one| one.map(|k| order[k - 1] + 1)).collect();
+            let price = price + (2.0 * stiff / METAL).powi(2) + (thick / WALL).powi(2);
+            let entry = found.entry(labels).or_insert((f64::INFINITY, vec![]));
+            if price < entry.0 {
+                *entry = (price, logs);
+            }
+        }
+    }
+    Ok(chosen(&all, heard, found))
+}
+
+fn chosen(
+    all: &[(BatMode, f64)],
+    heard: &[HeardLine],
+    found: BTreeMap<Labels, (f64, Vec<f64>)>,
+) -> WallLabels {
+    let mut found: Vec<(Labels, (f64, Vec<f64>))> = found.into_iter().collect();
+    found.sort_by(|a, b| a.1.0.total_cmp(&b.1.0));
+    let (best, (price, logs)) = found[0].clone();
+    let named = |labels: &Labels| labels.iter().map(|one| one.map(|k| all[k - 1].0)).collect();
+    let second = found.iter().find(|(labels, _)| contradict(labels, &best));
+    let log = |label: &Option<usize>| label.map(|k| logs[k - 1]);
+    let chi2 = |(label, line): (&Option<usize>, &HeardLine)| {
+        let by = (line.frequency.deviation / line.frequency.value).hypot(BatReadings::MODEL);
+        log(label).map_or(0.0, |log| ((line.frequency.value.ln() - log) / by).powi(2))
+    };
+    WallLabels {
+        chi2: best.iter().zip(heard).map(chi2).collect(),
+        computed: best.iter().map(|label| log(label).map(f64::exp)).collect(),
+        best: named(&best),
+        second: second.map(|(labels, _)| named(labels)),
+        margin: second.map(|(_, (other, _))| other - price),
+    }
+}
+
+/// What is known of a metal before: E within 8 %, G/E that of the file.
+pub fn metal() -> (Priors, Vec<Property>) {
+    let priors = Priors { youngs_modulus: METAL, ..Priors::default() };
+    (priors, vec![Property::ShearModulus, Property::Density])
+}

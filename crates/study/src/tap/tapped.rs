@@ -1,0 +1,224 @@
+//! Labels of the tones of a recording, how sure they are, and the wood by all of them.
+
+use sweetspot_tap::analysis::Analysis;
+
+use crate::calibrate::calibration::{Calibration, CalibrationPlan, Property};
+use crate::calibrate::labels::STRANGER;
+use crate::calibrate::readings::{BatReadings, Priors, SpectralLine};
+use crate::calibrate::wood::WoodenBat;
+use crate::tap::heard::{HeardLine, Within, lines, ring_down};
+use crate::tap::hoops::{self, BatMode, metal};
+use sweetspot::base::error::{Error, Result};
+use sweetspot::bat::body::{Bat, STANDARD_PIVOT};
+
+/// A tone is the one that was told if it is within this of it, relative.
+const NEAR: f64 = 0.01;
+
+/// What a tone is.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct ToneLabel {
+    /// The mode; None for none of this bat.
+    pub mode: Option<BatMode>,
+    /// What the bat of the wood that was found has there (Hz).
+    pub computed: Option<f64>,
+    /// The chance that the label is right.
+    pub sure: f64,
+}
+
+/// A label that was told: near that frequency (Hz) is that bending mode, or none.
+pub type Told = (f64, Option<usize>);
+
+/// What tones say of a bat.
+#[derive(Debug, Clone)]
+pub struct Tapped {
+    /// What each tone is.
+    pub labels: Vec<ToneLabel>,
+    /// The second best labels, and by how much they cost more.
+    pub second: Option<(Vec<Option<BatMode>>, f64)>,
+    /// The wood; None where no tone is a bending mode of the bat.
+    pub wood: Option<Calibration>,
+    /// The loss factor of the wood, at most: that of the tone that is damped least.
+    pub loss: Option<Within>,
+}
+
+impl Tapped {
+    /// The tones of a bat, of which some may have been told.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] for a told tone that was not heard, and those of [`WoodenBat::new`] and of a solve.
+    pub fn of(bat: &Bat, analysis: &Analysis, told: &[Told]) -> Result<Self> {
+        let wood = WoodenBat::new(bat, None, STANDARD_PIVOT)?;
+        let wall = hoops::wall(&wood);
+        let heard = lines(analysis, wall.is_none());
+        let known = known(analysis, &heard, told)?;
+        let wall = wall.map(|wall| hoops::labels(&wood, &wall, &heard)).transpose()?;
+        let kinds = wall.as_ref().map_or(vec![None; heard.len()], |wall| wall.best.clone());
+        // Bending modes as told; of a hollow bat as found; else sought.
+        let bending = |k: usize| match (known[k], kinds[k]) {
+            (Some(told), _) => told,
+            (None, Some(BatMode::Bending(mode))) => Some(mode),
+            _ => None,
+        };
+        let is_line = |k: &usize| match known[*k] {
+            Some(told) => told.is_some(),
+            None => wall.is_none() || matches!(kinds[*k], Some(BatMode::Bending(_))),
+        };
+        let taken: Vec<usize> = (0..heard.len()).filter(is_line).collect();
+        let (priors, held) = match wall {
+            Some(_) => metal(),
+            None => (Priors::default(), vec![Property::Density]),
+        };
+        let line = |k: &usize| SpectralLine { frequency: heard[*k].frequency, mode: bending(*k) };
+        let lines: Vec<SpectralLine> = taken.iter().map(line).collect();
+        let readings = BatReadings { lines, priors, ..BatReadings::default() };
+        let plan = CalibrationPlan { split: None, held };
+        let found = calibrated(bat, readings, &plan)?;
+        let mut labels = vec![ToneLabel::default(); heard.len()];
+        for (k, label) in labels.iter_mut().enumerate() {
+            if let (None, Some(wall), Some(mode)) = (known[k], &wall, kinds[k]) {
+                *label = ToneLabel {
+                    mode: Some(mode),
+                    computed: wall.computed[k],
+                    sure: sure(wall.margin, wall.chi2[k]),
+                };
+            }
+        }
+        if let Some(found) = &found {
+            let margin = wall.as_ref().map_or(found.labels.margin, |wall| wall.margin);
+            for (k, mode) in taken.iter().zip(&found.labels.taken) {
+                labels[*k] = of_wood(found, *mode, margin, known[*k].is_some());
+            }
+        }
+        let second = match wall {
+            Some(wall) => wall.second.zip(wall.margin),
+            None => found.as_ref().and_then(|found| second_of(found, &taken, heard.len())),
+        };
+        let loss = least_loss(analysis, &heard, &labels);
+        let wood = match &loss {
+            Some((loss, order)) => {
+                found.map(|found| found.with_ring_down(ring_down(*order, loss.value)))
+            }
+            None => found,
+        };
+        let (labels, loss) =
+            (of_tones(&heard, &labels, analysis.tones.len()), loss.map(|(loss, _)| loss));
+        Ok(Self { labels, second, wood, loss })
+    }
+
+    /// Whether the tones fit the bat: the readings of its wood do, no other labels come near, and half of the tones
+    /// or more are modes of it.
+    pub fn fits(&self) -> bool {
+        let known = self.labels.iter().filter(|label| label.mode.is_some()).count();
+        self.wood.as_ref().is_some_and(|wood| wood.fits) && 2 * known >= self.labels.len()
+    }
+
+    /// Whether a label may well be another one.
+    pub fn is_unsure(&self) -> bool {
+        let unsure = |label: &ToneLabel| label.mode.is_some() && label.sure < 0.9;
+        self.labels.iter().any(unsure) || self.wood.is_none()
+    }
+}
+
+/// What was told of every line, if something was.
+fn known(
+    analysis: &Analysis,
+    heard: &[HeardLine],
+    told: &[Told],
+) -> Result<Vec<Option<Option<usize>>>> {
+    let mut known = vec![None; heard.len()];
+    for (hz, mode) in told {
+        known[near(analysis, heard, *hz)?] = Some(*mode);
+    }
+    Ok(known)
+}
+
+/// The line nearest to a frequency that was told.
+fn near(analysis: &Analysis, heard: &[HeardLine], hz: f64) -> Result<usize> {
+    let far = |line: &HeardLine| {
+        let all = line.tones.iter().map(|k| (analysis.tones[*k].pole.hz / hz).ln().abs());
+        all.fold(f64::INFINITY, f64::min)
+    };
+    let nearest = (0..heard.len()).min_by(|a, b| far(&heard[*a]).total_cmp(&far(&heard[*b])));
+    nearest.filter(|k| far(&heard[*k]) < NEAR).ok_or_else(|| {
+        let all: Vec<String> =
+            analysis.tones.iter().map(|tone| format!("{:.1}", tone.pole.hz)).collect();
+        Error::value(
+            "--mode",
+            format!("{hz} Hz"),
+            format!("one of the tones: {} Hz", all.join(", ")),
+        )
+    })
+}
+
+/// The calibration; None where no line is a mode of the bat in any wood.
+fn calibrated(
+    bat: &Bat,
+    readings: BatReadings,
+    plan: &CalibrationPlan,
+) -> Result<Option<Calibration>> {
+    if readings.lines.is_empty() {
+        return Ok(None);
+    }
+    match Calibration::new(bat, readings, plan) {
+        Ok(found) => Ok(Some(found)),
+        Err(Error::Value(complaint)) if complaint.field == "lines" => Ok(None),
+        Err(error) => Err(error),
+    }
+}
+
+/// The chance that a label is right, by how much the next labels cost more, and by how near the tone is to what none of
+/// the modes would cost.
+fn sure(margin: Option<f64>, chi2: f64) -> f64 {
+    let margin = margin.unwrap_or(f64::INFINITY).min(STRANGER - chi2).max(0.0);
+    1.0 - 0.5 * (-0.5 * margin).exp()
+}
+
+fn of_wood(found: &Calibration, mode: Option<usize>, margin: Option<f64>, told: bool) -> ToneLabel {
+    let Some(order) = mode else { return ToneLabel::default() };
+    let datum = found
+        .data
+        .iter()
+        .find(|one| one.datum.kind == crate::calibrate::fit::DatumKind::Frequency(order));
+    let chi2 = datum.map_or(0.0, |one| one.residual_sd.powi(2));
+    let sure = if told { 1.0 } else { sure(margin, chi2) };
+    let computed = datum.map(|one| one.computed);
+    ToneLabel { mode: Some(BatMode::Bending(order)), computed, sure }
+}
+
+type Second = (Vec<Option<BatMode>>, f64);
+
+fn second_of(found: &Calibration, taken: &[usize], lines: usize) -> Option<Second> {
+    let (labels, margin) = found.labels.second.as_ref().zip(found.labels.margin)?;
+    let mut all = vec![None; lines];
+    for (k, mode) in taken.iter().zip(labels) {
+        all[*k] = mode.map(BatMode::Bending);
+    }
+    Some((all, margin))
+}
+
+/// Labels of lines as labels of their tones, as they sound: stiffer with frequency.
+fn of_tones(heard: &[HeardLine], labels: &[ToneLabel], tones: usize) -> Vec<ToneLabel> {
+    let mut all = vec![ToneLabel::default(); tones];
+    for (line, label) in heard.iter().zip(labels) {
+        for k in &line.tones {
+            all[*k] = ToneLabel { computed: label.computed.map(|hz| hz * line.stiffer), ..*label };
+        }
+    }
+    all
+}
+
+/// The loss factor of the labelled bending tone that is damped least, and its mode; hands and strings only add to it.
+fn least_loss(
+    analysis: &Analysis,
+    heard: &[HeardLine],
+    labels: &[ToneLabel],
+) -> Option<(Within, usize)> {
+    let of = |(line, label): (&HeardLine, &ToneLabel)| {
+        let Some(BatMode::Bending(order)) = label.mode else { return vec![] };
+        let tones = line.tones.iter().map(|k| (Within::loss(&analysis.tones[*k]), order));
+        tones.collect()
+    };
+    let all = heard.iter().zip(labels).flat_map(of).filter(|_| analysis.has_loss);
+    all.min_by(|a, b| a.0.value.total_cmp(&b.0.value))
+}

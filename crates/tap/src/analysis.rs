@@ -1,0 +1,234 @@
+//! All of it: taps, tones, what is to be said of the recording, and why it is refused.
+
+use crate::filter::{Pass, filtered, levels, median, quantile};
+use crate::hum;
+use crate::onsets::onsets;
+use crate::recording::Recording;
+use crate::spectrum::peaks;
+use crate::tones::{Ringing, Tone, tones};
+
+/// Tones are sought up to this share of the rate.
+const HIGHEST: f64 = 0.42;
+/// Below this rate it is said (1/s).
+const LOW_RATE: f64 = 16_000.0;
+/// Clipped: so many of the large samples are near the largest, which is near full scale.
+const CLIPPED: f64 = 0.08;
+const FULL: f64 = 0.95;
+/// Hiss that rises so far between taps is gain control; that falls so far is noise suppression (dB).
+const RISEN: f64 = 3.0;
+/// Loss factors by early and late windows that differ by this, of their logarithm, are the room's.
+const ROOM: f64 = 0.3;
+
+/// A tap.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tap {
+    /// Which recording it is in.
+    pub recording: usize,
+    /// When it begins (s).
+    pub at: f64,
+    /// How often it bounced.
+    pub bounces: usize,
+    /// Whether its ringing is used.
+    pub used: bool,
+    /// Samples in which it rings.
+    pub rings: [usize; 2],
+}
+
+/// What a warning or a refusal is of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Code {
+    /// The recording is too loud.
+    Clipped,
+    /// The recorder turns its gain.
+    AutomaticGain,
+    /// There is one tap only.
+    OneTap,
+    /// The room is heard.
+    Room,
+    /// The sample rate is low.
+    LowRate,
+    /// Taps bounced.
+    Bounces,
+    /// Hum was taken off.
+    Hum,
+    /// There are few tones.
+    FewTones,
+    /// No tap was found.
+    NoTap,
+    /// No tone was found.
+    NoTone,
+}
+
+impl Code {
+    /// Its name in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Clipped => "clipped",
+            Self::AutomaticGain => "automatic_gain",
+            Self::OneTap => "one_tap",
+            Self::Room => "room",
+            Self::LowRate => "low_rate",
+            Self::Bounces => "bounces",
+            Self::Hum => "hum",
+            Self::FewTones => "few_tones",
+            Self::NoTap => "no_tap",
+            Self::NoTone => "no_tone",
+        }
+    }
+}
+
+/// What was seen of one recording.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Condition {
+    /// Frequency of the hum that was taken off (Hz).
+    pub hum: Option<f64>,
+    /// By how much hiss rises from tap to tap (dB); None where that is not seen.
+    pub gain_rise: Option<f64>,
+    /// Whether it is clipped.
+    pub clipped: bool,
+}
+
+/// What recordings of one bat say.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Analysis {
+    /// What was seen of every recording.
+    pub conditions: Vec<Condition>,
+    /// The taps of all.
+    pub taps: Vec<Tap>,
+    /// The tones.
+    pub tones: Vec<Tone>,
+    /// Whether loss factors are to be believed: not of clipped recordings, nor of those whose gain turns.
+    pub has_loss: bool,
+    /// What is to be said.
+    pub warnings: Vec<Code>,
+    /// Why it is refused.
+    pub refused: Option<Code>,
+}
+
+impl Analysis {
+    /// Listens to recordings of one bat, up to that frequency (Hz) if one is given.
+    pub fn of(recordings: &[Recording], highest: Option<f64>) -> Self {
+        let heard: Vec<Heard> = recordings.iter().map(Heard::of).collect();
+        let mut taps = vec![];
+        let mut ringing = vec![];
+        let mut sought: Vec<f64> = vec![];
+        for (k, (heard, recording)) in heard.iter().zip(recordings).enumerate() {
+            for (tap, [from, to]) in heard.taps.iter().zip(&heard.rings) {
+                let at = recording.from + tap.at as f64 / recording.rate;
+                taps.push(Tap {
+                    recording: k,
+                    at,
+                    bounces: tap.bounces,
+                    used: true,
+                    rings: [*from, *to],
+                });
+                let samples = &heard.samples[*from..*to];
+                ringing.push(Ringing { samples, rate: recording.rate });
+            }
+            let most = (HIGHEST * recording.rate).min(highest.unwrap_or(f64::INFINITY));
+            let found = peaks(&heard.samples, recording.rate, &heard.rings, most);
+            sought.extend(found.iter().map(|peak| peak.hz));
+        }
+        sought.sort_by(f64::total_cmp);
+        let conditions: Vec<Condition> =
+            heard.iter().map(|heard| heard.condition.clone()).collect();
+        let none = |refused| Self {
+            conditions: conditions.clone(),
+            taps: taps.clone(),
+            tones: vec![],
+            has_loss: false,
+            warnings: vec![],
+            refused: Some(refused),
+        };
+        if taps.is_empty() {
+            return none(Code::NoTap);
+        }
+        let found = tones(&ringing, &sought);
+        if found.tones.len() < 2 {
+            return none(Code::NoTone);
+        }
+        taps.iter_mut().zip(&found.used).for_each(|(tap, used)| tap.used = *used);
+        let warnings = warnings(recordings, &conditions, &taps, &found.tones, found.room[1]);
+        let spoilt = |code: &Code| [Code::Clipped, Code::AutomaticGain].contains(code);
+        let has_loss = !warnings.iter().any(spoilt);
+        Self { conditions, taps, tones: found.tones, has_loss, warnings, refused: None }
+    }
+}
+
+struct Heard {
+    samples: Vec<f64>,
+    taps: Vec<crate::onsets::Onset>,
+    rings: Vec<[usize; 2]>,
+    condition: Condition,
+}
+
+impl Heard {
+    fn of(recording: &Recording) -> Self {
+        let rate = recording.rate;
+        let hum = hum::hum(&recording.samples, rate);
+        let samples = match hum {
+            Some(hum) => hum::without(&recording.samples, rate, hum),
+            None => recording.samples.clone(),
+        };
+        let taps = onsets(&samples, rate);
+        // The next tap's ringing is heard ahead of it where a codec smears it.
+        let ahead = (0.008 * rate) as usize;
+        let rings: Vec<[usize; 2]> = taps
+            .iter()
+            .enumerate()
+            .map(|(k, tap)| {
+                let next =
+                    taps.get(k + 1).map_or(samples.len(), |next| next.at.saturating_sub(ahead));
+                [tap.rings, next.max(tap.rings)]
+            })
+            .collect();
+        let clipped = recording.clipped_share() > CLIPPED && recording.largest() > FULL;
+        let condition = Condition { hum, gain_rise: gain_rise(&samples, rate, &rings), clipped };
+        Self { samples, taps, rings, condition }
+    }
+}
+
+/// By how much the hiss above 5 kHz rises after a tap until the next one, the median over taps (dB).
+fn gain_rise(samples: &[f64], rate: f64, rings: &[[usize; 2]]) -> Option<f64> {
+    if rate < 24_000.0 {
+        return None;
+    }
+    let hiss = filtered(samples, rate, Pass::Above(5000.0));
+    let frame = (0.02 * rate) as usize;
+    let rise = |[from, to]: &[usize; 2]| {
+        let room = *to as f64 - *from as f64;
+        (room > 0.6 * rate).then(|| {
+            let part = |a: f64, b: f64| {
+                let place = |t: f64| from + (t * room) as usize;
+                quantile(&levels(&hiss[place(a)..place(b)], frame), 0.5)
+            };
+            part(0.85, 0.98) - part(0.35, 0.5).min(part(0.5, 0.65))
+        })
+    };
+    let all: Vec<f64> = rings.iter().filter_map(rise).collect();
+    (!all.is_empty()).then(|| median(&all))
+}
+
+fn warnings(
+    recordings: &[Recording],
+    conditions: &[Condition],
+    taps: &[Tap],
+    tones: &[Tone],
+    room: f64,
+) -> Vec<Code> {
+    let used = taps.iter().filter(|tap| tap.used).count();
+    let all = [
+        (Code::Clipped, conditions.iter().any(|one| one.clipped)),
+        (
+            Code::AutomaticGain,
+            conditions.iter().any(|one| one.gain_rise.is_some_and(|r| r > RISEN)),
+        ),
+        (Code::OneTap, used == 1),
+        (Code::Room, room > ROOM),
+        (Code::LowRate, recordings.iter().any(|one| one.rate < LOW_RATE)),
+        (Code::Bounces, taps.iter().any(|tap| tap.used && tap.bounces > 0)),
+        (Code::Hum, conditions.iter().any(|one| one.hum.is_some())),
+        (Code::FewTones, tones.len() < 3),
+    ];
+    all.into_iter().filter(|(_, is)| *is).map(|(code, _)| code).collect()
+}

@@ -1,0 +1,280 @@
+//! Recordings as files: m4a (AAC-LC, ALAC), wav, mp3, flac, ogg (Vorbis), decoded by symphonia.
+
+use std::fs::File;
+use std::io::{Cursor, Read};
+use std::path::Path;
+
+use symphonia::core::codecs::audio::{AudioCodecParameters, AudioDecoder, AudioDecoderOptions};
+use symphonia::core::errors::Error;
+use symphonia::core::formats::probe::Hint;
+use symphonia::core::formats::{FormatOptions, FormatReader, TrackType};
+use symphonia::core::io::MediaSourceStream;
+use symphonia::core::meta::MetadataOptions;
+
+use crate::recording::{LARGEST, LONGEST, RATES, Recording, Unreadable};
+
+const READ: &str = "a recording as m4a (AAC, ALAC), wav, mp3, flac or ogg (Vorbis)";
+const MOST_CHANNELS: usize = 8;
+
+/// Endings of files that hold sound.
+pub const ENDINGS: [&str; 13] =
+    ["m4a", "mp4", "mov", "aac", "wav", "wave", "mp3", "flac", "ogg", "oga", "opus", "amr", "3gp"];
+
+/// Whether a file's ending is that of a recording.
+pub fn is_recording(path: &Path) -> bool {
+    let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    ENDINGS.contains(&&*ending)
+}
+
+/// Which part of a file is listened to.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Part {
+    /// From that time on (s).
+    pub from: f64,
+    /// Until then (s); None for the end.
+    pub to: Option<f64>,
+    /// The channel, from 1; None for the loudest.
+    pub channel: Option<usize>,
+}
+
+/// A recording by its file. Of several channels the loudest is taken, not their sum: two microphones 15 cm apart
+/// cancel above 1 kHz.
+///
+/// # Errors
+///
+/// [`Unreadable`] for a file that cannot be opened, that is larger than [`LARGEST`], and as [`decode`].
+pub fn read(path: &Path, part: Part) -> Result<Recording, Unreadable> {
+    let mut bytes = vec![];
+    File::open(path)?.take(LARGEST + 1).read_to_end(&mut bytes)?;
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    decode(&name, bytes, part)
+}
+
+/// A recording by the contents of its file; the name's ending is a hint.
+///
+/// # Errors
+///
+/// [`Unreadable::Sound`] for contents that are no sound that is read here: voice notes (Opus, AMR), HE-AAC, files that
+/// are spoilt, empty, or longer than [`LONGEST`].
+pub fn decode(name: &str, bytes: Vec<u8>, part: Part) -> Result<Recording, Unreadable> {
+    if bytes.len() as u64 > LARGEST {
+        let expected = format!("at most {} MB: a minute of taps is enough", LARGEST / 1_000_000);
+        return Err(Unreadable::sound("a larger file", expected));
+    }
+    voice_note(&bytes)?;
+    let container = container(&bytes);
+    let (mut format, track, asked) = opened(name, bytes)?;
+    let codec = asked.codec;
+    let described = symphonia::default::get_codecs().get_audio_decoder(codec);
+    let codec = described.map(|decoder| decoder.codec.info.short_name.to_uppercase());
+    let options = AudioDecoderOptions::default();
+    let decoder = symphonia::default::get_codecs().make_audio_decoder(&asked, &options);
+    let mut decoder = decoder.map_err(|error| {
+        let he_aac = asked.extra_data.as_deref().and_then(|data| data.first());
+        let found = match he_aac.map(|byte| byte >> 3) {
+            Some(5 | 29) if codec.as_deref() == Some("AAC") => "HE-AAC sound".to_owned(),
+            _ => format!("sound that is not decoded here ({error})"),
+        };
+        Unreadable::sound(found, READ)
+    })?;
+    let (channels, rate) = sound(&mut *format, &mut *decoder, track, part)?;
+    let count = channels.len();
+    let power = |channel: &Vec<f32>| channel.iter().map(|x| f64::from(*x).powi(2)).sum::<f64>();
+    let chosen = match part.channel {
+        Some(channel) => channels.into_iter().nth(channel - 1),
+        None => channels.into_iter().max_by(|a, b| power(a).total_cmp(&power(b))),
+    };
+    let Some(chosen) = chosen else {
+        let expected = format!("one of its {count}");
+        let asked = part.channel.map_or("no sound".to_owned(), |k| format!("channel {k}"));
+        return Err(Unreadable::sound(asked, expected));
+    };
+    let samples: Vec<f64> = chosen.into_iter().map(f64::from).collect();
+    let recording = Recording::of(name, samples, rate)?;
+    Ok(Recording { container, codec, channels: count, from: part.from, ..recording })
+}
+
+/// Refuses what messengers write by what is to be done.
+fn voice_note(bytes: &[u8]) -> Result<(), Unreadable> {
+    let head = &bytes[..bytes.len().min(4096)];
+    let has = |word: &[u8]| head.windows(word.len()).any(|part| part == word);
+    let codec = match () {
+        _ if has(b"OpusHead") => "Opus",
+        _ if head.starts_with(b"#!AMR")
+            || has(b"ftyp3gp") && bytes.windows(4).any(|w| w == b"samr") =>
+        {
+            "AMR"
+        }
+        _ => return Ok(()),
+    };
+    let expected = "the recording as a file: record in a recorder app and send it as m4a or wav";
+    Err(Unreadable::sound(format!("a voice note ({codec}), which is not read"), expected))
+}
+
+fn container(bytes: &[u8]) -> Option<String> {
+    let kind = match bytes {
+        [b'R', b'I', b'F', b'F', ..] => "wav",
+        [b'f', b'L', b'a', b'C', ..] => "flac",
+        [b'O', b'g', b'g', b'S', ..] => "ogg",
+        [b'I', b'D', b'3', ..] | [0xff, 0xe0..=0xff, ..] => "mp3",
+        [_, _, _, _, b'f', b't', b'y', b'p', ..] => "m4a",
+        _ => return None,
+    };
+    Some(kind.to_owned())
+}
+
+type Opened = (Box<dyn FormatReader>, u32, AudioCodecParameters);
+
+fn opened(name: &str, bytes: Vec<u8>) -> Result<Opened, Unreadable> {
+    let mut hint = Hint::new();
+    if let Some(ending) = Path::new(name).extension().and_then(|ending| ending.to_str()) {
+        hint.with_extension(ending);
+    }
+    let stream = MediaSourceStream::new(Box::new(Cursor::new(bytes)), Default::default());
+    let (format, meta) = (FormatOptions::default(), MetadataOptions::default());
+    let format = symphonia::default::get_probe().probe(&hint, stream, format, meta);
+    let format = format.map_err(|error| {
+        Unreadable::sound(format!("no sound that is known here ({error})"), READ)
+    })?;
+    let track = format.default_track(TrackType::Audio);
+    let audio = track.and_then(|track| Some((track.id, track.codec_params.as_ref()?.audio()?)));
+    let Some((id, audio)) = audio.map(|(id, audio)| (id, audio.clone())) else {
+        return Err(Unreadable::sound("a file without sound that is known here", READ));
+    };
+    Ok((format, id, audio))
+}
+
+/// The samples of every channel in the part, and their rate. Packets that are spoilt are left out.
+fn sound(
+    format: &mut dyn FormatReader,
+    decoder: &mut dyn AudioDecoder,
+    track: u32,
+    part: Part,
+) -> Result<(Vec<Vec<f32>>, f64), Unreadable> {
+    let mut channels: Vec<Vec<f32>> = vec![];
+    let (mut rate, mut passed) = (0.0, 0);
+    let mut one: Vec<Vec<f32>> = vec![];
+    while let Ok(Some(packet)) = format.next_packet() {
+        if packet.track_id != track {
+            continue;
+        }
+        let decoded = match decoder.decode(&packet) {
+            Ok(decoded) => decoded,
+            Err(Error::DecodeError(_)) => continue,
+            Err(_) => break,
+        };
+        let found = f64::from(decoded.spec().rate());
+        if channels.is_empty() {
+            rate = found;
+            channels = vec![vec![]; decoded.spec().channels().count()];
+            if channels.is_empty()
+                || channels.len() > MOST_CHANNELS
+                || !(RATES[0]..=RATES[1]).contains(&rate)
+            {
+                let found = format!("{} channels of {rate} samples a second", channels.len());
+                return Err(Unreadable::sound(
+                    found,
+                    format!("1 to {MOST_CHANNELS} of {} to {}", RATES[0], RATES[1]),
+                ));
+            }
+        }
+        if found != rate || decoded.spec().channels().count() != channels.len() {
+            return Err(Unreadable::sound("sound that changes its rate or channels", READ));
+        }
+        decoded.copy_to_vecs_planar(&mut one);
+        let frames = one.first().map_or(0, Vec::len);
+        let first = ((part.from * rate) as usize).saturating_sub(passed).min(frames);
+        let end =
+            part.to.map_or(frames, |to| ((to * rate) as usize).saturating_sub(passed).min(frames));
+        passed += frames;
+        if first < end {
+            channels.iter_mut().zip(&one).for_each(|(all, new)| all.extend(&new[first..end]));
+        }
+        if channels[0].len() as f64 > LONGEST * rate {
+            let expected = format!("at most {LONGEST} s: take a part of it with --from and --to");
+            return Err(Unreadable::sound(format!("more than {LONGEST} s of sound"), expected));
+        }
+        if part.to.is_some_and(|to| passed as f64 >= to * rate) {
+            break;
+        }
+    }
+    if channels.iter().all(Vec::is_empty) {
+        return Err(Unreadable::sound("no sound in it", READ));
+    }
+    Ok((channels, rate))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A file of one second of a decaying tone, 16 bits.
+    fn wav(channels: u16) -> Vec<u8> {
+        let count = 8000;
+        let bytes = 2 * u32::from(channels) * count;
+        let mut out = b"RIFF".to_vec();
+        out.extend((36 + bytes).to_le_bytes());
+        out.extend(b"WAVEfmt \x10\0\0\0\x01\0");
+        out.extend(channels.to_le_bytes());
+        out.extend(8000_u32.to_le_bytes());
+        out.extend((8000 * 2 * u32::from(channels)).to_le_bytes());
+        out.extend((2 * channels).to_le_bytes());
+        out.extend(b"\x10\0data");
+        out.extend(bytes.to_le_bytes());
+        for n in 0..count {
+            let sound = (0.2 * f64::from(n)).sin() * (-f64::from(n) / 2000.0).exp();
+            for channel in 1..=channels {
+                out.extend(((8000.0 * f64::from(channel) * sound) as i16).to_le_bytes());
+            }
+        }
+        out
+    }
+
+    #[test]
+    fn the_louder_channel_the_part_and_the_channel_asked_for_are_taken() {
+        let read = |part| decode("x.wav", wav(2), part).unwrap();
+        let loud = read(Part::default());
+        assert_eq!((loud.rate, loud.channels, loud.samples.len()), (8000.0, 2, 8000));
+        let first = read(Part { channel: Some(1), ..Part::default() });
+        assert!((loud.largest() / first.largest() - 2.0).abs() < 1e-3);
+        let part = read(Part { from: 0.25, to: Some(0.75), channel: None });
+        assert_eq!(part.samples[..], loud.samples[2000..6000]);
+        let none = decode("x.wav", wav(2), Part { channel: Some(3), ..Part::default() });
+        assert!(none.unwrap_err().to_string().contains("channel 3"));
+    }
+
+    /// Cut and spoilt files are read or refused, and never end the program.
+    #[test]
+    fn spoilt_files_are_read_or_refused() {
+        let good = wav(1);
+        let mut state = 9_u64;
+        let mut next = |below: usize| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            (state >> 33) as usize % below
+        };
+        for _ in 0..2000 {
+            let mut bytes = good[..good.len() - next(good.len()) * (next(2))].to_vec();
+            for _ in 0..=next(4) {
+                let room = if next(2) == 0 { bytes.len().min(60) } else { bytes.len() };
+                let at = next(room.max(1));
+                if let Some(byte) = bytes.get_mut(at) {
+                    *byte = next(256) as u8;
+                }
+            }
+            if let Ok(read) = decode("x.wav", bytes, Part::default()) {
+                assert!(!read.samples.is_empty() && read.samples.iter().all(|x| x.is_finite()));
+            }
+        }
+        for bytes in [&b""[..], b"OggS", b"ID3", b"fLaC", b"....ftypM4A ", b"\xff\xfb\x90\0"] {
+            assert!(decode("x", bytes.to_vec(), Part::default()).is_err());
+        }
+    }
+
+    #[test]
+    fn voice_notes_are_refused_by_what_to_do() {
+        for (bytes, codec) in [(&b"OggS....OpusHead"[..], "Opus"), (b"#!AMR\n....", "AMR")] {
+            let told = decode("x.ogg", bytes.to_vec(), Part::default()).unwrap_err().to_string();
+            assert!(told.contains(codec) && told.contains("recorder app"), "{told}");
+        }
+    }
+}

@@ -1,0 +1,325 @@
+//! Damped tones that all taps share, by least squares.
+//!
+//! In a band of the discrete transform of every tap,
+//!
+//! ```text
+//! X(ν) = Σ_p a_p D(ν; f_p, δ_p) + a_p* D(ν; −f_p, δ_p) + c₀ + c₁ (ν − ν₀)
+//! D(ν; f, δ) = Σ_n e^{(−δ + 2πi (f − ν)) n/r} = (1 − z^N)/(1 − z),   z = e^{(−δ + 2πi (f − ν))/r}
+//! ```
+//!
+//! exactly, of N samples at rate r. Frequencies f and decays δ are those of the object, amplitudes and ground those of
+//! a tap. The latter are linear and eliminated (variable projection); the former by Gauss-Newton with damped steps.
+//!
+//! # Source
+//!
+//! G. H. Golub, V. Pereyra, The differentiation of pseudo-inverses and nonlinear least squares problems whose variables
+//! separate, SIAM J. Numer. Anal. 10 (1973) 413.
+
+use std::f64::consts::{PI, TAU};
+
+use crate::complex::Complex;
+use crate::least_squares::{beside, inverse, solve};
+
+/// A damped tone.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pole {
+    /// Frequency (Hz).
+    pub hz: f64,
+    /// Decay (1/s).
+    pub decay: f64,
+}
+
+impl Pole {
+    /// The tone of that loss factor, `δ = π f η`.
+    pub fn of(hz: f64, loss: f64) -> Self {
+        Self { hz, decay: PI * hz * loss }
+    }
+
+    /// The loss factor.
+    pub fn loss(self) -> f64 {
+        self.decay / (PI * self.hz)
+    }
+}
+
+/// A band of one tap's transform.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Band {
+    /// Which tap it is of.
+    pub tap: usize,
+    rate: f64,
+    samples: usize,
+    /// Frequencies (Hz), and the transform there.
+    lines: Vec<(f64, Complex)>,
+    weight: f64,
+}
+
+/// Fewer lines do not say what is tone and what is ground.
+const FEWEST_LINES: usize = 7;
+
+impl Band {
+    /// The lines of these samples within `half` of the middle (Hz); None where they are too few.
+    pub fn new(tap: usize, samples: &[f64], rate: f64, middle: f64, half: f64) -> Option<Self> {
+        let step = rate / samples.len().max(1) as f64;
+        let first = ((middle - half) / step).ceil().max(1.0) as usize;
+        let last = ((middle + half).min(0.49 * rate) / step).floor() as usize;
+        if last + 1 < first + FEWEST_LINES {
+            return None;
+        }
+        let turns: Vec<f64> =
+            (first..=last).map(|k| TAU * k as f64 / samples.len() as f64).collect();
+        let twice: Vec<f64> = turns.iter().map(|turn| 2.0 * turn.cos()).collect();
+        let mut one = vec![0.0; turns.len()];
+        let mut two = one.clone();
+        for x in samples {
+            for ((a, b), twice) in one.iter_mut().zip(&mut two).zip(&twice) {
+                (*a, *b) = (x + twice * *a - *b, *a);
+            }
+        }
+        // Goertzel's sums, turned by (N − 1) samples, which is one sample back.
+        let line = |(k, turn): (usize, &f64)| {
+            let sum = Complex::new(one[k], 0.0) - Complex::turn(-turn) * two[k];
+            ((first + k) as f64 * step, sum * Complex::turn(*turn))
+        };
+        let lines = turns.iter().enumerate().map(line).collect();
+        Some(Self { tap, rate, samples: samples.len(), lines, weight: 1.0 })
+    }
+
+    /// The lines.
+    pub fn lines(&self) -> &[(f64, Complex)] {
+        &self.lines
+    }
+
+    fn transform(&self, hz: f64, pole: Pole, nu: f64) -> Complex {
+        let exponent = Complex::new(-pole.decay, TAU * (hz - nu)) * (1.0 / self.rate);
+        let whole = Complex::ONE - (exponent * self.samples as f64).exp();
+        whole / (Complex::ONE - exponent.exp())
+    }
+
+    fn columns(&self, poles: &[Pole]) -> Vec<Vec<f64>> {
+        let rows = 2 * self.lines.len();
+        let mut all = Vec::with_capacity(2 * poles.len() + 4);
+        for pole in poles {
+            let (mut real, mut imaginary) = (Vec::with_capacity(rows), Vec::with_capacity(rows));
+            for (nu, _) in &self.lines {
+                let own = self.transform(pole.hz, *pole, *nu);
+                let mirror = self.transform(-pole.hz, *pole, *nu);
+                let (sum, difference) = (own + mirror, own - mirror);
+                real.extend([sum.re, sum.im]);
+                imaginary.extend([-difference.im, difference.re]);
+            }
+            all.extend([real, imaginary]);
+        }
+        let (first, last) = (self.lines[0].0, self.lines[self.lines.len() - 1].0);
+        let slope = |nu: f64| (2.0 * nu - first - last) / (last - first);
+        for part in [[1.0, 0.0], [0.0, 1.0]] {
+            all.push(self.lines.iter().flat_map(|_| part).collect());
+            all.push(self.lines.iter().flat_map(|(nu, _)| part.map(|p| p * slope(*nu))).collect());
+        }
+        all
+    }
+
+    /// What is left beside these poles and the ground.
+    fn left(&self, poles: &[Pole]) -> Vec<f64> {
+        let target = self.lines.iter().flat_map(|(_, x)| [x.re, x.im]).collect();
+        beside(self.columns(poles), target)
+    }
+
+    fn square(&self, poles: &[Pole]) -> f64 {
+        self.left(poles).iter().map(|x| x * x).sum()
+    }
+
+    /// The share of the band's power that is none of these poles, of what is no ground.
+    pub fn misfit(&self, poles: &[Pole]) -> f64 {
+        self.square(poles) / self.square(&[]).max(1e-300)
+    }
+
+    /// The logarithm of the first pole's amplitude where the band begins, beside the others.
+    pub fn amplitude(&self, poles: &[Pole]) -> f64 {
+        let alone = self.left(&poles[1..]).iter().map(|x| x * x).sum::<f64>();
+        let of_one = self.columns(&poles[..1]).swap_remove(0).iter().map(|x| x * x).sum::<f64>();
+        0.5 * ((alone - self.square(poles)).max(1e-300) / of_one.max(1e-300)).ln()
+    }
+
+    /// Degrees of freedom beside so many poles.
+    fn freedom(&self, poles: usize) -> f64 {
+        (2 * self.lines.len()).saturating_sub(2 * poles + 4).max(1) as f64
+    }
+
+    /// Weighs the band by what is left of it beside these poles.
+    pub fn weigh(&mut self, poles: &[Pole]) {
+        self.weight = (self.freedom(poles.len()) / self.square(poles).max(1e-300)).sqrt();
+    }
+}
+
+/// Poles and what is known of them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fit {
+    /// The poles.
+    pub poles: Vec<Pole>,
+    /// Standard deviations of every pole's frequency (relative) and decay (of its logarithm), by what is left.
+    // The Cramér-Rao bound.
+    pub deviations: Vec<[f64; 2]>,
+    /// Weighed sum of squares.
+    pub square: f64,
+}
+
+const MOST_STEPS: usize = 25;
+const SETTLED: f64 = 1e-6;
+
+/// The poles that fit all bands best, begun at these; `beside` are poles of other tones, which stay. None where they
+/// run away: below a tenth or beyond ten times the decay they began with, or a frequency that leaves its band.
+pub fn fit(bands: &[Band], start: &[Pole], beside: &[Pole]) -> Option<Fit> {
+    let residual = |poles: &[Pole]| {
+        let all: Vec<Pole> = poles.iter().chain(beside).copied().collect();
+        let part = |band: &Band| {
+            let weight = band.weight;
+            band.left(&all).into_iter().map(move |x| x * weight).collect::<Vec<f64>>()
+        };
+        bands.iter().flat_map(part).collect::<Vec<f64>>()
+    };
+    let sum = |r: &[f64]| r.iter().map(|x| x * x).sum::<f64>();
+    let mut poles = start.to_vec();
+    let mut here = residual(&poles);
+    let (mut damped, mut normal) = (1e-3, vec![]);
+    for _ in 0..MOST_STEPS {
+        let slopes = slopes(&poles, &here, &residual);
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        normal = slopes.iter().map(|a| slopes.iter().map(|b| dot(a, b)).collect()).collect();
+        let downhill: Vec<f64> = slopes.iter().map(|a| -dot(a, &here)).collect();
+        let mut largest;
+        let moved = loop {
+            let step = solve(with(&normal, &downhill, damped))?;
+            largest = step.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            let shrink = (1.0 / largest).min(1.0);
+            let next = stepped(&poles, &step, shrink);
+            let there = residual(&next);
+            if sum(&there) <= sum(&here) {
+                damped = (damped * 0.1).max(1e-9);
+                break Some((next, there));
+            }
+            damped *= 10.0;
+            if damped > 1e6 || largest < SETTLED {
+                break None;
+            }
+        };
+        let Some((next, there)) = moved else { break };
+        (poles, here) = (next, there);
+        if largest < SETTLED {
+            break;
+        }
+    }
+    let runs = |(pole, begun): (&Pole, &Pole)| {
+        let ratio = pole.decay / begun.decay;
+        let away = (pole.hz - begun.hz).abs() > 3.0 * begun.decay.max(pole.decay) + 0.02 * begun.hz;
+        !(0.1..10.0).contains(&ratio) || away || !pole.hz.is_finite()
+    };
+    if poles.iter().zip(start).any(runs) {
+        return None;
+    }
+    let square = sum(&here);
+    let count = poles.len() + beside.len();
+    let freedom: f64 = bands.iter().map(|band| band.freedom(count)).sum();
+    let spread = square / (freedom - 2.0 * poles.len() as f64).max(1.0);
+    let covariance = inverse(&normal)?;
+    let deviation = |k: usize| (covariance[k][k].max(0.0) * spread).sqrt();
+    let deviations = poles.iter().enumerate();
+    let deviations = deviations
+        .map(|(p, pole)| [deviation(2 * p) * pole.decay / (PI * pole.hz), deviation(2 * p + 1)]);
+    Some(Fit { deviations: deviations.collect(), poles, square })
+}
+
+/// The poles after a step: frequencies in units of δ/π, decays by their logarithms.
+fn stepped(poles: &[Pole], step: &[f64], share: f64) -> Vec<Pole> {
+    let one = |(pole, step): (&Pole, &[f64])| Pole {
+        hz: pole.hz + share * step[0] * pole.decay / PI,
+        decay: pole.decay * (share * step[1]).exp(),
+    };
+    poles.iter().zip(step.chunks(2)).map(one).collect()
+}
+
+fn slopes(poles: &[Pole], here: &[f64], residual: &impl Fn(&[Pole]) -> Vec<f64>) -> Vec<Vec<f64>> {
+    /// Of a derivative by differences: far above round-off, far below what bends.
+    const STEP: f64 = 1e-5;
+    let along = |k: usize| {
+        let mut step = vec![0.0; 2 * poles.len()];
+        step[k] = STEP;
+        let there = residual(&stepped(poles, &step, 1.0));
+        there.iter().zip(here).map(|(a, b)| (a - b) / STEP).collect()
+    };
+    (0..2 * poles.len()).map(along).collect()
+}
+
+fn with(normal: &[Vec<f64>], right: &[f64], damped: f64) -> Vec<Vec<f64>> {
+    let row = |(i, row): (usize, &Vec<f64>)| {
+        let mut row = row.clone();
+        row[i] += damped * row[i] + 1e-300;
+        row.push(right[i]);
+        row
+    };
+    normal.iter().enumerate().map(row).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const RATE: f64 = 16_000.0;
+
+    fn sound(poles: &[(Pole, f64, f64)], noise: f64, seed: u64) -> Vec<f64> {
+        let mut state = seed;
+        let mut uniform = || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (state >> 33) as f64 / (1_u64 << 31) as f64
+        };
+        let sample = |n: usize| {
+            let t = n as f64 / RATE;
+            let tone = |(pole, size, phase): &(Pole, f64, f64)| {
+                size * (-pole.decay * t).exp() * (TAU * pole.hz * t + phase).cos()
+            };
+            // Irwin and Hall's sum of twelve is normal enough.
+            let normal =
+                if noise > 0.0 { (0..12).map(|_| uniform()).sum::<f64>() - 6.0 } else { 0.0 };
+            poles.iter().map(tone).sum::<f64>() + noise * normal
+        };
+        (0..4000).map(sample).collect()
+    }
+
+    #[test]
+    fn damped_tones_are_found_to_round_off() {
+        let truth = [Pole { hz: 611.3, decay: 20.0 }, Pole { hz: 618.0, decay: 25.0 }];
+        let bands = [0.4, 2.0].map(|phase| {
+            let sound = sound(&[(truth[0], 1.0, phase), (truth[1], 0.5, 1.0)], 0.0, 0);
+            Band::new(0, &sound, RATE, 612.0, 90.0).unwrap()
+        });
+        let start = [Pole { hz: 610.0, decay: 15.0 }, Pole { hz: 620.0, decay: 30.0 }];
+        let found = fit(&bands, &start, &[]).unwrap();
+        for (pole, truth) in found.poles.iter().zip(truth) {
+            assert!((pole.hz / truth.hz - 1.0).abs() < 1e-9, "{pole:?}");
+            assert!((pole.decay / truth.decay - 1.0).abs() < 1e-6, "{pole:?}");
+        }
+        let one = fit(&bands, &start[..1], &truth[1..]).unwrap();
+        assert!((one.poles[0].hz / truth[0].hz - 1.0).abs() < 1e-9);
+    }
+
+    /// In white noise errors over their deviations have a mean square of 1, within four deviations of that.
+    #[test]
+    fn deviations_are_those_of_white_noise() {
+        let pole = Pole { hz: 611.3, decay: 20.0 };
+        let draws = 200;
+        let mut sums = [0.0; 2];
+        for seed in 0..draws {
+            let sound = sound(&[(pole, 1.0, 0.1 * seed as f64)], 0.05, 99 + seed);
+            let band = Band::new(0, &sound, RATE, 611.3, 80.0).unwrap();
+            let found = fit(&[band], &[Pole { hz: 612.0, decay: 30.0 }], &[]).unwrap();
+            let [f, d] = found.deviations[0];
+            sums[0] += ((found.poles[0].hz / pole.hz).ln() / f).powi(2);
+            sums[1] += ((found.poles[0].decay / pole.decay).ln() / d).powi(2);
+        }
+        let four = 4.0 * (2.0 / draws as f64).sqrt();
+        for sum in sums {
+            assert!((sum / draws as f64 - 1.0).abs() < four, "{sums:?}");
+        }
+    }
+}

@@ -1,0 +1,145 @@
+//! When does a tap begin, when does it ring alone?
+//!
+//! A tap is a rise of the band from 400 Hz to 12 kHz in frames of 2 ms. It begins with the first sample above a quarter
+//! of the largest in the next 30 ms: codecs are heard up to 20 ms early. What bounces rises again above 4 kHz, where
+//! ringing is short; the ringing begins after the last bounce.
+
+use crate::filter::{Pass, filtered, levels, quantile};
+
+/// Frame (s).
+const FRAME: f64 = 2e-3;
+/// A tap rises by that over the loudest of the three frames before, stands that above the quiet of the recording, and
+/// is at most so far below the loudest (dB).
+const RISE: f64 = 9.0;
+const ABOVE_QUIET: f64 = 15.0;
+const BELOW_LOUDEST: f64 = 40.0;
+/// Where the beginning is looked for (s), and the share of the largest there.
+const LOOK: f64 = 0.03;
+const SHARE: f64 = 0.25;
+/// Onsets closer than that are one tap (s).
+const APART: f64 = 0.15;
+/// A tap falls by so much in that time (dB, s).
+const FALL: f64 = 12.0;
+const FALLEN: f64 = 0.6;
+/// Bounces rise by that and stand so far above the quiet (dB), between these times after a tap (s).
+const BOUNCE: f64 = 5.0;
+const BOUNCE_ABOVE: f64 = 10.0;
+const BOUNCES: [f64; 2] = [0.01, 0.14];
+/// Bounces are no further below their tap than that (dB).
+const FAINT: f64 = 25.0;
+
+/// A tap in a recording.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Onset {
+    /// First sample.
+    pub at: usize,
+    /// First sample of the last bounce, or of the tap.
+    pub rings: usize,
+    /// How often it bounced.
+    pub bounces: usize,
+}
+
+/// The taps of a recording.
+pub fn onsets(samples: &[f64], rate: f64) -> Vec<Onset> {
+    let low = filtered(samples, rate, Pass::Above(400.0));
+    let band = match rate > 30_000.0 {
+        true => filtered(&low, rate, Pass::Below(12_000.0)),
+        false => low,
+    };
+    let frame = (FRAME * rate).round() as usize;
+    let loud = levels(&band, frame);
+    let quiet = quantile(&loud, 0.15);
+    let loudest = loud.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let mut found: Vec<usize> = vec![];
+    for k in 1..loud.len() {
+        let before = loud[k.saturating_sub(3)..k].iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let rises = loud[k] > before + RISE
+            && loud[k] > quiet + ABOVE_QUIET
+            && loud[k] > loudest - BELOW_LOUDEST;
+        if !rises {
+            continue;
+        }
+        let at = begins(&band, (k * frame).saturating_sub(frame / 2), (LOOK * rate) as usize);
+        if found.last().is_none_or(|last| at as f64 > *last as f64 + APART * rate) {
+            found.push(at);
+        }
+    }
+    let falls = |k: &usize| {
+        let at = found[*k];
+        let end = found.get(k + 1).copied().unwrap_or(samples.len());
+        let part = |from: f64, to: f64| {
+            let place = |t: f64| ((at as f64 + t * rate) as usize).min(end) / frame;
+            &loud[place(from).min(loud.len() - 1)..=place(to).min(loud.len() - 1)]
+        };
+        let most = part(0.0, 0.03).iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        quantile(part(0.1, FALLEN), 0.1) < most - FALL
+    };
+    let taps: Vec<usize> = (0..found.len()).filter(falls).map(|k| found[k]).collect();
+    let high = filtered(samples, rate, Pass::Above((0.25 * rate).min(4000.0)));
+    taps.iter().map(|at| with_bounces(&high, rate, *at)).collect()
+}
+
+/// The first sample from there on above a share of the largest among the next ones.
+fn begins(samples: &[f64], from: usize, look: usize) -> usize {
+    let part = &samples[from..(from + look).min(samples.len())];
+    let most = part.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    from + part.iter().position(|x| x.abs() >= SHARE * most).unwrap_or(0)
+}
+
+fn with_bounces(high: &[f64], rate: f64, at: usize) -> Onset {
+    let frame = (FRAME * rate).round() as usize;
+    let end = (at + (BOUNCES[1] * rate) as usize).min(high.len());
+    let loud = levels(&high[at..end], frame);
+    let quiet = quantile(&levels(high, frame), 0.15);
+    let most = loud.iter().take(3).copied().fold(f64::NEG_INFINITY, f64::max);
+    let mut onset = Onset { at, rings: at, bounces: 0 };
+    let mut k = (BOUNCES[0] / FRAME) as usize;
+    while k < loud.len() {
+        let before = loud[k.saturating_sub(3)..k].iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        if loud[k] > before + BOUNCE && loud[k] > quiet + BOUNCE_ABOVE && loud[k] > most - FAINT {
+            onset.rings = begins(high, at + k * frame - frame / 2, 4 * frame);
+            onset.bounces += 1;
+            k += 4;
+        }
+        k += 1;
+    }
+    onset
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::TAU;
+
+    fn taps(rate: f64, times: &[(f64, f64)]) -> Vec<f64> {
+        let ring = |t: f64| {
+            let tone =
+                |hz: f64| (-0.01 * std::f64::consts::PI * hz * t).exp() * (TAU * hz * t).cos();
+            0.2 * tone(600.0) + 0.2 * tone(1900.0) + 0.2 * tone(5100.0) + 0.2 * tone(6300.0)
+        };
+        let sum = |t: f64| {
+            let all = times.iter().filter(|(at, _)| t >= *at);
+            all.map(|(at, size)| size * ring(t - at)).sum::<f64>()
+        };
+        (0..(3.0 * rate) as usize).map(|n| sum(n as f64 / rate)).collect()
+    }
+
+    #[test]
+    fn a_tap_is_found_to_the_sample_and_its_last_bounce_too() {
+        let rate = 48_000.0;
+        let found = onsets(&taps(rate, &[(0.5, 1.0), (1.5, 0.4), (1.56, 0.2)]), rate);
+        assert_eq!(found.len(), 2, "{found:?}");
+        let near = |sample: usize, time: f64| (sample as f64 - time * rate).abs() < 12.0;
+        assert!(near(found[0].at, 0.5) && near(found[1].at, 1.5), "{found:?}");
+        assert_eq!((found[0].bounces, found[1].bounces), (0, 1));
+        assert!(near(found[0].rings, 0.5) && near(found[1].rings, 1.56), "{found:?}");
+    }
+
+    #[test]
+    fn silence_and_a_steady_tone_have_no_tap() {
+        let tone: Vec<f64> = (0..48_000).map(|n| (0.1 * n as f64).sin()).collect();
+        assert!(onsets(&tone[..], 48_000.0).is_empty());
+        assert!(onsets(&[0.0; 9000], 48_000.0).is_empty());
+        assert!(onsets(&[], 48_000.0).is_empty());
+    }
+}

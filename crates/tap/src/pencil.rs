@@ -1,0 +1,157 @@
+//! Where do several tones in one band begin? The matrix pencil of all taps together.
+//!
+//! The band of a tap, transformed back, is a row of K values `y_m = Σ_p a_p z_p^m` beside noise. Their Hankel matrices,
+//! of all taps one above the other, have a row space that the powers of the poles span. Of its strongest vectors V,
+//! with its last row left out and with its first, `V₁ Z = V₂`: the eigenvalues of Z are the z_p.
+//!
+//! # Source
+//!
+//! Y. Hua, T. K. Sarkar, Matrix pencil method for estimating parameters of exponentially damped/undamped sinusoids in
+//! noise, IEEE Trans. Acoust. Speech Signal Process. 38 (1990) 814, equations 9 to 15.
+
+use std::f64::consts::{PI, TAU};
+
+use crate::complex::Complex;
+use crate::fit::{Band, Pole};
+
+/// Values of a row at most, so that the work stays small.
+const LONGEST: usize = 48;
+/// Turns of the iteration for the strongest two vectors.
+const TURNS: usize = 60;
+
+/// Two poles that begin a fit of these bands; None where the band does not have two that die out.
+pub fn two_poles(bands: &[Band]) -> Option<[Pole; 2]> {
+    let shortest = bands.iter().map(|band| band.lines().len()).min()?;
+    let row = (shortest / 2).min(LONGEST);
+    if row < 4 {
+        return None;
+    }
+    // All taps have lines as far apart as their lengths: only those of equal length share powers of poles.
+    let step = |band: &Band| band.lines()[1].0 - band.lines()[0].0;
+    let same = |band: &&Band| {
+        let ratio = step(band) * band.lines().len() as f64
+            / (step(&bands[0]) * bands[0].lines().len() as f64);
+        (ratio - 1.0).abs() < 0.03
+    };
+    let mut gram = vec![vec![Complex::default(); row]; row];
+    for band in bands.iter().filter(same) {
+        let values = back(band);
+        let size = values.iter().map(|y| y.square()).sum::<f64>().max(1e-300);
+        for window in values.windows(row) {
+            for (i, a) in window.iter().enumerate() {
+                for (j, b) in window.iter().enumerate() {
+                    gram[i][j] = gram[i][j] + *a * b.conj() * (1.0 / size);
+                }
+            }
+        }
+    }
+    let vectors = strongest(&gram);
+    let turns = shifted(&vectors)?;
+    let (lines, width) = (bands[0].lines(), step(&bands[0]));
+    let rate = width * lines.len() as f64;
+    let middle = lines[lines.len() / 2].0;
+    let mut poles = turns.map(|z| {
+        let log = z.ln();
+        Pole { hz: middle + log.im / TAU * rate, decay: -log.re * rate }
+    });
+    poles.sort_by(|a, b| a.hz.total_cmp(&b.hz));
+    let dies = |pole: &Pole| pole.decay > 0.0 && pole.decay < PI * rate;
+    poles.iter().all(dies).then_some(poles)
+}
+
+/// The band's lines transformed back about its middle, tapered so that its ends do not ring.
+fn back(band: &Band) -> Vec<Complex> {
+    let lines = band.lines();
+    let (count, middle) = (lines.len(), (lines.len() / 2) as f64);
+    let taper = |k: usize| {
+        let edge = (k.min(count - 1 - k) as f64 + 0.5) / (0.2 * count as f64);
+        (0.5 * PI * edge.min(1.0)).sin()
+    };
+    let value = |m: usize| {
+        let turn = |k: usize| Complex::turn(TAU * (k as f64 - middle) * m as f64 / count as f64);
+        let one = |(k, (_, x)): (usize, &(f64, Complex))| *x * turn(k) * taper(k);
+        lines.iter().enumerate().map(one).fold(Complex::default(), |a, b| a + b)
+    };
+    // The first values and the last are those of the cut, not of the tone.
+    let edge = 1 + count / 16;
+    (edge..count - edge).map(value).collect()
+}
+
+/// The two strongest vectors of a Hermitian matrix, by repeated multiplication.
+fn strongest(matrix: &[Vec<Complex>]) -> [Vec<Complex>; 2] {
+    let count = matrix.len();
+    let dot = |a: &[Complex], b: &[Complex]| {
+        a.iter().zip(b).map(|(a, b)| a.conj() * *b).fold(Complex::default(), |a, b| a + b)
+    };
+    let unit = |vector: &mut Vec<Complex>| {
+        let scale = 1.0 / dot(vector, vector).re.sqrt().max(1e-300);
+        vector.iter_mut().for_each(|x| *x = *x * scale);
+    };
+    let mut pair = [0, 1].map(|k| {
+        (0..count).map(|i| Complex::turn((k * i * i) as f64 + 0.3 * i as f64)).collect::<Vec<_>>()
+    });
+    for _ in 0..TURNS {
+        for vector in &mut pair {
+            let times = |row: &Vec<Complex>| {
+                row.iter()
+                    .zip(&*vector)
+                    .map(|(a, b)| *a * *b)
+                    .fold(Complex::default(), |a, b| a + b)
+            };
+            *vector = matrix.iter().map(times).collect();
+        }
+        let [first, second] = &mut pair;
+        unit(first);
+        let share = dot(first, second);
+        second.iter_mut().zip(&*first).for_each(|(b, a)| *b = *b - *a * share);
+        unit(second);
+    }
+    pair
+}
+
+/// The eigenvalues of Z in `V₁ Z = V₂`, by least squares.
+fn shifted(vectors: &[Vec<Complex>; 2]) -> Option<[Complex; 2]> {
+    let last = vectors[0].len() - 1;
+    let product = |i: usize, j: usize, shift: usize| {
+        let (a, b) = (&vectors[i][..last], &vectors[j][shift..last + shift]);
+        a.iter().zip(b).map(|(a, b)| a.conj() * *b).fold(Complex::default(), |a, b| a + b)
+    };
+    let [a, b, c, d] = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(i, j)| product(i, j, 0));
+    let [e, f, g, h] = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(i, j)| product(i, j, 1));
+    let whole = a * d - b * c;
+    if whole.square() < 1e-20 {
+        return None;
+    }
+    let z = [d * e - b * g, d * f - b * h, a * g - c * e, a * h - c * f].map(|x| x / whole);
+    let (half, determinant) = ((z[0] + z[3]) * 0.5, z[0] * z[3] - z[1] * z[2]);
+    let root = (half * half - determinant).sqrt();
+    Some([half + root, half - root])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two damped tones without noise; the band's ends leave 3 % of the smaller gap.
+    #[test]
+    fn two_damped_tones_are_told_apart() {
+        let rate = 16_000.0;
+        let truth = [Pole { hz: 611.3, decay: 20.0 }, Pole { hz: 622.0, decay: 22.0 }];
+        let bands = [0.3, 1.9].map(|phase| {
+            let sample = |n: usize| {
+                let t = n as f64 / rate;
+                let tone = |pole: &Pole, phase: f64| {
+                    (-pole.decay * t).exp() * (TAU * pole.hz * t + phase).cos()
+                };
+                tone(&truth[0], phase) + 0.5 * tone(&truth[1], 2.0 * phase)
+            };
+            let sound: Vec<f64> = (0..2400).map(sample).collect();
+            Band::new(0, &sound, rate, 615.0, 100.0).unwrap()
+        });
+        let found = two_poles(&bands).unwrap();
+        for (pole, truth) in found.iter().zip(truth) {
+            assert!((pole.hz - truth.hz).abs() < 0.5, "{found:?}");
+            assert!((pole.decay / truth.decay - 1.0).abs() < 0.3, "{found:?}");
+        }
+    }
+}

@@ -1,0 +1,119 @@
+//! A recording: sound as a row of samples, and where it came from.
+
+/// The longest recording that is listened to (s).
+pub const LONGEST: f64 = 120.0;
+/// The largest file that is read (bytes).
+pub const LARGEST: u64 = 50_000_000;
+/// Sample rates that are taken (1/s).
+pub const RATES: [f64; 2] = [4000.0, 192_000.0];
+
+/// Why a file or its samples cannot be listened to.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Unreadable {
+    /// The file cannot be opened.
+    #[error("cannot be read: {0}")]
+    File(#[from] std::io::Error),
+    /// Its contents are no sound that is known here.
+    #[error("{found}; expected {expected}")]
+    Sound {
+        /// What was found.
+        found: String,
+        /// What was expected, or what to do.
+        expected: String,
+    },
+}
+
+impl Unreadable {
+    /// The error of that finding.
+    pub fn sound(found: impl Into<String>, expected: impl Into<String>) -> Self {
+        Self::Sound { found: found.into(), expected: expected.into() }
+    }
+}
+
+/// A recording of taps.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Recording {
+    /// The file's name.
+    pub name: String,
+    /// The file's kind, such as "m4a"; None for bare samples.
+    pub container: Option<String>,
+    /// How the sound is written in it, such as "AAC"; None for bare samples.
+    pub codec: Option<String>,
+    /// Samples per second.
+    pub rate: f64,
+    /// How many channels the file has.
+    pub channels: usize,
+    /// Time of the first sample in the file (s).
+    pub from: f64,
+    /// The samples of one channel; full scale is 1.
+    pub samples: Vec<f64>,
+}
+
+impl Recording {
+    /// Bare samples at that rate (1/s).
+    ///
+    /// # Errors
+    ///
+    /// [`Unreadable::Sound`] for samples that are no numbers, for more than [`LONGEST`] and for a rate beyond
+    /// [`RATES`].
+    pub fn of(name: &str, samples: Vec<f64>, rate: f64) -> Result<Self, Unreadable> {
+        if !(RATES[0]..=RATES[1]).contains(&rate) {
+            let expected = format!("{} to {} samples a second", RATES[0], RATES[1]);
+            return Err(Unreadable::sound(format!("a rate of {rate} 1/s"), expected));
+        }
+        if let Some(k) = samples.iter().position(|x| !x.is_finite()) {
+            return Err(Unreadable::sound(format!("sample {k} is {}", samples[k]), "numbers"));
+        }
+        let seconds = samples.len() as f64 / rate;
+        if seconds > LONGEST {
+            let expected = format!("at most {LONGEST} s: take a part of it");
+            return Err(Unreadable::sound(format!("{seconds:.0} s of sound"), expected));
+        }
+        let (container, codec, channels, from) = (None, None, 1, 0.0);
+        Ok(Self { name: name.to_owned(), container, codec, rate, channels, from, samples })
+    }
+
+    /// How long it is (s).
+    pub fn seconds(&self) -> f64 {
+        self.samples.len() as f64 / self.rate
+    }
+
+    /// The largest sample, without its sign.
+    pub fn largest(&self) -> f64 {
+        self.samples.iter().fold(0.0_f64, |most, x| most.max(x.abs()))
+    }
+
+    /// The share of samples above 0.9 of the largest among those above half of it: 0.02 to 0.04 of taps, more where
+    /// they are clipped, whatever a codec made of that.
+    pub fn clipped_share(&self) -> f64 {
+        let largest = self.largest();
+        let above =
+            |share: f64| self.samples.iter().filter(|x| x.abs() > share * largest).count() as f64;
+        if largest > 0.0 { above(0.9) / above(0.5) } else { 0.0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_no_sound_is_refused_by_name() {
+        let told = |samples: Vec<f64>, rate| Recording::of("x", samples, rate).unwrap_err();
+        assert!(told(vec![0.0, f64::NAN], 8000.0).to_string().contains("sample 1 is NaN"));
+        assert!(told(vec![0.0], 0.0).to_string().contains("a rate of 0"));
+        assert!(told(vec![0.0; 4000 * 121], 4000.0).to_string().contains("121 s"));
+    }
+
+    /// Of a sine, `arccos(0.9)/arccos(0.5)` of what is above half is above 0.9; of a cut one more.
+    #[test]
+    fn a_cut_top_is_seen() {
+        let sine = |cut: f64| {
+            let wave = (0..10_000).map(|n| (n as f64 * 0.01).sin().clamp(-cut, cut)).collect();
+            Recording::of("x", wave, 8000.0).unwrap().clipped_share()
+        };
+        assert!((sine(1.0) - 0.9_f64.acos() / 0.5_f64.acos()).abs() < 2e-3);
+        assert!(sine(0.5) > 0.8);
+    }
+}

@@ -1,0 +1,113 @@
+//! What `sweetspot tap` hears: recordings that the program or a closed form makes, and what it refuses.
+
+use serde_json::Value;
+use sweetspot_report::exchange::wav::{self, RATE};
+
+use crate::common::folder::Folder;
+
+/// Samples of a file of one channel of 16 bits, as the program writes it.
+fn samples(file: &[u8]) -> Vec<f64> {
+    let pairs = file[44..].chunks_exact(2);
+    pairs.map(|b| f64::from(i16::from_le_bytes([b[0], b[1]])) / 32768.0).collect()
+}
+
+/// Even noise from -1 to 1.
+fn noise(seed: u64) -> impl FnMut() -> f64 {
+    let mut state = seed;
+    move || {
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as f64 / (1_u64 << 30) as f64 - 1.0
+    }
+}
+
+/// The output of a run, whatever its exit code.
+fn heard(folder: &Folder, args: &[&str]) -> (Value, i32) {
+    let output = folder.run(&[args, &["--json", "-"]].concat());
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    let code = output.status.code().unwrap();
+    (serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{args:?}: {told}")), code)
+}
+
+const LOSSY: &str = r#"{ "format": "sweetspot-bat/1", "name": "Lossy", "profile": { "unit": "in",
+    "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5] },
+    "material": { "density": 650, "youngs_modulus": 18e9, "shear_modulus": 1.1e9, "loss_factor": 0.01 } }"#;
+
+/// What `ring` makes is heard again: its modes, their frequencies within 0.02 % and their loss factor within 2 %.
+#[test]
+fn a_bat_that_rings_is_heard_again() {
+    let folder = Folder::new("tap_ring");
+    folder.write("bat.json", LOSSY);
+    let ring =
+        ["ring", "bat.json", "--at", "33in", "--impulse", "0.2", "--wav", "one.wav", "--json", "-"];
+    folder.json(&ring);
+    let one = samples(&std::fs::read(folder.0.join("one.wav")).unwrap());
+    let mut noise = noise(3);
+    let mut all: Vec<f64> = (0..4 * RATE as usize).map(|_| 1e-3 * noise()).collect();
+    for tap in 0..3 {
+        let from = (0.5 * f64::from(RATE)) as usize + tap * RATE as usize;
+        let room = RATE as usize - 2000;
+        all[from..].iter_mut().zip(one.iter().take(room)).for_each(|(sum, x)| *sum += 0.9 * x);
+    }
+    folder.write("taps.wav", wav::file(&all));
+    let modes = folder.json(&["modes", "bat.json", "-n", "9", "--json", "-"]);
+    let (found, _) = heard(&folder, &["tap", "bat.json", "taps.wav", "--only-tones"]);
+    let tones = found["tones"].as_array().unwrap();
+    for mode in modes["modes"].as_array().unwrap() {
+        let exact = mode["frequency_hz"].as_f64().unwrap();
+        let off = |tone: &&Value| (tone["frequency_hz"].as_f64().unwrap() / exact - 1.0).abs();
+        let tone = tones.iter().min_by(|a, b| off(a).total_cmp(&off(b))).unwrap();
+        assert!(off(&tone) < 2e-4, "{exact}: {tone:#}");
+        let loss = tone["loss_factor"].as_f64().unwrap();
+        assert!((loss / 0.01 - 1.0).abs() < 0.02, "{exact}: {loss}");
+    }
+}
+
+/// Tones of the R161 as its file has it: labels, E within 2 % of the file's, and a bat of that wood that reads back.
+#[test]
+fn labels_and_wood_follow_from_the_tones() {
+    let folder = Folder::new("tap_labels");
+    folder.write("taps.wav", include_bytes!("golden/taps.wav"));
+    let args = ["tap", "r161", "taps.wav", "--out", "mine.json", "--readings", "lines.json"];
+    let (found, code) = heard(&folder, &args);
+    assert_eq!(code, 0, "{found:#}");
+    let tones = found["tones"].as_array().unwrap();
+    assert_eq!(tones.len(), 5, "{found:#}");
+    for (k, tone) in tones.iter().enumerate() {
+        assert_eq!(tone["mode"]["order"], k + 1, "{tone:#}");
+    }
+    let modulus = |found: &Value| found["parameters"][0]["value"].as_f64().unwrap();
+    assert!((modulus(&found["wood"]) / 18.14e9 - 1.0).abs() < 0.02, "{found:#}");
+    let wood =
+        folder.json(&["calibrate", "r161", "lines.json", "--hold", "density", "--json", "-"]);
+    assert!((modulus(&wood) / modulus(&found["wood"]) - 1.0).abs() < 1e-6);
+    let again = folder.json(&["calibrate", "r161", "taps.wav", "--hold", "density", "--json", "-"]);
+    assert!((modulus(&again) / modulus(&found["wood"]) - 1.0).abs() < 1e-6);
+    let first = folder.json(&["modes", "mine.json", "-n", "1", "--json", "-"]);
+    let hz = first["modes"][0]["frequency_hz"].as_f64().unwrap();
+    assert!((hz / 174.51 - 1.0).abs() < 5e-3, "{hz}");
+    let told = folder.run(&["tap", "r161", "taps.wav", "--mode", "900 = 3"]);
+    assert!(String::from_utf8_lossy(&told.stderr).contains("one of the tones"), "{told:?}");
+}
+
+#[test]
+fn what_is_no_tap_is_refused() {
+    let folder = Folder::new("tap_refused");
+    let count = 3 * RATE as usize;
+    let mut noise = noise(5);
+    let hum = |n: usize| 0.3 * (std::f64::consts::TAU * 50.0 * n as f64 / f64::from(RATE)).sin();
+    let sounds: [(&str, Vec<f64>); 3] = [
+        ("silence.wav", vec![0.0; count]),
+        ("noise.wav", (0..count).map(|_| 0.1 * noise()).collect()),
+        ("hum.wav", (0..count).map(|n| hum(n) + 1e-3 * (n as f64).sin()).collect()),
+    ];
+    for (name, sound) in sounds {
+        folder.write(name, wav::file(&sound));
+        let (found, code) = heard(&folder, &["tap", "r161", name]);
+        assert_eq!((code, &found["refused"]["code"]), (1, &Value::from("no_tap")), "{name}");
+    }
+    folder.write("note.ogg", b"OggS\0\x02..........OpusHead");
+    let told = folder.run(&["tap", "r161", "note.ogg"]);
+    assert_eq!(told.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&told.stderr).contains("voice note (Opus)"), "{told:?}");
+}
