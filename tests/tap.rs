@@ -111,3 +111,50 @@ fn what_is_no_tap_is_refused() {
     assert_eq!(told.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&told.stderr).contains("voice note (Opus)"), "{told:?}");
 }
+
+/// Two tones in one band, 1.5 to 8 % apart, are both heard within 0.02 %, one as strong as the other.
+#[test]
+fn neighbours_are_both_heard() {
+    let folder = Folder::new("tap_neighbours");
+    let rate = f64::from(RATE);
+    for apart in [1.015, 1.035, 1.05, 1.08] {
+        let tones = [300.0, 900.0, 2462.0, 2462.0 * apart];
+        let tap = |n: usize, k: usize| -> f64 {
+            let t = n as f64 / rate;
+            let one = |(j, hz): (usize, &f64)| {
+                let phase = (7 * k + 3 * j) as f64;
+                let size = 0.15 + 0.03 * ((k + j) % 3) as f64;
+                size * (-std::f64::consts::PI * hz * 0.004 * t).exp()
+                    * (std::f64::consts::TAU * hz * t + phase).sin()
+            };
+            tones.iter().enumerate().map(one).sum()
+        };
+        let taps = (0..4).flat_map(|k| (0..RATE as usize).map(move |n| (n, k)));
+        let mut all = vec![0.0; RATE as usize / 2];
+        all.extend(taps.map(|(n, k)| tap(n, k)));
+        folder.write("taps.wav", wav::file(&all));
+        let (found, _) = heard(&folder, &["tap", "r161", "taps.wav", "--only-tones"]);
+        let found = found["tones"].as_array().unwrap();
+        let found: Vec<f64> = found.iter().map(|t| t["frequency_hz"].as_f64().unwrap()).collect();
+        assert_eq!(found.len(), 4, "{apart}: {found:?}");
+        for (heard, hz) in found.iter().zip(tones) {
+            assert!((heard / hz - 1.0).abs() < 2e-4, "{apart}: {heard} {hz}");
+        }
+    }
+}
+
+#[test]
+fn a_part_that_is_none_is_refused_by_name() {
+    let folder = Folder::new("tap_part");
+    folder.write("taps.wav", include_bytes!("golden/taps.wav"));
+    for (args, field) in [
+        (["--from", "-1 s"], "--from"),
+        (["--from", "1 h"], "s of sound"),
+        (["--to", "0 s"], "--to"),
+        (["--highest", "30 Hz"], "--highest"),
+    ] {
+        let told = folder.run(&[&["tap", "r161", "taps.wav"][..], &args].concat());
+        let said = String::from_utf8_lossy(&told.stderr);
+        assert!(told.status.code() == Some(2) && said.contains(field), "{args:?}: {said}");
+    }
+}

@@ -257,8 +257,8 @@ fn readings(args: &Args, bat: &Bat) -> Result<Option<MeasuredArgs>> {
     let name = path.file_name().map_or(printed(path), |name| printed(Path::new(name)));
     let beside = args.beside.read()?;
     #[cfg(feature = "audio")]
-    if sweetspot_tap::decode::is_recording(path) {
-        let readings = crate::recording::readings(path, bat)?;
+    if sweetspot_tap::decode::is_recording(path) && beside == Beside::default() {
+        let readings = crate::recording::readings(path, bat, args.said.quiet)?;
         return Ok(Some(MeasuredArgs { readings, name, person: None }));
     }
     let readings = if measured::has_modes(path) {

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use sweetspot::Result;
+use sweetspot::{Error, Result};
 use sweetspot_report::plot::sheet::Sheet;
 use sweetspot_report::plot::tap as plot;
 use sweetspot_report::report::calibrated_bat;
@@ -16,7 +16,7 @@ use crate::calibrate::label;
 use crate::common::{examples, read_with_text};
 use crate::done::{Done, FAILED};
 use crate::edits::EditArgs;
-use crate::output::{CsvArgs, FullArgs, LINES, apart, draw, put};
+use crate::output::{CsvArgs, FullArgs, LINES, apart, draw, put, warn};
 use crate::recording::read;
 use crate::style;
 use crate::value::{MOMENT, TOP_FREQUENCY};
@@ -31,8 +31,8 @@ use crate::value::{MOMENT, TOP_FREQUENCY};
 /// How to tap well: hang the bat or hold it with two fingers at a node, 6 to 7 in from the tip. Lay the phone a hand's
 /// breadth from the barrel and record with a plain recorder app, "enhanced recording" off. Tap the tip five to eight
 /// times with something hard of a knuckle's size, label up, a second apart, and let it ring. Move the phone a hand's
-/// breadth between taps: that halves the ± of the loss factor. A furnished room; nobody speaks. Then turn the bat a
-/// quarter and record a second file for the other plane of the grain.
+/// breadth between taps: that halves the ± of the loss factor. A furnished room; nobody speaks. The other plane of the
+/// grain has tones of its own: turn the bat a quarter for it, and read that recording by itself.
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES), next_help_heading = "Output")]
 pub struct Args {
@@ -104,6 +104,23 @@ Examples:
   sweetspot tap r161 one.m4a two.m4a --mode \"1187 = 3\" --highest \"5 kHz\"
       two recordings of one bat; the tone at 1187 Hz is bending mode 3";
 
+/// What part of the recordings is listened to.
+fn part(args: &Args) -> Result<Part> {
+    /// The lowest tone of a bat is above that (Hz).
+    const LOWEST: f64 = 60.0;
+    let (from, to) = (args.from.unwrap_or(0.0), args.to);
+    if from < 0.0 {
+        return Err(Error::value("--from", format!("{from} s"), "0 s or later"));
+    }
+    if let Some(to) = to.filter(|to| *to <= from) {
+        return Err(Error::value("--to", format!("{to} s"), format!("a time after {from} s")));
+    }
+    if let Some(hz) = args.highest.filter(|hz| *hz < LOWEST) {
+        return Err(Error::value("--highest", format!("{hz} Hz"), format!("{LOWEST} Hz or more")));
+    }
+    Ok(Part { from, to, channel: args.channel.map(usize::from) })
+}
+
 pub fn run(args: &Args) -> Result<Done> {
     let written = [
         ("--json", &args.json),
@@ -113,11 +130,7 @@ pub fn run(args: &Args) -> Result<Done> {
     ];
     apart(&written)?;
     let (bat, text) = read_with_text(&args.bat, &EditArgs::default(), args.said.quiet)?;
-    let part = Part {
-        from: args.from.unwrap_or(0.0),
-        to: args.to,
-        channel: args.channel.map(usize::from),
-    };
+    let part = part(args)?;
     let recordings = args.recordings.iter().map(|path| read(path, part));
     let recordings = recordings.collect::<Result<Vec<_>>>()?;
     let analysis = Analysis::of(&recordings, args.highest);
@@ -143,7 +156,12 @@ pub fn run(args: &Args) -> Result<Done> {
             let out = put(&args.readings, out, || Ok(schema::text(&report.readings())))?;
             put(&args.out, out, || calibrated_bat::text((&bat, &text), found, &names))?
         }
-        None => out,
+        None => {
+            if args.out.is_some() || args.readings.is_some() {
+                warn("no wood was found: --out and --readings write nothing", args.said.quiet);
+            }
+            out
+        }
     };
     let out = put(&args.json, out, || Ok(schema::text(&report.document())))?;
     let fails = analysis.refused.is_some() || tapped.is_some_and(|tapped| !tapped.fits());

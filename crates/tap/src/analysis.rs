@@ -14,8 +14,10 @@ const LOW_RATE: f64 = 16_000.0;
 /// Clipped: so many of the large samples are near the largest, which is near full scale.
 const CLIPPED: f64 = 0.08;
 const FULL: f64 = 0.95;
-/// Hiss that rises so far between taps is gain control; that falls so far is noise suppression (dB).
+/// Hiss that rises so far while a tap rings is gain control (dB).
 const RISEN: f64 = 3.0;
+/// What spoils loss factors.
+const SPOILT: [Code; 2] = [Code::Clipped, Code::AutomaticGain];
 /// Loss factors by early and late windows that differ by this, of their logarithm, are the room's.
 const ROOM: f64 = 0.3;
 
@@ -82,7 +84,7 @@ impl Code {
 pub struct Condition {
     /// Frequency of the hum that was taken off (Hz).
     pub hum: Option<f64>,
-    /// By how much hiss rises from tap to tap (dB); None where that is not seen.
+    /// By how much hiss rises while a tap rings (dB); None where that is not seen.
     pub gain_rise: Option<f64>,
     /// Whether it is clipped.
     pub clipped: bool,
@@ -137,7 +139,10 @@ impl Analysis {
             taps: taps.clone(),
             tones: vec![],
             has_loss: false,
-            warnings: vec![],
+            warnings: warnings(recordings, &conditions, &taps, &[], 0.0)
+                .into_iter()
+                .filter(|code| SPOILT.contains(code))
+                .collect(),
             refused: Some(refused),
         };
         if taps.is_empty() {
@@ -149,8 +154,7 @@ impl Analysis {
         }
         taps.iter_mut().zip(&found.used).for_each(|(tap, used)| tap.used = *used);
         let warnings = warnings(recordings, &conditions, &taps, &found.tones, found.room[1]);
-        let spoilt = |code: &Code| [Code::Clipped, Code::AutomaticGain].contains(code);
-        let has_loss = !warnings.iter().any(spoilt);
+        let has_loss = !warnings.iter().any(|code| SPOILT.contains(code));
         Self { conditions, taps, tones: found.tones, has_loss, warnings, refused: None }
     }
 }

@@ -15,6 +15,8 @@ use crate::recording::{LARGEST, LONGEST, RATES, Recording, Unreadable};
 
 const READ: &str = "a recording as m4a (AAC, ALAC), wav, mp3, flac or ogg (Vorbis)";
 const MOST_CHANNELS: usize = 8;
+/// Samples of all channels together: two minutes of two at 48,000 a second.
+const MOST_SAMPLES: usize = 12_000_000;
 
 /// Endings of files that hold sound.
 pub const ENDINGS: [&str; 13] =
@@ -81,7 +83,7 @@ pub fn decode(name: &str, bytes: Vec<u8>, part: Part) -> Result<Recording, Unrea
     let count = channels.len();
     let power = |channel: &Vec<f32>| channel.iter().map(|x| f64::from(*x).powi(2)).sum::<f64>();
     let chosen = match part.channel {
-        Some(channel) => channels.into_iter().nth(channel - 1),
+        Some(channel) => channel.checked_sub(1).and_then(|k| channels.into_iter().nth(k)),
         None => channels.into_iter().max_by(|a, b| power(a).total_cmp(&power(b))),
     };
     let Some(chosen) = chosen else {
@@ -116,6 +118,7 @@ fn container(bytes: &[u8]) -> Option<String> {
         [b'R', b'I', b'F', b'F', ..] => "wav",
         [b'f', b'L', b'a', b'C', ..] => "flac",
         [b'O', b'g', b'g', b'S', ..] => "ogg",
+        [0xff, b, ..] if b & 0xf6 == 0xf0 => "aac",
         [b'I', b'D', b'3', ..] | [0xff, 0xe0..=0xff, ..] => "mp3",
         [_, _, _, _, b'f', b't', b'y', b'p', ..] => "m4a",
         _ => return None,
@@ -190,6 +193,11 @@ fn sound(
         if first < end {
             channels.iter_mut().zip(&one).for_each(|(all, new)| all.extend(&new[first..end]));
         }
+        if channels.iter().map(Vec::len).sum::<usize>() > MOST_SAMPLES {
+            let expected = "fewer: take a part of it with --from and --to, or record at 48 kHz";
+            let found = format!("more than {MOST_SAMPLES} samples");
+            return Err(Unreadable::sound(found, expected));
+        }
         if channels[0].len() as f64 > LONGEST * rate {
             let expected = format!("at most {LONGEST} s: take a part of it with --from and --to");
             return Err(Unreadable::sound(format!("more than {LONGEST} s of sound"), expected));
@@ -197,6 +205,10 @@ fn sound(
         if part.to.is_some_and(|to| passed as f64 >= to * rate) {
             break;
         }
+    }
+    if passed > 0 && channels.iter().all(Vec::is_empty) {
+        let found = format!("{} s of sound", passed as f64 / rate);
+        return Err(Unreadable::sound(found, "--from within it, and --to after that"));
     }
     if channels.iter().all(Vec::is_empty) {
         return Err(Unreadable::sound("no sound in it", READ));

@@ -1,4 +1,4 @@
-//! Damped tones that all taps share, by least squares.
+//! Damped tones that taps share, by least squares.
 //!
 //! In a band of the discrete transform of every tap,
 //!

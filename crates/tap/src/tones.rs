@@ -1,4 +1,4 @@
-//! Tones that all taps share, with what is known of their frequencies and decays.
+//! Tones that the taps share, with what is known of their frequencies and decays.
 //!
 //! The error of a tone is
 //!
@@ -125,8 +125,10 @@ pub fn tones(taps: &[Ringing], peaks: &[f64]) -> Tones {
     let mut tones = vec![];
     for (one, differences) in found.iter().zip(&differences) {
         for (p, pole) in one.whole.poles.iter().enumerate() {
-            let twin = one.whole.poles.get(1usize.wrapping_sub(p)).map(|twin| twin.hz);
-            let twin = twin.filter(|hz| (hz / pole.hz - 1.0).abs() < PLANES);
+            let away = |hz: &f64| (hz / pole.hz - 1.0).abs();
+            let all = poles.iter().flatten().map(|other| other.hz).filter(|hz| *hz != pole.hz);
+            let twin = all.min_by(|a, b| away(a).total_cmp(&away(b)));
+            let twin = twin.filter(|hz| away(hz) < PLANES);
             tones.push(Tone {
                 pole: *pole,
                 deviations: deviations(one, p, differences[p], room),
@@ -162,18 +164,22 @@ fn heard(taps: &[Ringing], used: &[bool], peaks: &[f64], least: f64) -> Vec<Foun
     let alone: Vec<Option<Pole>> = peaks.iter().map(|hz| begun(taps, used, *hz)).collect();
     let first: Vec<Pole> = apart(alone.into_iter().flatten().collect());
     let poles: Vec<Vec<Pole>> = first.iter().map(|pole| vec![*pole]).collect();
-    let mut found: Vec<Found> = first
+    let found: Vec<Vec<Pole>> = first
         .iter()
         .enumerate()
-        .filter_map(|(k, pole)| tone((taps, used, least), &[*pole], &others(&poles, k)))
+        .filter_map(|(k, pole)| {
+            let one = tone((taps, used, least), &[*pole], &others(&poles, k))?;
+            // Of two tones in one band each peak finds both: each goes on with its own.
+            let mut poles = one.whole.poles;
+            let away = |other: &Pole| (other.hz - pole.hz).abs();
+            poles.sort_by(|a, b| away(a).total_cmp(&away(b)));
+            Some(poles)
+        })
         .collect();
-    let poles: Vec<Vec<Pole>> = found.iter().map(|one| one.whole.poles.clone()).collect();
-    let again: Vec<Option<Found>> = (0..found.len())
-        .map(|k| tone((taps, used, least), &poles[k][..1], &others(&poles, k)))
-        .collect();
-    found = again.into_iter().flatten().collect();
+    let again =
+        (0..found.len()).map(|k| tone((taps, used, least), &found[k][..1], &others(&found, k)));
     let mut kept: Vec<Found> = vec![];
-    for one in found {
+    for one in again.flatten() {
         let near = |other: &Found| {
             let pairs =
                 one.whole.poles.iter().flat_map(|a| other.whole.poles.iter().map(move |b| (a, b)));

@@ -138,7 +138,7 @@ impl TapReport<'_> {
                 .as_ref()
                 .map(|loss_factor| format!("loss factor at most {}", loss(loss_factor))),
         );
-        wrapped(&format!("The wood: {}, with the density of the bat file.", all.join(", ")), 2)
+        wrapped(&format!("Its material: {}, with the density of the bat file.", all.join(", ")), 2)
     }
 
     /// What is to be said, a sentence or two each.
@@ -329,7 +329,7 @@ fn of_tap(tap: &Tap, refused: bool) -> TapMoment {
     let used = tap.used && !refused;
     let why_not = match (used, refused) {
         (true, _) => None,
-        (false, true) => Some("no tones that all taps share"),
+        (false, true) => Some("no tones that taps share"),
         (false, false) => Some("has none of the tones that the others share"),
     };
     TapMoment {
@@ -346,17 +346,19 @@ fn coded(code: Code) -> TapSaid {
 }
 
 /// What a warning or a refusal means, and what to do.
-fn said(code: Code) -> &'static str {
+pub fn said(code: Code) -> &'static str {
     match code {
         Code::Clipped => {
             "The recording is too loud and clipped: frequencies hold, loss factors do not and are left out. \
              Record again with less gain, or tap more softly."
         }
         Code::AutomaticGain => {
-            "The recorder turns its gain from tap to tap: frequencies hold, loss factors do not and are left out. \
+            "The recorder turns its gain while a tap rings: frequencies hold, loss factors do not and are left out. \
              Turn \"enhanced recording\" or automatic gain off."
         }
-        Code::OneTap => "There is one tap alone: five to eight make the intervals far smaller.",
+        Code::OneTap => {
+            "There is one tap alone: only several tell how far each is off, and which sound is no tap."
+        }
         Code::Room => {
             "The room is heard in how the tones die: bring the phone within a hand's breadth of the barrel."
         }
@@ -366,7 +368,7 @@ fn said(code: Code) -> &'static str {
         Code::FewTones => "Only two tones were found: labels and wood rest on little.",
         Code::NoTap => "No tap was found in it: record five to eight single taps, a second apart.",
         Code::NoTone => {
-            "No tone was found that the taps share: tap with something hard, the phone within a hand's breadth of \
+            "Fewer than two tones were found that the taps share: tap with something hard, the phone within a hand's breadth of \
              the barrel, the bat hung or held at a node."
         }
     }

@@ -64,7 +64,7 @@ pub struct TapRecording {
     pub clipped_share: f64,
     /// Hum that was taken off (Hz).
     pub hum_hz: Option<f64>,
-    /// By how much hiss above 5 kHz rises from tap to tap (dB).
+    /// By how much hiss above 5 kHz rises while a tap rings (dB).
     pub gain_rise_db: Option<f64>,
 }
 
@@ -101,7 +101,7 @@ pub enum TapMode {
     },
 }
 
-/// A tone that all taps share.
+/// A tone that six taps in ten share, or more.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct TapTone {
     /// Frequency (Hz).

@@ -22,7 +22,7 @@ use sweetspot::bat::body::{Bat, STANDARD_PIVOT};
 pub const NINETY_FIVE: f64 = 1.959_963_984_540_054;
 /// Labels that cost less than this more than the best ones may be the right ones: of tones of random wood a
 /// labelling that is ahead by 8 is right in 97 of 100 cases with two tones and in all with more.
-const SURE: f64 = 8.0;
+pub(crate) const SURE: f64 = 8.0;
 /// Other labels explain what was measured if they cost that much less than those that were told.
 const EXPLAINS: f64 = 24.0;
 /// How a calibration is made.

@@ -30,6 +30,8 @@ pub struct HeardLine {
     pub frequency: Reading,
     /// By what the frequency that is heard is higher.
     pub stiffer: f64,
+    /// Level of the loudest of its tones (dB).
+    pub level: f64,
 }
 
 /// A value with the interval that holds it in 95 of 100 cases.
@@ -79,9 +81,10 @@ pub fn lines(analysis: &Analysis, wood: bool) -> Vec<HeardLine> {
                 let half = 0.5 * (b.value - a.value);
                 let deviation = half.hypot(a.deviation.max(b.deviation));
                 line.frequency = Reading { value: a.value + half, deviation };
+                line.level = line.level.max(tone.level);
                 line.tones.push(k);
             }
-            None => all.push(HeardLine { tones: vec![k], frequency, stiffer }),
+            None => all.push(HeardLine { tones: vec![k], frequency, stiffer, level: tone.level }),
         }
     }
     all

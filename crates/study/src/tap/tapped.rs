@@ -2,7 +2,7 @@
 
 use sweetspot_tap::analysis::Analysis;
 
-use crate::calibrate::calibration::{Calibration, CalibrationPlan, Property};
+use crate::calibrate::calibration::{Calibration, CalibrationPlan, Property, SURE};
 use crate::calibrate::labels::STRANGER;
 use crate::calibrate::readings::{BatReadings, Priors, SpectralLine};
 use crate::calibrate::wood::WoodenBat;
@@ -11,6 +11,8 @@ use crate::tap::hoops::{self, BatMode, metal};
 use sweetspot::base::error::{Error, Result};
 use sweetspot::bat::body::{Bat, STANDARD_PIVOT};
 
+/// So many lines whose mode is not told are labelled.
+const MOST_UNTOLD: usize = 10;
 /// A tone is the one that was told if it is within this of it, relative.
 const NEAR: f64 = 0.01;
 
@@ -65,6 +67,7 @@ impl Tapped {
             None => wall.is_none() || matches!(kinds[*k], Some(BatMode::Bending(_))),
         };
         let taken: Vec<usize> = (0..heard.len()).filter(is_line).collect();
+        let taken = loudest(taken, |k| known[k].is_some(), |k| heard[k].level);
         let (priors, held) = match wall {
             Some(_) => metal(),
             None => (Priors::default(), vec![Property::Density]),
@@ -87,7 +90,7 @@ impl Tapped {
         if let Some(found) = &found {
             let margin = wall.as_ref().map_or(found.labels.margin, |wall| wall.margin);
             for (k, mode) in taken.iter().zip(&found.labels.taken) {
-                labels[*k] = of_wood(found, *mode, margin, known[*k].is_some());
+                labels[*k] = of_wood(found, *mode, margin, known[*k] == Some(*mode));
             }
         }
         let second = match wall {
@@ -110,7 +113,8 @@ impl Tapped {
     /// or more are modes of it.
     pub fn fits(&self) -> bool {
         let known = self.labels.iter().filter(|label| label.mode.is_some()).count();
-        self.wood.as_ref().is_some_and(|wood| wood.fits) && 2 * known >= self.labels.len()
+        let near = self.second.as_ref().is_some_and(|(_, margin)| *margin < SURE);
+        self.wood.as_ref().is_some_and(|wood| wood.fits) && !near && 2 * known >= self.labels.len()
     }
 
     /// Whether a label may well be another one.
@@ -118,6 +122,19 @@ impl Tapped {
         let unsure = |label: &ToneLabel| label.mode.is_some() && label.sure < 0.9;
         self.labels.iter().any(unsure) || self.wood.is_none()
     }
+}
+
+/// Of the lines whose mode was not told no more than a search labels: the loudest.
+fn loudest(
+    mut lines: Vec<usize>,
+    told: impl Fn(usize) -> bool,
+    level: impl Fn(usize) -> f64,
+) -> Vec<usize> {
+    lines.sort_by(|a, b| told(*b).cmp(&told(*a)).then(level(*b).total_cmp(&level(*a))));
+    let told = lines.iter().filter(|k| told(**k)).count();
+    lines.truncate(told + MOST_UNTOLD);
+    lines.sort_unstable();
+    lines
 }
 
 /// What was told of every line, if something was.
@@ -171,7 +188,7 @@ fn calibrated(
 /// the modes would cost.
 fn sure(margin: Option<f64>, chi2: f64) -> f64 {
     let margin = margin.unwrap_or(f64::INFINITY).min(STRANGER - chi2).max(0.0);
-    1.0 - 0.5 * (-0.5 * margin).exp()
+    1.0 / (1.0 + (-0.5 * margin).exp())
 }
 
 fn of_wood(found: &Calibration, mode: Option<usize>, margin: Option<f64>, told: bool) -> ToneLabel {
