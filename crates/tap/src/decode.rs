@@ -193,15 +193,7 @@ fn sound(
         if first < end {
             channels.iter_mut().zip(&one).for_each(|(all, new)| all.extend(&new[first..end]));
         }
-        if channels.iter().map(Vec::len).sum::<usize>() > MOST_SAMPLES {
-            let expected = "fewer: take a part of it with --from and --to, or record at 48 kHz";
-            let found = format!("more than {MOST_SAMPLES} samples");
-            return Err(Unreadable::sound(found, expected));
-        }
-        if channels[0].len() as f64 > LONGEST * rate {
-            let expected = format!("at most {LONGEST} s: take a part of it with --from and --to");
-            return Err(Unreadable::sound(format!("more than {LONGEST} s of sound"), expected));
-        }
+        at_most(&channels, rate)?;
         if part.to.is_some_and(|to| passed as f64 >= to * rate) {
             break;
         }
@@ -214,6 +206,19 @@ fn sound(
         return Err(Unreadable::sound("no sound in it", READ));
     }
     Ok((channels, rate))
+}
+
+/// Refuses sound that is too long, or too much to hold.
+fn at_most(channels: &[Vec<f32>], rate: f64) -> Result<(), Unreadable> {
+    if channels[0].len() as f64 > LONGEST * rate {
+        let expected = format!("at most {LONGEST} s: take a part of it with --from and --to");
+        return Err(Unreadable::sound(format!("more than {LONGEST} s of sound"), expected));
+    }
+    if channels.iter().map(Vec::len).sum::<usize>() > MOST_SAMPLES {
+        let expected = "fewer: take a part of it with --from and --to, or record at 48 kHz";
+        return Err(Unreadable::sound(format!("more than {MOST_SAMPLES} samples"), expected));
+    }
+    Ok(())
 }
 
 #[cfg(test)]

@@ -66,8 +66,8 @@ impl Tapped {
             Some(told) => told.is_some(),
             None => wall.is_none() || matches!(kinds[*k], Some(BatMode::Bending(_))),
         };
-        let taken: Vec<usize> = (0..heard.len()).filter(is_line).collect();
-        let taken = loudest(taken, |k| known[k].is_some(), |k| heard[k].level);
+        let lines = (0..heard.len()).filter(is_line);
+        let taken = loudest(lines.collect(), |k| known[k].is_some(), |k| heard[k].level);
         let (priors, held) = match wall {
             Some(_) => metal(),
             None => (Priors::default(), vec![Property::Density]),
@@ -104,9 +104,8 @@ impl Tapped {
             }
             None => found,
         };
-        let (labels, loss) =
-            (of_tones(&heard, &labels, analysis.tones.len()), loss.map(|(loss, _)| loss));
-        Ok(Self { labels, second, wood, loss })
+        let labels = of_tones(&heard, &labels, analysis.tones.len());
+        Ok(Self { labels, second, wood, loss: loss.map(|(loss, _)| loss) })
     }
 
     /// Whether the tones fit the bat: the readings of its wood do, no other labels come near, and half of the tones
