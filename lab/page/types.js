@@ -97,7 +97,7 @@
  */
 
 /**
- * A bending mode. `note` is the nearest note and how far it is off: "F3 +12 cents".
+ * A bending mode. `note` is the nearest note and by how many cents it is off: "F3 +12".
  * @typedef {{ order: number, frequency: Shown, note: string, nodes: Place[] }} ModeShown
  */
 
@@ -109,7 +109,7 @@
 
 /**
  * `live` and `sure`: how it rings and hits. The wall of a hollow barrel is stiff in both; `analyze` has it.
- * `live` is a preview (10 modes to 1e-3, 21 places); `sure` is what `sweetspot hit` answers, and its texts are equal.
+ * `live` is a preview (10 modes to 1e-3, at least 21 places); `sure` is what `sweetspot hit` answers, and its texts are equal.
  * @typedef {object} Hit
  * @property {number} id
  * @property {boolean} certified     `sure` alone, and only if the accuracy asked for was reached
