@@ -98,7 +98,8 @@ export class Wishes {
   drop() { this.bench.slow.drop((kind) => kind === "aim"); }
 
   async ask(words, targets) {
-    const { bench } = this, { number } = bench, count = this.count += 1, say = (text) => write(byId("wish-state"), text);
+    const { bench } = this, { number } = bench, say = (text) => write(byId("wish-state"), text);
+    const count = this.count += 1;
     this.drop();
     say(`"${words}" is being computed; half a minute at most.`);
     byId("wish-stop").hidden = false;

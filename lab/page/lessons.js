@@ -23,8 +23,8 @@ const before = (bench) => bench.hitOf(bench.history.opened);
  * @property {string} title
  * @property {Step[]} steps
  * @property {string} question
- * @property {(bench: any, pin: string | null) => string} answer  with the page's own numbers; `pin`: what it pinned
- * @property {(bench: any, heard: any, pin: string | null) => boolean} holds whether the page's numbers bear the answer out
+ * @property {(bench: any, pin?: string) => string} answer  with the page's own numbers; `pin`: the bat it pinned
+ * @property {(bench: any, heard: any, pin?: string) => boolean} holds  whether the page's numbers bear the answer out
  */
 
 /** @type {Lesson[]} */
@@ -163,7 +163,7 @@ export class Lessons {
     this.mark(null);
   }
 
-  /** Shows a step and does it, after what is under way; after the last step stands the question, and then its answer. */
+  /** Shows a step, and does it after those under way; after the last one stand the question and its answer. */
   go(k) {
     const { lesson } = this, count = lesson.steps.length, back = k < this.step;
     this.step = Math.min(Math.max(k, 0), count + 1);
@@ -181,7 +181,8 @@ export class Lessons {
 
   /** Does a step; one that was gone back to begins with the first, so that nothing is done twice. */
   async arrive(at, back) {
-    const { lesson, bench } = this, count = lesson.steps.length, here = () => this.lesson === lesson && this.step === at;
+    const { lesson, bench } = this, count = lesson.steps.length;
+    const here = () => this.lesson === lesson && this.step === at;
     if (at < count) {
       for (let k = back ? 0 : at; k <= at; k += 1) await this.run(lesson, k, k === at);
       if (here()) this.mark(byId(lesson.steps[at].see));
@@ -191,7 +192,8 @@ export class Lessons {
     if (at === count) return;
     await this.settled();
     for (const text of [this.pin, bench.history.opened]) await this.known(text);
-    if (here()) write(byId("lesson-words"), bench.certified ? lesson.answer(bench, this.pin) : "The bat shown has no answer.");
+    const answer = bench.certified ? lesson.answer(bench, this.pin) : "The bat shown has no answer.";
+    if (here()) write(byId("lesson-words"), answer);
   }
 
   /** Outlines what the step speaks of, and brings it into view. */
@@ -225,8 +227,11 @@ export class Lessons {
     }
   }
 
-  /** Waits for the certified answer. */
+  /** Waits for the certified answer, while there may be one and the lesson goes on. */
   async settled() {
-    while (!this.bench.certified && !this.bench.hopeless) await new Promise((then) => setTimeout(then, 30));
+    const { bench } = this, unmet = () => bench.hit?.number === bench.number && bench.hit.answer.unmet;
+    while (this.lesson && !bench.certified && !bench.hopeless && !unmet()) {
+      await new Promise((then) => setTimeout(then, 30));
+    }
   }
 }

@@ -100,7 +100,8 @@ function words(bench, drag) {
 
 /** The first bat: of the address, written into the page, kept by the browser, or built in. */
 async function first(bench, keep, bats) {
-  const written = data("bat", null), given = typeof written === "string" ? { bat: written } : written, kept = keep.kept();
+  const written = data("bat", null), given = typeof written === "string" ? { bat: written } : written;
+  const kept = keep.kept();
   keep.from = keep.link ?? (given ? JSON.stringify(given) : null);
   // What was made of this very link or file goes on; a page without one goes on from the last time.
   const own = Boolean(kept?.bat) && (keep.from === null || kept.from === keep.from);

@@ -8,8 +8,8 @@ const SWING = 43, PITCH = 83, MPH = 0.44704;
 /** Beyond the knob the swing turns (m); a bat's speed is told so far from its tip (m). */
 const PIVOT = 0.0635, TOLD_AT = 0.1524;
 /** Factors to SI of the units that links tell speeds and lengths in. */
-const UNITS = { "rad/s": 1, "deg/s": Math.PI / 180, rpm: Math.PI / 30, "m/s": 1, mph: MPH, "km/h": 1 / 3.6, "ft/s": 0.3048,
-  m: 1, cm: 0.01, mm: 0.001, in: 0.0254, ft: 0.3048 };
+const UNITS = { "rad/s": 1, "deg/s": Math.PI / 180, rpm: Math.PI / 30, "m/s": 1, mph: MPH, "km/h": 1 / 3.6,
+  "ft/s": 0.3048, m: 1, cm: 0.01, mm: 0.001, in: 0.0254, ft: 0.3048 };
 
 /** A number of a scene in SI: strings carry their unit; NaN where it is none of these. */
 function inSi(told, otherwise) {
@@ -22,7 +22,9 @@ export class SceneOfHit {
   /** @param {import("./bench.js").Bench} bench */
   constructor(bench) {
     this.bench = bench;
-    for (const name of ["swing", "pitch", "ball", "batter"]) byId(name).addEventListener("input", () => this.changed(name));
+    for (const name of ["swing", "pitch", "ball", "batter"]) {
+      byId(name).addEventListener("input", () => this.changed(name));
+    }
     byId("scene-back").addEventListener("click", () => { bench.setScene({}); this.set(); });
     bench.on("shown", () => this.words());
     // The swing that is known is that of the bat as it was opened, unless it was opened with its own scene.

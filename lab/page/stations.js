@@ -125,7 +125,8 @@ export function withMore(bat, k) {
 function json(value, margin) {
   if (value === null || typeof value !== "object") return JSON.stringify(value);
   const list = Array.isArray(value), [open, close] = list ? "[]" : "{}", inner = `${margin}  `;
-  if (list && value.every((one) => typeof one === "number")) return `[${value.map((one) => JSON.stringify(one)).join(", ")}]`;
+  const numbers = list && value.every((one) => typeof one === "number");
+  if (numbers) return `[${value.map((one) => JSON.stringify(one)).join(", ")}]`;
   const members = list ? value.map((one) => json(one, inner)) : Object.entries(value)
     .filter(([, one]) => one !== undefined).map(([name, one]) => `${JSON.stringify(name)}: ${json(one, inner)}`);
   return members.length ? `${open}\n${members.map((one) => inner + one).join(",\n")}\n${margin}${close}` : open + close;

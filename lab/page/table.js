@@ -42,7 +42,8 @@ export class Table {
     if (what === "diameter") {
       const [least, most] = limits(stations, k);
       if (mm < least || mm > most) {
-        wrong(`A station is between ${diameterText(least)} and ${diameterText(most)} ${unitOf(what)} thick here; ${field.value} is not.`);
+        const ends = `${diameterText(least)} and ${diameterText(most)} ${unitOf(what)}`;
+        wrong(`A station is between ${ends} thick here; ${field.value} is not.`);
         return;
       }
       next = withDiameters(file, stations.diameter.with(k, mm));

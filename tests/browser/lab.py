@@ -253,6 +253,8 @@ def strangers(browser, page, sweetspot, folder):
     check(browser.run(TEXT) == json.dumps(thin), "a thin bat is not opened")
     check(waited(browser, "/No answer within/.test(document.getElementById('trouble').textContent)", 30),
           f"a bat that takes too long has no end: {browser.run('lab.bench.trouble')}, {browser.run(CERTIFIED)}")
+    left = browser.run("['modes', 'reading', 'barrel-words'].map(name => document.getElementById(name).textContent).join('')")
+    check(left == "", f"a bat without an answer keeps another's numbers: {left}")
     browser.run(f"lab.bench.open({json.dumps(json.dumps(bat))})")
     certain(browser, "the bat after the one that took too long")
     # A mistake of ours is said, and the next answer is right.
@@ -333,6 +335,12 @@ def typed(browser, page):
     name = 'a [ 12 ] b [\n  1\n]'
     browser.run(f"lab.bench.once({{ ...lab.bench.file, name: {json.dumps(name)} }})")
     check(json.loads(browser.run(TEXT))["name"] == name, "a name is not kept as it is")
+    # Another bat that is taken back is no more the one that was opened.
+    first = browser.run("lab.bench.history.opened")
+    browser.run(f"lab.bench.open({json.dumps(open(f'{ROOT}/meshes/house.json').read())})")
+    check(browser.run("lab.bench.history.opened") != first, "another bat is not the one that was opened")
+    browser.run("document.getElementById('undo').click()")
+    check(browser.run("lab.bench.history.opened") == first, "what was taken back is still compared with")
     quiet(browser, "typed")
 
 
