@@ -344,6 +344,27 @@ def typed(browser, page):
     quiet(browser, "typed")
 
 
+def wishes(browser, page):
+    """A wish that another one replaces says nothing more; one that is stopped takes nothing else with it."""
+    opened(browser, page)
+    browser.run("lab.bench.slow.delay = 600")
+    state = "document.getElementById('wish-state').textContent"
+    clicked(browser, "wish-lighter")
+    clicked(browser, "wish-drop")
+    time.sleep(0.2)
+    check(browser.run(f"/^.Drop 3. is being computed/.test({state})"), f"of the second wish is said: {browser.run(state)}")
+    check(not browser.run("document.getElementById('wish-stop').hidden"), "the second wish cannot be stopped")
+    before = browser.run(TEXT)
+    clicked(browser, "wish-stop")
+    check(waited(browser, f"/^Stopped/.test({state})", 3), f"of the stopped wish is said: {browser.run(state)}")
+    check(waited(browser, "lab.bench.analyzed !== null", 30), "after a stopped wish the ± never come")
+    check(browser.run(TEXT) == before, "a stopped wish changes the bat")
+    browser.run("lab.bench.slow.delay = 0")
+    clicked(browser, "wish-drop")
+    check(waited(browser, f"/done/.test({state})", 40) and browser.run(TEXT) != before, f"a wish ends with: {browser.run(state)}")
+    quiet(browser, "wishes")
+
+
 def policy(browser, page):
     """Nothing runs or is fetched that is not the page's own."""
     opened(browser, page)
@@ -453,6 +474,7 @@ def main():
             "strangers": lambda: strangers(browser, page, sweetspot, folder),
             "again": lambda: again(browser, page),
             "typed": lambda: typed(browser, page),
+            "wishes": lambda: wishes(browser, page),
             "policy": lambda: policy(browser, page),
             "lessons": lambda: lessons(browser, page),
             "readable": lambda: readable(browser, page),
