@@ -15,7 +15,7 @@ const QUIET = 700;
 export class Lathe {
   /** @param {import("./bench.js").Bench} bench @param {import("./picture.js").Picture} picture */
   constructor(bench, picture) {
-    Object.assign(this, { bench, picture, answer: null, on: false });
+    Object.assign(this, { bench, picture, answer: null, on: false, idle: byId("lathe-words").textContent });
     byId("lathe-on").addEventListener("click", () => this.turn(!this.on));
     byId("lathe-of").addEventListener("change", () => this.chosen());
     bench.on("shown", () => this.gone());
@@ -33,6 +33,7 @@ export class Lathe {
   /** The bat has changed: what a cut does is not known any more, and asked again when it rests. */
   gone() {
     this.answer = this.picture.lathe = null;
+    write(byId("lathe-words"), this.idle);
     byId("lathe-strongest").replaceChildren();
     byId("lathe-choice").hidden = true;
     clearTimeout(this.later);
@@ -42,6 +43,8 @@ export class Lathe {
 
   async ask() {
     const { bench } = this, { number } = bench, say = (words) => write(byId("lathe-words"), words);
+    // While the bat is in hand nothing is asked, and tried again soon.
+    if (bench.changing) this.later = setTimeout(() => this.ask(), QUIET);
     if (!bench.body || bench.changing) return;
     say("What a cut does is being computed…");
     const answer = await bench.slow.ask(bench.question("lathe"));
@@ -84,26 +87,33 @@ export class Lathe {
 export class Wishes {
   /** @param {import("./bench.js").Bench} bench */
   constructor(bench) {
-    this.bench = bench;
+    Object.assign(this, { bench, count: 0 });
     byId("wish-buttons").append(...WISHES.map(({ id, words, targets }) =>
       button(words, { id: `wish-${id}` }, () => this.ask(words, targets))),
-    button("Stop", { id: "wish-stop", hidden: "" }, () => bench.slow.drop()));
+    button("Stop", { id: "wish-stop", hidden: "" }, () => this.drop()));
     bench.on("shown", () => { byId("wish-text").hidden = true; });
   }
 
+  /** Ends the wish under way. */
+  drop() { this.bench.slow.drop((kind) => kind === "aim"); }
+
   async ask(words, targets) {
     const { bench } = this, { number } = bench, say = (text) => write(byId("wish-state"), text);
-    bench.slow.drop();
+    const count = this.count += 1;
+    this.drop();
     say(`"${words}" is being computed; half a minute at most.`);
     byId("wish-stop").hidden = false;
     const only = byId("remove-only").checked;
     const answer = await bench.slow.ask({ ...bench.question("aim"), targets, remove_only: only });
+    // A wish that another one took the place of says nothing more.
+    if (count !== this.count) return;
     byId("wish-stop").hidden = true;
+    const changed = "The bat was changed meanwhile, so the wish was dropped.";
+    if (number !== bench.number) { say(changed); return; }
     if (!answer) { say("Stopped; the bat is as it was."); return; }
-    if (number !== bench.number) { say("The bat was changed meanwhile, so the wish was dropped."); return; }
     if (answer.error) { say(answer.error); return; }
+    if (answer.met && !(await bench.adopt(answer.bat_file))) { say(bench.trouble ?? changed); return; }
     say(answer.met ? `"${words}": done. Undo takes it back.` : `"${words}" cannot be had; the bat is as it was.`);
-    if (answer.met) await bench.adopt(answer.bat_file);
     write(byId("wish-text"), answer.text);
     byId("wish-text").hidden = false;
   }

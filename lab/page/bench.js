@@ -103,12 +103,12 @@ export class Bench extends EventTarget {
   }
 
   /**
-   * Opens the text of a bat file or a table; what is wrong with it is returned in words.
+   * Opens the text of a bat file or a table, in a scene of its own if it has one; what is wrong is returned in words.
    * @returns {Promise<string | null>}
    */
   async open(text, scene) {
     const answer = await this.quick.ask({ ask: "open", bat: text, units: this.units });
-    if (!answer) return null;
+    if (!answer) return "Another bat was opened meanwhile.";
     if (answer.error) return wrong(answer);
     // A bat file stays as it was written; a table of stations becomes one.
     const own = text.trimStart().startsWith("{") ? text : answer.bat_file;
@@ -123,7 +123,8 @@ export class Bench extends EventTarget {
     if (this.history) this.history.open(own); else this.history = new History(own);
     if (this.against === "before") this.against = "opened";
     this.show(own);
-    this.tell("opened", answer);
+    if (scene) this.tell("scene");
+    this.tell("opened", scene);
     this.tell("history");
     return null;
   }
@@ -144,7 +145,9 @@ export class Bench extends EventTarget {
   changed() {
     this.number += 1;
     Object.assign(this, { analyzed: null, lathe: null, trouble: null });
-    if (this.slowFor !== undefined) { this.slow.drop(); this.asking?.clear(); this.slowFor = undefined; }
+    // What was asked of the bat before is of no use; the bats to compare with stay.
+    this.slow.drop((kind) => kind !== "sure");
+    this.tell("slow", false);
     this.tell("shown");
     const there = this.kept.get(this.keyOf("sure"));
     if (there) this.take(there, this.number);
@@ -180,10 +183,9 @@ export class Bench extends EventTarget {
     const { number } = this, key = this.keyOf("analyze");
     let answer = this.kept.get(key);
     if (!answer) {
-      this.slowFor = number;
       this.tell("slow", true);
       answer = await this.slow.ask(this.question("analyze"));
-      if (number === this.number) { this.slowFor = undefined; this.tell("slow", false); }
+      if (number === this.number) this.tell("slow", false);
       if (!answer) return;
       if (!answer.error) this.keep(key, answer);
     }
@@ -218,7 +220,8 @@ export class Bench extends EventTarget {
     this.known.set(text, { ...opened, bat: file, differs: null });
     const fits = this.show(text), gone = fits ? old : text;
     // What a drag only passes through is not kept.
-    if (!this.history.steps.includes(gone)) this.known.delete(gone);
+    const held = this.history.steps.includes(gone) || this.pins.some((pin) => pin.text === gone);
+    if (!held) this.known.delete(gone);
     return fits;
   }
 
@@ -251,7 +254,9 @@ export class Bench extends EventTarget {
   setScene(scene) {
     this.scene = scene;
     this.hit = null;
-    if (this.text) this.changed();
+    if (!this.text) return;
+    this.changed();
+    this.tell("history");
   }
 
   pin() {

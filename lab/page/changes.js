@@ -51,6 +51,7 @@ export class Changes {
   }
 
   fields() {
+    if (!this.bench.body) return;
     const kind = byId("change-kind").value, length = this.bench.body.length.value / 0.0254;
     byId("change-fields").replaceChildren(...CHANGES[kind].fields(length).map(([name, first]) => {
       const woods = this.woods.map((wood) => made("option", { value: wood }, wood));
@@ -66,11 +67,10 @@ export class Changes {
   }
 
   set(edits) {
-    const { bench } = this, { edits: _, ...rest } = bench.file, trouble = byId("change-trouble"), number = bench.number;
+    const { bench } = this, { edits: _, ...rest } = bench.file, trouble = byId("change-trouble");
     const fits = bench.once(edits.length ? { ...rest, edits } : rest);
     trouble.hidden = fits;
     write(trouble, fits ? "" : bench.trouble ?? "");
-    return fits && number !== bench.number;
   }
 
   draw() {

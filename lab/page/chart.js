@@ -22,7 +22,11 @@ export class Chart {
     const width = Math.max(svg.parentElement.clientWidth, 240), [tall, low] = width < 600 ? [170, 70] : [230, 84];
     const both = Boolean(hit?.curve?.vibration_j), height = TOP + tall + (both ? GAP + low : 0) + FOOT;
     put(svg, { viewBox: `0 0 ${width} ${height}`, width, height });
-    if (!hit?.curve?.x_m.length) { svg.replaceChildren(); return; }
+    if (!hit?.curve?.x_m.length) {
+      svg.replaceChildren();
+      if (hit || bench.hopeless) this.unread();
+      return;
+    }
     const before = bench.reference && bench.hitOf(bench.reference);
     const curves = [hit.curve, ...(before ? [before.curve] : [])];
     // While the bat changes the axes only grow.
@@ -127,11 +131,18 @@ export class Chart {
     this.draw();
   }
 
+  /** Nothing can be read off. */
+  unread() {
+    byId("reading").replaceChildren();
+    put(this.svg, { "aria-label": "Exit speed along the barrel" });
+    put(this.slider, { "aria-valuetext": "nothing to read off" });
+  }
+
   /** The line that reads off, and what it reads. */
   hair(hit, bottom) {
     const { svg } = this, [from, to] = this.ranges.place;
     if (this.share === null) {
-      if (!hit.best) return;
+      if (!hit.best) { this.unread(); return; }
       this.slider.value = String(Math.round(1000 * (hit.best.place.x_m - from) / (to - from)));
     }
     const place = this.share === null ? hit.best.place.x_m : from + this.share * (to - from), { curve } = hit;

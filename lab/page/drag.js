@@ -16,7 +16,7 @@ const REACHES = [0, 10, 20, 30, 40, 60, 80, 120, 160, 200];
 /** Where a gesture began, and how far it has come. */
 class Gesture {
   constructor(file, k) {
-    Object.assign(this, { file, k, stations: stationsOf(file), by: 0, moved: false });
+    Object.assign(this, { file, k, stations: stationsOf(file), by: 0 });
   }
 
   /** The file with the station's diameter changed by so much (mm), snapped. */
@@ -88,6 +88,8 @@ export class Drag {
       return;
     }
     event.preventDefault();
+    // What is typed is of the station that was picked until now.
+    document.activeElement?.blur();
     this.pick(k);
     picture.handles.children[k].focus({ preventScroll: true });
     this.gesture = new Gesture(bench.file, k);

@@ -98,7 +98,8 @@ export class Figures {
     const unmet = hit?.number === bench.number ? hit.answer.unmet : null;
     write(byId("badge-words"), certified ? "every number is the program's own, within its stated error"
       : unmet ?? (bench.hopeless ? "there is no answer for this bat"
-        : hit ? "being computed to its full accuracy" : "being computed"));
+        : hit?.number === bench.number ? "being computed to its full accuracy"
+          : hit ? "of the bat a moment ago" : "being computed"));
     if (!certified || bench.changing) return;
     // Said at most once a second, and only what is certified.
     clearTimeout(this.telling);

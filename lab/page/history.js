@@ -7,11 +7,13 @@ export class History {
     /** @type {string[]} */
     this.steps = [first];
     this.place = 0;
-    /** The bat as it was opened: what is compared with unless told otherwise. */
-    this.opened = first;
+    /** The places of the bats that were opened. */
+    this.openings = [0];
   }
 
   get now() { return this.steps[this.place]; }
+  /** The bat as it was opened: what is compared with unless told otherwise. */
+  get opened() { return this.steps[this.openings.findLast((place) => place <= this.place)]; }
   get before() { return this.place > 0 ? this.steps[this.place - 1] : null; }
   get canUndo() { return this.place > 0; }
   get canRedo() { return this.place < this.steps.length - 1; }
@@ -20,6 +22,7 @@ export class History {
   push(text) {
     if (text === this.now) return false;
     this.steps.length = this.place + 1;
+    this.openings = this.openings.filter((place) => place <= this.place);
     this.steps.push(text);
     this.place += 1;
     return true;
@@ -31,6 +34,6 @@ export class History {
   /** Another bat: one step like any, and the one that differences now count from. */
   open(text) {
     this.push(text);
-    this.opened = text;
+    if (!this.openings.includes(this.place)) this.openings.push(this.place);
   }
 }

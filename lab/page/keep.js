@@ -45,7 +45,7 @@ export class Keep {
    * @param {Blob} page as it was when it was opened
    */
   constructor(bench, about, page) {
-    Object.assign(this, { bench, about, page });
+    Object.assign(this, { bench, about, page, from: null });
     this.dialog = byId("opening");
     byId("open").addEventListener("click", () => this.dialog.showModal());
     byId("file").addEventListener("change", ({ target }) => this.file(target.files[0]));
@@ -59,7 +59,7 @@ export class Keep {
       button("Template, true size", { id: "save-template" }, () => this.files("template")),
       button("Picture (SVG)", { id: "save-svg" }, () => this.svg()),
       button("Picture (PNG)", { id: "save-png" }, () => this.png()),
-      button("Copy a link", { id: "link" }, () => this.link()),
+      button("Copy a link", { id: "link" }, () => this.copied()),
       button("This page with the bat in it", { id: "save-page" }, () => this.whole()),
       button("Print", { id: "print" }, () => print()),
     );
@@ -85,24 +85,29 @@ export class Keep {
     byId("file").value = "";
   }
 
-  /** Opens what was pasted: a link, a bat file or a table. */
-  async take(text) {
+  /** Opens what was pasted: a link, a bat file or a table. True if it could be. */
+  async take(text, link = /#\d+\.[-\w]*\s*$/.test(text) && !text.trimStart().startsWith("{")) {
     try {
-      const link = /#\d+\.[-\w]*\s*$/.test(text) && !text.trimStart().startsWith("{");
       const { bat, scene } = link ? await unpacked(text) : { bat: text, scene: undefined };
       const problem = text.trim() === "" ? "There is nothing to open." : await this.bench.open(bat, scene);
       this.wrong(problem);
-      if (!problem) { this.dialog.close(); if (scene) this.bench.tell("scene", scene); }
+      if (!problem) this.dialog.close();
+      return !problem;
     } catch (problem) {
       this.wrong(problem.message);
+      return false;
     }
   }
 
-  /** Opens the bat of the address; true if there is one. */
+  /** The link that the address ends in, or null. */
+  get link() { return /^#\d+\./.test(location.hash) ? location.hash : null; }
+
+  /** Opens the bat of the address, if there is one. */
   async fromAddress() {
-    if (!/^#\d+\./.test(location.hash)) return false;
-    await this.take(location.hash);
-    return this.bench.body !== null;
+    if (!this.link) return;
+    const { link, from } = this;
+    this.from = link;
+    if (!(await this.take(link, true))) this.from = from;
   }
 
   /** What the browser keeps of the last time, or null. */
@@ -112,26 +117,32 @@ export class Keep {
     } catch { return null; }
   }
 
+  /** What is shown, and how. */
+  get shown() { return { bat: this.bench.text, scene: this.bench.scene, units: this.bench.units }; }
+
   remember() {
     const { bench } = this;
     try {
-      localStorage.setItem(SHELF, JSON.stringify({ bat: bench.text, scene: bench.scene, units: bench.units }));
+      localStorage.setItem(SHELF, JSON.stringify({ ...this.shown, from: this.from }));
       this.lost = false;
     } catch { this.lost = bench.history.canUndo; }
   }
 
-  async asked() { return this.bench.quick.ask({ ...this.bench.question("files"), name: `${this.name}.json` }); }
+  /** The bat's files; what is asked for the command alone takes nobody's place. */
+  async asked(kind) {
+    return this.bench.quick.ask({ ...this.bench.question("files"), name: `${this.name}.json` }, kind);
+  }
 
   async command() {
     clearTimeout(this.later);
     this.later = setTimeout(async () => {
-      const answer = this.bench.changing ? null : await this.asked();
+      const answer = this.bench.changing ? null : await this.asked("command");
       if (answer && !answer.error) write(byId("command"), answer.command);
     }, 300);
   }
 
   async files(what) {
-    const answer = await this.asked();
+    const answer = await this.asked("files");
     if (!answer) return;
     if (answer.error) { this.bench.say(answer.error); return; }
     if (what === "bat") save(`${this.name}.json`, [answer.bat_file], "application/json");
@@ -156,14 +167,14 @@ export class Keep {
 
   /** The page as it was opened, with this bat as its first: one file that needs nothing else. */
   async whole() {
-    const text = JSON.stringify(this.bench.text).replaceAll("<", "\\u003c"), page = await this.page.text();
+    const text = JSON.stringify(this.shown).replaceAll("<", "\\u003c"), page = await this.page.text();
     const from = page.indexOf(">", page.indexOf('id="bat"')) + 1, to = page.indexOf("<", from);
     save(`${this.name}-lab.html`, [page.slice(0, from), text, page.slice(to)], "text/html");
     this.say("Written: send this file, and whoever opens it has the bat and the lab.");
   }
 
   /** A link where the page has an address, else the fragment to paste into any copy's "Open". */
-  async link() {
+  async copied() {
     const { bench, about } = this, mark = await fragment(bench.text, bench.scene);
     const home = location.protocol.startsWith("http") ? location.href.split("#")[0] : about.address;
     const text = `${home ?? ""}${mark}`;

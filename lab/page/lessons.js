@@ -11,7 +11,7 @@ const THIN = (ROOTS[1] / ROOTS[0]) ** 2;
 const ratio = (bench) => modeOf(bench, 1).frequency.value / modeOf(bench, 0).frequency.value;
 const modeOf = (bench, k) => bench.hit.answer.modes[k];
 const hit = (bench) => bench.hit.answer;
-const pinned = (bench) => bench.hitOf(bench.pins[0].text)?.modes[0].frequency;
+const pinned = (bench, text) => bench.hitOf(text)?.modes[0].frequency;
 const before = (bench) => bench.hitOf(bench.history.opened);
 
 /**
@@ -23,8 +23,8 @@ const before = (bench) => bench.hitOf(bench.history.opened);
  * @property {string} title
  * @property {Step[]} steps
  * @property {string} question
- * @property {(bench: any) => string} answer  with the page's own numbers
- * @property {(bench: any, heard: any) => boolean} holds whether the page's numbers bear the answer out
+ * @property {(bench: any, pin?: string) => string} answer  with the page's own numbers; `pin`: the bat it pinned
+ * @property {(bench: any, heard: any, pin?: string) => boolean} holds  whether the page's numbers bear the answer out
  */
 
 /** @type {Lesson[]} */
@@ -121,9 +121,9 @@ export const LESSONS = [
         see: "modes", act: { strike: (bench) => hit(bench).best.place.x_m } },
     ],
     question: "Which of the two has the higher first note, and by how much?",
-    answer: (bench) =>
-      `The tube: ${modeOf(bench, 0).frequency.text}, against ${pinned(bench)?.text ?? "less"} of the ash bat.`,
-    holds: (bench) => modeOf(bench, 0).frequency.value > pinned(bench).value,
+    answer: (bench, pin) =>
+      `The tube: ${modeOf(bench, 0).frequency.text}, against ${pinned(bench, pin)?.text ?? "less"} of the ash bat.`,
+    holds: (bench, _, pin) => modeOf(bench, 0).frequency.value > pinned(bench, pin).value,
   },
 ];
 
@@ -134,7 +134,8 @@ export class Lessons {
    * @param {import("./sound.js").Voice} voice
    */
   constructor(bench, bats, voice) {
-    Object.assign(this, { bench, bats, voice, list: LESSONS, lesson: null, step: 0 });
+    Object.assign(this, { bench, bats, voice, list: LESSONS, lesson: null, step: 0, pin: null });
+    this.doing = Promise.resolve();
     byId("lesson-buttons").append(...LESSONS.map((lesson) =>
       button(lesson.title, { id: `lesson-${lesson.id}` }, () => this.begin(lesson))));
     byId("lesson-next").addEventListener("click", () => this.go(this.step + 1));
@@ -144,7 +145,7 @@ export class Lessons {
   }
 
   begin(lesson) {
-    this.lesson = lesson;
+    Object.assign(this, { lesson, step: 0, pin: null });
     byId("lesson").hidden = false;
     document.documentElement.classList.add("teaching");
     const list = made("ol", {}, ...lesson.steps.map(({ say }) => made("li", {}, say)));
@@ -162,23 +163,37 @@ export class Lessons {
     this.mark(null);
   }
 
-  /** Shows a step and does it; after the last step stands the question, and then its answer. */
-  async go(k) {
-    const { lesson } = this, count = lesson.steps.length;
+  /** Shows a step, and does it after those under way; after the last one stand the question and its answer. */
+  go(k) {
+    const { lesson } = this, count = lesson.steps.length, back = k < this.step;
     this.step = Math.min(Math.max(k, 0), count + 1);
     const step = lesson.steps[this.step];
     write(byId("lesson-title"), `${lesson.title}, ${Math.min(this.step + 1, count + 1)} of ${count + 1}`);
     byId("lesson-back").disabled = this.step === 0;
     byId("lesson-next").hidden = this.step > count;
     write(byId("lesson-next"), this.step === count ? "Answer" : "Next");
-    if (step) {
-      write(byId("lesson-words"), step.say);
-      await this.run(lesson.id, this.step);
-      this.mark(byId(step.see));
-    } else {
-      write(byId("lesson-words"), this.step === count ? lesson.question : lesson.answer(this.bench));
-      this.mark(null);
+    write(byId("lesson-words"), step ? step.say : this.step === count ? lesson.question : "…");
+    const at = this.step;
+    this.doing = this.doing.then(() => this.lesson === lesson && this.arrive(at, back))
+      .catch((problem) => this.bench.say(String(problem?.message ?? problem)));
+    return this.doing;
+  }
+
+  /** Does a step; one that was gone back to begins with the first, so that nothing is done twice. */
+  async arrive(at, back) {
+    const { lesson, bench } = this, count = lesson.steps.length;
+    const here = () => this.lesson === lesson && this.step === at;
+    if (at < count) {
+      for (let k = back ? 0 : at; k <= at; k += 1) await this.run(lesson, k, k === at);
+      if (here()) this.mark(byId(lesson.steps[at].see));
+      return;
     }
+    this.mark(null);
+    if (at === count) return;
+    await this.settled();
+    for (const text of [this.pin, bench.history.opened]) await this.known(text);
+    const answer = bench.certified ? lesson.answer(bench, this.pin) : "The bat shown has no answer.";
+    if (here()) write(byId("lesson-words"), answer);
   }
 
   /** Outlines what the step speaks of, and brings it into view. */
@@ -191,19 +206,32 @@ export class Lessons {
   }
 
   /** Does what a step says; the promise is kept when the page has done it. */
-  async run(id, k) {
-    const { bench, bats, voice } = this, { act } = LESSONS.find((lesson) => lesson.id === id).steps[k];
+  async run(lesson, k, aloud) {
+    const { bench, bats, voice } = this, { act } = lesson.steps[k];
     if (act.open) await bench.open(bats[act.open]);
-    if (act.pin && bench.pins.length < 4) bench.pin();
+    if (act.pin) {
+      this.pin = bench.text;
+      if (!bench.pins.some(({ text }) => text === this.pin)) bench.pin();
+    }
     if (act.add) bench.once({ ...bench.file, edits: [...(bench.file.edits ?? []), act.add] });
-    if (act.strike) {
+    if (act.strike && aloud) {
       await this.settled();
       await voice.strike(act.strike(bench));
     }
   }
 
-  /** Waits for the certified answer. */
+  /** Waits for the answer to a bat to compare with, some seconds at most. */
+  async known(text) {
+    for (let k = 0; text && text !== this.bench.text && !this.bench.hitOf(text) && k < 200; k += 1) {
+      await new Promise((then) => setTimeout(then, 30));
+    }
+  }
+
+  /** Waits for the certified answer, while there may be one and the lesson goes on. */
   async settled() {
-    while (!this.bench.certified && !this.bench.hopeless) await new Promise((then) => setTimeout(then, 30));
+    const { bench } = this, unmet = () => bench.hit?.number === bench.number && bench.hit.answer.unmet;
+    while (this.lesson && !bench.certified && !bench.hopeless && !unmet()) {
+      await new Promise((then) => setTimeout(then, 30));
+    }
   }
 }

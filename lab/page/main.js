@@ -94,19 +94,28 @@ function words(bench, drag) {
     byId("redo").disabled = !bench.history.canRedo;
   });
   bench.on("trouble", (text) => { write(byId("trouble"), text); byId("trouble").hidden = false; });
-  bench.on("slowTrouble", (text) => { byId("trust").append(made("li", {}, text)); });
+  bench.on("slowTrouble", (text) => { byId("trust").append(made("li", {}, text)); byId("doubts").hidden = false; });
   return reach;
 }
 
 /** The first bat: of the address, written into the page, kept by the browser, or built in. */
 async function first(bench, keep, bats) {
-  if (await keep.fromAddress()) return;
-  const given = data("bat", null), kept = keep.kept();
-  if (kept?.units === "us") setUs(true);
-  if (given && !(await bench.open(given))) return;
-  if (!given && kept?.bat && !(await bench.open(kept.bat, kept.scene))) { bench.tell("scene", kept.scene); return; }
-  const wrong = await bench.open(bats[FIRST]);
-  if (wrong) bench.say(wrong);
+  const written = data("bat", null), given = typeof written === "string" ? { bat: written } : written;
+  const kept = keep.kept();
+  keep.from = keep.link ?? (given ? JSON.stringify(given) : null);
+  // What was made of this very link or file goes on; a page without one goes on from the last time.
+  const own = Boolean(kept?.bat) && (keep.from === null || kept.from === keep.from);
+  if (((own ? kept : given)?.units ?? kept?.units) === "us") setUs(true);
+  const problems = [], open = async ({ bat, scene }) => {
+    const wrong = await bench.open(bat, scene);
+    if (wrong) problems.push(wrong);
+  };
+  if (keep.link) await keep.fromAddress();
+  if (bench.trouble) problems.push(bench.trouble);
+  if (!bench.body && given) await open(given);
+  if (own) await open(kept);
+  if (!bench.body) await open({ bat: bats[FIRST] });
+  if (problems.length) bench.say(problems[0]);
 }
 
 async function begin() {
@@ -140,7 +149,7 @@ async function begin() {
   new Lathe(bench, picture);
   new Wishes(bench);
   const scene = new SceneOfHit(bench), keep = new Keep(bench, about, page);
-  bench.on("scene", (what) => scene.set(what));
+  bench.on("scene", () => scene.set());
   const lessons = new Lessons(bench, bats, voice);
   controls(bench, drag);
   // For trials of the page: what it holds, and the parts that answer.

@@ -29,7 +29,11 @@ export class Notes {
     const { bench } = this, hit = bench.hit?.answer, before = bench.reference && bench.hitOf(bench.reference);
     if (!bench.body) return;
     this.words();
-    if (!hit) return;
+    if (!hit) {
+      // Of a bat without an answer nothing is known; the notes of the bat before stay while one is computed.
+      if (bench.hopeless) { byId("modes").replaceChildren(); write(byId("barrel-words"), ""); }
+      return;
+    }
     const head = ["Mode", "Frequency", "Change", "Note", `Still at (${inUs() ? "in" : "cm"} from the knob)`];
     const rows = hit.modes.map((mode, k) => {
       const old = before?.modes[k]?.frequency;

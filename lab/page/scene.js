@@ -7,40 +7,70 @@ import { inUs, say, whenUnits } from "./units.js";
 const SWING = 43, PITCH = 83, MPH = 0.44704;
 /** Beyond the knob the swing turns (m); a bat's speed is told so far from its tip (m). */
 const PIVOT = 0.0635, TOLD_AT = 0.1524;
+/** Factors to SI of the units that links tell speeds and lengths in. */
+const UNITS = { "rad/s": 1, "deg/s": Math.PI / 180, rpm: Math.PI / 30, "m/s": 1, mph: MPH, "km/h": 1 / 3.6,
+  "ft/s": 0.3048, m: 1, cm: 0.01, mm: 0.001, in: 0.0254, ft: 0.3048 };
+
+/** A number of a scene in SI: strings carry their unit; NaN where it is none of these. */
+function inSi(told, otherwise) {
+  if (told === undefined || typeof told === "number") return told ?? otherwise;
+  const [, value, unit] = /^\s*([-+.\de]+)\s*(\S+)\s*$/i.exec(told) ?? [];
+  return Number(value) * (UNITS[unit] ?? NaN);
+}
 
 export class SceneOfHit {
   /** @param {import("./bench.js").Bench} bench */
   constructor(bench) {
     this.bench = bench;
-    for (const name of ["swing", "pitch", "ball", "batter"]) byId(name).addEventListener("input", () => this.changed());
-    byId("scene-back").addEventListener("click", () => { this.set({}); this.changed(); });
+    for (const name of ["swing", "pitch", "ball", "batter"]) {
+      byId(name).addEventListener("input", () => this.changed(name));
+    }
+    byId("scene-back").addEventListener("click", () => { bench.setScene({}); this.set(); });
     bench.on("shown", () => this.words());
-    // The swing that is known is that of the bat as it was opened.
-    bench.on("opened", () => { if (byId("batter").value !== "0") this.changed(); });
+    // The swing that is known is that of the bat as it was opened, unless it was opened with its own scene.
+    bench.on("opened", (scene) => { if (!scene && byId("batter").value !== "0") this.changed("batter"); });
     whenUnits(() => this.words());
   }
 
-  /** Shows a scene in the controls. */
-  set(scene) {
-    const number = (value, unit) => typeof value === "string" ? Number.parseFloat(value) : (value ?? NaN) / unit;
-    byId("swing").value = String(number(scene.swing_speed, 1) || SWING);
-    byId("pitch").value = String(Number.isFinite(number(scene.pitch, MPH)) ? number(scene.pitch, MPH) : PITCH);
+  /** The length (m) from where the swing turns to a place so far (m) from the tip. */
+  arm(from_tip) {
+    const { body, scene } = this.bench;
+    return body ? body.length.value - from_tip + inSi(scene.pivot, PIVOT) : NaN;
+  }
+
+  /** Swing (rad/s) and pitch (m/s) of the scene. */
+  speeds() {
+    const { scene } = this.bench, { bat_speed: told } = scene;
+    const swing = told === undefined ? inSi(scene.swing_speed, SWING)
+      : inSi(told) / this.arm(inSi(scene.bat_speed_at, TOLD_AT));
+    return { swing, pitch: inSi(scene.pitch, PITCH * MPH) };
+  }
+
+  /** Shows the scene in the controls. */
+  set() {
+    const { scene } = this.bench, { swing, pitch } = this.speeds();
+    byId("swing").value = String(Number.isFinite(swing) ? swing : SWING);
+    byId("pitch").value = String(Number.isFinite(pitch) ? pitch / MPH : PITCH);
     byId("ball").value = scene.ball ?? "baseball";
     byId("batter").value = scene.swing_exponent ? "0.5" : "0";
     this.words();
   }
 
-  /** What the controls say, without what is as at the start. */
-  changed() {
-    const [swing, pitch] = ["swing", "pitch"].map((name) => Number(byId(name).value)), ball = byId("ball").value;
-    const { bench } = this, scene = { ...bench.scene }, exponent = Number(byId("batter").value);
-    for (const name of ["swing_speed", "pitch", "ball", "reference_inertia", "swing_exponent"]) delete scene[name];
-    if (swing !== SWING) scene.swing_speed = `${swing} rad/s`;
-    if (pitch !== PITCH) scene.pitch = `${pitch} mph`;
-    if (ball !== "baseball") scene.ball = ball;
-    if (exponent) {
+  /** What one of the controls says, without what is as at the start; all else of the scene stays. */
+  changed(name) {
+    const { bench } = this, scene = { ...bench.scene }, { value } = byId(name);
+    const gone = { swing: ["swing_speed", "bat_speed", "bat_speed_at"], pitch: ["pitch"], ball: ["ball"],
+      batter: ["reference_inertia", "swing_exponent"] }[name];
+    for (const one of gone) delete scene[one];
+    if (name === "swing" && Number(value) !== SWING) scene.swing_speed = `${value} rad/s`;
+    if (name === "pitch" && Number(value) !== PITCH) scene.pitch = `${value} mph`;
+    if (name === "ball" && value !== "baseball") scene.ball = value;
+    if (name === "batter" && Number(value)) {
+      // A batter is known by the turning of the bat, not by its speed at a place.
+      if (scene.bat_speed !== undefined) scene.swing_speed = this.speeds().swing;
+      for (const one of ["bat_speed", "bat_speed_at"]) delete scene[one];
       scene.reference_inertia = bench.bodyOf(bench.history.opened).swing_weight.value;
-      scene.swing_exponent = exponent;
+      scene.swing_exponent = Number(value);
     }
     bench.setScene(scene);
     this.words();
@@ -49,11 +79,11 @@ export class SceneOfHit {
   words() {
     const { body, scene } = this.bench, slower = body && scene.swing_exponent
       ? (scene.reference_inertia / body.swing_weight.value) ** scene.swing_exponent : 1;
-    const swing = slower * Number(byId("swing").value), pitch = MPH * Number(byId("pitch").value);
-    const speed = body ? swing * (body.length.value - TOLD_AT + PIVOT) : NaN;
-    const where = inUs() ? "6 in" : "15.24 cm";
-    write(byId("swing-words"), `${swing.toFixed(1)} rad/s: ${say("speed", speed)}, ${where} from the tip`);
-    write(byId("pitch-words"), `${say("speed", pitch)} at the plate`);
+    const { swing: known, pitch } = this.speeds(), swing = slower * known, speed = swing * this.arm(TOLD_AT);
+    const where = inUs() ? "6 in" : "15.24 cm", told = scene.bat_speed ?? scene.swing_speed;
+    write(byId("swing-words"), Number.isFinite(swing) || told === undefined
+      ? `${swing.toFixed(1)} rad/s: ${say("speed", speed)}, ${where} from the tip` : String(told));
+    write(byId("pitch-words"), `${Number.isFinite(pitch) ? say("speed", pitch) : scene.pitch} at the plate`);
     for (const name of ["swing", "pitch"]) byId(name).setAttribute("aria-valuetext", byId(`${name}-words`).textContent);
   }
 }

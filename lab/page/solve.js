@@ -1,5 +1,14 @@
 // Asks the core: at once on the main thread, or in a worker with one question under way and the newest waiting.
 
+/** ms that a worker may take to start, and how often it is started in vain. */
+const START = 30000, STARTS = 2;
+
+/** An answer of the core; one that ended without words gets some. */
+function read(text) {
+  const answer = JSON.parse(text);
+  return answer.panic ? { ...answer, error: answer.error || "The core stopped." } : answer;
+}
+
 /** The core of the main thread: for what is done within a frame. Another one stands ready, should it fail. */
 export class Near {
   /** @param {WebAssembly.Module} module */
@@ -27,13 +36,14 @@ export class Near {
       [this.core, this.spare] = [this.spare, null];
       this.fresh().then((exports) => { if (this.core) this.spare = exports; else this.core = exports; });
     }
-    return JSON.parse(new TextDecoder().decode(new Uint8Array(core.memory.buffer, core.answer_at(), length)));
+    return read(new TextDecoder().decode(new Uint8Array(core.memory.buffer, core.answer_at(), length)));
   }
 }
 
 /**
  * @typedef {object} Waiting
  * @property {number} id
+ * @property {string} kind
  * @property {object} question
  * @property {(answer: object | null) => void} then called with null where a newer question took its place
  */
@@ -46,7 +56,7 @@ export class Far {
    * @param {number} limit ms after which an answer is given up
    */
   constructor(module, program, limit) {
-    Object.assign(this, { module, program, limit, count: 0, under: null, ready: false });
+    Object.assign(this, { module, program, limit, count: 0, under: null, ready: false, starts: 0, dead: null });
     /** @type {Map<string, Waiting>} */
     this.waiting = new Map();
     /** For trials: an answer is held back so long (ms). */
@@ -59,33 +69,52 @@ export class Far {
     this.worker = new Worker(address);
     URL.revokeObjectURL(address);
     this.ready = false;
+    this.starts += 1;
+    this.clock = setTimeout(() => this.stuck(), START);
     const { worker } = this;
     worker.onmessage = ({ data }) => {
       if (worker !== this.worker) return;
       if (data.ready) {
-        this.ready = true;
+        clearTimeout(this.clock);
+        Object.assign(this, { ready: true, starts: 0 });
         this.next();
+      } else if (data.failed) {
+        this.stuck();
       } else if (this.delay > 0) {
         setTimeout(() => worker === this.worker && this.came(data), this.delay);
       } else {
         this.came(data);
       }
     };
-    worker.onerror = () => worker === this.worker && this.end("the core could not go on");
+    worker.onerror = () => {
+      if (worker !== this.worker) return;
+      if (this.ready) this.end("The core could not go on."); else this.stuck();
+    };
     worker.postMessage({ module: this.module });
+  }
+
+  /** The worker did not start: it is started anew, or else whatever is asked is answered by these words. */
+  stuck() {
+    clearTimeout(this.clock);
+    if (this.starts < STARTS) { this.anew(); return; }
+    this.worker.terminate();
+    this.dead = "The core does not start in this browser; load the page again.";
+    for (const { id, then } of this.waiting.values()) then({ id, error: this.dead });
+    this.waiting.clear();
   }
 
   /**
    * Asks, and gives the answer; null if a newer question of its kind came first.
    * @returns {Promise<any>}
    */
-  ask(question) {
+  ask(question, kind = question.ask) {
     this.count += 1;
     const id = this.count;
+    if (this.dead) return Promise.resolve({ id, error: this.dead });
     return new Promise((then) => {
-      this.waiting.get(question.ask)?.then(null);
-      this.waiting.delete(question.ask);
-      this.waiting.set(question.ask, { id, question: { ...question, id }, then });
+      this.waiting.get(kind)?.then(null);
+      this.waiting.delete(kind);
+      this.waiting.set(kind, { id, kind, question: { ...question, id }, then });
       this.next();
     });
   }
@@ -105,7 +134,7 @@ export class Far {
     clearTimeout(this.clock);
     const { under } = this;
     this.under = null;
-    const answer = JSON.parse(text);
+    const answer = read(text);
     if (answer.panic) this.anew();
     under?.then({ ...answer, id: under.id, took });
     this.next();
@@ -126,11 +155,13 @@ export class Far {
     under?.then(words ? { id: under.id, error: words } : null);
   }
 
-  /** Drops everything: the bat is another. */
-  drop() {
-    for (const { then } of this.waiting.values()) then(null);
-    this.waiting.clear();
-    if (this.under) this.end(null);
+  /** Drops what is asked of such kinds. */
+  drop(such) {
+    for (const { kind, then } of [...this.waiting.values()].filter((one) => such(one.kind))) {
+      this.waiting.delete(kind);
+      then(null);
+    }
+    if (this.under && such(this.under.kind)) this.end(null);
   }
 }
 

@@ -121,8 +121,16 @@ export function withMore(bat, k) {
   return eachColumn(bat, (column) => column.toSpliced(k + 1, 0, between(column)));
 }
 
-/** A bat file as text, its lists of numbers on one line each. */
-export function fileText(bat) {
-  const lists = /\[\s+([^[\]{}"]*?)\s+\]/g;
-  return JSON.stringify(bat, null, 2).replace(lists, (_, inside) => `[${inside.replace(/\s*\n\s*/g, " ")}]`) + "\n";
+/** JSON with two blanks a level, lists of numbers on one line each. */
+function json(value, margin) {
+  if (value === null || typeof value !== "object") return JSON.stringify(value);
+  const list = Array.isArray(value), [open, close] = list ? "[]" : "{}", inner = `${margin}  `;
+  const numbers = list && value.every((one) => typeof one === "number");
+  if (numbers) return `[${value.map((one) => JSON.stringify(one)).join(", ")}]`;
+  const members = list ? value.map((one) => json(one, inner)) : Object.entries(value)
+    .filter(([, one]) => one !== undefined).map(([name, one]) => `${JSON.stringify(name)}: ${json(one, inner)}`);
+  return members.length ? `${open}\n${members.map((one) => inner + one).join(",\n")}\n${margin}${close}` : open + close;
 }
+
+/** A bat file as text. */
+export const fileText = (bat) => `${json(bat, "")}\n`;

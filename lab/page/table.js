@@ -42,15 +42,17 @@ export class Table {
     if (what === "diameter") {
       const [least, most] = limits(stations, k);
       if (mm < least || mm > most) {
-        wrong(`A station is between ${least} and ${most} mm thick here; ${field.value} is not.`);
+        const ends = `${diameterText(least)} and ${diameterText(most)} ${unitOf(what)}`;
+        wrong(`A station is between ${ends} thick here; ${field.value} is not.`);
         return;
       }
       next = withDiameters(file, stations.diameter.with(k, mm));
     } else {
       next = what === "bore" ? withBore(file, k, mm) : withPlace(file, k, mm);
       if (!next) {
-        wrong(what === "bore" ? "The bore must leave a wall of 0.5 mm."
-          : "A station stays between its neighbours, 1 mm from them; the first is the knob end.");
+        const [wall, apart] = inUs() ? ["0.02 in", "0.04 in"] : ["0.5 mm", "1 mm"];
+        wrong(what === "bore" ? `The bore must leave a wall of ${wall}.`
+          : `A station stays between its neighbours, ${apart} from them; the first is the knob end.`);
         return;
       }
     }

@@ -2,9 +2,10 @@
 /**
  * What the page asks of the core, and what the core answers: JSON both ways, one answer a request.
  *
- * Numbers are SI and their units stand in their names. A number that is shown comes as {@link Shown}: its `text` is what
- * the program prints for it, and the page prints nothing else. Places count from the knob end. Times, numbers of
- * requests and what is certified are the page's business: the core keeps nothing between two requests.
+ * Numbers are SI and their units stand in their names. A number that is shown comes as {@link Shown}: its `text` is
+ * what the program prints for it. Differences and what is read off a curve the page writes itself. Places count from
+ * the knob end. Times, numbers of requests and what is certified are the page's business: the core keeps nothing
+ * between two requests.
  */
 
 /**
@@ -97,7 +98,7 @@
  */
 
 /**
- * A bending mode. `note` is the nearest note and how far it is off: "F3 +12 cents".
+ * A bending mode. `note` is the nearest note and by how many cents it is off: "F3 +12".
  * @typedef {{ order: number, frequency: Shown, note: string, nodes: Place[] }} ModeShown
  */
 
@@ -109,7 +110,8 @@
 
 /**
  * `live` and `sure`: how it rings and hits. The wall of a hollow barrel is stiff in both; `analyze` has it.
- * `live` is a preview (10 modes to 1e-3, 21 places); `sure` is what `sweetspot hit` answers, and its texts are equal.
+ * `live` is a preview (10 modes to 1e-3, 21 places or more); `sure` is what `sweetspot hit` answers, and its
+ * texts are equal.
  * @typedef {object} Hit
  * @property {number} id
  * @property {boolean} certified     `sure` alone, and only if the accuracy asked for was reached

@@ -64,7 +64,7 @@ const PARTS = { "½": "1/2", "¼": "1/4", "¾": "3/4", "⅛": "1/8", "⅜": "3/8
  */
 export function lengthTyped(typed, unit) {
   const plain = typed.trim().toLowerCase().replace(/[½¼¾⅛⅜⅝⅞]/g, (part) => ` ${PARTS[part]}`).trim();
-  const form = /^(?:(\d+(?:[.,]\d+)?|[.,]\d+)(?!\s*\/|\d))?(?:[\s-]*(\d+)\s*\/\s*(\d+))?\s*([a-z"″”]*)$/;
+  const form = /^(?:(\d+(?:[.,]\d+)?|[.,]\d+)(?!\s*\/|\d)(?:[\s-]+(?=\d))?)?(?:(\d+)\s*\/\s*(\d+))?\s*([a-z"″”]*)$/;
   const [, whole, over, under, name] = form.exec(plain) ?? [];
   const factor = LENGTHS[name || unit];
   if (factor === undefined || (!whole && !over) || /,\d{3}$/.test(whole ?? "")) return null;

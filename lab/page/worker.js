@@ -11,8 +11,12 @@ function answered(text) {
     length = core.answer();
   } catch {
     // What went wrong is the answer to an empty question.
-    core.room(0);
-    length = core.answer();
+    try {
+      core.room(0);
+      length = core.answer();
+    } catch {
+      return JSON.stringify({ id: 0, error: "", panic: true });
+    }
   }
   // The memory may have grown meanwhile, and the old view of it be gone.
   return new TextDecoder().decode(new Uint8Array(core.memory.buffer, core.answer_at(), length));
@@ -20,8 +24,12 @@ function answered(text) {
 
 onmessage = async ({ data }) => {
   if (data.module) {
-    core = (await WebAssembly.instantiate(data.module, {})).exports;
-    postMessage({ ready: true });
+    try {
+      core = (await WebAssembly.instantiate(data.module, {})).exports;
+      postMessage({ ready: true });
+    } catch (problem) {
+      postMessage({ failed: String(problem) });
+    }
   } else {
     const began = performance.now();
     postMessage({ text: answered(data.text), took: performance.now() - began });

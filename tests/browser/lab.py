@@ -6,7 +6,6 @@ not its own.
     lab.py PAGE.html PROGRAM [GESTURES]
 """
 
-import base64
 import json
 import os
 import random
@@ -14,103 +13,15 @@ import subprocess
 import sys
 import tempfile
 import time
-import zlib
 
 from chromium import Browser, program
+from lab_page import (CERTIFIED, HANDLE, TEXT, VALUES, certain, check, clicked, failures, mouse, opened, packed, pulled,
+                      quiet, touch, waited)
 from report import CONTRAST, SMALL_TEXT, TOO_WIDE
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-failures = []
-
 # Pictures lie on the page's own ground.
 CONTRAST = CONTRAST.replace('svg && svg.querySelector(":scope > rect")', "null")
-
-# Of the page: the bat shown, whether it is certified, and what is read off.
-TEXT = "lab.bench.text"
-CERTIFIED = "document.getElementById('badge').textContent === 'certified' && lab.bench.certified"
-VALUES = """Object.fromEntries([...document.querySelectorAll('[id^=figure-]')].map(row =>
-  [row.id.slice(7), row.querySelector('.value').textContent]))"""
-# The place (px) of a movable station's handle near a place along the bat (mm).
-HANDLE = """((mm) => { const { stations, handles } = lab.picture;
-  const k = stations.x.reduce((best, x, k) => Math.abs(x - mm) < Math.abs(stations.x[best] - mm) ? k : best, 0);
-  handles.children[k].scrollIntoView({ block: 'center' });
-  const box = handles.children[k].querySelector('.dot').getBoundingClientRect();
-  return [box.x + box.width / 2, box.y + box.height / 2, k]; })"""
-
-
-def check(true, what):
-    """Keeps what is not true."""
-    if not true:
-        failures.append(what)
-        print(f"  NOT SO: {what}", flush=True)
-
-
-def waited(browser, true, seconds=20.0):
-    """Whether that becomes true in time."""
-    end = time.monotonic() + seconds
-    while time.monotonic() < end:
-        if browser.run(true):
-            return True
-        time.sleep(0.05)
-    return False
-
-
-def certain(browser, what):
-    """The page has its certified answer."""
-    check(waited(browser, CERTIFIED), f"{what}: never certified, {browser.run('lab.bench.trouble')}")
-
-
-def opened(browser, page, **wishes):
-    """The page as if for the first time, with its first answer."""
-    browser.send("Storage.clearDataForOrigin", origin="file://", storageTypes="all")
-    browser.open(page, **wishes)
-    check(waited(browser, "!!window.lab?.bench?.body"), "the page does not begin")
-    certain(browser, "the first bat")
-
-
-def quiet(browser, what):
-    """Nothing was complained of, and nothing but the file itself was asked for."""
-    browser.run("1")
-    for event in browser.events:
-        method, told = event["method"], json.dumps(event.get("params"))[:400]
-        bad = method in ("Runtime.exceptionThrown", "Runtime.consoleAPICalled", "Page.javascriptDialogOpening",
-                         "Log.entryAdded", "Inspector.targetCrashed")
-        check(not bad, f"{what}: {method} {told}")
-        if method == "Network.requestWillBeSent":
-            address = event["params"]["request"]["url"]
-            check(address.split("#")[0].startswith(("file://", "blob:", "data:")), f"{what}: asks for {address}")
-    browser.events.clear()
-
-
-def mouse(browser, kind, x, y, **more):
-    browser.send("Input.dispatchMouseEvent", type=kind, x=x, y=y, **more)
-
-
-def touch(browser, kind, *points):
-    points = [{"x": x, "y": y, "id": k} for k, (x, y) in enumerate(points)]
-    browser.send("Input.dispatchTouchEvent", type=kind, touchPoints=points)
-
-
-def clicked(browser, name):
-    """Clicks an element by the mouse."""
-    x, y = browser.run(f"""(() => {{ const one = document.getElementById('{name}'); one.scrollIntoView({{ block: 'center' }});
-      const box = one.getBoundingClientRect(); return [box.x + box.width / 2, box.y + box.height / 2]; }})()""")
-    mouse(browser, "mousePressed", x, y, button="left", buttons=1, clickCount=1)
-    mouse(browser, "mouseReleased", x, y, button="left", clickCount=1)
-
-
-def pulled(browser, mm, by, steps=12, shift=False, between=None):
-    """Pulls the edge near a place (mm) by so many px downwards, with the mouse."""
-    x, y, _ = browser.run(f"{HANDLE}({mm})")
-    held = {"button": "left", "buttons": 1, "clickCount": 1, "modifiers": 8 if shift else 0}
-    mouse(browser, "mouseMoved", x, y)
-    mouse(browser, "mousePressed", x, y, **held)
-    for k in range(1, steps + 1):
-        mouse(browser, "mouseMoved", x, y + by * k / steps, **held)
-        if between:
-            between()
-    mouse(browser, "mouseReleased", x, y + by, button="left", buttons=0, clickCount=1)
-
 
 def of_program(sweetspot, folder, bat, verb, *options):
     """What the program prints of a bat of the page, and its JSON."""
@@ -302,14 +213,6 @@ def gestures(browser, page, sweetspot, folder, count):
     quiet(browser, "gestures")
 
 
-def packed(held):
-    """The fragment of a link."""
-    text = held if isinstance(held, bytes) else json.dumps(held).encode()
-    maker = zlib.compressobj(9, zlib.DEFLATED, -15)
-    raw = maker.compress(text) + maker.flush()
-    return "#1." + base64.urlsafe_b64encode(raw).decode().rstrip("=")
-
-
 def strangers(browser, page, sweetspot, folder):
     """Links and files of strangers are refused in words, or are nothing but data."""
     opened(browser, page)
@@ -350,6 +253,8 @@ def strangers(browser, page, sweetspot, folder):
     check(browser.run(TEXT) == json.dumps(thin), "a thin bat is not opened")
     check(waited(browser, "/No answer within/.test(document.getElementById('trouble').textContent)", 30),
           f"a bat that takes too long has no end: {browser.run('lab.bench.trouble')}, {browser.run(CERTIFIED)}")
+    left = browser.run("['modes', 'reading', 'barrel-words'].map(name => document.getElementById(name).textContent).join('')")
+    check(left == "", f"a bat without an answer keeps another's numbers: {left}")
     browser.run(f"lab.bench.open({json.dumps(json.dumps(bat))})")
     certain(browser, "the bat after the one that took too long")
     # A mistake of ours is said, and the next answer is right.
@@ -358,6 +263,106 @@ def strangers(browser, page, sweetspot, folder):
     after = browser.run(f"lab.bench.quick.ask({{ ask: 'body', bat: {json.dumps(json.dumps(bat))} }})")
     check(after and not after.get("error"), f"after a panic: {after}")
     browser.events.clear()
+
+
+def again(browser, page):
+    """The page that is opened again has its units, scene and bat; links and pages sent bring theirs."""
+    def loaded(what, hash=""):
+        browser.send("Page.navigate", url="about:blank")
+        browser.open(page)
+        if hash:
+            browser.run(f"location.hash = {json.dumps(hash)}; location.reload()")
+            time.sleep(0.3)
+        check(waited(browser, "!!window.lab?.bench?.body"), f"{what}: the page does not begin")
+        certain(browser, what)
+
+    inches = "lab.bench.units === 'us' && document.getElementById('change-fields').textContent.length > 0"
+    opened(browser, page)
+    clicked(browser, "units-1")
+    pulled(browser, 575, -12)
+    browser.run("(() => { const one = document.getElementById('pitch'); one.value = 60; one.dispatchEvent(new Event('input')); })()")
+    certain(browser, "in inches")
+    left = browser.run(TEXT)
+    loaded("left in inches")
+    check(browser.run(inches), "left in inches: the page begins in others")
+    check(browser.run(TEXT) == left, "the bat is not kept")
+    check(browser.run("lab.bench.scene.pitch === '60 mph' && document.getElementById('pitch').value === '60'"), "the scene is not kept")
+    # A link's scene is the one that is shown and computed, in whatever units it came.
+    bat = json.load(open(f"{ROOT}/meshes/r161.json"))
+    scene = {"pitch": "40 m/s", "bat_speed": "70 mph"}
+    browser.run("(() => { const one = document.getElementById('batter'); one.value = '0.5'; one.dispatchEvent(new Event('input')); })()")
+    link = packed({"format": "sweetspot-lab/1", "bat": bat, "scene": scene})
+    loaded("a link", link)
+    check(browser.run("lab.bench.scene") == scene, f"a link's scene became {browser.run('lab.bench.scene')}")
+    check(browser.run(inches), "a link: the units are not kept")
+    check(browser.run("document.getElementById('pitch-words').textContent") == "89.5 mph at the plate", "40 m/s is not 89.5 mph")
+    check("70.0 mph" in browser.run("document.getElementById('swing-words').textContent"), "70 mph is not 70 mph")
+    pulled(browser, 575, -12)
+    certain(browser, "a link's bat, pulled")
+    left = browser.run(TEXT)
+    browser.run("location.reload()")
+    time.sleep(0.3)
+    check(waited(browser, "!!window.lab?.bench?.body"), "a link again: the page does not begin")
+    check(waited(browser, f"{TEXT} === {json.dumps(left)}", 5), "a link again: the pull is gone")
+    loaded("a bad link", "#1.!!!!")
+    check(browser.run("!document.getElementById('trouble').hidden && /link/.test(document.getElementById('trouble').textContent)"),
+          "a bad link is not spoken of")
+    quiet(browser, "again")
+
+
+def typed(browser, page):
+    """What is typed is of the station it was typed for; pinned bats and names stay as they are."""
+    opened(browser, page)
+    pulled(browser, 575, -12)
+    _, _, k = browser.run(f"{HANDLE}(575)")
+    before = browser.run("lab.picture.stations.diameter")
+    browser.run("(() => { const one = document.getElementById('diameter'); one.focus(); one.select(); })()")
+    browser.send("Input.insertText", text="50")
+    x, y, other = browser.run(f"{HANDLE}(700)")
+    mouse(browser, "mousePressed", x, y, button="left", buttons=1, clickCount=1)
+    mouse(browser, "mouseReleased", x, y, button="left", clickCount=1)
+    after = browser.run("lab.picture.stations.diameter")
+    check(k != other and browser.run("lab.picture.picked") == other, "another handle is not picked")
+    check([abs(size - (50 if j == k else before[j])) < 1e-3 for j, size in enumerate(after)] == [True] * len(after),
+          "a typed diameter is another station's")
+    # A bat that is pinned and passed through can be changed when it is shown again.
+    clicked(browser, "pin")
+    pinned = browser.run(TEXT)
+    browser.run("document.getElementById('undo').click()")
+    browser.run("lab.bench.edit(JSON.parse(lab.bench.pins[0].text)), lab.bench.edit(JSON.parse(lab.bench.history.now))")
+    browser.run("[...document.querySelectorAll('#pins button')].find(one => one.textContent === 'Show').click()")
+    check(browser.run(TEXT) == pinned and browser.run("lab.bench.file !== null"), "a pinned bat cannot be changed")
+    name = 'a [ 12 ] b [\n  1\n]'
+    browser.run(f"lab.bench.once({{ ...lab.bench.file, name: {json.dumps(name)} }})")
+    check(json.loads(browser.run(TEXT))["name"] == name, "a name is not kept as it is")
+    # Another bat that is taken back is no more the one that was opened.
+    first = browser.run("lab.bench.history.opened")
+    browser.run(f"lab.bench.open({json.dumps(open(f'{ROOT}/meshes/house.json').read())})")
+    check(browser.run("lab.bench.history.opened") != first, "another bat is not the one that was opened")
+    browser.run("document.getElementById('undo').click()")
+    check(browser.run("lab.bench.history.opened") == first, "what was taken back is still compared with")
+    quiet(browser, "typed")
+
+
+def wishes(browser, page):
+    """A wish that another one replaces says nothing more; one that is stopped takes nothing else with it."""
+    opened(browser, page)
+    browser.run("lab.bench.slow.delay = 600")
+    state = "document.getElementById('wish-state').textContent"
+    clicked(browser, "wish-lighter")
+    clicked(browser, "wish-drop")
+    time.sleep(0.2)
+    check(browser.run(f"/^.Drop 3. is being computed/.test({state})"), f"of the second wish is said: {browser.run(state)}")
+    check(not browser.run("document.getElementById('wish-stop').hidden"), "the second wish cannot be stopped")
+    before = browser.run(TEXT)
+    clicked(browser, "wish-stop")
+    check(waited(browser, f"/^Stopped/.test({state})", 3), f"of the stopped wish is said: {browser.run(state)}")
+    check(waited(browser, "lab.bench.analyzed !== null", 30), "after a stopped wish the ± never come")
+    check(browser.run(TEXT) == before, "a stopped wish changes the bat")
+    browser.run("lab.bench.slow.delay = 0")
+    clicked(browser, "wish-drop")
+    check(waited(browser, f"/done/.test({state})", 40) and browser.run(TEXT) != before, f"a wish ends with: {browser.run(state)}")
+    quiet(browser, "wishes")
 
 
 def policy(browser, page):
@@ -394,7 +399,7 @@ def lessons(browser, page):
             time.sleep(0.5)
             clicked(browser, "lesson-next")
         check(browser.run("document.getElementById('lesson-words').textContent") == browser.run(f"{of}.question"), f"{name}: no question")
-        holds = f"(() => {{ try {{ return {of}.holds(lab.bench, lab.voice.last); }} catch {{ return false; }} }})()"
+        holds = f"(() => {{ try {{ return {of}.holds(lab.bench, lab.voice.last, lab.lessons.pin); }} catch {{ return false; }} }})()"
         check(waited(browser, holds, 15), f"{name}: the page's numbers do not bear the answer out")
         clicked(browser, "lesson-next")
         check(len(browser.run("document.getElementById('lesson-words').textContent")) > 10, f"{name}: no answer")
@@ -467,6 +472,9 @@ def main():
             "three ways": lambda: three_ways(browser, page),
             "disturbed": lambda: disturbed(browser, page, sweetspot, folder),
             "strangers": lambda: strangers(browser, page, sweetspot, folder),
+            "again": lambda: again(browser, page),
+            "typed": lambda: typed(browser, page),
+            "wishes": lambda: wishes(browser, page),
             "policy": lambda: policy(browser, page),
             "lessons": lambda: lessons(browser, page),
             "readable": lambda: readable(browser, page),
