@@ -52,7 +52,7 @@ pub struct Question {
 /// What messages call the bat's file.
 pub const BAT: &str = "bat.json";
 
-/// What hits and modes are asked for, as the program asks where nobody tells it.
+/// What hits and modes are asked for, as the program asks by default.
 pub fn request() -> Request {
     Request::default()
 }

@@ -31,8 +31,8 @@ use crate::value::{MOMENT, TOP_FREQUENCY};
 /// How to tap well: hang the bat or hold it with two fingers at a node, 6 to 7 in from the tip. Lay the phone a hand's
 /// breadth from the barrel and record with a plain recorder app, "enhanced recording" off. Tap the tip five to eight
 /// times with something hard of a knuckle's size, label up, a second apart, and let it ring. Move the phone a hand's
-/// breadth between taps: that halves the ± of the loss factor. A furnished room; nobody speaks. The other plane of the
-/// grain has tones of its own: turn the bat a quarter for it, and read that recording by itself.
+/// breadth between taps: that halves the ± of the loss factor. A furnished room, and no speech. The other plane of the
+/// grain has other tones: turn the bat a quarter for it, and read that recording by itself.
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES), next_help_heading = "Output")]
 pub struct Args {

@@ -11,7 +11,7 @@ use crate::tones::{Ringing, Tone, tones};
 const HIGHEST: f64 = 0.42;
 /// Below this rate it is said (1/s).
 const LOW_RATE: f64 = 16_000.0;
-/// Clipped: so many of the large samples are near the largest, which is near full scale.
+/// Clipped: this share of the large samples is near the largest, which is near full scale.
 const CLIPPED: f64 = 0.08;
 const FULL: f64 = 0.95;
 /// Hiss that rises so far while a tap rings is gain control (dB).

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use crate::complex::Complex;
 
-/// Levels (dB) of the tone of that frequency (Hz) at so many moments of a stretch of samples, by windows of cos² of
+/// Levels (dB) of the tone of that frequency (Hz) at that number of moments of some samples, by windows of cos² of
 /// that length (s) which lie inside of it; with the moment of each window's middle (s).
 pub fn envelope(samples: &[f64], rate: f64, hz: f64, window: f64, moments: usize) -> Vec<[f64; 2]> {
     let length = ((window * rate) as usize).max(2);

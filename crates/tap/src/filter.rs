@@ -46,7 +46,7 @@ fn second_order(samples: &mut [f64], rate: f64, pass: Pass, damping: f64) {
     }
 }
 
-/// Levels of frames of so many samples (dB, of the mean square).
+/// Levels of frames of that many samples (dB, of the mean square).
 pub fn levels(samples: &[f64], frame: usize) -> Vec<f64> {
     let level = |frame: &[f64]| {
         let mean = frame.iter().map(|x| x * x).sum::<f64>() / frame.len() as f64;

@@ -128,7 +128,7 @@ impl Band {
         self.left(poles).iter().map(|x| x * x).sum()
     }
 
-    /// The share of the band's power that is none of these poles, of what is no ground.
+    /// The share of the band's power above the ground that these poles leave.
     pub fn misfit(&self, poles: &[Pole]) -> f64 {
         self.square(poles) / self.square(&[]).max(1e-300)
     }
@@ -140,7 +140,7 @@ impl Band {
         0.5 * ((alone - self.square(poles)).max(1e-300) / of_one.max(1e-300)).ln()
     }
 
-    /// Degrees of freedom beside so many poles.
+    /// Degrees of freedom beside that number of poles.
     fn freedom(&self, poles: usize) -> f64 {
         (2 * self.lines.len()).saturating_sub(2 * poles + 4).max(1) as f64
     }

@@ -23,7 +23,7 @@ const LONGEST: f64 = 1.2;
 /// Early and late windows, in decay times; the early one begins as the whole.
 const EARLY: f64 = 1.3;
 const LATE: [f64; 2] = [0.8, 2.5];
-/// Tones so many half bands away still bend a band's ground.
+/// Tones up to this number of half bands away bend a band's ground.
 const BESIDE: f64 = 2.0;
 /// Loss factors of a bat's tones.
 pub const LOSSES: [f64; 2] = [0.0008, 0.08];

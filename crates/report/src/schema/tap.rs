@@ -122,7 +122,7 @@ pub struct TapTone {
     pub level_db: f64,
     /// The other tone of a pair, of the other plane of the grain (Hz).
     pub twin_hz: Option<f64>,
-    /// Which mode it is; null for none of this bat.
+    /// Which mode it is; null where it is no mode of this bat.
     pub mode: Option<TapMode>,
     /// What the bat of the wood that was found has there (Hz).
     pub computed_hz: Option<f64>,

@@ -19,7 +19,7 @@ use sweetspot::modes::hoop::{Hoop, HoopMode};
 /// How far E of a metal, and the factor of the wall's tones, are open: standard deviations of logarithms.
 pub const METAL: f64 = 0.08;
 const WALL: f64 = 0.06;
-/// The search goes so many of them both ways, in steps of the logarithm of a frequency.
+/// How many of them the search goes both ways, in steps of the logarithm of a frequency.
 const REACH: f64 = 3.0;
 const STEP: f64 = 2e-3;
 /// What it costs to be a tone of the wall.

@@ -11,7 +11,7 @@ use crate::tap::hoops::{self, BatMode, metal};
 use sweetspot::base::error::{Error, Result};
 use sweetspot::bat::body::{Bat, STANDARD_PIVOT};
 
-/// So many lines whose mode is not told are labelled.
+/// The most lines whose mode is not told that are labelled.
 const MOST_UNTOLD: usize = 10;
 /// A tone is the one that was told if it is within this of it, relative.
 const NEAR: f64 = 0.01;
@@ -19,7 +19,7 @@ const NEAR: f64 = 0.01;
 /// What a tone is.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct ToneLabel {
-    /// The mode; None for none of this bat.
+    /// The mode; None where it is no mode of this bat.
     pub mode: Option<BatMode>,
     /// What the bat of the wood that was found has there (Hz).
     pub computed: Option<f64>,
