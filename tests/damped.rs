@@ -487,6 +487,52 @@ fn loss_factors_are_weighted_with_strain_energies() {
 }
 
 /// Where dashpots are too weak to matter the modes stay as they are, and the answer says so.
+/// What is lost in shear is the shear's part of the strain energy, which the frequency knows: by Rayleigh's quotient
+/// `U_shear/U = 2 d ln ω/d ln G`. On a dowel, and under a sleeve of another material without loss.
+#[test]
+fn a_loss_in_shear_meets_the_strain_energy_of_shear_alone() {
+    let sleeve = Region {
+        from: 0.0,
+        to: 0.3,
+        layup: Layup {
+            core: Some(Material { shear_modulus: Some(2e9), ..Material::new(300.0, 5e9).unwrap() }),
+            ..Layup::of(dowel(Fixtures::default(), 0.0).material().clone())
+        },
+    };
+    for regions in [vec![], vec![sleeve]] {
+        let bat = dowel(Fixtures { regions, ..Fixtures::default() }, 0.0);
+        let modes = |change: &dyn Fn(&mut Material)| {
+            let changed = bat.with(|parts| {
+                change(&mut parts.material);
+                parts
+                    .fixtures
+                    .regions
+                    .iter_mut()
+                    .for_each(|region| change(&mut region.layup.outer));
+            });
+            let request = Request { tolerance: 1e-11, ..request(4, Theory::Timoshenko) };
+            solve(&changed.unwrap(), &request).unwrap()
+        };
+        let stiffer = |by: f64| {
+            modes(&|m: &mut Material| m.shear_modulus = m.shear_modulus.map(|g| g * by)).modes
+        };
+        let [softer, stiffer] = [stiffer(0.999), stiffer(1.001)];
+        let [bent, sheared, both] =
+            [(0.01, 0.0), (0.0, 0.04), (0.01, 0.04)].map(|(bent, sheared)| {
+                let lossy = modes(&|m: &mut Material| {
+                    (m.loss_factor, m.shear_loss_factor) = (bent, Some(sheared));
+                });
+                lossy.damping.modes
+            });
+        for k in 0..4 {
+            let slope = (stiffer[k].omega / softer[k].omega).ln() / (1.001_f64 / 0.999).ln();
+            let found = sheared[k].ratio;
+            assert!((found / (0.04 * slope) - 1.0).abs() < 1e-4, "{k}: {found} {}", 0.04 * slope);
+            assert!((both[k].ratio / (bent[k].ratio + found) - 1.0).abs() < 1e-9, "{k}");
+        }
+    }
+}
+
 #[test]
 fn complex_modes_are_used_where_they_matter() {
     let kind = |damping: f64, tolerance: f64| {

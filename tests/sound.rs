@@ -93,9 +93,60 @@ fn what_was_assumed_for_a_sound_is_told_and_a_sound_needs_a_blow() {
     let bat = mesh("r161");
     let told = folder.text(&["ring", &bat, "--hit", "60 cm", "--wav", "a.wav"]);
     let told = told.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(told.contains("a loss factor of 0.01 is taken for the sound only"), "{told}");
+    assert!(told.contains("the sound alone takes an assumed 0.01"), "{told}");
     folder.write("shape.csv", "x_m,w_m\n0,0\n0.84,0.01\n");
     let output = folder.run(&["ring", &bat, "--initial", "shape.csv", "--wav", "b.wav"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(!folder.0.join("b.wav").exists());
+}
+
+/// The first hoop mode is the loudest of what an aluminium barrel sounds above 1 kHz, and is still there when wood is
+/// silent; D. A. Russell, Acoustics Today 13(4) (2017), tells it so.
+#[test]
+fn the_ping_of_an_aluminium_barrel_is_loud_and_outlasts_the_tones_of_wood() {
+    let folder = Folder::new("sound-ping");
+    let (metal, wood) = (mesh("northwestern_aluminium"), mesh("r161"));
+    let told: Value =
+        serde_json::from_str(&folder.text(&["hoop", &metal, "-n", "3", "--json", "-"])).unwrap();
+    let ping = told["modes"][0]["frequency_hz"].as_f64().unwrap();
+    let sound = |bat: &str, name: &str| {
+        folder.text(&["ring", bat, "--hit", "70 cm", "--wav", name, "--quiet"]);
+        samples(&std::fs::read(folder.0.join(name)).unwrap())
+    };
+    let [metal, wood] = [sound(&metal, "metal.wav"), sound(&wood, "wood.wav")];
+    let whole = &metal[..44_100];
+    let loudest = (1000..12_000).max_by(|a, b| {
+        let [a, b] = [*a, *b].map(|hertz| strength(whole, f64::from(hertz)));
+        a.total_cmp(&b)
+    });
+    assert!((f64::from(loudest.unwrap()) - ping).abs() < 1.0, "{loudest:?} {ping}");
+    // After 1 s the ping has most of itself, and wood has no hundredth of its loudest instant.
+    let late = |samples: &[f64]| {
+        samples.iter().skip(44_100).take(2205).fold(0.0_f64, |m, s| m.max(s.abs()))
+    };
+    let loud = |samples: &[f64]| samples.iter().fold(0.0_f64, |m, s| m.max(s.abs()));
+    assert!(late(&metal) > 0.1 * loud(&metal), "{} {}", late(&metal), loud(&metal));
+    assert!(late(&wood) < 0.01 * loud(&wood), "{} {}", late(&wood), loud(&wood));
+}
+
+#[test]
+fn assumed_damping_is_that_of_a_metal_and_is_named_and_wood_has_none() {
+    let folder = Folder::new("sound-assumed");
+    let (metal, wood) = (mesh("bbcor_made_up"), mesh("r161"));
+    let modes = |more: &[&str]| -> Value {
+        serde_json::from_str(&folder.text(&[&["modes", &metal, "--json", "-"], more].concat()))
+            .unwrap()
+    };
+    let [plain, assumed] = [modes(&[]), modes(&["--damping", "assumed"])];
+    let ratio = |told: &Value| told["modes"][0]["damping_ratio"].as_f64().unwrap();
+    assert_eq!([ratio(&plain), ratio(&assumed)], [0.0, 0.5e-4]);
+    let named = |told: &Value| told["model"]["ignored"].to_string().contains("0.0001 of the metal");
+    assert!(!named(&plain) && named(&assumed));
+    let output = folder.run(&["modes", &wood, "--damping", "assumed"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("loss_factor"));
+    let output = folder.run(&["modes", &metal, "--damping", "measured"]);
+    assert_eq!(output.status.code(), Some(2));
+    let output = folder.run(&["frf", &metal, "--at", "0.7 m", "--damping", "measured"]);
+    assert_eq!(output.status.code(), Some(2));
 }

@@ -13,7 +13,8 @@ use sweetspot::collision::ball::Ball;
 use sweetspot::collision::hit::Effort;
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::hoop_wall::heard;
-use sweetspot::motion::sound::{Sound, TAP, WallTone, WallTones};
+use sweetspot::motion::sound::{ASSUMED_LOSS, Sound, TAP, WallTone, WallTones, as_heard};
+use sweetspot_study::ignored::damping_in_sound;
 
 use crate::asked::{Question, request};
 use crate::hit::Solved;
@@ -44,11 +45,12 @@ pub fn answer(of: &Question) -> Result<Value> {
     let of_held = Question { bat: held, ..of.clone() };
     let solved = Solved::new(&of_held, asked, false)?;
     let Solved { bat, solution, scene, model, .. } = &solved;
-    let wall = wall(&of.bat, &of.text, &scene.ball);
+    let (_, heard) = as_heard(bat, solution)?;
+    let wall = wall(&of.bat, &of.text, &scene.ball)?;
     let wall = wall.as_ref().map(|wall| &**wall as WallTones);
     let sound = match of.said("blow") {
-        None | Some("tap") => Sound::of_blow(solution, x, [1.0, TAP], wall),
-        Some("finger") => Sound::of_blow(solution, x, [1.0, FINGER], wall),
+        None | Some("tap") => Sound::of_blow(&heard, x, [1.0, TAP], wall),
+        Some("finger") => Sound::of_blow(&heard, x, [1.0, FINGER], wall),
         Some("ball") => {
             let hitter = Hitter::new(*model, scene, bat, solution, Effort::default())?;
             let force = hitter.force(x).ok_or_else(|| {
@@ -58,24 +60,23 @@ pub fn answer(of: &Question) -> Result<Value> {
                     "a place further out",
                 )
             })?;
-            Aftermath::new(bat, solution, x, force).sound(solution, wall)
+            Aftermath::new(bat, solution, x, force).sound(&heard, wall)
         }
         Some(other) => return Err(Error::value("blow", other, "tap, finger or ball")),
     };
-    let assumed = sound.assumed_loss_factor.map(|loss| {
-        format!("The damping of this material is not known: a loss factor of {loss} is assumed for the sound.")
-    });
+    let assumed = damping_in_sound(&of.bat).map(|told| format!("Damping: {told}."));
     Ok(json!({ "tones": sound.tones, "loudest_m_s2": sound.loudest_m_s2, "assumed": assumed }))
 }
 
 /// The tones of the barrel's wall, if it rings.
-fn wall(bat: &Bat, text: &str, ball: &Ball) -> Option<Tones> {
+fn wall(bat: &Bat, text: &str, ball: &Ball) -> Result<Option<Tones>> {
     let key = format!("{} {text}", ball.name);
     let known = WALL.with_borrow(|wall| wall.clone().filter(|(known, _)| *known == key));
     if let Some((_, tones)) = known {
-        return Some(tones);
+        return Ok(Some(tones));
     }
-    let tones: Tones = Rc::new(heard(bat, ball)?);
+    let Some(tones) = heard(&bat.with_losses(ASSUMED_LOSS)?, ball) else { return Ok(None) };
+    let tones: Tones = Rc::new(tones);
     WALL.set(Some((key, Rc::clone(&tones))));
-    Some(tones)
+    Ok(Some(tones))
 }

@@ -325,21 +325,34 @@ impl Bat {
     /// Whether a material of the bat has a loss factor.
     pub fn lossy(&self) -> bool {
         let mut layups = self.parts.profile.pieces.iter().map(|piece| self.layup(piece));
-        layups.any(|layup| layup.materials().any(|material| material.loss_factor > 0.0))
+        layups.any(|layup| layup.materials().any(Material::lossy))
     }
 
-    /// The bat with materials that lose nothing.
+    /// The bat with materials that have these loss factors in bending and in shear.
     ///
     /// # Errors
     ///
     /// Those of [`Self::with`].
-    pub fn lossless(&self) -> Result<Self> {
+    pub fn losing(&self, loss: impl Fn(&Material) -> [f64; 2]) -> Result<Self> {
         self.with(|parts| {
-            parts.material.loss_factor = 0.0;
             let layups = parts.fixtures.regions.iter_mut().map(|region| &mut region.layup);
             let materials = layups.flat_map(|layup| layup.materials_mut());
-            materials.for_each(|material| material.loss_factor = 0.0);
+            for material in materials.chain([&mut parts.material]) {
+                let [bent, sheared] = loss(material);
+                material.loss_factor = bent;
+                material.shear_loss_factor = (sheared != bent).then_some(sheared);
+            }
         })
+    }
+
+    /// The bat whose materials without a loss factor have the one that is published of their kind, else that one.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Self::with`].
+    pub fn with_losses(&self, unknown: f64) -> Result<Self> {
+        let loss = |material: &Material| material.published_loss().unwrap_or(unknown);
+        self.losing(|m| if m.lossy() { m.losses() } else { [loss(m); 2] })
     }
 
     /// Whether anything damps the bat; else it rings without end after a hit.

@@ -229,24 +229,10 @@ impl Layup {
     /// E. E. Ungar, E. M. Kerwin, J. Acoust. Soc. Am. 34 (1962) 954: the loss factor of a
     /// composite is the mean of the parts' weighted with their strain energies.
     pub fn loss(&self, section: Section) -> [f64; 2] {
-        let own = self.outer.loss_factor;
-        if !self.sleeves.is_empty() {
-            return self.loss_of_all(section);
+        let of_wall = self.outer.losses();
+        if self.materials().all(|material| material.losses() == of_wall) {
+            return of_wall;
         }
-        let Some(core) = self.core.as_ref().filter(|core| core.loss_factor != own) else {
-            return [own; 2];
-        };
-        let inside = core.youngs_modulus * section.bore().second_moment();
-        let share = inside / self.bending_and_mass(section)[0];
-        let [outer, inner] = self.shears(section);
-        // Of two that do not give way in shear neither has a share.
-        let sheared = if outer.is_finite() { inner / (outer + inner) } else { 0.0 };
-        let sheared = if sheared.is_finite() { sheared } else { 1.0 };
-        [share, sheared].map(|share| own + share * (core.loss_factor - own))
-    }
-
-    /// [`Self::loss`] with sleeves around the wall.
-    fn loss_of_all(&self, section: Section) -> [f64; 2] {
         let wall = self.wall(section);
         let [outer, core] = self.shears(wall);
         let inside = |core: &Material| core.youngs_modulus * wall.bore().second_moment();
@@ -255,17 +241,17 @@ impl Layup {
         let bent =
             bent.chain(self.rings(wall).map(|(m, ring)| m.youngs_modulus * ring.second_moment()));
         let sheared = [outer, core].into_iter().chain(self.shears_of_sleeves(wall));
-        let of_core = self.core.as_ref().map_or(0.0, |core| core.loss_factor);
-        let losses = [self.outer.loss_factor, of_core].into_iter();
-        let losses = losses.chain(self.sleeves.iter().map(|sleeve| sleeve.material.loss_factor));
-        let mean = |stiff: Vec<f64>| {
+        let of_core = self.core.as_ref().map_or([0.0; 2], Material::losses);
+        let of_sleeves = self.sleeves.iter().map(|sleeve| sleeve.material.losses());
+        let losses = [of_wall, of_core].into_iter().chain(of_sleeves);
+        let mean = |strain: usize, stiff: Vec<f64>| {
             // Of two that do not give way in shear neither has a share.
             let finite = stiff.iter().all(|k| k.is_finite());
             let whole: f64 = stiff.iter().sum();
-            let sum: f64 = losses.clone().zip(&stiff).map(|(loss, k)| loss * k / whole).sum();
-            if finite { sum } else { self.outer.loss_factor }
+            let parts = losses.clone().zip(&stiff).map(|(loss, k)| loss[strain] * k / whole);
+            if finite { parts.sum() } else { of_wall[strain] }
         };
-        [mean(bent.collect()), mean(sheared.collect())]
+        [mean(0, bent.collect()), mean(1, sheared.collect())]
     }
 
     /// The material at the surface.

@@ -22,8 +22,11 @@ pub struct Material {
     pub density: f64,
     /// Young's modulus E (Pa).
     pub youngs_modulus: f64,
-    /// Loss factor η; a mode's damping ratio is ζ = η/2.
+    /// Loss factor η in bending; a mode's damping ratio is ζ = η/2.
     pub loss_factor: f64,
+    /// Loss factor η in shear, if it is another: that of wood is larger. A barrel's wall has that in bending alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shear_loss_factor: Option<f64>,
     /// Shear modulus G (Pa), if known.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shear_modulus: Option<f64>,
@@ -103,6 +106,7 @@ impl Material {
             poisson_ratio: None,
             shear_coefficient: None,
             loss_factor: 0.0,
+            shear_loss_factor: None,
             strength: None,
             strain_to_failure: None,
             hoop_modulus: None,
@@ -110,6 +114,23 @@ impl Material {
             shear_moduli: None,
             poisson_ratios: None,
         }
+    }
+
+    /// Loss factors in bending and in shear.
+    pub fn losses(&self) -> [f64; 2] {
+        [self.loss_factor, self.shear_loss_factor.unwrap_or(self.loss_factor)]
+    }
+
+    /// Whether it has a loss factor.
+    pub fn lossy(&self) -> bool {
+        self.losses() != [0.0; 2]
+    }
+
+    /// The loss factor that is published of its kind: of a metal, which is denser than glass fibre and alike in all
+    /// directions, that of aluminium. None of wood and of composites: no source of theirs was found.
+    pub fn published_loss(&self) -> Option<f64> {
+        let metal = self.density > GLASS && self.hoop_modulus.is_none();
+        BUILT_IN.iter().filter(|_| metal).find_map(|built_in| built_in.loss_factor)
     }
 
     /// Poisson's ratio for κ: the material's own, of a composite that of the plane of its wall, else 0.3.
@@ -207,6 +228,8 @@ impl Material {
     }
 }
 
+/// As heavy as glass fibre in resin (kg/m³).
+const GLASS: f64 = 2200.0;
 /// Metals: heavier than this (kg/m³), and with a stiffness over density (m²/s²) within these.
 const METAL: f64 = 1700.0;
 const OF_METALS: [f64; 2] = [20e6, 30e6];
@@ -231,9 +254,8 @@ impl Material {
     /// metal, as a hollow bat is that is taken for a solid one; or heavier than glass fibre and softer for its
     /// weight than any metal of bats.
     pub(crate) fn no_material(&self) -> Option<String> {
-        /// As heavy as the heaviest woods, and as glass fibre in resin (kg/m³).
+        /// As heavy as the heaviest woods (kg/m³).
         const WOODS: f64 = 1200.0;
-        const GLASS: f64 = 2200.0;
         let (density, modulus) = (self.density, self.youngs_modulus);
         let told = |hint: &str| {
             let [density, modulus] = [density, 1e-9 * modulus].map(|v| significant(v, 4));
@@ -275,6 +297,8 @@ pub struct BuiltIn {
     pub shear_modulus: Option<f64>,
     /// Stress at which it breaks in bending (Pa), if known.
     pub strength: Option<f64>,
+    /// Loss factor η in bending, if known.
+    pub loss_factor: Option<f64>,
     /// Strain at which it breaks in a blow, if known.
     pub strain_to_failure: Option<f64>,
     /// Where strength and strain to failure come from; empty where neither is known.

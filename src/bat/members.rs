@@ -66,6 +66,7 @@ impl Part for Material {
         ratio!(poisson_ratio, POISSON).like("0.33"),
         ratio!(shear_coefficient, Range::Positive).like("0.9"),
         ratio!(loss_factor, LOSS).like("0.01"),
+        ratio!(shear_loss_factor, LOSS).like("0.02"),
         number!(strength, Pressure, Range::Positive).like("103 MPa"),
         ratio!(strain_to_failure, STRAIN).like("0.02"),
         number!(hoop_modulus, Pressure, Range::Positive)

@@ -167,11 +167,10 @@ impl fmt::Display for DampingMethod {
 /// [`crate::Error::NotConverged`] if the modes, or those of the damped bat, cannot be found again.
 pub fn damping(bat: &Bat, elements: Elements, modes: &[Mode], tolerance: f64) -> Result<Damping> {
     let dashpots = bat.fixtures().damping();
-    let own = bat.material().loss_factor;
+    let [own, sheared] = bat.material().losses();
     let mut materials = bat.layups().iter().flat_map(|layup| layup.materials());
-    let alike = materials.all(|material| material.loss_factor == own);
-    let lossless = alike && own == 0.0;
-    if modes.is_empty() || (lossless && !dashpots) {
+    let alike = own == sheared && materials.all(|material| material.losses() == [own; 2]);
+    if modes.is_empty() || (alike && own == 0.0 && !dashpots) {
         return Ok(Damping::default());
     }
     if alike && bat.fixtures().none_moving() && !dashpots {

@@ -81,6 +81,11 @@ impl BatArgs {
         self.count.is_some() || self.up_to.is_some()
     }
 
+    /// Whether `--damping` is that.
+    pub fn damped_as(&self, whose: &str) -> bool {
+        self.edits.damped_as(whose)
+    }
+
     /// The bat's file.
     pub fn path(&self) -> &Path {
         &self.bat

@@ -50,24 +50,45 @@ const OPTIONS: [[&str; 4]; 9] = [
     ["wood", "NAME", "Make the bat of another wood", "white-ash-dynamic"],
 ];
 
-/// What is changed about the bat after it was weighed, in the order typed.
+/// The option that says whose damping the bat has.
+pub const DAMPING: &str = "damping";
+
+/// What is changed about the bat after it was weighed, in the order typed, and whose damping it has.
 #[derive(Debug, Clone, Default)]
-pub struct EditArgs(Vec<Change>);
+pub struct EditArgs {
+    changes: Vec<Change>,
+    /// What `--damping` says.
+    damping: Option<String>,
+}
 
 impl EditArgs {
-    /// The bat after these edits.
+    /// The bat after these edits, with the damping that was asked for.
     ///
     /// # Errors
     ///
     /// [`Error::Value`] that names the option of what does not fit the bat.
     pub fn edit(&self, bat: Bat) -> Result<Bat> {
-        if self.0.is_empty() {
+        let change = |change: &Change| Edit { name: None, change: change.clone() };
+        let edits: Vec<Edit> = self.changes.iter().map(change).collect();
+        let called = |k: usize| format!("--{}", option(edits[k].change.verb()));
+        let bat = edited(&bat, &edits, called)?;
+        if !self.damped_as("assumed") || bat.lossy() {
             return Ok(bat);
         }
-        let edits: Vec<Edit> =
-            self.0.iter().map(|change| Edit { name: None, change: change.clone() }).collect();
-        let called = |k: usize| format!("--{}", option(edits[k].change.verb()));
-        edited(&bat, &edits, called)
+        let assumed = bat.with_losses(0.0)?;
+        match assumed.lossy() {
+            true => Ok(assumed),
+            false => Err(Error::value(
+                "--damping",
+                "assumed, of a bat without a material whose loss factor is published (sweetspot materials)",
+                "a \"loss_factor\" of the material in the bat file",
+            )),
+        }
+    }
+
+    /// Whether that damping was asked for.
+    pub fn damped_as(&self, whose: &str) -> bool {
+        self.damping.as_deref() == Some(whose)
     }
 }
 
@@ -101,7 +122,15 @@ fn option(verb: &str) -> String {
 
 impl clap::Args for EditArgs {
     fn augment_args(command: Command) -> Command {
-        OPTIONS.into_iter().fold(command, |command, [name, value, help, example]| {
+        let damping = Arg::new(DAMPING)
+            .long(DAMPING)
+            .value_name("WHOSE")
+            .help("Damping by the materials: material, or assumed: where the file gives none, what is published of its kind")
+            .help_heading("What if (edits of the bat, after it was weighed, in the order typed)")
+            .hide_short_help(true)
+            .hide_possible_values(true)
+            .value_parser(["material", "assumed"]);
+        OPTIONS.into_iter().fold(command.arg(damping), |command, [name, value, help, example]| {
             let arg = Arg::new(name)
                 .long(name)
                 .value_name(value)
@@ -132,7 +161,8 @@ impl FromArgMatches for EditArgs {
             typed.extend(places.zip(changes));
         }
         typed.sort_by_key(|(place, _)| *place);
-        Ok(Self(typed.into_iter().map(|(_, change)| change).collect()))
+        let changes = typed.into_iter().map(|(_, change)| change).collect();
+        Ok(Self { changes, damping: matches.get_one::<String>(DAMPING).cloned() })
     }
 
     fn update_from_arg_matches(

@@ -18,9 +18,10 @@ use uff58::Stamp;
 use crate::beside::PlacesArgs;
 use crate::common::{BatArgs, Prepared, SolveArgs, about, examples, on_the_bat};
 use crate::done::Done;
+use crate::edits::DAMPING;
 use crate::frf_grid::{Grid, GridArgs};
 use crate::output::{CsvArgs, MANY, OutputArgs, apart, put};
-use crate::value::{PLACE, choice, file_unit, named};
+use crate::value::{PLACE, file_unit, named};
 
 /// How the bat answers a shaker or a tap, over frequency
 ///
@@ -29,9 +30,12 @@ use crate::value::{PLACE, choice, file_unit, named};
 /// a unit force, the peaks with their damping, and how much of it the modes left out may be. With --full,
 /// --points or --frequencies it has every frequency, else some. The grid has every natural frequency in its
 /// range and the points around it that its peak needs.
-/// Undamped bats peak without bound at their frequencies: give the material a loss_factor.
+/// Undamped bats peak without bound at their frequencies: give the material a loss_factor, or --damping assumed.
 #[derive(clap::Args)]
-#[command(after_long_help = examples(EXAMPLES))]
+#[command(after_long_help = examples(EXAMPLES), mut_arg(DAMPING, |arg| arg
+    .value_parser(["material", "assumed", "measured"])
+    .help("Damping of the computed modes: material, assumed (what is published of its kind), or measured: that of \
+           the measured peaks, mode by mode")))]
 pub struct Args {
     #[command(flatten)]
     bat: BatArgs,
@@ -73,14 +77,6 @@ pub struct Args {
     #[command(flatten)]
     places: PlacesArgs,
 
-    /// Damping of the computed modes: material, or measured: that of the measured peaks, mode by mode
-    #[arg(long, value_name = "WHOSE", requires = "measured", default_value = "material", hide_possible_values = true,
-          value_parser = choice(&["material", "measured"], |name| match name {
-              "measured" => DampedBy::Measured,
-              _ => DampedBy::Material,
-          }), help_heading = "A measured response")]
-    damping: DampedBy,
-
     #[command(flatten)]
     csv: CsvArgs,
 
@@ -120,17 +116,14 @@ Examples:
   sweetspot frf r161 --measured tap.uff
       a laboratory's universal file laid over the computed response";
 
-/// Whose damping the computed modes have.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum DampedBy {
-    Material,
-    Measured,
-}
-
 pub fn run(args: &Args) -> Result<Done> {
     args.solve.refuse_budget("frf")?;
     let files = [("--json", &args.output.json), ("--csv", &args.csv.csv), ("--uff", &args.uff)];
     apart(&files)?;
+    if args.bat.damped_as("measured") && args.measured.is_none() {
+        let expected = "--measured FILE with it, whose peaks tell the damping";
+        return Err(Error::value("--damping", "measured, and nothing that was", expected));
+    }
     let bat = args.bat.read(&args.output)?;
     let known = known(args)?;
     let measured = args.measured.as_ref().map(|path| response::read(path, &known)).transpose()?;
@@ -177,7 +170,7 @@ impl Answered {
     ) -> Result<Self> {
         let places = places(args, bat, measured)?;
         let own = Self::damped(args, (bat, request), measured, (places, None))?;
-        let Some(laid) = own.laid.as_ref().filter(|_| args.damping == DampedBy::Measured) else {
+        let Some(laid) = own.laid.as_ref().filter(|_| args.bat.damped_as("measured")) else {
             return Ok(own);
         };
         let mut ratios = vec![None; own.frf.solution.modes.len()];
@@ -191,7 +184,7 @@ impl Answered {
             let found = "no measured peak whose width tells its damping";
             return Err(Error::value(source, found, "--damping material, or finer frequencies"));
         }
-        Self::damped(args, (&bat.lossless()?, request), measured, (places, Some(&ratios)))
+        Self::damped(args, (&bat.losing(|_| [0.0; 2])?, request), measured, (places, Some(&ratios)))
     }
 
     /// With these damping ratios of the modes in place of the materials'.

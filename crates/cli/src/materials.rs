@@ -85,7 +85,10 @@ fn table(units: Units) -> String {
         out += &format!("{line}\n");
         out += &wrapped(&format!("  {}", material.source), 2);
         out += &strength(material, units);
-        out += "  no loss factor known: undamped\n";
+        out += &match material.loss_factor {
+            Some(loss) => format!("  loss factor {loss}, where damping is assumed and in sounds\n"),
+            None => "  no loss factor known: undamped\n".to_owned(),
+        };
     }
     out
 }

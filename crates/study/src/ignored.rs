@@ -3,10 +3,12 @@
 //! [`ignored`](fn@ignored) says it in sentences, [`shifts`] in numbers.
 
 use sweetspot::bat::body::Bat;
+use sweetspot::bat::material::Material;
 use sweetspot::collision::hit::Scene;
 use sweetspot::collision::hoop_wall::{HoopInHit, WhyRigid, barrel_walls};
 use sweetspot::modes::shifts::typical_shear;
 use sweetspot::modes::solve::Solution;
+use sweetspot::motion::sound::ASSUMED_LOSS;
 
 pub use sweetspot::modes::shifts::{Shift, shift, shifts, solved_shifts, with_typical_shear};
 
@@ -66,9 +68,13 @@ pub fn ignored(bat: &Bat, solution: &Solution) -> Vec<String> {
                 .to_owned(),
         );
     }
-    if !bat.lossy() {
-        let unknown = "damping by the material: no loss factor known, undamped";
-        ignored.push(format!("{unknown} (\"loss_factor\" in the bat file)"));
+    match bat.lossy() {
+        true => ignored.extend(published_damping(bat)),
+        false => ignored.push(
+            "damping by the material: undamped, the bat file gives no \"loss_factor\" (--damping assumed takes that of a \
+             metal)"
+                .to_owned(),
+        ),
     }
     if bat.fixtures().grip.is_none() {
         ignored.push("hands (add a \"grip\" to the bat file to model them)".to_owned());
@@ -80,6 +86,34 @@ pub fn ignored(bat: &Bat, solution: &Solution) -> Vec<String> {
         None => "hoop modes of hollow barrels: not a beam's, and not modelled".to_owned(),
     });
     ignored
+}
+
+/// What is left out where a metal has the loss factor that is published of its kind.
+fn published_damping(bat: &Bat) -> Option<String> {
+    let mut materials = bat.layups().iter().flat_map(|layup| layup.materials());
+    let published = |m: &Material| m.published_loss().filter(|loss| m.losses() == [*loss; 2]);
+    let loss = materials.find_map(published)?;
+    Some(format!(
+        "damping by grip, plugs and joints: the loss factor {loss} of the metal is that of aluminium alone \
+         (sweetspot materials names its source)"
+    ))
+}
+
+/// What is taken in the sound of a bat whose materials have no loss factor, in words; None where all have one.
+pub fn damping_in_sound(bat: &Bat) -> Option<String> {
+    let materials = || bat.layups().iter().flat_map(|layup| layup.materials());
+    let mut taken: Vec<(bool, f64)> = (materials().filter(|material| !material.lossy()))
+        .map(|m| (m.published_loss().is_some(), m.published_loss().unwrap_or(ASSUMED_LOSS)))
+        .collect();
+    taken.sort_by(|a, b| b.0.cmp(&a.0));
+    taken.dedup();
+    let told = |(published, loss): &(bool, f64)| match published {
+        true => format!("{loss} for the metal, which is published of aluminium"),
+        false => format!("an assumed {loss} for what has none"),
+    };
+    let told: Vec<String> = taken.iter().map(told).collect();
+    let told = (!told.is_empty()).then(|| told.join(" and "))?;
+    Some(format!("the bat file gives no loss factor: the sound alone takes {told}"))
 }
 
 /// The thinnest wall (m) of the outer half of the bat, where a ball is hit, and its place (m); None
@@ -96,8 +130,13 @@ pub fn thinnest_wall(bat: &Bat) -> Option<[f64; 2]> {
 /// For the direction: A. M. Nathan, D. A. Russell, L. V. Smith, "The physics of the trampoline effect
 /// in baseball and softball bats", Engineering of Sport 5 (2004).
 pub fn in_hit(bat: &Bat, scene: &Scene) -> Vec<String> {
+    published_damping(bat).into_iter().chain(wall_left_out(bat, scene)).collect()
+}
+
+/// What is left out where the wall of a hollow barrel is taken as rigid.
+pub fn wall_left_out(bat: &Bat, scene: &Scene) -> Option<String> {
     let rigid = thinnest_wall(bat).filter(|_| !scene.wall_gives_way());
-    let Some([wall, x]) = rigid else { return vec![] };
+    let [wall, x] = rigid?;
     let barrel = format!(
         "the wall of this hollow barrel ({:.1} mm at its thinnest, {:.0} cm from the knob) is rigid here",
         1e3 * wall,
@@ -106,7 +145,7 @@ pub fn in_hit(bat: &Bat, scene: &Scene) -> Vec<String> {
     let faster = "a thin one gives way under the ball and spares it a loss, so that the ball leaves \
                   faster and BBCOR is larger than computed";
     let given = "--wall-stiffness and --wall-mass put in what is known of it";
-    vec![match &scene.hoop {
+    Some(match &scene.hoop {
         HoopInHit::LeftOut(WhyRigid::Small { gain, tolerance }) => format!(
             "{barrel}: giving way it would change BBCOR by about {gain:.0e}, less than the \
              {tolerance:.0e} asked for; --wall on counts its hoop modes"
@@ -125,5 +164,5 @@ pub fn in_hit(bat: &Bat, scene: &Scene) -> Vec<String> {
             format!("{barrel}: {faster}; its hoop modes could not be found ({why}), {given}")
         }
         HoopInHit::None | HoopInHit::Counted(_) => format!("{barrel}: {faster}; {given}"),
-    }]
+    })
 }

@@ -3,7 +3,7 @@
 //! Computed once: [`Verdict::of`] a hit, and read by every screen that tells of it, so that no screen is more
 //! certain than another.
 
-use crate::ignored::{SHEAR, ignored, in_hit, thinnest_wall};
+use crate::ignored::{SHEAR, ignored, thinnest_wall, wall_left_out};
 use sweetspot::bat::body::Bat;
 use sweetspot::collision::answer::LATER;
 use sweetspot::collision::hit::{Impact, Scene};
@@ -109,5 +109,5 @@ pub fn rigid_wall(bat: &Bat, scene: &Scene) -> Option<String> {
         return None;
     }
     thinnest_wall(bat).filter(|_| !scene.wall_gives_way())?;
-    in_hit(bat, scene).pop()
+    wall_left_out(bat, scene)
 }

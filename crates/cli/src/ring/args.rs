@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use sweetspot::base::file;
 use sweetspot::collision::ball::Ball;
 use sweetspot::collision::hoop_wall::heard;
-use sweetspot::motion::sound::{Sound, WallTones};
+use sweetspot::motion::sound::{Sound, WallTones, as_heard};
 use sweetspot::{Bat, Result, Solution};
 use sweetspot_report::exchange::wav;
-use sweetspot_study::ignored::thinnest_wall;
+use sweetspot_study::ignored::{damping_in_sound, thinnest_wall};
 
 use crate::common::{BatArgs, SolveArgs, examples};
 use crate::output::OutputArgs;
@@ -144,24 +144,19 @@ Examples:
 /// back.
 pub fn write_sound(
     path: &Path,
-    bat: &Bat,
+    (bat, solution): (&Bat, &Solution),
     ball: &Ball,
-    sound: impl FnOnce(Option<WallTones>) -> Sound,
+    sound: impl FnOnce(&Solution, Option<WallTones>) -> Sound,
 ) -> Result<Vec<String>> {
-    let wall = heard(bat, ball);
-    let sound = sound(wall.as_ref().map(|wall| wall as WallTones));
+    let (heard_bat, solution) = as_heard(bat, solution)?;
+    let wall = heard(&heard_bat, ball);
+    let sound = sound(&solution, wall.as_ref().map(|wall| wall as WallTones));
     file::write(path, &wav::file(&sound.samples(wav::RATE)))?;
-    let assumed = sound.assumed_loss_factor.map(|loss| {
-        format!(
-            "the material has no damping of its own; a loss factor of {loss} is taken for the sound only \
-             (give the material a \"loss_factor\")"
-        )
-    });
     let ping = thinnest_wall(bat).filter(|_| wall.is_none()).map(|_| {
         "the ping of this hollow barrel is not in it: the hoop modes of its wall cannot be found"
             .to_owned()
     });
-    Ok(assumed.into_iter().chain(ping).collect())
+    Ok(damping_in_sound(bat).into_iter().chain(ping).collect())
 }
 
 /// The period of mode 1 (s), or what is near that of most bats where there is no mode.

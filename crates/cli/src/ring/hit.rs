@@ -53,10 +53,9 @@ pub fn run(args: &Args, bat: Bat, x: f64) -> Result<Done> {
         load.reached_at_swing_rad_s =
             breaking_swing(&bat, &solution, (&scene, effort), (x, until), load.limit);
     }
-    let sound = args
-        .wav
-        .as_ref()
-        .map(|path| write_sound(path, &bat, &scene.ball, |wall| after.sound(&solution, wall)));
+    let sound = args.wav.as_ref().map(|path| {
+        write_sound(path, (&bat, &solution), &scene.ball, |of, wall| after.sound(of, wall))
+    });
     let heard = sound.transpose()?.into_iter().flatten();
     let heard: String = heard.map(|told| wrapped(&format!("Sound: {told}"), 2)).collect();
     args.output.draw(&args.plots, &bat, |sheet| Ok(drawn(sheet, &bat, &after, &report)))?;

@@ -37,8 +37,9 @@ pub fn run(args: &Args, bat: Bat) -> Result<Done> {
     };
     let x = places(args, &bat);
     if let Some((path, (x, impulse))) = args.wav.as_ref().zip(args.at.zip(args.impulse)) {
-        let sound = |wall: Option<WallTones>| Sound::of_blow(&solution, x, [impulse, 0.0], wall);
-        for told in write_sound(path, &bat, &Ball::baseball(), sound)? {
+        let sound =
+            |of: &Solution, wall: Option<WallTones>| Sound::of_blow(of, x, [impulse, 0.0], wall);
+        for told in write_sound(path, (&bat, &solution), &Ball::baseball(), sound)? {
             args.output.warn(&format!("note: {told}"));
         }
     }

@@ -16,7 +16,8 @@ use crate::plot::sets::of_analysis;
 use crate::report::{edits, hit_text, hoop, hoop_notes, lathe};
 use sweetspot::base::{error::Result, number::rounded};
 use sweetspot::collision::{Hitter, Model, aftermath::Aftermath, hoop_wall::heard};
-use sweetspot::motion::sound::{Sound, WallTones};
+use sweetspot::motion::sound::{Sound, WallTones, as_heard};
+use sweetspot_study::ignored::damping_in_sound;
 use sweetspot_study::lathe::map::LatheMap;
 
 /// What a report is made from.
@@ -194,7 +195,10 @@ impl<'a> Report<'a> {
             (true, _) => Part::Missing(NO_FORCE),
         };
         let (tap, hit) = &self.sounds;
-        vec![film, Part::Moving(players::sounds(tap, hit.as_ref()))]
+        vec![
+            film,
+            Part::Moving(players::sounds(tap, hit.as_ref(), damping_in_sound(&self.analysis.bat))),
+        ]
     }
 
     fn more(&'a self, units: Units) -> Vec<Part<'a>> {
@@ -300,7 +304,8 @@ fn cuts(map: &LatheMap, units: Units) -> Vec<String> {
 /// A tap on the tip, and the hit at the sweet spot where its force is known.
 fn sounds(analysis: &Analysis) -> Result<(Sound, Option<Sound>)> {
     let Analysis { bat, solution, task, hits, figures, .. } = analysis;
-    let wall = heard(bat, &task.scene.ball);
+    let (heard_bat, tapped) = as_heard(bat, solution)?;
+    let wall = heard(&heard_bat, &task.scene.ball);
     let wall = wall.as_ref().map(|wall| wall as WallTones);
     let short = |mut sound: Sound| {
         for tone in &mut sound.tones {
@@ -309,11 +314,12 @@ fn sounds(analysis: &Analysis) -> Result<(Sound, Option<Sound>)> {
         }
         sound
     };
-    let tap = short(Sound::of_tap(solution, wall));
+    let tap = short(Sound::of_tap(&tapped, wall));
     let Some(best) = figures.spot.exit_speed_max else { return Ok((tap, None)) };
     let hitter = Hitter::new(task.model, &task.scene, bat, &hits.solution, hits.effort)?;
+    let (_, struck) = as_heard(bat, &hits.solution)?;
     let hit = hitter.force(best.x).map(|force| {
-        short(Aftermath::new(bat, &hits.solution, best.x, force).sound(&hits.solution, wall))
+        short(Aftermath::new(bat, &hits.solution, best.x, force).sound(&struck, wall))
     });
     Ok((tap, hit))
 }

@@ -54,7 +54,7 @@ pub fn moment(moments: &[Moment]) -> String {
 }
 
 /// Buttons that let the bat be heard.
-pub fn sounds(tap: &Sound, hit: Option<&Sound>) -> String {
+pub fn sounds(tap: &Sound, hit: Option<&Sound>, damping: Option<String>) -> String {
     if tap.tones.is_empty() {
         return String::new();
     }
@@ -62,17 +62,10 @@ pub fn sounds(tap: &Sound, hit: Option<&Sound>) -> String {
         format!("<button type=\"button\" class=\"hear\" data-sound=\"{key}\">{words}</button>\n")
     };
     let hit = hit.map_or(String::new(), |_| button("hit", "Hear the hit"));
-    let loss = match tap.assumed_loss_factor {
-        Some(loss) => {
-            format!(
-                " The material has no damping of its own: the sound takes a loss factor of {loss}."
-            )
-        }
-        None => String::new(),
-    };
+    let damping = damping.map_or(String::new(), |told| format!(" Damping: {told}."));
     format!(
         "<div class=\"sounds moving\">\n<div class=\"controls\">\n{hit}{}</div>\n\
-         <p class=\"remark\">The modes of the bat and of a hollow barrel's wall, as they ring and die out where it is struck.{loss}</p>\n\
+         <p class=\"remark\">The modes of the bat and of a hollow barrel's wall, as they ring and die out where it is struck.{damping}</p>\n\
          </div>\n",
         button("tap", "Hear a tap on the tip")
     )

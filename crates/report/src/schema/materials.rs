@@ -36,6 +36,9 @@ pub struct Listed {
     pub shear_modulus_pa: Option<f64>,
     /// Stress at which it breaks in bending (Pa), if known.
     pub strength_pa: Option<f64>,
+    /// Loss factor in bending, if known; it is used where damping is assumed, and in sounds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub loss_factor: Option<f64>,
     /// Strain at which it breaks in a blow, if known.
     pub strain_to_failure: Option<f64>,
     /// Where strength and strain to failure come from; empty where neither is known.
@@ -53,6 +56,7 @@ impl MaterialsFile {
             youngs_modulus_pa: m.youngs_modulus,
             shear_modulus_pa: m.shear_modulus,
             strength_pa: m.strength,
+            loss_factor: m.loss_factor,
             strain_to_failure: m.strain_to_failure,
             strength_source: m.strength_source,
             source: m.source,
