@@ -78,7 +78,7 @@ fn heard<T: Send + 'static>(
         }
     });
     let Ok(thread) = begun else {
-        // Where no thread can be started nobody listens.
+        // Without a thread an interrupt is not noticed.
         let work = work.lock().unwrap_or_else(PoisonError::into_inner).take();
         let found = work.map(|work| py.detach(|| work(&stop)));
         return found.ok_or_else(|| PyRuntimeError::new_err("nothing was made"));

@@ -59,7 +59,7 @@ pub fn read(path: &Path) -> Result<Vec<u8>> {
 }
 
 /// Reads a whole file that was not named on the command line: another file names it, or it lies where one is
-/// expected. A pipe, on which a reader may wait for ever, and a device are none.
+/// expected. A pipe, on which a reader may wait for ever, and a device are refused.
 ///
 /// # Errors
 ///
@@ -343,7 +343,7 @@ fn new_part(target: &Path) -> io::Result<(PathBuf, File)> {
             Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
             Err(error) => return Err(error),
             Ok(file) => {
-                // Where files cannot be locked nobody takes this one for lost.
+                // Where files cannot be locked, this file is never taken for an abandoned one.
                 let _ = file.try_lock();
                 parts.push(part.clone());
                 return Ok((part, file));

@@ -1,6 +1,6 @@
 //! From a number to text.
 
-/// As few digits as read back to the same bits, as JSON has them; "null" for what is no number.
+/// As few digits as read back to the same bits, as JSON has them; "null" for what is not a number.
 pub fn shortest(value: f64) -> String {
     serde_json::Value::from(value).to_string()
 }

@@ -1,6 +1,6 @@
 //! How do we integrate, and add up without losing digits?
 //!
-//! [`gauss`] gives Gauss–Legendre points on [0, 1], [`converged`] integrates what is no polynomial,
+//! [`gauss`] gives Gauss–Legendre points on [0, 1], [`converged`] integrates what is not a polynomial,
 //! and a [`RunningSum`] carries its rounding errors along.
 
 use std::f64::consts::PI;

@@ -1,7 +1,7 @@
 //! Which numbers and units has a person typed?
 //!
 //! [`plain`] writes marks as letters, [`terms`] finds each number with its unit, [`mixed`] is the number's
-//! value. What a unit stands for is no question here ([`crate::base::units`]).
+//! value. What a unit stands for is said elsewhere ([`crate::base::units`]).
 
 /// A text as it is parsed: quotes and primes as `in` and `ft`, printed fractions and signs as typed ones.
 pub fn plain(text: &str) -> String {

@@ -237,7 +237,7 @@ impl Bat {
     }
 
     /// Mass, balance point and first frequency as they were measured, of the bat before its edits;
-    /// nothing of a bat that was made of another wood since.
+    /// empty for a bat that was made of another wood since.
     pub fn weighed(&self) -> Weighed {
         self.weighed
     }

@@ -59,7 +59,7 @@ impl Fixtures {
     }
 
     /// Absorbers at one place ring at frequencies that can be told from each other: equal ones ring
-    /// against each other while the bat is at rest, which is no mode of it.
+    /// against each other while the bat is at rest, which is not a mode of it.
     fn check_absorbers(&self, same: f64) -> Result<()> {
         let mut sorted: Vec<usize> = (0..self.absorbers.len()).collect();
         let tuning = |k: &usize| self.absorbers[*k].stiffness / self.absorbers[*k].mass;

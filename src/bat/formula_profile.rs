@@ -56,7 +56,7 @@ impl Profile {
     /// # Errors
     ///
     /// [`Error::Value`] whose field is `pieces`, or `pieces[k].from`, `to`, `formula` or
-    /// `inner_formula` of piece `k`: a gap, an overlap, a radius that is no number, is not above
+    /// `inner_formula` of piece `k`: a gap, an overlap, a radius that is not a number, is not above
     /// 0 (0 is possible at an end of the bat), is not above the inner one, or jumps.
     pub fn from_formulas(mut written: Vec<FormulaPiece>) -> Result<Self> {
         let length = check_places(&mut written)?;
@@ -354,7 +354,7 @@ fn add_stations(stations: &mut Stations, curves: &Curves, samples: &Samples) {
     for (s, Section { outer, inner }) in places.into_iter().flatten() {
         let x = curves.x(s);
         let same = |column: &[f64], value: f64| column.last() == Some(&value);
-        // A corner is no step.
+        // A corner is not a step.
         if same(&stations.x, x) && same(&stations.outer, outer) && same(&stations.inner, inner) {
             continue;
         }

@@ -295,7 +295,7 @@ pub(crate) fn on_the_bat(field: impl Into<String>, x: f64, length: f64) -> Resul
 pub(crate) fn shown(value: f64, unit: &str) -> String {
     let text = match value.abs() {
         size if !size.is_finite() => return "a value beyond the range of numbers".to_owned(),
-        // A rounding of another unit is none of the value.
+        // A value may differ by the rounding of its unit.
         0.0 | 1e-4..1e6 => format!("{} {unit}", significant(value, 12)),
         _ => format!("{value:e} {unit}"),
     };

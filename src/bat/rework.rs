@@ -99,7 +99,7 @@ impl Profile {
                 cubics.outer.iter_mut().for_each(|r| *r *= by);
                 return Ok(());
             }
-            // A product of two cubics is no cubic.
+            // A product of two cubics is not a cubic.
             let mut curves = as_formulas(piece)?;
             let factor = polynomial(&weight.map(|w| 1.0 + (by - 1.0) * w), &curves);
             curves.outer = formula(format!("({})*{factor}", curves.outer.text()))?;
@@ -235,7 +235,7 @@ impl Profile {
             let inside = widest.map(|s| (piece.start + s * piece.length, piece.at(s)));
             let both = [(piece.start, left), (end, right)];
             for (x, section) in [Some(both[0]), inside, Some(both[1])].into_iter().flatten() {
-                // But for the last digits: that is no step.
+                // A difference in the last digits alone is not a step.
                 let same = |column: &[f64], value: f64| {
                     column.last().is_some_and(|last| (last - value).abs() <= 1e-12 * section.outer)
                 };
@@ -292,7 +292,7 @@ fn check_wall(piece: &Piece) -> Result<()> {
     let sampled = (0..=SAMPLES).map(|k| k as f64 / SAMPLES as f64);
     let open = |s: f64| {
         let Section { outer, inner } = piece.at(s);
-        // What is no number is no wall.
+        // A wall that is not a number is refused.
         outer.partial_cmp(&inner) != Some(Ordering::Greater) && (outer, inner) != (0.0, 0.0)
     };
     let gone = gone.filter(|s| open(*s)).or_else(|| sampled.into_iter().find(|s| open(*s)));

@@ -175,7 +175,7 @@ fn factor<S: Real>(under: &Under<S>, n: usize) -> Vec<S> {
             let entry = products.sum::<f64>() - (0..j).map(known).sum::<f64>();
             let own = under.softness[i].lane(0).powi(2);
             lower[i * count + j] = match i == j {
-                // A pivot is no less than what the springs give way themselves.
+                // A pivot is at least as large as the springs' own flexibility.
                 true => (entry + own).max(own).sqrt(),
                 false => entry / lower[j * count + j],
             };

@@ -67,7 +67,7 @@ pub struct Protocol {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Scan {
-    /// Always false: a computed value is no certificate.
+    /// Always false: a computed value is not a certificate.
     pub certified: bool,
     /// The test: what was shot at the bat, and how it was held.
     pub protocol: Conditions,

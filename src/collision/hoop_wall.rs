@@ -233,7 +233,7 @@ fn beyond(flexibility: &[(usize, f64)], patch: &Patch, radius: f64) -> f64 {
     const FAR: usize = 60;
     let share = |n: usize| patch.share(n, radius).powi(2);
     let [.., (n, before), (last, soft)] = flexibility else { return 0.0 };
-    // Where the patch takes nothing of one of them, as a ring bends.
+    // A patch may not drive a harmonic at all, as where a ring bends.
     let own = |n: usize, soft: f64| soft / share(n).max(1e-2);
     let (before, soft) = (own(*n, *before), own(*last, *soft));
     let fall = (before / soft).ln() / (*last as f64 / *n as f64).ln();

@@ -15,7 +15,7 @@
 //! `J² c_n/2`, and their sum grows without end: that a delta impulse has no answer is not the
 //! series' fault.
 //!
-//! τ and κ are no constants of nature: 0.75 ms and 0.6 make this model follow
+//! τ and κ are not constants of nature: 0.75 ms and 0.6 make this model follow
 //! [`crate::collision::contact::encounter`] within 1 m/s on the WPI report's dowel and on a cone, at one speed.
 //!
 //! # Source

@@ -151,7 +151,7 @@ impl Hitter<'_> {
                 initial,
                 ball: gone,
                 bat_rigid,
-                // An empty sum of floats is −0, which is no energy to print.
+                // An empty sum of floats is −0, which must not be printed as an energy.
                 vibration: answer.in_modes.iter().fold(0.0, |sum, energy| sum + energy),
                 vibration_by_mode: answer.in_modes,
                 dissipated_ball: answer.lost_in_ball,

@@ -95,7 +95,7 @@ impl<R: Real> Lanczos<R> {
             let steps = self.steps;
             let spanned = steps == dimension - before
                 || rest.within(R::splat(f64::EPSILON * f64::EPSILON) * self.alpha[0]);
-            // The small eigenproblem costs steps³, so many modes are looked at less often.
+            // The small eigenproblem costs steps³, so for many modes it is solved less often.
             let beyond = steps.checked_sub(count + wanted.earliest);
             let due = beyond.is_some_and(|beyond| beyond.is_multiple_of(1 + count / 8));
             if spanned || steps == most || due {

@@ -31,7 +31,7 @@ pub fn bat_text(name: &str) -> Option<&'static str> {
     BATS.iter().find(|(other, _)| *other == name).map(|(_, text)| *text)
 }
 
-/// The name and the text of the built-in bat that is meant, if the path is no file's.
+/// The name and the text of the built-in bat that is meant, if the path names no file.
 ///
 /// # Errors
 ///

@@ -21,7 +21,7 @@ impl Decimal {
 }
 
 /// The decimal sign of a number that can be read in one way; None of whole numbers, of `1,234` and `1.234`,
-/// and of what is no number.
+/// and of what is not a number.
 pub(crate) fn certain(cell: &str) -> Option<Decimal> {
     let can = |sign: Decimal| decimal(cell, sign).is_some();
     if !cell.contains(['.', ',']) {

@@ -2,7 +2,7 @@
 //!
 //! A deflection w of which every place is known within e(x) has a certain sign where `|w| > 3 e`. Between two
 //! places of different certain sign is a node, and one of the slope w′ is known within `e/|w′|`. On a stretch
-//! where `|w| ≤ 3 e` the computed zeros are no nodes: between equal signs, and up to an end of the bat, there
+//! where `|w| ≤ 3 e` the computed zeros are not nodes: between equal signs, and up to an end of the bat, there
 //! may be none; between different ones there is one, anywhere in the stretch.
 //!
 //! Parts of e: the change that the motion's own inertia makes ([`crate::beam::changes`]), the shares that other

@@ -201,7 +201,7 @@ impl Plan {
         let degree = layout.degree;
         let borders = layout.borders(&survey, stations.as_ref());
         let mut mesh = resolved(bat, Mesh::between(bat, &borders), degree, wanted);
-        // Too few unknowns for so many modes: shorter elements.
+        // There are too few unknowns for that number of modes: shorter elements.
         while (degree - 1) * mesh.len() < modes {
             mesh = mesh.refined(bat, |_| 2);
         }

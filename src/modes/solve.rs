@@ -47,7 +47,7 @@ pub use crate::modes::solution::{Ending, Solution, Timing};
 /// Those of [`Request::check`] and [`prepare`]; [`crate::Error::TooFewElements`] where the asked elements have
 /// fewer modes than are asked for, [`crate::Error::TooLarge`] for the dense solver, [`crate::Error::Factorization`] for
 /// those that factor `K`, [`crate::Error::NotBuilt`] without ARPACK, [`crate::Error::NotConverged`]. An accuracy that cannot
-/// be reached is no error: the best answer comes back with the [`Ending`] that says so.
+/// be reached is not an error: the best answer comes back with the [`Ending`] that says so.
 pub fn solve(bat: &Bat, request: &Request) -> Result<Solution> {
     let Prepared { bat, request, .. } = prepare(bat, request)?;
     Ok(refine(&bat, &request)?.of_tapped(bat))

@@ -34,7 +34,7 @@ use crate::bat::body::Bat;
 use crate::bat::profile::{Cubics, Piece, Radii, SAME_PLACE};
 use crate::modes::survey::Survey;
 
-/// A radius below this share of the widest ends a stretch: the 1/EI of both sides are no numbers to add.
+/// A radius below this share of the widest ends a stretch: the 1/EI of both sides cannot be added.
 const NARROW: f64 = 0.15;
 /// Kinks that are nearer than this share of a resolution are one.
 const NEAR: f64 = 0.5;

@@ -10,7 +10,7 @@ use crate::bat::theory::Theory;
 const SMOOTH: f64 = 1.35;
 /// With this many pieces each is short beside what changes on a bat.
 pub(super) const MANY: usize = 8;
-/// A radius below this share of the widest counts as that: a point is no infinite taper.
+/// A radius below this share of the widest counts as that: a point is not an infinite taper.
 const THIN: f64 = 1e-3;
 
 /// One place of a piece.

@@ -132,7 +132,7 @@ impl Task<'_> {
                 let modes = threads::map_each(some, |k, motion| {
                     let k = first + k;
                     let own = &strains[size * k..size * (k + 1)];
-                    // The compliance's rounding in the slower modes is no part of this one; of a large
+                    // The compliance's rounding in the slower modes is not part of this one; of a large
                     // mesh that would cost the square of the modes.
                     let slower = if size > LARGE || k < found.apart { 0 } else { k };
                     pairs.look_at_one(own, &strains[..size * slower], Depth::Changes, motion);

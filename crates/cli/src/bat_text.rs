@@ -89,7 +89,7 @@ fn rows(bat: &Measured) -> Vec<[f64; 3]> {
     };
     let [x, outer] = [0, 1].map(|k| rows.iter().map(|row| row[k]).collect::<Vec<f64>>());
     let inner = vec![0.0; x.len()];
-    // What is no profile is told when the file is read.
+    // What is not a profile is told when the file is read.
     let curve = Profile::new(Stations { x, outer, inner, interpolation: Interpolation::Pchip });
     let own = SHARES.map(|share| end - share * depth);
     let far = |x: &f64| rows.iter().all(|row| (row[0] - x).abs() > 0.1 * depth);

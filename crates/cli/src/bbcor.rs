@@ -25,7 +25,7 @@ use crate::value::PLACE;
 /// half inch. For the places about the largest, with --full for every one, the table says how fast the
 /// ball comes back, the collision efficiency e_A, BBCOR and how far that may be off by the program's own
 /// errors; below it the largest, beside the limit. Supports, springs and hands of the bat file are taken
-/// away. What is computed is no certificate: it is as good as the ball's restitution and as the wall of a
+/// away. What is computed is not a certificate: it is as good as the ball's restitution and as the wall of a
 /// hollow barrel is known.
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES))]

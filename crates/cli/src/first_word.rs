@@ -11,7 +11,7 @@ use sweetspot::files::built_in;
 use sweetspot::{Error, Result};
 
 /// The command line with the verb `analyze` before a bat that stands alone: a word that ends in .json, has a separator
-/// of paths or is the name of a built-in bat, and is no verb.
+/// of paths or is the name of a built-in bat, and is not a verb.
 ///
 /// # Errors
 ///

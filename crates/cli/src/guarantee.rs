@@ -16,7 +16,7 @@ pub struct GuaranteeArgs {
     ///
     /// The bat of the file, its decimals exactly as written, as a beam of the theory that is named: each of
     /// its frequencies lies between both numbers, rounding included, and no mode is missing. The JSON has
-    /// intervals with the nodes in them and the numbers that the proof rests on. Says nothing of wood.
+    /// intervals with the nodes in them and the numbers that the proof rests on. It does not cover how wood varies.
     #[arg(long, help_heading = "Accuracy", conflicts_with_all = ["elements", "degree", "budget", "solver"])]
     guarantee: bool,
 

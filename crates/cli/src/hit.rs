@@ -197,7 +197,7 @@ pub fn verdict(solve: &SolveArgs, sweep: &Sweep, output: &OutputArgs) -> u8 {
     }
     let reason = match &sweep.solution.ending {
         Ending::Reached => String::new(),
-        // Modes are sought far better than hits need them: round-off below what was asked is no reason.
+        // Modes are sought far better than hits need them: round-off below what was asked does not matter.
         Ending::RoundOff(share) if *share <= solve.tol => format!(" ({})", Ending::Stalled),
         ending => format!(" ({ending})"),
     };

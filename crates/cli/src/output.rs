@@ -165,7 +165,7 @@ pub fn printed(path: &Path) -> String {
 /// Says something on standard error, unless nothing is to be said.
 pub fn warn(text: &str, quiet: bool) {
     if !quiet {
-        // A closed standard error is no reason to stop.
+        // A closed standard error is not a reason to stop.
         progress::beside(|| {
             let _ = writeln!(std::io::stderr(), "{}", printable(text));
         });

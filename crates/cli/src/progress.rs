@@ -78,7 +78,7 @@ fn left(elapsed: Duration, before: f64, share: f64) -> Option<Duration> {
         .then(|| Duration::try_from_secs_f64(elapsed.as_secs_f64() * (1.0 - share) / done).ok())?
 }
 
-/// Many things that are alike, of which some were done before. Where standard error is no terminal there is a line
+/// Many things that are alike, of which some were done before. Where standard error is not a terminal there is a line
 /// every half minute.
 pub struct Counted {
     progress: Progress,

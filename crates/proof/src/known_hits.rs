@@ -109,7 +109,7 @@ impl KnownFigure {
     }
 }
 
-/// Steps so short that they are no part of any difference.
+/// Steps so short that they are not part of any difference.
 const STEPS: f64 = 1e-7;
 
 impl Throw {

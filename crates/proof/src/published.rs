@@ -268,7 +268,7 @@ fn ours(answer: &PublishedCase, line: &Line, theory: Theory) -> Result<Option<Ou
     Ok(Some(Ours { value: mode.frequency() / unit, nodes: mode.nodes.clone() }))
 }
 
-/// Places (m) in both units; nothing of none.
+/// Places (m) in both units; empty without places.
 fn places(nodes: &[f64]) -> String {
     let listed = |unit: fn(f64) -> f64| {
         let shown: Vec<String> = nodes.iter().map(|node| number(unit(*node), 1)).collect();

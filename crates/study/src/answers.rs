@@ -107,7 +107,7 @@ const NAMED: [(&str, Answer); 14] = [
     ("hands_acceleration_min.value", Answer::HandsAcceleration),
     ("f1_hz", Answer::Frequency(1)),
 ];
-/// More modes than this are no question of many bats.
+/// Most modes that a study of many bats may ask for.
 const MOST_MODES: usize = 40;
 const SPEED_AT: &str = "exit_speed_m_s@";
 /// An answer about a hit at a place (m).

@@ -68,7 +68,7 @@ fn read_to(diameters: &[f64]) -> Option<ReadTo> {
         let [exactly, ..] = ROUNDED;
         let by_chance = |within: f64| (2.0 * within / grid.step).powi(count) < CHANCE;
         let inches = grid.step != 1e-3;
-        // An odd number of eighths, or finer, is typed by nobody who reads decimals.
+        // An odd number of eighths, or finer, is not typed by people who read decimals.
         let fraction = |d: &f64| inches && off(*d, INCH / 4.0) > exactly;
         let enough = diameters.len() >= FEWEST || diameters.iter().any(fraction);
         let rounded = ROUNDED[1..].iter().filter(|_| inches && diameters.len() >= FEWEST);

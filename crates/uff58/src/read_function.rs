@@ -95,7 +95,7 @@ fn spaced_degrees_of_freedom(line: Line) -> Option<Header> {
     Some(([whole(0)?, whole(1)?, whole(2)?, whole(3)?], [dof(4)?, dof(7)?]))
 }
 
-/// `NONE` is no name.
+/// `NONE` is not a name.
 fn named(word: &str) -> String {
     if word.eq_ignore_ascii_case("none") { String::new() } else { word.to_owned() }
 }

@@ -14,7 +14,7 @@
 //!
 //! # Source
 //!
-//! E. L. Wilson, AIAA Journal 3 (1965) 2269: solids of revolution under loads that are no function of
+//! E. L. Wilson, AIAA Journal 3 (1965) 2269: solids of revolution under loads that are not a function of
 //! revolution, one Fourier term after the other.
 
 use crate::base::lanes::vectorized;
@@ -45,7 +45,7 @@ pub struct Rule {
     pub across: Shapes,
 }
 
-/// Points beyond the degree, along and across: 1/r is no polynomial.
+/// Points beyond the degree, along and across: 1/r is not a polynomial.
 const MORE_POINTS: usize = 4;
 
 impl Rule {

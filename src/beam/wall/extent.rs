@@ -25,7 +25,7 @@ pub enum Limit {
     Knob,
     /// A step whose walls do not meet.
     Step,
-    /// Wood, which is no solid of revolution in its grain.
+    /// Wood, which is not a solid of revolution in its grain.
     Wood,
 }
 
@@ -94,7 +94,7 @@ impl Extent {
                 (piece.start + s * piece.length, piece.at(s).outer)
             })
         });
-        // Beyond the widest place a tube may taper too, and that is no handle.
+        // Beyond the widest place a tube may taper too, and that is not a handle.
         let mut places: Vec<(f64, f64)> = places.collect();
         let widest = (0..places.len()).rev().max_by(|a, b| places[*a].1.total_cmp(&places[*b].1));
         places.truncate(widest.map_or(0, |widest| widest + 1));

@@ -105,7 +105,7 @@ impl Stretch {
                 }
             }
         }
-        // What is as small as rounding is none; a constant radius then stays one.
+        // A difference as small as rounding is dropped; a constant radius then stays constant.
         for radius in &mut radii {
             let largest = radius.0[0].abs();
             let small = |c: &&mut f64| c.abs() < f64::EPSILON * largest;
@@ -176,7 +176,7 @@ impl Layers {
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] where a layer is of wood, which is no solid of revolution in its grain, and where
+    /// [`Error::Value`] where a layer is of wood, which is not a solid of revolution in its grain, and where
     /// walls to the left and right of a step do not meet.
     pub fn of(bat: &Bat, from: f64, to: f64) -> Result<Self> {
         let mut layers = Self { stretches: vec![], materials: vec![], assumed: vec![] };

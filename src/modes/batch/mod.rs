@@ -110,7 +110,7 @@ pub fn solutions(
     let mut left: Vec<usize> = (0..ready.len()).collect();
     while let Some(&first) = left.first() {
         let request = ready[first].1.request;
-        // The first is alike in any case: what is no number is not even equal to itself.
+        // The first is alike in any case: NaN is not even equal to itself.
         let alike = |k: &usize| *k == first || ready[*k].1.request == request;
         let (alike, others): (Vec<usize>, Vec<usize>) = left.into_iter().partition(alike);
         let bats: Vec<&Bat> = alike.iter().map(|k| &*ready[*k].1.bat).collect();

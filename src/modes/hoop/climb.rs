@@ -116,7 +116,7 @@ impl<'a> Climb<'a> {
 
     /// The modes of harmonic n on the first mesh that is fine enough, and their stated errors.
     ///
-    /// Where the handle is cut off, modes of the handle depend on the cut and are no modes of the barrel: those
+    /// Where the handle is cut off, modes of the handle depend on the cut and are not modes of the barrel: those
     /// that move there by more than a tenth of their largest motion are left out.
     pub fn harmonic(&self, n: usize) -> Result<Climbed> {
         let HoopRequest { tol, least, up_to_hz, .. } = *self.request;

@@ -310,7 +310,7 @@ pub fn materials(unit: &str) -> Vec<String> {
 
 /// Where the stiffness of a wood is from.
 fn in_words(material: &BuiltIn) -> &'static str {
-    /// Heavier is no wood (kg/m³).
+    /// No wood is denser (kg/m³).
     const WOOD: f64 = 1200.0;
     match material.name {
         name if name.ends_with("-dynamic") => "  as bats ring",

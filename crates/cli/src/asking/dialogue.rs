@@ -277,7 +277,7 @@ impl<R: BufRead> Dialogue<R> {
         value
     }
 
-    /// The next line, without blanks around it, or why it is no text.
+    /// The next line, without blanks around it, or why it is not a text.
     fn line(&mut self, question: &Question) -> Asked<Read<String>> {
         let hint = question.usual.filter(|usual| !usual.is_empty());
         let hint = hint.map_or(String::new(), |usual| format!(" [{usual}]"));

@@ -102,7 +102,7 @@ pub struct Args {
           value_parser = clap::value_parser!(u32).range(2..=100_000))]
     pub shape_points: u32,
 
-    /// Write CSV to this file (- = standard output, the default where that is no terminal)
+    /// Write CSV to this file (- = standard output, the default where that is not a terminal)
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub csv: Option<PathBuf>,
 

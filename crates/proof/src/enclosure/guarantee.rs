@@ -104,7 +104,7 @@ const FINEST: f64 = 1e-14;
 /// # Errors
 ///
 /// [`sweetspot::Error::Value`] for a bat of which nothing is proven yet, with its reason, and those of [`solve`]. A width
-/// that cannot be reached is no error: what is proven comes back with `met` false.
+/// that cannot be reached is not an error: what is proven comes back with `met` false.
 pub fn guarantee(bat: &Bat, request: &Request) -> Result<(Solution, Guarantee)> {
     let request = &Request { theory: theory_choice::of(bat, request)?, ..*request };
     carried(bat, request.theory)?;

@@ -347,7 +347,7 @@ impl Sure {
         let ((outside, of_outer), (inside, of_inner)) = (plain(&ring.outside), plain(inside));
         let (of_outer, of_inner) = (number(of_outer), number(of_inner));
         let both = of_outer + of_inner;
-        // True and plain ones are no less than this.
+        // True and plain ones are at least this.
         let least = |of: Interval| number(of.low.max(0.0));
         let outer = least(number(ring.least(|b, _| b)) - of_outer);
         let inner = least(number(ring.least(|_, a| a)) - of_inner);

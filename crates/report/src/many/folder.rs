@@ -45,7 +45,7 @@ pub struct StudyFolder<'a> {
 ///
 /// # Errors
 ///
-/// [`Error::Value`] for a file that is no study's manifest; [`Error::Read`].
+/// [`Error::Value`] for a file that is not a study's manifest; [`Error::Read`].
 pub(super) fn manifest_at(path: &Path) -> Result<Value> {
     let found: Value = serde_json::from_slice(&file::read_plain(path)?).unwrap_or_default();
     if found["format"].as_str().is_some_and(|of| of.starts_with("sweetspot-study-manifest/")) {

@@ -151,7 +151,7 @@ fn tables(folder: Folder, study: &mut StudyFile, sources: &mut Vec<Source>) -> R
 }
 
 /// The bats of those names: files from the study's folder, all of a folder, or built-in ones. Of several, one
-/// that is no bat stays with the reason.
+/// that is not a bat stays with the reason.
 fn bats(folder: Folder, study: &StudyFile, sources: &mut Vec<Source>) -> Result<Vec<BatText>> {
     let mut all: Vec<(String, PathBuf)> = vec![];
     for name in &study.bats {

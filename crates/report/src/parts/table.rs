@@ -67,7 +67,7 @@ pub struct Table {
 }
 
 impl Table {
-    /// The columns that people see of those rows, in those units, without such as hold nothing of any row.
+    /// The columns that people see of those rows, in those units, without those that are empty in every row.
     pub fn of<T>(
         caption: impl Into<String>,
         columns: &[Column<T>],

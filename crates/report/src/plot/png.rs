@@ -32,7 +32,7 @@ pub fn png(drawing: &Svg, scale: f32) -> Vec<u8> {
 /// A colour on light paper.
 fn colour(ink: Ink, opacity: f64) -> Color {
     let hex = ink.light.get(1..7).and_then(|hex| u32::from_str_radix(hex, 16).ok());
-    // What is no colour is black.
+    // What is not a colour is black.
     let [_, red, green, blue] = hex.unwrap_or(0).to_be_bytes();
     Color::from_rgba8(red, green, blue, (255.0 * opacity.clamp(0.0, 1.0)).round() as u8)
 }

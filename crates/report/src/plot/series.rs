@@ -19,7 +19,7 @@ pub struct Series {
     pub mark: Option<Mark>,
     /// Half height of an error bar at every point, in the unit of y; 0 for none.
     pub error: f64,
-    /// In the units of the axes; None is a gap.
+    /// Values in the units of the axes; None leaves a gap.
     pub points: Vec<Option<[f64; 2]>>,
     /// What the inside of the closed line through its points is filled with, and how much of that covers what is
     /// below.

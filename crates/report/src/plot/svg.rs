@@ -121,7 +121,7 @@ pub enum Shape {
         /// How it is filled and drawn around.
         look: Look,
     },
-    /// Words that show where a pointer rests; nothing of them can be seen on paper.
+    /// Words that show where a pointer rests; they are not printed.
     Hover(Vec<(Point, String)>),
 }
 

@@ -36,7 +36,7 @@ fn title(map: &LatheMap, scene: &Scene, units: Units) -> String {
     format!("What a cut does to {}\n{}{}", bat.name(), edited(bat, units), wrapped(&swing, 4))
 }
 
-/// What a screen holds: where a cut does most, and what stands below the tables; None where nothing of that is known.
+/// What a screen holds: where a cut does most, and what stands below the tables; None where that is not known.
 pub fn screen(map: &LatheMap, scene: &Scene, units: Units) -> Option<String> {
     let most = strongest(map, units);
     if most.is_empty() {

@@ -332,7 +332,7 @@ fn computation(analysis: &Analysis) -> String {
     };
     let told =
         if told.is_empty() { "masses and lengths are exact".to_owned() } else { told.join(", ") };
-    // Beside a doubt nobody asks what an exit speed is counted in.
+    // Beside a doubt the unit of the exit speed does not matter.
     let of = if analysis.verdict.doubts.is_empty() { " of the closing speed" } else { "" };
     let of = if told.contains("exit") { of } else { "" };
     format!("The computation{verdict}: {told}{of}.")

@@ -154,7 +154,7 @@ pub struct HitError {
 /// The figures by which bats are compared, computed from this model.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Figures {
-    /// Always false: these figures are no certificate of any standard.
+    /// Always false: these figures certify nothing by any standard.
     pub certified: bool,
     /// Exit speed at the sweet spot (m/s).
     pub bat_ball_speed_m_s: Option<f64>,

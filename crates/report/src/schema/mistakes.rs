@@ -36,7 +36,7 @@ pub struct Mistake {
     pub column: Option<usize>,
     /// The value that is wrong: its path in the file such as profile.x\[3\], or its option.
     pub place: Option<String>,
-    /// What was found there; where it is no value, what is wrong.
+    /// What was found there; where it is not a value, what is wrong.
     pub found: String,
     /// What was expected there.
     pub expected: Option<String>,

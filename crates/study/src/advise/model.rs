@@ -51,7 +51,7 @@ impl Model {
     ///
     /// # Errors
     ///
-    /// What is left is no bat that can be solved: without its supports it may hang on springs too weak.
+    /// What is left is not a bat that can be solved: without its supports it may hang on springs too weak.
     pub fn bat(&self, bat: &Bat) -> Result<Bat> {
         let missing = ModelPart::ALL.into_iter().filter(|part| !self.parts.contains(part));
         let missing: Vec<ModelPart> = missing.filter(|part| part.is_on(bat)).collect();

@@ -19,7 +19,7 @@ pub struct Conflict {
     /// The conflict in a sentence: the targets that cannot all be had, and how near each comes.
     // A report says it; until then it is empty.
     pub words: String,
-    /// Numbers of the bands that are no part of it and are missed where a member comes nearest.
+    /// Numbers of the bands that are not part of it and are missed where a member comes nearest.
     #[serde(skip)]
     pub aside: Vec<usize>,
     /// Bats that were computed for it.
@@ -60,7 +60,7 @@ impl Conflict {
         let mut stay = vec![true; bands.len()];
         let mut nearest_yet = found.p.clone();
         let mut bats = 0;
-        // What neither binds nor is missed is no part of it, most likely: it is left out first.
+        // What neither binds nor is missed is not part of it, most likely: it is left out first.
         let mut order: Vec<usize> = (0..bands.len()).collect();
         let idle =
             |k: &usize| found.prices[*k].abs() > 1e-6 || bands[*k].miss(found.values[*k]) > 0.0;

@@ -77,7 +77,7 @@ const NOTHING: f64 = 0.25;
 /// nothing changes, so far beside the old one (m).
 const BESIDE_CHANGED: f64 = 0.1;
 const BESIDE_KEPT: f64 = 1e-6;
-/// Stations are no nearer to each other (m).
+/// Least distance between two stations (m).
 const CLOSEST: f64 = 5e-4;
 /// Rounds of looking where else stations are wanted: each makes the curve beside new stations another one.
 const HALVINGS: usize = 40;

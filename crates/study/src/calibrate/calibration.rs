@@ -67,7 +67,7 @@ impl Identified {
         self.margin.is_none_or(|margin| margin >= SURE)
     }
 
-    /// Whether half of several lines or more are no bending mode, by their frequencies or their shapes.
+    /// Whether at least half of several lines are not bending modes, by their frequencies or their shapes.
     pub fn is_mostly_discarded(&self) -> bool {
         let all = self.taken.len() + self.unlike;
         all > 1 && 2 * (strangers(&self.taken) + self.unlike) >= all
@@ -189,7 +189,7 @@ impl Calibration {
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] where nothing was measured, where readings are none of this bat, and those of
+    /// [`Error::Value`] where nothing was measured, where readings are not of this bat, and those of
     /// [`WoodenBat::new`] and of a solve.
     pub fn new(bat: &Bat, readings: BatReadings, plan: &CalibrationPlan) -> Result<Self> {
         let pivot = readings.pendulum.map_or(STANDARD_PIVOT, |swing| swing.pivot);

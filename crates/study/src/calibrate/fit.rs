@@ -81,7 +81,7 @@ pub struct Datum {
     #[serde(rename = "name")]
     #[schemars(with = "String")]
     pub kind: DatumKind,
-    /// Which of the lines it is; None for what is no line.
+    /// Which of the lines it is; None for what is not a line.
     #[serde(skip)]
     pub line: Option<usize>,
     /// What was read.

@@ -14,7 +14,7 @@ use crate::calibrate::unknowns::Logs;
 use sweetspot::base::error::Result;
 use sweetspot::base::threads;
 
-/// χ² of a line that is no bending mode.
+/// χ² of a line that is not a bending mode.
 pub const STRANGER: f64 = 12.0;
 /// χ² of a label that was told and is taken for another.
 const CHANGED: f64 = 12.0;
@@ -68,7 +68,7 @@ impl Labelled {
     }
 }
 
-/// How many lines are no bending mode.
+/// Number of lines that are not bending modes.
 pub fn strangers(labels: &Labels) -> usize {
     labels.iter().filter(|label| label.is_none()).count()
 }

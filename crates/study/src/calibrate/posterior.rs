@@ -74,7 +74,7 @@ impl Posterior {
             from[SHEAR] += step * (k as f64 - (VALUES / 2) as f64);
             along.fit(data, modes, &from)
         });
-        // A wood that cannot be solved is none that the bat may be of.
+        // The bat cannot be of a wood with which it cannot be solved.
         let fits: Vec<Fit> = fits.into_iter().filter_map(|fit| fit.ok()).collect();
         let best = fits.iter().map(|fit| fit.chi2).fold(f64::INFINITY, f64::min);
         let mut parts: Vec<Component> =

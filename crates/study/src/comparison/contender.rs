@@ -93,7 +93,7 @@ pub fn places(bat: &Bat, every: f64, reach: f64) -> Vec<f64> {
     all
 }
 
-/// The multiples of a step from one value to another, where a rounding is no reason to miss one.
+/// The multiples of a step from one value to another, where a rounding must not lose one.
 pub fn multiples([low, high]: [f64; 2], step: f64) -> Vec<f64> {
     let first = (low / step - 1e-9).ceil().max(0.0) as usize;
     let last = (high / step + 1e-9).floor() as usize;

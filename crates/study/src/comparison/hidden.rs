@@ -3,7 +3,7 @@
 use sweetspot::base::number::significant;
 use sweetspot::bat::body::Bat;
 
-/// A change of the density that is no rounding, relative.
+/// A change of the density that is not a rounding, relative.
 const REAL: f64 = 1e-9;
 
 /// A sentence where both bats were said to weigh the same, of the second bat as `name` (the first as

@@ -82,7 +82,7 @@ written! {
     }
     |of| -> SpectralLine {
         if let (Some(node), Some(within)) = (of.at("within"), within) {
-            // A line that could not be read is no bound.
+            // A line that could not be read is not a bound.
             let below = hz == Reading::default() || within < hz.value;
             let expected = "an uncertainty above 0 Hz and below the line";
             let told = sound(node, within > 0.0 && below, expected);

@@ -32,7 +32,7 @@ const TRIED: u64 = 32;
 pub struct BatText {
     /// What tables call it.
     pub name: String,
-    /// What the file says, which names no other file; or why it is no bat.
+    /// What the file says, which names no other file; or why it is not a bat.
     pub text: std::result::Result<String, String>,
 }
 
@@ -49,7 +49,7 @@ pub struct Rows {
 pub(super) struct Varying {
     /// What tables call it.
     pub name: String,
-    /// Its document, or why it is no bat.
+    /// Its document, or why it is not a bat.
     pub document: std::result::Result<Value, String>,
     /// A row of which it is a bat, as a model of the others, and that bat; if there is such a row.
     pub model: Option<(Row, Bat)>,

@@ -83,7 +83,7 @@ fn cuts(mut stretches: Vec<Stretch>, by: f64, most: f64) -> Option<Vec<RecipeCut
     }
 }
 
-/// What is a tenth of the deepest is no cut to be told.
+/// Cuts below a tenth of the deepest are not listed.
 const LEAST_TOLD: f64 = 0.1;
 
 /// A stretch of bands that are cut alike.

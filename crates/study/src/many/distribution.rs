@@ -45,7 +45,7 @@ pub enum Distribution {
 }
 
 impl Distribution {
-    /// Refuses what is no distribution.
+    /// Refuses what is not a distribution.
     ///
     /// # Errors
     ///

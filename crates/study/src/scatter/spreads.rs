@@ -124,7 +124,7 @@ impl Differences {
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] for a number of points that is no power of two from 64 to 2^20, and as [`Design::new`].
+    /// [`Error::Value`] for a number of points that is not a power of two from 64 to 2^20, and as [`Design::new`].
     pub fn designs(&self, length: f64, points: u64, seed: u64) -> Result<Vec<Design>> {
         if !points.is_power_of_two() || !(64..=1 << 20).contains(&points) {
             let expected = "a power of two from 64 to 1048576, such as 1024";

@@ -20,7 +20,7 @@ const EXAMPLE: &str = "nodes and places such as \"1=0 in, 2=3 in\", or a CSV fil
 ///
 /// # Errors
 ///
-/// [`Error::Value`] for a text that is neither, a node named twice or a place that is no length;
+/// [`Error::Value`] for a text that is neither, a node named twice or a place that is not a length;
 /// [`Error::Read`] and [`Error::Input`] for a file.
 pub fn read(text: &str) -> Result<Places> {
     match text.contains('=') {
