@@ -40,7 +40,7 @@ export class Chart {
     const lower = { top: TOP + tall + GAP, tall: low, range: this.ranges.energy };
     const bottom = both ? lower.top + low : TOP + tall;
     this.zone(hit, TOP, bottom);
-    this.plot(upper, "speed", 5, bench.body.hollow ? "Exit speed, stiff wall" : "Exit speed");
+    this.plot(upper, "speed", 5, hit.rough_wall ? "Exit speed, wall by estimate" : "Exit speed");
     if (both) this.plot(lower, "energy", 3, "Left in vibration");
     this.places(bottom);
     const line = (curve, name, plot, kind, what) => {
@@ -158,7 +158,7 @@ export class Chart {
     ];
     if (curve.vibration_j) {
       const here = say("energy", curve.vibration_j[near]);
-      words.push(["Left in vibration", spot ? hit.vibration?.energy.text ?? "–" : here]);
+      words.push(["Left in vibration", spot ? hit.vibration?.text ?? "–" : here]);
     }
     put(this.slider, { "aria-valuetext": words.map((pair) => pair.join(" ")).join(", ") });
     byId("reading").replaceChildren(...words.map(([name, value]) => made("span", {}, made("i", {}, name), value)));

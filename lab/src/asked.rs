@@ -138,6 +138,12 @@ impl Question {
         self.more.get(name)?.as_str()
     }
 
+    /// How far diameters may be off (m) that were traced: less well known than calipers know them.
+    pub fn traced(&self) -> Option<f64> {
+        let told = self.more.get("diameter_deviation_m")?.as_f64()?;
+        (0.0..0.01).contains(&told).then_some(told)
+    }
+
     /// The collision model.
     pub fn model(&self) -> Result<Model> {
         self.setup.model()

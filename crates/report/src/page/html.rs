@@ -36,6 +36,8 @@ pub struct Page<'a> {
     pub figures: &'a [Figure],
     /// What its script draws, as JSON; none where nothing moves.
     pub data: Option<String>,
+    /// The file beside it with the live page of the same bat.
+    pub lab: Option<&'a str>,
 }
 
 impl Page<'_> {
@@ -82,10 +84,19 @@ impl Page<'_> {
                 escaped(source)
             ),
         };
+        let lab = self.lab.map_or_else(String::new, |file| {
+            let plain = |byte: u8| byte.is_ascii_alphanumeric() || b"-_.".contains(&byte);
+            let address = file.bytes().map(|byte| match plain(byte) {
+                true => char::from(byte).to_string(),
+                false => format!("%{byte:02X}"),
+            });
+            let address: String = address.collect();
+            format!("<p class=\"screen\"><a class=\"button\" href=\"{address}\">Open in the lab</a></p>\n")
+        });
         let labels = ["cm, m/s".to_owned(), "in, mph".to_owned()];
         let units = players::choice("units", "Units", &labels, usize::from(self.us));
         format!(
-            "<header>\n<div><p class=\"kind\">{kind}</p>\n<h1>{name}</h1>\n{source}</div>\n{units}</header>\n"
+            "<header>\n<div><p class=\"kind\">{kind}</p>\n<h1>{name}</h1>\n{source}{lab}</div>\n{units}</header>\n"
         )
     }
 
