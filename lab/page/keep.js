@@ -178,9 +178,12 @@ export class Keep {
     this.say("Written: send this file, and whoever opens it has the bat and the lab.");
   }
 
+  /** The fragment of what is shown. */
+  sent() { return fragment(this.shown); }
+
   /** A link where the page has an address, else the fragment to paste into any copy's "Open". */
   async copied() {
-    const { about } = this, mark = await fragment(this.shown);
+    const { about } = this, mark = await this.sent();
     const home = location.protocol.startsWith("http") ? location.href.split("#")[0] : about.address;
     const text = `${home ?? ""}${mark}`;
     const told = home ? "The link" : "This page has no address, so the bat itself, to paste into Open of any copy,";

@@ -13,7 +13,7 @@ import { Notes } from "./notes.js";
 import { Picture } from "./picture.js";
 import { SceneOfHit } from "./scene.js";
 import { compiled, Far, Near } from "./solve.js";
-import { Voice } from "./sound.js";
+import { played, Voice } from "./sound.js";
 import { byId, made, write } from "./svg.js";
 import { Table } from "./table.js";
 import { Tracing } from "./trace.js";
@@ -155,7 +155,7 @@ async function begin() {
   const lessons = new Lessons(bench, bats, voice);
   controls(bench, drag);
   // For trials of the page: what it holds, and the parts that answer.
-  window.lab = { bench, drag, picture, voice, keep, lessons, tracing };
+  window.lab = { bench, drag, picture, voice, keep, lessons, tracing, played };
   await first(bench, keep, bats);
   addEventListener("beforeunload", (event) => { if (keep.lost) event.preventDefault(); });
 }

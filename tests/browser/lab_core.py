@@ -79,7 +79,7 @@ def compare(core, program, name, path):
     for answer in (body, sure, analyzed, us):
         check("error" not in answer, f"{name}: {answer.get('error')}")
     modes = json.loads(run("modes", path, "--json", "-"))
-    hit = json.loads(run("hit", path, "--wall", "off", "--json", "-"))
+    hit = json.loads(run("hit", path, "--json", "-"))
     for here, there in zip(sure["modes"], modes["modes"]):
         what = f"{name}, mode {here['order']}"
         near(here["frequency"]["value"], there["frequency_hz"], MODES, what)
@@ -95,7 +95,7 @@ def compare(core, program, name, path):
     near([place["x_m"] for place in sure["zone"]], spot["zone_m"], HITS, f"{name}, zone")
     check(sure["certified"], f"{name}: not certified: {sure['unmet']}")
     # What is shown is what the program shows.
-    shown = run("hit", path, "--wall", "off", "--units", "si")
+    shown = run("hit", path, "--units", "si")
     for line in sure["spots"]:
         check(line["place"]["text"] in shown, f"{name}: {line} is not in what hit prints")
     for answer, units in ((analyzed, "si"), (us, "us")):
