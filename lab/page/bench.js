@@ -213,6 +213,7 @@ export class Bench extends EventTarget {
   /** There is no answer to the bat shown: nothing of another one may stand in its place. */
   fail(words) {
     Object.assign(this, { hit: null, failed: this.number });
+    this.sure.drop((kind) => kind === "sure");
     this.say(words);
     this.tell("figures");
   }

@@ -1,7 +1,7 @@
 // Draws the exit speed along the barrel and what is left in vibration, above the same places, with a line that reads
 // off.
 
-import { byId, drawn, made, pathOf, put, ticks, write } from "./svg.js";
+import { byId, drawn, made, pathOf, put, ticks, write, framed } from "./svg.js";
 import { inUs, say, shownAs } from "./units.js";
 
 const LEFT = 52, RIGHT = 14, TOP = 38, GAP = 52, FOOT = 42;
@@ -11,7 +11,7 @@ export class Chart {
   constructor(svg, bench) {
     Object.assign(this, { svg, bench, share: null, ranges: null });
     this.slider = byId("read-off");
-    new ResizeObserver(() => this.draw()).observe(svg.parentElement);
+    new ResizeObserver(framed(() => this.draw())).observe(svg.parentElement);
     for (const what of ["shown", "figures", "history"]) bench.on(what, () => this.draw());
     for (const what of ["pointermove", "pointerdown"]) svg.addEventListener(what, (event) => this.follow(event));
     this.slider.addEventListener("input", () => { this.share = Number(this.slider.value) / 1000; this.draw(); });

@@ -1,7 +1,7 @@
 // Draws the bat: diameters larger than lengths, what is known along it, the bat before as a ghost, and its true shape.
 
 import { stationsOf, movable } from "./stations.js";
-import { drawn, put, pathOf, ticks, write } from "./svg.js";
+import { drawn, framed, put, pathOf, ticks, write } from "./svg.js";
 import { inUs } from "./units.js";
 
 /** Room (px) around the bat. */
@@ -32,7 +32,7 @@ export class Picture {
     this.long = drawn(svg, "g", { class: "handle long" });
     drawn(this.long, "circle", { class: "reachable" });
     drawn(this.long, "path", { class: "dot", d: "M-7 0L0 -7L7 0L0 7Z" });
-    new ResizeObserver(() => this.draw()).observe(svg.parentElement);
+    new ResizeObserver(framed(() => this.draw())).observe(svg.parentElement);
   }
 
   /** The frame that fits the bat into the width there is. */

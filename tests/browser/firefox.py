@@ -98,9 +98,16 @@ class Browser:
                 return value
 
     def run(self, script):
-        """The value of an expression in the page; promises are waited for."""
-        text = f"{ERRORS}; return Promise.resolve({script}).then((value) => [value ?? null, complaints.splice(0)]);"
-        value, complaints = self.ask("WebDriver:ExecuteScript", script=text, args=[], sandbox=None)["value"]
+        """The value of an expression in the page, promises being waited for; or of statements, which have none."""
+        ended = ".then((value) => [value ?? null, complaints.splice(0)]);"
+        forms = [f"{ERRORS}; return Promise.resolve({script}){ended}", f"{ERRORS}; {script}; return Promise.resolve(null){ended}"]
+        for form in forms:
+            try:
+                value, complaints = self.ask("WebDriver:ExecuteScript", script=form, args=[], sandbox=None)["value"]
+                break
+            except RuntimeError as error:
+                if "SyntaxError" not in str(error) or form is forms[-1]:
+                    raise
         self.events += [{"method": "Runtime.exceptionThrown", "params": one} for one in complaints]
         return value
 
@@ -116,6 +123,8 @@ class Browser:
             self.point(asked)
         elif method == "Input.insertText":
             self.type(asked["text"])
+        elif method == "Storage.clearDataForOrigin":
+            self.run("(() => { try { localStorage.clear(); } catch {} })()")
         return {}
 
     def point(self, asked):
