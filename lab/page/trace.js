@@ -6,6 +6,8 @@ import { inUs, lengthTyped, massTyped } from "./units.js";
 
 /** The longest side (px) that is looked at, and the largest file (bytes). */
 const LONGEST = 4096, LARGEST_FILE = 60 << 20;
+/** The wood that is assumed. */
+const USUAL_WOOD = "white-ash-dynamic";
 /** How near (screen px) a pointer takes hold of a point that was set. */
 const NEAR = 12;
 
@@ -23,6 +25,7 @@ export class Tracing {
     this.dialog = byId("tracing");
     byId("trace-open").addEventListener("click", () => this.begin());
     byId("trace-wood").append(...woods.map((wood) => made("option", { value: wood }, wood)));
+    byId("trace-wood").value = USUAL_WOOD;
     byId("trace-file").addEventListener("change", ({ target }) => this.add(target.files[0]));
     for (const name of ["length", "diameter", "mass", "distance", "wood"]) {
       byId(`trace-${name}`).addEventListener("change", () => this.trace());
