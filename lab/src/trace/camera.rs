@@ -137,11 +137,12 @@ impl Camera {
 
     /// The camera if it were that near.
     fn at(nearness: f64, outline: &Outline, told: Told) -> Self {
-        /// The widest part is a mean over so much to each side (m), as calipers find it.
+        /// The widest part is a mean over so much to each side (m), as calipers find it, and not at the tip (m).
         const CALIPERS: f64 = 5e-3;
+        const TIP: f64 = 0.02;
         let radius = 0.5 * told.diameter;
         let rough = outline.length / told.length;
-        let inside = (0.5 * outline.length) as usize..(outline.length - rough * CALIPERS) as usize;
+        let inside = (0.5 * outline.length) as usize..(outline.length - rough * TIP) as usize;
         let at = |u: &usize| outline.half(*u as f64, CALIPERS * rough);
         let widest = inside.max_by(|a, b| at(a).total_cmp(&at(b))).unwrap_or(0);
         let per_m = at(&widest) * (1.0 - (radius * nearness).powi(2)).sqrt() / radius;

@@ -26,8 +26,6 @@ pub struct Edges {
     pub first: f64,
     /// Both edges at every column, a pixel apart.
     pub across: [Vec<f64>; 2],
-    /// How far bat and ground differ at an edge, in the middle of all, over the ground's noise.
-    pub contrast: f32,
 }
 
 impl Edges {
@@ -258,6 +256,7 @@ pub fn edges(picture: &Picture, ground: &Ground, found: Found, pins: &[[f64; 2]]
             along: turned.map(|t| t / long),
             ends: one.ends,
             half,
+            ..found
         };
         edges = Some(one);
     }
@@ -294,10 +293,9 @@ impl Columns<'_> {
         // Beyond the ends there are no edges.
         let from = ((ends[0] - first).ceil().max(0.0) as usize).min(count - 1);
         let to = ((ends[1] - first).floor().max(0.0) as usize).clamp(from + 1, count);
-        let contrast = self.contrast(first, &across);
         across = across.map(|edge| edge[from..to].to_vec());
         let first = first + from as f64;
-        Edges { origin: self.found.middle, along: self.found.along, ends, first, across, contrast }
+        Edges { origin: self.found.middle, along: self.found.along, ends, first, across }
     }
 
     fn from_picture(&self, x: f64, y: f64) -> [f64; 2] {
@@ -309,11 +307,12 @@ impl Columns<'_> {
     /// Where an end is: the greatest change of colour along the axis, of the inner part of the width.
     fn end(&self, end: usize, across: &[Vec<f64>; 2], pins: &[[f64; 2]]) -> f64 {
         /// Pixels to each side of where the bat was found to end that are looked at.
-        const AROUND: usize = 40;
+        const AROUND: usize = 80;
         /// Of half the width, what is averaged across.
         const INNER: f64 = 0.3;
         let count = across[0].len();
-        let near = if end == 0 { 8..40 } else { count.saturating_sub(40)..count.saturating_sub(8) };
+        let near =
+            if end == 0 { 60..100 } else { count.saturating_sub(100)..count.saturating_sub(60) };
         let of = |edge: &[f64]| {
             let mut some = edge[near.start.min(count)..near.end.min(count)].to_vec();
             some.sort_by(f64::total_cmp);
@@ -323,7 +322,7 @@ impl Columns<'_> {
         let (middle, half) = (0.5 * (one + other), 0.5 * (other - one));
         let about = self.found.ends[end];
         let set = pins.iter().find(|[u, v]| {
-            (u - about).abs() < 3.0 * AROUND as f64 && (v - middle).abs() < 0.6 * half
+            (u - about).abs() < 1.5 * AROUND as f64 && (v - middle).abs() < 0.6 * half
         });
         if let Some([u, _]) = set {
             return *u;
@@ -348,20 +347,6 @@ impl Columns<'_> {
         let score = |j: &usize| weighed(slope[*j], sign * shares[*j]);
         let best = (0..slope.len()).max_by(|a, b| score(a).total_cmp(&score(b))).unwrap_or(AROUND);
         from + between(&slope, best)
-    }
-
-    /// How far bat and ground differ at the edges, in the middle of all, over the ground's noise.
-    fn contrast(&self, first: f64, across: &[Vec<f64>; 2]) -> f32 {
-        /// Pixels inside of an edge.
-        const INSIDE: f64 = 6.0;
-        let at = |k: usize, side: usize| {
-            let v = across[side][k] + if side == 0 { INSIDE } else { -INSIDE };
-            let u = first + k as f64;
-            self.off(self.colour(u, v), u, v)
-        };
-        let mut all: Vec<f32> = (0..2 * across[0].len()).map(|k| at(k / 2, k % 2)).collect();
-        all.sort_by(f32::total_cmp);
-        all[all.len() / 2] / self.ground.noise
     }
 }
 

@@ -12,6 +12,8 @@ pub struct Found {
     pub along: [f64; 2],
     pub ends: [f64; 2],
     pub half: f64,
+    /// How far it is from the ground in colour, over the ground's noise.
+    pub contrast: f32,
 }
 
 /// A picture in cells: how far each is from the ground.
@@ -42,37 +44,12 @@ impl Cells {
         Self { size, width, height, off: off.collect() }
     }
 
-    /// The level that divides bat and ground: of all, that between whose two sides the cells differ most.
-    ///
-    /// # Source
-    ///
-    /// Otsu, A threshold selection method from gray-level histograms, IEEE Trans. SMC 9 (1979) 62–66.
-    fn level(&self) -> (f32, f32) {
-        const BINS: usize = 256;
-        let most = self.off.iter().copied().fold(0.0, f32::max).max(1e-3);
-        let mut counts = [0_f64; BINS];
-        for off in &self.off {
-            counts[((off / most * BINS as f32) as usize).min(BINS - 1)] += 1.0;
-        }
-        let all: f64 = counts.iter().sum();
-        let sum: f64 = counts.iter().enumerate().map(|(k, count)| k as f64 * count).sum();
-        let (mut below, mut sum_below) = (0.0, 0.0);
-        let mut best = (0.0, 0, 0.0);
-        for (k, count) in counts.iter().enumerate() {
-            below += count;
-            sum_below += k as f64 * count;
-            let above = all - below;
-            if below == 0.0 || above == 0.0 {
-                continue;
-            }
-            let (low, high) = (sum_below / below, (sum - sum_below) / above);
-            let between = below * above * (high - low) * (high - low);
-            if between > best.0 {
-                best = (between, k + 1, high);
-            }
-        }
-        let scale = most / BINS as f32;
-        (best.1 as f32 * scale, best.2 as f32 * scale)
+    /// How far a bat, which fills some hundredths of a picture, is from the ground.
+    fn level(&self) -> f32 {
+        const SHARE: f64 = 0.98;
+        let mut all = self.off.clone();
+        all.sort_by(f32::total_cmp);
+        all[((all.len() as f64 * SHARE) as usize).min(all.len() - 1)]
     }
 
     /// Connected cells above the level, the largest group first.
@@ -124,16 +101,16 @@ pub fn find(picture: &Picture, ground: &Ground) -> Result<Found> {
     /// Pixels along the bat.
     const LEAST: f64 = 700.0;
     let cells = Cells::of(picture, ground);
-    let (level, bat) = cells.level();
+    let bat = cells.level();
     let plain = "a bat on plain ground of another colour, in even light";
-    if bat < CONTRAST * ground.noise {
-        let times = bat / ground.noise;
+    let contrast = bat / ground.noise;
+    if contrast < CONTRAST {
         return Err(refused(
-            format!("no bat: what stands out most is {times:.1} times the ground's noise"),
+            format!("no bat: what stands out most is {contrast:.1} times the ground's noise"),
             plain,
         ));
     }
-    let groups = cells.groups(level);
+    let groups = cells.groups(0.6 * bat);
     let Some(group) = groups.first().filter(|group| group.len() > 40) else {
         return Err(refused("no bat: nothing large stands out from the ground", plain));
     };
@@ -155,7 +132,7 @@ pub fn find(picture: &Picture, ground: &Ground) -> Result<Found> {
             "the whole bat with ground around it",
         ));
     }
-    let found = axis(&cells, group);
+    let found = Found { contrast, ..axis(&cells, group) };
     let length = found.ends[1] - found.ends[0];
     let wide = (group.len() * cells.size * cells.size) as f64 / length;
     let slender = length / wide;
@@ -193,5 +170,5 @@ fn axis(cells: &Cells, group: &[usize]) -> Found {
         ends = [ends[0].min(u), ends[1].max(u)];
         half = half.max((y * along[0] - x * along[1]).abs());
     }
-    Found { middle, along, ends, half }
+    Found { middle, along, ends, half, contrast: 0.0 }
 }

@@ -51,11 +51,12 @@ pub fn answer(asked: &Value, bytes: &[u8], units: Units) -> Result<Value> {
     let middle = [0.5 * (picture.width - 1) as f64, 0.5 * (picture.height - 1) as f64];
     let outline = Outline::of(&edges, middle);
     let camera = Camera::of(&outline, told)?;
-    let seen = Seen::of(&outline.sharpened(&camera), &camera, told, edges.contrast);
+    let seen = Seen::of(&outline.sharpened(&camera), &camera, told, found.contrast);
     let others = asked.others.iter().filter(|one| {
         // Pictures of a bat that was told another length have other places.
         one.x_m == seen.x_m && one.is_whole()
     });
+    let (contrast, bow) = (found.contrast, edges.middle()[2] / camera.per_m);
     let all: Vec<Seen> = others.cloned().chain([seen.clone()]).collect();
     let shape = Shape::of(&all)?;
     Ok(json!({
@@ -67,7 +68,7 @@ pub fn answer(asked: &Value, bytes: &[u8], units: Units) -> Result<Value> {
         "pictures": all.len(),
         "diameter_deviation_m": shape.deviation,
         "deviation": small(units, shape.deviation),
-        "words": words(&edges, &camera, &shape, told, units),
+        "words": words([contrast.into(), bow], &camera, &shape, told, units),
     }))
 }
 
@@ -131,56 +132,29 @@ fn bat_file(asked: &Asked, shape: &Shape, pictures: usize) -> String {
     format!("{bat:#}\n")
 }
 
-/// What limits trust, in sentences.
-fn words(edges: &Edges, camera: &Camera, shape: &Shape, told: Told, units: Units) -> Vec<String> {
+/// What limits trust, in sentences, of a bat that stands out by so many noises, its middle line bent by so much (m).
+fn words(
+    [contrast, bow]: [f64; 2],
+    camera: &Camera,
+    shape: &Shape,
+    told: Told,
+    units: Units,
+) -> Vec<String> {
     let length = |value: f64| small(units, value);
-    let mut all = vec![];
     let far = match camera.nearness {
-        _ if told.distance.is_some() => "taken from as far as was told".to_owned(),
-        near if near > 0.05 => format!("taken from about {:.1} m", 1.0 / near),
-        _ => "taken from far away".to_owned(),
+        _ if told.distance.is_some() => "as far as was told".to_owned(),
+        near if near > 0.05 => format!("about {:.1} m", 1.0 / near),
+        _ => "far away".to_owned(),
     };
-    all.push(format!("The picture was {far}; a pixel is {}.", length(1.0 / camera.per_m)));
-    if camera.doubtful(told) {
-        all.push(
-            "It looks shorter than length and diameter say: one end lies nearer to the lens, or one of them is wrong."
-                .to_owned(),
-        );
-    }
-    if camera.nearness > 0.6 {
-        let most = camera.beyond[0].max(camera.beyond[1]);
-        all.push(format!(
-            "From so near an end looks {} too long, which is counted; from 3 m with the zoom diameters are known better.",
-            length(most)
-        ));
-    }
-    let smeared = told.length * 0.5 * told.diameter * camera.nearness;
-    all.push(format!(
-        "Behind a step such as the knob's, and at a rounded tip, the picture smears over {}: measure there, and type it.",
-        length(smeared)
-    ));
-    if !shape.both {
-        all.push(
-            "How level the bat lay one picture does not show. Take a second one with the bat turned end for end: their \
-             mean is free of it."
-                .to_owned(),
-        );
-    }
-    if edges.contrast < 12.0 {
-        all.push("The bat hardly stands out from the ground: look at the edges, and set them by hand where they are wrong.".to_owned());
-    }
-    let bow = edges.middle()[2] / camera.per_m;
-    if bow > 1e-3 {
-        all.push(format!(
-            "The middle line is bent by {}: by the lens, by a shadow, or it is the bat.",
-            length(bow)
-        ));
-    }
-    if let Some(apart) = shape.apart {
-        all.push(format!(
-            "The pictures differ by {} more than they should: are they of one bat, and its length and diameter right?",
-            length(apart)
-        ));
-    }
-    all
+    let said = [
+        (true, format!("The picture was taken from {far}; a pixel is {}.", length(1.0 / camera.per_m))),
+        (camera.doubtful(told), "It looks shorter than length and diameter say: one end lies nearer to the lens, or one of them is wrong.".to_owned()),
+        (camera.nearness > 0.6, format!("From so near an end looks {} too long, which is counted; from 3 m with the zoom diameters are known better.", length(camera.beyond[0].max(camera.beyond[1])))),
+        (true, format!("Behind a step such as the knob's, and at a rounded tip, the picture smears over {}: measure there, and type it.", length(told.length * 0.5 * told.diameter * camera.nearness))),
+        (!shape.both, "How level the bat lay one picture does not show. Take a second one with the bat turned end for end: their mean is free of it.".to_owned()),
+        (contrast < 12.0, "The bat hardly stands out from the ground: look at the edges, and set them by hand where they are wrong.".to_owned()),
+        (bow > 1e-3, format!("The middle line is bent by {}: by the lens, by a shadow, or it is the bat.", length(bow))),
+        (shape.apart.is_some(), format!("The pictures differ by {} more than they should: are they of one bat, and its length and diameter right?", length(shape.apart.unwrap_or_default()))),
+    ];
+    said.into_iter().filter(|(so, _)| *so).map(|(_, text)| text).collect()
 }
