@@ -330,7 +330,8 @@ fn what_cannot_be_traced_is_said() {
             line[1600..3200].chunks_mut(4).for_each(|one| one.copy_from_slice(&[40, 40, 40, 255]));
         }
     };
-    let all: [(&str, &Photograph, &dyn Fn(&mut Vec<u8>)); 5] = [
+    type Spoilt<'a> = (&'a str, &'a Photograph, &'a dyn Fn(&mut Vec<u8>));
+    let all: [Spoilt; 5] = [
         ("no bat", &small, &|bytes: &mut Vec<u8>| ground(bytes)),
         ("cut off", &small, &cut),
         ("2 things", &small, &two),

@@ -49,10 +49,9 @@ impl Outline {
     /// The outline with the knob first, which is at the end of the thinner half; `middle` is that of the picture.
     pub fn of(edges: &Edges, middle: [f64; 2]) -> Self {
         let mut half: Vec<f64> = (0..edges.columns()).map(|k| edges.half(k)).collect();
-        let [from, to] = edges.ends;
+        let [from, to] = edges.axis.ends;
         let last = edges.first + (half.len() - 1) as f64;
-        let [x, y] = [middle[0] - edges.origin[0], middle[1] - edges.origin[1]];
-        let foot = x * edges.along[0] + y * edges.along[1];
+        let [foot, _] = edges.axis.along_across(middle);
         let parts = half.split_at(half.len() / 2);
         let turned = parts.0.iter().sum::<f64>() > parts.1.iter().sum::<f64>();
         if turned {

@@ -5,7 +5,7 @@
 //! then it is set between pixels by a parabola through the change at three of them.
 
 use crate::trace::find::Found;
-use crate::trace::picture::{Colour, Ground, Picture, distance};
+use crate::trace::picture::{Colour, Ground, Picture, distance, mean};
 
 /// Standard deviation of the bell whose slope is laid over the colours (px).
 const BELL: f32 = 1.4;
@@ -15,13 +15,9 @@ const REACH: usize = 4;
 const BESIDE: usize = 2;
 
 /// The edges of a bat on a picture, in pixels along its axis and across it.
-#[derive(Clone)]
 pub struct Edges {
-    /// A place of the axis, and its direction.
-    pub origin: [f64; 2],
-    pub along: [f64; 2],
-    /// The two ends, from the origin along the axis.
-    pub ends: [f64; 2],
+    /// The axis, and the two ends along it.
+    pub axis: Found,
     /// Where the first column is, from the origin.
     pub first: f64,
     /// Both edges at every column, a pixel apart.
@@ -36,12 +32,6 @@ impl Edges {
 
     pub fn columns(&self) -> usize {
         self.across[0].len()
-    }
-
-    /// A place of the picture from along the axis and across it.
-    pub fn place(&self, u: f64, v: f64) -> [f64; 2] {
-        let ([x, y], [c, s]) = (self.origin, self.along);
-        [x + u * c - v * s, y + u * s + v * c]
     }
 
     /// The straight middle line: its height at the origin, its slope, and how far the middle leaves it (px).
@@ -77,18 +67,13 @@ struct Change {
 }
 
 impl Columns<'_> {
-    fn place(&self, u: f64, v: f64) -> [f64; 2] {
-        let Found { middle: [x, y], along: [c, s], .. } = self.found;
-        [x + u * c - v * s, y + u * s + v * c]
-    }
-
     fn colour(&self, u: f64, v: f64) -> Colour {
-        let [x, y] = self.place(u, v);
+        let [x, y] = self.found.place(u, v);
         self.picture.at(x, y)
     }
 
     fn off(&self, colour: Colour, u: f64, v: f64) -> f32 {
-        let [x, y] = self.place(u, v);
+        let [x, y] = self.found.place(u, v);
         distance(colour, self.ground.at(x, y))
     }
 
@@ -103,14 +88,8 @@ impl Columns<'_> {
             (0..=2 * BESIDE).map(|k| column(k as isize - BESIDE as isize)).collect();
         let mut change = Change { slope: vec![], score: [vec![], vec![]], rows };
         for k in 0..count {
-            let mean: Vec<Colour> = (0..rows)
-                .map(|j| {
-                    let sum = near.iter().fold(Colour::default(), |sum, one| {
-                        std::array::from_fn(|i| sum[i] + one[j][i])
-                    });
-                    sum.map(|sum| sum / near.len() as f32)
-                })
-                .collect();
+            let mean: Vec<Colour> =
+                (0..rows).map(|j| mean(near.iter().map(|one| one[j]))).collect();
             let u = first + k as f64;
             let off: Vec<f32> =
                 mean.iter().enumerate().map(|(j, one)| self.off(*one, u, across(j))).collect();
@@ -199,11 +178,10 @@ fn path(score: &[f32], rows: usize, allowed: impl Fn(usize, usize) -> bool) -> V
         let leap = (0..rows).max_by(|a, b| best[*a].total_cmp(&best[*b])).unwrap_or(0);
         let next = (0..rows).map(|j| {
             let mut from = (best[leap] - PRICE.1, leap);
-            for i in j.saturating_sub(STEPS)..(j + STEPS + 1).min(rows) {
-                let value = best[i] - PRICE.0 * i.abs_diff(j).pow(2) as f32;
-                if value > from.0 {
-                    from = (value, i);
-                }
+            let near = j.saturating_sub(STEPS);
+            for (i, best) in best.iter().enumerate().take(j + STEPS + 1).skip(near) {
+                let value = best - PRICE.0 * i.abs_diff(j).pow(2) as f32;
+                from = if value > from.0 { (value, i) } else { from };
             }
             came[k * rows + j] = from.1 as u16;
             from.0 + if allowed(k, j) { (column[j] / usual).min(1.5) } else { NEVER }
@@ -252,11 +230,10 @@ pub fn edges(picture: &Picture, ground: &Ground, found: Found, pins: &[[f64; 2]]
         let long = turned[0].hypot(turned[1]);
         let half = (0..one.columns()).map(|k| one.half(k)).fold(0.0, f64::max);
         found = Found {
-            middle: one.place(0.0, height),
+            middle: one.axis.place(0.0, height),
             along: turned.map(|t| t / long),
-            ends: one.ends,
             half,
-            ..found
+            ..one.axis
         };
         edges = Some(one);
     }
@@ -270,7 +247,7 @@ impl Columns<'_> {
         let first = self.found.ends[0].ceil();
         let count = (self.found.ends[1].floor() - first) as usize;
         let Change { slope, score, rows } = self.change(first, count);
-        let pins: Vec<[f64; 2]> = pins.iter().map(|[x, y]| self.from_picture(*x, *y)).collect();
+        let pins: Vec<[f64; 2]> = pins.iter().map(|pin| self.found.along_across(*pin)).collect();
         let mut across = [0, 1].map(|side| {
             let mut own: Vec<[f64; 2]> =
                 pins.iter().filter(|pin| (pin[1] < 0.0) == (side == 0)).copied().collect();
@@ -295,13 +272,7 @@ impl Columns<'_> {
         let to = ((ends[1] - first).floor().max(0.0) as usize).clamp(from + 1, count);
         across = across.map(|edge| edge[from..to].to_vec());
         let first = first + from as f64;
-        Edges { origin: self.found.middle, along: self.found.along, ends, first, across }
-    }
-
-    fn from_picture(&self, x: f64, y: f64) -> [f64; 2] {
-        let Found { middle, along: [c, s], .. } = self.found;
-        let [x, y] = [x - middle[0], y - middle[1]];
-        [x * c + y * s, y * c - x * s]
+        Edges { axis: Found { ends, ..self.found }, first, across }
     }
 
     /// Where an end is: the greatest change of colour along the axis, of the inner part of the width.
@@ -329,18 +300,14 @@ impl Columns<'_> {
         }
         let inner = (INNER * half).max(1.0) as i32;
         let from = about.round() - AROUND as f64;
-        let (line, off): (Vec<Colour>, Vec<f32>) = (0..=2 * AROUND)
+        let line: Vec<Colour> = (0..=2 * AROUND)
             .map(|k| {
-                let u = from + k as f64;
-                let mut sum = Colour::default();
-                for v in -inner..=inner {
-                    let one = self.colour(u, middle + f64::from(v));
-                    sum.iter_mut().zip(one).for_each(|(sum, one)| *sum += one);
-                }
-                let mean = sum.map(|sum| sum / (2 * inner + 1) as f32);
-                (mean, self.off(mean, u, middle))
+                let row = |v: i32| self.colour(from + k as f64, middle + f64::from(v - inner));
+                mean((0..2 * inner + 1).map(row))
             })
-            .unzip();
+            .collect();
+        let off = line.iter().enumerate().map(|(k, one)| self.off(*one, from + k as f64, middle));
+        let off: Vec<f32> = off.collect();
         let slope = slopes(&line);
         let sign = if end == 0 { 1.0 } else { -1.0 };
         let shares = shares(&off, self.ground.noise);

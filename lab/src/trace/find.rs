@@ -2,7 +2,7 @@
 
 use sweetspot::base::error::{Error, Result};
 
-use crate::trace::picture::{Colour, Ground, Picture, distance};
+use crate::trace::picture::{Ground, Picture, distance, mean};
 
 /// Where the bat lies (px): the middle of what stands out from the ground, the direction of its axis, how far it
 /// reaches to both sides along it and, half, across it.
@@ -14,6 +14,20 @@ pub struct Found {
     pub half: f64,
     /// How far it is from the ground in colour, over the ground's noise.
     pub contrast: f32,
+}
+
+impl Found {
+    /// A place of the picture from along the axis and across it.
+    pub fn place(&self, u: f64, v: f64) -> [f64; 2] {
+        let ([x, y], [c, s]) = (self.middle, self.along);
+        [x + u * c - v * s, y + u * s + v * c]
+    }
+
+    /// How far along the axis and across it a place of the picture is.
+    pub fn along_across(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let ([x, y], [c, s]) = ([x - self.middle[0], y - self.middle[1]], self.along);
+        [x * c + y * s, y * c - x * s]
+    }
 }
 
 /// A picture in cells: how far each is from the ground.
@@ -32,13 +46,8 @@ impl Cells {
         let (width, height) = (picture.width / size, picture.height / size);
         let off = (0..width * height).map(|k| {
             let (x, y) = (k % width * size, k / width * size);
-            let mut sum = Colour::default();
-            for j in 0..size * size {
-                let one = picture.pixel((x + j % size) as isize, (y + j / size) as isize);
-                sum.iter_mut().zip(one).for_each(|(sum, one)| *sum += one);
-            }
-            let (mean, middle) =
-                (sum.map(|sum| sum / (size * size) as f32), 0.5 * (size - 1) as f64);
+            let one = |j: usize| picture.pixel((x + j % size) as isize, (y + j / size) as isize);
+            let (mean, middle) = (mean((0..size * size).map(one)), 0.5 * (size - 1) as f64);
             distance(mean, ground.at(x as f64 + middle, y as f64 + middle))
         });
         Self { size, width, height, off: off.collect() }
@@ -81,8 +90,9 @@ impl Cells {
     }
 }
 
-fn refused(found: impl std::fmt::Display, expected: &str) -> Error {
-    Error::value("the picture", found, expected)
+/// An error where something is so.
+fn refuse(so: bool, found: String, expected: &str) -> Result<()> {
+    if so { Err(Error::value("the picture", found, expected)) } else { Ok(()) }
 }
 
 /// Finds the bat.
@@ -102,50 +112,29 @@ pub fn find(picture: &Picture, ground: &Ground) -> Result<Found> {
     const LEAST: f64 = 700.0;
     let cells = Cells::of(picture, ground);
     let bat = cells.level();
-    let plain = "a bat on plain ground of another colour, in even light";
     let contrast = bat / ground.noise;
-    if contrast < CONTRAST {
-        return Err(refused(
-            format!("no bat: what stands out most is {contrast:.1} times the ground's noise"),
-            plain,
-        ));
-    }
+    let plain = "a bat on plain ground of another colour, in even light";
+    let told = format!("no bat: what stands out most is {contrast:.1} times the ground's noise");
+    refuse(contrast < CONTRAST, told, plain)?;
     let groups = cells.groups(0.6 * bat);
-    let Some(group) = groups.first().filter(|group| group.len() > 40) else {
-        return Err(refused("no bat: nothing large stands out from the ground", plain));
+    let Some((group, others)) = groups.split_first().filter(|(group, _)| group.len() > 40) else {
+        return Err(Error::value("the picture", "no bat", plain));
     };
-    let others = groups[1..].iter().filter(|one| one.len() as f64 > ANOTHER * group.len() as f64);
-    let others = others.count();
-    if others > 0 {
-        return Err(refused(
-            format!("{} things on the ground", others + 1),
-            "one bat and nothing else",
-        ));
-    }
-    let cut = |k: &usize| {
+    let others = others.iter().filter(|one| one.len() as f64 > ANOTHER * group.len() as f64);
+    let things = 1 + others.count();
+    refuse(things > 1, format!("{things} things on the ground"), "one bat and nothing else")?;
+    let cut = group.iter().any(|k| {
         let (x, y) = (k % cells.width, k / cells.width);
         x == 0 || y == 0 || x + 1 == cells.width || y + 1 == cells.height
-    };
-    if group.iter().any(cut) {
-        return Err(refused(
-            "a bat that is cut off by its edge",
-            "the whole bat with ground around it",
-        ));
-    }
+    });
+    refuse(cut, "a bat that is cut off by its edge".to_owned(), "the whole bat, ground around it")?;
     let found = Found { contrast, ..axis(&cells, group) };
     let length = found.ends[1] - found.ends[0];
-    let wide = (group.len() * cells.size * cells.size) as f64 / length;
-    let slender = length / wide;
-    if !(SLENDER[0]..SLENDER[1]).contains(&slender) {
-        return Err(refused(
-            format!("a thing {slender:.1} times as long as wide"),
-            "a bat, which is 15 to 25 times",
-        ));
-    }
-    if length < LEAST {
-        let expected = "1500 pixels for 0.3 mm, 700 at least: come nearer with the zoom, or send the picture itself";
-        return Err(refused(format!("a bat {length:.0} pixels long"), expected));
-    }
+    let slender = length * length / (group.len() * cells.size * cells.size) as f64;
+    let told = format!("a thing {slender:.1} times as long as wide");
+    refuse(!(SLENDER[0]..SLENDER[1]).contains(&slender), told, "a bat, which is 15 to 25 times")?;
+    let expected = "1500 for 0.3 mm, 700 at least: come nearer with the zoom";
+    refuse(length < LEAST, format!("a bat {length:.0} pixels long"), expected)?;
     Ok(found)
 }
 
@@ -163,12 +152,11 @@ fn axis(cells: &Cells, group: &[usize]) -> Found {
     };
     let angle = 0.5 * (2.0 * product(0, 1)).atan2(product(0, 0) - product(1, 1));
     let along = [angle.cos(), angle.sin()];
-    let (mut ends, mut half) = ([0.0_f64; 2], 0.0_f64);
+    let mut found = Found { middle, along, ends: [0.0; 2], half: 0.0, contrast: 0.0 };
     for k in group {
-        let [x, y] = [place(k)[0] - middle[0], place(k)[1] - middle[1]];
-        let u = x * along[0] + y * along[1];
-        ends = [ends[0].min(u), ends[1].max(u)];
-        half = half.max((y * along[0] - x * along[1]).abs());
+        let [u, v] = found.along_across(place(k));
+        found.ends = [found.ends[0].min(u), found.ends[1].max(u)];
+        found.half = found.half.max(v.abs());
     }
-    Found { middle, along, ends, half, contrast: 0.0 }
+    found
 }

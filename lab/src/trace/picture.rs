@@ -46,6 +46,13 @@ impl<'a> Picture<'a> {
     }
 }
 
+/// The mean of some colours.
+pub fn mean(colours: impl ExactSizeIterator<Item = Colour>) -> Colour {
+    let count = colours.len() as f32;
+    let add = |sum: Colour, one: Colour| std::array::from_fn(|k| sum[k] + one[k]);
+    colours.fold(Colour::default(), add).map(|sum| sum / count)
+}
+
 /// The distance of two colours.
 pub fn distance(one: Colour, other: Colour) -> f32 {
     one.iter().zip(other).map(|(a, b)| (a - b) * (a - b)).sum::<f32>().sqrt()
@@ -59,12 +66,8 @@ pub struct Ground {
     pub noise: f32,
 }
 
-/// 1, x, y, x², x y, y².
+/// Of a quadratic of two numbers.
 const TERMS: usize = 6;
-
-fn terms(x: f64, y: f64) -> [f64; TERMS] {
-    [1.0, x, y, x * x, x * y, y * y]
-}
 
 impl Ground {
     /// The ground by what is seen along the frame of the picture, without what does not fit to the rest.
@@ -98,9 +101,10 @@ impl Ground {
         ground
     }
 
-    /// The place in parts of the picture, −1 to 1.
+    /// The terms at a place in parts of the picture, −1 to 1.
     fn scaled(&self, x: f64, y: f64) -> [f64; TERMS] {
-        terms(2.0 * x / self.size[0] - 1.0, 2.0 * y / self.size[1] - 1.0)
+        let (x, y) = (2.0 * x / self.size[0] - 1.0, 2.0 * y / self.size[1] - 1.0);
+        [1.0, x, y, x * x, x * y, y * y]
     }
 
     /// The least squares of what is seen.

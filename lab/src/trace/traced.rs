@@ -62,7 +62,7 @@ pub fn answer(asked: &Value, bytes: &[u8], units: Units) -> Result<Value> {
     Ok(json!({
         "seen": seen,
         "edges": [polyline(&edges, 0), polyline(&edges, 1)],
-        "ends": edges.ends.map(|u| edges.place(u, edges.middle()[0] + edges.middle()[1] * u)),
+        "ends": edges.axis.ends.map(|u| edges.axis.place(u, edges.middle()[0] + edges.middle()[1] * u)),
         "bat_file": bat_file(&asked, &shape, all.len()),
         "stations": shape.stations.x.len(),
         "pictures": all.len(),
@@ -99,7 +99,7 @@ fn polyline(edges: &Edges, side: usize) -> Vec<[f64; 2]> {
     let columns = (0..=POINTS).map(|k| k * last / POINTS);
     columns
         .map(|k| {
-            edges.place(edges.first + k as f64, edges.across[side][k]).map(|at| rounded(at, 4))
+            edges.axis.place(edges.first + k as f64, edges.across[side][k]).map(|at| rounded(at, 4))
         })
         .collect()
 }
