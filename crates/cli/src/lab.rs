@@ -66,7 +66,7 @@ pub fn page() -> Result<&'static str> {
     })
 }
 
-/// Writes the page with that bat beside a report, and gives its name: `r161.html` has `r161-lab.html`.
+/// Writes the page with that bat beside a report, and gives its address there: `r161.html` has `r161-lab.html`.
 pub fn beside(report: &Path, bat: &Bat, text: &str) -> Result<String> {
     let name = format!("{}-lab.html", report.file_stem().unwrap_or_default().to_string_lossy());
     // Edits of the command line stand in no file.
@@ -74,7 +74,7 @@ pub fn beside(report: &Path, bat: &Bat, text: &str) -> Result<String> {
         Bat::from_text("", text, Path::new("")).is_ok_and(|read| read.edits() == bat.edits());
     let text = if same { text.to_owned() } else { alone(bat) };
     file::write(&report.with_file_name(&name), with_bat(page()?, &text).as_bytes())?;
-    Ok(name)
+    Ok(name.replace('%', "%25").replace('#', "%23").replace('?', "%3F"))
 }
 
 pub fn run(args: &Args) -> Result<Done> {

@@ -40,7 +40,7 @@ pub struct Report<'a> {
     pub summary: Summary,
     /// Whether US units are shown first: as in the bat's file, unless others are asked for.
     pub us: bool,
-    /// The file beside the report with the live page of this bat.
+    /// The address of the live page beside the report.
     pub lab: Option<String>,
 }
 
@@ -74,8 +74,7 @@ impl<'a> Report<'a> {
     ) -> Result<Self> {
         let figures = Figure::all(|sheet| of_analysis(sheet, analysis, map))?;
         let (moments, sounds) = (moments(analysis)?, sounds(analysis)?);
-        let (summary, us) = (Summary::new(analysis), analysis.bat.inches());
-        let lab = None;
+        let (summary, us, lab) = (Summary::new(analysis), analysis.bat.inches(), None);
         Ok(Self { analysis, command, inputs, figures, moments, sounds, map, summary, us, lab })
     }
 

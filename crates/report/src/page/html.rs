@@ -36,7 +36,7 @@ pub struct Page<'a> {
     pub figures: &'a [Figure],
     /// What its script draws, as JSON; none where nothing moves.
     pub data: Option<String>,
-    /// The file beside it with the live page of the same bat.
+    /// The address of the same bat's live page beside it.
     pub lab: Option<&'a str>,
 }
 
@@ -84,15 +84,9 @@ impl Page<'_> {
                 escaped(source)
             ),
         };
-        let lab = self.lab.map_or_else(String::new, |file| {
-            let plain = |byte: u8| byte.is_ascii_alphanumeric() || b"-_.".contains(&byte);
-            let address = file.bytes().map(|byte| match plain(byte) {
-                true => char::from(byte).to_string(),
-                false => format!("%{byte:02X}"),
-            });
-            let address: String = address.collect();
-            format!("<p class=\"screen\"><a class=\"button\" href=\"{address}\">Open in the lab</a></p>\n")
-        });
+        let open = "class=\"button screen\">Open in the lab</a>\n";
+        let lab =
+            self.lab.map(escaped).map_or_else(String::new, |f| format!("<a href=\"{f}\" {open}"));
         let labels = ["cm, m/s".to_owned(), "in, mph".to_owned()];
         let units = players::choice("units", "Units", &labels, usize::from(self.us));
         format!(
