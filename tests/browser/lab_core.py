@@ -104,6 +104,11 @@ def compare(core, program, name, path, inches):
             check(text in shown, f"{name}: {line['what']} {text!r} is not in what analyze prints")
     for line in analyzed["figures"]:
         check(line["text"] in shown, f"{name}: {line} is not in what analyze prints")
+    if name == "r161":
+        traced, = asked(core, [{"id": 9, "ask": "analyze", "bat": bat, "units": questions[-1][1], "diameter_deviation_m": 3e-4}])
+        wider = run("analyze", path, "--units", questions[-1][1], "--calipers", "0.3 mm")
+        for line in traced["answers"][:2]:
+            check(line["open"] in wider, f"{name}, traced: {line['what']} {line['open']!r} is not in what analyze prints")
     plain = " ".join(shown.split())
     for text in filter(None, [*analyzed["trust"], analyzed["why"]]):
         check(" ".join(text.split()) in plain, f"{name}: {text!r} is not in what analyze prints")
