@@ -3,15 +3,17 @@
 
     lab_core.py CORE.wasm PROGRAM
 
-Twenty bats: all of meshes/ and five that are edited; every other one in inches. Frequencies and nodes agree to 1e-12, hits to 1e-11 (relative: the
-elementary functions of the two machines differ in their last bits), the place of the fastest ball to 1e-8, and every
-text is one that the program prints.
+Twenty bats: all of meshes/ and five that are edited; every other one in inches. Frequencies and nodes agree to 1e-12,
+hits to 1e-11 (relative: the elementary functions of the two machines differ in their last bits), the place of the
+fastest ball to 1e-8, and every text is one that the program prints.
 """
 
 import json
+import os
 import subprocess
 import sys
 import tempfile
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -138,8 +140,10 @@ def main():
     words(core)
     with tempfile.TemporaryDirectory() as folder:
         all_bats = bats(Path(folder))
-        for k, (name, path) in enumerate(all_bats.items()):
-            compare(core, program, name, path, inches=k % 2 == 1)
+        with ThreadPoolExecutor(os.cpu_count()) as pool:
+            done = [pool.submit(compare, core, program, name, path, inches=k % 2 == 1)
+                    for k, (name, path) in enumerate(all_bats.items())]
+            [one.result() for one in done]
     print(f"{len(failures)} failures" if failures else f"the page's core answers as the program on {len(all_bats)} bats")
     sys.exit(1 if failures else 0)
 
