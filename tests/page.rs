@@ -530,3 +530,17 @@ fn another_kind_of_report_is_refused_before_anything_is_done() {
     }
     assert_eq!(folder.names(), ["taken"]);
 }
+
+/// A program without the live page says how it comes in, before anything is computed; a report without one has no
+/// button for it.
+#[test]
+fn the_live_page_beside_a_report_has_to_be_built_in() {
+    let folder = Folder::new("page-lab");
+    let output = folder.run(&["analyze", &mesh("dowel"), "--report", "page.html", "--lab"]);
+    assert_eq!(output.status.code(), Some(2));
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(told.contains("lab/build"), "{told}");
+    assert!(folder.names().is_empty(), "{:?}", folder.names());
+    folder.run(&["analyze", &mesh("dowel"), "--report", "page.html"]);
+    assert!(!folder.read("page.html").contains("Open in the lab"));
+}

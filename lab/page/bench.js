@@ -2,7 +2,7 @@
 
 import { History } from "./history.js";
 import { fileText } from "./stations.js";
-import { inUs } from "./units.js";
+import { inUs, say } from "./units.js";
 
 /** Quiet ms before the certified answer is asked for, and before the slow one. */
 const CERTIFIED_AFTER = 60, SLOW_AFTER = 500;
@@ -17,7 +17,7 @@ export const PINS = 4;
 
 /**
  * What `open` said of a text, and what is edited of it.
- * @typedef {{ bat: any, differs: string | null, parts: string[], warnings: string[] }} Known
+ * @typedef {{ bat: any, differs: string | null, parts: string[], warnings: string[], deviation_m?: number }} Known
  */
 
 /** What is wrong with a bat, each mistake on its own line. */
@@ -65,7 +65,14 @@ export class Bench extends EventTarget {
 
   question(ask, text = this.text) {
     const scene = Object.keys(this.scene).length ? { scene: this.scene } : {};
-    return { ask, bat: text, units: this.units, ...scene };
+    const diameter_deviation_m = ["analyze", "files"].includes(ask) ? this.known.get(text)?.deviation_m : undefined;
+    return { ask, bat: text, units: this.units, ...scene, diameter_deviation_m };
+  }
+
+  /** What is said of a bat whose diameters were traced. */
+  get traced() {
+    const { deviation_m } = this.opened ?? {};
+    return deviation_m ? [`Its diameters were traced, within ± ${say("diameter", deviation_m)} in two cases of three: the ± count that.`] : [];
   }
 
   keep(key, answer) {
@@ -103,10 +110,11 @@ export class Bench extends EventTarget {
   }
 
   /**
-   * Opens the text of a bat file or a table, in a scene of its own if it has one; what is wrong is returned in words.
+   * Opens the text of a bat file or a table, in a scene of its own if it has one, its diameters known to a deviation if
+   * they were traced; what is wrong is returned in words.
    * @returns {Promise<string | null>}
    */
-  async open(text, scene) {
+  async open(text, scene, deviation_m) {
     const answer = await this.quick.ask({ ask: "open", bat: text, units: this.units });
     if (!answer) return "Another bat was opened meanwhile.";
     if (answer.error) return wrong(answer);
@@ -119,7 +127,7 @@ export class Bench extends EventTarget {
       this.scene = before;
       return wrong(body);
     }
-    this.known.set(own, answer);
+    this.known.set(own, deviation_m > 0 ? { ...answer, deviation_m } : answer);
     if (this.history) this.history.open(own); else this.history = new History(own);
     if (this.against === "before") this.against = "opened";
     this.show(own);
@@ -145,8 +153,9 @@ export class Bench extends EventTarget {
   changed() {
     this.number += 1;
     Object.assign(this, { analyzed: null, lathe: null, trouble: null });
-    // What was asked of the bat before is of no use; the bats to compare with stay.
+    // What was asked of the bat before is of no use; the bats to compare with stay. A wall takes a second.
     this.slow.drop((kind) => kind !== "sure");
+    if (this.body.hollow) this.sure.drop((kind) => kind === "sure");
     this.tell("slow", false);
     this.tell("shown");
     const there = this.kept.get(this.keyOf("sure"));
@@ -204,6 +213,7 @@ export class Bench extends EventTarget {
   /** There is no answer to the bat shown: nothing of another one may stand in its place. */
   fail(words) {
     Object.assign(this, { hit: null, failed: this.number });
+    this.sure.drop((kind) => kind === "sure");
     this.say(words);
     this.tell("figures");
   }
@@ -262,6 +272,25 @@ export class Bench extends EventTarget {
   pin() {
     if (this.pins.length < PINS) this.pins.push({ text: this.text });
     this.tell("pins");
+  }
+
+  /**
+   * Pins the bats that came with another one; differences count from the first. What is wrong is returned in words.
+   * @param {string[]} [texts]
+   * @returns {Promise<string | null>}
+   */
+  async compareWith(texts = []) {
+    for (const text of texts.slice(0, PINS)) {
+      const answer = await this.quick.ask({ ask: "open", bat: text, units: this.units }, "compare");
+      if (!answer) return null;
+      if (answer.error) return `A bat to compare with cannot be read. ${wrong(answer)}`;
+      this.known.set(text, answer);
+      if (this.pins.length < PINS && this.pins.every((pin) => pin.text !== text)) this.pins.push({ text });
+    }
+    const first = this.pins.findIndex((pin) => pin.text === texts[0]);
+    if (first >= 0) this.setAgainst(first);
+    this.tell("pins");
+    return null;
   }
 
   unpin(k) {

@@ -1,7 +1,7 @@
 // Draws the exit speed along the barrel and what is left in vibration, above the same places, with a line that reads
 // off.
 
-import { byId, drawn, made, pathOf, put, ticks, write } from "./svg.js";
+import { byId, drawn, made, pathOf, put, ticks, write, framed } from "./svg.js";
 import { inUs, say, shownAs } from "./units.js";
 
 const LEFT = 52, RIGHT = 14, TOP = 38, GAP = 52, FOOT = 42;
@@ -11,7 +11,7 @@ export class Chart {
   constructor(svg, bench) {
     Object.assign(this, { svg, bench, share: null, ranges: null });
     this.slider = byId("read-off");
-    new ResizeObserver(() => this.draw()).observe(svg.parentElement);
+    new ResizeObserver(framed(() => this.draw())).observe(svg.parentElement);
     for (const what of ["shown", "figures", "history"]) bench.on(what, () => this.draw());
     for (const what of ["pointermove", "pointerdown"]) svg.addEventListener(what, (event) => this.follow(event));
     this.slider.addEventListener("input", () => { this.share = Number(this.slider.value) / 1000; this.draw(); });
@@ -40,7 +40,7 @@ export class Chart {
     const lower = { top: TOP + tall + GAP, tall: low, range: this.ranges.energy };
     const bottom = both ? lower.top + low : TOP + tall;
     this.zone(hit, TOP, bottom);
-    this.plot(upper, "speed", 5, bench.body.hollow ? "Exit speed, stiff wall" : "Exit speed");
+    this.plot(upper, "speed", 5, hit.rough_wall ? "Exit speed, wall by estimate" : "Exit speed");
     if (both) this.plot(lower, "energy", 3, "Left in vibration");
     this.places(bottom);
     const line = (curve, name, plot, kind, what) => {
@@ -158,7 +158,7 @@ export class Chart {
     ];
     if (curve.vibration_j) {
       const here = say("energy", curve.vibration_j[near]);
-      words.push(["Left in vibration", spot ? hit.vibration?.energy.text ?? "–" : here]);
+      words.push(["Left in vibration", spot ? hit.vibration?.text ?? "–" : here]);
     }
     put(this.slider, { "aria-valuetext": words.map((pair) => pair.join(" ")).join(", ") });
     byId("reading").replaceChildren(...words.map(([name, value]) => made("span", {}, made("i", {}, name), value)));

@@ -1,31 +1,14 @@
-// Moves a station by pointer or by keys: one gesture is one step, Escape puts the bat back as it was.
+// Moves what a hand takes hold of, by pointer or by keys: one gesture is one step, Escape puts the bat back as it was.
 
-import { movable, moved, snapped, stationsOf, withDiameters, limits } from "./stations.js";
-import { framed } from "./svg.js";
+import { BandGesture, LengthGesture, StationGesture } from "./gestures.js";
+import { lengthLimits, limits, movable } from "./stations.js";
+import { byId, framed, put } from "./svg.js";
 import { inUs } from "./units.js";
 
 /** How near (px) a pointer must be to the outline, fine and coarse. */
 const NEAR = { mouse: 16, pen: 20, touch: 30 };
-/** Further (px) from its station than this a pointer moves it finely, as with Shift. */
-const FAR = 90;
-/** A fine pointer moves a diameter by so much (mm) a pixel, a coarse one by so much at most: fingers are blunt. */
-const FINE = 0.1, COARSE = 0.4;
 /** Reaches (mm) that `[` and `]` go through. */
 const REACHES = [0, 10, 20, 30, 40, 60, 80, 120, 160, 200];
-
-/** Where a gesture began, and how far it has come. */
-class Gesture {
-  constructor(file, k) {
-    Object.assign(this, { file, k, stations: stationsOf(file), by: 0 });
-  }
-
-  /** The file with the station's diameter changed by so much (mm), snapped. */
-  after(by, step, reach) {
-    const first = this.stations.diameter[this.k];
-    const wanted = Math.abs(by) < step / 2 ? first : snapped(first + by, step);
-    return withDiameters(this.file, moved(this.stations, this.k, wanted, reach));
-  }
-}
 
 export class Drag {
   /**
@@ -34,7 +17,8 @@ export class Drag {
    * @param {{ tapped: (place_m: number) => void, picked: () => void }} calls
    */
   constructor(picture, bench, calls) {
-    Object.assign(this, { picture, bench, calls, step: 0.1, gesture: null, pointer: null });
+    Object.assign(this, { picture, bench, calls, step: 0.1, gesture: null, pointer: null, band: false });
+    byId("band").addEventListener("click", () => this.setBand(!this.band));
     const { svg } = picture;
     this.draw = framed(() => this.show());
     svg.addEventListener("pointerdown", (event) => this.down(event));
@@ -75,26 +59,43 @@ export class Drag {
     return best;
   }
 
+  /** The next pull over the bat turns a band off it, or no more. */
+  setBand(on) {
+    this.band = on;
+    put(byId("band"), { "aria-pressed": String(on) });
+    this.picture.svg.classList.toggle("banding", on);
+  }
+
   down(event) {
     if (this.pointer !== null || event.button !== 0 || !this.bench.body) return;
     this.finish();
-    const point = this.at(event), k = this.nearest(point, event.pointerType), { picture, bench } = this;
+    // What is typed is of the station that was picked until now.
+    if (event.target.closest(".handle") || this.nearest(this.at(event), event.pointerType) >= 0) document.activeElement?.blur();
+    const point = this.at(event), { picture, bench } = this, lower = point[1] > picture.frame.middle;
+    const place = picture.placeAt(point[0]) / 1000, { outline, length } = bench.body;
+    if (bench.file && event.target.closest(".long")) { this.take(event, point, new LengthGesture(bench.file)); return; }
+    if (bench.file && this.band && place >= 0 && place <= length.value) {
+      this.take(event, point, new BandGesture(bench.file, 1000 * place, lower));
+      return;
+    }
+    const k = this.nearest(point, event.pointerType);
     if (k < 0) {
-      const place = picture.placeAt(point[0]) / 1000, { outline, length } = bench.body;
       const j = outline.x_m.findLastIndex((x) => x <= place);
       const inside = place >= 0 && place <= length.value && Math.abs(point[1] - picture.frame.middle)
         <= 1000 * outline.radius_m[Math.max(j, 0)] * picture.frame.across;
       if (inside) this.calls.tapped(place);
       return;
     }
-    event.preventDefault();
-    // What is typed is of the station that was picked until now.
-    document.activeElement?.blur();
+    this.take(event, point, new StationGesture(bench.file, k, lower));
     this.pick(k);
     picture.handles.children[k].focus({ preventScroll: true });
-    this.gesture = new Gesture(bench.file, k);
-    this.gesture.lower = point[1] > picture.frame.middle;
-    [this.pointer, this.lastY] = [event.pointerId, point[1]];
+  }
+
+  /** A pointer takes hold of something. */
+  take(event, point, gesture) {
+    const { picture, bench } = this;
+    event.preventDefault();
+    Object.assign(this, { gesture, pointer: event.pointerId, last: point });
     picture.svg.setPointerCapture(event.pointerId);
     picture.frozen = bench.changing = true;
     picture.svg.classList.add("held");
@@ -102,11 +103,9 @@ export class Drag {
 
   move(event) {
     if (event.pointerId !== this.pointer || !this.gesture) return;
-    const { picture, gesture } = this, [x, y] = this.at(event);
-    const away = (this.lastY - y) * (gesture.lower ? -1 : 1);
-    this.lastY = y;
-    const fine = event.shiftKey || Math.abs(x - picture.x(gesture.stations.x[gesture.k])) > FAR;
-    gesture.by += (fine ? FINE : Math.min(2 / picture.frame.across, COARSE)) * away;
+    const { picture, gesture, last } = this, [x, y] = this.last = this.at(event);
+    const to = { x, right: x - last[0], down: y - last[1], shift: event.shiftKey, frame: picture.frame };
+    gesture.move(to, picture);
     this.draw();
   }
 
@@ -115,8 +114,8 @@ export class Drag {
     const { gesture, bench } = this;
     if (!gesture) return;
     // A gesture that has come back to where it began leaves the bat as it was.
-    if (Math.abs(gesture.by) < this.step / 2) bench.text === bench.history.now || bench.show(bench.history.now);
-    else bench.edit(gesture.after(gesture.by, this.step, this.picture.reach));
+    if (gesture.still(this.step)) bench.text === bench.history.now || bench.show(bench.history.now);
+    else bench.edit(gesture.after(this.step, this.picture.reach));
   }
 
   up(event) {
@@ -135,7 +134,9 @@ export class Drag {
   }
 
   let() {
+    if (this.gesture instanceof BandGesture) this.setBand(false);
     Object.assign(this, { gesture: null, pointer: null });
+    this.picture.band = null;
     this.picture.frozen = this.bench.changing = false;
     this.picture.svg.classList.remove("held");
   }
@@ -180,7 +181,29 @@ export class Drag {
     this.otherReach(event.deltaY < 0 ? 1 : -1);
   }
 
+  /** Keys on the handle of the length: the arrows a step, Page up and down a centimetre (1/4 in). */
+  lengthKey(event) {
+    const { bench, step } = this, more = inUs() ? 6.35 : 10;
+    const by = { ArrowRight: step, ArrowUp: step, ArrowLeft: -step, ArrowDown: -step, PageUp: more, PageDown: -more }[event.key];
+    if (!by || !bench.file || this.pointer !== null) return;
+    if (!(this.gesture instanceof LengthGesture)) { this.finish(); this.gesture = new LengthGesture(bench.file); }
+    const { gesture } = this, [least, most] = lengthLimits(gesture.file);
+    gesture.by = Math.min(Math.max(gesture.by + by, least - gesture.first), most - gesture.first);
+    this.pressed(event);
+  }
+
+  /** A key did something; presses in a row are one gesture. */
+  pressed(event) {
+    this.bench.changing = true;
+    this.draw();
+    clearTimeout(this.rest);
+    this.rest = setTimeout(() => this.pointer === null && this.finish(), 900);
+    event.preventDefault();
+    event.stopPropagation();
+  }
+
   key(event) {
+    if (event.target.closest(".long") && !event.ctrlKey && !event.metaKey && !event.altKey) { this.lengthKey(event); return; }
     const { picture, bench } = this, k = picture.picked;
     if (k < 0 || event.ctrlKey || event.metaKey || event.altKey || !event.target.closest(".handle")) return;
     const ten = inUs() && this.step > 0.1 ? 4 * this.step : 1;
@@ -190,15 +213,12 @@ export class Drag {
     else if (other) this.other(other);
     else if (by || event.key === "Home" || event.key === "End") {
       if (this.pointer !== null) return;
-      if (this.gesture?.k !== k) { this.finish(); this.gesture = new Gesture(bench.file, k); }
-      bench.changing = true;
+      if (this.gesture?.k !== k) { this.finish(); this.gesture = new StationGesture(bench.file, k); }
       const { gesture } = this, [least, most] = limits(gesture.stations, k), first = gesture.stations.diameter[k];
       gesture.by = by ? gesture.by + by : (event.key === "Home" ? least : most) - first;
       gesture.by = Math.min(Math.max(gesture.by, least - first), most - first);
-      this.draw();
-      // Presses in a row are one gesture.
-      clearTimeout(this.rest);
-      this.rest = setTimeout(() => this.pointer === null && this.finish(), 900);
+      this.pressed(event);
+      return;
     } else return;
     event.preventDefault();
     event.stopPropagation();

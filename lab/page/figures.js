@@ -13,7 +13,7 @@ import { noteSaid, signed } from "./units.js";
  * @property {(of: { body: any, hit: any }) => string} [more]
  * @property {string} [line]
  * @property {boolean} [large]
- * @property {boolean} [hit] whether the wall of a hollow barrel would change it
+ * @property {boolean} [hit] whether the wall of a hollow barrel changes it
  */
 
 const ofPlace = (place) => place && { value: place.x_m, text: place.text };
@@ -29,14 +29,14 @@ const FIGURES = [
     find: ({ hit }) => hit?.best?.speed ?? null },
   { id: "swing", name: "Swing weight", kind: "inertia", large: true, line: "swing weight",
     find: ({ body }) => body.swing_weight, more: () => "about 6 in from the knob" },
-  { id: "inner", name: "1 % slower inside", kind: "place", line: "1 % less at",
+  { id: "inner", name: "1 % slower inside", kind: "place", line: "1 % less at", hit: true,
     find: ({ hit }) => ofPlace(hit?.zone?.[0]) },
-  { id: "outer", name: "1 % slower outside", kind: "place", line: "and at",
+  { id: "outer", name: "1 % slower outside", kind: "place", line: "and at", hit: true,
     find: ({ hit }) => ofPlace(hit?.zone?.[1]) },
   { id: "mass", name: "Mass", kind: "mass", line: "mass", find: ({ body }) => body.mass },
   { id: "balance", name: "Balance point", kind: "place", find: ({ body }) => body.balance },
   { id: "drop", name: "Drop", kind: "number", find: ({ body }) => body.drop, more: () => "ounces less inches" },
-  { id: "vibration", name: "Left in vibration", kind: "energy", find: ({ hit }) => hit?.vibration?.energy ?? null,
+  { id: "vibration", name: "Left in vibration", kind: "energy", hit: true, find: ({ hit }) => hit?.vibration ?? null,
     more: () => "at the sweet spot" },
   mode(0), mode(1),
 ];
@@ -64,17 +64,15 @@ export class Figures {
     for (const row of this.rows) {
       const { figure } = row, found = figure.find(shown);
       write(row.value, found?.text ?? "–");
-      write(row.name, figure.hit && body.hollow ? `${figure.name}, stiff wall` : figure.name);
+      write(row.name, figure.hit && hit?.answer.rough_wall ? `${figure.name}, wall by estimate` : figure.name);
       write(row.more, found ? figure.more?.(shown) ?? "" : "");
-      const old = before && figure.find(before);
+      // A wall by estimate is not compared with one that was solved.
+      const alike = !figure.hit || hit?.answer.rough_wall === before?.hit?.rough_wall;
+      const old = alike && before && figure.find(before);
       write(row.change, found && old ? signed(figure.kind, found.value - old.value) : "");
       row.row.classList.toggle("same", row.change.textContent === "same");
       const line = figure.line && analyzed?.answers.find(({ what }) => what === figure.line);
       write(row.open, line?.open ? line.open.startsWith("±") ? line.open : `± ${line.open}` : "");
-      // The wall of a hollow barrel is stiff in the quick answers; the slow one has it.
-      if (body.hollow && line && found && line.value.text !== found.text && hit) {
-        write(row.more, `${line.value.text} as the wall gives way`);
-      }
       // What comes from the hit is a preview until it is certified; the rigid figures are always exact.
       const rigid = figure.find({ body, hit: null }) !== null;
       row.row.classList.toggle("preview", !rigid && !certified);

@@ -88,8 +88,9 @@ export class Keep {
   /** Opens what was pasted: a link, a bat file or a table. True if it could be. */
   async take(text, link = /#\d+\.[-\w]*\s*$/.test(text) && !text.trimStart().startsWith("{")) {
     try {
-      const { bat, scene } = link ? await unpacked(text) : { bat: text, scene: undefined };
-      const problem = text.trim() === "" ? "There is nothing to open." : await this.bench.open(bat, scene);
+      const { bat, scene, compare, deviation_m } = link ? await unpacked(text) : { bat: text };
+      const problem = text.trim() === "" ? "There is nothing to open."
+        : await this.bench.open(bat, scene, deviation_m) ?? await this.bench.compareWith(compare);
       this.wrong(problem);
       if (!problem) this.dialog.close();
       return !problem;
@@ -118,7 +119,11 @@ export class Keep {
   }
 
   /** What is shown, and how. */
-  get shown() { return { bat: this.bench.text, scene: this.bench.scene, units: this.bench.units }; }
+  get shown() {
+    const { text, scene, units, reference, pins, opened } = this.bench;
+    const compare = [...new Set([reference, ...pins.map((pin) => pin.text)])].filter((one) => one && one !== text);
+    return { bat: text, scene, units, compare, deviation_m: opened?.deviation_m };
+  }
 
   remember() {
     const { bench } = this;
@@ -173,9 +178,12 @@ export class Keep {
     this.say("Written: send this file, and whoever opens it has the bat and the lab.");
   }
 
+  /** The fragment of what is shown. */
+  sent() { return fragment(this.shown); }
+
   /** A link where the page has an address, else the fragment to paste into any copy's "Open". */
   async copied() {
-    const { bench, about } = this, mark = await fragment(bench.text, bench.scene);
+    const { about } = this, mark = await this.sent();
     const home = location.protocol.startsWith("http") ? location.href.split("#")[0] : about.address;
     const text = `${home ?? ""}${mark}`;
     const told = home ? "The link" : "This page has no address, so the bat itself, to paste into Open of any copy,";

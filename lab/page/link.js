@@ -26,22 +26,27 @@ export async function drained(stream, most) {
 }
 
 /**
- * The fragment of a bat and a scene. The source of the numbers is left out: it is longer than the bat.
- * @param {string} bat text of a bat file
- * @param {object} scene
+ * What a link holds: the texts of bat files, the first of `compare` being the one that differences count from.
+ * @typedef {{ bat: string, scene: object, compare: string[], deviation_m?: number }} Sent
  */
-export async function fragment(bat, scene) {
-  const { source, ...rest } = JSON.parse(bat);
-  const set = Object.keys(scene).length ? { scene } : {};
-  const text = JSON.stringify({ format: "sweetspot-lab/1", bat: rest, ...set });
-  const packed = new Blob([text]).stream().pipeThrough(new CompressionStream("deflate-raw"));
+
+/**
+ * The fragment of a bat, its scene and the bats beside it. The source of the numbers is left out: it is longer than the
+ * bat.
+ * @param {Sent} sent
+ */
+export async function fragment({ bat, scene, compare, deviation_m }) {
+  const short = (text) => { const { source, ...rest } = JSON.parse(text); return rest; };
+  const held = { format: "sweetspot-lab/1", bat: short(bat), ...(Object.keys(scene).length ? { scene } : {}),
+    ...(compare.length ? { compare: compare.map(short) } : {}), ...(deviation_m ? { deviation_m } : {}) };
+  const packed = new Blob([JSON.stringify(held)]).stream().pipeThrough(new CompressionStream("deflate-raw"));
   return `#${VERSION}${toLetters(await drained(packed, MOST))}`;
 }
 
 /**
- * The bat and the scene of a fragment, or of an address that ends in one.
+ * What a fragment holds, or an address that ends in one.
  * @param {string} text
- * @returns {Promise<{ bat: string, scene: object }>}
+ * @returns {Promise<Sent>}
  */
 export async function unpacked(text) {
   const mark = text.lastIndexOf("#"), inside = text.slice(mark + 1).trim();
@@ -62,9 +67,11 @@ export async function unpacked(text) {
   } catch {
     throw new Error("the link does not hold a bat; ask for it again");
   }
-  if (held?.format !== "sweetspot-lab/1" || typeof held.bat !== "object" || held.bat === null) {
+  const isObject = (value) => typeof value === "object" && value !== null && !Array.isArray(value);
+  if (held?.format !== "sweetspot-lab/1" || !isObject(held.bat)) {
     throw new Error('the link does not hold a bat of the format "sweetspot-lab/1"');
   }
-  const scene = held.scene && typeof held.scene === "object" && !Array.isArray(held.scene) ? held.scene : {};
-  return { bat: JSON.stringify(held.bat), scene };
+  const others = Array.isArray(held.compare) ? held.compare.filter(isObject) : [];
+  return { bat: JSON.stringify(held.bat), scene: isObject(held.scene) ? held.scene : {},
+    compare: others.map((bat) => JSON.stringify(bat)), deviation_m: Number(held.deviation_m) || undefined };
 }

@@ -13,9 +13,10 @@ import { Notes } from "./notes.js";
 import { Picture } from "./picture.js";
 import { SceneOfHit } from "./scene.js";
 import { compiled, Far, Near } from "./solve.js";
-import { Voice } from "./sound.js";
+import { played, Voice } from "./sound.js";
 import { byId, made, write } from "./svg.js";
 import { Table } from "./table.js";
+import { Tracing } from "./trace.js";
 import { inUs, setUs, whenUnits } from "./units.js";
 
 /** The bat that the page begins with, unless it was given another. */
@@ -77,7 +78,7 @@ function words(bench, drag) {
   });
   bench.on("figures", () => {
     const { hit, body, analyzed } = bench;
-    const said = [...new Set([...body.warnings, ...(hit?.answer.doubts ?? []), ...(analyzed?.trust ?? [])])];
+    const said = [...new Set([...body.warnings, ...bench.traced, ...(hit?.answer.doubts ?? []), ...(analyzed?.trust ?? [])])];
     byId("trust").replaceChildren(...said.map((text) => made("li", {}, text)));
     byId("doubts").hidden = said.length === 0;
     write(byId("why"), analyzed?.why ?? "");
@@ -106,8 +107,8 @@ async function first(bench, keep, bats) {
   // What was made of this very link or file goes on; a page without one goes on from the last time.
   const own = Boolean(kept?.bat) && (keep.from === null || kept.from === keep.from);
   if (((own ? kept : given)?.units ?? kept?.units) === "us") setUs(true);
-  const problems = [], open = async ({ bat, scene }) => {
-    const wrong = await bench.open(bat, scene);
+  const problems = [], open = async ({ bat, scene, deviation_m, compare }) => {
+    const wrong = await bench.open(bat, scene, deviation_m) ?? await bench.compareWith(compare);
     if (wrong) problems.push(wrong);
   };
   if (keep.link) await keep.fromAddress();
@@ -131,7 +132,7 @@ async function begin() {
   }
   const program = byId("worker").textContent;
   const far = (limit) => new Far(module, program, limit);
-  const bench = new Bench(await Near.of(module), far(LIMITS[0]), far(LIMITS[0]), far(LIMITS[1]));
+  const bench = new Bench(await Near.of(module), far(LIMITS[0]), far(LIMITS[1]), far(LIMITS[1]));
   const picture = new Picture(byId("picture"), bench), voice = new Voice(bench);
   let reach = () => {};
   const table = { draw() {} };
@@ -148,12 +149,13 @@ async function begin() {
   new Changes(bench, woods);
   new Lathe(bench, picture);
   new Wishes(bench);
+  const tracing = new Tracing(bench, woods, () => far(LIMITS[1]));
   const scene = new SceneOfHit(bench), keep = new Keep(bench, about, page);
   bench.on("scene", () => scene.set());
   const lessons = new Lessons(bench, bats, voice);
   controls(bench, drag);
   // For trials of the page: what it holds, and the parts that answer.
-  window.lab = { bench, drag, picture, voice, keep, lessons };
+  window.lab = { bench, drag, picture, voice, keep, lessons, tracing, played };
   await first(bench, keep, bats);
   addEventListener("beforeunload", (event) => { if (keep.lost) event.preventDefault(); });
 }

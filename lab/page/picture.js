@@ -1,7 +1,7 @@
 // Draws the bat: diameters larger than lengths, what is known along it, the bat before as a ghost, and its true shape.
 
 import { stationsOf, movable } from "./stations.js";
-import { drawn, put, pathOf, ticks, write } from "./svg.js";
+import { drawn, framed, put, pathOf, ticks, write } from "./svg.js";
 import { inUs } from "./units.js";
 
 /** Room (px) around the bat. */
@@ -17,7 +17,7 @@ const LARGER = { narrow: 4, wide: 3 };
 export class Picture {
   /** @param {SVGSVGElement} svg @param {import("./bench.js").Bench} bench */
   constructor(svg, bench) {
-    Object.assign(this, { svg, bench, frozen: false, picked: -1, reach: 80, lathe: null });
+    Object.assign(this, { svg, bench, frozen: false, picked: -1, reach: 80, lathe: null, band: null });
     const layer = (name) => drawn(svg, "g", { class: name });
     this.axis = layer("axis");
     this.small = layer("small");
@@ -29,7 +29,10 @@ export class Picture {
     this.edge = drawn(svg, "path", { class: "edge" });
     this.above = layer("above");
     this.handles = layer("handles");
-    new ResizeObserver(() => this.draw()).observe(svg.parentElement);
+    this.long = drawn(svg, "g", { class: "handle long" });
+    drawn(this.long, "circle", { class: "reachable" });
+    drawn(this.long, "path", { class: "dot", d: "M-7 0L0 -7L7 0L0 7Z" });
+    new ResizeObserver(framed(() => this.draw())).observe(svg.parentElement);
   }
 
   /** The frame that fits the bat into the width there is. */
@@ -116,6 +119,7 @@ export class Picture {
   /** A handle for every station; those that cannot be moved are dots. */
   drawHandles() {
     const { bench, handles } = this, file = bench.file;
+    put(this.long, { display: file ? null : "none" });
     if (!file) { handles.replaceChildren(); return; }
     const stations = stationsOf(file), count = stations.x.length;
     this.stations = stations;
@@ -137,6 +141,10 @@ export class Picture {
       if (can) this.describe(handle, k); else put(handle, { role: null, "aria-valuenow": null });
     }
     this.drawReach();
+    const tip = stations.x[count - 1], us = inUs();
+    put(this.long, { transform: `translate(${this.x(tip).toFixed(1)} ${this.frame.middle.toFixed(1)})`, tabindex: 0,
+      role: "slider", "aria-orientation": "horizontal", "aria-label": "Length", "aria-valuemin": 300, "aria-valuemax": 1500,
+      "aria-valuenow": Number(tip.toFixed(1)), "aria-valuetext": us ? `${(tip / 25.4).toFixed(2)} in` : `${(tip / 10).toFixed(2)} cm` });
   }
 
   /** What a screen reader says of a handle. */
@@ -149,10 +157,15 @@ export class Picture {
       "aria-valuetext": `${size} at ${place} from the knob` });
   }
 
-  /** How far neighbours follow, as a bow over the station that is picked. */
+  /** How far neighbours follow, as a bow over the station that is picked; or the band that is marked. */
   drawReach() {
     this.reachBow ??= drawn(this.svg, "path", { class: "reach" });
-    const { stations, picked, reach } = this;
+    const { stations, picked, reach, band } = this;
+    if (band) {
+      const [[a, b], y] = [band.map((mm) => this.x(mm)), this.up(1000 * Math.max(...this.bench.body.outline.radius_m)) - 12];
+      put(this.reachBow, { d: `M${a} ${y + 9}V${y}H${b}V${y + 9}` });
+      return;
+    }
     if (picked < 0 || !stations) { put(this.reachBow, { d: "" }); return; }
     const from = Math.max(stations.x[picked] - reach, 0), to = Math.min(stations.x[picked] + reach, this.frame.length);
     const y = this.up(stations.diameter[picked] / 2) - 16;

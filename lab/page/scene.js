@@ -29,6 +29,12 @@ export class SceneOfHit {
     bench.on("shown", () => this.words());
     // The swing that is known is that of the bat as it was opened, unless it was opened with its own scene.
     bench.on("opened", (scene) => { if (!scene && byId("batter").value !== "0") this.changed("batter"); });
+    // Undo may lead to another one.
+    bench.on("history", () => {
+      const { scene, history } = bench;
+      if (!scene.swing_exponent || scene.reference_inertia !== this.own) return;
+      if (bench.bodyOf(history.opened).swing_weight.value !== this.own) this.changed("batter");
+    });
     whenUnits(() => this.words());
   }
 
@@ -69,7 +75,7 @@ export class SceneOfHit {
       // A batter is known by the turning of the bat, not by its speed at a place.
       if (scene.bat_speed !== undefined) scene.swing_speed = this.speeds().swing;
       for (const one of ["bat_speed", "bat_speed_at"]) delete scene[one];
-      scene.reference_inertia = bench.bodyOf(bench.history.opened).swing_weight.value;
+      scene.reference_inertia = this.own = bench.bodyOf(bench.history.opened).swing_weight.value;
       scene.swing_exponent = Number(value);
     }
     bench.setScene(scene);

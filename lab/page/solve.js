@@ -1,7 +1,8 @@
 // Asks the core: at once on the main thread, or in a worker with one question under way and the newest waiting.
 
-/** ms that a worker may take to start, and how often it is started in vain. */
-const START = 30000, STARTS = 2;
+/** ms that a worker may take to start, how often it is started in vain, and after how many failures in a row it is not
+ * started again. */
+const START = 30000, STARTS = 2, FAILURES = 5;
 
 /** An answer of the core; one that ended without words gets some. */
 function read(text) {
@@ -45,6 +46,7 @@ export class Near {
  * @property {number} id
  * @property {string} kind
  * @property {object} question
+ * @property {Uint8Array} [bytes] of a picture, behind the question
  * @property {(answer: object | null) => void} then called with null where a newer question took its place
  */
 
@@ -56,7 +58,7 @@ export class Far {
    * @param {number} limit ms after which an answer is given up
    */
   constructor(module, program, limit) {
-    Object.assign(this, { module, program, limit, count: 0, under: null, ready: false, starts: 0, dead: null });
+    Object.assign(this, { module, program, limit, count: 0, under: null, ready: false, starts: 0, failures: 0, dead: null });
     /** @type {Map<string, Waiting>} */
     this.waiting = new Map();
     /** For trials: an answer is held back so long (ms). */
@@ -88,7 +90,7 @@ export class Far {
     };
     worker.onerror = () => {
       if (worker !== this.worker) return;
-      if (this.ready) this.end("The core could not go on."); else this.stuck();
+      if (this.ready) this.failed("The core could not go on."); else this.stuck();
     };
     worker.postMessage({ module: this.module });
   }
@@ -96,25 +98,46 @@ export class Far {
   /** The worker did not start: it is started anew, or else whatever is asked is answered by these words. */
   stuck() {
     clearTimeout(this.clock);
-    if (this.starts < STARTS) { this.anew(); return; }
-    this.worker.terminate();
-    this.dead = "The core does not start in this browser; load the page again.";
-    for (const { id, then } of this.waiting.values()) then({ id, error: this.dead });
+    if (this.starts < STARTS) this.anew();
+    else this.die("The core does not start in this browser; load the page again.");
+  }
+
+  /** Whatever is asked from now on is answered by these words. */
+  die(words) {
+    this.close();
+    this.dead = words;
+    for (const { id, then } of this.waiting.values()) then({ id, error: words });
     this.waiting.clear();
+  }
+
+  /** Ends the worker for good. */
+  close() {
+    clearTimeout(this.clock);
+    this.worker.terminate();
+  }
+
+  /** The question under way failed by a mistake of ours; after some in a row the page gives up. */
+  failed(words) {
+    this.failures += 1;
+    if (this.failures < FAILURES) { this.end(words, { panic: true }); return; }
+    const { under } = this;
+    this.under = null;
+    this.die(`The core failed ${FAILURES} times in a row, so it is not asked again; keep the bat file and load the page again.`);
+    under?.then({ id: under.id, error: words, panic: true });
   }
 
   /**
    * Asks, and gives the answer; null if a newer question of its kind came first.
    * @returns {Promise<any>}
    */
-  ask(question, kind = question.ask) {
+  ask(question, kind = question.ask, bytes) {
     this.count += 1;
     const id = this.count;
     if (this.dead) return Promise.resolve({ id, error: this.dead });
     return new Promise((then) => {
       this.waiting.get(kind)?.then(null);
       this.waiting.delete(kind);
-      this.waiting.set(kind, { id, kind, question: { ...question, id }, then });
+      this.waiting.set(kind, { id, kind, question: { ...question, id }, bytes, then });
       this.next();
     });
   }
@@ -124,18 +147,18 @@ export class Far {
     const [kind, first] = this.waiting.entries().next().value;
     this.waiting.delete(kind);
     this.under = first;
-    this.worker.postMessage({ text: JSON.stringify(first.question) });
+    this.worker.postMessage({ text: JSON.stringify(first.question), bytes: first.bytes });
     this.clock = setTimeout(() => this.end(
       `No answer within ${this.limit / 1000} s, so the calculation was ended. Change the bat and it is tried again.`,
     ), this.limit);
   }
 
   came({ text, took }) {
+    const answer = read(text);
+    if (answer.panic) { this.failed(answer.error); return; }
     clearTimeout(this.clock);
     const { under } = this;
-    this.under = null;
-    const answer = read(text);
-    if (answer.panic) this.anew();
+    Object.assign(this, { under: null, failures: 0 });
     under?.then({ ...answer, id: under.id, took });
     this.next();
   }
@@ -147,12 +170,12 @@ export class Far {
   }
 
   /** Ends the question under way with these words; what waits goes on in a new worker. */
-  end(words) {
+  end(words, more = {}) {
     clearTimeout(this.clock);
     const { under } = this;
     this.under = null;
     this.anew();
-    under?.then(words ? { id: under.id, error: words } : null);
+    under?.then(words ? { id: under.id, error: words, ...more } : null);
   }
 
   /** Drops what is asked of such kinds. */

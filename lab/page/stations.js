@@ -4,6 +4,8 @@
 export const SMALLEST = 8, LARGEST = 100;
 /** The least wall (mm) around a bore, and the least way (mm) between two stations. */
 const WALL = 0.5, APART = 1;
+/** The longest bat (mm) that is made here. */
+const LONGEST = 1500;
 const MM = { mm: 1, in: 25.4 };
 /** Decimals that are a micrometre or less. */
 const DECIMALS = { mm: 3, in: 5 };
@@ -92,10 +94,16 @@ export function withBore(bat, k, mm) {
   return withProfile(bat, { inner_diameter: bat.profile.inner_diameter.with(k, written(mm, bat.profile.unit)) });
 }
 
+/** The least and largest place (mm) of the tip. */
+export function lengthLimits(bat) {
+  const { x } = stationsOf(bat);
+  return [x.at(-2) + APART, LONGEST];
+}
+
 /** The bat file with a station at another place (mm) between its neighbours, the last being the tip; else null. */
 export function withPlace(bat, k, mm) {
   const { x } = stationsOf(bat);
-  if (k === 0 || mm < x[k - 1] + APART || (k < x.length - 1 && mm > x[k + 1] - APART) || mm > 1500) return null;
+  if (k === 0 || mm < x[k - 1] + APART || (k < x.length - 1 && mm > x[k + 1] - APART) || mm > LONGEST) return null;
   return withProfile(bat, { x: bat.profile.x.with(k, written(mm, bat.profile.unit)) });
 }
 

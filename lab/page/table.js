@@ -31,12 +31,22 @@ export class Table {
     else this.drag.other(by);
   }
 
+  /** What is wrong with something that was typed is said beside it. */
+  wrong(words, field) {
+    const trouble = byId("table-trouble");
+    trouble.hidden = true;
+    if (!byId("stations").contains(field)) { if (words) this.bench.say(words); return; }
+    trouble.hidden = !words;
+    write(trouble, words);
+  }
+
   /** Does what was typed; says what is wrong with it. */
   typed(k, what, field) {
     const { bench } = this, { file } = bench;
     if (k < 0 || !file) return;
     const mm = lengthTyped(field.value, unitOf(what)), stations = stationsOf(file);
-    const wrong = (words) => { bench.say(words); this.draw(); };
+    const wrong = (words) => { this.wrong(words, field); this.draw(); };
+    this.wrong("", field);
     if (mm === null) { wrong(`"${field.value}" is not a length; type one such as 63.5, 63.5 mm or 2 1/2 in.`); return; }
     let next = null;
     if (what === "diameter") {
@@ -110,7 +120,7 @@ export class Table {
     const change = (words, label, act) => button(words, named(label), () => {
       const next = act(this.bench.file, k);
       if (next) this.bench.once(next);
-      else this.bench.say("The ends stay, three stations stay, and a new station needs 2 mm of room.");
+      else this.wrong("The ends stay, three stations stay, and a new station needs 2 mm of room.", byId("table"));
     });
     const fields = [field("place"), field("diameter"), ...(hollow ? [field("bore")] : [])];
     const more = change("+", `Add a station after ${k + 1}`, withMore);

@@ -28,7 +28,7 @@
  * @property {"si" | "us"} [units] of every text in the answer (default si)
  */
 
-/** @typedef {"open" | "body" | "live" | "sure" | "analyze" | "lathe" | "sound" | "aim" | "files"} Ask */
+/** @typedef {"open" | "trace" | "body" | "live" | "sure" | "analyze" | "lathe" | "sound" | "aim" | "files"} Ask */
 
 /**
  * The options of `sweetspot hit` with `_` for `-`; a string carries its unit ("72 mph"), a number is SI.
@@ -109,25 +109,24 @@
  */
 
 /**
- * `live` and `sure`: how it rings and hits. The wall of a hollow barrel is stiff in both; `analyze` has it.
- * `live` is a preview (10 modes to 1e-3, 21 places or more); `sure` is what `sweetspot hit` answers, and its
- * texts are equal.
+ * `live` and `sure`: how it rings and hits. `live` is a preview (10 modes to 1e-3, 21 places or more, the wall of a
+ * hollow barrel a spring by estimate); `sure` is what `sweetspot hit` answers, and its texts are equal.
  * @typedef {object} Hit
  * @property {number} id
  * @property {boolean} certified     `sure` alone, and only if the accuracy asked for was reached
  * @property {string | null} unmet   why it was not reached, in words
+ * @property {boolean} rough_wall    whether a wall that gives way is taken as a spring by estimate
  * @property {ModeShown[]} modes     the first three
- * @property {{ x_m: number[], w: number[][] }} shapes  of those modes, the largest 1
  * @property {Curve} curve
  * @property {{ place: Place, speed: Shown } | null} best  the sweet spot by the fastest ball
  * @property {[Place, Place] | null} zone  within 1 % of it
- * @property {{ energy: Shown, initial: Shown } | null} vibration  left in vibration at the sweet spot
+ * @property {Shown | null} vibration  left in vibration at the sweet spot
  * @property {{ what: string, place: Place }[]} spots     every definition of the sweet spot (`sure`)
  * @property {string[]} doubts       what limits trust (`sure`)
  */
 
 /**
- * `analyze`: the answers of `sweetspot analyze` with how far the bat in hand may be off in two of three cases; with the
+ * `analyze` (asks also `diameter_deviation_m`, that of traced diameters): the answers of `sweetspot analyze` with how far the bat in hand may be off in two of three cases; with the
  * wall of a hollow barrel. Slow: a second for wood, several for a hollow bat.
  * @typedef {object} Analyzed
  * @property {number} id
@@ -176,6 +175,23 @@
  * @property {string} csv            the stations as a table
  * @property {string[]} template     pages in true size, SVG (A4 for millimetres, letter for inches)
  * @property {string} command        the line that prints the same numbers
+ */
+
+/**
+ * `trace` has no `bat`; it asks `width` and `height` of a picture whose RGBA bytes stand behind the request after a byte
+ * 0, `length_m`, `diameter_m` (the largest), `material`, `pins` (places on its edges set by hand, px), `others` (what
+ * other pictures said in `seen`), and where they are known `mass_kg` and `distance_m`.
+ * @typedef {object} Traced
+ * @property {number} id
+ * @property {object} seen           what this picture says
+ * @property {number[][][]} edges    two lines of places (px)
+ * @property {number[][]} ends       the two ends (px)
+ * @property {string} bat_file       of the mean of all pictures
+ * @property {number} stations
+ * @property {number} pictures
+ * @property {number} diameter_deviation_m  standard deviation of a diameter
+ * @property {string} deviation      the same in words
+ * @property {string[]} words        what limits trust
  */
 
 export {};

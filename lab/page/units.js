@@ -59,7 +59,7 @@ const PARTS = { "½": "1/2", "¼": "1/4", "¾": "3/4", "⅛": "1/8", "⅜": "3/8
  * A typed length in mm; a bare number is in `unit`. Fractions are read as people write them: 2 1/2 in, 2-1/2", 2½″.
  * What cannot be read, or may be read in two ways ("1,234 in"), is null.
  * @param {string} typed
- * @param {"mm" | "cm" | "in"} unit
+ * @param {"mm" | "cm" | "m" | "in"} unit
  * @returns {number | null}
  */
 export function lengthTyped(typed, unit) {
@@ -71,6 +71,13 @@ export function lengthTyped(typed, unit) {
   if (over && (/[.,]/.test(whole ?? "") || Number(under) === 0)) return null;
   const value = Number((whole ?? "0").replace(",", ".")) + (over ? Number(over) / Number(under) : 0);
   return Number.isFinite(value) ? value * factor : null;
+}
+
+/** A typed mass in kg; a bare number is in `unit`. Null where it cannot be read. */
+export function massTyped(typed, unit) {
+  const [, value, name] = /^(\d+(?:[.,]\d+)?)\s*([a-z]*)$/.exec(typed.trim().toLowerCase()) ?? [];
+  const factor = { g: 1e-3, kg: 1, oz: 0.028349523125, lb: 0.45359237 }[name || unit];
+  return value === undefined || factor === undefined ? null : Number(value.replace(",", ".")) * factor;
 }
 
 /** A length (mm) to the nearest 1/64 in, such as 2 37/64 in. */

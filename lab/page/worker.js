@@ -2,10 +2,12 @@
 "use strict";
 let core = null;
 
-/** Writes the question into the core's memory and reads the answer from there. */
-function answered(text) {
-  const bytes = new TextEncoder().encode(text), at = core.room(bytes.length);
-  new Uint8Array(core.memory.buffer, at, bytes.length).set(bytes);
+/** Writes the question into the core's memory, a picture behind it after a byte 0, and reads the answer from there. */
+function answered(text, picture) {
+  const bytes = new TextEncoder().encode(text), more = picture ? 1 + picture.length : 0;
+  const at = core.room(bytes.length + more), all = new Uint8Array(core.memory.buffer, at, bytes.length + more);
+  all.set(bytes);
+  if (picture) all.set(picture, bytes.length + 1);
   let length;
   try {
     length = core.answer();
@@ -32,6 +34,6 @@ onmessage = async ({ data }) => {
     }
   } else {
     const began = performance.now();
-    postMessage({ text: answered(data.text), took: performance.now() - began });
+    postMessage({ text: answered(data.text, data.bytes), took: performance.now() - began });
   }
 };

@@ -29,7 +29,8 @@ const LINES: [(&str, Answer); 9] = [
 pub fn answer(of: &Question) -> Result<Value> {
     let Solved { bat, request: hits, solution, scene, law, model } =
         Solved::new(of, request(), true)?;
-    let readings = Readings::of(&bat);
+    let read = Readings::of(&bat);
+    let readings = Readings { diameter: of.traced().unwrap_or(read.diameter), ..read };
     let task = Task { model, scene, law, hits, proof: request(), readings };
     let analysis = Analysis::new(bat, solution, task)?;
     let line = |(what, answer): &(&str, Answer)| {

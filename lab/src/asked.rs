@@ -13,7 +13,7 @@ use sweetspot::files::{balls, scene_file};
 use sweetspot::{Bat, Request};
 use sweetspot_report::parts::units::Units;
 
-use crate::{aim, analyze, body, files, hit, lathe, open, sound};
+use crate::{aim, analyze, body, files, hit, lathe, open, sound, trace};
 
 /// A request as the page writes it.
 #[derive(Deserialize)]
@@ -57,14 +57,15 @@ pub fn request() -> Request {
     Request::default()
 }
 
-/// The answer to a request, both in JSON. What is wrong with it is said in the answer.
-pub fn answered(text: &str) -> String {
+/// The answer to a request, both in JSON. What is wrong with it is said in the answer. `picture` is what stands behind
+/// the request: the bytes of a photograph, or nothing.
+pub fn answered(text: &str, picture: &[u8]) -> String {
     let asked: Asked = match serde_json::from_str(text) {
         Ok(asked) => asked,
         Err(error) => return failed(0, &Error::value("the request", error, "a request")),
     };
     let id = asked.id;
-    match answer(asked) {
+    match answer(asked, picture) {
         Ok(mut answer) => {
             answer["id"] = id.into();
             answer.to_string()
@@ -79,7 +80,7 @@ pub fn panicked(words: &str) -> String {
 }
 
 /// One question, one function.
-fn answer(asked: Asked) -> Result<Value> {
+fn answer(asked: Asked, picture: &[u8]) -> Result<Value> {
     type Answering = fn(&Question) -> Result<Value>;
     const QUESTIONS: [(&str, Answering); 8] = [
         ("body", body::answer),
@@ -97,9 +98,12 @@ fn answer(asked: Asked) -> Result<Value> {
     if asked.ask == "open" {
         return open::answer(&asked.bat, units);
     }
+    if asked.ask == "trace" {
+        return trace::answer(&asked.more.into(), picture, units);
+    }
     let Some((_, answering)) = QUESTIONS.iter().find(|(name, _)| *name == asked.ask) else {
         let names: Vec<&str> = QUESTIONS.iter().map(|(name, _)| *name).collect();
-        return Err(Error::value("ask", asked.ask, format!("open, {}", names.join(", "))));
+        return Err(Error::value("ask", asked.ask, format!("open, trace, {}", names.join(", "))));
     };
     let bat = Bat::from_text(BAT, &asked.bat, Path::new(""))?;
     let setup = setup(&asked.scene)?;
@@ -132,6 +136,12 @@ impl Question {
     /// A text that this question asks besides.
     pub fn said(&self, name: &str) -> Option<&str> {
         self.more.get(name)?.as_str()
+    }
+
+    /// How far diameters may be off (m) that were traced: less well known than calipers know them.
+    pub fn traced(&self) -> Option<f64> {
+        let told = self.more.get("diameter_deviation_m")?.as_f64()?;
+        (0.0..0.01).contains(&told).then_some(told)
     }
 
     /// The collision model.

@@ -46,5 +46,8 @@ fn command(of: &Question) -> String {
         let value = value.as_str().map_or_else(|| value.to_string(), str::to_owned);
         line += &format!(" --{} {}", member.replace('_', "-"), quoted(&value));
     }
+    if let Some(traced) = of.traced() {
+        line += &format!(" --calipers '{} mm'", rounded(1e3 * traced, 4));
+    }
     line + if of.units.us_first() { " --units us" } else { " --units si" }
 }

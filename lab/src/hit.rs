@@ -5,13 +5,15 @@ use sweetspot::base::error::Result;
 use sweetspot::bat::body::Bat;
 use sweetspot::collision::columns::{self, Column};
 use sweetspot::collision::figures::SwingLaw;
-use sweetspot::collision::hit::{Effort, Model, Scene};
+use sweetspot::collision::hit::{Effort, Model, Scene, Wall};
 use sweetspot::collision::hitter::Hitter;
+use sweetspot::collision::hoop_wall::rough_stiffness;
 use sweetspot::collision::setup::Setup;
 use sweetspot::collision::strike::Glance;
 use sweetspot::collision::sweep::{Sweep, Trial, sweep};
 use sweetspot::collision::sweet_spot::{HitsAlong, Peak, SweetSpot};
 use sweetspot::collision::wall_choice::WallChoice;
+use sweetspot::modes::hoop::rings;
 use sweetspot::modes::prepared::prepare;
 use sweetspot::modes::solve::{Request, Solution, solve};
 use sweetspot_report::analysis::POINTS;
@@ -55,20 +57,15 @@ impl Solved {
     }
 }
 
-/// Modes whose shapes are drawn.
-const DRAWN: usize = 3;
-/// Places of a shape.
-const SHAPE: usize = 61;
+/// Modes that are told.
+const TOLD: usize = 3;
 
 /// What both answers have of the modes.
 fn modes(of: &Question, solved: &Solved) -> Value {
     let Solved { bat, solution, .. } = solved;
-    let first: Vec<_> = solution.modes.iter().take(DRAWN).collect();
-    let x: Vec<f64> = (0..SHAPE).map(|k| bat.length() * k as f64 / (SHAPE - 1) as f64).collect();
-    let shapes: Vec<Vec<f64>> =
-        first.iter().map(|mode| x.iter().map(|x| mode.shape.deflection(*x)).collect()).collect();
-    let told: Vec<Value> = first.iter().map(|mode| shown::mode(bat, of.units, mode)).collect();
-    json!({ "modes": told, "shapes": { "x_m": x, "w": shapes } })
+    let first = solution.modes.iter().take(TOLD);
+    let told: Vec<Value> = first.map(|mode| shown::mode(bat, of.units, mode)).collect();
+    json!({ "modes": told })
 }
 
 /// The best place with its zone, and what stays in vibration there.
@@ -77,19 +74,18 @@ fn best(
     solved: &Solved,
     peak: Peak,
     zone: [f64; 2],
-    energy: [Option<f64>; 2],
+    vibration: Option<f64>,
 ) -> Value {
     let Solved { bat, .. } = solved;
     let place = |x: f64| shown::place(bat, of.units, x);
-    let energies = energy.map(|e| e.map(|e| shown::shown(e, of.units.energy(e, 2))));
-    let [vibration, initial] = energies;
+    let vibration = vibration.map(|energy| shown::shown(energy, of.units.energy(energy, 2)));
     json!({
         "best": {
             "place": place(peak.x),
             "speed": shown::answer(Answer::ExitSpeed, of.units, peak.value),
         },
         "zone": zone.map(place),
-        "vibration": vibration.map(|energy| json!({ "energy": energy, "initial": initial })),
+        "vibration": vibration,
     })
 }
 
@@ -112,7 +108,13 @@ pub fn live(of: &Question) -> Result<Value> {
     const ROUGH: f64 = 1e-3;
     /// Steps along the outer half, and the share of it to which the best place is found.
     const STEPS: (usize, f64) = (20, 1e-4);
-    let solved = Solved::new(of, Request { tolerance: ROUGH, ..request() }, false)?;
+    let mut solved = Solved::new(of, Request { tolerance: ROUGH, ..request() }, false)?;
+    // A wall that is not told gives way as a spring does.
+    let told =
+        rings(&solved.bat) && solved.scene.wall.is_none() && of.setup.wall != WallChoice::Off;
+    if let Some(stiffness) = rough_stiffness(&solved.bat).filter(|_| told) {
+        solved.scene.wall = Some(Wall { stiffness, mass: 0.0 });
+    }
     let Solved { bat, solution, scene, model, .. } = &solved;
     let hitter = Hitter::new(*model, scene, bat, solution, Effort::default())?;
     let looked = HitsAlong::outer(STEPS, &hitter);
@@ -121,10 +123,10 @@ pub fn live(of: &Question) -> Result<Value> {
     };
     let hit = looked.fastest().map_or_else(no_hit, |peak| {
         let vibration = hitter.glance(peak.x).and_then(|glance| glance.vibration);
-        best(of, &solved, peak, looked.zone(peak), [vibration, None])
+        best(of, &solved, peak, looked.zone(peak), vibration)
     });
     let answer = json!({
-        "certified": false, "unmet": null,
+        "certified": false, "unmet": null, "rough_wall": rings(bat),
         "curve": {
             "x_m": looked.places(),
             "exit_m_s": along(|glance| Some(glance.exit_speed)),
@@ -135,9 +137,9 @@ pub fn live(of: &Question) -> Result<Value> {
     Ok(with(with(answer, modes(of, &solved)), hit))
 }
 
-/// What `sweetspot hit` answers, the wall of a hollow barrel stiff.
+/// What `sweetspot hit` answers, with the wall of a hollow barrel.
 pub fn sure(of: &Question) -> Result<Value> {
-    let solved = Solved::new(of, request(), false)?;
+    let solved = Solved::new(of, request(), true)?;
     let Solved { bat, solution, scene, model, .. } = &solved;
     let hits = solved.sweep()?;
     let hitter = Hitter::new(*model, scene, bat, &hits.solution, hits.effort)?;
@@ -147,9 +149,9 @@ pub fn sure(of: &Question) -> Result<Value> {
         hits.impacts.iter().map(|impact| column.at(impact)).collect()
     };
     let energy = there.as_ref().and_then(|there| Some(&there.outcome.as_ref()?.energy));
-    let energy = [energy.map(|e| e.vibration), energy.map(|e| e.initial)];
+    let vibration = energy.map(|energy| energy.vibration);
     let hit = spot.exit_speed_max.zip(spot.zone);
-    let hit = hit.map_or_else(no_hit, |(peak, zone)| best(of, &solved, peak, zone, energy));
+    let hit = hit.map_or_else(no_hit, |(peak, zone)| best(of, &solved, peak, zone, vibration));
     let unmet = match (solution.met(), hits.met()) {
         (true, true) => None,
         (false, _) => Some(format!("frequencies: {}", solution.ending)),
@@ -161,7 +163,7 @@ pub fn sure(of: &Question) -> Result<Value> {
         .map(|line| json!({ "what": line.what.trim(), "place": shown::place(bat, of.units, line.x) }))
         .collect();
     let answer = json!({
-        "certified": unmet.is_none(), "unmet": unmet,
+        "certified": unmet.is_none(), "unmet": unmet, "rough_wall": false,
         "curve": {
             "x_m": along(columns::X),
             "exit_m_s": along(columns::EXIT_SPEED),

@@ -3,7 +3,9 @@
 step that can be taken back; strangers' links and files are answered in words; nothing is fetched, nothing runs that is
 not its own.
 
-    lab.py PAGE.html PROGRAM [GESTURES]
+    lab.py [--firefox] PAGE.html PROGRAM [GESTURES [PART...]]
+
+In Firefox the parts that need nothing of Chromium's own protocol.
 """
 
 import json
@@ -14,7 +16,8 @@ import sys
 import tempfile
 import time
 
-from chromium import Browser, program
+import chromium
+import firefox
 from lab_page import (CERTIFIED, HANDLE, TEXT, VALUES, certain, check, clicked, failures, mouse, opened, packed, pulled,
                       quiet, touch, waited)
 from report import CONTRAST, SMALL_TEXT, TOO_WIDE
@@ -40,7 +43,7 @@ def shown_is_the_programs(browser, sweetspot, folder, what):
         browser.run(f"document.getElementById('units-{int(units == 'us')}').click()")
         certain(browser, what)
         values, bat = browser.run(VALUES), browser.run(TEXT)
-        printed = of_program(sweetspot, folder, bat, "analyze", "--units", units, "--full", "--wall", "off")
+        printed = of_program(sweetspot, folder, bat, "analyze", "--units", units, "--full")
         check(bool(values), f"{what}: no figures")
         for name, value in values.items():
             # Drop and balance point are told by no screen to these digits.
@@ -48,6 +51,33 @@ def shown_is_the_programs(browser, sweetspot, folder, what):
                 check(value in printed, f"{what}, {units}: {name} {value!r} is not what the program prints")
     browser.run("document.getElementById('units-0').click()")
     certain(browser, what)
+
+
+def pulled_along(browser):
+    """The handle at the tip is the length; a band that is marked and pulled in is a cut; both are one step."""
+    first, x = browser.run(TEXT), browser.run("lab.bench.file.profile.x.at(-1)")
+    at = browser.run("(() => { lab.picture.long.scrollIntoView({ block: 'center' }); const box = "
+                     "lab.picture.long.querySelector('.dot').getBoundingClientRect(); return [box.x + box.width / 2, box.y + box.height / 2]; })()")
+    held = {"button": "left", "buttons": 1, "clickCount": 1}
+    mouse(browser, "mousePressed", *at, **held)
+    for k in range(1, 9):
+        mouse(browser, "mouseMoved", at[0] - k, at[1], **held)
+    mouse(browser, "mouseReleased", at[0] - 8, at[1], button="left", clickCount=1)
+    check(browser.run("lab.bench.file.profile.x.at(-1)") < x, "the tip does not move")
+    certain(browser, "another length")
+    browser.run("document.getElementById('undo').click()")
+    check(browser.run(TEXT) == first, "undo does not bring the length back")
+    clicked(browser, "band")
+    x, y, _ = browser.run(f"{HANDLE}(500)")
+    mouse(browser, "mousePressed", x, y, **held)
+    for k in range(1, 21):
+        mouse(browser, "mouseMoved", x + 5 * k, y + k / 2, **held)
+    mouse(browser, "mouseReleased", x + 100, y + 10, button="left", clickCount=1)
+    cut = browser.run("lab.bench.file.edits?.at(-1)?.cut ?? null")
+    check(cut and cut["depth"].endswith(" mm") and float(cut["depth"][:-3]) > 0.5, f"a band that is pulled in is {cut}")
+    certain(browser, "a band")
+    browser.run("document.getElementById('undo').click()")
+    check(browser.run(TEXT) == first, "undo does not bring the band back")
 
 
 def drags(browser, page, sweetspot, folder):
@@ -87,6 +117,7 @@ def drags(browser, page, sweetspot, folder):
     browser.run("for (let k = 0; k < 200; k += 1) document.getElementById('redo').click()")
     check(browser.run(TEXT) == last, "redo all the way is not the last bat")
     certain(browser, "after many steps")
+    pulled_along(browser)
     quiet(browser, "pulling")
 
 
@@ -341,7 +372,136 @@ def typed(browser, page):
     check(browser.run("lab.bench.history.opened") != first, "another bat is not the one that was opened")
     browser.run("document.getElementById('undo').click()")
     check(browser.run("lab.bench.history.opened") == first, "what was taken back is still compared with")
+    # Nor is a batter's swing known by it any more.
+    browser.run("(() => { const one = document.getElementById('batter'); one.value = '0.5'; one.dispatchEvent(new Event('input')); })()")
+    known = browser.run("lab.bench.scene.reference_inertia")
+    browser.run(f"lab.bench.open({json.dumps(open(f'{ROOT}/meshes/house.json').read())})")
+    check(browser.run("lab.bench.scene.reference_inertia") != known, "another bat is swung as the one before")
+    browser.run("document.getElementById('undo').click()")
+    check(browser.run("lab.bench.scene.reference_inertia") == known, "undo leaves the swing of another bat")
+    browser.run("document.getElementById('scene-back').click()")
+    # What is wrong in the table is said there.
+    browser.run("(() => { const all = document.querySelector('#stations details'); all.open = true; })()")
+    check(waited(browser, "document.querySelectorAll('#table input').length > 5", 3), "the table does not open")
+    browser.run("(() => { const one = document.querySelectorAll('#table tbody tr')[3].querySelectorAll('input')[1];"
+                "one.focus(); one.value = 'thick'; one.dispatchEvent(new Event('change')); })()")
+    said = browser.run("document.getElementById('table-trouble').textContent")
+    check("is not a length" in said and browser.run("document.getElementById('trouble').hidden"), f"the table says {said!r}")
     quiet(browser, "typed")
+
+
+def sounds(browser, page):
+    """What is played has the bat's tones: at their frequencies, dying away as they do, and silent at their nodes."""
+    opened(browser, page)
+    heard = f"""(async (place) => {{
+      const {{ bench }} = lab, modes = bench.hit.answer.modes, rate = 48000;
+      const x_m = place === 'tip' ? bench.body.length.value : modes[place].nodes.at(-1).x_m;
+      const answer = await bench.quick.ask({{ ...bench.question('sound'), x_m, blow: 'tap', held: 'free' }});
+      const wave = lab.played(answer, rate), offline = new OfflineAudioContext(1, wave.length, rate);
+      const source = offline.createBufferSource(), buffer = offline.createBuffer(1, wave.length, rate);
+      buffer.copyToChannel(wave, 0);
+      source.buffer = buffer; source.connect(offline.destination); source.start();
+      const data = (await offline.startRendering()).getChannelData(0);
+      const level = (f, from, span) => {{
+        let [a, b] = [0, 0];
+        for (let k = 0; k < span * rate; k += 1) {{
+          const bell = (1 - Math.cos(2 * Math.PI * k / (span * rate))) * data[Math.round(from * rate) + k];
+          a += bell * Math.cos(2 * Math.PI * f * k / rate); b += bell * Math.sin(2 * Math.PI * f * k / rate);
+        }}
+        return Math.hypot(a, b) / (span * rate);
+      }};
+      return modes.map(({{ frequency: {{ value: f }} }}) => {{
+        const tries = Array.from({{ length: 61 }}, (_, k) => f - 3 + k / 10), levels = tries.map(one => level(one, 0.005, 0.5));
+        const peak = tries[levels.indexOf(Math.max(...levels))];
+        const decay = Math.log(level(f, 0.01, 0.08) / level(f, 0.05, 0.08)) / 0.04;
+        const tone = answer.tones.reduce((near, one) => Math.abs(one.frequency_hz - f) < Math.abs(near.frequency_hz - f) ? one : near);
+        return {{ f, peak, decay, known: tone.decay_1_s, level: level(f, 0.005, 0.3) }};
+      }});
+    }})"""
+    tip = browser.run(f"{heard}('tip')")
+    for k, tone in enumerate(tip):
+        check(abs(tone["peak"] - tone["f"]) <= 0.5, f"tone {k + 1} of {tone['f']} Hz is heard at {tone['peak']}")
+        check(abs(tone["decay"] / tone["known"] - 1) < 0.01, f"tone {k + 1} dies away by {tone['decay']}, not by {tone['known']}")
+    for k in range(2):
+        node = browser.run(f"{heard}({k})")[k]
+        check(node["level"] < 1e-3 * tip[k]["level"], f"tone {k + 1} is heard at its node: {node['level']} of {tip[k]['level']}")
+    quiet(browser, "sounds")
+
+
+def traced(browser, page, folder):
+    """A photograph becomes a bat; a hand corrects its edge; its deviation goes into the ± and into a link."""
+    opened(browser, page)
+    clicked(browser, "open")
+    clicked(browser, "trace-open")
+    browser.run("""(async () => {
+      for (const [name, value] of [['length', '840 mm'], ['diameter', '64 mm'], ['mass', '880 g'], ['distance', '3 m']]) {
+        document.getElementById('trace-' + name).value = value;
+      }
+      const canvas = new OffscreenCanvas(2400, 480), pen = canvas.getContext('2d');
+      pen.fillStyle = 'rgb(120 130 145)'; pen.fillRect(0, 0, 2400, 480);
+      pen.fillStyle = 'rgb(205 165 110)'; pen.beginPath();
+      const scale = 2200 / 0.84, radius = (x) => x < 0.02 ? 0.025 : x < 0.4 ? 0.0125 : 0.0125 + 0.0195 * Math.sin(Math.min(1, (x - 0.4) / 0.3) * Math.PI / 2) ** 2;
+      for (let k = 0; k <= 840; k += 1) pen.lineTo(100 + k / 1000 * scale, 240 - radius(k / 1000) * scale);
+      for (let k = 840; k >= 0; k -= 1) pen.lineTo(100 + k / 1000 * scale, 240 + radius(k / 1000) * scale);
+      pen.fill();
+      const blob = await canvas.convertToBlob({ type: 'image/png' });
+      await lab.tracing.add(new File([blob], 'drawn.png'));
+    })()""")
+    state = "document.getElementById('trace-state').textContent"
+    check(waited(browser, "!!lab.tracing.best", 40), f"a drawn bat is not traced: {browser.run(state)}")
+    check(browser.run("document.querySelectorAll('#trace-edges .traced').length") == 2, "its edges are not shown")
+    x, y = browser.run("(() => { const box = document.getElementById('trace-edges').getBoundingClientRect();"
+                       "return [box.x + 0.5 * box.width, box.y + 0.43 * box.height]; })()")
+    mouse(browser, "mousePressed", x, y, button="left", buttons=1, clickCount=1)
+    mouse(browser, "mouseReleased", x, y, button="left", clickCount=1)
+    check(waited(browser, "lab.tracing.taken[0].pins.length === 1 && !!lab.tracing.best", 40), "a point is not set")
+    clicked(browser, "trace-unpin")
+    check(waited(browser, "lab.tracing.taken[0].pins.length === 0 && !!lab.tracing.best", 40), "the points stay")
+    clicked(browser, "trace-use")
+    check(waited(browser, "lab.bench.body.name === 'a bat from a photograph'", 10), "the bat is not opened")
+    certain(browser, "a traced bat")
+    check(browser.run("lab.bench.opened.deviation_m") > 1e-4, "its deviation is lost")
+    check(waited(browser, "lab.bench.analyzed !== null", 40), "no ± for a traced bat")
+    check(waited(browser, "document.getElementById('command').textContent.includes('--calipers')", 5), "the command does not tell the deviation")
+    said = browser.run("document.getElementById('trust').textContent")
+    check("were traced" in said, f"of a traced bat is said: {said}")
+    widest = browser.run("lab.bench.body.widest.value")
+    check(abs(widest - 0.064) < 3e-4, f"64 mm were traced as {1e3 * widest}")
+    mass = browser.run("lab.bench.body.mass.value")
+    check(abs(mass - 0.88) < 1e-3, f"880 g became {1e3 * mass}")
+    quiet(browser, "tracing")
+
+
+def links(browser, page):
+    """Links of every released form open; a link brings the bat that differences count from."""
+    for name, held in json.load(open(f"{ROOT}/tests/browser/released_links.json")).items():
+        opened(browser, page)
+        browser.run(f"location.hash = {json.dumps(held['link'])}")
+        check(waited(browser, f"lab.bench.body.name === {json.dumps(held['name'])}", 5), f"{name} does not open")
+        certain(browser, name)
+        check(browser.run("lab.bench.scene") == held["scene"], f"{name}: its scene is {browser.run('lab.bench.scene')}")
+        check(browser.run("lab.bench.pins.length") == held["pins"], f"{name}: bats beside it are missing")
+        for bat in held["diameters"]:
+            check(browser.run("lab.bench.file.profile.diameter") == bat, f"{name}: its diameters are others")
+        quiet(browser, name)
+    opened(browser, page)
+    pulled(browser, 575, -12)
+    certain(browser, "pulled, to be sent")
+    mass = "document.querySelector('#figure-mass .change').textContent"
+    change, link = browser.run(mass), browser.run("lab.keep.sent()")
+    opened(browser, page)
+    browser.run(f"location.hash = {json.dumps(link)}")
+    check(waited(browser, f"{mass} === {json.dumps(change)}", 10) and change, f"a link's difference is {browser.run(mass)}, not {change}")
+    check(len(link) < 2000, f"a link has {len(link)} characters")
+    quiet(browser, "links")
+
+
+def failing(browser, page):
+    """A core that fails at every question is given up in words."""
+    opened(browser, page)
+    told = browser.run("""(async () => { let last; for (let k = 0; k < 7; k += 1) last = await lab.bench.slow.ask({ ask: 'panic', bat: '' }); return last; })()""")
+    check("not asked again" in told["error"], f"a core that always fails says {told}")
+    browser.events.clear()
 
 
 def wishes(browser, page):
@@ -436,7 +596,7 @@ def readable(browser, page):
     check(not browser.run(TOO_WIDE), "in forced colours: scrolls sideways")
 
 
-def steady(browser, page):
+def steady(browser, page, pulls):
     """Memory does not grow with use."""
     opened(browser, page)
 
@@ -452,41 +612,49 @@ def steady(browser, page):
 
     pull(40)
     before = heap()
-    pull(120)
+    pull(pulls)
     after = heap()
-    check(after[0] < 1.1 * before[0] + 200_000, f"the page's memory grows from {before[0]} to {after[0]} bytes in 120 pulls")
+    check(after[0] < 1.1 * before[0] + 200_000, f"the page's memory grows from {before[0]} to {after[0]} bytes in {pulls} pulls")
     check(after[1] == before[1] <= 16 << 20, f"the core's memory is {after[1]} bytes after {before[1]}")
     quiet(browser, "many pulls")
 
 
 def main():
-    if program() is None:
-        sys.exit("error: no Chromium found; install the package chromium")
-    page, sweetspot = sys.argv[1:3]
-    count = int(sys.argv[3]) if len(sys.argv) > 3 else 200
-    with tempfile.TemporaryDirectory() as folder, Browser(limit=900) as browser:
+    in_firefox = "--firefox" in sys.argv
+    of = firefox if in_firefox else chromium
+    if of.program() is None:
+        sys.exit(f"error: no {of.__name__} found; install it")
+    page, sweetspot, *more = [word for word in sys.argv[1:] if word != "--firefox"]
+    count = int(more[0]) if more else 500
+    with tempfile.TemporaryDirectory() as folder, of.Browser(limit=3600) as browser:
         browser.send("Network.emulateNetworkConditions", offline=True, latency=0, downloadThroughput=-1, uploadThroughput=-1)
         parts = {
             "drags": lambda: drags(browser, page, sweetspot, folder),
             "late answers": lambda: never_another_bats(browser, page),
+            "typed": lambda: typed(browser, page),
+            "sounds": lambda: sounds(browser, page),
+            "traced": lambda: traced(browser, page, folder),
+            "links": lambda: links(browser, page),
+            "failing": lambda: failing(browser, page),
+            "wishes": lambda: wishes(browser, page),
+            "lessons": lambda: lessons(browser, page),
+            "gestures": lambda: gestures(browser, page, sweetspot, folder, count),
+        }
+        chromiums = {
             "three ways": lambda: three_ways(browser, page),
             "disturbed": lambda: disturbed(browser, page, sweetspot, folder),
             "strangers": lambda: strangers(browser, page, sweetspot, folder),
             "again": lambda: again(browser, page),
-            "typed": lambda: typed(browser, page),
-            "wishes": lambda: wishes(browser, page),
             "policy": lambda: policy(browser, page),
-            "lessons": lambda: lessons(browser, page),
             "readable": lambda: readable(browser, page),
-            "gestures": lambda: gestures(browser, page, sweetspot, folder, count),
-            "steady": lambda: steady(browser, page),
+            "steady": lambda: steady(browser, page, 10_000 if count >= 5_000 else 120),
         }
-        wanted = sys.argv[4:] or parts
-        for name in wanted:
+        parts |= {} if in_firefox else chromiums
+        for name in more[1:] or parts:
             began = time.monotonic()
             parts[name]()
             print(f"  {name}: {time.monotonic() - began:.0f} s", flush=True)
-    print(f"{len(failures)} failures" if failures else "the lab answers, obeys and forgets nothing in Chromium")
+    print(f"{len(failures)} failures" if failures else f"the lab answers, obeys and forgets nothing in {of.__name__}")
     sys.exit(1 if failures else 0)
 
 

@@ -28,6 +28,7 @@ use crate::common::{BatArgs, SolveArgs, Solved, as_options, command_line, exampl
 use crate::done::Done;
 use crate::guarantee::{self, GuaranteeArgs};
 use crate::hit::verdict as hit_verdict;
+use crate::lab;
 use crate::output::{LINES, OutputArgs, Screen, apart, make, printed};
 use crate::scene::{self, SceneArgs};
 use crate::value::{READING, SCALE, Use};
@@ -87,6 +88,10 @@ pub struct Args {
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     report: Option<PathBuf>,
 
+    /// Write the live page of this bat beside the report, which opens it by a button
+    #[arg(long, requires = "report", help_heading = "Output")]
+    lab: bool,
+
     /// Leave the timing out of the JSON, so that equal input gives equal bytes
     #[arg(long, help_heading = "Output")]
     reproducible: bool,
@@ -123,6 +128,9 @@ pub fn run(args: &Args) -> Result<Done> {
     // A report that cannot be written is told before it is computed.
     let made = [&args.out, &args.plots];
     args.report.as_deref().map(|path| page::file::expected(path, &made)).transpose()?;
+    if args.lab {
+        lab::page()?;
+    }
     apart(&[("--json", &args.output.json), ("--report", &args.report)])?;
     args.solve.refuse_budget("analyze")?;
     let (bat, text) = args.bat.read_with_text(&args.output)?;
@@ -141,6 +149,8 @@ pub fn run(args: &Args) -> Result<Done> {
     let (scene, law) = setup.scene(&bat, Some(args.solve.tol)).map_err(as_options)?;
     scene::warn(&setup, &args.output);
     let inputs = args.report.as_ref().map(|_| inputs(args, &text)).transpose()?;
+    let beside = args.report.as_ref().filter(|_| args.lab);
+    let lab = beside.map(|report| lab::beside(report, &bat, &text)).transpose()?;
     let hits = Request { theory: solution.theory, ..args.solve.request(modes) };
     let proof = args.solve.request(args.solve.modes_within(solution.modes.len().max(MODES), 1));
     let task = Task { model, scene, law, hits, proof, readings: readings(args, &bat) };
@@ -152,7 +162,7 @@ pub fn run(args: &Args) -> Result<Done> {
     };
     drop(progress);
     let answer = Answer { args, analysis, proven, lathe };
-    answer.write(inputs)?;
+    answer.write(inputs, lab)?;
     let code = answer.verdict();
     let text = args.output.deliver(answer.screen(), || answer.document())?;
     let warning = warning.or(of_theory.filter(|_| !args.output.quiet));
@@ -274,7 +284,7 @@ impl Answer<'_> {
     }
 
     /// Writes what was asked for: the folder of documents, pictures, the report with those files.
-    fn write(&self, inputs: Option<Vec<Input>>) -> Result<()> {
+    fn write(&self, inputs: Option<Vec<Input>>, live: Option<String>) -> Result<()> {
         let Self { args, analysis, lathe, .. } = self;
         let lathe = lathe.as_ref();
         if let Some(folder) = &args.out {
@@ -292,7 +302,7 @@ impl Answer<'_> {
         if let Some((path, inputs)) = args.report.as_ref().zip(inputs) {
             let us = args.output.sheet(&analysis.bat).us;
             let report = Report::new(analysis, command_line(), inputs, lathe)?;
-            page::file::write(path, &Report { us, ..report })?;
+            page::file::write(path, &Report { us, lab: live, ..report })?;
         }
         Ok(())
     }

@@ -54,11 +54,31 @@ const PAGE: Option<&str> = None;
 /// What stands in the page in the place of a bat.
 const NO_BAT: &str = "<script type=\"application/json\" id=\"bat\">null</script>";
 
-pub fn run(args: &Args) -> Result<Done> {
-    let page = PAGE.ok_or(Error::NotBuilt {
+/// The page.
+///
+/// # Errors
+///
+/// [`Error::NotBuilt`] in a program that was built without it.
+pub fn page() -> Result<&'static str> {
+    PAGE.ok_or(Error::NotBuilt {
         what: "the page",
         advice: "build it in, in the source: `lab/build && cargo install --path crates/cli --features lab`",
-    })?;
+    })
+}
+
+/// Writes the page with that bat beside a report, and gives its address there: `r161.html` has `r161-lab.html`.
+pub fn beside(report: &Path, bat: &Bat, text: &str) -> Result<String> {
+    let name = format!("{}-lab.html", report.file_stem().unwrap_or_default().to_string_lossy());
+    // Edits of the command line stand in no file.
+    let same =
+        Bat::from_text("", text, Path::new("")).is_ok_and(|read| read.edits() == bat.edits());
+    let text = if same { text.to_owned() } else { alone(bat) };
+    file::write(&report.with_file_name(&name), with_bat(page()?, &text).as_bytes())?;
+    Ok(name.replace('%', "%25").replace('#', "%23").replace('?', "%3F"))
+}
+
+pub fn run(args: &Args) -> Result<Done> {
+    let page = page()?;
     let (page, name) = match &args.bat {
         Some(path) => {
             let text = text(path, args.quiet)?;

@@ -33,6 +33,7 @@ pub fn page(comparison: &Comparison, command: &str, us: bool) -> Result<String> 
         sections,
         figures: &figures,
         data: None,
+        lab: None,
     };
     Ok(page.text())
 }

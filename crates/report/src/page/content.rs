@@ -41,6 +41,8 @@ pub struct Report<'a> {
     pub summary: Summary,
     /// Whether US units are shown first: as in the bat's file, unless others are asked for.
     pub us: bool,
+    /// The address of the live page beside the report.
+    pub lab: Option<String>,
 }
 
 const STRANGE: &str = "This is unusual for a bat. If it is a slip, mend the bat file and make the \
@@ -73,8 +75,8 @@ impl<'a> Report<'a> {
     ) -> Result<Self> {
         let figures = Figure::all(|sheet| of_analysis(sheet, analysis, map))?;
         let (moments, sounds) = (moments(analysis)?, sounds(analysis)?);
-        let (summary, us) = (Summary::new(analysis), analysis.bat.inches());
-        Ok(Self { analysis, command, inputs, figures, moments, sounds, map, summary, us })
+        let (summary, us, lab) = (Summary::new(analysis), analysis.bat.inches(), None);
+        Ok(Self { analysis, command, inputs, figures, moments, sounds, map, summary, us, lab })
     }
 
     /// The report as one page.
@@ -91,6 +93,7 @@ impl<'a> Report<'a> {
             sections: [Units::Si, Units::Us].map(|units| self.sections(units)),
             figures: &self.figures,
             data: Some(data),
+            lab: self.lab.as_deref(),
         };
         page.text()
     }

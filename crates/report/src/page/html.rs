@@ -36,6 +36,8 @@ pub struct Page<'a> {
     pub figures: &'a [Figure],
     /// What its script draws, as JSON; none where nothing moves.
     pub data: Option<String>,
+    /// The address of the same bat's live page beside it.
+    pub lab: Option<&'a str>,
 }
 
 impl Page<'_> {
@@ -82,10 +84,13 @@ impl Page<'_> {
                 escaped(source)
             ),
         };
+        let open = "class=\"button screen\">Open in the lab</a>\n";
+        let lab =
+            self.lab.map(escaped).map_or_else(String::new, |f| format!("<a href=\"{f}\" {open}"));
         let labels = ["cm, m/s".to_owned(), "in, mph".to_owned()];
         let units = players::choice("units", "Units", &labels, usize::from(self.us));
         format!(
-            "<header>\n<div><p class=\"kind\">{kind}</p>\n<h1>{name}</h1>\n{source}</div>\n{units}</header>\n"
+            "<header>\n<div><p class=\"kind\">{kind}</p>\n<h1>{name}</h1>\n{source}{lab}</div>\n{units}</header>\n"
         )
     }
 

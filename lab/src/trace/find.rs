@@ -1,0 +1,162 @@
+//! Where on the picture does a bat lie?
+
+use sweetspot::base::error::{Error, Result};
+
+use crate::trace::picture::{Ground, Picture, distance, mean};
+
+/// Where the bat lies (px): the middle of what stands out from the ground, the direction of its axis, how far it
+/// reaches to both sides along it and, half, across it.
+#[derive(Debug, Clone, Copy)]
+pub struct Found {
+    pub middle: [f64; 2],
+    pub along: [f64; 2],
+    pub ends: [f64; 2],
+    pub half: f64,
+    /// How far it is from the ground in colour, over the ground's noise.
+    pub contrast: f32,
+}
+
+impl Found {
+    /// A place of the picture from along the axis and across it.
+    pub fn place(&self, u: f64, v: f64) -> [f64; 2] {
+        let ([x, y], [c, s]) = (self.middle, self.along);
+        [x + u * c - v * s, y + u * s + v * c]
+    }
+
+    /// How far along the axis and across it a place of the picture is.
+    pub fn along_across(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let ([x, y], [c, s]) = ([x - self.middle[0], y - self.middle[1]], self.along);
+        [x * c + y * s, y * c - x * s]
+    }
+}
+
+/// A picture in cells: how far each is from the ground.
+struct Cells {
+    size: usize,
+    width: usize,
+    height: usize,
+    off: Vec<f32>,
+}
+
+impl Cells {
+    fn of(picture: &Picture, ground: &Ground) -> Self {
+        /// Cells along the longer side.
+        const ALONG: usize = 800;
+        let size = picture.width.max(picture.height).div_ceil(ALONG);
+        let (width, height) = (picture.width / size, picture.height / size);
+        let off = (0..width * height).map(|k| {
+            let (x, y) = (k % width * size, k / width * size);
+            let one = |j: usize| picture.pixel((x + j % size) as isize, (y + j / size) as isize);
+            let (mean, middle) = (mean((0..size * size).map(one)), 0.5 * (size - 1) as f64);
+            distance(mean, ground.at(x as f64 + middle, y as f64 + middle))
+        });
+        Self { size, width, height, off: off.collect() }
+    }
+
+    /// How far a bat, which fills some hundredths of a picture, is from the ground.
+    fn level(&self) -> f32 {
+        const SHARE: f64 = 0.98;
+        let mut all = self.off.clone();
+        all.sort_by(f32::total_cmp);
+        all[((all.len() as f64 * SHARE) as usize).min(all.len() - 1)]
+    }
+
+    /// Connected cells above the level, the largest group first.
+    fn groups(&self, level: f32) -> Vec<Vec<usize>> {
+        let mut open: Vec<bool> = self.off.iter().map(|off| *off > level).collect();
+        let mut groups = vec![];
+        for first in 0..open.len() {
+            if !std::mem::take(&mut open[first]) {
+                continue;
+            }
+            let mut group = vec![first];
+            let mut done = 0;
+            while done < group.len() {
+                let (x, y) = (group[done] % self.width, group[done] / self.width);
+                let beside = [
+                    (x > 0).then(|| group[done] - 1),
+                    (x + 1 < self.width).then(|| group[done] + 1),
+                    (y > 0).then(|| group[done] - self.width),
+                    (y + 1 < self.height).then(|| group[done] + self.width),
+                ];
+                group
+                    .extend(beside.into_iter().flatten().filter(|k| std::mem::take(&mut open[*k])));
+                done += 1;
+            }
+            groups.push(group);
+        }
+        groups.sort_by_key(|group| std::cmp::Reverse(group.len()));
+        groups
+    }
+}
+
+/// An error where something is so.
+fn refuse(so: bool, found: String, expected: &str) -> Result<()> {
+    if so { Err(Error::value("the picture", found, expected)) } else { Ok(()) }
+}
+
+/// Finds the bat.
+///
+/// # Errors
+///
+/// [`Error::Value`] where nothing stands out from the ground, where something is cut off by the picture's edge, where
+/// several things lie there, where the one that does is not as slender as a bat, and where it is too small.
+pub fn find(picture: &Picture, ground: &Ground) -> Result<Found> {
+    /// Times the ground's noise that a bat differs from it, in the mean of its cells.
+    const CONTRAST: f32 = 4.0;
+    /// Of the largest thing's area, what another one has at least.
+    const ANOTHER: f64 = 0.06;
+    /// Times as long as wide on average: a bat is 15 to 25.
+    const SLENDER: [f64; 2] = [8.0, 40.0];
+    /// Pixels along the bat.
+    const LEAST: f64 = 700.0;
+    let cells = Cells::of(picture, ground);
+    let bat = cells.level();
+    let contrast = bat / ground.noise;
+    let plain = "a bat on plain ground of another colour, in even light";
+    let told = format!("no bat: what stands out most is {contrast:.1} times the ground's noise");
+    refuse(contrast < CONTRAST, told, plain)?;
+    let groups = cells.groups(0.6 * bat);
+    let Some((group, others)) = groups.split_first().filter(|(group, _)| group.len() > 40) else {
+        return Err(Error::value("the picture", "no bat", plain));
+    };
+    let others = others.iter().filter(|one| one.len() as f64 > ANOTHER * group.len() as f64);
+    let things = 1 + others.count();
+    refuse(things > 1, format!("{things} things on the ground"), "one bat and nothing else")?;
+    let cut = group.iter().any(|k| {
+        let (x, y) = (k % cells.width, k / cells.width);
+        x == 0 || y == 0 || x + 1 == cells.width || y + 1 == cells.height
+    });
+    refuse(cut, "a bat that is cut off by its edge".to_owned(), "the whole bat, ground around it")?;
+    let found = Found { contrast, ..axis(&cells, group) };
+    let length = found.ends[1] - found.ends[0];
+    let slender = length * length / (group.len() * cells.size * cells.size) as f64;
+    let told = format!("a thing {slender:.1} times as long as wide");
+    refuse(!(SLENDER[0]..SLENDER[1]).contains(&slender), told, "a bat, which is 15 to 25 times")?;
+    let expected = "1500 for 0.3 mm, 700 at least: come nearer with the zoom";
+    refuse(length < LEAST, format!("a bat {length:.0} pixels long"), expected)?;
+    Ok(found)
+}
+
+/// The principal axis of a group of cells.
+fn axis(cells: &Cells, group: &[usize]) -> Found {
+    let place = |k: &usize| {
+        let middle = |at: usize| (at * cells.size) as f64 + 0.5 * (cells.size - 1) as f64;
+        [middle(k % cells.width), middle(k / cells.width)]
+    };
+    let count = group.len() as f64;
+    let middle: [f64; 2] =
+        std::array::from_fn(|j| group.iter().map(|k| place(k)[j]).sum::<f64>() / count);
+    let product = |i: usize, j: usize| -> f64 {
+        group.iter().map(|k| (place(k)[i] - middle[i]) * (place(k)[j] - middle[j])).sum()
+    };
+    let angle = 0.5 * (2.0 * product(0, 1)).atan2(product(0, 0) - product(1, 1));
+    let along = [angle.cos(), angle.sin()];
+    let mut found = Found { middle, along, ends: [0.0; 2], half: 0.0, contrast: 0.0 };
+    for k in group {
+        let [u, v] = found.along_across(place(k));
+        found.ends = [found.ends[0].min(u), found.ends[1].max(u)];
+        found.half = found.half.max(v.abs());
+    }
+    found
+}
