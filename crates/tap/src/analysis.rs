@@ -153,7 +153,7 @@ impl Analysis {
             return none(Code::NoTone);
         }
         taps.iter_mut().zip(&found.used).for_each(|(tap, used)| tap.used = *used);
-        let warnings = warnings(recordings, &conditions, &taps, &found.tones, found.room[1]);
+        let warnings = warnings(recordings, &conditions, &taps, &found.tones, found.room);
         let has_loss = !warnings.iter().any(|code| SPOILT.contains(code));
         Self { conditions, taps, tones: found.tones, has_loss, warnings, refused: None }
     }
