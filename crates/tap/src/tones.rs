@@ -58,6 +58,8 @@ const FLOOR: [f64; 2] = [5e-5, 0.01];
 /// A stretch in which one tap rings.
 #[derive(Debug, Clone, Copy)]
 pub struct Ringing<'a> {
+    /// Which recording it is in.
+    pub recording: usize,
     /// The samples, from the onset to the next one.
     pub samples: &'a [f64],
     /// Samples per second.
@@ -280,8 +282,16 @@ fn tone(
     };
     let first = fit(&bands, start, &beside)?;
     let of_all = share(&bands, &first.poles);
-    let enough =
-        |count: usize| count as f64 >= least * used.iter().filter(|used| **used).count() as f64;
+    // Heard in enough taps of one of the recordings: two planes of the grain have tones of their own.
+    let enough = |heard: &[usize]| {
+        let of = |tap: usize| taps[tap].recording;
+        let count =
+            |all: &mut dyn Iterator<Item = usize>, own| all.filter(|k| of(*k) == own).count();
+        heard.iter().any(|tap| {
+            let all = count(&mut (0..taps.len()).filter(|k| used[*k]), of(*tap));
+            count(&mut heard.iter().copied(), of(*tap)) as f64 >= least * all as f64
+        })
+    };
     bands.retain(|band| of_all.iter().any(|(tap, misfit)| *tap == band.tap && *misfit < LOST));
     if bands.is_empty() {
         return None;
@@ -298,16 +308,18 @@ fn tone(
         return None;
     }
     let mut singles = vec![vec![]; whole.poles.len()];
+    let mut within = singles.iter().map(|_: &Vec<[f64; 2]>| vec![]).collect::<Vec<Vec<usize>>>();
     for band in &bands {
         let Some(one) = fit(std::slice::from_ref(band), &whole.poles, &beside) else { continue };
-        for ((all, pole), joint) in singles.iter_mut().zip(&one.poles).zip(&whole.poles) {
+        for (p, (pole, joint)) in one.poles.iter().zip(&whole.poles).enumerate() {
             if (pole.hz / joint.hz).ln().abs() < SPREAD {
-                all.push([pole.hz.ln(), pole.loss().ln()]);
+                singles[p].push([pole.hz.ln(), pole.loss().ln()]);
+                within[p].push(band.tap);
             }
         }
     }
-    let is_heard = |all: &Vec<[f64; 2]>| enough(all.len()) && robust(all, 0) < SPREAD;
-    if !singles.iter().all(is_heard) {
+    let is_close = |all: &Vec<[f64; 2]>| robust(all, 0) < SPREAD;
+    if !singles.iter().all(is_close) || !within.iter().all(|heard| enough(heard)) {
         return None;
     }
     let level = level(&bands, &whole.poles, &beside);

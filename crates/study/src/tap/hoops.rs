@@ -14,6 +14,7 @@ use crate::calibrate::unknowns::UNKNOWNS;
 use crate::calibrate::wood::WoodenBat;
 use crate::tap::heard::HeardLine;
 use sweetspot::base::error::Result;
+use sweetspot::beam::wall::extent::rings;
 use sweetspot::modes::hoop::{Hoop, HoopMode};
 
 /// How far E of a metal, and the factor of the wall's tones, are open: standard deviations of logarithms.
@@ -39,6 +40,9 @@ pub enum BatMode {
     Hoop(usize, usize),
 }
 
+/// What was told of a line: nothing, that it is no mode, or its bending mode.
+pub type Known = Option<Option<usize>>;
+
 /// Labels of lines, the best and the next that contradict them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WallLabels {
@@ -54,10 +58,17 @@ pub struct WallLabels {
     pub margin: Option<f64>,
 }
 
-/// The modes of the wall of a hollow bat; None for a bat whose wall has none, as of wood.
-pub fn wall(wood: &WoodenBat) -> Option<Vec<HoopMode>> {
-    let hoop = Hoop::first(&wood.bat, MODES, TOLERANCE).ok()?;
-    Some(hoop.lowest(MODES).into_iter().cloned().collect())
+/// The modes of the wall of a hollow bat; None for a bat whose wall does not ring, as of wood.
+///
+/// # Errors
+///
+/// As [`Hoop::first`], of a wall that cannot be solved.
+pub fn wall(wood: &WoodenBat) -> Result<Option<Vec<HoopMode>>> {
+    if !rings(&wood.bat) {
+        return Ok(None);
+    }
+    let hoop = Hoop::first(&wood.bat, MODES, TOLERANCE)?;
+    Ok(Some(hoop.lowest(MODES).into_iter().cloned().collect()))
 }
 
 /// The labels of lines that may be bending modes or modes of the wall.
@@ -65,17 +76,23 @@ pub fn wall(wood: &WoodenBat) -> Option<Vec<HoopMode>> {
 /// # Errors
 ///
 /// As [`WoodenBat::shown`].
-pub fn labels(wood: &WoodenBat, wall: &[HoopMode], heard: &[HeardLine]) -> Result<WallLabels> {
+pub fn labels(
+    wood: &WoodenBat,
+    wall: &[HoopMode],
+    heard: &[HeardLine],
+    known: &[Known],
+) -> Result<WallLabels> {
     let bending = wood.shown(&[0.0; UNKNOWNS], BENDING)?.frequencies;
     let bending = bending.iter().enumerate();
     let bending = bending.map(|(k, f)| (BatMode::Bending(k + 1), f.value.ln()));
     let hoops =
         wall.iter().map(|mode| (BatMode::Hoop(mode.harmonic, mode.order), mode.frequency_hz.ln()));
     let all: Vec<(BatMode, f64)> = bending.chain(hoops).collect();
-    let lines = heard.iter().map(|line| SpectralLine { frequency: line.frequency, mode: None });
-    let readings = BatReadings { lines: lines.collect(), ..BatReadings::default() };
-    let none = vec![None; heard.len()];
-    let search = Lines::of(&readings, LabelChoice::Stays(&none));
+    // What was told to be no mode stays without one.
+    let asked: Vec<usize> = (0..heard.len()).filter(|k| known[*k] != Some(None)).collect();
+    let line = |k: &usize| SpectralLine { frequency: heard[*k].frequency, mode: None };
+    let lines = asked.iter().map(line).collect();
+    let readings = BatReadings { lines, ..BatReadings::default() };
     let mut found: BTreeMap<Labels, (f64, Vec<f64>)> = BTreeMap::new();
     let steps = |deviation: f64| {
         let most = (REACH * deviation / STEP).ceil() as i32;
@@ -94,8 +111,15 @@ pub fn labels(wood: &WoodenBat, wall: &[HoopMode], heard: &[HeardLine]) -> Resul
                 BatMode::Bending(mode) => Candidate { log: logs[*k], gap: gap(mode), more: 0.0 },
                 BatMode::Hoop(..) => Candidate { log: logs[*k], gap: 0.0, more: HOOP },
             };
-            let (labels, price) = search.cheapest(&order.iter().map(candidate).collect::<Vec<_>>());
-            let labels: Labels = labels.iter().map(|one| one.map(|k| order[k - 1] + 1)).collect();
+            let place = |mode| order.iter().position(|k| all[*k].0 == BatMode::Bending(mode));
+            let told = |k: &usize| Some(place(known[*k]??)? + 1);
+            let told: Labels = asked.iter().map(told).collect();
+            let search = Lines::of(&readings, LabelChoice::Stays(&told));
+            let (own, price) = search.cheapest(&order.iter().map(candidate).collect::<Vec<_>>());
+            let mut labels: Labels = vec![None; heard.len()];
+            for (k, one) in asked.iter().zip(own) {
+                labels[*k] = one.map(|one| order[one - 1] + 1);
+            }
             let price = price + (2.0 * stiff / METAL).powi(2) + (thick / WALL).powi(2);
             let entry = found.entry(labels).or_insert((f64::INFINITY, vec![]));
             if price < entry.0 {

@@ -7,7 +7,7 @@ use crate::calibrate::labels::STRANGER;
 use crate::calibrate::readings::{BatReadings, Priors, SpectralLine};
 use crate::calibrate::wood::WoodenBat;
 use crate::tap::heard::{HeardLine, Within, lines, ring_down};
-use crate::tap::hoops::{self, BatMode, metal};
+use crate::tap::hoops::{self, BatMode, Known, metal};
 use sweetspot::base::error::{Error, Result};
 use sweetspot::bat::body::{Bat, STANDARD_PIVOT};
 
@@ -41,6 +41,8 @@ pub struct Tapped {
     pub wood: Option<Calibration>,
     /// The loss factor of the wood, at most: that of the tone that is damped least.
     pub loss: Option<Within>,
+    /// Why the modes of the wall of a hollow bat are not known.
+    pub unsolved: Option<String>,
 }
 
 impl Tapped {
@@ -51,10 +53,14 @@ impl Tapped {
     /// [`Error::Value`] for a told tone that was not heard, and those of [`WoodenBat::new`] and of a solve.
     pub fn of(bat: &Bat, analysis: &Analysis, told: &[Told]) -> Result<Self> {
         let wood = WoodenBat::new(bat, None, STANDARD_PIVOT)?;
-        let wall = hoops::wall(&wood);
+        // A wall that cannot be solved has no tones to compare with, and that is said.
+        let (wall, unsolved) = match hoops::wall(&wood) {
+            Ok(wall) => (wall, None),
+            Err(error) => (Some(vec![]), Some(error.to_string())),
+        };
         let heard = lines(analysis, wall.is_none());
         let known = known(analysis, &heard, told)?;
-        let wall = wall.map(|wall| hoops::labels(&wood, &wall, &heard)).transpose()?;
+        let wall = wall.map(|wall| hoops::labels(&wood, &wall, &heard, &known)).transpose()?;
         let kinds = wall.as_ref().map_or(vec![None; heard.len()], |wall| wall.best.clone());
         // Bending modes as told; of a hollow bat as found; else sought.
         let bending = |k: usize| match (known[k], kinds[k]) {
@@ -105,7 +111,7 @@ impl Tapped {
             None => found,
         };
         let labels = of_tones(&heard, &labels, analysis.tones.len());
-        Ok(Self { labels, second, wood, loss: loss.map(|(loss, _)| loss) })
+        Ok(Self { labels, second, wood, loss: loss.map(|(loss, _)| loss), unsolved })
     }
 
     /// Whether the tones fit the bat: the readings of its wood do, no other labels come near, and half of the tones
@@ -137,11 +143,7 @@ fn loudest(
 }
 
 /// What was told of every line, if something was.
-fn known(
-    analysis: &Analysis,
-    heard: &[HeardLine],
-    told: &[Told],
-) -> Result<Vec<Option<Option<usize>>>> {
+fn known(analysis: &Analysis, heard: &[HeardLine], told: &[Told]) -> Result<Vec<Known>> {
     let mut known = vec![None; heard.len()];
     for (hz, mode) in told {
         known[near(analysis, heard, *hz)?] = Some(*mode);
