@@ -183,6 +183,9 @@ fn sound(
             }
             Err(Error::DecodeError(_)) => {
                 spoilt += 1;
+                if channels.is_empty() {
+                    continue;
+                }
                 one.iter_mut().for_each(|channel| channel.fill(0.0));
             }
             Err(_) => break,
@@ -275,28 +278,54 @@ mod tests {
     /// Cut and spoilt files are read or refused, and never end the program.
     #[test]
     fn spoilt_files_are_read_or_refused() {
-        let good = wav(1);
         let mut state = 9_u64;
         let mut next = |below: usize| {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
             (state >> 33) as usize % below
         };
-        for _ in 0..2000 {
-            let mut bytes = good[..good.len() - next(good.len()) * (next(2))].to_vec();
-            for _ in 0..=next(4) {
-                let room = if next(2) == 0 { bytes.len().min(60) } else { bytes.len() };
-                let at = next(room.max(1));
-                if let Some(byte) = bytes.get_mut(at) {
-                    *byte = next(256) as u8;
+        let files = [
+            wav(1),
+            include_bytes!("../../../fuzz/corpus/recording/taps.m4a").to_vec(),
+            include_bytes!("../../../fuzz/corpus/recording/alac.m4a").to_vec(),
+            include_bytes!("../../../fuzz/corpus/recording/taps.mp3").to_vec(),
+            include_bytes!("../../../fuzz/corpus/recording/taps.flac").to_vec(),
+            include_bytes!("../../../fuzz/corpus/recording/taps.ogg").to_vec(),
+        ];
+        for good in files {
+            assert!(decode("x", good.clone(), Part::default()).is_ok());
+            for _ in 0..500 {
+                let mut bytes = good[..good.len() - next(good.len()) * (next(2))].to_vec();
+                for _ in 0..=next(4) {
+                    let room = if next(2) == 0 { bytes.len().min(60) } else { bytes.len() };
+                    let at = next(room.max(1));
+                    if let Some(byte) = bytes.get_mut(at) {
+                        *byte = next(256) as u8;
+                    }
                 }
-            }
-            if let Ok(read) = decode("x.wav", bytes, Part::default()) {
-                assert!(!read.samples.is_empty() && read.samples.iter().all(|x| x.is_finite()));
+                if let Ok(read) = decode("x", bytes, Part::default()) {
+                    assert!(!read.samples.is_empty() && read.samples.iter().all(|x| x.is_finite()));
+                }
             }
         }
         for bytes in [&b""[..], b"OggS", b"ID3", b"fLaC", b"....ftypM4A ", b"\xff\xfb\x90\0"] {
             assert!(decode("x", bytes.to_vec(), Part::default()).is_err());
         }
+    }
+
+    /// A packet of AAC that cannot be decoded is told, and what follows keeps its time.
+    #[test]
+    fn spoilt_packets_are_silence_and_are_told() {
+        let good = include_bytes!("../../../fuzz/corpus/recording/taps.m4a");
+        let whole = decode("x", good.to_vec(), Part::default()).unwrap();
+        assert_eq!(whole.spoilt, 0);
+        let spoilt = |at: usize| {
+            let mut bytes = good.to_vec();
+            bytes[at..at + 12].fill(0xff);
+            decode("x", bytes, Part::default()).ok().filter(|read| read.spoilt > 0)
+        };
+        let read: Vec<Recording> = (300..1200).step_by(20).filter_map(spoilt).collect();
+        assert!(!read.is_empty());
+        assert!(read.iter().all(|read| read.samples.len() == whole.samples.len()));
     }
 
     #[test]
