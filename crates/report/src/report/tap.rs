@@ -243,7 +243,7 @@ impl TapReport<'_> {
         };
         let lines: Vec<Value> = tones.lines.iter().zip(&lines.taken).filter_map(line).collect();
         let died = tones.ring_down.iter();
-        let died = died.map(|t| json!({ "mode": t.mode, "cycles": t.cycles, "ratio": t.ratio }));
+        let died = died.map(|t| json!({ "mode": t.mode, "loss_factor": t.loss_factor() }));
         let names: Vec<&str> = self.recordings.iter().map(|one| &*one.name).collect();
         json!({ "format": "sweetspot-readings/1", "name": names.join(", "), "lines": lines,
                 "ring_down": died.collect::<Vec<_>>() })

@@ -56,6 +56,15 @@ pub struct WallLabels {
     pub second: Option<Vec<Option<BatMode>>>,
     /// By how much they cost more.
     pub margin: Option<f64>,
+    /// By how much every line would cost more as the next mode there that no other line is.
+    pub apart: Vec<f64>,
+}
+
+impl WallLabels {
+    /// By how much another label of that line costs more.
+    pub fn margin_of(&self, line: usize) -> Option<f64> {
+        Some(self.margin.unwrap_or(f64::INFINITY).min(self.apart[line]))
+    }
 }
 
 /// The modes of the wall of a hollow bat; None for a bat whose wall does not ring, as of wood.
@@ -141,11 +150,23 @@ fn chosen(
     let named = |labels: &Labels| labels.iter().map(|one| one.map(|k| all[k - 1].0)).collect();
     let second = found.iter().find(|(labels, _)| contradict(labels, &best));
     let log = |label: &Option<usize>| label.map(|k| logs[k - 1]);
-    let chi2 = |(label, line): (&Option<usize>, &HeardLine)| {
+    let away = |log: f64, line: &HeardLine| {
         let by = (line.frequency.deviation / line.frequency.value).hypot(BatReadings::MODEL);
-        log(label).map_or(0.0, |log| ((line.frequency.value.ln() - log) / by).powi(2))
+        ((line.frequency.value.ln() - log) / by).powi(2)
+    };
+    let chi2 =
+        |(label, line): (&Option<usize>, &HeardLine)| log(label).map_or(0.0, |log| away(log, line));
+    // A bending mode and one of the wall may lie so close that one tone is either.
+    let cost = |k: usize, line: &HeardLine| {
+        away(logs[k], line) + if matches!(all[k].0, BatMode::Hoop(..)) { HOOP } else { 0.0 }
+    };
+    let apart = |(label, line): (&Option<usize>, &HeardLine)| {
+        let free = (0..all.len()).filter(|k| !best.contains(&Some(k + 1)));
+        let next = free.map(|k| cost(k, line)).fold(f64::INFINITY, f64::min);
+        label.map_or(f64::INFINITY, |own| next - cost(own - 1, line))
     };
     WallLabels {
+        apart: best.iter().zip(heard).map(apart).collect(),
         chi2: best.iter().zip(heard).map(chi2).collect(),
         computed: best.iter().map(|label| log(label).map(f64::exp)).collect(),
         best: named(&best),

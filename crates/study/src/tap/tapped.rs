@@ -4,9 +4,9 @@ use sweetspot_tap::analysis::Analysis;
 
 use crate::calibrate::calibration::{Calibration, CalibrationPlan, Property, SURE};
 use crate::calibrate::labels::STRANGER;
-use crate::calibrate::readings::{BatReadings, Priors, SpectralLine};
+use crate::calibrate::readings::{BatReadings, Priors, RingDown, SpectralLine};
 use crate::calibrate::wood::WoodenBat;
-use crate::tap::heard::{HeardLine, Within, lines, ring_down};
+use crate::tap::heard::{HeardLine, Within, lines};
 use crate::tap::hoops::{self, BatMode, Known, metal};
 use sweetspot::base::error::{Error, Result};
 use sweetspot::bat::body::{Bat, STANDARD_PIVOT};
@@ -89,14 +89,15 @@ impl Tapped {
                 *label = ToneLabel {
                     mode: Some(mode),
                     computed: wall.computed[k],
-                    sure: sure(wall.margin, wall.chi2[k]),
+                    sure: sure(wall.margin_of(k), wall.chi2[k]),
                 };
             }
         }
         if let Some(found) = &found {
-            let margin = wall.as_ref().map_or(found.labels.margin, |wall| wall.margin);
+            let margin =
+                |k: usize| wall.as_ref().map_or(found.labels.margin, |wall| wall.margin_of(k));
             for (k, mode) in taken.iter().zip(&found.labels.taken) {
-                labels[*k] = of_wood(found, *mode, margin, known[*k] == Some(*mode));
+                labels[*k] = of_wood(found, *mode, margin(*k), known[*k] == Some(*mode));
             }
         }
         let second = match wall {
@@ -106,7 +107,7 @@ impl Tapped {
         let loss = least_loss(analysis, &heard, &labels);
         let wood = match &loss {
             Some((loss, order)) => {
-                found.map(|found| found.with_ring_down(ring_down(*order, loss.value)))
+                found.map(|found| found.with_ring_down(RingDown::of_loss(*order, loss.value)))
             }
             None => found,
         };
