@@ -168,10 +168,13 @@ fn a_part_that_is_none_is_refused_by_name() {
 #[test]
 fn two_recordings_keep_tones_of_their_own() {
     let folder = Folder::new("tap_planes");
-    let one = [300.0, 900.0, 1700.0];
+    let one = [320.0, 910.0, 1730.0];
     let two = one.map(|hz| 1.04 * hz);
     folder.write("one.wav", wav::file(&taps(&one)));
-    let hum = |n: usize| 0.02 * (std::f64::consts::TAU * 50.0 * n as f64 / f64::from(RATE)).sin();
+    let hum = |n: usize| {
+        let wave = |h: usize| (std::f64::consts::TAU * (50 * h * n) as f64 / f64::from(RATE)).sin();
+        (1..12).map(|h| 0.01 * wave(h)).sum::<f64>()
+    };
     let hummed: Vec<f64> = taps(&two).iter().enumerate().map(|(n, x)| x + hum(n)).collect();
     folder.write("two.wav", wav::file(&hummed));
     let (found, _) = heard(&folder, &["tap", "r161", "one.wav", "two.wav", "--only-tones"]);

@@ -116,7 +116,7 @@ pub fn tones(taps: &[Ringing], peaks: &[f64]) -> Tones {
     // What is no tap has none of the tones: first those are sought that some taps share.
     let rough = heard(taps, &used, peaks, SOME);
     for (tap, used) in used.iter_mut().enumerate() {
-        *used = !is_none(&rough, tap);
+        *used = !is_none(taps, &rough, tap);
     }
     let found = if used.contains(&true) { heard(taps, &used, peaks, HEARD) } else { vec![] };
     let mut differences: Vec<[Option<[f64; 2]>; 2]> = vec![];
@@ -155,8 +155,12 @@ fn others(poles: &[Vec<Pole>], own: usize) -> Vec<Pole> {
 }
 
 /// Whether the strongest tones are left so badly of a tap that it is none.
-fn is_none(found: &[Found], tap: usize) -> bool {
-    let mut strongest: Vec<&Found> = found.iter().collect();
+fn is_none(taps: &[Ringing], found: &[Found], tap: usize) -> bool {
+    // Tones that its recording has: of the other plane of the grain a tap has none.
+    let own =
+        |(k, misfit): &(usize, f64)| taps[*k].recording == taps[tap].recording && *misfit < NO_TAP;
+    let mut strongest: Vec<&Found> =
+        found.iter().filter(|one| one.misfits.iter().any(own)).collect();
     strongest.sort_by(|a, b| b.level.total_cmp(&a.level));
     strongest.truncate(5);
     let of = |one: &&Found| one.misfits.iter().find(|(k, _)| *k == tap).map(|(_, misfit)| *misfit);
@@ -282,16 +286,6 @@ fn tone(
     };
     let first = fit(&bands, start, &beside)?;
     let of_all = share(&bands, &first.poles);
-    // Heard in enough taps of one of the recordings: two planes of the grain have tones of their own.
-    let enough = |heard: &[usize]| {
-        let of = |tap: usize| taps[tap].recording;
-        let count =
-            |all: &mut dyn Iterator<Item = usize>, own| all.filter(|k| of(*k) == own).count();
-        heard.iter().any(|tap| {
-            let all = count(&mut (0..taps.len()).filter(|k| used[*k]), of(*tap));
-            count(&mut heard.iter().copied(), of(*tap)) as f64 >= least * all as f64
-        })
-    };
     bands.retain(|band| of_all.iter().any(|(tap, misfit)| *tap == band.tap && *misfit < LOST));
     if bands.is_empty() {
         return None;
@@ -319,11 +313,24 @@ fn tone(
         }
     }
     let is_close = |all: &Vec<[f64; 2]>| robust(all, 0) < SPREAD;
-    if !singles.iter().all(is_close) || !within.iter().all(|heard| enough(heard)) {
+    if !singles.iter().all(is_close)
+        || !within.iter().all(|heard| is_enough((taps, used, least), heard))
+    {
         return None;
     }
     let level = level(&bands, &whole.poles, &beside);
     Some(Found { whole, misfits: of_all, singles, level })
+}
+
+/// Whether a tone is in enough taps of one of the recordings: two planes of the grain have tones of their own.
+fn is_enough((taps, used, least): (&[Ringing], &[bool], f64), heard: &[usize]) -> bool {
+    let mut count = std::collections::BTreeMap::<usize, [f64; 2]>::new();
+    for (k, tap) in taps.iter().enumerate().filter(|(k, _)| used[*k]) {
+        let [all, own] = count.entry(tap.recording).or_default();
+        *all += 1.0;
+        *own += f64::from(heard.contains(&k));
+    }
+    count.values().any(|[all, own]| *own >= least * all)
 }
 
 fn weigh(bands: &mut [Band], poles: &[Pole], beside: &[Pole]) {

@@ -67,17 +67,16 @@ impl WallLabels {
     }
 }
 
-/// The modes of the wall of a hollow bat; None for a bat whose wall does not ring, as of wood.
-///
-/// # Errors
-///
-/// As [`Hoop::first`], of a wall that cannot be solved.
-pub fn wall(wood: &WoodenBat) -> Result<Option<Vec<HoopMode>>> {
+/// The modes of the wall of a hollow bat; None for a bat whose wall does not ring, as of wood. A wall that cannot be
+/// solved has none to compare with, and the reason.
+pub fn wall(wood: &WoodenBat) -> (Option<Vec<HoopMode>>, Option<String>) {
     if !rings(&wood.bat) {
-        return Ok(None);
+        return (None, None);
     }
-    let hoop = Hoop::first(&wood.bat, MODES, TOLERANCE)?;
-    Ok(Some(hoop.lowest(MODES).into_iter().cloned().collect()))
+    match Hoop::first(&wood.bat, MODES, TOLERANCE) {
+        Ok(hoop) => (Some(hoop.lowest(MODES).into_iter().cloned().collect()), None),
+        Err(error) => (Some(vec![]), Some(error.to_string())),
+    }
 }
 
 /// The labels of lines that may be bending modes or modes of the wall.

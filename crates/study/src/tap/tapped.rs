@@ -53,11 +53,7 @@ impl Tapped {
     /// [`Error::Value`] for a told tone that was not heard, and those of [`WoodenBat::new`] and of a solve.
     pub fn of(bat: &Bat, analysis: &Analysis, told: &[Told]) -> Result<Self> {
         let wood = WoodenBat::new(bat, None, STANDARD_PIVOT)?;
-        // A wall that cannot be solved has no tones to compare with, and that is said.
-        let (wall, unsolved) = match hoops::wall(&wood) {
-            Ok(wall) => (wall, None),
-            Err(error) => (Some(vec![]), Some(error.to_string())),
-        };
+        let (wall, unsolved) = hoops::wall(&wood);
         let heard = lines(analysis, wall.is_none());
         let known = known(analysis, &heard, told)?;
         let wall = wall.map(|wall| hoops::labels(&wood, &wall, &heard, &known)).transpose()?;
