@@ -13,12 +13,13 @@ use sweetspot::files::shape_file;
 use sweetspot::{Bat, Error, Request, Result, solve};
 use sweetspot_report::exchange::modes_file;
 use sweetspot_study::files::measured;
+use sweetspot_tap::decode::{Part, decode};
 
 /// A reader: whether it took the bytes.
 pub type Reader = fn(&[u8]) -> bool;
 
 /// Every reader, by the name of its target and of its seeds.
-pub const READERS: [(&str, Reader); 8] = [
+pub const READERS: [(&str, Reader); 9] = [
     ("bat", bat),
     ("table", table),
     ("formula", formula),
@@ -27,6 +28,7 @@ pub const READERS: [(&str, Reader); 8] = [
     ("force", force),
     ("shape", shape),
     ("measured", measured),
+    ("recording", recording),
 ];
 
 /// A bat file; what it describes is solved, roughly.
@@ -82,6 +84,17 @@ pub fn measured(bytes: &[u8]) -> bool {
     in_file(bytes, if universal { "input.uff" } else { "input.csv" }, |path| {
         measured::read(path, &Default::default())
     })
+}
+
+/// A recording of taps.
+pub fn recording(bytes: &[u8]) -> bool {
+    match decode("input", bytes.to_vec(), Part::default()) {
+        Ok(read) => read.samples.iter().all(|x| x.is_finite()) && !read.samples.is_empty(),
+        Err(error) => {
+            assert!(!error.to_string().contains('\n'), "{error}");
+            false
+        }
+    }
 }
 
 fn text(bytes: &[u8]) -> String {

@@ -29,6 +29,24 @@ fn heard(folder: &Folder, args: &[&str]) -> (Value, i32) {
     (serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{args:?}: {told}")), code)
 }
 
+/// Four taps, a second apart, of tones of a loss factor of 0.004.
+fn taps(tones: &[f64]) -> Vec<f64> {
+    let tap = |n: usize, k: usize| -> f64 {
+        let t = n as f64 / f64::from(RATE);
+        let one = |(j, hz): (usize, &f64)| {
+            let phase = (7 * k + 3 * j) as f64;
+            let size = (0.6 + 0.12 * ((k + j) % 3) as f64) / tones.len() as f64;
+            size * (-std::f64::consts::PI * hz * 0.004 * t).exp()
+                * (std::f64::consts::TAU * hz * t + phase).sin()
+        };
+        tones.iter().enumerate().map(one).sum()
+    };
+    let rung = (0..4).flat_map(|k| (0..RATE as usize).map(move |n| (n, k)));
+    let mut all = vec![0.0; RATE as usize / 2];
+    all.extend(rung.map(|(n, k)| tap(n, k)));
+    all
+}
+
 const LOSSY: &str = r#"{ "format": "sweetspot-bat/1", "name": "Lossy", "profile": { "unit": "in",
     "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5] },
     "material": { "density": 650, "youngs_modulus": 18e9, "shear_modulus": 1.1e9, "loss_factor": 0.01 } }"#;
@@ -116,23 +134,9 @@ fn what_is_no_tap_is_refused() {
 #[test]
 fn neighbours_are_both_heard() {
     let folder = Folder::new("tap_neighbours");
-    let rate = f64::from(RATE);
     for apart in [1.015, 1.035, 1.05, 1.08] {
         let tones = [300.0, 900.0, 2462.0, 2462.0 * apart];
-        let tap = |n: usize, k: usize| -> f64 {
-            let t = n as f64 / rate;
-            let one = |(j, hz): (usize, &f64)| {
-                let phase = (7 * k + 3 * j) as f64;
-                let size = 0.15 + 0.03 * ((k + j) % 3) as f64;
-                size * (-std::f64::consts::PI * hz * 0.004 * t).exp()
-                    * (std::f64::consts::TAU * hz * t + phase).sin()
-            };
-            tones.iter().enumerate().map(one).sum()
-        };
-        let taps = (0..4).flat_map(|k| (0..RATE as usize).map(move |n| (n, k)));
-        let mut all = vec![0.0; RATE as usize / 2];
-        all.extend(taps.map(|(n, k)| tap(n, k)));
-        folder.write("taps.wav", wav::file(&all));
+        folder.write("taps.wav", wav::file(&taps(&tones)));
         let (found, _) = heard(&folder, &["tap", "r161", "taps.wav", "--only-tones"]);
         let found = found["tones"].as_array().unwrap();
         let found: Vec<f64> = found.iter().map(|t| t["frequency_hz"].as_f64().unwrap()).collect();
@@ -157,4 +161,78 @@ fn a_part_that_is_none_is_refused_by_name() {
         let said = String::from_utf8_lossy(&told.stderr);
         assert!(told.status.code() == Some(2) && said.contains(field), "{args:?}: {said}");
     }
+}
+
+/// Two recordings of two planes of the grain, whose tones are 4 % apart: the tones of both are heard, and what spoils
+/// one of the two is said by its name.
+#[test]
+fn two_recordings_keep_tones_of_their_own() {
+    let folder = Folder::new("tap_planes");
+    let one = [320.0, 910.0, 1730.0];
+    let two = one.map(|hz| 1.04 * hz);
+    folder.write("one.wav", wav::file(&taps(&one)));
+    let hum = |n: usize| {
+        let wave = |h: usize| (std::f64::consts::TAU * (50 * h * n) as f64 / f64::from(RATE)).sin();
+        (1..12).map(|h| 0.01 * wave(h)).sum::<f64>()
+    };
+    let hummed: Vec<f64> = taps(&two).iter().enumerate().map(|(n, x)| x + hum(n)).collect();
+    folder.write("two.wav", wav::file(&hummed));
+    let (found, _) = heard(&folder, &["tap", "r161", "one.wav", "two.wav", "--only-tones"]);
+    let heard = found["tones"].as_array().unwrap();
+    let heard: Vec<f64> = heard.iter().map(|t| t["frequency_hz"].as_f64().unwrap()).collect();
+    assert_eq!(heard.len(), 6, "{heard:?}");
+    for hz in one.iter().chain(&two) {
+        assert!(heard.iter().any(|heard| (heard / hz - 1.0).abs() < 1e-3), "{hz}: {heard:?}");
+    }
+    let said = found["warnings"].as_array().unwrap().iter();
+    let said: Vec<&str> = said.map(|one| one["text"].as_str().unwrap()).collect();
+    assert!(said.iter().any(|text| text.starts_with("two.wav: Hum")), "{said:?}");
+    assert!(!said.iter().any(|text| text.starts_with("one.wav: Hum")), "{said:?}");
+}
+
+const FOIL: &str = r#"{ "format": "sweetspot-bat/1", "name": "Foil", "profile": { "unit": "in",
+    "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5], "wall_thickness": [1e-5, 1e-5, 1e-5, 1e-5, 1e-5] },
+    "material": { "density": 2700, "youngs_modulus": 70e9, "poisson_ratio": 0.33 } }"#;
+
+#[test]
+fn a_wall_that_cannot_be_solved_is_said() {
+    let folder = Folder::new("tap_foil");
+    folder.write("foil.json", FOIL);
+    folder.write("taps.wav", include_bytes!("golden/taps.wav"));
+    let (found, _) = heard(&folder, &["tap", "foil.json", "taps.wav"]);
+    let codes: Vec<&Value> =
+        found["warnings"].as_array().unwrap().iter().map(|one| &one["code"]).collect();
+    assert!(codes.contains(&&Value::from("wall")), "{found:#}");
+}
+
+/// Tones of bending modes and of the lowest mode of the wall: what is told of one is kept, and of the others it changes
+/// nothing.
+#[test]
+fn what_is_told_takes_part_in_the_search_of_a_hollow_bat() {
+    let folder = Folder::new("tap_told");
+    let bat = "bbcor_made_up";
+    let hertz = |found: &Value| -> Vec<f64> {
+        let modes = found["modes"].as_array().unwrap().iter();
+        modes.map(|mode| mode["frequency_hz"].as_f64().unwrap()).collect()
+    };
+    let bending = hertz(&folder.json(&["modes", bat, "-n", "4", "--json", "-"]));
+    let wall = hertz(&folder.json(&["hoop", bat, "-n", "1", "--json", "-"]))[0];
+    folder.write("taps.wav", wav::file(&taps(&[&bending[..], &[wall]].concat())));
+    let label = |told: &str| {
+        let (found, _) = heard(&folder, &["tap", bat, "taps.wav", "--mode", told]);
+        let tones = found["tones"].as_array().unwrap().clone();
+        move |hz: f64| {
+            let off = |tone: &&Value| (tone["frequency_hz"].as_f64().unwrap() / hz - 1.0).abs();
+            tones.iter().min_by(|a, b| off(a).total_cmp(&off(b))).unwrap().clone()
+        }
+    };
+    let none = label(&format!("{wall:.1} = none"));
+    assert_eq!(none(wall)["mode"], Value::Null);
+    let third = label(&format!("{:.1} = 3", bending[2]));
+    assert_eq!(third(wall)["mode"]["kind"], "hoop");
+    for (k, hz) in bending.iter().enumerate() {
+        assert_eq!(none(*hz)["mode"]["order"], k + 1);
+        assert_eq!(third(*hz)["mode"]["order"], k + 1);
+    }
+    assert_eq!(third(bending[2])["sure"], 1.0);
 }

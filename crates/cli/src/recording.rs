@@ -37,7 +37,7 @@ pub fn readings(path: &Path, bat: &Bat, quiet: bool) -> Result<BatReadings> {
             "taps of this bat: sweetspot tap says more",
         ));
     }
-    analysis.warnings.iter().for_each(|code| warn(&format!("note: {}", said(*code)), quiet));
+    analysis.warnings.iter().for_each(|(code, _)| warn(&format!("note: {}", said(*code)), quiet));
     let tapped = Tapped::of(bat, &analysis, &[])?;
     let wood = tapped.wood.ok_or_else(|| {
         Error::value(printed(path), "no tone that is a bending mode", "taps of this bat")

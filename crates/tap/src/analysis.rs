@@ -47,6 +47,8 @@ pub enum Code {
     OneTap,
     /// The room is heard.
     Room,
+    /// Parts of the file cannot be decoded.
+    SpoiltFile,
     /// The sample rate is low.
     LowRate,
     /// Taps bounced.
@@ -69,6 +71,7 @@ impl Code {
             Self::AutomaticGain => "automatic_gain",
             Self::OneTap => "one_tap",
             Self::Room => "room",
+            Self::SpoiltFile => "spoilt_file",
             Self::LowRate => "low_rate",
             Self::Bounces => "bounces",
             Self::Hum => "hum",
@@ -101,8 +104,8 @@ pub struct Analysis {
     pub tones: Vec<Tone>,
     /// Whether loss factors are to be believed: not of clipped recordings, nor of those whose gain turns.
     pub has_loss: bool,
-    /// What is to be said.
-    pub warnings: Vec<Code>,
+    /// What is to be said, and of which recording if not of all together.
+    pub warnings: Vec<(Code, Option<usize>)>,
     /// Why it is refused.
     pub refused: Option<Code>,
 }
@@ -125,7 +128,7 @@ impl Analysis {
                     rings: [*from, *to],
                 });
                 let samples = &heard.samples[*from..*to];
-                ringing.push(Ringing { samples, rate: recording.rate });
+                ringing.push(Ringing { recording: k, samples, rate: recording.rate });
             }
             let most = (HIGHEST * recording.rate).min(highest.unwrap_or(f64::INFINITY));
             let found = peaks(&heard.samples, recording.rate, &heard.rings, most);
@@ -141,7 +144,7 @@ impl Analysis {
             has_loss: false,
             warnings: warnings(recordings, &conditions, &taps, &[], 0.0)
                 .into_iter()
-                .filter(|code| SPOILT.contains(code))
+                .filter(|(code, _)| SPOILT.contains(code))
                 .collect(),
             refused: Some(refused),
         };
@@ -153,8 +156,8 @@ impl Analysis {
             return none(Code::NoTone);
         }
         taps.iter_mut().zip(&found.used).for_each(|(tap, used)| tap.used = *used);
-        let warnings = warnings(recordings, &conditions, &taps, &found.tones, found.room[1]);
-        let has_loss = !warnings.iter().any(|code| SPOILT.contains(code));
+        let warnings = warnings(recordings, &conditions, &taps, &found.tones, found.room);
+        let has_loss = !warnings.iter().any(|(code, _)| SPOILT.contains(code));
         Self { conditions, taps, tones: found.tones, has_loss, warnings, refused: None }
     }
 }
@@ -219,20 +222,23 @@ fn warnings(
     taps: &[Tap],
     tones: &[Tone],
     room: f64,
-) -> Vec<Code> {
+) -> Vec<(Code, Option<usize>)> {
     let used = taps.iter().filter(|tap| tap.used).count();
-    let all = [
-        (Code::Clipped, conditions.iter().any(|one| one.clipped)),
-        (
-            Code::AutomaticGain,
-            conditions.iter().any(|one| one.gain_rise.is_some_and(|r| r > RISEN)),
-        ),
-        (Code::OneTap, used == 1),
-        (Code::Room, room > ROOM),
-        (Code::LowRate, recordings.iter().any(|one| one.rate < LOW_RATE)),
-        (Code::Bounces, taps.iter().any(|tap| tap.used && tap.bounces > 0)),
-        (Code::Hum, conditions.iter().any(|one| one.hum.is_some())),
-        (Code::FewTones, tones.len() < 3),
-    ];
-    all.into_iter().filter(|(_, is)| *is).map(|(code, _)| code).collect()
+    let mut all = vec![];
+    for (k, (one, seen)) in recordings.iter().zip(conditions).enumerate() {
+        let bounced = |tap: &Tap| tap.recording == k && tap.used && tap.bounces > 0;
+        let own = [
+            (Code::Clipped, seen.clipped),
+            (Code::AutomaticGain, seen.gain_rise.is_some_and(|rise| rise > RISEN)),
+            (Code::SpoiltFile, one.spoilt > 0),
+            (Code::LowRate, one.rate < LOW_RATE),
+            (Code::Bounces, taps.iter().any(bounced)),
+            (Code::Hum, seen.hum.is_some()),
+        ];
+        all.extend(own.into_iter().filter(|(_, is)| *is).map(|(code, _)| (code, Some(k))));
+    }
+    let together =
+        [(Code::OneTap, used == 1), (Code::Room, room > ROOM), (Code::FewTones, tones.len() < 3)];
+    all.extend(together.into_iter().filter(|(_, is)| *is).map(|(code, _)| (code, None)));
+    all
 }

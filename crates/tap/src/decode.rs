@@ -79,7 +79,7 @@ pub fn decode(name: &str, bytes: Vec<u8>, part: Part) -> Result<Recording, Unrea
         };
         Unreadable::sound(found, READ)
     })?;
-    let (channels, rate) = sound(&mut *format, &mut *decoder, track, part)?;
+    let Sound { channels, rate, spoilt } = sound(&mut *format, &mut *decoder, track, part)?;
     let count = channels.len();
     let power = |channel: &Vec<f32>| channel.iter().map(|x| f64::from(*x).powi(2)).sum::<f64>();
     let chosen = match part.channel {
@@ -93,7 +93,7 @@ pub fn decode(name: &str, bytes: Vec<u8>, part: Part) -> Result<Recording, Unrea
     };
     let samples: Vec<f64> = chosen.into_iter().map(f64::from).collect();
     let recording = Recording::of(name, samples, rate)?;
-    Ok(Recording { container, codec, channels: count, from: part.from, ..recording })
+    Ok(Recording { container, codec, channels: count, from: part.from, spoilt, ..recording })
 }
 
 /// Refuses what messengers write by what is to be done.
@@ -147,44 +147,49 @@ fn opened(name: &str, bytes: Vec<u8>) -> Result<Opened, Unreadable> {
     Ok((format, id, audio))
 }
 
-/// The samples of every channel in the part, and their rate. Packets that are spoilt are left out.
+struct Sound {
+    channels: Vec<Vec<f32>>,
+    rate: f64,
+    spoilt: usize,
+}
+
+/// The samples of every channel in the part, and their rate. A packet that is spoilt is silence of the one before.
 fn sound(
     format: &mut dyn FormatReader,
     decoder: &mut dyn AudioDecoder,
     track: u32,
     part: Part,
-) -> Result<(Vec<Vec<f32>>, f64), Unreadable> {
+) -> Result<Sound, Unreadable> {
     let mut channels: Vec<Vec<f32>> = vec![];
-    let (mut rate, mut passed) = (0.0, 0);
+    let (mut rate, mut passed, mut spoilt) = (0.0, 0, 0);
     let mut one: Vec<Vec<f32>> = vec![];
     while let Ok(Some(packet)) = format.next_packet() {
         if packet.track_id != track {
             continue;
         }
-        let decoded = match decoder.decode(&packet) {
-            Ok(decoded) => decoded,
-            Err(Error::DecodeError(_)) => continue,
-            Err(_) => break,
-        };
-        let found = f64::from(decoded.spec().rate());
-        if channels.is_empty() {
-            rate = found;
-            channels = vec![vec![]; decoded.spec().channels().count()];
-            if channels.is_empty()
-                || channels.len() > MOST_CHANNELS
-                || !(RATES[0]..=RATES[1]).contains(&rate)
-            {
-                let found = format!("{} channels of {rate} samples a second", channels.len());
-                return Err(Unreadable::sound(
-                    found,
-                    format!("1 to {MOST_CHANNELS} of {} to {}", RATES[0], RATES[1]),
-                ));
+        match decoder.decode(&packet) {
+            Ok(decoded) => {
+                let spec =
+                    [f64::from(decoded.spec().rate()), decoded.spec().channels().count() as f64];
+                if channels.is_empty() {
+                    rate = spec[0];
+                    channels = vec![vec![]; decoded.spec().channels().count()];
+                    is_taken(channels.len(), rate)?;
+                }
+                if spec != [rate, channels.len() as f64] {
+                    return Err(Unreadable::sound("sound that changes its rate or channels", READ));
+                }
+                decoded.copy_to_vecs_planar(&mut one);
             }
+            Err(Error::DecodeError(_)) => {
+                spoilt += 1;
+                if channels.is_empty() {
+                    continue;
+                }
+                one.iter_mut().for_each(|channel| channel.fill(0.0));
+            }
+            Err(_) => break,
         }
-        if found != rate || decoded.spec().channels().count() != channels.len() {
-            return Err(Unreadable::sound("sound that changes its rate or channels", READ));
-        }
-        decoded.copy_to_vecs_planar(&mut one);
         let frames = one.first().map_or(0, Vec::len);
         let first = ((part.from * rate) as usize).saturating_sub(passed).min(frames);
         let end =
@@ -205,7 +210,17 @@ fn sound(
     if channels.iter().all(Vec::is_empty) {
         return Err(Unreadable::sound("no sound in it", READ));
     }
-    Ok((channels, rate))
+    Ok(Sound { channels, rate, spoilt })
+}
+
+/// Refuses numbers of channels and rates beyond those that are listened to.
+fn is_taken(channels: usize, rate: f64) -> Result<(), Unreadable> {
+    if (1..=MOST_CHANNELS).contains(&channels) && (RATES[0]..=RATES[1]).contains(&rate) {
+        return Ok(());
+    }
+    let found = format!("{channels} channels of {rate} samples a second");
+    let expected = format!("1 to {MOST_CHANNELS} of {} to {}", RATES[0], RATES[1]);
+    Err(Unreadable::sound(found, expected))
 }
 
 /// Refuses sound that is too long, or too much to hold.
@@ -263,28 +278,54 @@ mod tests {
     /// Cut and spoilt files are read or refused, and never end the program.
     #[test]
     fn spoilt_files_are_read_or_refused() {
-        let good = wav(1);
         let mut state = 9_u64;
         let mut next = |below: usize| {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
             (state >> 33) as usize % below
         };
-        for _ in 0..2000 {
-            let mut bytes = good[..good.len() - next(good.len()) * (next(2))].to_vec();
-            for _ in 0..=next(4) {
-                let room = if next(2) == 0 { bytes.len().min(60) } else { bytes.len() };
-                let at = next(room.max(1));
-                if let Some(byte) = bytes.get_mut(at) {
-                    *byte = next(256) as u8;
+        let files = [
+            wav(1),
+            include_bytes!("../../../fuzz/corpus/recording/taps.m4a").to_vec(),
+            include_bytes!("../../../fuzz/corpus/recording/alac.m4a").to_vec(),
+            include_bytes!("../../../fuzz/corpus/recording/taps.mp3").to_vec(),
+            include_bytes!("../../../fuzz/corpus/recording/taps.flac").to_vec(),
+            include_bytes!("../../../fuzz/corpus/recording/taps.ogg").to_vec(),
+        ];
+        for good in files {
+            assert!(decode("x", good.clone(), Part::default()).is_ok());
+            for _ in 0..500 {
+                let mut bytes = good[..good.len() - next(good.len()) * (next(2))].to_vec();
+                for _ in 0..=next(4) {
+                    let room = if next(2) == 0 { bytes.len().min(60) } else { bytes.len() };
+                    let at = next(room.max(1));
+                    if let Some(byte) = bytes.get_mut(at) {
+                        *byte = next(256) as u8;
+                    }
                 }
-            }
-            if let Ok(read) = decode("x.wav", bytes, Part::default()) {
-                assert!(!read.samples.is_empty() && read.samples.iter().all(|x| x.is_finite()));
+                if let Ok(read) = decode("x", bytes, Part::default()) {
+                    assert!(!read.samples.is_empty() && read.samples.iter().all(|x| x.is_finite()));
+                }
             }
         }
         for bytes in [&b""[..], b"OggS", b"ID3", b"fLaC", b"....ftypM4A ", b"\xff\xfb\x90\0"] {
             assert!(decode("x", bytes.to_vec(), Part::default()).is_err());
         }
+    }
+
+    /// A packet of AAC that cannot be decoded is told, and what follows keeps its time.
+    #[test]
+    fn spoilt_packets_are_silence_and_are_told() {
+        let good = include_bytes!("../../../fuzz/corpus/recording/taps.m4a");
+        let whole = decode("x", good.to_vec(), Part::default()).unwrap();
+        assert_eq!(whole.spoilt, 0);
+        let spoilt = |at: usize| {
+            let mut bytes = good.to_vec();
+            bytes[at..at + 12].fill(0xff);
+            decode("x", bytes, Part::default()).ok().filter(|read| read.spoilt > 0)
+        };
+        let read: Vec<Recording> = (300..1200).step_by(20).filter_map(spoilt).collect();
+        assert!(!read.is_empty());
+        assert!(read.iter().all(|read| read.samples.len() == whole.samples.len()));
     }
 
     #[test]

@@ -1,8 +1,12 @@
 //! When does a tap begin, when does it ring alone?
 //!
 //! A tap is a rise of the band from 400 Hz to 12 kHz in frames of 2 ms. It begins with the first sample above a quarter
-//! of the largest in the next 30 ms: codecs are heard up to 20 ms early. What bounces rises again above 4 kHz, where
-//! ringing is short; the ringing begins after the last bounce.
+//! of the largest in the next 30 ms: codecs are heard up to 20 ms early. Ringing begins after the last bounce, which is
+//! found in what linear prediction leaves: ringing is predicted by the samples before, a blow is not.
+//!
+//! # Source
+//!
+//! J. Makhoul, Linear prediction: a tutorial review, Proc. IEEE 63 (1975) 561, equations 38 to 40.
 
 use crate::filter::{Pass, filtered, levels, quantile};
 
@@ -21,12 +25,14 @@ const APART: f64 = 0.15;
 /// A tap falls by so much in that time (dB, s).
 const FALL: f64 = 12.0;
 const FALLEN: f64 = 0.6;
-/// Bounces rise by that and stand so far above the quiet (dB), between these times after a tap (s).
-const BOUNCE: f64 = 5.0;
-const BOUNCE_ABOVE: f64 = 10.0;
+/// Bounces rise by that and stand so far above the usual (dB), between these times after a tap (s).
+const BOUNCE: f64 = 4.0;
+const BOUNCE_ABOVE: f64 = 4.5;
 const BOUNCES: [f64; 2] = [0.01, 0.14];
 /// Bounces are no further below their tap than that (dB).
 const FAINT: f64 = 25.0;
+/// Samples by which the next one is predicted.
+const ORDER: usize = 64;
 
 /// A tap in a recording.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,8 +81,7 @@ pub fn onsets(samples: &[f64], rate: f64) -> Vec<Onset> {
         quantile(part(0.1, FALLEN), 0.1) < most - FALL
     };
     let taps: Vec<usize> = (0..found.len()).filter(falls).map(|k| found[k]).collect();
-    let high = filtered(samples, rate, Pass::Above((0.25 * rate).min(4000.0)));
-    taps.iter().map(|at| with_bounces(&high, rate, *at)).collect()
+    taps.iter().map(|at| with_bounces(samples, rate, *at)).collect()
 }
 
 /// The first sample from there on above a share of the largest among the next ones.
@@ -86,24 +91,50 @@ fn begins(samples: &[f64], from: usize, look: usize) -> usize {
     from + part.iter().position(|x| x.abs() >= SHARE * most).unwrap_or(0)
 }
 
-fn with_bounces(high: &[f64], rate: f64, at: usize) -> Onset {
+fn with_bounces(samples: &[f64], rate: f64, at: usize) -> Onset {
     let frame = (FRAME * rate).round() as usize;
-    let end = (at + (BOUNCES[1] * rate) as usize).min(high.len());
-    let loud = levels(&high[at..end], frame);
-    let quiet = quantile(&levels(high, frame), 0.15);
+    let end = (at + (BOUNCES[1] * rate) as usize).min(samples.len());
+    // Blows stand out of what a linear prediction leaves, in which ringing is no more.
+    let struck = unpredicted(&samples[at.saturating_sub(ORDER)..end]);
+    let struck = &struck[at.min(ORDER)..];
+    let loud = levels(struck, frame);
+    let first = (BOUNCES[0] / FRAME).round() as usize;
+    let usual = quantile(loud.get(first..).unwrap_or(&[]), 0.5);
     let most = loud.iter().take(3).copied().fold(f64::NEG_INFINITY, f64::max);
     let mut onset = Onset { at, rings: at, bounces: 0 };
-    let mut k = (BOUNCES[0] / FRAME) as usize;
+    let mut k = first;
     while k < loud.len() {
         let before = loud[k.saturating_sub(3)..k].iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        if loud[k] > before + BOUNCE && loud[k] > quiet + BOUNCE_ABOVE && loud[k] > most - FAINT {
-            onset.rings = begins(high, at + k * frame - frame / 2, 4 * frame);
+        if loud[k] > before + BOUNCE && loud[k] > usual + BOUNCE_ABOVE && loud[k] > most - FAINT {
+            onset.rings = at + begins(struck, k * frame - frame / 2, 2 * frame);
             onset.bounces += 1;
             k += 4;
         }
         k += 1;
     }
     onset
+}
+
+/// What is left of samples by linear prediction, by Levinson's recursion on their correlation.
+fn unpredicted(samples: &[f64]) -> Vec<f64> {
+    let product = |lag: usize| samples.iter().zip(&samples[lag..]).map(|(a, b)| a * b).sum::<f64>();
+    let mut correlation: Vec<f64> =
+        (0..=ORDER.min(samples.len().saturating_sub(1))).map(product).collect();
+    correlation.iter_mut().take(1).for_each(|own| *own = *own * (1.0 + 1e-7) + 1e-30);
+    let (mut filter, mut power) = (vec![1.0], correlation.first().copied().unwrap_or(1.0));
+    for order in 1..correlation.len() {
+        let sum: f64 =
+            filter.iter().zip(correlation[1..=order].iter().rev()).map(|(a, r)| a * r).sum();
+        let turn = -sum / power;
+        filter.push(0.0);
+        let back: Vec<f64> = filter.iter().rev().copied().collect();
+        filter.iter_mut().zip(back).for_each(|(a, b)| *a += turn * b);
+        power *= 1.0 - turn * turn;
+    }
+    let left = |n: usize| -> f64 {
+        filter.iter().zip(samples[..=n].iter().rev()).map(|(a, x)| a * x).sum()
+    };
+    (0..samples.len()).map(left).collect()
 }
 
 #[cfg(test)]

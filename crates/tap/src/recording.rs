@@ -46,6 +46,8 @@ pub struct Recording {
     pub channels: usize,
     /// Time of the first sample in the file (s).
     pub from: f64,
+    /// How many pieces of the file cannot be decoded; silence stands for them.
+    pub spoilt: usize,
     /// The samples of one channel; full scale is 1.
     pub samples: Vec<f64>,
 }
@@ -71,7 +73,16 @@ impl Recording {
             return Err(Unreadable::sound(format!("{seconds:.0} s of sound"), expected));
         }
         let (container, codec, channels, from) = (None, None, 1, 0.0);
-        Ok(Self { name: name.to_owned(), container, codec, rate, channels, from, samples })
+        Ok(Self {
+            name: name.to_owned(),
+            container,
+            codec,
+            rate,
+            channels,
+            from,
+            spoilt: 0,
+            samples,
+        })
     }
 
     /// How long it is (s).

@@ -141,11 +141,22 @@ impl TapReport<'_> {
         wrapped(&format!("Its material: {}, with the density of the bat file.", all.join(", ")), 2)
     }
 
+    /// What spoils the recordings; of several it says which.
+    fn warned(&self) -> Vec<TapSaid> {
+        let of = |(code, recording): &(Code, Option<usize>)| {
+            let name = recording.filter(|_| self.recordings.len() > 1);
+            let name = name.map(|k| format!("{}: ", self.recordings[k].name));
+            let TapSaid { code, text } = coded(*code);
+            TapSaid { code, text: name.unwrap_or_default() + &text }
+        };
+        self.analysis.warnings.iter().map(of).collect()
+    }
+
     /// What is to be said, a sentence or two each.
     pub fn words(&self) -> Vec<String> {
-        let mut all: Vec<String> =
-            self.analysis.warnings.iter().map(|code| said(*code).to_owned()).collect();
+        let mut all: Vec<String> = self.warned().into_iter().map(|said| said.text).collect();
         let Some(tapped) = self.tapped else { return all };
+        all.extend(tapped.unsolved.as_deref().map(unsolved));
         if tapped.is_unsure() {
             all.push(UNSURE.to_owned());
         }
@@ -167,8 +178,9 @@ impl TapReport<'_> {
     /// The `sweetspot-tap/1` document.
     pub fn document(&self) -> TapFile {
         let Self { bat, recordings, analysis, tapped } = self;
-        let mut warnings: Vec<TapSaid> =
-            analysis.warnings.iter().map(|code| coded(*code)).collect();
+        let mut warnings = self.warned();
+        let wall = tapped.and_then(|tapped| tapped.unsolved.as_deref());
+        warnings.extend(wall.map(|why| TapSaid { code: "wall".to_owned(), text: unsolved(why) }));
         if tapped.is_some_and(Tapped::is_unsure) {
             warnings.push(TapSaid { code: "unsure".to_owned(), text: UNSURE.to_owned() });
         }
@@ -231,7 +243,7 @@ impl TapReport<'_> {
         };
         let lines: Vec<Value> = tones.lines.iter().zip(&lines.taken).filter_map(line).collect();
         let died = tones.ring_down.iter();
-        let died = died.map(|t| json!({ "mode": t.mode, "cycles": t.cycles, "ratio": t.ratio }));
+        let died = died.map(|t| json!({ "mode": t.mode, "loss_factor": t.loss_factor() }));
         let names: Vec<&str> = self.recordings.iter().map(|one| &*one.name).collect();
         json!({ "format": "sweetspot-readings/1", "name": names.join(", "), "lines": lines,
                 "ring_down": died.collect::<Vec<_>>() })
@@ -250,6 +262,12 @@ const NEXT: &str = "Next: move the phone or the bat a hand's breadth between tap
                     the ± of the loss factor.";
 const UNSURE: &str =
     "Not every label is sure: tell the mode of a tone that you know, such as --mode \"1187 = 3\".";
+
+fn unsolved(why: &str) -> String {
+    format!(
+        "The modes of the wall are not known ({why}): its tones are told as bending modes or as none."
+    )
+}
 
 /// The columns of the tones in files.
 const COLUMNS: [Column<TapTone>; 11] = [
@@ -362,6 +380,7 @@ pub fn said(code: Code) -> &'static str {
         Code::Room => {
             "The room is heard in how the tones die: bring the phone within a hand's breadth of the barrel."
         }
+        Code::SpoiltFile => "Parts of the file are spoilt: silence stands for them.",
         Code::LowRate => "The recording has few samples a second: high tones are not in it.",
         Code::Bounces => "Taps bounced: what rings after the last bounce was taken.",
         Code::Hum => "Hum of the mains was left out.",

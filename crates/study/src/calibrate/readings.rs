@@ -43,6 +43,11 @@ pub struct RingDown {
 }
 
 impl RingDown {
+    /// A tone of that loss factor: `ratio = e^{−π η N}` of one cycle.
+    pub fn of_loss(mode: usize, loss: f64) -> Self {
+        Self { mode, cycles: 1.0, ratio: (-0.5 * TAU * loss).exp() }
+    }
+
     /// Damping ratio `ζ = ln(a₀/a_N)/(2π N)`.
     pub fn damping_ratio(&self) -> f64 {
         -self.ratio.ln() / (TAU * self.cycles)

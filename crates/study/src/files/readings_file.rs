@@ -96,17 +96,36 @@ written! {
 const CYCLES: &str = "\"cycles\" that were counted, more than 0 and below 100000";
 const RATIO: &str = "\"ratio\" of the amplitude after them to that before, between 0 and 1";
 
+const LOSS: &str = "a \"loss_factor\" between 0 and 0.5";
+
 written! {
-    /// A tone that died out.
+    /// A tone that died out: cycles and the ratio of amplitudes after them, or its loss factor.
     ToneForm {
         /// Which bending mode it is, from 1.
         mode = order(), needed "\"mode\": which bending mode died out";
         /// Cycles that were counted.
-        cycles = number().within((Excluded(0.0), Excluded(1e5)), CYCLES), needed CYCLES;
+        cycles = number().within((Excluded(0.0), Excluded(1e5)), CYCLES);
         /// Amplitude after them over that before.
-        ratio = number().within((Excluded(0.0), Excluded(1.0)), RATIO), needed RATIO;
+        ratio = number().within((Excluded(0.0), Excluded(1.0)), RATIO);
+        /// Loss factor, in place of cycles and ratio.
+        loss_factor = number().within((Excluded(0.0), Excluded(0.5)), LOSS);
     }
-    |_| -> RingDown { Ok(RingDown { mode, cycles, ratio }) }
+    |of| -> RingDown {
+        for counted in ["cycles", "ratio"] {
+            let both = of.object.one_of(&[counted, "loss_factor"]).map(|_| ());
+            of.mistakes.note(both);
+        }
+        let is_there = |key: &'static str| of.object.get(key).is_some();
+        let lacks = if is_there("cycles") { ("no \"ratio\"", RATIO) } else { ("no \"cycles\"", CYCLES) };
+        if !is_there("loss_factor") && !(is_there("cycles") && is_there("ratio")) {
+            let expected = format!("{}, or {LOSS}", lacks.1);
+            of.mistakes.add(of.object.node.error(lacks.0, &*expected));
+        }
+        Ok(match loss_factor {
+            Some(loss) => RingDown::of_loss(mode, loss),
+            None => RingDown { mode, cycles: cycles.unwrap_or_default(), ratio: ratio.unwrap_or_default() },
+        })
+    }
 }
 
 written! {

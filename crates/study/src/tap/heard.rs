@@ -19,7 +19,7 @@ use sweetspot_tap::analysis::Analysis;
 use sweetspot_tap::tones::Tone;
 
 use crate::calibrate::calibration::NINETY_FIVE;
-use crate::calibrate::readings::{Reading, RingDown};
+use crate::calibrate::readings::Reading;
 
 /// A line: a tone, or two twins.
 #[derive(Debug, Clone, PartialEq)]
@@ -88,9 +88,4 @@ pub fn lines(analysis: &Analysis, wood: bool) -> Vec<HeardLine> {
         }
     }
     all
-}
-
-/// A tone that died out with that loss factor, as of one cycle.
-pub fn ring_down(mode: usize, loss: f64) -> RingDown {
-    RingDown { mode, cycles: 1.0, ratio: (-PI * loss).exp() }
 }

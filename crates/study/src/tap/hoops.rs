@@ -14,6 +14,7 @@ use crate::calibrate::unknowns::UNKNOWNS;
 use crate::calibrate::wood::WoodenBat;
 use crate::tap::heard::HeardLine;
 use sweetspot::base::error::Result;
+use sweetspot::beam::wall::extent::rings;
 use sweetspot::modes::hoop::{Hoop, HoopMode};
 
 /// How far E of a metal, and the factor of the wall's tones, are open: standard deviations of logarithms.
@@ -39,6 +40,9 @@ pub enum BatMode {
     Hoop(usize, usize),
 }
 
+/// What was told of a line: nothing, that it is no mode, or its bending mode.
+pub type Known = Option<Option<usize>>;
+
 /// Labels of lines, the best and the next that contradict them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WallLabels {
@@ -52,12 +56,27 @@ pub struct WallLabels {
     pub second: Option<Vec<Option<BatMode>>>,
     /// By how much they cost more.
     pub margin: Option<f64>,
+    /// By how much every line would cost more as the next mode there that no other line is.
+    pub apart: Vec<f64>,
 }
 
-/// The modes of the wall of a hollow bat; None for a bat whose wall has none, as of wood.
-pub fn wall(wood: &WoodenBat) -> Option<Vec<HoopMode>> {
-    let hoop = Hoop::first(&wood.bat, MODES, TOLERANCE).ok()?;
-    Some(hoop.lowest(MODES).into_iter().cloned().collect())
+impl WallLabels {
+    /// By how much another label of that line costs more.
+    pub fn margin_of(&self, line: usize) -> Option<f64> {
+        Some(self.margin.unwrap_or(f64::INFINITY).min(self.apart[line]))
+    }
+}
+
+/// The modes of the wall of a hollow bat; None for a bat whose wall does not ring, as of wood. A wall that cannot be
+/// solved has none to compare with, and the reason.
+pub fn wall(wood: &WoodenBat) -> (Option<Vec<HoopMode>>, Option<String>) {
+    if !rings(&wood.bat) {
+        return (None, None);
+    }
+    match Hoop::first(&wood.bat, MODES, TOLERANCE) {
+        Ok(hoop) => (Some(hoop.lowest(MODES).into_iter().cloned().collect()), None),
+        Err(error) => (Some(vec![]), Some(error.to_string())),
+    }
 }
 
 /// The labels of lines that may be bending modes or modes of the wall.
@@ -65,17 +84,23 @@ pub fn wall(wood: &WoodenBat) -> Option<Vec<HoopMode>> {
 /// # Errors
 ///
 /// As [`WoodenBat::shown`].
-pub fn labels(wood: &WoodenBat, wall: &[HoopMode], heard: &[HeardLine]) -> Result<WallLabels> {
+pub fn labels(
+    wood: &WoodenBat,
+    wall: &[HoopMode],
+    heard: &[HeardLine],
+    known: &[Known],
+) -> Result<WallLabels> {
     let bending = wood.shown(&[0.0; UNKNOWNS], BENDING)?.frequencies;
     let bending = bending.iter().enumerate();
     let bending = bending.map(|(k, f)| (BatMode::Bending(k + 1), f.value.ln()));
     let hoops =
         wall.iter().map(|mode| (BatMode::Hoop(mode.harmonic, mode.order), mode.frequency_hz.ln()));
     let all: Vec<(BatMode, f64)> = bending.chain(hoops).collect();
-    let lines = heard.iter().map(|line| SpectralLine { frequency: line.frequency, mode: None });
-    let readings = BatReadings { lines: lines.collect(), ..BatReadings::default() };
-    let none = vec![None; heard.len()];
-    let search = Lines::of(&readings, LabelChoice::Stays(&none));
+    // What was told to be no mode stays without one.
+    let asked: Vec<usize> = (0..heard.len()).filter(|k| known[*k] != Some(None)).collect();
+    let line = |k: &usize| SpectralLine { frequency: heard[*k].frequency, mode: None };
+    let lines = asked.iter().map(line).collect();
+    let readings = BatReadings { lines, ..BatReadings::default() };
     let mut found: BTreeMap<Labels, (f64, Vec<f64>)> = BTreeMap::new();
     let steps = |deviation: f64| {
         let most = (REACH * deviation / STEP).ceil() as i32;
@@ -94,8 +119,15 @@ pub fn labels(wood: &WoodenBat, wall: &[HoopMode], heard: &[HeardLine]) -> Resul
                 BatMode::Bending(mode) => Candidate { log: logs[*k], gap: gap(mode), more: 0.0 },
                 BatMode::Hoop(..) => Candidate { log: logs[*k], gap: 0.0, more: HOOP },
             };
-            let (labels, price) = search.cheapest(&order.iter().map(candidate).collect::<Vec<_>>());
-            let labels: Labels = labels.iter().map(|one| one.map(|k| order[k - 1] + 1)).collect();
+            let place = |mode| order.iter().position(|k| all[*k].0 == BatMode::Bending(mode));
+            let told = |k: &usize| Some(place(known[*k]??)? + 1);
+            let told: Labels = asked.iter().map(told).collect();
+            let search = Lines::of(&readings, LabelChoice::Stays(&told));
+            let (own, price) = search.cheapest(&order.iter().map(candidate).collect::<Vec<_>>());
+            let mut labels: Labels = vec![None; heard.len()];
+            for (k, one) in asked.iter().zip(own) {
+                labels[*k] = one.map(|one| order[one - 1] + 1);
+            }
             let price = price + (2.0 * stiff / METAL).powi(2) + (thick / WALL).powi(2);
             let entry = found.entry(labels).or_insert((f64::INFINITY, vec![]));
             if price < entry.0 {
@@ -117,11 +149,23 @@ fn chosen(
     let named = |labels: &Labels| labels.iter().map(|one| one.map(|k| all[k - 1].0)).collect();
     let second = found.iter().find(|(labels, _)| contradict(labels, &best));
     let log = |label: &Option<usize>| label.map(|k| logs[k - 1]);
-    let chi2 = |(label, line): (&Option<usize>, &HeardLine)| {
+    let away = |log: f64, line: &HeardLine| {
         let by = (line.frequency.deviation / line.frequency.value).hypot(BatReadings::MODEL);
-        log(label).map_or(0.0, |log| ((line.frequency.value.ln() - log) / by).powi(2))
+        ((line.frequency.value.ln() - log) / by).powi(2)
+    };
+    let chi2 =
+        |(label, line): (&Option<usize>, &HeardLine)| log(label).map_or(0.0, |log| away(log, line));
+    // A bending mode and one of the wall may lie so close that one tone is either.
+    let cost = |k: usize, line: &HeardLine| {
+        away(logs[k], line) + if matches!(all[k].0, BatMode::Hoop(..)) { HOOP } else { 0.0 }
+    };
+    let apart = |(label, line): (&Option<usize>, &HeardLine)| {
+        let free = (0..all.len()).filter(|k| !best.contains(&Some(k + 1)));
+        let next = free.map(|k| cost(k, line)).fold(f64::INFINITY, f64::min);
+        label.map_or(f64::INFINITY, |own| next - cost(own - 1, line))
     };
     WallLabels {
+        apart: best.iter().zip(heard).map(apart).collect(),
         chi2: best.iter().zip(heard).map(chi2).collect(),
         computed: best.iter().map(|label| log(label).map(f64::exp)).collect(),
         best: named(&best),

@@ -4,10 +4,10 @@ use sweetspot_tap::analysis::Analysis;
 
 use crate::calibrate::calibration::{Calibration, CalibrationPlan, Property, SURE};
 use crate::calibrate::labels::STRANGER;
-use crate::calibrate::readings::{BatReadings, Priors, SpectralLine};
+use crate::calibrate::readings::{BatReadings, Priors, RingDown, SpectralLine};
 use crate::calibrate::wood::WoodenBat;
-use crate::tap::heard::{HeardLine, Within, lines, ring_down};
-use crate::tap::hoops::{self, BatMode, metal};
+use crate::tap::heard::{HeardLine, Within, lines};
+use crate::tap::hoops::{self, BatMode, Known, metal};
 use sweetspot::base::error::{Error, Result};
 use sweetspot::bat::body::{Bat, STANDARD_PIVOT};
 
@@ -41,6 +41,8 @@ pub struct Tapped {
     pub wood: Option<Calibration>,
     /// The loss factor of the wood, at most: that of the tone that is damped least.
     pub loss: Option<Within>,
+    /// Why the modes of the wall of a hollow bat are not known.
+    pub unsolved: Option<String>,
 }
 
 impl Tapped {
@@ -51,10 +53,10 @@ impl Tapped {
     /// [`Error::Value`] for a told tone that was not heard, and those of [`WoodenBat::new`] and of a solve.
     pub fn of(bat: &Bat, analysis: &Analysis, told: &[Told]) -> Result<Self> {
         let wood = WoodenBat::new(bat, None, STANDARD_PIVOT)?;
-        let wall = hoops::wall(&wood);
+        let (wall, unsolved) = hoops::wall(&wood);
         let heard = lines(analysis, wall.is_none());
         let known = known(analysis, &heard, told)?;
-        let wall = wall.map(|wall| hoops::labels(&wood, &wall, &heard)).transpose()?;
+        let wall = wall.map(|wall| hoops::labels(&wood, &wall, &heard, &known)).transpose()?;
         let kinds = wall.as_ref().map_or(vec![None; heard.len()], |wall| wall.best.clone());
         // Bending modes as told; of a hollow bat as found; else sought.
         let bending = |k: usize| match (known[k], kinds[k]) {
@@ -83,14 +85,15 @@ impl Tapped {
                 *label = ToneLabel {
                     mode: Some(mode),
                     computed: wall.computed[k],
-                    sure: sure(wall.margin, wall.chi2[k]),
+                    sure: sure(wall.margin_of(k), wall.chi2[k]),
                 };
             }
         }
         if let Some(found) = &found {
-            let margin = wall.as_ref().map_or(found.labels.margin, |wall| wall.margin);
+            let margin =
+                |k: usize| wall.as_ref().map_or(found.labels.margin, |wall| wall.margin_of(k));
             for (k, mode) in taken.iter().zip(&found.labels.taken) {
-                labels[*k] = of_wood(found, *mode, margin, known[*k] == Some(*mode));
+                labels[*k] = of_wood(found, *mode, margin(*k), known[*k] == Some(*mode));
             }
         }
         let second = match wall {
@@ -100,12 +103,12 @@ impl Tapped {
         let loss = least_loss(analysis, &heard, &labels);
         let wood = match &loss {
             Some((loss, order)) => {
-                found.map(|found| found.with_ring_down(ring_down(*order, loss.value)))
+                found.map(|found| found.with_ring_down(RingDown::of_loss(*order, loss.value)))
             }
             None => found,
         };
         let labels = of_tones(&heard, &labels, analysis.tones.len());
-        Ok(Self { labels, second, wood, loss: loss.map(|(loss, _)| loss) })
+        Ok(Self { labels, second, wood, loss: loss.map(|(loss, _)| loss), unsolved })
     }
 
     /// Whether the tones fit the bat: the readings of its wood do, no other labels come near, and half of the tones
@@ -137,11 +140,7 @@ fn loudest(
 }
 
 /// What was told of every line, if something was.
-fn known(
-    analysis: &Analysis,
-    heard: &[HeardLine],
-    told: &[Told],
-) -> Result<Vec<Option<Option<usize>>>> {
+fn known(analysis: &Analysis, heard: &[HeardLine], told: &[Told]) -> Result<Vec<Known>> {
     let mut known = vec![None; heard.len()];
     for (hz, mode) in told {
         known[near(analysis, heard, *hz)?] = Some(*mode);
