@@ -18,6 +18,10 @@ pub struct MeasuredResponse {
     pub at: Option<f64>,
     /// Where the answer was watched (m), likewise.
     pub to: Option<f64>,
+    /// The nodes of force and answer.
+    pub nodes: [i64; 2],
+    /// Coherence at these frequencies, where the file has it.
+    pub coherence: Option<Vec<f64>>,
     /// Whether force and answer are at one node.
     pub drive_point: bool,
     /// Rising frequencies (Hz) above 0, and the answer per force there, in SI.

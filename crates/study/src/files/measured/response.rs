@@ -20,6 +20,9 @@ use uff58::{Dataset, Dof, Function, Units, Universal, Values, at_line};
 const GRAVITY: f64 = 9.80665;
 /// Number of a frequency response among the functions of dataset 58.
 const RESPONSE: i64 = 4;
+/// Number of a coherence, and of a record in time.
+const COHERENCE: i64 = 6;
+const RECORD: i64 = 1;
 /// Kinds of data of an axis: frequency; displacement, velocity, acceleration; forces.
 const FREQUENCY: i64 = 18;
 const ANSWERS: [(i64, ResponseKind); 3] =
@@ -104,9 +107,27 @@ impl ResponseFile<'_> {
         if taken && self.known.places.is_none() {
             assumed.push("the nodes' places are taken from the knob end".to_owned());
         }
-        let drive_point = function.reference.node == function.response.node;
-        let source = self.name.clone();
-        Ok(MeasuredResponse { source, kind, at, to, drive_point, values, assumed })
+        let nodes = [function.reference.node, function.response.node];
+        let (drive_point, source) = (nodes[0] == nodes[1], self.name.clone());
+        let coherence = self.coherence(function, dropped);
+        Ok(MeasuredResponse { source, kind, at, to, nodes, coherence, drive_point, values, assumed })
+    }
+
+    /// The coherence of the same force and answer over the same frequencies, the first `dropped` left out.
+    fn coherence(&self, of: &Function, dropped: usize) -> Option<Vec<f64>> {
+        let functions = self.universal.datasets.iter().filter_map(|dataset| match dataset {
+            Dataset::Function(function) if function.kind == COHERENCE => Some(function),
+            _ => None,
+        });
+        let same = |other: &&Box<Function>| {
+            (other.response.node, other.reference.node) == (of.response.node, of.reference.node)
+                && other.values.len() == of.values.len()
+        };
+        let values = match &functions.into_iter().find(same)?.values {
+            Values::Real(values) => values.clone(),
+            Values::Complex(values) => values.iter().map(|[re, _]| *re).collect(),
+        };
+        values.iter().all(|v| (0.0..=1.001).contains(v)).then(|| values[dropped..].to_vec())
     }
 
     /// The factor to SI of an answer per force, and what was taken. Record 9 has the answer's unit.
@@ -375,7 +396,12 @@ fn chosen<'a>(
     let count = responses.len();
     match which {
         _ if count == 0 => {
-            let found = format!("{} functions, none of type 4", functions.len());
+            let times = functions.iter().filter(|(_, function)| function.kind == RECORD).count();
+            let times = match times {
+                0 => String::new(),
+                count => format!(", {count} of them records in time"),
+            };
+            let found = format!("{} functions{times}, none of type 4", functions.len());
             Err(Error::value(file, found, "a frequency response, type 4 in a dataset 58"))
         }
         None => Ok(responses),

@@ -1,0 +1,150 @@
+//! How many resonances do responses share, and which?
+//!
+//! One more at a time: that which would lower the weighed sum of squares most, among the places where most is left and
+//! the flanks of those that are there; then all are fitted together. It ends where the next would lower the sum by no
+//! more than noise does. What was found with every number of poles tells which are stable.
+
+use crate::fit::Pole;
+use crate::resonances::{Damping, Projection, Responses, Shared, shared};
+
+/// Poles that were sought in responses.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Orders {
+    /// How the body is damped, by the smaller sum of squares.
+    pub damping: Damping,
+    /// The poles with 1, 2, … of them.
+    pub orders: Vec<Vec<Pole>>,
+    /// The last of them.
+    pub fit: Shared,
+    /// By how much every pole lowers the sum of squares, over what noise would.
+    pub weights: Vec<f64>,
+}
+
+/// Poles at most.
+const MOST: usize = 40;
+/// Places that are tried for the next pole, and how many of them are fitted.
+const PLACES: usize = 14;
+const TRIES: usize = 3;
+/// Loss factors with which they are tried.
+const TRIED: [f64; 6] = [0.0015, 0.004, 0.01, 0.02, 0.04, 0.1];
+/// A pole of another place is tried so far from one that is there, over its loss factor.
+const FLANK: f64 = 0.4;
+/// By how much dashpots must lower the sum of squares to be taken in place of the material.
+const DOUBT: f64 = 12.0;
+/// Beyond the band a pole may stand for modes that are there, so far (of the band's end).
+const BEYOND: f64 = 0.12;
+
+/// By how much a pole lowers the sum of squares of noise, at most: a Gamma variable of as many complex numbers as there
+/// are responses, the largest of a few hundred.
+fn by_chance(responses: usize) -> f64 {
+    let count = responses as f64 + 1.0;
+    count + 6.0 * count.sqrt() + 16.0
+}
+
+impl Orders {
+    /// Seeks the poles of responses, each kind of damping by itself. None where there are none.
+    pub fn of(all: &mut [Responses]) -> Option<Self> {
+        let found: Vec<Self> = [Damping::Material, Damping::Dashpots]
+            .into_iter()
+            .filter_map(|damping| Self::damped(all, damping))
+            .collect();
+        let count: usize = all.iter().map(|one| one.values.len()).sum();
+        let cost = |one: &Self| {
+            let doubt = if one.damping == Damping::Dashpots { DOUBT } else { 0.0 };
+            one.fit.square + by_chance(count) * one.fit.poles.len() as f64 + doubt
+        };
+        let mut best = found.into_iter().min_by(|a, b| cost(a).total_cmp(&cost(b)))?;
+        // Noise is now what the poles leave.
+        for one in all.iter_mut() {
+            let at = Projection::new(one, &best.fit.poles, best.damping);
+            one.weigh_left(&at.left);
+        }
+        if let Some(fit) = shared(all, &best.fit.poles, best.damping) {
+            best.fit = fit;
+        }
+        best.weights = best.weighed(all, count);
+        Some(best)
+    }
+
+    fn damped(all: &[Responses], damping: Damping) -> Option<Self> {
+        let count: usize = all.iter().map(|one| one.values.len()).sum();
+        let mut fit: Option<Shared> = None;
+        let mut orders = vec![];
+        while orders.len() < MOST {
+            let poles = fit.as_ref().map_or(vec![], |fit| fit.poles.clone());
+            let here: Vec<Projection> =
+                all.iter().map(|one| Projection::new(one, &poles, damping)).collect();
+            let square: f64 = here.iter().map(Projection::square).sum();
+            let next = candidates(all, &here, &poles, damping).into_iter().take(TRIES);
+            let enough = |(pole, gain): (Pole, f64)| {
+                let with: Vec<Pole> = poles.iter().copied().chain([pole]).collect();
+                let fit = (gain > 0.5 * by_chance(count)).then(|| shared(all, &with, damping))??;
+                (square - fit.square > by_chance(count)).then_some(fit)
+            };
+            let Some(found) = next.into_iter().find_map(enough) else { break };
+            orders.push(found.poles.clone());
+            fit = Some(found);
+        }
+        Some(Self { damping, orders, fit: fit?, weights: vec![] })
+    }
+
+    /// By how much every pole lowers the sum of squares.
+    fn weighed(&self, all: &[Responses], count: usize) -> Vec<f64> {
+        let without = |p: usize| {
+            let mut poles = self.fit.poles.clone();
+            poles.remove(p);
+            let each = all.iter().map(|one| Projection::new(one, &poles, self.damping).square());
+            (each.sum::<f64>() - self.fit.square) / by_chance(count)
+        };
+        (0..self.fit.poles.len()).map(without).collect()
+    }
+}
+
+/// Poles that may come next, with by how much they would lower the sum of squares, the best first.
+fn candidates(
+    all: &[Responses],
+    here: &[Projection],
+    poles: &[Pole],
+    damping: Damping,
+) -> Vec<(Pole, f64)> {
+    let flanks = poles.iter().flat_map(|pole| {
+        let loss = pole.loss();
+        [-FLANK, FLANK].map(|side| (pole.hz * (1.0 + side * loss), Some(loss)))
+    });
+    let ends = all.iter().filter_map(|one| one.hz.last());
+    let beyond = ends.map(|hz| (hz * (1.0 + BEYOND), Some(0.02)));
+    let places = all.iter().zip(here).flat_map(|(of, at)| most_left(of, at));
+    let places = places.map(|hz| (hz, None)).chain(flanks).chain(beyond);
+    let with = |(hz, loss): (f64, Option<f64>)| {
+        let losses = loss.map_or(TRIED.to_vec(), |loss| vec![loss, 0.5 * loss]);
+        let gain = |loss: f64| {
+            let pole = Pole::of(hz, loss);
+            (pole, all.iter().zip(here).map(|(of, at)| at.gain(of, pole, damping)).sum::<f64>())
+        };
+        losses.into_iter().map(gain).max_by(|a, b| a.1.total_cmp(&b.1))
+    };
+    let mut found: Vec<(Pole, f64)> = places.filter_map(with).collect();
+    found.sort_by(|a, b| b.1.total_cmp(&a.1));
+    found
+}
+
+/// The frequencies at which most is left, each the largest within its surroundings.
+fn most_left(of: &Responses, at: &Projection) -> Vec<f64> {
+    let lines = of.hz.len();
+    let power = |l: usize| at.left.iter().map(|left| left[l].square()).sum::<f64>();
+    let powers: Vec<f64> = (0..lines).map(power).collect();
+    let smooth = |l: usize| {
+        let part = &powers[l.saturating_sub(1)..(l + 2).min(lines)];
+        part.iter().sum::<f64>() / part.len() as f64
+    };
+    let smooth: Vec<f64> = (0..lines).map(smooth).collect();
+    let near = (lines / 200).max(2);
+    let top = |l: &usize| {
+        let part = &smooth[l.saturating_sub(near)..(l + near + 1).min(lines)];
+        part.iter().all(|other| *other <= smooth[*l])
+    };
+    let mut tops: Vec<usize> = (0..lines).filter(top).collect();
+    tops.sort_by(|a, b| smooth[*b].total_cmp(&smooth[*a]));
+    tops.truncate(PLACES);
+    tops.into_iter().map(|l| of.hz[l]).collect()
+}
