@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use sweetspot::motion::frf::ResponseKind;
 use sweetspot::{Error, Result};
-use sweetspot_report::exchange::shared_uff;
+use sweetspot_report::exchange::{frf_uff, shared_uff};
 use sweetspot_report::plot::{identify as plot, sheet::Sheet};
 use sweetspot_report::report::identify::IdentifyReport;
 use sweetspot_report::schema;
@@ -12,13 +12,17 @@ use sweetspot_study::files::measured::places;
 use sweetspot_study::files::measured::response::Known;
 use sweetspot_study::identify::modes::{Identified, TestKnown};
 use sweetspot_study::identify::set::ResponseSet;
+use sweetspot_study::identify::simulate::VirtualTest;
 use uff58::Stamp;
 
-use crate::common::examples;
+use crate::common::{examples, read_with_text};
 use crate::done::{Done, FAILED};
+use crate::edits::EditArgs;
 use crate::output::{CsvArgs, FullArgs, LINES, apart, draw, put};
 use crate::style;
-use crate::value::{FREQUENCY, PART_MASS, RINGING_TIME, file_unit, named};
+use crate::value::{
+    FREQUENCY, HAMMER, PART_MASS, PLACE, RINGING_TIME, STIFFNESS, choice, file_unit, named,
+};
 
 /// The modes that measured responses share: hammer, accelerometer, a universal file
 ///
@@ -31,26 +35,35 @@ use crate::value::{FREQUENCY, PART_MASS, RINGING_TIME, file_unit, named};
 #[command(after_long_help = examples(EXAMPLES), next_help_heading = "Output")]
 pub struct Args {
     /// Universal files of responses; several are taken together
-    #[arg(required = true, help_heading = "The responses")]
+    #[arg(
+        required_unless_present = "simulate",
+        conflicts_with = "simulate",
+        help_heading = "The responses"
+    )]
     responses: Vec<PathBuf>,
 
     /// Unit of a file whose axes and datasets name none that is known: of the answer per force, such as g/lbf, or
     /// of length, with N, or lbf for in and ft
-    #[arg(long, value_name = "UNIT", help_heading = "The responses")]
+    #[arg(long, value_name = "UNIT", conflicts_with = "simulate", help_heading = "The responses")]
     unit: Option<String>,
 
     /// Where the nodes of a file without geometry are, from the knob end: "1=0 in, 2=3 in", or a CSV file with the
     /// columns node,x_in
-    #[arg(long, value_name = "PLACES", help_heading = "The responses")]
+    #[arg(
+        long,
+        value_name = "PLACES",
+        conflicts_with = "simulate",
+        help_heading = "The responses"
+    )]
     places: Option<String>,
 
     /// What answers are whose axes do not say it: receptance, mobility or accelerance
-    #[arg(long, value_name = "KIND", value_parser = named(ResponseKind::ALL, ResponseKind::name),
+    #[arg(long, value_name = "KIND", conflicts_with = "simulate", value_parser = named(ResponseKind::ALL, ResponseKind::name),
           hide_possible_values = true, help_heading = "The responses")]
     kind: Option<ResponseKind>,
 
     /// Leave out what is below this frequency
-    #[arg(long, value_name = "Hz", value_parser = FREQUENCY, help_heading = "The responses")]
+    #[arg(long, value_name = "Hz", conflicts_with = "simulate", value_parser = FREQUENCY, help_heading = "The responses")]
     from_hz: Option<f64>,
 
     /// Leave out what is above this frequency
@@ -66,10 +79,17 @@ pub struct Args {
     #[arg(long, value_name = "s", value_parser = RINGING_TIME, help_heading = "The responses")]
     window: Option<f64>,
 
+    #[command(flatten)]
+    virtual_test: TestArgs,
+
     /// Write the modes as a universal file, datasets 2411 and 55, for compare and calibrate (- = standard output,
     /// and no table then)
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
+
+    /// Write the responses of the virtual test as a universal file, dataset 58
+    #[arg(long, value_name = "FILE", requires = "simulate")]
+    uff: Option<PathBuf>,
 
     /// 1 January 1970 for the date in the universal file, so that equal input gives equal bytes
     #[arg(long)]
@@ -97,7 +117,89 @@ Examples:
       the modes of a hammer test, beside those of the bat
 
   sweetspot identify hammer.uff --to-hz \"2 kHz\" --accelerometer \"5 g\"
-      up to 2 kHz, without the mass of the accelerometer";
+      up to 2 kHz, without the mass of the accelerometer
+
+  sweetspot identify --simulate r161 --points 12 --accelerometer \"8 g\"
+      what a hammer test of this bat would find, and where to hang it";
+
+/// A virtual test of a bat.
+#[derive(clap::Args)]
+#[command(next_help_heading = "A virtual test")]
+struct TestArgs {
+    /// Plan a test: what a hammer and accelerometers would find of this bat (file, or built-in name)
+    #[arg(long, value_name = "BAT")]
+    simulate: Option<PathBuf>,
+
+    /// What is at another place for every response: hammer or accelerometers (in a row, all at once)
+    #[arg(long, value_name = "WHAT", action = clap::ArgAction::Set, requires = "simulate", default_value = "hammer",
+          value_parser = choice(&["hammer", "accelerometers"], |name| name == "hammer"))]
+    rove: bool,
+
+    /// Places from end to end
+    #[arg(long, value_name = "N", requires = "simulate", default_value_t = 15)]
+    points: usize,
+
+    /// How many of them are missing, by chance
+    #[arg(long, value_name = "N", requires = "simulate", default_value_t = 0)]
+    missing: usize,
+
+    /// At how many of them the hammer bounces
+    #[arg(long, value_name = "N", requires = "simulate", default_value_t = 0)]
+    double_hits: usize,
+
+    /// Where the other stays, from the knob end [default: the tip]
+    #[arg(long, value_name = "m", requires = "simulate", value_parser = PLACE)]
+    reference: Option<f64>,
+
+    /// Mass of the hammer
+    #[arg(long, value_name = "kg", requires = "simulate", default_value = "0.16", value_parser = HAMMER)]
+    hammer: f64,
+
+    /// Stiffness of its tip: some 3e5 for rubber, 2e6 for nylon, 1e7 for steel
+    #[arg(long, value_name = "N/m", requires = "simulate", default_value = "1e7", value_parser = STIFFNESS)]
+    tip: f64,
+
+    /// Noise over the root mean square of a response, in dB
+    #[arg(long, value_name = "dB", requires = "simulate", default_value_t = -50.0, allow_hyphen_values = true,
+          value_parser = noise)]
+    noise: f64,
+
+    /// Which noise, and which places are missing
+    #[arg(long, value_name = "N", requires = "simulate", default_value_t = 1)]
+    seed: u64,
+}
+
+/// Noise in dB below the responses.
+fn noise(text: &str) -> std::result::Result<f64, String> {
+    let value = text.trim().trim_end_matches("dB").trim().parse::<f64>().ok();
+    value.filter(|db| (-200.0..=0.0).contains(db)).ok_or("expected -200 to 0 dB".to_owned())
+}
+
+impl TestArgs {
+    fn test(
+        &self,
+        accelerometer: Option<f64>,
+        window: Option<f64>,
+        top: Option<f64>,
+    ) -> VirtualTest {
+        /// A small accelerometer (kg), and the band (Hz) where nothing is said.
+        const USUAL: (f64, f64) = (0.005, 2000.0);
+        VirtualTest {
+            hammer_roves: self.rove,
+            points: self.points,
+            missing: self.missing,
+            double_hits: self.double_hits,
+            reference: self.reference,
+            accelerometer: accelerometer.unwrap_or(USUAL.0),
+            hammer: self.hammer,
+            tip: self.tip,
+            noise: self.noise,
+            window,
+            top: top.unwrap_or(USUAL.1),
+            seed: self.seed,
+        }
+    }
+}
 
 impl Args {
     /// What the options say of the files.
@@ -122,7 +224,8 @@ impl Args {
     }
 
     fn test(&self) -> Result<TestKnown> {
-        for (option, value) in [("--accelerometer", self.accelerometer), ("--window", self.window)] {
+        for (option, value) in [("--accelerometer", self.accelerometer), ("--window", self.window)]
+        {
             if let Some(value) = value.filter(|value| *value <= 0.0) {
                 return Err(Error::value(option, value, "more than 0"));
             }
@@ -132,18 +235,37 @@ impl Args {
 }
 
 pub fn run(args: &Args) -> Result<Done> {
-    apart(&[("--json", &args.json), ("--csv", &args.csv.csv), ("--out", &args.out)])?;
-    let (band, test) = (args.band()?, args.test()?);
-    let set = ResponseSet::read(&args.responses, &args.known()?, band)?;
+    let files = [
+        ("--json", &args.json),
+        ("--csv", &args.csv.csv),
+        ("--out", &args.out),
+        ("--uff", &args.uff),
+    ];
+    apart(&files)?;
+    let (band, mut test) = (args.band()?, args.test()?);
+    let stamp = if args.reproducible { Stamp::fixed() } else { Stamp::now() };
+    let simulated = match &args.virtual_test.simulate {
+        None => None,
+        Some(bat) => {
+            let bat = read_with_text(bat, &EditArgs::default(), args.said.quiet)?.0;
+            let wanted = args.virtual_test.test(args.accelerometer, args.window, args.to_hz);
+            test.accelerometer = Some(wanted.accelerometer).filter(|mass| *mass > 0.0);
+            Some((wanted.of(&bat)?, bat))
+        }
+    };
+    let set = match &simulated {
+        Some((one, _)) => one.set.clone(),
+        None => ResponseSet::read(&args.responses, &args.known()?, band)?,
+    };
     let found = Identified::of(&set, &test)?;
-    let report = IdentifyReport { set: &set, found: &found };
+    let about = simulated.as_ref().map(|(one, bat)| (one, bat.name()));
+    let report = IdentifyReport { set: &set, found: &found, simulated: about };
     let table = args.said.screen(LINES, |_| report.text());
     draw(&args.plots, args.said.quiet, || Ok(plot::pictures(&set, &found, Sheet::file(false))))?;
     let out = args.csv.deliver(style::table(&table), || report.csv())?;
-    let out = put(&args.out, out, || {
-        let stamp = if args.reproducible { Stamp::fixed() } else { Stamp::now() };
-        uff58::write(&shared_uff::modes(&set, &found.modes, &stamp))
-    })?;
+    let name = about.map_or("", |(_, name)| name);
+    let out = put(&args.uff, out, || uff58::write(&frf_uff::responses(name, &set, &stamp)))?;
+    let out = put(&args.out, out, || uff58::write(&shared_uff::modes(&set, &found.modes, &stamp)))?;
     let out = put(&args.json, out, || Ok(schema::text(&report.document())))?;
     Ok(Done::new(out, if found.modes.is_empty() { FAILED } else { 0 }))
 }

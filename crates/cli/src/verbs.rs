@@ -16,8 +16,8 @@ use crate::done::{Done, printable};
 use crate::tap;
 use crate::{
     advise, aim, analyze, bats, bbcor, calibrate, compare, completions, convert, diagnostic,
-    first_word, frf, help, hit, hoop, identify, lab, lathe, licences, man, materials, modes, new, ring,
-    scatter, scene, schema, stop, study, style, trade, validate, value,
+    first_word, frf, help, hit, hoop, identify, lab, lathe, licences, man, materials, modes, new,
+    ring, scatter, scene, schema, stop, study, style, trade, validate, value,
 };
 use sweetspot_report::report::mistakes;
 

@@ -393,3 +393,85 @@ pub fn shared(all: &[Responses], start: &[Pole], damping: Damping) -> Option<Sha
     let halved = covariance.iter().map(|row| row.iter().map(|x| 0.5 * x).collect()).collect();
     Some(Shared { poles, covariance: halved, square })
 }
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use std::f64::consts::TAU;
+
+    /// Accelerances per force of these poles with residues, on lines 0.5 Hz apart from 50 to 1200 Hz, with a rigid part and
+    /// complex normal noise of that size.
+    pub fn responses(
+        poles: &[Pole],
+        residues: &[Vec<f64>],
+        damping: Damping,
+        noise: f64,
+        seed: u64,
+    ) -> Responses {
+        let hz: Vec<f64> = (100..2400).map(|l| 0.5 * f64::from(l)).collect();
+        let mut state = seed;
+        let mut uniform = || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            ((state >> 33) as f64 + 0.5) / (1_u64 << 31) as f64
+        };
+        let mut one = |residues: &Vec<f64>| {
+            let at = |f: &f64| {
+                let own = poles.iter().zip(residues);
+                let sum = own.map(|(pole, a)| resonance(*pole, damping, *f)[0] * *a);
+                let size = noise * (-uniform().ln()).sqrt();
+                sum.fold(Complex::new(0.7, 0.0), |sum, v| sum + v)
+                    + Complex::turn(TAU * uniform()) * size
+            };
+            hz.iter().map(at).collect()
+        };
+        let values = residues.iter().map(&mut one).collect();
+        Responses::new(hz.clone(), values, None)
+    }
+
+    #[test]
+    fn poles_and_residues_are_found_to_round_off() {
+        let truth = [Pole::of(171.3, 0.008), Pole::of(583.2, 0.011), Pole::of(589.0, 0.012)];
+        let residues = [vec![2.0, -1.5, 0.7], vec![-0.4, 1.0, 1.1], vec![0.9, 0.3, -2.0]];
+        for damping in [Damping::Material, Damping::Dashpots] {
+            let all = [responses(&truth, &residues, damping, 0.0, 1)];
+            let start = [Pole::of(171.0, 0.01), Pole::of(582.5, 0.01), Pole::of(590.0, 0.01)];
+            let found = shared(&all, &start, damping).unwrap();
+            let at = Projection::new(&all[0], &found.poles, damping);
+            for (p, (pole, truth)) in found.poles.iter().zip(truth).enumerate() {
+                assert!((pole.hz / truth.hz - 1.0).abs() < 1e-9, "{pole:?}");
+                assert!((pole.loss() / truth.loss() - 1.0).abs() < 1e-6, "{pole:?}");
+                for (j, residues) in residues.iter().enumerate() {
+                    let residue = at.residue_of(&all[0], j, p);
+                    assert!((residue.re - residues[p]).abs() < 1e-6 && residue.im.abs() < 1e-6);
+                }
+            }
+            // What goes on at complex frequencies is what stands on the lines at real ones; for dashpots nearly.
+            let (f, within) =
+                (all[0].hz[900], if damping == Damping::Material { 1e-9 } else { 0.1 });
+            let on = at.at(&all[0], 1, (&found.poles, None), Complex::new(f * f, 0.0));
+            let off = (on - all[0].values[1][900]).square().sqrt();
+            assert!(off < within * all[0].values[1][900].square().sqrt(), "{off}");
+        }
+    }
+
+    /// In white noise errors over their deviations have a mean square of 1, within four deviations of that.
+    #[test]
+    fn deviations_are_those_of_white_noise() {
+        let (pole, draws) = (Pole::of(411.3, 0.01), 100);
+        let mut sums = [0.0; 2];
+        for seed in 0..draws {
+            let residues = [vec![1.0], vec![-0.6]];
+            let all = [responses(&[pole], &residues, Damping::Material, 0.5, 77 + seed)];
+            let found = shared(&all, &[Pole::of(411.0, 0.012)], Damping::Material).unwrap();
+            let [f, d] = found.deviations(0);
+            sums[0] += ((found.poles[0].hz / pole.hz).ln() / f).powi(2);
+            sums[1] += ((found.poles[0].loss() / pole.loss()).ln() / d).powi(2);
+        }
+        let four = 4.0 * (2.0 / draws as f64).sqrt();
+        for sum in sums {
+            assert!((sum / draws as f64 - 1.0).abs() < four, "{sums:?}");
+        }
+    }
+}

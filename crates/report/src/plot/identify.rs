@@ -35,10 +35,13 @@ fn stability(set: &ResponseSet, found: &Identified, sheet: Sheet) -> Picture {
     };
     let levels: Vec<_> = found.sum.chunks(group).map(highest).collect();
     let level = |hz: f64| {
-        let near = levels.iter().flatten().min_by(|a, b| (a[0] - hz).abs().total_cmp(&(b[0] - hz).abs()));
+        let near =
+            levels.iter().flatten().min_by(|a, b| (a[0] - hz).abs().total_cmp(&(b[0] - hz).abs()));
         near.map(|point| [hz, point[1]])
     };
-    let modes = found.modes.iter().map(|mode| level(mode.frequency.value)).collect();
+    // The responses have the masses of the accelerometers still.
+    let measured = |mode: &SharedMode| mode.frequency.value * (1.0 + mode.lowered.unwrap_or(0.0));
+    let modes = found.modes.iter().map(|mode| level(measured(mode))).collect();
     let marked = Series::curve("modes", 1, modes).dots(MARKS[1]);
     let sum = Series::curve("sum of all responses", 0, levels.clone()).untold();
     let [low, high] = found.band;

@@ -67,7 +67,8 @@ impl Masses {
         let count = of.set.responses.len();
         if !self.alone {
             let residues: Vec<Complex> = (0..count).map(|k| of.residue(k, p)).collect();
-            let sum = if of.set.hammer_roves { self.at_references(of, p) } else { moved(&residues, own) };
+            let sum =
+                if of.set.hammer_roves { self.at_references(of, p) } else { moved(&residues, own) };
             let z = start / (Complex::ONE - sum * self.mass);
             return Unloaded { pole: pole(z), residues };
         }

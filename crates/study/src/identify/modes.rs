@@ -271,7 +271,8 @@ fn shape(set: &ResponseSet, residues: &[Complex]) -> (Vec<Option<c64>>, Option<f
     };
     let shares: Vec<c64> = rows.iter().map(share).collect();
     let at = |point: usize| {
-        let there = || rows.iter().zip(&shares).filter_map(|(row, share)| Some((row[point]?, share)));
+        let there =
+            || rows.iter().zip(&shares).filter_map(|(row, share)| Some((row[point]?, share)));
         let weight: f64 = there().map(|(_, share)| share.norm_sqr()).sum();
         let sum = there().fold(none, |sum, (value, share)| sum + share.conj() * value);
         (weight > 0.0).then(|| sum / weight)

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::files::measured::response::{Known, read};
+use crate::files::measured::response::{Known, TURNED, read};
 use crate::measured::response::MeasuredResponse;
 use sweetspot::base::error::{Error, Result};
 
@@ -74,7 +74,8 @@ impl ResponseSet {
     /// # Errors
     ///
     /// As [`Self::read`].
-    pub fn of(all: Vec<MeasuredResponse>) -> Result<Self> {
+    pub fn of(mut all: Vec<MeasuredResponse>) -> Result<Self> {
+        turn_alike(&mut all);
         let [mut forces, mut answers] = [vec![], vec![]];
         for one in &all {
             let few = one.values.len();
@@ -141,7 +142,9 @@ impl ResponseSet {
             None => Ok(()),
             Some(r) => {
                 let (x, who) = (self.references[r].x, self.fixed());
-                let found = format!("{count} places of the {who}, that at {x} m with points of its own alone");
+                let found = format!(
+                    "{count} places of the {who}, that at {x} m with points of its own alone"
+                );
                 let expected = "one place, or places that share a point that roved";
                 Err(Error::value(&self.responses[0].measured.source, found, expected))
             }
@@ -151,6 +154,16 @@ impl ResponseSet {
     /// What stayed where it was.
     pub fn fixed(&self) -> &'static str {
         if self.hammer_roves { "accelerometer" } else { "hammer" }
+    }
+}
+
+/// Responses of one test run the same way round: as most of them do, since noise may turn one.
+fn turn_alike(all: &mut [MeasuredResponse]) {
+    let turned = 2 * all.iter().filter(|one| one.turned).count() > all.len();
+    for one in all.iter_mut().filter(|one| one.turned != turned) {
+        one.values.iter_mut().for_each(|(_, value)| *value = value.conj());
+        one.assumed.retain(|said| said != TURNED);
+        one.turned = turned;
     }
 }
 

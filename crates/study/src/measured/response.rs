@@ -22,6 +22,8 @@ pub struct MeasuredResponse {
     pub nodes: [i64; 2],
     /// Coherence at these frequencies, where the file has it.
     pub coherence: Option<Vec<f64>>,
+    /// Whether its phase ran the other way round and was turned over.
+    pub turned: bool,
     /// Whether force and answer are at one node.
     pub drive_point: bool,
     /// Rising frequencies (Hz) above 0, and the answer per force there, in SI.

@@ -23,6 +23,9 @@ const RESPONSE: i64 = 4;
 /// Number of a coherence, and of a record in time.
 const COHERENCE: i64 = 6;
 const RECORD: i64 = 1;
+/// What is said of a response that was turned over.
+pub const TURNED: &str =
+    "the phase rises through the peaks, as with time as e^(-iwt): it is turned over";
 /// Kinds of data of an axis: frequency; displacement, velocity, acceleration; forces.
 const FREQUENCY: i64 = 18;
 const ANSWERS: [(i64, ResponseKind); 3] =
@@ -91,12 +94,10 @@ impl ResponseFile<'_> {
             let unit = &function.axes[0].unit;
             assumed.push(format!("frequencies are taken in {unit}, as their axis is named"));
         }
-        if turns_back(&values) {
+        let turned = turns_back(&values);
+        if turned {
             values.iter_mut().for_each(|(_, value)| *value = value.conj());
-            assumed.push(
-                "the phase rises through the peaks, as with time as e^(-iwt): it is turned over"
-                    .into(),
-            );
+            assumed.push(TURNED.into());
         }
         if dropped > 0 {
             assumed.push(format!("{dropped} values at 0 Hz are left out"));
@@ -110,7 +111,18 @@ impl ResponseFile<'_> {
         let nodes = [function.reference.node, function.response.node];
         let (drive_point, source) = (nodes[0] == nodes[1], self.name.clone());
         let coherence = self.coherence(function, dropped);
-        Ok(MeasuredResponse { source, kind, at, to, nodes, coherence, drive_point, values, assumed })
+        Ok(MeasuredResponse {
+            source,
+            kind,
+            at,
+            to,
+            nodes,
+            coherence,
+            turned,
+            drive_point,
+            values,
+            assumed,
+        })
     }
 
     /// The coherence of the same force and answer over the same frequencies, the first `dropped` left out.
