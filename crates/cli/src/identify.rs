@@ -35,35 +35,26 @@ use crate::value::{
 #[command(after_long_help = examples(EXAMPLES), next_help_heading = "Output")]
 pub struct Args {
     /// Universal files of responses; several are taken together
-    #[arg(
-        required_unless_present = "simulate",
-        conflicts_with = "simulate",
-        help_heading = "The responses"
-    )]
+    #[arg(required_unless_present = "simulate", help_heading = "The responses")]
     responses: Vec<PathBuf>,
 
     /// Unit of a file whose axes and datasets name none that is known: of the answer per force, such as g/lbf, or
     /// of length, with N, or lbf for in and ft
-    #[arg(long, value_name = "UNIT", conflicts_with = "simulate", help_heading = "The responses")]
+    #[arg(long, value_name = "UNIT", help_heading = "The responses")]
     unit: Option<String>,
 
     /// Where the nodes of a file without geometry are, from the knob end: "1=0 in, 2=3 in", or a CSV file with the
     /// columns node,x_in
-    #[arg(
-        long,
-        value_name = "PLACES",
-        conflicts_with = "simulate",
-        help_heading = "The responses"
-    )]
+    #[arg(long, value_name = "PLACES", help_heading = "The responses")]
     places: Option<String>,
 
     /// What answers are whose axes do not say it: receptance, mobility or accelerance
-    #[arg(long, value_name = "KIND", conflicts_with = "simulate", value_parser = named(ResponseKind::ALL, ResponseKind::name),
+    #[arg(long, value_name = "KIND", value_parser = named(ResponseKind::ALL, ResponseKind::name),
           hide_possible_values = true, help_heading = "The responses")]
     kind: Option<ResponseKind>,
 
     /// Leave out what is below this frequency
-    #[arg(long, value_name = "Hz", conflicts_with = "simulate", value_parser = FREQUENCY, help_heading = "The responses")]
+    #[arg(long, value_name = "Hz", value_parser = FREQUENCY, help_heading = "The responses")]
     from_hz: Option<f64>,
 
     /// Leave out what is above this frequency
@@ -112,15 +103,15 @@ pub struct Args {
 
 const EXAMPLES: &str = "\
 Examples:
-  sweetspot identify hammer.uff --out modes.uff
+  sweetspot identify --simulate r161 --points 12 --accelerometer \"8 g\" --uff hammer.uff
+      what a hammer test of this bat would find, where to hang it, and its responses
+
+  sweetspot identify hammer.uff --accelerometer \"8 g\" --out modes.uff
   sweetspot compare r161 --measured modes.uff
-      the modes of a hammer test, beside those of the bat
+      the modes of a hammer test without the mass of the accelerometer, beside those of the bat
 
-  sweetspot identify hammer.uff --to-hz \"2 kHz\" --accelerometer \"5 g\"
-      up to 2 kHz, without the mass of the accelerometer
-
-  sweetspot identify --simulate r161 --points 12 --accelerometer \"8 g\"
-      what a hammer test of this bat would find, and where to hang it";
+  sweetspot identify hammer.uff --from-hz 100 --to-hz 1500 --plots hammer
+      the modes in a band, drawn";
 
 /// A virtual test of a bat.
 #[derive(clap::Args)]
@@ -223,6 +214,24 @@ impl Args {
         Err(Error::value("--to-hz", format!("{} Hz", band[1]), expected))
     }
 
+    /// What belongs to responses that were measured stands beside no virtual test.
+    fn check(&self) -> Result<()> {
+        let given = [
+            ("RESPONSES", !self.responses.is_empty()),
+            ("--unit", self.unit.is_some()),
+            ("--places", self.places.is_some()),
+            ("--kind", self.kind.is_some()),
+            ("--from-hz", self.from_hz.is_some()),
+        ];
+        match given.iter().find(|(_, given)| *given && self.virtual_test.simulate.is_some()) {
+            Some((name, _)) => {
+                let expected = "measured responses, or --simulate and no such files";
+                Err(Error::value(*name, "it beside --simulate", expected))
+            }
+            None => Ok(()),
+        }
+    }
+
     fn test(&self) -> Result<TestKnown> {
         for (option, value) in [("--accelerometer", self.accelerometer), ("--window", self.window)]
         {
@@ -242,6 +251,7 @@ pub fn run(args: &Args) -> Result<Done> {
         ("--uff", &args.uff),
     ];
     apart(&files)?;
+    args.check()?;
     let (band, mut test) = (args.band()?, args.test()?);
     let stamp = if args.reproducible { Stamp::fixed() } else { Stamp::now() };
     let simulated = match &args.virtual_test.simulate {

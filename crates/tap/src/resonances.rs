@@ -135,6 +135,11 @@ pub fn square(pole: Pole) -> Complex {
     Complex::new(1.0, pole.loss()) * (pole.hz * pole.hz)
 }
 
+/// The pole at a complex square (Hz²).
+pub fn at(square: Complex) -> Pole {
+    Pole::of(square.re.max(0.0).sqrt(), square.im / square.re)
+}
+
 /// Powers of the frequency by which modes beyond the band answer.
 const BEYOND: usize = 5;
 

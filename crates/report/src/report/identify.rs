@@ -100,7 +100,7 @@ impl IdentifyReport<'_> {
             numbers(10, "off"),
             numbers(8, "MAC"),
         ]);
-        let signed = |share: f64| format!("{:+.3} %", 100.0 * share);
+        let signed = |share: f64| format!("{:+.3} %", 100.0 * share).replace("-0.000", "+0.000");
         let row = |(one, matched): (IdentifyPlanned, Option<(usize, f64)>)| {
             let found = matched.map(|(k, _)| self.found.modes[k].frequency);
             columns.row([
@@ -202,8 +202,10 @@ impl IdentifyReport<'_> {
         let lowered = found.modes.iter().filter_map(|mode| mode.lowered).fold(0.0, f64::min);
         if lowered < 0.0 {
             let most = percent(-lowered, 2);
+            let alone = set.hammer_roves && set.references.len() == 1;
+            let how = if alone { "" } else { ", to first order; the second is in the intervals" };
             let text = format!(
-                "The accelerometers' masses lowered the frequencies by up to {most}; that is taken off."
+                "The accelerometers' masses lowered the frequencies by up to {most}; that is taken off{how}."
             );
             all.push(one("masses", text));
         }

@@ -16,7 +16,7 @@
 
 use sweetspot_tap::complex::Complex;
 use sweetspot_tap::fit::Pole;
-use sweetspot_tap::resonances::square;
+use sweetspot_tap::resonances::{at, square};
 
 use crate::identify::modes::Fitted;
 use crate::identify::set::ResponseSet;
@@ -29,7 +29,7 @@ pub struct Masses {
     /// The response whose hammer and accelerometer are at one place.
     drive: usize,
     /// Whether it is the only accelerometer.
-    alone: bool,
+    pub(super) alone: bool,
 }
 
 /// A mode without the masses.
@@ -70,7 +70,7 @@ impl Masses {
             let sum =
                 if of.set.hammer_roves { self.at_references(of, p) } else { moved(&residues, own) };
             let z = start / (Complex::ONE - sum * self.mass);
-            return Unloaded { pole: pole(z), residues };
+            return Unloaded { pole: at(z), residues };
         }
         let mut z = start;
         for _ in 0..TURNS {
@@ -79,10 +79,10 @@ impl Masses {
         }
         // Residues from the slope of 1 − m H′ where it is 0.
         let step = 1e-4 * (start - z).square().sqrt() + 1e-9 * z.re;
-        let at = |by: f64| of.at(self.drive, None, z + Complex::new(by, 0.0));
-        let slope = (at(step) - at(-step)) * (0.5 / step);
+        let near = |by: f64| of.at(self.drive, None, z + Complex::new(by, 0.0));
+        let slope = (near(step) - near(-step)) * (0.5 / step);
         let residue = |k: usize| of.at(k, None, z) / (slope * z * self.mass) * -1.0;
-        Unloaded { pole: pole(z), residues: (0..count).map(residue).collect() }
+        Unloaded { pole: at(z), residues: (0..count).map(residue).collect() }
     }
 
     /// `Σ φ_k²/m_n` over several accelerometers that stayed.
@@ -95,9 +95,4 @@ impl Masses {
 /// `Σ φ_j²/m_n` over accelerometers in a row, `φ_j²/m_n = A_jk²/A_kk`.
 fn moved(residues: &[Complex], own: Complex) -> Complex {
     residues.iter().fold(Complex::default(), |sum, a| sum + *a * *a / own)
-}
-
-fn pole(z: Complex) -> Pole {
-    let hz = z.re.sqrt();
-    Pole::of(hz, z.im / z.re)
 }

@@ -3,11 +3,13 @@
 //! Residues are `A_jk = φ_j φ_k/m`. Of one reference k they are the shape; of several the shape is that which
 //! explains all of them best, and the drive point gives the modal mass, `m = φ_k²/A_kk`.
 
+use std::f64::consts::TAU;
+
 use faer::c64;
 use sweetspot_tap::complex::Complex;
 use sweetspot_tap::fit::Pole;
 use sweetspot_tap::orders::Orders;
-use sweetspot_tap::resonances::{Damping, LOSSES, Projection, Responses};
+use sweetspot_tap::resonances::{Damping, LOSSES, Projection, Responses, at, square};
 
 use crate::calibrate::calibration::NINETY_FIVE;
 use crate::identify::masses::{Masses, Unloaded};
@@ -214,21 +216,24 @@ impl<'a> Fitted<'a> {
         };
         let Unloaded { pole: free, residues } = unloaded.unwrap_or_else(loaded);
         let (shape, modal_mass) = shape(self.set, &residues);
+        let still = without_window(free, known.window);
         let [hz, loss] = self.found.fit.deviations(p).map(|deviation| NINETY_FIVE * deviation);
-        let hz = [-hz, hz].map(|by| free.hz * (1.0 + by));
-        // An exponential window adds its own decay, 1/τ = π f η.
-        let window = known.window.map_or(0.0, |tau| Pole { hz: pole.hz, decay: 1.0 / tau }.loss());
-        let damping = |loss: f64| 0.5 * (loss - window).max(0.0);
+        // The first order of several masses leaves one of the size of its square.
+        let lowered = masses.map(|_| pole.hz / free.hz - 1.0);
+        let second = masses.filter(|masses| !masses.alone).and(lowered).unwrap_or(0.0).powi(2);
+        let hz = hz.hypot(1.5 * second);
+        let hz = [-hz, hz].map(|by| still.hz * (1.0 + by));
+        let damping = |loss: f64| 0.5 * (loss - free.loss() + still.loss()).max(0.0);
         let ratios = [-loss, loss].map(|by| damping(free.loss() * by.exp()));
         let values: Vec<c64> = shape.iter().flatten().copied().collect();
         SharedMode {
-            frequency: Within { value: free.hz, interval95: hz },
+            frequency: Within { value: still.hz, interval95: hz },
             damping: Within { value: damping(free.loss()), interval95: ratios },
             collinearity: collinearity(&values),
             shape,
             modal_mass,
             orders: self.stable(pole),
-            lowered: masses.map(|_| pole.hz / free.hz - 1.0),
+            lowered,
         }
     }
 
@@ -239,6 +244,13 @@ impl<'a> Fitted<'a> {
         let with = orders.iter().rev().take_while(|poles| poles.iter().any(near)).count();
         [(orders.len() + 1 - with).min(orders.len()), orders.len()]
     }
+}
+
+/// The pole without an exponential window, which takes `i/(2πτ)` off the complex frequency `f √(1 + iη)`.
+fn without_window(pole: Pole, window: Option<f64>) -> Pole {
+    let Some(tau) = window else { return pole };
+    let moved = square(pole).sqrt() - Complex::new(0.0, 1.0 / (TAU * tau));
+    at(moved * moved)
 }
 
 /// The shape that explains the residues of every response best, and its modal mass.
