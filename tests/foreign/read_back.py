@@ -3,13 +3,14 @@
     python3 -m venv venv
     venv/bin/pip install pyuff==2.5.8 meshio==5.3.5 numpy==2.4.6 scipy==1.17.1
     venv/bin/pip install --no-deps vtk==9.7.2
-    venv/bin/python tests/foreign/read_back.py FOLDER
+    venv/bin/python tests/foreign/read_back.py FOLDER [SWEETSPOT]
 
-FOLDER holds what tests/foreign/write.sh wrote. Exits with 1 and says where if anything differs by
-more than the digits of its format.
+FOLDER holds what tests/foreign/write.sh wrote; the program reads what pyuff wrote. Exits with 1 and says
+where if anything differs by more than the digits of its format.
 """
 
 import json
+import subprocess
 import sys
 import xml.etree.ElementTree as xml
 from pathlib import Path

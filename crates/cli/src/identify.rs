@@ -103,12 +103,12 @@ pub struct Args {
 
 const EXAMPLES: &str = "\
 Examples:
-  sweetspot identify --simulate r161 --points 12 --accelerometer \"8 g\" --uff hammer.uff
-      what a hammer test of this bat would find, where to hang it, and its responses
+  sweetspot identify --simulate r161 --accelerometer \"8 g\" --uff hammer.uff
+      what a hammer test of this bat would find, and its responses
 
   sweetspot identify hammer.uff --accelerometer \"8 g\" --out modes.uff
   sweetspot compare r161 --measured modes.uff
-      the modes of a hammer test without the mass of the accelerometer, beside those of the bat
+      its modes without the mass of the accelerometer, beside those of the bat
 
   sweetspot identify hammer.uff --from-hz 100 --to-hz 1500 --plots hammer
       the modes in a band, drawn";
@@ -122,7 +122,7 @@ struct TestArgs {
     simulate: Option<PathBuf>,
 
     /// What is at another place for every response: hammer or accelerometers (in a row, all at once)
-    #[arg(long, value_name = "WHAT", action = clap::ArgAction::Set, requires = "simulate", default_value = "hammer",
+    #[arg(long, value_name = "WHAT", action = clap::ArgAction::Set, hide_possible_values = true, requires = "simulate", default_value = "hammer",
           value_parser = choice(&["hammer", "accelerometers"], |name| name == "hammer"))]
     rove: bool,
 
