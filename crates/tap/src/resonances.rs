@@ -50,24 +50,30 @@ const MEDIAN: f64 = std::f64::consts::LN_2;
 impl Responses {
     /// Responses with the noise that they show themselves: what is left of fourth differences over the lines.
     ///
-    /// `noise`, where it is known from coherence, is relative and for every line.
+    /// `noise`, where coherence tells it, is relative and for every line. It can only add, since it is often told too
+    /// well.
     pub fn new(hz: Vec<f64>, values: Vec<Vec<Complex>>, noise: Option<Vec<f64>>) -> Self {
-        let lines = noise.clone().unwrap_or_else(|| vec![1.0; hz.len()]);
-        let scales = vec![1.0; values.len()];
+        let (lines, scales) = (vec![1.0; hz.len()], vec![1.0; values.len()]);
         let mut all = Self { hz, values, lines, scales };
         let rough: Vec<Vec<Complex>> = all.values.iter().map(|one| rough(one)).collect();
-        all.weigh(&rough, noise.is_some());
+        all.weigh(&rough);
+        if let Some(noise) = noise {
+            let ratios: Vec<f64> =
+                noise.iter().zip(&all.lines).map(|(told, own)| told / own).collect();
+            let usual = median(&ratios).max(1e-300);
+            all.lines.iter_mut().zip(noise).for_each(|(own, told)| *own = own.max(told / usual));
+        }
         all
     }
 
-    /// Takes the noise from what is left of every response; that of lines stays where it is known.
-    fn weigh(&mut self, left: &[Vec<Complex>], lines_are_known: bool) {
+    /// Takes the noise from what is left of every response.
+    fn weigh(&mut self, left: &[Vec<Complex>]) {
         for turn in 0..2 {
             for (scale, left) in self.scales.iter_mut().zip(left) {
                 let own = left.iter().zip(&self.lines).map(|(r, g)| r.square() / (g * g));
                 *scale = (median(&own.collect::<Vec<_>>()) / MEDIAN).max(1e-300).sqrt();
             }
-            if turn == 1 || lines_are_known {
+            if turn == 1 {
                 break;
             }
             let mean = |l: usize| {
@@ -90,7 +96,7 @@ impl Responses {
             one.iter().enumerate().map(|(l, r)| *r * self.noise(j, l)).collect()
         };
         let left: Vec<Vec<Complex>> = left.iter().enumerate().map(part).collect();
-        self.weigh(&left, false);
+        self.weigh(&left);
     }
 
     /// Noise of response `j` at line `l`.
@@ -176,23 +182,24 @@ impl Projection {
         });
         let resonances = poles.iter().map(|pole| Self::column(of, *pole, damping, 0));
         let mut columns: Vec<Vec<Complex>> = powers.chain(resonances).collect();
-        let count = columns.len();
-        let mut triangle = vec![vec![Complex::default(); count]; count];
-        for k in 0..count {
+        let mut triangle = vec![];
+        for k in 0..columns.len() {
             let (done, rest) = columns.split_at_mut(k);
             let own = &mut rest[0];
             let before = dot(own, own).re.sqrt();
+            let mut shares = vec![Complex::default(); k];
             for _ in 0..2 {
-                for (i, other) in done.iter().enumerate() {
+                for (sum, other) in shares.iter_mut().zip(done.iter()) {
                     let share = dot(other, own);
                     take(own, share, other);
-                    triangle[i][k] = triangle[i][k] + share;
+                    *sum = *sum + share;
                 }
             }
             let size = dot(own, own).re.sqrt();
             let scale = if size > 1e-10 * before { 1.0 / size } else { 0.0 };
             own.iter_mut().for_each(|a| *a = *a * scale);
-            triangle[k][k] = Complex::new(size.max(1e-10 * before), 0.0);
+            shares.push(Complex::new(size.max(1e-10 * before), 0.0));
+            triangle.push(shares);
         }
         let mut left = vec![];
         let mut coefficients = vec![];
@@ -272,11 +279,11 @@ impl Projection {
     }
 }
 
-/// The solution of a triangular system.
+/// The solution of a triangular system, given by its columns down to the diagonal.
 fn back(triangle: &[Vec<Complex>], mut right: Vec<Complex>) -> Vec<Complex> {
     for i in (0..right.len()).rev() {
         for k in i + 1..right.len() {
-            right[i] = right[i] - triangle[i][k] * right[k];
+            right[i] = right[i] - triangle[k][i] * right[k];
         }
         right[i] = right[i] / triangle[i][i];
     }
@@ -400,13 +407,13 @@ pub fn shared(all: &[Responses], start: &[Pole], damping: Damping) -> Option<Sha
 }
 
 #[cfg(test)]
-pub(crate) mod tests {
+mod tests {
     use super::*;
     use std::f64::consts::TAU;
 
     /// Accelerances per force of these poles with residues, on lines 0.5 Hz apart from 50 to 1200 Hz, with a rigid part and
     /// complex normal noise of that size.
-    pub fn responses(
+    fn responses(
         poles: &[Pole],
         residues: &[Vec<f64>],
         damping: Damping,

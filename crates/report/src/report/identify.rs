@@ -61,7 +61,8 @@ impl IdentifyReport<'_> {
         let [low, high] = [low, high].map(|f| significant(*f, 4));
         wrapped(
             &format!(
-                "{count} response{plural}, {low} to {high} Hz: {fixed} at {places}, {roved} at {points} places; {damped}"
+                "{count} response{plural}, {low} to {high} Hz: {fixed} at {places}, {roved} at {points} place{}; {damped}",
+                if points == 1 { "" } else { "s" }
             ),
             2,
         )

@@ -67,6 +67,8 @@ pub struct TestKnown {
     pub window: Option<f64>,
 }
 
+/// A frequency that is known no better than this, relative, is that of no mode: one beyond the band.
+const VAGUE: f64 = 0.005;
 /// A loss factor whose logarithm is known no better than this is that of no mode.
 const UNSURE: f64 = 0.35;
 /// Poles of two orders nearer than this, over the half-power width, are one.
@@ -113,9 +115,13 @@ impl Identified {
 
 /// Whether a pole is a mode: it lowers the sum of squares by more than noise does, rings, is known and in the band.
 fn is_mode(found: &Orders, p: usize, [low, high]: [f64; 2]) -> bool {
-    let (pole, [_, loss]) = (found.fit.poles[p], found.fit.deviations(p));
+    let (pole, [hz, loss]) = (found.fit.poles[p], found.fit.deviations(p));
     let rings = (3.0 * LOSSES[0]..0.5 * LOSSES[1]).contains(&pole.loss());
-    found.weights[p] > 1.0 && rings && loss < UNSURE && (low..=high).contains(&pole.hz)
+    found.weights[p] > 1.0
+        && rings
+        && hz < VAGUE
+        && loss < UNSURE
+        && (low..=high).contains(&pole.hz)
 }
 
 /// Responses by their grids, and whether their noise is known from coherence.

@@ -234,7 +234,6 @@ impl VirtualTest {
             nodes,
             coherence: Some(coherence),
             turned: false,
-            drive_point: at == to,
             values,
             assumed: vec![],
         })

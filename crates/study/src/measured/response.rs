@@ -24,12 +24,17 @@ pub struct MeasuredResponse {
     pub coherence: Option<Vec<f64>>,
     /// Whether its phase ran the other way round and was turned over.
     pub turned: bool,
-    /// Whether force and answer are at one node.
-    pub drive_point: bool,
     /// Rising frequencies (Hz) above 0, and the answer per force there, in SI.
     pub values: Vec<(f64, c64)>,
     /// What had to be assumed to read it, one sentence each.
     pub assumed: Vec<String>,
+}
+
+impl MeasuredResponse {
+    /// Whether force and answer are at one node.
+    pub fn is_drive_point(&self) -> bool {
+        self.nodes[0] == self.nodes[1]
+    }
 }
 
 /// A measured response beside the computed one at its own frequencies.

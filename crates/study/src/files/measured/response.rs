@@ -6,6 +6,7 @@ use std::path::Path;
 
 use faer::c64;
 
+use crate::files::measured::coherence;
 use crate::files::measured::direction::{Vector, axis};
 use crate::files::measured::places::Places;
 use crate::measured::response::MeasuredResponse;
@@ -20,8 +21,7 @@ use uff58::{Dataset, Dof, Function, Units, Universal, Values, at_line};
 const GRAVITY: f64 = 9.80665;
 /// Number of a frequency response among the functions of dataset 58.
 const RESPONSE: i64 = 4;
-/// Number of a coherence, and of a record in time.
-const COHERENCE: i64 = 6;
+/// Number of a record in time.
 const RECORD: i64 = 1;
 /// What is said of a response that was turned over.
 pub const TURNED: &str =
@@ -109,37 +109,9 @@ impl ResponseFile<'_> {
             assumed.push("the nodes' places are taken from the knob end".to_owned());
         }
         let nodes = [function.reference.node, function.response.node];
-        let (drive_point, source) = (nodes[0] == nodes[1], self.name.clone());
-        let coherence = self.coherence(function, dropped);
-        Ok(MeasuredResponse {
-            source,
-            kind,
-            at,
-            to,
-            nodes,
-            coherence,
-            turned,
-            drive_point,
-            values,
-            assumed,
-        })
-    }
-
-    /// The coherence of the same force and answer over the same frequencies, the first `dropped` left out.
-    fn coherence(&self, of: &Function, dropped: usize) -> Option<Vec<f64>> {
-        let functions = self.universal.datasets.iter().filter_map(|dataset| match dataset {
-            Dataset::Function(function) if function.kind == COHERENCE => Some(function),
-            _ => None,
-        });
-        let same = |other: &&Box<Function>| {
-            (other.response.node, other.reference.node) == (of.response.node, of.reference.node)
-                && other.values.len() == of.values.len()
-        };
-        let values = match &functions.into_iter().find(same)?.values {
-            Values::Real(values) => values.clone(),
-            Values::Complex(values) => values.iter().map(|[re, _]| *re).collect(),
-        };
-        values.iter().all(|v| (0.0..=1.001).contains(v)).then(|| values[dropped..].to_vec())
+        let source = self.name.clone();
+        let coherence = coherence::of(self.universal, function, dropped);
+        Ok(MeasuredResponse { source, kind, at, to, nodes, coherence, turned, values, assumed })
     }
 
     /// The factor to SI of an answer per force, and what was taken. Record 9 has the answer's unit.
