@@ -180,7 +180,7 @@ const LOOSE: &str = r#"{ "format": "sweetspot-study/1", "bat": "r161", "points":
 const TALL: [&str; 5] = ["hit", "modes", "lathe", "frf", "validate"];
 
 /// What each of two bats is asked, `BAT` standing for its name.
-const OF_BATS: [&str; 22] = [
+const OF_BATS: [&str; 23] = [
     "hit BAT",
     "hit BAT --model pulse",
     "hit BAT --model energy-loss",
@@ -193,6 +193,7 @@ const OF_BATS: [&str; 22] = [
     "lathe BAT",
     r#"frf BAT --at "28 in" --to "2 in""#,
     "bbcor BAT",
+    "identify --simulate BAT",
     r#"ring BAT --hit "60 cm""#,
     r#"ring BAT --hit "60 cm" --watch "2 in,4 in,6 in,8 in""#,
     "advise BAT",

@@ -26,6 +26,7 @@ mod first_screens;
 mod fuzz_corpus;
 mod golden;
 mod hoop_verb;
+mod identify;
 mod ignored;
 mod lathe;
 mod library;

@@ -22,7 +22,7 @@ pub enum Numbers {
 pub type Written = (&'static str, &'static str, &'static str, Numbers);
 
 /// The formats as they are written, in the folder of [`folder`].
-pub const WRITTEN: [Written; 25] = [
+pub const WRITTEN: [Written; 26] = [
     (
         "modes",
         "modes",
@@ -123,6 +123,12 @@ pub const WRITTEN: [Written; 25] = [
     ),
     ("calibrate", "calibrate", "calibrate r161.json readings-1.json", Numbers::Rough),
     ("tap", "tap", "tap r161.json taps.wav", Numbers::Rough),
+    (
+        "identify",
+        "identify",
+        "identify --simulate lossy.json --points 5 --to-hz 1200 --noise -60",
+        Numbers::Rough,
+    ),
     (
         "scatter-result",
         "scatter-result",

@@ -3,13 +3,14 @@
     python3 -m venv venv
     venv/bin/pip install pyuff==2.5.8 meshio==5.3.5 numpy==2.4.6 scipy==1.17.1
     venv/bin/pip install --no-deps vtk==9.7.2
-    venv/bin/python tests/foreign/read_back.py FOLDER
+    venv/bin/python tests/foreign/read_back.py FOLDER [SWEETSPOT]
 
-FOLDER holds what tests/foreign/write.sh wrote. Exits with 1 and says where if anything differs by
-more than the digits of its format.
+FOLDER holds what tests/foreign/write.sh wrote; the program reads what pyuff wrote. Exits with 1 and says
+where if anything differs by more than the digits of its format.
 """
 
 import json
+import subprocess
 import sys
 import xml.etree.ElementTree as xml
 from pathlib import Path
@@ -286,6 +287,26 @@ def matrices(folder, modes):
     same("K and M: mass of the bat", total, expected, 1e-9)
 
 
+def responses_and_modes(program):
+    """Responses and modes of a virtual test; pyuff writes the responses anew, and the same modes are found in them."""
+    sets = pyuff.UFF(str(FOLDER / "hammer.uff")).read_sets()
+    functions = [one for one in sets if one["type"] == 58]
+    holds("hammer.uff: six responses, six coherences", [one["func_type"] for one in functions] == [4, 6] * 6)
+    told = json.loads((FOLDER / "found.json").read_text())["modes"]
+    shapes = [one for one in pyuff.UFF(str(FOLDER / "found.uff")).read_sets() if one["type"] == 55]
+    holds("found.uff: one dataset 55 for each mode", len(shapes) == len(told))
+    for mode, shape in zip(told, shapes):
+        same("found.uff: pole", abs(shape["eig"]) / (2 * np.pi), mode["frequency_hz"], SIX)
+        same("found.uff: real parts", np.real(shape["r2"]), [point["re"] for point in mode["shape"]], SIX)
+    again = FOLDER / "by_pyuff.uff"
+    again.unlink(missing_ok=True)
+    pyuff.UFF(str(again)).write_sets([one for one in sets if one["type"] in (164, 2411, 58)], mode="add")
+    command = [program, "identify", str(again), "--accelerometer", "5 g", "--quiet", "--json", "-"]
+    found = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)["modes"]
+    for key in ("frequency_hz", "damping_ratio", "modal_mass_kg"):
+        same(f"by_pyuff.uff: {key}", [mode[key] for mode in found], [mode[key] for mode in told], 1e-6)
+
+
 def main():
     modes = Modes(FOLDER / "modes.json")
     uff_modes("modes.uff", modes, 2411)
@@ -309,6 +330,8 @@ def main():
     csv("modes.csv", modes, radius)
     archive("modes.npz", modes, radius)
     matrices("matrices", modes)
+    if len(sys.argv) > 2:
+        responses_and_modes(sys.argv[2])
     print(f"{compared} numbers read back with pyuff {pyuff.__version__}, meshio "
           f"{meshio.__version__}, VTK {vtkVersion.GetVTKVersion()}, NumPy {np.__version__}")
 

@@ -17,6 +17,9 @@ done
 "$program" convert modes.json --to vtu --surface 48 --out surface.vtu
 "$program" convert modes.json --to vtu --surface 48 --out modes.pvd
 
+"$program" identify --simulate "$bat" --points 6 --to-hz 1500 --quiet --reproducible --uff hammer.uff \
+    --out found.uff --json found.json >/dev/null
+
 respond() { # KIND OPTION…
     kind=$1
     shift

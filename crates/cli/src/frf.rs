@@ -372,7 +372,7 @@ fn places(args: &Args, bat: &Bat, measured: Option<&MeasuredResponse>) -> Result
     };
     let at = args.at.or(measured.and_then(|m| m.at));
     let at = at.ok_or_else(|| missing("force", "--at and --to"))?;
-    let here = measured.is_none_or(|m| m.drive_point).then_some(at);
+    let here = measured.is_none_or(|m| m.is_drive_point()).then_some(at);
     let to = args.to.or(measured.and_then(|m| m.to)).or(here);
     let to = to.ok_or_else(|| missing("answer", "--to"))?;
     // A place of the file's own is told as that.

@@ -45,6 +45,7 @@ mod calibrate;
 #[cfg(feature = "audio")]
 mod tap;
 mod frf_grid;
+mod identify;
 mod frf;
 mod trade;
 mod lathe;

@@ -60,6 +60,8 @@ pub const READING: Use = Use::new(Quantity::Length, [0.0, 0.01], &["mm", "in"]);
 pub const SCALE: Use = Use::new(Quantity::Mass, [0.0, 0.1], &["g", "oz"]);
 /// Mass of a part of a bat.
 pub const PART_MASS: Use = Use::new(Quantity::Mass, [0.0, 1.5], &["oz", "g"]);
+/// Mass of a hammer of a vibration test.
+pub const HAMMER: Use = Use::new(Quantity::Mass, [0.01, 2.0], &["g", "oz"]);
 /// Moment of inertia of a bat about its handle.
 pub const SWING_WEIGHT: Use = Use::new(Quantity::Inertia, [0.01, 1.0], &["oz in^2"]);
 /// How long a ball pushes a bat.

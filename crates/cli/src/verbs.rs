@@ -16,8 +16,8 @@ use crate::done::{Done, printable};
 use crate::tap;
 use crate::{
     advise, aim, analyze, bats, bbcor, calibrate, compare, completions, convert, diagnostic,
-    first_word, frf, help, hit, hoop, lab, lathe, licences, man, materials, modes, new, ring,
-    scatter, scene, schema, stop, study, style, trade, validate, value,
+    first_word, frf, help, hit, hoop, identify, lab, lathe, licences, man, materials, modes, new,
+    ring, scatter, scene, schema, stop, study, style, trade, validate, value,
 };
 use sweetspot_report::report::mistakes;
 
@@ -55,6 +55,7 @@ enum Verb {
     Tap(tap::Args),
     Ring(ring::Args),
     Frf(frf::Args),
+    Identify(identify::Args),
     Lab(lab::Args),
     Lathe(lathe::Args),
     Aim(aim::Args),
@@ -98,6 +99,7 @@ pub fn run() -> Result<Done> {
         Verb::Tap(args) => tap::run(&args),
         Verb::Ring(args) => ring::run(&args),
         Verb::Frf(args) => frf::run(&args),
+        Verb::Identify(args) => identify::run(&args),
         Verb::Lab(args) => lab::run(&args),
         Verb::Lathe(args) => lathe::run(&args),
         Verb::Aim(args) => aim::run(&args),

@@ -12,6 +12,7 @@ use crate::schema::compare::CompareFile;
 use crate::schema::frf::{FrfFile, FrfSetFile};
 use crate::schema::hit::HitFile;
 use crate::schema::hoop::HoopFile;
+use crate::schema::identify::IdentifyFile;
 use crate::schema::lathe::LatheFile;
 use crate::schema::materials::MaterialsFile;
 use crate::schema::measured::MeasuredFile;
@@ -36,7 +37,7 @@ use sweetspot_study::files::scatter_file::ScatterForm;
 use sweetspot_study::files::study_file::StudyForm;
 
 /// How many there are: wishes and rules of games are read with the feature `aim`.
-const COUNT: usize = if cfg!(feature = "aim") { 30 } else { 28 };
+const COUNT: usize = if cfg!(feature = "aim") { 31 } else { 29 };
 
 /// A kind of file that has a schema.
 #[derive(Debug, Clone, Copy)]
@@ -71,6 +72,7 @@ impl FileKind {
         Self::of::<FrfSetFile>(),
         Self::of::<AdviceFile>(),
         Self::of::<CalibrateFile>(),
+        Self::of::<IdentifyFile>(),
         Self::of::<TapFile>(),
         Self::of::<ScatterResult>(),
         Self::of::<StudyManifest>(),

@@ -19,6 +19,7 @@
 //! | [`trampoline`] | what does the wall of a hollow barrel do to a ball |
 //! | [`files`] | how do people write down what they ask |
 //! | [`measured`] | which measured mode is which computed one; is the measurement sound |
+//! | [`identify`] | which modes do measured responses share; what would a test of this bat find |
 
 // Matrices are written with the indices of their formulas.
 #![allow(clippy::needless_range_loop)]
@@ -44,3 +45,4 @@ pub mod aim;
 pub mod scatter;
 pub mod trampoline;
 pub mod files;
+pub mod identify;

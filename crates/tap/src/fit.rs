@@ -249,7 +249,7 @@ fn slopes(poles: &[Pole], here: &[f64], residual: &impl Fn(&[Pole]) -> Vec<f64>)
     (0..2 * poles.len()).map(along).collect()
 }
 
-fn with(normal: &[Vec<f64>], right: &[f64], damped: f64) -> Vec<Vec<f64>> {
+pub(crate) fn with(normal: &[Vec<f64>], right: &[f64], damped: f64) -> Vec<Vec<f64>> {
     let row = |(i, row): (usize, &Vec<f64>)| {
         let mut row = row.clone();
         row[i] += damped * row[i] + 1e-300;

@@ -23,6 +23,8 @@ pub mod onsets;
 pub mod spectrum;
 pub mod fit;
 pub mod pencil;
+pub mod resonances;
+pub mod orders;
 pub mod envelope;
 pub mod tones;
 pub mod recording;

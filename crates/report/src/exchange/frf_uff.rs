@@ -2,6 +2,7 @@
 
 use crate::exchange::modes_uff::header;
 use sweetspot::motion::frf::{ResponseKind, Sample};
+use sweetspot_study::identify::set::{ResponseSet, SetResponse};
 use uff58::{
     Abscissa, Axis, Complex, Dataset, Dof, Function, Node, Nodes, Stamp, Units, Values, six_digits,
 };
@@ -40,6 +41,39 @@ pub fn response(measured: &Measured, samples: &[Sample], stamp: &Stamp) -> Vec<D
         Dataset::Nodes(Nodes { nodes, legacy: false }),
         Dataset::Function(Box::new(function)),
     ]
+}
+
+/// The datasets of a set of responses: 151, 164 (SI), 2411, and 58 for each and for its coherence, type 6.
+pub fn responses(bat: &str, set: &ResponseSet, stamp: &Stamp) -> Vec<Dataset> {
+    let mut nodes: Vec<Node> = vec![];
+    let places = set.points.iter().chain(&set.references);
+    for place in places {
+        if nodes.iter().all(|node| node.label != place.node) {
+            nodes.push(Node::new(place.node, [place.x, 0.0, 0.0]));
+        }
+    }
+    let mut all = vec![
+        Dataset::Header(header(bat, "responses of a virtual test", stamp)),
+        Dataset::Units(Units::si()),
+        Dataset::Nodes(Nodes { nodes, legacy: false }),
+    ];
+    for (number, SetResponse { measured, .. }) in (1..).zip(&set.responses) {
+        let [at, to] = [measured.at, measured.to].map(Option::unwrap_or_default);
+        let even = Some([measured.values[0].0, measured.values[1].0 - measured.values[0].0]);
+        let subject = Measured { bat, kind: measured.kind, at, to, even };
+        let own = function(&subject, &[], measured.nodes[1]);
+        let reference = Dof { node: measured.nodes[0], ..own.reference.clone() };
+        let values = measured.values.iter().map(|(_, v)| [v.re, v.im]).collect();
+        let own = Function { number, reference, values: Values::Complex(values), ..own };
+        let coherence = measured.coherence.clone().map(|values| {
+            let axes = [own.axes[0].clone(), Axis::default(), Axis::default(), Axis::default()];
+            Function { kind: 6, values: Values::Real(values), axes, ..own.clone() }
+        });
+        all.extend(
+            [Some(own), coherence].into_iter().flatten().map(|f| Dataset::Function(Box::new(f))),
+        );
+    }
+    all
 }
 
 fn function(measured: &Measured, samples: &[Sample], node: i64) -> Function {

@@ -9,6 +9,7 @@
 pub mod modes_file;
 pub mod modes_uff;
 pub mod frf_uff;
+pub mod shared_uff;
 pub mod csv;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod npz;

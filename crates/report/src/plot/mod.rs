@@ -66,3 +66,4 @@ pub mod measured;
 pub mod many;
 pub mod calibrate;
 pub mod tap;
+pub mod identify;

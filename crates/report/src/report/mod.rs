@@ -34,6 +34,7 @@ pub mod hoop_notes;
 pub mod hoop;
 pub mod calibrate;
 pub mod tap;
+pub mod identify;
 pub mod calibrated_bat;
 pub mod shares;
 pub mod scatter;

@@ -24,6 +24,7 @@ pub mod advice;
 pub mod trade;
 pub mod calibrate;
 pub mod tap;
+pub mod identify;
 pub mod mistakes;
 pub mod study;
 pub mod lathe;

@@ -18,12 +18,23 @@ pub struct MeasuredResponse {
     pub at: Option<f64>,
     /// Where the answer was watched (m), likewise.
     pub to: Option<f64>,
-    /// Whether force and answer are at one node.
-    pub drive_point: bool,
+    /// The nodes of force and answer.
+    pub nodes: [i64; 2],
+    /// Coherence at these frequencies, where the file has it.
+    pub coherence: Option<Vec<f64>>,
+    /// Whether its phase ran the other way round and was turned over.
+    pub turned: bool,
     /// Rising frequencies (Hz) above 0, and the answer per force there, in SI.
     pub values: Vec<(f64, c64)>,
     /// What had to be assumed to read it, one sentence each.
     pub assumed: Vec<String>,
+}
+
+impl MeasuredResponse {
+    /// Whether force and answer are at one node.
+    pub fn is_drive_point(&self) -> bool {
+        self.nodes[0] == self.nodes[1]
+    }
 }
 
 /// A measured response beside the computed one at its own frequencies.

@@ -4,6 +4,7 @@ pub mod table;
 pub mod places;
 pub mod direction;
 pub mod universal;
+pub mod coherence;
 pub mod response;
 
 use std::path::Path;

@@ -6,6 +6,7 @@ use std::path::Path;
 
 use faer::c64;
 
+use crate::files::measured::coherence;
 use crate::files::measured::direction::{Vector, axis};
 use crate::files::measured::places::Places;
 use crate::measured::response::MeasuredResponse;
@@ -20,6 +21,11 @@ use uff58::{Dataset, Dof, Function, Units, Universal, Values, at_line};
 const GRAVITY: f64 = 9.80665;
 /// Number of a frequency response among the functions of dataset 58.
 const RESPONSE: i64 = 4;
+/// Number of a record in time.
+const RECORD: i64 = 1;
+/// What is said of a response that was turned over.
+pub const TURNED: &str =
+    "the phase rises through the peaks, as with time as e^(-iwt): it is turned over";
 /// Kinds of data of an axis: frequency; displacement, velocity, acceleration; forces.
 const FREQUENCY: i64 = 18;
 const ANSWERS: [(i64, ResponseKind); 3] =
@@ -88,12 +94,10 @@ impl ResponseFile<'_> {
             let unit = &function.axes[0].unit;
             assumed.push(format!("frequencies are taken in {unit}, as their axis is named"));
         }
-        if turns_back(&values) {
+        let turned = turns_back(&values);
+        if turned {
             values.iter_mut().for_each(|(_, value)| *value = value.conj());
-            assumed.push(
-                "the phase rises through the peaks, as with time as e^(-iwt): it is turned over"
-                    .into(),
-            );
+            assumed.push(TURNED.into());
         }
         if dropped > 0 {
             assumed.push(format!("{dropped} values at 0 Hz are left out"));
@@ -104,9 +108,10 @@ impl ResponseFile<'_> {
         if taken && self.known.places.is_none() {
             assumed.push("the nodes' places are taken from the knob end".to_owned());
         }
-        let drive_point = function.reference.node == function.response.node;
+        let nodes = [function.reference.node, function.response.node];
         let source = self.name.clone();
-        Ok(MeasuredResponse { source, kind, at, to, drive_point, values, assumed })
+        let coherence = coherence::of(self.universal, function, dropped);
+        Ok(MeasuredResponse { source, kind, at, to, nodes, coherence, turned, values, assumed })
     }
 
     /// The factor to SI of an answer per force, and what was taken. Record 9 has the answer's unit.
@@ -375,7 +380,12 @@ fn chosen<'a>(
     let count = responses.len();
     match which {
         _ if count == 0 => {
-            let found = format!("{} functions, none of type 4", functions.len());
+            let times = functions.iter().filter(|(_, function)| function.kind == RECORD).count();
+            let times = match times {
+                0 => String::new(),
+                count => format!(", {count} of them records in time"),
+            };
+            let found = format!("{} functions{times}, none of type 4", functions.len());
             Err(Error::value(file, found, "a frequency response, type 4 in a dataset 58"))
         }
         None => Ok(responses),

@@ -1,0 +1,313 @@
+//! Modes that measured responses share: table, JSON, CSV, words.
+
+use crate::csv;
+use crate::parts::columns::{Columns, first, numbers};
+use crate::parts::table::Column;
+use crate::parts::terminal::{Piece, wrapped};
+use crate::schema::identify::{
+    IdentifyFile, IdentifyMode, IdentifyPlace, IdentifyPlanned, IdentifyPoint, IdentifySaid,
+    IdentifySimulated,
+};
+use sweetspot::base::number::{percent, significant};
+use sweetspot::files::schema::document::{Format, Generator};
+use sweetspot::modes::mode::Mode;
+use sweetspot_study::identify::modes::{Identified, SharedMode, placed};
+use sweetspot_study::identify::set::{Place, ResponseSet};
+use sweetspot_study::identify::simulate::{ASSUMED_LOSS, Simulated};
+use sweetspot_study::tap::heard::Within;
+use sweetspot_tap::resonances::Damping;
+
+/// Below this phase collinearity a shape is reported.
+const WHIRLING: f64 = 0.9;
+
+/// A mode that moves less at a place, over its largest deflection, is hardly seen there.
+const DEAF: f64 = 0.1;
+/// A hammer whose force falls by more within the band (dB) is too soft.
+const WEAK: f64 = -20.0;
+
+/// A set of responses and its modes.
+pub struct IdentifyReport<'a> {
+    /// The responses.
+    pub set: &'a ResponseSet,
+    /// Their modes.
+    pub found: &'a Identified,
+    /// The virtual test that they are of, and the bat's name; None where they were measured.
+    pub simulated: Option<(&'a Simulated, &'a str)>,
+}
+
+impl IdentifyReport<'_> {
+    /// Responses, modes and words, 80 columns wide.
+    pub fn text(&self) -> [Piece; 3] {
+        let warnings: String = self.said().iter().map(|one| wrapped(&one.text, 2)).collect();
+        let assumed = self.set.assumed.iter().map(|said| wrapped(&format!("note: {said}"), 2));
+        let words = warnings + &assumed.collect::<String>();
+        let table = match self.simulated {
+            None => self.table(),
+            Some((test, _)) => self.planned_table(test),
+        };
+        [(0, "", self.head()), (1, "modes", table), (2, "words", words)]
+    }
+
+    fn head(&self) -> String {
+        let Identified { band: [low, high], damping, .. } = self.found;
+        let (count, points) = (self.set.responses.len(), self.set.points.len());
+        let places: Vec<String> = self.set.references.iter().map(|one| at(one.x)).collect();
+        let (places, roved, fixed) = (places.join(" and "), roved(self.set), self.set.fixed());
+        let plural = if count == 1 { "" } else { "s" };
+        let damped = match damping {
+            Damping::Material => "damped as by a loss factor",
+            Damping::Dashpots => "damped as by dashpots",
+        };
+        let [low, high] = [low, high].map(|f| significant(*f, 4));
+        wrapped(
+            &format!(
+                "{count} response{plural}, {low} to {high} Hz: {fixed} at {places}, {roved} at {points} place{}; {damped}",
+                if points == 1 { "" } else { "s" }
+            ),
+            2,
+        )
+    }
+
+    fn table(&self) -> String {
+        let columns = Columns::new([
+            first(20, "frequency"),
+            numbers(20, "damping ratio"),
+            numbers(9, "in phase"),
+            numbers(13, "modal mass"),
+            numbers(14, "stable from"),
+        ]);
+        let row = |mode: &SharedMode| {
+            columns.row([
+                frequency(&mode.frequency),
+                ratio(&mode.damping),
+                format!("{:.3}", mode.collinearity),
+                mode.modal_mass.map_or("-".to_owned(), |m| format!("{} kg", significant(m, 3))),
+                format!("{} of {}", mode.orders[0], mode.orders[1]),
+            ])
+        };
+        match self.found.modes.as_slice() {
+            [] => String::new(),
+            modes => columns.heads() + &modes.iter().map(row).collect::<String>(),
+        }
+    }
+
+    /// The bat's modes beside what the virtual test finds.
+    fn planned_table(&self, test: &Simulated) -> String {
+        let columns = Columns::new([
+            first(6, "mode"),
+            numbers(14, "the bat alone"),
+            numbers(14, "by the masses"),
+            numbers(26, "found, without them"),
+            numbers(10, "off"),
+            numbers(8, "MAC"),
+        ]);
+        let signed = |share: f64| format!("{:+.3} %", 100.0 * share).replace("-0.000", "+0.000");
+        let row = |(one, matched): (IdentifyPlanned, Option<(usize, f64)>)| {
+            let found = matched.map(|(k, _)| self.found.modes[k].frequency);
+            columns.row([
+                one.order.to_string(),
+                format!("{} Hz", significant(one.frequency_hz, 6)),
+                signed(one.by_masses),
+                found.map_or("missed".to_owned(), |within| frequency(&within)),
+                found.map_or(String::new(), |within| signed(within.value / one.frequency_hz - 1.0)),
+                one.mac.map_or(String::new(), |mac| format!("{mac:.3}")),
+            ])
+        };
+        let rows = self.planned(test).into_iter().zip(test.matched(self.found)).map(row);
+        columns.heads() + &rows.collect::<String>()
+    }
+
+    fn planned(&self, test: &Simulated) -> Vec<IdentifyPlanned> {
+        let matched = test.matched(self.found);
+        let one =
+            |((mode, loaded), matched): ((&Mode, &f64), Option<(usize, f64)>)| IdentifyPlanned {
+                order: mode.order,
+                frequency_hz: mode.frequency(),
+                by_masses: loaded / mode.frequency() - 1.0,
+                found_hz: matched.map(|(k, _)| self.found.modes[k].frequency.value),
+                mac: matched.map(|(_, mac)| mac),
+            };
+        test.modes.iter().zip(&test.loaded).zip(matched).map(one).collect()
+    }
+
+    /// Where to hang the bat and where the reference belongs.
+    fn advice(&self, test: &Simulated) -> Vec<IdentifySaid> {
+        let one = |code: &str, text: String| IdentifySaid { code: code.to_owned(), text };
+        let [hang, other] = test.hang().map(at);
+        let [place, least] = test.reference();
+        let fixed = self.set.fixed();
+        let mut all = vec![
+            one("hang", format!("Hang the bat at {hang} and {other}: the modes move least there.")),
+            one(
+                "reference",
+                format!(
+                    "Put the {fixed} at {}: every mode has {} of its largest deflection there, or more.",
+                    at(place),
+                    percent(least, 0)
+                ),
+            ),
+        ];
+        let own = self.set.references[0].x;
+        let deaf = test.modes.iter().filter(|mode| mode.shape.deflection(own).abs() < DEAF);
+        let deaf: Vec<String> = deaf.map(|mode| mode.order.to_string()).collect();
+        if !deaf.is_empty() {
+            let text =
+                format!("At {} the {fixed} is near a node of mode {}.", at(own), deaf.join(", "));
+            all.push(one("near_node", text));
+        }
+        if test.force_db < WEAK {
+            let text = format!(
+                "The hammer's force falls by {:.0} dB within the band: take a harder tip or a lighter hammer.",
+                -test.force_db
+            );
+            all.push(one("weak_force", text));
+        }
+        if test.assumed_loss {
+            let text = format!("The bat's materials have no loss factor: {ASSUMED_LOSS} is taken.");
+            all.push(one("loss_factor", text));
+        }
+        all
+    }
+
+    /// What is to be said.
+    pub fn said(&self) -> Vec<IdentifySaid> {
+        let (set, found) = (self.set, self.found);
+        let one = |code: &str, text: String| IdentifySaid { code: code.to_owned(), text };
+        let mut all = self.simulated.map_or(vec![], |(test, _)| self.advice(test));
+        if found.modes.is_empty() {
+            let text = "No mode stands out of the noise: is the band the one in which the bat rings, and is every \
+                        response of this bat?";
+            all.push(one("no_mode", text.to_owned()));
+            return all;
+        }
+        if set.points.len() < 3 {
+            let text = format!(
+                "{} point tells no shape: strike more places, three at least and two more than there are modes.",
+                set.points.len()
+            );
+            all.push(one("no_shape", text.replacen("2 point tells", "2 points tell", 1)));
+        }
+        if found.modes.iter().all(|mode| mode.modal_mass.is_none()) {
+            let text = "No modal masses: they need a response whose hammer and accelerometer are at one place.";
+            all.push(one("no_drive_point", text.to_owned()));
+        }
+        let whirls = found.modes.iter().filter(|mode| mode.collinearity < WHIRLING);
+        let list: Vec<String> = whirls.map(|mode| frequency(&mode.frequency)).collect();
+        if !list.is_empty() {
+            let text = format!(
+                "Not all points move in phase: {}. Two modes near each other do that.",
+                list.join(", ")
+            );
+            all.push(one("out_of_phase", text));
+        }
+        let lowered = found.modes.iter().filter_map(|mode| mode.lowered).fold(0.0, f64::min);
+        if lowered < 0.0 {
+            let most = percent(-lowered, 2);
+            let alone = set.hammer_roves && set.references.len() == 1;
+            let how = if alone { "" } else { ", to first order; the second is in the intervals" };
+            let text = format!(
+                "The accelerometers' masses lowered the frequencies by up to {most}; that is taken off{how}."
+            );
+            all.push(one("masses", text));
+        }
+        if !found.coherent {
+            let text =
+                "The noise is taken from the responses themselves, as there is no coherence.";
+            all.push(one("no_coherence", text.to_owned()));
+        }
+        if found.grids > 1 {
+            let text =
+                format!("The responses are over {} different grids of frequencies.", found.grids);
+            all.push(one("grids", text));
+        }
+        all
+    }
+
+    /// The `sweetspot-identify/1` document.
+    pub fn document(&self) -> IdentifyFile {
+        let (set, found) = (self.set, self.found);
+        let place = |place: &Place| IdentifyPlace { node: place.node, x_m: place.x };
+        let orders = found.orders.iter().map(|poles| poles.iter().map(|pole| pole.hz).collect());
+        IdentifyFile {
+            format: Format::new(),
+            generator: Generator::this(),
+            responses: set.responses.len(),
+            roved: roved(set).to_owned(),
+            references: set.references.iter().map(place).collect(),
+            band_hz: found.band,
+            damping: match found.damping {
+                Damping::Material => "material".to_owned(),
+                Damping::Dashpots => "dashpots".to_owned(),
+            },
+            modes: self.modes(),
+            orders_hz: orders.collect(),
+            simulated: self.simulated.map(|(test, bat)| IdentifySimulated {
+                bat: bat.to_owned(),
+                modes: self.planned(test),
+                hang_m: test.hang().to_vec(),
+                reference_m: test.reference()[0],
+                reference_least: test.reference()[1],
+                force_db: test.force_db,
+            }),
+            warnings: self.said(),
+        }
+    }
+
+    fn modes(&self) -> Vec<IdentifyMode> {
+        let point = |(place, value): (Place, faer::c64)| IdentifyPoint {
+            node: place.node,
+            x_m: place.x,
+            re: value.re,
+            im: value.im,
+        };
+        let one = |mode: &SharedMode| IdentifyMode {
+            frequency_hz: mode.frequency.value,
+            frequency_interval95_hz: mode.frequency.interval95,
+            damping_ratio: mode.damping.value,
+            damping_ratio_interval95: mode.damping.interval95,
+            phase_collinearity: mode.collinearity,
+            modal_mass_kg: mode.modal_mass,
+            found_from_order: mode.orders[0],
+            lowered: mode.lowered,
+            shape: placed(&self.set.points, &mode.shape).map(point).collect(),
+        };
+        self.found.modes.iter().map(one).collect()
+    }
+
+    /// The modes as CSV.
+    pub fn csv(&self) -> String {
+        csv::rows(&COLUMNS, &self.modes())
+    }
+}
+
+/// The columns of the modes in files.
+const COLUMNS: [Column<IdentifyMode>; 8] = [
+    Column::in_files("frequency_hz", |one| one.frequency_hz.into()),
+    Column::in_files("frequency_low95_hz", |one| one.frequency_interval95_hz[0].into()),
+    Column::in_files("frequency_high95_hz", |one| one.frequency_interval95_hz[1].into()),
+    Column::in_files("damping_ratio", |one| one.damping_ratio.into()),
+    Column::in_files("damping_ratio_low95", |one| one.damping_ratio_interval95[0].into()),
+    Column::in_files("damping_ratio_high95", |one| one.damping_ratio_interval95[1].into()),
+    Column::in_files("phase_collinearity", |one| one.phase_collinearity.into()),
+    Column::in_files("modal_mass_kg", |one| one.modal_mass_kg.into()),
+];
+
+fn roved(set: &ResponseSet) -> &'static str {
+    if set.hammer_roves { "hammer" } else { "accelerometers" }
+}
+
+fn at(x: f64) -> String {
+    format!("{} m", significant(x, 4))
+}
+
+/// A frequency with its 95 % interval.
+pub fn frequency(within: &Within) -> String {
+    let by = 0.5 * (within.interval95[1] - within.interval95[0]);
+    let decimals = (1 - by.max(1e-9).log10().floor() as i32).clamp(0, 4) as usize;
+    format!("{:.decimals$} Hz ± {by:.decimals$}", within.value)
+}
+
+fn ratio(within: &Within) -> String {
+    let by = 0.5 * (within.interval95[1] - within.interval95[0]) / within.value.max(1e-12);
+    format!("{} ± {} %", significant(within.value, 3), significant(100.0 * by, 1))
+}

@@ -1,0 +1,23 @@
+//! The coherence of a measured response: dataset 58, type 6.
+
+use uff58::{Dataset, Function, Universal, Values};
+
+/// Number of a coherence among the functions of dataset 58.
+const COHERENCE: i64 = 6;
+
+/// The coherence of the same force and answer over the same frequencies, the first `dropped` left out.
+pub fn of(universal: &Universal, response: &Function, dropped: usize) -> Option<Vec<f64>> {
+    let mut functions = universal.datasets.iter().filter_map(|dataset| match dataset {
+        Dataset::Function(function) if function.kind == COHERENCE => Some(&**function),
+        _ => None,
+    });
+    let nodes = |one: &Function| [one.response.node, one.reference.node];
+    let same = |other: &&Function| {
+        nodes(other) == nodes(response) && other.values.len() == response.values.len()
+    };
+    let values = match &functions.find(same)?.values {
+        Values::Real(values) => values.clone(),
+        Values::Complex(values) => values.iter().map(|[re, _]| *re).collect(),
+    };
+    values.iter().all(|v| (0.0..=1.001).contains(v)).then(|| values[dropped..].to_vec())
+}

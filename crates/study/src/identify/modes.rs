@@ -1,0 +1,332 @@
+//! The modes that responses share: one pole for all, a residue for each.
+//!
+//! Residues are `A_jk = φ_j φ_k/m`. Of one reference k they are the shape; of several the shape is that which
+//! explains all of them best, and the drive point gives the modal mass, `m = φ_k²/A_kk`.
+
+use std::f64::consts::TAU;
+
+use faer::c64;
+use sweetspot_tap::complex::Complex;
+use sweetspot_tap::fit::Pole;
+use sweetspot_tap::orders::Orders;
+use sweetspot_tap::resonances::{Damping, LOSSES, Projection, Responses, at, square};
+
+use crate::calibrate::calibration::NINETY_FIVE;
+use crate::identify::masses::{Masses, Unloaded};
+use crate::identify::set::{Place, ResponseSet};
+use crate::measured::mac::collinearity;
+use crate::tap::heard::Within;
+use sweetspot::base::error::Result;
+use sweetspot::motion::frf::ResponseKind;
+
+/// A mode that responses share.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SharedMode {
+    /// Undamped natural frequency (Hz).
+    pub frequency: Within,
+    /// Damping ratio, half the loss factor.
+    pub damping: Within,
+    /// Deflections at the points of the set, the largest of size 1, as nearly real as they can be, that nearest the
+    /// last point positive. None where no response is of that point.
+    pub shape: Vec<Option<c64>>,
+    /// Phase collinearity of the shape.
+    pub collinearity: f64,
+    /// Modal mass of that shape (kg); None without a drive point.
+    pub modal_mass: Option<f64>,
+    /// From how many poles on it was found with every number of them, of how many.
+    pub orders: [usize; 2],
+    /// By what the accelerometers' masses lower the frequency, relative; None where they were not told.
+    pub lowered: Option<f64>,
+}
+
+/// What a set of responses says.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Identified {
+    /// The modes, by rising frequency.
+    pub modes: Vec<SharedMode>,
+    /// How the bat is damped, as far as that can be told.
+    pub damping: Damping,
+    /// Poles with 1, 2, … of them.
+    pub orders: Vec<Vec<Pole>>,
+    /// Sum over the responses of |acceleration per force|², by frequency, of the first grid.
+    pub sum: Vec<[f64; 2]>,
+    /// Lowest and highest frequency (Hz).
+    pub band: [f64; 2],
+    /// How many different grids of frequencies there are.
+    pub grids: usize,
+    /// Whether the noise is known from coherence.
+    pub coherent: bool,
+}
+
+/// What is known of a test beside its responses.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct TestKnown {
+    /// Mass of an accelerometer (kg).
+    pub accelerometer: Option<f64>,
+    /// Time in which an exponential window falls to 1/e (s).
+    pub window: Option<f64>,
+}
+
+/// A frequency that is known no better than this, relative, is that of no mode: one beyond the band.
+const VAGUE: f64 = 0.005;
+/// A loss factor whose logarithm is known no better than this is that of no mode.
+const UNSURE: f64 = 0.35;
+/// Poles of two orders nearer than this, over the half-power width, are one.
+const STABLE: f64 = 0.5;
+
+/// Responses over one grid, and which of the set they are.
+struct Group {
+    which: Vec<usize>,
+    responses: Responses,
+}
+
+impl Identified {
+    /// The modes of a set.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`](sweetspot::Error::Value) for masses of accelerometers without a drive point.
+    pub fn of(set: &ResponseSet, known: &TestKnown) -> Result<Self> {
+        let masses = known.accelerometer.map(|mass| Masses::of(set, mass)).transpose()?;
+        let (groups, coherent) = groups(set);
+        let mut all: Vec<Responses> = groups.iter().map(|group| group.responses.clone()).collect();
+        let found = Orders::of(&mut all);
+        let ends = |f: fn(f64, f64) -> f64, hz: fn(&[f64]) -> f64| {
+            all.iter().map(|one| hz(&one.hz)).reduce(f).unwrap_or_default()
+        };
+        let band = [ends(f64::min, |hz| hz[0]), ends(f64::max, |hz| hz[hz.len() - 1])];
+        let first = &all[0];
+        let power = |l: usize| [first.hz[l], first.values.iter().map(|v| v[l].square()).sum()];
+        let sum = (0..first.hz.len()).map(power).collect();
+        let grids = all.len();
+        let Some(found) = found else {
+            let (modes, damping, orders) = (vec![], Damping::Material, vec![]);
+            return Ok(Self { modes, damping, orders, sum, band, grids, coherent });
+        };
+        let fitted = Fitted::new(set, &groups, all, &found);
+        let kept = (0..found.fit.poles.len()).filter(|p| is_mode(&found, *p, band));
+        let mut modes: Vec<SharedMode> =
+            kept.map(|p| fitted.mode(p, known, masses.as_ref())).collect();
+        modes.sort_by(|a, b| a.frequency.value.total_cmp(&b.frequency.value));
+        let (damping, orders) = (found.damping, found.orders);
+        Ok(Self { modes, damping, orders, sum, band, grids, coherent })
+    }
+}
+
+/// Whether a pole is a mode: it lowers the sum of squares by more than noise does, rings, is known and in the band.
+fn is_mode(found: &Orders, p: usize, [low, high]: [f64; 2]) -> bool {
+    let (pole, [hz, loss]) = (found.fit.poles[p], found.fit.deviations(p));
+    let rings = (3.0 * LOSSES[0]..0.5 * LOSSES[1]).contains(&pole.loss());
+    found.weights[p] > 1.0
+        && rings
+        && hz < VAGUE
+        && loss < UNSURE
+        && (low..=high).contains(&pole.hz)
+}
+
+/// Responses by their grids, and whether their noise is known from coherence.
+fn groups(set: &ResponseSet) -> (Vec<Group>, bool) {
+    let mut grids: Vec<(Vec<f64>, Vec<usize>)> = vec![];
+    for (k, one) in set.responses.iter().enumerate() {
+        let hz: Vec<f64> = one.measured.values.iter().map(|(f, _)| *f).collect();
+        match grids.iter_mut().find(|(other, _)| *other == hz) {
+            Some((_, which)) => which.push(k),
+            None => grids.push((hz, vec![k])),
+        }
+    }
+    let coherent = set.responses.iter().all(|one| one.measured.coherence.is_some());
+    let group = |(hz, which): (Vec<f64>, Vec<usize>)| {
+        let values = which.iter().map(|k| accelerance(set, *k)).collect::<Vec<_>>();
+        let noise = coherent.then(|| by_coherence(set, &which, &values)).flatten();
+        Group { which, responses: Responses::new(hz, values, noise) }
+    };
+    (grids.into_iter().map(group).collect(), coherent)
+}
+
+/// A response as acceleration per force.
+fn accelerance(set: &ResponseSet, k: usize) -> Vec<Complex> {
+    let one = &set.responses[k].measured;
+    let turned = |(f, value): &(f64, c64)| {
+        let value = value * ResponseKind::Accelerance.of(*f) / one.kind.of(*f);
+        Complex::new(value.re, value.im)
+    };
+    one.values.iter().map(turned).collect()
+}
+
+/// Noise of lines, `|H| √(1/γ² − 1)` in the mean over the responses; None where coherence tells nothing.
+fn by_coherence(set: &ResponseSet, which: &[usize], values: &[Vec<Complex>]) -> Option<Vec<f64>> {
+    let lines = values[0].len();
+    let mut noise = vec![0.0; lines];
+    for (k, values) in which.iter().zip(values) {
+        let coherence = set.responses[*k].measured.coherence.as_ref()?;
+        let own = |l: usize| values[l].square() * (1.0 / coherence[l].clamp(1e-3, 1.0) - 1.0);
+        let mean = (0..lines).map(own).sum::<f64>() / lines as f64;
+        (0..lines).for_each(|l| noise[l] += own(l) / mean.max(1e-300));
+    }
+    let mean = noise.iter().sum::<f64>() / lines as f64;
+    (mean > 0.0).then(|| noise.iter().map(|n| (n / mean).max(1e-3).sqrt()).collect())
+}
+
+/// Poles with the residues of every response.
+pub(super) struct Fitted<'a> {
+    /// The set.
+    pub set: &'a ResponseSet,
+    groups: &'a [Group],
+    all: Vec<Responses>,
+    projections: Vec<Projection>,
+    found: &'a Orders,
+}
+
+impl<'a> Fitted<'a> {
+    fn new(
+        set: &'a ResponseSet,
+        groups: &'a [Group],
+        all: Vec<Responses>,
+        found: &'a Orders,
+    ) -> Self {
+        let project = |one: &Responses| Projection::new(one, &found.fit.poles, found.damping);
+        let projections = all.iter().map(project).collect();
+        Self { set, groups, all, projections, found }
+    }
+
+    /// The poles.
+    pub fn poles(&self) -> &[Pole] {
+        &self.found.fit.poles
+    }
+
+    /// Where response `k` of the set is: its group, and its place in it.
+    fn place(&self, k: usize) -> (usize, usize) {
+        let at = |group: &Group| group.which.iter().position(|which| *which == k);
+        let place = self.groups.iter().enumerate().find_map(|(g, group)| Some((g, at(group)?)));
+        place.expect("every response is in a group")
+    }
+
+    /// Residue (1/kg) of response `k` at pole `p`.
+    pub fn residue(&self, k: usize, p: usize) -> Complex {
+        let (g, j) = self.place(k);
+        self.projections[g].residue_of(&self.all[g], j, p)
+    }
+
+    /// Response `k` (1/kg) at a complex square of the frequency, pole `without` left out.
+    pub fn at(&self, k: usize, without: Option<usize>, z: Complex) -> Complex {
+        let (g, j) = self.place(k);
+        self.projections[g].at(&self.all[g], j, (self.poles(), without), z)
+    }
+
+    fn mode(&self, p: usize, known: &TestKnown, masses: Option<&Masses>) -> SharedMode {
+        let pole = self.poles()[p];
+        let unloaded = masses.map(|masses| masses.without(self, p));
+        let loaded = || {
+            let residue = |k: usize| self.residue(k, p);
+            Unloaded { pole, residues: (0..self.set.responses.len()).map(residue).collect() }
+        };
+        let Unloaded { pole: free, residues } = unloaded.unwrap_or_else(loaded);
+        let (shape, modal_mass) = shape(self.set, &residues);
+        let still = without_window(free, known.window);
+        let [hz, loss] = self.found.fit.deviations(p).map(|deviation| NINETY_FIVE * deviation);
+        // The first order of several masses leaves one of the size of its square.
+        let lowered = masses.map(|_| pole.hz / free.hz - 1.0);
+        let second = masses.filter(|masses| !masses.alone).and(lowered).unwrap_or(0.0).powi(2);
+        let hz = hz.hypot(1.5 * second);
+        let hz = [-hz, hz].map(|by| still.hz * (1.0 + by));
+        let damping = |loss: f64| 0.5 * (loss - free.loss() + still.loss()).max(0.0);
+        let ratios = [-loss, loss].map(|by| damping(free.loss() * by.exp()));
+        let values: Vec<c64> = shape.iter().flatten().copied().collect();
+        SharedMode {
+            frequency: Within { value: still.hz, interval95: hz },
+            damping: Within { value: damping(free.loss()), interval95: ratios },
+            collinearity: collinearity(&values),
+            shape,
+            modal_mass,
+            orders: self.stable(pole),
+            lowered,
+        }
+    }
+
+    /// From how many poles on this one is there with every number of them, and how many there are.
+    fn stable(&self, pole: Pole) -> [usize; 2] {
+        let orders = &self.found.orders;
+        let near = |other: &Pole| (other.hz - pole.hz).abs() < STABLE * pole.loss() * pole.hz;
+        let with = orders.iter().rev().take_while(|poles| poles.iter().any(near)).count();
+        [(orders.len() + 1 - with).min(orders.len()), orders.len()]
+    }
+}
+
+/// The pole without an exponential window, which takes `i/(2πτ)` off the complex frequency `f √(1 + iη)`.
+fn without_window(pole: Pole, window: Option<f64>) -> Pole {
+    let Some(tau) = window else { return pole };
+    let moved = square(pole).sqrt() - Complex::new(0.0, 1.0 / (TAU * tau));
+    at(moved * moved)
+}
+
+/// The shape that explains the residues of every response best, and its modal mass.
+fn shape(set: &ResponseSet, residues: &[Complex]) -> (Vec<Option<c64>>, Option<f64>) {
+    let value = |k: usize| c64::new(residues[k].re, residues[k].im);
+    let of = |reference: usize, point: usize| -> Vec<c64> {
+        let own = |k: &usize| {
+            (set.responses[*k].reference, set.responses[*k].point) == (reference, point)
+        };
+        (0..residues.len()).filter(own).map(value).collect()
+    };
+    let none = c64::new(0.0, 0.0);
+    let mean = |all: Vec<c64>| match all.len() {
+        0 => None,
+        count => Some(all.iter().fold(none, |sum, v| sum + v) / count as f64),
+    };
+    let points = 0..set.points.len();
+    let rows: Vec<Vec<Option<c64>>> = (0..set.references.len())
+        .map(|reference| points.clone().map(|point| mean(of(reference, point))).collect())
+        .collect();
+    let size = |row: &Vec<Option<c64>>| row.iter().flatten().map(|v| v.norm_sqr()).sum::<f64>();
+    let Some(main) = rows.iter().max_by(|a, b| size(a).total_cmp(&size(b))) else {
+        return (vec![], None);
+    };
+    // Every reference's deflection over that of the main one.
+    let share = |row: &Vec<Option<c64>>| {
+        let both = || row.iter().zip(main).filter_map(|(a, b)| Some(((*a)?, (*b)?)));
+        let common = both().fold(none, |sum, (a, b)| sum + b.conj() * a);
+        common / both().map(|(_, b)| b.norm_sqr()).sum::<f64>().max(f64::MIN_POSITIVE)
+    };
+    let shares: Vec<c64> = rows.iter().map(share).collect();
+    let at = |point: usize| {
+        let there =
+            || rows.iter().zip(&shares).filter_map(|(row, share)| Some((row[point]?, share)));
+        let weight: f64 = there().map(|(_, share)| share.norm_sqr()).sum();
+        let sum = there().fold(none, |sum, (value, share)| sum + share.conj() * value);
+        (weight > 0.0).then(|| sum / weight)
+    };
+    scaled(set, points.map(at).collect(), value)
+}
+
+/// A shape turned to be as nearly real as it can be, its largest deflection 1, and its modal mass.
+fn scaled(
+    set: &ResponseSet,
+    shape: Vec<Option<c64>>,
+    residue: impl Fn(usize) -> c64,
+) -> (Vec<Option<c64>>, Option<f64>) {
+    let sum = shape.iter().flatten().fold(c64::new(0.0, 0.0), |sum, v| sum + v * v);
+    let turn = c64::from_polar(1.0, -0.5 * sum.arg());
+    let largest = shape.iter().flatten().map(|v| v.norm()).fold(f64::MIN_POSITIVE, f64::max);
+    let last = shape.iter().rev().flatten().find(|v| v.norm() > 0.05 * largest);
+    let sign = last.map_or(1.0, |v| (v * turn).re.signum());
+    let shape: Vec<Option<c64>> =
+        shape.into_iter().map(|v| v.map(|v| v * turn * (sign / largest))).collect();
+    let mass = |reference: usize| {
+        let drive = set.drive(reference)?;
+        let phi = shape[set.responses[drive].point]?;
+        let residue = residue(drive);
+        // A drive point near a node tells no mass.
+        (phi.norm() > 0.05 && residue.norm() > 0.0).then(|| (phi.norm(), (phi * phi / residue).re))
+    };
+    let known = (0..set.references.len()).filter_map(mass);
+    let best = known.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, mass)| mass);
+    (shape, best.filter(|mass| *mass > 0.0))
+}
+
+/// Places of the points that have a value, with it.
+pub fn placed<'a>(
+    points: &'a [Place],
+    shape: &'a [Option<c64>],
+) -> impl Iterator<Item = (Place, c64)> + 'a {
+    points.iter().zip(shape).filter_map(|(place, value)| Some((*place, (*value)?)))
+}

@@ -1,0 +1,233 @@
+//! How many resonances do responses share, and which?
+//!
+//! One more at a time: that which would lower the weighed sum of squares most, among the places where most is left and
+//! the flanks of those that are there; then all are fitted together. It ends where the next would lower the sum by no
+//! more than noise does. What was found with every number of poles tells which are stable.
+
+use crate::fit::Pole;
+use crate::resonances::{Damping, Projection, Responses, Shared, shared};
+
+/// Poles that were sought in responses.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Orders {
+    /// How the body is damped, by the smaller sum of squares.
+    pub damping: Damping,
+    /// The poles with 1, 2, … of them.
+    pub orders: Vec<Vec<Pole>>,
+    /// The last of them.
+    pub fit: Shared,
+    /// By how much every pole lowers the sum of squares, over what noise would.
+    pub weights: Vec<f64>,
+}
+
+/// Poles at most.
+const MOST: usize = 40;
+/// Places that are tried for the next pole, and how many of them are fitted.
+const PLACES: usize = 14;
+const TRIES: usize = 12;
+/// Loss factors with which they are tried.
+const TRIED: [f64; 6] = [0.0015, 0.004, 0.01, 0.02, 0.04, 0.1];
+/// A pole of another place is tried so far from one that is there, over its loss factor.
+const FLANK: f64 = 0.4;
+/// By how much dashpots must lower the sum of squares to be taken in place of the material.
+const DOUBT: f64 = 12.0;
+/// Beyond the band a pole may stand for modes that are there, so far (of the band's end).
+const BEYOND: f64 = 0.12;
+
+/// By how much a pole lowers the sum of squares of noise, at most: a Gamma variable of as many complex numbers as there
+/// are responses, the largest of a few hundred.
+fn by_chance(responses: usize) -> f64 {
+    let count = responses as f64 + 1.0;
+    count + 6.0 * count.sqrt() + 16.0
+}
+
+/// Whether two poles are so near that they are one, which moved a little between responses.
+fn has_echo(poles: &[Pole]) -> bool {
+    /// Over the half-power width of the wider one; twins that can be told apart are farther off.
+    const NEAR: f64 = 0.1;
+    let near = |a: &Pole, b: &Pole| {
+        (a.hz - b.hz).abs() < NEAR * f64::max(a.hz * a.loss(), b.hz * b.loss())
+    };
+    poles.iter().enumerate().any(|(k, a)| poles[..k].iter().any(|b| near(a, b)))
+}
+
+impl Orders {
+    /// Seeks the poles of responses, each kind of damping by itself. None where there are none.
+    pub fn of(all: &mut [Responses]) -> Option<Self> {
+        let count: usize = all.iter().map(|one| one.values.len()).sum();
+        let mut best = Self::damped(all, Damping::Material)?;
+        // What the same poles leave tells whether it is worth while to seek them as of dashpots.
+        let as_dashpots = shared(all, &best.fit.poles, Damping::Dashpots);
+        if as_dashpots.is_some_and(|fit| fit.square + DOUBT < best.fit.square) {
+            let cost = |one: &Self| one.fit.square + by_chance(count) * one.fit.poles.len() as f64;
+            let other = Self::damped(all, Damping::Dashpots);
+            best = other.filter(|other| cost(other) < cost(&best)).unwrap_or(best);
+        }
+        // Noise is now what the poles leave.
+        for one in all.iter_mut() {
+            let at = Projection::new(one, &best.fit.poles, best.damping);
+            one.weigh_left(&at.left);
+        }
+        if let Some(fit) = shared(all, &best.fit.poles, best.damping) {
+            best.fit = fit;
+        }
+        best.weights = best.weighed(all, count);
+        Some(best)
+    }
+
+    fn damped(all: &[Responses], damping: Damping) -> Option<Self> {
+        let count: usize = all.iter().map(|one| one.values.len()).sum();
+        let mut fit: Option<Shared> = None;
+        let mut orders = vec![];
+        while orders.len() < MOST {
+            let poles = fit.as_ref().map_or(vec![], |fit| fit.poles.clone());
+            let here: Vec<Projection> =
+                all.iter().map(|one| Projection::new(one, &poles, damping)).collect();
+            let square: f64 = here.iter().map(Projection::square).sum();
+            let next = candidates(all, &here, &poles, damping).into_iter().take(TRIES);
+            let enough = |(pole, gain): (Pole, f64)| {
+                let with: Vec<Pole> = poles.iter().copied().chain([pole]).collect();
+                let fit =
+                    (gain > 0.5 * by_chance(count)).then(|| shared(all, &with, damping))??;
+                (square - fit.square > by_chance(count) && !has_echo(&fit.poles)).then_some(fit)
+            };
+            let Some(found) = next.into_iter().find_map(enough) else { break };
+            orders.push(found.poles.clone());
+            fit = Some(found);
+        }
+        Some(Self { damping, orders, fit: fit?, weights: vec![] })
+    }
+
+    /// By how much every pole lowers the sum of squares.
+    fn weighed(&self, all: &[Responses], count: usize) -> Vec<f64> {
+        let without = |p: usize| {
+            let mut poles = self.fit.poles.clone();
+            poles.remove(p);
+            let each = all.iter().map(|one| Projection::new(one, &poles, self.damping).square());
+            (each.sum::<f64>() - self.fit.square) / by_chance(count)
+        };
+        (0..self.fit.poles.len()).map(without).collect()
+    }
+}
+
+/// Poles that may come next, with by how much they would lower the sum of squares, the best first.
+fn candidates(
+    all: &[Responses],
+    here: &[Projection],
+    poles: &[Pole],
+    damping: Damping,
+) -> Vec<(Pole, f64)> {
+    let flanks = poles.iter().flat_map(|pole| {
+        let loss = pole.loss();
+        [-FLANK, FLANK].map(|side| (pole.hz * (1.0 + side * loss), Some(loss)))
+    });
+    let ends = all.iter().filter_map(|one| one.hz.last());
+    let beyond = ends.map(|hz| (hz * (1.0 + BEYOND), Some(0.02)));
+    let places = all.iter().zip(here).flat_map(|(of, at)| most_left(of, at));
+    let places = places.map(|hz| (hz, None)).chain(flanks).chain(beyond);
+    let with = |(hz, loss): (f64, Option<f64>)| {
+        let losses = loss.map_or(TRIED.to_vec(), |loss| vec![loss, 0.5 * loss]);
+        let gain = |loss: f64| {
+            let pole = Pole::of(hz, loss);
+            (pole, all.iter().zip(here).map(|(of, at)| at.gain(of, pole, damping)).sum::<f64>())
+        };
+        losses.into_iter().map(gain).max_by(|a, b| a.1.total_cmp(&b.1))
+    };
+    let mut found: Vec<(Pole, f64)> = places.filter_map(with).collect();
+    found.sort_by(|a, b| b.1.total_cmp(&a.1));
+    found
+}
+
+/// The frequencies at which most is left, each the largest within its surroundings.
+fn most_left(of: &Responses, at: &Projection) -> Vec<f64> {
+    let lines = of.hz.len();
+    let power = |l: usize| at.left.iter().map(|left| left[l].square()).sum::<f64>();
+    let powers: Vec<f64> = (0..lines).map(power).collect();
+    let smooth = |l: usize| {
+        let part = &powers[l.saturating_sub(1)..(l + 2).min(lines)];
+        part.iter().sum::<f64>() / part.len() as f64
+    };
+    let smooth: Vec<f64> = (0..lines).map(smooth).collect();
+    let near = (lines / 200).max(2);
+    let top = |l: &usize| {
+        let part = &smooth[l.saturating_sub(near)..(l + near + 1).min(lines)];
+        part.iter().all(|other| *other <= smooth[*l])
+    };
+    let mut tops: Vec<usize> = (0..lines).filter(top).collect();
+    tops.sort_by(|a, b| smooth[*b].total_cmp(&smooth[*a]));
+    tops.truncate(PLACES);
+    tops.into_iter().map(|l| of.hz[l]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::complex::Complex;
+    use std::f64::consts::TAU;
+
+    /// Accelerances per force on lines 0.5 Hz apart from 50 to 1200 Hz, with noise of that size.
+    fn responses(
+        poles: &[Pole],
+        residues: &[Vec<f64>],
+        damping: Damping,
+        noise: f64,
+        mut state: u64,
+    ) -> Responses {
+        let hz: Vec<f64> = (100..2400).map(|l| 0.5 * f64::from(l)).collect();
+        let mut uniform = || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            ((state >> 33) as f64 + 0.5) / (1_u64 << 31) as f64
+        };
+        let mut at = |residues: &Vec<f64>, f: f64| {
+            let size = noise * (-uniform().ln()).sqrt();
+            let start = Complex::new(0.7, 0.0) + Complex::turn(TAU * uniform()) * size;
+            poles.iter().zip(residues).fold(start, |sum, (pole, a)| {
+                let by = if damping == Damping::Material { pole.hz } else { f };
+                let below = Complex::new(pole.hz.powi(2) - f * f, pole.loss() * pole.hz * by);
+                sum - Complex::new(a * f * f, 0.0) / below
+            })
+        };
+        let values = residues.iter().map(|a| hz.iter().map(|f| at(a, *f)).collect()).collect();
+        Responses::new(hz.clone(), values, None)
+    }
+
+    /// Twins 1 % apart and two more, of which no response has all; and none in noise alone.
+    #[test]
+    fn as_many_poles_are_found_as_there_are() {
+        let truth = [
+            Pole::of(171.3, 0.006),
+            Pole::of(583.2, 0.011),
+            Pole::of(589.1, 0.01),
+            Pole::of(1010.0, 0.02),
+        ];
+        let residues = [
+            vec![2.0, -1.5, 0.7, 0.0],
+            vec![0.0, 1.0, 1.1, 0.4],
+            vec![0.9, 0.3, -2.0, -1.0],
+            vec![-1.1, 0.0, 0.5, 0.6],
+        ];
+        for damping in [Damping::Material, Damping::Dashpots] {
+            let mut all = [responses(&truth, &residues, damping, 0.3, 5)];
+            let found = Orders::of(&mut all).unwrap();
+            assert_eq!((found.fit.poles.len(), found.orders.len()), (4, 4), "{found:?}");
+            let mut poles = found.fit.poles.clone();
+            poles.sort_by(|a, b| a.hz.total_cmp(&b.hz));
+            for (pole, truth) in poles.iter().zip(truth) {
+                assert!((pole.hz / truth.hz - 1.0).abs() < 5e-4, "{pole:?}");
+                assert!((pole.loss() / truth.loss() - 1.0).abs() < 0.1, "{pole:?}");
+            }
+            assert!(found.weights.iter().all(|weight| *weight > 1.0), "{found:?}");
+        }
+        // A pole that moves by 0.002 % between two groups of responses, as with another mass on the body, is one.
+        let mut moved = truth;
+        moved.iter_mut().for_each(|pole| *pole = Pole::of(1.00002 * pole.hz, pole.loss()));
+        let two = [(&truth, 7), (&moved, 8)];
+        let mut all =
+            two.map(|(poles, seed)| responses(poles, &residues, Damping::Material, 1e-4, seed));
+        assert_eq!(Orders::of(&mut all).unwrap().fit.poles.len(), 4);
+        let none = vec![vec![]; 4];
+        assert_eq!(Orders::of(&mut [responses(&[], &none, Damping::Material, 0.3, 6)]), None);
+    }
+}
