@@ -117,7 +117,8 @@ written! {
         }
         let is_there = |key: &'static str| of.object.get(key).is_some();
         let lacks = if is_there("cycles") { ("no \"ratio\"", RATIO) } else { ("no \"cycles\"", CYCLES) };
-        if !is_there("loss_factor") && !(is_there("cycles") && is_there("ratio")) {
+        let counted = is_there("cycles") && is_there("ratio");
+        if !(counted || is_there("loss_factor")) {
             let expected = format!("{}, or {LOSS}", lacks.1);
             of.mistakes.add(of.object.node.error(lacks.0, &*expected));
         }
