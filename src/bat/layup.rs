@@ -220,9 +220,8 @@ impl Layup {
         unfilled(&self.outer, self.core.as_ref())
     }
 
-    /// The loss factors of the section in bending and in shear: those of the layers, each weighted
-    /// with its share of the stiffness, for all layers have one curvature and one shear strain.
-    /// The layers share the strain energy in the proportion of their stiffness.
+    /// The loss factors of the section in bending and in shear: those of the layers, each weighted with its share of the
+    /// stiffness, which is that of the strain energy, for all layers have one curvature and one shear strain.
     ///
     /// # Source
     ///
@@ -236,19 +235,17 @@ impl Layup {
         let wall = self.wall(section);
         let [outer, core] = self.shears(wall);
         let inside = |core: &Material| core.youngs_modulus * wall.bore().second_moment();
-        let own = self.outer.youngs_modulus * wall.second_moment();
-        let bent = [own, self.core.as_ref().map_or(0.0, inside)].into_iter();
-        let bent =
-            bent.chain(self.rings(wall).map(|(m, ring)| m.youngs_modulus * ring.second_moment()));
-        let sheared = [outer, core].into_iter().chain(self.shears_of_sleeves(wall));
-        let of_core = self.core.as_ref().map_or([0.0; 2], Material::losses);
-        let of_sleeves = self.sleeves.iter().map(|sleeve| sleeve.material.losses());
-        let losses = [of_wall, of_core].into_iter().chain(of_sleeves);
+        let bent = self.parts(wall).map(|(m, ring)| m.youngs_modulus * ring.second_moment());
+        let bent = bent.chain(self.core.as_ref().map(inside));
+        let sheared = std::iter::once(outer).chain(self.shears_of_sleeves(wall)).chain([core]);
+        let losses = self.parts(wall).map(|(material, _)| material.losses());
+        let losses: Vec<[f64; 2]> =
+            losses.chain(self.core.as_ref().map(Material::losses)).collect();
         let mean = |strain: usize, stiff: Vec<f64>| {
             // Of two that do not give way in shear neither has a share.
             let finite = stiff.iter().all(|k| k.is_finite());
             let whole: f64 = stiff.iter().sum();
-            let parts = losses.clone().zip(&stiff).map(|(loss, k)| loss[strain] * k / whole);
+            let parts = losses.iter().zip(&stiff).map(|(loss, k)| loss[strain] * k / whole);
             if finite { parts.sum() } else { of_wall[strain] }
         };
         [mean(0, bent.collect()), mean(1, sheared.collect())]

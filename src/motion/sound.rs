@@ -46,11 +46,8 @@ pub struct Sound {
     pub loudest_m_s2: f64,
 }
 
-/// Loss factor in a sound of a material of which none is known, as of wood. Nothing but the sound uses it.
-///
-/// # Source
-///
-/// Of wood along the grain 0.005 to 0.015: T. Ono, M. Norimoto, Jpn. J. Appl. Phys. 22 (1983) 611, as quoted.
+/// Loss factor in a sound, and there alone, of a material of which none is known. Source: wood along the grain has 0.005
+/// to 0.015, T. Ono, M. Norimoto, Jpn. J. Appl. Phys. 22 (1983) 611, as quoted.
 pub const ASSUMED_LOSS: f64 = 0.01;
 /// How long a tap with something hard and light pushes (s); chosen so that the first three or four
 /// modes of a bat are heard, as they are where a bat is tapped.
@@ -144,8 +141,7 @@ impl Sound {
 
     /// The sound at time `t` (s), in m/s².
     pub fn at(&self, t: f64) -> f64 {
-        let tone = |tone: &Tone| {
-            let Tone { frequency_hz, decay_1_s, amplitude_m_s2 } = *tone;
+        let tone = |Tone { frequency_hz, decay_1_s, amplitude_m_s2 }: &Tone| {
             amplitude_m_s2 * (-decay_1_s * t).exp() * (2.0 * PI * frequency_hz * t).sin()
         };
         self.tones.iter().map(tone).sum()
@@ -176,11 +172,8 @@ impl Sound {
 }
 
 /// The accelerations (m/s²) of all modes where a blow of that impulse (N s) and duration (s) struck.
-fn bending(
-    solution: &Solution,
-    x: f64,
-    [impulse, duration]: [f64; 2],
-) -> impl Iterator<Item = f64> {
+fn bending(solution: &Solution, x: f64, blow: [f64; 2]) -> impl Iterator<Item = f64> {
+    let [impulse, duration] = blow;
     solution.modes.iter().map(move |mode| {
         let shape = mode.shape.deflection(x);
         impulse * shape * shape * mode.omega * half_sine(mode.omega * duration) / mode.modal_mass
