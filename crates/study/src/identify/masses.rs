@@ -18,7 +18,7 @@ use sweetspot_tap::complex::Complex;
 use sweetspot_tap::fit::Pole;
 use sweetspot_tap::resonances::{at, square};
 
-use crate::identify::modes::Fitted;
+use crate::identify::fitted::Fitted;
 use crate::identify::set::ResponseSet;
 use sweetspot::base::error::{Error, Result};
 

@@ -9,9 +9,10 @@ use faer::c64;
 use sweetspot_tap::complex::Complex;
 use sweetspot_tap::fit::Pole;
 use sweetspot_tap::orders::Orders;
-use sweetspot_tap::resonances::{Damping, LOSSES, Projection, Responses, at, square};
+use sweetspot_tap::resonances::{Damping, LOSSES, Responses, at, square};
 
 use crate::calibrate::calibration::NINETY_FIVE;
+use crate::identify::fitted::{Fitted, Group};
 use crate::identify::masses::{Masses, Unloaded};
 use crate::identify::set::{Place, ResponseSet};
 use crate::measured::mac::collinearity;
@@ -73,12 +74,6 @@ const VAGUE: f64 = 0.005;
 const UNSURE: f64 = 0.35;
 /// Poles of two orders nearer than this, over the half-power width, are one.
 const STABLE: f64 = 0.5;
-
-/// Responses over one grid, and which of the set they are.
-struct Group {
-    which: Vec<usize>,
-    responses: Responses,
-}
 
 impl Identified {
     /// The modes of a set.
@@ -167,52 +162,7 @@ fn by_coherence(set: &ResponseSet, which: &[usize], values: &[Vec<Complex>]) -> 
     (mean > 0.0).then(|| noise.iter().map(|n| (n / mean).max(1e-3).sqrt()).collect())
 }
 
-/// Poles with the residues of every response.
-pub(super) struct Fitted<'a> {
-    /// The set.
-    pub set: &'a ResponseSet,
-    groups: &'a [Group],
-    all: Vec<Responses>,
-    projections: Vec<Projection>,
-    found: &'a Orders,
-}
-
-impl<'a> Fitted<'a> {
-    fn new(
-        set: &'a ResponseSet,
-        groups: &'a [Group],
-        all: Vec<Responses>,
-        found: &'a Orders,
-    ) -> Self {
-        let project = |one: &Responses| Projection::new(one, &found.fit.poles, found.damping);
-        let projections = all.iter().map(project).collect();
-        Self { set, groups, all, projections, found }
-    }
-
-    /// The poles.
-    pub fn poles(&self) -> &[Pole] {
-        &self.found.fit.poles
-    }
-
-    /// Where response `k` of the set is: its group, and its place in it.
-    fn place(&self, k: usize) -> (usize, usize) {
-        let at = |group: &Group| group.which.iter().position(|which| *which == k);
-        let place = self.groups.iter().enumerate().find_map(|(g, group)| Some((g, at(group)?)));
-        place.expect("every response is in a group")
-    }
-
-    /// Residue (1/kg) of response `k` at pole `p`.
-    pub fn residue(&self, k: usize, p: usize) -> Complex {
-        let (g, j) = self.place(k);
-        self.projections[g].residue_of(&self.all[g], j, p)
-    }
-
-    /// Response `k` (1/kg) at a complex square of the frequency, pole `without` left out.
-    pub fn at(&self, k: usize, without: Option<usize>, z: Complex) -> Complex {
-        let (g, j) = self.place(k);
-        self.projections[g].at(&self.all[g], j, (self.poles(), without), z)
-    }
-
+impl Fitted<'_> {
     fn mode(&self, p: usize, known: &TestKnown, masses: Option<&Masses>) -> SharedMode {
         let pole = self.poles()[p];
         let unloaded = masses.map(|masses| masses.without(self, p));

@@ -1,0 +1,65 @@
+//! Poles that were found, with the residues of every response of a set.
+
+use sweetspot_tap::complex::Complex;
+use sweetspot_tap::fit::Pole;
+use sweetspot_tap::orders::Orders;
+use sweetspot_tap::resonances::{Projection, Responses};
+
+use crate::identify::set::ResponseSet;
+
+/// Responses over one grid, and which of the set they are.
+pub(super) struct Group {
+    /// Their places in the set.
+    pub which: Vec<usize>,
+    /// The responses.
+    pub responses: Responses,
+}
+
+/// Poles with the residues of every response.
+pub(super) struct Fitted<'a> {
+    /// The set.
+    pub set: &'a ResponseSet,
+    groups: &'a [Group],
+    all: Vec<Responses>,
+    projections: Vec<Projection>,
+    /// The poles, and with how many of them each was found.
+    pub found: &'a Orders,
+}
+
+impl<'a> Fitted<'a> {
+    /// The residues at the poles that were found.
+    pub fn new(
+        set: &'a ResponseSet,
+        groups: &'a [Group],
+        all: Vec<Responses>,
+        found: &'a Orders,
+    ) -> Self {
+        let project = |one: &Responses| Projection::new(one, &found.fit.poles, found.damping);
+        let projections = all.iter().map(project).collect();
+        Self { set, groups, all, projections, found }
+    }
+
+    /// The poles.
+    pub fn poles(&self) -> &[Pole] {
+        &self.found.fit.poles
+    }
+
+    /// Where response `k` of the set is: its group, and its place in it.
+    fn place(&self, k: usize) -> (usize, usize) {
+        let at = |group: &Group| group.which.iter().position(|which| *which == k);
+        let place = self.groups.iter().enumerate().find_map(|(g, group)| Some((g, at(group)?)));
+        place.expect("every response is in a group")
+    }
+
+    /// Residue (1/kg) of response `k` at pole `p`.
+    pub fn residue(&self, k: usize, p: usize) -> Complex {
+        let (g, j) = self.place(k);
+        self.projections[g].residue_of(&self.all[g], j, p)
+    }
+
+    /// Response `k` (1/kg) at a complex square of the frequency, pole `without` left out.
+    pub fn at(&self, k: usize, without: Option<usize>, z: Complex) -> Complex {
+        let (g, j) = self.place(k);
+        self.projections[g].at(&self.all[g], j, (self.poles(), without), z)
+    }
+}
