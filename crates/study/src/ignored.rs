@@ -105,7 +105,7 @@ pub fn damping_in_sound(bat: &Bat) -> Option<String> {
     let mut taken: Vec<(bool, f64)> = (materials().filter(|material| !material.lossy()))
         .map(|m| (m.published_loss().is_some(), m.published_loss().unwrap_or(ASSUMED_LOSS)))
         .collect();
-    taken.sort_by(|a, b| b.0.cmp(&a.0));
+    taken.sort_by_key(|(published, _)| !published);
     taken.dedup();
     let told = |(published, loss): &(bool, f64)| match published {
         true => format!("{loss} for the metal, which is published of aluminium"),
