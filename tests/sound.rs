@@ -137,7 +137,9 @@ fn assumed_damping_is_that_of_a_metal_and_is_named_and_wood_has_none() {
     };
     let [plain, assumed] = [modes(&[]), modes(&["--damping", "assumed"])];
     let ratio = |told: &Value| told["modes"][0]["damping_ratio"].as_f64().unwrap();
-    assert_eq!([ratio(&plain), ratio(&assumed)], [0.0, 0.5e-4]);
+    // Half the loss factor, but for what the plug of plastic has of the strain energy.
+    assert_eq!(ratio(&plain), 0.0);
+    assert!((0.99 * 0.5e-4..0.5e-4).contains(&ratio(&assumed)), "{}", ratio(&assumed));
     let named = |told: &Value| told["model"]["ignored"].to_string().contains("0.0001 of the metal");
     assert!(!named(&plain) && named(&assumed));
     let output = folder.run(&["modes", &wood, "--damping", "assumed"]);

@@ -270,7 +270,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let found = Identified::of(&set, &test)?;
     let about = simulated.as_ref().map(|(one, bat)| (one, bat.name()));
     let report = IdentifyReport { set: &set, found: &found, simulated: about };
-    let table = args.said.screen(LINES, |_| report.text());
+    let table = args.said.screen(LINES, |full| report.text(full));
     draw(&args.plots, args.said.quiet, || Ok(plot::pictures(&set, &found, Sheet::file(false))))?;
     let out = args.csv.deliver(style::table(&table), || report.csv())?;
     let name = about.map_or("", |(_, name)| name);

@@ -36,13 +36,14 @@ pub struct IdentifyReport<'a> {
 }
 
 impl IdentifyReport<'_> {
-    /// Responses, modes and words, 80 columns wide.
-    pub fn text(&self) -> [Piece; 3] {
+    /// Responses, modes and words, 80 columns wide; in full a virtual test has what was found by itself too.
+    pub fn text(&self, full: bool) -> [Piece; 3] {
         let warnings: String = self.said().iter().map(|one| wrapped(&one.text, 2)).collect();
         let assumed = self.set.assumed.iter().map(|said| wrapped(&format!("note: {said}"), 2));
         let words = warnings + &assumed.collect::<String>();
         let table = match self.simulated {
             None => self.table(),
+            Some((test, _)) if full => self.planned_table(test) + &self.table(),
             Some((test, _)) => self.planned_table(test),
         };
         [(0, "", self.head()), (1, "modes", table), (2, "words", words)]
