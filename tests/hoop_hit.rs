@@ -26,7 +26,7 @@ use sweetspot::modes::hoop::spectrum::Spectrum;
 use sweetspot::modes::hoop::surface::Surface;
 use sweetspot::modes::hoop::system::Wall;
 use sweetspot::modes::hoop::{Hoop, HoopRequest, Patch};
-use sweetspot::motion::sound::{Sound, Tone};
+use sweetspot::motion::sound::{Sound, Tone, as_heard};
 use sweetspot::{Bat, Request, Theory, solve};
 use sweetspot_proof::bundled::bundled_bat;
 
@@ -574,7 +574,7 @@ fn the_ping_is_as_loud_as_its_modes_are_moved() {
     // The tip is on the barrel, by whatever sum its place was found.
     for name in ["bbcor_made_up", "composite_made_up", "softball_made_up_open"] {
         let bat = bundled_bat(&format!("meshes/{name}.json")).unwrap();
-        let solution = solve(&bat, &Request::plain()).unwrap();
+        let (bat, solution) = as_heard(&bat, &solve(&bat, &Request::plain()).unwrap()).unwrap();
         let tap = Sound::of_tap(&solution, Some(&heard(&bat, &ball).unwrap()));
         assert!(tap.tones.len() > solution.modes.len() + 5, "{name}");
         assert!(tap.tones.iter().all(|tone| tone.decay_1_s > 0.0), "{name}");

@@ -71,8 +71,8 @@ pub fn ignored(bat: &Bat, solution: &Solution) -> Vec<String> {
     match bat.lossy() {
         true => ignored.extend(published_damping(bat)),
         false => ignored.push(
-            "damping by the material: undamped, the bat file gives no \"loss_factor\" (--damping assumed takes that of a \
-             metal)"
+            "damping by the material: no loss factor known, undamped (\"loss_factor\" in the bat file, or --damping \
+             assumed for a metal)"
                 .to_owned(),
         ),
     }
