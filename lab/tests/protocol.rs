@@ -206,13 +206,14 @@ fn a_tap_on_a_node_is_silent_in_its_mode() {
     assert!(amplitude(node) < 1e-3 * amplitude(0.84), "{} {}", amplitude(node), amplitude(0.84));
     let hollow = asked("sound", file("bbcor_made_up"), json!({ "x_m": 0.7, "blow": "ball" }));
     assert!(hollow["tones"].as_array().unwrap().len() > 10);
-    // The wood loses what is assumed, and hands take more.
+    // The wood loses what is assumed, and hands take more: of all tones, for each cycle.
     let [free, held] = ["free", "hands"].map(|held| {
         let sound = asked("sound", file("r161"), json!({ "x_m": 0.84, "held": held }));
         assert!(sound["assumed"].as_str().unwrap().contains("0.01"), "{sound}");
-        number(&sound["tones"][0]["decay_1_s"])
+        let lost = |tone: &Value| number(&tone["decay_1_s"]) / number(&tone["frequency_hz"]);
+        sound["tones"].as_array().unwrap().iter().map(lost).fold(0.0, f64::max)
     });
-    assert!(held > free && free > 0.0, "{held} {free}");
+    assert!(held > 1.1 * free && free > 0.0, "{held} {free}");
 }
 
 #[test]

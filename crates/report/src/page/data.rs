@@ -12,7 +12,7 @@ use sweetspot::bat::profile::{Piece, Profile};
 use sweetspot::collision::columns::{self, Column};
 use sweetspot::collision::hit::{Energy, Impact};
 use sweetspot::files::schema::document::{Document, Format};
-use sweetspot::motion::sound::Sound;
+use sweetspot::motion::sound::{ASSUMED_LOSS, Sound};
 
 /// What the script of a report draws: the bat's outline, hits along the barrel, modes and hits in time.
 /// The unit stands in every name; positions count from the knob end; what does not exist is null.
@@ -36,9 +36,9 @@ pub struct Data<'a> {
     /// Hits in time; empty where the model knows no force in time.
     pub moments: &'a [Moment],
     /// What a tap on the tip sounds like.
-    pub tap: &'a Sound,
+    pub tap: Heard<'a>,
     /// What the hit at the sweet spot sounds like; null where the model knows no force in time.
-    pub crack: Option<&'a Sound>,
+    pub crack: Option<Heard<'a>>,
     /// How large the ball is drawn (mm).
     pub ball_radius_mm: f64,
 }
@@ -95,6 +95,16 @@ const POINTS: usize = 121;
 /// Modes that move.
 pub const MOVING: usize = 6;
 
+/// A sound, and what is assumed for it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+pub struct Heard<'a> {
+    /// What is heard.
+    #[serde(flatten)]
+    pub sound: &'a Sound,
+    /// The loss factor of what has none, and none that is published; null where all have one.
+    pub assumed_loss_factor: Option<f64>,
+}
+
 impl<'a> Data<'a> {
     /// The numbers of an analysis, rounded but for the summary.
     pub fn new(
@@ -104,6 +114,9 @@ impl<'a> Data<'a> {
         (tap, crack): &'a (Sound, Option<Sound>),
     ) -> Self {
         let outline = Outline::new(analysis.bat.profile());
+        let mut materials = analysis.bat.layups().iter().flat_map(|layup| layup.materials());
+        let unknown = materials.any(|m| !m.lossy() && m.published_loss().is_none());
+        let assumed_loss_factor = unknown.then_some(ASSUMED_LOSS);
         let modes = analysis.solution.modes.iter().take(MOVING);
         let modes = modes.map(|mode| MovingMode {
             order: mode.order,
@@ -122,8 +135,8 @@ impl<'a> Data<'a> {
                 .and_then(|barrel| RingingBarrel::new(&analysis.bat, barrel)),
             outline,
             moments,
-            tap,
-            crack: crack.as_ref(),
+            tap: Heard { sound: tap, assumed_loss_factor },
+            crack: crack.as_ref().map(|sound| Heard { sound, assumed_loss_factor }),
             ball_radius_mm: rounded(1e3 * analysis.task.scene.ball.radius_m, 2),
         }
     }
