@@ -141,7 +141,7 @@ impl Question {
     /// How far diameters may be off (m) that were traced: less well known than calipers know them.
     pub fn traced(&self) -> Option<f64> {
         let told = self.more.get("diameter_deviation_m")?.as_f64()?;
-        (0.0..0.01).contains(&told).then_some(told)
+        (told >= 0.0).then_some(told.min(0.01))
     }
 
     /// The collision model.

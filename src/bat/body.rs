@@ -325,7 +325,7 @@ impl Bat {
     /// Whether a material of the bat has a loss factor.
     pub fn lossy(&self) -> bool {
         let mut layups = self.parts.profile.pieces.iter().map(|piece| self.layup(piece));
-        layups.any(|layup| layup.materials().any(Material::lossy))
+        layups.any(|layup| layup.materials().any(|m| m.losses() != [0.0; 2]))
     }
 
     /// The bat with materials that have these loss factors in bending and in shear.
@@ -351,8 +351,11 @@ impl Bat {
     ///
     /// Those of [`Self::with`].
     pub fn with_losses(&self, unknown: f64) -> Result<Self> {
-        let loss = |material: &Material| material.published_loss().unwrap_or(unknown);
-        self.losing(|m| if m.lossy() { m.losses() } else { [loss(m); 2] })
+        self.losing(|m| {
+            let known = Some(m.loss_factor).filter(|loss| *loss > 0.0);
+            let loss = known.or(m.published_loss()).unwrap_or(unknown);
+            [loss, m.shear_loss_factor.unwrap_or(loss)]
+        })
     }
 
     /// Whether anything damps the bat; else it rings without end after a hit.

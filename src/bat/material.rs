@@ -121,11 +121,6 @@ impl Material {
         [self.loss_factor, self.shear_loss_factor.unwrap_or(self.loss_factor)]
     }
 
-    /// Whether it has a loss factor.
-    pub fn lossy(&self) -> bool {
-        self.losses() != [0.0; 2]
-    }
-
     /// The loss factor that is published of its kind: of a metal, which is denser than glass fibre and alike in all
     /// directions, that of aluminium. None of wood and of composites: no source of theirs was found.
     pub fn published_loss(&self) -> Option<f64> {

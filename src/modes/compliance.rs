@@ -297,7 +297,7 @@ impl Flexible {
 
     /// The loss factors at the points of the cells, outwards.
     fn losses(&self, bat: &Bat) -> Vec<[f64; 2]> {
-        if bat.layups().iter().all(|layup| layup.materials().all(|m| !m.lossy())) {
+        if bat.layups().iter().all(|layup| layup.materials().all(|m| m.losses() == [0.0; 2])) {
             return vec![];
         }
         let View { bare: Bare { split, .. }, rule, .. } = self.pairs.view();

@@ -18,7 +18,7 @@ import time
 
 import chromium
 import firefox
-from lab_page import (CERTIFIED, HANDLE, TEXT, VALUES, certain, check, clicked, failures, mouse, opened, packed, pulled,
+from lab_page import (ANSWERED, CERTIFIED, HANDLE, TEXT, VALUES, certain, check, clicked, failures, mouse, opened, packed, pulled,
                       quiet, touch, waited)
 from report import CONTRAST, SMALL_TEXT, TOO_WIDE
 
@@ -240,7 +240,7 @@ def gestures(browser, page, sweetspot, folder, count):
                 check(bad not in words, f"{bad} on the page after {k + 1} gestures")
             of_program(sweetspot, folder, browser.run(TEXT), "modes", "-n", "1")
     browser.run("document.getElementById('units-0').click(); lab.drag.finish()")
-    check(waited(browser, f"({CERTIFIED}) || lab.bench.trouble", 40), "no answer after the gestures")
+    check(waited(browser, f"{ANSWERED} || lab.bench.trouble", 40), "no answer after the gestures")
     quiet(browser, "gestures")
 
 
@@ -459,7 +459,7 @@ def traced(browser, page, folder):
     check(waited(browser, "lab.tracing.taken[0].pins.length === 0 && !!lab.tracing.best", 40), "the points stay")
     clicked(browser, "trace-use")
     check(waited(browser, "lab.bench.body.name === 'a bat from a photograph'", 10), "the bat is not opened")
-    certain(browser, "a traced bat")
+    check(waited(browser, ANSWERED), f"a traced bat: no answer, {browser.run('lab.bench.trouble')}")
     check(browser.run("lab.bench.opened.deviation_m") > 1e-4, "its deviation is lost")
     check(waited(browser, "lab.bench.analyzed !== null", 40), "no ± for a traced bat")
     check(waited(browser, "document.getElementById('command').textContent.includes('--calipers')", 5), "the command does not tell the deviation")

@@ -10,6 +10,8 @@ failures = []
 # Of the page: the bat shown, whether it is certified, and what is read off.
 TEXT = "lab.bench.text"
 CERTIFIED = "document.getElementById('badge').textContent === 'certified' && lab.bench.certified"
+# What was asked for is there, or it is said that it was not reached.
+ANSWERED = f"({CERTIFIED}) || (lab.bench.hit?.number === lab.bench.number && !!lab.bench.hit.answer.unmet)"
 VALUES = """Object.fromEntries([...document.querySelectorAll('[id^=figure-]')].map(row =>
   [row.id.slice(7), row.querySelector('.value').textContent]))"""
 # The place (px) of a movable station's handle near a place along the bat (mm).

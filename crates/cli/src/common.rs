@@ -283,6 +283,10 @@ pub fn read_with_text(path: &Path, edits: &EditArgs, quiet: bool) -> Result<(Bat
     note_outside(path, &outside, quiet);
     let file = path.display();
     let bat = edits.edit(bat)?;
+    if edits.damped_as("assumed") {
+        let told = "damping assumed: a metal without a loss factor has the one published of aluminium (sweetspot materials)";
+        warn(&format!("note: {file}: {told}"), quiet);
+    }
     bat.warnings().iter().for_each(|w| warn(&format!("warning: {file}: {w}"), quiet));
     Ok((bat, text))
 }

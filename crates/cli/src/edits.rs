@@ -72,7 +72,7 @@ impl EditArgs {
         let edits: Vec<Edit> = self.changes.iter().map(change).collect();
         let called = |k: usize| format!("--{}", option(edits[k].change.verb()));
         let bat = edited(&bat, &edits, called)?;
-        if !self.damped_as("assumed") || bat.lossy() {
+        if !self.damped_as("assumed") {
             return Ok(bat);
         }
         let assumed = bat.with_losses(0.0)?;
@@ -125,7 +125,7 @@ impl clap::Args for EditArgs {
         let damping = Arg::new(DAMPING)
             .long(DAMPING)
             .value_name("WHOSE")
-            .help("Damping by the materials: material, or assumed: where the file gives none, what is published of its kind")
+            .help("Damping by the materials: material, or assumed: a metal without a loss factor has the published one")
             .help_heading("What if (edits of the bat, after it was weighed, in the order typed)")
             .hide_short_help(true)
             .hide_possible_values(true)

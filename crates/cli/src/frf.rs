@@ -34,8 +34,8 @@ use crate::value::{PLACE, file_unit, named};
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES), mut_arg(DAMPING, |arg| arg
     .value_parser(["material", "assumed", "measured"])
-    .help("Damping of the computed modes: material, assumed (what is published of its kind), or measured: that of \
-           the measured peaks, mode by mode")))]
+    .help("Damping of the computed modes: material, assumed (a metal without a loss factor has the published one), \
+           or measured: that of the measured peaks, mode by mode")))]
 pub struct Args {
     #[command(flatten)]
     bat: BatArgs,
@@ -121,8 +121,8 @@ pub fn run(args: &Args) -> Result<Done> {
     let files = [("--json", &args.output.json), ("--csv", &args.csv.csv), ("--uff", &args.uff)];
     apart(&files)?;
     if args.bat.damped_as("measured") && args.measured.is_none() {
-        let expected = "--measured FILE with it, whose peaks tell the damping";
-        return Err(Error::value("--damping", "measured, and nothing that was", expected));
+        let expected = "--measured FILE beside it, whose peaks tell the damping";
+        return Err(Error::value("--damping", "measured", expected));
     }
     let bat = args.bat.read(&args.output)?;
     let known = known(args)?;

@@ -68,14 +68,7 @@ pub fn ignored(bat: &Bat, solution: &Solution) -> Vec<String> {
                 .to_owned(),
         );
     }
-    match bat.lossy() {
-        true => ignored.extend(published_damping(bat)),
-        false => ignored.push(
-            "damping by the material: no loss factor known, undamped (\"loss_factor\" in the bat file, or --damping \
-             assumed for a metal)"
-                .to_owned(),
-        ),
-    }
+    ignored.extend(material_damping(bat));
     if bat.fixtures().grip.is_none() {
         ignored.push("hands (add a \"grip\" to the bat file to model them)".to_owned());
     }
@@ -86,6 +79,23 @@ pub fn ignored(bat: &Bat, solution: &Solution) -> Vec<String> {
         None => "hoop modes of hollow barrels: not a beam's, and not modelled".to_owned(),
     });
     ignored
+}
+
+/// What is left out of the damping by the materials.
+fn material_damping(bat: &Bat) -> Vec<String> {
+    let mut materials = bat.layups().iter().flat_map(|layup| layup.materials());
+    let undamped = materials.any(|m| m.losses() == [0.0; 2]);
+    match bat.lossy() {
+        true => published_damping(bat)
+            .into_iter()
+            .chain(undamped.then(|| "damping by a material that has no loss factor".to_owned()))
+            .collect(),
+        false => vec![
+            "damping by the material: no loss factor known, undamped (\"loss_factor\" in the bat file, or --damping \
+             assumed for a metal)"
+                .to_owned(),
+        ],
+    }
 }
 
 /// What is left out where a metal has the loss factor that is published of its kind.
@@ -102,18 +112,18 @@ fn published_damping(bat: &Bat) -> Option<String> {
 /// What is taken in the sound of a bat whose materials have no loss factor, in words; None where all have one.
 pub fn damping_in_sound(bat: &Bat) -> Option<String> {
     let materials = || bat.layups().iter().flat_map(|layup| layup.materials());
-    let mut taken: Vec<(bool, f64)> = (materials().filter(|material| !material.lossy()))
+    let mut taken: Vec<(bool, f64)> = (materials().filter(|material| material.loss_factor == 0.0))
         .map(|m| (m.published_loss().is_some(), m.published_loss().unwrap_or(ASSUMED_LOSS)))
         .collect();
     taken.sort_by_key(|(published, _)| !published);
     taken.dedup();
     let told = |(published, loss): &(bool, f64)| match published {
-        true => format!("{loss} for the metal, which is published of aluminium"),
-        false => format!("an assumed {loss} for what has none"),
+        true => format!("{loss} for the metal, as published of aluminium"),
+        false => format!("an assumed {loss} for all else"),
     };
     let told: Vec<String> = taken.iter().map(told).collect();
     let told = (!told.is_empty()).then(|| told.join(" and "))?;
-    Some(format!("the bat file gives no loss factor: the sound alone takes {told}"))
+    Some(format!("a material has no loss factor: the sound alone takes {told}"))
 }
 
 /// The thinnest wall (m) of the outer half of the bat, where a ball is hit, and its place (m); None

@@ -17,7 +17,7 @@ const FULL: f64 = 0.95;
 /// Hiss that rises so far while a tap rings is gain control (dB).
 const RISEN: f64 = 3.0;
 /// What spoils loss factors.
-const SPOILT: [Code; 2] = [Code::Clipped, Code::AutomaticGain];
+const SPOILT: [Code; 3] = [Code::Clipped, Code::AutomaticGain, Code::SpoiltFile];
 /// Loss factors by early and late windows that differ by this, of their logarithm, are the room's.
 const ROOM: f64 = 0.3;
 

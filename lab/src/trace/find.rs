@@ -43,7 +43,7 @@ impl Cells {
         /// Cells along the longer side.
         const ALONG: usize = 800;
         let size = picture.width.max(picture.height).div_ceil(ALONG);
-        let (width, height) = (picture.width / size, picture.height / size);
+        let (width, height) = ((picture.width / size).max(1), (picture.height / size).max(1));
         let off = (0..width * height).map(|k| {
             let (x, y) = (k % width * size, k / width * size);
             let one = |j: usize| picture.pixel((x + j % size) as isize, (y + j / size) as isize);
@@ -53,12 +53,14 @@ impl Cells {
         Self { size, width, height, off: off.collect() }
     }
 
-    /// How far a bat, which fills some hundredths of a picture, is from the ground.
-    fn level(&self) -> f32 {
-        const SHARE: f64 = 0.98;
+    /// How far a bat is from the ground, which fills some hundredths of a picture or, if it is small, some thousandths:
+    /// the first of these shares at which something stands out from the ground by that contrast.
+    fn level(&self, contrast: f32) -> f32 {
+        const SHARES: [f64; 3] = [0.98, 0.995, 0.998];
         let mut all = self.off.clone();
         all.sort_by(f32::total_cmp);
-        all[((all.len() as f64 * SHARE) as usize).min(all.len() - 1)]
+        let at = |share: f64| all[((all.len() as f64 * share) as usize).min(all.len() - 1)];
+        SHARES.map(at).into_iter().find(|level| *level >= contrast).unwrap_or(at(SHARES[0]))
     }
 
     /// Connected cells above the level, the largest group first.
@@ -111,7 +113,7 @@ pub fn find(picture: &Picture, ground: &Ground) -> Result<Found> {
     /// Pixels along the bat.
     const LEAST: f64 = 700.0;
     let cells = Cells::of(picture, ground);
-    let bat = cells.level();
+    let bat = cells.level(CONTRAST * ground.noise);
     let contrast = bat / ground.noise;
     let plain = "a bat on plain ground of another colour, in even light";
     let told = format!("no bat: what stands out most is {contrast:.1} times the ground's noise");

@@ -13,11 +13,18 @@ pub struct Picture<'a> {
     bytes: &'a [u8],
 }
 
+/// Pixels along a side that a picture has at most.
+const MOST: usize = 8192;
+
 impl<'a> Picture<'a> {
     /// # Errors
     ///
     /// [`Error::Value`] where there are not four bytes for each pixel.
     pub fn new(width: usize, height: usize, bytes: &'a [u8]) -> Result<Self> {
+        if width.max(height) > MOST {
+            let found = format!("{width} by {height} pixels");
+            return Err(Error::value("the picture", found, format!("{MOST} along a side at most")));
+        }
         let expected = width.checked_mul(height).and_then(|pixels| pixels.checked_mul(4));
         if expected != Some(bytes.len()) || bytes.is_empty() {
             let found = format!("{} bytes for {width} by {height} pixels", bytes.len());

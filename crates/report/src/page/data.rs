@@ -115,7 +115,7 @@ impl<'a> Data<'a> {
     ) -> Self {
         let outline = Outline::new(analysis.bat.profile());
         let mut materials = analysis.bat.layups().iter().flat_map(|layup| layup.materials());
-        let unknown = materials.any(|m| !m.lossy() && m.published_loss().is_none());
+        let unknown = materials.any(|m| m.loss_factor == 0.0 && m.published_loss().is_none());
         let assumed_loss_factor = unknown.then_some(ASSUMED_LOSS);
         let modes = analysis.solution.modes.iter().take(MOVING);
         let modes = modes.map(|mode| MovingMode {

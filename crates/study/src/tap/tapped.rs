@@ -143,9 +143,20 @@ fn loudest(
 fn known(analysis: &Analysis, heard: &[HeardLine], told: &[Told]) -> Result<Vec<Known>> {
     let mut known = vec![None; heard.len()];
     for (hz, mode) in told {
-        known[near(analysis, heard, *hz)?] = Some(*mode);
+        let line = &mut known[near(analysis, heard, *hz)?];
+        if line.is_some() {
+            return Err(Error::value("--mode", format!("{hz} Hz twice"), "each tone once"));
+        }
+        *line = Some(*mode);
     }
-    Ok(known)
+    let modes: Vec<usize> = known.iter().flatten().flatten().copied().collect();
+    match modes.is_sorted_by(|a, b| a < b) {
+        true => Ok(known),
+        false => {
+            let expected = "modes that rise with the frequencies of their tones";
+            Err(Error::value("--mode", format!("the modes {modes:?} of rising tones"), expected))
+        }
+    }
 }
 
 /// The line nearest to a frequency that was told.
