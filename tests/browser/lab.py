@@ -647,7 +647,7 @@ def main():
             "again": lambda: again(browser, page),
             "policy": lambda: policy(browser, page),
             "readable": lambda: readable(browser, page),
-            "steady": lambda: steady(browser, page, 10_000 if count >= 5_000 else 120),
+            "steady": lambda: steady(browser, page, 120 if count < 1_000 else 2 * count),
         }
         parts |= {} if in_firefox else chromiums
         for name in more[1:] or parts:
