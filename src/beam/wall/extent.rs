@@ -3,7 +3,7 @@
 use crate::base::error::{Error, Result};
 use crate::bat::body::Bat;
 use crate::bat::material::Material;
-use crate::bat::profile::Piece;
+use crate::bat::profile::{Piece, Section};
 
 /// The stretch that is modelled.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,8 +39,10 @@ pub fn rings(bat: &Bat) -> bool {
     bat.profile().pieces.iter().any(|piece| is_wall(bat, piece))
 }
 
+/// Whether it has a wall; none is thinner than a millionth of the radius.
 fn is_hollow(piece: &Piece) -> bool {
-    [0.0, 0.5, 1.0].iter().any(|s| piece.at(*s).inner > 0.0)
+    let walled = |at: Section| at.inner > 0.0 && at.outer - at.inner > 1e-6 * at.outer;
+    [0.0, 0.5, 1.0].iter().any(|s| walled(piece.at(*s)))
 }
 
 /// Whether it is taken for wood and nothing is known of it in other directions.
@@ -71,7 +73,11 @@ impl Extent {
                                 of its grain, so that its wall is no solid of revolution";
                 Error::value("material", "a hollow bat of wood", expected)
             } else {
-                Error::value("profile", "a solid bat", "a hollow one: only a wall has hoop modes")
+                Error::value(
+                    "profile",
+                    "a bat without a wall",
+                    "a hollow one: only a wall has hoop modes",
+                )
             });
         };
         let (mut first, mut limit) = (0, Limit::Knob);
