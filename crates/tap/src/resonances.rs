@@ -156,6 +156,7 @@ pub struct Projection {
     pub left: Vec<Vec<Complex>>,
     /// Coefficients of every response: residues first, over its noise.
     coefficients: Vec<Vec<Complex>>,
+    triangle: Vec<Vec<Complex>>,
 }
 
 fn dot(a: &[Complex], b: &[Complex]) -> Complex {
@@ -215,7 +216,7 @@ impl Projection {
             coefficients.push(back(&triangle, shares));
             left.push(own);
         }
-        Self { columns, left, coefficients }
+        Self { columns, left, coefficients, triangle }
     }
 
     /// A resonance, or its derivative by frequency or loss factor, over the noise of lines.
@@ -245,6 +246,18 @@ impl Projection {
     /// Residue A (1/kg) of response `j` at pole `p`: the product of both deflections over the modal mass.
     pub fn residue_of(&self, of: &Responses, j: usize, p: usize) -> Complex {
         self.residue(j, p) * of.scales[j]
+    }
+
+    /// Standard deviation (1/kg) of that residue, both its parts together, at poles that are known.
+    pub fn deviation_of(&self, of: &Responses, j: usize, p: usize) -> f64 {
+        let mut row: Vec<Complex> = vec![];
+        for column in &self.triangle[BEYOND + p..] {
+            let one = if row.is_empty() { Complex::ONE } else { Complex::default() };
+            let above = row.iter().zip(&column[BEYOND + p..]);
+            let sum = above.fold(one, |sum, (x, r)| sum - *x * *r);
+            row.push(sum / column[BEYOND + p + row.len()]);
+        }
+        row.iter().map(|x| x.square()).sum::<f64>().sqrt() * of.scales[j]
     }
 
     /// Response `j` (1/kg) as it goes on at a complex square `z` of the frequency (Hz²), pole `without` left out.

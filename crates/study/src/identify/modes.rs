@@ -100,8 +100,9 @@ impl Identified {
         };
         let fitted = Fitted::new(set, &groups, all, &found);
         let kept = (0..found.fit.poles.len()).filter(|p| is_mode(&found, *p, band));
-        let mut modes: Vec<SharedMode> =
-            kept.map(|p| fitted.mode(p, known, masses.as_ref())).collect();
+        let mut modes = kept
+            .map(|p| fitted.mode(p, known, masses.as_ref()))
+            .collect::<Result<Vec<SharedMode>>>()?;
         modes.sort_by(|a, b| a.frequency.value.total_cmp(&b.frequency.value));
         let (damping, orders) = (found.damping, found.orders);
         Ok(Self { modes, damping, orders, sum, band, grids, coherent })
@@ -163,26 +164,25 @@ fn by_coherence(set: &ResponseSet, which: &[usize], values: &[Vec<Complex>]) -> 
 }
 
 impl Fitted<'_> {
-    fn mode(&self, p: usize, known: &TestKnown, masses: Option<&Masses>) -> SharedMode {
+    fn mode(&self, p: usize, known: &TestKnown, masses: Option<&Masses>) -> Result<SharedMode> {
         let pole = self.poles()[p];
-        let unloaded = masses.map(|masses| masses.without(self, p));
+        let unloaded = masses.map(|masses| masses.without(self, p)).transpose()?;
         let loaded = || {
             let residue = |k: usize| self.residue(k, p);
-            Unloaded { pole, residues: (0..self.set.responses.len()).map(residue).collect() }
+            let residues = (0..self.set.responses.len()).map(residue).collect();
+            Unloaded { pole, residues, deviations: [0.0; 2] }
         };
-        let Unloaded { pole: free, residues } = unloaded.unwrap_or_else(loaded);
+        let Unloaded { pole: free, residues, deviations } = unloaded.unwrap_or_else(loaded);
         let (shape, modal_mass) = shape(self.set, &residues);
         let still = without_window(free, known.window);
-        let [hz, loss] = self.found.fit.deviations(p).map(|deviation| NINETY_FIVE * deviation);
-        // The first order of several masses leaves one of the size of its square.
         let lowered = masses.map(|_| pole.hz / free.hz - 1.0);
-        let second = masses.filter(|masses| !masses.alone).and(lowered).unwrap_or(0.0).powi(2);
-        let hz = hz.hypot(1.5 * second);
+        let own = self.found.fit.deviations(p);
+        let [hz, loss] = [0, 1].map(|k| NINETY_FIVE * own[k].hypot(deviations[k]));
         let hz = [-hz, hz].map(|by| still.hz * (1.0 + by));
         let damping = |loss: f64| 0.5 * (loss - free.loss() + still.loss()).max(0.0);
         let ratios = [-loss, loss].map(|by| damping(free.loss() * by.exp()));
         let values: Vec<c64> = shape.iter().flatten().copied().collect();
-        SharedMode {
+        Ok(SharedMode {
             frequency: Within { value: still.hz, interval95: hz },
             damping: Within { value: damping(free.loss()), interval95: ratios },
             collinearity: collinearity(&values),
@@ -190,7 +190,7 @@ impl Fitted<'_> {
             modal_mass,
             orders: self.stable(pole),
             lowered,
-        }
+        })
     }
 
     /// From how many poles on this one is there with every number of them, and how many there are.
