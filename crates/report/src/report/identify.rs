@@ -174,7 +174,8 @@ impl IdentifyReport<'_> {
     pub fn said(&self) -> Vec<IdentifySaid> {
         let (set, found) = (self.set, self.found);
         let one = |code: &str, text: String| IdentifySaid { code: code.to_owned(), text };
-        let mut all = self.simulated.map_or(vec![], |(test, _)| self.advice(test));
+        let test = self.simulated.filter(|(test, _)| !test.modes.is_empty());
+        let mut all = test.map_or(vec![], |(test, _)| self.advice(test));
         if found.modes.is_empty() {
             let text = "No mode stands out of the noise: is the band the one in which the bat rings, and is every \
                         response of this bat?";
@@ -188,7 +189,13 @@ impl IdentifyReport<'_> {
             );
             all.push(one("no_shape", text.replacen("2 point tells", "2 points tell", 1)));
         }
-        if found.modes.iter().all(|mode| mode.modal_mass.is_none()) {
+        if let Some(x) = found.opposite {
+            let text = format!(
+                "Hammer and accelerometer at {} point opposite ways: turn the sign of the responses over for modal masses.",
+                at(x)
+            );
+            all.push(one("opposite_ways", text));
+        } else if found.modes.iter().all(|mode| mode.modal_mass.is_none()) {
             let text = "No modal masses: they need a response whose hammer and accelerometer are at one place.";
             all.push(one("no_drive_point", text.to_owned()));
         }

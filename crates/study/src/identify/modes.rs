@@ -17,7 +17,7 @@ use crate::identify::masses::{Masses, Unloaded};
 use crate::identify::set::{Place, ResponseSet};
 use crate::measured::mac::collinearity;
 use crate::tap::heard::Within;
-use sweetspot::base::error::Result;
+use sweetspot::base::error::{Error, Result};
 use sweetspot::motion::frf::ResponseKind;
 
 /// A mode that responses share.
@@ -57,6 +57,8 @@ pub struct Identified {
     pub grids: usize,
     /// Whether the noise is known from coherence.
     pub coherent: bool,
+    /// Place of a reference (m) whose hammer and accelerometer point opposite ways, by most modes.
+    pub opposite: Option<f64>,
 }
 
 /// What is known of a test beside its responses.
@@ -80,7 +82,8 @@ impl Identified {
     ///
     /// # Errors
     ///
-    /// [`Error::Value`](sweetspot::Error::Value) for masses of accelerometers without a drive point.
+    /// [`Error::Value`](sweetspot::Error::Value) for masses of accelerometers without a drive point, or with
+    /// one whose sign is wrong, for masses that are more than is carried and for a window that damps more than a mode.
     pub fn of(set: &ResponseSet, known: &TestKnown) -> Result<Self> {
         let masses = known.accelerometer.map(|mass| Masses::of(set, mass)).transpose()?;
         let (groups, coherent) = groups(set);
@@ -96,16 +99,25 @@ impl Identified {
         let grids = all.len();
         let Some(found) = found else {
             let (modes, damping, orders) = (vec![], Damping::Material, vec![]);
-            return Ok(Self { modes, damping, orders, sum, band, grids, coherent });
+            let opposite = None;
+            return Ok(Self { modes, damping, orders, sum, band, grids, coherent, opposite });
         };
         let fitted = Fitted::new(set, &groups, all, &found);
-        let kept = (0..found.fit.poles.len()).filter(|p| is_mode(&found, *p, band));
+        let kept: Vec<usize> =
+            (0..found.fit.poles.len()).filter(|p| is_mode(&found, *p, band)).collect();
+        let opposite = fitted.opposite(&kept);
+        if let Some(x) = opposite.filter(|_| masses.is_some()) {
+            let found = format!("hammer and accelerometer at {x} m point opposite ways");
+            let expected = "one way: turn the sign of the responses over, or leave the mass out";
+            return Err(Error::value("--accelerometer", found, expected));
+        }
         let mut modes = kept
+            .into_iter()
             .map(|p| fitted.mode(p, known, masses.as_ref()))
             .collect::<Result<Vec<SharedMode>>>()?;
         modes.sort_by(|a, b| a.frequency.value.total_cmp(&b.frequency.value));
         let (damping, orders) = (found.damping, found.orders);
-        Ok(Self { modes, damping, orders, sum, band, grids, coherent })
+        Ok(Self { modes, damping, orders, sum, band, grids, coherent, opposite })
     }
 }
 
@@ -191,6 +203,17 @@ impl Fitted<'_> {
             orders: self.stable(pole),
             lowered,
         })
+    }
+
+    /// Place of the first reference (m) at whose drive point most of these poles have a negative residue.
+    fn opposite(&self, kept: &[usize]) -> Option<f64> {
+        let turned = |reference: &usize| {
+            let Some(drive) = self.set.drive(*reference) else { return false };
+            let negative = kept.iter().filter(|p| self.residue(drive, **p).re < 0.0).count();
+            2 * negative > kept.len()
+        };
+        let first = (0..self.set.references.len()).find(turned)?;
+        Some(self.set.references[first].x)
     }
 
     /// From how many poles on this one is there with every number of them, and how many there are.
