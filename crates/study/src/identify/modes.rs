@@ -186,7 +186,7 @@ impl Fitted<'_> {
         };
         let Unloaded { pole: free, residues, deviations } = unloaded.unwrap_or_else(loaded);
         let (shape, modal_mass) = shape(self.set, &residues);
-        let still = without_window(free, known.window);
+        let still = without_window(free, known.window)?;
         let lowered = masses.map(|_| pole.hz / free.hz - 1.0);
         let own = self.found.fit.deviations(p);
         let [hz, loss] = [0, 1].map(|k| NINETY_FIVE * own[k].hypot(deviations[k]));
@@ -226,10 +226,21 @@ impl Fitted<'_> {
 }
 
 /// The pole without an exponential window, which takes `i/(2πτ)` off the complex frequency `f √(1 + iη)`.
-fn without_window(pole: Pole, window: Option<f64>) -> Pole {
-    let Some(tau) = window else { return pole };
-    let moved = square(pole).sqrt() - Complex::new(0.0, 1.0 / (TAU * tau));
-    at(moved * moved)
+///
+/// # Errors
+///
+/// [`Error::Value`] for a window that damps more than the mode is damped.
+fn without_window(pole: Pole, window: Option<f64>) -> Result<Pole> {
+    let Some(tau) = window else { return Ok(pole) };
+    let own = square(pole).sqrt();
+    let moved = own - Complex::new(0.0, 1.0 / (TAU * tau));
+    if moved.im > 0.0 {
+        return Ok(at(moved * moved));
+    }
+    let found = format!("{tau} s, which damps more than the mode at {:.2} Hz is damped", pole.hz);
+    let least = 1.0 / (TAU * own.im.max(f64::MIN_POSITIVE));
+    let expected = format!("more than {least:.4} s, or no window: that of the analyser");
+    Err(Error::value("--window", found, expected))
 }
 
 /// The shape that explains the residues of every response best, and its modal mass.
