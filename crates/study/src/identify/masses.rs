@@ -52,8 +52,11 @@ const SETTLED: f64 = 1e-11;
 const CARRIED: f64 = 0.5;
 /// A frequency that falls by no more than this as masses are taken off is that of a mode they do not move.
 const STILL: f64 = 1e-4;
-/// What masses in a row leave, over the square of what they lower a frequency by.
-const SECOND: f64 = 0.1;
+/// What masses in a row leave at most, over the square of what they lower a frequency by: as virtual tests of solid and
+/// hollow bats have it, with at least [`PER_MODE`] accelerometers for every mode up to that one, and with fewer.
+const SECOND: [f64; 2] = [0.7, 5.0];
+/// So many accelerometers for a mode keep it apart from the others.
+const PER_MODE: usize = 3;
 
 impl Masses {
     /// Accelerometers of that mass (kg) at every place where answers were measured.
@@ -135,8 +138,18 @@ impl Masses {
         let (loss, [hz, ln]) = (of.poles()[p].loss(), of.found.fit.deviations(p));
         let part = self.unsure(of, p) / 2.0_f64.sqrt();
         let (re, im) = (part.hypot(0.5 * ln), part.hypot(hz / loss));
-        let second = if self.alone { 0.0 } else { SECOND * lowered.powi(2) / NINETY_FIVE };
+        let second = self.second(of, p) * lowered.powi(2) / NINETY_FIVE;
         [(lowered * re).hypot(second), (2.0 * lowered * im / loss).hypot(second)]
+    }
+
+    /// What the first order leaves, over the square of what the masses lower the frequency by.
+    fn second(&self, of: &Fitted, p: usize) -> f64 {
+        let places = if of.set.hammer_roves { &of.set.references } else { &of.set.points };
+        let order = of.poles().iter().filter(|pole| pole.hz <= of.poles()[p].hz).count();
+        match self.alone {
+            true => 0.0,
+            false => SECOND[usize::from(places.len() < PER_MODE * order)],
+        }
     }
 
     /// Relative standard deviation of what tells how much the masses move, both its parts together.
