@@ -88,7 +88,10 @@ impl IdentifyReport<'_> {
         };
         match self.found.modes.as_slice() {
             [] => String::new(),
-            modes => columns.heads() + &modes.iter().map(row).collect::<String>(),
+            modes => {
+                let scale = "modal masses are for the largest measured deflection 1";
+                columns.heads() + &modes.iter().map(row).collect::<String>() + &wrapped(scale, 2)
+            }
         }
     }
 
@@ -218,10 +221,13 @@ impl IdentifyReport<'_> {
             );
             all.push(one("masses", text));
         }
-        if !found.coherent {
-            let text =
-                "The noise is taken from the responses themselves, as there is no coherence.";
-            all.push(one("no_coherence", text.to_owned()));
+        if found.coherent < set.responses.len() {
+            let why = match found.coherent {
+                0 => "as there is no coherence".to_owned(),
+                some => format!("as {some} of {} have coherence", set.responses.len()),
+            };
+            let text = format!("The noise is taken from the responses themselves, {why}.");
+            all.push(one("no_coherence", text));
         }
         if found.grids > 1 {
             let text =

@@ -55,8 +55,8 @@ pub struct Identified {
     pub band: [f64; 2],
     /// How many different grids of frequencies there are.
     pub grids: usize,
-    /// Whether the noise is known from coherence.
-    pub coherent: bool,
+    /// How many responses have coherence; with all of them it tells the noise.
+    pub coherent: usize,
     /// Place of a reference (m) whose hammer and accelerometer point opposite ways, by most modes.
     pub opposite: Option<f64>,
 }
@@ -132,8 +132,8 @@ fn is_mode(found: &Orders, p: usize, [low, high]: [f64; 2]) -> bool {
         && (low..=high).contains(&pole.hz)
 }
 
-/// Responses by their grids, and whether their noise is known from coherence.
-fn groups(set: &ResponseSet) -> (Vec<Group>, bool) {
+/// Responses by their grids, and how many have coherence.
+fn groups(set: &ResponseSet) -> (Vec<Group>, usize) {
     let mut grids: Vec<(Vec<f64>, Vec<usize>)> = vec![];
     for (k, one) in set.responses.iter().enumerate() {
         let hz: Vec<f64> = one.measured.values.iter().map(|(f, _)| *f).collect();
@@ -142,10 +142,11 @@ fn groups(set: &ResponseSet) -> (Vec<Group>, bool) {
             None => grids.push((hz, vec![k])),
         }
     }
-    let coherent = set.responses.iter().all(|one| one.measured.coherence.is_some());
+    let coherent = set.responses.iter().filter(|one| one.measured.coherence.is_some()).count();
+    let all = coherent == set.responses.len();
     let group = |(hz, which): (Vec<f64>, Vec<usize>)| {
         let values = which.iter().map(|k| accelerance(set, *k)).collect::<Vec<_>>();
-        let noise = coherent.then(|| by_coherence(set, &which, &values)).flatten();
+        let noise = all.then(|| by_coherence(set, &which, &values)).flatten();
         Group { which, responses: Responses::new(hz, values, noise) }
     };
     (grids.into_iter().map(group).collect(), coherent)
