@@ -13,7 +13,7 @@ use sweetspot::files::schema::document::{Format, Generator};
 use sweetspot::modes::mode::Mode;
 use sweetspot_study::identify::modes::{Identified, SharedMode, placed};
 use sweetspot_study::identify::set::{Place, ResponseSet};
-use sweetspot_study::identify::simulate::{ASSUMED_LOSS, Simulated};
+use sweetspot_study::identify::simulate::{ASSUMED_LOSS, Simulated, VirtualTest};
 use sweetspot_study::tap::heard::Within;
 use sweetspot_tap::resonances::Damping;
 
@@ -60,7 +60,8 @@ impl IdentifyReport<'_> {
             Damping::Dashpots => "damped as by dashpots",
         };
         let [low, high] = [low, high].map(|f| significant(*f, 4));
-        wrapped(
+        let test = self.simulated.map_or(String::new(), |(test, bat)| tested(&test.test, bat));
+        test + &wrapped(
             &format!(
                 "{count} response{plural}, {low} to {high} Hz: {fixed} at {places}, {roved} at {points} place{}; {damped}",
                 if points == 1 { "" } else { "s" }
@@ -257,6 +258,12 @@ impl IdentifyReport<'_> {
             orders_hz: orders.collect(),
             simulated: self.simulated.map(|(test, bat)| IdentifySimulated {
                 bat: bat.to_owned(),
+                hammer_kg: test.test.hammer,
+                tip_n_per_m: test.test.tip,
+                accelerometer_kg: test.test.accelerometer,
+                noise_db: test.test.noise,
+                window_s: test.test.window,
+                seed: test.test.seed,
                 modes: self.planned(test),
                 hang_m: test.hang().to_vec(),
                 reference_m: test.reference()[0],
@@ -305,6 +312,21 @@ const COLUMNS: [Column<IdentifyMode>; 8] = [
     Column::in_files("phase_collinearity", |one| one.phase_collinearity.into()),
     Column::in_files("modal_mass_kg", |one| one.modal_mass_kg.into()),
 ];
+
+/// What a virtual test is of.
+fn tested(test: &VirtualTest, bat: &str) -> String {
+    let VirtualTest { hammer, tip, noise, seed, .. } = test;
+    let accelerometer = match test.accelerometer {
+        0.0 => "no mass on the bat".to_owned(),
+        mass => format!("accelerometer {} g", significant(1e3 * mass, 3)),
+    };
+    let window = test.window.map_or("no window".to_owned(), |tau| format!("window {tau} s"));
+    let text = format!(
+        "virtual test of {bat}: hammer {} g, tip {tip:e} N/m, {accelerometer}, noise {noise} dB, {window}, seed {seed}",
+        significant(1e3 * hammer, 3)
+    );
+    wrapped(&text, 2)
+}
 
 fn roved(set: &ResponseSet) -> &'static str {
     if set.hammer_roves { "hammer" } else { "accelerometers" }

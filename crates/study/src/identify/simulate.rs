@@ -67,6 +67,8 @@ const TRIED: usize = 200;
 
 /// What a virtual test is of, and what it measures.
 pub struct Simulated {
+    /// The test.
+    pub test: VirtualTest,
     /// The responses.
     pub set: ResponseSet,
     /// The bat's modes in the band, without masses.
@@ -132,7 +134,7 @@ impl VirtualTest {
             solution.modes.into_iter().filter(|mode| mode.frequency() < self.top).collect();
         let set = ResponseSet::of(all)?;
         let force_db = 20.0 * weakest.log10();
-        Ok(Simulated { set, modes, loaded: hz, force_db, assumed_loss: !loss, length })
+        Ok(Simulated { test: *self, set, modes, loaded: hz, force_db, assumed_loss: !loss, length })
     }
 
     fn check(&self, bat: &Bat) -> Result<()> {
