@@ -250,14 +250,29 @@ impl Projection {
 
     /// Standard deviation (1/kg) of that residue, both its parts together, at poles that are known.
     pub fn deviation_of(&self, of: &Responses, j: usize, p: usize) -> f64 {
+        let mut weights = vec![Complex::default(); self.triangle.len()];
+        weights[BEYOND + p] = Complex::ONE;
+        self.deviation(&weights) * of.scales[j]
+    }
+
+    /// Standard deviation (1/kg) of response `j` at a complex square `z`, as [`Self::at`] has it, likewise.
+    pub fn deviation_at(&self, of: &Responses, j: usize, poles: &[Pole], z: Complex) -> f64 {
+        let top = of.hz[of.hz.len() - 1];
+        let beyond =
+            std::iter::successors(Some(Complex::ONE), |p| Some(*p * z * (1.0 / (top * top))));
+        let within = poles.iter().map(|pole| z / (square(*pole) - z) * -1.0);
+        let weights: Vec<Complex> = beyond.take(BEYOND).chain(within).collect();
+        self.deviation(&weights) * of.scales[j]
+    }
+
+    /// Standard deviation of a weighed sum of the coefficients, over the noise: the size of `x` with `x R = weights`.
+    fn deviation(&self, weights: &[Complex]) -> f64 {
         let mut row: Vec<Complex> = vec![];
-        for column in &self.triangle[BEYOND + p..] {
-            let one = if row.is_empty() { Complex::ONE } else { Complex::default() };
-            let above = row.iter().zip(&column[BEYOND + p..]);
-            let sum = above.fold(one, |sum, (x, r)| sum - *x * *r);
-            row.push(sum / column[BEYOND + p + row.len()]);
+        for (column, weight) in self.triangle.iter().zip(weights) {
+            let sum = row.iter().zip(column).fold(*weight, |sum, (x, r)| sum - *x * *r);
+            row.push(sum / column[row.len()]);
         }
-        row.iter().map(|x| x.square()).sum::<f64>().sqrt() * of.scales[j]
+        row.iter().map(|x| x.square()).sum::<f64>().sqrt()
     }
 
     /// Response `j` (1/kg) as it goes on at a complex square `z` of the frequency (Hz²), pole `without` left out.

@@ -86,22 +86,24 @@ impl Masses {
         let own = of.residue(self.drive, p);
         let residues: Vec<Complex> = (0..count).map(|k| of.residue(k, p)).collect();
         let too_much = || self.too_much(of.poles()[p].hz);
-        let (z, residues) = if self.alone {
+        let (z, residues, part) = if self.alone {
             let z = self.root(of, p).ok_or_else(too_much)?;
             // Residues from the slope of 1 − m H′ where it is 0.
             let step = 1e-4 * (start - z).square().sqrt() + 1e-9 * z.re;
             let near = |by: f64| of.at(self.drive, None, z + Complex::new(by, 0.0));
             let slope = (near(step) - near(-step)) * (0.5 / step);
             let residue = |k: usize| of.at(k, None, z) / (slope * z * self.mass) * -1.0;
-            (z, (0..count).map(residue).collect())
+            let part = of.deviation_at(self.drive, z) / (slope * z).square().sqrt();
+            (z, (0..count).map(residue).collect(), part)
         } else {
             let sum =
                 if of.set.hammer_roves { self.at_references(of, p) } else { moved(&residues, own) };
-            (self.freed(start, Complex::ONE, sum).ok_or_else(too_much)?, residues)
+            let z = self.freed(start, Complex::ONE, sum).ok_or_else(too_much)?;
+            (z, residues, self.mass * self.unsure(of, p) * (z / start).square().sqrt())
         };
         let pole = at(z);
         let lowered = of.poles()[p].hz / pole.hz - 1.0;
-        let deviations = self.deviations(of, p, lowered);
+        let deviations = self.deviations(of, p, lowered, part);
         let sound = pole.hz.is_finite() && residues.iter().all(|a| a.square().is_finite());
         let falls = lowered > 2.0 * NINETY_FIVE * deviations[0] + STILL;
         if falls || !sound { Err(too_much()) } else { Ok(Unloaded { pole, residues, deviations }) }
@@ -131,15 +133,15 @@ impl Masses {
 
     /// What taking the masses off adds to the deviations of frequency and loss factor.
     ///
-    /// A relative error ε of the residue moves `z` by `2 s ε` where the masses lower the frequency by the share s: its real
-    /// part moves the frequency by `s re ε`, its imaginary part the loss factor by `2 s im ε`. With the errors of the pole
-    /// itself, of one resonance, `re ε` has half of the relative error of η besides, `im ε` that of `f/(η f)`.
-    fn deviations(&self, of: &Fitted, p: usize, lowered: f64) -> [f64; 2] {
+    /// The noise of the drive point moves `z` by a complex number of the size `part`, relative, and has half of its square
+    /// in either part. The errors of the pole turn the residue besides: of one resonance, its size by half of the relative
+    /// error of η, its phase by that of `f/(η f)`.
+    fn deviations(&self, of: &Fitted, p: usize, lowered: f64, part: f64) -> [f64; 2] {
         let (loss, [hz, ln]) = (of.poles()[p].loss(), of.found.fit.deviations(p));
-        let part = self.unsure(of, p) / 2.0_f64.sqrt();
-        let (re, im) = (part.hypot(0.5 * ln), part.hypot(hz / loss));
+        let part = part / 2.0_f64.sqrt();
+        let (re, im) = (part.hypot(lowered * ln), part.hypot(2.0 * lowered * hz / loss));
         let second = self.second(of, p) * lowered.powi(2) / NINETY_FIVE;
-        [(lowered * re).hypot(second), (2.0 * lowered * im / loss).hypot(second)]
+        [(0.5 * re).hypot(second), (im / loss).hypot(second)]
     }
 
     /// What the first order leaves, over the square of what the masses lower the frequency by.
@@ -152,23 +154,19 @@ impl Masses {
         }
     }
 
-    /// Relative standard deviation of what tells how much the masses move, both its parts together.
+    /// Standard deviation (1/kg) of `Σ φ²/m_n` of several accelerometers, both its parts together.
     fn unsure(&self, of: &Fitted, p: usize) -> f64 {
-        let size = |a: Complex| a.square().sqrt().max(f64::MIN_POSITIVE);
-        let of_own = of.deviation(self.drive, p) / size(of.residue(self.drive, p));
-        if self.alone {
-            return of_own;
-        }
         if of.set.hammer_roves {
             let drives = (0..of.set.references.len()).filter_map(|r| of.set.drive(r));
-            let sum = drives.map(|k| of.deviation(k, p).powi(2)).sum::<f64>().sqrt();
-            return sum / size(self.at_references(of, p));
+            return drives.map(|k| of.deviation(k, p).powi(2)).sum::<f64>().sqrt();
         }
         // Of a sum of squares over the drive point's: twice the error of each, weighed by its size.
+        let own = of.residue(self.drive, p).square().max(f64::MIN_POSITIVE);
         let each = 0..of.set.responses.len();
         let squares: f64 = each.clone().map(|k| of.residue(k, p).square()).sum();
         let noise = each.map(|k| of.residue(k, p).square() * of.deviation(k, p).powi(2));
-        of_own.hypot(2.0 * noise.sum::<f64>().sqrt() / squares.max(f64::MIN_POSITIVE))
+        let noise = 2.0 * (noise.sum::<f64>() / own).sqrt();
+        noise.hypot(of.deviation(self.drive, p) * squares / own)
     }
 
     fn too_much(&self, hz: f64) -> Error {
