@@ -90,8 +90,10 @@ impl IdentifyReport<'_> {
         match self.found.modes.as_slice() {
             [] => String::new(),
             modes => {
-                let scale = "modal masses are for the largest measured deflection 1";
-                columns.heads() + &modes.iter().map(row).collect::<String>() + &wrapped(scale, 2)
+                let weighed = modes.iter().any(|mode| mode.modal_mass.is_some());
+                let scale = "Modal masses are for the largest measured deflection 1.";
+                let scale = if weighed { wrapped(scale, 2) } else { String::new() };
+                columns.heads() + &modes.iter().map(row).collect::<String>() + &scale
             }
         }
     }
