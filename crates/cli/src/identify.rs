@@ -61,8 +61,8 @@ pub struct Args {
     #[arg(long, value_name = "Hz", value_parser = FREQUENCY, help_heading = "The responses")]
     to_hz: Option<f64>,
 
-    /// Mass of an accelerometer, such as "5 g", which is taken off: of one that stayed, or of each that stood in a
-    /// row
+    /// Mass of an accelerometer, such as "5 g", at most 100 g, which is taken off: of one that stayed, or of each
+    /// that stood in a row; 0 in a virtual test is a laser
     #[arg(long, value_name = "kg", value_parser = PART_MASS, help_heading = "The responses")]
     accelerometer: Option<f64>,
 
@@ -233,11 +233,17 @@ impl Args {
     }
 
     fn test(&self) -> Result<TestKnown> {
-        for (option, value) in [("--accelerometer", self.accelerometer), ("--window", self.window)]
-        {
-            if let Some(value) = value.filter(|value| *value <= 0.0) {
-                return Err(Error::value(option, value, "more than 0"));
-            }
+        const HEAVIEST: f64 = 0.1;
+        let laser = self.virtual_test.simulate.is_some() && self.accelerometer == Some(0.0);
+        let none = |value: &f64| *value <= 0.0;
+        if let Some(value) = self.accelerometer.filter(|value| none(value) && !laser) {
+            return Err(Error::value("--accelerometer", value, "more than 0"));
+        }
+        if let Some(value) = self.accelerometer.filter(|value| *value > HEAVIEST) {
+            return Err(Error::value("--accelerometer", format!("{value} kg"), "0.1 kg at most"));
+        }
+        if let Some(value) = self.window.filter(none) {
+            return Err(Error::value("--window", value, "more than 0"));
         }
         Ok(TestKnown { accelerometer: self.accelerometer, window: self.window })
     }

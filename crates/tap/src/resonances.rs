@@ -156,6 +156,7 @@ pub struct Projection {
     pub left: Vec<Vec<Complex>>,
     /// Coefficients of every response: residues first, over its noise.
     coefficients: Vec<Vec<Complex>>,
+    triangle: Vec<Vec<Complex>>,
 }
 
 fn dot(a: &[Complex], b: &[Complex]) -> Complex {
@@ -215,7 +216,7 @@ impl Projection {
             coefficients.push(back(&triangle, shares));
             left.push(own);
         }
-        Self { columns, left, coefficients }
+        Self { columns, left, coefficients, triangle }
     }
 
     /// A resonance, or its derivative by frequency or loss factor, over the noise of lines.
@@ -245,6 +246,33 @@ impl Projection {
     /// Residue A (1/kg) of response `j` at pole `p`: the product of both deflections over the modal mass.
     pub fn residue_of(&self, of: &Responses, j: usize, p: usize) -> Complex {
         self.residue(j, p) * of.scales[j]
+    }
+
+    /// Standard deviation (1/kg) of that residue, both its parts together, at poles that are known.
+    pub fn deviation_of(&self, of: &Responses, j: usize, p: usize) -> f64 {
+        let mut weights = vec![Complex::default(); self.triangle.len()];
+        weights[BEYOND + p] = Complex::ONE;
+        self.deviation(&weights) * of.scales[j]
+    }
+
+    /// Standard deviation (1/kg) of response `j` at a complex square `z`, as [`Self::at`] has it, likewise.
+    pub fn deviation_at(&self, of: &Responses, j: usize, poles: &[Pole], z: Complex) -> f64 {
+        let top = of.hz[of.hz.len() - 1];
+        let beyond =
+            std::iter::successors(Some(Complex::ONE), |p| Some(*p * z * (1.0 / (top * top))));
+        let within = poles.iter().map(|pole| z / (square(*pole) - z) * -1.0);
+        let weights: Vec<Complex> = beyond.take(BEYOND).chain(within).collect();
+        self.deviation(&weights) * of.scales[j]
+    }
+
+    /// Standard deviation of a weighed sum of the coefficients, over the noise: the size of `x` with `x R = weights`.
+    fn deviation(&self, weights: &[Complex]) -> f64 {
+        let mut row: Vec<Complex> = vec![];
+        for (column, weight) in self.triangle.iter().zip(weights) {
+            let sum = row.iter().zip(column).fold(*weight, |sum, (x, r)| sum - *x * *r);
+            row.push(sum / column[row.len()]);
+        }
+        row.iter().map(|x| x.square()).sum::<f64>().sqrt()
     }
 
     /// Response `j` (1/kg) as it goes on at a complex square `z` of the frequency (Hz²), pole `without` left out.

@@ -13,7 +13,7 @@ use sweetspot::files::schema::document::{Format, Generator};
 use sweetspot::modes::mode::Mode;
 use sweetspot_study::identify::modes::{Identified, SharedMode, placed};
 use sweetspot_study::identify::set::{Place, ResponseSet};
-use sweetspot_study::identify::simulate::{ASSUMED_LOSS, Simulated};
+use sweetspot_study::identify::simulate::{ASSUMED_LOSS, Simulated, VirtualTest};
 use sweetspot_study::tap::heard::Within;
 use sweetspot_tap::resonances::Damping;
 
@@ -60,7 +60,8 @@ impl IdentifyReport<'_> {
             Damping::Dashpots => "damped as by dashpots",
         };
         let [low, high] = [low, high].map(|f| significant(*f, 4));
-        wrapped(
+        let test = self.simulated.map_or(String::new(), |(test, bat)| tested(&test.test, bat));
+        test + &wrapped(
             &format!(
                 "{count} response{plural}, {low} to {high} Hz: {fixed} at {places}, {roved} at {points} place{}; {damped}",
                 if points == 1 { "" } else { "s" }
@@ -88,7 +89,12 @@ impl IdentifyReport<'_> {
         };
         match self.found.modes.as_slice() {
             [] => String::new(),
-            modes => columns.heads() + &modes.iter().map(row).collect::<String>(),
+            modes => {
+                let weighed = modes.iter().any(|mode| mode.modal_mass.is_some());
+                let scale = "Modal masses are for the largest measured deflection 1.";
+                let scale = if weighed { wrapped(scale, 2) } else { String::new() };
+                columns.heads() + &modes.iter().map(row).collect::<String>() + &scale
+            }
         }
     }
 
@@ -174,7 +180,8 @@ impl IdentifyReport<'_> {
     pub fn said(&self) -> Vec<IdentifySaid> {
         let (set, found) = (self.set, self.found);
         let one = |code: &str, text: String| IdentifySaid { code: code.to_owned(), text };
-        let mut all = self.simulated.map_or(vec![], |(test, _)| self.advice(test));
+        let test = self.simulated.filter(|(test, _)| !test.modes.is_empty());
+        let mut all = test.map_or(vec![], |(test, _)| self.advice(test));
         if found.modes.is_empty() {
             let text = "No mode stands out of the noise: is the band the one in which the bat rings, and is every \
                         response of this bat?";
@@ -188,7 +195,13 @@ impl IdentifyReport<'_> {
             );
             all.push(one("no_shape", text.replacen("2 point tells", "2 points tell", 1)));
         }
-        if found.modes.iter().all(|mode| mode.modal_mass.is_none()) {
+        if let Some(x) = found.opposite {
+            let text = format!(
+                "Hammer and accelerometer at {} point opposite ways: turn the sign of the responses over for modal masses.",
+                at(x)
+            );
+            all.push(one("opposite_ways", text));
+        } else if found.modes.iter().all(|mode| mode.modal_mass.is_none()) {
             let text = "No modal masses: they need a response whose hammer and accelerometer are at one place.";
             all.push(one("no_drive_point", text.to_owned()));
         }
@@ -211,10 +224,13 @@ impl IdentifyReport<'_> {
             );
             all.push(one("masses", text));
         }
-        if !found.coherent {
-            let text =
-                "The noise is taken from the responses themselves, as there is no coherence.";
-            all.push(one("no_coherence", text.to_owned()));
+        if found.coherent < set.responses.len() {
+            let why = match found.coherent {
+                0 => "as there is no coherence".to_owned(),
+                some => format!("as {some} of {} have coherence", set.responses.len()),
+            };
+            let text = format!("The noise is taken from the responses themselves, {why}.");
+            all.push(one("no_coherence", text));
         }
         if found.grids > 1 {
             let text =
@@ -244,6 +260,12 @@ impl IdentifyReport<'_> {
             orders_hz: orders.collect(),
             simulated: self.simulated.map(|(test, bat)| IdentifySimulated {
                 bat: bat.to_owned(),
+                hammer_kg: test.test.hammer,
+                tip_n_per_m: test.test.tip,
+                accelerometer_kg: test.test.accelerometer,
+                noise_db: test.test.noise,
+                window_s: test.test.window,
+                seed: test.test.seed,
                 modes: self.planned(test),
                 hang_m: test.hang().to_vec(),
                 reference_m: test.reference()[0],
@@ -292,6 +314,21 @@ const COLUMNS: [Column<IdentifyMode>; 8] = [
     Column::in_files("phase_collinearity", |one| one.phase_collinearity.into()),
     Column::in_files("modal_mass_kg", |one| one.modal_mass_kg.into()),
 ];
+
+/// What a virtual test is of.
+fn tested(test: &VirtualTest, bat: &str) -> String {
+    let VirtualTest { hammer, tip, noise, seed, .. } = test;
+    let accelerometer = match test.accelerometer {
+        0.0 => "no mass on the bat".to_owned(),
+        mass => format!("accelerometer {} g", significant(1e3 * mass, 3)),
+    };
+    let window = test.window.map_or("no window".to_owned(), |tau| format!("window {tau} s"));
+    let text = format!(
+        "virtual test of {bat}: hammer {} g, tip {tip:e} N/m, {accelerometer}, noise {noise} dB, {window}, seed {seed}",
+        significant(1e3 * hammer, 3)
+    );
+    wrapped(&text, 2)
+}
 
 fn roved(set: &ResponseSet) -> &'static str {
     if set.hammer_roves { "hammer" } else { "accelerometers" }

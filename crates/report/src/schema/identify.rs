@@ -89,6 +89,18 @@ pub struct IdentifyPoint {
 pub struct IdentifySimulated {
     /// The bat's name.
     pub bat: String,
+    /// Mass of the hammer (kg).
+    pub hammer_kg: f64,
+    /// Stiffness of its tip (N/m).
+    pub tip_n_per_m: f64,
+    /// Mass of each accelerometer (kg); 0 for a laser.
+    pub accelerometer_kg: f64,
+    /// Noise over the root mean square of a response (dB).
+    pub noise_db: f64,
+    /// Time in which the exponential window falls to 1/e (s); null without one.
+    pub window_s: Option<f64>,
+    /// Which noise, and which places are missing.
+    pub seed: u64,
     /// The bat's modes in the band, and what is found of each.
     pub modes: Vec<IdentifyPlanned>,
     /// Where to hang the bat: the wanted modes move least there (m from the knob end).

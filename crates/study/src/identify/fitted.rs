@@ -57,6 +57,18 @@ impl<'a> Fitted<'a> {
         self.projections[g].residue_of(&self.all[g], j, p)
     }
 
+    /// Standard deviation (1/kg) of that residue, both its parts together, at poles that are known.
+    pub fn deviation(&self, k: usize, p: usize) -> f64 {
+        let (g, j) = self.place(k);
+        self.projections[g].deviation_of(&self.all[g], j, p)
+    }
+
+    /// Standard deviation (1/kg) of response `k` at a complex square of the frequency, likewise.
+    pub fn deviation_at(&self, k: usize, z: Complex) -> f64 {
+        let (g, j) = self.place(k);
+        self.projections[g].deviation_at(&self.all[g], j, self.poles(), z)
+    }
+
     /// Response `k` (1/kg) at a complex square of the frequency, pole `without` left out.
     pub fn at(&self, k: usize, without: Option<usize>, z: Complex) -> Complex {
         let (g, j) = self.place(k);

@@ -18,6 +18,7 @@ use sweetspot_tap::complex::Complex;
 use sweetspot_tap::fit::Pole;
 use sweetspot_tap::resonances::{at, square};
 
+use crate::calibrate::calibration::NINETY_FIVE;
 use crate::identify::fitted::Fitted;
 use crate::identify::set::ResponseSet;
 use sweetspot::base::error::{Error, Result};
@@ -38,10 +39,24 @@ pub(super) struct Unloaded {
     pub pole: Pole,
     /// Residue (1/kg) of every response.
     pub residues: Vec<Complex>,
+    /// What taking them off adds to the standard deviations of the frequency (relative) and of the loss factor (of its
+    /// logarithm).
+    pub deviations: [f64; 2],
 }
 
-/// Turns of the fixed point for a root; it gains two digits a turn.
-const TURNS: usize = 30;
+/// Turns of the fixed point for a root; it gains two digits a turn where they are small.
+const TURNS: usize = 60;
+/// The root is there where a turn moves it by no more than this, relative.
+const SETTLED: f64 = 1e-11;
+/// `re(1 − m Σ φ²/m_n)` of masses that a bat carries, at least: they lower its frequency by 30 %.
+const CARRIED: f64 = 0.5;
+/// A frequency that falls by no more than this as masses are taken off is that of a mode they do not move.
+const STILL: f64 = 1e-4;
+/// What masses in a row leave at most, over the square of what they lower a frequency by: as virtual tests of solid and
+/// hollow bats have it, with at least [`PER_MODE`] accelerometers for every mode up to that one, and with fewer.
+const SECOND: [f64; 2] = [0.7, 5.0];
+/// So many accelerometers for a mode keep it apart from the others.
+const PER_MODE: usize = 3;
 
 impl Masses {
     /// Accelerometers of that mass (kg) at every place where answers were measured.
@@ -61,28 +76,104 @@ impl Masses {
     }
 
     /// Pole `p` without the masses, and its residues.
-    pub(super) fn without(&self, of: &Fitted, p: usize) -> Unloaded {
-        let own = of.residue(self.drive, p);
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] for masses that are more than the responses carry.
+    pub(super) fn without(&self, of: &Fitted, p: usize) -> Result<Unloaded> {
         let start = square(of.poles()[p]);
         let count = of.set.responses.len();
-        if !self.alone {
-            let residues: Vec<Complex> = (0..count).map(|k| of.residue(k, p)).collect();
+        let own = of.residue(self.drive, p);
+        let residues: Vec<Complex> = (0..count).map(|k| of.residue(k, p)).collect();
+        let too_much = || self.too_much(of.poles()[p].hz);
+        let (z, residues, part) = if self.alone {
+            let z = self.root(of, p).ok_or_else(too_much)?;
+            // Residues from the slope of 1 − m H′ where it is 0.
+            let step = 1e-4 * (start - z).square().sqrt() + 1e-9 * z.re;
+            let near = |by: f64| of.at(self.drive, None, z + Complex::new(by, 0.0));
+            let slope = (near(step) - near(-step)) * (0.5 / step);
+            let residue = |k: usize| of.at(k, None, z) / (slope * z * self.mass) * -1.0;
+            let part = of.deviation_at(self.drive, z) / (slope * z).square().sqrt();
+            (z, (0..count).map(residue).collect(), part)
+        } else {
             let sum =
                 if of.set.hammer_roves { self.at_references(of, p) } else { moved(&residues, own) };
-            let z = start / (Complex::ONE - sum * self.mass);
-            return Unloaded { pole: at(z), residues };
-        }
+            let z = self.freed(start, Complex::ONE, sum).ok_or_else(too_much)?;
+            (z, residues, self.mass * self.unsure(of, p) * (z / start).square().sqrt())
+        };
+        let pole = at(z);
+        let lowered = of.poles()[p].hz / pole.hz - 1.0;
+        let deviations = self.deviations(of, p, lowered, part);
+        let sound = pole.hz.is_finite() && residues.iter().all(|a| a.square().is_finite());
+        let falls = lowered > 2.0 * NINETY_FIVE * deviations[0] + STILL;
+        if falls || !sound { Err(too_much()) } else { Ok(Unloaded { pole, residues, deviations }) }
+    }
+
+    /// `z′ rest/(rest − m a)`; None where the masses are more than is carried.
+    fn freed(&self, start: Complex, rest: Complex, a: Complex) -> Option<Complex> {
+        let left = Complex::ONE - a * self.mass / rest;
+        (left.re >= CARRIED).then(|| start / left)
+    }
+
+    /// The complex square of the frequency where `m H′ = 1`, by a fixed point; None where there is none.
+    fn root(&self, of: &Fitted, p: usize) -> Option<Complex> {
+        let (start, own) = (square(of.poles()[p]), of.residue(self.drive, p));
         let mut z = start;
         for _ in 0..TURNS {
             let rest = Complex::ONE - of.at(self.drive, Some(p), z) * self.mass;
-            z = start * rest / (rest - own * self.mass);
+            let next = self.freed(start, rest, own)?;
+            let by = (next - z).square().sqrt();
+            z = next;
+            if by <= SETTLED * z.square().sqrt() {
+                return Some(z);
+            }
         }
-        // Residues from the slope of 1 − m H′ where it is 0.
-        let step = 1e-4 * (start - z).square().sqrt() + 1e-9 * z.re;
-        let near = |by: f64| of.at(self.drive, None, z + Complex::new(by, 0.0));
-        let slope = (near(step) - near(-step)) * (0.5 / step);
-        let residue = |k: usize| of.at(k, None, z) / (slope * z * self.mass) * -1.0;
-        Unloaded { pole: at(z), residues: (0..count).map(residue).collect() }
+        None
+    }
+
+    /// What taking the masses off adds to the deviations of frequency and loss factor.
+    ///
+    /// The noise of the drive point moves `z` by a complex number of the size `part`, relative, and has half of its square
+    /// in either part. The errors of the pole turn the residue besides: of one resonance, its size by half of the relative
+    /// error of η, its phase by that of `f/(η f)`.
+    fn deviations(&self, of: &Fitted, p: usize, lowered: f64, part: f64) -> [f64; 2] {
+        let (loss, [hz, ln]) = (of.poles()[p].loss(), of.found.fit.deviations(p));
+        let part = part / 2.0_f64.sqrt();
+        let (re, im) = (part.hypot(lowered * ln), part.hypot(2.0 * lowered * hz / loss));
+        let second = self.second(of, p) * lowered.powi(2) / NINETY_FIVE;
+        [(0.5 * re).hypot(second), (im / loss).hypot(second)]
+    }
+
+    /// What the first order leaves, over the square of what the masses lower the frequency by.
+    fn second(&self, of: &Fitted, p: usize) -> f64 {
+        let places = if of.set.hammer_roves { &of.set.references } else { &of.set.points };
+        let order = of.poles().iter().filter(|pole| pole.hz <= of.poles()[p].hz).count();
+        match self.alone {
+            true => 0.0,
+            false => SECOND[usize::from(places.len() < PER_MODE * order)],
+        }
+    }
+
+    /// Standard deviation (1/kg) of `Σ φ²/m_n` of several accelerometers, both its parts together.
+    fn unsure(&self, of: &Fitted, p: usize) -> f64 {
+        if of.set.hammer_roves {
+            let drives = (0..of.set.references.len()).filter_map(|r| of.set.drive(r));
+            return drives.map(|k| of.deviation(k, p).powi(2)).sum::<f64>().sqrt();
+        }
+        // Of a sum of squares over the drive point's: twice the error of each, weighed by its size.
+        let own = of.residue(self.drive, p).square().max(f64::MIN_POSITIVE);
+        let each = 0..of.set.responses.len();
+        let squares: f64 = each.clone().map(|k| of.residue(k, p).square()).sum();
+        let noise = each.map(|k| of.residue(k, p).square() * of.deviation(k, p).powi(2));
+        let noise = 2.0 * (noise.sum::<f64>() / own).sqrt();
+        noise.hypot(of.deviation(self.drive, p) * squares / own)
+    }
+
+    fn too_much(&self, hz: f64) -> Error {
+        let found = format!("{} kg, which the mode at {hz:.4} Hz does not bear", self.mass);
+        let expected =
+            "the mass of one accelerometer: the masses told are more than the responses carry";
+        Error::value("--accelerometer", found, expected)
     }
 
     /// `Σ φ_k²/m_n` over several accelerometers that stayed.

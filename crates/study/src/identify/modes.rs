@@ -17,7 +17,7 @@ use crate::identify::masses::{Masses, Unloaded};
 use crate::identify::set::{Place, ResponseSet};
 use crate::measured::mac::collinearity;
 use crate::tap::heard::Within;
-use sweetspot::base::error::Result;
+use sweetspot::base::error::{Error, Result};
 use sweetspot::motion::frf::ResponseKind;
 
 /// A mode that responses share.
@@ -55,8 +55,10 @@ pub struct Identified {
     pub band: [f64; 2],
     /// How many different grids of frequencies there are.
     pub grids: usize,
-    /// Whether the noise is known from coherence.
-    pub coherent: bool,
+    /// How many responses have coherence; with all of them it tells the noise.
+    pub coherent: usize,
+    /// Place of a reference (m) whose hammer and accelerometer point opposite ways, by most modes.
+    pub opposite: Option<f64>,
 }
 
 /// What is known of a test beside its responses.
@@ -80,7 +82,8 @@ impl Identified {
     ///
     /// # Errors
     ///
-    /// [`Error::Value`](sweetspot::Error::Value) for masses of accelerometers without a drive point.
+    /// [`Error::Value`](sweetspot::Error::Value) for masses of accelerometers without a drive point, or with
+    /// one whose sign is wrong, for masses that are more than is carried and for a window that damps more than a mode.
     pub fn of(set: &ResponseSet, known: &TestKnown) -> Result<Self> {
         let masses = known.accelerometer.map(|mass| Masses::of(set, mass)).transpose()?;
         let (groups, coherent) = groups(set);
@@ -96,15 +99,25 @@ impl Identified {
         let grids = all.len();
         let Some(found) = found else {
             let (modes, damping, orders) = (vec![], Damping::Material, vec![]);
-            return Ok(Self { modes, damping, orders, sum, band, grids, coherent });
+            let opposite = None;
+            return Ok(Self { modes, damping, orders, sum, band, grids, coherent, opposite });
         };
         let fitted = Fitted::new(set, &groups, all, &found);
-        let kept = (0..found.fit.poles.len()).filter(|p| is_mode(&found, *p, band));
-        let mut modes: Vec<SharedMode> =
-            kept.map(|p| fitted.mode(p, known, masses.as_ref())).collect();
+        let kept: Vec<usize> =
+            (0..found.fit.poles.len()).filter(|p| is_mode(&found, *p, band)).collect();
+        let opposite = fitted.opposite(&kept);
+        if let Some(x) = opposite.filter(|_| masses.is_some()) {
+            let found = format!("hammer and accelerometer at {x} m point opposite ways");
+            let expected = "one way: turn the sign of the responses over, or leave the mass out";
+            return Err(Error::value("--accelerometer", found, expected));
+        }
+        let mut modes = kept
+            .into_iter()
+            .map(|p| fitted.mode(p, known, masses.as_ref()))
+            .collect::<Result<Vec<SharedMode>>>()?;
         modes.sort_by(|a, b| a.frequency.value.total_cmp(&b.frequency.value));
         let (damping, orders) = (found.damping, found.orders);
-        Ok(Self { modes, damping, orders, sum, band, grids, coherent })
+        Ok(Self { modes, damping, orders, sum, band, grids, coherent, opposite })
     }
 }
 
@@ -119,8 +132,8 @@ fn is_mode(found: &Orders, p: usize, [low, high]: [f64; 2]) -> bool {
         && (low..=high).contains(&pole.hz)
 }
 
-/// Responses by their grids, and whether their noise is known from coherence.
-fn groups(set: &ResponseSet) -> (Vec<Group>, bool) {
+/// Responses by their grids, and how many have coherence.
+fn groups(set: &ResponseSet) -> (Vec<Group>, usize) {
     let mut grids: Vec<(Vec<f64>, Vec<usize>)> = vec![];
     for (k, one) in set.responses.iter().enumerate() {
         let hz: Vec<f64> = one.measured.values.iter().map(|(f, _)| *f).collect();
@@ -129,10 +142,11 @@ fn groups(set: &ResponseSet) -> (Vec<Group>, bool) {
             None => grids.push((hz, vec![k])),
         }
     }
-    let coherent = set.responses.iter().all(|one| one.measured.coherence.is_some());
+    let coherent = set.responses.iter().filter(|one| one.measured.coherence.is_some()).count();
+    let all = coherent == set.responses.len();
     let group = |(hz, which): (Vec<f64>, Vec<usize>)| {
         let values = which.iter().map(|k| accelerance(set, *k)).collect::<Vec<_>>();
-        let noise = coherent.then(|| by_coherence(set, &which, &values)).flatten();
+        let noise = all.then(|| by_coherence(set, &which, &values)).flatten();
         Group { which, responses: Responses::new(hz, values, noise) }
     };
     (grids.into_iter().map(group).collect(), coherent)
@@ -163,26 +177,25 @@ fn by_coherence(set: &ResponseSet, which: &[usize], values: &[Vec<Complex>]) -> 
 }
 
 impl Fitted<'_> {
-    fn mode(&self, p: usize, known: &TestKnown, masses: Option<&Masses>) -> SharedMode {
+    fn mode(&self, p: usize, known: &TestKnown, masses: Option<&Masses>) -> Result<SharedMode> {
         let pole = self.poles()[p];
-        let unloaded = masses.map(|masses| masses.without(self, p));
+        let unloaded = masses.map(|masses| masses.without(self, p)).transpose()?;
         let loaded = || {
             let residue = |k: usize| self.residue(k, p);
-            Unloaded { pole, residues: (0..self.set.responses.len()).map(residue).collect() }
+            let residues = (0..self.set.responses.len()).map(residue).collect();
+            Unloaded { pole, residues, deviations: [0.0; 2] }
         };
-        let Unloaded { pole: free, residues } = unloaded.unwrap_or_else(loaded);
+        let Unloaded { pole: free, residues, deviations } = unloaded.unwrap_or_else(loaded);
         let (shape, modal_mass) = shape(self.set, &residues);
-        let still = without_window(free, known.window);
-        let [hz, loss] = self.found.fit.deviations(p).map(|deviation| NINETY_FIVE * deviation);
-        // The first order of several masses leaves one of the size of its square.
+        let still = without_window(free, known.window)?;
         let lowered = masses.map(|_| pole.hz / free.hz - 1.0);
-        let second = masses.filter(|masses| !masses.alone).and(lowered).unwrap_or(0.0).powi(2);
-        let hz = hz.hypot(1.5 * second);
+        let own = self.found.fit.deviations(p);
+        let [hz, loss] = [0, 1].map(|k| NINETY_FIVE * own[k].hypot(deviations[k]));
         let hz = [-hz, hz].map(|by| still.hz * (1.0 + by));
         let damping = |loss: f64| 0.5 * (loss - free.loss() + still.loss()).max(0.0);
         let ratios = [-loss, loss].map(|by| damping(free.loss() * by.exp()));
         let values: Vec<c64> = shape.iter().flatten().copied().collect();
-        SharedMode {
+        Ok(SharedMode {
             frequency: Within { value: still.hz, interval95: hz },
             damping: Within { value: damping(free.loss()), interval95: ratios },
             collinearity: collinearity(&values),
@@ -190,7 +203,18 @@ impl Fitted<'_> {
             modal_mass,
             orders: self.stable(pole),
             lowered,
-        }
+        })
+    }
+
+    /// Place of the first reference (m) at whose drive point most of these poles have a negative residue.
+    fn opposite(&self, kept: &[usize]) -> Option<f64> {
+        let turned = |reference: &usize| {
+            let Some(drive) = self.set.drive(*reference) else { return false };
+            let negative = kept.iter().filter(|p| self.residue(drive, **p).re < 0.0).count();
+            2 * negative > kept.len()
+        };
+        let first = (0..self.set.references.len()).find(turned)?;
+        Some(self.set.references[first].x)
     }
 
     /// From how many poles on this one is there with every number of them, and how many there are.
@@ -203,10 +227,21 @@ impl Fitted<'_> {
 }
 
 /// The pole without an exponential window, which takes `i/(2πτ)` off the complex frequency `f √(1 + iη)`.
-fn without_window(pole: Pole, window: Option<f64>) -> Pole {
-    let Some(tau) = window else { return pole };
-    let moved = square(pole).sqrt() - Complex::new(0.0, 1.0 / (TAU * tau));
-    at(moved * moved)
+///
+/// # Errors
+///
+/// [`Error::Value`] for a window that damps more than the mode is damped.
+fn without_window(pole: Pole, window: Option<f64>) -> Result<Pole> {
+    let Some(tau) = window else { return Ok(pole) };
+    let own = square(pole).sqrt();
+    let moved = own - Complex::new(0.0, 1.0 / (TAU * tau));
+    if moved.im > 0.0 {
+        return Ok(at(moved * moved));
+    }
+    let found = format!("{tau} s, which damps more than the mode at {:.2} Hz is damped", pole.hz);
+    let least = 1.0 / (TAU * own.im.max(f64::MIN_POSITIVE));
+    let expected = format!("more than {least:.4} s, or no window: that of the analyser");
+    Err(Error::value("--window", found, expected))
 }
 
 /// The shape that explains the residues of every response best, and its modal mass.

@@ -51,11 +51,16 @@ impl ResponseSet {
     ///
     /// # Errors
     ///
-    /// Those of [`read`]; [`Error::Value`] for a node without a place, for too few frequencies, and for references
+    /// Those of [`read`]; [`Error::Value`] for a file that is named twice, for a node without a place, for too few frequencies, and for references
     /// that share no point.
     pub fn read(files: &[PathBuf], known: &Known, band: [f64; 2]) -> Result<Self> {
         let mut all = vec![];
-        for file in files {
+        let path = |file: &PathBuf| file.canonicalize().unwrap_or_else(|_| file.clone());
+        for (k, file) in files.iter().enumerate() {
+            if files[..k].iter().any(|other| path(other) == path(file)) {
+                let name = file.display().to_string();
+                return Err(Error::value(name, "it twice", "every file of responses once"));
+            }
             all.extend(read(file, known)?.into_iter().map(|(_, response)| response));
         }
         for one in &mut all {
@@ -75,6 +80,7 @@ impl ResponseSet {
     ///
     /// As [`Self::read`].
     pub fn of(mut all: Vec<MeasuredResponse>) -> Result<Self> {
+        let copies = drop_copies(&mut all);
         turn_alike(&mut all);
         let [mut forces, mut answers] = [vec![], vec![]];
         for one in &all {
@@ -101,7 +107,7 @@ impl ResponseSet {
             let off = |place: &Place| (place.x - x.unwrap_or(f64::NAN)).abs();
             places.iter().position(|place| off(place) < SAME).unwrap_or(0)
         };
-        let mut assumed: Vec<String> = vec![];
+        let mut assumed: Vec<String> = copies.into_iter().collect();
         let mut responses = vec![];
         for measured in all {
             let (roved, stayed) = match hammer_roves {
@@ -155,6 +161,27 @@ impl ResponseSet {
     pub fn fixed(&self) -> &'static str {
         if self.hammer_roves { "accelerometer" } else { "hammer" }
     }
+}
+
+/// Copies of a response, whose noise is no other noise, are dropped; what is said of them.
+fn drop_copies(all: &mut Vec<MeasuredResponse>) -> Option<String> {
+    let before = all.len();
+    let mut kept: Vec<MeasuredResponse> = vec![];
+    for one in all.drain(..) {
+        let same = |other: &MeasuredResponse| {
+            (other.kind, other.at, other.to) == (one.kind, one.at, one.to)
+                && other.values == one.values
+        };
+        if !kept.iter().any(same) {
+            kept.push(one);
+        }
+    }
+    *all = kept;
+    let dropped = before - all.len();
+    (dropped > 0).then(|| {
+        let what = if dropped == 1 { "response is a copy" } else { "responses are copies" };
+        format!("{dropped} {what} of others and left out: they tell nothing new")
+    })
 }
 
 /// Responses of one test run the same way round: as most of them do, since noise may turn one.

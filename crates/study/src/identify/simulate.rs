@@ -67,6 +67,8 @@ const TRIED: usize = 200;
 
 /// What a virtual test is of, and what it measures.
 pub struct Simulated {
+    /// The test.
+    pub test: VirtualTest,
     /// The responses.
     pub set: ResponseSet,
     /// The bat's modes in the band, without masses.
@@ -108,7 +110,7 @@ impl VirtualTest {
                 mass: self.accelerometer,
                 ..Default::default()
             });
-            parts.fixtures.attachments.extend(masses);
+            parts.fixtures.attachments.extend(masses.filter(|one| one.mass > 0.0));
         })?;
         let solution = solve(&bat, &request)?;
         let body = bat.inertia();
@@ -132,7 +134,7 @@ impl VirtualTest {
             solution.modes.into_iter().filter(|mode| mode.frequency() < self.top).collect();
         let set = ResponseSet::of(all)?;
         let force_db = 20.0 * weakest.log10();
-        Ok(Simulated { set, modes, loaded: hz, force_db, assumed_loss: !loss, length })
+        Ok(Simulated { test: *self, set, modes, loaded: hz, force_db, assumed_loss: !loss, length })
     }
 
     fn check(&self, bat: &Bat) -> Result<()> {
@@ -142,12 +144,25 @@ impl VirtualTest {
         if self.points < 3 || self.points > 100 {
             return wrong("--points", self.points.to_string(), "3 to 100".to_owned());
         }
-        if self.missing + 3 > self.points {
+        if self.missing > self.points - 3 {
             return wrong(
                 "--missing",
                 self.missing.to_string(),
                 format!("{} at most", self.points - 3),
             );
+        }
+        if self.double_hits > self.points {
+            let expected = format!("{} at most, as many as there are points", self.points);
+            return wrong("--double-hits", self.double_hits.to_string(), expected);
+        }
+        for (option, value, unit, [low, high]) in [
+            ("--hammer", self.hammer, "kg", [0.01, 2.0]),
+            ("--tip", self.tip, "N/m", [1e3, 1e10]),
+            ("--to-hz", self.top, "Hz", [10.0, 20_000.0]),
+        ] {
+            if !(low..=high).contains(&value) {
+                return wrong(option, format!("{value} {unit}"), format!("{low} to {high} {unit}"));
+            }
         }
         if let Some(x) = self.reference.filter(|x| !(0.0..=bat.length()).contains(x)) {
             return wrong("--reference", format!("{x} m"), format!("0 to {} m", bat.length()));
