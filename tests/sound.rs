@@ -132,8 +132,10 @@ fn assumed_damping_is_that_of_a_metal_and_is_named_and_wood_has_none() {
     let folder = Folder::new("sound-assumed");
     let (metal, wood) = (mesh("bbcor_made_up"), mesh("r161"));
     let modes = |more: &[&str]| -> Value {
-        serde_json::from_str(&folder.text(&[&["modes", &metal, "--json", "-"], more].concat()))
-            .unwrap()
+        serde_json::from_str(
+            &folder.text(&[&["modes", &metal, "--json", "-", "--quiet"], more].concat()),
+        )
+        .unwrap()
     };
     let [plain, assumed] = [modes(&[]), modes(&["--damping", "assumed"])];
     let ratio = |told: &Value| told["modes"][0]["damping_ratio"].as_f64().unwrap();

@@ -345,11 +345,8 @@ impl Bat {
         })
     }
 
-    /// The bat whose materials without a loss factor have the one that is published of their kind, else that one.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`Self::with`].
+    /// The bat whose materials without a loss factor have the one that is published of their kind, else that one; errors
+    /// are those of [`Self::with`].
     pub fn with_losses(&self, unknown: f64) -> Result<Self> {
         self.losing(|m| {
             let known = Some(m.loss_factor).filter(|loss| *loss > 0.0);

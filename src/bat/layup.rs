@@ -239,8 +239,7 @@ impl Layup {
         let bent = bent.chain(self.core.as_ref().map(inside));
         let sheared = std::iter::once(outer).chain(self.shears_of_sleeves(wall)).chain([core]);
         let losses = self.parts(wall).map(|(material, _)| material.losses());
-        let losses: Vec<[f64; 2]> =
-            losses.chain(self.core.as_ref().map(Material::losses)).collect();
+        let losses: Vec<_> = losses.chain(self.core.as_ref().map(Material::losses)).collect();
         let mean = |strain: usize, stiff: Vec<f64>| {
             // Of two that do not give way in shear neither has a share.
             let finite = stiff.iter().all(|k| k.is_finite());

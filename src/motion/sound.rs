@@ -151,8 +151,7 @@ impl Sound {
     fn peak(&self) -> f64 {
         /// As many of the instants of a usual sound file (44.1 kHz) as there are in 20 ms.
         const INSTANTS: u32 = 882;
-        let at = |k| self.at(f64::from(k) / 44_100.0).abs();
-        (0..INSTANTS).map(at).fold(0.0, f64::max)
+        (0..INSTANTS).map(|k| self.at(f64::from(k) / 44_100.0).abs()).fold(0.0, f64::max)
     }
 
     /// How long something is heard (s): until the slowest tone is a thousandth of itself.

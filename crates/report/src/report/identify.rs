@@ -224,6 +224,15 @@ impl IdentifyReport<'_> {
             );
             all.push(one("masses", text));
         }
+        all.extend(self.of_responses());
+        all
+    }
+
+    /// What is to be said of the responses themselves.
+    fn of_responses(&self) -> Vec<IdentifySaid> {
+        let (set, found) = (self.set, self.found);
+        let one = |code: &str, text: String| IdentifySaid { code: code.to_owned(), text };
+        let mut all = vec![];
         if found.coherent < set.responses.len() {
             let why = match found.coherent {
                 0 => "as there is no coherence".to_owned(),
