@@ -82,7 +82,7 @@ impl Identified {
     ///
     /// # Errors
     ///
-    /// [`Error::Value`](sweetspot::Error::Value) for masses of accelerometers without a drive point, or with
+    /// [`Error::Value`] for masses of accelerometers without a drive point, or with
     /// one whose sign is wrong, for masses that are more than is carried and for a window that damps more than a mode.
     pub fn of(set: &ResponseSet, known: &TestKnown) -> Result<Self> {
         let masses = known.accelerometer.map(|mass| Masses::of(set, mass)).transpose()?;
