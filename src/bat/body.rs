@@ -166,7 +166,7 @@ impl Bat {
         Ok(Self { edits, unedited, heard: self.heard, ..bat })
     }
 
-    /// The bat with these parts, which one more edit has made of its own.
+    /// The bat with these parts, which one more edit has made.
     pub(crate) fn after(
         &self,
         edit: &Edit,

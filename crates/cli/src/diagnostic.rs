@@ -35,7 +35,7 @@ pub fn render(error: &Error, coloured: bool) -> String {
 pub fn as_json(document: impl FnOnce() -> ErrorFile) {
     let mut options = std::env::args_os().skip(1).take_while(|word| word != "--");
     if options.any(|word| word == "--json" || word.as_encoded_bytes().starts_with(b"--json=")) {
-        // There is nobody left to tell if standard error is closed.
+        // If standard error is closed, the message is lost.
         let _ =
             writeln!(std::io::stderr(), "{}", marks::json(&schema::value(&document()).to_string()));
     }

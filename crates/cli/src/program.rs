@@ -16,7 +16,7 @@ pub fn run() -> ExitCode {
     let Done { text, code, warning } = match verbs::run() {
         Ok(done) => done,
         Err(error) => {
-            // There is nobody left to tell if stderr is closed.
+            // If standard error is closed, the message is lost.
             let mut err = io::stderr();
             let coloured = style::coloured(err.is_terminal());
             let _ = write!(err, "{}", diagnostic::render(&error, coloured));

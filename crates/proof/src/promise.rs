@@ -1,6 +1,6 @@
 //! Do the stated errors hold?
 //!
-//! [`rows`] sets what a solution says of its own errors beside what they are; [`Summary::of`] sums
+//! [`rows`] sets what a solution states as its errors beside what they are; [`Summary::of`] sums
 //! that up.
 //!
 //! Every bat with exact frequencies is solved for tolerances from 1e-2 to 1e-12. The promise:

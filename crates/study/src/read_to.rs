@@ -2,7 +2,7 @@
 //!
 //! Calipers read to 0.1 mm and better; a ruler, a tape or a template is read to a sixteenth of an inch, or to a
 //! millimetre. A column whose diameters all lie on such a grid was read to it. Numbers that were typed with two or
-//! three decimals (2.56 for 2 9/16) lie on it but for their rounding: then there must be so many of them that
+//! three decimals (2.56 for 2 9/16) lie on it but for their rounding: then enough of them are needed that
 //! chance does not put them all there.
 
 use sweetspot::bat::body::Bat;

@@ -439,34 +439,32 @@ mod tests {
     use super::*;
     use std::f64::consts::TAU;
 
-    /// Accelerances per force of these poles with residues, on lines 0.5 Hz apart from 50 to 1200 Hz, with a rigid part and
-    /// complex normal noise of that size.
+    /// Accelerances per force of these poles with residues by their own formula, on lines 0.5 Hz apart from 50 to 1200 Hz,
+    /// with a rigid part and complex normal noise of that size.
     fn responses(
         poles: &[Pole],
         residues: &[Vec<f64>],
         damping: Damping,
         noise: f64,
-        seed: u64,
+        mut state: u64,
     ) -> Responses {
         let hz: Vec<f64> = (100..2400).map(|l| 0.5 * f64::from(l)).collect();
-        let mut state = seed;
         let mut uniform = || {
             state = state
                 .wrapping_mul(6_364_136_223_846_793_005)
                 .wrapping_add(1_442_695_040_888_963_407);
             ((state >> 33) as f64 + 0.5) / (1_u64 << 31) as f64
         };
-        let mut one = |residues: &Vec<f64>| {
-            let at = |f: &f64| {
-                let own = poles.iter().zip(residues);
-                let sum = own.map(|(pole, a)| resonance(*pole, damping, *f)[0] * *a);
-                let size = noise * (-uniform().ln()).sqrt();
-                sum.fold(Complex::new(0.7, 0.0), |sum, v| sum + v)
-                    + Complex::turn(TAU * uniform()) * size
-            };
-            hz.iter().map(at).collect()
+        let mut at = |residues: &Vec<f64>, f: f64| {
+            let size = noise * (-uniform().ln()).sqrt();
+            let start = Complex::new(0.7, 0.0) + Complex::turn(TAU * uniform()) * size;
+            poles.iter().zip(residues).fold(start, |sum, (pole, a)| {
+                let by = if damping == Damping::Material { pole.hz } else { f };
+                let below = Complex::new(pole.hz.powi(2) - f * f, pole.loss() * pole.hz * by);
+                sum - Complex::new(a * f * f, 0.0) / below
+            })
         };
-        let values = residues.iter().map(&mut one).collect();
+        let values = residues.iter().map(|a| hz.iter().map(|f| at(a, *f)).collect()).collect();
         Responses::new(hz.clone(), values, None)
     }
 

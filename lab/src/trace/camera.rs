@@ -84,7 +84,7 @@ impl Outline {
         Self { half: (0..count).map(circle).collect(), ..*self }
     }
 
-    /// Half the width at a place (px from the knob end), in the mean of so many pixels to each side.
+    /// Half the width at a place (px from the knob end), averaged over a number of pixels to each side.
     pub fn half(&self, u: f64, beside: f64) -> f64 {
         let last = self.half.len() - 1;
         let column = |u: f64| (u - self.first).round().clamp(0.0, last as f64) as usize;
@@ -175,7 +175,7 @@ impl Camera {
 
     /// Whether the bat looks shorter than its ends allow, as one does whose ends are not level.
     pub fn doubtful(&self, told: Told) -> bool {
-        /// One over the distance (1/m) beyond which nobody photographs a bat.
+        /// One over the distance (1/m) within which bats are photographed.
         const FAR: f64 = 0.1;
         told.distance.is_none() && self.nearness < FAR
     }

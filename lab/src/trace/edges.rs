@@ -77,7 +77,7 @@ impl Columns<'_> {
         distance(colour, self.ground.at(x, y))
     }
 
-    /// The changes along so many columns.
+    /// The changes along that number of columns.
     fn change(&self, first: f64, count: usize) -> Change {
         let rows = 2 * self.wide + 1;
         let across = |j: usize| j as f64 - self.wide as f64;
@@ -200,7 +200,7 @@ fn path(score: &[f32], rows: usize, allowed: impl Fn(usize, usize) -> bool) -> V
 /// Rows that an edge may leave a pin.
 const PINNED: f64 = 1.5;
 
-/// Where pins of an edge, in their order, let it be at a place along the axis: at a row, and so many rows beside it.
+/// Where pins of an edge, in their order, let it be at a place along the axis: at a row, give or take a number of rows.
 /// Between two of them that is near the straight line.
 fn corridor(pins: &[[f64; 2]], u: f64) -> Option<[f64; 2]> {
     /// Rows besides, and as a share of the way between two pins.

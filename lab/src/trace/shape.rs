@@ -49,13 +49,13 @@ fn places(length: f64) -> Vec<f64> {
 }
 
 impl Seen {
-    /// What an outline says, of which bat and ground differ by so many noises.
+    /// What an outline says, with the contrast of bat and ground over the noise.
     pub fn of(outline: &Outline, camera: &Camera, told: Told, contrast: f32) -> Self {
         /// An edge between pixels (px), and the contrast below which it is less certain.
         const EDGE: (f64, f64) = (0.3, 12.0);
         /// What is averaged to each side (m), at the knob and elsewhere.
         const BESIDE: [f64; 2] = [5e-4, 2.5e-3];
-        /// Readings begin so many pixels from the ends.
+        /// Distance (px) from the ends at which readings begin.
         const INSIDE: f64 = 2.0;
         let inside = INSIDE / camera.per_m;
         let x_m = places(told.length);

@@ -132,7 +132,7 @@ fn bat_file(asked: &Asked, shape: &Shape, pictures: usize) -> String {
     format!("{bat:#}\n")
 }
 
-/// What limits trust, in sentences, of a bat that stands out by so many noises, its middle line bent by so much (m).
+/// What limits trust, in sentences, of a bat by its contrast over the noise and the bend of its middle line (m).
 fn words(
     [contrast, bow]: [f64; 2],
     camera: &Camera,

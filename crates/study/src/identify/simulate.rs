@@ -88,7 +88,7 @@ impl VirtualTest {
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] for a test that is none; those of [`solve`].
+    /// [`Error::Value`] for an impossible test; those of [`solve`].
     pub fn of(&self, bat: &Bat) -> Result<Simulated> {
         self.check(bat)?;
         let length = bat.length();
