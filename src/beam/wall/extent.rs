@@ -75,7 +75,7 @@ impl Extent {
             } else {
                 Error::value(
                     "profile",
-                    "a bat without a wall",
+                    "a solid bat, or a wall below a millionth of its radius",
                     "a hollow one: only a wall has hoop modes",
                 )
             });
