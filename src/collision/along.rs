@@ -4,6 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::base::telling::Tell;
 use crate::base::threads;
+use crate::collision::contact::abreast::meet::ABREAST;
 use crate::collision::hit::{Impact, greater};
 use crate::collision::hitter::Hitter;
 
@@ -22,26 +23,31 @@ pub fn strikes(hitter: &Hitter, length: f64, places: &[f64], tell: Tell) -> Vec<
             && places.windows(few + 1).all(|span| span.iter().all(|x| (x - span[0]).abs() <= most))
     };
     let struck = AtomicUsize::new(0);
-    let told = |impact: Impact| {
-        let count = struck.fetch_add(1, Ordering::Relaxed) + 1;
-        if count.is_multiple_of(OFTEN) {
-            tell(count as f64 / places.len() as f64, "hits");
-        }
-        impact
+    // Some at a time, so that they are met side by side.
+    let strike = |asked: &[(f64, Option<[f64; 3]>)]| -> Vec<Impact> {
+        let groups: Vec<_> = asked.chunks(ABREAST).collect();
+        let hits = threads::map(groups.len(), |k| {
+            let impacts = hitter.strike_all(groups[k]);
+            let before = struck.fetch_add(impacts.len(), Ordering::Relaxed);
+            let count = before + impacts.len();
+            if count / OFTEN > before / OFTEN {
+                tell(count as f64 / places.len() as f64, "hits");
+            }
+            impacts
+        });
+        hits.into_iter().flatten().collect()
     };
+    let bare = |k: usize| (places[k], None);
     let Some(few) = (2..=MOST).rev().find(close) else {
-        return threads::map(places.len(), |k| told(hitter.strike(places[k])));
+        return strike(&(0..places.len()).map(bare).collect::<Vec<_>>());
     };
     let last = places.len() - 1;
     let mut chosen: Vec<usize> = (0..last).step_by(few).collect();
     chosen.push(last);
-    let compared = threads::map(chosen.len(), |k| told(hitter.strike(places[chosen[k]])));
-    let strike = |k: usize| {
-        let after = chosen.partition_point(|at| *at < k);
-        if chosen[after] == k {
-            return compared[after].clone();
-        }
-        let [a, b] = [after - 1, after].map(|i| compared[i].outcome.as_ref());
+    let compared = strike(&chosen.iter().copied().map(bare).collect::<Vec<_>>());
+    let between: Vec<usize> = (0..last).filter(|k| k % few != 0).collect();
+    let known = |k: &usize| {
+        let [a, b] = [k / few, k / few + 1].map(|i| compared[i].outcome.as_ref());
         let errors = a.zip(b).map(|(a, b)| {
             [
                 greater(a.truncation, b.truncation),
@@ -49,7 +55,11 @@ pub fn strikes(hitter: &Hitter, length: f64, places: &[f64], tell: Tell) -> Vec<
                 greater(a.wall, b.wall),
             ]
         });
-        told(hitter.strike_knowing(places[k], errors))
+        (places[*k], errors)
     };
-    threads::map(places.len(), strike)
+    let others = strike(&between.iter().map(known).collect::<Vec<_>>());
+    let mut all: Vec<Option<Impact>> = vec![None; places.len()];
+    let both = chosen.into_iter().zip(compared).chain(between.into_iter().zip(others));
+    both.for_each(|(k, impact)| all[k] = Some(impact));
+    all.into_iter().flatten().collect()
 }

@@ -6,8 +6,8 @@ use crate::collision::contact::encounter::Encounter;
 use crate::collision::contact::power_law::LEAST_RESTITUTION;
 use crate::collision::contact::touch::DrivingPoint;
 use crate::collision::energy_loss::{EnergyLoss, wpi_alpha};
-use crate::collision::hit::{Effort, Model, Separation};
-use crate::collision::hitter::Hitter;
+use crate::collision::hit::{Model, Separation};
+use crate::collision::hitter::{Blow, Hitter};
 use crate::collision::pulse::Pulse;
 use crate::collision::stated::{Answered, fewer};
 use crate::modes::mode::Mode;
@@ -68,17 +68,33 @@ impl HitAnswer {
 
 impl Hitter<'_> {
     /// What the model says of a hit at `x`, if it says anything.
-    pub(super) fn answer(&self, x: f64, known: Option<[f64; 3]>) -> Option<HitAnswer> {
-        let closing = self.closing(x).filter(|_| self.has_section(x))?;
-        let [mass, cor] = self.blow(x, closing);
-        let lost = 0.5 * mass * closing * closing * (1.0 - cor * cor);
-        let rigid = HitAnswer::new(mass * (1.0 + cor) * closing, cor, lost);
-        match self.model {
-            Model::Rigid => Some(rigid),
-            Model::EnergyLoss(loss) => self.empirical(loss, x, closing, rigid),
-            Model::Pulse(pulse) => self.pulsed(pulse, x, closing, cor),
-            Model::Contact => self.touched(x, closing, cor, known),
+    pub(super) fn answer(&self, x: f64) -> Option<HitAnswer> {
+        self.answers(&[(x, None)]).pop()?
+    }
+
+    /// What the model says of hits at some places (m), where it says anything; the errors of a contact by truncation,
+    /// by steps and by the wall may be known.
+    pub(super) fn answers(&self, places: &[(f64, Option<[f64; 3]>)]) -> Vec<Option<HitAnswer>> {
+        let approach = |(x, known): &(f64, Option<[f64; 3]>)| {
+            let closing = self.closing(*x).filter(|_| self.has_section(*x))?;
+            let [mass, cor] = self.blow(*x, closing);
+            Some(Approach { x: *x, closing, mass, cor, known: *known })
+        };
+        let approaches = places.iter().map(approach);
+        if self.model == Model::Contact {
+            return self.touched(&approaches.collect::<Vec<_>>());
         }
+        let says = |approach: Option<Approach>| {
+            let Approach { x, closing, mass, cor, .. } = approach?;
+            let lost = 0.5 * mass * closing * closing * (1.0 - cor * cor);
+            let rigid = HitAnswer::new(mass * (1.0 + cor) * closing, cor, lost);
+            match self.model {
+                Model::EnergyLoss(loss) => self.empirical(loss, x, closing, rigid),
+                Model::Pulse(pulse) => self.pulsed(pulse, x, closing, cor),
+                Model::Rigid | Model::Contact => Some(rigid),
+            }
+        };
+        approaches.map(says).collect()
     }
 
     fn empirical(
@@ -131,57 +147,76 @@ impl Hitter<'_> {
         Some(answer)
     }
 
-    fn touched(
+    /// What a contact says at some places.
+    fn touched(&self, approaches: &[Option<Approach>]) -> Vec<Option<HitAnswer>> {
+        let count = self.modes_used();
+        let few = if self.effort.completed { fewer(count) } else { vec![] };
+        let places: Vec<(&Approach, Ladder)> = approaches
+            .iter()
+            .flatten()
+            .map(|approach| (approach, self.ladder(approach.x)))
+            .collect();
+        let felt: Vec<DrivingPoint> = places.iter().map(|(_, ladder)| ladder.of(count)).collect();
+        let others = |k: usize| few.iter().map(|few| places[k].1.of(*few)).collect();
+        let others: Vec<_> = (0..places.len()).map(|k| move || others(k)).collect();
+        let blow = |k: usize| {
+            let (Approach { x, closing, known, .. }, _) = places[k];
+            let (felt, others) = (&felt[k], &others[k] as &dyn Fn() -> Vec<DrivingPoint>);
+            Blow { x: *x, felt, others, closing: *closing, compared: known.is_none() }
+        };
+        let blows: Vec<Blow> = (0..places.len()).map(blow).collect();
+        let met = self.meet_all(&blows, self.effort.accuracy);
+        let told = places.iter().zip(&felt).zip(met).map(|(((approach, ladder), felt), met)| {
+            let (met, accuracy) = met?;
+            Some(self.told(approach, ladder, &few, felt, &met, accuracy))
+        });
+        let mut told = told.collect::<Vec<_>>().into_iter();
+        approaches.iter().map(|approach| approach.as_ref().and_then(|_| told.next()?)).collect()
+    }
+
+    /// The bat as the ball feels it at `x` (m) by any number of its modes.
+    fn ladder(&self, x: f64) -> Ladder<'_> {
+        let beyond = self.effort.completed.then(|| self.struck.flexibility(x));
+        Ladder { hitter: self, x, modes: self.by_modes(x), beyond }
+    }
+
+    /// What a contact that was `met` by steps of that accuracy says, with its errors.
+    fn told(
         &self,
-        x: f64,
-        closing: f64,
-        cor: f64,
-        known: Option<[f64; 3]>,
-    ) -> Option<HitAnswer> {
+        approach: &Approach,
+        ladder: &Ladder,
+        few: &[usize],
+        felt: &DrivingPoint,
+        met: &Encounter,
+        accuracy: f64,
+    ) -> HitAnswer {
+        let Approach { x, closing, cor, known, .. } = *approach;
         let (ball, count) = (self.scene.ball.mass_kg, self.modes_used());
-        let Effort { accuracy, completed, .. } = self.effort;
-        let beyond = completed.then(|| self.struck.flexibility(x));
-        let modes = self.by_modes(x);
-        let few = if completed { fewer(count) } else { vec![] };
-        let of = |count: usize| {
-            let gains = modes.gains[..count].to_vec();
-            self.with_wall(x, self.bent(x, DrivingPoint { gains, ..modes }, beyond))
-        };
-        let felt = of(count);
-        let beside = |few: &[usize], accuracy: f64| {
-            let others: Vec<DrivingPoint> = few.iter().map(|few| of(*few)).collect();
-            self.meet_beside(x, &felt, &others, closing, accuracy)
-        };
-        let (met, accuracy) = beside(if known.is_none() { &few } else { &[] }, accuracy)?;
         // How far another answer is from this one in the end, and when the ball leaves for the first time.
-        let both = |felt: &DrivingPoint, accuracy: f64, faster: f64| {
-            let other = self.meet(x, felt, faster * closing, accuracy);
+        let both = |felt: &DrivingPoint, accuracy: f64| {
+            let other = self.meet(x, felt, closing, accuracy);
             // One that comes to no end says nothing.
             other.map_or([1.0; 2], |(other, _)| {
-                let apart = |other: f64, own: f64| (other / faster - own).abs() / (ball * closing);
+                let apart = |other: f64, own: f64| (other - own).abs() / (ball * closing);
                 let first = apart(other.first_impulse, met.first_impulse);
                 [apart(other.impulse, met.impulse), first]
             })
         };
-        let from_other =
-            |felt: &DrivingPoint, accuracy: f64, faster: f64| both(felt, accuracy, faster)[0];
         let first_error = Cell::new(0.0);
-        let counted = |felt: &DrivingPoint, accuracy: f64, share: f64| {
-            let [all, first] = both(felt, accuracy, 1.0);
-            first_error.set(first_error.get() + share * first);
-            share * all
+        let counted = |felt: &DrivingPoint, accuracy: f64| {
+            let [all, first] = both(felt, accuracy);
+            first_error.set(first_error.get() + first);
+            all
         };
         let mass = 1.0 / felt.inverse_mass;
         let rebound = met.impulse / (mass * closing) - 1.0;
         let (of_ball, slow) = (mass / ball, self.slow_modes());
-        let answered = Answered { met: &met, count, accuracy, rebound, of_ball, slow };
+        let answered = Answered { met, count, accuracy, rebound, of_ball, slow };
         let shears = self.solution.theory.shears();
         let mut answer = HitAnswer::new(met.impulse, cor, met.lost_in_ball);
         [answer.truncation, answer.steps, answer.wall] =
             known.filter(|_| !answered.is_delicate()).unwrap_or_else(|| {
-                let again = known.and_then(|_| beside(&few, accuracy));
-                let Encounter { changes, first_changes, .. } =
-                    again.as_ref().map_or(&met, |(again, _)| again);
+                let Encounter { changes, first_changes, .. } = met;
                 let in_first = |(few, by): (&usize, &f64)| (*few, by.abs() / (ball * closing));
                 let in_first = few.iter().zip(first_changes).map(in_first);
                 first_error.set(answered.left_out(shears, in_first));
@@ -191,21 +226,21 @@ impl Hitter<'_> {
                 let change = |(few, by): (&usize, &f64)| {
                     let by = by.abs() / (ball * closing);
                     let large = answered.is_delicate() && (by > SMALL || by.is_nan());
-                    (*few, if large { from_other(&of(*few), accuracy, 1.0) } else { by })
+                    (*few, if large { both(&ladder.of(*few), accuracy)[0] } else { by })
                 };
                 let left_out = answered.left_out(shears, few.iter().zip(changes).map(change));
-                let steps = answered.steps(left_out, |accuracy| counted(&felt, accuracy, 1.0));
+                let steps = answered.steps(left_out, |accuracy| counted(felt, accuracy));
                 // A wall softer by all that may be missing, and by what modes that follow the force at once are late:
                 // `y = C F − D F″ + …`, and `F″` of a half sine is `(π/T)² F`. On a stiff bat T is 2.86 to 3.14 times the
                 // time in which the ball would be pressed at its first speed; a wall makes it longer.
                 let wall = self.under(x).map_or(0.0, |under| {
                     let late = under.late * (std::f64::consts::PI / (2.86 * self.pressed)).powi(2);
                     let rest = felt.rest + under.unsure + late;
-                    counted(&DrivingPoint { rest, ..felt.clone() }, accuracy, 1.0)
+                    counted(&DrivingPoint { rest, ..felt.clone() }, accuracy)
                 });
                 [left_out, steps, wall]
             });
-        let [magnified, round_off] = answered.magnified(|by| from_other(&felt, accuracy, 1.0 + by));
+        let [magnified, round_off] = answered.magnified(ball * closing);
         answer.steps += round_off;
         // What touches beyond those that were followed could give, and a ball deader than any law.
         answer.error +=
@@ -246,7 +281,34 @@ impl Hitter<'_> {
         answer.in_wall = met.in_modes[..walls].to_vec();
         answer.in_modes = met.in_modes[walls..].to_vec();
         answer.lost_in_bat = met.lost_in_bat;
-        Some(answer)
+        answer
+    }
+}
+
+/// A ball that nears a place.
+struct Approach {
+    /// The place (m), the closing speed (m/s), μ (kg) and e₀.
+    x: f64,
+    closing: f64,
+    mass: f64,
+    cor: f64,
+    /// Errors that are known.
+    known: Option<[f64; 3]>,
+}
+
+/// The bat as the ball feels it at a place by any number of its modes.
+struct Ladder<'a> {
+    hitter: &'a Hitter<'a>,
+    x: f64,
+    modes: DrivingPoint,
+    beyond: Option<[f64; 2]>,
+}
+
+impl Ladder<'_> {
+    fn of(&self, count: usize) -> DrivingPoint {
+        let gains = self.modes.gains[..count].to_vec();
+        let bent = self.hitter.bent(self.x, DrivingPoint { gains, ..self.modes }, self.beyond);
+        self.hitter.with_wall(self.x, bent)
     }
 }
 

@@ -10,6 +10,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use crate::base::error::{Error, Result};
 use crate::bat::body::{Bat, STANDARD_PIVOT};
 use crate::bat::profile::Profile;
+use crate::collision::contact::abreast::meet::Place;
 use crate::collision::contact::collider::{Collider, Law};
 use crate::collision::contact::encounter::Encounter;
 use crate::collision::contact::touch::DrivingPoint;
@@ -316,14 +317,55 @@ impl<'a> Hitter<'a> {
         closing: f64,
         accuracy: f64,
     ) -> Option<(Encounter, f64)> {
-        let (collider, law) = (self.collider.as_ref()?, self.law_at(x, closing)?);
-        let meet = |accuracy| {
-            let met = collider.meet_beside(felt, others, &*law, closing, accuracy);
-            self.work.fetch_add(met.work(), Ordering::Relaxed);
-            (met, accuracy)
-        };
-        resolved(accuracy, meet, felt, closing)
+        self.meet_all(&[Blow { x, felt, others: &|| others.to_vec(), closing, compared: true }], accuracy).pop()?
     }
+
+    /// The meetings at some places, each with the accuracy of its steps: side by side where ball and bat touch once,
+    /// which changes no bit of them.
+    pub(super) fn meet_all(&self, blows: &[Blow], accuracy: f64) -> Vec<Option<(Encounter, f64)>> {
+        let Some(collider) = &self.collider else { return vec![None; blows.len()] };
+        let laws = blows.iter().map(|blow| self.law_at(blow.x, blow.closing));
+        let laws: Vec<Option<Box<dyn Law>>> = laws.collect();
+        let others = |blow: &Blow| if blow.compared { (blow.others)() } else { vec![] };
+        let others: Vec<Vec<DrivingPoint>> = blows.iter().map(others).collect();
+        let (mut places, mut which) = (vec![], vec![]);
+        for (k, (blow, law)) in blows.iter().zip(&laws).enumerate() {
+            if let Some(law) = law.as_ref().and_then(|law| law.powers()) {
+                let Blow { felt, closing: speed, .. } = *blow;
+                places.push(Place { felt, others: &others[k], law, speed });
+                which.push(k);
+            }
+        }
+        let mut all = vec![None; blows.len()];
+        let count = |met: &Encounter| self.work.fetch_add(met.work(), Ordering::Relaxed);
+        for (k, met) in which.into_iter().zip(collider.meet_abreast(&places, accuracy)) {
+            let Some(met) = met.filter(|met| met.is_sound(blows[k].felt, blows[k].closing)) else { continue };
+            count(&met);
+            all[k] = Some((met, accuracy));
+        }
+        for (k, (blow, law)) in blows.iter().zip(&laws).enumerate() {
+            let Some(law) = law.as_ref().filter(|_| all[k].is_none()) else { continue };
+            let others = (blow.others)();
+            let meet = |accuracy| {
+                let met = collider.meet_beside(blow.felt, &others, &**law, blow.closing, accuracy);
+                count(&met);
+                (met, accuracy)
+            };
+            all[k] = resolved(accuracy, meet, blow.felt, blow.closing);
+        }
+        all
+    }
+}
+
+/// A ball about to meet the bat at `x` (m) at that closing speed (m/s).
+pub(super) struct Blow<'a> {
+    pub x: f64,
+    pub felt: &'a DrivingPoint,
+    /// Bats of fewer modes beside it.
+    pub others: &'a dyn Fn() -> Vec<DrivingPoint>,
+    pub closing: f64,
+    /// Whether it is compared with those also where ball and bat touch once.
+    pub compared: bool,
 }
 
 /// The error about a bat (kg) that a ball (kg) carries along, whose first mode goes through that phase (rad) meanwhile.

@@ -2,7 +2,7 @@
 //! much the hit magnifies small changes.
 //!
 //! Each comes from other answers to the same hit: with fewer modes (to first order,
-//! [`crate::collision::contact::tangent`]), with finer steps, a little faster.
+//! [`crate::collision::contact::tangent`]), with finer steps, a little faster (to first order).
 //! The figures are fitted to 1270 random hits that are known otherwise (`search/hits`); those of
 //! `validation/hits` are others, at which `validate --promise` looks.
 
@@ -29,9 +29,7 @@ const FALLS: [[f64; 2]; 2] = [[4.0, 5.0], [2.5, 3.0]];
 /// Share of the error expected from a change by fewer modes.
 const LEFT_OUT: f64 = 0.6;
 
-/// A change of the closing speed that shows by how much the hit magnifies what is small, and what is
-/// small in any case: the share of the energy that a touch may leave open.
-const NUDGE: f64 = 1e-6;
+/// What is small in any case: the share of the energy that a touch may leave open.
 const SMALL: f64 = 1e-12;
 
 /// An answer to a hit, of `count` modes and steps of that accuracy.
@@ -101,14 +99,15 @@ impl Answered<'_> {
         if share > 0.0 { self.of_ball * share / (after + rebound) } else { 0.0 }
     }
 
-    /// Factor by which the hit magnifies small changes, and the error that it makes of round-off, where
-    /// `faster(by)` is how far the answer for a closing speed that is larger by that share is from this
-    /// one, the share taken off.
-    pub fn magnified(&self, faster: impl Fn(f64) -> f64) -> [f64; 2] {
+    /// Factor by which the hit magnifies small changes, and the error that it makes of round-off, for a ball of that
+    /// momentum (N s) at the closing speed: a closing speed that is larger by a share changes the impulse by as much, and
+    /// by what is magnified.
+    pub fn magnified(&self, momentum: f64) -> [f64; 2] {
         if !self.is_delicate() {
             return [1.0, 0.0];
         }
-        let magnified = (faster(NUDGE) / NUDGE).max(1.0);
+        let faster = self.met.faster.unwrap_or(f64::INFINITY);
+        let magnified = ((faster - self.met.impulse).abs() / momentum).max(1.0);
         [magnified, magnified * self.speed_of(SMALL)]
     }
 }

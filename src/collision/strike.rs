@@ -53,7 +53,7 @@ impl Hitter<'_> {
                 (met.impulse, met.first_impulse, later, met.in_modes)
             }
             _ => {
-                let answer = self.answer(x, None)?;
+                let answer = self.answer(x)?;
                 (answer.impulse, answer.impulse, [false; 2], answer.in_modes)
             }
         };
@@ -81,15 +81,19 @@ impl Hitter<'_> {
 
     /// The hit at `x` (m from the knob end).
     pub fn strike(&self, x: f64) -> Impact {
-        self.strike_knowing(x, None)
+        self.impact(x, self.answer(x))
     }
 
-    /// The hit at `x` (m from the knob end), with the errors of a contact by truncation, by steps and by
-    /// the wall given where they are `known`: they are not estimated again.
-    pub fn strike_knowing(&self, x: f64, known: Option<[f64; 3]>) -> Impact {
+    /// The hits at some places (m from the knob end), with the errors of a contact by truncation, by steps and by the
+    /// wall where they are known: these are not estimated again. Each is the one of [`Self::strike`].
+    pub fn strike_all(&self, places: &[(f64, Option<[f64; 3]>)]) -> Vec<Impact> {
+        let answers = self.answers(places).into_iter();
+        answers.zip(places).map(|(answer, (x, _))| self.impact(*x, answer)).collect()
+    }
+
+    fn impact(&self, x: f64, answer: Option<HitAnswer>) -> Impact {
         let bat_speed = self.bat.speed_at(x, self.motion);
         let rigid_exit_speed = self.rigid_exit(x);
-        let answer = self.answer(x, known);
         let flags = match (rigid_exit_speed, &answer) {
             (None, _) => vec!["no_contact"],
             _ if !self.has_section(x) => vec!["no_section"],

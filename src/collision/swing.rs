@@ -132,7 +132,8 @@ impl Hit {
         let Swing { scene, model, .. } = &self.swing;
         let Sweep { solution, effort, .. } = &self.sweep;
         let hitter = Hitter::new(*model, scene, &self.bat, solution, *effort)?;
-        Ok(places.iter().map(|x| hitter.strike(*x)).collect())
+        let places: Vec<_> = places.iter().map(|x| (*x, None)).collect();
+        Ok(hitter.strike_all(&places))
     }
 }
 

@@ -10,6 +10,7 @@ use crate::collision::contact::collocation::{LANES, Lobatto, POINTS};
 use crate::collision::contact::encounter::Encounter;
 use crate::collision::contact::flight::Landing;
 use crate::collision::contact::force_law::ForceLaw;
+use crate::collision::contact::power_law::PowerLaw;
 use crate::collision::contact::pressing::{LEVELS, Run, StepTables, USUAL};
 use crate::collision::contact::table::{Piece, StepTable};
 use crate::collision::contact::tangent::Tangent;
@@ -18,12 +19,12 @@ use crate::collision::contact::touch::{DrivingPoint, State, Swings, Touch, Tunin
 /// A bat's modes in time, for any impact point: the tables are shared.
 #[derive(Debug, Clone)]
 pub struct Collider {
-    rule: Lobatto,
+    pub(super) rule: Lobatto,
     /// `s = −ζω + iω_d` of every mode, the last lanes filled.
-    poles: Vec<c64>,
+    pub(super) poles: Vec<c64>,
     /// Steps of length `longest/2^level`, made when first needed.
     tables: Vec<OnceLock<StepTable>>,
-    longest: f64,
+    pub(super) longest: f64,
     tuning: Tuning,
 }
 
@@ -31,8 +32,8 @@ pub struct Collider {
 const MOST_TOUCHES: usize = 64;
 /// A ball counts as gone after a flight of this time (s), or of this multiple of the longest step, about a hundred times
 /// as long as it was pressed: by then a swung bat has turned away, and hands that would bring it back have moved.
-const LONGEST_FLIGHT: f64 = 0.02;
-const FLIGHT_IN_STEPS: f64 = 100.0;
+pub(super) const LONGEST_FLIGHT: f64 = 0.02;
+pub(super) const FLIGHT_IN_STEPS: f64 = 100.0;
 
 impl Collider {
     /// Modes with those ω (rad/s) and damping ratios below 1, for hits that compress a ball for
@@ -66,7 +67,7 @@ impl Collider {
     }
 
     /// The encounter, and how its impulse changes to first order for each of other bats, of no more
-    /// modes.
+    /// modes, and with the closing speed.
     pub fn meet_beside(
         &self,
         felt: &DrivingPoint,
@@ -90,6 +91,47 @@ impl Collider {
         let history = Some(&mut pieces);
         let meeting = Meeting { collider: self, felt, others: &[], speed, accuracy, history };
         (law.meet(meeting), pieces)
+    }
+}
+
+impl Collider {
+    /// Ball and bat at that place as they begin to touch.
+    #[inline(always)]
+    pub(super) fn touch<'a, L: ForceLaw>(
+        &'a self,
+        felt: &'a DrivingPoint,
+        law: L,
+        speed: f64,
+        accuracy: f64,
+    ) -> Touch<'a, L> {
+        let count = felt.gains.len().next_multiple_of(LANES);
+        let poles = &self.poles[..count];
+        let energy = 0.5 * speed * speed / felt.inverse_mass;
+        let deepest = deepest(&law, felt.rest, energy);
+        let gain = |n: usize| felt.gains.get(n).copied().unwrap_or(0.0);
+        let mode = |n: usize| (poles[n], gain(n));
+        let swings = (0..count).step_by(LANES);
+        Touch {
+            rule: &self.rule,
+            poles,
+            felt,
+            swings: swings.map(|n| Swings::new(std::array::from_fn(|l| mode(n + l)))).collect(),
+            damped: poles.iter().any(|s| s.re != 0.0),
+            law,
+            speed,
+            energy,
+            deepest,
+            way: deepest + felt.rest * law.force(deepest, None)[0],
+            accuracy,
+            tuning: self.tuning,
+        }
+    }
+
+    /// The table of steps of `longest/2^level`.
+    #[inline(always)]
+    pub(super) fn table(&self, level: usize) -> &StepTable {
+        let length = self.longest * 0.5_f64.powi(level as i32);
+        self.tables[level].get_or_init(|| StepTable::new(&self.rule, &self.poles, length))
     }
 }
 
@@ -132,6 +174,9 @@ pub trait Law: Send + Sync {
 
     /// The compression (m) that takes that energy (J).
     fn pressed_by(&self, energy: f64) -> f64;
+
+    /// The law as one of powers, if it is one.
+    fn powers(&self) -> Option<PowerLaw>;
 }
 
 impl<L: ForceLaw> Law for L {
@@ -142,6 +187,10 @@ impl<L: ForceLaw> Law for L {
     fn pressed_by(&self, energy: f64) -> f64 {
         self.compression(energy)
     }
+
+    fn powers(&self) -> Option<PowerLaw> {
+        ForceLaw::powers(self)
+    }
 }
 
 impl<L: ForceLaw> WithSimd for Touches<'_, L> {
@@ -151,28 +200,8 @@ impl<L: ForceLaw> WithSimd for Touches<'_, L> {
     fn with_simd<S: Simd>(self, _: S) -> Encounter {
         let Self { law, meeting } = self;
         let Meeting { collider, felt, others, speed, accuracy, history } = meeting;
-        let Collider { rule, poles: all, tables, longest, tuning } = collider;
-        let count = felt.gains.len().next_multiple_of(LANES);
-        let poles = &all[..count];
-        let energy = 0.5 * speed * speed / felt.inverse_mass;
-        let deepest = deepest(&law, felt.rest, energy);
-        let gain = |n: usize| felt.gains.get(n).copied().unwrap_or(0.0);
-        let mode = |n: usize| (poles[n], gain(n));
-        let swings = (0..count).step_by(LANES);
-        let touch = Touch {
-            rule,
-            poles,
-            felt,
-            swings: swings.map(|n| Swings::new(std::array::from_fn(|l| mode(n + l)))).collect(),
-            damped: poles.iter().any(|s| s.re != 0.0),
-            law,
-            speed,
-            energy,
-            deepest,
-            way: deepest + felt.rest * law.force(deepest, None)[0],
-            accuracy,
-            tuning: *tuning,
-        };
+        let Collider { poles: all, tables, longest, .. } = collider;
+        let touch = collider.touch(felt, law, speed, accuracy);
         touch.go(StepTables { all, tables, longest: *longest, history, others })
     }
 }
@@ -198,20 +227,11 @@ impl<L: ForceLaw> Touch<'_, L> {
     #[inline(always)]
     fn go(&self, mut means: StepTables) -> Encounter {
         let mut met = Encounter { touches: 1, ..Encounter::default() };
-        let [now, next, between] =
-            [0, 1, 2].map(|_| State::at_first(self.swings.len(), self.speed));
-        let mut run = Run {
-            now,
-            next,
-            top: None,
-            last: None,
-            level: 0,
-            faint: false,
-            steps: 0,
-            couplings: Vec::with_capacity(8),
-            between,
-            tangents: means.others.iter().map(|other| self.tangent(other)).collect(),
-        };
+        let mut run = Run::new(State::at_first(self.swings.len(), self.speed));
+        if !means.others.is_empty() {
+            let others = means.others.iter().map(|other| self.tangent(other));
+            run.tangents = others.chain([self.faster()]).collect();
+        }
         run.level = self.first_level(&run.now, means.longest);
         let longest = LONGEST_FLIGHT.max(FLIGHT_IN_STEPS * means.longest);
         let mut began = 0.0;
@@ -265,6 +285,7 @@ impl<L: ForceLaw> Touch<'_, L> {
         (met.impulse, met.end) = (now.impulse, now.time);
         met.changes.clear();
         met.changes.extend(tangents.iter_mut().map(Tangent::part));
+        met.faster = met.changes.pop();
         if met.touches == 1 {
             (met.first_impulse, met.first_end) = (met.impulse, met.end);
             met.first_changes.clone_from(&met.changes);

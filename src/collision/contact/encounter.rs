@@ -74,6 +74,8 @@ pub struct Encounter {
     pub changes: Vec<f64>,
     /// Change of the first touch's impulse (N s) for each bat beside this one, to first order.
     pub first_changes: Vec<f64>,
+    /// Change of the impulse (N s) with the closing speed, times that speed, to first order; None without bats beside.
+    pub faster: Option<f64>,
     /// The steps came to no end.
     pub endless: bool,
 }

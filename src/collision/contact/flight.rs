@@ -13,12 +13,12 @@
 //! to it is Newton's. The ball is gone for good where τ has no end, or where it is faster than the surface can
 //! be.
 
+use crate::collision::contact::abreast::each::Each;
 use crate::collision::contact::collocation::{LANES, sum};
 use crate::collision::contact::force_law::ForceLaw;
 use crate::collision::contact::pressing::Run;
 use crate::collision::contact::tangent::Tangent;
-use crate::collision::contact::touch::{State, Touch};
-use crate::motion::phi::exponential;
+use crate::collision::contact::touch::{State, Swings, Touch};
 
 /// Where a flight ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -122,15 +122,26 @@ impl<L: ForceLaw> Touch<'_, L> {
 
     /// Lets that time (s) pass without a force.
     #[inline(always)]
-    fn drift(&self, states: &mut [&mut State], time: f64) {
+    pub(super) fn drift(&self, states: &mut [&mut State], time: f64) {
         for state in &mut *states {
             state.time += time;
             state.closing += time * state.speed;
         }
-        for (n, s) in self.modes() {
-            let turn = exponential(s * time);
+        for k in 0..self.swings.len() {
+            let Swings { decay, swing, .. } = self.swings[k];
+            let [mut sin, mut cos] = (Each(swing) * time).sin_cos().map(|part| part.0);
+            if self.damped {
+                for l in 0..LANES {
+                    let size = (decay[l] * time).exp();
+                    (sin[l], cos[l]) = (size * sin[l], size * cos[l]);
+                }
+            }
             for state in &mut *states {
-                state.remember(n, turn * state.memory(n));
+                let [re, im] = &mut state.memories[k];
+                for l in 0..LANES {
+                    let (a, b) = (re[l], im[l]);
+                    (re[l], im[l]) = (cos[l] * a - sin[l] * b, sin[l] * a + cos[l] * b);
+                }
             }
         }
     }
@@ -158,7 +169,7 @@ mod tests {
     use crate::base::golden;
     use crate::collision::contact::collocation::Lobatto;
     use crate::collision::contact::power_law::PowerLaw;
-    use crate::collision::contact::touch::{DrivingPoint, Swings, Tuning};
+    use crate::collision::contact::touch::{DrivingPoint, Tuning};
 
     #[test]
     fn a_growth_takes_at_least_that_long() {
@@ -217,19 +228,7 @@ mod tests {
             let away = touch.rate(&start);
             start.speed -= if away > 0.0 { 1.5 * away } else { 0.0 };
             let low = if k % 2 == 0 { f64::NEG_INFINITY } else { -1e-3 * number(6) };
-            let still = State::at_first(touch.swings.len(), 0.0);
-            let mut run = Run {
-                now: start.clone(),
-                next: still.clone(),
-                top: None,
-                last: None,
-                level: 0,
-                faint: false,
-                steps: 0,
-                couplings: vec![],
-                tangents: vec![],
-                between: still,
-            };
+            let mut run = Run::new(start.clone());
             let landing = touch.fly(&mut run, [low, 0.0], longest);
             let (flown, scale) = (run.now.time, 1e-9 * start.closing.abs() + 1e-12);
             let (reach, rate) = (touch.reach(&run.now), touch.rate(&run.now));

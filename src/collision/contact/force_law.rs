@@ -4,6 +4,8 @@
 //! follow. Its force is a function of the compression on the way to the largest one, and another below
 //! it, back and forth, so that what is stored and lost is known in every state.
 
+use crate::collision::contact::power_law::PowerLaw;
+
 /// The largest compression so far (m) and the force there (N), once the ball has given way.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Top {
@@ -28,6 +30,12 @@ pub trait ForceLaw: Copy + Send + Sync {
     /// The power of the compression as which the force begins, and as which it ends; where it is no
     /// power, the largest it comes near.
     fn exponent(&self, top: Option<Top>) -> f64;
+
+    /// Stiffness, exponent there and exponent back of a law of powers; touches of such a law are met side by side.
+    #[inline(always)]
+    fn powers(&self) -> Option<PowerLaw> {
+        None
+    }
 
     /// The derivative (N/m) at a compression with that force (N).
     #[inline(always)]

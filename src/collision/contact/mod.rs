@@ -11,6 +11,7 @@
 //! | [`encounter`] | the equations; what an encounter leaves behind |
 //! | [`pressing`], [`flight`] | one touch; when do they touch again |
 //! | [`collider`] | the whole encounter, until the ball is gone for good |
+//! | [`abreast`] | the same for places side by side |
 //! | [`power_law`] | the law of a baseball: how hard it pushes back |
 
 pub mod force_law;
@@ -26,3 +27,4 @@ pub mod pressing;
 pub mod flight;
 pub mod collider;
 pub mod power_law;
+pub mod abreast;

@@ -59,6 +59,11 @@ impl ForceLaw for PowerLaw {
     }
 
     #[inline(always)]
+    fn powers(&self) -> Option<PowerLaw> {
+        Some(*self)
+    }
+
+    #[inline(always)]
     fn slope(&self, x: f64, force: f64, top: Option<Top>) -> f64 {
         if force > 0.0 { self.exponent(top) * force / x } else { 0.0 }
     }

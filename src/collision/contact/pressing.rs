@@ -47,6 +47,25 @@ pub(super) struct Run {
     pub between: State,
 }
 
+impl Run {
+    /// From that state on, with nothing beside it.
+    pub fn new(now: State) -> Self {
+        let still = State::at_first(now.memories.len(), 0.0);
+        Self {
+            now,
+            next: still.clone(),
+            top: None,
+            last: None,
+            level: 0,
+            faint: false,
+            steps: 0,
+            couplings: Vec::with_capacity(8),
+            tangents: vec![],
+            between: still,
+        }
+    }
+}
+
 /// What became of a step.
 enum Taken {
     /// The step failed and is repeated, shorter.

@@ -1,0 +1,28 @@
+//! Places of one bat that are hit side by side: touches that begin, turn and end once, by the equations of
+//! [`crate::collision::contact::encounter`].
+//!
+//! The lengths of the steps follow from the accuracy alone, so that all places share the tables of the steps, and a
+//! place has the same bits whatever is beside it. A place where anything happens but one touch is met by itself, as is a
+//! bat that loses energy or a ball with another law than a power.
+//!
+//! | file | question |
+//! |---|---|
+//! | [`each`] | what is one number for each place; powers and angles of them |
+//! | [`places`] | what is known of the places, and how hard does each ball push back |
+//! | [`schedule`] | how long are the steps |
+//! | [`press`] | step after step there and back; what is left when the force has gone |
+//! | [`solve`] | which forces act in a step, and what do they do to the motions |
+//! | [`turn`] | where is the compression largest |
+//! | [`energy`] | how is the energy put right |
+//! | [`gradient`] | how does the impulse change with the bat |
+//! | [`meet`] | the whole encounter, place by place |
+
+pub mod each;
+pub mod places;
+pub mod schedule;
+pub mod press;
+pub mod solve;
+pub mod turn;
+pub mod energy;
+pub mod gradient;
+pub mod meet;

@@ -1,0 +1,235 @@
+//! Places side by side: what is known of them, and how hard the ball pushes back at each.
+
+use crate::collision::contact::abreast::each::Each;
+use crate::collision::contact::collider::Collider;
+use crate::collision::contact::collocation::POINTS;
+use crate::collision::contact::power_law::PowerLaw;
+use crate::collision::contact::step::AHEAD;
+use crate::collision::contact::touch::Touch;
+
+/// Ball and bat at one moment, at every place.
+#[derive(Clone, Default)]
+pub(super) struct Motion<const W: usize> {
+    /// Time since the first touch (s).
+    pub time: Each<W>,
+    /// Approach z (m) and its speed (m/s).
+    pub closing: Each<W>,
+    pub speed: Each<W>,
+    /// Impulse so far (N s).
+    pub impulse: Each<W>,
+    /// Compression (m) and force (N).
+    pub compression: Each<W>,
+    pub force: Each<W>,
+    /// Real and imaginary parts of the memory of every mode (N s).
+    pub memories: Vec<[Each<W>; 2]>,
+}
+
+/// What the force at each point of a step does to the compression at each one ahead (m/N).
+pub(super) type Coupling<const W: usize> = [[Each<W>; POINTS]; AHEAD];
+
+/// What a time does to one mode: `e^{iωt}`, and `E_k` ([`crate::motion::phi`]), each as real and imaginary part.
+pub(super) type Move<const W: usize> = ([Each<W>; 2], [[Each<W>; 2]; POINTS]);
+
+/// Places that are pressed side by side.
+pub(super) struct Abreast<'a, const W: usize> {
+    pub collider: &'a Collider,
+    pub omegas: Vec<f64>,
+    /// `c/ω` of every mode (s/kg).
+    pub weights: Vec<Each<W>>,
+    pub inverse_mass: Each<W>,
+    pub rest: Each<W>,
+    pub speed: Each<W>,
+    pub energy: Each<W>,
+    pub deepest: Each<W>,
+    pub stiffness: Each<W>,
+    pub exponent: Each<W>,
+    pub unloading: Each<W>,
+    pub accuracy: f64,
+    pub couplings: Vec<(usize, Coupling<W>)>,
+    pub now: Motion<W>,
+    pub next: Motion<W>,
+    /// The largest compression (m) and its force (N), once all places are on their way back.
+    pub top: Option<[Each<W>; 2]>,
+    /// The last step's compression: its length, where it ends in lengths of it, and its powers.
+    pub last: Option<([Each<W>; 2], [Each<W>; POINTS])>,
+    pub defect: Each<W>,
+    pub corrected: Each<W>,
+    pub failed: Each<W>,
+    /// Where that is because the steps are too long.
+    pub coarse: Each<W>,
+    /// How many of the last modes other bats have otherwise, and what is kept for them.
+    pub differ: usize,
+    pub walked: Vec<Walked<W>>,
+    pub steps: Each<W>,
+}
+
+/// What is kept of a step for the bats beside.
+pub(super) struct Walked<const W: usize> {
+    pub level: usize,
+    /// Whether the ball is on its way back.
+    pub back: bool,
+    /// The places that took it.
+    pub taken: Each<W>,
+    pub slope: [Each<W>; AHEAD],
+    pub force: [Each<W>; POINTS],
+    /// Imaginary parts of the memories of the last modes at the points ahead, mode by mode.
+    pub points: Vec<[Each<W>; AHEAD]>,
+    pub turned: Option<Turned<W>>,
+}
+
+/// The turn of the places that did so in a step.
+pub(super) struct Turned<const W: usize> {
+    pub which: Each<W>,
+    pub time: Each<W>,
+    pub moves: Vec<Move<W>>,
+    /// The slope (N/m) and the force (N) there, and the last modes' memories.
+    pub slope: Each<W>,
+    pub force: Each<W>,
+    pub memories: Vec<Each<W>>,
+}
+
+impl<'a, const W: usize> Abreast<'a, W> {
+    /// Places that were not touched yet; the last one fills the lanes. Bats beside them differ in so many of the last
+    /// modes.
+    pub(super) fn new(
+        collider: &'a Collider,
+        touches: &[Touch<'a, PowerLaw>],
+        differ: usize,
+    ) -> Self {
+        let mut of = [Each::default(); 8];
+        let count = touches[0].felt.gains.len();
+        let omegas: Vec<f64> = collider.poles[..count].iter().map(|s| s.im).collect();
+        let mut weights = vec![Each::default(); count];
+        for l in 0..W {
+            let touch = &touches[l.min(touches.len() - 1)];
+            let Touch { felt, law, speed, energy, deepest, .. } = touch;
+            let parts = [felt.inverse_mass, felt.rest, *speed, *energy, *deepest];
+            let law = [law.stiffness, law.exponent, law.unloading];
+            for (of, part) in of.iter_mut().zip(parts.into_iter().chain(law)) {
+                of.0[l] = part;
+            }
+            for n in 0..count {
+                weights[n].0[l] = felt.gains[n] / omegas[n];
+            }
+        }
+        let [inverse_mass, rest, speed, energy, deepest, stiffness, exponent, unloading] = of;
+        let still = Motion { memories: vec![Default::default(); count], ..Motion::default() };
+        Self {
+            collider,
+            omegas,
+            weights,
+            inverse_mass,
+            rest,
+            speed,
+            energy,
+            deepest,
+            stiffness,
+            exponent,
+            unloading,
+            accuracy: touches[0].accuracy,
+            couplings: Vec::with_capacity(8),
+            now: Motion { speed, ..still.clone() },
+            next: still,
+            top: None,
+            last: None,
+            defect: Each::default(),
+            corrected: Each::default(),
+            failed: Each::default(),
+            coarse: Each::default(),
+            differ,
+            walked: vec![],
+            steps: Each::default(),
+        }
+    }
+
+    /// The power that the force goes by now.
+    #[inline(always)]
+    pub(super) fn power(&self) -> Each<W> {
+        if self.top.is_some() { self.unloading } else { self.exponent }
+    }
+
+    /// The forces (N) at compressions (m): none at 0 and below.
+    #[inline(always)]
+    pub(super) fn forces<const N: usize>(&self, x: [Each<W>; N]) -> [Each<W>; N] {
+        let [from, scale] = self.top.unwrap_or([Each::all(1.0), self.stiffness]);
+        let mut share = x;
+        for i in 0..N {
+            share[i] = Each::default().below(x[i]).choose(x[i], from) / from;
+        }
+        let mut forces = Each::powers(share, self.power());
+        for i in 0..N {
+            forces[i] = Each::default().below(x[i]).choose(scale * forces[i], Each::default());
+        }
+        forces
+    }
+
+    /// The forces (N) at compressions (m) a little way `by` from others where they are known: `F (1 + δ)^p` by its
+    /// series where δ is small.
+    #[inline(always)]
+    pub(super) fn near<const N: usize>(
+        &self,
+        x: [Each<W>; N],
+        known: [Each<W>; N],
+        by: [Each<W>; N],
+    ) -> [Each<W>; N] {
+        /// `pδ` whose powers beyond the terms are below ε.
+        const NEAR: f64 = 0.05;
+        const TERMS: usize = 8;
+        let power = self.power();
+        let most = Each::all(NEAR) / power.max(Each::all(1.0));
+        let (mut share, mut near) = (by, [Each::default(); N]);
+        let mut all = Each::all(1.0);
+        for i in 0..N {
+            let before = x[i] - by[i];
+            let pressed = Each::default().below(before);
+            share[i] = by[i] / pressed.choose(before, Each::all(1.0));
+            near[i] = share[i].abs().within(most).and(pressed);
+            all = all.and(near[i]);
+        }
+        let mut sum = [Each::all(1.0); N];
+        for k in (1..=TERMS).rev() {
+            let factor = (power + (1.0 - k as f64)) * (1.0 / k as f64);
+            for i in 0..N {
+                sum[i] = factor * share[i] * sum[i] + 1.0;
+            }
+        }
+        for i in 0..N {
+            sum[i] = sum[i] * known[i];
+        }
+        if all.everywhere() {
+            return sum;
+        }
+        let forces = self.forces(x);
+        for i in 0..N {
+            sum[i] = near[i].choose(sum[i], forces[i]);
+        }
+        sum
+    }
+
+    /// The slopes (N/m) of the forces at those compressions.
+    #[inline(always)]
+    pub(super) fn slope(&self, x: Each<W>, force: Each<W>) -> Each<W> {
+        let pressed = Each::default().below(x);
+        pressed.choose(self.power() * force / pressed.choose(x, Each::all(1.0)), Each::default())
+    }
+
+    /// `z + Σ y` (m).
+    #[inline(always)]
+    pub(super) fn reach(&self, state: &Motion<W>) -> Each<W> {
+        let mut sum = Each::default();
+        for n in 0..self.weights.len() {
+            sum += self.weights[n] * state.memories[n][1];
+        }
+        state.closing - sum
+    }
+
+    /// Rate of [`Self::reach`] (m/s).
+    #[inline(always)]
+    pub(super) fn rate(&self, state: &Motion<W>) -> Each<W> {
+        let mut sum = Each::default();
+        for n in 0..self.weights.len() {
+            sum += self.weights[n] * state.memories[n][0] * self.omegas[n];
+        }
+        state.speed - sum
+    }
+}
