@@ -274,7 +274,8 @@ fn a_hit_that_magnifies_what_is_small_is_estimated_by_itself() {
     let mut seen = [0; 2];
     for k in 0..40 {
         let x = bat.length() * (0.5 + 0.012 * f64::from(k));
-        let [own, told] = [None, Some([0.0; 3])].map(|known| hitter.strike_knowing(x, known));
+        let [own, told] =
+            [None, Some([0.0; 3])].map(|known| hitter.strike_all(&[(x, known)]).remove(0));
         let late = own.flags.iter().any(|flag| *flag != "ball_law_beyond");
         let of = |impact: Impact| impact.outcome.map_or(0.0, |outcome| outcome.truncation);
         let [own, told] = [own, told].map(of);

@@ -157,7 +157,9 @@ impl Hitter<'_> {
             .map(|approach| (approach, self.ladder(approach.x)))
             .collect();
         let felt: Vec<DrivingPoint> = places.iter().map(|(_, ladder)| ladder.of(count)).collect();
-        let others = |k: usize| few.iter().map(|few| places[k].1.of(*few)).collect();
+        // One at least, so that it is known how the impulse goes with the closing speed.
+        let beside = if few.is_empty() { &[count][..] } else { &few };
+        let others = |k: usize| beside.iter().map(|few| places[k].1.of(*few)).collect();
         let others: Vec<_> = (0..places.len()).map(|k| move || others(k)).collect();
         let blow = |k: usize| {
             let (Approach { x, closing, known, .. }, _) = places[k];
@@ -215,7 +217,7 @@ impl Hitter<'_> {
         let shears = self.solution.theory.shears();
         let mut answer = HitAnswer::new(met.impulse, cor, met.lost_in_ball);
         [answer.truncation, answer.steps, answer.wall] =
-            known.filter(|_| !answered.is_delicate()).unwrap_or_else(|| {
+            known.filter(|_| !met.is_delicate()).unwrap_or_else(|| {
                 let Encounter { changes, first_changes, .. } = met;
                 let in_first = |(few, by): (&usize, &f64)| (*few, by.abs() / (ball * closing));
                 let in_first = few.iter().zip(first_changes).map(in_first);
@@ -225,7 +227,7 @@ impl Hitter<'_> {
                 const SMALL: f64 = 0.1;
                 let change = |(few, by): (&usize, &f64)| {
                     let by = by.abs() / (ball * closing);
-                    let large = answered.is_delicate() && (by > SMALL || by.is_nan());
+                    let large = met.is_delicate() && (by > SMALL || by.is_nan());
                     (*few, if large { both(&ladder.of(*few), accuracy)[0] } else { by })
                 };
                 let left_out = answered.left_out(shears, few.iter().zip(changes).map(change));

@@ -317,47 +317,73 @@ impl<'a> Hitter<'a> {
         closing: f64,
         accuracy: f64,
     ) -> Option<(Encounter, f64)> {
-        self.meet_all(&[Blow { x, felt, others: &|| others.to_vec(), closing, compared: true }], accuracy).pop()?
+        self.meet_all(
+            &[Blow { x, felt, others: &|| others.to_vec(), closing, compared: true }],
+            accuracy,
+        )
+        .pop()?
     }
 
-    /// The meetings at some places, each with the accuracy of its steps: side by side where ball and bat touch once,
-    /// which changes no bit of them.
+    /// The meetings at some places, each with the accuracy of its steps; side by side, which changes no bit of them.
     pub(super) fn meet_all(&self, blows: &[Blow], accuracy: f64) -> Vec<Option<(Encounter, f64)>> {
-        let Some(collider) = &self.collider else { return vec![None; blows.len()] };
-        let laws = blows.iter().map(|blow| self.law_at(blow.x, blow.closing));
-        let laws: Vec<Option<Box<dyn Law>>> = laws.collect();
+        let mut all = self.meet_abreast(blows, accuracy);
+        // What magnifies small changes is compared in any case.
+        let delicate = |k: &usize| match &all[*k] {
+            Some((met, _)) => met.is_delicate() && !blows[*k].compared,
+            None => false,
+        };
+        let again: Vec<usize> = (0..blows.len()).filter(delicate).collect();
+        let compared = again.iter().map(|k| Blow { compared: true, ..blows[*k] });
+        let met = self.meet_abreast(&compared.collect::<Vec<_>>(), accuracy);
+        again.into_iter().zip(met).for_each(|(k, met)| all[k] = met);
+        for (k, blow) in
+            blows.iter().enumerate().filter(|(k, _)| all[*k].is_none()).collect::<Vec<_>>()
+        {
+            all[k] = self.meet_alone(blow, accuracy);
+        }
+        all
+    }
+
+    /// The meetings that can be had side by side.
+    fn meet_abreast(&self, blows: &[Blow], accuracy: f64) -> Vec<Option<(Encounter, f64)>> {
+        let mut all = vec![None; blows.len()];
+        let Some(collider) = &self.collider else { return all };
         let others = |blow: &Blow| if blow.compared { (blow.others)() } else { vec![] };
         let others: Vec<Vec<DrivingPoint>> = blows.iter().map(others).collect();
         let (mut places, mut which) = (vec![], vec![]);
-        for (k, (blow, law)) in blows.iter().zip(&laws).enumerate() {
-            if let Some(law) = law.as_ref().and_then(|law| law.powers()) {
-                let Blow { felt, closing: speed, .. } = *blow;
-                places.push(Place { felt, others: &others[k], law, speed });
+        for (k, Blow { x, felt, closing: speed, .. }) in blows.iter().enumerate() {
+            let law = self.law_at(*x, *speed).and_then(|law| law.powers());
+            if let Some(law) = law {
+                places.push(Place { felt, others: &others[k], law, speed: *speed });
                 which.push(k);
             }
         }
-        let mut all = vec![None; blows.len()];
-        let count = |met: &Encounter| self.work.fetch_add(met.work(), Ordering::Relaxed);
         for (k, met) in which.into_iter().zip(collider.meet_abreast(&places, accuracy)) {
-            let Some(met) = met.filter(|met| met.is_sound(blows[k].felt, blows[k].closing)) else { continue };
-            count(&met);
-            all[k] = Some((met, accuracy));
-        }
-        for (k, (blow, law)) in blows.iter().zip(&laws).enumerate() {
-            let Some(law) = law.as_ref().filter(|_| all[k].is_none()) else { continue };
-            let others = (blow.others)();
-            let meet = |accuracy| {
-                let met = collider.meet_beside(blow.felt, &others, &**law, blow.closing, accuracy);
-                count(&met);
-                (met, accuracy)
-            };
-            all[k] = resolved(accuracy, meet, blow.felt, blow.closing);
+            let sound = |met: &Encounter| met.is_sound(blows[k].felt, blows[k].closing);
+            if let Some(met) = met.filter(sound) {
+                self.work.fetch_add(met.work(), Ordering::Relaxed);
+                all[k] = Some((met, accuracy));
+            }
         }
         all
+    }
+
+    /// The meeting at a place by itself, with steps that are as short as it needs.
+    fn meet_alone(&self, blow: &Blow, accuracy: f64) -> Option<(Encounter, f64)> {
+        let Blow { x, felt, closing, .. } = *blow;
+        let (collider, law) = (self.collider.as_ref()?, self.law_at(x, closing)?);
+        let others = (blow.others)();
+        let meet = |accuracy| {
+            let met = collider.meet_beside(felt, &others, &*law, closing, accuracy);
+            self.work.fetch_add(met.work(), Ordering::Relaxed);
+            (met, accuracy)
+        };
+        resolved(accuracy, meet, felt, closing)
     }
 }
 
 /// A ball about to meet the bat at `x` (m) at that closing speed (m/s).
+#[derive(Clone, Copy)]
 pub(super) struct Blow<'a> {
     pub x: f64,
     pub felt: &'a DrivingPoint,

@@ -57,11 +57,6 @@ pub const QUICK: f64 = 6.0;
 pub const SLOW: f64 = 2.0 / 3.0;
 
 impl Answered<'_> {
-    /// Whether a small change may be magnified: the ball was pressed anew, or met again.
-    pub fn is_delicate(&self) -> bool {
-        self.met.reloads > 0 || self.met.late || self.met.again()
-    }
-
     /// What modes left out may change, relative to the closing speed, by how far answers of [`fewer`]
     /// modes are from this one: their numbers of modes, and how far each is.
     pub fn left_out(&self, shears: bool, apart: impl Iterator<Item = (usize, f64)>) -> f64 {
@@ -80,7 +75,7 @@ impl Answered<'_> {
     /// answer by such steps is from this one; beside an error `left_out`, their most will do.
     pub fn steps(&self, left_out: f64, apart: impl Fn(f64) -> f64) -> f64 {
         let most = self.speed_of(MOST_CORRECTED * self.met.corrected);
-        if !self.is_delicate() && most < BESIDE * left_out {
+        if !self.met.is_delicate() && most < BESIDE * left_out {
             return most;
         }
         let finer = FINER * self.accuracy;
@@ -103,7 +98,7 @@ impl Answered<'_> {
     /// momentum (N s) at the closing speed: a closing speed that is larger by a share changes the impulse by as much, and
     /// by what is magnified.
     pub fn magnified(&self, momentum: f64) -> [f64; 2] {
-        if !self.is_delicate() {
+        if !self.met.is_delicate() {
             return [1.0, 0.0];
         }
         let faster = self.met.faster.unwrap_or(f64::INFINITY);
@@ -185,8 +180,8 @@ mod tests {
     #[test]
     fn one_touch_magnifies_nothing() {
         let met = Encounter { touches: 1, ..Encounter::default() };
-        let again = Encounter { touches: 2, ..Encounter::default() };
-        let of = |met| answered(met).magnified(|by| 1e3 * by);
+        let again = Encounter { touches: 2, impulse: 2.0, faster: Some(-998.0), ..met.clone() };
+        let of = |met| answered(met).magnified(1.0);
         assert_eq!(of(&met), [1.0, 0.0]);
         let [magnified, round_off] = of(&again);
         assert!((magnified / 1e3 - 1.0).abs() < 1e-9 && round_off < 1e-8);

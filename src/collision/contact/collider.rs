@@ -29,7 +29,7 @@ pub struct Collider {
 }
 
 /// Touches that are followed; what more could give is part of the error.
-const MOST_TOUCHES: usize = 64;
+pub(super) const MOST_TOUCHES: usize = 64;
 /// A ball counts as gone after a flight of this time (s), or of this multiple of the longest step, about a hundred times
 /// as long as it was pressed: by then a swung bat has turned away, and hands that would bring it back have moved.
 pub(super) const LONGEST_FLIGHT: f64 = 0.02;
@@ -295,7 +295,7 @@ impl<L: ForceLaw> Touch<'_, L> {
     }
 
     /// The most impulse (N s) that later touches can give: all energy there is in the ball's flight.
-    fn most_that_follows(&self, now: &State) -> f64 {
+    pub(super) fn most_that_follows(&self, now: &State) -> f64 {
         let energy = self.energy - now.lost - now.spent;
         let fastest = (2.0 * energy * self.felt.inverse_mass).sqrt();
         (fastest + now.speed) / self.felt.inverse_mass

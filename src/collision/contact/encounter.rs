@@ -96,6 +96,11 @@ impl Encounter {
         self.touches > 1
     }
 
+    /// Whether a small change may be magnified: the ball was pressed anew, or met again.
+    pub fn is_delicate(&self) -> bool {
+        self.reloads > 0 || self.late || self.again()
+    }
+
     /// Whether the steps came to an end and the energies close, ball and bat having neared at `speed`
     /// (m/s): what is left of the rigid motions' energy is all that is not lost or in the modes.
     pub fn is_sound(&self, felt: &DrivingPoint, speed: f64) -> bool {

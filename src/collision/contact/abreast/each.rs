@@ -335,11 +335,12 @@ mod tests {
     #[test]
     fn powers_and_angles_are_those_of_the_machine() {
         for k in 0..20_000 {
-            let x = Each(std::array::from_fn(|l| {
+            let x: Each<4> = Each(std::array::from_fn(|l| {
                 let at = golden::fraction(4 * k + l);
                 [at, 1e-300_f64.powf(at), 1.0 + 1e-9 * at, 40.0 * at][l % 4]
             }));
-            let p = Each(std::array::from_fn(|l| 1.0 + 10.0 * golden::fraction(7 * k + l)));
+            let p: Each<4> =
+                Each(std::array::from_fn(|l| 1.0 + 10.0 * golden::fraction(7 * k + l)));
             let (power, [sin, cos]) = (Each::powers([x], p)[0], (x * 1000.0).sin_cos());
             for l in 0..4 {
                 let (x, p) = (x.0[l], p.0[l]);

@@ -40,7 +40,7 @@ impl<const W: usize> Abreast<'_, W> {
         let rigid = next.speed * next.speed / self.inverse_mass;
         let lost = self.lost();
         let rest = self.rest * next.force * next.force;
-        let whole = (rigid + modes + rest) * 0.5 + of_ball + lost;
+        let whole = (rigid + modes + rest) * 0.5 + of_ball + lost + self.spent;
         let defect = whole - self.energy;
         let off = (defect - self.defect).abs() / self.energy;
         let speed = -length * self.inverse_mass * (1.0 / 6.0);

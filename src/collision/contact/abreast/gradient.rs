@@ -16,7 +16,7 @@
 //! section I.14, transposed.
 
 use crate::collision::contact::abreast::each::Each;
-use crate::collision::contact::abreast::places::{Abreast, Turned, Walked};
+use crate::collision::contact::abreast::places::{Abreast, Kept, Turned, Walked};
 use crate::collision::contact::abreast::solve::eliminate;
 use crate::collision::contact::collocation::{LANES, POINTS};
 use crate::collision::contact::step::AHEAD;
@@ -38,6 +38,8 @@ struct Dual<const W: usize> {
 pub(super) struct Gradient<const W: usize> {
     pub weights: Vec<Each<W>>,
     pub rest: Each<W>,
+    /// With the closing speed, times that speed.
+    pub speed: Each<W>,
 }
 
 impl<const W: usize> Abreast<'_, W> {
@@ -46,15 +48,36 @@ impl<const W: usize> Abreast<'_, W> {
     #[inline(always)]
     pub(super) fn gradient(&self, lasts: Each<W>) -> Gradient<W> {
         let weights = vec![Each::default(); self.differ];
-        let mut gradient = Gradient { weights, rest: Each::default() };
+        let mut gradient = Gradient { weights, rest: Each::default(), speed: Each::default() };
         let mut dual =
             Dual { memories: vec![Default::default(); self.weights.len()], ..Dual::default() };
-        for (step, walked) in self.walked.iter().enumerate().rev() {
-            let taken = walked.taken.and(Each::all(step as f64).below(lasts));
-            self.turn_back(walked, &mut dual, &mut gradient);
-            self.step_back(walked, taken, &mut dual, &mut gradient);
+        for (step, kept) in self.kept.iter().enumerate().rev() {
+            let before = Each::all(step as f64).below(lasts);
+            match kept {
+                Kept::Step(walked) => {
+                    self.turn_back(walked, before, &mut dual, &mut gradient);
+                    self.step_back(walked, walked.taken.and(before), &mut dual, &mut gradient);
+                }
+                Kept::Flight { which, time, parted } => {
+                    let none = Each::default();
+                    dual.force = which.choose(none, dual.force);
+                    dual.top = parted.choose(none, dual.top);
+                    self.fly_back(before.choose(*time, none), &mut dual);
+                }
+            }
         }
+        gradient.speed = dual.speed * self.speed;
         gradient
+    }
+
+    /// The dual before a flight.
+    #[inline(always)]
+    fn fly_back(&self, time: Each<W>, dual: &mut Dual<W>) {
+        dual.speed += time * dual.closing;
+        for n in 0..self.weights.len() {
+            let ([sin, cos], [re, im]) = ((time * self.omegas[n]).sin_cos(), dual.memories[n]);
+            dual.memories[n] = [cos * re + sin * im, cos * im - sin * re];
+        }
     }
 
     /// The dual before a turn, in which `δx_m = (δz + Σ δy + q)/(1 + C S)` and `δF = S δx_m`.
@@ -62,10 +85,12 @@ impl<const W: usize> Abreast<'_, W> {
     fn turn_back(
         &self,
         walked: &Walked<W>,
+        before: Each<W>,
         dual: &mut Dual<W>,
         gradient: &mut Gradient<W>,
     ) {
         let Some(Turned { which, slope, force, memories, .. }) = &walked.turned else { return };
+        let which = which.and(before);
         let both = (dual.top + *slope * dual.force) / (self.rest * *slope + 1.0);
         let both = which.choose(both, Each::default());
         dual.closing += both;
@@ -89,13 +114,13 @@ impl<const W: usize> Abreast<'_, W> {
         dual: &mut Dual<W>,
         gradient: &mut Gradient<W>,
     ) {
-        let Walked { level, back, slope, force, points, turned, .. } = walked;
+        let Walked { level, top, slope, force, points, turned, .. } = walked;
         let rule = &self.collider.rule;
         let (table, coupling) = (self.collider.table(*level), self.coupled(*level));
         let by = self.by_forces(table, turned.as_ref(), dual);
         // By the compressions, and by where these would be without the forces.
         let mut by_top = [Each::default(); POINTS];
-        if let Some([top, _]) = self.top.filter(|_| *back) {
+        if let Some([top, _]) = *top {
             for j in 1..POINTS {
                 by_top[j] = (self.exponent - self.unloading) * force[j] / top;
             }

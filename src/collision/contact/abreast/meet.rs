@@ -5,9 +5,12 @@ use pulp::{Simd, WithSimd};
 
 use crate::base::lanes::widest;
 use crate::collision::contact::abreast::each::Each;
-use crate::collision::contact::abreast::places::{Abreast, Motion};
-use crate::collision::contact::abreast::press::Released;
-use crate::collision::contact::collider::{Collider, FLIGHT_IN_STEPS, LONGEST_FLIGHT};
+use crate::collision::contact::abreast::places::{Abreast, Kept};
+use crate::collision::contact::abreast::press::Stage;
+use crate::collision::contact::abreast::schedule::Schedule;
+use crate::collision::contact::collider::{
+    Collider, FLIGHT_IN_STEPS, LONGEST_FLIGHT, MOST_TOUCHES,
+};
 use crate::collision::contact::encounter::Encounter;
 use crate::collision::contact::flight::Landing;
 use crate::collision::contact::force_law::{ForceLaw, Top};
@@ -81,9 +84,9 @@ impl Collider {
                 };
                 for (k, met) in which.iter().zip(met) {
                     match met {
-                        Met::Once(met) => all[*k] = Some(*met),
-                        Met::Otherwise => {}
-                        Met::TooCoarse => coarse.push(*k),
+                        Ok(met) => all[*k] = Some(met),
+                        Err(TooCoarse(true)) => coarse.push(*k),
+                        Err(TooCoarse(false)) => {}
                     }
                 }
             }
@@ -91,16 +94,6 @@ impl Collider {
         }
         all
     }
-}
-
-/// What became of a place.
-enum Met {
-    /// Ball and bat touched once.
-    Once(Box<Encounter>),
-    /// The steps were too coarse.
-    TooCoarse,
-    /// Anything else.
-    Otherwise,
 }
 
 /// As many places as there are lanes, or fewer.
@@ -112,10 +105,10 @@ struct Lanes<'a, const W: usize> {
 }
 
 impl<const W: usize> WithSimd for Lanes<'_, W> {
-    type Output = Vec<Met>;
+    type Output = Vec<std::result::Result<Encounter, TooCoarse>>;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> Vec<Met> {
+    fn with_simd<S: Simd>(self, _: S) -> Self::Output {
         let Self { collider, places, accuracy, finer } = self;
         let mut touches = Vec::with_capacity(places.len());
         for Place { felt, law, speed, .. } in places.iter().copied() {
@@ -123,88 +116,266 @@ impl<const W: usize> WithSimd for Lanes<'_, W> {
         }
         let differ = places.iter().map(|place| place.differ()).max().unwrap_or(0);
         let mut abreast = Abreast::<W>::new(collider, &touches, differ);
-        let mut out = vec![None; places.len()];
-        abreast.press(finer, &mut out);
-        let mut lasts = Each::default();
-        for (l, out) in out.iter().enumerate() {
-            lasts.0[l] = out.as_ref().map_or(0.0, |(released, _)| released.last as f64);
-        }
-        let gradient = (differ > 0).then(|| abreast.gradient(lasts));
-        let longest = LONGEST_FLIGHT.max(FLIGHT_IN_STEPS * collider.longest);
+        abreast.press(&touches, &Schedule::new(accuracy, touches[0].law.exponent, finer));
+        let gradients = (differ > 0).then(|| {
+            let whole = abreast.gradient(Each::all(f64::INFINITY));
+            let again = abreast.met.iter().any(Encounter::again);
+            (whole, again.then(|| abreast.gradient(abreast.first)))
+        });
         let mut all = Vec::with_capacity(places.len());
-        for (l, (touch, out)) in touches.iter().zip(out).enumerate() {
-            let coarse = abreast.coarse.0[l] != 0.0;
-            let Some((released, motion)) = out else {
-                all.push(if coarse { Met::TooCoarse } else { Met::Otherwise });
+        for l in 0..places.len() {
+            if abreast.failed.0[l] != 0.0 {
+                all.push(Err(TooCoarse(abreast.coarse.0[l] != 0.0)));
                 continue;
-            };
-            let met = touch.leave(released, &motion, l, longest).map(|mut met| {
-                if let Some(gradient) = &gradient {
-                    let change = |other: &DrivingPoint| abreast.change(gradient, other, l);
-                    met.changes = places[l].others.iter().map(change).collect();
-                    met.first_changes.clone_from(&met.changes);
-                }
-                Met::Once(Box::new(met))
-            });
-            all.push(met.unwrap_or(Met::Otherwise));
+            }
+            let mut met = std::mem::take(&mut abreast.met[l]);
+            met.late |= abreast.late.0[l] != 0.0;
+            (met.corrected, met.steps) = (abreast.corrected.0[l], abreast.steps.0[l] as usize);
+            if let Some((whole, first)) =
+                gradients.as_ref().filter(|_| !places[l].others.is_empty())
+            {
+                let changes = |gradient| -> Vec<f64> {
+                    places[l]
+                        .others
+                        .iter()
+                        .map(|other| abreast.change(gradient, other, l))
+                        .collect()
+                };
+                met.changes = changes(whole);
+                met.first_changes = changes(first.as_ref().unwrap_or(whole));
+                met.faster = Some(whole.speed.0[l]);
+            }
+            all.push(Ok(met));
         }
         all
     }
 }
 
-impl Touch<'_, PowerLaw> {
-    /// What the meeting left behind, if ball and bat leave each other for good.
+impl<const W: usize> Abreast<'_, W> {
+    /// What comes after the force was let go at a place: the ball is gone, or the bat catches up with it.
     #[inline(always)]
-    fn leave<const W: usize>(
-        &self,
-        released: Released,
-        motion: &Motion<W>,
-        l: usize,
-        longest: f64,
-    ) -> Option<Encounter> {
-        let mut now = State::at_first(self.swings.len(), motion.speed.0[l]);
-        now.time = motion.time.0[l];
-        now.closing = motion.closing.0[l];
-        now.impulse = motion.impulse.0[l];
-        for (n, [re, im]) in motion.memories.iter().enumerate() {
-            now.remember(n, c64::new(re.0[l], im.0[l]));
-        }
-        let top = Some(Top { compression: released.compression, force: released.force });
-        let mut run = Run::new(now);
+    pub(super) fn leave(&mut self, l: usize, touch: &Touch<PowerLaw>) -> Stage {
+        let mut run = Run::new(self.state(l, touch));
+        let released = run.now.time;
         // It may have left within the last step.
         for _ in 0..3 {
-            let reach = self.reach(&run.now);
+            let reach = touch.reach(&run.now);
             if reach >= 0.0 {
                 break;
             }
-            let time = -reach / self.rate(&run.now);
-            self.drift(&mut [&mut run.now], time);
+            let time = -reach / touch.rate(&run.now);
+            touch.drift(&mut [&mut run.now], time);
         }
-        let reach = self.reach(&run.now);
-        if reach > 1e-12 * self.deepest
-            && self.fly(&mut run, [0.0, reach], f64::INFINITY) != Landing::Parts
-        {
-            return None;
+        let reach = touch.reach(&run.now);
+        if reach > 1e-12 * touch.deepest {
+            match touch.fly(&mut run, [0.0, reach], f64::INFINITY) {
+                Landing::Parts => {}
+                Landing::Meets => {
+                    self.met[l].late = true;
+                    self.known.0[l] = 0.0;
+                    self.resume(l, &run.now, released, false);
+                    return Stage::Late;
+                }
+                Landing::Gone | Landing::Open => {
+                    self.failed.0[l] = 1.0;
+                    return Stage::Over;
+                }
+            }
         }
-        let end = run.now.time;
-        if self.fly(&mut run, [f64::NEG_INFINITY, 0.0], longest) != Landing::Gone {
-            return None;
+        let [compression, force] = self.tops.map(|top| top.0[l]);
+        let (end, impulse, met) = (run.now.time, run.now.impulse, &mut self.met[l]);
+        met.time += end - self.began[l];
+        met.compression = met.compression.max(compression);
+        met.peak_force = met.peak_force.max(force);
+        (met.end, met.impulse) = (end, impulse);
+        if met.touches == 1 {
+            (met.first_end, met.first_impulse) = (end, impulse);
+            self.first.0[l] = self.kept.len() as f64;
         }
-        let impulse = run.now.impulse;
-        Some(Encounter {
-            impulse,
-            time: end,
-            end,
-            first_end: end,
-            first_impulse: impulse,
-            touches: 1,
-            peak_force: released.force,
-            compression: released.compression,
-            lost_in_ball: self.law.energy(0.0, top)[1],
-            in_modes: (0..self.felt.gains.len()).map(|n| self.in_mode(&run.now, n)).collect(),
-            corrected: released.corrected,
-            steps: released.steps,
-            ..Encounter::default()
-        })
+        let top = Some(Top { compression, force });
+        self.spent.0[l] += touch.law.energy(0.0, top)[1];
+        met.lost_in_ball = self.spent.0[l];
+        let longest = LONGEST_FLIGHT.max(FLIGHT_IN_STEPS * self.collider.longest);
+        let flight = touch.fly(&mut run, [f64::NEG_INFINITY, 0.0], longest);
+        if flight == Landing::Meets && met.touches < MOST_TOUCHES {
+            met.touches += 1;
+            self.began[l] = run.now.time;
+            (self.known.0[l], self.faint.0[l]) = (0.0, 0.0);
+            self.resume(l, &run.now, released, true);
+            return Stage::Touch;
+        }
+        if flight != Landing::Gone {
+            run.now.spent = self.spent.0[l];
+            met.open = touch.most_that_follows(&run.now);
+        }
+        met.in_modes = (0..self.weights.len()).map(|n| touch.in_mode(&run.now, n)).collect();
+        Stage::Over
+    }
+
+    /// Ball and bat at a place now.
+    #[inline(always)]
+    fn state(&self, l: usize, touch: &Touch<PowerLaw>) -> State {
+        let now = &self.now;
+        let mut state = State::at_first(touch.swings.len(), now.speed.0[l]);
+        (state.time, state.closing) = (now.time.0[l], now.closing.0[l]);
+        state.impulse = now.impulse.0[l];
+        for (n, [re, im]) in now.memories.iter().enumerate() {
+            state.remember(n, c64::new(re.0[l], im.0[l]));
+        }
+        state
+    }
+
+    /// Goes on from there at a place, after a flight since that time (s), with a new touch where it `parted`.
+    #[inline(always)]
+    fn resume(&mut self, l: usize, state: &State, since: f64, parted: bool) {
+        let now = &mut self.now;
+        (now.time.0[l], now.closing.0[l]) = (state.time, state.closing);
+        for (n, [re, im]) in now.memories.iter_mut().enumerate() {
+            let memory = state.memory(n);
+            (re.0[l], im.0[l]) = (memory.re, memory.im);
+        }
+        if parted {
+            (now.compression.0[l], now.force.0[l]) = (0.0, 0.0);
+        }
+        if self.differ > 0 {
+            let mut only = Each::default();
+            only.0[l] = 1.0;
+            let parted = if parted { only } else { Each::default() };
+            self.kept.push(Kept::Flight { which: only, time: only * (state.time - since), parted });
+        }
+    }
+}
+
+/// Why a place was not met: whether its steps were too coarse.
+struct TooCoarse(bool);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::beam::dowel;
+    use crate::beam::dowel::Ends;
+    use crate::collision::energy_loss;
+
+    const SPEED: f64 = 70.0;
+
+    /// A free uniform dowel of 0.85 kg, 0.838 m and 238.9 Hz at the fraction `at` of its length.
+    fn felt(at: f64, modes: usize) -> DrivingPoint {
+        let (ball, mass, length) = (0.145, 0.85, 0.838);
+        let arm = (at - 0.5) * length;
+        let recoil = 1.0 / mass + arm * arm / (mass * length * length / 12.0);
+        let gain =
+            |n: usize| (energy_loss::wpi_shape(n, at) / energy_loss::wpi_alpha(n)).powi(2) / mass;
+        DrivingPoint {
+            inverse_mass: 1.0 / ball + recoil,
+            gains: (1..=modes).map(gain).collect(),
+            rest: 3e-9,
+        }
+    }
+
+    fn collider(modes: usize) -> Collider {
+        let first = dowel::beta_l(Ends::FreeFree, 1);
+        let omega = |n: usize| {
+            std::f64::consts::TAU * 238.9 * (dowel::beta_l(Ends::FreeFree, n) / first).powi(2)
+        };
+        let modes: Vec<[f64; 2]> = (1..=modes).map(|n| [omega(n), 0.0]).collect();
+        Collider::new(&modes, 8e-5)
+    }
+
+    fn dowels() -> Vec<DrivingPoint> {
+        (0..41).map(|k| felt(0.5 + 0.0122 * f64::from(k), 10)).collect()
+    }
+
+    fn met(places: &[Place], accuracy: f64) -> Vec<Option<Encounter>> {
+        collider(10).meet_abreast(places, accuracy)
+    }
+
+    /// One by one, side by side, and beside others than before.
+    #[test]
+    fn a_place_has_the_same_bits_whatever_is_beside_it() {
+        let (felt, law) = (dowels(), PowerLaw::new(6.53e7, 1.84, 0.5));
+        let others: Vec<_> =
+            felt.iter().map(|at| [DrivingPoint { rest: 0.0, ..at.clone() }]).collect();
+        let place = |(felt, others)| Place { felt, others, law, speed: SPEED };
+        let places: Vec<Place> =
+            felt.iter().zip(&others).map(|(f, o)| place((f, &o[..]))).collect();
+        for accuracy in [1e-3, 1e-6] {
+            let all = met(&places, accuracy);
+            // The others are met one by one.
+            assert!(all.iter().flatten().count() > 35);
+            let again = all.iter().flatten().filter(|met| met.is_delicate()).count();
+            assert!((3..30).contains(&again), "{again}");
+            let mut turned = places.clone();
+            turned.reverse();
+            for ((k, one), other) in all.iter().enumerate().zip(met(&turned, accuracy).iter().rev())
+            {
+                assert_eq!(one, other);
+                assert_eq!(*one, met(&places[k..=k], accuracy)[0]);
+            }
+        }
+    }
+
+    /// Against steps one by one that are far finer: a ball that is met once, again, late, pressed anew.
+    #[test]
+    fn side_by_side_a_ball_is_met_as_one_by_one() {
+        let felt = dowels();
+        for (restitution, stiff) in [(0.3, 1.0), (0.45, 1.0), (0.5, 10.0), (0.6, 0.3)] {
+            let law = PowerLaw::new(stiff * 6.53e7, 1.84, restitution);
+            let places = felt.iter().map(|felt| Place { felt, others: &[], law, speed: SPEED });
+            let places: Vec<Place> = places.collect();
+            for accuracy in [1e-3, 1e-5, 1e-8] {
+                for (place, met) in places.iter().zip(met(&places, accuracy)) {
+                    // Where it fails it is met one by one.
+                    let Some(met) = met else { continue };
+                    let exact = collider(10).meet(place.felt, &law, SPEED, 1e-11);
+                    assert!(met.is_sound(place.felt, SPEED));
+                    let off = (met.impulse / exact.impulse - 1.0).abs();
+                    let most = if exact.is_delicate() { 30.0 } else { 1.0 };
+                    assert!(off < most * 1e-2 * accuracy, "{restitution} {accuracy:e} {off:e}");
+                    let told = |met: &Encounter| [met.touches, met.reloads];
+                    if accuracy < 1e-4 {
+                        assert_eq!(told(&met), told(&exact));
+                        assert!((met.end / exact.end - 1.0).abs() < 0.3 * accuracy);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Against differences of meetings to both sides: with the gain of a mode, the flexibility and the closing speed,
+    /// in the end and when the ball leaves for the first time.
+    #[test]
+    fn the_changes_are_the_derivatives_of_the_impulse() {
+        const SHARE: f64 = 1e-6;
+        let law = PowerLaw::new(6.53e7, 1.84, 0.5);
+        let other = |felt: &DrivingPoint, which: usize, share: f64| {
+            let mut other = felt.clone();
+            match other.gains.get_mut(which) {
+                Some(gain) => *gain *= 1.0 + share,
+                None => other.rest *= 1.0 + share,
+            }
+            other
+        };
+        for felt in dowels().iter().step_by(4) {
+            let others: Vec<DrivingPoint> =
+                [1, 7, 9, 10].map(|which| other(felt, which, SHARE)).to_vec();
+            let place = Place { felt, others: &others, law, speed: SPEED };
+            let Some(all) = met(&[place], 1e-8).remove(0) else { panic!("it is met") };
+            let impulse = |felt: &DrivingPoint, speed: f64| {
+                let met = collider(10).meet(felt, &law, speed, 1e-10);
+                [met.impulse, met.first_impulse]
+            };
+            let near = |found: f64, [a, b]: [f64; 2]| {
+                let difference = 0.5 * (a - b);
+                let most = 3e-3 * difference.abs() + 1e-12 * all.impulse;
+                assert!((found - difference).abs() < most, "{found:e} {difference:e}");
+            };
+            for (k, which) in [1, 7, 9, 10].into_iter().enumerate() {
+                let sides = [SHARE, -SHARE].map(|share| impulse(&other(felt, which, share), SPEED));
+                near(all.changes[k], sides.map(|side| side[0]));
+                near(all.first_changes[k], sides.map(|side| side[1]));
+            }
+            let sides = [SHARE, -SHARE].map(|share| impulse(felt, SPEED * (1.0 + share))[0]);
+            near(SHARE * all.faster.unwrap(), sides);
+        }
     }
 }

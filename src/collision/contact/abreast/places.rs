@@ -1,8 +1,10 @@
 //! Places side by side: what is known of them, and how hard the ball pushes back at each.
 
 use crate::collision::contact::abreast::each::Each;
+use crate::collision::contact::abreast::press::Stage;
 use crate::collision::contact::collider::Collider;
 use crate::collision::contact::collocation::POINTS;
+use crate::collision::contact::encounter::Encounter;
 use crate::collision::contact::power_law::PowerLaw;
 use crate::collision::contact::step::AHEAD;
 use crate::collision::contact::touch::Touch;
@@ -48,10 +50,18 @@ pub(super) struct Abreast<'a, const W: usize> {
     pub couplings: Vec<(usize, Coupling<W>)>,
     pub now: Motion<W>,
     pub next: Motion<W>,
-    /// The largest compression (m) and its force (N), once all places are on their way back.
+    /// The largest compression (m) and its force (N), while the places that step are on their way back.
     pub top: Option<[Each<W>; 2]>,
-    /// The last step's compression: its length, where it ends in lengths of it, and its powers.
-    pub last: Option<([Each<W>; 2], [Each<W>; POINTS])>,
+    /// The same of every place's last turn.
+    pub tops: [Each<W>; 2],
+    /// The last step's compression: its length, where it ends in lengths of it, and its powers; and whether it is known.
+    pub last: ([Each<W>; 2], [Each<W>; POINTS]),
+    pub known: Each<W>,
+    /// What the ball lost by touches that are over (J).
+    pub spent: Each<W>,
+    /// Where the force had almost gone, and rose again.
+    pub faint: Each<W>,
+    pub late: Each<W>,
     pub defect: Each<W>,
     pub corrected: Each<W>,
     pub failed: Each<W>,
@@ -59,15 +69,29 @@ pub(super) struct Abreast<'a, const W: usize> {
     pub coarse: Each<W>,
     /// How many of the last modes other bats have otherwise, and what is kept for them.
     pub differ: usize,
-    pub walked: Vec<Walked<W>>,
+    pub kept: Vec<Kept<W>>,
     pub steps: Each<W>,
+    /// What comes next at every place, and what came so far.
+    pub stages: [Stage; W],
+    pub met: [Encounter; W],
+    /// When every place's touch began (s), and how much was kept when its first one ended.
+    pub began: [f64; W],
+    pub first: Each<W>,
 }
 
-/// What is kept of a step for the bats beside.
+/// What is kept for the bats beside.
+pub(super) enum Kept<const W: usize> {
+    /// A step.
+    Step(Walked<W>),
+    /// A flight of that time (s) at some places, and where a touch was over before.
+    Flight { which: Each<W>, time: Each<W>, parted: Each<W> },
+}
+
+/// What is kept of a step.
 pub(super) struct Walked<const W: usize> {
     pub level: usize,
-    /// Whether the ball is on its way back.
-    pub back: bool,
+    /// The largest compression (m) and its force (N), on the way back.
+    pub top: Option<[Each<W>; 2]>,
     /// The places that took it.
     pub taken: Each<W>,
     pub slope: [Each<W>; AHEAD],
@@ -112,6 +136,8 @@ impl<'a, const W: usize> Abreast<'a, W> {
                 weights[n].0[l] = felt.gains[n] / omegas[n];
             }
         }
+        let mut stages = [Stage::Over; W];
+        stages[..touches.len()].fill(Stage::Touch);
         let [inverse_mass, rest, speed, energy, deepest, stiffness, exponent, unloading] = of;
         let still = Motion { memories: vec![Default::default(); count], ..Motion::default() };
         Self {
@@ -131,14 +157,23 @@ impl<'a, const W: usize> Abreast<'a, W> {
             now: Motion { speed, ..still.clone() },
             next: still,
             top: None,
-            last: None,
+            tops: [deepest, Each::default()],
+            last: ([Each::all(1.0); 2], [Each::default(); POINTS]),
+            known: Each::default(),
+            spent: Each::default(),
+            faint: Each::default(),
+            late: Each::default(),
             defect: Each::default(),
             corrected: Each::default(),
             failed: Each::default(),
             coarse: Each::default(),
             differ,
-            walked: vec![],
+            kept: vec![],
             steps: Each::default(),
+            stages,
+            met: std::array::from_fn(|_| Encounter { touches: 1, ..Encounter::default() }),
+            began: [0.0; W],
+            first: Each::default(),
         }
     }
 

@@ -8,73 +8,107 @@
 //! ```
 
 use crate::collision::contact::abreast::each::Each;
-use crate::collision::contact::abreast::places::{Abreast, Coupling, Motion, Move, Turned, Walked};
+use crate::collision::contact::abreast::places::{Abreast, Coupling, Kept, Move, Turned, Walked};
 use crate::collision::contact::abreast::schedule::Schedule;
 use crate::collision::contact::abreast::solve::Solved;
 use crate::collision::contact::collocation::{LANES, POINTS};
+use crate::collision::contact::power_law::PowerLaw;
 use crate::collision::contact::pressing::USUAL;
 use crate::collision::contact::step::AHEAD;
+use crate::collision::contact::touch::Touch;
 
-/// What became of a place.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Released {
-    /// Largest compression (m) and force (N).
-    pub compression: f64,
-    pub force: f64,
-    /// Energy that the steps were off by, relative.
-    pub corrected: f64,
-    pub steps: usize,
-    /// How many steps are kept for the bats beside it.
-    pub last: usize,
+/// What comes next at a place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Stage {
+    /// A touch begins.
+    Touch,
+    /// The ball is pressed beyond its largest compression.
+    Anew,
+    /// The ball springs back.
+    Back,
+    /// It does, and the force that was let go returns.
+    Late,
+    /// The ball is gone for good.
+    Over,
 }
 
-/// Usual steps of a touch at the accuracy 1e-3, each way, at most.
-const MOST: usize = 24;
+/// Usual steps there or back at the accuracy 1e-3, at most.
+const MOST: usize = 48;
+/// Runs of steps from one change to the next, at most.
+const RUNS: usize = 400;
 
 impl<const W: usize> Abreast<'_, W> {
-    /// Steps until the force has gone at every place; what became of each, None where it failed.
+    /// Runs of steps until the ball is gone at every place that does not fail.
     #[inline(always)]
-    pub(super) fn press(&mut self, finer: usize, out: &mut [Option<(Released, Motion<W>)>]) {
-        let schedule = Schedule::new(self.accuracy, self.exponent.0[0], finer);
-        let most = MOST << (schedule.usual - USUAL);
-        let (mut turned, mut top) = (Each::default(), [Each::default(); 2]);
-        for step in 0..most {
-            self.step(schedule.there(step), &mut turned, Some(&mut top));
-            if turned.or(self.failed).everywhere() {
-                break;
-            }
+    pub(super) fn press(&mut self, touches: &[Touch<PowerLaw>], schedule: &Schedule) {
+        for _ in 0..RUNS {
+            let stages = [Stage::Touch, Stage::Anew, Stage::Back, Stage::Late];
+            let waits = |stage: &Stage| self.at_stage(*stage).and(self.failed.not()).somewhere();
+            let Some(stage) = stages.into_iter().find(waits) else { return };
+            self.run(stage, touches, schedule);
         }
-        self.failed = self.failed.or(turned.not());
-        self.top = Some([self.failed.choose(self.deepest, top[0]), top[1]]);
-        let cut = (1e-6 * self.accuracy).clamp(1e-14, 1e-9);
-        let (mut done, mut faint) = (Each::default(), Each::default());
-        for step in 0..2 * most {
-            if done.or(self.failed).everywhere() {
-                break;
-            }
-            let before = self.now.force;
-            self.step(schedule.back(step), &mut done, None);
-            let rises = faint.and(before.below(self.now.force)).and(done.not());
-            self.failed = self.failed.or(rises);
-            faint = faint.or(self.now.force.below(top[1] * 0.02));
-            let leaves = self.rate(&self.now).below(Each::default());
-            let over = leaves.and(self.stored().within(self.energy * cut));
-            let over = over.and(done.or(self.failed).not());
-            if over.somewhere() {
-                self.release(over, out);
-                done = done.or(over);
-            }
-        }
+        self.failed = self.failed.or(self.at_stage(Stage::Over).not());
     }
 
-    /// One step of all places that are not done; on the way to the `top`, those that turn in it are done.
+    /// Which places are at that stage.
     #[inline(always)]
-    fn step(&mut self, level: usize, done: &mut Each<W>, top: Option<&mut [Each<W>; 2]>) {
+    fn at_stage(&self, stage: Stage) -> Each<W> {
+        let mut which = Each::default();
+        for l in 0..W {
+            which.0[l] = f64::from(u8::from(self.stages[l] == stage));
+        }
+        which
+    }
+
+    /// Steps of all places at that stage until each is at another one.
+    #[inline(always)]
+    fn run(&mut self, stage: Stage, touches: &[Touch<PowerLaw>], schedule: &Schedule) {
+        let back = matches!(stage, Stage::Back | Stage::Late);
+        self.top = back.then_some(self.tops);
+        let cut = self.energy * (1e-6 * self.accuracy).clamp(1e-14, 1e-9);
+        let mut done = self.at_stage(stage).not();
+        for step in 0..MOST << (schedule.usual - USUAL) {
+            let idle = done.or(self.failed);
+            if idle.everywhere() {
+                return;
+            }
+            let before = self.now.force;
+            let event = self.step(schedule.level(stage, step), idle);
+            let mut gone = Each::default();
+            if back {
+                let rises = self.faint.and(before.below(self.now.force)).and(idle.not());
+                self.late = self.late.or(rises);
+                self.faint =
+                    self.faint.or(self.now.force.below(self.tops[1] * 0.02).and(idle.not()));
+                let leaves = self.rate(&self.now).below(Each::default());
+                gone = leaves.and(self.stored().within(cut)).and(idle.or(self.failed).not());
+            }
+            let event = event.and(self.failed.not());
+            done = done.or(event).or(gone);
+            if gone.somewhere() {
+                self.release(gone);
+            }
+            for l in 0..W {
+                if gone.0[l] != 0.0 {
+                    self.stages[l] = self.leave(l, &touches[l]);
+                } else if event.0[l] != 0.0 {
+                    self.stages[l] = if back { Stage::Anew } else { Stage::Back };
+                    self.met[l].reloads += usize::from(back);
+                }
+            }
+        }
+        self.failed = self.failed.or(done.not());
+    }
+
+    /// One step of all places that are not idle; where the compression turned in it, or was the largest again on the way
+    /// back.
+    #[inline(always)]
+    fn step(&mut self, level: usize, idle: Each<W>) -> Each<W> {
         let table = self.collider.table(level);
         if !self.couplings.iter().any(|(known, _)| *known == level) {
             self.couplings.push((level, self.coupling(table)));
         }
-        let (coupling, idle) = (*self.coupled(level), done.or(self.failed));
+        let coupling = *self.coupled(level);
         let solved = self.solve(table, &coupling, idle);
         let error = self.error_of(&solved.force, table.length);
         let mut fine = solved.found.and(error.within(Each::all(3.0 * self.accuracy)));
@@ -84,65 +118,68 @@ impl<const W: usize> Abreast<'_, W> {
         }
         let [a, b, c, d] = solved.x;
         let course = self.through(&[self.now.compression, a, b, c, d]);
-        let (mut length, mut turned, mut good) =
-            (Each::all(table.length), Each::default(), Each::all(1.0));
-        let mut moves = None;
-        match self.top {
-            Some([_, most]) => {
-                for force in &solved.force[1..] {
-                    good = good.and(force.within(most));
-                }
-            }
-            None => {
-                turned = self.rate(&self.next).below(Each::default()).and(idle.not());
-                fine = fine.and(self.rises(&solved.x).or(turned));
-                if turned.somewhere() {
-                    let (time, all) = self.turn(table.length, &self.through(&solved.force), turned);
-                    (length, moves) = (time, Some(all));
-                    self.look(&course, time / table.length, turned);
-                }
-            }
+        let (event, smooth) = self.event(&solved);
+        let event = event.and(idle.not());
+        fine = fine.and(smooth.or(event));
+        let (mut length, mut moves) = (Each::all(table.length), None);
+        if event.somewhere() {
+            let (time, all) = self.turn(table.length, &self.through(&solved.force), event);
+            (length, moves) = (time, Some(all));
+            self.look(&course, time / table.length, event);
         }
         self.remember(([Each::all(table.length), length / table.length], course), idle);
-        fine = fine.and(self.correct(table, length, [turned, idle], moves.as_deref()));
-        self.coarse = self.coarse.or(idle.not().and(good).and(fine.not()));
-        self.failed = self.failed.or(idle.not().and(good.and(fine).not()));
+        fine = fine.and(self.correct(table, length, [event, idle], moves.as_deref()));
+        let failed = idle.not().and(fine.not());
+        (self.coarse, self.failed) = (self.coarse.or(failed), self.failed.or(failed));
         self.steps += idle.not();
-        if let Some(top) = top {
-            self.hold(idle);
-            if let (true, Some(moves)) = (self.differ > 0, moves) {
-                self.keep_turn(turned, length, moves);
+        self.hold(idle);
+        if event.somewhere() {
+            let next = &mut self.next;
+            for (part, top) in
+                [&mut next.compression, &mut next.force].into_iter().zip(&mut self.tops)
+            {
+                match self.top {
+                    Some(_) => *part = event.choose(*top, *part),
+                    None => *top = event.choose(*part, *top),
+                }
             }
-            let next = &self.next;
-            *top = [turned.choose(next.compression, top[0]), turned.choose(next.force, top[1])];
-            *done = done.or(turned);
+            if let (true, Some(moves)) = (self.differ > 0, moves) {
+                self.keep_turn(event, length, moves);
+            }
         }
         std::mem::swap(&mut self.now, &mut self.next);
+        event
     }
 
-    /// Where the compression grows from point to point.
+    /// Where the compression turns in a step, or is the largest again at its end; and where it goes one way else.
     #[inline(always)]
-    fn rises(&self, x: &[Each<W>; AHEAD]) -> Each<W> {
-        let (mut before, mut rises) = (self.now.compression, Each::all(1.0));
-        for x in x {
-            rises = rises.and(before.within(*x));
-            before = *x;
+    fn event(&self, solved: &Solved<W>) -> (Each<W>, Each<W>) {
+        let mut smooth = Each::all(1.0);
+        if let Some([_, most]) = self.top {
+            for force in &solved.force[1..] {
+                smooth = smooth.and(force.within(most));
+            }
+            return (most.below(solved.force[POINTS - 1]), smooth);
         }
-        rises
+        let mut before = self.now.compression;
+        for x in solved.x {
+            smooth = smooth.and(before.within(x));
+            before = x;
+        }
+        (self.rate(&self.next).below(Each::default()), smooth)
     }
 
     /// Keeps a step's compression for the guess of the next one's, but at idle places.
     #[inline(always)]
-    fn remember(&mut self, mut last: ([Each<W>; 2], [Each<W>; POINTS]), idle: Each<W>) {
-        if let Some((ends, powers)) = self.last {
-            for k in 0..2 {
-                last.0[k] = idle.choose(ends[k], last.0[k]);
-            }
-            for k in 0..POINTS {
-                last.1[k] = idle.choose(powers[k], last.1[k]);
-            }
+    fn remember(&mut self, (ends, powers): ([Each<W>; 2], [Each<W>; POINTS]), idle: Each<W>) {
+        let (last_ends, last_powers) = &mut self.last;
+        for k in 0..2 {
+            last_ends[k] = idle.choose(last_ends[k], ends[k]);
         }
-        self.last = Some(last);
+        for k in 0..POINTS {
+            last_powers[k] = idle.choose(last_powers[k], powers[k]);
+        }
+        self.known = self.known.or(idle.not());
     }
 
     /// Leaves the next state as it is now at those places.
@@ -176,7 +213,7 @@ impl<const W: usize> Abreast<'_, W> {
 
     /// Lets the force go at those places.
     #[inline(always)]
-    pub(super) fn release(&self, over: Each<W>, out: &mut [Option<(Released, Motion<W>)>]) {
+    fn release(&mut self, gone: Each<W>) {
         let (now, mut all, mut modes) = (&self.now, self.inverse_mass, Each::default());
         for n in 0..self.weights.len() {
             let [re, im] = now.memories[n];
@@ -185,28 +222,15 @@ impl<const W: usize> Abreast<'_, W> {
             modes += gain * (re * re + im * im);
         }
         let rigid = now.speed * now.speed / self.inverse_mass;
-        let left = self.energy - self.lost() - (rigid + modes) * 0.5;
+        let left = self.energy - self.spent - self.lost() - (rigid + modes) * 0.5;
         let rate = self.rate(now);
         let root = (rate * rate + all * left * 2.0).max(Each::default()).sqrt();
-        let kick = left * 2.0 / (root - rate);
-        let mut motion = now.clone();
-        motion.impulse += kick;
-        motion.speed -= kick * self.inverse_mass;
-        for memory in &mut motion.memories {
+        let kick = gone.choose(left * 2.0 / (root - rate), Each::default());
+        let now = &mut self.now;
+        now.impulse += kick;
+        now.speed -= kick * self.inverse_mass;
+        for memory in &mut now.memories {
             memory[0] += kick;
-        }
-        let [compression, force] = self.top.unwrap_or_default();
-        for (l, out) in out.iter_mut().enumerate() {
-            if over.0[l] != 0.0 {
-                let released = Released {
-                    compression: compression.0[l],
-                    force: force.0[l],
-                    corrected: self.corrected.0[l],
-                    steps: self.steps.0[l] as usize,
-                    last: self.walked.len(),
-                };
-                *out = Some((released, motion.clone()));
-            }
         }
     }
 
@@ -228,17 +252,19 @@ impl<const W: usize> Abreast<'_, W> {
             }
         }
         let (slope, force) = (solved.slope, solved.force);
-        let back = self.top.is_some();
-        self.walked.push(Walked { level, back, taken, slope, force, points, turned: None });
+        let top = self.top;
+        let walked = Walked { level, top, taken, slope, force, points, turned: None };
+        self.kept.push(Kept::Step(walked));
     }
 
     /// Keeps of a turn what bats beside need.
     #[inline(always)]
     pub(super) fn keep_turn(&mut self, which: Each<W>, time: Each<W>, moves: Vec<Move<W>>) {
         let (next, first) = (&self.next, self.weights.len() - self.differ);
-        let slope = self.slope(next.compression, next.force);
+        // On the way that follows the turn, or that began before it.
+        let slope = self.exponent * next.force / next.compression;
         let memories = next.memories[first..].iter().map(|[_, im]| *im).collect();
-        if let Some(walked) = self.walked.last_mut() {
+        if let Some(Kept::Step(walked)) = self.kept.last_mut() {
             walked.turned = Some(Turned { which, time, moves, slope, force: next.force, memories });
         }
     }

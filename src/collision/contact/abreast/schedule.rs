@@ -1,5 +1,6 @@
 //! How long the steps of places side by side are.
 
+use crate::collision::contact::abreast::press::Stage;
 use crate::collision::contact::pressing::USUAL;
 
 /// The lengths of the steps, as levels: they follow from the accuracy of the steps and the exponent of the law, as
@@ -24,13 +25,22 @@ impl Schedule {
         Self { first, usual, each: if accuracy < 2e-7 { 2 } else { 1 }, back: usize::from(fine) }
     }
 
+    /// The level of a step of a stage.
+    pub fn level(&self, stage: Stage, step: usize) -> usize {
+        match stage {
+            Stage::Touch => self.there(step),
+            Stage::Back => self.back(step),
+            _ => self.usual,
+        }
+    }
+
     /// The level of a step on the way to the largest compression.
-    pub fn there(&self, step: usize) -> usize {
+    fn there(&self, step: usize) -> usize {
         self.first.saturating_sub(step / self.each).max(self.usual)
     }
 
     /// The level of a step on the way back: the force falls fast at first.
-    pub fn back(&self, step: usize) -> usize {
+    fn back(&self, step: usize) -> usize {
         let whole = 1 << self.usual;
         let fine = if self.back > 0 { whole } else { 0 };
         match step {

@@ -124,15 +124,14 @@ impl<const W: usize> Abreast<'_, W> {
     /// A guess of the compressions (m) ahead: the last step's goes on as it did, if that is less than without force.
     #[inline(always)]
     fn foreseen(&self, length: f64, free: &[Each<W>; AHEAD], most: Each<W>) -> [Each<W>; AHEAD] {
-        let mut x = *free;
-        let Some(([last, from], powers)) = &self.last else { return x };
+        let (mut x, ([last, from], powers)) = (*free, &self.last);
         for i in 0..AHEAD {
             let at = *from + Each::all(length * self.collider.rule.at[i + 1]) / *last;
             let mut sum = powers[POINTS - 1];
             for k in (0..POINTS - 1).rev() {
                 sum = sum * at + powers[k];
             }
-            x[i] = sum.min(free[i]).min(most);
+            x[i] = self.known.choose(sum.min(free[i]), free[i]).min(most);
         }
         x
     }

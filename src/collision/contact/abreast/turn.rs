@@ -1,4 +1,4 @@
-//! Where the compression is largest, by Newton's method on the exact motion.
+//! Where the compression is largest, or the largest again, by Newton's method on the exact motion.
 
 use crate::collision::contact::abreast::each::Each;
 use crate::collision::contact::abreast::places::{Abreast, Motion, Move};
@@ -35,15 +35,19 @@ impl<const W: usize> Abreast<'_, W> {
         (time, moves)
     }
 
-    /// The rate of the compression and its own.
+    /// What is 0 at the turn, and its rate: the rate of the compression, or on the way back how far it is from the largest.
     #[inline(always)]
     pub(super) fn distance(&self, state: &Motion<W>) -> [Each<W>; 2] {
+        let rate = self.rate(state);
+        if let Some([x, force]) = self.top {
+            return [self.reach(state) - x - self.rest * force, rate];
+        }
         let mut bend = -state.force * self.inverse_mass;
         for n in 0..self.weights.len() {
             let [_, im] = state.memories[n];
             bend -= self.weights[n] * (state.force - im * self.omegas[n]) * self.omegas[n];
         }
-        [self.rate(state), bend]
+        [rate, bend]
     }
 
     /// The state at a time within a step, where `which` holds.
