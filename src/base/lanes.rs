@@ -1,9 +1,8 @@
 //! How do several bats or modes go through the same arithmetic at once?
 //!
 //! [`Lanes`] holds as many numbers as a vector of the machine. It uses plain loops over arrays, which the compiler
-//! turns
-//! into vector instructions. pulp chooses the widest vectors that the machine has. The choice does not change the bits
-//! of an answer.
+//! turns into vector instructions. pulp chooses the widest vectors that the machine has. The choice does not change the
+//! bits of an answer.
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 use std::sync::atomic::{AtomicBool, Ordering};

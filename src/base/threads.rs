@@ -16,8 +16,8 @@ pub const MOST: u16 = 1024;
 
 /// The value in the cell; `make` makes it if the cell is empty.
 ///
-/// The thread that makes it works alone. A thread of the pool that waits for others takes up other work
-/// meanwhile, and if that asks for the same cell, the thread waits for itself.
+/// The thread that makes it works alone. A thread of the pool that waits for others takes up other work meanwhile, and
+/// if that asks for the same cell, the thread waits for itself.
 pub(crate) fn made<T>(cell: &OnceLock<T>, make: impl FnOnce() -> T) -> &T {
     struct Before(bool);
     impl Drop for Before {

@@ -131,8 +131,7 @@ impl Bounds<'_> {
     /// without a core), and a core resists shear `core` times as much per area as the tube's modulus alone would.
     ///
     /// With `a = r²` and `b = empty · r_i²`, Cowper's κ is `c₁ (a + b)²/(c₂ (a + b)² + c₃ a b)` ([`Material::kappa`]).
-    /// It
-    /// falls as the bore grows.
+    /// It falls as the bore grows.
     pub(crate) fn missed_shear(&self, tube: &Material, empty: f64, core: f64) -> f64 {
         let [least, most] = self.sizes();
         let hole = empty * (most.inner / least.outer).min(1.0);

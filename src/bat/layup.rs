@@ -124,12 +124,9 @@ impl Layup {
     /// All four values, summed over the layers; each layer bends about the bat's axis.
     ///
     /// `κGA` of the tube uses Cowper's κ with `m² (1 − G_core/G)` in place of `m²`, because the core fills the bore as
-    /// far
-    /// as it is stiff in shear. Without a core this is Cowper's tube, with a core of the same material the solid rod,
-    /// and an
-    /// interpolation between. With sleeves, every ring is a part of the whole section in the same way (see `hole`):
-    /// layers
-    /// of one material equal the tube that they form together.
+    /// far as it is stiff in shear. Without a core this is Cowper's tube, with a core of the same material the solid
+    /// rod, and an interpolation between. With sleeves, every ring is a part of the whole section in the same way (see
+    /// `hole`): layers of one material equal the tube that they form together.
     pub fn worth(&self, section: Section) -> Worth {
         let [bending, mass] = self.bending_and_mass(section);
         let turning = self.turning(section);

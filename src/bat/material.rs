@@ -234,8 +234,7 @@ impl Material {
     /// by 2 % of Young's modulus and 1 % of the density. `None` if neither is known, as for a composite.
     ///
     /// Magnesium, aluminium, titanium and steel all have a stiffness over density of about 25e6 m²/s², which identifies
-    /// a
-    /// metal.
+    /// a metal.
     ///
     /// # Source
     ///

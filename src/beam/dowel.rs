@@ -253,8 +253,8 @@ mod tests {
         }
     }
 
-    /// The dowel of the WPI report with its density in consistent units: 33 in, radius 0.83885 in,
-    /// 2.02e6 psi, 0.0257 lb/in³.
+    /// The dowel of the WPI report with its density in consistent units: 33 in, radius 0.83885 in, 2.02e6 psi, 0.0257
+    /// lb/in³.
     #[test]
     fn the_report_s_dowel_rings_at_239_hz() {
         let (inch, pound) = (0.0254, 0.453_592_37);

@@ -4,8 +4,8 @@
 //! additional strain, the angle between its two sides.
 //!
 //! The displacement of a contact follows from the strains and the motion of the root. The loads on the bat, clamped at
-//! its root, give strains; the result is the set of strains nearest to them that the contacts allow ([`Holds`]). If
-//! the contacts leave rigid motions free, these are removed as for a free bat.
+//! its root, give strains; the result is the set of strains nearest to them that the contacts allow ([`Holds`]). If the
+//! contacts leave rigid motions free, these are removed as for a free bat.
 
 use crate::base::quadrature::{RunningSum, legendre};
 use crate::base::real::{Over, Real};

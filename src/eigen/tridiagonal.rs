@@ -23,10 +23,8 @@ impl<R: Real> Tridiagonal<R> {
     /// entries of `off` are ignored.
     ///
     /// Implicit QL with Wilkinson's shift (Bowdler, Martin, Reinsch, Wilkinson, Numer. Math. 11 (1968) 293). It runs
-    /// from
-    /// the far end, because a Lanczos matrix is graded downwards and QL keeps the digits of matrices graded upwards.
-    /// `None`
-    /// if it does not converge, which only numbers beyond the range of f64 can cause.
+    /// from the far end, because a Lanczos matrix is graded downwards and QL keeps the digits of matrices graded
+    /// upwards. `None` if it does not converge, which only numbers beyond the range of f64 can cause.
     #[inline(always)]
     pub fn solve(&mut self, diagonal: &[R], off: &[R]) -> Option<()> {
         let n = diagonal.len();

@@ -72,8 +72,7 @@ pub fn at(degree: usize, xi: f64) -> [Vec<f64>; 2] {
 /// its rows belong to the part.
 ///
 /// The coefficient of a bubble is `(2k − 1)/2 ∫ f′ P_{k−1} dξ / √((2k − 1)/2)` on the part, because Legendre
-/// polynomials
-/// are orthogonal.
+/// polynomials are orthogonal.
 pub fn restricted(degree: usize, [low, high]: [f64; 2]) -> Vec<Vec<f64>> {
     let count = degree + 1;
     let mut rows = vec![at(degree, low)[0].clone(), at(degree, high)[0].clone()];
