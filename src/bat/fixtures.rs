@@ -24,7 +24,7 @@ pub struct Fixtures {
     /// Masses that hang on springs.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub absorbers: Vec<Absorber>,
-    /// Joints that yield to bending.
+    /// Joints that flex.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub joints: Vec<Joint>,
     /// Places that are held.
@@ -92,7 +92,7 @@ pub struct Absorber {
     pub damping: f64,
 }
 
-/// A joint of two parts of a bat: a spring that yields to bending.
+/// A joint of two parts of a bat: a rotational spring.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Joint {
