@@ -1,7 +1,7 @@
 //! A single fixture on the bat: a point mass, the spring of a joint, a contact.
 //!
 //! A contact is anything that holds a deflection or a rotation: a support, a spring to ground, or one Legendre
-//! coefficient of the deflection over an elastic bed. It may flex by `√δ s`, where `s` is its strain and `δ = U/k` in
+//! coefficient of the deflection over an elastic bed. It may deflect by `√δ s`, where `s` is its strain and `δ = U/k` in
 //! the unit of energy `U`. A support has `δ = 0`.
 
 use crate::base::real::{Over, Real};
