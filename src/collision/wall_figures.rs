@@ -60,7 +60,7 @@ impl WallFigures {
 }
 
 impl Hitter<'_> {
-    /// The wall under the ball at `x` (m); `None` if it does not flex by its hoop modes, and where ball and bat do not
+    /// The wall under the ball at `x` (m); `None` if it does not give way by its hoop modes, and where ball and bat do not
     /// meet.
     pub fn wall_figures(&self, x: f64) -> Option<WallFigures> {
         let hoop = self.hoop.as_ref()?;

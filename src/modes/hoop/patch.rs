@@ -1,4 +1,4 @@
-//! How far does the wall flex under a ball?
+//! How far does the wall give way under a ball?
 //!
 //! The ball presses on a patch, with a pressure that is parabolic along the bat and around it. With `P(k) = 3 (sin k −
 //! k cos k)/k³` and a resultant F across the bat:
