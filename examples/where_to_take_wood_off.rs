@@ -3,9 +3,9 @@
 //!     cargo run --release --example where_to_take_wood_off [-- BAT.json]
 //!
 //! Half a millimetre is taken off the radius over one inch at each place in turn, and the bat is solved and hit again:
-//! its weight, swing, frequencies and highest exit speed, swung as fast as before and with the same energy (`Ω = Ω₀
-//! √(I₀/I)`, `I` about the point 6 in from the knob). Such small differences need solutions with more digits than the
-//! subtraction loses, which the stated errors show.
+//! its weight, swing, frequencies and highest exit speed, swung as fast as before and with the same energy
+//! (`Ω = Ω₀ √(I₀/I)`, `I` about the point 6 in from the knob). Such small differences need solutions with more digits
+//! than the subtraction loses, which the stated errors show.
 
 use std::env;
 use sweetspot::base::units::{miles_per_hour, ounce_square_inches};

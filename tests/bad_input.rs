@@ -91,10 +91,11 @@ const PROFILE: &str = r#"{
 const X: &str = "[0, 0.4, 0.8]";
 const RADIUS: &str = r#""radius": [0.02, 0.03, 0.02]"#;
 
-/// The table of mistakes, a value a line. The first names parts of the good bat. An object begins a section: a command
-/// to `run` in a folder with the good bat and the section's `files`. Each list after it is a case. In a section with a
-/// `file` a case has a part of that file's `good` text (the section's `at`, or a text or the name of a part of its own)
-/// and the text in its place; in others it has the command line. Then follow the words of the answer.
+/// The table of mistakes, one value in each line. The first value names parts of the good bat. An object begins a
+/// section: a command to `run` in a folder with the good bat and the `files` of the section. Each list after it is a
+/// case. In a section with a `file`, a case begins with a part of the `good` text of that file (the `at` of the section,
+/// or a text or the name of a part in the case) and its replacement; in other sections it begins with the command line.
+/// The words of the answer follow.
 const TABLE: &str = include_str!("bad_input.jsonl");
 
 #[test]
@@ -329,7 +330,7 @@ fn what_is_on_a_bat_is_in_its_mass_balance_and_inertia() {
         folder.write("bat.json", text);
         let run = ["modes", "bat.json", "--modes", "0", "--json", "-"];
         let (document, told) = accepted(&folder, &run);
-        // A scale that shows far more or less than the file's own densities make is told, and nothing else is.
+        // A scale that differs much from the mass by the densities of the file causes a remark, and nothing else does.
         let told_of =
             ["\"mass\": \"1 kg\", \"balance_point\"", "\"weighed\": { \"mass\": 1 }, \"regions\""];
         let far = text.contains("\"density\": 700") && told_of.iter().any(|of| text.contains(of));
@@ -612,7 +613,7 @@ fn a_million_stations_are_read() {
     assert_none(folder.misanswer(&["modes", "bat.json"], &says).into_iter().collect());
 }
 
-/// A text that is not JSON is told as such.
+/// A text that is not JSON is reported as such.
 #[test]
 fn what_is_not_json_is_told_as_such() {
     let folder = Folder::new("not_json");

@@ -7,11 +7,10 @@
 //! w′ = θ + Q/κGA,  θ′ = M/EI,  M′ = −Q + s²ρI θ,  Q′ = s²ρA w + (k + s c) w
 //! ```
 //!
-//! (Rayleigh: no Q/κGA; Euler–Bernoulli: no ρI either), free ends, `k` and `c` on the grip only. An
-//! with free ends, and `k` and `c` on the grip only. An absorber is `Q(x+) = Q(x−) + s² m z`, `z = w (k + s c)/(k + s c
-//! + s² m)`, a unit force `Q(x+) = Q(x−) − 1`. [`carried`] solves these equations by Taylor series over the uniform
-//! stretches and has no code in common with the program. The listed frequencies are shown to be roots of its
-//! determinant, and the receptances come from it.
+//! (Rayleigh: no Q/κGA; Euler–Bernoulli: no ρI either) with free ends, and `k` and `c` on the grip only. An absorber is
+//! `Q(x+) = Q(x−) + s² m z` with `z = w (k + s c)/(k + s c + s² m)`, a unit force `Q(x+) = Q(x−) − 1`. [`carried`]
+//! solves these equations by Taylor series over the uniform stretches and has no code in common with the program. The
+//! listed frequencies are shown to be roots of its determinant, and the receptances come from it.
 
 // Values are kept with all their digits.
 #![allow(clippy::excessive_precision)]
@@ -365,9 +364,9 @@ fn the_elastic_response_at_0_hz_is_the_static_deflection() {
     }
 }
 
-/// The tip's own receptance of a free uniform beam, `−F₅/(EI λ³ F₃)` with `F₃ = cos λL cosh λL −
-/// 1`, `F₅ = cos λL sinh λL − sin λL cosh λL` (R. E. D. Bishop, D. C. Johnson, The Mechanics of
-/// Vibration, 1960); with losses λ and EI are complex.
+/// The tip's own receptance of a free uniform beam, `−F₅/(EI λ³ F₃)` with `F₃ = cos λL cosh λL − 1`,
+/// `F₅ = cos λL sinh λL − sin λL cosh λL` (R. E. D. Bishop, D. C. Johnson, The Mechanics of Vibration, 1960); with
+/// losses λ and EI are complex.
 fn at_the_tip(frequency: f64, loss: f64, bed: [f64; 2]) -> c64 {
     let omega = TAU * frequency;
     let area = std::f64::consts::PI * RADIUS.powi(2);

@@ -8,8 +8,8 @@ use sweetspot::modes::theory_choice;
 use sweetspot::{Bat, Request, solve};
 use sweetspot_study::ignored::shift;
 
-/// The integrals in both shifts of a free uniform dowel in closed form, with the shape `φ = cosh βξ +
-/// cos βξ − σ (sinh βξ + sin βξ)`, ξ = x/L:
+/// The integrals in both shifts of a free uniform dowel in closed form, with the shape
+/// `φ = cosh βξ + cos βξ − σ (sinh βξ + sin βξ)`, ξ = x/L:
 ///
 /// ```text
 /// ∫φ′² dξ/∫φ² dξ = σβ (σβ + 6),   ∫φ‴² dξ/∫φ″² dξ = σβ (σβ − 2),   σ = (cosh β − cos β)/(sinh β − sin β)

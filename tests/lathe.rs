@@ -622,9 +622,9 @@ fn the_least_wood_can_be_turned_off() {
     }
 }
 
-/// What is searched along a bat changes as whole bats say, each with modes, steps and a search of its own at 1e-7, by
-/// the derivative and by the finite cut, or it is said that it is not smooth. The bats: two that hands hold and one that
-/// is free, where a ball comes back and valleys along the bat are narrower than a millimetre.
+/// Results of a search along a bat change as for whole bats, each with separate modes, steps and search at 1e-7, by the
+/// derivative and by the finite cut, or the result is marked as not smooth. The bats: two held by hands and one free,
+/// where the ball returns and valleys along the bat are narrower than a millimetre.
 #[test]
 fn best_places_change_as_whole_bats_do_or_it_is_said_that_they_jump() {
     let bat = |material: &str, x: &str, diameter: &str, grip: &str| {

@@ -40,8 +40,8 @@ fn pinned(x: f64) -> Bat {
     held(Fixtures { supports: vec![pin], ..Fixtures::default() })
 }
 
-/// A bat on a pin recoils according to its inertia about the pin, and a rigid one returns the ball with `e_A = (e −
-/// r)/(1 + r)`, r = m Q²/I. BBCOR by the formula of the standard rig is then e₀.
+/// A bat on a pin recoils according to its inertia about the pin, and a rigid one returns the ball with
+/// `e_A = (e − r)/(1 + r)`, r = m Q²/I. BBCOR by the formula of the standard rig is then e₀.
 #[test]
 fn a_stiff_bat_on_a_pin_is_the_test_rig() {
     let bat = pinned(0.1524);

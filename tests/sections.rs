@@ -299,8 +299,8 @@ fn layers_add_under_timoshenko() {
     }
 }
 
-/// A joint of stiffness k has the energy `M²/k`, where the bat stores `∫M²/EI = ω² m`: it lowers a frequency by `M²/(2
-/// k ω² m)`, up to terms of second order.
+/// A joint of stiffness k has the energy `M²/k`, where the bat stores `∫M²/EI = ω² m`: it lowers a frequency by
+/// `M²/(2 k ω² m)`, up to terms of second order.
 #[test]
 fn a_stiff_joint_lowers_a_frequency_by_what_gives_way_in_it() {
     let x = 0.31;

@@ -132,8 +132,8 @@ fn the_second_waves_begin_beyond_the_cut_off() {
     assert!((phases - 60.0).abs() < 2.0, "{phases}");
 }
 
-/// A uniform shaft on two pins has the sine for its shape with any theory: `ω⁴ ρI/κGA − ω² (ρA/k² +
-/// ρI + ρA EI/κGA…)` in closed form, the slower root of which is the bending mode.
+/// A uniform shaft on two pins has the sine for its shape with any theory: `ω⁴ ρI/κGA − ω² (ρA/k² + ρI + ρA EI/κGA…)`
+/// in closed form, the slower root of which is the bending mode.
 #[test]
 fn a_bar_with_a_typical_shear_modulus_agrees_with_the_sine_solution() {
     let stations = Stations {

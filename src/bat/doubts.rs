@@ -137,9 +137,9 @@ impl Bat {
         })
     }
 
-    /// The measured swing weight (kg m², about 6 in from the knob end), given directly or by a pendulum: `I = m g d
-    /// T²/4π²` about its pivot, with d the distance to the balance point. Mass and balance point are the measured ones,
-    /// else the computed ones.
+    /// The measured swing weight (kg m², about 6 in from the knob end), given directly or by a pendulum:
+    /// `I = m g d T²/4π²` about its pivot, with d the distance to the balance point. Mass and balance point are the
+    /// measured ones, else the computed ones.
     pub fn measured_swing_weight(&self) -> Option<f64> {
         const GRAVITY: f64 = 9.806_65;
         let weighed = self.weighed();

@@ -64,9 +64,9 @@ pub struct Cut {
 
 /// A curved hollow in the tip.
 ///
-/// Let `a` be half the diameter at the rim and `v` run from 0 at the bottom to 1 at the rim. The radius is `a (1 − (1 −
-/// v)³)`: round at the bottom, with walls along the axis at the rim. The cup holds 9/14 of the cylinder around it; half
-/// an ellipsoid would hold 2/3.
+/// Let `a` be half the diameter at the rim and `v` run from 0 at the bottom to 1 at the rim. The radius is
+/// `a (1 − (1 − v)³)`: round at the bottom, with walls along the axis at the rim. The cup holds 9/14 of the cylinder
+/// around it; half an ellipsoid would hold 2/3.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Cup {

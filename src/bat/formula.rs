@@ -16,9 +16,8 @@ const MOST_CORNERS: usize = 1000;
 
 /// A formula of `x`, such as `0.0127 + 0.0102*(1 + tanh((x - 0.50)/0.11))`.
 ///
-/// Numbers, `x`, `pi`, `+ - * /`, `**` or `^`, and the functions `sin cos tan exp log sqrt tanh
-/// abs min max`: angles in radians, `log` natural, `min` and `max` of two arguments or more.
-/// Clones share what was parsed.
+/// Numbers, `x`, `pi`, `+ - * /`, `**` or `^`, and the functions `sin cos tan exp log sqrt tanh abs min max`: angles in
+/// radians, `log` natural, `min` and `max` of two arguments or more. Clones share what was parsed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Formula(Arc<Parsed>);
 

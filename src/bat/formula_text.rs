@@ -91,8 +91,8 @@ impl Fault {
         ErrMode::Cut(Self { expected: expected.into(), ..Self::from_input(input) })
     }
 
-    /// The complaint, which quotes what was found with its place, and what was expected: `"tanhh" at character 10 of
-    /// "0.0127 + tanhh(x)"`.
+    /// The complaint, which quotes what was found with its place, and what was expected:
+    /// `"tanhh" at character 10 of "0.0127 + tanhh(x)"`.
     fn complaint(self, text: &str) -> Complaint {
         let here = word(&text[self.offset..]);
         let what = match self.found {

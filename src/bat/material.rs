@@ -135,9 +135,9 @@ impl Material {
         self.poisson_ratio.or(of_wall).unwrap_or(0.3)
     }
 
-    /// Timoshenko's shear coefficient of a ring whose `(r_i/r)²` is `hole`: the material's own, else Cowper's `κ =
-    /// 6(1+ν)(1+m²)² / [(7+6ν)(1+m²)² + (20+12ν)m²]` with `m = r_i/r`. An unknown ν is taken as 0.3, and never computed
-    /// from E/G, which means nothing for wood.
+    /// Timoshenko's shear coefficient of a ring whose `(r_i/r)²` is `hole`: the material's own, else Cowper's
+    /// `κ = 6(1+ν)(1+m²)² / [(7+6ν)(1+m²)² + (20+12ν)m²]` with `m = r_i/r`. An unknown ν is taken as 0.3, and never
+    /// computed from E/G, which means nothing for wood.
     ///
     /// # Source
     ///
@@ -150,8 +150,8 @@ impl Material {
         })
     }
 
-    /// Derivative of [`Self::kappa`] by `hole`: 0 if the material has its own κ, else that of Cowper's. With `a = 7 +
-    /// 6ν`, `b = 20 + 12ν` and `h` the hole, `dκ/dh = −6 (1 + ν) b (1 − h²) / [a (1 + h)² + b h]²`.
+    /// Derivative of [`Self::kappa`] by `hole`: 0 if the material has its own κ, else that of Cowper's. With
+    /// `a = 7 + 6ν`, `b = 20 + 12ν` and `h` the hole, `dκ/dh = −6 (1 + ν) b (1 − h²) / [a (1 + h)² + b h]²`.
     pub fn kappa_slope(&self, hole: f64) -> f64 {
         if self.shear_coefficient.is_some() {
             return 0.0;

@@ -2,9 +2,9 @@
 
 /// Slopes of the monotone piecewise cubic through the points `(x, y)`: two or more, with rising `x`.
 ///
-/// An inner slope is the weighted harmonic mean of the neighbouring secants `m` over the intervals `h`, `(w₁ + w₂)/d =
-/// w₁/m₋ + w₂/m₊` with `w₁ = 2h₊ + h₋`, `w₂ = h₊ + 2h₋`. It is 0 where the secants differ in sign or one is 0. An end
-/// slope is a one-sided three-point formula, limited to keep the shape. Two points give the straight line.
+/// An inner slope is the weighted harmonic mean of the neighbouring secants `m` over the intervals `h`,
+/// `(w₁ + w₂)/d = w₁/m₋ + w₂/m₊` with `w₁ = 2h₊ + h₋`, `w₂ = h₊ + 2h₋`. It is 0 where the secants differ in sign or one
+/// is 0. An end slope is a one-sided three-point formula, limited to keep the shape. Two points give the straight line.
 ///
 /// # Source
 ///

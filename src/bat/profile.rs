@@ -240,7 +240,7 @@ impl Piece {
         }
     }
 
-    /// The part from `s0` to `s1` as a piece of its own.
+    /// The part from `s0` to `s1` as a separate piece.
     pub fn part(&self, s0: f64, s1: f64) -> Self {
         let radii = match &self.radii {
             Radii::Cubic(cubics) => Radii::Cubic(cubics.part(s0, s1)),

@@ -1,7 +1,7 @@
 //! An elastic bed under one element, eliminated locally.
 //!
-//! The bed holds the Legendre coefficients of the element's deflection, `c = H q + G u`, by springs of softness σ (`Σ =
-//! σ²`). Here `u` is the motion of the element's inner end. The bed's forces are
+//! The bed holds the Legendre coefficients of the element's deflection, `c = H q + G u`, by springs of softness σ
+//! (`Σ = σ²`). Here `u` is the motion of the element's inner end. The bed's forces are
 //!
 //! ```text
 //! t = (Σ + H Hᵀ)⁻¹ (H q + G u − H Bᵀ λ)

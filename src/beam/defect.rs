@@ -11,8 +11,8 @@
 //!
 //! For a beam that shears, add `∫κGA (γ − γ*)² dx` with `γ* = Q/κGA` to the numerator and `∫κGA γ² dx` to the
 //! denominator, and likewise for every spring and joint. `c_j` is the share of the exact mode `j` in the computed one
-//! (`Σ c_j² = 1`, λ = ω²). The error of Rayleigh's quotient is `Σ c_j² (λ_j − λ_k)/λ`: the same sum but for a factor `1
-//! − λ/λ_j`, which is 1 for the fast modes that a mesh cannot represent. So `η/2` is the relative error of the
+//! (`Σ c_j² = 1`, λ = ω²). The error of Rayleigh's quotient is `Σ c_j² (λ_j − λ_k)/λ`: the same sum but for a factor
+//! `1 − λ/λ_j`, which is 1 for the fast modes that a mesh cannot represent. So `η/2` is the relative error of the
 //! frequency. It follows from the answer itself without a second mesh, also with thin ends.
 //!
 //! On an element over stations, EI, ρA and 1/EI are polynomials with the moments of the true functions, and the

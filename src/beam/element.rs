@@ -1,8 +1,8 @@
 //! What does one element store? Strain energy and kinetic energy of a deflection of degree p.
 //!
 //! On an element of length `h`, with ξ from −1 to 1 and `P_j` the Legendre polynomials, the unknowns are strains. The
-//! curvature is `θ′ = Σ c_j P_j`. In a beam that shears, the shear strain is `w′ − θ = Σ g_j P_j`, also with `j = 0 …
-//! p−2`. Rotation and deflection follow by integration from the left end,
+//! curvature is `θ′ = Σ c_j P_j`. In a beam that shears, the shear strain is `w′ − θ = Σ g_j P_j`, also with
+//! `j = 0 … p−2`. Rotation and deflection follow by integration from the left end,
 //!
 //! ```text
 //! θ = θₗ + (h/2) Σ c_j ∫P_j,   w = wₗ + (h/2) ∫(θ + Σ g_j P_j),   ∫P_j = (P_{j+1} − P_{j−1})/(2j + 1).

@@ -36,10 +36,9 @@ pub fn elements<const N: usize, const W: usize>(
 }
 
 impl<const N: usize, const W: usize> Element<f64, N, W> {
-    /// Strains of the unknowns `[w₁, θ₁, w₂, θ₂, b₂, b₃ …, g₀, g₁ …]`: mean curvature `(θ₂ −
-    /// θ₁)/h`, its slope `3[(θ₁ − ψ) + (θ₂ − ψ)]/h` with the chord `ψ = (w₂ − w₁)/h − g₀`, the
-    /// bubbles, whose amplitude `b_j` is the coefficient of `P_j` in the curvature, and the shear
-    /// strains.
+    /// Strains of the unknowns `[w₁, θ₁, w₂, θ₂, b₂, b₃ …, g₀, g₁ …]`: mean curvature `(θ₂ − θ₁)/h`, its slope
+    /// `3[(θ₁ − ψ) + (θ₂ − ψ)]/h` with the chord `ψ = (w₂ − w₁)/h − g₀`, the bubbles, whose amplitude `b_j` is the
+    /// coefficient of `P_j` in the curvature, and the shear strains.
     pub fn strains_of_hermite(&self, u: &[f64]) -> Vector<f64, W> {
         let h = self.length;
         let sheared = if W > N { u[N] } else { 0.0 };

@@ -69,9 +69,9 @@ static POINTS: LazyLock<Vec<Vec<GaussPoint>>> = LazyLock::new(|| {
 
 /// Number of points for a part of an element whose sections are multiplied by that number of Legendre polynomials.
 ///
-/// n points integrate `e^{zt}` on [0, 1] with the error `z^{2n} (n!)⁴/((2n)!)³`. `P_k` is nearly `cos kθ` with `ξ = cos
-/// θ`, and a section whose radius goes from r₀ to r₁ is nearly `e^{4t ln r₁/r₀}`. n points are exact up to degree 2n −
-/// 1.
+/// n points integrate `e^{zt}` on [0, 1] with the error `z^{2n} (n!)⁴/((2n)!)³`. `P_k` is nearly `cos kθ` with
+/// `ξ = cos θ`, and a section whose radius goes from r₀ to r₁ is nearly `e^{4t ln r₁/r₀}`. n points are exact up to
+/// degree 2n − 1.
 fn points(cubics: &Cubics, count: usize, [begin, end]: [f64; 2]) -> usize {
     /// The largest z that 2, 3, … points integrate to 1e-12.
     const REACH: [f64; 19] = [

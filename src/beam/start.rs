@@ -40,10 +40,10 @@ impl<R: Real> View<'_, R> {
     /// The start vector of Lanczos for `count` modes: bending moments with a part of each wanted mode and little of the
     /// others.
     ///
-    /// `s²(1 − s)² Σ_j a_j T_j(1 − 2(3s² − 2s³))`, `j ≤ count + 1`, `s` along the bat, `T_j`
-    /// Chebyshev's polynomials, so that the terms are nearly `cos jπs`: moment and shear vanish at
-    /// With these, moment and shear vanish at the free ends as a mode's do. The `a_j` are golden-ratio fractions, all
-    /// different. A small part of every unknown is added, so that no mode is ever missing.
+    /// `s²(1 − s)² Σ_j a_j T_j(1 − 2(3s² − 2s³))`, `j ≤ count + 1`, `s` along the bat, `T_j` Chebyshev's polynomials,
+    /// so that the terms are nearly `cos jπs`. With these, moment and shear vanish at the free ends as a mode's do. The
+    /// `a_j` are golden-ratio fractions, all different. A small part of every unknown is added, so that no mode is ever
+    /// missing.
     #[inline(always)]
     pub fn start(&self, count: usize, out: &mut [R]) {
         const TOUCH: f64 = 1e-9;

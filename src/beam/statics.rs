@@ -33,8 +33,8 @@ use crate::beam::rule::{MOST_POINTS, Rule};
 use crate::beam::sections::{self, sampled};
 use crate::beam::sweep::{Body, Cell, Inwards, Loads, Outwards, Rigid};
 
-/// Sums over more elements than this carry their rounding errors along. Up to here the round-off is at most `200 ε =
-/// 4e-14`, below every error that is stated; the example `tuning_round_off` prints its effect.
+/// Sums over more elements than this carry their rounding errors along. Up to here the round-off is at most
+/// `200 ε = 4e-14`, below every error that is stated; the example `tuning_round_off` prints its effect.
 const LONG: usize = 200;
 
 /// The compliance of bats, one in each lane of `R`, on elements of degree `N − 1` with `W − 2` strains.

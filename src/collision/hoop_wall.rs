@@ -278,9 +278,9 @@ pub fn barrel_walls(bat: &Bat) -> Vec<[f64; 2]> {
     if hollow { walls } else { vec![] }
 }
 
-/// Restitution of a ball on a wall that gives way, from that on a rigid one: `e = √((e_s² + s)/(1 + s))`, with `s = ½ (1 +
-/// α) k_ball/k_wall` the share of the energy that the wall stores and returns. An estimate, within 0.03, for a wall
-/// much lighter than the ball.
+/// Restitution of a ball on a wall that gives way, from that on a rigid one: `e = √((e_s² + s)/(1 + s))`, with
+/// `s = ½ (1 + α) k_ball/k_wall` the share of the energy that the wall stores and returns. An estimate, within 0.03,
+/// for a wall much lighter than the ball.
 pub fn restitution_with_wall(stiff: f64, exponent: f64, ball_over_wall: f64) -> f64 {
     let share = 0.5 * (1.0 + exponent) * ball_over_wall;
     ((stiff * stiff + share) / (1.0 + share)).sqrt()

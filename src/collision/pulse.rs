@@ -57,8 +57,8 @@ impl Pulse {
         modes.iter().zip(gains).map(share).collect()
     }
 
-    /// An upper bound for all modes above ω (rad/s) together, where `slow` is their `Σ c/ω⁴` (m s²/N): `|S| ≤
-    /// 1/((ωτ/π)² − 1)`.
+    /// An upper bound for all modes above ω (rad/s) together, where `slow` is their `Σ c/ω⁴` (m s²/N):
+    /// `|S| ≤ 1/((ωτ/π)² − 1)`.
     pub fn beyond(&self, omega: f64, slow: f64) -> f64 {
         let z = (omega * self.duration / PI).powi(2);
         if z <= 1.0 {

@@ -64,7 +64,7 @@ pub(crate) fn material(node: &Node, density: Without, modulus: Without) -> Resul
         let (e, nu) = (material.youngs_modulus, material.poisson_ratio);
         let made = nu.map(|nu| e / (2.0 * (1.0 + nu)));
         material.shear_modulus = material.shear_modulus.or(made);
-        // With numbers of its own it is no longer the built-in material of that name.
+        // With other numbers it is no longer the built-in material of that name.
         let changed = Material::FIELDS.iter().any(|field| object.get(field.key).is_some());
         material.name = material.name.filter(|_| !changed);
         material

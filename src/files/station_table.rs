@@ -203,8 +203,8 @@ impl<'a> StationTable<'a> {
         }
     }
 
-    /// The words of `Profile::new` about `x[k]`, `outer[k]`, `inner[k]`, with the names and values of the file: `half
-    /// of diameter[2] (2.5 in)` where a radius is compared with it.
+    /// The words of `Profile::new` about `x[k]`, `outer[k]`, `inner[k]`, with the names and values of the file:
+    /// `half of diameter[2] (2.5 in)` where a radius is compared with it.
     fn told(&self, said: &str, of: &Column) -> String {
         let (mut told, mut rest) = (String::new(), said);
         let next = |rest: &str| {

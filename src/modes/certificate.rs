@@ -99,8 +99,8 @@ const NEAR: f64 = 0.1;
 ///
 /// except for a factor `1 − λ/λ_l` of the modes l that the mesh does not represent, as in η itself. The second matrix
 /// has no negative eigenvalue and the trace `Σ η_j`, and slower modes do not raise the k-th eigenvalue (Courant and
-/// Fischer): it rises at most by `η_k` and those `η_j` of faster modes that are not small compared with their gap `1 −
-/// λ_k/λ_j`.
+/// Fischer): it rises at most by `η_k` and those `η_j` of faster modes that are not small compared with their gap
+/// `1 − λ_k/λ_j`.
 ///
 /// # Source
 ///
@@ -162,8 +162,8 @@ fn part(all: &[Known], k: usize, other: usize, residual: f64) -> SharedMotion {
 /// the residuals at which an iteration stopped.
 ///
 /// The defect weights the share `c` of another mode `j` by the gap `|1 − λ/λ_j|`, so it hardly sees the nearest ones.
-/// The eigensolver leaves at most `c = residual/gap` of them (Davis and Kahan), which costs Rayleigh's quotient `c²
-/// gap`. The mesh mixes in `c ≈ 2 √(e e_j)/gap`, with `e` the relative errors of both frequencies: the off-diagonal
+/// The eigensolver leaves at most `c = residual/gap` of them (Davis and Kahan), which costs Rayleigh's quotient
+/// `c² gap`. The mesh mixes in `c ≈ 2 √(e e_j)/gap`, with `e` the relative errors of both frequencies: the off-diagonal
 /// part in [`share`] over a gap reduced by the possible errors. For the two nearest modes all of it counts, because it
 /// is the whole error where a deflection is superconvergent, at the ends. For the others, only what the defect does not
 /// see counts. In a shape of modal mass m the share is `c √(m/m_j)` beside a remainder of `√(1 − c²)`. If there is no

@@ -82,9 +82,9 @@ impl Reduced {
         f64::EPSILON * (s * s * form(mass) + s * form(damping) + strained + coupled)
     }
 
-    /// Improves an eigenvalue and its vector as far as arithmetic allows: inverse iteration `Z(s) v ← Z′(s) v` with `Z
-    /// = s²M + sC + K`, and the root of Rayleigh's functional `s² vᵀMv + s vᵀCv + vᵀKv`, whose error is the square of
-    /// the vector's.
+    /// Improves an eigenvalue and its vector as far as arithmetic allows: inverse iteration `Z(s) v ← Z′(s) v` with
+    /// `Z = s²M + sC + K`, and the root of Rayleigh's functional `s² vᵀMv + s vᵀCv + vᵀKv`, whose error is the square
+    /// of the vector's.
     fn polish(&self, mass: &Mat<f64>, damping: &Mat<f64>, pole: &mut Pole) {
         const STEPS: usize = 3;
         let (r, size) = (self.rigid_unknowns(), mass.nrows());
@@ -128,8 +128,8 @@ impl Reduced {
     }
 }
 
-/// Adapts the first-order error e of every pole, `|vᵀ δZ v|/|s vᵀZ′v|`, to a nearby pole at the relative distance g: `δ
-/// (δ + g) = e g`. As two poles meet, `vᵀZ′v` goes to zero, and s depends on the root of the error in Z.
+/// Adapts the first-order error e of every pole, `|vᵀ δZ v|/|s vᵀZ′v|`, to a nearby pole at the relative distance g:
+/// `δ (δ + g) = e g`. As two poles meet, `vᵀZ′v` goes to zero, and s depends on the root of the error in Z.
 fn near_others(groups: &mut [Group], others: &[Pole]) {
     let all: Vec<c64> =
         groups.iter().flat_map(|group| &group.poles).chain(others).map(|p| p.s).collect();

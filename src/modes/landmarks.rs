@@ -294,8 +294,8 @@ impl Shape {
         nodes.retain(|node| samples.iter().any(|(x, w)| w.abs() > rest && same(*x, *node)));
     }
 
-    /// The zero between `left` and `right` on element `k`, where the deflection has different signs: Halley's steps `ξ
-    /// − w w′/(w′² − ½ w w″)` if they stay inside the shrinking bracket, otherwise halving.
+    /// The zero between `left` and `right` on element `k`, where the deflection has different signs: Halley's steps
+    /// `ξ − w w′/(w′² − ½ w w″)` if they stay inside the shrinking bracket, otherwise halving.
     fn zero(&self, k: usize, mut left: f64, mut right: f64, before: f64, after: f64) -> f64 {
         let halley = |xi: f64| {
             let [value, slope, bend] = self.derivatives(k, xi);

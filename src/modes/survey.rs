@@ -197,8 +197,8 @@ fn take(bat: &Bat, piece: &Piece, thin: f64, pieces: usize, samples: &mut Vec<Sa
 
 /// [`SamplePoint::taper`] for stations.
 ///
-/// The series of `(1 + c s^j)⁻⁴` has every j-th term of the cone's, with smaller coefficients: the first is `4/(j+3
-/// choose 3)` of it, 0.4 and 0.2 for j = 2 and 3, the next 0.29² and 0.12². The factors c lie between these.
+/// The series of `(1 + c s^j)⁻⁴` has every j-th term of the cone's, with smaller coefficients: the first is
+/// `4/(j+3 choose 3)` of it, 0.4 and 0.2 for j = 2 and 3, the next 0.29² and 0.12². The factors c lie between these.
 fn taper(cubics: &Cubics, s: f64, radius: f64) -> [f64; 2] {
     let b = &cubics.outer;
     let first = [b[1] - b[0], b[2] - b[1], b[3] - b[2]];

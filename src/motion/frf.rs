@@ -287,8 +287,8 @@ impl Frf {
         self.reduced.flexible.energy_unit * answers[0].missed() * answers[1].missed()
     }
 
-    /// Possible effect of the modes' errors on the receptance (m/N): a change δM of the inertia changes it by `ω² qᵀ δM
-    /// q′`.
+    /// Possible effect of the modes' errors on the receptance (m/N): a change δM of the inertia changes it by
+    /// `ω² qᵀ δM q′`.
     fn blurred(&self, answers: &[DrivenStrains; 2], frequency: f64) -> f64 {
         let inertia = (TAU * frequency).powi(2) * self.reduced.inertia_of(answers);
         let strained = inertia * self.reduced.flexible.energy_unit;

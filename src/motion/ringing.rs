@@ -4,8 +4,8 @@
 //! its rigid and bending motions in time.
 //!
 //! Without dashpots, or with dashpots that leave the modes unchanged, every mode is an [`Oscillator`] with its own
-//! damping ratio. Otherwise the complex modes of the damped bat ring: a blow J at a causes `Re Σ 2 v(x) v(a) J
-//! e^{st}/norm`, one term for each pair.
+//! damping ratio. Otherwise the complex modes of the damped bat ring: a blow J at a causes
+//! `Re Σ 2 v(x) v(a) J e^{st}/norm`, one term for each pair.
 //!
 //! # Source
 //!

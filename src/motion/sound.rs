@@ -8,8 +8,8 @@
 //! S(ωT) = |cos(ωT/2) / (1 − (ωT/π)²)|
 //! ```
 //!
-//! The wall of a hollow barrel rings too: a hoop mode with the gain c under the pressing body has `aₙ = J c ωₙ S(ωₙ
-//! T)`. The radiation efficiency of a mode is not modelled.
+//! The wall of a hollow barrel rings too: a hoop mode with the gain c under the pressing body has
+//! `aₙ = J c ωₙ S(ωₙ T)`. The radiation efficiency of a mode is not modelled.
 
 use std::f64::consts::PI;
 

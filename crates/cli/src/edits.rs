@@ -173,8 +173,7 @@ impl FromArgMatches for EditArgs {
     }
 }
 
-/// Edits that make one other bat, with a name if they have one: `NAME: knob 2 oz; cut 24 in to 30 in,
-/// 1 mm`.
+/// Edits that make one other bat, with a name if they have one: `NAME: knob 2 oz; cut 24 in to 30 in, 1 mm`.
 #[derive(Debug, Clone)]
 pub struct WhatIf {
     /// The name of the changed bat, by default the edits as typed.

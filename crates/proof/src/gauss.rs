@@ -1,7 +1,7 @@
 //! At which points is a polynomial evaluated, and how do its Legendre coefficients follow?
 //!
-//! `n` Gauss points integrate polynomials of degree `2n − 1` exactly, so the values of a polynomial of degree `d ≤ n −
-//! 1` at these points give its coefficients `c_j = (2j + 1)/2 Σ_g w_g P_j(ξ_g) v_g`.
+//! `n` Gauss points integrate polynomials of degree `2n − 1` exactly, so the values of a polynomial of degree
+//! `d ≤ n − 1` at these points give its coefficients `c_j = (2j + 1)/2 Σ_g w_g P_j(ξ_g) v_g`.
 //!
 //! # Source
 //!

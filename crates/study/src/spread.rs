@@ -442,8 +442,8 @@ fn answers(bat: &Bat, solution: &Solution, hit: Option<([f64; 2], [f64; 2])>) ->
     COUNTED.into_iter().map(of).collect()
 }
 
-/// Relative standard deviation of every frequency of a bat of one wood due to the wood alone, without a computation: `½
-/// √(v_E² + v_ρ²)`, because a frequency goes as `√(E/ρ)`; the density contributes only if the bat was not weighed.
+/// Relative standard deviation of every frequency of a bat of one wood due to the wood alone, without a computation:
+/// `½ √(v_E² + v_ρ²)`, because a frequency goes as `√(E/ρ)`; the density contributes only if the bat was not weighed.
 /// `None` if the stiffness was tapped, or if no scatter is known.
 pub fn of_frequencies(bat: &Bat) -> Option<f64> {
     let [(_, material)] = &materials(bat)[..] else { return None };

@@ -1,7 +1,7 @@
 //! How far does the wall give way under a ball?
 //!
-//! The ball presses on a patch, with a pressure that is parabolic along the bat and around it. With `P(k) = 3 (sin k −
-//! k cos k)/k³` and a resultant F across the bat:
+//! The ball presses on a patch, with a pressure that is parabolic along the bat and around it. With
+//! `P(k) = 3 (sin k − k cos k)/k³` and a resultant F across the bat:
 //!
 //! ```text
 //! share of harmonic n      g_n = P(n a_t/r)/P(a_t/r),  g_0 = 1/P(a_t/r)
@@ -37,8 +37,8 @@ pub struct Share {
 }
 
 impl Patch {
-    /// The patch of a ball compressed by that amount, all lengths in m, as for two elastic bodies in contact: `a_x =
-    /// √(R δ)`, `a_t = √(δ R r/(R + r))` for a ball of radius R on a barrel of radius r.
+    /// The patch of a ball compressed by that amount, all lengths in m, as for two elastic bodies in contact:
+    /// `a_x = √(R δ)`, `a_t = √(δ R r/(R + r))` for a ball of radius R on a barrel of radius r.
     ///
     /// # Source
     ///

@@ -239,8 +239,8 @@ impl Hoop {
         &self.notes
     }
 
-    /// Modal mass of mode `mode` of [`Self::modes`] (kg), for a largest radial motion of the outer surface of 1: `M = π
-    /// ∫∫ρ(U² + V² + W²) r dr dx`, with 2π in place of π for n = 0.
+    /// Modal mass of mode `mode` of [`Self::modes`] (kg), for a largest radial motion of the outer surface of 1:
+    /// `M = π ∫∫ρ(U² + V² + W²) r dr dx`, with 2π in place of π for n = 0.
     pub fn modal_mass(&self, mode: usize) -> f64 {
         let asked = &self.modes[mode];
         let of_harmonic = |spectrum: &&Spectrum| spectrum.system.n == asked.harmonic;

@@ -1,10 +1,9 @@
 //! By how much do supports, springs and a bed reduce trace and norm of the compliance of the free bat?
 //!
-//! Write `G` for the deflections of the free bat under loads, rigid motions taken out of both, `M` for its mass,
 //! Let `G` map loads to deflections of the free bat, with rigid motions removed from both, `M` be its mass, `R` the two
 //! rigid motions, and `b_j` the loads of unit reactions. Under loads `f` the held bat moves by `y = G(f − Bρ) − R r`,
-//! where the loads `f − Bρ` are in equilibrium and every contact satisfies `b_j(y) = s_j ρ_j`, with the softness `s_j =
-//! 1/k_j` of its spring, or 0 for a support:
+//! where the loads `f − Bρ` are in equilibrium and every contact satisfies `b_j(y) = s_j ρ_j`, with the softness
+//! `s_j = 1/k_j` of its spring, or 0 for a support:
 //!
 //! ```text
 //! K (ρ, r) = Φ* f,    K = [B*GB + s, B*R; R*B, 0],    Φ = [GB, R],    y = G f − Φ K⁻¹ Φ* f
@@ -17,9 +16,9 @@
 //! [`super::stretches`], whose integrands are polynomials; the computation includes a proof that K has an inverse.
 //! Derived here, and compared with closed forms in the tests.
 //!
-//! For a bed of length ℓ the first few Legendre coefficients of its deflection are restrained, `c_j = (2j + 1)/ℓ ∫w P_j
-//! dx` by springs `k ℓ/(2j + 1)`. By Bessel's inequality this restrains no more than the bed itself, so that no `τ_n`
-//! is less than that of the bat.
+//! For a bed of length ℓ the first few Legendre coefficients of its deflection are restrained,
+//! `c_j = (2j + 1)/ℓ ∫w P_j dx` by springs `k ℓ/(2j + 1)`. By Bessel's inequality this restrains no more than the bed
+//! itself, so that no `τ_n` is less than that of the bat.
 
 use crate::enclosure::contacts::{Bed, Contact};
 use crate::enclosure::energies::{from_left, from_right};

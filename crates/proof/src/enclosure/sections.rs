@@ -276,9 +276,9 @@ fn cowper(nu: Interval) -> (Interval, [Interval; 2]) {
     (top, [number(7.0) + number(6.0) * nu, number(20.0) + number(12.0) * nu])
 }
 
-/// κGA of a tube, `G π (b² − a²)` with `m = e a²/b²` and `κ = 6 (1 + ν)(b² + ea²)²/D`, `D = (7 + 6ν)(b² + ea²)² + (20 +
-/// 12ν) e a² b²`. It is approximated by a polynomial `c`; `|D c − N|` is bounded on the whole cell, and so is `|c/κGA −
-/// 1| = |D c − N|/N`.
+/// κGA of a tube, `G π (b² − a²)` with `m = e a²/b²` and `κ = 6 (1 + ν)(b² + ea²)²/D`,
+/// `D = (7 + 6ν)(b² + ea²)² + (20 + 12ν) e a² b²`. It is approximated by a polynomial `c`; `|D c − N|` is bounded on
+/// the whole cell, and so is `|c/κGA − 1| = |D c − N|/N`.
 ///
 /// This uses plain numbers in the middle of the intervals. The difference of κGA from the value for these is bounded
 /// separately, because in a polynomial of degree d the uncertainty of numbers counts d times.

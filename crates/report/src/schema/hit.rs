@@ -137,7 +137,6 @@ pub struct Impact {
     /// it had begun to expand), late_contact (the bat caught up when the force had almost vanished), second_contact
     /// (the bat caught the ball again after it had left; the second contact is included), ball_law_beyond (the law of
     /// the ball was not measured for such a hit). Later versions may have more flags.
-    /// more.
     pub flags: Vec<String>,
     /// The distribution of the energy; null without an outcome.
     pub energy_j: Option<Energy>,

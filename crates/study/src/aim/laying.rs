@@ -6,7 +6,6 @@
 //! A curve through stations depends on two stations on both sides. At a domed tip, beside a stretch that is kept, or
 //! between stations that are far apart, it would depart from the changed curve. There, further stations halve the
 //! distance until it does not. They have finer digits, and so have those where the change ends.
-//! runs out.
 
 use serde::Serialize;
 

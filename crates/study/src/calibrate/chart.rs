@@ -60,7 +60,7 @@ impl Chart {
         let shear = if search.held.contains(&Property::ShearModulus) || known > ISOTROPIC {
             vec![0.0]
         } else {
-            // The file's own value is part of the range, whatever it is.
+            // The value in the file is part of the range in any case.
             let ends = [SHEAR[0].min(known), SHEAR[1].max(known)].map(|ratio| (ratio / known).ln());
             between(ends, SOLVED[0])
         };

@@ -1,7 +1,7 @@
 //! Which places of a hit does an answer depend on, and how?
 //!
-//! An answer about a hit is expressed as a sum of values at fixed places with the same derivative. For a value `v(x;
-//! p)` of a hit at `x` on a bat that is changed by `p`,
+//! An answer about a hit is expressed as a sum of values at fixed places with the same derivative. For a value
+//! `v(x; p)` of a hit at `x` on a bat that is changed by `p`,
 //!
 //! ```text
 //! greatest value      dv*/dp = ∂v/∂p at x*                  (v_x = 0 there)

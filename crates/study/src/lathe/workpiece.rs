@@ -408,8 +408,8 @@ impl Workpiece {
         Ok(self.answers.iter().map(|a| Some([was.peak(*a)?, is.peak(*a)?])).collect())
     }
 
-    /// The answers of any other bat, on its own elements with the same number of modes, for batters who swing it at `Ω
-    /// (I₀/I)^n`: a list for each n.
+    /// The answers of any other bat, on its own elements with the same number of modes, for batters who swing it at
+    /// `Ω (I₀/I)^n`: a list for each n.
     ///
     /// # Errors
     ///

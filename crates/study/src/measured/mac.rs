@@ -83,7 +83,7 @@ mod tests {
         assert_eq!(mac(&a, &shape(&[0.0; 5])), 0.0);
     }
 
-    /// A complex phase changes nothing, and the share out of phase is that which was put in.
+    /// A complex phase changes nothing, and the out-of-phase share is the given one.
     #[test]
     fn phase_is_told_from_shape() {
         let (a, b) = ([1.0, -0.3, -0.9, 0.2, 1.4], [0.3, 1.0, 0.0, 0.0, 0.0]);
