@@ -19,8 +19,7 @@ pub const MOST: u64 = 256 << 20;
 /// The files read and written since [`keep`]; `None` before the call.
 static KEPT: Mutex<Option<Vec<Identity>>> = Mutex::new(None);
 
-/// What identifies a file: its path without links, and its number on the disk, which all its names share. its names
-/// share.
+/// What identifies a file: its path without links, and its number on the disk, which all its names share.
 #[derive(Debug)]
 struct Identity {
     path: PathBuf,

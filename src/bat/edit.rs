@@ -12,10 +12,10 @@ use crate::bat::material::Material;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Edit {
-    /// What the edit is called.
+    /// Name of the edit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
-    /// What is changed.
+    /// The change.
     #[serde(flatten)]
     pub change: Change,
 }

@@ -40,7 +40,7 @@ const LONG: usize = 200;
 /// The compliance of bats, one in each lane of `R`, on elements of degree `N − 1` with `W − 2` strains.
 ///
 /// Vectors of strains hold `W − 2` numbers for each element, first the knob side, both sides from the root outwards,
-/// and then those of springs. the root outwards, and then those of springs.
+/// and then those of springs.
 #[derive(Debug, Clone)]
 pub struct Statics<R, const N: usize, const W: usize> {
     /// Where the elements are sampled.

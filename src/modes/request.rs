@@ -9,7 +9,7 @@ use crate::modes::memory::Work;
 use crate::modes::plan::{Plan, Wanted};
 use crate::modes::referee::Solver;
 
-/// What is asked of a solution.
+/// The request for a solution.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Request {
     /// Number of bending modes.

@@ -82,7 +82,7 @@ pub struct Task<'a> {
     pub bat: &'a Bat,
     /// Its elements.
     pub plan: &'a Plan,
-    /// What is asked.
+    /// The request.
     pub request: &'a Request,
     /// Residual of the eigenpairs.
     pub residual: f64,

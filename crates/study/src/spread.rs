@@ -335,7 +335,7 @@ fn materials(bat: &Bat) -> Vec<(String, Material)> {
 }
 
 /// Holds a reading while a property of the whole bat adapts: subtracts from every row its effect on that answer, and
-/// returns the effect of a unit change of the reading. `None` if the property does not affect it. not move it.
+/// returns the effect of a unit change of the reading. `None` if the property does not affect it.
 fn settle(rows: &mut [Row], factor: &Answers, answer: usize) -> Option<Answers> {
     let of_reading = factor[answer].filter(|slope| *slope != 0.0)?;
     let by: Answers = factor.iter().map(|slope| Some((*slope)? / of_reading)).collect();
