@@ -1,8 +1,7 @@
 //! How does the bat ring, as accurately as asked?
 //!
 //! [`solve()`](solve::solve) plans elements for a tolerance, states every error, and refines until these are within it.
-//! `solve`, `refine`, `task`, `pairs`, `eigenpairs` call each other in this order, and the last calls
-//! [`Lanczos`](crate::eigen::lanczos).
+//! Calls go from `solve` to `refine`, `task`, `pairs`, `eigenpairs` and [`Lanczos`](crate::eigen::lanczos).
 //!
 //! | file | question |
 //! |---|---|

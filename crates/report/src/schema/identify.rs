@@ -60,8 +60,7 @@ pub struct IdentifyMode {
     pub damping_ratio_interval95: [f64; 2],
     /// Modal phase collinearity of the shape: 1 where all points move in phase or against it.
     pub phase_collinearity: f64,
-    /// Modal mass of this shape (kg); null without a driving-point response, with hammer and accelerometer at one
-    /// place.
+    /// Modal mass of this shape (kg); null without a response with hammer and accelerometer at one place.
     pub modal_mass_kg: Option<f64>,
     /// The number of poles from which on it was always found.
     pub found_from_order: usize,

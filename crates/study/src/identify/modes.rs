@@ -121,8 +121,7 @@ impl Identified {
     }
 }
 
-/// Whether a pole is a mode: it lowers the sum of squares by more than noise would, oscillates, is well determined, and
-/// lies in the band.
+/// Whether a pole is a mode: it lowers the sum of squares more than noise, oscillates, is well known and in the band.
 fn is_mode(found: &Orders, p: usize, [low, high]: [f64; 2]) -> bool {
     let (pole, [hz, loss]) = (found.fit.poles[p], found.fit.deviations(p));
     let rings = (3.0 * LOSSES[0]..0.5 * LOSSES[1]).contains(&pole.loss());
