@@ -1,4 +1,4 @@
-//! What a proof costs beside the plain solve of the same modes, in the same run.
+//! The cost of a proof compared with the plain solve of the same modes, in the same run.
 //!
 //! `cargo bench --bench guarantee` prints a table.
 
@@ -14,7 +14,7 @@ use sweetspot_proof::enclosure::guarantee::guarantee;
 use sweetspot_proof::enclosure::norms::Norms;
 use sweetspot_proof::enclosure::trials::trials;
 
-/// The best time over batches, the jobs taken in turn so that all meet the same machine.
+/// The best time over batches, with the jobs taken in turn so that all run under the same conditions.
 fn side_by_side<const N: usize>(jobs: [&dyn Fn(); N]) -> [Duration; N] {
     let mut best = [Duration::MAX; N];
     for _ in 0..30 {

@@ -1,7 +1,7 @@
-//! What a hit costs, side by side with Runge and Kutta's method on the same equations.
+//! The cost of a hit, compared with the Runge-Kutta method on the same equations.
 //!
-//! `cargo bench --bench hit` prints the tables: time per impact, true error, and how many times
-//! longer the reference takes where both are equally good.
+//! `cargo bench --bench hit` prints the tables: time per impact, true error, and the ratio of the times where both are
+//! equally accurate.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
@@ -84,8 +84,7 @@ fn runge_kutta(
     f64::NAN
 }
 
-/// Times of jobs, each the best over batches, the batches taken in turn so that all meet the same
-/// machine.
+/// Times of jobs, each the best over batches, with the batches taken in turn so that all run under the same conditions.
 fn side_by_side<T>(batches: usize, jobs: &[&dyn Fn() -> T]) -> Vec<Duration> {
     let mut best = vec![Duration::MAX; jobs.len()];
     for _ in 0..batches {
@@ -199,8 +198,8 @@ fn compare(hit: &Hit) {
         ("contact, 18 modes", &with_many, &plain),
     ];
     let law = &law;
-    // The same 18 modes in tight steps: what is left of an error then is the steps', where these modes alone do not
-    // let ball and bat meet again either.
+    // The same 18 modes with tight steps: the remaining error is that of the steps. With only these modes ball and bat
+    // do not meet again.
     let tight = |(felt, x): (&DrivingPoint, &f64)| {
         let met = with_many.meet(felt, law, hit.closing(*x), 1e-11);
         (met.impulse, again(&met))
@@ -212,7 +211,7 @@ fn compare(hit: &Hit) {
         let errors = errors.map(|(((x, t), j), _)| (j - t.0).abs() / (mass * hit.closing(*x)));
         errors.fold(0.0, f64::max)
     };
-    // As many as bring the modes left out below 1e-4 on the dowel; on the R161 no number does.
+    // As many modes as reduce the error of the omitted ones below 1e-4 on the dowel; on the R161 no number does.
     let (more, crowd) = (felt_by(&finest, 40, false), &finest.modes());
     let mut ways: Vec<Way> = Vec::new();
     for (count, step) in [(18, 5e-6), (18, 2e-6), (18, 1e-6), (40, 2e-6), (40, 1e-6)] {
@@ -242,7 +241,7 @@ fn compare(hit: &Hit) {
     let times = side_by_side(15, &jobs);
     for ((name, way), time) in ways.iter().zip(&times) {
         let impulses = way();
-        // Only of those with these very modes.
+        // Only those with exactly these modes.
         let alone = match name.contains("18 modes,") {
             true => format!("{:.1e}", by_steps(&impulses)),
             false => "-".to_owned(),

@@ -1,4 +1,4 @@
-//! How fast the hoop modes of a barrel come, and how the wall gives way under a ball, on one processor.
+//! Speed of the hoop modes of a barrel, and of the compliance of its wall under a ball, on one processor.
 //!
 //! `RAYON_NUM_THREADS=1 cargo bench --bench hoop`.
 

@@ -15,8 +15,8 @@ fn job(bat: &Bat, request: &Request) -> Solution {
     black_box(solve(black_box(bat), request).unwrap())
 }
 
-/// Times of several jobs, each the best over batches of ten, the batches taken in turn so that all
-/// meet the same machine.
+/// Times of several jobs, each the best over batches of ten, with the batches taken in turn so that all run under the
+/// same conditions.
 fn side_by_side<const N: usize>(batches: usize, jobs: [&dyn Fn(); N]) -> [Duration; N] {
     let mut best = [Duration::MAX; N];
     for _ in 0..batches {
@@ -33,7 +33,7 @@ fn ratio(slow: Duration, fast: Duration) -> f64 {
     slow.as_secs_f64() / fast.as_secs_f64()
 }
 
-/// A fixed mesh: what the running sums save beside the other solvers.
+/// A fixed mesh: the running sums compared with the other solvers.
 fn fixed_meshes() {
     let dowel = bundled_bat("meshes/dowel.json").unwrap();
     let r161 = bundled_bat("meshes/r161.json").unwrap();
@@ -59,7 +59,7 @@ fn fixed_meshes() {
     }
 }
 
-/// What rotary inertia and shear cost at equal degree on the same mesh.
+/// The cost of rotary inertia and shear at equal degree on the same mesh.
 fn theories() {
     let r161 = bundled_bat("meshes/r161.json").unwrap();
     let dowel = bundled_bat("meshes/dowel.json").unwrap();
@@ -112,7 +112,7 @@ fn prices() {
         let planned = || drop(job(&cone, &request));
         let dense = || drop(job(&cone, &with(Solver::Dense)));
         let sparse = || drop(job(&cone, &with(Solver::ShiftInvert)));
-        // Beyond a few hundred elements a factored K is no longer as accurate as asked.
+        // Beyond a few hundred elements a factored K is less accurate than requested.
         let times = match cubic {
             ..=200 => side_by_side(21, [&planned, &dense, &sparse]),
             _ => {

@@ -1,8 +1,8 @@
-//! How many bats a second: random variations of a real bat by every theory, with a weight on the knob,
-//! a scan of it, hits; and random tapered bats.
+//! Number of bats solved in a second: random variations of a real bat by every theory, with a weight on the knob, a
+//! scan of it, hits; and random tapered bats.
 //!
-//! `cargo bench --bench throughput` prints the tables; the two ways take turns, so that both meet
-//! the same machine, and every time is the best of the turns.
+//! `cargo bench --bench throughput` prints the tables. The two methods take turns so that both run under the same
+//! conditions, and every time is the best of the turns.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -35,8 +35,8 @@ fn uniform() -> impl FnMut(f64, f64) -> f64 {
     }
 }
 
-/// The R161's profile on so many stations, each bat of its own wood and length; with a weight on the knob
-/// if one is asked for (kg).
+/// The profile of the R161 with that number of stations; each bat has another wood and length, and a weight on the knob
+/// if one is given (kg).
 fn variations(count: usize, stations: usize, weight: f64) -> Vec<Bat> {
     let r161 = bundled_bat("meshes/r161.json").expect("a bundled bat");
     let mut uniform = uniform();
@@ -92,7 +92,7 @@ fn frequencies(bats: &[Bat], request: &Request, way: Way) -> Vec<f64> {
     all
 }
 
-/// Bats a second, ten modes within 1e-4, one core; and how many times as long as the plain bat's theirs take.
+/// Bats per second, ten modes within 1e-4, one core; and the ratio of the time to that of the plain bat.
 fn of_modes() {
     println!(
         "{:<40} {:>12} {:>12} {:>8}",
@@ -105,7 +105,7 @@ fn of_modes() {
     ];
     let cases = kinds.iter().flat_map(|kind| Theory::ALL.map(|theory| (kind, theory)));
     let mut cases: Vec<_> = cases.map(|case| (case, [f64::INFINITY; 2])).collect();
-    // Kinds and theories take turns too: what is compared meets the same machine.
+    // Kinds and theories also take turns, so that they can be compared.
     for _ in 0..TURNS {
         for (((_, bats), theory), best) in &mut cases {
             let request =

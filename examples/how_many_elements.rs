@@ -2,14 +2,14 @@
 //!
 //!     cargo run --release --example how_many_elements [-- BAT.json]
 //!
-//! Meshes of four degrees are doubled as long as there is a digit to win. Each is held against the same
-//! bat solved as accurately as can be, and what it says of its own error against what its error is.
+//! Meshes of four degrees are doubled as long as a digit can be gained. Each is compared with the most accurate
+//! solution of the same bat, and its stated error with the true one.
 
 use std::env;
 use sweetspot::modes::prepared::{Prepared, prepare};
 use sweetspot::{Bat, Request, Result, Solution, solve};
 
-/// Five modes, as a maker of bats would ask for.
+/// Five modes, the number that a bat maker needs.
 const MODES: usize = 5;
 /// A stated error may be that many times too small, never more.
 const PROMISE: f64 = 3.0;

@@ -2,9 +2,9 @@
 //!
 //!     cargo run --release --example knob_weight [-- BAT.json]
 //!
-//! One, two and three ounces ¾ in from the knob end, on a bat that is swung at 50 rad/s whatever it
-//! weighs, and on one that is swung with the energy that the bare bat has at 50 rad/s, counted in
-//! the rotation about the point 6 in from the knob (`Ω = Ω₀ √(I₀/I)`).
+//! One, two and three ounces ¾ in from the knob end, on a bat that is swung at 50 rad/s regardless of its weight, and
+//! on one that is swung with the energy of the bare bat at 50 rad/s, with the rotation about the point 6 in from the
+//! knob (`Ω = Ω₀ √(I₀/I)`).
 
 use std::env;
 use sweetspot::base::units::{inches, miles_per_hour, ounce_square_inches};
@@ -30,7 +30,7 @@ fn weighted(bat: &Bat, mass: f64) -> Result<Bat> {
     bat.with(|parts| parts.fixtures.attachments.push(weight))
 }
 
-/// Where the ball leaves fastest at that swing (rad/s), how fast (m/s), and how far that may be off.
+/// The position of the highest exit speed at that swing (rad/s), the speed (m/s), and its error.
 fn best(bat: &Bat, swing: f64, sweep: &Sweep) -> Result<[f64; 3]> {
     let scene = Scene { swing, ball_speed: PITCH, ..Scene::default() };
     let hitter = Hitter::new(Model::Contact, &scene, bat, &sweep.solution, sweep.effort)?;
@@ -45,7 +45,7 @@ fn best(bat: &Bat, swing: f64, sweep: &Sweep) -> Result<[f64; 3]> {
 fn main() -> Result<()> {
     let path = env::args().nth(1).unwrap_or_else(|| "meshes/r161.json".to_owned());
     let file = Bat::from_file(path)?;
-    // If it was tapped, it was without the weights.
+    // A tap was measured without the weights.
     let asked = Request { tolerance: 1e-5, ..Request::default() };
     let Prepared { bat: bare, request, .. } = prepare(&file, &asked)?;
     let reference = bare.inertia().about(STANDARD_PIVOT);

@@ -2,11 +2,10 @@
 //!
 //!     cargo run --release --example where_to_take_wood_off [-- BAT.json]
 //!
-//! Half a millimetre off the radius over one inch, everywhere in turn, and the bat solved and hit
-//! again each time: what it weighs, how it swings and rings, and how fast the ball leaves from its
-//! best place, swung as fast as before and swung with the same energy (`Ω = Ω₀ √(I₀/I)`, `I` about
-//! the point 6 in from the knob). Differences so small are told by solving to more digits than they
-//! take away, which the stated errors show.
+//! Half a millimetre is taken off the radius over one inch at each place in turn, and the bat is solved and hit again:
+//! its weight, swing, frequencies and highest exit speed, swung as fast as before and with the same energy
+//! (`Ω = Ω₀ √(I₀/I)`, `I` about the point 6 in from the knob). Such small differences need solutions with more digits
+//! than the subtraction loses, which the stated errors show.
 
 use std::env;
 use sweetspot::base::units::{miles_per_hour, ounce_square_inches};
@@ -20,7 +19,7 @@ use sweetspot::modes::prepared::{Prepared, prepare};
 use sweetspot::{Bat, Error, Request, Result, Solution, solve};
 
 const INCH: f64 = 0.0254;
-/// What comes off the radius (m).
+/// Cut of the radius (m).
 const DEPTH: f64 = 0.5e-3;
 const SWING: f64 = 50.0;
 /// Speed of the ball towards the bat (m/s): 90 mph.
@@ -40,13 +39,13 @@ fn turned_down(bat: &Bat, from: f64, to: f64) -> Result<Bat> {
             let found = format!("a thinner one at {from:.3} m");
             return Err(Error::value("wall", found, "one that half a millimetre leaves"));
         }
-        // A cubic in Bernstein form goes down as a whole.
+        // Moving all coefficients lowers a cubic in Bernstein form as a whole.
         cubics.outer.iter_mut().for_each(|r| *r -= DEPTH);
     }
     bat.with(|parts| parts.profile = profile)
 }
 
-/// The fastest ball off a bat (m/s), and how far it may be off.
+/// The highest exit speed of a bat (m/s), and its error.
 fn best(bat: &Bat, swing: f64, solution: &Solution, effort: Effort) -> Result<[f64; 2]> {
     let scene = Scene { swing, ball_speed: PITCH, ..Scene::default() };
     let hitter = Hitter::new(Model::Contact, &scene, bat, solution, effort)?;
@@ -61,7 +60,7 @@ fn best(bat: &Bat, swing: f64, solution: &Solution, effort: Effort) -> Result<[f
 fn main() -> Result<()> {
     let path = env::args().nth(1).unwrap_or_else(|| "meshes/r161.json".to_owned());
     let file = Bat::from_file(path)?;
-    // If it was tapped, it was with all its wood.
+    // A tap was measured before the cut.
     let asked = Request { tolerance: TOLERANCE, ..Request::default() };
     let Prepared { bat, request, .. } = prepare(&file, &asked)?;
     let scene = Scene { swing: SWING, ball_speed: PITCH, ..Scene::default() };

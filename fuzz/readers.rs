@@ -1,7 +1,7 @@
-//! What a fuzzer does with some bytes: it gives them to a reader, and solves what could be read.
+//! The fuzzed function: it passes the bytes to a reader, and solves the bat if one was read.
 //!
-//! A reader answers with a value or an error in one line; anything else is a fault. Used by the
-//! targets here and, on the seeds, by `tests/fuzz_corpus.rs`.
+//! A reader must answer with a value or an error in one line; anything else is a fault. Used by the targets here and,
+//! on the seeds, by `tests/fuzz_corpus.rs`.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -31,7 +31,7 @@ pub const READERS: [(&str, Reader); 9] = [
     ("recording", recording),
 ];
 
-/// A bat file; what it describes is solved, roughly.
+/// Reads a bat file and solves the bat roughly.
 pub fn bat(bytes: &[u8]) -> bool {
     let Some(bat) = said(Bat::from_text("bat", &text(bytes), Path::new(""))) else { return false };
     let request = Request { modes: 2, tolerance: 1e-2, ..Request::plain() };
@@ -101,7 +101,7 @@ fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }
 
-/// What was read, after a look at what was said of it otherwise.
+/// The value, after a check of the error message if there is none.
 fn said<T>(read: Result<T>) -> Option<T> {
     let one_line = |error: &Error| !error.to_string().contains('\n');
     read.inspect_err(|error| assert!(one_line(error), "{error}")).ok()

@@ -1,16 +1,17 @@
 //! What a baseball bat does when it meets a ball.
 //!
-//! A bat's profile becomes a beam, the beam's bending modes follow from its stiffness and mass, and
-//! a collision model says how fast the ball leaves, how much energy stays in the vibration, where
-//! the sweet spot is and why. You ask for an accuracy, not for elements, and every frequency, node,
-//! modal mass and exit speed comes with an estimate of its own error.
+//! A bat's profile becomes a beam. The beam's bending modes follow from its stiffness and mass. A collision model says
+//! how fast the ball leaves, how much energy stays in the vibration, and where the sweet spot is and why. You ask for
+//! an accuracy, not for a number of elements, and every frequency, node, modal mass and exit speed comes with an
+//! estimate of its own error.
 //!
 //! ```text
 //! bat.json ─▶ Bat ─▶ Plan ─▶ elements ─▶ Statics (K, M) ─▶ modes ─▶ hit
 //!                     └─ refined until the modes' errors are small enough
 //! ```
 //!
-//! `crates/report` makes tables, pages and JSON of them. Each arrow is one function that borrows what lies to its left and returns a new value.
+//! Each arrow is one function that borrows what lies to its left and returns a new value. `crates/report` turns the
+//! results into tables, pages and JSON.
 //!
 //! # A hit on a card
 //!
@@ -50,7 +51,7 @@
 //! let bat = Bat::builder(profile, maple).name("my maple").mass(Some(0.893)).build()?; // weighed, in kg
 //! println!("it balances {:.3} m from the knob", bat.inertia().balance_point);
 //!
-//! // Five bending modes, every frequency within 1e-8 of the exact beam's; whether shear counts is found out.
+//! // Five bending modes, each frequency within 1e-8 of the exact beam's. The solver finds out whether shear matters.
 //! let asked = Request { modes: 5, tolerance: 1e-8, ..Request::default() };
 //! let solution = solve(&bat, &asked)?;
 //! assert!(solution.met());
@@ -83,15 +84,14 @@
 //! # }
 //! ```
 //!
-//! A bat that meets the ball near the nodes of its first modes rings least there, and the barrel's
-//! speed grows towards the tip while the mass it has behind the ball falls: the fastest ball is
-//! where the three balance. `examples/` answers longer questions, `docs/theory.md` has the equations
-//! in one piece, and the `sweetspot` program does all of this from a bat file.
+//! A hit near the nodes of the first modes excites the least vibration. Towards the tip the barrel moves faster, but
+//! less mass stands behind the ball. The exit speed is highest where these three effects balance. `examples/` answers
+//! longer questions, `docs/theory.md` has all equations, and the `sweetspot` program does all of this from a bat file.
 //!
 //! # The chapters, in the order of the flow
 //!
-//! A chapter uses only those above it, and a file in it only the files declared above it, so that
-//! `src/` can be read from top to bottom.
+//! A chapter uses only the chapters above it, and a file uses only the files declared above it in its chapter. `src/`
+//! can therefore be read from top to bottom.
 //!
 //! | chapter | question it answers |
 //! |---|---|
@@ -104,33 +104,32 @@
 //! | [`collision`] | what do ball and bat do when they meet; where is the sweet spot |
 //! | [`files`] | how do people and programs write it down |
 //!
-//! What this documentation passes over, [`eigen`] and [`beam`] among it, is how the library works inside: open to the
-//! tests and to the crates beside this one (`crates/`: studies, proofs, reports, the program), and no part of what a
-//! version promises.
+//! These pages omit internal parts, such as [`eigen`] and [`beam`]. The tests and the crates in `crates/` (studies,
+//! proofs, reports, the program) can use them, but no version promises to keep them.
 //!
 //! # What is promised
 //!
-//! True errors of frequencies, nodes, modal masses and exit speeds are within three times the stated ones,
-//! always; the stated are within thirty times the true in nine cases of ten, and `sweetspot validate --promise` checks
-//! both. Where an accuracy cannot be reached the best answer comes with the reason in [`Solution::ending`].
+//! The true error of a frequency, node, modal mass or exit speed is always at most three times the stated error. In
+//! nine cases of ten the stated error is at most thirty times the true one. `sweetspot validate --promise` checks both.
+//! If an accuracy cannot be reached, the best answer is returned with the reason in [`Solution::ending`].
 //!
 //! # Conventions
 //!
-//! - SI everywhere inside. Units stand at the border only: a file's bare number is SI, a string
-//!   carries its unit, and what is written out names it (`frequency_hz`).
-//! - `x` runs from the knob end to the tip. Angles are positive where the tip goes ahead.
-//! - Modes are scaled to a largest |φ| of 1, the barrel end positive ([`Mode`]); `modal_mass` goes
-//!   with that scale. The batch's and the solver's inner vectors say their own.
-//! - Orders count from 1, bending modes only; how many motions are rigid is told beside them.
-//! - A swing goes in +: the bat moves in +, the ball comes in − and leaves in +. Speeds of balls
-//!   that are asked for are positive towards the bat. A pivot beyond the knob is positive.
-//! - Inertias are the body's, sections' own `∫ρI dx` included; a theory without rotary inertia
-//!   recoils as a line of mass, and says so (`sweetspot_study::ignored`).
-//! - What does not exist is `None`, and null in a file; no NaN and no infinity is given out.
+//! - Quantities inside the library are in SI. A bare number in a file is SI, a string carries its unit, and a key that
+//!   is written out names its unit (`frequency_hz`).
+//! - `x` runs from the knob end to the tip. An angle is positive where the tip goes ahead.
+//! - Modes are scaled to a largest |φ| of 1, positive at the barrel end ([`Mode`]), and `modal_mass` belongs to that
+//!   scale. The batch and the solver scale their inner vectors otherwise, as they say.
+//! - Orders count bending modes only, from 1. The number of rigid modes is given beside them.
+//! - The bat swings in the direction +. The ball comes in − and leaves in +. A ball speed that a user gives is positive
+//!   towards the bat. A pivot beyond the knob is positive.
+//! - Inertias are those of the body and include the sections' `∫ρI dx`. A theory without rotary inertia recoils as a
+//!   line of mass and reports that (`sweetspot_study::ignored`).
+//! - A missing value is `None`, and null in a file. No result is NaN or infinite.
 //!
 //! # Symbols
 //!
-//! A module that uses a letter otherwise says so at the formula.
+//! A module that uses a letter with another meaning says so at the formula.
 //!
 //! | the bat as a beam | meaning | unit |
 //! |---|---|---|
@@ -154,7 +153,7 @@
 //! | `σ` | shift of the eigenvalues for solvers that factor | 1/s² |
 //! | `φ_n`, `m_n` | mode shape with largest deflection 1, its modal mass | 1, kg |
 //! | `η` | twice the relative error of a frequency, its defect; in [`modes::damping`] the loss factor | 1 |
-//! | `ζ`, `s = −ζω + iω_d` | damping ratio; how a damped motion goes, as `e^{st}` | 1, 1/s |
+//! | `ζ`, `s = −ζω + iω_d` | damping ratio; exponent of a damped motion `e^{st}` | 1, 1/s |
 //! | `ε` | 2⁻⁵², the spacing of numbers at 1 (in [`collision::aftermath`] a strain) | 1 |
 //!
 //! | the hit | meaning | unit |
@@ -162,18 +161,18 @@
 //! | `a`, `J` | impact point, impulse | m, N s |
 //! | `V`, `v`, `u` | speed of the bat at `a`, of the ball, closing speed `V − v` | m/s |
 //! | `Ω` | angular speed of the swing | rad/s |
-//! | `M_eff`, `μ` | what the stiff bat weighs at `a`; with the ball, `1/μ = 1/m + 1/M_eff` | kg |
+//! | `M_eff`, `μ` | effective mass of the rigid bat at `a`; reduced mass with the ball, `1/μ = 1/m + 1/M_eff` | kg |
 //! | `F = k x^α`, `β` | the ball's force at its compression x, its exponent on the way back | N, m |
-//! | `c_n = φ_n(a)²/m_n` | how readily mode n gives way at `a` | 1/kg |
+//! | `c_n = φ_n(a)²/m_n` | mobility of mode n at `a` | 1/kg |
 //! | `C` | flexibility of the modes left out | m/N |
 //! | `e`, `e₀`, `e_A` | coefficient of restitution, the ball's on a rigid wall, collision efficiency | 1 |
 //! | `τ`, `κ` in [`collision::pulse`] | duration of a pulse, share of the vibration that the ball need not lose | s, 1 |
 //!
 //! # What is left out
 //!
-//! Sections of the beam stay round and plane: hoop modes of hollow barrels are counted in hits
-//! ([`collision::hoop_wall`]) and no beam's, and wood that differs across the grain is not modelled. What a
-//! theory leaves out on a bat is estimated and reported with every solution (`sweetspot_study::ignored`), and
+//! Sections of the beam stay round and plane. The hoop modes of a hollow barrel are no modes of the beam: hits count
+//! them separately ([`collision::hoop_wall`]). Wood that differs across the grain is not modelled. Every solution
+//! estimates and reports what its theory leaves out on this bat (`sweetspot_study::ignored`), and
 //! `sweetspot_study::advise` measures what each part of a model does. A hit counts dashpots mode by mode
 //! ([`collision`]). The ball meets the bat head on, without spin and friction.
 //!

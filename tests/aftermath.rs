@@ -1,4 +1,4 @@
-//! What comes of a hit: identities and closed forms.
+//! The motion after a hit: identities and closed forms.
 
 use sweetspot::bat::theory::Theory;
 use sweetspot::collision::aftermath::Aftermath;
@@ -17,8 +17,8 @@ fn r161() -> (Bat, Solution) {
     (bat, solution)
 }
 
-/// The recorded force has the hit's impulse, and drives every mode to the energy that the hit says it
-/// keeps: after the ball has left a point moves as these energies say.
+/// The recorded force has the impulse of the hit, and gives every mode the energy that the hit states: after the
+/// contact a point moves according to these energies.
 #[test]
 fn the_bat_goes_on_as_the_hit_left_it() {
     let (bat, solution) = r161();
@@ -76,9 +76,9 @@ fn velocities_are_derivatives() {
     }
 }
 
-/// Nothing but the struck point knows of the ball before a wave has come: shear waves of the R161,
-/// the fastest that bend it, go at √(κG/ρ) = 1270 m/s, and Nathan's Fig. 9 (Am. J. Phys. 68, 979)
-/// has the handle begin to move 0.5 to 0.6 ms after the first touch.
+/// Only the struck point moves before a wave arrives: shear waves of the R161, its fastest bending waves, travel at
+/// √(κG/ρ) = 1270 m/s, and in Nathan's Fig. 9 (Am. J. Phys. 68, 979) the handle begins to move 0.5 to 0.6 ms after the
+/// first contact.
 #[test]
 fn the_handle_hears_of_the_hit_after_half_a_millisecond() {
     let (bat, solution) = r161();
@@ -90,8 +90,8 @@ fn the_handle_hears_of_the_hit_after_half_a_millisecond() {
     assert!(begins > 0.4e-3 && begins < 0.65e-3, "{begins}");
 }
 
-/// A slow push bends the bat as statics says: with the inertia forces that balance it, the bending
-/// moment under a force F at a of a uniform free bar is known in closed form, and `ε = r M/EI`.
+/// A slow push bends the bat statically: with the inertia forces in equilibrium with it, the bending moment under a
+/// force F at a of a uniform free bar is known in closed form, and `ε = r M/EI`.
 #[test]
 fn a_slow_push_strains_as_statics_says() {
     use sweetspot::collision::contact::table::Piece;
@@ -122,7 +122,7 @@ fn a_slow_push_strains_as_statics_says() {
     }
 }
 
-/// What was found in a short look is found in a long one.
+/// A maximum found in a short time is also found in a longer one.
 #[test]
 fn a_longer_look_finds_no_less() {
     use sweetspot_report::report::aftermath::AfterHit;

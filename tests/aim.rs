@@ -1,5 +1,4 @@
-//! The least changes of a bat that meet a wish: the numbers of three tasks, found first by an independent
-//! prototype.
+//! The smallest changes of a bat that meet a wish: the numbers of three tasks, first found by an independent prototype.
 
 use crate::common;
 
@@ -77,7 +76,7 @@ fn task_e() -> Wish {
     Wish { targets, remove_only: true, diameter: vec![least(24.0)], ..Wish::default() }
 }
 
-/// The bat as its file has it, with its goals found anew by another way: the look of a study along the bat.
+/// The bat of the written file, with its goals computed in another way: by the outputs of a study along the bat.
 fn written(outcome: &Outcome, answers: &[Answer]) -> (Bat, Vec<f64>) {
     let text = aimed::bat_text(outcome);
     let bat = Bat::from_text("new.json", &text, Path::new("")).unwrap();
@@ -89,8 +88,8 @@ fn written(outcome: &Outcome, answers: &[Answer]) -> (Bat, Vec<f64>) {
     (bat, found.figures.into_iter().map(|figure| figure.unwrap().value).collect())
 }
 
-/// Least and greatest of what a bat's diameter is more than another's, and least and greatest diameter (m),
-/// every 50 µm and at both sides of every border.
+/// Smallest and largest difference between the diameters of two bats, and smallest and largest diameter (m), every 50
+/// µm and at both sides of every border.
 fn along(old: &Bat, new: &Bat) -> [f64; 4] {
     let mut places: Vec<f64> =
         (0..=16_800).map(|k| old.length() * f64::from(k) / 16_800.0).collect();
@@ -112,7 +111,7 @@ fn along(old: &Bat, new: &Bat) -> [f64; 4] {
     found
 }
 
-/// Task A: 3 % less swing weight, f1 and the sweet spot where they are, wood only taken off.
+/// Task A: 3 % less swing weight with unchanged f1 and sweet spot, wood only removed.
 #[test]
 fn a_lighter_swing_is_turned_with_the_least_change_and_the_file_has_it() {
     let (bat, wish) = (r161(), task_a());
@@ -133,7 +132,7 @@ fn a_lighter_swing_is_turned_with_the_least_change_and_the_file_has_it() {
     assert!((lost + 1.36).abs() < 0.02, "{lost}");
     let [_, added, least, _] = along(&bat, &new);
     assert!(added <= 1e-9 && least >= 0.024 - 1e-9, "{added:e} {least}");
-    // The knob is what it was, along its whole curve.
+    // The knob is unchanged along its whole curve.
     let kept = (0..600)
         .map(|k| 5e-5 * f64::from(k))
         .map(|x| new.profile().at(x).outer - bat.profile().at(x).outer);
@@ -154,14 +153,15 @@ fn a_stiffer_bat_grows_where_it_may() {
     assert!(ounce_square_inches(found[2]) <= 10_421.02 && ounces(new.inertia().mass) <= 31.0);
     let [.., least, most] = along(&bat, &new);
     assert!(least >= 0.024 - 1e-9 && most <= 0.066_294 + 1e-9, "{least} {most}");
-    // Nothing is asked of f2, which rounding to 0.1 mm moves by some tenths: in finer digits it is the prototype's.
+    // There is no requirement on f2, which rounding to 0.1 mm changes by some tenths; with finer rounding it is that of
+    // the prototype.
     let fine = Outcome::of(&bat, &Wish { round: Some(1e-5), ..wish }, &terms()).unwrap();
     let (_, found) = written(&fine, &answers);
     assert!((found[3] - 581.252 - 6.96).abs() < 0.02, "{found:?}");
 }
 
-/// Task E: 4 oz less and the swing weight kept cannot both be had by turning. The best mass is 0.003 oz above
-/// the prototype's, whose limits held at fewer places; the best swing weight is above its 9821.7 oz in².
+/// Task E: 4 oz less and the same swing weight are incompatible by turning. The best mass is 0.003 oz above that of the
+/// prototype, whose limits held at fewer places; the best swing weight is above its 9821.7 oz in².
 #[test]
 fn what_cannot_be_had_together_is_named_with_how_near_each_comes() {
     let (bat, wish) = (r161(), task_e());
@@ -183,7 +183,7 @@ fn what_cannot_be_had_together_is_named_with_how_near_each_comes() {
     assert!(words.contains("cannot both be had") && words.contains("29.38 oz at best"), "{words}");
 }
 
-/// Targets that are met under a rule that is not: no conflict, and the exit code of what is not reached.
+/// All targets are met but a rule is broken: this is no conflict, and the exit code is that of a missed target.
 #[test]
 fn a_broken_rule_is_not_met() {
     let folder = Folder::new("aim-rule");
@@ -209,12 +209,12 @@ fn what_can_be_had_is_no_conflict() {
     let wish = Wish { targets, remove_only: true, diameter: vec![least(24.0)], ..Wish::default() };
     let outcome = Outcome::of(&r161(), &wish, &terms()).unwrap();
     assert!(outcome.met && outcome.conflict.is_none(), "{:?}", outcome.targets);
-    // A tip that is turned to a cone has lost nearly all of its strength there.
+    // A tip turned to a cone has lost nearly all of its strength there.
     let (x, left) = outcome.weakest().unwrap();
     assert!(x > 0.8 && left < 0.15, "{x} {left}");
 }
 
-/// The price of a target is the derivative of the norm: a little more of it costs as much as was said.
+/// The price of a target is the derivative of the norm: tightening it slightly costs the stated amount.
 #[test]
 fn a_price_is_what_a_little_more_costs() {
     let bat = r161();
@@ -229,7 +229,7 @@ fn a_price_is_what_a_little_more_costs() {
     assert!((price / slope - 1.0).abs() < 0.01, "{price} {slope}");
 }
 
-/// A density that may change, or a weight on the knob, is taken before the shape is.
+/// A variable density or a weight on the knob is used before the shape.
 #[test]
 fn free_choices_are_taken_before_the_shape() {
     let bat = r161();
@@ -262,11 +262,11 @@ fn free_choices_are_taken_before_the_shape() {
     let maple = Material::named("sugar-maple-dynamic").unwrap();
     let woods = FreeChoice { woods: vec![maple], ..FreeChoice::default() };
     let rings = target(Answer::Frequency(1), Ask::Change(Amount::Si(0.0), None));
-    // The bat as it is already meets that: no other wood is taken.
+    // The original bat already meets that, so no other wood is used.
     assert_eq!(of(vec![rings], woods).wood, None);
 }
 
-/// Pages of the template: together they hold the whole bat in its own size.
+/// Pages of the template: together they hold the whole bat in full size.
 #[test]
 fn the_template_is_in_its_own_size() {
     let bat = r161();
@@ -303,7 +303,7 @@ fn the_template_is_in_its_own_size() {
     }
 }
 
-/// What is wrong with a wish is told, with its place, and nothing is written.
+/// A mistake in a wish is reported with its place, and nothing is written.
 #[test]
 fn a_wish_that_cannot_be_is_told_and_nothing_is_written() {
     let folder = Folder::new("aim-bad");
@@ -385,7 +385,7 @@ fn the_nearest_bat_is_written_with_exit_code_3() {
     folder.json(&["modes", "near.json", "-n", "1", "--json", "-"]);
 }
 
-/// Wood comes off a bat whose radius is a formula, in several pieces, as off any other: what is kept has its own
+/// Wood is removed from a bat whose radius is a formula in several pieces as from any other: the kept part keeps its
 /// curve, and nothing is added.
 #[test]
 fn a_bat_of_a_formula_keeps_its_handle() {
@@ -407,8 +407,9 @@ fn a_bat_of_a_formula_keeps_its_handle() {
     assert!(outcome.kept_within_m < 1e-5, "{:e}", outcome.kept_within_m);
 }
 
-/// Two per cent less swing weight of every bat that comes with the program, domed and pointed tips, hollow and cored
-/// bats, bats of formulas: had by taking wood off, and the file has nothing added anywhere, its handle what it was.
+/// Two per cent less swing weight of every built-in bat, including domed and pointed tips, hollow and cored bats and
+/// bats of formulas: this is reached by removing wood, and in the file nothing is added anywhere and the handle is
+/// unchanged.
 #[test]
 fn every_bat_is_aimed_with_its_limits_kept_by_its_file() {
     let folder = Path::new(env!("SWEETSPOT_TOP")).join("meshes");
@@ -447,8 +448,8 @@ fn steepest(bat: &Bat, [from, to]: [f64; 2]) -> f64 {
     places.map(|x| (radius(x + 1e-5) - radius(x)).abs() / 1e-5).fold(0.0, f64::max)
 }
 
-/// Where the barrel stays and wood comes off before it, the surface becomes steep: a limit of the slope holds in the
-/// file, and costs a larger change.
+/// Where the barrel is kept and wood is removed before it, the surface becomes steep: a limit on the slope is kept in
+/// the file, and costs a larger change.
 #[test]
 fn a_limit_of_the_slope_is_kept_by_the_file() {
     let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
@@ -466,13 +467,13 @@ fn a_limit_of_the_slope_is_kept_by_the_file() {
     let (kept, outcome) = of(Some(0.05));
     assert!(outcome.met && free > 0.055 && kept <= 0.05, "{kept} of {free}");
     assert!(outcome.norm_mm > 1.1 * least.norm_mm, "{} of {}", outcome.norm_mm, least.norm_mm);
-    // What needs more cannot be had.
+    // A wish that needs more is impossible.
     let (kept, outcome) = of(Some(0.045));
     assert!(!outcome.met && outcome.conflict.is_some() && kept <= 0.045, "{kept}");
 }
 
-/// Where stations are a foot apart, a stretch that is kept has its curve and the frequency of a bat that changes
-/// elsewhere is that of the smooth change: other stations hold the curve.
+/// Where stations are a foot apart, a kept stretch keeps its curve, and the frequency of a bat that changes elsewhere
+/// is that of the smooth change, because additional stations preserve the curve.
 #[test]
 fn a_bat_of_few_stations_keeps_the_curve_of_what_is_kept() {
     let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
@@ -495,8 +496,8 @@ fn a_bat_of_few_stations_keeps_the_curve_of_what_is_kept() {
     }
 }
 
-/// Two targets that bind at once may leave less room than a tenth of a millimetre takes: finer stations have them, at
-/// the norm of the least change, 0.178 mm.
+/// Two targets that bind at once may leave less room than rounding to a tenth of a millimetre needs: finer rounding
+/// meets them, with the norm of the smallest change, 0.178 mm.
 #[test]
 fn a_wish_that_can_be_had_is_not_refused_by_rounding() {
     let balance = Ask::Change(Amount::Si(1e-3), None);
@@ -511,7 +512,7 @@ fn a_wish_that_can_be_had_is_not_refused_by_rounding() {
     let (new, _) = written(&outcome, &[Answer::Mass]);
     let [_, added, ..] = along(&r161(), &new);
     assert!(added <= 1e-9, "{added:e}");
-    // What is said of the knob is the largest of any place of a closer look.
+    // The stated change of the knob is the largest at any place on a finer grid.
     let moved = |x: f64| 2.0 * (new.profile().at(x).outer - r161().profile().at(x).outer).abs();
     let most = (0..60_000).map(|k| moved(5e-7 * f64::from(k))).fold(0.0, f64::max);
     assert!(
@@ -520,7 +521,7 @@ fn a_wish_that_can_be_had_is_not_refused_by_rounding() {
     );
 }
 
-/// A weighed bat exists: it is cut, and wood is added only where that is allowed. What changes is in the list.
+/// A weighed bat exists: it is cut, and wood is added only where that is allowed. The changes are in the list.
 #[test]
 fn a_weighed_bat_is_only_cut_unless_wood_may_be_added() {
     let folder = Folder::new("aim-weighed");
@@ -535,7 +536,7 @@ fn a_weighed_bat_is_only_cut_unless_wood_may_be_added() {
     assert!(added["largest_added_m"].as_f64().unwrap() > 1e-5);
     let changed = added["change"].as_array().unwrap().iter();
     let changed = changed
-        // Less than 5 μm of the diameter is nothing to a lathe.
+        // Less than 5 μm of the diameter is negligible on a lathe.
         .filter(|at| (at["old_m"].as_f64().unwrap() - at["new_m"].as_f64().unwrap()).abs() >= 5e-6);
     assert_eq!(changed.count(), added["cuts"].as_array().unwrap().len());
     let table = folder.text(&["aim", "mine.json", "--target", "lose an ounce"]);
@@ -571,7 +572,7 @@ fn a_drop_of_three_is_lighter() {
     }
 }
 
-/// Limits between which no smooth curve goes are told with their place.
+/// Limits that no smooth curve can satisfy are reported with their place.
 #[test]
 fn limits_that_leave_no_room_are_told_with_their_place() {
     let folder = Folder::new("aim-room");

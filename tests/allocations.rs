@@ -1,4 +1,4 @@
-//! A batch that is warm allocates nothing for a bat: a test of its own, because it counts.
+//! A warm batch makes no allocation per bat. This is a separate test program, because it counts allocations.
 
 mod common;
 

@@ -52,8 +52,8 @@ fn a_linear_spring_on_a_rigid_free_bat_takes_half_a_period_and_loses_nothing() {
     }
 }
 
-/// By the ball's own line the law is in every hit: this spring and the power law of the same numbers
-/// are one, also on a bat that rings.
+/// The static curve of the ball determines the law in every hit: this spring and the power law with the same numbers
+/// are equal, also on a vibrating bat.
 #[test]
 fn a_ball_with_a_law_of_its_own_is_hit_like_any_other() {
     let bat = bundled_bat("meshes/r161.json").unwrap();

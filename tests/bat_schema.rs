@@ -1,4 +1,4 @@
-//! The schema of a bat file says what the reader does: the same members, types and bounds.
+//! The schema of a bat file agrees with the reader: the same members, types and bounds.
 
 use crate::common;
 
@@ -53,7 +53,7 @@ const CSV: &str = r#"{
   "profile": { "csv": "profile.csv", "unit": "in", "interpolation": "pchip" }
 }"#;
 
-/// A built-in material of which one number is known better.
+/// A built-in material with one number replaced.
 const LIGHTER: &str = r#"{
   "format": "sweetspot-bat/1",
   "material": { "name": "white-ash-dynamic", "density": 631, "shear_modulus": "1.1 GPa" },
@@ -68,7 +68,7 @@ const LAYERED: &str = r#"{
   "regions": [ { "from": 0.5, "to": 0.84, "layers": [ { "thickness": "1 mm", "material": "aluminium-7075" } ] } ]
 }"#;
 
-/// A bat that was changed after it was weighed, in every way there is.
+/// A bat that was changed after it was weighed, in every possible way.
 const EDITED: &str = r#"{
   "format": "sweetspot-bat/1", "material": "white-ash-dynamic", "weighed": { "mass": "40 oz" },
   "profile": { "x": [0, 0.84], "radius": [0.03, 0.03] },
@@ -100,7 +100,7 @@ impl Reader {
         Self(folder)
     }
 
-    /// What the reader says against a bat.
+    /// The objection of the reader to a bat.
     fn refusal(&self, bat: &Value) -> Option<String> {
         let read = Bat::from_text("bat.json", &bat.to_string(), &self.0.0);
         read.err().map(|error| error.to_string())
@@ -150,7 +150,7 @@ fn every_bat_of_this_project_is_valid() {
         json.map(|path| parsed(&fs::read_to_string(path).unwrap())).collect::<Vec<Value>>()
     };
     let mut bats = files("meshes");
-    // A case has a bat, or names one of those.
+    // A case contains a bat, or names one of those.
     bats.extend(
         files("validation").iter().map(|case| case["bat"].clone()).filter(Value::is_object),
     );
@@ -322,7 +322,7 @@ const PLACES: [(&str, &str); 24] = [
     ("Sleeve", "/edits/6/sleeve"),
 ];
 
-/// The bat in which such an object is.
+/// The bat that contains such an object.
 fn holder((name, place): (&str, &str)) -> Value {
     parsed(match (name, place) {
         ("Piece", _) => FORMULAS,
@@ -345,7 +345,7 @@ fn reader_and_schema_know_the_same_members() {
         bat.pointer_mut(place).unwrap()["qqqqqqqqqqqq"] = json!(1);
         let said = reader.refusal(&bat).unwrap();
         let (_, known) = said.split_once("expected one of ").expect(&said);
-        // A remark may stand everywhere.
+        // A remark is allowed everywhere.
         let mut known: BTreeSet<&str> = known.trim().split(", ").collect();
         known.insert("comment");
         let members = definition(&schema, name)["properties"].as_object().unwrap();
@@ -424,7 +424,7 @@ fn every_bound_of_the_schema_is_the_readers() {
     for (name, place) in PLACES {
         let mut bat = holder((name, place));
         if let Some(weighed) = bat["weighed"].as_object_mut() {
-            // An added mass moves the balance point, and is not what is tried here.
+            // An added mass moves the balance point, which is not tested here.
             weighed.shift_remove("balance_point");
         }
         for (key, member) in definition(&schema, name)["properties"].as_object().unwrap() {

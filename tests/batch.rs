@@ -10,7 +10,7 @@ use sweetspot_proof::bundled::bundled_bat;
 
 const WAYS: [Way; 2] = [Way::OneByOne, Way::SideBySide];
 
-/// What is found of a bat, to keep.
+/// The kept results for a bat.
 #[derive(Debug, Clone, PartialEq)]
 struct Answer {
     omegas: Vec<f64>,
@@ -51,7 +51,7 @@ impl Answer {
     }
 }
 
-/// Every bat's answer, in their order.
+/// The answer for every bat, in order.
 fn found(bats: &[Bat], request: &Request, way: Way) -> Vec<Answer> {
     let mut all = Vec::new();
     each(bats, request, way, |place, found| {
@@ -67,7 +67,7 @@ fn cones(count: usize) -> Vec<Bat> {
     (0..count).map(cone).collect()
 }
 
-/// Cones, and bats of another make among them, which are solved on their own.
+/// Cones, and among them bats of another kind, which are solved separately.
 fn unlike() -> Vec<Bat> {
     let mut bats = cones(17);
     bats.insert(3, bundled_bat("meshes/r161.json").unwrap());
@@ -104,7 +104,7 @@ fn side_by_side_and_one_by_one_have_the_same_bits() {
     }
 }
 
-/// Real bats, every one of its own wood, length and weight on the knob, if there is one.
+/// Real bats, each with another wood and length, and with a weight on the knob if one is given.
 fn varied(count: usize, weight: f64) -> Vec<Bat> {
     let r161 = bundled_bat("meshes/r161.json").unwrap();
     let bat = |k: usize| {
@@ -120,8 +120,8 @@ fn varied(count: usize, weight: f64) -> Vec<Bat> {
     (0..count).map(bat).collect()
 }
 
-/// By every theory, bare and weighted, in elements over stations and between them: both ways have the same
-/// bits, a bat is not another beside other bats, and all are what they are alone.
+/// By every theory, bare and weighted, with elements over stations and between them: both ways give the same bits, the
+/// company of a bat has no effect, and all results equal those of the bat alone.
 #[test]
 fn real_bats_are_the_same_by_every_theory_whoever_is_beside_them() {
     for theory in Theory::ALL {
@@ -150,7 +150,7 @@ fn real_bats_are_the_same_by_every_theory_whoever_is_beside_them() {
     }
 }
 
-/// Each bat as the single solve finds it, within what both state.
+/// Each bat agrees with the single solve within both stated errors.
 #[test]
 fn each_bat_is_the_bat_that_is_solved_alone() {
     let request = |modes| Request { modes, tolerance: 1e-6, ..Request::plain() };
@@ -206,14 +206,14 @@ fn legendre(n: usize, x: f64) -> Vec<[f64; 3]> {
     p
 }
 
-/// `∫ρA φ_i φ_j dx` and `∫EI φ_i″ φ_j″ dx` of the shapes that were given, element by element.
+/// `∫ρA φ_i φ_j dx` and `∫EI φ_i″ φ_j″ dx` of the returned shapes, element by element.
 fn forms(bat: &Bat, found: &Answer, modes: [usize; 2]) -> [f64; 2] {
     // Exact to the degree 39: on a bat of cubic radii a deflection of degree 10 asks for 28.
     let points = gauss(20);
     let terms = found.degree + 1;
     let elements = found.nodes.len() - 1;
     let (mut mass, mut stiffness) = (0.0, 0.0);
-    // Between stations, which may lie inside elements.
+    // Between stations, which may be inside elements.
     let mut places = [found.nodes.clone(), bat.profile().borders()].concat();
     places.sort_by(f64::total_cmp);
     for part in places.windows(2).filter(|part| part[1] - part[0] > 1e-12) {
@@ -238,8 +238,8 @@ fn forms(bat: &Bat, found: &Answer, modes: [usize; 2]) -> [f64; 2] {
     [mass, stiffness]
 }
 
-/// The masses are those of the given shapes, strain over kinetic energy of these shapes is ω², and
-/// no two of them have mass or stiffness in common: together that leaves nothing to be wrong.
+/// The masses are those of the returned shapes, strain energy over kinetic energy of these shapes is ω², and no two of
+/// them have mass or stiffness in common: together this excludes every error.
 #[test]
 fn masses_and_frequencies_are_those_of_the_shapes() {
     for (bats, degree, tolerance) in [
@@ -297,8 +297,8 @@ fn modal_masses_of_dowels_are_a_quarter_of_their_mass() {
     }
 }
 
-/// On the mesh that was asked for, unlike bats among them or not, as the single solve finds them
-/// there: frequencies, and shapes at the ends of every element.
+/// On the requested mesh, with or without bats of another kind, the frequencies and the shapes at the ends of every
+/// element agree with the single solve.
 #[test]
 fn an_asked_mesh_has_the_frequencies_and_shapes_of_the_bat_that_is_solved_alone() {
     for degree in [None, Some(4), Some(5), Some(10)] {
@@ -320,7 +320,7 @@ fn an_asked_mesh_has_the_frequencies_and_shapes_of_the_bat_that_is_solved_alone(
     }
 }
 
-/// The same deflections at both ends of every element, scaled to the same tip.
+/// Equal deflections at both ends of every element, scaled to the same tip.
 fn assert_same_shape(found: &Answer, mode: &Mode) {
     let (k, at) = (mode.order - 1, |x| mode.shape.deflection(x));
     for (ends, places) in found.ends(k).iter().zip(found.nodes.windows(2)) {

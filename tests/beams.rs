@@ -1,5 +1,4 @@
-//! Tests of frequencies, shapes and what goes with them, as one program: together they are built in a
-//! fraction of the time.
+//! Tests of frequencies, shapes and related results in one program, which is built in a fraction of the time.
 
 mod common;
 

@@ -1,4 +1,4 @@
-//! How many lines each part of the house, each verb, file and function has: never more than `budgets.toml` says.
+//! The number of lines of each part, verb, file and function is at most that in `budgets.toml`.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use super::{CRATES, files, source, top};
 
-/// What a budget allows now, and what it is on its way to.
+/// The present limit of a budget, and its goal.
 struct Budget {
     name: String,
     most: usize,
@@ -29,7 +29,7 @@ fn budgets(heading: &str) -> Vec<Budget> {
     lines.map(budget).collect()
 }
 
-/// A file of the source by its path in the project, and its code without the tests beside it.
+/// A source file by its path in the project, with its code without the tests in it.
 fn sources() -> Vec<(String, String)> {
     let code = |path: PathBuf| {
         let name = path.strip_prefix(top()).unwrap().to_str().unwrap().replace('\\', "/");
@@ -75,8 +75,8 @@ fn long_functions(code: &str) -> Vec<&str> {
     (0..lines.len()).filter(|k| begins(lines[*k]) && long(*k)).map(|k| lines[k]).collect()
 }
 
-/// Holds counts to a heading's budgets. A budget that is far above its count is to be lowered, so that what was gained
-/// stays gained.
+/// Compares counts with the budgets of a heading. A budget far above its count must be lowered, so that improvements
+/// last.
 fn hold(heading: &str, slack: usize, count: impl Fn(&str) -> usize) {
     let wrong = |Budget { name, most, goal }: Budget| {
         let count = count(&name);

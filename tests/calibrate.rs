@@ -1,4 +1,4 @@
-//! What `sweetspot calibrate` finds: the numbers of an independent solver, and closed forms.
+//! Results of `sweetspot calibrate`: the numbers of an independent solver, and closed forms.
 
 use crate::common;
 
@@ -20,7 +20,7 @@ use sweetspot_study::calibrate::wood::WoodenBat;
 
 const R161: &str = include_str!("../meshes/r161.json");
 
-/// What the independent solver took for known before: no property goes with another.
+/// The prior of the independent solver: no property is correlated with another.
 const INDEPENDENT: Priors = Priors {
     youngs_modulus: 0.22,
     shear: ShearPrior::Alone(0.35),
@@ -110,7 +110,7 @@ fn c1_one_region_is_found_with_its_intervals() {
     }
 }
 
-/// A. M. Nathan, Am. J. Phys. 68 (2000) 979: what he measured does not go with the profile of the file.
+/// A. M. Nathan, Am. J. Phys. 68 (2000) 979: his measurements do not fit the profile of the file.
 #[test]
 fn c2_the_published_r161_does_not_fit_and_f1_and_balance_point_are_found() {
     let bat = Bat::from_text("r161.json", R161, "".as_ref()).unwrap();
@@ -207,7 +207,7 @@ fn what_is_determined_is_what_the_readings_can_say() {
     }
 }
 
-/// With one frequency, G/E held and nothing known of E before, E is that of the one-number form.
+/// With one frequency, G/E fixed and no prior for E, E is that of the one-number form.
 #[test]
 fn one_tap_alone_gives_the_factor_of_the_bat_file() {
     let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
@@ -229,7 +229,7 @@ fn one_tap_alone_gives_the_factor_of_the_bat_file() {
     assert!((e / known - 1.0).abs() < 1e-6, "{e} {known}");
 }
 
-/// The file that is written is the bat that was found, and says how well it is known.
+/// The written file is the bat that was found, with its uncertainty.
 #[test]
 fn the_written_bat_is_the_one_that_was_found() {
     let folder = Folder::new("calibrate");
@@ -281,7 +281,7 @@ fn answered(folder: &Folder, answers: &str) -> std::process::Output {
 #[test]
 fn answers_are_asked_and_kept() {
     let folder = Folder::new("calibrate_asked");
-    // The answers end after two of them: the same command goes on with the third.
+    // The answers end after two of them; the same command continues with the third.
     let output = answered(&folder, "30.65 oz\n56.1 cm\n");
     let told = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(2), "{told}");
@@ -313,8 +313,8 @@ fn a_mismatch_is_a_failed_check() {
     assert!(plain.contains("balance_point_m (+3.1 sd), f1_hz (-4.5 sd)"), "{said}");
 }
 
-/// Tones of an R161 of 18.14 GPa and G/E 0.0579 (its own modes), and a file whose E is wrong: the labels are
-/// sought over all wood, and E is found whatever it starts from.
+/// Tones of an R161 of 18.14 GPa and G/E 0.0579 (its modes), and a file whose E is wrong: the labels are sought for
+/// every wood, and E is found from any starting value.
 #[test]
 fn tones_say_what_the_wood_is_wherever_the_search_begins() {
     let tones = [174.51, 581.26, 1187.04, 1854.82, 2550.9];
@@ -373,7 +373,7 @@ fn a_hum_is_a_stranger_and_readings_of_another_bat_do_not_fit() {
     assert!(said.contains("no bending mode") || said.contains("do not fit"), "{said}");
 }
 
-/// The label of 1187 Hz is the third mode's: told as the second it is not changed in silence.
+/// The label of 1187 Hz belongs to the third mode: a wrong label as the second is not changed silently.
 #[test]
 fn a_wrong_label_is_named_with_the_one_that_fits() {
     let folder = Folder::new("calibrate_label");
@@ -393,7 +393,7 @@ fn a_wrong_label_is_named_with_the_one_that_fits() {
     assert_eq!(output.status.code(), Some(2));
 }
 
-/// One tone of a short thick bar of rosewood (957 Hz): G is open, and E goes with it, further up than down.
+/// One tone of a short thick bar of rosewood (957 Hz): G is unknown, and E depends on it, further up than down.
 #[test]
 fn what_no_tone_tells_widens_what_is_told() {
     let text = r#"{ "format": "sweetspot-bat/1", "material": { "density": 1082, "youngs_modulus": "20 GPa" },

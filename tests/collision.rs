@@ -77,7 +77,7 @@ fn without_loss_or_at_its_nodes_the_empirical_model_is_the_rigid_one() {
         let (flexible, rigid) = (impact.outcome.unwrap().exit_speed, impact.rigid_exit_speed);
         assert!((flexible - rigid.unwrap()).abs() < 1e-12);
     }
-    // With one mode, nothing is lost at its node and something is beside it.
+    // With one mode, there is no loss at its node and some next to it.
     let request = Request { modes: 1, tolerance: 1e-8, ..Request::plain() };
     let one = solve(&bat, &request).unwrap();
     let node = one.modes[0].nodes[1];
@@ -86,8 +86,8 @@ fn without_loss_or_at_its_nodes_the_empirical_model_is_the_rigid_one() {
     assert!(hitter.glance(node + 0.05).unwrap().vibration.unwrap() > 1.0);
 }
 
-/// The mode in the report's scaling has `(1/M) ∫ρA W² dx = α²`: on the uniform dowel the raw
-/// shape, so the modal energies are those of its closed form.
+/// The mode in the scaling of the report has `(1/M) ∫ρA W² dx = α²`. On the uniform dowel this is the raw shape, so the
+/// modal energies are those of its closed form.
 #[test]
 fn modal_energies_on_the_dowel_are_those_of_the_raw_shapes() {
     let (bat, solution) = solved("meshes/dowel.json");

@@ -1,4 +1,4 @@
-//! Every command that README.md, docs/ and the help texts show does what it says it does.
+//! Every command in README.md, docs/ and the help texts does what is claimed.
 
 use crate::common;
 
@@ -8,7 +8,7 @@ use std::path::Path;
 use common::commands::{commands, wider, words};
 use common::folder::{Folder, but_shear};
 
-/// Commands that do not run as they stand.
+/// Commands that cannot be run as they are.
 const EXCEPTIONS: &[(&str, Instead, &str)] = &[
     ("trade r161", Instead::With("1 s"), "it measures for as long as it is told to"),
     ("trade dowel --u-curve", Instead::With("1 s"), "as above"),
@@ -27,7 +27,7 @@ const EXCEPTIONS: &[(&str, Instead, &str)] = &[
 enum Instead {
     /// The same with this `--budget`.
     With(&'static str),
-    /// The same, which may say that the time was too short.
+    /// The same command, which may report that the time was too short.
     Late,
     /// Nothing, where no more words follow.
     Nothing,
@@ -35,7 +35,7 @@ enum Instead {
     Elsewhere,
 }
 
-/// A folder in which the documents' commands find what they name.
+/// A folder with the files that the commands in the documents name.
 fn furnished(name: &str) -> Folder {
     let folder = Folder::new(name);
     let meshes = Path::new(env!("SWEETSPOT_TOP")).join("meshes");
@@ -84,7 +84,7 @@ fn exception(command: &str) -> Option<&'static Instead> {
     EXCEPTIONS.iter().find(begins).map(|(_, instead, _)| instead)
 }
 
-/// The words to run, with a `--budget` where the command would take as long as it is told.
+/// The words to run, with a `--budget` where the command would use all of its time.
 fn taken(command: &str) -> Option<Vec<String>> {
     let mut words = words(command);
     match exception(command) {
@@ -98,8 +98,8 @@ fn taken(command: &str) -> Option<Vec<String>> {
     Some(words)
 }
 
-/// Runs them in order; each must succeed, in silence, and print no line beyond column 80 but in
-/// JSON, CSV, Markdown and what other programs read.
+/// Runs them in order. Each must succeed silently and print no line beyond column 80, except in JSON, CSV, Markdown and
+/// formats of other programs.
 fn all_succeed(folder: &Folder, commands: &[String]) {
     let mut faults = Vec::new();
     for command in commands {
@@ -163,7 +163,7 @@ fn every_example_of_the_help_runs_and_no_help_is_wider_than_a_terminal() {
         for help in ["-h", "--help"] {
             let text = folder.text(&[verb, help]);
             faults.extend(wider(&text, 80));
-            // All of them, from the first.
+            // All commands, from the first.
             faults.extend(commands(&text, 0));
             if help == "--help" {
                 let examples = commands(&text, 2);
@@ -189,7 +189,7 @@ fn words_are_taken_apart_as_by_a_shell() {
     assert_eq!(words(&found[0]), ["hit", "b.json", "--pitch", "85 mph", "--at", "1"]);
 }
 
-/// A bat of ash with the stations in that unit, so many of it an inch.
+/// A bat of ash with the stations in that unit, with that many units per inch.
 fn counted_in(unit: &str, per_inch: f64) -> String {
     let of = |all: [f64; 7]| all.map(|value| (value * per_inch).to_string()).join(", ");
     let x = of([0.0, 0.5, 1.0, 12.0, 22.0, 30.0, 33.0]);

@@ -258,7 +258,7 @@ fn more_bats_have_a_table_of_all_and_a_rigid_one_no_vibration() {
     assert!(table.contains("One batter swings each") && table.contains("C is swung at"));
 }
 
-/// One screen of 24 lines and 80 columns; what does not differ is named, not shown.
+/// One screen of 24 lines and 80 columns; equal figures are named and not shown.
 #[test]
 fn two_bats_fit_on_one_screen_and_five_on_two() {
     let folder = Folder::new("screens");
@@ -329,7 +329,7 @@ fn differences_stand_beside_what_two_pieces_of_one_wood_differ_by() {
     assert!(page.contains("two pieces of one wood") && !page.contains("more than the errors"));
 }
 
-/// A relative change of the density by 10 % is one of the mass: of two pieces √2 as much.
+/// A relative change of the density by 10 % is one of the mass, and the difference of two pieces is √2 as large.
 #[test]
 fn two_pieces_of_one_model_differ_in_mass_by_the_root_of_two_times_the_scatter() {
     let ash = sweetspot::Bat::from_text(

@@ -1,4 +1,4 @@
-//! Pictures of bats side by side, and of a bat beside its measurement.
+//! Pictures of bats side by side, and of a bat compared with its measurement.
 #![cfg(feature = "png")]
 
 use crate::common;
@@ -29,7 +29,7 @@ fn even(length: f64) -> Bat {
     common::bat(&[0.0, length], &[0.02, 0.06], &[0.0; 2], Interpolation::Linear)
 }
 
-/// Bats side by side, so many modes each.
+/// Bats side by side, with that number of modes each.
 fn side_by_side(bats: &[Bat], model: Model) -> Comparison {
     let request = Request { modes: 6, ..Request::plain() };
     let entry = |bat: &Bat| Entry { bat: bat.clone(), scene: Scene::default(), law: None, request };
@@ -69,7 +69,7 @@ fn compared_bats_have_the_same_pictures_as_one() {
     }
 }
 
-/// From the tip there is no place beyond it.
+/// Counted from the tip, there is no place beyond the tip.
 #[test]
 fn a_tip_axis_has_no_place_off_the_bat() {
     let bats = [0.5, 3.0].map(even);

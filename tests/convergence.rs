@@ -6,8 +6,8 @@ use sweetspot_proof::validation::Truth;
 /// Errors above are before the asymptote; within 30 times the round-off they are not the mesh's.
 const LARGEST: f64 = 1e-5;
 
-/// The modes to look at: one that has errors within the range on several meshes. The lowest ones
-/// go from 1e-5 to round-off between 3 and 8 elements of high degree, too few for an asymptote.
+/// A mode with errors within the range on several meshes. The errors of the lowest modes fall from 1e-5 to round-off
+/// between 3 and 8 elements of high degree, which are too few for an asymptote.
 fn modes(degree: usize) -> [usize; 3] {
     match degree {
         3..=5 => [1, 3, 5],
@@ -71,8 +71,8 @@ fn the_order_on_a_cone_is_twice_the_degree_less_two() {
     }
 }
 
-/// The bat's formula is cut in quarters: multiples of 4 elements have all of one length. Between 1e-5
-/// and round-off there are fewer of these, so that faster modes are looked at.
+/// The formula of the bat has four pieces, so with multiples of 4 elements all are equally long. Fewer of these meshes
+/// have errors between 1e-5 and round-off, so faster modes are used.
 #[test]
 fn the_order_on_a_smooth_bat_is_twice_the_degree_less_two() {
     let multiples: Vec<usize> = counts(60).iter().map(|n| 4 * n).collect();
@@ -83,8 +83,8 @@ fn the_order_on_a_smooth_bat_is_twice_the_degree_less_two() {
     }
 }
 
-/// Without a taper the asymptote begins where an element holds 2.4 of a mode's phase, and low modes
-/// have a few element counts between there and round-off.
+/// Without a taper the asymptote begins where an element spans a phase of 2.4 of a mode, and low modes have only a few
+/// element counts between this and round-off.
 #[test]
 fn high_degrees_gain_as_much_on_few_elements_of_a_dowel() {
     for degree in 6..=8 {

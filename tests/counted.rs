@@ -12,7 +12,7 @@ use sweetspot::beam::dowel::beta_l;
 use sweetspot::beam::mesh::Mesh;
 use sweetspot::beam::statics::Statics;
 
-/// Frequencies of 24 elements of degree 5 are within 1e-6 of the beam's; this is far above that.
+/// Frequencies with 24 elements of degree 5 are within 1e-6 of those of the beam; this limit is far above.
 const BESIDE: f64 = 1e-3;
 
 fn with(fixtures: Fixtures) -> Bat {

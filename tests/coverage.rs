@@ -1,5 +1,5 @@
-//! How often the 95 % intervals of `sweetspot calibrate` hold the truth: woods are drawn from what the readings take
-//! for known before, and read with the errors that they state. The first seed counts.
+//! How often do the 95 % intervals of `sweetspot calibrate` contain the truth? Woods are drawn from the prior of the
+//! readings and read with the stated errors. The first seed is used.
 
 use sweetspot::Bat;
 use sweetspot_study::calibrate::calibration::{Calibration, CalibrationPlan, Property};
@@ -49,7 +49,7 @@ impl Drawn {
     }
 }
 
-/// What is read of every bat.
+/// The readings taken of every bat.
 #[derive(Debug, Clone, Copy)]
 struct Kind {
     name: &'static str,
@@ -118,7 +118,7 @@ fn read(kind: &Kind, wood: &WoodenBat, logs: &Logs, drawn: &mut Drawn) -> BatRea
     readings
 }
 
-/// How many of so many intervals of each property hold the truth.
+/// The number of intervals of each property that contain the truth.
 fn held(kind: &Kind, trials: u64, seed: u64) -> Vec<(Property, usize)> {
     let bat = Bat::from_text("r161.json", R161, "".as_ref()).unwrap();
     let wood = WoodenBat::new(&bat, kind.split, PIVOT).unwrap();
@@ -149,8 +149,8 @@ fn held(kind: &Kind, trials: u64, seed: u64) -> Vec<(Property, usize)> {
     all
 }
 
-/// As many trials of each kind as the variable `SWEETSPOT_TRIALS` says, 40 without it. Of 1,000 trials 93 to 97 % are
-/// three standard deviations about 95 %.
+/// The variable `SWEETSPOT_TRIALS` sets the number of trials of each kind, by default 40. For 1,000 trials 93 to 97 %
+/// are three standard deviations about 95 %.
 #[test]
 fn of_a_hundred_intervals_ninety_five_hold_the_truth() {
     let trials = std::env::var("SWEETSPOT_TRIALS").ok().and_then(|count| count.parse().ok());

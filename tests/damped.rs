@@ -1,4 +1,4 @@
-//! Damped bats against values that an independent calculation gives to 16 digits and more.
+//! Damped bats compared with an independent calculation that has 16 digits or more.
 //!
 //! The dowel is [`dowel`]; everything varies as `e^{st}`, and with `Q` the shear force the
 //! equations are
@@ -7,13 +7,12 @@
 //! w′ = θ + Q/κGA,  θ′ = M/EI,  M′ = −Q + s²ρI θ,  Q′ = s²ρA w + (k + s c) w
 //! ```
 //!
-//! (Rayleigh: no Q/κGA; Euler–Bernoulli: no ρI either), free ends, `k` and `c` on the grip only. An
-//! absorber is `Q(x+) = Q(x−) + s² m z`, `z = w (k + s c)/(k + s c + s² m)`, a unit force
-//! `Q(x+) = Q(x−) − 1`. [`carried`] solves these by Taylor series over the uniform stretches, which
-//! shares nothing with the program: the listed frequencies prove themselves as roots of its
-//! determinant, the receptances come from it.
+//! (Rayleigh: no Q/κGA; Euler–Bernoulli: no ρI either) with free ends, and `k` and `c` on the grip only. An absorber is
+//! `Q(x+) = Q(x−) + s² m z` with `z = w (k + s c)/(k + s c + s² m)`, a unit force `Q(x+) = Q(x−) − 1`. [`carried`]
+//! solves these equations by Taylor series over the uniform stretches and has no code in common with the program. The
+//! listed frequencies are shown to be roots of its determinant, and the receptances come from it.
 
-// Values are carried with all the digits they were given.
+// Values are kept with all their digits.
 #![allow(clippy::excessive_precision)]
 
 use std::f64::consts::TAU;
@@ -80,8 +79,8 @@ fn carried<const N: usize>(y: [c64; N], a: &[[c64; N]; N], length: f64) -> [c64;
     y
 }
 
-/// A matrix of `(w, θ, M, Q)` and the length over which it holds, in units of `1/β` (of length) and
-/// `EI β` (of moments), so that no entry is far above 1. A jump is a matrix over a length of 1.
+/// A matrix of `(w, θ, M, Q)` and the length over which it applies, in units of `1/β` (length) and `EI β` (moments), so
+/// that no entry is far above 1. A jump is a matrix over a length of 1.
 type Stretch = ([[c64; 4]; 4], f64);
 
 fn bending() -> f64 {
@@ -132,18 +131,18 @@ fn stretches(
     all
 }
 
-/// A wave number (1/m) of the size of those at that s.
+/// A typical wave number (1/m) at that s.
 fn wave_number(fixtures: &Fixtures, s: c64) -> f64 {
     let bed = fixtures.grip.as_ref().map_or(0.0, |g| (s * g.damping + g.stiffness).norm());
     let line = DENSITY * std::f64::consts::PI * RADIUS.powi(2);
     ((line * s.norm_sqr() + bed) / bending()).powf(0.25)
 }
 
-/// Pairs of `(w, θ, M, Q)`, of which two solutions make minors.
+/// Pairs of `(w, θ, M, Q)`, for which two solutions form minors.
 const PAIRS: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
 
-/// The matrix that carries the minors `y_ij`: `y_ij′ = Σ_k a_ik y_kj + a_jk y_ik`. The determinant of
-/// the free ends is one of them, and no digits are lost in a difference of large products.
+/// The matrix that propagates the minors `y_ij`: `y_ij′ = Σ_k a_ik y_kj + a_jk y_ik`. The determinant of the free ends
+/// is one of them, and no digits are lost in a difference of large products.
 fn of_minors(a: &[[c64; 4]; 4]) -> [[c64; 6]; 6] {
     let mut minors = [[c64::new(0.0, 0.0); 6]; 6];
     for (row, [i, j]) in minors.iter_mut().zip(PAIRS) {
@@ -160,7 +159,7 @@ fn of_minors(a: &[[c64; 4]; 4]) -> [[c64; 6]; 6] {
     minors
 }
 
-/// What `s` must be changed by to be a root of the determinant of the free ends, by Newton.
+/// The Newton step of `s` towards a root of the determinant of the free ends.
 fn missed(fixtures: &Fixtures, theory: Theory, s: c64) -> f64 {
     let beta = wave_number(fixtures, s);
     let determinant = |s: c64| {
@@ -260,7 +259,7 @@ fn receptances_are_the_exact_ones() {
     ];
     for (fixtures, theory, frequency) in rows {
         let exact = receptance(&fixtures, theory, frequency, [0.05, 0.6]);
-        // Two modes for the range do; the rest is left to the static strains.
+        // Two modes are sufficient for the range; the static strains account for the others.
         for modes in [2, 8] {
             let bat = dowel(fixtures.clone(), 0.0);
             let mut frf = Frf::new(&bat, &request(modes, theory), 0.05, 0.6).unwrap();
@@ -311,15 +310,15 @@ fn responses_are_reciprocal() {
         let back = Frf::new(&bat, &request, b, a).unwrap().receptances(&frequencies).unwrap();
         for (there, back) in there.iter().zip(back) {
             let off = (there.receptance - back.receptance).norm();
-            // Each is as good as what it leaves out, on the points' own scale.
+            // Each is as accurate as its neglected terms allow, on the scale of the points.
             assert!(off < 1e-11 * there.receptance.norm().max(1e-6), "{theory:?} {off:e}");
         }
     }
 }
 
-/// The deflections of the textbooks: `L³/48EI + L/4κGA` in the middle between two pins, `L³/3EI +
-/// L/κGA` at the tip of a cantilever, and of a free dowel forced at its tip, whose moment is `Lξ²(1
-/// − ξ)` in balance with its inertia, `L³/105EI` there and `L³/140EI` at the other end.
+/// The textbook deflections: `L³/48EI + L/4κGA` in the middle between two pins; `L³/3EI + L/κGA` at the tip of a
+/// cantilever; and for a free dowel forced at its tip, whose moment is `Lξ²(1 − ξ)` in equilibrium with its inertia,
+/// `L³/105EI` there and `L³/140EI` at the other end.
 #[test]
 fn the_elastic_response_at_0_hz_is_the_static_deflection() {
     let held = |supports: &[(f64, Held)]| {
@@ -359,15 +358,15 @@ fn the_elastic_response_at_0_hz_is_the_static_deflection() {
                 w(at) * w(to) / (m.modal_mass * m.omega * m.omega)
             })
             .sum();
-        // The terms fall as n⁻⁴, with shear as n⁻²; beyond 60 that leaves 1/(3 · 60³) and 1/60.
+        // The terms fall as n⁻⁴, with shear as n⁻², which leaves 1/(3 · 60³) and 1/60 beyond 60.
         let left = if theory.shears() { 2e-2 } else { 2e-5 };
         assert!((share / exact - 1.0).abs() < left, "{theory:?} {share} {exact}");
     }
 }
 
-/// The tip's own receptance of a free uniform beam, `−F₅/(EI λ³ F₃)` with `F₃ = cos λL cosh λL −
-/// 1`, `F₅ = cos λL sinh λL − sin λL cosh λL` (R. E. D. Bishop, D. C. Johnson, The Mechanics of
-/// Vibration, 1960); with losses λ and EI are complex.
+/// The tip's own receptance of a free uniform beam, `−F₅/(EI λ³ F₃)` with `F₃ = cos λL cosh λL − 1`,
+/// `F₅ = cos λL sinh λL − sin λL cosh λL` (R. E. D. Bishop, D. C. Johnson, The Mechanics of Vibration, 1960); with
+/// losses λ and EI are complex.
 fn at_the_tip(frequency: f64, loss: f64, bed: [f64; 2]) -> c64 {
     let omega = TAU * frequency;
     let area = std::f64::consts::PI * RADIUS.powi(2);
@@ -402,8 +401,8 @@ fn uniform_losses_answer_as_the_closed_form_does() {
     }
 }
 
-/// Hands over the whole dowel damp all motions alike: `2 Re s = −c/ρA`, `|s|² = ω² + k/ρA`, and
-/// what they hold with dashpots alone comes to rest at `c/ρA`; heavy ones let no slow mode swing.
+/// Hands over the whole dowel damp all motions equally: `2 Re s = −c/ρA`, `|s|² = ω² + k/ρA`. With dashpots alone the
+/// rigid motion decays at `c/ρA`, and strong ones make slow modes overdamped.
 #[test]
 fn hands_all_over_have_the_closed_form() {
     let area = std::f64::consts::PI * RADIUS.powi(2);
@@ -453,7 +452,7 @@ fn loss_factors_are_weighted_with_strain_energies() {
         assert_eq!(ratios.len(), 5);
         ratios.iter().for_each(|ratio| assert!((ratio / exact - 1.0).abs() < 1e-9, "{ratio}"));
     };
-    // One material: exactly half its loss factor, and springs take their share of it away.
+    // With one material the ratio is exactly half its loss factor, and springs take a share of it.
     assert_eq!(ratios(&dowel(Fixtures::default(), 0.03), Theory::Timoshenko), vec![0.015; 5]);
     let joint = Joint { x: 0.3, rotational_stiffness: 2e3 };
     let joined = dowel(Fixtures { joints: vec![joint], ..Fixtures::default() }, 0.03);
@@ -486,9 +485,8 @@ fn loss_factors_are_weighted_with_strain_energies() {
     all(ratios(&filled, Theory::EulerBernoulli), 0.04 / 16.0);
 }
 
-/// Where dashpots are too weak to matter the modes stay as they are, and the answer says so.
-/// What is lost in shear is the shear's part of the strain energy, which the frequency knows: by Rayleigh's quotient
-/// `U_shear/U = 2 d ln ω/d ln G`. On a dowel, and under a sleeve of another material without loss.
+/// The loss in shear is proportional to the shear part of the strain energy, which follows from the frequency by
+/// Rayleigh's quotient: `U_shear/U = 2 d ln ω/d ln G`. On a dowel, and under a sleeve of another material without loss.
 #[test]
 fn a_loss_in_shear_meets_the_strain_energy_of_shear_alone() {
     let sleeve = Region {
@@ -533,6 +531,7 @@ fn a_loss_in_shear_meets_the_strain_energy_of_shear_alone() {
     }
 }
 
+/// Dashpots too weak to matter leave the modes unchanged, and the answer says so.
 #[test]
 fn complex_modes_are_used_where_they_matter() {
     let kind = |damping: f64, tolerance: f64| {
@@ -560,8 +559,8 @@ fn complex_modes_are_used_where_they_matter() {
     }
 }
 
-/// Hands from weak to immovable: what a coarse answer says of its own errors holds against a fine
-/// one, and it is as accurate as asked.
+/// Hands from weak to immovable: the stated errors of a coarse answer are correct compared with a fine one, and it is
+/// as accurate as requested.
 #[test]
 fn damped_motions_are_as_accurate_as_they_say() {
     for damping in [30.0, 300.0, 3e3, 3e4, 1e6, 1e7] {
@@ -575,7 +574,7 @@ fn damped_motions_are_as_accurate_as_they_say() {
             let fine = solved(1e-9);
             for tolerance in [1e-2, 1e-4, 1e-6] {
                 let coarse = solved(tolerance);
-                // Hands that hold like a vice are given as well as may be, and it is said.
+                // Hands as stiff as a vice are solved as well as possible, and the answer says so.
                 let met = coarse.damping.modes.iter().all(|damped| damped.error <= tolerance);
                 assert_eq!(coarse.met(), met, "{damping} {theory:?} {tolerance}");
                 assert!(met || damping > 1e5, "{damping} {theory:?} {:?}", coarse.ending);
@@ -583,7 +582,7 @@ fn damped_motions_are_as_accurate_as_they_say() {
                     let s =
                         |d: &sweetspot::modes::damping::Damped| c64::new(-d.decay, d.swinging());
                     let missed = (s(a) - s(b)).norm() / b.natural;
-                    // Of two real ones the slower is compared, whose part in |s| is small.
+                    // For two real ones the slower is compared, whose part in |s| is small.
                     let stated = 3.0 * (a.error + b.error);
                     assert!(missed <= stated, "{damping} {theory:?} {tolerance}: {a:?} {b:?}");
                 }
@@ -592,9 +591,9 @@ fn damped_motions_are_as_accurate_as_they_say() {
     }
 }
 
-/// Two motions that coalesce: an absorber at the knob end of a rod whose two slowest damped motions differ by 3e-8 of
-/// themselves, and so go with the root of every error. Then hands that are soft and damp much, below which every
-/// other mode is a million times as stiff. The poles are those of the transfer matrices, to 60 digits.
+/// Two coalescing motions: an absorber at the knob end of a rod whose two slowest damped motions differ by 3e-8
+/// relative, so that they depend on the square root of every error. Then soft hands with much damping, compared with
+/// which every other mode is a million times as stiff. The poles are those of the transfer matrices, to 60 digits.
 #[test]
 fn damped_motions_that_coalesce_and_those_on_soft_hands_are_as_accurate_as_they_say() {
     let solved = |text: &str, modes: usize, tolerance: f64| {

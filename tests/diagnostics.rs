@@ -1,4 +1,4 @@
-//! What a person sees of a mistake in a file: the line, a caret, what to do.
+//! What a person sees for a mistake in a file: the line, a caret, the help.
 
 use crate::common;
 
@@ -17,7 +17,7 @@ fn told(folder: &Folder, args: &[&str]) -> String {
     String::from_utf8(output.stderr).unwrap()
 }
 
-/// What is said of a bat file.
+/// The messages about a bat file.
 fn of_bat(folder: &Folder, text: &str) -> String {
     folder.write("my.json", text);
     told(folder, &["modes", "my.json"])
@@ -263,11 +263,11 @@ fn nothing_is_told_that_follows_from_another_mistake() {
     let tip = "\"attachments\": [{ \"x\": 33, \"mass\": 0.1 }], \"profile\"";
     let with_tip = GOOD.replace("\"profile\"", tip);
     for (text, field) in [
-        // Without a profile nobody knows what is beyond it.
+        // Without a profile it is unknown what is beyond it.
         (with_tip.replace("0.4, 0.8", "0.4, \"0.8\""), "profile.x[2]"),
         (with_tip.replace("\"x\": [0, 0.4, 0.8]", "\"x\": 7"), "profile.x"),
         (with_tip.replace("\"x\": [0, 0.4", "\"unit\": \"inn\", \"x\": [0, -0.4"), "profile.unit"),
-        // What was weighed may have stood for the density.
+        // Weighing could have replaced the density.
         (
             GOOD.replace("\"density\": 700, ", "")
                 .replace("\"profile\"", "\"weighed\": { \"mass\": \"31\" }, \"profile\""),
@@ -357,7 +357,7 @@ fn another_major_version_is_refused_with_what_to_do() {
     let reads = format!("this is version {} of sweetspot, which reads", env!("CARGO_PKG_VERSION"));
     assert!(each[0].help.starts_with(&reads), "{said}");
     assert!(each[0].help.contains("get the version that it was written for"), "{said}");
-    // Of its keys nothing is said: they may be that version's.
+    // Its keys are not criticised, because they may belong to that version.
     let newer = GOOD.replace("sweetspot-bat/1\"", "sweetspot-bat/2\", \"new\": 1");
     assert_eq!(diagnostics(&of_bat(&folder, &newer)).0.len(), 1);
     folder.write("my.json", GOOD);

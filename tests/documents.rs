@@ -1,5 +1,5 @@
-//! README.md is short, its links lead somewhere, and what it and docs/ show of the program's answers
-//! is what the program prints now.
+//! README.md is short, its links have targets, and the answers of the program shown in it and in docs/ are those
+//! printed now.
 
 use crate::common;
 
@@ -16,7 +16,7 @@ fn page(name: &str) -> String {
     fs::read_to_string(root().join(name)).unwrap().replace("\r\n", "\n")
 }
 
-/// The indented block whose first line begins so, without its indent and without blank lines.
+/// The indented block whose first line begins with this, without its indent and without blank lines.
 fn block(text: &str, first: &str) -> Vec<String> {
     let before = |line: &&str| !line.strip_prefix("    ").is_some_and(|l| l.starts_with(first));
     let lines = text.lines().skip_while(before);
@@ -25,7 +25,7 @@ fn block(text: &str, first: &str) -> Vec<String> {
     block.map(|line| line.trim_end().to_owned()).collect()
 }
 
-/// What is printed from the line that begins so, without blank lines.
+/// The output from the line that begins with this, without blank lines.
 fn printed(text: &str, first: &str) -> Vec<String> {
     let lines = text.lines().skip_while(|line| !line.starts_with(first));
     lines.filter(|line| !line.is_empty()).map(|line| line.trim_end().to_owned()).collect()
@@ -36,7 +36,7 @@ fn joined(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// Equal words; numbers may differ as ratios of errors near round-off do between machines.
+/// Whether the words are equal; numbers may differ as ratios of errors near round-off do between machines.
 fn same(shown: &str, now: &str) -> bool {
     const ROUND_OFF: f64 = 0.05;
     let (a, b): (Vec<_>, Vec<_>) =
@@ -114,8 +114,8 @@ fn known_answers_and_the_promise_are_todays() {
     assert!(joined(&accuracy).contains(&more), "{more}");
 }
 
-/// The one run of `validate --extremes`. What was found and stated near round-off, times and memory
-/// are those of a machine.
+/// The only run of `validate --extremes`. Values found and stated near round-off, times and memory depend on the
+/// machine.
 #[test]
 fn rows_and_verdicts_of_the_extremes_are_todays() {
     let now = Folder::new("extremes").text(&["validate", "--extremes"]);
@@ -137,7 +137,7 @@ fn rows_and_verdicts_of_the_extremes_are_todays() {
     assert_eq!(shown, found, "docs/accuracy.md is stale");
 }
 
-/// The targets of a page's links, but for those on the web.
+/// The targets of the links of a page, except those on the web.
 fn links(text: &str) -> Vec<&str> {
     let targets = text.split("](").skip(1).filter_map(|rest| rest.split(')').next());
     targets.filter(|target| !target.starts_with("http")).collect()

@@ -1,4 +1,4 @@
-//! What-ifs hold: a bat is weighed once, and its edits come after it.
+//! Edits: a bat is weighed once, and its edits apply afterwards.
 
 use crate::common;
 
@@ -11,7 +11,7 @@ use sweetspot_report::report::resolved::resolved;
 const INCH: f64 = 0.0254;
 const OUNCE: f64 = 0.028_349_523_125;
 
-/// A maple of 33.5 in that weighs 31 oz; what stands in `more` is added to its file.
+/// A maple bat of 33.5 in that weighs 31 oz, with the members in `more` added to its file.
 fn maple(more: &str) -> Bat {
     read(more).unwrap_or_else(|said| panic!("{said}"))
 }
@@ -75,7 +75,7 @@ fn integral(from: f64, to: f64, f: impl Fn(f64) -> f64) -> f64 {
     (0..=N).map(|k| weight(k) * f(from + k as f64 * h)).sum::<f64>() * h / 3.0
 }
 
-/// How much of a cut or a factor is there at `x`: `3v² − 2v³` at both ends.
+/// The share of a cut or a factor that applies at `x`: `3v² − 2v³` at both ends.
 fn share(x: f64, [from, to]: [f64; 2], blend: f64) -> f64 {
     let v = ((x - from).min(to - x) / blend).clamp(0.0, 1.0);
     v * v * (3.0 - 2.0 * v)
@@ -89,7 +89,7 @@ fn a_bat_without_edits_is_the_same_to_the_last_bit() {
     assert!(bat.edits().is_empty() && std::ptr::eq(bat.unedited(), &bat));
 }
 
-/// The scale said 31 oz of the bat before: density, and so everything else on it, stays.
+/// The scale gave 31 oz for the bat before, so that the density and all that depends on it are unchanged.
 #[test]
 fn a_knob_weight_adds_its_mass_and_its_arm_squared_to_a_weighed_bat() {
     let (bat, weighted) = (maple(""), maple(r#", "edits": [ { "knob": "2 oz" } ]"#));
@@ -186,7 +186,7 @@ fn a_shortened_bat_is_the_one_that_never_was_longer() {
     for (a, b) in frequencies(&tip).into_iter().zip(frequencies(&short)) {
         close(a, b, 1e-8);
     }
-    // Off the knob end: the places of what is left move.
+    // At the knob end: the remaining parts change their positions.
     let knob = edited(&whole, [Change::Shorten(Shorten { knob: Some(0.05), tip: None })]);
     close(knob.profile().at(0.1).outer, 0.01 + 0.025 * 0.15, 1e-14);
     close(mass(&knob) + mass(&cone(0.05)), mass(&whole), 1e-13);
@@ -296,7 +296,7 @@ fn a_sleeve_of_the_same_wood_is_a_thicker_bat() {
     assert!(refused.contains("let this edit come before the sleeve"), "{refused}");
 }
 
-/// A sleeve over half of a region splits it: each stretch keeps what it has.
+/// A sleeve over half of a region splits it; each stretch keeps its properties.
 #[test]
 fn sleeves_and_regions_lie_over_each_other() {
     let regions = r#", "regions": [ { "from": "10 in", "to": "20 in", "material": "white-ash" } ]"#;
@@ -311,8 +311,8 @@ fn sleeves_and_regions_lie_over_each_other() {
     assert_eq!(sleeved.fixtures().regions.len(), 3);
 }
 
-/// Layers of the wall, drawn with their surface, are sleeves around the wall that is left inside; a resolved bat
-/// has them too.
+/// Layers of the wall, drawn within the surface, become sleeves around the remaining inner wall; a resolved bat has
+/// them too.
 #[test]
 fn layers_of_a_wall_are_sleeves_around_what_is_inside() {
     let tube = |diameter: &str, thick: &str, more: &str| {
@@ -362,7 +362,7 @@ fn layers_of_a_wall_are_sleeves_around_what_is_inside() {
     }
 }
 
-/// However a tube is cut into layers, bonded it is the tube: in shear too, with what is on it or in it.
+/// A tube cut into any bonded layers is the same tube, including its shear and what is on it or in it.
 #[test]
 fn layers_of_one_metal_are_the_tube_that_they_make() {
     let metal = r#"{ "density": 2810, "youngs_modulus": "71 GPa", "poisson_ratio": 0.33 }"#;
@@ -401,7 +401,7 @@ fn layers_of_one_metal_are_the_tube_that_they_make() {
     }
 }
 
-/// The tap was heard of the bat before its edits too.
+/// The tap too was measured on the bat before its edits.
 #[test]
 fn a_tapped_bat_is_tuned_before_it_is_edited() {
     let weighed = r#", "weighed": { "mass": "31 oz", "first_bending_hz": 160 }"#;
@@ -563,7 +563,7 @@ fn options_are_the_edits_of_a_file_in_the_order_typed() {
     let listed = by_file["bat"]["edits"].as_array().unwrap();
     assert_eq!(listed.len(), typed.len());
     assert_eq!(listed[1]["knob"], 2.0 * OUNCE);
-    // What was understood is a bat file of the same bat.
+    // The resolved bat is a bat file for the same bat.
     folder.write("understood.json", by_file["bat"].to_string());
     let again = folder.json(&["modes", "understood.json", "-n", "2", "--json", "-"]);
     for key in ["mass_kg", "inertia_pivot_kg_m2", "balance_point_m"] {
@@ -594,7 +594,7 @@ fn every_table_says_what_was_edited() {
     }
 }
 
-/// Inches stay inches and millimetres millimetres, whatever else the table is in.
+/// Inches stay inches and millimetres stay millimetres, regardless of the units of the table.
 #[test]
 fn an_edit_is_told_in_the_units_it_was_typed_in() {
     let folder = shop("edit_words");

@@ -1,6 +1,6 @@
-//! `sweetspot convert` and the files it writes; `frf --uff`; the archive beside the matrices.
+//! `sweetspot convert` and its files; `frf --uff`; the archive with the matrices.
 //!
-//! `tests/foreign/read_back.py` reads the same files with the programs they are for.
+//! `tests/foreign/read_back.py` reads the same files with the programs for which they are made.
 
 use crate::common;
 
@@ -87,7 +87,7 @@ fn a_universal_file_holds_the_modes() {
     }
 }
 
-/// A bat is solved and converted, which is said; a universal file is told that it is one.
+/// A bat is solved before conversion, with a message; a universal file is recognised with a message.
 #[test]
 fn a_bat_is_solved_for_its_modes_and_a_universal_file_is_told() {
     let folder = Folder::new("convert-bat");
@@ -116,7 +116,7 @@ fn the_same_modes_make_the_same_bytes() {
     }
     let text = String::from_utf8(to("one", &["uff", "--reproducible"])).unwrap();
     assert!(text.contains("01-JAN-70") && text.lines().all(|line| line.len() <= 80));
-    // On standard output it is the file and nothing else.
+    // Standard output contains exactly the file.
     for format in ["vtu", "csv"] {
         let printed = folder.text(&["convert", "bat.json", "--to", format, "--out", "-"]);
         assert_eq!(printed.into_bytes(), to("one", &[format]));
@@ -150,7 +150,7 @@ fn a_table_reads_back_to_the_same_bits() {
     }
 }
 
-/// The numbers of one array of an archive, by NumPy's description of it.
+/// The numbers of one array of an archive, with its NumPy description.
 fn array(folder: &Folder, file: &str, name: &str) -> (String, Vec<f64>) {
     let bytes = std::fs::File::open(folder.0.join(file)).unwrap();
     let mut archive = zip::ZipArchive::new(bytes).unwrap();
@@ -186,7 +186,7 @@ fn an_archive_holds_the_modes() {
     }
 }
 
-/// Every entry of the Matrix Market file stands in the archive's columns.
+/// Every entry of the Matrix Market file is in the columns of the archive.
 #[test]
 fn the_archive_beside_the_matrices_holds_the_same() {
     let folder = Folder::new("matrices-npz");
@@ -254,7 +254,7 @@ fn a_grid_holds_the_modes_as_vectors() {
     }
 }
 
-/// Names of bats are text in every format, whatever they hold.
+/// Names of bats are text in every format, regardless of their characters.
 #[test]
 fn a_strange_name_breaks_no_file() {
     let (folder, mut document) = modes("convert-name", "3");
@@ -281,7 +281,7 @@ fn a_strange_name_breaks_no_file() {
     }
 }
 
-/// A line of a universal file has 250 nodes at most, a bat may have more places.
+/// A line of a universal file has 250 nodes at most, while a bat may have more places.
 #[test]
 fn a_universal_file_keeps_every_place_and_a_line_from_each_to_the_next() {
     for count in [250_usize, 251, 1001] {
@@ -308,7 +308,7 @@ fn a_universal_file_keeps_every_place_and_a_line_from_each_to_the_next() {
     }
 }
 
-/// What would fill the memory is refused before it does, and said to be about as large as it is.
+/// An output that would fill the memory is refused in advance, with its approximate size.
 #[test]
 fn a_surface_too_large_to_write_is_refused() {
     let (folder, _) = modes("convert-giant", "101");
@@ -367,7 +367,7 @@ fn a_response_is_written_at_the_frequencies_that_the_file_can_hold() {
         let imaginary = list(&document[format!("imaginary_{unit}")]);
         assert!(values.len() == frequencies.len() || kind == "accelerance");
         for (k, value) in values.iter().enumerate() {
-            // In equal steps the file has no room for what shows the peaks besides.
+            // Evenly spaced frequencies leave no room for the additional ones that show the peaks.
             let at = function.abscissa.at(k);
             let j = frequencies.iter().position(|f| *f == at).unwrap();
             for (found, truth) in [(value[0], real[j]), (value[1], imaginary[j])] {
@@ -375,12 +375,12 @@ fn a_response_is_written_at_the_frequencies_that_the_file_can_hold() {
             }
         }
     }
-    // A resonance is where six digits say it is, in the table too.
+    // A resonance is at its six-digit frequency, in the table too.
     let args = ["frf", &bat, "--at", "28 in", "--frequencies", "174.5085428", "--csv", "-"];
     let rounded = folder.text(&[&args[..], &["--uff", "out.uff"]].concat());
     assert!(rounded.lines().nth(1).unwrap().starts_with("174.509,"), "{rounded}");
     assert!(folder.text(&args).lines().nth(1).unwrap().starts_with("174.5085428,"));
-    // Frequencies rise in the file, in whatever order they were asked for.
+    // Frequencies rise in the file, regardless of the order of the request.
     let listed = ["--frequencies", "500,100,300", "--json", "-", "--uff", "out.uff"];
     let document = folder.json(&[&["frf", &bat, "--at", "28 in"], &listed[..]].concat());
     assert_eq!(list(&document["frequency_hz"]), [100.0, 300.0, 500.0]);
@@ -441,7 +441,7 @@ fn options_that_do_not_fit_are_refused() {
     assert!(
         refused(&folder, &["convert", "none.json", "--to", "csv"]).contains("cannot read none")
     );
-    // The output stands in this folder, wherever the modes are.
+    // The output is in this folder, wherever the modes are.
     std::fs::create_dir(folder.0.join("sub")).unwrap();
     std::fs::rename(folder.0.join("bat.json"), folder.0.join("sub/my.bat.json")).unwrap();
     folder.text(&["convert", "sub/my.bat.json", "--to", "csv"]);
@@ -554,7 +554,7 @@ fn a_wrong_modes_file_is_told_with_its_place() {
     }
 }
 
-/// A later minor version may say more.
+/// A later minor version may have more members.
 #[test]
 fn unknown_members_are_passed_over() {
     let (folder, mut document) = modes("convert-later", "3");
@@ -569,7 +569,7 @@ fn unknown_members_are_passed_over() {
     assert_eq!(folder.read("later.csv"), folder.read("bat.csv"));
 }
 
-/// Every kind of bat's modes are read back as they were written.
+/// The modes of every kind of bat are read back as written.
 #[test]
 fn modes_of_every_bat_are_read_back() {
     let folder = Folder::new("convert-bats");

@@ -20,7 +20,7 @@ fn every_extreme_is_right_or_refused() {
         }
     }
     assert!(right >= 30, "{right}");
-    // What cannot be done, and nothing else.
+    // Exactly the cases that are impossible.
     let impossible = [
         "accuracy 10^-16",
         "10 modes of two cubic elements",

@@ -1,5 +1,4 @@
-//! What the program leaves behind when something goes wrong around it: open descriptors, links, locked
-//! folders, limits, signals.
+//! What the program leaves behind when its environment fails: open descriptors, links, locked folders, limits, signals.
 #![cfg(unix)]
 
 mod common;
@@ -19,7 +18,7 @@ use sweetspot_study::files::written::WrittenFile;
 const BAT: &str = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
   "profile": { "unit": "in", "x": [0, 33], "diameter": [1.7, 1.7] } }"#;
 
-/// A folder with a bat in it that anybody may work in.
+/// A folder with a bat, open to every user.
 fn folder(name: &str) -> Folder {
     let folder = Folder::new(name);
     fs::set_permissions(&folder.0, Permissions::from_mode(0o777)).unwrap();
@@ -34,13 +33,13 @@ fn bash(folder: &Folder, line: &str) -> Output {
     command.output().unwrap()
 }
 
-/// As [`bash`], of a user who may not do everything: root goes by no permissions and no limits.
+/// As [`bash`], for an unprivileged user, because root is exempt from permissions and limits.
 fn bash_of_a_user(folder: &Folder, line: &str) -> Output {
     let root = fs::metadata("/proc/self").map_or(1, |process| process.uid()) == 0;
     if !root {
         return bash(folder, line);
     }
-    // The program itself may lie where nobody else may go.
+    // The program itself may be in a folder closed to other users.
     let copy = folder.0.join("sweetspot");
     fs::copy(env!("CARGO_BIN_EXE_sweetspot"), &copy).unwrap();
     let mut command = Command::new("setpriv");
@@ -159,7 +158,7 @@ fn permissions_and_other_names_of_a_file_stay() {
     folder.text(&["modes", "bat.json", "-n", "2", "--json", "out"]);
     assert_eq!(fs::metadata(path("out")).unwrap().nlink(), 2);
     assert!(is_json(&folder.read("out")) && folder.read("out") == folder.read("other"));
-    // A second name of the bat itself is the bat.
+    // A second name of the file is the same file.
     fs::hard_link(path("bat.json"), path("alias")).unwrap();
     refused(&folder.run(&["modes", "bat.json", "--json", "alias"]));
     assert_eq!(folder.read("alias"), BAT);
@@ -182,7 +181,7 @@ fn the_owner_of_a_file_stays() {
         folder.text(&["modes", "bat.json", "--json", "out"]);
         let after = fs::metadata(&path).unwrap();
         assert_eq!((after.uid(), after.gid()), (65534, 65534));
-        // A file of somebody else that everybody may write to.
+        // A file of another user that everybody may write to.
         std::os::unix::fs::chown(&path, Some(0), Some(0)).unwrap();
         fs::set_permissions(&path, Permissions::from_mode(0o666)).unwrap();
         succeeded(&bash_of_a_user(&folder, "$S modes bat.json --json out"));
@@ -219,7 +218,8 @@ fn a_file_in_a_locked_folder_is_overwritten_and_a_new_one_refused() {
 
 #[test]
 fn a_planted_part_is_not_written_to() {
-    // No name of a part can be foreseen: two runs of one process number would have had one name.
+    // The temporary name of a part must be unpredictable: two runs with one process number would have had the same
+    // name.
     let folder = folder("planted");
     folder.write("victim", "theirs");
     let plant = "ln -s victim .out.$$.part; exec $S modes bat.json --json out > /dev/null";
@@ -255,7 +255,7 @@ fn a_limit_on_the_size_of_files_is_an_error_that_leaves_nothing() {
 #[test]
 fn every_signal_that_ends_a_program_leaves_no_part_and_its_number() {
     let folder = folder("signals");
-    // The pipe is not read, so that it waits there for ever.
+    // Nobody reads the pipe, so the run waits there for ever.
     let made = Command::new("mkfifo").arg(folder.0.join("pipe")).status().unwrap();
     assert!(made.success());
     let before = folder.names();
@@ -268,7 +268,7 @@ fn every_signal_that_ends_a_program_leaves_no_part_and_its_number() {
             .stdout(Stdio::null())
             .spawn()
             .unwrap();
-        // Some of what it writes, so that it is in the middle of it.
+        // Reads a part of the output, so that the program is in the middle of writing.
         let mut pipe = File::open(folder.0.join("pipe")).unwrap();
         pipe.read_exact(&mut [0]).unwrap();
         let kill = Command::new("kill").args(["-s", name, &child.id().to_string()]).status();
@@ -298,7 +298,7 @@ fn help_to_a_full_device_is_an_error_as_any_other_result() {
         assert!(refused(&output).contains("standard output"), "{args}");
         assert!(!succeeded(&bash(&folder, &format!("$S {args}"))).is_empty());
     }
-    // Whoever closed the pipe has read enough.
+    // A reader that closed the pipe has read enough.
     succeeded(&bash(&folder, "set -o pipefail; $S hit --help | true"));
 }
 
@@ -335,7 +335,7 @@ fn what_has_no_end_is_refused() {
     }
 }
 
-/// More of each than anybody writes: an answer or a refusal, in a time that a test can wait for.
+/// Far larger quantities than usual: an answer or a refusal, within a time suitable for a test.
 #[test]
 fn very_much_of_one_thing_is_read_or_refused() {
     let folder = folder("much");
@@ -423,7 +423,7 @@ fn columns_outside_of_the_folder_are_read_of_a_named_bat_alone_and_said() {
 /// A line that no message and no cell may have.
 const SECRET: &str = "root:hunter2,17:the secret";
 
-/// A folder with a file of somebody's own, a pipe, and files that name them in every way.
+/// A folder with a private file, a pipe, and files that name them in every way.
 fn of_a_stranger(name: &str) -> Folder {
     let folder = folder(name);
     fs::create_dir(folder.0.join("in")).unwrap();
@@ -490,7 +490,7 @@ fn what_a_file_names_is_read_only_if_it_begins_as_it_should_and_no_word_of_it_is
             assert!(!said.contains("hunter2") && !said.contains("17:"), "{text} {name}: {said}");
         }
     }
-    // Beside another bat what is none is a row with the reason.
+    // An invalid bat among valid ones becomes a row with the reason.
     let study = r#"{ "format": "sweetspot-study/1", "bat": ["r161", "../secret", "secret.json"],
         "outputs": ["f1_hz"] }"#;
     folder.write("in/file.json", study);
@@ -607,7 +607,7 @@ fn where_memory_ends_words_are_said_and_no_part_stays() {
     let study = r#"{ "format": "sweetspot-study/1", "bat": "bbcor_made_up", "points": 8,
         "vary": { "bat.material.density": { "lognormal": 0.04 } }, "outputs": ["exit_speed_max.value"] }"#;
     folder.write("study.json", study);
-    // What the system's loader needs before the program begins, by the libraries that are in it.
+    // The memory for the system loader before the program begins, which depends on its libraries.
     let starts = |limit: &u32| {
         bash(&folder, &format!("ulimit -v {limit}; exec $S --version")).status.success()
     };
@@ -616,7 +616,7 @@ fn where_memory_ends_words_are_said_and_no_part_stays() {
         for limit in [least + 4000, least + 30_000, least + 60_000] {
             let output = bash(&folder, &format!("ulimit -v {limit}; exec timeout 60 $S {line}"));
             let told = String::from_utf8_lossy(&output.stderr);
-            // Where less is needed than was thought there is an answer.
+            // Where the need was overestimated there is an answer.
             let code = output.status.code();
             assert!(code == Some(2) || code == Some(0), "{line} {limit}: {output:?}");
             let said = told.contains("error: ") && !told.contains("memory allocation of");
@@ -678,7 +678,7 @@ fn no_spreadsheet_computes_a_name_and_no_terminal_obeys_one() {
     for row in &rows {
         assert!(["'-3", "'=x"].contains(&&row[2]) && row[5].parse::<f64>().is_ok(), "{row:?}");
     }
-    // Numbers are numbers, also below 0, and a table with such cells is read.
+    // Negative numbers are numbers too, and a table with such cells is read.
     folder.write("t.csv", "x_in,diameter_in\n'+0,1.7\n33,'+1.7\n");
     folder.write(
         "t.json",
@@ -754,7 +754,8 @@ fn the_licences_of_everything_in_the_program_come_with_it() {
     assert_eq!(text, folder.text(&["licenses"]));
 }
 
-/// What a file may hold of one kind is counted before anything is computed, and names of any length cost in proportion.
+/// Limits on the contents of a file are checked before any computation, and the cost of names is proportional to their
+/// length.
 #[test]
 fn more_than_the_stated_limits_is_refused_at_once() {
     let folder = folder("limits");

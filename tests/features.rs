@@ -29,7 +29,7 @@ fn read(outer: &str, inner: Option<&str>) -> Result<Bat, Error> {
     Bat::from_text("bat.json", &file.to_string(), Path::new(""))
 }
 
-/// A bat in formulas, what they are in Rust, where its feature is and how wide.
+/// A bat in formulas, the same formulas in Rust, and the place and width of its feature.
 struct Case {
     outer: &'static str,
     inner: Option<&'static str>,
@@ -149,7 +149,7 @@ fn a_feature_between_the_samples_is_in_every_frequency() {
             let solution = solve(&bat, &request).unwrap();
             assert!(solution.met(), "{} at {tolerance:e}", case.outer);
             for mode in &solution.modes {
-                // What the reference itself is worth is about 1e-10.
+                // The error of the reference itself is about 1e-10.
                 let error = 3.0 * mode.error.total() + 2e-10;
                 let at = |sign: f64| determinant(case, &grid, mode.omega * (1.0 + sign * error));
                 let (below, above) = (at(-1.0), at(1.0));
@@ -160,7 +160,7 @@ fn a_feature_between_the_samples_is_in_every_frequency() {
     }
 }
 
-/// Mass and balance point too see what no sample does: `∫ρπr² dx` of a groove in closed form.
+/// Mass and balance point also include a groove that no sample meets: `∫ρπr² dx` in closed form.
 #[test]
 fn a_feature_between_the_samples_is_in_the_mass() {
     let (r, d, w) = (0.02, 0.015, 0.0003);
@@ -183,8 +183,8 @@ fn a_radius_that_is_below_zero_between_the_samples_is_refused_with_the_place() {
     }
 }
 
-/// A wall of equal thickness on a taper: however thin, it asks for no more elements than a thick
-/// one, and answers that differ in their round-off alone agree within what they state.
+/// A wall of equal thickness on a taper: a thin one needs no more elements than a thick one, and answers that differ
+/// only in round-off agree within their stated errors.
 #[test]
 fn a_thin_tapered_wall_takes_as_many_elements_as_a_thick_one() {
     let bat = |wall: f64, interpolation| {

@@ -1,4 +1,4 @@
-//! Facts of the field: what laboratories, broadcasts and makers say of bats and balls.
+//! Facts of the field: statements of laboratories, broadcasts and makers about bats and balls.
 
 use crate::common;
 
@@ -50,7 +50,7 @@ fn fastest(bat: &Bat, scene: &Scene) -> f64 {
     SweetSpot::find(&hitter).exit_speed_max.unwrap().value
 }
 
-/// The pivot is felt when the ball has gone; 30.7 mph is an explicit integration of 84 slices.
+/// The pivot acts only after the ball has left; 30.7 mph is an explicit integration with 84 slices.
 #[test]
 fn a_bat_on_the_laboratories_pivot_sends_the_ball_back_like_a_free_one() {
     let bat = bundled_bat("meshes/r161.json").unwrap();
@@ -82,8 +82,8 @@ fn bbcor_follows_from_the_rebound_and_the_swing_weight() {
         let r = scan.protocol.ball.mass_kg * arm * arm / inertia;
         let bbcor = efficiency * (1.0 + r) + r;
         assert!((place.bbcor.unwrap() - bbcor).abs() < 1e-12, "{}", place.x_m);
-        // BESR is the speed after the hit over that before it with the bat moving at half of it; BPF is BBCOR
-        // over what the ball does on a rigid wall.
+        // BESR is the ratio of the speeds after and before the hit with the bat moving at half the speed; BPF is BBCOR
+        // divided by the restitution on a rigid wall.
         assert!((place.besr.unwrap() - (efficiency + 0.5)).abs() < 1e-12);
         let bpf = place.bpf.unwrap();
         assert!((bpf * scan.protocol.cor / bbcor - 1.0).abs() < 1e-12, "{bpf}");
@@ -95,8 +95,8 @@ fn bbcor_follows_from_the_rebound_and_the_swing_weight() {
     assert_eq!(scan.within_limit, Some(true));
 }
 
-/// A swing weight that was measured is the profile's, as such or by the period of a pendulum about any pivot,
-/// `T = 2 pi sqrt(I/(m g d))`; one that is not is told.
+/// A measured swing weight is compared with that of the profile, whether given as such or by the period of a pendulum
+/// about any pivot, `T = 2 pi sqrt(I/(m g d))`; a mismatch is reported.
 #[test]
 fn a_measured_swing_weight_is_held_to_the_profile() {
     let file: Value = serde_json::from_str(include_str!("../meshes/r161.json")).unwrap();
@@ -127,8 +127,8 @@ fn a_measured_swing_weight_is_held_to_the_profile() {
     }
 }
 
-/// Of a rigid wall a ball comes back with its own restitution; a bat returns as much where it is
-/// stiff and does not recoil, and what holds it in its file changes nothing.
+/// From a rigid wall a ball returns with its restitution. A stiff bat without recoil returns as much, and the supports
+/// in its file have no effect.
 #[test]
 fn what_holds_the_bat_in_its_file_is_no_part_of_the_test() {
     let bat = bundled_bat("meshes/r161.json").unwrap();
@@ -141,8 +141,8 @@ fn what_holds_the_bat_in_its_file_is_no_part_of_the_test() {
     assert!((bare - held).abs() < 1e-4, "{bare} {held}");
 }
 
-/// By the same swing, and by a swing that grows with the fourth root of what the swing weight is less;
-/// at the same BBCOR less of the ball's speed comes back from a lighter barrel.
+/// With the same swing, and with a swing that grows as the fourth root of the decrease of the swing weight; at equal
+/// BBCOR a lighter barrel returns less of the speed of the ball.
 #[test]
 fn a_corked_bat_loses_speed_at_equal_bbcor() {
     let [corked, solid] = corked_and_solid();
@@ -169,8 +169,8 @@ fn a_humid_ball_leaves_slower_by_as_much_as_was_published() {
     assert!((less - 2.8).abs() < 0.5, "{less} mph");
 }
 
-/// Without the bat's modes the ball has its largest compression where all of the energy of the
-/// relative motion is in it: a linear ball's is `u √(μ/k)`.
+/// Without modes the largest compression of the ball occurs where it holds all energy of the relative motion: for a
+/// linear ball it is `u √(μ/k)`.
 #[test]
 fn the_largest_compression_of_a_linear_ball_on_a_stiff_bat_is_the_springs() {
     let bat = bundled_bat("meshes/r161.json").unwrap();
@@ -190,7 +190,7 @@ fn the_largest_compression_of_a_linear_ball_on_a_stiff_bat_is_the_springs() {
     assert!((outcome.peak_force.unwrap() / (1.2e6 * found) - 1.0).abs() < 1e-6);
 }
 
-/// At the swing that is said to take the bat to its strength the stress is the strength.
+/// At the swing that is reported to reach the strength, the stress equals the strength.
 #[test]
 fn a_hit_at_the_breaking_swing_reaches_the_strength() {
     let bat = bundled_bat("meshes/r161.json").unwrap();
@@ -218,7 +218,7 @@ const TUBE: &str = r#"{ "format": "sweetspot-bat/1", "name": "tube", "material":
     "profile": { "x": [0, 0.3, 0.55, 0.84], "diameter": [0.024, 0.024, 0.066, 0.066],
                  "wall_thickness": [0.004, 0.004, 0.003, 0.003] } }"#;
 
-/// Every result of a hollow barrel whose wall is taken as rigid says so, and no other.
+/// Every result for a hollow barrel with a wall taken as rigid says so, and no other result does.
 #[test]
 fn a_hollow_barrel_says_at_every_result_what_its_wall_is_not() {
     let folder = Folder::new("hollow");

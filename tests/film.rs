@@ -1,4 +1,4 @@
-//! The moment of the hit as the report shows it: ball and bat move as the contact says.
+//! The moment of the hit in the report: ball and bat move as the contact computes.
 
 use sweetspot::bat::theory::Theory;
 use sweetspot::collision::hit::{Model, Scene, Wall};
@@ -20,8 +20,8 @@ fn analysed(bat: Bat, scene: Scene) -> Analysis {
     Analysis::new(bat, solution, task).unwrap()
 }
 
-/// The ball's own law, F = k uᵅ at first, tells how far it is squeezed under every force that is
-/// shown; a wall of the barrel gives way beside it.
+/// The law of the ball, F = k uᵅ at first, gives its compression for every force shown; a compliant wall of the barrel
+/// deforms in addition.
 #[test]
 fn the_ball_is_squeezed_as_much_as_its_force_needs() {
     let wall = |mass| Some(Wall { stiffness: 1e7, mass });
@@ -43,13 +43,13 @@ fn the_ball_is_squeezed_as_much_as_its_force_needs() {
             parts_evenly(moment);
         }
         assert!(report.page().len() < 700_000);
-        // Seen beside each other, the hit that bends the bat more is the one that is seen to.
+        // Hits on one page have the same enlargement, so that their bending can be compared.
         assert_eq!(report.moments[0].factor, report.moments[1].factor);
     }
 }
 
-/// Until the force first falls the ball is squeezed by what its law says; the last instant before may be
-/// on the way back already.
+/// Until the force first falls, the compression of the ball follows its law; the last instant before may already be
+/// part of the expansion.
 fn follows_the_law(scene: &Scene, moment: &Moment) {
     let [k, alpha] = [scene.ball.stiffness, scene.ball.exponent].map(Option::unwrap);
     let falls = moment.force_kn.windows(2).position(|pair| pair[1] < pair[0]).unwrap();
@@ -59,7 +59,7 @@ fn follows_the_law(scene: &Scene, moment: &Moment) {
             continue;
         }
         let squeezed = |force: f64| 1e3 * (1e3 * force / k).powf(1.0 / alpha);
-        // Both are told to a hundredth.
+        // Both are given to a hundredth.
         let rounding = 0.005 + squeezed(force + 0.005) - squeezed(*force);
         assert!((squeezed(*force) + gap).abs() < 0.01 + rounding, "{force} kN, {gap} mm");
         seen += 1;
@@ -67,7 +67,7 @@ fn follows_the_law(scene: &Scene, moment: &Moment) {
     assert!(seen > 3, "{seen}");
 }
 
-/// Before and after the touch the ball is off the bat, and nothing jumps where they part.
+/// Before and after the contact the ball is off the bat, and nothing jumps at the separation.
 fn parts_evenly(moment: &Moment) {
     let Moment { times_ms, gap_mm, force_kn, contact_ms, bending_10_um, .. } = moment;
     let last = times_ms.len() - 1;

@@ -17,7 +17,7 @@ fn built_in() -> Vec<String> {
     std::fs::read_dir(meshes).unwrap().map(name).collect()
 }
 
-/// What `open` says of an answer: its value, its deviation.
+/// An answer in `open`: its value and deviation.
 fn answer(analysis: &Value, name: &str) -> [f64; 2] {
     let all = analysis["open"]["answers"].as_array().unwrap();
     let one = all.iter().find(|one| one["answer"] == name).unwrap();
@@ -28,8 +28,8 @@ fn plain(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// Whatever `--full` or `hit` has to say against an answer the first screen says too, its ± hold what the patch of
-/// the ball leaves open, and nothing is called exact beside a doubt.
+/// Any doubt that `--full` or `hit` reports is also on the first screen, whose ± includes the uncertainty of the ball
+/// patch; and nothing doubtful is called exact.
 #[test]
 fn no_first_screen_is_more_certain_than_full_or_hit() {
     let folder = Folder::new("first-screens");
@@ -122,7 +122,7 @@ fn a_density_far_from_its_material_s_is_said_by_every_verb_and_asks_for_the_wall
         assert!(screen.contains("Look at the file: ") && screen.contains(word), "{screen}");
         assert!(!screen.contains(EXACT), "{screen}");
     }
-    // A metal tube and woods that differ as woods do say nothing.
+    // A metal tube and wood of usual scatter cause no message.
     assert_eq!(said(&["modes", "hollow.json"]), "");
     for mass in ["26 oz", "33 oz"] {
         let wood = format!(
@@ -135,7 +135,7 @@ fn a_density_far_from_its_material_s_is_said_by_every_verb_and_asks_for_the_wall
     }
 }
 
-/// A reading that was rounded to a step lies anywhere within half of it: `step/√12`.
+/// A reading rounded to a step is uniformly distributed within half of it: `step/√12`.
 #[test]
 fn diameters_read_to_a_sixteenth_are_off_by_its_share_and_a_person_may_say_otherwise() {
     let folder = Folder::new("sixteenths");
@@ -176,10 +176,10 @@ fn diameters_read_to_a_sixteenth_are_off_by_its_share_and_a_person_may_say_other
 const LOOSE: &str = r#"{ "format": "sweetspot-study/1", "bat": "r161", "points": 8,
     "vary": { "bat.material.density": { "lognormal": [650, 0.04] } }, "outputs": ["f1_hz", "mass_kg"] }"#;
 
-/// Verbs whose screen has 40 lines.
+/// Verbs with screens of 40 lines.
 const TALL: [&str; 5] = ["hit", "modes", "lathe", "frf", "validate"];
 
-/// What each of two bats is asked, `BAT` standing for its name.
+/// Requests for each of two bats; `BAT` stands for the name.
 const OF_BATS: [&str; 23] = [
     "hit BAT",
     "hit BAT --model pulse",
@@ -206,7 +206,7 @@ const OF_BATS: [&str; 23] = [
     "analyze BAT --report page.md --plots pictures --out files",
 ];
 
-/// What other bats are asked.
+/// Requests for other bats.
 const OF_OTHERS: [&str; 38] = [
     "analyze cone --report page.md",
     "analyze corked --model pulse",
@@ -248,7 +248,7 @@ const OF_OTHERS: [&str; 38] = [
     "calibrate torpedo modes.uff",
 ];
 
-/// What is over of a screen: lines, columns, no word about `--full`, or a `--full` without more.
+/// The violation of a screen: lines, columns, no reference to `--full`, or a `--full` without more.
 fn over(folder: &Folder, command: &str) -> Option<String> {
     let args = words(command);
     let args: Vec<&str> = args.iter().map(String::as_str).collect();
@@ -266,7 +266,7 @@ fn over(folder: &Folder, command: &str) -> Option<String> {
     (!good).then(|| format!("{command}: {lines} lines, {most} at most\n{screen}"))
 }
 
-/// A verb has at most 24 lines of 80 columns, five of them 40, and says where the rest is.
+/// A verb has at most 24 lines of 80 columns, or 40 for five of them, and says where the rest is.
 #[test]
 fn a_screen_is_a_screen_and_full_has_the_rest() {
     let folder = Folder::new("screens");
@@ -284,7 +284,7 @@ fn a_screen_is_a_screen_and_full_has_the_rest() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
-/// What a screen has no room for is named where it says `--full`; there it is all.
+/// The parts omitted from a screen are named where it refers to `--full`, which has them in full.
 #[test]
 fn what_is_cut_short_is_named_and_full_has_it() {
     let folder = Folder::new("cut-short");

@@ -1,4 +1,4 @@
-//! A profile in formulas is the same bat as one in stations, where stations can say the same.
+//! A profile in formulas is the same bat as one in stations, where stations can represent it.
 
 use crate::common;
 
@@ -103,7 +103,7 @@ fn a_bore_is_the_bore_of_stations() {
     }] }));
     let stations = bat(&[0.0, LENGTH], &[0.0125, 0.033], &[0.004, 0.024], Interpolation::Linear);
     assert_same(&formula, &stations, 1e-12, 1e-13);
-    // A radius is no more than the square root of its square, a bore no less than nothing.
+    // A radius is the square root of its square, and a bore is at least 0.
     let solid = read(json!({ "pieces": [{
         "from": 0, "to": LENGTH, "formula": "sqrt((0.0125 + 0.02*x)**2)", "inner_formula": "0*x",
     }] }));
@@ -168,7 +168,7 @@ fn a_corner_is_the_end_of_a_piece() {
     assert!((clamped.profile().pieces[1].start - 0.0325 / 0.07).abs() < 1e-15);
 }
 
-/// The same smooth bat as 2000 straight stations, whose chords err by `h² r″/8`.
+/// The same smooth bat as 2000 straight stations, whose chords have the error `h² r″/8`.
 #[test]
 fn a_smooth_bat_is_the_limit_of_its_stations() {
     let formula = bundled_bat("meshes/tanh.json").unwrap();
@@ -189,7 +189,7 @@ fn a_smooth_bat_is_the_limit_of_its_stations() {
         let error = a.frequency() / b.frequency() - 1.0;
         assert!(error.abs() < 3e-6, "mode {}: {error:e}", a.order);
     }
-    // A Riemann sum of a function that is nearly flat at its ends, to the chords' error.
+    // A Riemann sum of a function that is nearly flat at its ends, to the error of the chords.
     let mass = formula.inertia().mass;
     assert!((mass / stations.inertia().mass - 1.0).abs() < 3e-6, "{mass}");
 }

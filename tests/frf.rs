@@ -1,4 +1,4 @@
-//! A frequency response with its peaks, alone and beside a measured one.
+//! A frequency response with its peaks, alone and compared with a measured one.
 
 use crate::common;
 
@@ -37,7 +37,7 @@ fn the_grid_has_every_natural_frequency_and_the_peaks_their_damping() {
     for (peak, mode) in peaks.iter().zip(modes["modes"].as_array().unwrap()) {
         let natural = mode["frequency_hz"].as_f64().unwrap();
         assert!(grid.iter().any(|f| (f / natural - 1.0).abs() < 1e-6), "{natural}");
-        // Half of the loss factor, but for what the other modes add.
+        // Half of the loss factor, except for contributions of the other modes.
         let ratio = peak["damping_ratio"].as_f64().unwrap();
         assert!((ratio / 0.01 - 1.0).abs() < 0.02, "{peak}");
         // No sample near it is higher, and the highest is within 1 %.
@@ -52,7 +52,7 @@ fn the_grid_has_every_natural_frequency_and_the_peaks_their_damping() {
         let alone = tip * tip / (mass * (TAU * natural).powi(2) * 0.02);
         assert!((height / alone - 1.0).abs() < 0.05, "{peak}: {alone}");
     }
-    // Undamped, the peaks have no bound, and nothing is infinite.
+    // Without damping the peaks are unbounded, and no infinity is written.
     let json = folder.json(&["frf", "dowel", "--at", "0.6", "-n", "2", "--json", "-"]);
     for peak in json["peaks"].as_array().unwrap() {
         assert!(peak["magnitude_m_per_n"].is_null() && peak["damping_ratio"].is_null());
@@ -83,7 +83,7 @@ fn a_response_written_here_and_read_back_lies_on_itself() {
         let peaks = measured["peaks"].as_array().unwrap();
         assert!(peaks.len() >= 2);
         for pair in peaks {
-            // The points of the file are an eighth of the half-width or nearer.
+            // The points of the file are an eighth of the half-width or closer.
             let apart = pair["frequency_difference"].as_f64().unwrap();
             assert!(apart.abs() < 0.01 / 8.0, "{pair}");
             assert!(pair["level_difference_db"].as_f64().unwrap().abs() < 0.1, "{pair}");
@@ -172,11 +172,11 @@ fn a_file_made_by_the_specification_is_read_with_its_units_places_and_directions
     assert_eq!((found.kind, found.at), (ResponseKind::Mobility, None));
     let factor = 0.0254 / 4.448_221_615_260_5;
     assert!((found.values[0].1.re / (1000.0 * factor) - 1.0).abs() < 1e-12);
-    // What an axis calls g is one, where no units are named.
+    // An axis labelled g is in g where the file has no units.
     let found = read(&dataset_58((12, "g"), 13, [(12, 3), (11, 3)], &five()), None);
     assert!((found.values[0].1.re / 9806.65 - 1.0).abs() < 1e-12);
     assert!(found.assumed.iter().any(|said| said.contains("taken in g")), "{:?}", found.assumed);
-    // A file that names its units is not to be given others.
+    // A file with units does not accept others.
     let own = "    -1\n   164\n         5mm                            2\n  1.00000000000000000D+03  \
                1.00000000000000000D+00  1.00000000000000000D+00\n  2.73149999999999980D+02\n    -1\n";
     let text = own.to_owned() + &dataset_58((8, "mm"), 13, [(1, 2), (1, 2)], &five());
@@ -244,7 +244,7 @@ fn what_is_no_response_of_a_bat_is_refused_with_its_line() {
         assert_eq!(output.status.code(), Some(2), "{error}");
         told.iter().for_each(|words| assert!(error.contains(words), "{words}: {error}"));
     }
-    // Which of two is asked for by its number.
+    // One of two is selected by its number.
     let two = dataset_58((12, "m/s2"), 13, along, &five()).repeat(2);
     folder.write("tap.uff", two);
     folder.text(&[
@@ -318,7 +318,7 @@ fn a_set_of_responses_is_read_at_once_in_the_units_of_the_trade() {
             assert!((row[3] - 1.0).abs() < 1e-8 && row[5] < 1e-3, "{file}: {row:?}");
         }
     }
-    // Without damping the criterion says nothing; with the measured peaks' it does.
+    // Without damping the criterion is meaningless; with the damping of the measured peaks it is not.
     for (bare, damped) in ask("undamped.json", "named.uff", &[]).iter().zip(ask(
         "undamped.json",
         "named.uff",
@@ -335,8 +335,8 @@ fn a_set_of_responses_is_read_at_once_in_the_units_of_the_trade() {
     assert!(folder.read_names("p").contains(&"response_3.svg".to_owned()));
 }
 
-/// A force has a kink where it bends the bat: two places inside one element answer alike whatever the number of
-/// modes, with damped hands and without. The last is by an independent program.
+/// The bending has a kink at a force: two places inside one element respond almost equally with any number of modes,
+/// with damped hands and without. The last value is by an independent program.
 #[test]
 fn places_close_to_each_other_answer_alike_with_any_number_of_modes() {
     let tube = r#"{ "format": "sweetspot-bat/1", "material": { "density": 700, "youngs_modulus": 15e9,
@@ -386,7 +386,7 @@ fn frequencies_are_in_the_unit_of_their_axis() {
     }
 }
 
-/// Axes in g beside a dataset 164 of metres: one of them is wrong, and it is said which is taken.
+/// Axes in g with a dataset 164 in metres contradict each other, and the message says which is used.
 #[test]
 fn axes_that_contradict_the_files_units_are_told() {
     let folder = Folder::new("frf-164");
@@ -404,7 +404,7 @@ fn axes_that_contradict_the_files_units_are_told() {
     }
 }
 
-/// Files that write complex modes in Hz, or normal ones in rad/s: the shapes tell, or the option does.
+/// Files with complex modes in Hz, or normal ones in rad/s: recognised from the shapes, or set by the option.
 #[test]
 fn frequencies_in_another_unit_than_the_formats_are_known_by_the_shapes() {
     let folder = Folder::new("frf-hertz");
@@ -484,7 +484,7 @@ fn frequencies_in_another_unit_than_the_formats_are_known_by_the_shapes() {
         let found = folder.json(&["calibrate", "r161", name, "--quiet", "--json", "-"]);
         assert_eq!(found["labels"]["taken"], serde_json::json!([1, 2, 3, 4]), "{name}");
     }
-    // Modal masses that say rad/s beside shapes that say Hz.
+    // Modal masses that indicate rad/s together with shapes that indicate Hz.
     file("torn.uff", true, 1.0, 1.0);
     let output = folder.run(&["compare", "r161", "--measured", "torn.uff"]);
     let error = in_lines(&output.stderr);
@@ -548,18 +548,18 @@ fn the_newer_form_of_shapes_is_read_as_the_older_one() {
     let modes = universal::of(&newer, "m.uff").unwrap().modes;
     assert_eq!((modes.len(), modes[0].frequency), (1, 581.2));
     assert_eq!(modes[0].damping_ratio, Some(0.004));
-    // Data on elements are not shapes, and are left out.
+    // Data on elements are not shapes, and are ignored.
     let text = "    -1\n  2414\n         1\nNONE\n         2\nNONE\n    -1\n";
     let skipped = parse("m.uff", text.as_bytes()).unwrap().skipped;
     assert_eq!(skipped.iter().map(|s| (s.number, s.line)).collect::<Vec<_>>(), [(2414, 2)]);
-    // A record that is missing is told with its line.
+    // A missing record is reported with its line.
     let text = "    -1\n  2414\n         1\nNONE\n         1\n    -1\n";
     let error = parse("m.uff", text.as_bytes()).unwrap_err().to_string();
     assert!(error.starts_with("m.uff:6:"), "{error}");
 }
 
-/// A file of shapes alone, its places typed or in a table, is the file with those nodes; and one
-/// without units, in those that are told, is the one in metres.
+/// A file with shapes alone, with places typed or in a table, equals the file with those nodes; one without units, with
+/// given units, equals the one in metres.
 #[test]
 fn shapes_without_geometry_or_units_are_placed_by_what_is_told() {
     let folder = Folder::new("frf-places");
@@ -602,7 +602,7 @@ fn shapes_without_geometry_or_units_are_placed_by_what_is_told() {
     };
     near(beside("bare.uff", &["--places", &typed.join(", ")]));
     near(beside("bare.uff", &["--places", "places.csv"]));
-    // The same nodes in millimetres, and no word of it but by option.
+    // The same nodes in millimetres, which only the option says.
     let mut text = String::from("    -1\n    15\n");
     for (k, x) in (1..).zip(&nodes) {
         let at = [fortran(x * 1e3), fortran(0.0), fortran(0.0)];

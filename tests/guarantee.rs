@@ -108,7 +108,7 @@ fn a_width_is_met_or_it_is_said_that_it_is_not() {
     }
 }
 
-/// Stations of 33 in are 0.8382 m, whatever the double next to it is.
+/// Stations of 33 in are 0.8382 m, whatever the nearest double is.
 #[test]
 fn what_is_proven_is_the_decimals_of_the_file() {
     let of = |x: &str, r: &str, unit: &str| {
@@ -160,8 +160,8 @@ fn a_band_holds_the_frequencies_of_bats_within_it() {
             .unwrap();
         let own = proven(&other, 4, 1e-9, Theory::EulerBernoulli);
         for (mode, [lower, upper]) in own.modes.iter().zip(&found.hertz) {
-            // The curve between stations may leave the band by no more than their own change of slope: the
-            // ends of the band are met by none of these bats.
+            // The curve between stations may leave the band by at most its change of slope. None of these bats reaches
+            // the ends of the band.
             assert!(*lower <= mode.hertz[1] && mode.hertz[0] <= *upper);
         }
     }
@@ -190,7 +190,7 @@ fn what_is_not_carried_is_refused_with_its_reason() {
     for (name, reason) in reasons {
         assert!(refused(name).contains(reason), "{name}: {}", refused(name));
     }
-    // What is empty to a layer is no polynomial where the wall is hollow; without shear nothing asks for it.
+    // In a layer on a hollow wall the hole ratio is no polynomial; without shear it is not needed.
     let layered = r#"{ "format": "sweetspot-bat/1", "material": "aluminium-7075",
         "profile": { "x": [0, 0.84], "diameter": [0.05, 0.06], "wall_thickness": [0.004, 0.004] },
         "regions": [ { "from": 0, "to": 0.84, "layers": [
@@ -263,8 +263,8 @@ fn a_band_of_a_held_bat_holds_its_frequencies() {
     }
 }
 
-/// Tape turns with the surface it lies on, and the fastest bat of a band is drawn thick: a band of a taped bat whose
-/// sections turn would promise more than follows.
+/// Tape rotates with its surface, and the fastest bat of a band is drawn thick. A band of a taped bat with rotating
+/// sections would therefore promise too much.
 #[test]
 fn a_band_of_a_taped_bat_is_refused_where_sections_turn() {
     let tape = Tape { from: 0.02, to: 0.3, mass: 0.05 };
@@ -277,7 +277,7 @@ fn a_band_of_a_taped_bat_is_refused_where_sections_turn() {
         let said = of(theory).unwrap_err().to_string();
         assert!(said.contains("tape"), "{said}");
     }
-    // A mass alone goes with no radius.
+    // A mass alone fits no radius.
     let found = of(Theory::EulerBernoulli).unwrap();
     let own = proven(&taped, 2, 1e-9, Theory::EulerBernoulli);
     for (mode, [lower, upper]) in own.modes.iter().zip(&found.hertz) {

@@ -1,4 +1,4 @@
-//! What weights, springs and supports do to a bat, whatever its shape.
+//! The effect of weights, springs and supports on a bat, independent of its shape.
 
 use crate::common;
 
@@ -207,8 +207,8 @@ fn a_bat_with_everything_turned_end_for_end_is_the_same() {
     assert!((a.about_balance / b.about_balance - 1.0).abs() < 1e-13);
 }
 
-/// Tape along a stretch is many small weights along it, but for its own rotary inertia about its
-/// diameter (which the plain beam leaves out): second order in their distance.
+/// Tape along a stretch is the limit of many small weights, except for its rotary inertia about its diameter (which the
+/// plain beam neglects): second order in their distance.
 #[test]
 fn tape_is_the_limit_of_many_small_weights() {
     let tape = vec![Tape { from: 0.1, to: 0.4, mass: 0.06 }];
@@ -292,9 +292,9 @@ fn two_pins_apart_by_round_off_are_one_pin() {
     }
 }
 
-/// Two pins at a distance d hold the bat's slope but for what bends between them: the plain beam
-/// tends to the clamp with d. A beam that shears turns between them by shear alone, with `κGA d`
-/// (N m/rad), and tends to the pin.
+/// Two pins at a distance d restrain the slope of the bat, except for the bending between them: for d → 0 the plain
+/// beam tends to the clamp. A beam with shear can rotate between them by shear alone, with `κGA d` (N m/rad), and tends
+/// to the pin.
 #[test]
 fn two_pins_close_together_tend_to_a_clamp_without_shear_and_to_a_pin_with_it() {
     let held = |supports: Vec<Support>, theory| {
@@ -320,8 +320,8 @@ fn two_pins_close_together_tend_to_a_clamp_without_shear_and_to_a_pin_with_it() 
     }
 }
 
-/// Rayleigh's theorem on one constraint holds wherever the next contact is, however near. Two springs
-/// some picometres apart hardly hold the rotation; how fast it is then is not known, and said so.
+/// Rayleigh's theorem on one constraint holds for any distance to the next contact. Two springs some picometres apart
+/// hardly restrain the rotation; its frequency is then unknown, and the answer says so.
 #[test]
 fn one_hold_more_at_almost_one_place_moves_a_frequency_at_most_to_its_neighbour() {
     const SAME: f64 = 2.0 * TOLERANCE;
@@ -361,7 +361,7 @@ fn one_hold_more_at_almost_one_place_moves_a_frequency_at_most_to_its_neighbour(
     assert!(known >= 24, "{known} of 36");
 }
 
-/// Hands hold a cone alike, however many stations it is given by.
+/// Hands hold a cone in the same way, regardless of its number of stations.
 #[test]
 fn a_grip_does_not_see_the_stations_of_a_profile() {
     let cone = cone(0.0125, 0.033);
@@ -398,8 +398,8 @@ fn absorbers(count: usize, place: impl Fn(usize) -> f64, step: f64) -> Vec<Absor
     (0..count).map(of).collect()
 }
 
-/// What absorbers at one place push back with goes from −∞ to ∞ between two of their frequencies, so
-/// that there is a motion between each two.
+/// The reaction of absorbers at one place goes from −∞ to ∞ between two of their frequencies, so that there is a mode
+/// between each two.
 #[test]
 fn a_hundred_absorbers_at_one_place_have_a_motion_between_each_two() {
     for step in [1e-2, 1e-4, 1e-6] {
@@ -420,8 +420,8 @@ fn a_hundred_absorbers_at_one_place_have_a_motion_between_each_two() {
     }
 }
 
-/// By Rayleigh's theorem `n` absorbers more raise the number of motions below a frequency by `n` at
-/// most, and those far below all other motions each add one.
+/// By Rayleigh's theorem `n` additional absorbers increase the number of modes below a frequency by at most `n`, and
+/// those far below all other modes each add one.
 #[test]
 fn hundreds_of_absorbers_along_the_bat_are_all_found() {
     for count in [100, 300] {
@@ -433,7 +433,7 @@ fn hundreds_of_absorbers_along_the_bat_are_all_found() {
             let asked = Request { modes, ..Request::plain() };
             let found = solve(&bat, &asked).unwrap();
             assert!(found.met(), "{count} {modes} {:?}", found.ending);
-            // √(k/m) is 31.6 rad/s; the bat's own motions begin above 500.
+            // √(k/m) is 31.6 rad/s, while the modes of the bat begin above 500.
             let slow = found.modes.iter().filter(|mode| mode.omega < 100.0).count();
             assert_eq!(slow, modes.min(count), "{count} {modes}");
         }
@@ -458,7 +458,7 @@ fn absorbers_alike_at_one_place_are_refused_and_elsewhere_or_otherwise_tuned_are
     }
 }
 
-/// Springs `k` at a distance `d` turn a bat back with `k d²/2`, with a pin beside one with `k d²`.
+/// Two springs `k` at a distance `d` resist rotation with `k d²/2`, and a pin next to one spring with `k d²`.
 #[test]
 fn springs_too_near_each_other_to_hold_the_bat_against_turning_are_refused() {
     let two = |apart: f64| Fixtures {

@@ -1,5 +1,5 @@
-//! What a hit says of its exit speed's error is true, against Taylor series that share no code with
-//! the contact (`search/hits`).
+//! The stated errors of exit speeds are correct, compared with Taylor series that have no code in common with the
+//! contact (`search/hits`).
 
 use std::sync::LazyLock;
 
@@ -19,7 +19,7 @@ fn true_errors_of_exit_speeds_are_within_three_times_the_stated_ones() {
 
 #[test]
 fn tolerances_are_met_or_missed_in_words() {
-    // Where shear lets frequencies rise as n, a hit of 1e-7 needs more modes than are taken.
+    // Where frequencies grow only as n because of shear, a hit to 1e-7 needs more modes than are used.
     let usual = Summary::of(ROWS.iter().filter(|row| row.tolerance >= 1e-5));
     assert!(20 * usual.met >= 19 * usual.hits, "{usual:?}");
     for row in ROWS.iter().filter(|row| row.met) {
@@ -27,7 +27,7 @@ fn tolerances_are_met_or_missed_in_words() {
     }
 }
 
-/// The set has later touches and reloads in it, and the former change what the ball does.
+/// The set includes later contacts and reloads, and the former change the exit speed.
 #[test]
 fn hits_of_all_kinds_are_looked_at() {
     for (course, name) in ReferenceCourse::ALL {

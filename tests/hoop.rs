@@ -37,7 +37,7 @@ fn close(found: &[f64], expected: &[f64], tolerance: f64) {
     }
 }
 
-/// Frequencies (Hz) of `validation/hoop` and how well they are known or met.
+/// Frequencies (Hz) of `validation/hoop` and their accuracy.
 fn published(case: &str, harmonic: usize) -> (Vec<f64>, f64) {
     let file: serde_json::Value =
         serde_json::from_str(include_str!("../validation/hoop/hoop.json")).unwrap();
@@ -47,7 +47,7 @@ fn published(case: &str, harmonic: usize) -> (Vec<f64>, f64) {
     (hertz, own["within"].as_f64().unwrap())
 }
 
-/// Holds what was found against `validation/hoop`.
+/// Compares the results with `validation/hoop`.
 fn as_published(found: &[f64], case: &str, harmonic: usize) {
     let (expected, within) = published(case, harmonic);
     assert_eq!(found.len(), expected.len());
@@ -278,8 +278,8 @@ fn a_sleeve_of_the_wall_s_own_material_is_a_thicker_wall() {
     close(&of(&sleeved), &of(&thick), 2e-8);
 }
 
-/// A step of the wall, whose neighbours share no border: between the thin and the thick tube, and the same
-/// from either end.
+/// A step of the wall, whose neighbours have no common border: between the thin and the thick tube, and the same from
+/// the other end.
 #[test]
 fn a_stepped_tube_rings_the_same_from_either_end() {
     use sweetspot::bat::profile::{Interpolation, Stations};
@@ -294,7 +294,7 @@ fn a_stepped_tube_rings_the_same_from_either_end() {
         .map(|profile| Bat::builder(profile, aluminium()).build().unwrap());
     let grading = Grading { corner: 4, ..ends(2) };
     let [a, b] = bats.each_ref().map(|bat| frequencies(bat, 0.0, [7, 4], grading, 2, FREE, 4));
-    // What rounding leaves with elements of 30 µm.
+    // The rounding error with elements of 30 µm.
     close(&a, &b, 1e-8);
     let [thin, thick] = [(0.030, 0.002), (0.0301, 0.0028)].map(|(radius, thickness)| {
         frequencies(&tube(0.25, radius, thickness, aluminium()), 0.0, [6, 3], ends(1), 2, FREE, 1)
@@ -302,8 +302,8 @@ fn a_stepped_tube_rings_the_same_from_either_end() {
     assert!(thin[0] < a[0] && a[0] < thick[0], "{thin:?} {a:?} {thick:?}");
 }
 
-/// Harmonic 1 of the wall is the beam: two motions without energy, and Timoshenko's frequencies on a slender
-/// tube to the order that his theory holds.
+/// Harmonic 1 of the wall is the beam: two rigid motions, and Timoshenko's frequencies on a slender tube to the order
+/// of his theory.
 #[test]
 fn the_first_harmonic_is_the_beam() {
     let slender = tube(0.9, 0.012, 0.002, aluminium());
@@ -317,7 +317,7 @@ fn the_first_harmonic_is_the_beam() {
     let solution = sweetspot::solve(&tube(0.9, 0.012, 0.002, metal), &request).unwrap();
     let beam: Vec<f64> = solution.modes.iter().map(|mode| mode.frequency()).collect();
     close(&wall, &beam, 2e-3);
-    // Two rigid motions are below any frequency, nothing else.
+    // Only two rigid motions are below any frequency.
     let system = spectrum(&slender, 0.0, [6, 3], ends(1), 1, FREE, 1).system;
     let wall = sweetspot::modes::hoop::system::Wall {
         mesh: system.mesh.clone(),
@@ -327,7 +327,7 @@ fn the_first_harmonic_is_the_beam() {
     assert_eq!(count_below(&wall, 1, FREE, TAU * 190.0), 1);
 }
 
-/// By the signs of the pivots no mode is missing.
+/// The signs of the pivots show that no mode is missing.
 #[test]
 fn as_many_modes_are_found_as_are_below_a_frequency() {
     let bat = open_barrel(0.0030);
@@ -391,8 +391,7 @@ fn a_barrel_is_answered_to_its_tolerance() {
     assert!((lowest[0].largest_at_m - 0.8382).abs() < 1e-9);
     let outline = hoop.outline(hoop.modes().iter().position(|m| m == lowest[0]).unwrap(), 41);
     assert!((outline.radial[40] - 1.0).abs() < 1e-12 && outline.radial[0].abs() < 1e-3);
-    // Without stretch in the middle of the wall U + nV = 0 there; h/2 farther out V has turned with it by
-    // h/2R (V + nU).
+    // Without stretching, U + nV = 0 in the middle of the wall; at h/2 farther out V has rotated by h/2R (V + nU).
     let turned = 0.0015 / 0.0318 * 1.5;
     assert!((outline.around[40] + 0.5 - turned).abs() < 0.02, "{}", outline.around[40]);
     let clamped = HoopRequest { end: KnobSide::Clamped, ..HoopRequest::default() };

@@ -1,8 +1,7 @@
 //! A hollow barrel's wall in a hit: hoop modes between ball and bat.
 //!
-//! The numbers of a patch and of hits come from a program of its own (Python: the wall as a solid of
-//! revolution, contact by Runge and Kutta), which shares no code with this one; its energies close to
-//! 5e-8, its patch was computed on two meshes.
+//! The numbers of a patch and of hits come from a separate program (Python: the wall as a solid of revolution, contact
+//! by Runge and Kutta) without common code. Its energies balance to 5e-8, and its patch was computed on two meshes.
 
 use crate::common;
 
@@ -34,8 +33,8 @@ use sweetspot_proof::bundled::bundled_bat;
 const COMPRESSION: f64 = 0.008;
 const ALUMINIUM: &str = r#"{ "density": 2810, "youngs_modulus": 71e9, "poisson_ratio": 0.33, "shear_modulus": 26.691729323308e9 }"#;
 
-/// A made-up barrel: handle radius, what it grows by, from and over which length it does, length of the
-/// bat, wall of the handle and of the barrel (m).
+/// A made-up barrel: radius of the handle, its increase, start and length of the taper, length of the bat, wall of the
+/// handle and of the barrel (m).
 struct Shape {
     handle: f64,
     grows: f64,
@@ -145,7 +144,7 @@ fn bbcor_of(met: &Encounter, recoil: f64, speed: f64) -> f64 {
     efficiency * (1.0 + ratio) + ratio
 }
 
-/// All harmonics to 14 of a barrel that is cut where the patch ends, so that elements end there too.
+/// All harmonics up to 14 of a barrel that is cut at the end of the patch, so that elements end there too.
 #[test]
 fn the_wall_under_a_ball_is_as_soft_and_as_slow_as_known() {
     let patch = Patch::under(0.6858, 0.0366, 0.0333, COMPRESSION);
@@ -172,7 +171,7 @@ fn the_wall_under_a_ball_is_as_soft_and_as_slow_as_known() {
     // 5.83282e-8.
     assert!((soft / 5.832_87e-8 - 1.0).abs() < 1e-5, "{soft:e}");
     assert!((slow / 2.059_98e-16 - 1.0).abs() < 5e-5, "{slow:e}");
-    // As hits take it, on elements that know nothing of the patch, it is as far off as is stated.
+    // On the elements used in hits, which ignore the patch, the error is as stated.
     for (tolerance, most) in [(1e-3, 1e-2), (1e-4, 1e-3), (1e-5, 4e-4)] {
         let usual = wall(&Shape::baseball(0.0030).bat(false), tolerance).under(0.6858, COMPRESSION);
         let (off, unsure) = ((usual.soft / soft - 1.0).abs(), usual.unsure / soft);
@@ -255,7 +254,7 @@ fn energies_close_along_a_hollow_barrel() {
     }
 }
 
-/// A baseball bat whose wall of 3 mm has a ring of 6 mm inside, 20 mm long, with its steps under the ball.
+/// A baseball bat with a wall of 3 mm and a ring of 6 mm inside, 20 mm long, with its steps under the ball.
 fn ringed() -> Bat {
     let text =
         std::fs::read_to_string(concat!(env!("SWEETSPOT_TOP"), "/meshes/bbcor_made_up_open.json"));
@@ -271,7 +270,7 @@ fn ringed() -> Bat {
     Bat::from_text("ring.json", &file.to_string(), "".as_ref()).unwrap()
 }
 
-/// Exit speeds of usual accuracies beside better ones: of a plug, an open tip, a ring, a composite and kinks.
+/// Exit speeds of usual accuracy compared with better ones: with a plug, an open tip, a ring, a composite and kinks.
 #[test]
 fn stated_errors_hold_with_a_wall() {
     let named = ["composite_made_up", "northwestern_aluminium"];
@@ -306,7 +305,7 @@ fn stated_errors_hold_with_a_wall() {
     }
 }
 
-/// A wall of one spring-mass is what its stiffness and mass are; as it grows stiff nothing is left of it.
+/// A wall of one spring with a mass follows from its stiffness and mass, and has no effect as it becomes stiff.
 #[test]
 fn a_thick_wall_changes_nothing() {
     let gain = |wall: f64| {
@@ -339,7 +338,7 @@ fn a_wall_counts_where_it_matters() {
     assert!(rigid.unwrap_err().to_string().contains("contact"));
 }
 
-/// The patch's compression is the largest unknown: BBCOR with half and twice of it is printed.
+/// The patch is the largest uncertainty: BBCOR with half and twice its compression is printed.
 #[test]
 fn the_patch_leaves_open_what_it_does() {
     let bat = Shape::baseball(0.0030).bat(false);
@@ -365,7 +364,7 @@ fn the_patch_leaves_open_what_it_does() {
     assert!(wall.is_deep() && (wall.dent_m - 1.8e-3).abs() < 2e-4, "{wall:?}");
 }
 
-/// A ball with a patch of its own presses as one that is compressed so far.
+/// A ball with a given patch acts like one with the corresponding compression.
 #[test]
 fn a_ball_may_have_a_patch_of_its_own() {
     let text = |more: &str| {
@@ -393,7 +392,7 @@ fn a_ball_may_have_a_patch_of_its_own() {
     }
 }
 
-/// A bat with another wall has hoop modes of its own, whatever scene it is hit in.
+/// A bat with another wall has other hoop modes, regardless of the scene.
 #[test]
 fn a_scene_of_one_bat_knows_the_wall_of_another() {
     let [thin, thick] = [0.0025, 0.0040].map(|wall| Shape::baseball(wall).bat(true));
@@ -440,7 +439,7 @@ fn the_program_says_what_the_wall_does() {
     ] {
         assert_eq!(folder.run(args).status.code(), Some(2), "{args:?}");
     }
-    // What the wall keeps stands beside the vibration, and in why the best place is there.
+    // The energy of the wall is listed next to the vibration, and in the reason for the best place.
     let (hollow, solid) = (hit(&[]), folder.text(&["hit", "r161.json", "--points", "5"]));
     let head = |text: &str| text.lines().find(|line| line.contains("vibra-")).unwrap().to_owned();
     assert!(head(&hollow).ends_with("wall") && head(&solid).ends_with("vibra-"));
@@ -451,8 +450,8 @@ fn the_program_says_what_the_wall_does() {
     assert!(flat(solid).contains("Further out recoil and vibration take more"));
 }
 
-/// Where hoop modes reach far into a thin handle too: every hollow bat's exit speeds are as accurate as is asked
-/// without a word.
+/// The exit speeds of every hollow bat are as accurate as requested without a remark, even where hoop modes reach far
+/// into a thin handle.
 #[test]
 fn hits_on_every_hollow_bat_are_as_accurate_as_asked() {
     let folder = Folder::new("hoop_hit_met");
@@ -467,8 +466,8 @@ fn hits_on_every_hollow_bat_are_as_accurate_as_asked() {
     }
 }
 
-/// A thick wall under a slow ball changes little and is left out; how little is part of the stated error, at the open
-/// tip too, where it gives way most.
+/// A thick wall under a slow ball has little effect and is neglected; the effect is part of the stated error, at the
+/// open tip too, where the wall is most compliant.
 #[test]
 fn a_wall_that_is_left_out_is_within_the_stated_error() {
     let text =
@@ -503,7 +502,8 @@ fn a_wall_that_is_left_out_is_within_the_stated_error() {
     assert!(left_out >= 2, "{left_out}");
 }
 
-/// Stiffness and density of all of one material scale what its wall does; if both change alike one solve has all.
+/// Stiffness and density of a single material scale the effect of its wall; if both change equally one solve is
+/// sufficient for all.
 #[test]
 fn walls_that_differ_in_scale_alone_share_a_solve() {
     let bat = Shape::baseball(0.0030).bat(false);
@@ -519,7 +519,7 @@ fn walls_that_differ_in_scale_alone_share_a_solve() {
             })
             .unwrap();
         let other = Response::of(&other, fineness).unwrap();
-        // Modes are kept up to a frequency, so that a stiffer bat may keep fewer.
+        // Modes are kept up to a frequency, so a stiffer bat may keep fewer.
         assert!(e != rho || other.shares_with(&response), "{e} {rho}");
         let modes = response.modes().into_iter().zip(other.modes());
         for ((n, [one, _]), (m, [other, _])) in modes.take(6) {
@@ -533,8 +533,8 @@ fn walls_that_differ_in_scale_alone_share_a_solve() {
     }
 }
 
-/// A blow's tones against the modes of the ladder, solved on other meshes to another accuracy; and a place where a mode
-/// stands still is silent in it.
+/// The tones of a blow compared with the modes of the ladder, solved on other meshes to another accuracy; and a mode is
+/// silent at its node.
 #[test]
 fn the_ping_is_as_loud_as_its_modes_are_moved() {
     let bat = Shape::baseball(0.0030).bat(true);
@@ -571,7 +571,7 @@ fn the_ping_is_as_loud_as_its_modes_are_moved() {
     let largest = gains.iter().copied().fold(0.0, f64::max);
     let inside = gains.windows(3).find(|g| g[1] < g[0] && g[1] <= g[2]).expect("a node");
     assert!(inside[1] < 1e-3 * largest, "{inside:?} {largest}");
-    // The tip is on the barrel, by whatever sum its place was found.
+    // The tip belongs to the barrel, regardless of the rounding of its position.
     for name in ["bbcor_made_up", "composite_made_up", "softball_made_up_open"] {
         let bat = bundled_bat(&format!("meshes/{name}.json")).unwrap();
         let (bat, solution) = as_heard(&bat, &solve(&bat, &Request::plain()).unwrap()).unwrap();
@@ -579,7 +579,7 @@ fn the_ping_is_as_loud_as_its_modes_are_moved() {
         assert!(tap.tones.len() > solution.modes.len() + 5, "{name}");
         assert!(tap.tones.iter().all(|tone| tone.decay_1_s > 0.0), "{name}");
     }
-    // Sounds of one bat are scaled alike: a blow that moves the surface less, at a node, is quieter by as much.
+    // Sounds of one bat have a common scale: a blow that moves the surface less, at a node, is quieter accordingly.
     let largest = |all: Vec<f64>| all.into_iter().fold(0.0, |most: f64, p| most.max(p.abs()));
     let both = [solution.modes[0].nodes[1], bat.length()].map(|x| {
         let sound = of(x);

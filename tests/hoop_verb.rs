@@ -1,4 +1,4 @@
-//! What people see of a hollow bat: the verb `hoop`, its files, and what `analyze` and the report say.
+//! The output for hollow bats: the verb `hoop`, its files, and the parts in `analyze` and the report.
 
 use crate::common;
 
@@ -60,8 +60,8 @@ fn the_edge_of_a_tube_of_a_soft_metal_is_within_its_stated_error() {
     }
 }
 
-/// Frequencies (Hz) of the first three modes of n = 2 and 3, by a program in Python that has no line in common
-/// with this one: the same solid, one harmonic at a time, on meshes graded to the corner of the plug.
+/// Frequencies (Hz) of the first three modes of n = 2 and 3, by an independent program in Python: the same solid, one
+/// harmonic at a time, on meshes graded to the corner of the plug.
 #[test]
 fn the_made_up_bats_ring_as_another_program_found() {
     let folder = Folder::new("hoop-modes");
@@ -99,8 +99,8 @@ fn the_made_up_bats_ring_as_another_program_found() {
     assert!((largest("bbcor_made_up") / INCH - 6.8).abs() < 0.1);
 }
 
-/// Stiffness (MN/m) of the wall and BBCOR, stiff and with it, by the same other program and its own contact; its
-/// bending is that of n = 1 of the solid, which moves BBCOR by less than 0.001.
+/// Stiffness (MN/m) of the wall, and BBCOR with a rigid wall and with it, by the same independent program and its
+/// contact. Its bending is n = 1 of the solid, which changes BBCOR by less than 0.001.
 #[test]
 fn walls_of_other_thickness_give_way_as_another_program_found() {
     let bat = mesh("bbcor_made_up");
@@ -132,8 +132,8 @@ fn walls_of_other_thickness_give_way_as_another_program_found() {
     }
 }
 
-/// A wall so many times as thick is `h + (k − 1) h_b w`, with h_b that of the barrel and w from 0 at the handle to 1
-/// at the end of the taper, in a straight line; the surface stays.
+/// The wall multiplied by k is `h + (k − 1) h_b w`, with h_b that of the barrel and w rising linearly from 0 at the
+/// handle to 1 at the end of the taper; the outer surface does not change.
 #[test]
 fn another_wall_grows_along_the_taper_and_leaves_the_surface() {
     for name in ["bbcor_made_up", "softball_made_up_open"] {
@@ -198,7 +198,7 @@ fn the_document_says_how_its_numbers_hang_together() {
             .fold(0.0, |most: f64, u| most.max(u.abs()));
         assert!(largest <= 1.0 + 1e-9, "{mode}");
     }
-    // A thinner wall rings lower, gives way more, and sends the ball back faster.
+    // A thinner wall has lower frequencies, is more compliant, and returns the ball faster.
     let tried = document["wall_sweep"].as_array().unwrap();
     assert!(tried.len() >= 7, "{}", tried.len());
     for pair in tried.windows(2) {
@@ -217,8 +217,8 @@ fn the_document_says_how_its_numbers_hang_together() {
     assert!(text.contains(&first), "{first}\n{text}");
 }
 
-/// The composite loses a hundredth of its energy, its plug nothing: each mode is damped by half of that, but for
-/// what the plug has of it. Its moduli are told, and nothing is assumed.
+/// The composite loses a hundredth of its energy, its plug nothing: each mode has half of that as damping ratio, except
+/// for the share of the plug. Its moduli are given, and nothing is assumed.
 #[test]
 fn a_composite_wall_rings_by_its_own_moduli_and_is_damped() {
     let folder = Folder::new("hoop-composite");
@@ -229,7 +229,7 @@ fn a_composite_wall_rings_by_its_own_moduli_and_is_damped() {
         let ratio = mode["damping_ratio"].as_f64().unwrap();
         assert!((0.0035..=0.005 + 1e-12).contains(&ratio), "{mode}");
     }
-    // The same fibres in a bat of nothing but twice the moduli ring √2 times as high.
+    // The same fibres in a bat with exactly twice the moduli have √2 times the frequencies.
     let text = include_str!("../meshes/composite_made_up.json");
     let mut twice: Value = serde_json::from_str(text).unwrap();
     let doubled = |value: &mut Value| {
@@ -249,8 +249,8 @@ fn a_composite_wall_rings_by_its_own_moduli_and_is_damped() {
     }
 }
 
-/// A softball is a linear spring of a measured stiffness: without one there is no rebound, and the reason stands
-/// in its place. Its barrel is pressed by 0.07 in.
+/// A softball is a linear spring with a measured stiffness. Without one there is no rebound, and the reason is given
+/// instead. The barrel is compressed by 0.07 in.
 #[test]
 fn a_ball_without_a_force_law_leaves_out_the_rebound_alone() {
     let folder = Folder::new("hoop-softball");
@@ -299,13 +299,13 @@ fn what_is_no_hollow_bat_of_metal_is_refused_with_the_reason() {
     }
     let told = refused(&folder, &["hoop", "bbcor_made_up", "--at", "40 in", "--speed", "0 m/s"]);
     assert!(told.contains("--at: found") && told.contains("--speed: found"), "{told}");
-    // Poisson's ratio is assumed, said, and what another one would do.
+    // Poisson's ratio is assumed, with a remark and the effect of another value.
     folder.write("tube.json", tube(r#"{ "density": 2810, "youngs_modulus": "71 GPa" }"#));
     let document = folder.json(&["hoop", "tube.json", "--quiet", "--json", "-"]);
     let notes = document["notes"].to_string();
     assert!(notes.contains("0.33") && notes.contains("0.05 smaller or larger"), "{notes}");
     assert!(notes.contains("the tip is open"), "{notes}");
-    // The mass of what is on the barrel is not in its wall.
+    // The mass of tape on the barrel is not part of the wall.
     let tape = r#", "tapes": [ { "from": 0.6, "to": 0.8, "mass": "100 g" } ] }"#;
     let metal = r#"{ "density": 2810, "youngs_modulus": "71 GPa", "poisson_ratio": 0.33 }"#;
     let bare = tube(metal);
@@ -437,12 +437,12 @@ fn an_analysis_of_a_hollow_bat_has_its_barrel_and_that_of_a_solid_one_has_none()
     // How large the ball's patch is stays open, of hollow bats alone.
     let open = |document: &Value| document["open"]["sources"].to_string();
     assert!(open(&document).contains("patch"), "{}", open(&document));
-    // What the dent says against it is in the document too.
+    // The doubt about the dent is in the document too.
     assert_eq!(document["open"]["doubts"][0]["about"], "dent");
     assert!(without["open"].get("doubts").is_none());
     assert!(!open(&without).contains("patch"), "{}", open(&without));
     assert!(!folder.text(&["analyze", solid, "--full", "--quiet"]).contains("hoop mode "));
-    // The report: a section with what moves, its picture and its numbers.
+    // The report has a section with a moving picture, a still one and numbers.
     folder.text(&["analyze", bat, "--quiet", "--report", "page.html"]);
     let page = folder.read("page.html");
     let (_, data) = page.split_once("id=\"data\">").unwrap();
@@ -464,8 +464,8 @@ fn an_analysis_of_a_hollow_bat_has_its_barrel_and_that_of_a_solid_one_has_none()
     assert!(folder.read_names("bat_pictures").contains(&"hoop.svg".to_owned()));
 }
 
-/// A tube that is widest at the knob has no handle: all of it is its barrel. And a rough tolerance leaves BBCOR the
-/// three digits that are said.
+/// A tube that is widest at the knob has no handle, so all of it is the barrel. A rough tolerance still leaves BBCOR
+/// the three digits shown.
 #[test]
 fn a_tube_that_tapers_to_its_tip_rings_whole() {
     let folder = Folder::new("hoop-narrowing");

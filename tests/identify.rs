@@ -1,4 +1,4 @@
-//! What `sweetspot identify` finds in responses, and what it refuses.
+//! The results of `sweetspot identify`, and its refusals.
 
 use serde_json::Value;
 use uff58::{Dataset, Function, Nodes, Values};
@@ -76,7 +76,7 @@ fn a_hammer_test_gives_the_modes_of_the_bat_without_the_accelerometer() {
     assert!(drawn == 1 && folder.read_names("plots").len() == 4);
 }
 
-/// A window adds `1/τ` to every decay, which is taken off where it is told.
+/// A window adds `1/τ` to every decay, which is subtracted where τ is given.
 #[test]
 fn an_exponential_window_is_taken_off() {
     let (folder, _) = tested("identify_window", &["--window", "0.2 s", "--points", "7"]);
@@ -196,7 +196,8 @@ fn what_is_missing_is_said() {
     assert_eq!(output.status.code(), Some(1), "{output:?}");
 }
 
-/// What the virtual test says holds for the modes: masses lower every frequency, and the reference it names is no node.
+/// The statements of the virtual test are correct: masses lower every frequency, and the suggested reference is no
+/// node.
 #[test]
 fn a_virtual_test_says_what_masses_do_and_where_to_hit() {
     let more = ["--missing", "2", "--double-hits", "3", "--noise", "-40", "--hammer", "0.3 kg"];

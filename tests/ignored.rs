@@ -1,4 +1,4 @@
-//! What the program says shear and rotary inertia would do, against Timoshenko's beam.
+//! The stated effect of shear and rotary inertia, compared with Timoshenko's beam.
 
 use crate::common;
 
@@ -8,8 +8,8 @@ use sweetspot::modes::theory_choice;
 use sweetspot::{Bat, Request, solve};
 use sweetspot_study::ignored::shift;
 
-/// The integrals in both shifts of a free uniform dowel in closed form, with the shape `φ = cosh βξ +
-/// cos βξ − σ (sinh βξ + sin βξ)`, ξ = x/L:
+/// The integrals in both shifts of a free uniform dowel in closed form, with the shape
+/// `φ = cosh βξ + cos βξ − σ (sinh βξ + sin βξ)`, ξ = x/L:
 ///
 /// ```text
 /// ∫φ′² dξ/∫φ² dξ = σβ (σβ + 6),   ∫φ‴² dξ/∫φ″² dξ = σβ (σβ − 2),   σ = (cosh β − cos β)/(sinh β − sin β)
@@ -43,8 +43,8 @@ fn the_first_order_shifts_of_a_dowel_are_their_closed_forms() {
     }
 }
 
-/// Whatever the tolerance, the theory that is chosen misses what Timoshenko's beam says by no more,
-/// and none that is cheaper does as well.
+/// For any tolerance, the error of the chosen theory against Timoshenko's beam is within it, and no cheaper theory
+/// would do.
 #[test]
 fn the_chosen_theory_is_as_accurate_as_asked() {
     for file in ["meshes/r161.json", "meshes/torpedo.json", "meshes/house.json"] {
@@ -66,7 +66,7 @@ fn the_chosen_theory_is_as_accurate_as_asked() {
                 let k = ladder.iter().position(|theory| *theory == chosen).unwrap();
                 let told = format!("{file} {modes} {tolerance}: {chosen:?}");
                 assert!(missed(k) <= tolerance, "{told} {}", missed(k));
-                // Nor would a cheaper one do; shifts are solved to a tenth of the tolerance.
+                // A cheaper theory would not do either; shifts are solved to a tenth of the tolerance.
                 assert!(k == 0 || missed(k - 1) > 0.8 * tolerance, "{told} {}", missed(k - 1));
             }
         }

@@ -1,5 +1,5 @@
-//! What must not change when nothing physical does, and how it changes when something does: what
-//! the extremes do not hold.
+//! Results that must not change when nothing physical does, and known changes when something does, as far as the
+//! extremes do not cover them.
 
 use crate::common;
 
@@ -129,8 +129,7 @@ fn the_assembled_matrices_know_the_rigid_motions_and_the_modes() {
     }
 }
 
-/// The matrices of a planned solution are those of its own mesh: the shapes sampled at its nodes
-/// have their frequencies there.
+/// The matrices of a planned solution belong to its mesh: the shapes sampled at its nodes have their frequencies there.
 #[test]
 fn the_matrices_of_a_solution_have_its_modes() {
     let bat = bundled_bat("meshes/r161.json").unwrap();
@@ -178,7 +177,7 @@ fn a_matrix_market_file_holds_the_lower_triangle() {
 
 #[test]
 fn shapes_are_scaled_and_signed_as_agreed() {
-    // Bats whose highest sample is not beside the highest peak of every mode, too.
+    // Also bats whose highest sample is not next to the highest peak of every mode.
     for (bat, modes, tolerance) in [
         ("torpedo", 10, 1e-4),
         ("northwestern_wood", 10, 1e-9),

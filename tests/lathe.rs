@@ -1,4 +1,4 @@
-//! Where a cut does what: derivatives against numbers found by another solver, and against identities.
+//! The effect of cuts by place: derivatives compared with those of another solver, and with identities.
 
 use crate::common;
 
@@ -340,7 +340,7 @@ fn shares(bat: &Bat, solution: &Solution, k: usize) -> [f64; 2] {
         }
     }
     let rotary = if solution.theory.turns() { mode.omega * mode.omega * rotary } else { 0.0 };
-    // What gives way in a joint is no bending of sections, what is attached no motion of theirs.
+    // The compliance of a joint is no bending of sections, and an attached mass no motion of sections.
     let joint = |joint: &Joint| {
         let [before, after] = [-1e-12, 1e-12].map(|by| mode.shape.rotation(joint.x + by));
         joint.rotational_stiffness * (after - before).powi(2)
@@ -355,8 +355,8 @@ fn shares(bat: &Bat, solution: &Solution, k: usize) -> [f64; 2] {
     [(bending - joints) / whole, (rotary - weights) / whole]
 }
 
-/// L8: hollow, cored, sleeveless and held bats, taped ones and those of two woods, by all theories: the formula
-/// is what differences of whole bats say.
+/// L8: hollow, cored, unsleeved and held bats, taped ones and those of two woods, by all theories: the formula agrees
+/// with differences of whole bats.
 #[test]
 fn the_formula_holds_for_hollow_cored_and_held_bats() {
     let held = |bat: Bat, kind: Held| {
@@ -448,7 +448,7 @@ fn a_dowel_loses_what_a_cylinder_loses() {
     assert!((moved / expected - 1.0).abs() < 1e-9, "{moved} {expected}");
 }
 
-/// Where a bat ends in a point no wood can come off it there, and the derivative is from one side.
+/// Where a bat ends in a point no wood can be removed there, and the derivative is one-sided.
 #[test]
 fn a_pointed_bat_has_a_map() {
     let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic", "profile":
@@ -464,7 +464,7 @@ fn a_pointed_bat_has_a_map() {
     assert!(piece.cut(&DiameterChange::band([0.82, 0.84], -MM), &[0.0]).is_err());
 }
 
-/// Under a sleeve nothing is turned off, hands on a pin feel nothing, and neither stops the map of the rest.
+/// Nothing can be turned off under a sleeve, and hands on a pin feel nothing; the map of the rest exists in both cases.
 #[test]
 fn what_cannot_be_turned_or_felt_has_no_value() {
     let folder = Folder::new("lathe-sleeve");
@@ -487,7 +487,7 @@ fn what_cannot_be_turned_or_felt_has_no_value() {
     assert!(change["exit_speed_max.value"].is_number() && change["f1_hz"].is_number());
 }
 
-/// What is asked that cannot be is said, with exit code 2 and nothing written.
+/// Impossible requests get a message and exit code 2, and nothing is written.
 #[test]
 fn mistakes_are_told_and_nothing_is_written() {
     let folder = Folder::new("lathe-mistakes");
@@ -518,7 +518,7 @@ fn mistakes_are_told_and_nothing_is_written() {
     }
 }
 
-/// The verb: same numbers in JSON, CSV and table, both swing laws, and what is solved.
+/// The verb: the same numbers in JSON, CSV and table, both swing laws, and the solved changes such as a knob weight.
 #[test]
 fn the_verb_writes_what_it_finds() {
     let folder = Folder::new("lathe-verb");
@@ -529,7 +529,7 @@ fn the_verb_writes_what_it_finds() {
     args.extend(["--csv", "map.csv", "--plots", "p", "--theory", "timoshenko"]);
     let table = folder.text(&args);
     assert!(table.contains("n=1/2") && table.contains("knob weight 1 oz"), "{table}");
-    // Every column is told what it means.
+    // The meaning of every column is stated.
     for head in [
         "from:", "mass:", "bal.:", "swing:", "f1:", "node 1:", "n=0:", "n=1/2:", "spot:", "hands:",
         "in %",
@@ -586,7 +586,7 @@ fn the_sweet_spot_s_place_has_an_error_that_holds() {
     }
 }
 
-/// A derivative tells of a shallow cut: none of the least wood is deeper than a tenth of the bat, and none is nothing.
+/// A derivative applies to a shallow cut: no recipe is deeper than a tenth of the bat, and none is empty.
 #[test]
 fn the_least_wood_can_be_turned_off() {
     for name in ["northwestern_wood", "r161", "torpedo", "house"] {
@@ -622,9 +622,9 @@ fn the_least_wood_can_be_turned_off() {
     }
 }
 
-/// What is searched along a bat changes as whole bats say, each with modes, steps and a search of its own at 1e-7, by
-/// the derivative and by the finite cut, or it is said that it is not smooth. The bats: two that hands hold and one that
-/// is free, where a ball comes back and valleys along the bat are narrower than a millimetre.
+/// Results of a search along a bat change as for whole bats, each with separate modes, steps and search at 1e-7, by the
+/// derivative and by the finite cut, or the result is marked as not smooth. The bats: two held by hands and one free,
+/// where the ball returns and valleys along the bat are narrower than a millimetre.
 #[test]
 fn best_places_change_as_whole_bats_do_or_it_is_said_that_they_jump() {
     let bat = |material: &str, x: &str, diameter: &str, grip: &str| {
@@ -712,7 +712,7 @@ fn best_places_change_as_whole_bats_do_or_it_is_said_that_they_jump() {
             let [value, error] =
                 [band.derivative(answers[k], 0.0), band.error(answers[k])].map(|v| v.unwrap() / MM);
             let found = Figure::new(value, error);
-            // What the search leaves of a place is some tenths of a micrometre, of a value nothing.
+            // The search leaves an error of some tenths of a micrometre in a place, and none in a value.
             let known = 3.0 * (fine[k] - rough[k]).abs() + if k % 2 == 1 { 5e-3 } else { 0.1 };
             let off = (found.value - fine[k]).abs();
             assert!(off <= 3.0 * found.error + known, "{name}: {found:?} {fine:?} {rough:?}");
@@ -722,7 +722,7 @@ fn best_places_change_as_whole_bats_do_or_it_is_said_that_they_jump() {
             if scene.hoop.wall().is_none() {
                 assert!((finite - truth).abs() <= near, "{name}: {finite} {truth}");
             } else if k == 0 {
-                // A wall of another shape has elements of its own, and is known to 2e-4 of the closing speed.
+                // A wall of another shape has other elements, and is known to 2e-4 of the closing speed.
                 let known = 2e-4 * (scene.swing * 0.7 + scene.ball_speed) / 5e-4;
                 assert!((finite - truth).abs() <= known, "{name}: {finite} {truth}");
             }

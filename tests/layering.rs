@@ -1,5 +1,5 @@
-//! The order of chapters, and of files in a chapter, is the architecture: each uses only those declared
-//! above it. Chapters and files are taken from the tree itself.
+//! The order of chapters, and of files in a chapter, is the architecture: each uses only those declared above it.
+//! Chapters and files are read from the source tree.
 
 mod budgets;
 mod common;
@@ -51,8 +51,8 @@ fn written_out(path: &str) -> Vec<String> {
     parts.flat_map(|part| written_out(&format!("{}{}", before.trim(), part.trim()))).collect()
 }
 
-/// Every path in a file's code that begins in the crate, as `chapter::file::…`. Tests may look at
-/// everything, and so may the prose.
+/// Every path in the code of a file that begins in the crate, as `chapter::file::…`. Tests and comments may refer to
+/// everything.
 fn used(source: &Path, file: &Path) -> Vec<String> {
     let text = fs::read_to_string(file).unwrap();
     let code = text.split("#[cfg(test)]").next().unwrap_or_default();
@@ -98,8 +98,7 @@ fn used(source: &Path, file: &Path) -> Vec<String> {
     paths
 }
 
-/// Complaints about uses of `prefix::later` in a module declared before `later`, in this room and in
-/// all rooms in it.
+/// Violations: uses of `prefix::later` in a module declared before `later`, in this module and in all modules inside.
 fn reaching_back(source: &Path, room: &Path, root: &str) -> Vec<String> {
     let modules = declared(&room.join(root));
     let prefix: String = room
@@ -181,7 +180,7 @@ fn every_chapter_opens_with_its_contents() {
                 || line.starts_with("#")
                 || line.ends_with(';') && !line.contains(" fn ")
         };
-        // The types of universal files stand on its first page, and the program begins on its own.
+        // The types of universal files are in the root of their crate, and the program begins in its root.
         if !["uff58", "cli"].contains(&chapter) {
             assert!(contents.lines().count() <= 60, "{chapter}");
             assert!(contents.lines().all(said), "{chapter}: more than a contents page");

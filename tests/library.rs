@@ -15,7 +15,7 @@ use sweetspot::{Bat, Hit, Reached, Request, Swing, Theory, solve};
 use crate::common::folder::Folder;
 
 const MESHES: &str = concat!(env!("SWEETSPOT_TOP"), "/meshes");
-/// The frequency (Hz) that an R161 is said to have been tapped at; by its file it has 174.5 Hz.
+/// The frequency (Hz) at which an R161 is said to have been tapped; by its file it has 174.5 Hz.
 const TAPPED: f64 = 140.0;
 
 fn r161_with(more: &str) -> String {
@@ -23,7 +23,7 @@ fn r161_with(more: &str) -> String {
     text.replacen("\"profile\"", &format!("{more}, \"profile\""), 1)
 }
 
-/// R161s that were tapped, weighed, and changed after that, each with its name.
+/// R161s that were tapped, weighed, and then changed, each with a name.
 fn told() -> Vec<(&'static str, String)> {
     let tap = format!("\"weighed\": {{ \"first_bending_hz\": {TAPPED} }}");
     let cut = "\"edits\": [{ \"name\": \"lighter\", \"cut\": { \"from\": \"24 in\", \"to\": \"30 in\", \"depth\": \"1 mm\" } }]";
@@ -112,7 +112,7 @@ fn hits_answer_as_the_program_to_the_bit_one_by_one_and_side_by_side() {
         // The solution knows how stiff its bat is.
         let hitter = Hitter::new(Model::Contact, &scene, bat, &hits.solution, hits.effort).unwrap();
         assert_eq!(hitter.strike(0.7).outcome.unwrap().exit_speed, ours[1], "{name}");
-        // Plans are shared side by side, and the answers agree to what was asked.
+        // Plans are shared between bats, and the answers agree to the requested accuracy.
         let off = ours.iter().zip(&many).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         assert!(off < 1e-5 * 90.0, "{name}: {off}");
     }
@@ -149,7 +149,7 @@ fn a_bat_that_is_prepared_is_not_prepared_again() {
         let twice = prepare(&once.bat, &once.request).unwrap();
         assert_eq!(once.bat.factors(), twice.bat.factors(), "{name}");
         assert_eq!(once.bat.tap(), None, "{name}");
-        // What is changed after the tap was listened to rings otherwise: the tap is not asked again.
+        // A change after the tap changes the frequency: the tap is not applied again.
         let softer = once.bat.with(|parts| parts.material.youngs_modulus *= 0.81).unwrap();
         let of = |bat: &Bat| solve(bat, &once.request).unwrap().modes[0].frequency();
         assert_eq!(of(&file), of(&once.bat), "{name}");
@@ -212,7 +212,7 @@ fn a_hit_in_one_call_is_that_of_the_program() {
         assert_eq!(again, &hit.best.impact);
         assert!(hit.modes().iter().all(|mode| mode.frequency() > 0.0));
     }
-    // With two modes and no more nobody says that they suffice.
+    // With exactly two modes there is no claim that they suffice.
     let few = Accuracy { modes: Some(2), ..Accuracy::default() };
     let swing = Swing { accuracy: few, ..Swing::default() };
     let hit = Hit::of(&Bat::builtin("r161").unwrap(), &swing).unwrap();

@@ -1,4 +1,4 @@
-//! Pictures of the verbs for makers of bats: each can be read, and shows what was found.
+//! Pictures of the verbs for makers of bats: each is legible and shows the results.
 #![cfg(feature = "png")]
 
 use crate::pictures::{check, number, texts};
@@ -37,7 +37,7 @@ fn a_change_of_the_diameter_is_whole_in_every_form() {
             let off = if us { "3.94 mil at most off" } else { "0.10 mm at most off" };
             assert!(picture.svg.contains(off), "{}", &picture.svg[..800]);
         }
-        // Both bats the same: a line of nothing.
+        // Two equal bats give a line of zeros.
         check(&change::picture(Sheet::file(false), &old, &old), name);
     }
 }
@@ -52,7 +52,7 @@ fn what_readings_say_of_the_wood_is_drawn_whole() {
         ReadingsForm::from_text("readings.json", &text, "".as_ref()).unwrap()
     };
     let few = reading(r#"{ "hz": 174.5, "mode": 1 }"#);
-    // The second is of none of its modes.
+    // The second matches none of its modes.
     let wrong = reading(
         r#"{ "hz": 174.5, "mode": 1 }, { "hz": 540, "mode": 2 }, { "hz": 1187, "mode": 3 }"#,
     );
@@ -95,10 +95,10 @@ fn spreads_of_many_bats_are_drawn_whole() {
     for picture in &all[..2] {
         check(picture, "many");
     }
-    // What is not there at all makes no picture.
+    // A constant column has no histogram.
     let level = Column { values: vec![1.0; 512], ..f1.clone() };
     assert!(many::histogram(&level, &sorted(&level), [1.0; 3]).is_none());
-    // The largest share stands first.
+    // The largest share comes first.
     let document = Document::parse(&all[1].svg).unwrap();
     let words: Vec<&str> = texts(&document).into_iter().map(|(words, _)| words).collect();
     // A polynomial follows this one, but for round-off.

@@ -17,7 +17,7 @@ const BATS: [(&str, f64); 3] = [
     ("meshes/northwestern_aluminium.json", 0.0),
 ];
 
-/// Variations of a bat, every one of its own wood, on request with a weight on the knob (kg).
+/// Variations of a bat with different woods, on request with a weight on the knob (kg).
 fn varied(name: &str, count: usize, weight: f64) -> Vec<Bat> {
     let own = bundled_bat(name).unwrap();
     let bat = |k: usize| {
@@ -40,7 +40,7 @@ fn text(sweep: &Sweep) -> String {
     format!("{sweep:?}")
 }
 
-/// What came of every bat, in their order.
+/// The results of all bats, in order.
 fn hits(model: &Bat, bats: &[Bat], theory: Theory, way: Way) -> Vec<Sweep> {
     let scene = Scene::default();
     let trial = Trial { model: Model::Contact, scene: &scene };
@@ -54,8 +54,8 @@ fn hits(model: &Bat, bats: &[Bat], theory: Theory, way: Way) -> Vec<Sweep> {
     all.into_iter().map(|sweep| sweep.unwrap()).collect()
 }
 
-/// Solid wood, a weighted knob, a bore: one by one or side by side, beside whomever, to the last bit; and as
-/// each is hit alone within what both state.
+/// Solid wood, a weighted knob, a bore: the results are the same to the last bit one by one or side by side in any
+/// company, and agree with those of each bat alone within both stated errors.
 #[test]
 fn a_bat_is_hit_as_it_is_hit_alone_whoever_is_beside_it() {
     for (name, weight) in BATS {
@@ -109,7 +109,7 @@ fn a_bat_of_another_kind_is_hit_on_its_own() {
     }
 }
 
-/// Every number of a solution is within what it states beside a far better one.
+/// Every number of a solution is within its stated error of a far better one.
 #[test]
 fn solutions_of_many_are_as_good_as_they_say() {
     for (name, weight) in BATS {
@@ -121,7 +121,7 @@ fn solutions_of_many_are_as_good_as_they_say() {
                 solutions(&bats[0], &asked, Way::SideBySide, |k, found| {
                     let found = found.unwrap();
                     assert!(found.met());
-                    // The time of a bat that shares a plan is not taken.
+                    // The time of a bat that shares a plan is not measured.
                     assert!(found.timing.solve.is_zero(), "{name} {k} was solved on its own");
                     if k % 4 > 0 {
                         return;
@@ -132,7 +132,7 @@ fn solutions_of_many_are_as_good_as_they_say() {
                         let what = format!("{name} {weight} {theory:?} {tolerance} {}", one.order);
                         let (own, its) = (one.error, fine.error);
                         let within = |off: f64, stated: f64| {
-                            // What is promised of every estimate.
+                            // The promise for every estimate.
                             assert!(off.abs() <= 3.0 * stated, "{what}: {off:e} beside {stated:e}");
                         };
                         within(one.omega / fine.omega - 1.0, own.total() + its.total());
@@ -156,7 +156,7 @@ fn solutions_of_many_are_as_good_as_they_say() {
     }
 }
 
-/// An accuracy that cannot be is said of its own bat, and the others are hit.
+/// An impossible accuracy is an error for its bat only, and the others are hit.
 #[test]
 fn what_cannot_be_asked_is_told_of_each_bat_that_it_was_asked_of() {
     let bat = bundled_bat("meshes/r161.json").unwrap();

@@ -1,5 +1,5 @@
-//! Measured modes beside computed ones, with measurements that are known: the closed form of the
-//! dowel, scaled, turned, shifted, and with known faults.
+//! Measured modes compared with computed ones, for known measurements: the closed form of the dowel, scaled, rotated,
+//! shifted, and with known faults.
 
 use crate::common;
 
@@ -145,7 +145,7 @@ fn rigid_motion_in_a_shape_is_found_as_large_as_it_is() {
     }
 }
 
-/// What is left is the spline's error between the points, which falls as the fourth power.
+/// The remainder is the error of the spline between the points, which falls as the fourth power.
 #[test]
 fn exact_shapes_have_nothing_in_common_but_what_the_points_cost() {
     let worst = |count: usize| {
@@ -224,10 +224,10 @@ fn the_end_that_comes_first_is_found_and_so_is_the_origin() {
         assert!(
             study.pairs.iter().all(|p| p.measured == p.computed && p.mac.unwrap() > 1.0 - 1e-9)
         );
-        // What holds it pushes it.
+        // Its supports push it.
         assert!(shapes.rigid_share.is_none());
     }
-    // Told wrong, it is taken as told, and said.
+    // Wrong information is used as given, with a remark.
     let measured =
         Measured { modes: modes(&x), along: from_tip, from_knob: true, ..Measured::default() };
     let wrong = study(&bat, measured, ToldPoints::default());
@@ -257,14 +257,14 @@ fn a_mode_that_was_missed_and_one_measured_twice_stay_alone() {
     let names: Vec<&str> = study.lone_measured.iter().map(|k| study.name(*k)).collect();
     assert_eq!(names, ["m1 again"]);
     assert_eq!(study.lone_computed, [1]);
-    // It is like mode 1, which has its partner, and what the two have in common is no fault.
+    // It is similar to mode 1, which has its partner, and their similarity is no fault.
     let text = measured::text(&dowel(), &study, Units::Si, true);
     assert!(text.contains("like mode 1, but m1 is more so"), "{text}");
     let said = words(&study).join(" ");
     assert!(said.contains("sound in this") && !said.contains("m1 again"), "{said}");
 }
 
-/// Without a computed partner nobody knows what the points do to a shape.
+/// Without a computed partner the effect of the points on a shape is unknown.
 #[test]
 fn exact_shapes_of_modes_that_were_not_computed_are_no_fault() {
     let request = Request { modes: 2, tolerance: 1e-9, ..Request::plain() };
@@ -272,13 +272,13 @@ fn exact_shapes_of_modes_that_were_not_computed_are_no_fault() {
     let study = Study::new(&dowel(), measured, &request, true, ToldPoints::default()).unwrap();
     let shapes = study.shapes.as_ref().unwrap();
     assert_eq!(study.pairs.len(), 2);
-    // The spline through five points does give them what the exact shapes have not.
+    // The spline through five points adds rigid motion that the exact shapes do not have.
     assert!(shapes.rigid_share.as_ref().unwrap().iter().any(|share| *share > 0.1));
     let said = words(&study).join(" ");
     assert!(!said.contains("rigid motion") && !said.contains("are off"), "{said}");
 }
 
-/// However alike, a shape at a third of the frequency is another mode's, or somebody's mistake.
+/// A shape at a third of the frequency, however similar, belongs to another mode or is a mistake.
 #[test]
 fn modes_more_than_an_octave_apart_are_not_paired() {
     let x = points(12);
@@ -290,7 +290,7 @@ fn modes_more_than_an_octave_apart_are_not_paired() {
     assert!(text.contains("like no computed mode within an octave"), "{text}");
 }
 
-/// Shapes that are right are told from shapes that are wrong, and both from points that are few.
+/// Correct shapes are distinguished from wrong ones, and both from an insufficient number of points.
 #[test]
 fn what_shapes_have_in_common_is_judged_by_what_the_points_do() {
     let verdict = |measured: Measured| {
@@ -314,8 +314,8 @@ fn what_shapes_have_in_common_is_judged_by_what_the_points_do() {
     assert!(wrong.ends_with("the shapes, or the masses in the bat file, are off."), "{wrong}");
 }
 
-/// A bat of two materials with a weight beyond its tip: its modes have no rigid motion, and what the
-/// points make of them goes as the distance between points.
+/// A bat of two materials with a weight beyond its tip: its modes have no rigid motion, and the apparent one due to the
+/// points decreases with the distance between points.
 #[test]
 fn the_modes_of_a_bat_with_regions_and_weights_carry_no_rigid_motion() {
     let folder = Folder::new("measured-own");
@@ -341,7 +341,7 @@ fn the_modes_of_a_bat_with_regions_and_weights_carry_no_rigid_motion() {
     }
 }
 
-/// An absorber swings many times as far as the bat beneath it, and no shape tells.
+/// The motion of an absorber is many times that of the bat beneath it, and no shape shows it.
 #[test]
 fn of_a_bat_with_an_absorber_rigid_motion_is_not_judged() {
     let folder = Folder::new("measured-absorber");
@@ -377,7 +377,7 @@ fn a_bat_that_only_moves_on_its_supports_has_no_table_of_bending_shapes() {
     assert!(!text.contains("\nShapes ") && !text.contains("MAC, computed"), "{text}");
 }
 
-/// A laboratory's file may have any number of modes and points; a picture has as many as paper shows.
+/// The file of a laboratory may have any number of modes and points; a picture shows as many as paper allows.
 #[test]
 fn pictures_of_very_many_modes_and_points_are_no_larger_than_paper_needs() {
     let folder = Folder::new("measured-many");
@@ -403,7 +403,7 @@ fn pictures_of_very_many_modes_and_points_are_no_larger_than_paper_needs() {
     }
 }
 
-/// Millimetres taken for metres; and an origin from which the points fit on the bat no way.
+/// Millimetres read as metres, and an origin for which the points do not fit on the bat in any way.
 #[test]
 fn points_that_are_not_on_the_bat_are_told_by_numbers_that_were_given() {
     let wrong = |along: &[f64], origin: Option<f64>| {
@@ -448,7 +448,7 @@ fn numbers_that_do_not_fit_the_frequencies_are_doubted() {
     assert!(!right.contains("paired by their numbers, and"), "{right}");
 }
 
-/// The shapes of a whip's modes are not those of a bat, whatever their frequencies.
+/// The shapes of the modes of a whip are not those of a bat, whatever their frequencies.
 #[test]
 fn shapes_that_are_like_no_mode_are_no_readings_of_the_wood() {
     let folder = Folder::new("measured_unlike");
@@ -702,7 +702,7 @@ fn a_universal_file_may_have_the_bat_in_any_direction() {
     }
 }
 
-/// What a reader takes for granted may be wrong, and so it is said.
+/// The assumptions of a reader may be wrong, so they are stated.
 #[test]
 fn what_is_assumed_of_a_universal_file_is_said() {
     let x = points(12);
@@ -734,7 +734,7 @@ fn what_is_assumed_of_a_universal_file_is_said() {
     assert!((measured.along[11] - measured.along[0] - LENGTH).abs() < 1e-12);
 }
 
-/// Modes written as a universal file by the program itself are its own modes, to six digits.
+/// Modes that the program wrote as a universal file are its modes, to six digits.
 #[test]
 fn what_convert_writes_is_measured_as_the_same_bat() {
     let folder = Folder::new("measured-uff");
@@ -759,7 +759,7 @@ fn what_convert_writes_is_measured_as_the_same_bat() {
     assert_eq!(json["shapes"]["first_end"], "knob");
     let text = folder.text(&["compare", "r161.json", "--measured", "m.uff"]);
     assert!(text.lines().all(|line| line.chars().count() <= 80));
-    // Turned end for end by word, it fits badly and says so.
+    // Reversed on request, it fits badly, and the output says so.
     let args = ["compare", "r161.json", "--measured", "m.uff", "--tip-first"];
     assert!(folder.text(&args).contains("Turned end for end the shapes fit better"));
 }
@@ -790,7 +790,7 @@ fn a_universal_file_without_what_is_needed_is_refused() {
     let few = universal_file(&x[..2], [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], 1);
     let error = universal::of(&few, "m.uff").unwrap_err().to_string();
     assert!(error.contains("found 2 moving points"), "{error}");
-    // Frequency responses alone: said, with what to do.
+    // Frequency responses alone: refused, with the advice what to do.
     let folder = Folder::new("measured-frf");
     folder.write("bat.json", BAT);
     let file =
@@ -808,7 +808,7 @@ fn a_universal_file_without_what_is_needed_is_refused() {
     }
 }
 
-/// Every byte of a good table is once left out and once another.
+/// Every byte of a good table is removed once and changed once.
 #[test]
 fn a_spoiled_table_is_read_or_refused() {
     let folder = Folder::new("measured-spoiled");
@@ -819,7 +819,7 @@ fn a_spoiled_table_is_read_or_refused() {
         for byte in ["", "9", "e", "-", ",", "\n", "\"", "#", "ü"] {
             folder.write("m.csv", format!("{}{byte}{}", &good[..k], &good[k + 1..]));
             let Ok(measured) = table::read(&path) else { continue };
-            // Frequencies that are off by orders of magnitude would ask for a hundred modes.
+            // Frequencies off by orders of magnitude would need a hundred modes.
             if measured.modes.iter().any(|mode| mode.frequency > 5e3) {
                 continue;
             }

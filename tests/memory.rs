@@ -1,5 +1,5 @@
-//! The memory by which a solve is refused is the memory that it takes: a test of its own, because it
-//! counts.
+//! The memory stated in a refusal is the memory that a solve takes. This is a separate test program, because it counts
+//! allocations.
 
 mod common;
 
@@ -12,7 +12,7 @@ fn bat() -> Bat {
     cone(0.0125, 0.033).with(|parts| parts.material.shear_modulus = Some(1e9)).unwrap()
 }
 
-/// The memory (GB) of one bat, from the refusal of ten thousand side by side.
+/// The memory (GB) of one bat, from the refusal of ten thousand in parallel.
 fn stated(asked: &Request) -> f64 {
     const MANY: usize = 10_000;
     let Err(Error::Value(refused)) = asked.check(MANY) else { panic!("{asked:?} is not refused") };
@@ -38,7 +38,7 @@ fn a_mesh_is_refused_for_the_memory_that_it_would_take() {
         let asked = Request { modes, elements, degree, theory, ..Request::default() };
         let stated = stated(&asked);
         let solved = || assert!(solve(&bat, &asked).is_ok());
-        // What is counted is one thread's.
+        // Only one thread is counted.
         let taken = with(Some(1), || allocation_counter::measure(solved));
         let taken = 1e-9 * taken.bytes_max as f64;
         let of = format!("{taken:.4} GB of {stated:.4} for {asked:?}");
@@ -46,7 +46,7 @@ fn a_mesh_is_refused_for_the_memory_that_it_would_take() {
     }
 }
 
-/// Solvers that factor take what the sparsity leaves, which is bounded and not counted.
+/// Solvers that factor take memory according to the sparsity, which is bounded and not counted.
 #[test]
 fn solvers_that_factor_take_no_more_than_is_said() {
     let bat = bat();

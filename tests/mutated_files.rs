@@ -1,5 +1,4 @@
-//! Good bat files, spoilt at random: either an error that says something, or a bat whose numbers
-//! are numbers. Never a panic.
+//! Randomly corrupted bat files give either a meaningful error or a bat with finite numbers, and never a panic.
 
 use std::ops::Range;
 use std::path::Path;
@@ -51,7 +50,7 @@ const FILES: [(&str, &str); 11] = [
     ("northwestern_aluminium", include_str!("../meshes/northwestern_aluminium.json")),
 ];
 
-/// What may stand where a number stood.
+/// Replacements for a number.
 const STRANGE: [&str; 28] = [
     "0",
     "-0",
@@ -83,7 +82,7 @@ const STRANGE: [&str; 28] = [
     "\"\"",
 ];
 
-/// One way to spoil a text. Places are shares of it, so that any fits any file.
+/// One way to corrupt a text. Places are relative, so that any mutation fits any file.
 #[derive(Debug, Clone)]
 enum Mutation {
     Delete { at: f64, bytes: usize },
@@ -151,7 +150,7 @@ fn mutate(text: &str, mutation: &Mutation) -> String {
     String::from_utf8_lossy(&bytes).into_owned()
 }
 
-/// Where the numbers stand, after the "source" with its many.
+/// The positions of numbers, after the "source" with its many numbers.
 fn numbers(text: &str) -> Vec<Range<usize>> {
     let begin = text.find("\"material\"").unwrap_or(0);
     let part = |c: char| c.is_ascii_digit() || ".eE+-".contains(c);
@@ -164,7 +163,7 @@ fn numbers(text: &str) -> Vec<Range<usize>> {
     spans
 }
 
-/// Where the members of objects stand, with the comma after them.
+/// The positions of members of objects, with the comma after them.
 fn members(text: &str) -> Vec<Range<usize>> {
     let member = |(colon, _)| {
         let start = text[..colon].rfind('"').and_then(|end| text[..end].rfind('"'))?;
@@ -198,7 +197,7 @@ fn solve_and_hit(bat: &Bat) -> Result<(), String> {
     let holds = |what: &str, good: bool| if good { Ok(()) } else { Err(what.to_owned()) };
     let inertia = bat.inertia();
     holds("mass", in_range(inertia.mass))?;
-    // Weights may hang beside the bat.
+    // Weights may be attached off the axis of the bat.
     let beside = bat.fixtures().attachments.iter().any(|a| a.offset != 0.0);
     let inside = inertia.balance_point > 0.0 && inertia.balance_point < bat.length();
     holds("balance", inside || (beside && inertia.balance_point.is_finite()))?;
@@ -261,8 +260,7 @@ fn hit(bat: &Bat, solution: &Solution, model: Model) -> Result<(), String> {
     if peak.is_finite() && !text.is_empty() { Ok(()) } else { Err(format!("{spot:?}")) }
 }
 
-/// What is wrong with what is said of a text: it must name the file, and a place in it where what
-/// is shown stands.
+/// The fault in an error message about a text: it must name the file, and a place that contains the excerpt shown.
 fn misplaced(error: &Error, name: &str, text: &str) -> Option<String> {
     if let Error::Several { shown, more } = error {
         let order = |error: &Error| match error {
@@ -322,8 +320,7 @@ fn an_error_or_a_bat(file: usize, mutations: &[Mutation]) -> Result<(), TestCase
     Ok(())
 }
 
-// The same files every time: a failure here is no matter of luck. Two halves, so that two processors share
-// them.
+// The same files in every run, so that a failure is reproducible. Two halves, so that two processors share them.
 proptest! {
     #![proptest_config(ProptestConfig {
         cases: 300,
@@ -379,7 +376,7 @@ proptest! {
         }
     }
 
-    /// A table that is spoilt: JSON has its own words for what is broken, CSV has cells.
+    /// A corrupted table: JSON has specific messages for malformed text, CSV has cells.
     #[test]
     fn a_spoilt_table_is_an_error_or_a_bat(
         mutations in prop::collection::vec(mutation(), 1..6),

@@ -1,7 +1,6 @@
-//! Near twins: motions of nearly one frequency that a mesh holds unequally well.
+//! Near twins: modes of almost the same frequency that a mesh represents unequally well.
 //!
-//! The truth is a solve to 1e-12, which needs another mesh; `search/bats.py` has a reference that
-//! shares nothing with the program.
+//! The truth is a solve to 1e-12, which needs another mesh; `search/bats.py` has a reference without common code.
 
 use crate::common;
 
@@ -12,7 +11,7 @@ use sweetspot::bat::material::Material;
 use sweetspot::bat::profile::{Interpolation, Stations};
 use sweetspot::{Bat, Profile, Request, Solution, Solver, Theory, solve};
 
-/// Two whips on a middle of that radius, the first with more stations on it, which change nothing.
+/// Two whips on a middle of that radius, the first with additional stations, which change nothing.
 fn whips(middle: f64, stations: usize, unlike: f64) -> Bat {
     let (long, short, thin) = (0.4, 0.1, 0.005);
     let first = (0..=stations + 1).map(|k| long * k as f64 / (stations + 1) as f64);
@@ -43,7 +42,7 @@ fn holds(bat: &Bat, modes: usize, tolerance: f64) {
             "{}: mass {off:.1e} {told}",
             mode.order
         );
-        // Each node that is listed is one, and each that is there is listed or where nodes cannot be told.
+        // Each listed node is a true one, and each true one is listed or where nodes cannot be located.
         let near = 3.0 * (mode.error.nodes + exact.error.nodes);
         let off =
             |x: f64, of: &[f64]| of.iter().map(|y| (x - y).abs()).fold(f64::INFINITY, f64::min);
@@ -101,7 +100,7 @@ fn the_nodes_and_mass_of_a_mode_beside_a_tuned_absorber_are_as_far_off_as_they_s
     }
 }
 
-/// The theorem of oscillation has no rotary inertia in it: there a mode may have other nodes.
+/// The theorem of oscillation does not cover rotary inertia, with which a mode may have other nodes.
 #[test]
 fn a_rayleigh_bat_is_not_refused_for_the_number_of_its_nodes() {
     let bat = whips(0.3, 3, 0.0);
@@ -121,8 +120,8 @@ fn a_dense_solve_that_round_off_defeats_is_refused_with_the_reason() {
     }
 }
 
-/// A heavy absorber whose mode hardly bends the bat, where a share of 1e-6 of the next mode moves a
-/// node by 80 µm, although the next mode is not near.
+/// A heavy absorber whose mode hardly bends the bat, where a share of 1e-6 of the next mode moves a node by 80 µm,
+/// although the next mode is not close.
 #[test]
 fn nodes_of_a_bat_that_hardly_moves_are_as_far_off_as_they_say() {
     let x = [0.0, 0.2, 0.5, 0.84];

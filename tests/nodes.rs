@@ -1,7 +1,7 @@
-//! Nodes where a mode hardly moves: between stiff springs, in thick parts beside thin ones, beside a pointed end.
+//! Nodes where a mode hardly moves: between stiff springs, in thick parts next to thin ones, near a pointed end.
 //!
-//! The truths are a theorem on oscillation and the multiprecision reference of `search/reference.py`, which shares
-//! nothing with the program.
+//! The truths are a theorem on oscillation and the multiprecision reference of `search/reference.py`, which has no code
+//! in common with the program.
 
 use std::path::Path;
 
@@ -17,8 +17,8 @@ fn solved(bat: &Bat, modes: usize, tolerance: f64, theory: Theory) -> Solution {
     solve(bat, &Request { modes, tolerance, theory, ..Request::plain() }).unwrap()
 }
 
-/// Every listed node is a true one within three times its error, and every true one is listed or on a stretch of
-/// which the mode says that nodes cannot be told.
+/// Every listed node is a true one within three times its error, and every true one is listed or on a stretch for which
+/// the mode says that nodes cannot be located.
 fn assert_told(mode: &Mode, exact: &[f64]) {
     let told = format!("{:?} within {:.1e}, {:?}", mode.nodes, mode.error.nodes, mode.untold);
     let near = |x: f64, y: f64| (x - y).abs() <= 3.0 * mode.error.nodes + 1e-12;
@@ -32,8 +32,8 @@ fn assert_told(mode: &Mode, exact: &[f64]) {
     }
 }
 
-/// Mode n of a free Euler-Bernoulli bat has n + 1 nodes (Gantmacher and Krein, Oscillation Matrices, 1950), and a
-/// sign change in the last nanometre of a point, where the shape is below its own error, is none of them.
+/// Mode n of a free Euler-Bernoulli bat has n + 1 nodes (Gantmacher and Krein, Oscillation Matrices, 1950). A sign
+/// change in the last nanometre of a point, where the shape is below its error, is not one of them.
 #[test]
 fn a_pointed_end_has_no_node_that_the_theory_of_oscillation_does_not_know() {
     for power in ["0.7", "1", "1.2"] {
@@ -56,8 +56,8 @@ fn a_pointed_end_has_no_node_that_the_theory_of_oscillation_does_not_know() {
     }
 }
 
-/// A bat turned end for end is the same bat: near the tip a formula of the distance from there has fewer digits
-/// than one of the distance from the knob near the knob, which changes nothing that weighs or bends.
+/// A reversed bat is the same bat. Near the tip a formula in the distance from there has fewer digits than one in the
+/// distance from the knob has near the knob, which changes neither mass nor stiffness.
 #[test]
 fn a_point_at_the_tip_is_solved_as_one_at_the_knob() {
     let of = |formula: &str| {
@@ -109,7 +109,7 @@ fn a_node_between_stiff_springs_is_where_it_is() {
     assert!(found.modes[0].error.nodes < 1e-3, "{}", found.modes[0].error.nodes);
 }
 
-/// Thick parts on a thin one, which lets them nearly stand still.
+/// Thick parts on a thin one, which lets them be nearly at rest.
 #[test]
 fn nodes_where_a_mode_hardly_moves_are_told_or_said_to_be_untold() {
     let profile = r#"{ "interpolation": "constant", "x": [0.0, 0.033182433611968674, 0.04133269675383861,
@@ -163,8 +163,8 @@ fn nodes_where_a_mode_hardly_moves_are_told_or_said_to_be_untold() {
     assert_told(&found.modes[9], &tenth);
 }
 
-/// Two weights of tonnes, 30 cm off the ends: of their way the rigid motions leave one part in 10⁴, and of its digits
-/// as many are lost. Frequency 5 by the multiprecision reference.
+/// Two weights of tonnes, 30 cm off the ends. Removing the rigid motions leaves one part in 10⁴ of their motion, and
+/// loses as many digits. Frequency 5 by the multiprecision reference.
 #[test]
 fn frequencies_with_far_weights_are_known_as_well_as_stated() {
     let profile = r#"{ "interpolation": "pchip", "x": [0, 0.1, 0.3, 0.5, 0.7, 0.84],
@@ -183,7 +183,7 @@ fn frequencies_with_far_weights_are_known_as_well_as_stated() {
     }
 }
 
-/// What cannot be solved is refused with its reason, not reported as a fault of the program.
+/// An unsolvable bat is refused with its reason, and not reported as a fault of the program.
 #[test]
 fn a_point_that_is_too_thin_for_numbers_is_solved_or_refused_with_the_reason() {
     for formula in ["0.03*x^1.75", "0.03*x^1.9", "0.03*(0.84-x)^1.75"] {

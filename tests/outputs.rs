@@ -1,4 +1,4 @@
-//! What the program writes: whole or not at all, the same every time, and what the contract says.
+//! Outputs are complete or absent, the same every time, and as the contract says.
 
 use crate::common;
 
@@ -35,7 +35,7 @@ fn failure(output: &Output) -> String {
 fn a_closed_pipe_is_no_error() {
     let folder = Folder::new("pipe");
     let bat = mesh("r161");
-    // More than a pipe holds, so that the program cannot have finished before the end is closed.
+    // More than a pipe holds, so that the program cannot have finished before the pipe is closed.
     let long = ["hit", &bat, "--points", "2000", "--json", "-"];
     let case = ["validate", "--case", "r161_nathan_timoshenko"];
     for args in [&long[..], &["modes", &bat], &["materials"], &case] {
@@ -69,7 +69,7 @@ fn a_full_disk_is_told() {
     assert!(told.contains("cannot write /dev/full"), "{told}");
     use std::os::unix::fs::FileTypeExt;
     assert!(fs::metadata("/dev/full").unwrap().file_type().is_char_device());
-    // A device is written to, as it is.
+    // A device is written to directly.
     assert!(folder.run(&["modes", &bat, "--json", "/dev/null"]).status.success());
     assert!(fs::metadata("/dev/null").unwrap().file_type().is_char_device());
     assert!(folder.names().is_empty());
@@ -104,7 +104,7 @@ fn a_file_that_cannot_be_written_leaves_nothing() {
     lock(true);
     let output = folder.run(&["modes", &bat, "--json", "locked/out.json"]);
     lock(false);
-    // Whoever may do everything may also write there.
+    // The superuser may also write there.
     if !output.status.success() {
         assert!(failure(&output).contains("cannot write locked/out.json"));
         assert_eq!(folder.read("locked/out.json"), "old");
@@ -256,9 +256,9 @@ fn damped_bats_go_from_their_file_to_json() {
     let still: Value = serde_json::from_str(&still).unwrap();
     let static_compliance = still["static_compliance_m_per_n"].as_f64().unwrap();
     let at_rest = still["real_m_per_n"][0].as_f64().unwrap();
-    // With the stiffness times 1 + iη the bat gives way a little less, by η² at most.
+    // With the stiffness times 1 + iη the compliance of the bat is slightly smaller, by at most η².
     assert!((at_rest / static_compliance - 1.0).abs() < 4e-4, "{at_rest} {static_compliance}");
-    // A push that lasts, as its own reading says: heavier means further.
+    // A lasting push, for which a heavier reading means a larger deflection.
     folder.write("push.csv", "t_ms,force_n\n0,0\n1,100\n2,0\n");
     folder.write("twice.csv", "t_s,force_kn\n0,0\n0.001,0.2\n0.002,0\n");
     let ring = |file: &str| -> Vec<f64> {
@@ -296,7 +296,7 @@ fn equal_input_gives_equal_bytes() {
     }
 }
 
-/// Every number of the text, read and written again, is the same text.
+/// Every number of the text, read and written again, gives the same text.
 #[test]
 fn numbers_are_written_in_the_shortest_form_that_reads_back_to_the_same_bits() {
     let folder = Folder::new("bits");
@@ -369,7 +369,7 @@ fn a_bat_written_again_is_the_same_bat() {
     assert!(fixtures.grip.is_some());
     let tuned = 0.03 * (std::f64::consts::TAU * 170.0).powi(2);
     assert!((fixtures.absorbers[0].stiffness / tuned - 1.0).abs() < 1e-15);
-    // What is written is in SI, which is all that differs.
+    // Outputs are in SI, which is the only difference.
     assert!(bat.inches());
     let again = read(&schema::text(&resolved(&bat)));
     assert_eq!(again.with(|parts| parts.inches = true).unwrap(), bat);
@@ -386,7 +386,7 @@ fn a_bat_written_again_is_the_same_bat() {
         assert!((a.mass / b.mass - 1.0).abs() < 1e-14);
         assert!((a.balance_point / b.balance_point - 1.0).abs() < 1e-14);
         assert!((a.about_balance / b.about_balance - 1.0).abs() < 1e-14);
-        // Without the tap, whose frequency the absorber keeps from the bat.
+        // Without the tap, whose frequency is not that of the bat because of the absorber.
         let bat = read(&text.replace(", \"first_bending_hz\": \"170 Hz\"", ""));
         let again = read(&schema::text(&resolved(&bat)));
         let few = Request { modes: 3, elements: Some(24), degree: Some(6), ..Request::plain() };
@@ -466,7 +466,7 @@ fn floats(list: &Value) -> Vec<f64> {
     list.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
 }
 
-/// Against exact frequencies. The time is far more than enough, so that none of this is a race.
+/// Against exact frequencies. The time is far more than enough, so that the test is no race.
 #[test]
 fn the_most_accurate_answer_within_a_time_is_as_accurate_as_it_says() {
     let folder = Folder::new("budget");
@@ -542,7 +542,7 @@ fn the_hit_document_has_the_keys_of_the_contract_and_its_energies_sum() {
             }
         }
     }
-    // No real solution: null and what follows from it, one row all the same, exit code 0.
+    // No real solution: null and its consequences, but still a row, and exit code 0.
     let none = folder.json(&[
         "hit",
         &mesh("r161"),
@@ -672,7 +672,7 @@ fn tables_for_other_programs_hold_the_numbers_of_the_json() {
     }
 }
 
-/// With `--json` the last line on standard error is what is wrong, for other programs; without it is not.
+/// With `--json` the last line on standard error is the mistakes as JSON, without it is not.
 #[test]
 fn what_is_wrong_is_json_too_where_json_is_asked_for() {
     let folder = Folder::new("errors");

@@ -1,4 +1,4 @@
-//! Elements that reach over stations: what they lose there is counted, whatever the bat.
+//! Elements that reach over stations: their error is included in the stated one, for any bat.
 
 use sweetspot::bat::fixtures::{Attachment, Fixtures, Tape};
 use sweetspot::bat::material::Material;
@@ -20,7 +20,7 @@ fn outline(s: f64) -> f64 {
     0.0125 + 0.0205 / (1.0 + (-14.0 * (s - 0.6)).exp()) + 0.008 * (-90.0 * s).exp()
 }
 
-/// That outline at so many stations, rounded to so many metres.
+/// That outline with that number of stations, rounded to that number of metres.
 fn bat(
     count: usize,
     round: f64,
@@ -117,7 +117,7 @@ fn elements_end_where_something_is_and_hold_the_bat_once() {
     }
 }
 
-/// A straight cone is the same bat with one station inside or with twenty: no kink, nothing lost.
+/// A straight cone is the same bat with one inner station or twenty: there is no kink and no loss.
 #[test]
 fn stations_on_a_straight_line_are_none() {
     let cone = |count: usize| {

@@ -1,4 +1,4 @@
-//! The report: one page that needs nothing, tells what was computed and shows any text as text.
+//! The report: a page that needs no other file, states the results and shows any text as text.
 
 use crate::common;
 
@@ -18,7 +18,7 @@ fn made(folder: &Folder, bat: &str, more: &[&str]) -> (String, String) {
     (folder.read("page.html"), told)
 }
 
-/// What stands between two marks, after the first of them.
+/// The text between two marks, after the first of them.
 fn between<'a>(text: &'a str, from: &str, to: &str) -> &'a str {
     let (_, rest) = text.split_once(from).unwrap_or_else(|| panic!("no {from}"));
     rest.split_once(to).unwrap_or_else(|| panic!("no {to}")).0
@@ -36,7 +36,7 @@ struct Tag {
     closes: bool,
     empty: bool,
     attributes: Vec<(String, String)>,
-    /// What stands after it, until the next tag.
+    /// The text after it, until the next tag.
     text: String,
 }
 
@@ -46,7 +46,7 @@ impl Tag {
     }
 }
 
-/// The tags of a page, those within scripts and styles left out.
+/// The tags of a page, except those within scripts and styles.
 fn tags(page: &str) -> Vec<Tag> {
     const VOID: [&str; 5] = ["meta", "input", "br", "img", "link"];
     let mut all = vec![];
@@ -193,7 +193,7 @@ fn the_summary_has_the_numbers_of_the_analysis() {
         assert_eq!(summary["zone_m"], spot["zone_m"]);
         assert_eq!(summary["bbcor"], hit["figures"]["bbcor"]);
         assert_eq!(summary["bbcor_pivoted"], hit["figures"]["bbcor_pivoted"]);
-        // What is seen is that number, rounded.
+        // The number shown is that number, rounded.
         let zone = summary["zone_m"][1].as_f64().unwrap() - summary["zone_m"][0].as_f64().unwrap();
         let number = |key: &str| summary[key].as_f64().unwrap();
         for (key, value, within) in [
@@ -208,7 +208,7 @@ fn the_summary_has_the_numbers_of_the_analysis() {
             ("zone_m", 100.0 * zone, 0.05),
             ("bbcor", number("bbcor"), 5e-4),
         ] {
-            // SI stands first in the page, whichever is shown.
+            // SI comes first in the page, regardless of which is shown.
             let shown = between(&page, &format!("data-key=\"{key}\">"), "</dd>");
             let seen: f64 = shown.split(' ').next().unwrap().parse().unwrap();
             assert!((seen - value).abs() <= within * (1.0 + 1e-9), "{key}: {shown}, {value}");
@@ -242,7 +242,7 @@ fn a_page_is_first_in_the_unit_of_the_bat_file() {
     assert!(in_us(&made(&folder, &mesh("two_piece"), &[]).0));
     assert!(in_us(&made(&folder, &mesh("r161"), &["--units", "us"]).0));
     assert!(!in_us(&made(&folder, &mesh("two_piece"), &["--units", "si"]).0));
-    // A CSV file has its unit in its header, and a single value its own.
+    // A CSV file has units in its header, and a single value has its unit.
     folder.write("turned.csv", "x_in,diameter_in\n0,1\n17,1.3\n33,2.6\n");
     let start = r#"{ "format": "sweetspot-bat/1", "material": "white-ash", "profile": "#;
     folder.write("csv.json", format!("{start} {{ \"csv\": \"turned.csv\" }} }}"));
@@ -252,7 +252,7 @@ fn a_page_is_first_in_the_unit_of_the_bat_file() {
     assert!(in_us(&made(&folder, "strings.json", &[]).0));
 }
 
-/// What the switch shows of a page: text within elements of the other system left out, what is folded too.
+/// The visible text of a page: text within elements of the other system is omitted, folded text is included.
 fn seen(page: &str, us: bool) -> String {
     const VOID: [&str; 5] = ["meta", "input", "br", "img", "link"];
     let hidden = if us { "si" } else { "us" };
@@ -279,7 +279,7 @@ fn one_switch_changes_every_number_axis_and_caption() {
     let folder = Folder::new("page-switch");
     let (page, _) = made(&folder, &mesh("torpedo"), &[]);
     let [si, us] = [false, true].map(|us| seen(&page, us));
-    // What went in, and the names of files and bats, are as they were written.
+    // The input, and the names of files and bats, are shown as written.
     let cut = |text: &str| {
         let (_, rest) = text.split_once("How fast the ball leaves").unwrap();
         rest.split_once("What went in").unwrap().0.to_owned()
@@ -316,7 +316,7 @@ fn before_anything_is_opened_there_are_at_most_seven_hundred_words() {
         let (mut rest, mut open) = (page.as_str(), String::new());
         while let Some((before, after)) = rest.split_once("<details") {
             open += before;
-            // None of them holds another before it ends.
+            // None of them contains another.
             rest = after.split_once("</summary>").unwrap().1;
             let mut depth = 1;
             while depth > 0 {
@@ -376,7 +376,7 @@ fn bats_side_by_side_have_a_page_with_what_differs_first() {
     let row = told.lines().find(|line| line.starts_with("best_exit_speed_m_s")).unwrap();
     let speed: f64 = row.split(',').nth(3).unwrap().parse().unwrap();
     assert!(between(first, "best exit speed, m/s</th>", "</td>").contains(&format!("{speed:.2}")));
-    // A bat beside itself differs in nothing.
+    // A bat compared with itself has no differences.
     folder.text(&["compare", a, a, "--report", "same.html"]);
     let page = folder.read("same.html");
     let before = page.split_once("class=\"folds screen\"").unwrap().0;
@@ -415,7 +415,7 @@ fn what_there_is_not_is_told() {
     );
 }
 
-/// Whoever forgets a unit must not need to look at the terminal.
+/// A forgotten unit must be evident without a look at the terminal.
 #[test]
 fn what_is_unusual_for_a_bat_is_told_first() {
     let folder = Folder::new("page-unusual");
@@ -531,7 +531,7 @@ fn another_kind_of_report_is_refused_before_anything_is_done() {
     assert_eq!(folder.names(), ["taken"]);
 }
 
-/// A program without the live page says how it comes in, before anything is computed; a report without one has no
+/// A program without the live page says how to include it, before any computation; a report without a live page has no
 /// button for it.
 #[test]
 fn the_live_page_beside_a_report_has_to_be_built_in() {

@@ -1,4 +1,4 @@
-//! Pictures: what is drawn is what was computed, in its place, and can be read.
+//! Pictures: they show the computed values in the right place and are legible.
 #![cfg(feature = "png")]
 
 use crate::common;
@@ -178,7 +178,7 @@ fn hoop_modes_and_walls_are_whole_in_every_form() {
     }
 }
 
-/// What is the same of several bats is drawn beside each other.
+/// Equal places of several bats are drawn side by side.
 #[test]
 fn no_mark_of_a_row_hides_another() {
     let bats = ["r161", "r161", "r161", "torpedo"].map(bat);
@@ -353,7 +353,7 @@ fn the_stacked_energies_reach_the_initial_one() {
             let lies = |(low, high): (&Option<f64>, &Option<f64>)| high >= low;
             assert!(pair[0].iter().zip(&pair[1]).all(lies), "{name}");
         }
-        // The energies of a held bat are not those that the ground sees.
+        // The energies of a held bat differ from those seen from the ground.
         let picture =
             ledger::picture(SHEET, name, &struck.bat, &struck.sweep.impacts, 0.0).unwrap();
         assert_eq!(picture.svg.contains("as the hands see it"), held, "{name}");
@@ -415,7 +415,7 @@ fn a_png_is_twice_as_large_and_its_paper_white() {
         // The paper is white and no pixel lets another through.
         assert_eq!([blank.red(), blank.green(), blank.blue(), blank.alpha()], [255; 4]);
         assert!(image.pixels().iter().all(|pixel| pixel.alpha() == 255), "{}", picture.name);
-        // The title is drawn: there is ink where it stands.
+        // The title is drawn: there is ink at its place.
         let title = (0..40).flat_map(|y| (40..200).map(move |x| (x, y + 20)));
         let ink = title.filter(|(x, y)| image.pixel(*x, *y).unwrap().red() < 100).count();
         assert!(ink > 100, "{}: no title", picture.name);
@@ -467,9 +467,9 @@ fn a_png_shows_what_others_draw_from_the_svg() {
         let ours = Pixmap::decode_png(&png(&picture.drawing, 2.0)).unwrap();
         let theirs = by_others(&picture);
         assert_eq!([ours.width(), ours.height()], [theirs.width(), theirs.height()]);
-        // They draw the title as thin as the font has it, we do not: it stands above this row.
+        // They draw the title thin, as in the font, and we do not; it is above this row.
         let off = difference(&ours, &theirs, 72);
-        // Letters may stand off by the sixteenth of a pixel that edges are counted in.
+        // Letters may be displaced by a sixteenth of a pixel, the resolution of edges.
         assert!(off < 12.0, "{}: {off}", picture.name);
     }
 }
@@ -504,7 +504,7 @@ fn every_colour_reads_on_light_and_on_dark_paper() {
         for ink in [TEXT, MUTED].iter().chain(&SERIES) {
             assert!(contrast(of(ink), of(&PAPER)) >= 4.5, "{ink:?}");
         }
-        // Words stand on tinted stretches and on the cells of a matrix.
+        // Words appear on tinted stretches and on the cells of a matrix.
         for series in &SERIES {
             for words in [TEXT, MUTED] {
                 assert!(contrast(of(&words), tinted(series, TINT)) >= 4.5, "{series:?} {words:?}");
@@ -514,7 +514,7 @@ fn every_colour_reads_on_light_and_on_dark_paper() {
             assert!(contrast(of(&TEXT), tinted(&SERIES[0], share * FULL)) >= 4.5, "{share}");
         }
         assert!(contrast(of(&FRAME), of(&PAPER)) >= 3.0);
-        // The grid is there, and stands back.
+        // The grid is visible but muted.
         let grid = contrast(of(&GRID), of(&PAPER));
         assert!((1.2..2.0).contains(&grid), "{grid}");
     }
@@ -547,7 +547,7 @@ fn a_matrix_has_its_numbers_in_it() {
     assert_eq!((seen("0.30"), seen("0.70"), seen("–")), (4, 1, 4));
     assert_eq!((seen("1"), seen("5")), (2, 1));
     let many = Matrix { columns: names(40), values: vec![vec![Some(0.5); 40]; 4], ..table };
-    // There is room for every second, and none is cut.
+    // There is room for every second name, and none is cut.
     let picture = matrix::picture(&many);
     check(&picture, "many columns");
     let document = Document::parse(&picture.svg).unwrap();
@@ -595,7 +595,7 @@ fn the_program_draws_into_a_folder() {
     assert_eq!(files("at"), both(&["profile", "contact", "hysteresis", "hands"]));
     folder.text(&["trade", &mesh("dowel"), "--budget", "300 ms", "-n", "2", "--plots", "trade"]);
     assert_eq!(files("trade"), both(&["front"]));
-    // What an earlier run drew stays and is named; what others drew is nobody's business.
+    // Pictures of an earlier run are kept and named; other files are ignored.
     folder.text(&["hit", &r161, "--points", "9", "--plots", "twice"]);
     folder.write("twice/mine.svg", "<svg></svg>");
     let output = folder.run(&["hit", &mesh("dowel"), "--model", "rigid", "--plots", "twice"]);
@@ -604,7 +604,7 @@ fn the_program_draws_into_a_folder() {
         told.contains("twice still holds pictures of an earlier run: contact, hands, hysteresis\n")
     );
     assert_eq!(files("twice").len(), 2 * along.len() + 1);
-    // Where there is a file there is no folder.
+    // A file in place of the folder.
     folder.write("taken", "x");
     let output = folder.run(&["modes", &r161, "--plots", "taken"]);
     assert_eq!(output.status.code(), Some(2));

@@ -1,4 +1,4 @@
-//! Tests of files, of what the program says and of what it writes, as one program.
+//! Tests of files, messages and outputs, as one program.
 
 mod common;
 #[cfg(feature = "png")]

@@ -1,4 +1,4 @@
-//! What a solution says of its errors is true, wherever the exact answer is known.
+//! The stated errors of a solution are correct wherever the exact answer is known.
 
 use std::sync::LazyLock;
 

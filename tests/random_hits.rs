@@ -1,5 +1,5 @@
-//! Ten thousand random impacts keep what must be kept: energy, and the ball never gets more of it than
-//! there was. Their exit speeds have a truth of their own in `tests/hit_promise.rs`.
+//! Ten thousand random impacts satisfy the conservation of energy, and the ball never gets more than there was. Their
+//! exit speeds are compared with a reference in `tests/hit_promise.rs`.
 
 use sweetspot::bat::theory::Theory;
 use sweetspot::beam::dowel::{Ends, beta_l};
@@ -11,7 +11,7 @@ use sweetspot::collision::struck::Struck;
 use sweetspot::{Request, solve};
 use sweetspot_proof::bundled::bundled_bat;
 
-/// Numbers that look random, the same in every run.
+/// Random-looking numbers, the same in every run.
 ///
 /// # Source
 ///
@@ -49,7 +49,7 @@ struct Place {
     mass: f64,
 }
 
-/// Two bats, for as many modes as a case asks for.
+/// Two bats, for the number of modes of a case.
 struct Bats {
     r161: (sweetspot::Bat, sweetspot::Solution),
 }
@@ -126,7 +126,7 @@ fn ten_thousand_impacts_keep_their_energy() {
         let touching = law.compression(0.5 * reduced * speed * speed) / speed;
         let collider = Collider::new(&modes, 0.28 * touching);
         for accuracy in ACCURACIES {
-            // Where steps come to no end finer ones do.
+            // Where the steps do not end, finer ones do.
             let found = (0..12).find_map(|k| {
                 let met = collider.meet(&felt, &law, speed, 0.2_f64.powi(k) * accuracy);
                 met.is_sound(&felt, speed).then_some(met)
@@ -143,7 +143,7 @@ fn ten_thousand_impacts_keep_their_energy() {
             plain += usize::from(met.reloads == 0 && !met.late && !met.again());
         }
     }
-    // It is a test of the delicate ones too, and not only of them.
+    // The test includes delicate hits and others.
     println!("{reloaded} reloads, {late} late, {second} second contacts, {plain} plain");
     assert!(reloaded > 150 && late > 1500 && second > 600 && plain > 5000);
 }

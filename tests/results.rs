@@ -1,4 +1,4 @@
-//! What a user of the library is given can be printed, written as JSON and sent to other threads.
+//! The results for users of the library can be printed, written as JSON and sent to other threads.
 
 use std::fmt::Debug;
 

@@ -1,4 +1,4 @@
-//! What `sweetspot scatter` finds: closed forms, known indices, and the same bytes whoever computes them.
+//! Results of `sweetspot scatter`: closed forms, known indices, and the same bytes on every computer.
 
 use crate::common;
 
@@ -9,7 +9,7 @@ use sweetspot_study::many::sobol::Sobol;
 
 const R161: &str = include_str!("../meshes/r161.json");
 
-/// G goes with E, density and E are lognormal and go together.
+/// G is proportional to E; density and E are lognormal and correlated.
 const LOGNORMAL: &str = r#"{ "format": "sweetspot-scatter/1",
     "correlation": [["density", "youngs_modulus", 0.6]],
     "density": { "lognormal": "4 %" }, "youngs_modulus": { "lognormal": "10 %" },
@@ -96,7 +96,7 @@ fn s2_ishigamis_function_has_its_known_indices() {
             assert!((found.value - known).abs() < 2e-3, "{found:?} {known}");
         }
     }
-    // By groups: what the first and the last do together is theirs alone.
+    // By groups: the interaction of the first and the last belongs to their group.
     let groups = Indices::grouped(&[VariateKind::Share; 3], &[0, 1, 0], &rows).unwrap();
     assert_eq!(groups.first.len(), 2);
     assert!((groups.first[0].value - 0.5576).abs() < 2e-3, "{:?}", groups.first);
@@ -130,7 +130,7 @@ fn s3_the_same_seed_gives_the_same_bytes_on_any_number_of_threads() {
     assert!((frequency / nearest - 1.0).abs() < 1e-4, "{frequency} {nearest}");
 }
 
-/// As an independent solver and estimator found them, from 1024 bats each.
+/// Compared with an independent solver and estimator, from 1024 bats each.
 #[test]
 fn bats_and_swings_differ_as_an_independent_program_found() {
     let folder = folder("all", ALL);
@@ -165,7 +165,7 @@ fn bats_and_swings_differ_as_an_independent_program_found() {
     }
 }
 
-/// What a calibration leaves open is what scatters: the spread of f1 that was measured is that of its reading.
+/// The remaining uncertainty of a calibration is what scatters: the spread of the measured f1 is that of its reading.
 #[test]
 fn a_calibration_is_scattered_by_its_covariance() {
     let folder = Folder::new("covariance");
@@ -185,13 +185,12 @@ fn a_calibration_is_scattered_by_its_covariance() {
         let sd = output(&found, name)["sd"].as_f64().unwrap();
         let datum = data.iter().find(|one| one["name"] == name).unwrap();
         let reading = datum["sd"].as_f64().unwrap();
-        // The other readings say something of it too.
+        // The other readings also contribute to it.
         assert!(sd < 1.02 * reading && sd > 0.3 * reading, "{name}: {sd} {reading}");
     }
 }
 
-/// Without a file the wood differs, as `analyze` has it beside the sweet spot: what is propagated there to first
-/// order comes of bats that are drawn and solved.
+/// Without a file the wood varies as in `analyze`, which propagates it to first order; here bats are drawn and solved.
 #[test]
 fn without_a_file_bats_differ_as_analyze_says_beside_the_sweet_spot() {
     let folder = Folder::new("wood-alone");
@@ -215,11 +214,11 @@ fn without_a_file_bats_differ_as_analyze_says_beside_the_sweet_spot() {
         let sd = output(&drawn, name)["sd"].as_f64().unwrap();
         assert!((sd / first_order - 1.0).abs() < 0.03, "{name} {sd} {first_order}");
     }
-    // A node is where it is whatever the wood is, as G goes with E: round-off has no shares.
+    // A node does not depend on the wood, because G is proportional to E; round-off has no shares.
     assert!(output(&drawn, "node_mode_1_m")["shares"].is_null());
     let words = drawn["words"].as_array().unwrap();
     assert!(words.iter().any(|one| one == "node_mode_1_m is the same of all bats."), "{words:?}");
-    // Of what is no wood nothing is known.
+    // Nothing is known about the scatter of other materials.
     folder.write("tube.json", include_str!("../meshes/northwestern_aluminium.json"));
     let output = folder.run(&["scatter", "tube.json"]);
     assert_eq!(output.status.code(), Some(2));

@@ -1,4 +1,4 @@
-//! Hits of held bats, of balls whose bounce depends on the speed, of barrels that give way.
+//! Hits on held bats, with balls whose restitution depends on the speed, and on compliant barrels.
 
 use crate::common::of_factors;
 
@@ -40,8 +40,8 @@ fn pinned(x: f64) -> Bat {
     held(Fixtures { supports: vec![pin], ..Fixtures::default() })
 }
 
-/// A bat on a pin recoils as its inertia about the pin says, and a stiff one returns the ball as
-/// `e_A = (e − r)/(1 + r)`, r = m Q²/I: BBCOR as the standard rig's formula has it is then e₀.
+/// A bat on a pin recoils according to its inertia about the pin, and a rigid one returns the ball with
+/// `e_A = (e − r)/(1 + r)`, r = m Q²/I. BBCOR by the formula of the standard rig is then e₀.
 #[test]
 fn a_stiff_bat_on_a_pin_is_the_test_rig() {
     let bat = pinned(0.1524);
@@ -65,7 +65,7 @@ fn the_ball_leaves_before_it_feels_the_hands() {
     let free = bundled_bat("meshes/r161.json").unwrap();
     let grip = Grip { from: 0.02, to: 0.18, stiffness: 1e5, damping: 30.0 };
     let gripped = held(Fixtures { grip: Some(grip), ..Fixtures::default() });
-    // So soft that the bat turns in it at 1 Hz.
+    // So soft that the bat rotates in it at 1 Hz.
     let grip = Grip { from: 0.0, to: 0.1778, stiffness: 3e4, damping: 100.0 };
     let loose = held(Fixtures { grip: Some(grip), ..Fixtures::default() });
     let clamp = Support { x: 0.0, kind: Held::Clamped };
@@ -90,7 +90,7 @@ fn the_ball_leaves_before_it_feels_the_hands() {
     assert!((near[0] - near[1]).abs() > 0.5, "{near:?}");
 }
 
-/// Damping takes energy, little by little, and all of it is in the ledger.
+/// Damping takes a little energy, and all of it is in the ledger.
 #[test]
 fn what_damping_takes_is_told() {
     let mut material = bundled_bat("meshes/r161.json").unwrap().material().clone();
@@ -132,7 +132,7 @@ fn balls_are_within_the_rules() {
     }
 }
 
-/// On a bat that is as heavy as a wall the ball returns what its file says for that speed.
+/// A bat as heavy as a wall returns the ball with the restitution of its file at that speed.
 #[test]
 fn a_ball_bounces_as_its_file_says_for_that_speed() {
     let ball = ball(
@@ -178,8 +178,8 @@ fn a_linear_ball_returns_what_its_dashpot_leaves() {
     }
 }
 
-/// A wall that hardly gives way acts as a rigid one; without mass it is a spring in series; the
-/// trampoline: a soft one without loss gives the ball more back than a stiff one does.
+/// A wall that is almost rigid acts as a rigid one; without mass it is a spring in series; and as a trampoline, a soft
+/// wall without loss returns more to the ball than a stiff one.
 #[test]
 fn a_wall_under_the_ball_is_a_trampoline() {
     let bat = bundled_bat("meshes/r161.json").unwrap();
@@ -200,8 +200,8 @@ fn a_wall_under_the_ball_is_a_trampoline() {
     assert!(heavy.energy.wall > 0.1, "{}", heavy.energy.wall);
 }
 
-/// Hands and springs give way within a hit: a bat in them that does not bend is a free stiff one, by
-/// the rigid model and, all moduli raised a millionfold, by ball and modes.
+/// Hands and springs hardly act within a hit: a rigid bat held by them is like a free one, by the rigid model and, with
+/// all moduli raised a millionfold, by ball and modes.
 #[test]
 fn a_stiff_bat_in_soft_hands_is_free() {
     let free = bundled_bat("meshes/r161.json").unwrap();
@@ -220,7 +220,7 @@ fn a_stiff_bat_in_soft_hands_is_free() {
     }
 }
 
-/// A wall so light that its own swing is far faster than the hit is a spring, and makes no energy.
+/// A wall so light that its oscillation is far faster than the hit acts as a spring, and creates no energy.
 #[test]
 fn a_light_wall_makes_no_energy() {
     let bat = bundled_bat("meshes/r161.json").unwrap();
@@ -233,7 +233,7 @@ fn a_light_wall_makes_no_energy() {
             let hitter = Hitter::new(Model::Contact, &scene, &bat, &solution, effort).unwrap();
             for x in [0.45, 0.6, 0.7, 0.8] {
                 let impact = hitter.strike(x);
-                // A hit whose energies do not close is refused.
+                // A hit whose energies do not balance is refused.
                 let Some(outcome) = impact.outcome else {
                     assert_eq!(impact.flags, ["unresolved"]);
                     continue;

@@ -1,4 +1,4 @@
-//! What is written is what its schema says, and a schema is one.
+//! Documents match their schemas, and the schemas are valid.
 
 use crate::common;
 
@@ -33,7 +33,7 @@ use sweetspot_report::schema::{self, of};
 /// A bat with everything on it and under it, damped by all that damps.
 const FULL: &str = include_str!("golden/bat-1.json");
 
-/// What one value of it is in bats of other kinds.
+/// The value of a member in other kinds of bats.
 const OTHERS: [(&str, &str); 4] = [
     // Held by no dashpot, with one loss factor.
     (
@@ -41,7 +41,7 @@ const OTHERS: [(&str, &str); 4] = [
         r#"{ "format": "sweetspot-bat/1", "profile": { "x": [0, 0.8], "radius": [0.02, 0.03] },
              "material": { "density": 700, "youngs_modulus": 14e9, "loss_factor": 0.02 } }"#,
     ),
-    // Dashpots so weak that each mode is taken by itself, and rigid motions that only they hold.
+    // Dashpots so weak that each mode is treated separately, and rigid motions that only they restrain.
     (
         "dashpots",
         r#"{ "format": "sweetspot-bat/1", "profile": { "x": [0, 0.8], "radius": [0.02, 0.03] },
@@ -76,7 +76,7 @@ fn assert_valid(validator: &Validator, document: &Value, what: &str) {
     assert!(faults.is_empty(), "{what}: {faults:#?}");
 }
 
-/// Read into its type and written again it is the same document.
+/// A document read into its type and written again is unchanged.
 fn assert_typed<T: Serialize + DeserializeOwned>(document: &Value, what: &str) {
     let typed: T = serde_json::from_value(document.clone()).expect(what);
     let again = serde_json::to_string(&schema::value(&typed)).unwrap();
@@ -302,8 +302,8 @@ fn outputs_may_grow_but_not_lose_a_member_change_a_type_or_be_of_another_version
         each_object(&document, "", &mut |path, members| {
             let mut grown = document.clone();
             grown.pointer_mut(path).unwrap()["later"] = json!({ "is": "new" });
-            // What a bat is does not grow: a member more is another bat; and the figures of a
-            // comparison are figures, however many, as the changes of a lathe map are numbers.
+            // Bats admit no additional members, because these would make it another bat; the figures of a comparison
+            // may be any number of figures, as the changes of a lathe map may be numbers.
             let numbers = |path: &str| {
                 let last = path.rsplit('/').next().unwrap_or_default();
                 let changes = ["error", "finite", "same_energy", "by_law", "curves", "per_g"];
@@ -351,8 +351,8 @@ fn each_object(
     }
 }
 
-/// A nearly dead ball, whose fastest place lives on a later contact; a dented wall; a bat of no material's density:
-/// each doubt is one that the format knows.
+/// A nearly dead ball, whose best place depends on a later contact; a dented wall; a bat of implausible density: each
+/// doubt is one that the format has.
 #[test]
 fn doubts_are_those_of_the_format() {
     let folder = Folder::new("schema-doubts");

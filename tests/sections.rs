@@ -15,8 +15,8 @@ use sweetspot_proof::bundled::CASES;
 
 const BOTH: [Theory; 2] = [Theory::EulerBernoulli, Theory::Timoshenko];
 
-/// So fine that what is left of an error is round-off: 48 elements of degree 9 at least, whose
-/// error of the first eight modes is far below 1e-16.
+/// So fine that only round-off is left: at least 48 elements of degree 9, whose error for the first eight modes is far
+/// below 1e-16.
 fn finest(bat: &Bat, theory: Theory) -> Solution {
     let request =
         Request { modes: 8, elements: Some(48), degree: Some(9), theory, ..Request::default() };
@@ -184,8 +184,8 @@ fn a_bore_filled_with_its_own_wood_is_solid_and_with_nothing_to_speak_of_empty()
     }
 }
 
-/// A cone of depth d and rim r_c weighs ρ π r_c² d/3; so little of it at a free end, where nothing
-/// bends, raises a frequency by `½ ∫ρ A_cup φ²/m`, to the first order.
+/// A cone of depth d and rim r_c has the mass ρ π r_c² d/3. A small one at a free end, where nothing bends, raises a
+/// frequency by `½ ∫ρA_cup φ²/m`, to first order.
 #[test]
 fn a_cup_at_the_tip_takes_its_mass_from_every_mode() {
     let (depth, rim) = (0.0254, 2e-3);
@@ -210,7 +210,7 @@ fn a_cup_at_the_tip_takes_its_mass_from_every_mode() {
         let part = |k: i32| step * taken(middle(k)) * a.shape.deflection(start + middle(k)).powi(2);
         let expected = 0.5 * (0..steps).map(part).sum::<f64>() / a.modal_mass;
         let found = b.omega / a.omega - 1.0;
-        // The second order is as small as the shift itself, 1e-4; the end still bends a little.
+        // The second order is of the size of the shift, 1e-4; the end still bends a little.
         assert!((found / expected - 1.0).abs() < 0.01, "mode {}: {found} {expected}", a.order);
     }
 }
@@ -299,8 +299,8 @@ fn layers_add_under_timoshenko() {
     }
 }
 
-/// A joint of stiffness k gives way by `M²/k` where the bat stores `∫M²/EI = ω² m`: a frequency is
-/// lowered by `M²/(2 k ω² m)`, and by the square of that more.
+/// A joint of stiffness k has the energy `M²/k`, where the bat stores `∫M²/EI = ω² m`: it lowers a frequency by
+/// `M²/(2 k ω² m)`, up to terms of second order.
 #[test]
 fn a_stiff_joint_lowers_a_frequency_by_what_gives_way_in_it() {
     let x = 0.31;
@@ -324,9 +324,9 @@ fn a_stiff_joint_lowers_a_frequency_by_what_gives_way_in_it() {
     }
 }
 
-/// In the middle of the dowel: the two halves turn against each other at `ω² = 192 k/(M L²)`,
-/// bending modes of even number have no moment there and stay, the next symmetric one has halves as
-/// free bars of half the length, at four times f₁.
+/// In the middle of the dowel: the two halves rotate against each other at `ω² = 192 k/(M L²)`. Bending modes of even
+/// number have no moment there and are unchanged. In the next symmetric one the halves move as free bars of half the
+/// length, at four times f₁.
 #[test]
 fn a_joint_that_gives_way_leaves_two_hinged_halves() {
     let mass = DENSITY * PI * RADIUS * RADIUS * LENGTH;
@@ -395,8 +395,8 @@ fn what_a_scale_says_sets_the_density_and_what_a_tap_says_the_stiffness() {
     }
 }
 
-/// The tap finds the stiffness that a bat has, whatever is on it and under it, without one to begin
-/// with; hands and soft springs leave slow motions that are no bending.
+/// The tap determines the stiffness of a bat with any fixtures, without a starting value; hands and soft springs leave
+/// slow motions that are not bending.
 #[test]
 fn a_tap_finds_the_stiffness_of_a_held_bat() {
     let grip = json!({ "grip": { "from": 0, "to": 0.15, "stiffness": 3e4 } });
@@ -419,7 +419,7 @@ fn a_tap_finds_the_stiffness_of_a_held_bat() {
             more["weighed"] = json!({ "first_bending_hz": tapped });
             let bat = tuned(of(shaped(none()), more), theory, tolerance).unwrap();
             let found = bat.material().youngs_modulus;
-            // Where a joint takes half of the bending the stiffness is twice as sensitive and more.
+            // Where half of the bending is in a joint the stiffness is at least twice as sensitive.
             assert!((found / 1.6e10 - 1.0).abs() < 8.0 * tolerance, "{what} {found:e}");
         }
     }

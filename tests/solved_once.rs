@@ -1,4 +1,4 @@
-//! What is solved is not solved again.
+//! No bat is solved twice in the same way.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -11,10 +11,10 @@ use sweetspot::modes::solve::SOLVED;
 use sweetspot::{Bat, Request, solve};
 use sweetspot_report::analysis::{Analysis, Task};
 
-/// Bats of this name are counted: other tests solve theirs at the same time.
+/// Only bats with this name are counted, because other tests solve theirs at the same time.
 const NAME: &str = "solved once";
 
-/// How often a bat, all of it, was solved by a request.
+/// Number of times that a bat with all its properties was solved for a request.
 static SEEN: Mutex<BTreeMap<(String, String), usize>> = Mutex::new(BTreeMap::new());
 
 fn tell(bat: &Bat, request: &Request) {
@@ -25,8 +25,8 @@ fn tell(bat: &Bat, request: &Request) {
 }
 
 /// Solid and hollow: theory, modes, hits, their scatter, advice and barrel. The bat itself is solved by the plain beam
-/// (which theory), for its modes, for its hits and for its advice, each as accurately as that needs; all else is solved
-/// with something changed.
+/// (to choose the theory), for its modes, for its hits and for its advice, each with the accuracy needed; all other
+/// solves have something changed.
 #[test]
 fn an_analysis_solves_no_bat_twice_in_the_same_way() {
     SOLVED.set(tell).unwrap();
@@ -49,7 +49,7 @@ fn an_analysis_solves_no_bat_twice_in_the_same_way() {
         let again: Vec<_> = seen.iter().filter(|(_, count)| **count > 1).collect();
         let own: Vec<&String> =
             seen.keys().filter(|(bat, _)| *bat == same).map(|(_, request)| request).collect();
-        // A hollow barrel is shot at rest beside its hits, from the same first modes.
+        // A hollow barrel is also hit at rest, with the same first modes.
         let most = usize::from(mesh != "r161");
         assert!(again.len() <= most, "{mesh}: {again:?}");
         assert!(own.len() <= 7, "{mesh}: {own:#?}");

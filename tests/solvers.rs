@@ -262,8 +262,8 @@ fn four_threads_that_ask_arpack_at_once_get_the_same_bits() {
     });
 }
 
-/// Every solver's frequencies are strain over kinetic energy of its own shapes, so that all agree
-/// within what they state, on elements of any degree, and none states less than it is off.
+/// The frequencies of every solver are strain energy over kinetic energy of its shapes, so that all agree within their
+/// stated errors on elements of any degree, and no stated error is too small.
 #[test]
 fn four_solvers_give_one_answer() {
     let solvers = [
@@ -286,7 +286,7 @@ fn four_solvers_give_one_answer() {
                 let theirs = solve(&bat, &Request { solver, ..request }).unwrap();
                 for (a, b) in ours.modes.iter().zip(&theirs.modes) {
                     let apart = (a.omega / b.omega - 1.0).abs();
-                    // Both stand on one mesh, whose own error they share.
+                    // Both are on one mesh, whose discretisation error they share.
                     let stated = a.error.round_off + b.error.round_off;
                     let order = a.order;
                     assert!(
@@ -302,8 +302,8 @@ fn four_solvers_give_one_answer() {
     }
 }
 
-/// The U-curve: the dense solver's own eigenvalue loses digits as elements are added, the running
-/// sums lose none, and strain over kinetic energy brings most of them back.
+/// The U-curve: the eigenvalue of the dense solver loses digits as elements are added, the running sums lose none, and
+/// strain energy over kinetic energy restores most of them.
 #[test]
 fn more_elements_hurt_a_factored_matrix_and_not_the_sums() {
     let bat = dowel();

@@ -11,7 +11,7 @@ fn mesh(name: &str) -> String {
     format!("{}/meshes/{name}.json", env!("SWEETSPOT_TOP"))
 }
 
-/// The samples of a WAV file, after a look at its header.
+/// The samples of a WAV file, after a check of its header.
 fn samples(bytes: &[u8]) -> Vec<f64> {
     let long = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap()) as usize;
     let short = |at: usize| u16::from_le_bytes(bytes[at..at + 2].try_into().unwrap());
@@ -25,7 +25,7 @@ fn samples(bytes: &[u8]) -> Vec<f64> {
     samples.map(|two| f64::from(i16::from_le_bytes([two[0], two[1]]))).collect()
 }
 
-/// How much of a frequency (Hz) is in samples.
+/// The amplitude of a frequency (Hz) in samples.
 fn strength(samples: &[f64], hertz: f64) -> f64 {
     let mut sum = [0.0; 2];
     for (k, sample) in samples.iter().enumerate() {
@@ -61,7 +61,7 @@ fn a_struck_bat_sounds_at_its_own_frequencies() {
         let least = if name.starts_with("loud") { 29_000.0 } else { 1000.0 };
         assert!((least..=32_767.0).contains(&largest), "{name}: {largest}");
         assert!(samples.len() > 10_000, "{name}");
-        // A line of the first mode is there, and it is the highest around it.
+        // There is a peak at the first mode, the highest around it.
         let first = strength(&samples, hertz[0]);
         for off in [0.9, 0.95, 1.05, 1.1, 1.5] {
             assert!(first > 2.0 * strength(&samples, off * hertz[0]), "{name} {off}");
@@ -100,8 +100,8 @@ fn what_was_assumed_for_a_sound_is_told_and_a_sound_needs_a_blow() {
     assert!(!folder.0.join("b.wav").exists());
 }
 
-/// The first hoop mode is the loudest of what an aluminium barrel sounds after a hit, as D. A. Russell, Acoustics Today
-/// 13(4) (2017), has it, and is still there when wood is silent.
+/// The first hoop mode is the loudest sound of an aluminium barrel after a hit, as in D. A. Russell, Acoustics Today
+/// 13(4) (2017), and is still audible when wood is silent.
 #[test]
 fn the_ping_of_an_aluminium_barrel_is_loudest_and_outlasts_the_tones_of_wood() {
     let folder = Folder::new("sound-ping");
@@ -139,7 +139,7 @@ fn assumed_damping_is_that_of_a_metal_and_is_named_and_wood_has_none() {
     };
     let [plain, assumed] = [modes(&[]), modes(&["--damping", "assumed"])];
     let ratio = |told: &Value| told["modes"][0]["damping_ratio"].as_f64().unwrap();
-    // Half the loss factor, but for what the plug of plastic has of the strain energy.
+    // Half the loss factor, except for the share of the plastic plug in the strain energy.
     assert_eq!(ratio(&plain), 0.0);
     assert!((0.99 * 0.5e-4..0.5e-4).contains(&ratio(&assumed)), "{}", ratio(&assumed));
     let named = |told: &Value| told["model"]["ignored"].to_string().contains("0.0001 of the metal");

@@ -1,4 +1,4 @@
-//! What calipers, scale and wood leave open: closed forms, and samples of bats that are made anew.
+//! The uncertainty due to calipers, scale and wood: closed forms, and samples of bats.
 
 use crate::common;
 
@@ -70,8 +70,8 @@ fn spread(bat: &Bat, readings: &Readings) -> Spread {
     Spread::new(&analysed, readings)
 }
 
-/// `f = (βL)²/2πL² √(EI/ρA)` goes as `√(E/ρ) d/L²`, the mass as `ρ d² L`. A difference over steps of 0.05
-/// in the logarithm is `sinh(h/4)/(h/4)` of the derivative of a root: 3e-5 more at h = 0.05.
+/// `f = (βL)²/2πL² √(EI/ρA)` is proportional to `√(E/ρ) d/L²`, the mass to `ρ d² L`. A difference over steps of h =
+/// 0.05 in the logarithm is `sinh(h/4)/(h/4)` times the derivative of a root, i.e. 3e-5 more.
 #[test]
 fn a_dowel_s_spread_is_that_of_the_closed_form() {
     let bat = bat(dowel(), ASH, Weighed::default());
@@ -116,13 +116,13 @@ fn a_scale_and_a_tap_take_the_place_of_the_wood() {
     let inputs: Vec<Input> = settled.sources.iter().map(|source| source.input).collect();
     assert_eq!(inputs, [Input::Diameters, Input::Length, Input::Mass, Input::Tap]);
     let deviation = |spread: &Spread, answer| spread.of(answer).unwrap().deviation.unwrap();
-    // What was read is as exact as the reading, whatever the diameters are.
+    // A measured value is as accurate as the reading, regardless of the diameters.
     let read = deviation(&settled, Answer::Frequency(1)) / (0.01 * weighed.first_bending.unwrap());
     assert!((read - 1.0).abs() < 1e-9, "{read}");
     assert!((deviation(&settled, Answer::Mass) / 1e-3 - 1.0).abs() < 1e-9);
     for answer in COUNTED {
         let [open, settled] = [&open, &settled].map(|spread| deviation(spread, answer));
-        // Nothing but the diameters and the length moves a balance point.
+        // Only the diameters and the length affect a balance point.
         let less = if answer == Answer::BalancePoint { 1.001 } else { 0.3 };
         assert!(settled < less * open, "{answer:?} {settled} {open}");
     }
@@ -130,7 +130,7 @@ fn a_scale_and_a_tap_take_the_place_of_the_wood() {
     assert_eq!(most.input, Input::Tap);
 }
 
-/// A weight on the knob moves the answers, and not what the scale and the tap left open of the wood.
+/// A weight on the knob changes the answers, but not the remaining uncertainty of the wood after scale and tap.
 #[test]
 fn a_bat_that_was_weighed_and_tapped_before_its_edits_is_as_well_known_after_them() {
     let free = bat(wooden(), ASH, Weighed::default());
@@ -175,7 +175,7 @@ impl Normal {
     }
 }
 
-/// Mass, first two frequencies, best place and exit speed of a bat that was made anew.
+/// Mass, first two frequencies, best place and exit speed of a bat that was built anew.
 fn found(bat: &Bat, scene: &Scene) -> [f64; 5] {
     let request = Request { modes: 12, tolerance: 1e-6, ..Request::plain() };
     let solution = solve(bat, &request).unwrap();
@@ -203,8 +203,8 @@ fn deviations(sample: &[[f64; 5]]) -> [f64; 5] {
     })
 }
 
-/// A sample of 160 tells a deviation to 1/√320, 6 % of itself, and the first order leaves out what the
-/// curvature of the answers over 22 % of stiffness makes of it, some per cent more.
+/// A sample of 160 determines a deviation to 1/√320, 6 % of it. The first order neglects the curvature of the answers
+/// over 22 % of stiffness, some per cent more.
 const SAMPLE: usize = 160;
 const WITHIN: f64 = 0.2;
 
@@ -229,7 +229,7 @@ fn a_sample_of_bats_scatters_as_the_first_order_says() {
     }
 }
 
-/// Here every bat of the sample is weighed and tapped again, each reading off in its own way.
+/// Every bat of the sample is weighed and tapped again, with random errors of the readings.
 #[test]
 fn a_sample_of_bats_that_were_weighed_and_tapped_scatters_as_the_first_order_says() {
     let scene = Scene::default();
@@ -237,7 +237,7 @@ fn a_sample_of_bats_that_were_weighed_and_tapped_scatters_as_the_first_order_say
     let (mass, note) = (free.inertia().mass, modes(&free).modes[0].frequency());
     let weighed =
         |mass, note| Weighed { mass: Some(mass), first_bending: Some(note), ..Weighed::default() };
-    // Calipers so bad that they count beside the note.
+    // Calipers so inaccurate that they matter in addition to the note.
     let readings = Readings { diameter: 5e-4, ..Readings::default() };
     let spread = spread(&bat(wooden(), ASH, weighed(mass, note)), &readings);
     let mut normal = Normal(11);
@@ -299,8 +299,8 @@ fn a_tapped_bat_s_screen_has_no_wood_in_it_and_a_reading_that_cannot_be_is_refus
     }
 }
 
-/// Fewer modes that are shown change nothing of the hits, nor what is said of the wood; a measured balance point far
-/// from the profile's is told.
+/// Showing fewer modes does not change the hits or the remarks on the wood; a measured balance point far from that of
+/// the profile is reported.
 #[test]
 fn an_analysis_that_shows_one_mode_hits_as_one_that_shows_ten() {
     let folder = Folder::new("spread-shown");

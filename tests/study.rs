@@ -1,4 +1,4 @@
-//! Many bats: every row is right by itself, whoever makes it, and nothing that was made is lost.
+//! Many bats: every row is correct by itself on any machine, and no completed row is lost.
 
 use crate::common;
 
@@ -87,7 +87,7 @@ fn every_row_is_the_bat_that_it_says() {
     assert!(rho.iter().any(|rho| *rho < 620.0) && rho.iter().any(|rho| *rho > 680.0));
 }
 
-/// A place that is asked for is hit as `hit` does, with the scene of the study.
+/// A requested place is hit as by `hit`, with the scene of the study.
 #[test]
 fn a_hit_is_the_one_that_hit_computes() {
     let text = r#"{ "format": "sweetspot-study/1", "bat": "r161", "tol": 1e-4,
@@ -98,7 +98,7 @@ fn a_hit_is_the_one_that_hit_computes() {
     let folder = study("study-hits", text);
     folder.text(&["study", "study.json", "--out", "out"]);
     let table = table(&folder, "out/part-000000.csv");
-    // A list of one unit is a column of numbers in it.
+    // A list with one unit is a column of numbers in it.
     assert_eq!(column(&table, "scene.pitch"), [80.0, 80.0, 90.0, 90.0]);
     let manifest: serde_json::Value =
         serde_json::from_str(&folder.read("out/manifest.json")).unwrap();
@@ -155,8 +155,8 @@ fn a_bat_that_cannot_exist_is_a_row_with_its_reason() {
     assert!(rows[0][6] == "true" && rows[2][7].is_empty());
 }
 
-/// What cannot be in one row is no reason to leave the others out: the first value of a list or of a grid, the
-/// median of what is drawn, a place that is not on a bat; and nothing is hit where no hit is asked for.
+/// An impossible row does not affect the others, whether it is the first value of a list or of a grid, the median of a
+/// random input, or a place off the bat; and nothing is hit where no hit is requested.
 #[test]
 fn the_first_row_is_a_row_as_all_others() {
     for (varied, outputs, bats, good) in [
@@ -171,14 +171,14 @@ fn the_first_row_is_a_row_as_all_others() {
             2,
             1,
         ),
-        // What a hit lacks costs the answers of the hit.
+        // Missing data of a hit cost only the answers of the hit.
         (
             r#""scene.hands": { "values": ["3 in", "2 m"] }"#,
             r#""exit_speed_m_s@0.7", "f1_hz""#,
             2,
             1,
         ),
-        // Hands that are beside the bat hold nothing, and nothing is hit.
+        // Hands beyond the bat hold nothing, and nothing is hit.
         (r#""scene.hands": { "values": ["2 m"] }"#, r#""mass_kg""#, 1, 1),
     ] {
         let points = if varied.contains("uniform") { r#""points": 64,"# } else { "" };
@@ -200,7 +200,7 @@ fn the_first_row_is_a_row_as_all_others() {
             assert!(rows[1][hit].is_empty() && (one / other - 1.0).abs() < 1e-9, "{rows:?}");
             assert!(rows[1].last().unwrap().contains("a place on the bat"), "{rows:?}");
         }
-        // Off a bat of 20 in, which has its frequency all the same, under the name that was asked for.
+        // Off a bat of 20 in, which still has its frequency, under the requested name.
         if let Some(k) = names.iter().position(|name| name == "exit_speed_m_s@0.70") {
             assert!(rows[0][k].is_empty() && !rows[0][k + 2].is_empty(), "{rows:?}");
             assert!(
@@ -211,8 +211,8 @@ fn the_first_row_is_a_row_as_all_others() {
     }
 }
 
-/// No place that is asked of is better than the best: on dowels the ball is fastest within some millimetres near
-/// the tip, where the bat meets it again.
+/// No requested place is better than the best: on dowels the exit speed is highest within some millimetres near the
+/// tip, where the bat meets the ball again.
 #[test]
 fn no_place_beats_the_best_one() {
     let places: Vec<String> =
@@ -240,7 +240,7 @@ fn no_place_beats_the_best_one() {
     }
 }
 
-/// What is sought on a barrel does not depend on what else is asked of it: to the last bit.
+/// The result of a search on a barrel does not depend on other outputs, to the last bit.
 #[test]
 fn an_answer_asked_alone_is_the_one_among_all() {
     const SOUGHT: [&str; 9] = [
@@ -272,7 +272,7 @@ fn an_answer_asked_alone_is_the_one_among_all() {
     }
 }
 
-/// Where no row at all is as accurate as asked, the exit code says so.
+/// Where no row is as accurate as requested, the exit code says so.
 #[test]
 fn a_study_that_reaches_nothing_says_so() {
     let folder = study("study-nothing", &SCATTER.replace("50", "2").replace("1e-9", "1e-17"));
@@ -281,8 +281,8 @@ fn a_study_that_reaches_nothing_says_so() {
     assert!(String::from_utf8_lossy(&output.stdout).starts_with("4 bats, 0 of them"));
 }
 
-/// A bat that is possible but strange is warned of by its name before the work: inches that are read as metres
-/// are no reason to stop, and none to compute a million rows without a word.
+/// A bat that is possible but strange causes a warning with its name before the work: inches read as metres are not
+/// refused, but a million rows of them are not computed without a word.
 #[test]
 fn a_strange_bat_is_warned_of() {
     let text = r#"{ "format": "sweetspot-study/1", "bat": ["dowel", "long.json"], "outputs": ["f1_hz"], "points": 2,
@@ -299,8 +299,8 @@ fn a_strange_bat_is_warned_of() {
     assert!(lines[0].starts_with("warning: long: length is 33 m"), "{told}");
 }
 
-/// What varies and changes nothing is warned of: the density of a bat that was weighed, the modulus of one that
-/// was tapped, what a hit needs where nothing is hit, what something else overrules.
+/// Inputs that vary without effect cause a warning: the density of a weighed bat, the modulus of a tapped one, inputs
+/// of a hit where nothing is hit, inputs overridden by others.
 #[test]
 fn what_varies_without_effect_is_warned_of() {
     let weighed = DOWEL.replace(
@@ -354,7 +354,7 @@ fn what_varies_without_effect_is_warned_of() {
     }
 }
 
-/// What is strange only as the study varies it is warned of: inches that are read as metres, speeds without a unit.
+/// Values that become strange only by the variation cause a warning: inches read as metres, speeds without a unit.
 #[test]
 fn what_is_strange_as_it_varies_is_warned_of() {
     for (scene, varied, says) in [
@@ -379,7 +379,8 @@ fn what_is_strange_as_it_varies_is_warned_of() {
     }
 }
 
-/// A table that a value names is sought beside the study, is one of its files, and makes the bat that it is.
+/// A table named by a value is searched in the folder of the study, is one of its files, and gives the bat that it
+/// describes.
 #[test]
 fn a_table_that_a_value_names_is_a_file_of_the_study() {
     let text = r#"{ "format": "sweetspot-study/1", "bat": "dowel.json", "outputs": ["mass_kg", "f1_hz"],
@@ -444,7 +445,7 @@ fn a_bat_of_a_table_has_its_columns() {
             assert!((of[1] / of[0] - 1.0).abs() > 0.01, "{of:?}");
         }
     }
-    // Columns with units of their own stay what they are.
+    // Columns with explicit units keep them.
     folder.write(
         "study.json",
         text.replace(r#"["scan.json", "dowel.json"]"#, r#""scan.json""#).replace(
@@ -456,8 +457,8 @@ fn a_bat_of_a_table_has_its_columns() {
     assert!(told.contains("bat.profile.unit"), "{told}");
 }
 
-/// Where rows are missing, what is left of a distribution is another one: no shares are told of it. Reasons that
-/// differ by their numbers are one.
+/// Where rows are missing, the remaining ones have another distribution, so no shares are given. Reasons that differ
+/// only by their numbers are one.
 #[test]
 fn no_shares_are_told_of_what_is_left_of_a_distribution() {
     let text = r#"{ "format": "sweetspot-study/1", "bat": "dowel.json", "outputs": ["mass_kg"],
@@ -471,7 +472,7 @@ fn no_shares_are_told_of_what_is_left_of_a_distribution() {
     assert_eq!(folder.read_names("plots"), ["histogram_mass_kg.png", "histogram_mass_kg.svg"]);
 }
 
-/// A list of bats and a folder of them: each bat has every row, one that is no bat its reason.
+/// A list of bats and a folder of bats: each bat has every row, and a file that is no bat its reason.
 #[test]
 fn several_bats_are_rows_with_their_names() {
     let text = r#"{ "format": "sweetspot-study/1", "bat": ["r161", "market", "dowel.json"],
@@ -502,14 +503,14 @@ fn several_bats_are_rows_with_their_names() {
     );
     let mass = |k: usize| table.1[k][3].parse::<f64>().unwrap();
     assert!((mass(5) / mass(9) - (1.5_f64 / 1.7).powi(2)).abs() < 1e-12);
-    // Without anything that varies each is a row as it is.
+    // Without anything that varies each is a single row.
     folder.write(
         "study.json",
         r#"{ "format": "sweetspot-study/1", "bat": "market", "outputs": ["mass_kg"] }"#,
     );
     let said = folder.text(&["study", "study.json", "--out", "as-is"]);
     assert!(said.starts_with("3 bats, 1 of them"), "{said}");
-    // What it makes among its bats is none of them, and a bat that is gone is named.
+    // Files that the study makes among its bats are not bats, and a missing bat is named.
     let again: Vec<String> =
         (0..2).map(|_| folder.text(&["study", "study.json", "--out", "market"])).collect();
     assert!(again[0] == said && again[1] == said, "{again:?}");
@@ -539,8 +540,8 @@ fn several_bats_are_rows_with_their_names() {
     }
 }
 
-/// Of `m = ρ π r² L` with independent lognormal ρ and r² the logarithm is a sum of both, so that with small
-/// deviations the shares are those of the squares: r counts twice.
+/// For `m = ρ π r² L` with independent lognormal ρ and r² the logarithm is a sum of both, so that with small deviations
+/// the shares are those of the squares: r counts twice.
 #[test]
 fn what_makes_answers_vary_is_said_and_drawn() {
     let text = r#"{ "format": "sweetspot-study/1", "bat": "dowel.json",
@@ -577,7 +578,7 @@ fn what_makes_answers_vary_is_said_and_drawn() {
     }
     let archive = std::fs::read(folder.0.join("out/part-000000.npz")).unwrap();
     assert!(archive.starts_with(b"PK"));
-    // Rows that are there are not made again, and a column that is not is named.
+    // Existing rows are not made again, and an unknown column is named.
     let output = folder.run(&[
         "study",
         "study.json",
@@ -596,7 +597,7 @@ fn what_makes_answers_vary_is_said_and_drawn() {
     assert!(said.contains("here bats or lists differ too"), "{said}");
 }
 
-/// The names in a folder of those parts.
+/// The names of those parts and their sums in a folder.
 fn with_sums(parts: &[&str]) -> Vec<String> {
     let both = |part: &&str| [part.to_string(), format!("{part}.sha256")];
     ["manifest.json".to_owned()].into_iter().chain(parts.iter().flat_map(both)).collect()
@@ -617,7 +618,7 @@ fn a_folder_is_the_same_however_it_was_made() {
             .stdout(Stdio::null())
             .spawn()
             .unwrap();
-        // Moments that look random, up to the time that the whole takes.
+        // Random-looking moments, up to the time that the whole takes.
         sleep(Duration::from_millis(7919 * round % 241));
         let _ = child.kill();
         child.wait().unwrap();
@@ -667,8 +668,8 @@ fn a_folder_of_another_study_is_refused_with_what_changed() {
     assert!(told.contains("parts of a study that is not known"), "{told}");
 }
 
-/// What the hands feel is within three times its error of what a hundred times better hits make of it, on
-/// bats whose wall, joint or stiff wood moves it most.
+/// The motion at the hands is within three times its error of that from a hundred times more accurate hits, on bats
+/// whose wall, joint or stiff wood affects it most.
 #[test]
 fn what_the_hands_feel_is_known_as_well_as_it_says() {
     const FELT: [&str; 4] = [
@@ -703,7 +704,7 @@ fn what_the_hands_feel_is_known_as_well_as_it_says() {
     }
 }
 
-/// Parts that the study does not make are told of by their names, and nothing is made of them.
+/// Parts that the study does not make are reported by name, and nothing is computed from them.
 #[test]
 fn a_part_that_is_not_the_study_s_is_refused() {
     let text = SCATTER.replace("\"points\": 50", "\"points\": 5000").replace("1e-9", "1e-2");
@@ -739,7 +740,7 @@ fn a_part_that_is_not_the_study_s_is_refused() {
     assert!(told.contains("parts of a study that is not known"), "{told}");
 }
 
-/// Beside each part and archive is its sum, as `sha256sum` writes it; whatever bit is turned is seen.
+/// Each part and archive has a file with its sum, as `sha256sum` writes it; any changed bit is detected.
 #[test]
 fn a_part_of_which_a_bit_was_turned_is_refused() {
     let folder = study("study-bits", SCATTER);
@@ -758,7 +759,7 @@ fn a_part_of_which_a_bit_was_turned_is_refused() {
             turned[k] ^= 1 << bit;
             turned
         };
-        // Of a sum the case of a letter means nothing.
+        // The case of a letter in a sum has no meaning.
         let places = (0..14).map(|k| turned(k * (bytes.len() - 1) / 13, k as u8 % 5));
         for damage in places.chain([vec![], bytes[..bytes.len() / 2].to_vec()]) {
             folder.write(name, damage);
@@ -772,7 +773,7 @@ fn a_part_of_which_a_bit_was_turned_is_refused() {
     }
 }
 
-/// A part without a sum is one of an older folder: it is checked by its rows, and gets one.
+/// A part without a sum is from an older folder: it is checked by its rows, and gets a sum.
 #[test]
 fn a_part_without_a_sum_is_checked_by_its_rows() {
     let folder = study("study-sumless", &SCATTER.replace("\"points\": 50", "\"points\": 3"));
@@ -826,8 +827,8 @@ fn a_part_without_a_sum_is_checked_by_its_rows() {
     assert_eq!(folder.read("out/part-000000.csv.sha256"), sum);
 }
 
-/// Where walls are solved parts are small, whatever machine asks; a folder that was begun with parts of the usual
-/// size goes on with them.
+/// Studies that solve walls have small parts on every machine; a folder that was begun with parts of the usual size
+/// keeps it.
 #[test]
 fn a_study_of_walls_has_small_parts() {
     let text = |outputs: &str| {
@@ -869,7 +870,7 @@ fn a_study_of_walls_has_small_parts() {
         folder.write("out/manifest.json", other);
         assert!(refused(&folder, "study.json").contains("the rows per part"));
     }
-    // Anew, where nobody can be asked only if that was said; what else is there stays.
+    // Begun anew: without a terminal only on request, and other files are kept.
     folder.write("out/manifest.json", &older);
     folder.write("out/part-notes.csv", "mine");
     let output = folder.run(&["study", "study.json", "--out", "out", "--fresh"]);
@@ -885,7 +886,7 @@ fn a_study_of_walls_has_small_parts() {
     let output = folder.run(&["study", "study.json", "--out", "out", "--fresh", "--yes"]);
     assert_eq!(output.status.code(), Some(2));
     assert_eq!(folder.read_names("out").len(), 5);
-    // What asks for no wall has parts of the usual size.
+    // A study without walls has parts of the usual size.
     for (outputs, more) in [("\"mass_kg\"", ""), (hit, "\"scene\": { \"wall\": \"off\" },")] {
         folder.write(
             "study.json",
@@ -897,7 +898,7 @@ fn a_study_of_walls_has_small_parts() {
     }
 }
 
-/// What the program says of a study that it refuses.
+/// The message about a study that is refused.
 fn refused(folder: &Folder, name: &str) -> String {
     let output = folder.run(&["study", name, "--out", "out"]);
     let told = String::from_utf8_lossy(&output.stderr).into_owned();
@@ -991,8 +992,8 @@ fn a_wrong_study_is_refused_with_its_place() {
     }
 }
 
-/// A disk that is full in the middle of a part: one message, nothing half written, and with room again the
-/// folder is the undisturbed one.
+/// A disk that fills up in the middle of a part: one message, no partial file, and with room again the folder is the
+/// undisturbed one.
 #[cfg(unix)]
 #[test]
 fn a_full_disk_leaves_no_half_part() {

@@ -1,4 +1,4 @@
-//! Tables as other programs and spreadsheets write them mean what ours mean.
+//! Tables in the formats of other programs and spreadsheets have the same meaning as ours.
 
 use crate::common::folder::Folder;
 
@@ -74,8 +74,8 @@ fn a_profile_is_read_however_its_table_is_written() {
     assert_eq!(modes("comma.txt"), modes("ours.csv"));
 }
 
-/// Channel lists of a program make a long text above the header; one that is not there at all is what is told, not
-/// the short rows below.
+/// Channel lists of some programs make a long text above the header; a missing header is reported as such, and not the
+/// short rows below.
 #[test]
 fn a_header_is_found_below_a_long_text_and_missed_where_there_is_none() {
     let folder = Folder::new("tables_long");

@@ -1,4 +1,4 @@
-//! What `sweetspot tap` hears: recordings that the program or a closed form makes, and what it refuses.
+//! Results of `sweetspot tap` for recordings made by the program or from a closed form, and its refusals.
 
 use serde_json::Value;
 use sweetspot_report::exchange::wav::{self, RATE};
@@ -51,7 +51,8 @@ const LOSSY: &str = r#"{ "format": "sweetspot-bat/1", "name": "Lossy", "profile"
     "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5] },
     "material": { "density": 650, "youngs_modulus": 18e9, "shear_modulus": 1.1e9, "loss_factor": 0.01 } }"#;
 
-/// What `ring` makes is heard again: its modes, their frequencies within 0.02 % and their loss factor within 2 %.
+/// The sound that `ring` makes is recognised: its modes, their frequencies within 0.02 % and their loss factor within 2
+/// %.
 #[test]
 fn a_bat_that_rings_is_heard_again() {
     let folder = Folder::new("tap_ring");
@@ -81,7 +82,8 @@ fn a_bat_that_rings_is_heard_again() {
     }
 }
 
-/// Tones of the R161 as its file has it: labels, E within 2 % of the file's, and a bat of that wood that reads back.
+/// Tones of the R161 as in its file: labels, E within 2 % of that in the file, and a bat with that wood that can be
+/// read back.
 #[test]
 fn labels_and_wood_follow_from_the_tones() {
     let folder = Folder::new("tap_labels");
@@ -130,7 +132,7 @@ fn what_is_no_tap_is_refused() {
     assert!(String::from_utf8_lossy(&told.stderr).contains("voice note (Opus)"), "{told:?}");
 }
 
-/// Two tones in one band, 1.5 to 8 % apart, are both heard within 0.02 %, one as strong as the other.
+/// Two tones in one band, 1.5 to 8 % apart, are both found within 0.02 %, with equal strength.
 #[test]
 fn neighbours_are_both_heard() {
     let folder = Folder::new("tap_neighbours");
@@ -163,8 +165,8 @@ fn a_part_that_is_none_is_refused_by_name() {
     }
 }
 
-/// Two recordings of two planes of the grain, whose tones are 4 % apart: the tones of both are heard, and what spoils
-/// one of the two is said by its name.
+/// Two recordings in two planes of the grain, whose tones are 4 % apart: the tones of both are found, and a defect of
+/// one of the two is reported with its name.
 #[test]
 fn two_recordings_keep_tones_of_their_own() {
     let folder = Folder::new("tap_planes");
@@ -205,8 +207,7 @@ fn a_wall_that_cannot_be_solved_is_said() {
     assert!(codes.contains(&&Value::from("wall")), "{found:#}");
 }
 
-/// Tones of bending modes and of the lowest mode of the wall: what is told of one is kept, and of the others it changes
-/// nothing.
+/// Tones of bending modes and of the lowest mode of the wall: a given label is kept, and does not change the others.
 #[test]
 fn what_is_told_takes_part_in_the_search_of_a_hollow_bat() {
     let folder = Folder::new("tap_told");

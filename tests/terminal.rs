@@ -1,4 +1,4 @@
-//! What a person sees at a terminal, and what a pipe gets.
+//! What a person sees at a terminal, and the output in a pipe.
 
 use crate::common;
 
@@ -16,8 +16,8 @@ fn mesh(name: &str) -> String {
     format!("{MESHES}/{name}.json")
 }
 
-/// What is wrong with the table of that command: more than 80 columns, but for lines that hold the
-/// bat's own name, or colour in a pipe.
+/// The faults in the table of that command: more than 80 columns, except for lines with the name of the bat, or colour
+/// in a pipe.
 fn table_faults(folder: &Folder, args: &[&str], name: &str) -> Vec<String> {
     let output = folder.run(args);
     let text = String::from_utf8_lossy(&output.stdout);
@@ -85,7 +85,7 @@ fn trade_fits_eighty_columns() {
     }
 }
 
-/// Settings by which a person says what is coloured.
+/// Settings by which a person selects colours.
 const COLOUR: [&str; 3] = ["NO_COLOR", "CLICOLOR", "CLICOLOR_FORCE"];
 
 #[test]
@@ -106,7 +106,7 @@ fn a_pipe_gets_colour_only_if_it_is_forced() {
     assert!(serde_json::from_slice::<serde_json::Value>(&output.stdout).is_ok());
 }
 
-/// What a terminal gets to see of a command; None where there is no `script` to play one.
+/// The output of a command on a terminal; None where there is no `script` to emulate one.
 #[cfg(target_os = "linux")]
 fn seen(folder: &Folder, args: &str, settings: &[(&str, &str)]) -> Option<String> {
     let command = format!("{} {args}", env!("CARGO_BIN_EXE_sweetspot"));
@@ -141,7 +141,7 @@ fn a_terminal_gets_bold_headings_unless_it_wants_none() {
     let Some(plain) = seen(&folder, &modes, &[]) else { return };
     assert!(plain.contains("\u{1b}[1mBending modes"), "{plain}");
     for setting in [("NO_COLOR", "1"), ("TERM", "dumb"), ("CLICOLOR", "0")] {
-        // Where `CI` is set, some colour even what is dumb.
+        // Where `CI` is set, some libraries colour even for a dumb terminal.
         let seen = seen(&folder, &modes, &[setting, ("CI", "true")]).unwrap();
         assert!(seen.contains("Bending modes") && !seen.contains('\u{1b}'), "{setting:?} {seen}");
     }
@@ -182,7 +182,7 @@ fn an_interrupt_leaves_no_half_file_and_the_old_one() {
     const TRIES: usize = 40;
     let folder = Folder::new("interrupt");
     let bat = mesh("dowel");
-    // Some ten megabytes, so that there is a while in which it is half written.
+    // Some ten megabytes, so that there is time to observe a partial file.
     let long = ["modes", &bat, "-n", "10", "--shape-points", "40000", "--json", "out.json"];
     for (signal, number) in [("-INT", 2), ("-TERM", 15), ("-HUP", 1)] {
         let in_time = (0..TRIES).any(|_| stopped(&folder, &long, signal, 128 + number));
@@ -229,7 +229,7 @@ fn completions_name_every_verb_and_the_shell_takes_them() {
     }
     for shell in ["bash", "zsh"] {
         let mut command = std::process::Command::new(shell);
-        // Where there is no such shell nothing can be said.
+        // Without such a shell there is nothing to test.
         if let Ok(output) = command.arg("-n").arg(folder.0.join(shell)).output() {
             assert!(output.status.success() && output.stderr.is_empty(), "{shell} {output:?}");
         }
@@ -251,7 +251,7 @@ fn manual_pages_are_roff_with_the_words_of_the_help() {
         assert!(text.lines().any(|line| line.starts_with(".TH sweetspot")), "{page}");
         assert!(text.contains(".SH NAME") && text.contains(".SH SYNOPSIS"), "{page}");
         let mut man = std::process::Command::new("man");
-        // Containers have no pages and a `man` that says so and succeeds, or none.
+        // In containers, manual pages are missing and `man` either says so and succeeds, or does not exist.
         if let Ok(output) = man.args(["-l", page]).current_dir(&folder.0).output() {
             assert!(output.status.success(), "{page} {output:?}");
         }
@@ -313,8 +313,8 @@ fn answers_make_a_bat_file_of_that_mass_and_wrong_ones_are_asked_again() {
     }
     let shown = String::from_utf8(output.stdout).unwrap();
     assert!(shown.contains("measured") && shown.contains("sweetspot analyze birch-mine.json"));
-    // The default name of the file is taken then, and another one is asked for; what was answered is
-    // told where the file cannot be written.
+    // The default name of the file is taken then, and another one is asked for; the answers are printed where the file
+    // cannot be written.
     let again = answered(&folder, &[], &("birch mine!\n".to_owned() + answers));
     let told = String::from_utf8_lossy(&again.stderr).into_owned();
     assert!(again.status.code() == Some(2) && told.contains("birch-mine.json, which is there"));
@@ -355,7 +355,7 @@ fn an_interrupted_dialogue_goes_on_where_it_stopped() {
         assert_eq!(folder.read("mine.json"), whole, "{end}");
         fs::remove_file(folder.0.join("mine.json")).unwrap();
     }
-    // A file of that name that is no draft stays as it is.
+    // A file of that name that is no draft is kept.
     folder.write("mine.json.draft", "mine");
     assert_eq!(answered(&folder, &["mine.json"], ANSWERS).status.code(), Some(0));
     assert_eq!((folder.read("mine.json"), folder.read("mine.json.draft")), (whole, "mine".into()));
@@ -396,7 +396,7 @@ fn who_quits_keeps_the_answers_and_a_draft_is_of_one_bat() {
     // A dialogue without a file has a draft that any bat may be in.
     answered(&folder, &[], "Mine\nin\n33\nquit\n");
     assert_eq!(folder.names(), ["sweetspot-new.draft"]);
-    // Another bat's name on the command line leaves it as it is.
+    // Another name of a bat on the command line keeps it.
     let kept = folder.read("sweetspot-new.draft");
     let all = ANSWERS.split_once('\n').unwrap().1;
     let output = answered(&folder, &["--name", "Other"], all);
@@ -406,7 +406,7 @@ fn who_quits_keeps_the_answers_and_a_draft_is_of_one_bat() {
     assert!(plain.contains("kept in sweetspot-new-2.draft until"), "{told}");
     assert_eq!(folder.read("sweetspot-new.draft"), kept);
     assert_eq!(Bat::from_file(folder.0.join("other.json")).unwrap().name(), "Other");
-    // No begins anew, and nothing of the draft is in the other bat.
+    // The answer no begins anew, and nothing of the draft is in the other bat.
     let third = format!("no\n{}", ANSWERS.replace("Mine", "Third").replace("\n33\n", "\n34\n"));
     assert_eq!(answered(&folder, &[], &third).status.code(), Some(0));
     let third = Bat::from_file(folder.0.join("third.json")).unwrap();
@@ -532,7 +532,7 @@ fn a_dialogue_that_writes_no_file_keeps_its_answers_in_the_users_own_folder() {
 #[test]
 fn a_hollow_bat_and_a_cup_are_asked_for_and_the_sweet_spot_is_told() {
     let folder = Folder::new("hollow");
-    // Of aluminium somebody has to say whether it is hollow: an empty line is no answer.
+    // For aluminium it must be known whether it is hollow, so an empty line is no answer.
     let metal =
         "Metal\nin\n33\n30 oz\naluminium-7075\n0.95\n12, 0.9\n23, 2.6\n\n2.6\n\n3 mm\n\n\n\n";
     let output = answered(&folder, &["metal.json"], metal);

@@ -1,5 +1,4 @@
-//! The three theories beside each other: each the limit of the next, none stiffer than it should
-//! be.
+//! Comparison of the three theories: each is the limit of the next, and none is too stiff.
 
 use crate::common;
 
@@ -60,8 +59,7 @@ fn what_shear_takes_off_falls_with_the_square_of_the_slenderness() {
     }
 }
 
-/// Elements that lock are too stiff by a factor of the slenderness; these are as far from the exact
-/// frequency as without shear.
+/// Elements that lock are too stiff by a factor of the slenderness; the error of these is as small as without shear.
 #[test]
 fn slender_bats_do_not_lock() {
     for radius in [4e-3, 4e-5, 4e-7] {
@@ -82,8 +80,8 @@ fn slender_bats_do_not_lock() {
     }
 }
 
-/// `2(p − 1)` powers of the number of elements, with shear as without: slopes between meshes whose
-/// errors are far above round-off.
+/// `2(p − 1)` powers of the number of elements, with shear as without: slopes between meshes with errors far above
+/// round-off.
 #[test]
 fn the_order_with_shear_is_twice_the_degree_less_two() {
     let truth = Truth::of_cases(&["timo_cone"]).unwrap();
@@ -115,8 +113,8 @@ fn the_order_with_shear_is_twice_the_degree_less_two() {
     }
 }
 
-/// Beyond `ω² = κGA/ρI` there are two waves, and modes of both: their number below ω follows from
-/// both phases, to one or two.
+/// Beyond `ω² = κGA/ρI` there are two waves, and modes of both: their number below ω follows from both phases, to one
+/// or two.
 #[test]
 fn the_second_waves_begin_beyond_the_cut_off() {
     let truth = Truth::of_cases(&["timo_dowel_60"]).unwrap();
@@ -134,8 +132,8 @@ fn the_second_waves_begin_beyond_the_cut_off() {
     assert!((phases - 60.0).abs() < 2.0, "{phases}");
 }
 
-/// A uniform shaft on two pins has the sine for its shape with any theory: `ω⁴ ρI/κGA − ω² (ρA/k² +
-/// ρI + ρA EI/κGA…)` in closed form, the slower root of which is the bending mode.
+/// A uniform shaft on two pins has the sine for its shape with any theory: `ω⁴ ρI/κGA − ω² (ρA/k² + ρI + ρA EI/κGA…)`
+/// in closed form, the slower root of which is the bending mode.
 #[test]
 fn a_bar_with_a_typical_shear_modulus_agrees_with_the_sine_solution() {
     let stations = Stations {
@@ -167,9 +165,8 @@ fn a_bar_with_a_typical_shear_modulus_agrees_with_the_sine_solution() {
     }
 }
 
-/// κGA of a tapered tube is no polynomial (Cowper's κ goes with the ratio of the radii), so that points
-/// miss a part of it, less of shorter elements; EI and ρA are polynomials, and so is all of a straight
-/// tube.
+/// κGA of a tapered tube is no polynomial (Cowper's κ depends on the ratio of the radii), so that points miss a part of
+/// it, less with shorter elements; EI and ρA are polynomials, and so is everything for a straight tube.
 #[test]
 fn points_miss_the_shear_of_a_tapered_tube_and_nothing_else() {
     let missed = |inner: [f64; 2], elements, theory| {

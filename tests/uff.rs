@@ -1,5 +1,5 @@
-//! Universal files: what is written is read back to the digits of the format, what `pyuff` wrote is
-//! read, and no bytes make the reader panic.
+//! Universal files: written files are read back to the digits of the format, files of `pyuff` are read, and no bytes
+//! make the reader panic.
 
 use std::path::Path;
 
@@ -220,7 +220,7 @@ fn a_file_in_feet_is_read_in_metres() {
 #[test]
 fn units_keep_what_a_mode_answers_to_a_force() {
     for (length, force) in [(1000.0, 1000.0), (1000.0, 1.0), (1.0, 1000.0), (3.25, 0.25)] {
-        // Displacements and accelerations have a length in them, shapes without a unit have none.
+        // Displacements and accelerations contain a length, shapes without a unit do not.
         for (quantity, factor) in [(8, length), (12, length), (1, 1.0), (0, 1.0)] {
             let units = Units { length, force, description: "own".into(), code: 9, ..Units::si() };
             let mode = real_mode(&[[0.0, 250.0, 0.0, 0.0, 0.0, 2.0]]);
@@ -232,8 +232,8 @@ fn units_keep_what_a_mode_answers_to_a_force() {
             let [deflection, turn] = [1, 5].map(|k| mode.values[0].1[k][0]);
             close(deflection, 250.0 / factor, 15);
             assert_eq!(turn, 2.0);
-            // φ²/m is one over a mass whatever φ counts, and the file's unit of mass, its force
-            // times s² over its length, is length/force kg.
+            // φ²/m is one over a mass for any unit of φ, and the unit of mass in the file, its force times s² over its
+            // length, is length/force kg.
             let answer = 250.0 * 250.0 / 0.125;
             close(deflection * deflection / modal_mass, answer * force / length, 14);
         }
@@ -440,7 +440,7 @@ fn line_ends_exponents_and_glued_numbers_are_taken_as_they_come() {
         format!("\n \n{SHAPE}"),
     ] {
         let read = parse("f.uff", text.as_bytes()).unwrap();
-        // The datasets begin on other lines of it.
+        // Here the datasets begin on other lines.
         let lines = plain.lines.clone();
         assert_eq!(Universal { lines, ..read }, plain, "{text}");
     }

@@ -1,4 +1,4 @@
-//! All modes up to a frequency, and no other: against beams whose frequencies are known.
+//! All modes up to a frequency and no others, for beams with known frequencies.
 
 use crate::common;
 

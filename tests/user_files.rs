@@ -1,4 +1,4 @@
-//! Nothing that the user had is lost to a name given twice.
+//! A name given twice never destroys a file of the user.
 
 use crate::common;
 
@@ -49,7 +49,7 @@ fn no_output_takes_the_place_of_an_input_or_of_another_output() {
     }
 }
 
-/// Which of two documents was meant to have the name is nobody's guess: neither is written.
+/// Which of two documents should have the name cannot be guessed, so neither is written.
 #[test]
 fn two_outputs_of_one_name_are_refused_before_either_is_written() {
     let folder = Folder::new("two");
@@ -86,7 +86,7 @@ fn two_outputs_of_one_name_are_refused_before_either_is_written() {
     }
 }
 
-/// What stands in a pipe or goes to a device is no file.
+/// Pipes and devices are not protected files.
 #[cfg(unix)]
 #[test]
 fn a_device_may_be_named_twice() {

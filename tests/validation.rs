@@ -1,5 +1,5 @@
-//! Every known answer of the `validation` folder is reproduced within its tolerance, and
-//! `docs/validation.md` says what the program finds.
+//! Every known answer of the `validation` folder is reproduced within its tolerance, and `docs/validation.md` agrees
+//! with the results.
 
 use std::fs;
 use std::path::Path;
@@ -18,7 +18,7 @@ fn every_known_answer_is_reproduced_and_the_page_says_so() {
         for row in table {
             let (expected, found) = (row.expected, row.found);
             assert!(!row.missed(), "{name}: {} expected {expected}, found {found}", row.quantity);
-            // What is only shown was found at least.
+            // Values for information only exist at least.
             assert!(found.is_finite(), "{name}: {}", row.quantity);
         }
         rows += table.iter().filter(|row| !row.information).count();
@@ -52,9 +52,8 @@ fn the_picture_of_the_page_is_todays() {
     }
 }
 
-/// The first line that says something else. What a page says of published bats is rounded far above
-/// round-off and must be the same; the exact answers' errors are round-off themselves, and may
-/// differ by so much of their tolerance.
+/// The first line that differs. The values on the page for published bats are rounded far above round-off and must be
+/// equal; the errors of the exact answers are round-off themselves, and may differ by that share of their tolerance.
 fn first_difference(committed: &str, now: &str) -> Option<(String, String)> {
     const ROUND_OFF: f64 = 0.05;
     let mut exact = false;

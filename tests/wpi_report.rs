@@ -1,7 +1,7 @@
-//! The figures and tables of the WPI report, held to `validation/wpi` (made as its README says).
+//! The figures and tables of the WPI report, compared with `validation/wpi` (made as its README says).
 //!
-//! Tolerances: the references have 12 digits, so 5e-12 of a value between 1 and 10 is their own
-//! rounding, and what is not explained by it is explained where it stands.
+//! Tolerances: the references have 12 digits, so 5e-12 of a value between 1 and 10 is their rounding. Larger
+//! differences are explained where they occur.
 
 #[path = "../examples/wpi_report/table.rs"]
 mod table;
@@ -63,7 +63,7 @@ fn hold_rows(ours: &Table, column: &str, step: usize, tolerance: impl Fn(usize) 
             continue;
         }
         let error = value - cell.parse::<f64>().unwrap();
-        // A cell's trailing zeros were dropped; 12 digits are what it has.
+        // Trailing zeros of a cell were dropped; it has 12 digits.
         let rounding = 5.01e-12 * value.abs() + 1e-15;
         assert!(
             error.abs() <= rounding + tolerance(row),
@@ -79,7 +79,7 @@ fn hold_all(ours: &Table, step: usize, tolerance: f64) {
     }
 }
 
-/// Holds `column` to the printed digits wherever the reference says that they hold.
+/// Compares `column` to the printed digits wherever the reference says that they are valid.
 fn hold_printed(ours: &Table, column: &str) -> usize {
     let reference = Reference::read(ours.name);
     let (printed, holds) = (reference.column("printed"), reference.column("printed_holds"));
@@ -94,7 +94,7 @@ fn hold_printed(ours: &Table, column: &str) -> usize {
 #[test]
 fn the_stiff_bat_s_speed_and_energy_are_the_reference_ones() {
     hold_all(&hit::rigid_speeds(), 25, 0.0);
-    // The ball's mass in slug was taken with ten digits: 2e-10 of 12 200 slug in²/s², 115 J.
+    // The mass of the ball in slug was rounded to ten digits: 2e-10 of 12 200 slug in²/s², 115 J.
     let energy = hit::rigid_energies();
     for column in ["X", "omega40", "omega50", "omega60"] {
         hold(&energy, column, 25, 2.5e-6);
@@ -129,8 +129,8 @@ fn the_orthogonality_matrix_is_the_printed_one_up_to_its_noise() {
     }
 }
 
-/// What the script's shapes lose to cancellation in the sum of 1, 2, … 9 modes, as measured: it
-/// grows like e^b, by 23 from mode to mode, unless the seventh root's own error leads.
+/// The measured cancellation error of the shapes of the script in the sum of 1, 2, … 9 modes. It grows like e^b, by 23
+/// from mode to mode, unless the error of the seventh root dominates.
 const NOISE: [f64; 9] = [0.0, 0.0, 2e-14, 2e-13, 2e-12, 1.2e-11, 6e-10, 2.5e-9, 1.6e-8];
 
 #[test]
@@ -145,7 +145,7 @@ fn the_series_of_the_initial_shape_is_the_printed_one_up_to_its_noise() {
     hold_rows(&steps, "trapezoid", 1, |row| NOISE[row + 1]);
 }
 
-/// The references come from the script's shapes: each further mode brings its own noise.
+/// The references come from the shapes of the script, where each further mode adds its noise.
 #[test]
 fn released_shapes_agree_to_the_noise_of_the_script_s_highest_mode() {
     let sums = vibration::partial_sums_in_time();
@@ -174,8 +174,8 @@ fn the_empirical_loss_is_the_reference_one_and_has_no_value_where_that_has_none(
     hold_all(&hit::three_speeds(), 25, 0.0);
 }
 
-/// The place of a flat maximum, found by comparing values, is good to √ε = 1.5e-8 on either side,
-/// and so is what depends on it in first order.
+/// The position of a flat maximum found by comparing values is accurate to √ε = 1.5e-8 on either side, and so are
+/// quantities that depend on it to first order.
 #[test]
 fn the_summary_of_figure_18_is_the_reference_one() {
     let ours = hit::summary();
@@ -211,7 +211,7 @@ fn told(claim: &claims::Claim) -> bool {
     told && [ours.as_str(), printed].iter().all(|text| !text.contains("NaN"))
 }
 
-/// No mode shakes the ball at its own node, so there the curves of figure 17 touch.
+/// No mode affects the ball at its node, so there the curves of figure 17 touch.
 #[test]
 fn curves_of_figure_17_touch_at_the_nodes() {
     for x in [0.224_157_522_702, 0.775_842_477_298] {

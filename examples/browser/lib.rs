@@ -3,9 +3,9 @@
 //!     cargo build --release -p sweetspot-browser --target wasm32-unknown-unknown
 //!     node examples/browser/run.mjs target/wasm32-unknown-unknown/release/browser.wasm meshes/r161.json
 //!
-//! A page gives the text of a bat file byte by byte, asks for the answer, and takes it byte by byte:
-//! so no memory is shared, and nothing here is unsafe but the names that the page calls. The answer
-//! is JSON, either the bat's first frequencies and one hit, or an error as the program would say it.
+//! A page passes the text of a bat file byte by byte, requests the answer, and reads it byte by byte. No memory is
+//! shared, and the exported names are the only unsafe part. The answer is JSON: either the first frequencies of the bat
+//! and one hit, or an error in the words of the program.
 
 use std::cell::RefCell;
 use std::path::Path;
@@ -15,7 +15,7 @@ use sweetspot::collision::sweep::{Accuracy, sweep};
 use sweetspot::collision::{Model, Scene};
 use sweetspot::{Bat, Request, Result, Theory, solve};
 
-/// Where the ball is met, from the knob end (m).
+/// Position of the impact, from the knob end (m).
 const IMPACT: f64 = 0.7;
 
 thread_local! {
@@ -29,7 +29,7 @@ pub extern "C" fn ask(byte: u8) {
     ASKED.with_borrow_mut(|asked| asked.push(byte));
 }
 
-/// Answers what was asked, and says how many bytes the answer has.
+/// Computes the answer and returns its number of bytes.
 #[unsafe(no_mangle)]
 pub extern "C" fn answer() -> usize {
     let asked = ASKED.take();

@@ -1,9 +1,9 @@
-//! How near to each other are a bat's own frequencies? Behind `modes::certificate::is_twin`.
+//! How close are the frequencies of a bat to each other? The basis of `modes::certificate::is_twin`.
 //!
 //!     cargo run --release --example tuning_gaps
 //!
-//! The least `n (1 − λ_n/λ_{n+1})` of the first modes: what is far below is no gap of a bat but a twin of
-//! the last mode, which has to be looked at too.
+//! The smallest `n (1 − λ_n/λ_{n+1})` of the first modes. A value far below these is no gap between modes of a bat but
+//! a twin of the last mode, which must be included.
 
 use sweetspot::{Bat, Request, Result, Theory, solve};
 

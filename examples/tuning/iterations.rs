@@ -1,9 +1,9 @@
-//! After how many steps has the iteration converged? Behind `modes::eigenpairs::steps_beyond`.
+//! After how many steps has the iteration converged? The basis of `modes::eigenpairs::steps_beyond`.
 //!
 //!     cargo run --release --example tuning_iterations
 //!
-//! Steps beyond the number of modes at which every residual is small enough, and those of the formula,
-//! below which nobody looks. One too many costs a product; one too few costs a look, which is some products.
+//! Steps beyond the number of modes at which every residual is small enough, and those of the formula, before which
+//! convergence is not checked. One step too many costs a product; one too few costs a check, which is several products.
 
 use sweetspot::beam::mesh::Mesh;
 use sweetspot::beam::statics::Statics;
@@ -14,14 +14,14 @@ use sweetspot::{Bat, Result, Theory};
 
 const BATS: [&str; 4] = ["dowel", "cone", "r161", "northwestern_aluminium"];
 
-/// The fewest steps that do, whenever it is looked.
+/// The smallest sufficient number of steps, over all times of checking.
 fn taken<const N: usize, const W: usize>(
     statics: &Statics<f64, N, W>,
     count: usize,
     residual: f64,
 ) -> Result<usize> {
     let mut fewest = usize::MAX;
-    // Of many modes not every step is looked at.
+    // With many modes not every step is checked.
     for earliest in 0..=count / 8 {
         let (mut lanczos, mut loads) = (Lanczos::default(), Loads::default());
         let wanted = Wanted { count, residual, earliest, clustered: 0 };

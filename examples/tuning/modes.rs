@@ -1,6 +1,6 @@
-//! With how many modes, and how good ones, is a hit known? The table from which `enough` and `MODES` of a
-//! sweep and `FALLS` of the stated errors are chosen: how far the exit speed is off, relative to the
-//! closing speed, with n modes, and as which power of n that falls; and by modes of a tolerance.
+//! How many modes, and how accurate ones, does a hit need? The table from which `enough` and `MODES` of a sweep and
+//! `FALLS` of the stated errors are chosen: the error of the exit speed relative to the closing speed with n modes, the
+//! power of n with which it falls, and the error with modes of a given tolerance.
 
 use sweetspot::bat::theory::Theory;
 use sweetspot::collision::{Effort, Hitter, Model, Scene};

@@ -1,11 +1,11 @@
-//! What does it cost to reach over stations? Behind the formula of `modes::stations` and `SURE`, `OVER`,
-//! `SAMPLING` of `modes::plan`.
+//! What is the cost of elements that reach over stations? The basis of the formula of `modes::stations` and of `SURE`,
+//! `OVER`, `SAMPLING` of `modes::plan`.
 //!
 //!     cargo run --release --example tuning_over_stations [BAT.json ...]
 //!
-//! First equal elements over the stations of each bat: the relative error of its fifth frequency, true,
-//! stated, and by the formula for kinks alone. Then plans of every degree and the cheapest: elements, degree, unknowns, the true and the
-//! stated error as a share of the wanted one, and times in all, for the plan, and on the mesh (µs).
+//! First equal elements over the stations of each bat: the relative error of its fifth frequency, true, stated, and by
+//! the formula for kinks alone. Then plans of every degree and the cheapest: elements, degree, unknowns, the true and
+//! the stated error as a share of the wanted one, and the times in total, for the plan, and on the mesh (µs).
 
 use std::time::Instant;
 

@@ -1,11 +1,11 @@
-//! How far is the first plan from the wanted accuracy, and what does a degree more do? Behind `AIM`,
-//! `LITTLE` and the residual of `modes::plan`, `modes::request`.
+//! How far is the first plan from the wanted accuracy, and what does a higher degree gain? The basis of `AIM`, `LITTLE`
+//! and the residual of `modes::plan`, `modes::request`.
 //!
 //!     cargo run --release --example tuning_plans
 //!
-//! Of each bat's first plan the stated error, as a share of the wanted one: with the residual at which the
-//! iteration stops, with one as good as arithmetic allows, and with a degree more on the same elements
-//! (degree 12 is the highest, and stays).
+//! The stated error of the first plan of each bat, as a share of the wanted one: with the residual at which the
+//! iteration stops, with the smallest possible residual, and with one degree more on the same elements (degree 12 is
+//! the highest and is kept).
 
 use std::time::Instant;
 

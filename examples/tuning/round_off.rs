@@ -1,9 +1,9 @@
-//! How much round-off is in a frequency? Behind `modes::certificate::round_off`.
+//! How large is the round-off of a frequency? The basis of `modes::certificate::round_off`.
 //!
 //!     cargo run --release --example tuning_round_off
 //!
-//! Differences from a solution on the few elements of its own plan, where sums are short, in units of ε,
-//! on more and more elements; and what the formula states.
+//! Differences from a solution on the few elements of its plan, where sums are short, in units of ε, on more and more
+//! elements; and the value of the formula.
 
 use sweetspot::modes::certificate::round_off;
 use sweetspot::{Bat, Request, Result, solve};

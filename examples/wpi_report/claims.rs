@@ -1,4 +1,4 @@
-//! What the WPI report says of its results, beside what its own model gives when computed again.
+//! The claims of the WPI report about its results, compared with its model computed again.
 
 use crate::hit::INCOMING;
 use crate::table::{Table, grid};
@@ -139,7 +139,7 @@ pub fn gaining_share() -> f64 {
     (0..x.len()).filter(|&i| e_v(i) < 0.0).count() as f64 / x.len() as f64
 }
 
-/// What the report's numbers are once units, misprints and truncation are put right.
+/// The numbers of the report after correction of units, misprints and truncation.
 pub fn corrections(summary: &Table) -> Vec<Claim> {
     let [f1, f2, f3] = [1, 2, 3].map(|n| dowel().frequency(Ends::FreeFree, n));
     let (overlap, terms) = (vibration::orthogonality_table(), vibration::coefficients());

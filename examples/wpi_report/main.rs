@@ -1,11 +1,11 @@
-//! Does the report this project grew from still stand? All its figures and tables, computed again.
+//! Is the report from which this project grew still correct? All its figures and tables, computed again.
 //!
 //!     cargo run --release --example wpi_report [-- DIR]
 //!
-//! Writes figures 1 and 4 to 18 of Boucher, Mannke, McClune, *Vibrational Analysis of a Bat-Ball
-//! Collision* (Major Qualifying Project, Worcester Polytechnic Institute) as CSV files into `DIR`
-//! (`target/wpi_report` by default), and prints what the report claims beside what its own model
-//! gives. What a real hit does is another matter: the loss to vibration here is the report's own.
+//! Writes figures 1 and 4 to 18 of Boucher, Mannke, McClune, *Vibrational Analysis of a Bat-Ball Collision* (Major
+//! Qualifying Project, Worcester Polytechnic Institute) as CSV files into `DIR` (`target/wpi_report` by default), and
+//! prints the claims of the report next to the results of its model. A real hit is different: the loss to vibration
+//! here is that of the report.
 
 mod table;
 mod sums;

@@ -1,4 +1,4 @@
-//! Sums of modes in time: how far a blow moves each, and what the first of them make together.
+//! Sums of modes in time: the amplitude of each after a blow, and the sum of the first ones.
 
 use sweetspot::motion::oscillator::Oscillator;
 

@@ -12,7 +12,7 @@ use sweetspot::motion::oscillator::Oscillator;
 
 /// The report sums over 1001 points.
 const CELLS: usize = 1000;
-/// Where its dowel is struck.
+/// Where the dowel is struck.
 pub const STRUCK_AT: f64 = 0.7;
 
 pub fn all() -> Vec<Table> {
@@ -33,13 +33,13 @@ fn trapezoid_masses(x: &[f64], density_per_length: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// `I_nm = Σ_i μ_i φ_n(x_i) φ_m(x_i)`: modal masses on the diagonal, and beside it what
-/// orthogonality or the sampling leaves.
+/// `I_nm = Σ_i μ_i φ_n(x_i) φ_m(x_i)`: modal masses on the diagonal, and off it the remainder due to imperfect
+/// orthogonality or sampling.
 fn orthogonality(masses: &[f64], shapes: &[Vec<f64>]) -> Vec<Vec<f64>> {
     shapes.iter().map(|a| shapes.iter().map(|b| dot(masses, a, b)).collect()).collect()
 }
 
-/// `A_n = Σ_i μ_i w₀(x_i) φ_n(x_i) / I_nn`: how much of each mode is in the shape `w0`.
+/// `A_n = Σ_i μ_i w₀(x_i) φ_n(x_i) / I_nn`: the share of each mode in the shape `w0`.
 ///
 /// # Source
 ///
@@ -49,7 +49,7 @@ fn expansion(masses: &[f64], shapes: &[Vec<f64>], w0: &[f64]) -> Vec<f64> {
     shapes.iter().map(|shape| dot(masses, shape, w0) / dot(masses, shape, shape)).collect()
 }
 
-/// `max_i |w_{N+1}(x_i) − w_N(x_i)|` for successive partial sums: what one more mode still changes.
+/// `max_i |w_{N+1}(x_i) − w_N(x_i)|` for successive partial sums: the effect of one more mode.
 fn largest_steps(sums: &[Vec<f64>]) -> Vec<f64> {
     let step = |(a, b): (&f64, &f64)| (b - a).abs();
     sums.windows(2).map(|w| w[0].iter().zip(&w[1]).map(step).fold(0.0, f64::max)).collect()

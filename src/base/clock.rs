@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-/// Measures time from its start on; where a program has no clock, in a browser, no time passes.
+/// Measures the time since its start. In a browser, where a program has no clock, it always reads 0.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Clock {
     #[cfg(not(target_family = "wasm"))]

@@ -1,44 +1,43 @@
-//! What can a caller get wrong, and what is said then?
+//! What can a caller get wrong, and how is it reported?
 //!
-//! [`Error`] is everything that any function here returns; [`Error::value`] makes the commonest.
+//! [`Error`] is the error type of every function here; [`Error::value`] makes the commonest one.
 //!
-//! Every message is written for the person at the terminal: where, what was found,
-//! what was expected, what to do.
+//! Every message is written for the person at the terminal: where, what was found, what was expected, what to do.
 
 use std::fmt;
 use std::path::PathBuf;
 
 use crate::base::marks::written_out as one_line;
 
-/// The result of everything here that can fail.
+/// The result of every function here that can fail.
 pub type Result<T> = std::result::Result<T, Error>;
 
 /// Everything a caller can cause; a bug in this crate panics instead.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// A file that could not be read.
+    /// A file could not be read.
     #[error("cannot read {}: {source}", path.display())]
     Read {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the operating system.
         source: std::io::Error,
     },
 
-    /// A file or stream that could not be written; nothing half-written is left behind.
+    /// A file or stream could not be written; no partly written file is left behind.
     #[error("cannot write {}: {source}", path.display())]
     Write {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the operating system.
         source: std::io::Error,
     },
 
     /// Something in an input file is wrong.
     #[error("{place}: {complaint}")]
     Input {
-        /// Where it stands.
+        /// Position of the mistake.
         place: Box<FilePosition>,
         /// What is wrong with it.
         complaint: Complaint,
@@ -47,9 +46,9 @@ pub enum Error {
     /// Several things are wrong with a file.
     #[error("{}", said_together(shown, *more))]
     Several {
-        /// The first of them in the order of the file, two or more.
+        /// The first mistakes in the order of the file, two or more.
         shown: Vec<Error>,
-        /// How many were found beyond these.
+        /// Number of further mistakes.
         more: usize,
     },
 
@@ -57,7 +56,7 @@ pub enum Error {
     #[error("{0}")]
     Value(Complaint),
 
-    /// Part of the bat format or of the command line that this version does not handle yet.
+    /// This version does not yet handle this part of the bat format or of the command line.
     #[error("{what} is not supported yet: {advice}")]
     NotYet {
         /// What was asked for.
@@ -66,7 +65,7 @@ pub enum Error {
         advice: &'static str,
     },
 
-    /// Something that was left out when the program was built.
+    /// The program was built without this part.
     #[error("{what} is not in this build: {advice}")]
     NotBuilt {
         /// What was asked for.
@@ -85,44 +84,44 @@ pub enum Error {
         wanted: usize,
         /// How many of them were found.
         converged: usize,
-        /// Products with the compliance or the inverse.
+        /// Number of products with the compliance or the inverse.
         steps: usize,
     },
 
-    /// `K + σM` could not be factored; with too many elements round-off makes it indefinite.
+    /// `K + σM` could not be factored; with too many elements, round-off makes it indefinite.
     #[error("cannot factor the stiffness matrix of {unknowns} unknowns: {reason}")]
     Factorization {
         /// Size of the matrix.
         unknowns: usize,
-        /// What went wrong, in words.
+        /// The reason, in words.
         reason: &'static str,
     },
 
-    /// A mesh that cannot hold what was asked of it.
+    /// The mesh has too few elements for the modes asked for.
     #[error("{wanted} bending modes need at least {least} elements, {found} were asked for")]
     TooFewElements {
         /// How many modes were asked for.
         wanted: usize,
-        /// How many elements they need.
+        /// The least number of elements that can hold them.
         least: usize,
         /// How many elements were asked for.
         found: usize,
     },
 
-    /// A problem too large for the solver that was asked for.
+    /// The problem is too large for the solver that was asked for.
     #[error(
         "the dense solver takes at most {most} unknowns, this mesh has {found}: use the solver statics"
     )]
     TooLarge {
-        /// The most unknowns it takes.
+        /// The most unknowns that the solver takes.
         most: usize,
-        /// How many there are.
+        /// Number of unknowns of this mesh.
         found: usize,
     },
 }
 
 impl Error {
-    /// A wrong value of a named quantity, for values that come from no file.
+    /// A wrong value of a named quantity that does not come from a file.
     pub fn value(
         field: impl Into<String>,
         found: impl fmt::Display,
@@ -131,7 +130,7 @@ impl Error {
         Self::Value(Complaint::new(field, found, expected))
     }
 
-    /// This error, with every complaint about a value turned into one about its place by `place`.
+    /// This error with `place` applied to each of its complaints about a value, to add the position.
     pub fn placed(self, place: impl Fn(Complaint) -> Self) -> Self {
         let one = |error| match error {
             Self::Value(complaint) => place(complaint),
@@ -146,7 +145,7 @@ impl Error {
     }
 }
 
-/// The first of several errors, and how many more there are.
+/// The text of the first of several errors, and the number of the others.
 fn said_together(shown: &[Error], more: usize) -> String {
     let first = shown.first().map_or(String::new(), Error::to_string);
     match (shown.len() + more).saturating_sub(1) {
@@ -169,16 +168,15 @@ pub struct FilePosition {
     pub excerpt: Excerpt,
 }
 
-/// The line of a place as it stands in the file, in three parts: what comes before the mistake, the
-/// mistake itself (nothing at the end of a file) and what comes after. A long line is shortened to
-/// the surroundings of the mistake, with `…` where something is left out.
+/// The line of a mistake in three parts: the text before it, the mistake itself (empty at the end of a file) and the
+/// text after it. A long line is shortened to the surroundings of the mistake, with `…` where text is left out.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Excerpt {
-    /// What comes before the mistake.
+    /// Text before the mistake.
     pub before: String,
-    /// The mistake itself; nothing at the end of a file.
+    /// The mistake itself; empty at the end of a file.
     pub marked: String,
-    /// What comes after the mistake.
+    /// Text after the mistake.
     pub after: String,
 }
 
@@ -197,7 +195,7 @@ pub struct Complaint {
     pub found: String,
     /// The value expected in the field.
     pub expected: String,
-    /// What to do about it, such as "did you mean radius?"; empty where there is nothing to say.
+    /// What to do about it, such as "did you mean radius?"; empty if there is no advice.
     pub hint: String,
 }
 
@@ -217,7 +215,7 @@ impl Complaint {
         Self { hint: hint.into(), ..self }
     }
 
-    /// This complaint with every name that stands `` `so` `` written as is usual where it is told.
+    /// This complaint with each name in `` `backquotes` `` rewritten by `written`, in the way the caller writes names.
     pub fn naming(self, written: impl Fn(&str) -> String) -> Self {
         let told = |text: String| {
             let parts = text.split('`').enumerate();
@@ -249,7 +247,7 @@ impl fmt::Display for Complaint {
     }
 }
 
-/// The beginning of a text that may be a megabyte of somebody's file.
+/// The beginning of a text, at most `most` characters: the text may be a megabyte long.
 pub fn shortened(text: &str, most: usize) -> String {
     match text.char_indices().nth(most) {
         Some((end, _)) => format!("{}…", &text[..end]),
@@ -259,10 +257,9 @@ pub fn shortened(text: &str, most: usize) -> String {
 
 /// The nearest of `names` to a misspelt `word`, if one is near enough to be meant.
 ///
-/// Nearness is the number of edits of a letter (Damerau's and Levenshtein's distance), two at most and no
-/// more than a third of the longer word, or two words that differ by case and separators only; else a word of
-/// three letters or more is a whole part of a name, as `maple` of `sugar-maple`, the last of those that have
-/// it.
+/// A name is near if at most two edits of a letter (Damerau–Levenshtein distance), and no more than a third of the
+/// longer word, separate the two, or if they differ only in case and separators. Otherwise a word of three letters or
+/// more matches the last name of which it is a whole part, as `maple` is of `sugar-maple`.
 pub fn nearest<'a>(word: &str, names: &[&'a str]) -> Option<&'a str> {
     let plain = |s: &str| s.to_lowercase().replace(['_', '-', ' '], "");
     let word = plain(word);
@@ -279,7 +276,7 @@ pub fn nearest<'a>(word: &str, names: &[&'a str]) -> Option<&'a str> {
         })
 }
 
-/// Letters put in, left out, changed, or swapped with the next, the fewest that make one word of the other.
+/// The least number of letters to insert, delete, change or swap with the next to turn one word into the other.
 fn edits(a: &str, b: &str) -> usize {
     let [a, b] = [a, b].map(|word| word.chars().collect::<Vec<char>>());
     let mut rows: Vec<Vec<usize>> = vec![(0..=b.len()).collect()];

@@ -1,8 +1,8 @@
-//! How do files stay whole? They are written beside and renamed, and never over what was read.
+//! How do files stay whole? A new file is written beside the old one and renamed; an input is never overwritten.
 //!
-//! [`write()`] looks where a name leads: an open descriptor, a device or a pipe is written through; a
-//! file is replaced by a whole one with its owner and permissions; where it cannot be replaced (other
-//! names for it, a folder without write permission) it is overwritten, and put back if that fails.
+//! [`write()`] follows the name to its target. It writes through an open descriptor, a device or a pipe. It replaces a
+//! file by a whole new one with the same owner and permissions. If that is impossible (the file has other names, or the
+//! folder is write-protected), it overwrites the file, and restores the old contents if that fails.
 
 use std::fs::{self, File, Metadata, OpenOptions};
 use std::hash::{BuildHasher, RandomState};
@@ -13,14 +13,13 @@ use std::time::Duration;
 
 use crate::base::error::{Error, Result};
 
-/// The largest file that is read (bytes): some ten million stations.
+/// The largest file that is read (bytes), some ten million stations.
 pub const MOST: u64 = 256 << 20;
 
-/// What was read and written since [`keep`]; None before it.
+/// The files read and written since [`keep`]; `None` before the call.
 static KEPT: Mutex<Option<Vec<Identity>>> = Mutex::new(None);
 
-/// What tells a file from others: its path without links, and its number on its disk, which all of
-/// its names share.
+/// What identifies a file: its path without links, and its number on the disk, which all its names share.
 #[derive(Debug)]
 struct Identity {
     path: PathBuf,
@@ -39,18 +38,18 @@ impl Identity {
     }
 }
 
-/// From now on [`write()`] replaces no file that was read or written, nor the one that standard
-/// output goes to: for a program, whose user may give the same name to two files by mistake.
+/// From now on [`write()`] refuses to replace a file that was read or written, or the one that standard output goes to.
+/// A program calls it, because its user may name one file twice by mistake.
 pub fn keep() {
     locked(&KEPT).get_or_insert_default();
     ["/dev/stdout", "/dev/stderr"].iter().for_each(|name| note(Path::new(name)));
 }
 
-/// Reads a whole file, or what a pipe or a device gives, that a person has named.
+/// Reads a whole file that a person has named, or everything that a pipe or a device gives.
 ///
 /// # Errors
 ///
-/// [`Error::Read`], also for more than [`MOST`] bytes, as a device may have without end.
+/// [`Error::Read`], also for more than [`MOST`] bytes: a device may never end.
 pub fn read(path: &Path) -> Result<Vec<u8>> {
     let failed = |source| Error::Read { path: path.to_owned(), source };
     let bytes = up_to(path, MOST).map_err(failed)?;
@@ -58,8 +57,8 @@ pub fn read(path: &Path) -> Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Reads a whole file that was not named on the command line: another file names it, or it lies where one is
-/// expected. A pipe, on which a reader may wait for ever, and a device are refused.
+/// Reads a whole file that was not named on the command line: another file names it, or it lies where one is expected.
+/// Pipes and devices are refused, because a reader may wait for them for ever.
 ///
 /// # Errors
 ///
@@ -89,7 +88,7 @@ fn up_to(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// A file, if it is one, is kept from now on.
+/// Keeps a file from being replaced from now on, if the path leads to one.
 pub fn note(path: &Path) {
     if let (Some(file), Some(kept)) = (Identity::of(path), locked(&KEPT).as_mut()) {
         kept.push(file);
@@ -100,15 +99,14 @@ pub fn note(path: &Path) {
 ///
 /// # Errors
 ///
-/// [`Error::Write`], and [`Error::Value`] if the file is to be [kept](keep); what was there before
-/// is still there then.
+/// [`Error::Write`], and [`Error::Value`] if the file is to be [kept](keep). The old contents are still there then.
 pub fn write(path: &Path, contents: &[u8]) -> Result<()> {
     let failed = |source| Error::Write { path: path.to_owned(), source };
     let target = end_of_links(path).map_err(failed)?;
     if let Some(descriptor) = Descriptor::at(&target) {
         return unless_closed(descriptor.write(contents)).map_err(failed);
     }
-    // By the name that was given: what the system forbids of links is forbidden here too.
+    // Uses the name as given: what the system forbids of links is forbidden here too.
     let old = match fs::metadata(path) {
         Err(error) if error.kind() == ErrorKind::NotFound => None,
         old => Some(old.map_err(failed)?),
@@ -127,7 +125,7 @@ pub fn write(path: &Path, contents: &[u8]) -> Result<()> {
     written.map_err(failed).inspect(|()| note(path))
 }
 
-/// Whether two names lead to one file, which need not be there yet; a device takes what comes.
+/// Whether two names lead to one file, which need not exist yet. A device never counts as one file.
 pub fn is_one(first: &Path, second: &Path) -> bool {
     let target = |path: &Path| {
         let target = end_of_links(path).ok()?;
@@ -150,7 +148,7 @@ fn refuse_kept(path: &Path) -> Result<()> {
     Ok(())
 }
 
-/// Whoever closed a pipe has read enough.
+/// A closed pipe is no error: its reader has read enough.
 fn unless_closed(written: io::Result<()>) -> io::Result<()> {
     match written {
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
@@ -158,8 +156,8 @@ fn unless_closed(written: io::Result<()>) -> io::Result<()> {
     }
 }
 
-/// Where a name leads when every link is followed, whether there is a file yet or not. The link of an
-/// open [descriptor](Descriptor) is an end: what it shows is not a way to what is open.
+/// The target of a name after all links, whether the file exists yet or not. The link of an open
+/// [descriptor](Descriptor) is itself a target: its text is not a path to the open file.
 fn end_of_links(path: &Path) -> io::Result<PathBuf> {
     const MOST_LINKS: usize = 40;
     let mut path = path.to_owned();
@@ -176,7 +174,7 @@ fn end_of_links(path: &Path) -> io::Result<PathBuf> {
     Err(Fault::other("too many links, one after the other"))
 }
 
-/// A descriptor that a process has open, by its place in the file system.
+/// A descriptor that a process has open, known by its path in the file system.
 #[derive(Debug, PartialEq)]
 struct Descriptor<'a> {
     path: &'a Path,
@@ -185,7 +183,7 @@ struct Descriptor<'a> {
 }
 
 impl<'a> Descriptor<'a> {
-    /// The one at a path without links up to its folder.
+    /// The descriptor at a path whose folder has no links.
     fn at(path: &'a Path) -> Option<Self> {
         let number = path.file_name()?.to_str()?.parse().ok()?;
         let folder = path.parent()?;
@@ -198,7 +196,7 @@ impl<'a> Descriptor<'a> {
         Some(Self { path, own })
     }
 
-    /// Writes where the descriptor stands, or appends where it appends.
+    /// Writes at the descriptor's current position, or appends if it was opened to append.
     fn write(&self, contents: &[u8]) -> io::Result<()> {
         match self.own {
             Some(1) => {
@@ -210,7 +208,7 @@ impl<'a> Descriptor<'a> {
         }
     }
 
-    /// Linux opens the file anew, at its beginning; only a duplicate goes on where it stands.
+    /// Linux reopens the file at its beginning; only a duplicate descriptor continues at the current position.
     #[cfg(all(target_os = "linux", feature = "descriptors"))]
     fn open(&self) -> io::Result<File> {
         use rustix::process::{PidfdFlags, PidfdGetfdFlags, getpid, pidfd_getfd, pidfd_open};
@@ -220,7 +218,7 @@ impl<'a> Descriptor<'a> {
         };
         match self.own.filter(|number| inherited(*number)).map(duplicate) {
             Some(Ok(file)) => Ok(file),
-            // Not before Linux 5.6, and not of another process: nothing that is there is lost.
+            // Before Linux 5.6, or for another process, append: existing contents are not lost.
             _ => OpenOptions::new().append(true).open(self.path),
         }
     }
@@ -231,8 +229,8 @@ impl<'a> Descriptor<'a> {
     }
 }
 
-/// Whether a descriptor was open when the program began: what it has opened since, under a number
-/// that was free, is closed on exec.
+/// Whether a descriptor was open when the program began. The program closes on exec every descriptor that it has opened
+/// itself, even under a number that was free.
 #[cfg(all(target_os = "linux", feature = "descriptors"))]
 fn inherited(number: i32) -> bool {
     const CLOSED_ON_EXEC: u32 = 0o2_000_000;
@@ -245,15 +243,15 @@ fn inherited(number: i32) -> bool {
 /// Replaces a file by a whole one, or overwrites it where that is not possible.
 fn replace(path: &Path, target: &Path, old: &Metadata, contents: &[u8]) -> io::Result<()> {
     if old.permissions().readonly() {
-        // Whoever may do everything could, but somebody wanted it to stay.
+        // The superuser could write it, but somebody made the file read-only on purpose.
         return Err(Fault::new(ErrorKind::PermissionDenied, "it is a read-only file"));
     }
-    // Whoever may not write to it must not replace it either.
+    // A user who may not write to the file must not replace it either.
     OpenOptions::new().write(true).open(path)?;
     if names(old) == 1 {
         use ErrorKind::{CrossesDevices, PermissionDenied, ReadOnlyFilesystem, ResourceBusy};
         match write_beside(target, Some(old), contents) {
-            // No file may be made there, or not with that owner, or nothing put in its place.
+            // The folder takes no new file, or not with that owner, or the file cannot be replaced.
             Err(error)
                 if matches!(
                     error.kind(),
@@ -267,7 +265,7 @@ fn replace(path: &Path, target: &Path, old: &Metadata, contents: &[u8]) -> io::R
 
 /// Overwrites a file, and puts back what it held if that fails.
 fn overwrite(path: &Path, contents: &[u8]) -> io::Result<()> {
-    // Under the list's lock, so that whoever stops the program waits for the end.
+    // Holds the list's lock, so that a thread that stops the program waits for the end of the write.
     let _parts = parts();
     let mut file = OpenOptions::new().read(true).write(true).open(path)?;
     let mut held = Vec::new();
@@ -279,18 +277,18 @@ fn overwrite(path: &Path, contents: &[u8]) -> io::Result<()> {
         file.sync_all()
     };
     put(contents).inspect_err(|_| {
-        // The reason why the file could not be written is the one to tell.
+        // The reason why the file could not be written is the one to report.
         let _ = put(&held);
     })
 }
 
-/// Writes a part in the folder of the target, as `old` in owner and permissions, and renames it.
+/// Writes a temporary file in the folder of the target, with the owner and permissions of `old`, and renames it.
 fn write_beside(target: &Path, old: Option<&Metadata>, contents: &[u8]) -> io::Result<()> {
     beside(target, old, contents, |part| fs::rename(part, target)).map(drop)
 }
 
-/// Writes a part in the folder of the target, as `old` in owner and permissions, and lets `put` take it to its
-/// place: the file, which is locked where files can be.
+/// Writes a temporary file in the folder of the target, with the owner and permissions of `old`, and lets `put` move it
+/// to its place. Returns the file, locked where files can be.
 pub fn beside(
     target: &Path,
     old: Option<&Metadata>,
@@ -304,19 +302,19 @@ pub fn beside(
         .and_then(|()| file.sync_all())
         .and_then(|()| put(&part));
     if written.is_err() {
-        // The part is of no use; that it may not be there is no further error.
+        // The temporary file is of no use; if it is already gone, that is no further error.
         let _ = fs::remove_file(&part);
     }
     parts().retain(|other| *other != part);
     written.map(|()| file)
 }
 
-/// How the name of a file begins that is being written, and how it ends.
+/// Beginning and end of the name of a file that is being written.
 const PART: &str = ".sweetspot-";
 const OF_A_PART: &str = ".part";
 
-/// Removes what programs that were killed have left in a folder: files that were being written, and that
-/// no program holds any more. A file that cannot be read stays.
+/// Removes temporary files that killed programs have left in a folder: no program holds them any more. A file that
+/// cannot be read stays.
 pub fn remove_lost(folder: &Path) {
     let Ok(entries) = fs::read_dir(folder) else { return };
     for path in entries.flatten().map(|entry| entry.path()) {
@@ -330,14 +328,14 @@ pub fn remove_lost(folder: &Path) {
     }
 }
 
-/// A new file in the folder of the target, under a name that cannot be guessed and that is short
-/// however long the target's is.
+/// A new file in the folder of the target, under a name that cannot be guessed and that stays short even if the
+/// target's name is long.
 fn new_part(target: &Path) -> io::Result<(PathBuf, File)> {
     const TRIES: usize = 16;
     for _ in 0..TRIES {
         let number = RandomState::new().hash_one(target);
         let part = target.with_file_name(format!("{PART}{number:016x}{OF_A_PART}"));
-        // Under the list's lock, so that whoever removes the parts finds this one or forbids it.
+        // Holds the list's lock, so that a thread that removes the temporary files finds this one or forbids it.
         let mut parts = parts();
         match OpenOptions::new().write(true).create_new(true).open(&part) {
             Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
@@ -353,7 +351,7 @@ fn new_part(target: &Path) -> io::Result<(PathBuf, File)> {
     Err(Fault::from(ErrorKind::AlreadyExists))
 }
 
-/// Gives a new file the owner and the permissions of the one that it replaces.
+/// Gives a new file the owner and the permissions of the file that it replaces.
 #[cfg(unix)]
 fn as_before(file: &File, old: &Metadata) -> io::Result<()> {
     use std::os::unix::fs::{MetadataExt, fchown};
@@ -392,25 +390,25 @@ pub(crate) fn number(_: &Metadata) -> Option<(u64, u64)> {
     None
 }
 
-/// What is being written at this moment.
+/// The files being written at this moment.
 static PARTS: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 fn parts() -> MutexGuard<'static, Vec<PathBuf>> {
     locked(&PARTS)
 }
 
-/// A list of names is whole whatever happened to the thread that held it.
+/// Locks a list. It is intact even if a thread panicked while it held the lock.
 fn locked<T>(list: &Mutex<T>) -> MutexGuard<'_, T> {
     list.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Removes every part that is being written, for a program that is told to stop. No further file is
-/// begun: whoever tries waits for the end of the program, which must follow.
+/// Removes every temporary file, for a program that is told to stop. A thread that tries to begin another file waits
+/// for the end of the program, which must follow.
 pub fn abandon() {
     remove_all(parts());
 }
 
-/// As [`abandon`], but does not wait for long: whoever writes may be this thread itself.
+/// As [`abandon`], but waits only briefly: the thread that writes may be the calling one.
 pub fn abandon_at_once() {
     const TRIES: u32 = 50;
     for _ in 0..TRIES {
@@ -423,10 +421,10 @@ pub fn abandon_at_once() {
 
 fn remove_all(parts: MutexGuard<'static, Vec<PathBuf>>) {
     for part in parts.iter() {
-        // It may be whole and renamed by now.
+        // The file may be complete and renamed by now.
         let _ = fs::remove_file(part);
     }
-    // The next file's thread must not pass.
+    // Keeps the lock, so that no thread begins another file.
     std::mem::forget(parts);
 }
 

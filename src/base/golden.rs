@@ -1,15 +1,15 @@
-//! The golden section: numbers of no pattern, and the search that divides by it.
+//! The golden section: a sequence of numbers without a pattern, and the search for a minimum that divides by it.
 
 /// `(√5 − 1)/2`.
 pub const SECTION: f64 = 0.618_033_988_749_894_9;
 
-/// The fractional part of `(k + 1)` golden sections: numbers of no pattern in [0, 1).
+/// The fractional part of `(k + 1)` golden sections, a number in [0, 1); successive ones show no pattern.
 pub fn fraction(k: usize) -> f64 {
     ((k + 1) as f64 * SECTION).fract()
 }
 
-/// Where `f` is least between `low` and `high`, to half the digits of the interval: there `f` has all of
-/// its own.
+/// The position of the minimum of `f` between `low` and `high`, to half the digits of the interval. `f` is flat there,
+/// so its value has full accuracy.
 pub fn least(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
     const STEPS: usize = 40;
     let (mut a, mut b) = (high - SECTION * (high - low), low + SECTION * (high - low));

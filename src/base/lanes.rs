@@ -1,9 +1,8 @@
 //! How do several bats or modes go through the same arithmetic at once?
 //!
-//! [`Lanes`] holds as many numbers as a vector of the machine.
-//!
-//! Plain loops over arrays, which the compiler turns into vector instructions; pulp chooses the
-//! widest that the machine knows. The bits of an answer do not depend on that choice.
+//! [`Lanes`] holds as many numbers as a vector of the machine. It uses plain loops over arrays, which the compiler
+//! turns into vector instructions. pulp chooses the widest vectors that the machine has. The choice does not change the
+//! bits of an answer.
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -12,29 +11,29 @@ use pulp::{Arch, WithSimd};
 
 use crate::base::real::{Over, Real};
 
-/// Bats or modes side by side: two vectors of AVX2, or four of the oldest machines.
+/// Number of bats or modes side by side: two vectors of AVX2, or four of the oldest machines.
 pub const WIDTH: usize = 8;
 
-/// Whether vectors beyond those of every machine are left unused.
+/// Whether to use only the vectors that every machine has.
 static PLAIN: AtomicBool = AtomicBool::new(false);
 
-/// Leaves vectors beyond those of every machine unused from now on, in the whole process: for a test
-/// that answers have equal bits on all machines.
+/// Restricts the whole process, from now on, to the vectors that every machine has: for a test that answers have equal
+/// bits on all machines.
 pub fn leave_wide_vectors_unused() {
     PLAIN.store(true, Ordering::Relaxed);
 }
 
 /// Does the work with the widest vectors that this machine has.
 ///
-/// Work is compiled for every kind of vectors: once, not anew in every function that asks for it.
+/// The work is compiled once for each kind of vectors, not again in every function that calls it.
 #[inline(never)]
 pub(crate) fn widest<W: WithSimd>(work: W) -> W::Output {
     let arch = if PLAIN.load(Ordering::Relaxed) { Arch::Scalar } else { Arch::new() };
     arch.dispatch(work)
 }
 
-/// Evaluates an expression with the widest vectors that this machine has. What it calls is inlined into the closure
-/// around it, and the closure into what is compiled for a kind of vectors.
+/// Evaluates an expression with the widest vectors that this machine has. Functions that it calls are inlined into the
+/// surrounding closure, and the closure into the code for each kind of vectors.
 macro_rules! vectorized {
     ($work:expr) => {
         $crate::base::lanes::widest(
@@ -51,8 +50,8 @@ pub(crate) use vectorized;
 #[repr(align(64))]
 pub struct Lanes([f64; WIDTH]);
 
-/// What the expression gives for every lane: a loop and nothing else, because closures are compiled anew
-/// for every use and are not always made part of the loop.
+/// The value of the expression in every lane. A plain loop: closures are compiled again for every use and are not
+/// always inlined.
 macro_rules! lanes {
     ($k:ident => $value:expr) => {{
         let mut lanes = [0.0; WIDTH];

@@ -1,10 +1,10 @@
-//! What is the product of two vectors, which two numbers solve two equations, what is the inverse of a few?
+//! Product of two vectors, two equations in two unknowns, inverse of a small matrix.
 
 use crate::base::real::Real;
 
 /// `xᵀy` in eight partial sums per block, so that the error does not grow with the length.
 ///
-/// By plain loops: of a length that is known where it is called they leave its products alone.
+/// Written as plain loops: where the length is known at the call, the compiler drops the products that are not needed.
 #[inline(always)]
 pub fn dot<R: Real>(x: &[R], y: &[R]) -> R {
     const BLOCK: usize = 1024;
@@ -41,7 +41,7 @@ pub fn determinant([[a, b], [c, d]]: [[f64; 2]; 2]) -> f64 {
     a * d - b * c
 }
 
-/// The solution of two equations, by Cramer's rule.
+/// The solution of two linear equations, by Cramer's rule.
 pub fn solve_two(matrix: [[f64; 2]; 2], [e, f]: [f64; 2]) -> [f64; 2] {
     let ([[a, b], [c, d]], det) = (matrix, determinant(matrix));
     [(d * e - b * f) / det, (a * f - c * e) / det]

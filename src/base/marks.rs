@@ -1,27 +1,27 @@
-//! Which characters act on what shows them, and how are they written out?
+//! Which characters act on the program that shows them, and how are they written out?
 //!
-//! A name may come from a stranger's file: control characters act on a terminal, marks of direction make a line
-//! read as another one, and a spreadsheet computes what begins as a formula does.
+//! A name may come from a stranger's file. Control characters act on a terminal, marks of direction make a line read as
+//! another one, and a spreadsheet computes a text that begins like a formula.
 
-/// Marks that turn the direction of what follows, and could make a name or a number read as another.
+/// Marks that reverse the direction of the text after them and could disguise a name or a number.
 pub fn is_bidi(c: char) -> bool {
     matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// Whether a character acts on what shows it: controls, marks of direction, ends of lines.
+/// Whether a character acts on the program that shows it: controls, marks of direction, line ends.
 fn acts(c: char) -> bool {
     c.is_control()
         || is_bidi(c)
         || matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}' | '\u{2029}')
 }
 
-/// One line that does nothing to a terminal, whatever a file is called or holds.
+/// The text as one line that is safe to show in a terminal.
 pub fn written_out(text: &str) -> String {
     let written = |c: char| if acts(c) { c.escape_default().to_string() } else { c.into() };
     text.chars().map(written).collect()
 }
 
-/// JSON that reads as the same: what acts on a terminal stands as `\uXXXX` in its texts.
+/// Equivalent JSON, with `\uXXXX` for each character in its texts that acts on a terminal.
 pub fn json(text: &str) -> String {
     let written = |c: char| match acts(c) && !c.is_ascii_whitespace() {
         true => format!("\\u{:04x}", u32::from(c)),
@@ -30,16 +30,16 @@ pub fn json(text: &str) -> String {
     text.chars().map(written).collect()
 }
 
-/// Whether a spreadsheet may take a text for a formula, after apostrophes that there may be before it.
+/// Whether a spreadsheet may take a text for a formula; leading apostrophes are skipped.
 fn is_formula(text: &str) -> bool {
     const BEGINS: [char; 9] = ['=', '+', '-', '@', '\t', '＝', '＋', '－', '＠'];
     let text = text.trim_start_matches('\'');
-    // A carriage return is written out.
+    // A carriage return comes here already written out.
     text.starts_with(BEGINS) || text.starts_with("\\r")
 }
 
-/// A text as a cell of a table that spreadsheets open: an apostrophe before what could be a formula, and one more
-/// before one that has apostrophes already. Controls but tabs are written out.
+/// A text as a cell of a table for spreadsheets. A text that could be a formula, or that begins with apostrophes before
+/// one, gets one apostrophe more. Controls except tabs are written out.
 pub fn cell(text: &str) -> String {
     let text: Vec<String> = text.split('\t').map(written_out).collect();
     let text = text.join("\t");

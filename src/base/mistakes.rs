@@ -1,23 +1,23 @@
-//! All that is wrong with a file in one run, not the first thing only.
+//! All mistakes of a file in one run, instead of only the first.
 
 use crate::base::error::{Error, FilePosition, Result};
 
-/// Mistakes that are shown: as many as a person can look at; more are only counted.
+/// Most mistakes that are shown; further ones are only counted.
 const MOST: usize = 10;
 
 /// The mistakes found so far.
 ///
-/// A reader goes on with a stand-in for what it could not read, so that the rest is looked at too;
-/// [`Self::end`] then sees to it that nothing made of stand-ins is taken for an answer.
+/// A reader continues with a stand-in for a value that it could not read, so that the rest is checked too.
+/// [`Self::end`] then makes sure that no result built from stand-ins is returned.
 #[derive(Debug, Default)]
 pub struct Mistakes {
     found: Vec<Error>,
-    /// How many were counted only.
+    /// Number of mistakes that were only counted.
     more: usize,
 }
 
 impl Mistakes {
-    /// Keeps the mistake, or the mistakes, of an error.
+    /// Adds the mistake, or the mistakes, of an error.
     pub fn add(&mut self, error: Error) {
         match error {
             Error::Several { shown, more } => {
@@ -28,26 +28,26 @@ impl Mistakes {
         }
     }
 
-    /// What was read, or nothing and one mistake more.
+    /// The value that was read; otherwise `None`, and the mistake is added.
     pub fn some<T>(&mut self, read: Result<T>) -> Option<T> {
         read.map_err(|error| self.add(error)).ok()
     }
 
-    /// What was read, or a stand-in and one mistake more.
+    /// The value that was read; otherwise a stand-in, and the mistake is added.
     pub fn note<T: Default>(&mut self, read: Result<T>) -> T {
         self.some(read).unwrap_or_default()
     }
 
-    /// What was made of all that was read, if there was no mistake.
+    /// The finished value, if there was no mistake.
     ///
     /// # Errors
     ///
-    /// The mistakes in the order of the file, the first ten of them.
+    /// The mistakes in the order of the file, at most ten.
     pub fn end<T>(self, made: T) -> Result<T> {
         self.error().map_or(Ok(made), Err)
     }
 
-    /// As [`Self::end`], for something that could not be made of what was read either.
+    /// As [`Self::end`], for a value whose construction may fail too.
     pub fn and<T>(mut self, made: Result<T>) -> Result<T> {
         let made = made.map_err(|error| self.add(error));
         match (made, self.error()) {
@@ -72,8 +72,7 @@ impl Mistakes {
     }
 }
 
-/// All of many things that were read, or what is wrong with the first ten wrong ones, and how many
-/// more are.
+/// All of many values that were read; otherwise the first ten mistakes and the number of the others.
 pub fn all<T>(read: impl IntoIterator<Item = Result<T>>) -> Result<Vec<T>> {
     let (mut right, mut mistakes) = (Vec::new(), Mistakes::default());
     for one in read {
@@ -94,7 +93,7 @@ fn place(error: &Error) -> Option<&FilePosition> {
     }
 }
 
-/// The files in which something is wrong, in the order in which they were read.
+/// The files that contain mistakes, in the order in which they were read.
 fn files(errors: &[Error]) -> Vec<String> {
     let mut files: Vec<String> = Vec::new();
     for place in errors.iter().filter_map(place) {

@@ -1,15 +1,15 @@
 //! What do we count with, and how do we fail?
 //!
-//! Read [`error`] and [`units`] first: what a caller got wrong is told with its place, and every number
-//! that comes in or goes out has its unit named.
+//! Read [`error`] and [`units`] first: an error names the place of the mistake, and every number that comes in or goes
+//! out has its unit named.
 //!
 //! | file | question |
 //! |---|---|
-//! | [`marks`] | which characters act on what shows them |
+//! | [`marks`] | which characters act on the program that shows them |
 //! | [`error`], `mistakes` | what was wrong, where, what was expected; several mistakes at once |
 //! | [`telling`], `clock`, [`threads`] | how far is a computation; how long does it take; on how many threads |
 //! | [`file`](mod@file) | how is a file written so that nothing is lost |
-//! | [`typed`], [`units`] | which numbers and units were typed; what is a number with a unit in SI |
+//! | [`typed`], [`units`] | which numbers and units did a person type; what is a number with a unit in SI |
 //! | [`number`] | how is a number written |
 //! | [`real`], [`lanes`] | one number or several side by side |
 //! | [`linear`], [`golden`] | products of vectors, two equations; the golden section |

@@ -1,12 +1,12 @@
-//! From a number to text.
+//! How is a number written as text?
 
-/// As few digits as read back to the same bits, as JSON has them; "null" for what is not a number.
+/// The fewest digits that read back to the same bits, as in JSON; "null" for NaN and infinity.
 pub fn shortest(value: f64) -> String {
     serde_json::Value::from(value).to_string()
 }
 
-/// So many significant digits, without zeros at the end; with a power of ten where the plain number
-/// would be long.
+/// The value to `digits` significant digits, without trailing zeros; with a power of ten where the plain number would
+/// be long.
 pub fn significant(value: f64, digits: usize) -> String {
     let rounded: f64 = format!("{value:.*e}", digits - 1).parse().unwrap_or(value);
     match rounded.abs() {
@@ -15,13 +15,13 @@ pub fn significant(value: f64, digits: usize) -> String {
     }
 }
 
-/// The value to the given number of decimals; nothing is 0, not −0.
+/// The value to the given number of decimals; 0 is never −0.
 pub fn rounded(value: f64, decimals: i32) -> f64 {
     let scale = 10.0_f64.powi(decimals);
     (scale * value).round() / scale + 0.0
 }
 
-/// A change to the given number of decimals, with its sign; none is +0.
+/// A change to the given number of decimals, with its sign; no change is +0.
 pub fn signed(value: f64, decimals: usize) -> String {
     format!("{:+.decimals$}", rounded(value, decimals as i32))
 }

@@ -44,7 +44,7 @@ fn legendre_pair(n: usize, xi: f64) -> (f64, f64) {
     (value, before)
 }
 
-/// `P_0 … P_{count−1}` at `xi`, two at least.
+/// `P_0 … P_{count−1}` at `xi`; `count` is at least 2.
 pub fn legendre(count: usize, xi: f64) -> Vec<f64> {
     let mut p = Vec::with_capacity(count.max(2));
     p.extend([1.0, xi]);
@@ -59,7 +59,7 @@ pub fn legendre(count: usize, xi: f64) -> Vec<f64> {
 ///
 /// The error of the sum of n terms is then about ε instead of ε·n
 /// (Knuth's two-sum; Ogita, Rump, Oishi, SIAM J. Sci. Comput. 26 (2005) 1955, algorithm 4.1).
-/// With `KEEP` false it is a plain sum, for sums so short that nothing is worth keeping.
+/// With `KEEP` false it is a plain sum, for sums too short to lose digits.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct RunningSum<R, const KEEP: bool = true> {
     high: R,
@@ -92,27 +92,27 @@ pub fn sum<R: Real>(terms: impl IntoIterator<Item = R>) -> R {
     total.value()
 }
 
-/// Where `∫|f| ds` is 1, two rules that differ by less agree.
+/// Two rules that differ by less than this share of `∫|f| ds` agree.
 const AGREED: f64 = 2e-14;
-/// Round-off of a function that cancels may be as much as this.
+/// Largest relative round-off of a function with cancellation.
 const ROUND_OFF: f64 = 1e-9;
-/// Most stretches that an interval is cut into.
+/// Most stretches into which an interval is cut.
 const MOST_PANELS: usize = 100;
 
-/// Integrals of several functions over [0, 1], and how far they are converged.
+/// Integrals of several functions over [0, 1], and their error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Converged<const N: usize> {
     /// One integral for each function.
     pub values: [f64; N],
-    /// Largest difference of two rules as a share of `∫|f| ds`; the values are nearer than that.
+    /// Largest difference of two rules as a share of `∫|f| ds`; the values are closer than that.
     pub error: f64,
 }
 
 /// `∫₀¹ f ds` of smooth functions that are not polynomials.
 ///
-/// Gauss's rules of 16 and 32 points are compared; while they differ by more than 2e-14 of
-/// `∫|f| ds`, the stretch where they differ most is cut in two, up to 100 stretches. What little
-/// a cut does not lessen is round-off of `f`, and stays.
+/// Gauss's rules of 16 and 32 points are compared. While they differ by more than 2e-14 of `∫|f| ds`, the stretch with
+/// the largest difference is cut in two, up to 100 stretches. A small difference that cuts do not reduce is round-off
+/// of `f`, and stays.
 pub fn converged<const N: usize>(f: impl Fn(f64) -> [f64; N]) -> Converged<N> {
     let mut panels = vec![Panel::new(&f, 0.0, 1.0)];
     loop {
@@ -139,15 +139,15 @@ pub fn converged<const N: usize>(f: impl Fn(f64) -> [f64; N]) -> Converged<N> {
     }
 }
 
-/// The largest difference as a share of its size; infinite where that is NaN.
+/// The largest difference relative to its size; infinite if a value is NaN.
 fn share<const N: usize>(differences: &[f64; N], sizes: &[f64; N]) -> f64 {
     let shares =
         differences.iter().zip(sizes).map(|(d, size)| if *d == 0.0 { 0.0 } else { d / size });
     shares.map(|share| if share.is_nan() { f64::INFINITY } else { share }).fold(0.0, f64::max)
 }
 
-/// The integrals over one stretch: by the finer rule, of the absolute values, and by how much
-/// the coarser rule differs.
+/// One stretch: the integrals by the finer rule, the integrals of the absolute values, and the difference of the
+/// coarser rule.
 struct Panel<const N: usize> {
     from: f64,
     to: f64,

@@ -1,14 +1,14 @@
-//! What does the solver count with: one number at a time, or several side by side?
+//! What does the solver compute with: one number at a time, or several side by side?
 //!
-//! [`Real`] is `f64` or [`crate::base::lanes::Lanes`]; [`Over`] lets several motions of one bat share its
+//! [`Real`] is `f64` or [`crate::base::lanes::Lanes`]; [`Over`] lets several motions of one bat share the bat's
 //! numbers.
 
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-/// A real number, or one for each of several bats of the same mesh, or of several modes of a bat.
+/// A real number, or one number for each of several bats on the same mesh or of several modes of a bat.
 ///
-/// Comparisons speak for all lanes at once, so that every lane takes the same steps.
+/// A comparison answers for all lanes at once, so that every lane takes the same steps.
 pub trait Real:
     Copy
     + Debug
@@ -23,7 +23,7 @@ pub trait Real:
     + AddAssign
     + SubAssign
 {
-    /// How many numbers there are side by side.
+    /// Number of lanes.
     const LANES: usize;
 
     /// `value` in every lane.
@@ -38,7 +38,7 @@ pub trait Real:
     fn abs(self) -> Self;
     /// The greater of both, lane by lane.
     fn max(self, other: Self) -> Self;
-    /// The size of this with the sign of `sign`.
+    /// The absolute value of this with the sign of `sign`.
     fn copysign(self, sign: Self) -> Self;
     /// `then` in the lanes where this is zero, `otherwise` in the others.
     fn if_zero(self, then: Self, otherwise: Self) -> Self;
@@ -46,8 +46,8 @@ pub trait Real:
     fn within(self, other: Self) -> bool;
 }
 
-/// The numbers in which a bat that is given in numbers `S` can move: the same, lane by lane, or
-/// several motions side by side of one bat.
+/// Numbers for the motions of bats that are given in numbers `S`: either the same type, lane by lane, or several
+/// motions of one bat side by side.
 pub trait Over<S>: Real + Mul<S, Output = Self> {
     /// `value` for every motion.
     fn of(value: S) -> Self;

@@ -1,7 +1,7 @@
 //! Progress of a long computation, for the person who waits.
 
-/// Called again and again with the share of the work that is done (0 to 1) and what comes next. It
-/// may be called from several threads.
+/// A function that a long computation calls with the share of the work done (0 to 1) and the name of the next step,
+/// possibly from several threads.
 pub type Tell<'a> = &'a (dyn Fn(f64, &str) + Sync);
 
 /// A [`Tell`] that ignores the progress.

@@ -1,23 +1,23 @@
 //! How is work shared among the processors?
 //!
-//! `map` and `map_each` ask rayon's pool, and do everything themselves where no thread may be started
-//! or there is no pool. What many of them ask for and one of them makes is made by `made`.
+//! `map` and `map_each` use rayon's pool, or do all the work themselves if no thread may be started or there is no
+//! pool. `made` makes a value that many jobs ask for and one of them makes.
 
 use std::cell::Cell;
 use std::sync::OnceLock;
 
 std::thread_local! {
-    /// Whether this thread is not to wait for others.
+    /// Whether this thread must not wait for others.
     static ALONE: Cell<bool> = const { Cell::new(false) };
 }
 
 /// The most threads that may be asked for.
 pub const MOST: u16 = 1024;
 
-/// What is in the cell, made by `make` if nothing is.
+/// The value in the cell; `make` makes it if the cell is empty.
 ///
-/// Whoever makes it does so alone. A thread of the pool that waits for others takes up other work
-/// meanwhile, and if that asks for the same cell, it waits for itself.
+/// The thread that makes it works alone. A thread of the pool that waits for others takes up other work meanwhile, and
+/// if that asks for the same cell, the thread waits for itself.
 pub(crate) fn made<T>(cell: &OnceLock<T>, make: impl FnOnce() -> T) -> &T {
     struct Before(bool);
     impl Drop for Before {
@@ -31,7 +31,7 @@ pub(crate) fn made<T>(cell: &OnceLock<T>, make: impl FnOnce() -> T) -> &T {
     })
 }
 
-/// What `of` makes of 0, 1, … below `count`, in that order.
+/// The values of `of` at 0, 1, … below `count`, in that order.
 pub fn map<T: Send>(count: usize, of: impl Fn(usize) -> T + Sync) -> Vec<T> {
     #[cfg(feature = "parallel")]
     if !ALONE.get() && pool::is_there() {
@@ -40,7 +40,7 @@ pub fn map<T: Send>(count: usize, of: impl Fn(usize) -> T + Sync) -> Vec<T> {
     (0..count).map(of).collect()
 }
 
-/// What `of` makes of each, with its number, in that order.
+/// The values of `of` for each item and its index, in that order.
 pub(crate) fn map_each<S: Send, T: Send>(
     each: &mut [S],
     of: impl Fn(usize, &mut S) -> T + Sync,
@@ -52,7 +52,7 @@ pub(crate) fn map_each<S: Send, T: Send>(
     each.iter_mut().enumerate().map(|(k, one)| of(k, one)).collect()
 }
 
-/// Does something with the given number of threads, as many as there are processors if none are named.
+/// Does the work on the given number of threads; by default one for each processor.
 pub fn with<T: Send>(threads: Option<usize>, work: impl FnOnce() -> T + Send) -> T {
     #[cfg(feature = "parallel")]
     if let Some(threads) = threads
@@ -64,7 +64,7 @@ pub fn with<T: Send>(threads: Option<usize>, work: impl FnOnce() -> T + Send) ->
     work()
 }
 
-/// How many threads share work here.
+/// Number of threads that share work here.
 pub fn count() -> usize {
     #[cfg(feature = "parallel")]
     if pool::is_there() {
@@ -81,15 +81,15 @@ mod pool {
     use rayon::ThreadPoolBuilder;
     use rayon::prelude::*;
 
-    /// The process that has threads to share work with, if there are any: a user's processes may be limited.
+    /// The process that owns the pool, if there is one: the system may limit a user's processes.
     static SHARED: LazyLock<Option<u32>> = LazyLock::new(|| {
         let built = ThreadPoolBuilder::new().build_global();
-        // The only error without a cause is that somebody has built the pool before.
+        // The only error without a cause means that the pool was built before.
         let there = built.map_or_else(|error| error.source().is_none(), |()| true);
         there.then(std::process::id)
     });
 
-    /// Not in a process that was forked from that one: it has none of its threads.
+    /// Whether there is a pool. A process forked from its owner has none of its threads.
     pub fn is_there() -> bool {
         rayon::current_thread_index().is_some() || *SHARED == Some(std::process::id())
     }
@@ -122,8 +122,8 @@ mod tests {
         assert_eq!(sums, (1..1001).collect::<Vec<_>>());
     }
 
-    /// Jobs that all ask for what one of them makes of many jobs: if that one waited for these in the
-    /// pool, it would take up another that asks, and none would come to an end.
+    /// Many jobs ask for a value that one of them makes with many jobs. If that one waited in the pool, it would take
+    /// up another that asks, and both would wait for ever.
     #[cfg(feature = "parallel")]
     #[test]
     fn what_is_made_once_is_made_by_one_that_waits_for_nobody() {
@@ -137,7 +137,7 @@ mod tests {
             let ask = |_| *made(&cell, || map(64, slowly).into_iter().sum::<usize>());
             assert_eq!(pool.install(|| map(64, ask)), vec![2016; 64]);
         }
-        // Whoever made it shares work again.
+        // The thread that made the value shares work again.
         assert!(!ALONE.get());
     }
 }

@@ -1,9 +1,9 @@
 //! Which numbers and units has a person typed?
 //!
-//! [`plain`] writes marks as letters, [`terms`] finds each number with its unit, [`mixed`] is the number's
-//! value. What a unit stands for is said elsewhere ([`crate::base::units`]).
+//! [`plain`] replaces typographic marks by letters, [`terms`] finds each number with its unit, and [`mixed`] gives the
+//! value of the number. [`crate::base::units`] knows the units.
 
-/// A text as it is parsed: quotes and primes as `in` and `ft`, printed fractions and signs as typed ones.
+/// A text prepared for parsing: quotes and primes become `in` and `ft`, printed fractions and signs become typed ones.
 pub fn plain(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     let mut letters = text.trim().chars().peekable();
@@ -31,7 +31,7 @@ pub fn plain(text: &str) -> String {
     out.trim().to_owned()
 }
 
-/// Numbers and their units, one after the other: `5 ft 2 in` has two.
+/// The numbers of a text with their units, in order: `5 ft 2 in` has two.
 pub fn terms(mut text: &str) -> Vec<(&str, &str)> {
     let mut all = vec![];
     loop {
@@ -56,7 +56,7 @@ pub fn mixed(number: &str) -> Option<f64> {
     let (whole, above) = joint.map_or(("0", above), |i| (&above[..i], &above[i + 1..]));
     let [whole, above, below] = [whole.trim_end(), above, below].map(decimal);
     let (whole, above, below) = (whole?, above?, below?);
-    // No rule shows "2.5 5/8", and what "-2 1/8" means is anybody's guess.
+    // No rule shows "2.5 5/8", and "-2 1/8" is ambiguous.
     (whole.fract() == 0.0 && whole >= 0.0).then_some(whole + above / below)
 }
 
@@ -68,7 +68,7 @@ fn decimal(number: &str) -> Option<f64> {
     }
 }
 
-/// Whether its commas can be between thousands, as in `1,234` and `1,234,567.8`.
+/// Whether the commas can separate thousands, as in `1,234` and `1,234,567.8`.
 fn in_thousands(number: &str) -> bool {
     let whole = number.split(['.', 'e', 'E']).next().unwrap_or_default();
     let mut groups = whole.trim_start_matches(['+', '-']).split(',');
@@ -77,7 +77,7 @@ fn in_thousands(number: &str) -> bool {
     begins && groups.all(|group| group.len() == 3)
 }
 
-/// Both readings of a number whose one comma is a decimal one or between thousands.
+/// Both readings of a number with one comma: a decimal comma, or a separator of thousands.
 pub fn readings(number: &str) -> Option<[String; 2]> {
     let two = in_thousands(number) && number.matches(',').count() == 1 && !number.contains('.');
     two.then(|| [".", ""].map(|comma| number.replace(',', comma)))
@@ -105,7 +105,7 @@ pub fn split(text: &str) -> (&str, &str) {
             end = exponent;
         }
     }
-    // The fraction of an inch rule, after whole inches or on its own.
+    // The fraction of an inch rule, after whole inches or alone.
     let above = match bytes.get(end) {
         Some(b'/') => end,
         Some(b'-') => digits(end + 1),
@@ -117,8 +117,8 @@ pub fn split(text: &str) -> (&str, &str) {
     (&text[..end], text[end..].trim())
 }
 
-/// The value of a text that is a finite number alone, such as `33.5` or `33,5`; None for anything else,
-/// also for `1,234`, which may be read in two ways.
+/// The value of a text that is one finite number, such as `33.5` or `33,5`; `None` for any other text, also for
+/// `1,234`, which has two readings.
 pub fn number(text: &str) -> Option<f64> {
     let text = text.trim();
     let value = if readings(text).is_some() { None } else { decimal(text) };

@@ -10,8 +10,8 @@
 //! as a sum of two units (`5' 2"`, `1 lb 14 1/2 oz`), with a decimal comma (`33,5 in`) or with
 //! thousands apart (`13,600.5 oz in^2`). `1,234` may be either and is refused with both readings.
 //!
-//! `oz` and `lb` are masses; forces are `lbf`, `ozf`, `N`. Mixing them up is the commonest
-//! silent error in this field (a factor √g in every frequency), so it is told, not guessed.
+//! `oz` and `lb` are masses; forces are `lbf`, `ozf`, `N`. Confusing them is the commonest silent error in this field
+//! (a factor √g in every frequency), so it is reported, not guessed.
 //!
 //! # Source
 //!
@@ -43,7 +43,7 @@ type Dimension = [i8; 4];
 /// Quantities: the name in words, the dimension, the SI unit, and an example in the units of the trade.
 macro_rules! quantities {
     ($($(#[$said:meta])* $quantity:ident: $name:literal, $dimension:expr, $si:literal, $example:literal;)*) => {
-        /// A physical quantity: what a value is, its dimension, its SI unit and an example.
+        /// A physical quantity: name, dimension, SI unit and an example.
         #[derive(Debug, Clone, Copy, PartialEq, Eq)]
         pub enum Quantity {
             $($(#[$said])* $quantity,)*
@@ -101,8 +101,8 @@ quantities! {
 }
 
 impl Quantity {
-    /// Whether a unit of that dimension measures it. A stiffness against rotation may leave its
-    /// radian out: `N m`.
+    /// Whether a unit of that dimension measures this quantity. A stiffness against rotation may leave out its radian:
+    /// `N m`.
     fn has(self, dimension: Dimension) -> bool {
         let [length, mass, time, angle] = self.facts().1;
         let without = self == Self::RotationalStiffness && dimension == [length, mass, time, 0];
@@ -129,19 +129,19 @@ impl Quantity {
         self.facts().3
     }
 
-    /// What a value of this quantity may look like, for error messages.
+    /// An example of this quantity, for error messages.
     pub fn expected(self) -> String {
         self.expected_in(self.facts().2)
     }
 
-    /// What a value of this quantity may look like where numbers without a unit are in `unit`.
+    /// An example of this quantity where numbers without a unit are in `unit`, for error messages.
     pub fn expected_in(self, unit: &str) -> String {
         let (name, _, _, example) = self.facts();
         let bare = if unit == "in" { "inches" } else { unit };
         format!("{name} such as \"{example}\" or a number in {bare}")
     }
 
-    /// The units that would do, where symbols of their own measure it.
+    /// The symbols that measure this quantity by themselves.
     fn units(self) -> String {
         let (name, dimension, si, _) = self.facts();
         let others = SYMBOLS.iter().filter(|symbol| symbol.2 == dimension && symbol.0 != si);
@@ -204,7 +204,7 @@ const SYMBOLS: &[(&str, f64, Dimension)] = &[
     ("fps", FOOT, [1, 0, -1, 0]),
 ];
 
-/// The value of `text`, such as `"33 in"`, in SI. A text must carry its unit.
+/// The value of `text`, such as `"33 in"`, in SI. The text must carry its unit.
 ///
 /// # Errors
 ///
@@ -213,8 +213,7 @@ pub fn parse(text: &str, quantity: Quantity) -> Result<f64, Complaint> {
     parse_beside(text, quantity, quantity.facts().2)
 }
 
-/// The value of a text with its unit, in SI. `bare` is the unit of plain numbers beside this text; a
-/// complaint names it.
+/// The value of a text with its unit, in SI. Plain numbers beside this text are in `bare`; a complaint names it.
 ///
 /// # Errors
 ///
@@ -246,15 +245,15 @@ pub fn parse_beside(text: &str, quantity: Quantity, bare: &str) -> Result<f64, C
         Complaint::new("", format!("\"{text}\""), expected)
     })?;
     if value.is_finite() {
-        // So that −0 is 0.
+        // Turns −0 into 0.
         Ok(value + 0.0)
     } else {
         Err(wrong(format!("\"{text}\", which is beyond the range of numbers")))
     }
 }
 
-/// The sum of values with their units' factors: whole numbers from large units to small ones, each less
-/// than one of the unit before it, the last with a fraction if it likes. None for anything else.
+/// The sum of values with their units' factors, or `None`. The values are whole numbers from large units to small ones,
+/// each less than one of the unit before it; only the last may have a fraction.
 fn summed(values: &[(f64, f64)]) -> Option<f64> {
     let falls = |pair: &[(f64, f64)]| {
         let [(whole, large), (value, small)] = [pair[0], pair[1]];
@@ -264,7 +263,7 @@ fn summed(values: &[(f64, f64)]) -> Option<f64> {
     values.windows(2).all(falls).then(sum)
 }
 
-/// What a number without its unit may be meant for.
+/// A suggestion of the unit for a number that has none.
 fn with_unit(number: &str, quantity: Quantity, bare: &str) -> String {
     let usual = split(quantity.example()).1;
     match number.parse::<f64>() {
@@ -276,7 +275,7 @@ fn with_unit(number: &str, quantity: Quantity, bare: &str) -> String {
     }
 }
 
-/// As [`parse`], where a bare number is SI: on the command line everything is text.
+/// As [`parse`], but a bare number is SI: on the command line every value is text.
 ///
 /// # Errors
 ///
@@ -285,7 +284,7 @@ pub fn parse_or_si(text: &str, quantity: Quantity) -> Result<f64, Complaint> {
     number(text).map_or_else(|| parse(text, quantity), Ok)
 }
 
-/// The factor to SI of a unit on its own, such as `"in"` or `"lb/in^3"`.
+/// The factor of a single unit, such as `"in"` or `"lb/in^3"`, to SI.
 ///
 /// # Errors
 ///
@@ -312,7 +311,7 @@ pub fn factor(unit: &str, quantity: Quantity) -> Result<f64, Complaint> {
     Err(Complaint::new("", found, expected()).hinted(hint))
 }
 
-/// What to do about a force for a mass or a mass for a force.
+/// Advice on a force given for a mass, or a mass for a force.
 fn advice(wanted: Quantity, found: Option<&Quantity>, unit: &str) -> &'static str {
     let per_area = unit.contains("lb/in^2") || unit.contains("lb/in2");
     let of_mass = unit.contains("lb") && !unit.contains("lbf");
@@ -391,7 +390,7 @@ pub fn inches(length: f64) -> f64 {
     length / INCH
 }
 
-/// A length as messages say it, whichever unit it came in.
+/// A length as messages show it, in metres and in inches.
 pub fn shown_length(length: f64) -> String {
     let rounded = |text: String| text.parse().unwrap_or(f64::NAN);
     let meters: f64 = rounded(format!("{length:.11e}"));
@@ -423,7 +422,7 @@ mod tests {
         parse(text, quantity).unwrap()
     }
 
-    /// Relative agreement to a few roundings.
+    /// Whether two numbers agree to a few roundings.
     fn same(a: f64, b: f64) -> bool {
         (a - b).abs() <= 4.0 * f64::EPSILON * b.abs()
     }

@@ -1,9 +1,9 @@
-//! Text as XML has it.
+//! How is text written into XML?
 
 use crate::base::marks::is_bidi;
 
-/// The text between tags and in quoted attributes; control characters, which XML cannot hold, become
-/// blanks, and marks that turn what follows the sign for what cannot be shown.
+/// The text as XML content or as a quoted attribute. Control characters, which XML cannot hold, become blanks; marks of
+/// direction become the replacement character.
 pub fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
@@ -16,7 +16,7 @@ pub fn escaped(text: &str) -> String {
     out
 }
 
-/// Adds a character, by its name if it could be taken for the end of a text or of a value in quotes.
+/// Adds a character, escaped if it could end a text or a quoted value.
 pub fn put(out: &mut String, c: char) {
     match c {
         '&' => *out += "&amp;",

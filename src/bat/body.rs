@@ -1,7 +1,7 @@
 //! What bat is this, is it possible, and what are its mass, balance point and swing weight?
 //!
-//! [`Bat::builder`] from a profile and a material, [`Bat::from_file`] from a bat file, [`Bat::inertia`]
-//! for the rigid body; `about(`[`STANDARD_PIVOT`]`)` of it is the swing weight.
+//! [`Bat::builder`] makes one from a profile and a material, [`Bat::from_file`] from a bat file. [`Bat::inertia`] gives
+//! the rigid body, and `about(`[`STANDARD_PIVOT`]`)` of it the swing weight.
 
 use std::sync::Arc;
 
@@ -19,27 +19,27 @@ use crate::bat::part::Part as _;
 use crate::bat::profile::{Piece, Profile, Radii, Section};
 use crate::bat::weighed::Weighed;
 
-/// Where standards hold a bat to measure its swing weight: 6 in from the knob end (m).
+/// Pivot of the standard swing weight: 6 in from the knob end (m).
 pub const STANDARD_PIVOT: f64 = 0.1524;
 
-/// A bat: a shape, materials, and what is on it. One that exists is valid, so that no later stage checks
-/// again: it is made by [`Bat::builder`], and a change makes another one ([`Bat::with`]).
+/// A bat: a shape, materials and fixtures. [`Bat::builder`] checks it, so that no later stage checks again; a change
+/// makes a new bat ([`Bat::with`]).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bat {
     /// Its pieces end wherever a material or a fixture begins.
     parts: Parts,
-    /// What the pieces are made of, the bat's own material first.
+    /// The layups of the pieces, the bat's own material first.
     layups: Vec<Layup>,
     weighed: Weighed,
     factors: [f64; 2],
-    /// Whether the moduli follow from the tap.
+    /// Whether the moduli already follow from the tapped frequency.
     heard: bool,
     edits: Vec<Edit>,
     /// The bat before its edits, where it has any.
     unedited: Option<Arc<Bat>>,
 }
 
-/// What a bat is made of, before it is one.
+/// The parts of a bat before it is checked.
 ///
 /// ```
 /// use sweetspot::bat::profile::{Interpolation, Stations};
@@ -70,14 +70,13 @@ pub struct Parts {
     pub name: String,
     /// Where the numbers of the bat come from.
     pub source: String,
-    /// Whether its lengths are counted in inches, as its file has them: what is said of the bat to
-    /// people is said in that unit first.
+    /// Whether the bat's file gives lengths in inches; messages to people then name inches first.
     pub inches: bool,
     /// Shape of the bat.
     pub profile: Profile,
     /// The bat's own material.
     pub material: Material,
-    /// What is on it and what holds it.
+    /// Fixtures on the bat, and what holds it.
     pub fixtures: Fixtures,
 }
 
@@ -94,7 +93,7 @@ impl Builder {
         self
     }
 
-    /// Counted in inches, as in a file in inches: see [`Bat::inches`].
+    /// Sets whether lengths are counted in inches, as in a file in inches: see [`Bat::inches`].
     pub fn inches(mut self, inches: bool) -> Self {
         self.parts.inches = inches;
         self
@@ -106,14 +105,14 @@ impl Builder {
         self
     }
 
-    /// What the bat weighs with everything attached (kg), if it was weighed: see [`Self::weighed`].
+    /// Mass with everything attached (kg), if the bat was weighed: see [`Self::weighed`].
     pub fn mass(mut self, mass: Option<f64>) -> Self {
         self.weighed.mass = mass;
         self
     }
 
-    /// What a scale and a tap said. The mass includes what is attached; it sets one factor on all
-    /// densities. A tapped frequency is kept for [`crate::modes::tuned`].
+    /// Results of weighing and tapping. The mass includes all fixtures; it sets one factor on all densities. A tapped
+    /// frequency is kept for [`crate::modes::tuned`].
     pub fn weighed(mut self, weighed: Weighed) -> Self {
         self.weighed = weighed;
         self
@@ -123,7 +122,7 @@ impl Builder {
     ///
     /// # Errors
     ///
-    /// [`Error::Value`], its field the path of a key in a bat file, or several of them.
+    /// [`Error::Value`] with the path of the key in a bat file as its field, or several of them.
     pub fn build(self) -> Result<Bat> {
         let mut mistakes = Mistakes::default();
         mistakes.note(self.weighed.check("weighed", self.parts.profile.length()));
@@ -145,15 +144,15 @@ impl Builder {
 }
 
 impl Bat {
-    /// A bat of a shape and a material, to which more can be told before it is built.
+    /// A builder for a bat of a shape and a material.
     pub fn builder(profile: Profile, material: Material) -> Builder {
         let (name, source, fixtures) = (String::new(), String::new(), Fixtures::default());
         let parts = Parts { name, source, inches: false, profile, material, fixtures };
         Builder { parts, weighed: Weighed::default() }
     }
 
-    /// A bat like this one with something changed. What was weighed stays as it led to densities and moduli: it
-    /// was said of the bat before the change, and is not asked again. Its edits stay on its list.
+    /// A copy of this bat with a change. The densities and moduli that weighing led to are kept: the weighed mass
+    /// belongs to the bat before the change and is not applied again. The list of edits is kept too.
     ///
     /// # Errors
     ///
@@ -166,7 +165,7 @@ impl Bat {
         Ok(Self { edits, unedited, heard: self.heard, ..bat })
     }
 
-    /// The bat with these parts, which one more edit has made.
+    /// The bat with these parts, after one more edit.
     pub(crate) fn after(
         &self,
         edit: &Edit,
@@ -174,7 +173,7 @@ impl Bat {
     ) -> Result<Self> {
         let mut parts = self.parts.clone();
         change(&mut parts)?;
-        // Another wood is not the one that was weighed and tapped.
+        // Another wood was not weighed and tapped.
         let (weighed, factors) = match edit.change {
             Change::Wood(_) => (Weighed::default(), [1.0; 2]),
             _ => (self.weighed, self.factors),
@@ -185,7 +184,7 @@ impl Bat {
         Ok(Self { edits, unedited: Some(unedited), heard: self.heard, ..bat })
     }
 
-    /// What was changed after it was weighed, in the order in which it was done.
+    /// Edits made after the bat was weighed, in order.
     pub fn edits(&self) -> &[Edit] {
         &self.edits
     }
@@ -206,7 +205,7 @@ impl Bat {
         Ok(bat)
     }
 
-    /// Whether the bat's file has its lengths in inches: people who measure so are answered so.
+    /// Whether the bat's file has its lengths in inches; answers are then in inches too.
     pub fn inches(&self) -> bool {
         self.parts.inches
     }
@@ -242,8 +241,8 @@ impl Bat {
         self.weighed
     }
 
-    /// The tapped frequency (Hz) by which the moduli are still to be found; None where there is none, or
-    /// where they follow from it already ([`crate::modes::tuned`]).
+    /// The tapped frequency (Hz) by which the moduli are still to be fitted. `None` if there is none, or if the moduli
+    /// follow from it already ([`crate::modes::tuned`]).
     pub fn tap(&self) -> Option<f64> {
         self.unedited().weighed.first_bending.filter(|_| !self.heard)
     }
@@ -253,12 +252,12 @@ impl Bat {
         self.heard = true;
     }
 
-    /// Factors on all densities and on all moduli that weighing and tapping led to.
+    /// Factors on all densities and on all moduli that follow from weighing and tapping.
     pub fn factors(&self) -> [f64; 2] {
         self.factors
     }
 
-    /// Cuts the profile where a material or a fixture begins, and tells every piece its layup.
+    /// Cuts the profile where a material or a fixture begins, and assigns each piece its layup.
     fn lay_out(&mut self) {
         let Self { parts: Parts { profile, fixtures, .. }, layups, .. } = self;
         layups.truncate(1);
@@ -274,7 +273,7 @@ impl Bat {
         }
         for tape in &fixtures.tapes {
             let per_length = tape.mass / (tape.to - tape.from);
-            // Each layup under it once more, with the tape.
+            // Under the tape, each layup a second time.
             let bare = layups.len();
             let mut taped: Vec<Option<usize>> = vec![None; bare];
             for piece in &mut profile.pieces {
@@ -290,7 +289,7 @@ impl Bat {
         }
     }
 
-    /// One factor on every density and one on every modulus of the bat.
+    /// Multiplies every density and every modulus of the bat by a factor.
     pub fn scale(&mut self, density: f64, modulus: f64) {
         self.layups.iter_mut().for_each(|layup| layup.scaled(density, modulus));
         for region in &mut self.parts.fixtures.regions {
@@ -311,13 +310,13 @@ impl Bat {
         self.parts.profile.length()
     }
 
-    /// What a piece of the profile is made of.
+    /// The layup of a piece of the profile.
     #[inline]
     pub fn layup(&self, piece: &Piece) -> &Layup {
         &self.layups[piece.layup]
     }
 
-    /// What the section at `x` is worth, at a border the one to its right.
+    /// Stiffness and mass of the section at `x`; at a border, of the section to its right.
     pub fn worth_at(&self, x: f64) -> Worth {
         self.layup(self.parts.profile.piece_at(x)).worth(self.parts.profile.at(x))
     }
@@ -328,7 +327,7 @@ impl Bat {
         layups.any(|layup| layup.materials().any(|m| m.losses() != [0.0; 2]))
     }
 
-    /// The bat with materials that have these loss factors in bending and in shear.
+    /// The bat with these loss factors of its materials in bending and in shear.
     ///
     /// # Errors
     ///
@@ -345,8 +344,8 @@ impl Bat {
         })
     }
 
-    /// The bat whose materials without a loss factor have the one that is published of their kind, else that one; errors
-    /// are those of [`Self::with`].
+    /// The bat with a loss factor for every material: the published one of its kind, else `unknown`. Errors are those
+    /// of [`Self::with`].
     pub fn with_losses(&self, unknown: f64) -> Result<Self> {
         self.losing(|m| {
             let known = Some(m.loss_factor).filter(|loss| *loss > 0.0);
@@ -355,16 +354,16 @@ impl Bat {
         })
     }
 
-    /// Whether anything damps the bat; else it rings without end after a hit.
+    /// Whether anything damps the bat; otherwise it rings for ever after a hit.
     pub fn damped(&self) -> bool {
         self.lossy() || self.parts.fixtures.damping()
     }
 
     /// Mass, balance point and moments of inertia with everything attached, exact by quadrature.
     ///
-    /// `M = ∫ρA dx`, `x_b = ∫ρA x dx / M`, `I = ∫ρA (x − x_b)² dx + ∫ρI dx`; cubic radii make
-    /// the integrands of degree 8 and 12, which five and seven Gauss points integrate exactly.
-    /// Formulas take as many points as agree to 2e-14.
+    /// `M = ∫ρA dx`, `x_b = ∫ρA x dx / M`, `I = ∫ρA (x − x_b)² dx + ∫ρI dx`. Cubic radii make the integrands of degree
+    /// 8 and 12, which five and seven Gauss points integrate exactly. Formulas take as many points as are needed to
+    /// agree to 2e-14.
     pub fn inertia(&self) -> Inertia {
         let attached =
             |f: &dyn Fn([f64; 3]) -> f64| self.parts.fixtures.masses().map(f).sum::<f64>();
@@ -381,7 +380,7 @@ impl Bat {
         Inertia { mass, balance_point, about_balance: line + own, line_about_balance: line }
     }
 
-    /// `∫ f dx` over the bat of something about the section at `x`.
+    /// `∫ f dx` over the bat, with `f` a function of the section at `x`.
     fn integrals<const N: usize>(&self, f: impl Fn(f64, &Layup, Section) -> [f64; N]) -> [f64; N] {
         let rule = gauss(7);
         let mut totals = [RunningSum::<f64>::default(); N];
@@ -402,7 +401,8 @@ impl Bat {
         totals.map(|total| total.value())
     }
 
-    /// Layers are thinner than the wall they are part of; where it comes to a point they are as thick.
+    /// Layers must be thinner than the wall that they are part of; where the wall comes to a point they may be as
+    /// thick.
     fn check_layers(&self) -> Result<()> {
         /// As a share of the wall.
         const ROOM: f64 = 1e-6;
@@ -433,11 +433,11 @@ impl Bat {
         Ok(())
     }
 
-    /// Mass, stiffness and the frequencies they make must be numbers a computer can hold.
+    /// Mass, stiffness and frequencies must be within the range of floating-point numbers.
     fn check_range(&self) -> Result<()> {
         let Inertia { mass, balance_point, about_balance, line_about_balance } = self.inertia();
         in_range("mass", mass, "kg")?;
-        // Masses beside the bat may put it anywhere.
+        // Masses beside the bat may put the balance point anywhere.
         in_range("balance point", balance_point.abs().max(1.0), "m")?;
         in_range("moment of inertia", about_balance, "kg m²")?;
         in_range("moment of inertia as a line", line_about_balance, "kg m²")?;
@@ -470,7 +470,7 @@ impl Bat {
     }
 }
 
-/// Far enough inside the range of numbers for products of two such values.
+/// Far enough inside the range of numbers that products of two such values do not overflow.
 fn in_range(what: &str, value: f64, unit: &str) -> Result<()> {
     if value > 1e-100 && value < 1e100 {
         return Ok(());

@@ -1,4 +1,4 @@
-//! What is not known of a bat, what is strange about it, and which of what was measured does not fit?
+//! What is unknown or unusual about a bat, and which measured value does not fit it?
 
 use crate::base::units::{ounce_square_inches, shown_length};
 use crate::bat::body::{Bat, STANDARD_PIVOT};
@@ -16,9 +16,9 @@ impl Bat {
         self.profile().pieces.iter().all(known)
     }
 
-    /// The materials of the regions, each with what a bat file calls it.
+    /// The materials of the regions, each with its path in the bat file.
     pub fn regional(&self) -> impl Iterator<Item = (String, &Material)> {
-        // An edit makes regions of its own, which no file knows.
+        // An edit makes regions that are not in the file.
         let of_file = self.edits().is_empty();
         self.fixtures().regions.iter().enumerate().flat_map(move |(k, region)| {
             let name = move |part: &str| match of_file {
@@ -35,7 +35,7 @@ impl Bat {
         })
     }
 
-    /// The first material whose shear modulus is not known, as the bat file calls it.
+    /// The path in the bat file of the first material whose shear modulus is not known.
     pub fn without_shear(&self) -> String {
         let unknown = |material: &Material| material.shear_modulus.is_none();
         let region = self.regional().find(|(_, material)| unknown(material));
@@ -45,7 +45,7 @@ impl Bat {
         }
     }
 
-    /// Possible but strange for a bat: one sentence each, to be shown and not to stop anybody.
+    /// Values that are possible but unusual for a bat, one sentence each, as warnings.
     pub fn warnings(&self) -> Vec<String> {
         let Inertia { mass, balance_point, .. } = self.inertia();
         let length = self.length();
@@ -86,19 +86,19 @@ impl Bat {
         warnings
     }
 
-    /// What there is to say of a density that no such material has: that which the mass on the scale asks for, far
-    /// from the file's, or one in the file that does not go with the stiffness.
+    /// A warning about an unusual density: the weighed mass asks for one far from the file's, or the file's does not
+    /// fit the stiffness.
     ///
     /// Wood is within 0.8 to 1.25 of its kind's density, a metal within a tenth of its own.
     pub fn density_off(&self) -> Option<String> {
         let before = self.unedited();
         let (material, factor) = (before.material(), before.factors()[0]);
         let own = Material { density: material.density / factor, ..material.clone() };
-        // A material without a density of its own has the one that it weighs.
+        // A material without a density in the file gets the weighed one.
         if (own.density / UNTOLD_DENSITY - 1.0).abs() < 1e-9 {
             return None;
         }
-        // A tap sets the stiffness; the file's is the material's own.
+        // A tap sets the stiffness; compare with the file's.
         let own = Material { youngs_modulus: own.youngs_modulus / before.factors()[1], ..own };
         let usual = if own.is_metal() { 0.9..1.1 } else { 0.8..1.25 };
         if usual.contains(&factor) {
@@ -122,9 +122,9 @@ impl Bat {
         ))
     }
 
-    /// What there is to say of a balance point that was measured far from where the profile has it.
+    /// A warning about a measured balance point that is far from the computed one.
     pub fn balance_off(&self) -> Option<String> {
-        /// Beyond what a rule and an edge of a table tell (m).
+        /// More than a rule and the edge of a table can be wrong (m).
         const FAR: f64 = 0.01;
         let measured = self.weighed().balance_point?;
         let computed = self.unedited().inertia().balance_point;
@@ -137,9 +137,9 @@ impl Bat {
         })
     }
 
-    /// The swing weight that was measured (kg m², about 6 in from the knob end), as such or by a pendulum:
-    /// `I = m g d T²/4π²` about its pivot, d from there to the balance point, with mass and balance point as
-    /// they were measured, or else as computed.
+    /// The measured swing weight (kg m², about 6 in from the knob end), given directly or by a pendulum:
+    /// `I = m g d T²/4π²` about its pivot, with d the distance to the balance point. Mass and balance point are the
+    /// measured ones, else the computed ones.
     pub fn measured_swing_weight(&self) -> Option<f64> {
         const GRAVITY: f64 = 9.806_65;
         let weighed = self.weighed();
@@ -156,9 +156,9 @@ impl Bat {
         weighed.swing_weight.or_else(of_pendulum)
     }
 
-    /// What there is to say of a swing weight that was measured far from what the profile has.
+    /// A warning about a measured swing weight that is far from the computed one.
     pub fn swing_weight_off(&self) -> Option<String> {
-        /// Beyond what a pendulum and a table of diameters tell (share).
+        /// More than a pendulum and a table of diameters can be wrong (share).
         const FAR: f64 = 0.02;
         let measured = self.measured_swing_weight()?;
         let computed = self.unedited().inertia().about(STANDARD_PIVOT);
@@ -191,12 +191,11 @@ impl Bat {
     }
 }
 
-/// Usual densities (kg/m³) and Young's moduli (Pa) of what bats are made of, and of what fills
-/// them.
+/// Usual densities (kg/m³) and Young's moduli (Pa) of a bat's wall and of its core.
 const WALL: [[f64; 2]; 2] = [[50.0, 20e3], [1e9, 1e12]];
 const CORE: [[f64; 2]; 2] = [[5.0, 20e3], [1e4, 1e12]];
 
-/// What is strange in a material; `of` is the path that leads to it.
+/// Warnings about a material; `of` is its path in the file.
 fn strange_material(
     of: &str,
     material: &Material,
@@ -228,7 +227,7 @@ fn strange(what: &str, value: f64, unit: &str, usual: [f64; 2], hint: &str) -> O
     Some(format!("{what} is {}; a bat's is {low} to {high}{hint}", value.trim_end()))
 }
 
-/// Four digits, with a power of ten where the plain number would be a row of zeros.
+/// A number with four digits, with a power of ten where the plain number would be a row of zeros.
 fn plain(value: f64) -> String {
     let rounded: f64 = format!("{value:.3e}").parse().expect("it was written as a number");
     if rounded == 0.0 || (1e-3..1e5).contains(&rounded.abs()) {

@@ -1,21 +1,21 @@
 //! What may a bat maker or a player change about a bat?
 //!
-//! An [`Edit`] is one such change: wood turned off, drilled out or sawn off, something added, another
-//! wood. [`crate::bat::body::Bat::edited`] applies a list of them to a bat that was weighed before.
-//! Places count from the knob end of the bat as it is when the edit comes to it.
+//! An [`Edit`] is one such change: wood turned off, drilled out or sawn off, a part added, another wood.
+//! [`crate::bat::body::Bat::edited`] applies a list of edits to a bat that was weighed before. Places count from the
+//! knob end of the bat as it is before the edit.
 
 use serde::{Deserialize, Serialize};
 
 use crate::bat::material::Material;
 
-/// One change of a bat, with a name if it has one.
+/// One change of a bat, with an optional name.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Edit {
-    /// What the edit is called.
+    /// Name of the edit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
-    /// What is changed.
+    /// The change.
     #[serde(flatten)]
     pub change: Change,
 }
@@ -54,19 +54,19 @@ pub struct Cut {
     pub from: f64,
     /// Where the cut ends (m).
     pub to: f64,
-    /// How much thinner the bat becomes: the depth is of the diameter (m).
+    /// Reduction of the diameter (m).
     pub depth: f64,
-    /// Length over which the cut runs in and out smoothly, inside the stretch (m). Without it 1 in, or
-    /// half of a shorter stretch. Over an end of the bat the cut goes at its full depth.
+    /// Length over which the cut runs in and out smoothly, inside the stretch (m). By default 1 in, or half of a
+    /// shorter stretch. At an end of the bat the cut has its full depth.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub blend: Option<f64>,
 }
 
 /// A curved hollow in the tip.
 ///
-/// With `a` half the diameter at the rim and `v` from 0 at the bottom to 1 at the rim its radius is
-/// `a (1 − (1 − v)³)`: round at the bottom, with walls along the axis at the rim. It holds 9/14 of
-/// the cylinder around it, where half an ellipsoid holds 2/3.
+/// Let `a` be half the diameter at the rim and `v` run from 0 at the bottom to 1 at the rim. The radius is
+/// `a (1 − (1 − v)³)`: round at the bottom, with walls along the axis at the rim. The cup holds 9/14 of the cylinder
+/// around it; half an ellipsoid would hold 2/3.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Cup {
@@ -116,7 +116,7 @@ pub struct Sleeve {
     pub material: Material,
 }
 
-/// What is sawn off the ends.
+/// Lengths that are sawn off the ends.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Shorten {
@@ -138,18 +138,18 @@ pub struct ScaleDiameter {
     pub to: f64,
     /// Factor on the diameter, such as 1.02.
     pub by: f64,
-    /// Length over which the factor comes in and goes out smoothly, inside the stretch (m). Without it 1
-    /// in, or half of a shorter stretch. At an end of the bat the factor is there in full.
+    /// Length over which the factor comes in and goes out smoothly, inside the stretch (m). By default 1 in, or half of
+    /// a shorter stretch. At an end of the bat the factor applies in full.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub blend: Option<f64>,
 }
 
 impl Change {
-    /// What each kind of change is called, in a bat file and on the command line.
+    /// Name of each kind of change, in a bat file and on the command line.
     pub const VERBS: [&'static str; 9] =
         ["cut", "knob", "cup", "bore", "cork", "sleeve", "shorten", "scale_diameter", "wood"];
 
-    /// What it is called.
+    /// The name of this kind of change.
     pub fn verb(&self) -> &'static str {
         let k = match self {
             Self::Cut(_) => 0,

@@ -1,7 +1,7 @@
-//! What is the bat after its edits?
+//! How does a list of edits change the bat?
 //!
-//! The density is the one that weighing settled, of the bat before: wood that is taken off is then
-//! missing on the scale, and a weight that is added is there.
+//! The density is that of the bat before the edits, as weighing settled it. Wood that is taken off therefore reduces
+//! the mass, and an added weight increases it.
 
 use crate::base::error::{Complaint, Error, Result};
 use crate::bat::body::{Bat, Parts};
@@ -14,7 +14,7 @@ use crate::bat::profile::{Piece, SAME_PLACE};
 use crate::bat::rework::{Blended, place};
 
 impl Bat {
-    /// What the pieces of a stretch (m) are made of.
+    /// Layups of the pieces in a stretch (m).
     fn layups_on(&self, [from, to]: [f64; 2]) -> impl Iterator<Item = &Layup> {
         let same = SAME_PLACE * self.length();
         let here = move |piece: &&Piece| {
@@ -28,8 +28,8 @@ impl Bat {
         self.layups_on(stretch).any(|layup| !layup.sleeves.is_empty())
     }
 
-    /// The bat after these edits, one after the other, and after those it has already. Places count from
-    /// the knob end of the bat as it is when an edit comes to it.
+    /// The bat after these edits, applied in order after those that it has already. Places count from the knob end of
+    /// the bat as it is before each edit.
     ///
     /// ```
     /// use sweetspot::bat::body::STANDARD_PIVOT;
@@ -50,8 +50,8 @@ impl Bat {
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] whose field is `edits[k].` and the key of what does not fit the bat, `k` counted
-    /// from 0 through all edits of the bat.
+    /// [`Error::Value`] whose field is `edits[k].` and the key that does not fit the bat; `k` counts from 0 through all
+    /// edits of the bat.
     pub fn edited(&self, edits: &[Edit]) -> Result<Self> {
         edits.iter().try_fold(self.clone(), |bat, edit| {
             let path = format!("edits[{}].{}", bat.edits().len(), edit.change.verb());
@@ -62,7 +62,7 @@ impl Bat {
     }
 }
 
-/// What is wrong with an edit, or with the bat that it would make.
+/// Completes a complaint about an edit, or about the bat that it would make.
 fn about(mut complaint: Complaint, path: &str, edit: &Edit) -> Complaint {
     if !complaint.field.starts_with(path) {
         complaint.found = format!("a bat whose {} is {}", complaint.field, complaint.found);
@@ -74,7 +74,7 @@ fn about(mut complaint: Complaint, path: &str, edit: &Edit) -> Complaint {
     }
 }
 
-/// An error whose field is a key of the edit at that path, or has that path already.
+/// The error with `path` before its field, unless the field begins with `path` already.
 fn under(path: &str, error: Error) -> Error {
     error.placed(|mut complaint| {
         if !complaint.field.starts_with(path) {
@@ -89,7 +89,7 @@ fn applied(bat: &Bat, edit: &Edit, path: &str) -> Result<Bat> {
     let length = bat.length();
     let mut change = edit.change.clone();
     if let Some(ends) = ends(&mut change) {
-        // The tip in other digits than the profile's is the tip.
+        // A place that equals the length to round-off is the tip.
         let near = |x: &f64| (*x - length).abs() <= SAME_PLACE * length;
         ends.into_iter().filter(|x| near(x)).for_each(|x| *x = length);
     }
@@ -164,7 +164,7 @@ fn check(change: &Change, path: &str, bat: &Bat) -> Result<()> {
     }
 }
 
-/// A cup is shorter than the bat, and its end of the bat is solid.
+/// A cup must be shorter than the bat, and the tip must be solid.
 fn check_cup(bat: &Bat, depth: f64) -> Result<()> {
     let length = bat.length();
     let bottom = length - depth;
@@ -183,7 +183,7 @@ fn check_cup(bat: &Bat, depth: f64) -> Result<()> {
     }
 }
 
-/// A change of the surface runs in and out within its stretch, where there is no sleeve.
+/// A change of the surface must run in and out within its stretch, away from sleeves.
 fn check_turned(bat: &Bat, on: Blended) -> Result<()> {
     let half = 0.5 * (on.to - on.from);
     if let Some(blend) = on.blend.filter(|blend| *blend > half * (1.0 + SAME_PLACE)) {
@@ -197,7 +197,7 @@ fn check_turned(bat: &Bat, on: Blended) -> Result<()> {
     Ok(())
 }
 
-/// Nothing may be drilled where something fills the bore.
+/// Refuses to drill where the bore is filled.
 fn check_unfilled(bat: &Bat, stretch: [f64; 2]) -> Result<()> {
     match bat.layups_on(stretch).any(|layup| layup.core.is_some()) {
         true => Err(Error::value("", "a stretch that is drilled and filled", "wood to be drilled")),
@@ -205,7 +205,7 @@ fn check_unfilled(bat: &Bat, stretch: [f64; 2]) -> Result<()> {
     }
 }
 
-/// Makes the change, which fits the bat.
+/// Applies the change, which must fit the bat.
 fn made(change: &Change, parts: &mut Parts) -> Result<()> {
     let length = parts.profile.length();
     match change {
@@ -244,8 +244,8 @@ fn made(change: &Change, parts: &mut Parts) -> Result<()> {
     }
 }
 
-/// Changes the layup of a stretch (m): regions are split where it begins and ends, and what no region
-/// covers becomes one of the bat's own material.
+/// Changes the layup of a stretch (m). Regions are split at its ends, and the part outside all regions becomes a region
+/// of the bat's own material.
 fn layered(parts: &mut Parts, [from, to]: [f64; 2], change: impl Fn(&mut Layup)) {
     let same = SAME_PLACE * parts.profile.length();
     let own: &Material = &parts.material;
@@ -275,13 +275,12 @@ fn layered(parts: &mut Parts, [from, to]: [f64; 2], change: impl Fn(&mut Layup))
     parts.fixtures.regions = regions;
 }
 
-/// What is on the bat, where all but a stretch (m) is sawn off. Tape and regions end where the bat
-/// does, each metre of tape as heavy as before; hands hold the new bat as far from its knob end as the
-/// old one.
+/// Adapts the fixtures after everything but a stretch (m) is sawn off. Tape and regions end where the bat does, and a
+/// metre of tape stays as heavy as before. Hands hold the new bat as far from its knob end as the old one.
 ///
 /// # Errors
 ///
-/// [`Error::Value`] where something at one place would be sawn off.
+/// [`Error::Value`] where a fixture at one place would be sawn off.
 fn saw_off(fixtures: &mut Fixtures, [from, to]: [f64; 2]) -> Result<()> {
     let attachments = fixtures.attachments.iter_mut().map(|a| ("a weight or a spring", &mut a.x));
     let absorbers = fixtures.absorbers.iter_mut().map(|a| ("an absorber", &mut a.x));

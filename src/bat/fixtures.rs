@@ -1,6 +1,6 @@
-//! What is on the bat, and what holds it: weights, tape, springs, supports, hands, joints?
+//! What is fixed to the bat, and what holds it: weights, tape, springs, supports, hands, joints?
 //!
-//! Fill in [`Fixtures`], all places in metres from the knob end, and give them to
+//! Fill in [`Fixtures`], with all places in metres from the knob end, and give it to
 //! [`crate::bat::body::Builder::build`].
 
 use serde::{Deserialize, Serialize};
@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::bat::layup::Layup;
 use crate::bat::profile::SAME_PLACE;
 
-/// Everything that a bat may have beside its shape and its material.
+/// Everything on a bat besides its shape and its material.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Fixtures {
@@ -24,7 +24,7 @@ pub struct Fixtures {
     /// Masses that hang on springs.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub absorbers: Vec<Absorber>,
-    /// Places that give way to bending.
+    /// Joints that give way to bending.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub joints: Vec<Joint>,
     /// Places that are held.
@@ -58,7 +58,7 @@ pub struct Attachment {
     pub mass: f64,
     /// Moment of inertia of the mass about its own centre (kg m²).
     pub rotary_inertia: f64,
-    /// How far beyond `x`, towards the barrel, the centre of the mass is (m).
+    /// Distance from `x` to the centre of the mass, positive towards the barrel (m).
     pub offset: f64,
     /// Spring from the bat at `x` to the ground, against deflection (N/m).
     pub stiffness: f64,
@@ -66,7 +66,7 @@ pub struct Attachment {
     pub rotational_stiffness: f64,
 }
 
-/// A mass spread evenly on the surface of a stretch, which bears nothing: bat tape.
+/// Bat tape: a mass spread evenly on the surface of a stretch, without stiffness.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Tape {
@@ -92,7 +92,7 @@ pub struct Absorber {
     pub damping: f64,
 }
 
-/// Where two parts of a bat are joined by a spring that gives way to bending.
+/// A joint of two parts of a bat: a rotational spring.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Joint {
@@ -113,7 +113,7 @@ pub struct Support {
     pub kind: Held,
 }
 
-/// What a support holds: the deflection, or the rotation too.
+/// What a support holds: the deflection alone, or the rotation too.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
@@ -140,8 +140,8 @@ pub struct Grip {
 }
 
 impl Fixtures {
-    /// Whether the bat moves as a bare one: it may have tape and regions of other materials, but no
-    /// attachments, absorbers, joints or supports, and no hands with a stiffness.
+    /// Whether the bat moves as a bare one. It may have tape and regions of other materials, but no attachments,
+    /// absorbers, joints or supports, and no hands with a stiffness.
     pub fn none_moving(&self) -> bool {
         self.attachments.is_empty()
             && self.absorbers.is_empty()
@@ -149,7 +149,7 @@ impl Fixtures {
             && !self.holding()
     }
 
-    /// Whether the bat moves as one that has masses on it at most, none of them on a spring.
+    /// Whether the only fixtures that affect the motion are rigidly attached masses.
     pub fn only_masses(&self) -> bool {
         self.absorbers.is_empty() && self.joints.is_empty() && !self.holding()
     }
@@ -162,7 +162,7 @@ impl Fixtures {
             || self.grip.is_some_and(|grip| grip.stiffness > 0.0)
     }
 
-    /// These fixtures without springs to ground and hands, which push only after a hit is over.
+    /// These fixtures without springs to ground and hands, which act only after the hit is over.
     pub fn without_springs(&self) -> Self {
         let mut bare = self.clone();
         for attachment in &mut bare.attachments {
@@ -177,8 +177,7 @@ impl Fixtures {
             || self.grip.is_some_and(|grip| grip.damping > 0.0)
     }
 
-    /// How many rigid motions are free: two of a bat that nothing holds, one of a bat that turns
-    /// about a pin or is held against turning alone.
+    /// Number of rigid modes: two for a free bat, one for a bat that turns about a pin or is held against turning only.
     pub fn rigid_modes(&self) -> usize {
         let places = self.supports.iter().map(|support| support.x);
         let springs = self.attachments.iter().filter(|a| a.stiffness > 0.0).map(|a| a.x);
@@ -193,8 +192,8 @@ impl Fixtures {
         2 - lines - turns
     }
 
-    /// How many conditions the supports and the springs to ground put on the bat: the order of a
-    /// motion rises by no more. Hands, who hardly hold more than a rigid motion, count as two.
+    /// Number of constraints that the supports and the springs to ground impose: the order of a mode rises by at most
+    /// that many. Hands count as two, because they hold little more than the rigid motions.
     pub fn held(&self) -> usize {
         let supports = self.supports.iter().map(|support| match support.kind {
             Held::Pinned => 1,
@@ -208,7 +207,7 @@ impl Fixtures {
         supports.chain(springs).sum::<usize>() + bed
     }
 
-    /// How free the bat is, in words.
+    /// The boundary conditions in words.
     pub fn freedom(&self) -> &'static str {
         let pinned = self.supports.iter().any(|support| support.kind == Held::Pinned)
             || self.attachments.iter().any(|a| a.stiffness > 0.0);
@@ -225,7 +224,7 @@ impl Fixtures {
         self.clone().places().map(|x| *x).collect()
     }
 
-    /// Every place that is given (m), in no order.
+    /// Every place of a fixture (m), in no order.
     pub fn places(&mut self) -> impl Iterator<Item = &mut f64> {
         let regions = self.regions.iter_mut().flat_map(|region| [&mut region.from, &mut region.to]);
         let tapes = self.tapes.iter_mut().flat_map(|tape| [&mut tape.from, &mut tape.to]);
@@ -237,9 +236,9 @@ impl Fixtures {
         regions.chain(tapes).chain(grip).chain(points)
     }
 
-    /// Places that are one but for their last digits become one: the border that the profile has
-    /// there (`borders`, rising from 0 to the length of the bat, m), else the first of them; and
-    /// two supports in one place are one, clamped if either is.
+    /// Merges places that differ only by round-off: into the border that the profile has there (`borders`, rising from
+    /// 0 to the length of the bat, m), else into the first of them. Two supports at one place become one, clamped if
+    /// either is.
     pub(crate) fn settle(&mut self, borders: &[f64]) {
         let same = SAME_PLACE * borders.last().copied().unwrap_or_default();
         let near = |known: &[f64], x: f64| -> Option<f64> {
@@ -275,8 +274,8 @@ impl Fixtures {
         self.masses().map(|[mass, ..]| mass).chain(spread).sum()
     }
 
-    /// Mass (kg), its centre from the knob end (m) and its own rotary inertia (kg m²), of
-    /// everything that is attached at a point.
+    /// Mass (kg), position of its centre from the knob end (m) and own rotary inertia (kg m²) of each mass that is
+    /// attached at a point.
     pub fn masses(&self) -> impl Iterator<Item = [f64; 3]> {
         let fixed = self.attachments.iter().map(|a| [a.mass, a.x + a.offset, a.rotary_inertia]);
         fixed.chain(self.absorbers.iter().map(|a| [a.mass, a.x, 0.0]))

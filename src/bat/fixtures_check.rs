@@ -1,4 +1,4 @@
-//! Whether what is on a bat can be there.
+//! Can these fixtures be on a bat?
 
 use crate::base::error::{Error, Result};
 use crate::base::mistakes::{self, Mistakes};
@@ -6,11 +6,11 @@ use crate::bat::fixtures::{Attachment, Fixtures, Held, Region};
 use crate::bat::part::{Part, SOFTEST};
 use crate::bat::profile::SAME_PLACE;
 
-/// Frequencies nearer to each other, relative, are not counted apart.
+/// Frequencies closer than this, relative, are not told apart.
 const LEAST_GAP: f64 = 1e-9;
 
 impl Fixtures {
-    /// Every value in its possible range, on a bat of that length (m).
+    /// Checks that every value is possible on a bat of that length (m).
     ///
     /// # Errors
     ///
@@ -30,7 +30,7 @@ impl Fixtures {
         self.check_apart(length)
     }
 
-    /// What must not lie in the same place does not.
+    /// Checks that fixtures which exclude each other are at different places.
     fn check_apart(&self, length: f64) -> Result<()> {
         let mut mistakes = Mistakes::default();
         let same = SAME_PLACE * length;
@@ -58,8 +58,8 @@ impl Fixtures {
         mistakes.end(())
     }
 
-    /// Absorbers at one place ring at frequencies that can be told from each other: equal ones ring
-    /// against each other while the bat is at rest, which is not a mode of it.
+    /// Absorbers at one place must differ in frequency: equal ones could ring against each other while the bat is at
+    /// rest, which is not a mode of the bat.
     fn check_absorbers(&self, same: f64) -> Result<()> {
         let mut sorted: Vec<usize> = (0..self.absorbers.len()).collect();
         let tuning = |k: &usize| self.absorbers[*k].stiffness / self.absorbers[*k].mass;
@@ -82,8 +82,8 @@ impl Fixtures {
         mistakes.end(())
     }
 
-    /// Where nothing but the distance of springs holds the bat against turning, it is stiff enough
-    /// for a motion that can be told from a rigid one.
+    /// If only the distance of springs holds the bat against turning, it must be stiff enough to tell the motion from a
+    /// rigid one.
     fn check_turning(&self, same: f64) -> Result<()> {
         let clamped = self.supports.iter().any(|support| support.kind == Held::Clamped)
             || self.attachments.iter().any(|a| a.rotational_stiffness > 0.0);
@@ -108,7 +108,7 @@ impl Fixtures {
     }
 }
 
-/// What is wrong with the parts in a list, on a bat of that length (m).
+/// Checks the parts of a list, on a bat of that length (m).
 fn each<P: Part>(list: &str, parts: &[P], length: f64) -> Result<()> {
     let parts = parts.iter().enumerate();
     mistakes::all(parts.map(|(k, part)| part.check(&format!("{list}[{k}]"), length))).map(|_| ())

@@ -1,6 +1,6 @@
-//! What is the radius at `x`, where somebody wrote it as a formula?
+//! What is the radius at `x` if the file gives it as a formula?
 //!
-//! [`Formula::parse`] once, [`Formula::at`] many times.
+//! Parse once with [`Formula::parse`]; evaluate many times with [`Formula::at`].
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -9,16 +9,15 @@ use crate::base::error::Complaint;
 use crate::bat::formula_text;
 use crate::bat::formula_tree::Node;
 
-/// Samples between which corners are looked for.
+/// Number of samples between which corners are sought.
 const SAMPLES: usize = 1000;
-/// More corners than this in one formula are a mistake.
+/// A formula with more corners than this is refused.
 const MOST_CORNERS: usize = 1000;
 
 /// A formula of `x`, such as `0.0127 + 0.0102*(1 + tanh((x - 0.50)/0.11))`.
 ///
-/// Numbers, `x`, `pi`, `+ - * /`, `**` or `^`, and the functions `sin cos tan exp log sqrt tanh
-/// abs min max`: angles in radians, `log` natural, `min` and `max` of two arguments or more.
-/// Clones share what was parsed.
+/// Numbers, `x`, `pi`, `+ - * /`, `**` or `^`, and the functions `sin cos tan exp log sqrt tanh abs min max`: angles in
+/// radians, `log` natural, `min` and `max` of two arguments or more. Clones share what was parsed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Formula(Arc<Parsed>);
 
@@ -32,14 +31,13 @@ impl Formula {
     ///
     /// # Errors
     ///
-    /// A [`Complaint`] without a field that names the character, counted from 1, what was found
-    /// there and what was expected. Also more than 10 000 characters or 100 levels of brackets
-    /// and powers.
+    /// A [`Complaint`] without a field that names the character, counted from 1, what was found there and what was
+    /// expected. It also refuses more than 10 000 characters or 100 levels of brackets and powers.
     pub fn parse(text: &str) -> Result<Self, Complaint> {
         Self::parse_in_place(text).map_err(|(complaint, _)| complaint)
     }
 
-    /// As [`Self::parse`], with the part of the text that is wrong, in bytes.
+    /// As [`Self::parse`], with the range of the wrong part of the text in bytes.
     pub(crate) fn parse_in_place(text: &str) -> Result<Self, (Complaint, Range<usize>)> {
         let root = formula_text::read(text)?;
         Ok(Self(Arc::new(Parsed { text: text.to_owned(), root })))
@@ -50,7 +48,7 @@ impl Formula {
         &self.0.text
     }
 
-    /// The whole of it as a tree.
+    /// The root of the parse tree.
     pub(crate) fn root(&self) -> &Node {
         &self.0.root
     }
@@ -60,17 +58,17 @@ impl Formula {
         self.0.root.value(x, &mut |_| {})
     }
 
-    /// Places inside `from < x < to` where the value may have a corner, rising: where the
-    /// argument of an `abs` changes sign or two arguments of `min` or `max` change their order.
+    /// Places inside `from < x < to` where the formula may have a corner, rising: where the argument of an `abs`
+    /// changes sign, or two arguments of `min` or `max` change their order.
     ///
-    /// Sought between 1000 even samples, each found to the last bit.
+    /// They are sought between 1000 even samples, and each is found to the last bit.
     ///
     /// # Errors
     ///
     /// A [`Complaint`] without a field, if there are more than 1000.
     pub fn corners(&self, from: f64, to: f64) -> Result<Vec<f64>, Complaint> {
         let sample = |k: usize| from + (to - from) * k as f64 / SAMPLES as f64;
-        // For each switch, where it was last not 0, and on which side.
+        // For each switch, the last place where it was not 0, and its sign there.
         let mut last: Vec<Option<(f64, f64)>> = vec![None; self.switches(from).len()];
         let mut corners = Vec::new();
         for k in 0..=SAMPLES {
@@ -95,7 +93,7 @@ impl Formula {
         Ok(corners)
     }
 
-    /// The first number after `low` where switch `i` has left its side, by bisection.
+    /// The first number after `low` where switch `i` has changed its side, by bisection.
     fn crossing(&self, i: usize, side: f64, mut low: f64, mut high: f64) -> f64 {
         loop {
             let middle = low + 0.5 * (high - low);

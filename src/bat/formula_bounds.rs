@@ -1,9 +1,9 @@
 //! Between which values do the sections of formulas lie, and how well do polynomials hold them?
 //!
-//! Sections are made of `r²` and `r_i²`. Where these are analytic inside the ellipse around a
-//! stretch whose foci are its ends and whose half axes add up to ϱ half lengths, and `|f| ≤ M`
-//! there, a polynomial of degree n is nowhere on the stretch farther from f than
-//! `2 M ϱ⁻ⁿ/(ϱ − 1)`. No sample is needed for that: a feature between two samples makes M large.
+//! The sections depend on `r²` and `r_i²`. Let these be analytic inside the ellipse whose foci are the ends of a
+//! stretch and whose half axes add up to ϱ half lengths, and let `|f| ≤ M` there. Then a polynomial of degree n differs
+//! from f on the stretch by at most `2 M ϱ⁻ⁿ/(ϱ − 1)`. This needs no samples: a feature between two samples makes M
+//! large.
 //!
 //! # Source
 //!
@@ -14,10 +14,9 @@ use crate::bat::formula_range::On;
 use crate::bat::material::Material;
 use crate::bat::profile::Curves;
 
-/// ϱ of the ellipses that are tried: the smallest holds the longest stretches, the largest the most
-/// digits.
+/// The values of ϱ that are tried: the smallest suits the longest stretches, the largest gives the most digits.
 const ELLIPSES: [f64; 3] = [1.7, 2.5, 4.0];
-/// The degree that the points for formulas hold beyond the products of deflections.
+/// The degree that the integration points for formulas resolve beyond the products of deflections.
 const HELD: i32 = 31;
 
 /// What bounds the sections on a stretch of formulas.
@@ -30,7 +29,7 @@ pub(crate) struct Bounds<'a> {
     half: f64,
 }
 
-/// Sizes of `r²`, `r_i²` and `r² − r_i²` (m²).
+/// Bounds of `r²`, `r_i²` and `r² − r_i²` (m²).
 struct Squares {
     outer: f64,
     inner: f64,
@@ -38,7 +37,7 @@ struct Squares {
 }
 
 impl Squares {
-    /// The bending stiffness by the modulus of the tube, whose core has `core` of it (m⁴).
+    /// Bending stiffness over the tube's modulus (m⁴); the core has `core` times that modulus.
     fn bending(&self, core: f64) -> f64 {
         self.wall * (self.outer + self.inner) + core * self.inner * self.inner
     }
@@ -67,7 +66,7 @@ impl Curves {
 }
 
 impl Bounds<'_> {
-    /// `r²`, `r_i²` and `r² − r_i²` all along the stretch.
+    /// Ranges of `r²`, `r_i²` and `r² − r_i²` along the stretch.
     fn ranges(&self) -> [Interval; 3] {
         let of = |on: &On| on.on[1].range(on.middle[1], self.half);
         let outer = of(&self.outer);
@@ -76,7 +75,7 @@ impl Bounds<'_> {
             Some(inner) => {
                 let middle = self.outer.middle[1] - inner.middle[1];
                 let squares = (self.outer.on[1] - inner.on[1]).range(middle, self.half);
-                // Two radii that taper alike: their difference has no slope, that of squares has.
+                // Two radii that taper alike: their difference has no slope, but the difference of their squares has.
                 let [on, middle] =
                     [(self.outer.on[0], inner.on[0]), (self.outer.middle[0], inner.middle[0])]
                         .map(|(outer, inner)| [outer - inner, outer + inner]);
@@ -87,8 +86,8 @@ impl Bounds<'_> {
         }
     }
 
-    /// The least and the most that the sections can be; where they come to a point, the least is
-    /// what they are in the middle.
+    /// Lower and upper bounds of the sections; where a section comes to a point, the lower bound is its value in the
+    /// middle.
     fn sizes(&self) -> [Squares; 2] {
         let ranges = self.ranges();
         let middle = |on: &On| on.middle[1].value.re.low.max(0.0);
@@ -100,8 +99,8 @@ impl Bounds<'_> {
         [least, Squares { outer, inner, wall }]
     }
 
-    /// Whether the outer radius and the wall are above 0 and the inner radius is not below: at an
-    /// end of the bat, where `ends` says so, they may rise from 0.
+    /// Whether the outer radius and the wall are above 0 and the inner radius is not below 0. At an end of the bat,
+    /// where `ends` allows it, they may rise from 0.
     pub(crate) fn possible(&self, ends: [bool; 2]) -> bool {
         let [outer, _, wall] = self.ranges();
         let own = self.outer.on[1];
@@ -116,8 +115,8 @@ impl Bounds<'_> {
         inner && positive(outer, own.slope.re) && positive(wall, of_wall.slope.re)
     }
 
-    /// How far polynomials are from EI and ρA, relative, if the core has that share of the outer
-    /// modulus; infinite where that is not known.
+    /// Relative distance of polynomials from EI and ρA, with a core of `core` times the outer modulus; infinite if no
+    /// bound is known.
     pub(crate) fn missed(&self, core: f64) -> f64 {
         let [least, _] = self.sizes();
         by_ellipses(|ellipse| {
@@ -128,12 +127,11 @@ impl Bounds<'_> {
         })
     }
 
-    /// How far polynomials are from κGA, relative; infinite where that is not known. The bore has
-    /// that emptiness, and per area a core of it resists shear by `core` times what the tube's modulus
-    /// alone would.
+    /// Relative distance of polynomials from κGA; infinite if no bound is known. `empty` says how empty the bore is (1
+    /// without a core), and a core resists shear `core` times as much per area as the tube's modulus alone would.
     ///
-    /// With `a = r²`, `b = e r_i²`, e how empty the bore is, Cowper's κ is `c₁ (a + b)²/(c₂ (a + b)² +
-    /// c₃ a b)` ([`Material::kappa`]), and falls as the bore grows.
+    /// With `a = r²` and `b = empty · r_i²`, Cowper's κ is `c₁ (a + b)²/(c₂ (a + b)² + c₃ a b)` ([`Material::kappa`]).
+    /// It falls as the bore grows.
     pub(crate) fn missed_shear(&self, tube: &Material, empty: f64, core: f64) -> f64 {
         let [least, most] = self.sizes();
         let hole = empty * (most.inner / least.outer).min(1.0);
@@ -145,7 +143,7 @@ impl Bounds<'_> {
         })
     }
 
-    /// `r²`, `r_i²` and `r² − r_i²` inside an ellipse, by the box around it.
+    /// Boxes that hold `r²`, `r_i²` and `r² − r_i²` inside an ellipse.
     fn around(&self, ellipse: f64) -> Option<[Rectangle; 3]> {
         let axis = |sign: f64| 0.5 * (ellipse + sign / ellipse) * self.half;
         let (re, im) = (Interval::within(axis(1.0)), Interval::within(axis(-1.0)));
@@ -165,8 +163,7 @@ impl Bounds<'_> {
         bending.max(most.wall / least.wall) - 1.0
     }
 
-    /// Round-off of the sections, relative: the width of an evaluation at one place, and the
-    /// rounding of the place.
+    /// Relative round-off of the sections: the width of an evaluation at one place, and the rounding of the place.
     pub(crate) fn round_off(&self) -> f64 {
         let middle = match &self.inner {
             None => self.outer.middle[1],
@@ -187,8 +184,8 @@ mod tests {
     use crate::base::quadrature::{gauss, legendre};
     use crate::bat::formula::Formula;
 
-    /// Terms of the Legendre series of κGA beyond degree 31, relative to its least value, by
-    /// quadrature with more points than any bound asks for.
+    /// Terms of the Legendre series of κGA beyond degree 31, relative to its least value, by quadrature with more
+    /// points than any bound needs.
     fn tail(curves: &Curves, tube: &Material) -> f64 {
         const POINTS: usize = 80;
         let points = gauss(POINTS);

@@ -1,4 +1,4 @@
-//! A profile from formulas: cut where they have corners and at their features, checked everywhere.
+//! A profile from formulas: it is cut at corners and features, and checked everywhere.
 
 use crate::base::error::{Complaint, Error, Result, shortened};
 use crate::base::golden;
@@ -13,32 +13,32 @@ use crate::bat::tip::{NEVER_BACK, sends_back};
 const SAMPLES: f64 = 1000.0;
 /// Samples of the shortest stretch between two corners.
 const LEAST_SAMPLES: f64 = 50.0;
-/// Ends that differ by less, as a share of the position, touch: `"10 in"` and 0.254.
+/// Ends closer than this share of the position touch: `"10 in"` and 0.254.
 const TOUCHING: f64 = 1e-12;
-/// Corners nearer to each other, as a share of their piece, are one.
+/// Corners closer than this share of their piece are one.
 const ONE_CORNER: f64 = 1e-9;
 /// A value this small, as a share of the largest radius, is the round-off of 0.
 const ROUND_OFF: f64 = 1e-15;
-/// A stretch between two cuts is smooth if polynomials are as near to its sections, relative.
+/// A stretch between two cuts is smooth if polynomials approximate its sections within this, relative.
 const SMOOTH: f64 = 1e-3;
 /// Round-off of a section, relative, beyond which a formula has lost its digits.
 const LOST: f64 = 1e-8;
-/// The share of a bat at either end on which digits may be lost, for ε of its length is there `LOST` of a distance
-/// from the end, in four factors of the radius and some more: it neither weighs nor bends.
+/// The share of a bat at either end on which digits may be lost. There ε of the bat's length is `LOST` of the distance
+/// from the end, with a margin for four factors of the radius. Such a tip neither weighs nor bends.
 pub(crate) const LAST: f64 = 32.0 * f64::EPSILON / LOST;
-/// Halvings of a stretch: the last ones are as short as two corners may lie apart.
+/// Most halvings of a stretch; the last halves are as short as two corners may be apart.
 const MOST_HALVINGS: usize = 30;
-/// Sections on so short a stretch may vary by this share, whatever they do there.
+/// Sections of the shortest stretch may vary by this share without a further check.
 const MOST_VARIATION: f64 = 1.0;
-/// More stretches than this in one formula vary too fast.
+/// A formula that needs more stretches than this varies too fast and is refused.
 const MOST_STRETCHES: usize = 4096;
 
 impl Profile {
-    /// The profile of these formulas, whose pieces touch end to end from 0.
+    /// The profile of these formulas, whose pieces follow each other from 0.
     ///
-    /// A piece is cut where an `abs`, a `min` or a `max` in it has a corner, and halved until bounds
-    /// from the parse tree leave no place for a feature between two cuts ([`crate::base::interval`]).
-    /// These bounds also show that both radii are possible everywhere.
+    /// A piece is cut where an `abs`, a `min` or a `max` in it has a corner, and halved until bounds from the parse
+    /// tree exclude a feature between two cuts ([`crate::base::interval`]). These bounds also prove that both radii are
+    /// possible everywhere.
     ///
     /// ```
     /// use sweetspot::Profile;
@@ -86,7 +86,7 @@ impl Profile {
                     pieces.push(Piece { start, length, radii, layup: 0 });
                 }
                 samples.sort_by(|a, b| a.0.total_cmp(&b.0));
-                // A place twice but for its rounding would look like a peak.
+                // A place that occurs twice but for rounding would look like a peak.
                 samples.dedup_by(|b, a| b.0 - a.0 < TOUCHING);
                 add_stations(&mut stations, &curves, &samples);
             }
@@ -96,8 +96,7 @@ impl Profile {
     }
 }
 
-/// Pieces must follow each other; ends that touch but for rounding are made equal. The length
-/// of the whole (m).
+/// Pieces must follow each other; ends that touch but for rounding are made equal. Returns the length of the whole (m).
 fn check_places(written: &mut [FormulaPiece]) -> Result<f64> {
     if written.is_empty() {
         return Err(Error::value("pieces", "no piece", "one piece at least"));
@@ -128,7 +127,7 @@ fn before_ends(end: f64) -> String {
     format!("{}, where the piece before ends", metres(end))
 }
 
-/// A length to nine digits, as far as it is one.
+/// A length to nine digits, if it is finite.
 fn metres(value: f64) -> String {
     if value.is_nan() {
         return "no number".to_owned();
@@ -139,7 +138,7 @@ fn metres(value: f64) -> String {
     }
 }
 
-/// A written piece, to be checked and complained about.
+/// A written piece and its name in messages.
 struct Named<'a> {
     k: usize,
     piece: &'a FormulaPiece,
@@ -147,7 +146,7 @@ struct Named<'a> {
     length: f64,
 }
 
-/// Places along a smooth piece, `s` in [0, 1], and what is there.
+/// Places along a smooth piece, `s` in [0, 1], and the sections there.
 type Samples = Vec<(f64, Section)>;
 
 impl Named<'_> {
@@ -218,7 +217,7 @@ impl Named<'_> {
         (0..=count as usize).map(|j| (j as f64 / count, curves.at(j as f64 / count))).collect()
     }
 
-    /// Both radii must be possible at the samples and at the bottoms between them.
+    /// Both radii must be possible at the samples and at the minima between them.
     fn check(&self, curves: &Curves, samples: &Samples) -> Result<()> {
         let places = samples.iter().copied();
         let bottoms = [
@@ -232,7 +231,7 @@ impl Named<'_> {
         Ok(())
     }
 
-    /// An end of the bat must send waves back.
+    /// A pointed end of the bat must reflect waves.
     fn check_tips(&self, curves: &Curves) -> Result<()> {
         let knob = curves.from != 0.0 || sends_back(|t| curves.at(t).outer);
         let tip = curves.to != self.length || sends_back(|t| curves.at(1.0 - t).outer);
@@ -246,10 +245,10 @@ impl Named<'_> {
         let bounds = curves.bounds(0.0, 1.0);
         let possible = |bounds: &Bounds| bounds.possible([from == 0.0, to == self.length]);
         let short = halvings == 0;
-        // The last of a point neither weighs nor bends.
+        // The last part of a point neither weighs nor bends.
         let at_end = from == 0.0 || to == self.length;
-        // Beside the tip a distance from the tip has fewer digits than one from the knob beside the knob, and the bat
-        // turned end for end is the same bat.
+        // Near the tip, a distance from the tip has fewer digits than a distance from the knob near the knob; yet the
+        // reversed bat must be the same bat.
         let last = to <= LAST * self.length || from >= (1.0 - LAST) * self.length;
         let smooth = |bounds: &Bounds| {
             bounds.missed(0.0) <= SMOOTH && (bounds.round_off() <= LOST || last)
@@ -272,14 +271,14 @@ impl Named<'_> {
         self.halve(&Curves { from: middle, ..curves.clone() }, halvings - 1, parts)
     }
 
-    /// A corner that lies between these places and not at one of them.
+    /// A corner that lies strictly between these places.
     fn corner(&self, from: f64, to: f64) -> Result<Option<f64>> {
         let least = ONE_CORNER * (self.piece.to - self.piece.from);
         let inside = |corner: &f64| corner - from > least && to - corner > least;
         Ok(self.corners(from, to)?.into_iter().find(inside))
     }
 
-    /// Whether sections at three places of a short stretch are possible and much the same.
+    /// Whether the sections at three places of a short stretch are possible and nearly equal.
     fn is_level(&self, curves: &Curves) -> Result<bool> {
         let sections = [0.0, 0.5, 1.0].map(|s| curves.at(s));
         let places = sections.iter().zip([0.0, 0.5, 1.0]);
@@ -289,7 +288,7 @@ impl Named<'_> {
         Ok(most <= (1.0 + MOST_VARIATION) * stiffness.into_iter().fold(most, f64::min))
     }
 
-    /// A stretch in which a feature hides that no halving shows.
+    /// The error for a stretch with a feature that no halving resolves.
     fn rough(&self, curves: &Curves) -> Error {
         let [first, last] = [0.0, 1.0].map(|s| self.check_section(curves.x(s), curves.at(s)));
         if let Err(error) = first.and(last) {
@@ -334,8 +333,8 @@ impl Named<'_> {
     }
 }
 
-/// The lowest place between the samples, and what is there: golden sections around every sample
-/// that is lower than its neighbours. None if no sample is.
+/// The lowest place between the samples and its section, by golden sections around every sample that is lower than its
+/// neighbours; `None` if no sample is.
 fn bottom(
     curves: &Curves,
     samples: &Samples,
@@ -364,7 +363,7 @@ fn add_stations(stations: &mut Stations, curves: &Curves, samples: &Samples) {
     }
 }
 
-/// A value that is wrong, where it is and what made it.
+/// Words for a wrong value: its place and the formula that gave it.
 fn found(value: f64, x: f64, formula: &Formula) -> String {
     format!("{} at x = {} from {}", metres(value), metres(x), quoted(formula))
 }

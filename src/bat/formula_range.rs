@@ -7,22 +7,21 @@ use crate::base::interval::{Interval, Jet, Rectangle};
 use crate::bat::formula::Formula;
 use crate::bat::formula_tree::{Function, Node};
 
-/// Whether a number that chooses a branch is taken as positive; `None` where that is not known.
+/// Whether a number that chooses a branch is positive; `None` where that is not known.
 type Side<'a> = &'a mut dyn FnMut(Jet) -> Option<bool>;
 
 /// A formula and its square on an interval.
 pub(crate) struct On {
-    /// The formula and its square at the middle; as wide as the round-off of an evaluation.
+    /// The formula and its square at the middle, with the width of an evaluation's round-off.
     pub middle: [Jet; 2],
     /// The formula and its square on the interval.
     pub on: [Jet; 2],
-    /// The sides that its branches take, in the order of the tree.
+    /// The chosen sides of its branches, in the order of the tree.
     sides: Vec<bool>,
 }
 
 impl Formula {
-    /// The formula and its square between `from` and `to`; `None` where a branch changes its side
-    /// or there is no value.
+    /// The formula and its square between `from` and `to`; `None` if a branch changes its side or there is no value.
     pub(crate) fn on(&self, from: f64, to: f64) -> Option<On> {
         let middle = 0.5 * (from + to);
         let at = Jet::variable(Rectangle::point(middle));
@@ -43,15 +42,14 @@ impl Formula {
         Some(On { middle, on, sides })
     }
 
-    /// The square on a box, each branch on the side that it takes on the interval; `None` where it
-    /// is not analytic.
+    /// The square on a box, each branch on the side that it takes on the interval; `None` if it is not analytic.
     pub(crate) fn square_around(&self, on: &On, around: Rectangle) -> Option<Rectangle> {
         let mut sides = on.sides.iter().copied();
         Some(square(self.root(), Jet::variable(around), &mut |_| sides.next())?.value)
     }
 }
 
-/// The side of 0 that a range is on, where `scale` times the spacing of numbers is its round-off.
+/// The side of 0 that a range is on; `scale` times the spacing of numbers is its round-off.
 fn side(range: Interval, scale: f64) -> Option<bool> {
     let most = 1e-9 * range.largest();
     let slack = (32.0 * f64::EPSILON * (scale + range.largest())).min(most);
@@ -64,7 +62,7 @@ fn side(range: Interval, scale: f64) -> Option<bool> {
     }
 }
 
-/// A node and its square, which tell their branches once.
+/// The value and the square of a node; each branch is decided once.
 fn both(node: &Node, x: Jet, tell: Side) -> Option<[Jet; 2]> {
     let mut told = Vec::new();
     let value = jet(node, x, &mut |switch| {
@@ -91,7 +89,7 @@ fn jet(node: &Node, x: Jet, tell: Side) -> Option<Jet> {
     }
 }
 
-/// The square of a node: of a root it is what stands under it, analytic where the root ends.
+/// The square of a node. The square of a root is its argument, which is analytic where the root ends.
 fn square(node: &Node, x: Jet, tell: Side) -> Option<Jet> {
     match node {
         Node::Product(factors) => product(factors, &mut |factor| square(factor, x, tell)),

@@ -10,8 +10,8 @@
 //! atom    = number | "x" | "pi" | function "(" sum ("," sum)* ")" | "(" sum ")"
 //! ```
 //!
-//! so that `-2**2` is −4, `2**3**2` is 2⁹ and `2**-1` is ½. It is spelled out with the parser
-//! library winnow, because ready-made expression evaluators take `-2^2` for 4.
+//! So `-2**2` is −4, `2**3**2` is 2⁹ and `2**-1` is ½. The parser library winnow reads it, because ready-made
+//! expression evaluators take `-2^2` for 4.
 
 use std::ops::Range;
 
@@ -29,8 +29,7 @@ use crate::bat::formula_tree::{FUNCTIONS, Node};
 const LONGEST: usize = 10_000;
 /// Deepest nesting of brackets and powers that is read.
 const DEEPEST: usize = 100;
-/// Most `abs`, `min` and `max` in one formula: each is asked on every stretch between the corners of
-/// all of them.
+/// Most `abs`, `min` and `max` in one formula: each is evaluated on every stretch between the corners of all.
 const MOST_BRANCHES: usize = 100;
 
 /// The parts of a formula, or what is wrong with it and where in the text (bytes).
@@ -64,11 +63,11 @@ pub(crate) fn read(text: &str) -> Result<Node, (Complaint, Range<usize>)> {
 /// The text that is left, its place, and how deep in brackets and powers it stands.
 type Input<'a> = Stateful<LocatingSlice<&'a str>, usize>;
 
-/// What is wrong at a byte of the text.
+/// A mistake at a byte of the text.
 #[derive(Debug)]
 struct Fault {
     offset: usize,
-    /// What was found, where it is not the word that stands there.
+    /// What was found, if it is not the word at that place.
     found: Option<String>,
     expected: String,
     hint: String,
@@ -92,8 +91,8 @@ impl Fault {
         ErrMode::Cut(Self { expected: expected.into(), ..Self::from_input(input) })
     }
 
-    /// The fault as what was found, with its place, and what was expected: `"tanhh" at character 10 of
-    /// "0.0127 + tanhh(x)"`.
+    /// The complaint, which quotes what was found with its place, and what was expected:
+    /// `"tanhh" at character 10 of "0.0127 + tanhh(x)"`.
     fn complaint(self, text: &str) -> Complaint {
         let here = word(&text[self.offset..]);
         let what = match self.found {
@@ -128,7 +127,7 @@ fn word(text: &str) -> &str {
     &text[..end.max(first)]
 }
 
-/// Points too, for `math.tanh` and for numbers.
+/// Letters of names include the point, for `math.tanh` and for numbers.
 fn in_name(c: char) -> bool {
     c.is_alphabetic() || c.is_ascii_digit() || c == '_' || c == '.'
 }
@@ -288,7 +287,7 @@ fn unknown_name(input: &Input, unknown: &str) -> ErrMode<Fault> {
     let functions = FUNCTIONS.map(|(name, _)| name);
     let names: Vec<&str> = ["x", "pi"].into_iter().chain(functions).collect();
     let expected = format!("x, pi or a function: {}", functions.join(", "));
-    // `math.tanh` and `np.tanh` mean what they end with.
+    // `math.tanh` and `np.tanh` stand for their last part.
     let plain = unknown.rsplit('.').next().unwrap_or(unknown);
     let meant = if plain == "ln" { Some("log") } else { nearest(plain, &names) };
     let hint = meant.map(|name| format!("did you mean {name}?")).unwrap_or_default();

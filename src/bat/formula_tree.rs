@@ -1,7 +1,6 @@
-//! What is a formula made of, and what is each part worth at `x`?
+//! What are the parts of a formula, and what is the value of each at `x`?
 
-/// A part of a formula with its own value. Sums and products are lists, so that a long one is
-/// no deep one.
+/// A part of a formula with a value. Sums and products are lists, so that a long one does not nest deeply.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Node {
     Number(f64),
@@ -29,7 +28,7 @@ pub(crate) enum Function {
     Max,
 }
 
-/// Their names in a formula.
+/// The names of the functions in a formula.
 pub(crate) const FUNCTIONS: [(&str, Function); 10] = [
     ("sin", Function::Sin),
     ("cos", Function::Cos),
@@ -44,7 +43,7 @@ pub(crate) const FUNCTIONS: [(&str, Function); 10] = [
 ];
 
 impl Node {
-    /// How many functions in it choose a branch.
+    /// Number of functions in it that choose a branch.
     pub(crate) fn branches(&self) -> usize {
         let all = |nodes: &[Self]| nodes.iter().map(Self::branches).sum::<usize>();
         match self {
@@ -61,7 +60,7 @@ impl Node {
         }
     }
 
-    /// The value at `x`; `switch` is told every number whose sign chooses a branch.
+    /// The value at `x`; `switch` is called with every number whose sign chooses a branch.
     pub(crate) fn value(&self, x: f64, switch: &mut impl FnMut(f64)) -> f64 {
         match self {
             Self::Number(value) => *value,
@@ -100,7 +99,7 @@ impl Function {
                 let other = argument.value(x, switch);
                 let difference = other - chosen;
                 switch(difference);
-                // What is not a number stays one, so that it is not hidden by the other.
+                // NaN wins over any number, so that it is not hidden.
                 let takes = if self == Self::Min { difference < 0.0 } else { difference > 0.0 };
                 if takes || other.is_nan() { other } else { chosen }
             }),

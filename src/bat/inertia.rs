@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-/// What a bat is as a rigid body; positions from the knob end, inertias transverse.
+/// A bat as a rigid body; positions from the knob end, inertias transverse.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Inertia {
     /// Mass M (kg).
@@ -11,8 +11,8 @@ pub struct Inertia {
     pub balance_point: f64,
     /// The body's moment of inertia about the balance point (kg m²), as a pendulum measures it.
     pub about_balance: f64,
-    /// Moment of inertia about the balance point of the bat as a line of mass, without the sections' own
-    /// `∫ρI dx` (kg m²): what an Euler–Bernoulli beam swings with.
+    /// Moment of inertia about the balance point of the bat as a line of mass, without the sections' own `∫ρI dx` (kg
+    /// m²), as for an Euler–Bernoulli beam.
     pub line_about_balance: f64,
 }
 
@@ -30,7 +30,7 @@ impl Inertia {
         center.is_finite().then_some(center)
     }
 
-    /// The bat as a line of mass: what an Euler–Bernoulli beam has for a rigid body.
+    /// The bat as a line of mass: the rigid body of an Euler–Bernoulli beam.
     pub fn as_line(self) -> Self {
         Self { about_balance: self.line_about_balance, ..self }
     }

@@ -1,6 +1,6 @@
-//! What is a section worth: stiffness and mass per length of one material around another?
+//! What are stiffness and mass per length of a section with one material around another?
 //!
-//! [`Layup::of`] a material, [`Layup::worth`] of a section.
+//! [`Layup::of`] makes one from a material, [`Layup::worth`] evaluates a section.
 
 use std::cmp::Ordering;
 
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::bat::material::{Material, ShearModuli};
 use crate::bat::profile::Section;
 
-/// The materials of a stretch of the bat: a tube, or a solid rod, and what fills the bore.
+/// The materials of a stretch of the bat: a tube or a solid rod, and the filling of the bore.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Layup {
@@ -19,8 +19,7 @@ pub struct Layup {
     /// Material that fills the bore, if any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub core: Option<Material>,
-    /// Layers around the wall, from the inside out. The outer radius of a section is that of the last of
-    /// them.
+    /// Layers around the wall, from the inside out. The outer radius of a section includes them.
     #[serde(rename = "layers", default, skip_serializing_if = "Vec::is_empty")]
     pub sleeves: Vec<Layer>,
     /// Mass of tape on the surface, which adds no stiffness (kg per m of bat).
@@ -28,7 +27,7 @@ pub struct Layup {
     pub tape: f64,
 }
 
-/// How empty the section is to a ring, and how that changes with the wall's outer and inner radius (1/m).
+/// How empty the section is for a ring, and its derivatives by the wall's outer and inner radius (1/m).
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Hole {
     pub share: f64,
@@ -59,12 +58,12 @@ pub struct Worth {
 }
 
 impl Layup {
-    /// One material and nothing in the bore.
+    /// One material and an empty bore.
     pub fn of(outer: Material) -> Self {
         Self { outer, core: None, sleeves: vec![], tape: 0.0 }
     }
 
-    /// EI (N m²) and ρA (kg/m): all that the Euler–Bernoulli beam knows of a section.
+    /// EI (N m²) and ρA (kg/m), the two properties of a section in the Euler–Bernoulli beam.
     #[inline(always)]
     pub fn bending_and_mass(&self, section: Section) -> [f64; 2] {
         let wall = self.wall(section);
@@ -97,11 +96,11 @@ impl Layup {
             return section;
         }
         let sleeves: f64 = self.sleeves.iter().map(|sleeve| sleeve.thickness).sum();
-        // At the edge of a wall that comes to a point a rounding must not turn it inside out.
+        // At the edge of a wall that comes to a point, rounding must not make it negative.
         Section { outer: (section.outer - sleeves).max(section.inner), ..section }
     }
 
-    /// The sleeves around that wall, from the inside out, as sections of their own.
+    /// The sleeves around that wall, from the inside out, each with its section.
     pub(super) fn rings(&self, wall: Section) -> impl Iterator<Item = (&Material, Section)> {
         self.sleeves.iter().scan(wall.outer, |inner, Layer { thickness, material }| {
             let ring = Section { outer: *inner + thickness, inner: *inner };
@@ -110,7 +109,7 @@ impl Layup {
         })
     }
 
-    /// ρI (kg m): the rotary inertia per length; of tape on the surface, a ring, `½ m r²`.
+    /// Rotary inertia per length, ρI (kg m). Tape on the surface is a ring and adds `½ m r²`.
     #[inline(always)]
     pub fn turning(&self, section: Section) -> f64 {
         let ring = 0.5 * self.tape * section.outer * section.outer;
@@ -122,13 +121,12 @@ impl Layup {
             .fold(own, |sum, (sleeve, ring)| sum + sleeve.density * ring.second_moment())
     }
 
-    /// All four: those of the layers added, each layer bending about the bat's axis.
+    /// All four values, summed over the layers; each layer bends about the bat's axis.
     ///
-    /// `κGA` of the tube is with the κ of a tube whose bore is filled in the measure that the core
-    /// is as stiff in shear, `m² (1 − G_core/G)` in the place of `m²`: Cowper's tube where there is
-    /// no core, the solid rod where it is of the same material, an interpolation between. With sleeves every
-    /// ring is a part of the whole section in the same way, as `hole` says: layers of one material are
-    /// the tube that they make together.
+    /// `κGA` of the tube uses Cowper's κ with `m² (1 − G_core/G)` in place of `m²`, because the core fills the bore as
+    /// far as it is stiff in shear. Without a core this is Cowper's tube, with a core of the same material the solid
+    /// rod, and an interpolation between. With sleeves, every ring is a part of the whole section in the same way (see
+    /// `hole`): layers of one material equal the tube that they form together.
     pub fn worth(&self, section: Section) -> Worth {
         let [bending, mass] = self.bending_and_mass(section);
         let turning = self.turning(section);
@@ -138,7 +136,7 @@ impl Layup {
         Worth { bending, mass, turning, shear }
     }
 
-    /// What the wall alone is worth, without core, sleeves and tape.
+    /// Stiffness and mass of the wall alone, without core, sleeves and tape.
     pub fn worth_of_wall(&self, section: Section) -> Worth {
         let wall = self.wall(section);
         let Material { youngs_modulus, density, .. } = self.outer;
@@ -175,9 +173,9 @@ impl Layup {
         std::iter::once((&self.outer, wall)).chain(self.rings(wall))
     }
 
-    /// What stands in the place of Cowper's `m² = (r_i/r)²` for one of [`Self::parts`]: of the section that has its
-    /// own shear modulus, how much is empty. With the unfilled share `u = 1 − G_other/G`, 0 at least, of every
-    /// other part, and `s` the difference of its radii squared,
+    /// The value in place of Cowper's `m² = (r_i/r)²` for one of [`Self::parts`]: how empty the section is for this
+    /// part's shear modulus. With the unfilled share `u = 1 − G_other/G` (at least 0) of every other part, and `s` the
+    /// difference of its squared radii,
     ///
     /// ```text
     /// h = (Σ_inside s u) / (r² + Σ_outside s (1 − u))
@@ -185,7 +183,7 @@ impl Layup {
     pub(super) fn hole(&self, wall: Section, own: usize) -> Hole {
         let (material, section) = self.parts(wall).nth(own).unwrap_or((&self.outer, wall));
         let core = unfilled(material, self.core.as_ref());
-        // Each with its derivative by the wall's outer radius, with which the sleeves move, and by its inner one.
+        // Each with its derivatives by the wall's outer radius, with which the sleeves move, and by its inner radius.
         let mut empty = [wall.inner * wall.inner * core, 0.0, 2.0 * wall.inner * core];
         let mut whole = [section.outer * section.outer, 2.0 * section.outer, 0.0];
         for (k, (other, Section { outer, inner })) in self.parts(wall).enumerate() {
@@ -215,13 +213,14 @@ impl Layup {
         self.core.as_ref().and_then(of).unwrap_or(0.0)
     }
 
-    /// How empty the bore is of what bears shear: 1 without a core, 0 with one as stiff as the tube.
+    /// How empty the bore is in shear: 1 without a core, 0 with a core as stiff as the tube.
     pub(crate) fn emptiness(&self) -> f64 {
         unfilled(&self.outer, self.core.as_ref())
     }
 
-    /// The loss factors of the section in bending and in shear: those of the layers, each weighted with its share of the
-    /// stiffness, which is that of the strain energy, for all layers have one curvature and one shear strain.
+    /// The loss factors of the section in bending and in shear: the mean of the layers' loss factors, weighted with
+    /// their share of the stiffness. That is their share of the strain energy, for all layers have one curvature and
+    /// one shear strain.
     ///
     /// # Source
     ///
@@ -241,7 +240,7 @@ impl Layup {
         let losses = self.parts(wall).map(|(material, _)| material.losses());
         let losses: Vec<_> = losses.chain(self.core.as_ref().map(Material::losses)).collect();
         let mean = |strain: usize, stiff: Vec<f64>| {
-            // Of two that do not give way in shear neither has a share.
+            // If both are rigid in shear, neither has a share.
             let finite = stiff.iter().all(|k| k.is_finite());
             let whole: f64 = stiff.iter().sum();
             let parts = losses.iter().zip(&stiff).map(|(loss, k)| loss[strain] * k / whole);
@@ -293,7 +292,7 @@ fn shear(material: &Material, area: f64, hole: f64) -> f64 {
     }
 }
 
-/// How empty a tube is of what bears shear: 1 with nothing inside, 0 with something as stiff as itself.
+/// How empty a tube is in shear: 1 with an empty bore, 0 with a filling as stiff as the tube.
 pub(super) fn unfilled(tube: &Material, inside: Option<&Material>) -> f64 {
     match (inside.and_then(|inside| inside.shear_modulus), tube.shear_modulus) {
         (Some(inside), Some(tube)) => (1.0 - inside / tube).max(0.0),
@@ -338,7 +337,7 @@ mod tests {
         assert!((worth.shear / (1e9 * area) / (2.6 / 4.9) - 1.0).abs() < 1e-8);
     }
 
-    /// All layers bend about one axis, so that rings of one material are the tube they make together.
+    /// All layers bend about one axis, so that rings of one material equal the tube that they form together.
     #[test]
     fn sleeves_of_the_wall_s_own_material_are_a_thicker_wall() {
         let section = Section { outer: 0.033, inner: 0.01 };

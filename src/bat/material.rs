@@ -1,7 +1,7 @@
-//! How stiff, how heavy is what the bat is made of?
+//! How stiff and how heavy is the bat's material?
 //!
-//! [`Material::named`] takes one from [`BUILT_IN`], [`Material::new`] one of your own numbers; set
-//! `shear_modulus` to let it shear.
+//! [`Material::named`] takes one from [`BUILT_IN`], [`Material::new`] one from given numbers. Set `shear_modulus` to
+//! let it shear.
 
 use std::sync::LazyLock;
 
@@ -11,7 +11,7 @@ use crate::base::error::Result;
 use crate::base::interval::Rectangle;
 use crate::base::number::significant;
 
-/// A material, along the bat's axis where it is wood.
+/// A material; for wood the values are along the grain, which is the bat's axis.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Material {
@@ -24,7 +24,8 @@ pub struct Material {
     pub youngs_modulus: f64,
     /// Loss factor η in bending; a mode's damping ratio is ζ = η/2.
     pub loss_factor: f64,
-    /// Loss factor η in shear, if it is another: that of wood is larger. A barrel's wall has that in bending alone.
+    /// Loss factor η in shear, if it differs: that of wood is larger. A barrel's wall has a loss factor in bending
+    /// only.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shear_loss_factor: Option<f64>,
     /// Shear modulus G (Pa), if known.
@@ -36,16 +37,16 @@ pub struct Material {
     /// Timoshenko's shear coefficient κ, if it was given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shear_coefficient: Option<f64>,
-    /// Stress at which it breaks in bending (Pa), if known; of wood the modulus of rupture.
+    /// Stress at which it breaks in bending (Pa), if known; for wood the modulus of rupture.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub strength: Option<f64>,
     /// Strain at which it breaks, if known.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub strain_to_failure: Option<f64>,
-    /// Young's modulus around the bat (Pa), of a composite that differs with the direction.
+    /// Young's modulus around the bat (Pa), for a composite whose stiffness depends on the direction.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hoop_modulus: Option<f64>,
-    /// Young's modulus across the wall (Pa), of such a composite.
+    /// Young's modulus across the wall (Pa), for such a composite.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub radial_modulus: Option<f64>,
     /// Shear moduli in the planes of such a composite.
@@ -68,8 +69,8 @@ pub struct ShearModuli {
     pub around_across: f64,
 }
 
-/// Poisson's ratios of a composite: how far it contracts in the second direction when it is pulled in the
-/// first, against its stretch in the first.
+/// Poisson's ratios of a composite: contraction in the second direction over extension in the first, when pulled in the
+/// first.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PoissonRatios {
@@ -81,8 +82,8 @@ pub struct PoissonRatios {
     pub around_across: f64,
 }
 
-/// The density (kg/m³) of a material whose file leaves it to the scale, before it is weighed: far below that of
-/// anything solid.
+/// Stand-in density (kg/m³) of a material whose file leaves the density to the weighed mass; far below that of any
+/// solid.
 pub(crate) const UNTOLD_DENSITY: f64 = 1.0;
 
 impl Material {
@@ -121,22 +122,22 @@ impl Material {
         [self.loss_factor, self.shear_loss_factor.unwrap_or(self.loss_factor)]
     }
 
-    /// The loss factor that is published of its kind: of a metal, which is denser than glass fibre and alike in all
-    /// directions, that of aluminium. None of wood and of composites: no source of theirs was found.
+    /// The published loss factor of its kind. A metal (denser than glass fibre and isotropic) has that of aluminium.
+    /// Wood and composites have `None`: no published source was found.
     pub fn published_loss(&self) -> Option<f64> {
         let metal = self.density > GLASS && self.hoop_modulus.is_none();
         BUILT_IN.iter().filter(|_| metal).find_map(|built_in| built_in.loss_factor)
     }
 
-    /// Poisson's ratio for κ: the material's own, of a composite that of the plane of its wall, else 0.3.
+    /// Poisson's ratio for κ: the material's own; for a composite that of the plane of its wall; else 0.3.
     pub fn poisson(&self) -> f64 {
         let of_wall = self.poisson_ratios.map(|ratios| ratios.along_around);
         self.poisson_ratio.or(of_wall).unwrap_or(0.3)
     }
 
-    /// Timoshenko's shear coefficient of a ring whose `(r_i/r)²` is `hole`: the material's own,
-    /// else Cowper's, with ν = 0.3 where it is not known (never a ν made from E/G, which means
-    /// nothing for wood): `κ = 6(1+ν)(1+m²)² / [(7+6ν)(1+m²)² + (20+12ν)m²]`, `m = r_i/r`.
+    /// Timoshenko's shear coefficient of a ring whose `(r_i/r)²` is `hole`: the material's own, else Cowper's
+    /// `κ = 6(1+ν)(1+m²)² / [(7+6ν)(1+m²)² + (20+12ν)m²]` with `m = r_i/r`. An unknown ν is taken as 0.3, and never
+    /// computed from E/G, which means nothing for wood.
     ///
     /// # Source
     ///
@@ -149,8 +150,8 @@ impl Material {
         })
     }
 
-    /// How [`Self::kappa`] changes with `hole`: 0 where the material has its own, else of Cowper's, with `a =
-    /// 7 + 6ν`, `b = 20 + 12ν` and `h` the hole, `dκ/dh = −6 (1 + ν) b (1 − h²) / [a (1 + h)² + b h]²`.
+    /// Derivative of [`Self::kappa`] by `hole`: 0 if the material has its own κ, else that of Cowper's. With
+    /// `a = 7 + 6ν`, `b = 20 + 12ν` and `h` the hole, `dκ/dh = −6 (1 + ν) b (1 − h²) / [a (1 + h)² + b h]²`.
     pub fn kappa_slope(&self, hole: f64) -> f64 {
         if self.shear_coefficient.is_some() {
             return 0.0;
@@ -161,7 +162,7 @@ impl Material {
         -6.0 * (1.0 + nu) * b * (1.0 - hole * hole) / (below * below)
     }
 
-    /// The largest |κ| where `r²` and `r_i²` are in these boxes; `None` where it has a pole there.
+    /// The largest |κ| for `r²` and `r_i²` in these boxes; `None` if it has a pole there.
     pub(crate) fn kappa_around(&self, outer: Rectangle, inner: Rectangle) -> Option<f64> {
         if let Some(kappa) = self.shear_coefficient {
             return Some(kappa);
@@ -196,7 +197,7 @@ impl Material {
 /// How much a kind of material differs from piece to piece, as relative standard deviations.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Scatter {
-    /// Of Young's modulus, and of G with it.
+    /// Of Young's modulus, and equally of G.
     pub youngs_modulus: f64,
     /// Of the density.
     pub density: f64,
@@ -206,10 +207,9 @@ pub struct Scatter {
 const WOOD: [[f64; 2]; 2] = [[300.0, 1100.0], [5e9, 25e9]];
 
 impl Material {
-    /// The published scatter from piece to piece of small clear pieces of one species of wood: 22 % of
-    /// Young's modulus and 10 % of the density. What is as heavy and as stiff as wood along the grain is
-    /// taken for it. None for all else: of aluminium alloys and composites no published scatter is known
-    /// here.
+    /// The published scatter from piece to piece of small clear pieces of one species of wood: 22 % of Young's modulus
+    /// and 10 % of the density. A material as heavy and as stiff as wood along the grain counts as wood. Any other has
+    /// `None`: no published scatter of aluminium alloys and composites is known here.
     ///
     /// # Source
     ///
@@ -223,33 +223,32 @@ impl Material {
     }
 }
 
-/// As heavy as glass fibre in resin (kg/m³).
+/// Density of glass fibre in resin (kg/m³).
 const GLASS: f64 = 2200.0;
-/// Metals: heavier than this (kg/m³), and with a stiffness over density (m²/s²) within these.
+/// Metals are denser than this (kg/m³), and their stiffness over density (m²/s²) is within these limits.
 const METAL: f64 = 1700.0;
 const OF_METALS: [f64; 2] = [20e6, 30e6];
 
 impl Material {
-    /// How much a material differs from piece to piece, as [`Self::scatter`] has it of wood, or from alloy to alloy:
-    /// 2 % of Young's modulus and 1 % of the density of a metal, by which the alloys of a kind differ. None where
-    /// neither is known, as of a composite.
+    /// How much a material differs: wood from piece to piece, as [`Self::scatter`] says; a metal from alloy to alloy,
+    /// by 2 % of Young's modulus and 1 % of the density. `None` if neither is known, as for a composite.
     ///
-    /// Magnesium, aluminium, titanium and steel all have about 25e6 m²/s² of stiffness over density, by which a metal
-    /// is told.
+    /// Magnesium, aluminium, titanium and steel all have a stiffness over density of about 25e6 m²/s², which identifies
+    /// a metal.
     ///
     /// # Source
     ///
-    /// The built-in aluminium's own (`BUILT_IN`): other alloys of its kind differ by 1 to 2 %.
+    /// The entry of the built-in aluminium (`BUILT_IN`): other alloys of its kind differ by 1 to 2 %.
     pub fn differs(&self) -> Option<Scatter> {
         let metal = Scatter { youngs_modulus: 0.02, density: 0.01 };
         self.scatter().or(self.is_metal().then_some(metal))
     }
 
-    /// What there is to say of a density that goes with no stiffness like this: as light as wood and as stiff as a
-    /// metal, as a hollow bat is that is taken for a solid one; or heavier than glass fibre and softer for its
+    /// A warning about a density that fits no material of this stiffness. Either it is as light as wood and as stiff as
+    /// a metal, as when a hollow bat is taken for a solid one, or it is heavier than glass fibre and softer for its
     /// weight than any metal of bats.
     pub(crate) fn no_material(&self) -> Option<String> {
-        /// As heavy as the heaviest woods (kg/m³).
+        /// Density of the heaviest woods (kg/m³).
         const WOODS: f64 = 1200.0;
         let (density, modulus) = (self.density, self.youngs_modulus);
         let told = |hint: &str| {
@@ -271,7 +270,7 @@ impl Material {
         }
     }
 
-    /// Whether it is as heavy and as stiff as a metal that bats are made of.
+    /// Whether its density and stiffness are those of a metal that bats are made of.
     pub fn is_metal(&self) -> bool {
         let [low, high] = OF_METALS;
         let specific = self.youngs_modulus / self.density;
@@ -282,7 +281,7 @@ impl Material {
 /// One entry of the built-in list: SI values and where they come from.
 #[derive(Debug, Clone, Copy, Deserialize)]
 pub struct BuiltIn {
-    /// What a bat file calls it.
+    /// Name in a bat file.
     pub name: &'static str,
     /// ρ (kg/m³).
     pub density: f64,
@@ -305,19 +304,18 @@ pub struct BuiltIn {
 
 /// The built-in materials.
 ///
-/// Handbook values come from slow bending tests of small clear pieces at 12 % moisture:
-/// E at a span of 14 depths (so it contains some shear), G the mean of the two longitudinal
-/// planes, density 1.12 times the specific gravity. The `-dynamic` ones are what models of real
-/// bats are given to ring or break as measured, 20 to 50 % stiffer. The two kinds are kept
-/// apart, so that they are not mixed unawares.
+/// Handbook values come from slow bending tests of small clear pieces at 12 % moisture. E is at a span of 14 depths, so
+/// it contains some shear; G is the mean of the two longitudinal planes; the density is 1.12 times the specific
+/// gravity. The `-dynamic` materials are 20 to 50 % stiffer: models of real bats need them to ring or break as
+/// measured. Two separate names keep the two kinds from being mixed unawares.
 ///
-/// A strength is the modulus of rupture of small clear pieces at 12 % moisture, bent slowly until
-/// they break: the mean of a species. A strain to failure is of blows as fast as a hit.
+/// A strength is the modulus of rupture of small clear pieces at 12 % moisture, bent slowly until they break: the mean
+/// of a species. A strain to failure belongs to blows as fast as a hit.
 ///
 /// # Source
 ///
-/// Each names its own in `materials.json`. The numbers there are in SI: strengths in psi are times
-/// 6894.757293168361 Pa, the shear modulus of aluminium is E/(2 (1 + ν)).
+/// Each entry of `materials.json` names its source. Its numbers are in SI: strengths in psi were multiplied by
+/// 6894.757293168361 Pa, and the shear modulus of aluminium is E/(2 (1 + ν)).
 pub static BUILT_IN: LazyLock<Vec<BuiltIn>> = LazyLock::new(|| {
     serde_json::from_str(include_str!("materials.json")).expect("the list of built-in materials")
 });

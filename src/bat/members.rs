@@ -1,7 +1,7 @@
-//! Which members has a material, or a part on the bat?
+//! Which members has a material, or a fixture of a bat?
 //!
-//! One list for each: the reader of bat files, the check of a bat that is made otherwise, and the schema
-//! follow from it.
+//! There is one list for each. The reader of bat files, the check of bats from other sources, and the schema all follow
+//! from it.
 
 use std::f64::consts::TAU;
 
@@ -14,7 +14,7 @@ use crate::bat::material::{Material, PoissonRatios, ShearModuli};
 use crate::bat::part::{Bound, Field, Instead, MemberKind, PLACE, Part, Range, Slot};
 use crate::bat::weighed::Weighed;
 
-/// A member by its key in a bat file, and where it is kept if not under that name.
+/// A member by its key in a bat file, and its field if that has another name.
 macro_rules! member {
     ($key:ident, $kind:expr) => {
         member!($key: $key, $kind)
@@ -38,7 +38,7 @@ macro_rules! ratio {
     };
 }
 
-/// A place on the bat, which must be there.
+/// A place on the bat, required.
 macro_rules! place {
     ($key:ident) => {
         number!($key, Length, Range::OnBat).needed(PLACE)
@@ -46,8 +46,8 @@ macro_rules! place {
 }
 
 impl Material {
-    /// Every value in its possible range: ρ, E, G, κ and the strength positive, η not negative,
-    /// −1 < ν ≤ ½, a strain to failure above 0 and below 1.
+    /// Checks that every value is in its possible range: ρ, E, G, κ and the strength positive, η not negative, −1 < ν ≤
+    /// ½, a strain to failure above 0 and below 1.
     ///
     /// # Errors
     ///
@@ -105,7 +105,7 @@ impl Part for PoissonRatios {
     ];
 }
 
-/// Poisson's ratios of a composite, which all together make a positive stiffness.
+/// Poisson's ratios of a composite; together they must give a positive stiffness.
 const DIRECTED: Range =
     Range::Between(Bound::Beyond(-10.0), Bound::Beyond(10.0), "a number between -10 and 10");
 
@@ -224,7 +224,7 @@ impl Part for Grip {
     const SOME: &'static [&'static str] = &["stiffness", "damping"];
 }
 
-/// What is expected where the diameter of a hole is missing.
+/// The expected text if the diameter of a hole is missing.
 const DIAMETER: &str = "\"diameter\": how wide the hole is";
 const BLEND: &str = "1 in";
 

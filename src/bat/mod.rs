@@ -1,19 +1,19 @@
 //! What bat is this?
 //!
-//! A [`profile`] of radii along the length, of one [`material`] or several, with what is fixed to it and
-//! what holds it, becomes a [`Bat`](body::Bat): its mass, balance point and swing weight.
+//! A [`profile`] of radii along the length, one [`material`] or several, and fixtures become a [`Bat`](body::Bat) with
+//! its mass, balance point and swing weight.
 //!
 //! | file | question |
 //! |---|---|
 //! | [`material`], [`theory`] | how stiff and heavy is the wood; which beam theory |
-//! | `pchip` | how does the radius go between stations |
+//! | `pchip` | how does the radius run between stations |
 //! | `formula_tree`, `formula_text`, [`formula`], `formula_range` | a formula's parts, how it is read, its value and corners, its range |
 //! | [`stations`], [`profile`], `formula_bounds`, `formula_profile`, `tip` | where it was measured; the radii along the length; features of a formula; pointed ends |
-//! | [`layup`], `slopes` | what is the section worth: stiffness and mass per length; and how do they change with its radii |
+//! | [`layup`], `slopes` | stiffness and mass per length of a section; their derivatives by the radii |
 //! | `rework` | the radii where wood is turned off, drilled out or sawn off |
 //! | [`fixtures`], [`weighed`], [`edit`] | masses, springs, supports, grips, joints; what a scale and a tap said; what is changed after that |
-//! | `part`, `members`, `fixtures_check` | a member's value; the members of each of these; can they be there |
-//! | [`inertia`], [`body`], `doubts` | a stiff body; the whole bat; what is strange about it |
+//! | `part`, `members`, `fixtures_check` | a member's value; the members of each of these; are they possible |
+//! | [`inertia`], [`body`], `doubts` | a rigid body; the whole bat; what is unusual about it |
 //! | `edited`, [`turned`] | a bat after its edits; one whose diameter is changed by a curve |
 
 pub mod material;

@@ -1,4 +1,4 @@
-//! What is a member of a part on the bat, and is its value possible?
+//! What is a member of a fixture, and is its value possible?
 
 use crate::base::error::{Error, Result};
 use crate::base::mistakes::Mistakes;
@@ -9,30 +9,30 @@ use crate::bat::layup::Layer;
 use crate::bat::material::{Material, PoissonRatios, ShearModuli};
 use crate::bat::profile::SAME_PLACE;
 
-/// Products of larger values are beyond the range of numbers.
+/// Products of larger values would overflow.
 pub(crate) const MOST: f64 = 1e100;
 /// A softer spring (N/m or N m/rad) holds nothing.
 pub(crate) const SOFTEST: f64 = 1e-12;
-/// A larger mass (kg) or inertia (kg m²) is a support.
+/// A larger mass (kg) or inertia (kg m²) would act as a support.
 pub(crate) const HEAVIEST: f64 = 1e8;
 
-/// A member of a part on the bat: how a bat file calls it, what it is, where it is kept.
+/// A member of a fixture: its key in a bat file, its kind and where it is kept.
 pub struct Field<P> {
     pub key: &'static str,
     pub kind: MemberKind,
-    /// What is expected where it is missing; without such words it may be missing.
+    /// The expected text if it is missing; `None` if it is optional.
     pub needed: Option<&'static str>,
-    /// Another key that must be there beside it, and what is expected of that.
+    /// Another key that is required beside it, and the expected text for that.
     pub with: Option<(&'static str, &'static str)>,
-    /// A value in units of the trade, where that of the quantity is another size.
+    /// An example in units of the trade, if that of the quantity is of another size.
     pub example: Option<&'static str>,
     pub of: fn(&mut P) -> Slot<'_>,
 }
 
-/// What a member is.
+/// Kind of a member.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum MemberKind {
-    /// A number of a quantity, or a pure number, and how large it may be.
+    /// A number of a quantity, or a pure number, with its range.
     Number(Option<Quantity>, Range),
     /// What a support holds.
     Held,
@@ -46,7 +46,7 @@ pub enum MemberKind {
     Layers,
 }
 
-/// Slots by what is kept in them.
+/// Storage of a member by the type of its value.
 macro_rules! slots {
     ($($(#[$said:meta])* $slot:ident: $kept:ty,)*) => {
         /// Where the value of a member is kept.
@@ -90,11 +90,11 @@ pub enum Range {
     Inside,
     /// A distance of at most ten lengths of the bat.
     Distance,
-    /// What a bat can be told from: `HEAVIEST` at most.
+    /// A mass that does not act as a support: at most `HEAVIEST`.
     Mass,
     /// Such a mass, above 0.
     SomeMass,
-    /// 0, or what holds more than a rigid motion: `SOFTEST` and more.
+    /// 0, or a stiffness that holds the bat measurably: at least `SOFTEST`.
     Spring,
     /// Such a stiffness, above 0.
     SomeSpring,
@@ -102,7 +102,7 @@ pub enum Range {
     NotNegative,
     /// Above 0.
     Positive,
-    /// Between two bounds, and what is expected in words.
+    /// Between two bounds, with the expected range in words.
     Between(Bound, Bound, &'static str),
 }
 
@@ -111,11 +111,11 @@ pub enum Range {
 pub enum Bound {
     /// The end belongs to the range.
     At(f64),
-    /// The end does not.
+    /// The end is excluded.
     Beyond(f64),
 }
 
-/// What is expected where a place is missing.
+/// The expected text if a place is missing.
 pub(crate) const PLACE: &str = "a place on the bat, from the knob end";
 
 impl<P> Field<P> {
@@ -140,7 +140,7 @@ impl<P> Field<P> {
         matches!(self.kind, MemberKind::Number(_, Range::OnBat | Range::Inside))
     }
 
-    /// Whether the value is possible on a bat of that length (m); `field` is its path in a bat file.
+    /// Checks that the value is possible on a bat of that length (m); `field` is its path in a bat file.
     fn check(&self, field: String, part: &mut P, length: f64) -> Result<()> {
         match (self.kind, (self.of)(part)) {
             (MemberKind::Number(quantity, range), Slot::Number(value)) => {
@@ -221,15 +221,15 @@ impl Bound {
     }
 }
 
-/// Something above 0 that a bat file may give in place of a number.
+/// A value above 0 that a bat file may give in place of a number.
 pub struct Instead<P> {
     pub key: &'static str,
     pub quantity: Quantity,
-    /// What it is, for the schema.
+    /// Its meaning, for the schema.
     pub said: &'static str,
     /// The number that it replaces.
     pub of: &'static str,
-    /// What is expected where both are missing.
+    /// The expected text if both are missing.
     pub expected: &'static str,
     pub set: fn(&mut P, f64),
 }
@@ -238,12 +238,12 @@ pub struct Instead<P> {
 pub trait Part: Clone + 'static {
     /// Its members.
     const FIELDS: &'static [Field<Self>];
-    /// Keys of which one at least must be there.
+    /// Keys of which at least one is required.
     const SOME: &'static [&'static str] = &[];
-    /// What may stand in place of one of the numbers, which then must be there.
+    /// A replacement for one of the numbers; one of the two is then required.
     const INSTEAD: Option<Instead<Self>> = None;
 
-    /// Where it begins and ends (m), if it lies on a stretch.
+    /// Both ends (m), if the part lies on a stretch.
     fn stretch(&self) -> Option<[f64; 2]> {
         let mut part = self.clone();
         let mut end = |key: &str| {
@@ -256,7 +256,7 @@ pub trait Part: Clone + 'static {
         Some([end("from")?, end("to")?])
     }
 
-    /// What is wrong with it on a bat of that length (m), its path in a bat file before each field.
+    /// Checks the part on a bat of that length (m); `path` is its path in a bat file.
     fn check(&self, path: &str, length: f64) -> Result<()> {
         let (mut part, mut mistakes) = (self.clone(), Mistakes::default());
         let ends = self.stretch();
@@ -291,11 +291,11 @@ pub(crate) fn on_the_bat(field: impl Into<String>, x: f64, length: f64) -> Resul
     Err(Error::value(field, shown(x, "m"), expected))
 }
 
-/// A value without a row of zeros.
+/// A value as text, without a row of zeros.
 pub(crate) fn shown(value: f64, unit: &str) -> String {
     let text = match value.abs() {
         size if !size.is_finite() => return "a value beyond the range of numbers".to_owned(),
-        // A value may differ by the rounding of its unit.
+        // A value may be off by the rounding of its unit.
         0.0 | 1e-4..1e6 => format!("{} {unit}", significant(value, 12)),
         _ => format!("{value:e} {unit}"),
     };

@@ -1,11 +1,10 @@
-//! How a smooth curve is laid through measured radii without overshooting them, in Bernstein form.
+//! How is a smooth curve laid through measured radii without overshooting them, in Bernstein form?
 
-/// Slopes of the monotone piecewise cubic through `(x, y)`, `x` rising, two points at least.
+/// Slopes of the monotone piecewise cubic through the points `(x, y)`: two or more, with rising `x`.
 ///
-/// Inside, the weighted harmonic mean of the neighbouring secants `m` over the intervals `h`,
-/// `(w₁ + w₂)/d = w₁/m₋ + w₂/m₊` with `w₁ = 2h₊ + h₋`, `w₂ = h₊ + 2h₋`, and 0 where the
-/// secants differ in sign or one is 0. At the ends a one-sided three-point formula,
-/// limited to keep the shape. Two points give the straight line.
+/// An inner slope is the weighted harmonic mean of the neighbouring secants `m` over the intervals `h`,
+/// `(w₁ + w₂)/d = w₁/m₋ + w₂/m₊` with `w₁ = 2h₊ + h₋`, `w₂ = h₊ + 2h₋`. It is 0 where the secants differ in sign or one
+/// is 0. An end slope is a one-sided three-point formula, limited to keep the shape. Two points give the straight line.
 ///
 /// # Source
 ///
@@ -51,7 +50,7 @@ pub fn cubics(x: &[f64], y: &[f64]) -> Vec<[f64; 4]> {
     let d = slopes(x, y);
     let cubic = |k: usize| {
         let (h, low, high) = (x[k + 1] - x[k], y[k].min(y[k + 1]), y[k].max(y[k + 1]));
-        // Between the stations' values in exact arithmetic; the clamp removes the rounding.
+        // Between the stations' values in exact arithmetic; the clamp removes round-off.
         let first = (y[k] + h * d[k] / 3.0).clamp(low, high);
         let second = (y[k + 1] - h * d[k + 1] / 3.0).clamp(low, high);
         [y[k], first, second, y[k + 1]]

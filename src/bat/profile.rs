@@ -10,11 +10,10 @@ pub use crate::bat::stations::{Interpolation, Section, Stations};
 use crate::bat::stations::{check_positions, check_radii, held};
 use crate::bat::tip::{NEVER_BACK, sends_back};
 
-/// Places that are no farther apart, as a share of the bat's length, are one place given in other
-/// digits.
+/// Places closer than this share of the bat's length are one place, given in different digits.
 pub const SAME_PLACE: f64 = 1e-12;
 
-/// Formulas of both radii (m) on a stretch of the bat, as somebody wrote them.
+/// Formulas of both radii (m) on a stretch of the bat, as written in the file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FormulaPiece {
     /// Where the piece begins (m).
@@ -241,7 +240,7 @@ impl Piece {
         }
     }
 
-    /// The part from `s0` to `s1` as a piece of its own.
+    /// The part from `s0` to `s1` as a separate piece.
     pub fn part(&self, s0: f64, s1: f64) -> Self {
         let radii = match &self.radii {
             Radii::Cubic(cubics) => Radii::Cubic(cubics.part(s0, s1)),

@@ -1,7 +1,7 @@
-//! How do the radii change where wood is turned off, drilled out or sawn off, or something is put around?
+//! How do the radii change where wood is turned off, drilled out or sawn off, or where a layer is added?
 //!
-//! Everywhere else the curve stays what it is: a profile is not laid through new stations, its pieces
-//! are cut in two and changed one by one.
+//! The rest of the curve stays unchanged: the pieces of the profile are cut in two and changed one by one. No new curve
+//! is laid through stations.
 
 use std::cmp::Ordering;
 
@@ -13,13 +13,13 @@ use crate::bat::profile::{
     Curves, Interpolation, Piece, Profile, Radii, SAME_PLACE, Section, Stations,
 };
 
-/// How far a cut runs in and out where nothing is said of it: 1 in (m).
+/// Default length over which a cut runs in and out: 1 in (m).
 const BLEND: f64 = 0.0254;
 /// The smooth step `3v² − 2v³` in Bernstein form.
 const RISING: [f64; 4] = [0.0, 0.0, 1.0, 1.0];
 const FALLING: [f64; 4] = [1.0, 1.0, 0.0, 0.0];
 const FULL: [f64; 4] = [1.0; 4];
-/// Places at which the wall of a formula is looked at.
+/// Number of places at which the wall of a formula is checked.
 const SAMPLES: usize = 128;
 
 /// A surface of the wood.
@@ -31,7 +31,7 @@ pub(crate) enum Surface {
     Bore,
 }
 
-/// A stretch (m), and how far a change of it runs in and out (m).
+/// A stretch (m), and the length over which a change runs in and out (m).
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Blended {
     pub from: f64,
@@ -40,12 +40,12 @@ pub(crate) struct Blended {
 }
 
 impl Blended {
-    /// How far the change runs in and out: never farther than to the middle.
+    /// The length of the run-in: at most to the middle of the stretch.
     pub fn blend(&self) -> f64 {
         self.blend.unwrap_or(BLEND.min(0.5 * (self.to - self.from)))
     }
 
-    /// Where the change is in full (m), on a bat of that length.
+    /// The stretch on which the change applies in full (m), on a bat of that length.
     fn full(&self, length: f64) -> [f64; 2] {
         let same = SAME_PLACE * length;
         let blend = self.blend();
@@ -54,7 +54,7 @@ impl Blended {
             inner(self.from, blend, self.from <= same),
             inner(self.to, -blend, self.to >= length - same),
         ];
-        // Two halves of a stretch meet in one place.
+        // Two halves of a stretch meet at one place.
         if full[1] - full[0] <= same { [full[0]; 2] } else { full }
     }
 }
@@ -62,16 +62,16 @@ impl Blended {
 impl Profile {
     /// Takes `depth` (m) off the diameter of a stretch.
     ///
-    /// With `v` from 0 to 1 along the run-in, the depth goes as `3v² − 2v³`: the surface has no corner.
-    /// What remains is a cubic where the surface was one.
+    /// With `v` from 0 to 1 along the run-in, the depth follows `3v² − 2v³`, so that the surface has no corner. A cubic
+    /// surface stays a cubic.
     pub(crate) fn turned_down(&mut self, on: Blended, depth: f64) -> Result<()> {
         self.reshape(on, |piece, weight| {
             grown(piece, Surface::Outside, weight.map(|w| -0.5 * depth * w))
         })
     }
 
-    /// Moves a surface out by `by` (m), in Bernstein form over each piece; None leaves a piece as it is, and where
-    /// there is no bore nothing is moved.
+    /// Moves a surface outwards by `by` (m), in Bernstein form over each piece. `None` leaves a piece as it is; a
+    /// missing bore is not moved.
     pub(crate) fn moved(
         &mut self,
         surface: Surface,
@@ -88,8 +88,8 @@ impl Profile {
         Ok(())
     }
 
-    /// Multiplies the outer radius of a stretch by a factor, which comes in and goes out as the depth of
-    /// [`Self::turned_down`] does.
+    /// Multiplies the outer radius of a stretch by a factor, which runs in and out like the depth of
+    /// [`Self::turned_down`].
     pub(crate) fn scaled_outside(&mut self, on: Blended, by: f64) -> Result<()> {
         if by == 1.0 {
             return Ok(());
@@ -125,13 +125,13 @@ impl Profile {
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] where there is a wider hole already, or no wood would be left around it.
+    /// [`Error::Value`] if the hole there is wider already, or if no wood would be left around it.
     pub(crate) fn drilled(&mut self, ends: [f64; 2], radius: f64) -> Result<()> {
         self.hollowed(ends, |_| [radius; 4])
     }
 
-    /// Hollows out the tip: with `v` from 0 at the bottom to 1 at the tip the radius is
-    /// `a (1 − (1 − v)³)`, whose Bernstein form is 0, a, a, a.
+    /// Hollows out the tip. With `v` from 0 at the bottom to 1 at the tip the radius is `a (1 − (1 − v)³)`, whose
+    /// Bernstein form is 0, a, a, a.
     ///
     /// # Errors
     ///
@@ -142,14 +142,14 @@ impl Profile {
         self.hollowed([from, length], |piece| {
             let share = |x: f64| ((x - from) / depth).clamp(0.0, 1.0);
             let [start, end] = [piece.start, piece.start + piece.length].map(share);
-            // The very bottom and the very rim, without a rounding.
+            // The bottom and the rim themselves, without round-off.
             let start = if start < 1e-9 { 0.0 } else { start };
             let end = if end > 1.0 - 1e-9 { 1.0 } else { end };
             subdivide(&[0.0, radius, radius, radius], start, end)
         })
     }
 
-    /// Makes the inner radius of each piece in a stretch what it is told, in Bernstein form.
+    /// Sets the inner radius of each piece in a stretch, in Bernstein form.
     fn hollowed(&mut self, [from, to]: [f64; 2], inner: impl Fn(&Piece) -> [f64; 4]) -> Result<()> {
         self.reshape(Blended { from, to, blend: Some(0.0) }, |piece, _| {
             let hole = inner(piece);
@@ -178,7 +178,7 @@ impl Profile {
         })
     }
 
-    /// Saws so much off the knob and off the tip (m).
+    /// Saws these lengths off the knob and off the tip (m).
     pub(crate) fn shortened(&mut self, knob: f64, tip: f64) {
         let length = self.length();
         let end = length - tip;
@@ -192,8 +192,8 @@ impl Profile {
         self.survey(end - knob);
     }
 
-    /// Changes every piece of a stretch, given how much of the change is there: in Bernstein form over
-    /// the piece, 1 in full.
+    /// Changes every piece of a stretch, given the factor of the change over the piece in Bernstein form, 1 for the
+    /// full change.
     fn reshape(
         &mut self,
         on: Blended,
@@ -221,7 +221,7 @@ impl Profile {
         Ok(())
     }
 
-    /// Tells the stations anew: the ends of every piece, and its widest place where that is between.
+    /// Recomputes the stations: the ends of every piece, and its widest place if that lies between.
     fn survey(&mut self, length: f64) {
         let (x, outer, inner) = (vec![], vec![], vec![]);
         let mut told = Stations { x, outer, inner, interpolation: Interpolation::Linear };
@@ -235,7 +235,7 @@ impl Profile {
             let inside = widest.map(|s| (piece.start + s * piece.length, piece.at(s)));
             let both = [(piece.start, left), (end, right)];
             for (x, section) in [Some(both[0]), inside, Some(both[1])].into_iter().flatten() {
-                // A difference in the last digits alone is not a step.
+                // A difference in the last digits is not a step.
                 let same = |column: &[f64], value: f64| {
                     column.last().is_some_and(|last| (last - value).abs() <= 1e-12 * section.outer)
                 };
@@ -253,7 +253,7 @@ impl Profile {
     }
 }
 
-/// Moves a surface of a piece out by so much (m), in Bernstein form, if the piece has it.
+/// Moves a surface of a piece outwards by `by` (m), in Bernstein form, if the piece has that surface.
 fn grown(piece: &mut Piece, surface: Surface, by: [f64; 4]) -> Result<()> {
     match &mut piece.radii {
         Radii::Cubic(cubics) => {
@@ -283,7 +283,7 @@ fn flat(b: &[f64; 4]) -> bool {
     b.iter().all(|v| *v == b[0])
 }
 
-/// There must be wood everywhere: only an end of the bat may come to a point, as it did before.
+/// The wall must be positive everywhere; only an end of the bat may come to a point, if it did before.
 fn check_wall(piece: &Piece) -> Result<()> {
     let gone = match &piece.radii {
         Radii::Cubic(cubics) => cubics.no_wall_at(),
@@ -292,7 +292,7 @@ fn check_wall(piece: &Piece) -> Result<()> {
     let sampled = (0..=SAMPLES).map(|k| k as f64 / SAMPLES as f64);
     let open = |s: f64| {
         let Section { outer, inner } = piece.at(s);
-        // A wall that is not a number is refused.
+        // A wall of NaN is refused.
         outer.partial_cmp(&inner) != Some(Ordering::Greater) && (outer, inner) != (0.0, 0.0)
     };
     let gone = gone.filter(|s| open(*s)).or_else(|| sampled.into_iter().find(|s| open(*s)));
@@ -310,18 +310,18 @@ fn check_wall(piece: &Piece) -> Result<()> {
     Err(Error::value("", found, "a change that leaves wood everywhere"))
 }
 
-/// A diameter to be said, from a radius (m).
+/// A diameter as text, from a radius (m).
 fn across(radius: f64) -> String {
     let diameter = 2.0 * radius;
     format!("{:.2} mm ({:.3} in)", 1e3 * diameter, units::inches(diameter))
 }
 
-/// A place or a length to be said (m).
+/// A place or a length as text (m).
 pub(crate) fn place(x: f64) -> String {
     format!("{x:.4} m ({:.2} in)", units::inches(x))
 }
 
-/// Both radii of a piece as formulas of the place along the bat.
+/// Both radii of a piece as formulas of the position along the bat.
 fn as_formulas(piece: &Piece) -> Result<Curves> {
     let cubics = match &piece.radii {
         Radii::Formula(curves) => return Ok(curves.clone()),

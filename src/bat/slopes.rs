@@ -1,13 +1,13 @@
-//! What does a section lose per millimetre that is taken off?
+//! How much stiffness and mass does a section lose per millimetre that is taken off?
 //!
-//! [`Layup::slopes`] is the derivative of [`Layup::worth`] by the outer and by the inner radius, material
-//! and sleeves as they are:
+//! [`Layup::slopes`] is the derivative of [`Layup::worth`] by the outer and by the inner radius, for constant material
+//! and sleeves:
 //!
 //! ```text
 //! ∂EI/∂r = Eπr³    ∂ρA/∂r = 2πρr    ∂ρI/∂r = πρr³    ∂κGA/∂r = 2πκGr + GA ∂κ/∂h ∂h/∂r
 //! ```
 //!
-//! and the same in r_i, negative, with h that stands for `(r_i/r)²`. Layer is added to layer.
+//! The derivatives by r_i are the same but negative. Here h is the value in place of `(r_i/r)²`. Layers add.
 
 use std::f64::consts::PI;
 
@@ -15,19 +15,19 @@ use crate::bat::layup::{Layup, Worth};
 use crate::bat::material::Material;
 use crate::bat::profile::Section;
 
-/// A ring of one material, and by how much its two radii move with the radius that is changed.
+/// A ring of one material, and how far its two radii move with the radius that is changed.
 struct Ring<'a> {
     material: &'a Material,
     section: Section,
     /// Of the outer and of the inner radius, 0 or 1.
     moves: [f64; 2],
-    /// What stands for `m²` in its κ, and how that moves with the radius that is changed (1/m).
+    /// The value in place of `m²` in its κ, and its derivative by the radius that is changed (1/m).
     hole: f64,
     widens: f64,
 }
 
 impl Ring<'_> {
-    /// What the ring is worth more per metre of radius.
+    /// Derivatives of the ring's values, per metre of radius.
     fn slope(&self) -> Worth {
         let Self {
             material,
@@ -52,12 +52,11 @@ impl Ring<'_> {
 }
 
 impl Layup {
-    /// What a section is worth more per metre of its outer radius, and per metre of its inner radius
-    /// (each number of a [`Worth`], per m). The shear stiffness of a material whose shear modulus is not
-    /// known does not change.
+    /// Derivatives of a section's values by its outer radius and by its inner radius (each number of a [`Worth`], per
+    /// m). The shear stiffness of a material without a known shear modulus does not change.
     pub fn slopes(&self, section: Section) -> [Worth; 2] {
         let wall = self.wall(section);
-        // The outer radius takes both of a sleeve's along; the bore moves the wall's alone, and what all have inside.
+        // The outer radius moves both radii of every sleeve. The bore moves only the wall's, and the filling of all.
         let moved = |of: usize, moves: [[f64; 2]; 2]| {
             let ring = |k: usize, material, section| {
                 let (hole, moves) = (self.hole(wall, k), moves[k.min(1)]);
@@ -79,7 +78,7 @@ impl Layup {
     }
 }
 
-/// Both together.
+/// The sum of both.
 fn plus(a: Worth, b: Worth) -> Worth {
     Worth {
         bending: a.bending + b.bending,
@@ -100,8 +99,8 @@ mod tests {
         wood
     }
 
-    /// Central differences of the section's worth, for a solid rod, a tube, a filled one and one with tape and
-    /// sleeves.
+    /// Compared with central differences of the section's values, for a solid rod, a tube, a filled tube, and one with
+    /// tape and sleeves.
     #[test]
     fn the_slopes_are_those_of_the_section_s_worth() {
         let mut cork = Material::new(200.0, 3e7).unwrap();

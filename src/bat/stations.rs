@@ -1,4 +1,4 @@
-//! Where was the bat measured, and can those be radii of a bat?
+//! Where was the bat measured, and are these possible radii?
 
 use serde::{Deserialize, Serialize};
 
@@ -29,7 +29,7 @@ pub struct Stations {
     pub outer: Vec<f64>,
     /// Inner radius at each station, 0 where the bat is solid.
     pub inner: Vec<f64>,
-    /// What happens between them.
+    /// Interpolation between the stations.
     pub interpolation: Interpolation,
 }
 
@@ -57,12 +57,12 @@ impl Section {
         self.area() * (r * r + ri * ri) / 4.0
     }
 
-    /// Factor by which rounding of the radii grows in the wall thickness, `r/(r − rᵢ)`.
+    /// Factor by which round-off of the radii grows in the wall thickness, `r/(r − rᵢ)`.
     pub fn thinness(self) -> f64 {
         if self.outer == 0.0 { 1.0 } else { self.outer / (self.outer - self.inner) }
     }
 
-    /// The bore as a section of its own: what is inside the inner radius.
+    /// The bore as a section: the area inside the inner radius.
     #[inline]
     pub fn bore(self) -> Self {
         Self { outer: self.inner, inner: 0.0 }
@@ -92,7 +92,7 @@ pub(super) fn check_positions(x: &[f64]) -> Result<()> {
     Ok(())
 }
 
-/// Whether station `k` lies beyond the one before.
+/// Checks that station `k` lies beyond the one before.
 fn check_position(x: &[f64], k: usize) -> Result<()> {
     if x[k] < x[k - 1] || !x[k].is_finite() {
         let expected = format!("a position beyond x[{}]", k - 1);
@@ -109,7 +109,7 @@ pub(super) fn check_radii(stations: &Stations) -> Result<()> {
     mistakes::all((0..stations.x.len()).map(|k| check_radius(stations, k))).map(|_| ())
 }
 
-/// Whether the section at station `k` is one.
+/// Checks that the radii of station `k` are possible.
 fn check_radius(stations: &Stations, k: usize) -> Result<()> {
     let (r, ri) = (stations.outer[k], stations.inner[k]);
     let at_end = k == 0 || k == stations.x.len() - 1;
@@ -141,7 +141,7 @@ pub(super) fn held(stations: &Stations) -> Result<Stations> {
     let (x, outer, inner) = (&stations.x, &stations.outer, &stations.inner);
     for k in 0..x.len() - 1 {
         if x[k] == x[k + 1] {
-            // A step written out by the user: its left value must be the one that holds there.
+            // If the user wrote out a step, its left value must be the one that holds there.
             for (role, values) in [("outer", outer), ("inner", inner)] {
                 if values[k] != values[k - 1] {
                     let expected = format!("{role}[{}], which holds up to here", k - 1);

@@ -1,7 +1,7 @@
-//! Which beam: how much of a section's own motion takes part?
+//! Which beam theory: how does a section's own motion take part?
 //!
 //! A [`Theory`] goes into [`crate::modes::solve::Request::theory`]; [`crate::modes::theory_choice::theory`] chooses the
-//! simplest that will do.
+//! simplest one that is accurate enough.
 
 use serde::Serialize;
 
@@ -23,14 +23,14 @@ pub enum Theory {
     ///
     /// S. Timoshenko, Philos. Mag. 41 (1921) 744.
     Timoshenko,
-    /// The simplest of them that is good enough for what is asked ([`crate::modes::theory_choice`]). What is
-    /// answered names one of the others.
+    /// The simplest theory that is accurate enough for the request ([`crate::modes::theory_choice`]). The answer names
+    /// the theory that was chosen.
     #[default]
     Auto,
 }
 
 impl Theory {
-    /// All beams, the simplest first.
+    /// All beam theories, the simplest first.
     pub const ALL: [Self; 3] = [Self::EulerBernoulli, Self::Rayleigh, Self::Timoshenko];
 
     /// The name that the command line and the files use.
@@ -48,7 +48,7 @@ impl Theory {
         matches!(self, Self::Rayleigh | Self::Timoshenko)
     }
 
-    /// Whether they are sheared.
+    /// Whether the sections shear.
     pub fn shears(self) -> bool {
         self == Self::Timoshenko
     }

@@ -1,33 +1,30 @@
-//! Does a pointed end send waves back?
+//! Does a pointed end reflect waves?
 //!
-//! Where the radius falls to 0 as `c tⁿ`, `t` the distance from the tip, the wave number goes as
-//! `(ρA/EI)^¼ ∝ t^{−n/2}`, and a wave needs for the way to the tip a time that goes as `∫ t^{−n/2}
-//! dt`: for n of 2 and more it never arrives. With n = 2 the beam's equation near the tip,
-//! `(t⁸ w″)″ = λ t⁴ w` in its own units, has the solutions `w = t^{−5/2 ± iτ}` with `λ = (τ² +
-//! 25/4)(τ² + 49/4)`: every frequency above that of `λ = 1225/16` rings there and none is a mode;
-//! with n above 2 that is so from 0 Hz on.
+//! Let the radius fall to 0 as `c tⁿ`, with `t` the distance from the tip. The wave number goes as
+//! `(ρA/EI)^¼ ∝ t^{−n/2}`, and the time that a wave needs to reach the tip as `∫ t^{−n/2} dt`: for n of 2 and more it
+//! never arrives. With n = 2 the beam's equation near the tip, `(t⁸ w″)″ = λ t⁴ w` in scaled units, has the solutions
+//! `w = t^{−5/2 ± iτ}` with `λ = (τ² + 25/4)(τ² + 49/4)`. Every frequency above that of `λ = 1225/16` is then possible
+//! and none is a mode. With n above 2 that holds from 0 Hz on.
 //!
 //! # Source
 //!
-//! That waves never arrive at such a tip: Mironov's beam of 1988, as the introduction of "How the
-//! waveguide acoustic black hole works", J. Acoust. Soc. Am. 151 (2022) 4279, tells it. The powers are
-//! worked out here.
+//! Waves never arrive at such a tip: Mironov's beam of 1988, as described in the introduction of "How the waveguide
+//! acoustic black hole works", J. Acoust. Soc. Am. 151 (2022) 4279. The powers are derived here.
 
-/// How near to the tip the power is read off, as a share of the piece: at that and twice that distance,
-/// so that a slow change of the power along the piece cancels.
+/// Distance from the tip at which the power is measured, as a share of the piece. Values at this and twice this
+/// distance are used, so that a slow change of the power along the piece cancels.
 const NEAR: f64 = 1.0 / 4096.0;
-/// The power from which on no wave comes back, less what reading it off may miss.
+/// The power from which no wave returns, less the error of measuring it.
 const POWER: f64 = 2.0 - 1e-5;
 
-/// Whether a wave comes back from an end with these outer radii (m), at a share of the end's piece
-/// from there.
+/// Whether a wave returns from an end with these outer radii (m), given as a function of the share of the end's piece.
 pub(crate) fn sends_back(radius: impl Fn(f64) -> f64) -> bool {
     let [a, b, c] = [NEAR, 2.0 * NEAR, 4.0 * NEAR].map(&radius);
-    // A bat of no radius at all is refused for that.
+    // A bat without any radius is refused elsewhere, for that reason.
     radius(0.0) > 0.0 || radius(0.5) == 0.0 || 2.0 * (b / a).log2() - (c / b).log2() < POWER
 }
 
-/// What is found where no wave comes back, and what is expected.
+/// Found and expected texts for an end from which no wave returns.
 pub(crate) const NEVER_BACK: [&str; 2] = [
     "a radius that falls to 0 at an end as the square of the distance or faster",
     "an end of some radius, or one that comes to a point as a cone does: no wave ever arrives at the \

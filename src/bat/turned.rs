@@ -1,9 +1,8 @@
-//! How does a bat look whose diameter, or that of its bore, is changed by a curve along it?
+//! How does a bat change if a curve is added to its diameter or to that of its bore?
 //!
-//! A [`DiameterChange`] is a cubic between places; [`Bat::turned`] adds it to the bat's diameter, [`Bat::bored`]
-//! to that of its bore. The pieces
-//! of the profile are cut where the change has its ends and moved one by one, so that what was a cubic stays
-//! one and the curve elsewhere stays what it is.
+//! A [`DiameterChange`] is a cubic between places. [`Bat::turned`] adds it to the bat's diameter, [`Bat::bored`] to
+//! that of the bore. The pieces of the profile are cut at the ends of the change and moved one by one: a cubic stays a
+//! cubic, and the rest of the curve stays unchanged.
 
 use crate::base::error::{Error, Result};
 use crate::bat::body::Bat;
@@ -22,8 +21,8 @@ pub struct ChangedStretch {
     pub diameter: [f64; 4],
 }
 
-/// A change of the bat's diameter along it, positive where it becomes thicker: cubics on stretches that do not
-/// overlap, no change between them.
+/// A change of the diameter along the bat, positive where the bat becomes thicker: cubics on stretches that do not
+/// overlap, and 0 between them.
 ///
 /// ```
 /// use sweetspot::bat::turned::DiameterChange;
@@ -46,13 +45,13 @@ pub struct DiameterChange {
 }
 
 impl DiameterChange {
-    /// One change (m of diameter) all along a stretch (m).
+    /// A constant change (m of diameter) along a stretch (m).
     pub fn band([from, to]: [f64; 2], by: f64) -> Self {
         Self { stretches: vec![ChangedStretch { from, to, diameter: [by; 4] }] }
     }
 
-    /// The curve that has the values of `change` (m of diameter) at the knots (m, rising), and two places
-    /// between each two of them: the function itself where it is a cubic between knots.
+    /// The curve through the values of `change` (m of diameter) at the knots (m, rising) and at two places between each
+    /// pair. It equals the function where that is a cubic between knots.
     pub fn through(knots: &[f64], change: impl Fn(f64) -> f64) -> Self {
         let stretch = |ends: &[f64]| {
             let (from, to) = (ends[0], ends[1]);
@@ -76,7 +75,7 @@ impl DiameterChange {
             let covers = |part: &&(f64, &Self)| part.1.covering(0.5 * (from + to)).is_some();
             let here: Vec<_> = parts.iter().filter(covers).collect();
             let at = |s: f64| {
-                // At an end what holds inside, not what holds beyond.
+                // At an end, the value from inside.
                 let x = from + s * (to - from);
                 let middle = 0.5 * (from + to);
                 let of = |(factor, part): &&(f64, &Self)| {
@@ -110,7 +109,7 @@ impl DiameterChange {
         last.filter(|stretch| x <= stretch.to).map_or(0.0, |stretch| stretch.at(x))
     }
 
-    /// So many times this change.
+    /// This change multiplied by a factor.
     pub fn scaled(&self, factor: f64) -> Self {
         let mut scaled = self.clone();
         let all = scaled.stretches.iter_mut().flat_map(|stretch| &mut stretch.diameter);
@@ -150,13 +149,12 @@ fn cubic([a, b, c, d]: [f64; 4]) -> [f64; 4] {
 }
 
 impl Bat {
-    /// The bat with its outer diameter changed so. What was weighed stays as it led to densities: turning does
-    /// not change the billet's.
+    /// The bat with this change of its outer diameter. Densities stay as weighing set them: turning does not change the
+    /// density of the billet.
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] where the change reaches beyond the bat, no wood would be left, or there is a sleeve
-    /// around the stretch.
+    /// [`Error::Value`] if the change reaches beyond the bat, no wood would be left, or a sleeve covers the stretch.
     pub fn turned(&self, change: &DiameterChange) -> Result<Self> {
         let length = self.length();
         let same = SAME_PLACE * length;
@@ -178,12 +176,12 @@ impl Bat {
         self.with(|parts| parts.profile = profile)
     }
 
-    /// The bat with the diameter of its bore changed so, where it has one: its wall becomes thinner where the
-    /// change is positive. What was weighed stays as it led to densities.
+    /// The bat with this change of its bore's diameter, if it has a bore; the wall becomes thinner where the change is
+    /// positive. Densities stay as weighing set them.
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] where no wall would be left.
+    /// [`Error::Value`] if no wall would be left.
     pub fn bored(&self, change: &DiameterChange) -> Result<Self> {
         let mut profile = self.profile().clone();
         profile.cut(change.knots());

@@ -1,4 +1,4 @@
-//! K and M of the bat, sparse, as users export them and other solvers factor them.
+//! K and M of the bat as sparse matrices, for export and for solvers that factor them.
 
 use std::io::{self, Write};
 
@@ -11,9 +11,9 @@ use crate::beam::element::Element;
 use crate::beam::hermite::elements;
 use crate::beam::mesh::Mesh;
 
-/// Stiffness and mass in the unknowns `[w₀, θ₀, b…, w₁, θ₁, b…, …]`, free–free: deflection and
-/// slope of every node and, after those of its left node, the bubbles of an element of degree
-/// above 3 and, with shear, the shear strains.
+/// Stiffness and mass of a free bat in the unknowns `[w₀, θ₀, b…, w₁, θ₁, b…, …]`: deflection and slope of every node.
+/// The unknowns of an element follow those of its left node: the bubbles (degree above 3) and, with shear, the shear
+/// strains.
 ///
 /// Units: deflections in m, rotations in rad, bubbles (curvatures) in 1/m, shear strains in 1; `K`
 /// in N/m to N m³, `M` in kg to kg m⁴.
@@ -45,7 +45,7 @@ impl Pencil {
     }
 }
 
-/// Where the `width` unknowns `[w₁, θ₁, w₂, θ₂, b₂ …, g₀ …]` of element `e` stand among all.
+/// Indices of the `width` unknowns `[w₁, θ₁, w₂, θ₂, b₂ …, g₀ …]` of element `e` among all unknowns.
 pub fn places(width: usize, e: usize) -> Vec<usize> {
     let first = (width - 2) * e;
     let place = |i| match i {
@@ -56,7 +56,7 @@ pub fn places(width: usize, e: usize) -> Vec<usize> {
     (0..width).map(place).collect()
 }
 
-/// Adds a block, row after row, at those places.
+/// Adds a block, stored by rows, at those indices.
 fn scatter(into: &mut CooMatrix<f64>, places: &[usize], block: &[f64]) {
     for (i, row) in places.iter().zip(block.chunks_exact(places.len())) {
         for (j, value) in places.iter().zip(row) {

@@ -1,12 +1,12 @@
-//! One thing on the bat by itself: a point mass, a joint's spring, a contact.
+//! A single fixture on the bat: a point mass, the spring of a joint, a contact.
 //!
-//! A contact is anything that holds a deflection or a rotation: a support, a spring to ground, or
-//! one Legendre coefficient of the deflection over an elastic bed. It may give way by `√δ s`, `δ = U/k`
-//! in the unit of energy `U`, with a strain `s` of its own; a support has `δ = 0`.
+//! A contact is anything that holds a deflection or a rotation: a support, a spring to ground, or one Legendre
+//! coefficient of the deflection over an elastic bed. It may deflect by `√δ s`, where `s` is its strain and `δ = U/k` in
+//! the unit of energy `U`. A support has `δ = 0`.
 
 use crate::base::real::{Over, Real};
 
-/// A strain beside those of the elements.
+/// A strain in addition to those of the elements.
 #[derive(Debug, Clone, Copy)]
 pub struct Spring<S> {
     /// Index of the spring's strain among all strains.
@@ -22,24 +22,24 @@ pub struct PointMass<S> {
     pub arm: S,
     /// Mass of the point (kg).
     pub mass: S,
-    /// How far outwards of its place the centre of the mass is (m).
+    /// Distance from the fixing point to the centre of the mass, outwards (m).
     pub offset: S,
     /// Moment of inertia of the point mass about its own centre (kg m²).
     pub inertia: S,
-    /// What it hangs on; none where it sits on the bat.
+    /// The spring that it hangs on; `None` if it is fixed to the bat.
     pub spring: Option<Spring<S>>,
 }
 
-/// Something that holds.
+/// A contact, which holds a deflection or a rotation.
 #[derive(Debug, Clone, Copy)]
 pub struct Contact<S> {
-    /// Where it holds.
+    /// Where it acts.
     pub at: At,
-    /// Whether it holds the rotation, else the deflection.
+    /// Whether it holds the rotation; otherwise it holds the deflection.
     pub turning: bool,
-    /// 1, or −1 where outwards is towards the knob and a rotation changes its sign.
+    /// 1, or −1 if outwards is towards the knob and the contact holds a rotation.
     pub sign: S,
-    /// How it gives way, if it does.
+    /// Its spring; `None` if it is rigid.
     pub spring: Option<Spring<S>>,
 }
 
@@ -53,13 +53,13 @@ pub enum At {
 }
 
 impl<S: Real> PointMass<S> {
-    /// How far its mass and how far the bat turns, of a bat that is at `w` and `theta` here.
+    /// Displacement and rotation of the mass, for a bat with deflection `w` and rotation `theta` here.
     pub fn displaced<R: Over<S>>(&self, w: R, theta: R, strains: &[R]) -> [R; 2] {
         let own = self.spring.map_or(R::default(), |s| strains[s.place] * s.softness);
         [w + theta * self.offset + own, theta]
     }
 
-    /// Force and couple of its inertia on the bat.
+    /// Force and couple of its inertia on the bat, over ω².
     pub fn load<R: Over<S>>(&self, [moved, turned]: [R; 2]) -> [R; 2] {
         let force = moved * self.mass;
         [force, turned * self.inertia + force * self.offset]
@@ -67,12 +67,12 @@ impl<S: Real> PointMass<S> {
 }
 
 impl<S: Real> Contact<S> {
-    /// Whether it is a point of an elastic bed.
+    /// Whether it belongs to an elastic bed.
     pub fn in_a_bed(&self) -> bool {
         self.at == At::Bed
     }
 
-    /// Force and couple, outwards, that its reaction is for the bat.
+    /// Force and couple, outwards, of its reaction on the bat.
     pub fn on_the_bat<R: Over<S>>(&self, reaction: R) -> [R; 2] {
         match (self.at, self.turning) {
             (At::Bed, _) => [R::default(); 2],
@@ -94,7 +94,7 @@ mod tests {
         let moved = w + 0.1 * theta + 0.5 * 3.0;
         let displaced = mass.displaced(w, theta, &strains);
         assert_eq!(displaced, [moved, theta]);
-        // What the loads do on the motion is twice the kinetic energy over ω².
+        // The work of the loads on the motion is twice the kinetic energy over ω².
         let ([force, couple], lifted) = (mass.load(displaced), moved - 0.1 * theta);
         let energy = mass.mass * moved * moved + mass.inertia * theta * theta;
         assert!((force * lifted + couple * theta - energy).abs() < 1e-15);

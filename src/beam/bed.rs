@@ -1,30 +1,29 @@
-//! An elastic bed under one element, eliminated where it is.
+//! An elastic bed under one element, eliminated locally.
 //!
-//! It holds the Legendre coefficients of the element's deflection `c = H q + G u` by springs of softness
-//! σ (`Σ = σ²`), `u` the motion of the element's inner end; its forces are
+//! The bed holds the Legendre coefficients of the element's deflection, `c = H q + G u`, by springs of softness σ
+//! (`Σ = σ²`). Here `u` is the motion of the element's inner end. The bed's forces are
 //!
 //! ```text
 //! t = (Σ + H Hᵀ)⁻¹ (H q + G u − H Bᵀ λ)
 //! ```
 //!
-//! with `λ` what the outer end carries, `B` what strains add there.
+//! where `λ` is the load at the outer end and `B` gives what strains add to the motion there.
 
 use crate::base::real::{Over, Real};
 use crate::beam::footing::{
     Crossing, Footing, Given, Meeting, Rest, Span, product, sums, two_springs,
 };
 
-/// What an elastic bed is made of.
+/// The springs of an elastic bed.
 #[derive(Debug, Clone)]
 pub struct Under<S> {
     /// Number of the bed's first contact.
     pub contact: usize,
-    /// The place of its first strain.
+    /// Index of its first strain.
     pub place: usize,
-    /// How far each of its springs is drawn out by a strain of 1.
+    /// Extension of each spring for a strain of 1.
     pub softness: Vec<S>,
-    /// What each of them holds: rows over the strains, `H`, and over deflection and rotation at the inner
-    /// end, `G`.
+    /// The rows of each spring: `H` over the strains, and `G` over deflection and rotation at the inner end.
     pub rows: Vec<S>,
 }
 
@@ -40,13 +39,13 @@ pub struct Bed<S> {
     outer: Vec<[S; 2]>,
     by_motion: Vec<[S; 2]>,
     by_force: Vec<[S; 2]>,
-    /// The bed as two springs at the inner end, `k`, `l` and `r`.
+    /// The bed as two springs at the inner end, `[k, l, r]`.
     own: [S; 3],
     meeting: Meeting<S>,
 }
 
 impl<S: Real> Bed<S> {
-    /// The bed under an element beyond which is that footing; the footing at the inner end.
+    /// The bed under an element whose outer end rests on `footing`; also returns the footing at the inner end.
     pub fn new(span: Span<S>, under: Under<S>, footing: Footing) -> (Self, Footing) {
         let (n, lower) = (span.adds.len(), factor(&under, span.adds.len()));
         let rows = || under.rows.chunks_exact(n + 2);
@@ -66,7 +65,7 @@ impl<S: Real> Bed<S> {
         let taken = product(&outer, &by_force);
         let compliance: [f64; 3] = std::array::from_fn(|i| bare[i] - taken[i]);
         let compliance = [compliance[0].max(0.0), compliance[1], compliance[2].max(0.0)];
-        // How a motion of the inner end moves the outer end.
+        // Motion of the outer end for a motion of the inner end.
         let moved = |out: usize, inner: usize| -> f64 {
             let parts = outer.iter().zip(&by_motion);
             parts.map(|(o, m)| o[out].lane(0) * m[inner].lane(0)).sum()
@@ -80,13 +79,13 @@ impl<S: Real> Bed<S> {
         (bed, footing)
     }
 
-    /// Every spring's row over the strains, deflection and rotation at the inner end.
+    /// Every spring's row over the strains and over deflection and rotation at the inner end.
     fn rows(&self) -> impl Iterator<Item = &[S]> {
         self.under.rows.chunks_exact(self.crossing.adds.len() + 2)
     }
 
-    /// Where the springs are at rest on the inner side, from where they are on the outer; leaves what
-    /// [`Self::outwards`] needs.
+    /// The rest positions at the inner side, from those at the outer side. Leaves in `trace` what [`Self::outwards`]
+    /// needs.
     pub fn inwards<R: Over<S>>(
         &self,
         rest: Rest<R>,
@@ -114,8 +113,8 @@ impl<S: Real> Bed<S> {
         rest
     }
 
-    /// Takes out of the strains what the forces at the inner end and the bed's own make; the forces at
-    /// the outer end.
+    /// Subtracts from the strains the effect of the forces at the inner end and of the bed. Returns the forces at the
+    /// outer end.
     pub fn outwards<R: Over<S>>(
         &self,
         [push, turn]: [R; 2],
@@ -175,7 +174,7 @@ fn factor<S: Real>(under: &Under<S>, n: usize) -> Vec<S> {
             let entry = products.sum::<f64>() - (0..j).map(known).sum::<f64>();
             let own = under.softness[i].lane(0).powi(2);
             lower[i * count + j] = match i == j {
-                // A pivot is at least as large as the springs' own flexibility.
+                // A pivot is at least the springs' own flexibility.
                 true => (entry + own).max(own).sqrt(),
                 false => entry / lower[j * count + j],
             };
@@ -204,7 +203,7 @@ mod tests {
 
     #[test]
     fn the_factor_solves_what_it_is_the_factor_of() {
-        // Rows of two strains, and the columns of the inner end, which do not count here.
+        // Rows of two strains, and the columns of the inner end, which are not used here.
         let rows = vec![1.0, 2.0, 9.0, 9.0, -1.0, 0.5, 9.0, 9.0, 0.3, 0.1, 9.0, 9.0];
         let softness = vec![0.5_f64, 1.0, 2.0];
         let under = Under { contact: 0, place: 0, softness, rows };

@@ -1,8 +1,8 @@
-//! How far may the shape of a motion be off: the deflection that its own inertia makes, less its own.
+//! How far may the shape of a motion be off? The difference is the deflection due to its own inertia less its
+//! deflection.
 //!
-//! The differences of the strains that [`Motion::take_defect`] leaves are integrated outwards, and the
-//! rigid motions that nothing holds are taken out, so that the change carries no momentum and moves no
-//! contact.
+//! The differences of the strains that [`Motion::take_defect`] leaves are integrated outwards. The free rigid motions
+//! are then removed, so that the change carries no momentum and moves no contact.
 
 use crate::base::real::{Over, Real};
 use crate::beam::holds::Given;
@@ -13,19 +13,19 @@ use crate::beam::sweep::{Loads, Rigid};
 use crate::beam::view::{Located, View};
 use crate::beam::walk::{Run, What};
 
-/// How closely a motion is looked at.
+/// How much is computed of a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Depth {
     /// Shape and energies of the motion.
     Shape,
     /// Shape, energies and defect.
     Defect,
-    /// Shape, energies, defect, and how far the shape may be off.
+    /// Shape, energies, defect, and the error of the shape.
     Changes,
 }
 
-/// A change on its way outwards: deflection and rotation so far, force and moment about the balance point
-/// of their inertia over ω²; memory for one cell.
+/// A change during the pass outwards: deflection and rotation so far, force and moment of their inertia over ω² about
+/// the balance point; memory for one cell.
 struct RunningChange<R> {
     w: R,
     theta: R,
@@ -36,7 +36,7 @@ struct RunningChange<R> {
 }
 
 impl<R: Real> Motion<R> {
-    /// As [`Self::take`], as closely as wanted.
+    /// As [`Self::take`], to the given depth.
     #[inline(always)]
     pub fn look<S: Real>(
         &mut self,
@@ -59,7 +59,7 @@ impl<R: Real> Motion<R> {
         }
     }
 
-    /// Leaves out what [`Self::take_changes`] would find.
+    /// Clears what [`Self::take_changes`] would compute.
     #[inline(always)]
     fn no_changes<S: Real>(&mut self, view: &View<S>) {
         self.changes.clear();
@@ -69,7 +69,7 @@ impl<R: Real> Motion<R> {
         self.work = R::default();
     }
 
-    /// The strains' differences at the points become `w − w*`, the rigid motions taken out.
+    /// Turns the differences of the strains at the points into `w − w*`, with the rigid motions removed.
     #[inline(always)]
     fn take_changes<S: Real>(&mut self, view: &View<S>)
     where
@@ -91,8 +91,8 @@ impl<R: Real> Motion<R> {
         }
     }
 
-    /// Differences of the strains outwards to those of the deflection, with the root at rest, and the
-    /// displacements of the contacts; force and moment about the balance point of their inertia.
+    /// Integrates the differences of the strains outwards to differences of the deflection, with the root at rest, and
+    /// to displacements of the contacts. Returns force and moment of their inertia about the balance point.
     #[inline(always)]
     fn integrate<S: Real>(&mut self, view: &View<S>, side: usize, held: &mut [R]) -> [R; 2]
     where
@@ -135,7 +135,7 @@ impl<R: Real> Motion<R> {
         [way.force, way.moment]
     }
 
-    /// One cell on the way outwards.
+    /// One cell of the pass outwards.
     #[inline(always)]
     fn integrate_cell<S: Real>(
         &mut self,
@@ -180,7 +180,7 @@ impl<R: Real> Motion<R> {
         way.theta += turned * h;
     }
 
-    /// The rigid motion in a change that carries that force and moment and moves the contacts so far.
+    /// The rigid motion in a change that carries that force and moment and moves the contacts by `held`.
     #[inline(always)]
     fn rigid_change<S: Real>(&self, view: &View<S>, total: [R; 2], held: &mut [R]) -> Rigid<R>
     where
@@ -200,8 +200,7 @@ impl<R: Real> Motion<R> {
         Rigid { push: first.push + free.push, turn: first.turn + free.turn }
     }
 
-    /// Takes a rigid motion out of the change of one side, and adds the side's part of
-    /// [`Self::work`].
+    /// Removes a rigid motion from the change of one side, and adds the side's part of [`Self::work`].
     #[inline(always)]
     fn take_out<S: Real>(&mut self, view: &View<S>, rigid: Rigid<R>, side: usize)
     where
@@ -236,15 +235,15 @@ impl<R: Real> Motion<R> {
             let lift = rigid.deflection(point.arm + point.offset);
             let [push, couple] = point.load([moved - lift, turned - rigid.turn]);
             let [at, turn] = self.points[k];
-            // The force acts at the centre of the mass, `offset` beyond its own place.
+            // The force acts at the centre of the mass, `offset` beyond the fixing point.
             self.work += push * at + (couple - push * point.offset) * turn;
         }
     }
 }
 
 impl Motion<f64> {
-    /// One motion alone, for large meshes, few calls and bats with anything on them: scaled strains in
-    /// `known`, one motion after the other, are slower modes, whose round-off is taken out.
+    /// Computes one motion by itself, for large meshes, few calls and bats with any fixtures. `known` holds the scaled
+    /// strains of slower modes, one after the other; their round-off is removed.
     pub fn take_alone<const N: usize, const W: usize>(
         &mut self,
         statics: &Statics<f64, N, W>,
@@ -259,7 +258,7 @@ impl Motion<f64> {
         self.look_alone(&statics.view(), rigid, q, known, depth);
     }
 
-    /// [`Self::look`], compiled once.
+    /// The body of [`Self::look`], compiled once.
     fn look_alone(
         &mut self,
         view: &View<f64>,

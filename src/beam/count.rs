@@ -1,12 +1,11 @@
-//! How many motions are slower than a given one: none can be missing from a list that has as many.
+//! How many modes are slower than a given frequency? A list with that many entries is complete.
 //!
-//! The number of eigenvalues below σ is that of the negative pivots of `K − σM` (Sylvester's law of
-//! inertia). Each side is eliminated inwards from its free end: what lies beyond a border is a
-//! quadratic form in its deflection and rotation, to which a cell adds its own, in its strains, and
-//! hands on what is left when they are eliminated. Strains keep the pivots near 1 and nothing large
-//! is subtracted, whatever the number of elements. A contact enters as its reaction `t`, with `t
-//! (a·u) − ½ δ t²`, so that no stiffness is ever multiplied; every such reaction adds one negative
-//! pivot of its own.
+//! The number of eigenvalues below σ equals the number of negative pivots of `K − σM` (Sylvester's law of inertia).
+//! Each side is eliminated inwards from its free end. The part beyond a border is a quadratic form in the border's
+//! deflection and rotation. A cell adds its own form, in its strains, and the rest is handed on after these are
+//! eliminated. Working in strains keeps the pivots near 1, and nothing large is subtracted, whatever the number of
+//! elements. A contact enters through its reaction `t`, as `t (a·u) − ½ δ t²`, so that no stiffness is ever multiplied.
+//! Each such reaction adds one negative pivot.
 //!
 //! # Source
 //!
@@ -24,11 +23,11 @@ use crate::beam::placed::Placed;
 use crate::beam::view::View;
 use crate::beam::walk::{Run, What};
 
-/// A symmetric form in unknowns of which the last two are deflection and rotation.
+/// A symmetric form whose last two unknowns are deflection and rotation.
 #[derive(Debug, Clone, Default)]
 struct Form<R> {
     size: usize,
-    /// Row after row; what is above the diagonal may be out of date while unknowns are eliminated.
+    /// Rows one after the other; the upper triangle may be out of date while unknowns are eliminated.
     values: Vec<R>,
     /// The column of a pivot.
     column: Vec<R>,
@@ -50,20 +49,20 @@ impl<R> IndexMut<(usize, usize)> for Form<R> {
     }
 }
 
-/// How many motions of the bat, rigid ones included, are slower than `omega` (rad/s); none if a pivot was
-/// too small to tell.
+/// Number of modes of the bat, rigid ones included, slower than `omega` (rad/s); `None` if a pivot was too small to
+/// decide.
 pub fn slower(view: &View<f64>, omega: f64) -> Option<usize> {
     slower_each(view, omega).filter(|count| *count >= 0.0).map(|count| count as usize)
 }
 
-/// As [`slower`], of the bat in every lane; of several bats NaN where a pivot was too small to tell.
+/// As [`slower`] for the bat in every lane; with several bats, NaN where a pivot was too small to decide.
 #[inline(always)]
 pub fn slower_each<R: Real>(view: &View<R>, omega: R) -> Option<R> {
     let tau = omega * omega / view.energy_unit;
     let mut count = R::default();
     let [knob, tip] = [0, 1].map(|side| inwards(view, side, tau, &mut count));
     let (mut knob, tip) = (knob?, tip?);
-    // Outwards on the knob side a rotation has the other sign.
+    // On the knob side, a rotation counted outwards has the other sign.
     let last = knob.size - 1;
     for i in 0..=last {
         knob[(i, last)] = -knob[(i, last)];
@@ -99,14 +98,14 @@ impl<R: Real> Form<R> {
         form
     }
 
-    /// So many unknowns and nothing in them.
+    /// Resets to this number of unknowns and zero values.
     fn clear(&mut self, size: usize) {
         self.size = size;
         self.values.clear();
         self.values.resize(size * size, R::default());
     }
 
-    /// One unknown more, the first.
+    /// Inserts one more unknown at the front.
     fn extend(&mut self) {
         let mut larger = Self::new(self.size + 1);
         for i in 0..self.size {
@@ -126,7 +125,7 @@ impl<R: Real> Form<R> {
         }
     }
 
-    /// Adds what stands at this border.
+    /// Adds the fixture at this border.
     fn meet(&mut self, placed: &Placed<R>, what: What, tau: R) {
         let one = R::splat(1.0);
         match what {
@@ -147,7 +146,7 @@ impl<R: Real> Form<R> {
             What::Joint(k) => {
                 let softness = placed.joints[k].softness;
                 self.extend();
-                // The rotation beyond is the one here and that of the joint.
+                // The rotation beyond the joint is the one here plus the joint's angle.
                 let last = self.size - 1;
                 for j in 1..=last {
                     let turned = softness * self[(last, j)];
@@ -170,8 +169,8 @@ impl<R: Real> Form<R> {
         }
     }
 
-    /// The form at the inner end of a cell, its strains and what was left not yet eliminated: the
-    /// strains, then the unknowns of this form, then deflection and rotation. Below the diagonal.
+    /// The form at the inner end of a cell before elimination: the cell's strains, then the unknowns of this form, then
+    /// deflection and rotation. Only the lower triangle.
     #[inline(always)]
     fn behind(&self, view: &View<R>, k: usize, tau: R, form: &mut Self) {
         let (zero, one) = (R::default(), R::splat(1.0));
@@ -227,7 +226,7 @@ impl<R: Real> Form<R> {
         }
     }
 
-    /// Two sides' forms in one, with the same deflection and rotation.
+    /// The sum of the forms of both sides, which share deflection and rotation.
     fn beside(self, other: Self) -> Self {
         let (own, others) = (self.size - 2, other.size - 2);
         let mut form = Self::new(own + others + 2);
@@ -242,19 +241,19 @@ impl<R: Real> Form<R> {
         form
     }
 
-    /// What is above the diagonal from what is below, beyond the first unknowns.
+    /// Copies the lower triangle to the upper one beyond the first unknowns.
     fn mirror(&mut self, first: usize) {
         for i in first..self.size {
             (i + 1..self.size).for_each(|j| self[(i, j)] = self[(j, i)]);
         }
     }
 
-    /// Eliminates all unknowns but the last `kept` and returns how many pivots were negative.
+    /// Eliminates all unknowns but the last `kept`; returns the number of negative pivots.
     #[inline(always)]
     fn eliminate(&mut self, kept: usize) -> Option<R> {
-        // A pivot in its turn that is not small beside what it couples it to is good enough; the
-        // kept unknowns have a unit of their own. Side by side there is no other turn: a small pivot
-        // costs digits, of which a count asks for few.
+        // A pivot in sequence is good enough unless it is small compared with its coupling; the kept unknowns have
+        // other units. Several bats side by side must take the same sequence: a small pivot then costs digits, and a
+        // count needs few.
         const SMALL: f64 = 0.1;
         const SMALL_TOGETHER: f64 = 1e-7;
         let small = R::splat(if R::LANES == 1 { SMALL } else { SMALL_TOGETHER });
@@ -277,7 +276,7 @@ impl<R: Real> Form<R> {
                         continue;
                     }
                 }
-                // Of a bat beside others nothing is known then, and of these as much as before.
+                // A bat in a batch then has no result; the others keep theirs.
                 for lane in 0..R::LANES {
                     let least = (small * largest).lane(lane);
                     if R::LANES > 1 && self[(first, first)].lane(lane).abs() < least {
@@ -308,7 +307,7 @@ impl<R: Real> Form<R> {
         Some(negative)
     }
 
-    /// The next pivot: one place on the diagonal, or two that belong together.
+    /// The next pivot: one diagonal entry, or two that belong together.
     fn pivot(&self, first: usize, end: usize) -> Option<(usize, usize)> {
         // Bunch and Parlett's bound.
         const ALPHA: f64 = 0.640_388_203_202_208;
@@ -323,7 +322,7 @@ impl<R: Real> Form<R> {
         }
     }
 
-    /// Exchanges two unknowns of a form that is up to date above the diagonal too.
+    /// Exchanges two unknowns of a form whose upper triangle is up to date.
     fn exchange(&mut self, a: usize, b: usize) {
         for i in 0..self.size {
             self.values.swap(a * self.size + i, b * self.size + i);
@@ -333,7 +332,7 @@ impl<R: Real> Form<R> {
         }
     }
 
-    /// Eliminates two unknowns of one bat together: one pivot of each sign.
+    /// Eliminates two unknowns of one bat together; they give one pivot of each sign.
     fn eliminate_two(&mut self, first: usize) -> Option<()> {
         let row = |i: usize| -> Vec<f64> {
             self.values[i * self.size..][..self.size].iter().map(|v| v.lane(0)).collect()

@@ -1,25 +1,22 @@
-//! How far is a motion from a mode, by its own defect?
+//! How far is a motion from being a mode? Its own defect tells.
 //!
-//! A mode of the exact beam is the deflection that its own inertia makes. The inertia of a computed
-//! mode makes bending moments that statics gives exactly, `M″ = ω²ρA w` from the free ends (`M′ =
-//! −Q − ω²ρI θ` with rotary inertia), and these make the curvature `w*″ = M/EI`. The computed
-//! curvature w″ differs, because it is a polynomial in every element and because the eigensolve
-//! stops somewhere, and
+//! A mode of the exact beam equals the deflection due to its own inertia. The inertia of a computed mode causes bending
+//! moments that statics gives exactly: `M″ = ω²ρA w` from the free ends (`M′ = −Q − ω²ρI θ` with rotary inertia). These
+//! cause the curvature `w*″ = M/EI`. The computed curvature w″ differs, because it is a polynomial in every element and
+//! because the eigensolver stops at a finite accuracy. The defect is
 //!
 //! ```text
 //! η = ∫EI (w″ − w*″)² dx / ∫EI w″² dx = Σ_j c_j² (λ − λ_j)²/(λ λ_j)
 //! ```
 //!
-//! (and, of a beam that shears, `∫κGA (γ − γ*)² dx` with `γ* = Q/κGA` in the numerator, `∫κGA γ²
-//! dx` in the denominator, and likewise for every spring and joint), with `c_j` the share of the
-//! exact mode `j` in the computed one (`Σ c_j² = 1`, λ = ω²). The error of Rayleigh's quotient is
-//! `Σ c_j² (λ_j − λ_k)/λ`: the same sum but for a factor `1 − λ/λ_j`, which is 1 for the fast modes
-//! that a mesh cannot hold. So `η/2` is the relative error of the frequency, from the answer itself
-//! and no second mesh, thin ends included.
+//! For a beam that shears, add `∫κGA (γ − γ*)² dx` with `γ* = Q/κGA` to the numerator and `∫κGA γ² dx` to the
+//! denominator, and likewise for every spring and joint. `c_j` is the share of the exact mode `j` in the computed one
+//! (`Σ c_j² = 1`, λ = ω²). The error of Rayleigh's quotient is `Σ c_j² (λ_j − λ_k)/λ`: the same sum but for a factor
+//! `1 − λ/λ_j`, which is 1 for the fast modes that a mesh cannot represent. So `η/2` is the relative error of the
+//! frequency. It follows from the answer itself without a second mesh, also with thin ends.
 //!
-//! On an element over stations EI, ρA and 1/EI are each a polynomial that has the true one's moments, and
-//! the square is `EI w″² − 2 w″ M + M²/EI`: what the polynomials do not follow at the stations is in the
-//! last term, and is counted.
+//! On an element over stations, EI, ρA and 1/EI are polynomials with the moments of the true functions, and the
+//! integrand is `EI w″² − 2 w″ M + M²/EI`. The last term counts what the polynomials do not follow at the stations.
 //!
 //! # Source
 //!
@@ -39,13 +36,13 @@ use crate::beam::walk::{Run, What};
 /// Memory for the numbers of one cell.
 struct OneCell<R> {
     strains: [R; MOST_STRAINS],
-    /// Loads once and twice integrated from the right.
+    /// Loads, integrated once and twice from the right.
     once: [R; MOST_POINTS],
     twice: [R; MOST_POINTS],
     values: [R; MOST_POINTS],
 }
 
-/// What the loads outwards of a place carry.
+/// Shear force and moment of the loads outwards of a place.
 #[derive(Clone, Copy, Default)]
 struct Carried<R> {
     shear: RunningSum<R>,
@@ -53,8 +50,8 @@ struct Carried<R> {
 }
 
 impl<R: Real> Motion<R> {
-    /// After [`Self::take`] with these scaled strains, how far the motion is from a mode; leaves the
-    /// differences of the strains at the points.
+    /// Computes the defect of the motion after [`Self::take`] with these scaled strains. Leaves the differences of the
+    /// strains at the points.
     #[inline(always)]
     pub fn take_defect<S: Real>(&mut self, view: &View<S>, q: &[R])
     where
@@ -71,14 +68,14 @@ impl<R: Real> Motion<R> {
             *defect = *defect * scale;
             self.defect += *defect;
         }
-        // Springs and joints; the strain of one that does not give way is 0.
+        // Springs and joints; the strain of a rigid one is 0.
         if let Some(missed) = self.image.get(view.strains * view.count..) {
             self.defect += dot(missed, missed) / self.strain;
         }
     }
 
-    /// Bending moments inwards from the free end under the loads, and the other strains that they
-    /// make: leaves the differences at the points and their energy in every cell.
+    /// Bending moments under the loads, inwards from the free end, and the other strains that follow from them. Leaves
+    /// the differences at the points and their energy in every cell.
     #[inline(always)]
     fn inwards<S: Real>(&mut self, view: &View<S>, q: &[R], lambda: R, side: usize)
     where
@@ -108,7 +105,7 @@ impl<R: Real> Motion<R> {
         }
     }
 
-    /// One cell on the way inwards: the differences at its points and their energy.
+    /// One cell of the pass inwards: the differences at its points and their energy.
     #[inline(always)]
     fn cross<S: Real>(
         &mut self,
@@ -156,7 +153,7 @@ impl<R: Real> Motion<R> {
         self.defects[at.number] = energy;
     }
 
-    /// Takes what an elastic bed under a cell carries off the cell's loads.
+    /// Subtracts from a cell's loads the part that an elastic bed under the cell carries.
     #[inline(always)]
     fn take_off_bed<S: Real>(
         &mut self,
@@ -167,7 +164,7 @@ impl<R: Real> Motion<R> {
         R: Over<S>,
     {
         let Some(bed) = view.bed(at.number) else { return };
-        // Its reactions t are those of the line load `Σ (2k + 1) t_k P_k / h`.
+        // Its reactions t are equivalent to the line load `Σ (2k + 1) t_k P_k / h`.
         let mut load = [R::default(); MOST_TERMS];
         for (term, (load, t)) in load.iter_mut().zip(&self.reactions[bed]).enumerate() {
             *load = *t * (S::splat((2 * term + 1) as f64) / at.cell.length);
@@ -177,8 +174,8 @@ impl<R: Real> Motion<R> {
         loads.zip(values).for_each(|(v, load)| *v -= *load);
     }
 
-    /// The differences of the shear strains of one cell, whose loads are once integrated, at its points;
-    /// their energy.
+    /// The differences of the shear strains of one cell at its points, from its loads integrated once. Returns their
+    /// energy.
     #[inline(always)]
     fn slip<S: Real>(
         &mut self,
@@ -208,8 +205,8 @@ impl<R: Real> Motion<R> {
     }
 }
 
-/// A strain less that of a stress, and the square of that in the stiffness; 1/stiffness is a number of
-/// its own where the points stand for polynomials over stations.
+/// A strain less that of a stress, and the energy of this difference. 1/stiffness is a separate number where the points
+/// represent polynomials over stations.
 #[inline(always)]
 fn difference<S: Real, R: Over<S>>(
     strain: R,

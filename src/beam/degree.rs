@@ -1,9 +1,9 @@
-//! From a degree and a theory, known when the program runs, to code compiled for them.
+//! From a degree and a theory, known at run time, to code compiled for them.
 
 use crate::bat::theory::Theory;
 use crate::beam::mesh::Mesh;
 
-/// What a bat is divided into, and what is known of the parts.
+/// Mesh, degree and theory of a bat's elements.
 #[derive(Debug, Clone, Copy)]
 pub struct Elements<'a> {
     /// Where they are.
@@ -14,17 +14,17 @@ pub struct Elements<'a> {
     pub theory: Theory,
 }
 
-/// Work on elements of a degree that is known when it is compiled.
+/// Work on elements whose degree is a constant in the code.
 pub trait OfDegree {
-    /// What it gives.
+    /// Its result.
     type Output;
 
-    /// Does it: a deflection has N coefficients, an element W − 2 strains.
+    /// Does the work: a deflection has N coefficients, an element W − 2 strains.
     fn with<const N: usize, const W: usize>(self) -> Self::Output;
 }
 
-/// Does the work on elements whose deflection is of that degree, 3 to 12: `N = p + 1` coefficients, and
-/// `p − 1` strains, twice as many with shear.
+/// Does the work on elements with a deflection of that degree, 3 to 12: `N = p + 1` coefficients and `p − 1` strains,
+/// or twice as many with shear.
 pub fn of_degree<T: OfDegree>(degree: usize, theory: Theory, work: T) -> T::Output {
     match (theory.shears(), degree) {
         (false, 3) => work.with::<4, 4>(),

@@ -1,6 +1,6 @@
 //! What does a uniform beam do, in closed form?
 //!
-//! The yardstick for everything computed: [`Dowel::frequency`], [`UniformMode::new`], [`beta_l`].
+//! The reference for all computed results: [`Dowel::frequency`], [`UniformMode::new`], [`beta_l`].
 //!
 //! Euler–Bernoulli bending, `EI w⁗ = ω² ρA w`. With `X = x/L` and `b = βL` the modes are
 //!
@@ -86,7 +86,7 @@ pub struct UniformMode {
     cosine: f64,
     sine: f64,
     ends_near: f64,
-    /// Seen from the far end: the sign of the shape and the exponentials' factor.
+    /// Seen from the far end: the sign of the shape, and the factor of the exponentials.
     far: (f64, f64),
 }
 
@@ -150,7 +150,7 @@ impl UniformMode {
 
     /// The interior zeros of `W`, rising, each to a few units in the last place.
     pub fn nodes(&self) -> Vec<f64> {
-        // Ten looks per half wave; an odd count, so that the middle is never one of them.
+        // Ten samples per half wave; an odd number, so that none falls on the middle.
         let looks = 10 * (self.order + 2) + 1;
         let at = |i: usize| i as f64 / looks as f64;
         (1..looks - 1)
@@ -165,7 +165,7 @@ impl UniformMode {
         if ends > 1.0 {
             return ends;
         }
-        // Held at both ends: the antinode nearest the clamp, before the first node, is the highest.
+        // If both ends are held, the antinode nearest the clamp, before the first node, is the highest.
         let until = self.nodes().first().copied().unwrap_or(0.99);
         self.deflection(bisect(|x| self.slope(x), 0.01 * until, until)).abs()
     }
@@ -253,8 +253,8 @@ mod tests {
         }
     }
 
-    /// The report's dowel with its density in consistent units: 33 in, radius 0.83885 in,
-    /// 2.02e6 psi, 0.0257 lb/in³.
+    /// The dowel of the WPI report with its density in consistent units: 33 in, radius 0.83885 in, 2.02e6 psi, 0.0257
+    /// lb/in³.
     #[test]
     fn the_report_s_dowel_rings_at_239_hz() {
         let (inch, pound) = (0.0254, 0.453_592_37);

@@ -1,18 +1,17 @@
-//! What one element stores: strain energy and kinetic energy of a deflection of degree p.
+//! What does one element store? Strain energy and kinetic energy of a deflection of degree p.
 //!
-//! On an element of length `h`, with ξ from −1 to 1 and `P_j` the Legendre polynomials, the
-//! unknowns are strains: the curvature is `θ′ = Σ c_j P_j` and, of a beam that shears, the shear
-//! strain `w′ − θ = Σ g_j P_j`, `j = 0 … p−2` for both. Rotation and deflection follow by
-//! integration from the left end,
+//! On an element of length `h`, with ξ from −1 to 1 and `P_j` the Legendre polynomials, the unknowns are strains. The
+//! curvature is `θ′ = Σ c_j P_j`. In a beam that shears, the shear strain is `w′ − θ = Σ g_j P_j`, also with
+//! `j = 0 … p−2`. Rotation and deflection follow by integration from the left end,
 //!
 //! ```text
 //! θ = θₗ + (h/2) Σ c_j ∫P_j,   w = wₗ + (h/2) ∫(θ + Σ g_j P_j),   ∫P_j = (P_{j+1} − P_{j−1})/(2j + 1).
 //! ```
 //!
-//! Without shear that is the Hermite space of degree p seen from its strains, and it is the limit
-//! of the other for G → ∞: a strain that costs much is small, and nothing else changes, so that a
-//! slender beam neither locks nor loses digits. [`Element::hermite`] gives the usual matrices of
-//! `[w₁, θ₁, w₂, θ₂]` and of the bubbles between, as a change of basis of the same blocks.
+//! Without shear this is the Hermite space of degree p in terms of strains. It is the limit of the space with shear for
+//! G → ∞: the shear strains become small and nothing else changes, so a slender beam neither locks nor loses digits.
+//! [`Element::hermite`] gives the usual matrices of `[w₁, θ₁, w₂, θ₂]` and of the bubbles between, as a change of basis
+//! of the same blocks.
 //!
 //! `N = p + 1` is the number of Legendre polynomials in a deflection, `N − 2` the number of
 //! coefficients of a strain, `W` the number of all strains of an element plus 2: `N` without shear,
@@ -37,11 +36,11 @@ pub struct Element<R, const N: usize, const W: usize> {
     pub stiffness: Matrix<R, N>,
     /// Mass `∫ρA P_k P_l dx` (kg).
     pub mass: Matrix<R, N>,
-    /// What the Euler–Bernoulli beam does not have.
+    /// Rotary inertia and shear; `None` for the Euler–Bernoulli beam.
     pub beyond: Option<Beyond<R, N>>,
 }
 
-/// What the sections' rotary inertia and shear add to an element.
+/// The contribution of rotary inertia and shear to an element.
 #[derive(Debug, Clone, Copy)]
 pub struct Beyond<R, const N: usize> {
     /// Mass of the rotation `∫ρI P_k P_l dx` (kg m²), `k, l < N − 1`.
@@ -50,8 +49,8 @@ pub struct Beyond<R, const N: usize> {
     pub shear: Matrix<R, N>,
 }
 
-/// What sections are worth at the points of the rule, one list for each number; the last two are
-/// empty where the theory does not ask for them.
+/// Stiffness and mass of the sections at the points of the rule, one list for each number; the last two are empty if
+/// the theory does not need them.
 #[derive(Debug, Clone, Copy)]
 pub struct Samples<'a, R> {
     /// EI (N m²).
@@ -68,7 +67,7 @@ pub struct Samples<'a, R> {
 pub const MOST_TERMS: usize = 13;
 /// Room for the strains of an element of any degree and theory.
 pub const MOST_STRAINS: usize = 2 * MOST_TERMS - 4;
-/// Room for these and the deflection and rotation at its inner end.
+/// Room for these plus the deflection and rotation at the inner end.
 pub const MOST_WIDTH: usize = MOST_STRAINS + 2;
 
 /// `1/(2k + 1)`.
@@ -82,8 +81,8 @@ const ODD: [f64; 16] = {
     odd
 };
 
-/// Deflection (m) and rotation (rad) in Legendre polynomials of an element of length `h` with those
-/// strains, curvature before shear, whose left end is at `w` with rotation `theta`.
+/// Legendre coefficients of deflection (m) and rotation (rad) of an element of length `h` with those strains, curvature
+/// before shear, whose left end has deflection `w` and rotation `theta`.
 #[inline(always)]
 pub fn integrated<S: Real, R: Over<S>>(
     h: S,
@@ -112,8 +111,8 @@ pub fn integrated<S: Real, R: Over<S>>(
     }
 }
 
-/// The adjoint of [`integrated`] for its deflection: what loads on the Legendre polynomials are on
-/// the strains and, in the last two places, on `w` and `theta`.
+/// The adjoint of [`integrated`] for its deflection: turns loads on the Legendre polynomials into loads on the strains
+/// and, in the last two places, on `w` and `theta`.
 #[inline(always)]
 pub fn on_strains<R: Real>(h: R, load: &[R], on: &mut [R]) {
     let half = R::splat(0.5) * h;
@@ -130,8 +129,8 @@ pub fn on_strains<R: Real>(h: R, load: &[R], on: &mut [R]) {
     on[w - 2] = load[0];
 }
 
-/// The adjoint of [`integrated`] for its rotation: what couples on the Legendre polynomials are on the
-/// strains and, in the last place, on `theta`.
+/// The adjoint of [`integrated`] for its rotation: turns couples on the Legendre polynomials into loads on the strains
+/// and, in the last place, on `theta`.
 #[inline(always)]
 pub fn turning_on_strains<R: Real>(h: R, load: &[R], on: &mut [R]) {
     let half = R::splat(0.5) * h;
@@ -161,7 +160,7 @@ fn add_square<R: Real, const N: usize>(
 }
 
 impl<R: Real, const N: usize, const W: usize> Element<R, N, W> {
-    /// The energies from what the sections are worth at the points of the rule.
+    /// The energies, from the sections at the points of the rule.
     #[inline(always)]
     pub fn new(length: R, middle: R, rule: &Rule, samples: Samples<R>) -> Self {
         let zero = [[R::default(); N]; N];
@@ -177,8 +176,8 @@ impl<R: Real, const N: usize, const W: usize> Element<R, N, W> {
         Self { length, middle, stiffness, mass, beyond }
     }
 
-    /// Writes `L⁻¹`, lower triangular in blocks of curvature and shear, of the stiffness `D = L Lᵀ`
-    /// in that unit of energy.
+    /// Writes `L⁻¹` of the stiffness `D = L Lᵀ` in that unit of energy: lower triangular, in blocks of curvature and
+    /// shear.
     #[inline(always)]
     pub fn invert_factor(&self, unit: R, inverse: &mut Matrix<R, W>) {
         invert_factor::<R, N, W>(&self.stiffness, unit, inverse, 0);
@@ -187,7 +186,7 @@ impl<R: Real, const N: usize, const W: usize> Element<R, N, W> {
         }
     }
 
-    /// Writes the element as the running sums use it, in strains scaled by that `L⁻¹`.
+    /// Writes the element in the form of the running sums, in strains scaled by that `L⁻¹`.
     #[inline(always)]
     pub fn connect(&self, inverse: &Matrix<R, W>, link: &mut Link<R, W>) {
         let (n, h) = (N - 2, self.length);
@@ -208,7 +207,7 @@ impl<R: Real, const N: usize, const W: usize> Element<R, N, W> {
         if let Some(beyond) = &self.beyond {
             beyond.add(h, &mut columns);
         }
-        // Scaled from the left, row by row, then from the right.
+        // Scales from the left, row by row, then from the right.
         let mut left = columns;
         for i in 0..W - 2 {
             left[i] = [zero; W];
@@ -314,16 +313,16 @@ impl<R: Real, const N: usize> Beyond<R, N> {
     }
 }
 
-/// One element as the running sums use it: its kinetic energy in its scaled strains `q` and the
-/// deflection and rotation `(w, θ)` at its inner end, and how far these carry its outer end.
+/// One element in the form of the running sums: its kinetic energy in its scaled strains `q` and the deflection and
+/// rotation `(w, θ)` at its inner end, and the motion of its outer end.
 #[derive(Debug, Clone, Copy)]
 pub struct Link<R, const W: usize> {
     /// Mass matrix of `(q₀ … q_{W−3}, w, θ)`.
     pub mass: Matrix<R, W>,
-    /// What its strains add to the deflection at the outer end, `w_out = w + h θ + lift·q` (m); the
-    /// last two places are not used.
+    /// Contribution of its strains to the deflection at the outer end, `w_out = w + h θ + lift·q` (m); the last two
+    /// places are not used.
     pub lift: Vector<R, W>,
-    /// What they add to the rotation there, `θ_out = θ + turn·q` (rad).
+    /// Their contribution to the rotation there, `θ_out = θ + turn·q` (rad).
     pub turn: Vector<R, W>,
     /// h (m).
     pub length: R,
@@ -381,7 +380,7 @@ pub(crate) mod tests {
     #[test]
     fn the_inverse_factor_is_that_of_the_stiffness() {
         let mut element = uniform::<7>(0.4, 3.0, 1.0);
-        // Any symmetric positive matrix.
+        // An arbitrary symmetric positive matrix.
         for i in 0..5 {
             for j in 0..5 {
                 element.stiffness[i][j] += 0.1 / (i + j + 1) as f64;

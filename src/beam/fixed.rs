@@ -1,12 +1,11 @@
-//! How a bat gives way with something on it, and held by something.
+//! How does a bat deform with fixtures on it and held at places?
 //!
-//! A point mass is met on the way outwards, where its motion is known, and gives back its force on
-//! the way inwards. A joint is a strain of its own: the angle between both sides.
+//! A point mass takes its motion from the pass outwards, and returns its force on the pass inwards. A joint is an
+//! additional strain, the angle between its two sides.
 //!
-//! The displacement of a contact follows from the strains and the motion of the root. The strains
-//! that loads make of the bat clamped at its root are followed by the strains nearest to them that the
-//! contacts allow ([`Holds`]). Where contacts leave rigid motions free, these are taken out as they are
-//! of a free bat.
+//! The displacement of a contact follows from the strains and the motion of the root. The loads on the bat, clamped at
+//! its root, give strains; the result is the set of strains nearest to them that the contacts allow ([`Holds`]). If the
+//! contacts leave rigid motions free, these are removed as for a free bat.
 
 use crate::base::quadrature::{RunningSum, legendre};
 use crate::base::real::{Over, Real};
@@ -18,21 +17,21 @@ use crate::beam::placed::Placed;
 use crate::beam::sweep::{Bare, Body, Inwards, Loads, Outwards, Rigid};
 use crate::beam::walk::{Run, What, runs};
 
-/// What is on one bat and what holds it.
+/// The fixtures on one bat and its supports.
 #[derive(Debug, Clone)]
 pub struct Fixed<S> {
     /// The fixtures, each at its place.
     pub placed: Placed<S>,
-    /// The rigid motions that stay free: push and turn about the balance point.
+    /// The free rigid motions: translation and rotation about the balance point.
     free: Vec<[S; 2]>,
-    /// How the contacts hold the bat, if there are any.
+    /// The contacts, if there are any.
     holds: Option<Holds<S>>,
-    /// The root from the balance point, towards the tip (m).
+    /// Distance from the balance point to the root, towards the tip (m).
     root: S,
 }
 
 impl<S: Real> Fixed<S> {
-    /// Everything that the bats' fixtures say, as [`Placed::new`].
+    /// All fixtures of the bats, as in [`Placed::new`].
     pub fn new(bare: &Bare<S>, bats: &[&Bat], mesh: &Mesh) -> Self {
         let placed = Placed::new(bare, bats, mesh);
         let root = bare.cells.at(bare.split).arm;
@@ -49,30 +48,30 @@ impl<S: Real> Fixed<S> {
         Self { placed, free, holds: Some(holds), root }
     }
 
-    /// Nothing on the bat and nothing that holds it.
+    /// A bat without fixtures and supports.
     pub fn nothing() -> Self {
         let (one, zero) = (S::splat(1.0), S::default());
         let free = vec![[one, zero], [zero, one]];
         Self { placed: Placed::default(), free, holds: None, root: zero }
     }
 
-    /// How many conditions the strains must meet.
+    /// Number of conditions that the strains must satisfy.
     pub fn redundant(&self) -> usize {
         self.placed.contacts.len() + self.free.len() - 2
     }
 
-    /// How many rigid motions are free.
+    /// Number of free rigid motions.
     pub fn rigid_modes(&self) -> usize {
         self.free.len()
     }
 
-    /// The free rigid motions: push and turn about the balance point.
+    /// The free rigid motions: translation and rotation about the balance point.
     pub fn free(&self) -> &[[S; 2]] {
         &self.free
     }
 
-    /// `y = A q` of the held bat. Leaves the loads, the rigid motion taken out, and the forces of
-    /// the contacts; returns the rigid motion.
+    /// `y = A q` of the held bat. Leaves the loads without the rigid motion's, and the forces of the contacts. Returns
+    /// the rigid motion.
     pub fn compliance<R: Over<S>, const W: usize>(
         &self,
         body: &Body<S, W>,
@@ -85,12 +84,11 @@ impl<S: Real> Fixed<S> {
         self.strains_under(body, self.rigid(Given::Strains(q)), loads, y)
     }
 
-    /// The scaled strains (times the unit of energy) of the held bat under a unit force at the
-    /// place `s` in [0, 1] outwards on a cell, whose deflection has that many terms, in balance with the inertia of the rigid motions
-    /// that are free.
+    /// The scaled strains (times the unit of energy) of the held bat under a unit force at the place `s` in [0, 1],
+    /// outwards, on a cell with that many terms in its deflection. The inertia of the free rigid motions balances the
+    /// force.
     ///
-    /// By Maxwell's theorem their product with any scaled strains is the deflection there, rigid
-    /// motions taken out.
+    /// By Maxwell's theorem, their product with any scaled strains is the deflection there, without rigid motions.
     pub fn under_force<const W: usize>(
         &self,
         body: &Body<S, W>,
@@ -115,8 +113,8 @@ impl<S: Real> Fixed<S> {
         loads.contacts.resize(self.placed.contacts.len(), R::default());
     }
 
-    /// The strains of the held bat under these loads, of which the inertia of a rigid motion is taken
-    /// out, and of those that are free what else they carry; returns the whole of that motion.
+    /// The strains of the held bat under these loads after removal of the inertia of a rigid motion and of the residual
+    /// load on the free motions. Returns the whole rigid motion.
     fn strains_under<R: Over<S>, const W: usize>(
         &self,
         body: &Body<S, W>,
@@ -125,7 +123,7 @@ impl<S: Real> Fixed<S> {
         y: &mut [R],
     ) -> Rigid<R> {
         let mut total = self.take_out(body, rigid, loads);
-        // Twice: where one mass is far above all others, the first time leaves its round-off.
+        // Twice: if one mass is far above all others, the first pass leaves its round-off.
         for _ in 0..2 {
             let free = self.free_part(body.mass, body.inertia, total);
             rigid = Rigid { push: rigid.push + free.push, turn: rigid.turn + free.turn };
@@ -164,8 +162,7 @@ impl<S: Real> Fixed<S> {
         }
     }
 
-    /// Takes the loads of a rigid motion out of these; force and moment about the balance point
-    /// that are left.
+    /// Removes the loads of a rigid motion. Returns the remaining force and moment about the balance point.
     fn take_out<R: Over<S>, const W: usize>(
         &self,
         body: &Body<S, W>,
@@ -201,7 +198,7 @@ impl<S: Real> Fixed<S> {
         total
     }
 
-    /// The strains under loads of the bat clamped at its root.
+    /// The strains of the bat, clamped at its root, under the loads.
     fn inwards<R: Over<S>, const W: usize>(
         &self,
         body: &Body<S, W>,
@@ -233,28 +230,27 @@ impl<S: Real> Fixed<S> {
         }
     }
 
-    /// Takes out of the strains what the contacts do not allow.
+    /// Removes from the strains what the contacts do not allow.
     pub fn project<R: Over<S>>(&self, strains: &mut [R]) {
         let mut reactions = vec![R::default(); self.placed.contacts.len()];
         self.balance([R::default(); 2], strains, &mut reactions);
     }
 
-    /// Strains under loads of the bat clamped at its root, where force and moment about the balance
-    /// point `total` are left, become those of the held bat; leaves the contacts' reactions.
+    /// Turns the strains of the bat clamped at its root, with the remaining force and moment `total` about the balance
+    /// point, into those of the held bat. Leaves the contacts' reactions.
     fn balance<R: Over<S>>(&self, total: [R; 2], strains: &mut [R], reactions: &mut [R]) {
         let Some(holds) = &self.holds else { return };
         holds.fit(strains, [total[0], total[1] - total[0] * self.root], reactions);
     }
 
-    /// The rigid motion that the contacts take out of a motion with the root at rest.
+    /// The rigid motion that the contacts remove from a motion with the root at rest.
     pub fn rigid<R: Over<S>>(&self, given: Given<R>) -> Rigid<R> {
         let Some(holds) = &self.holds else { return Rigid::default() };
         let [w, theta] = holds.root(given);
         Rigid { push: theta * self.root - w, turn: -theta }
     }
 
-    /// The free rigid motion of a bat of that mass and inertia that carries force and moment
-    /// `total`.
+    /// The free rigid motion that carries the force and moment `total`, for a bat of that mass and inertia.
     pub fn free_part<R: Over<S>>(&self, mass: S, inertia: S, total: [R; 2]) -> Rigid<R> {
         let mut rigid = Rigid::<R>::default();
         for free in &self.free {
@@ -268,7 +264,7 @@ impl<S: Real> Fixed<S> {
     }
 }
 
-/// What is met on one side on the way inwards.
+/// The elements and fixtures of one side, in the order of the pass inwards.
 fn met<S: Real>(placed: &Placed<S>, bare: &Bare<S>, side: usize) -> Build<S> {
     let mut build = Build::default();
     for Run { cells, stop } in runs(bare.side(side), &placed.stops[side]).rev() {
@@ -304,7 +300,7 @@ fn met<S: Real>(placed: &Placed<S>, bare: &Bare<S>, side: usize) -> Build<S> {
     build
 }
 
-/// The coefficients of one Legendre polynomial among the given number.
+/// The coefficients of a single Legendre polynomial, among `terms` of them.
 pub fn unit(terms: usize, term: usize) -> Vec<f64> {
     (0..terms).map(|k| f64::from(u8::from(k == term))).collect()
 }

@@ -1,23 +1,23 @@
-//! Springs on a border of two cells: what lies beyond holds it like two of them.
+//! Springs at a border of two cells: the part of the bat beyond the border acts like two springs.
 //!
-//! One spring `k` acts on the deflection at a distance `l` outwards, one `r` on the rotation,
+//! One spring `k` acts on the deflection at a distance `l` outwards, the other, `r`, on the rotation:
 //!
 //! ```text
 //! ½ k (w + l θ − a)² + ½ r (θ − b)²,
 //! ```
 //!
-//! and what is met on the way to the root leaves it at that: a cell adds compliance
-//! ([`Footing::through`]), a contact adds stiffness ([`Footing::meet`]).
+//! This form is kept along the pass to the root: a cell adds compliance ([`Footing::through`]), a contact adds
+//! stiffness ([`Footing::meet`]).
 
 use crate::base::quadrature::RunningSum;
 use crate::base::real::{Over, Real};
 
-/// An element as it is crossed: the place of its first strain, what these add to deflection and
-/// rotation at its outer end, and its length (m).
+/// An element to be crossed: the index of its first strain, the contributions of its strains to deflection and rotation
+/// at its outer end, and its length (m).
 pub struct Span<S> {
-    /// The place of its first strain.
+    /// Index of its first strain.
     pub first: usize,
-    /// What each strain adds to deflection and rotation at the outer end.
+    /// Contribution of each strain to deflection and rotation at the outer end.
     pub adds: Vec<[S; 2]>,
     /// Length of the element from its inner to its outer end (m).
     pub length: f64,
@@ -26,24 +26,24 @@ pub struct Span<S> {
 /// Strains that lie between two borders.
 #[derive(Debug, Clone)]
 pub struct Crossing<S> {
-    /// The place of the first of them.
+    /// Index of the first of them.
     pub first: usize,
-    /// What each adds to deflection and rotation at the outer end.
+    /// Contribution of each to deflection and rotation at the outer end.
     pub adds: Vec<[S; 2]>,
-    /// How far beyond the outer end the spring acts, seen through their compliance (m).
+    /// Distance beyond the outer end at which the spring acts, including their compliance (m).
     pub at: S,
-    /// How much farther [`Self::at`] is than without that compliance (m).
+    /// Increase of [`Self::at`] due to that compliance (m).
     pub shift: S,
 }
 
-/// Four springs `½ d (α w + β θ − A)²` that meet at a border, and the two that they are together.
+/// Four springs `½ d (α w + β θ − A)²` that meet at a border, and the two springs equivalent to them.
 #[derive(Debug, Clone, Default)]
 pub struct Meeting<S> {
     alpha: [S; 4],
-    /// β less that of the common spring on the deflection.
+    /// β minus that of the common spring on the deflection.
     beta: [S; 4],
     stiffness: [S; 4],
-    /// Shares of the common forces.
+    /// Shares in the common forces.
     shares: [[S; 4]; 2],
     /// Whether the deflection and whether the rotation is held.
     holds: [bool; 2],
@@ -53,19 +53,18 @@ pub struct Meeting<S> {
     pub softness: [S; 2],
 }
 
-/// What lies beyond a border: the springs on the deflection and on the rotation, and where the first
-/// acts.
+/// The springs that replace the part beyond a border: one on the deflection, with its place, and one on the rotation.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Footing {
     /// Stiffness of the spring on the deflection (N/m over the unit of energy).
     pub spring: f64,
-    /// How far outwards it acts (m).
+    /// Distance outwards at which it acts (m).
     pub at: RunningSum<f64>,
     /// Stiffness of the spring on the rotation.
     pub turning: f64,
 }
 
-/// Where the springs of [`Footing`] are at rest.
+/// Rest position of the springs of a [`Footing`].
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Rest<R> {
     /// `a` (m).
@@ -74,7 +73,7 @@ pub struct Rest<R> {
     pub rotation: RunningSum<R>,
 }
 
-/// What the springs are to fit: strains, or displacements of the contacts with the root at rest.
+/// The values that the springs fit: strains, or displacements of the contacts with the root at rest.
 #[derive(Debug, Clone, Copy)]
 pub enum Given<'a, R> {
     /// Strains of the elements and of all springs.
@@ -84,7 +83,7 @@ pub enum Given<'a, R> {
 }
 
 impl Footing {
-    /// Seen through a compliance `F = [ww, wθ, θθ]` at its place; the rest of a crossing.
+    /// The footing seen through a compliance `F = [ww, wθ, θθ]` at its place, and the data of the crossing.
     pub fn through<S: Real>(self, span: Span<S>, [ww, wt, tt]: [f64; 3]) -> (Crossing<S>, Self) {
         let l = self.at.value();
         let across = (ww + l * (2.0 * wt + l * tt)).max(0.0);
@@ -104,8 +103,8 @@ impl Footing {
         (crossing, Self { spring, at, turning })
     }
 
-    /// Together with two springs `[k, l, r]` at the inner end of what carries a motion of the inner
-    /// end to this place.
+    /// Combines the footing with two springs `[k, l, r]` at the inner end; `carried` takes a motion of the inner end to
+    /// this place.
     pub fn meet<S: Real>(self, carried: [[f64; 2]; 2], [k, l, r]: [f64; 3]) -> (Meeting<S>, Self) {
         let at = self.at.value();
         let [lift, turn] = carried;
@@ -145,10 +144,11 @@ impl<S: Real> Meeting<S> {
         (meeting, Footing { spring, at: place, turning })
     }
 
-    /// Where the common springs are at rest if each alone would be at `rest`; and the forces that
-    /// the four then have all the same.
+    /// The rest position of the common springs if each of the four alone would be at `rest`, and the forces that the
+    /// four still carry then.
     ///
-    /// Differences of two at a time: a spring that outweighs all others leaves the others' digits.
+    /// Works with differences of two at a time, so that a spring that outweighs all others leaves the others' digits
+    /// intact.
     pub fn rest<R: Over<S>>(&self, rest: [R; 4]) -> (Rest<R>, [R; 4]) {
         let [p, q] = &self.shares;
         let zero = R::default();
@@ -178,14 +178,14 @@ impl<S: Real> Meeting<S> {
         (at, forces)
     }
 
-    /// The forces of the four, of the forces of both together and what they have all the same.
+    /// The forces in the four springs, from the two common forces and those that they carry anyway.
     pub fn forces<R: Over<S>>(&self, [push, turn]: [R; 2], own: &[R]) -> [R; 4] {
         std::array::from_fn(|i| push * self.shares[0][i] + turn * self.shares[1][i] + own[i])
     }
 }
 
 impl<S: Real> Crossing<S> {
-    /// What the given strains add to deflection and rotation at the outer end.
+    /// Contribution of the given strains to deflection and rotation at the outer end.
     pub fn moved<R: Over<S>>(&self, given: Given<R>) -> [R; 2] {
         match given {
             Given::Strains(q) => sums(&self.adds, &q[self.first..]),
@@ -193,15 +193,15 @@ impl<S: Real> Crossing<S> {
         }
     }
 
-    /// Where the springs are at rest on the inner side, from where they are on the outer, if the cell's
-    /// strains move that by so much.
+    /// The rest position at the inner side, from that at the outer side, if the cell's strains move it by `lift` and
+    /// `turn`.
     pub fn inwards<R: Over<S>>(&self, mut rest: Rest<R>, [lift, turn]: [R; 2]) -> Rest<R> {
         rest.deflection.add(rest.rotation.value() * self.shift - (lift + turn * self.at));
         rest.rotation.add(-turn);
         rest
     }
 
-    /// Takes out of the strains what the forces at the inner end make; the forces at the outer end.
+    /// Subtracts from the strains the effect of the forces at the inner end; returns the forces at the outer end.
     pub fn outwards<R: Over<S>>(&self, [push, turn]: [R; 2], strains: &mut [R]) -> [R; 2] {
         let moment = push * self.at + turn;
         for (q, adds) in strains[self.first..].iter_mut().zip(&self.adds) {
@@ -221,13 +221,13 @@ pub fn sums<S: Real, R: Over<S>>(pairs: &[[S; 2]], x: &[R]) -> [R; 2] {
     sum
 }
 
-/// `Σ a_k b_kᵀ` of pairs, of which it is known to be symmetric: `[ww, wθ, θθ]`.
+/// `Σ a_k b_kᵀ` of pairs, for a product known to be symmetric: `[ww, wθ, θθ]`.
 pub fn product<S: Real>(a: &[[S; 2]], b: &[[S; 2]]) -> [f64; 3] {
     [[0, 0], [0, 1], [1, 1]]
         .map(|[i, j]| a.iter().zip(b).map(|(a, b)| a[i].lane(0) * b[j].lane(0)).sum())
 }
 
-/// A stiffness as a spring on the deflection, where it acts, and one on the rotation.
+/// A stiffness as a spring on the deflection, its place, and a spring on the rotation.
 pub fn two_springs([ww, wt, tt]: [f64; 3]) -> [f64; 3] {
     let at = wt / ww;
     [ww, at, (tt - wt * at).max(tt * f64::EPSILON)]
@@ -249,7 +249,7 @@ mod tests {
         footing
     }
 
-    /// Springs that meet store what each of them stores, but for what they store at rest.
+    /// Springs that meet store the sum of their energies, less their energy at rest.
     #[test]
     fn springs_that_meet_are_together_what_they_are_one_by_one() {
         let (one, two) = (footing(3.0, 0.4, 2.0), footing(5.0, -0.3, 0.7));
@@ -266,14 +266,14 @@ mod tests {
         }
     }
 
-    /// One strain in between: the springs are in line with its compliance.
+    /// With one strain in between, the springs are in series with its compliance.
     #[test]
     fn a_footing_seen_through_a_strain_gives_way_by_both() {
         let (beyond, adds) = (footing(3.0, 0.4, 2.0), [0.3, 0.8]);
         let span = Span { first: 0, adds: vec![adds], length: 0.0 };
         let (_, seen) = beyond.through(span, product(&[adds], &[adds]));
         for u in [[1.0, 0.0], [0.0, 1.0], [-2.0, 3.0]] {
-            // The strain q with the least of ½ q² and what lies beyond.
+            // The strain q that minimises ½ q² plus the energy beyond.
             let whole = |q: f64| {
                 0.5 * q * q + energy(&beyond, [0.0; 2], [u[0] + adds[0] * q, u[1] + adds[1] * q])
             };

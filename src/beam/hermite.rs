@@ -1,4 +1,4 @@
-//! The elements in the unknowns of the textbooks: deflections, rotations, bubbles.
+//! The elements in the textbooks' unknowns: deflections, rotations, bubbles.
 
 use crate::base::linear::dot;
 use crate::bat::body::Bat;
@@ -8,7 +8,7 @@ use crate::beam::mesh::{self, Mesh};
 use crate::beam::rule::Rule;
 use crate::beam::sections::worths;
 
-/// All elements of a mesh, as degree `N − 1` and the theory see them.
+/// All elements of a mesh, for degree `N − 1` and the theory.
 pub fn elements<const N: usize, const W: usize>(
     bat: &Bat,
     mesh: &Mesh,
@@ -36,10 +36,9 @@ pub fn elements<const N: usize, const W: usize>(
 }
 
 impl<const N: usize, const W: usize> Element<f64, N, W> {
-    /// Strains of the unknowns `[w₁, θ₁, w₂, θ₂, b₂, b₃ …, g₀, g₁ …]`: mean curvature `(θ₂ −
-    /// θ₁)/h`, its slope `3[(θ₁ − ψ) + (θ₂ − ψ)]/h` with the chord `ψ = (w₂ − w₁)/h − g₀`, the
-    /// bubbles, whose amplitude `b_j` is the coefficient of `P_j` in the curvature, and the shear
-    /// strains.
+    /// Strains of the unknowns `[w₁, θ₁, w₂, θ₂, b₂, b₃ …, g₀, g₁ …]`: mean curvature `(θ₂ − θ₁)/h`, its slope
+    /// `3[(θ₁ − ψ) + (θ₂ − ψ)]/h` with the chord `ψ = (w₂ − w₁)/h − g₀`, the bubbles, whose amplitude `b_j` is the
+    /// coefficient of `P_j` in the curvature, and the shear strains.
     pub fn strains_of_hermite(&self, u: &[f64]) -> Vector<f64, W> {
         let h = self.length;
         let sheared = if W > N { u[N] } else { 0.0 };
@@ -53,8 +52,8 @@ impl<const N: usize, const W: usize> Element<f64, N, W> {
 
     /// Stiffness and mass for the unknowns `[w₁, θ₁, w₂, θ₂, b₂, b₃ …, g₀, g₁ …]`.
     ///
-    /// A bubble's deflection and rotation vanish at both ends, because `P_j` with `j ≥ 2` has
-    /// neither area nor moment.
+    /// The deflection and the rotation of a bubble vanish at both ends, because `P_j` with `j ≥ 2` has zero area and
+    /// zero moment.
     pub fn hermite(&self) -> (Matrix<f64, W>, Matrix<f64, W>) {
         let unit =
             |i: usize| -> Vector<f64, W> { std::array::from_fn(|j| f64::from(u8::from(i == j))) };
@@ -122,7 +121,7 @@ mod tests {
         }
     }
 
-    /// The hierarchical family contains the cubics: the first four rows and columns do not change.
+    /// The hierarchical family contains the cubics: the first four rows and columns stay unchanged.
     #[test]
     fn bubbles_leave_the_cubics_as_they_are() {
         let (h, bending, line) = (0.2, 100.0, 1.5);
@@ -133,7 +132,7 @@ mod tests {
                 assert!((k[i][j] - k4[i][j]).abs() < 1e-12 * k4[0][0].abs());
                 assert!((m[i][j] - m4[i][j]).abs() < 1e-13 * m4[0][0].abs());
             }
-            // Nor does a bubble of a uniform element do work on the bending of a cubic.
+            // Bending a cubic does no work on a bubble of a uniform element.
             for j in 4..9 {
                 assert!(k[i][j].abs() < 1e-12 * k4[0][0]);
             }

@@ -1,18 +1,16 @@
-//! What holds a bat, met contact by contact along the way inwards.
+//! How the contacts hold a bat, one contact after another on the pass inwards.
 //!
-//! Of all strains that the contacts allow, those nearest to given ones are wanted: by Castigliano's
-//! theorem they are the held bat's if the given ones are in equilibrium with its loads. Nobody needs
-//! all contacts at once for that. Whatever lies beyond a border holds it like two springs, a
-//! [`Footing`], and stays that under everything that is met on the way to the root: an element adds
-//! compliance, a contact adds stiffness, and both are sums of squares, so that no digits go, however
-//! stiff or soft a contact is. At the root both sides meet; outwards their forces are handed on, and
-//! with them every strain and every reaction is known. It costs as much as there are elements and
-//! contacts.
+//! Of all strains that the contacts allow, the nearest ones to the given strains are wanted. By Castigliano's theorem
+//! they are the held bat's, if the given ones are in equilibrium with its loads. The contacts need not be treated all
+//! at once. The part beyond a border acts like two springs, a [`Footing`], and this form is kept along the pass to the
+//! root: an element adds compliance, a contact adds stiffness. Both are sums of squares, so that no digits are lost,
+//! however stiff or soft a contact is. At the root both sides meet. A pass outwards then hands their forces on and
+//! gives every strain and every reaction. The cost is proportional to the number of elements and contacts.
 //!
 //! # Source
 //!
-//! Worked out here: a Riccati recursion along the bat, as the sweep method of A. E. Bryson, Y.-C. Ho,
-//! Applied Optimal Control (1975), chapter 5, has it for problems along time.
+//! Worked out here: a Riccati recursion along the bat. A. E. Bryson, Y.-C. Ho, Applied Optimal Control (1975), chapter
+//! 5, has the sweep method for problems in time.
 
 use crate::base::real::{Over, Real};
 use crate::beam::bed::Bed;
@@ -21,23 +19,23 @@ use crate::beam::footing::{Crossing, Footing, Meeting, Rest, product};
 pub use crate::beam::bed::Under;
 pub use crate::beam::footing::{Given, Span};
 
-/// A support is a spring that gives way by nothing that a number shows: 2²⁶⁶, a power of two so that
-/// scaling a bat by powers of two changes no digit.
+/// Stiffness of a support, too large for a representable deflection: 2²⁶⁶, a power of two so that scaling a bat by
+/// powers of two changes no digit.
 const RIGID: f64 = f64::from_bits((1023 + 266) << 52);
 
 /// How the contacts hold the bat.
 #[derive(Debug, Clone)]
 pub struct Holds<S> {
-    /// What is met on the knob side and on the tip side, inwards from the outermost contact.
+    /// The steps of the knob side and of the tip side, inwards from the outermost contact.
     sides: [Vec<Step<S>>; 2],
     root: Meeting<S>,
-    /// How stiffly the deflection and the rotation of the root are held; 0 where they are free.
+    /// Stiffnesses that hold the deflection and the rotation of the root; 0 where they are free.
     pub held: [f64; 2],
-    /// Where the spring on the deflection acts, from the root towards the tip (m).
+    /// Distance from the root to the spring on the deflection, towards the tip (m).
     pub center: f64,
 }
 
-/// What is met on the way.
+/// One step of the pass.
 #[derive(Debug, Clone)]
 enum Step<S> {
     /// An element or a joint.
@@ -53,15 +51,15 @@ enum Step<S> {
 pub struct Border<S> {
     /// Number of the contact.
     pub contact: usize,
-    /// Whether it holds the rotation, else the deflection.
+    /// Whether it holds the rotation; otherwise it holds the deflection.
     pub turning: bool,
-    /// 1, or −1 where its rotation counts inwards.
+    /// 1, or −1 if its rotation counts inwards.
     pub sign: S,
-    /// Place of the strain of the contact's spring, and the softness of that spring.
+    /// Index of the strain of the contact's spring, and the softness of that spring.
     pub spring: Option<(usize, S)>,
 }
 
-/// One side, inwards from its free end.
+/// One side while it is built, inwards from its free end.
 #[derive(Default)]
 pub struct Build<S> {
     steps: Vec<Step<S>>,
@@ -69,7 +67,7 @@ pub struct Build<S> {
 }
 
 impl<S: Real> Build<S> {
-    /// An element or, without length, a joint.
+    /// Adds an element or, with length 0, a joint.
     pub fn cross(&mut self, span: Span<S>) {
         if self.steps.is_empty() {
             return;
@@ -81,7 +79,7 @@ impl<S: Real> Build<S> {
         self.steps.push(Step::Cell(crossing));
     }
 
-    /// A contact at the border.
+    /// Adds a contact at the border.
     pub fn meet(&mut self, border: Border<S>) {
         let soft = border.spring.map_or(0.0, |(_, softness)| softness.lane(0));
         let stiffness = (1.0 / (soft * soft)).min(RIGID);
@@ -91,7 +89,7 @@ impl<S: Real> Build<S> {
         self.steps.push(Step::Contact(border, meeting));
     }
 
-    /// An element on an elastic bed.
+    /// Adds an element on an elastic bed.
     pub fn cross_bed(&mut self, span: Span<S>, under: Under<S>) {
         let (bed, footing) = Bed::new(span, under, self.footing);
         self.footing = footing;
@@ -100,7 +98,7 @@ impl<S: Real> Build<S> {
 }
 
 impl<S: Real> Holds<S> {
-    /// How both sides together hold the root, the knob side first.
+    /// The root held by both sides together; the knob side is the first.
     pub fn of([knob, tip]: [Build<S>; 2]) -> Self {
         let [mirrored, here] = [knob.footing, tip.footing];
         let other = [mirrored.spring, -mirrored.at.value(), mirrored.turning];
@@ -113,15 +111,15 @@ impl<S: Real> Holds<S> {
         }
     }
 
-    /// Deflection and rotation of the root that what is given calls for.
+    /// Deflection and rotation of the root that the given values require.
     pub fn root<R: Over<S>>(&self, given: Given<R>) -> [R; 2] {
         let (rest, _) = self.inwards(given, &mut Default::default());
         let turn = rest.rotation.value();
         [rest.deflection.value() - turn * self.root.at, turn]
     }
 
-    /// The strains that the contacts allow and that are nearest to these, with a force and a moment
-    /// at the root; the contacts' reactions.
+    /// Changes the strains into the nearest ones that the contacts allow, with a force and a moment at the root; leaves
+    /// the contacts' reactions.
     pub fn fit<R: Over<S>>(&self, strains: &mut [R], [force, moment]: [R; 2], reactions: &mut [R]) {
         let mut traces = <[Vec<R>; 2]>::default();
         let (_, own) = self.inwards(Given::Strains(strains), &mut traces);
@@ -133,7 +131,7 @@ impl<S: Real> Holds<S> {
         }
     }
 
-    /// Both sides inwards to the root; leaves what the way back needs.
+    /// Both sides inwards to the root; leaves in `traces` what the way back needs.
     fn inwards<R: Over<S>>(&self, given: Given<R>, traces: &mut [Vec<R>; 2]) -> (Rest<R>, [R; 4]) {
         let [knob, tip]: [Rest<R>; 2] = std::array::from_fn(|side| {
             let mut rest = Rest::default();
@@ -152,8 +150,8 @@ impl<S: Real> Holds<S> {
 }
 
 impl<S: Real> Step<S> {
-    /// Where the springs are at rest on the inner side, from where they are on the outer; leaves what
-    /// [`Self::outwards`] needs.
+    /// The rest positions at the inner side, from those at the outer side. Leaves in `trace` what [`Self::outwards`]
+    /// needs.
     fn inwards<R: Over<S>>(&self, rest: Rest<R>, given: Given<R>, trace: &mut Vec<R>) -> Rest<R> {
         match self {
             Self::Cell(crossing) => crossing.inwards(rest, crossing.moved(given)),
@@ -175,7 +173,7 @@ impl<S: Real> Step<S> {
         }
     }
 
-    /// Takes out of the strains what the forces at the inner side make; the forces at the outer side.
+    /// Subtracts from the strains the effect of the forces at the inner side; returns the forces at the outer side.
     fn outwards<R: Over<S>>(
         &self,
         forces: [R; 2],
@@ -204,7 +202,7 @@ impl<S: Real> Step<S> {
 mod tests {
     use super::*;
 
-    /// One number after the other, of no pattern.
+    /// A sequence of numbers without a pattern.
     struct Draw(f64);
 
     impl Draw {
@@ -214,9 +212,9 @@ mod tests {
         }
     }
 
-    /// A displacement as the strains and the root's motion make it.
+    /// A displacement as a linear form in the strains and the root's motion.
     type Row = (Vec<f64>, [f64; 2]);
-    /// What is met on the way outwards, to be built inwards.
+    /// The steps on the way outwards, to be built inwards.
     type Met = Box<dyn FnOnce(&mut Build<f64>)>;
 
     fn plus((a, u): &Row, times: f64, (b, v): &Row) -> Row {
@@ -228,8 +226,8 @@ mod tests {
     const TERMS: usize = 4;
     const MOST: usize = 200;
 
-    /// Two sides of random elements, contacts and beds; every contact's row, its spring's strain
-    /// and the number of strains.
+    /// Two sides of random elements, contacts and beds. Returns every contact's row and its spring's strain, and the
+    /// number of strains.
     fn bat(draw: &mut Draw) -> (Holds<f64>, Vec<Row>, usize) {
         let (cells, mut rows, mut dimension) = ([3, 4], vec![], 7 * STRAINS);
         let zero = || vec![0.0; MOST];
@@ -336,16 +334,16 @@ mod tests {
             let exact = all_at_once(&rows, &given, root);
             let size = exact.iter().fold(1.0, |most: f64, q| most.max(q.abs()));
             for (a, b) in found.iter().zip(&exact) {
-                // The elimination of everything loses digits, the way inwards does not.
+                // The elimination of all at once loses digits; the pass inwards does not.
                 assert!((a - b).abs() < 1e-7 * size, "{seed} {a} {b}");
             }
-            // Again: what the contacts allow stays.
+            // A second fit leaves allowed strains unchanged.
             let before = found.clone();
             holds.fit(&mut found, [0.0; 2], &mut reactions);
             for (a, b) in found.iter().zip(&before) {
                 assert!((a - b).abs() < 1e-13 * size, "{seed} {a} {b}");
             }
-            // And it is what the contacts allow, with the root moved as is said.
+            // The contacts allow the result, with the root moved as returned.
             let moved = holds.root(Given::Strains(&found));
             for (strains, by_root) in &rows {
                 let parts = strains.iter().zip(&found).map(|(a, q)| a * q);

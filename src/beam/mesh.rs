@@ -1,4 +1,4 @@
-//! Where are the elements: stretches of the bat, none across a step or the end of a region.
+//! Where are the elements? They are stretches of the bat that never cross a step or the end of a region.
 //!
 //! An element lies in one piece of the profile, or it reaches over stations ([`Element::parts`]).
 
@@ -14,9 +14,9 @@ pub struct Element {
     pub piece: usize,
     /// Index of the piece it ends in.
     pub last: usize,
-    /// Where in its first piece it begins, in [0, 1).
+    /// Position in its first piece where it begins, in [0, 1).
     pub from: f64,
-    /// Where in its last piece it ends, in (0, 1].
+    /// Position in its last piece where it ends, in (0, 1].
     pub to: f64,
     /// Position of its left end from the knob end (m).
     pub start: f64,
@@ -29,14 +29,14 @@ pub struct Element {
 pub struct Part {
     /// Index of the piece of the profile it lies in.
     pub piece: usize,
-    /// Where in the piece it begins and ends, in [0, 1].
+    /// Beginning and end in the piece, in [0, 1].
     pub of_piece: [f64; 2],
-    /// Where in the element it begins and ends, in [0, 1].
+    /// Beginning and end in the element, in [0, 1].
     pub of_element: [f64; 2],
 }
 
 impl Element {
-    /// From one place to another, each a piece and where in it, in [0, 1].
+    /// The element from one place to another, each given by a piece and a position in it, in [0, 1].
     fn between(bat: &Bat, [from, to]: [(usize, f64); 2]) -> Self {
         let (piece, from) = if from.1 < 1.0 { from } else { (from.0 + 1, 0.0) };
         let (last, to) = if to.1 > 0.0 { to } else { (to.0 - 1, 1.0) };
@@ -45,7 +45,7 @@ impl Element {
         element
     }
 
-    /// Takes position and length from the bat's pieces.
+    /// Sets position and length from the bat's pieces.
     fn place(&mut self, bat: &Bat) {
         let [first, last] = [self.piece, self.last].map(|piece| &bat.profile().pieces[piece]);
         self.start = first.start + first.length * self.from;
@@ -55,7 +55,7 @@ impl Element {
         };
     }
 
-    /// Whether all of it is within that share of the bat's length of one of the ends.
+    /// Whether the whole element is within that share of the bat's length from one of the ends.
     pub fn ends_within(&self, share: f64, length: f64) -> bool {
         self.start + self.length <= share * length || self.start >= (1.0 - share) * length
     }
@@ -66,7 +66,7 @@ impl Element {
         self.last > self.piece
     }
 
-    /// Its parts between stations, knob first; one if there are none.
+    /// Its parts between stations, knob first; a single part if there are no stations inside.
     pub fn parts<'a>(&'a self, bat: &'a Bat) -> impl Iterator<Item = Part> + 'a {
         let mut end = 0.0;
         (self.piece..=self.last).map(move |k| {
@@ -82,7 +82,7 @@ impl Element {
         })
     }
 
-    /// The piece at a place in [0, 1] of the element, and where in it.
+    /// The piece at a place in [0, 1] of the element, and the position in the piece.
     fn at(&self, bat: &Bat, s: f64) -> (usize, f64) {
         let part = self.parts(bat).find(|part| s <= part.of_element[1]);
         let Part { piece, of_piece: [from, to], of_element: [begin, end] } =
@@ -94,13 +94,13 @@ impl Element {
 /// The elements of a bat from knob to tip.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Mesh {
-    /// Knob first, each beginning where the last ends.
+    /// The elements, knob first; each begins where the last one ends.
     pub elements: Vec<Element>,
 }
 
 impl Mesh {
-    /// About `wanted` elements spread by length, equal within each piece: exactly that many if
-    /// there are no more pieces than that, else one per piece.
+    /// About `wanted` elements distributed by length, equal within each piece: exactly that many if there are at most
+    /// as many pieces, else one per piece.
     pub fn along(bat: &Bat, wanted: usize) -> Self {
         let lengths: Vec<f64> = bat.profile().pieces.iter().map(|piece| piece.length).collect();
         Self::with_counts(bat, &spread(&lengths, wanted))
@@ -123,15 +123,15 @@ impl Mesh {
         Self { elements }
     }
 
-    /// A mesh with borders at these places, each a piece and where in it, from 0 to 1 along the bat.
-    /// The end of a piece and the beginning of the next are one place.
+    /// A mesh with borders at these places, each given by a piece and a position in it, from 0 to 1 along the bat. The
+    /// end of a piece and the beginning of the next are the same place.
     pub fn between(bat: &Bat, borders: &[(usize, f64)]) -> Self {
         let elements = borders.windows(2).map(|pair| Element::between(bat, [pair[0], pair[1]]));
         Self { elements: elements.collect() }
     }
 
-    /// This mesh with an element's end at each of these places (m), as near as round-off tells; stations of the bat
-    /// stand there, at which its elements over stations are cut.
+    /// This mesh with an element border at each of these places (m), to round-off. Stations of the bat are at these
+    /// places, and elements over stations are cut there.
     pub fn with_nodes(&self, bat: &Bat, places: &[f64]) -> Self {
         let mut elements = Vec::with_capacity(self.len() + places.len());
         for e in &self.elements {
@@ -177,7 +177,7 @@ impl Mesh {
         Self { elements }
     }
 
-    /// Becomes the pattern's mesh on another bat of as many pieces, in the memory that it has.
+    /// Sets this mesh to the pattern's mesh on another bat with the same number of pieces, and reuses its memory.
     pub fn fit(&mut self, bat: &Bat, pattern: &Self) {
         self.elements.clone_from(&pattern.elements);
         self.elements.iter_mut().for_each(|e| e.place(bat));
@@ -198,7 +198,7 @@ impl Mesh {
         self.elements.len()
     }
 
-    /// Whether there is no element; a mesh of a bat has one at least.
+    /// Whether there is no element; a bat's mesh has at least one.
     pub fn is_empty(&self) -> bool {
         self.elements.is_empty()
     }
@@ -210,13 +210,13 @@ impl Mesh {
     }
 }
 
-/// `total` elements over pieces of these lengths, the longest element as short as can be.
+/// Distributes `total` elements over pieces of these lengths, so that the longest element is as short as possible.
 fn spread(lengths: &[f64], total: usize) -> Vec<usize> {
     if lengths.len() == 1 {
         return vec![total.max(1)];
     }
     let count = |length: &f64, size: f64| ((length / size).ceil() as usize).clamp(1, total.max(1));
-    // Rounding up adds one element per piece at most: that brackets the element size.
+    // Rounding up adds at most one element per piece, which brackets the element size.
     let whole: f64 = lengths.iter().sum();
     let spare = total.saturating_sub(lengths.len()) as f64;
     let (mut low, mut high) = (whole / total.max(1) as f64, whole / spare.max(0.5));
@@ -226,10 +226,10 @@ fn spread(lengths: &[f64], total: usize) -> Vec<usize> {
         if sum > total { low = middle } else { high = middle }
     }
     let mut counts: Vec<usize> = lengths.iter().map(|length| count(length, high)).collect();
-    // Pieces of nearly equal length leave a remainder: one more for the longest elements.
+    // Pieces of nearly equal length leave a remainder: one more element for each of the longest.
     let missing = total.saturating_sub(counts.iter().sum());
     let mut order: Vec<usize> = (0..lengths.len()).collect();
-    // In few digits, so that lengths equal but for their rounding tie, whatever the unit.
+    // In few digits, so that lengths equal but for round-off tie, whatever the unit.
     let size = |k: usize, counts: &[usize]| (lengths[k] / (whole * counts[k] as f64)) as f32;
     order.sort_by(|&a, &b| size(b, &counts).total_cmp(&size(a, &counts)));
     order.iter().cycle().take(missing).for_each(|&k| counts[k] += 1);

@@ -1,19 +1,19 @@
-//! What does the bat as a beam store, and how does it give way?
+//! What does the bat store as a beam, and how does it deform?
 //!
-//! [`assembly::Pencil::of`] gives K and M as sparse matrices; it is what to call from outside, for
-//! [`crate::solve()`] does the rest.
+//! [`assembly::Pencil::of`] gives K and M as sparse matrices, for use from outside; [`crate::solve()`] does everything
+//! else.
 //!
 //! | file | question |
 //! |---|---|
 //! | [`mesh`], [`rule`], [`sections`] | where are the elements, and their points; what are the sections there |
 //! | [`element`], [`hermite`], [`degree`] | what does one element store, in strains and as the textbooks have it |
-//! | [`walk`], [`sweep`] | the way over a bat from stop to stop; what is summed up on it |
+//! | [`walk`], [`sweep`] | the passes over a bat from stop to stop, and the sums on them |
 //! | [`footing`], [`bed`], [`holds`] | what lies beyond a border, two springs; an elastic bed; how contacts hold a bat |
-//! | [`attached`], [`placed`], [`fixed`] | one thing on the bat; where it is; how the bat then gives way |
+//! | [`attached`], [`placed`], [`fixed`] | a fixture; its place; how the bat then deforms |
 //! | [`statics`], [`start`], [`view`] | what a load does to the whole bat; where an iteration starts |
-//! | [`count`] | how many motions are slower than one |
+//! | [`count`] | how many modes are slower than a frequency |
 //! | [`motion`], [`defect`], [`changes`] | shape and energies of a motion; how far it and its shape are from a mode's |
-//! | [`wall`] | what does the wall of a hollow bat store when its sections do not stay round |
+//! | [`wall`] | what does the wall of a hollow bat store if its sections do not stay round |
 //! | [`assembly`], [`dowel`] | sparse matrices; a uniform beam in closed form |
 
 pub mod mesh;

@@ -9,7 +9,7 @@ use crate::beam::sweep::Rigid;
 use crate::beam::view::{Located, View};
 use crate::beam::walk::{Run, What};
 
-/// A bending motion with the memory it was computed in.
+/// A bending motion and the memory for computing it.
 #[derive(Debug, Clone, Default)]
 pub struct Motion<R> {
     /// Number of Legendre polynomials of a cell.
@@ -20,23 +20,22 @@ pub struct Motion<R> {
     pub turns: Vec<R>,
     /// Deflection at the Gauss points of every cell (m).
     pub deflections: Vec<R>,
-    /// Amount by which the inertial deflection falls short of [`Self::deflections`] (m), at its points.
+    /// Inertial deflection less [`Self::deflections`] (m), at the same points.
     pub changes: Vec<R>,
     /// Deflection (m) and its change (m) at the outer ends of both sides: knob end, tip.
     pub ends: [[R; 2]; 2],
-    /// Kinetic energy over ω²/2: `∫ρA w² dx`, `∫ρI θ² dx` and what is attached (kg m²).
+    /// Kinetic energy over ω²/2: `∫ρA w² dx`, `∫ρI θ² dx` and that of the fixtures (kg m²).
     pub kinetic: R,
-    /// Product of the motion and its [`Self::changes`] `c` in the bat's mass: `∫ρA w c dx`,
-    /// `∫ρI θ c_θ dx` and what is attached (kg m²).
+    /// Product of the motion and its [`Self::changes`] `c` in the bat's mass: `∫ρA w c dx`, `∫ρI θ c_θ dx` and that of
+    /// the fixtures (kg m²).
     pub work: R,
-    /// ω (rad/s): its square, Rayleigh's quotient, is strain energy over kinetic energy, both from
-    /// the strains.
+    /// ω (rad/s). Its square is Rayleigh's quotient, strain energy over kinetic energy, both from the strains.
     pub omega: R,
-    /// `‖q − ω² A q‖/‖q‖`: how far the strains are from an eigenvector of the compliance.
+    /// `‖q − ω² A q‖/‖q‖`: the distance of the strains from an eigenvector of the compliance.
     pub residual: R,
     /// `η` of [`super::defect`]; half of it is the relative error of the frequency.
     pub defect: R,
-    /// Part of [`Self::defect`] of every cell.
+    /// Part of [`Self::defect`] in every cell.
     pub defects: Vec<R>,
     /// Rotation and its change at the points, where it has inertia.
     pub(super) rotations: Vec<R>,
@@ -48,27 +47,27 @@ pub struct Motion<R> {
     pub(super) point_changes: Vec<[R; 2]>,
     /// `qᵀq`.
     pub(super) strain: R,
-    /// `A q`, then `q − ω² A q`; nothing where the eigenvalue is known.
+    /// `A q`, then `q − ω² A q`; empty if the eigenvalue is known.
     pub image: Vec<R>,
-    /// How far the deflection is from what the springs and pins that hold it say (m), at the worst of them: round-off
-    /// of the shape, for they are one.
+    /// Largest difference between the deflection and the value that a spring or pin requires (m): the round-off of the
+    /// shape, since the two are equal.
     pub slack: R,
-    /// `Σ m d w θ` of the point masses whose centre is d off their place, with the root at rest (kg m²). Most of it
-    /// cancels when the rigid motions are taken off.
+    /// `Σ m d w θ` of the point masses whose centre is a distance d from their place, with the root at rest (kg m²).
+    /// Most of it cancels when the rigid motions are removed.
     pub carried: R,
     /// Inertia of the point masses and reactions of the contacts.
     pub(crate) forces: Vec<[R; 2]>,
     pub(super) reactions: Vec<R>,
 }
 
-/// What is known of a motion beside its strains.
+/// Data of a motion besides its strains.
 #[derive(Debug, Clone, Copy)]
 pub struct Known<'a, R, S> {
-    /// The eigenvalue of the compliance that the strains of a bare bat belong to: the kinetic energy is
-    /// taken from it, with half the work, no residual (0), and round-off of ε times the greatest
-    /// eigenvalue over this one.
+    /// The eigenvalue of the compliance, if the strains of a bare bat are its eigenvector. The kinetic energy then
+    /// follows from it with half the work, the residual is 0, and the round-off is ε times the greatest eigenvalue over
+    /// this one.
     pub value: Option<R>,
-    /// Strains of other modes, one after the other, whose round-off is taken out.
+    /// Strains of other modes, one after the other, whose round-off is removed.
     pub others: &'a [S],
 }
 
@@ -82,8 +81,8 @@ struct OneCell<R> {
 }
 
 impl<R: Real> Motion<R> {
-    /// The motion with those scaled strains and its energies, once its [`Self::image`] is known or its
-    /// eigenvalue; leaves the loads `ρA w` of its inertia in [`Self::changes`].
+    /// Computes the motion with those scaled strains, and its energies, once its [`Self::image`] or its eigenvalue is
+    /// known. Leaves the loads `ρA w` of its inertia in [`Self::changes`].
     #[inline(always)]
     pub fn take<S: Real>(&mut self, view: &View<S>, rigid: Rigid<R>, q: &[R], known: Known<R, S>)
     where
@@ -104,7 +103,7 @@ impl<R: Real> Motion<R> {
             self.outwards(view, q, rigid.on_side(side), side);
         }
         if view.split == 0 {
-            // The root is the knob end itself: odd polynomials change sign there.
+            // If the root is the knob end itself, odd polynomials change sign there.
             let mut end = R::default();
             for (k, w) in self.shape[..view.terms].iter().enumerate() {
                 end += if k % 2 == 1 { -*w } else { *w };
@@ -113,7 +112,7 @@ impl<R: Real> Motion<R> {
         }
     }
 
-    /// Kinetic energy and residual from `A q`, other modes taken out of that.
+    /// Kinetic energy and residual from `A q`, from which other modes are removed.
     #[inline(always)]
     fn take_image<S: Real>(&mut self, q: &[R], others: &[S])
     where
@@ -145,7 +144,7 @@ impl<R: Real> Motion<R> {
         self.points.resize(self.forces.len(), [zero; 2]);
     }
 
-    /// Deflections outwards from the root at rest, less a rigid motion; loads `ρA w` at the points.
+    /// Deflections outwards from the root at rest, less a rigid motion; leaves the loads `ρA w` at the points.
     #[inline(always)]
     fn outwards<S: Real>(&mut self, view: &View<S>, q: &[R], rigid: Rigid<R>, side: usize)
     where
@@ -196,7 +195,7 @@ impl<R: Real> Motion<R> {
         }
     }
 
-    /// Deflection and rotation of one cell; the deflection at its outer end.
+    /// Deflection and rotation of one cell. Returns the deflection at its outer end.
     #[inline(always)]
     fn take_cell<S: Real>(
         &mut self,
@@ -232,8 +231,8 @@ impl<R: Real> Motion<R> {
         shape.iter().fold(R::default(), |sum, w| sum + *w)
     }
 
-    /// How often the deflection at the points and at the ends changes its sign from knob to tip: at
-    /// most as often as it is zero. `split` elements are on the knob side.
+    /// Number of sign changes of the deflection at the points and the ends, from knob to tip; the number of its zeros
+    /// is at least that. `split` elements are on the knob side.
     #[inline(always)]
     pub fn crossings(&self, split: usize) -> R {
         let points = self.deflections.len() / self.defects.len();
@@ -248,8 +247,8 @@ impl<R: Real> Motion<R> {
         count
     }
 
-    /// Raises every element's number, knob to tip, to its part of the defect, in any lane; `split`
-    /// of them are on the knob side.
+    /// Raises the number of every element, knob to tip, to its part of the defect in any lane; `split` elements are on
+    /// the knob side.
     pub fn add_defects(&self, split: usize, most: &mut [f64]) {
         let (knob, tip) = self.defects.split_at(split);
         for (most, defect) in most.iter_mut().zip(knob.iter().rev().chain(tip)) {
@@ -258,7 +257,7 @@ impl<R: Real> Motion<R> {
     }
 }
 
-/// Keeps a motion's values at points, and the loads that they are there.
+/// Stores a motion's values at the points, and the loads `values · line` there.
 #[inline(always)]
 fn keep<S: Real, R: Over<S>>(values: &[R], line: &[S], kept: &mut [R], loads: &mut [R]) {
     for (((kept, load), line), value) in kept.iter_mut().zip(loads).zip(line).zip(values) {

@@ -1,4 +1,4 @@
-//! Where on the mesh is what is on the bat, and what holds it?
+//! Where on the mesh are the fixtures?
 
 use std::ops::Range;
 
@@ -15,25 +15,25 @@ use crate::beam::walk::{Stop, What};
 pub struct Placed<S> {
     /// Masses, on the bat itself or on springs.
     pub points: Vec<PointMass<S>>,
-    /// Places that give way to bending.
+    /// Joints that give way to bending.
     pub joints: Vec<Spring<S>>,
-    /// What holds a deflection or a rotation.
+    /// Contacts that hold a deflection or a rotation.
     pub contacts: Vec<Contact<S>>,
-    /// What is met on the way outwards on the knob side and on the tip side, in this order.
+    /// Stops on the way outwards on the knob side and on the tip side, in this order.
     pub stops: [Vec<Stop>; 2],
     /// Number of strains that springs add to those of the elements.
     pub springs: usize,
-    /// Where the bat is clamped (m).
+    /// Places where the bat is clamped (m).
     pub clamps: Vec<f64>,
-    /// Where it is pinned (m).
+    /// Places where it is pinned (m).
     pub pins: Vec<f64>,
     /// The first contact of the bed under a cell; empty without a bed.
     beds: Vec<Option<usize>>,
 }
 
 impl<S: Real> Placed<S> {
-    /// Everything that the bats' fixtures say, one in each lane, on meshes of one pattern: of several bats
-    /// masses alone, as many on each and at the same nodes.
+    /// All fixtures of the bats, one bat in each lane, on meshes of one pattern. Several bats may have only masses, the
+    /// same number at the same nodes.
     pub fn new(bare: &Bare<S>, bats: &[&Bat], mesh: &Mesh) -> Self {
         let bat = bats[0];
         let held = |kind: Held| {
@@ -46,7 +46,7 @@ impl<S: Real> Placed<S> {
         placed.add_points(bare, bats, mesh);
         placed.add_holds(bare, bat, mesh);
         placed.add_grip(bare, bat, mesh);
-        // Outwards; at one place the knob's part comes first from the knob and last from the tip.
+        // Outwards; of fixtures at one place, the knob's comes first seen from the knob, and last seen from the tip.
         let order = |side: usize, what: What| match what {
             What::Joint(_) => usize::from(side == 1) * 2,
             _ => 1,
@@ -63,21 +63,21 @@ impl<S: Real> Placed<S> {
         Some(first..first + terms)
     }
 
-    /// How many masses hang on springs.
+    /// Number of masses that hang on springs.
     pub fn hung(&self) -> usize {
         self.points.iter().filter(|point| point.spring.is_some()).count()
     }
 
-    /// The next strain of its own, of a spring of that stiffness (N/m or N m/rad).
+    /// A new strain for a spring of that stiffness (N/m or N m/rad).
     fn spring(&mut self, bare: &Bare<S>, stiffness: f64) -> Spring<S> {
         let place = bare.count * bare.strains + self.springs;
         self.springs += 1;
         Spring { place, softness: (bare.energy_unit / S::splat(stiffness)).sqrt() }
     }
 
-    /// Adds a stop where node `node` is; its side, 1 for the tip's.
+    /// Adds a stop at node `node`; returns its side, 1 for the tip's.
     fn stop(&mut self, split: usize, node: usize, what: What) -> usize {
-        // A joint at the root gives way on the tip side, everything else there is the knob side's.
+        // A joint at the root gives way on the tip side; all other fixtures there belong to the knob side.
         let tip_side = node > split || (node == split && matches!(what, What::Joint(_)));
         let after = if tip_side { node - split } else { split - node };
         self.stops[usize::from(tip_side)].push(Stop { after, what });
@@ -165,7 +165,7 @@ impl<S: Real> Placed<S> {
     }
 }
 
-/// The number of the mesh's node at `x`, or nearest to it: the bat's pieces end there.
+/// Index of the mesh's node at `x`, or nearest to it; the bat's pieces end there.
 pub fn node_at(bat: &Bat, mesh: &Mesh, x: f64) -> usize {
     let pieces = &bat.profile().pieces;
     let start = |k: usize| pieces.get(k).map_or(bat.length(), |piece| piece.start);
@@ -174,7 +174,7 @@ pub fn node_at(bat: &Bat, mesh: &Mesh, x: f64) -> usize {
     mesh.elements.partition_point(|e| e.piece < piece)
 }
 
-/// The elements in the grip: the place of the cell and the number of the element.
+/// The elements in the grip: index of the cell and of the element.
 pub fn in_grip(bat: &Bat, mesh: &Mesh, split: usize) -> Vec<(usize, usize)> {
     let Some(grip) = &bat.fixtures().grip else { return vec![] };
     let held = |e: &usize| {

@@ -1,4 +1,4 @@
-//! Where an element is sampled: Gauss points, and all that depends on them alone.
+//! Where is an element sampled? Gauss points, and the tables that depend on them alone.
 
 use std::sync::OnceLock;
 
@@ -10,7 +10,7 @@ use crate::bat::profile::{Cubics, Radii, Section};
 /// Lowest and highest degree of the elements' deflection.
 pub const DEGREES: std::ops::RangeInclusive<usize> = 3..=12;
 
-/// Gauss points of an element of one degree, with integrals of what is given there.
+/// Gauss points of an element of one degree, with tables for integrals of functions given there.
 #[derive(Debug)]
 pub struct Rule {
     /// The points, from left to right.
@@ -22,7 +22,7 @@ pub struct Rule {
     /// `∫₀^{s_j} (s_j − s) ℓ_i(s) ds`, `[i][j]`: twice integrated from the left end, for a
     /// function given at the points (`ℓ_i` the polynomial that is 1 at point `i`, 0 at the others).
     pub twice_from_left: Vec<f64>,
-    /// `∫_{s_j}^1 (s − s_j) ℓ_i(s) ds`, `[i][j]`: the same from the right end.
+    /// `∫_{s_j}^1 (s − s_j) ℓ_i(s) ds`, `[i][j]`: twice integrated from the right end.
     pub twice_from_right: Vec<f64>,
     /// `∫₀^{s_j} ℓ_i(s) ds`, `[i][j]`: once integrated from the left end.
     pub once_from_left: Vec<f64>,
@@ -30,14 +30,14 @@ pub struct Rule {
     pub once_from_right: Vec<f64>,
     /// Weights that give the last two coefficients of the Legendre series through the points.
     last: [Vec<f64>; 2],
-    /// `(2k + 1) P_k` at the points, polynomial by polynomial, up to twice the degree, which make of moments `∫₀¹ f P_k
-    /// ds` the polynomial that has them: of a rule for elements over stations.
+    /// `(2k + 1) P_k` at the points, polynomial by polynomial, up to twice the degree: turns moments `∫₀¹ f P_k ds`
+    /// into the polynomial that has them. For rules on elements over stations.
     pub from_moments: Vec<f64>,
 }
 
-/// Points whose numbers are computed together; the tables are filled up to a multiple.
+/// Number of points computed together; the tables are filled up to a multiple of it.
 const BLOCK: usize = 4;
-/// Room for a number at every point of any rule; those beyond its last point are not used.
+/// Room for a number at every point of any rule; entries beyond its last point are not used.
 pub const MOST_POINTS: usize = 32;
 
 /// One Gauss point.
@@ -69,7 +69,7 @@ impl GaussPoint {
     }
 }
 
-/// Kinds of profile: constant, linear and cubic radii, formulas, and what lies on both sides of stations.
+/// Kinds of profile: constant, linear and cubic radii, formulas, and elements over stations.
 const KINDS: usize = 5;
 /// Points for a formula beyond the degree of the deflection.
 const FOR_FORMULAS: usize = 16;
@@ -77,14 +77,14 @@ const FOR_FORMULAS: usize = 16;
 impl Rule {
     /// The rule for elements of that degree on this bat.
     ///
-    /// With radii of degree `d` and deflections of degree `p` the load `ρA w` has degree
-    /// `2d + p`: the given number of points and one more hold it exactly, and then the mass too. The stiffness
-    /// `∫EI P_{p−2}²` has degree `4d + 2p − 4`, and `n` points integrate `2n − 1` exactly. Formulas
-    /// get 16 points beyond the degree; [`Rule::tail`] tells whether these are enough.
+    /// With radii of degree `d` and deflections of degree `p`, the load `ρA w` has degree `2d + p`. One point more than
+    /// that represents it exactly, and then the mass too. The stiffness `∫EI P_{p−2}²` has degree `4d + 2p − 4`, and
+    /// `n` points integrate degree `2n − 1` exactly. Formulas get 16 points beyond the degree; [`Rule::tail`] tells
+    /// whether these are enough.
     ///
-    /// On elements `over` stations a section is a polynomial of degree 2p that has its moments with all
-    /// polynomials up to that degree ([`crate::beam::sections::over`]), and so gives the exact
-    /// `∫EI P_{p−2}²` and `∫ρA P_p²`: the points hold products of degree 4p.
+    /// On elements `over` stations a section is a polynomial of degree 2p with the true moments up to that degree
+    /// ([`crate::beam::sections::over`]). It therefore gives the exact `∫EI P_{p−2}²` and `∫ρA P_p²`: the points
+    /// integrate products of degree 4p.
     pub fn of(bat: &Bat, over: bool, degree: usize) -> &'static Self {
         static RULES: [OnceLock<Rule>; KINDS * 16] = [const { OnceLock::new() }; KINDS * 16];
         let mut pieces = bat.profile().pieces.iter();
@@ -114,7 +114,7 @@ impl Rule {
         rule
     }
 
-    /// Number of moments that a section on an element over stations is known by; 0 of another rule.
+    /// Number of moments that describe a section on an element over stations; 0 for another rule.
     #[inline(always)]
     pub fn moments_of_sections(&self) -> usize {
         self.from_moments.len() / self.stride()
@@ -182,7 +182,7 @@ impl Rule {
         self.points.len().next_multiple_of(BLOCK)
     }
 
-    /// As many Legendre polynomials at one point as a deflection has coefficients.
+    /// The Legendre polynomials at one point, one for each coefficient of a deflection.
     #[inline(always)]
     pub fn polynomials(&self, point: usize, terms: usize) -> &[f64] {
         &self.legendre[terms * point..][..terms]
@@ -200,8 +200,8 @@ impl Rule {
         self.combine(&self.by_term, coefficients, values);
     }
 
-    /// `Σ_i f_i P_k` of numbers at the points, for as many polynomials as there is room for: what
-    /// loads there do on `Σ c_k P_k`.
+    /// `Σ_i f_i P_k` of numbers at the points, for the polynomials that fit into `moments`: the work of loads there on
+    /// `Σ c_k P_k`.
     pub fn moments(&self, values: &[f64], moments: &mut [f64]) {
         let rows = self.by_term.chunks_exact(self.stride());
         for (moment, row) in moments.iter_mut().zip(rows) {
@@ -209,7 +209,7 @@ impl Rule {
         }
     }
 
-    /// The Legendre coefficients of a function given at the points, as many as there is room for.
+    /// The Legendre coefficients of a function given at the points, as many as fit.
     pub fn coefficients<R: Real>(&self, values: &[R], coefficients: &mut [R]) {
         let rows = self.by_term.chunks_exact(self.stride());
         for (k, (coefficient, row)) in coefficients.iter_mut().zip(rows).enumerate() {
@@ -220,7 +220,7 @@ impl Rule {
         }
     }
 
-    /// `Σ parts[k] rows[k]`, the rows those of a table: what it makes of a function given at the points.
+    /// `Σ parts[k] rows[k]` with the rows of a table: its transform of a function given at the points.
     #[inline(always)]
     pub fn combine<R: Real>(&self, rows: &[f64], parts: &[R], sums: &mut [R; MOST_POINTS]) {
         let stride = self.stride();

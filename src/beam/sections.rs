@@ -1,4 +1,4 @@
-//! What are the sections at the points of an element, and how much of them do the points miss?
+//! What are the sections at the points of an element, and how much do the points miss?
 
 use std::sync::LazyLock;
 
@@ -29,8 +29,8 @@ fn sections(bat: &Bat, e: &Element, rule: &Rule, mut at: impl FnMut(usize, Secti
     }
 }
 
-/// Numbers of the sections on an element over stations, as the polynomials of degree 2p that have their
-/// moments: values at the points of the rule.
+/// Values of the sections at the points of the rule, on an element over stations: those of the polynomials of degree 2p
+/// with the true moments.
 ///
 /// The moments are integrals from station to station, where the radii are cubics.
 #[inline(always)]
@@ -69,11 +69,11 @@ static POINTS: LazyLock<Vec<Vec<GaussPoint>>> = LazyLock::new(|| {
 
 /// Number of points for a part of an element whose sections are multiplied by that number of Legendre polynomials.
 ///
-/// n points integrate `e^{zt}` on [0, 1] to `z^{2n} (n!)⁴/((2n)!)³`. `P_k` is nearly `cos kθ` with `ξ = cos
-/// θ`, a section whose radius goes from r₀ to r₁ nearly `e^{4t ln r₁/r₀}`; and n points are exact for the
+/// n points integrate `e^{zt}` on [0, 1] with the error `z^{2n} (n!)⁴/((2n)!)³`. `P_k` is nearly `cos kθ` with
+/// `ξ = cos θ`, and a section whose radius goes from r₀ to r₁ is nearly `e^{4t ln r₁/r₀}`. n points are exact up to
 /// degree 2n − 1.
 fn points(cubics: &Cubics, count: usize, [begin, end]: [f64; 2]) -> usize {
-    /// The z of 2, 3, … points for 1e-12.
+    /// The largest z that 2, 3, … points integrate to 1e-12.
     const REACH: [f64; 19] = [
         0.005, 0.081, 0.344, 0.863, 1.651, 2.688, 3.947, 5.398, 7.014, 8.772, 10.65, 12.634,
         14.707, 16.859, 19.079, 21.36, 23.693, 26.073, 28.494,
@@ -88,11 +88,11 @@ fn points(cubics: &Cubics, count: usize, [begin, end]: [f64; 2]) -> usize {
     enough.min(count / 2 + 7)
 }
 
-/// Sums `Σ f P_k` over points, as many at a time as a vector holds.
+/// Sums `Σ f P_k` over points, a vector of points at a time.
 struct Moments<const Q: usize> {
     count: usize,
     sums: [[Lanes; MOST_POINTS]; Q],
-    /// Points that are not in the sums yet, and how many.
+    /// Points that are not in the sums yet, and their number.
     xi: Lanes,
     values: [Lanes; Q],
     waiting: usize,
@@ -117,7 +117,7 @@ impl<const Q: usize> Moments<Q> {
         }
     }
 
-    /// Adds what waits.
+    /// Adds the waiting points.
     #[inline(always)]
     fn flush(&mut self) {
         let (mut before, mut now) = (Lanes::default(), Lanes::splat(1.0));
@@ -156,7 +156,7 @@ pub fn bending_and_mass(
     sections(bat, e, rule, |i, section| take(i, layup.bending_and_mass(section)));
 }
 
-/// Numbers of the sections at the points of a rule for elements over stations, of which this may be one.
+/// Values of the sections at the points of a rule for elements over stations; this element may be one.
 #[inline(always)]
 pub fn sampled<const Q: usize>(
     bat: &Bat,
@@ -177,7 +177,7 @@ pub fn sampled<const Q: usize>(
     values
 }
 
-/// All that the sections are worth there.
+/// All values of the sections there.
 pub fn worths(bat: &Bat, e: &Element, rule: &Rule, mut take: impl FnMut(usize, Worth)) {
     if e.over_stations() {
         let [bending, mass, turning, shear] = over(bat, e, rule, |layup, section| {
@@ -203,19 +203,17 @@ pub fn losses(bat: &Bat, e: &Element, rule: &Rule, mut take: impl FnMut(usize, [
     sections(bat, e, rule, |i, section| take(i, layup.loss(section)));
 }
 
-/// What the points of a rule miss of a section is mere round-off up to this.
+/// Up to this, the relative error of a rule's points is round-off.
 const RESOLVED: f64 = 1e-13;
-/// Elements shorter than this, as a share of the bat, may hold what no polynomial holds.
+/// Elements shorter than this share of the bat may hold features that no polynomial follows.
 const SHORT: f64 = 1e-8;
 
-/// How much of the sections on an element the points of its rule may miss, relative; 0 where that
-/// is mere round-off.
+/// Relative error of the sections at the points of the rule on an element; 0 if it is mere round-off.
 ///
-/// Stations are polynomials that the rule holds exactly, but for the κGA of a bore or a sleeve that tapers: the
-/// last terms of its Legendre series through the points count. Over stations all numbers are integrals,
-/// and nothing is missed. Of formulas it is what bounds from
-/// the parse tree leave of EI, ρA and κGA, and on an element so short that nothing on it matters its variation times
-/// its share of the bat.
+/// Stations are polynomials that the rule represents exactly, except the κGA of a tapering bore or sleeve: there the
+/// last terms of its Legendre series through the points are the error. Over stations all numbers are integrals, and the
+/// error is 0. For formulas it is a bound from the parse tree on EI, ρA and κGA. On an element too short to matter, it
+/// is the variation times the element's share of the bat.
 pub fn missed(bat: &Bat, e: &Element, rule: &Rule, theory: Theory) -> f64 {
     let piece = &bat.profile().pieces[e.piece];
     let layup = bat.layup(piece);
@@ -261,14 +259,14 @@ fn shear_tail(bat: &Bat, e: &Element, rule: &Rule) -> f64 {
     if tail > 64.0 * f64::EPSILON * thinness { tail } else { 0.0 }
 }
 
-/// As [`missed`], the most on any element.
+/// The largest [`missed`] of all elements.
 pub fn missed_on(bat: &Bat, mesh: &Mesh, rule: &Rule, theory: Theory) -> f64 {
     mesh.elements.iter().map(|e| missed(bat, e, rule, theory)).fold(0.0, f64::max)
 }
 
-/// Round-off of the sections, relative: `r/(r − r_i)` spacings of a wall that is the difference of
-/// two radii, and what evaluating a formula costs; of the last of either end, which neither weighs nor bends, not
-/// that: a formula of the distance from a pointed tip has few digits there.
+/// Relative round-off of the sections: `r/(r − r_i)` spacings for a wall that is the difference of two radii, and the
+/// evaluation of formulas. The last part of either end is exempt, for it neither weighs nor bends: a formula in the
+/// distance from a pointed tip has few digits there.
 pub fn round_off(bat: &Bat, mesh: &Mesh) -> f64 {
     let of = |e: &Element, piece: usize| match &bat.profile().pieces[piece].radii {
         Radii::Cubic(cubics) if cubics.inner == [0.0; 4] => 0.0,

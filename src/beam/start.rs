@@ -1,4 +1,4 @@
-//! Where does the iteration for the slowest motions start?
+//! Where does the iteration for the slowest modes start?
 
 use crate::base::golden;
 use crate::base::real::Real;
@@ -7,9 +7,8 @@ use crate::beam::rule::MOST_POINTS;
 use crate::beam::view::View;
 
 impl<R: Real> View<'_, R> {
-    /// Scaled strains under bending moments (N m): `L⁻¹ ∫ M P_j dx`, the Galerkin solution of
-    /// `EI w″ = M`. `moments` gets the places of a cell's points, 0 to 1 along the bat, and leaves
-    /// the moments there.
+    /// Scaled strains under bending moments (N m): `L⁻¹ ∫ M P_j dx`, the Galerkin solution of `EI w″ = M`. `moments`
+    /// receives the places of a cell's points, 0 to 1 along the bat, and replaces them by the moments there.
     #[inline(always)]
     fn strains_of_moments(&self, out: &mut [R], mut moments: impl FnMut(&mut [R])) {
         let (points, scale) = (self.rule.count(), R::splat(1.0) / self.length);
@@ -38,13 +37,13 @@ impl<R: Real> View<'_, R> {
         }
     }
 
-    /// Where Lanczos starts for `count` modes: bending moments with something of each wanted mode
-    /// and little of the others.
+    /// The start vector of Lanczos for `count` modes: bending moments with a part of each wanted mode and little of the
+    /// others.
     ///
-    /// `s²(1 − s)² Σ_j a_j T_j(1 − 2(3s² − 2s³))`, `j ≤ count + 1`, `s` along the bat, `T_j`
-    /// Chebyshev's polynomials, so that the terms are nearly `cos jπs`: moment and shear vanish at
-    /// the free ends as a mode's do. The `a_j` are golden-ratio fractions, all different. A touch
-    /// of every unknown is added, so that no mode is ever left out.
+    /// `s²(1 − s)² Σ_j a_j T_j(1 − 2(3s² − 2s³))`, `j ≤ count + 1`, `s` along the bat, `T_j` Chebyshev's polynomials,
+    /// so that the terms are nearly `cos jπs`. With these, moment and shear vanish at the free ends as a mode's do. The
+    /// `a_j` are golden-ratio fractions, all different. A small part of every unknown is added, so that no mode is ever
+    /// missing.
     #[inline(always)]
     pub fn start(&self, count: usize, out: &mut [R]) {
         const TOUCH: f64 = 1e-9;
@@ -68,7 +67,7 @@ impl<R: Real> View<'_, R> {
                     }
                 }
                 for (i, s) in places.iter_mut().enumerate() {
-                    // Where the bat is held there are moments at its ends too.
+                    // A held bat has moments at its ends too.
                     let bump = if held { number(0.5) } else { *s * (number(1.0) - *s) };
                     *s = bump * bump * (now[i] - wave[i] * before[i]);
                 }

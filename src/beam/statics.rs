@@ -1,10 +1,9 @@
-//! What does a load do to a free bat: the compliance, by running sums.
+//! What does a load do to a free bat? The compliance, by running sums.
 //!
-//! A free bat is statically determinate. Under a load in balance with itself the bending
-//! moment follows from the ends by two running sums, the strains from the moment element by
-//! element, slope and deflection from the strains by two more. So `K⁻¹` on the bending motions
-//! needs no factorisation of `K`, nothing large is subtracted, and the error stays at ε however
-//! many elements there are, where a factored `K` loses ε n⁴.
+//! A free bat is statically determinate. Under a self-balanced load, two running sums from the ends give the bending
+//! moment. The strains follow from the moment element by element, and slope and deflection from the strains by two more
+//! sums. So `K⁻¹` on the bending motions needs no factorisation of `K`, nothing large is subtracted, and the error
+//! stays at ε for any number of elements, whereas a factored `K` loses ε n⁴.
 //!
 //! The unknowns are the strains scaled by the Cholesky factor of their stiffness, `q = Lᵀc`, so
 //! that the strain energy is `½ qᵀq`. With `S` the integration of strains to deflections and
@@ -14,12 +13,12 @@
 //! A = L⁻¹ Sᵀ M⊥ S L⁻ᵀ
 //! ```
 //!
-//! is symmetric, has the eigenvalues 1/ω² of the free bat's bending modes and no others:
-//! the two rigid motions have no strain.
+//! is symmetric. Its eigenvalues are exactly the 1/ω² of the free bat's bending modes: the two rigid motions have no
+//! strain.
 //!
-//! The sums run outwards from a root where the bat is stiff, and the loads inwards to it. A thin
-//! end, whose strains are the least certain, then moves nothing but itself; with the root in the
-//! point of a cone, 4000 elements lost half the digits.
+//! The sums run outwards from a root where the bat is stiff, and the loads inwards to it. A thin end has the least
+//! certain strains, and then moves only itself. With the root in the point of a cone, 4000 elements lost half the
+//! digits.
 
 use crate::base::lanes::vectorized;
 use crate::base::quadrature::RunningSum;
@@ -34,15 +33,14 @@ use crate::beam::rule::{MOST_POINTS, Rule};
 use crate::beam::sections::{self, sampled};
 use crate::beam::sweep::{Body, Cell, Inwards, Loads, Outwards, Rigid};
 
-/// Sums over more elements than this carry their rounding errors along; up to here they round to at most
-/// `200 ε = 4e-14`, below every error that is stated, and the example `tuning_round_off` prints what they do.
+/// Sums over more elements than this carry their rounding errors along. Up to here the round-off is at most
+/// `200 ε = 4e-14`, below every error that is stated; the example `tuning_round_off` prints its effect.
 const LONG: usize = 200;
 
-/// The compliance of bats, one in each lane of `R`, on elements of degree `N − 1` with `W − 2`
-/// strains.
+/// The compliance of bats, one in each lane of `R`, on elements of degree `N − 1` with `W − 2` strains.
 ///
-/// Vectors of strains hold `W − 2` numbers for each element, the knob side first, both sides from
-/// the root outwards, and then those of springs.
+/// Vectors of strains hold `W − 2` numbers for each element, first the knob side, both sides from the root outwards,
+/// and then those of springs.
 #[derive(Debug, Clone)]
 pub struct Statics<R, const N: usize, const W: usize> {
     /// Where the elements are sampled.
@@ -51,9 +49,9 @@ pub struct Statics<R, const N: usize, const W: usize> {
     pub theory: Theory,
     /// The elements in the order of the strains, each seen outwards.
     pub cells: Vec<Cell<R, W>>,
-    /// How many of them are on the knob side.
+    /// Number of elements on the knob side.
     pub split: usize,
-    /// How many are to be, if that is not the bat's own choice.
+    /// That number if it is prescribed; `None` lets the bat choose.
     pub rooted: Option<usize>,
     /// EI (N m²) at the points of every cell, outwards.
     pub bending_stiffness: Vec<R>,
@@ -63,26 +61,26 @@ pub struct Statics<R, const N: usize, const W: usize> {
     pub turning_per_length: Vec<R>,
     /// κGA (N) at the same points, of a theory with shear.
     pub shear_stiffness: Vec<R>,
-    /// 1/EI (1/(N m²)) and 1/κGA (1/N) at the same points, where elements reach over stations: there
-    /// each number is a polynomial of its own.
+    /// 1/EI (1/(N m²)) and 1/κGA (1/N) at the same points, if elements reach over stations: there each of these is a
+    /// separate polynomial.
     pub softness: [Vec<R>; 2],
-    /// Mass (kg), summed from the elements and what is attached.
+    /// Mass (kg), summed from the elements and the fixtures.
     pub mass: R,
     /// The theory's inertia about the balance point (kg m²), summed likewise.
     pub inertia: R,
     /// Position of the balance point from the knob end (m).
     pub balance: R,
-    /// Energy of `½ qᵀq = 1`: a power of two near the greatest `EI h`, so that scaling a bat by
-    /// powers of two scales every number in here by powers of two, and no digit changes.
+    /// Energy of `½ qᵀq = 1`: a power of two near the greatest `EI h`. Scaling a bat by powers of two then scales every
+    /// number by powers of two and changes no digit.
     pub energy_unit: R,
     /// Length of the bat (m).
     pub length: R,
-    /// What is on the bats and what holds them, if anything; several bats have masses on them at most.
+    /// The fixtures, if any; several bats may have only masses.
     pub fixed: Option<Box<Fixed<R>>>,
 }
 
 impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
-    /// Nothing yet; [`Self::assemble`] fills it.
+    /// An empty value, which [`Self::assemble`] fills.
     pub fn empty(bat: &Bat, theory: Theory) -> Self {
         debug_assert!(theory.shears() == (W > N));
         let zero = R::default();
@@ -106,7 +104,7 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
         }
     }
 
-    /// The compliance of the bats, one per lane, all on the one mesh's pattern of elements.
+    /// Assembles the compliance of the bats, one per lane, all on the same pattern of elements.
     ///
     /// Memory is reused: the second bat of the same number of elements allocates nothing.
     #[inline(always)]
@@ -130,7 +128,7 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
         }
     }
 
-    /// Room for the values of the sections at the points of that number of elements, as far as the theory asks for it.
+    /// Allocates the values at the points of that number of elements, as far as the theory needs them.
     #[inline(always)]
     fn make_room(&mut self, count: usize, over: bool) {
         let (samples, theory) = (count * self.rule.count(), self.theory);
@@ -148,9 +146,9 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
         }
     }
 
-    /// Adds up length, mass and balance point of the elements and what is attached, and finds the unit of energy;
-    /// EI and ρA of elements that reach over no stations are sampled on the way. The greatest `∫EI dx/h` of an
-    /// element of the first bat (N m²).
+    /// Sums length, mass and balance point of the elements and the fixtures, and finds the unit of energy. EI and ρA of
+    /// elements that reach over no stations are sampled on the way. Returns the greatest `∫EI dx/h` of an element of
+    /// the first bat (N m²).
     #[inline(always)]
     fn add_up(&mut self, bats: &[&Bat], meshes: &[&Mesh], over: bool) -> f64 {
         let (points, zero) = (self.rule.count(), R::default());
@@ -199,7 +197,7 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
         stiffest
     }
 
-    /// Everything at the points of elements that reach over stations, or some of which do.
+    /// Samples all values on meshes with elements over stations.
     #[inline(always)]
     fn sample_over_stations(&mut self, bats: &[&Bat], meshes: &[&Mesh]) {
         let (points, theory) = (self.rule.count(), self.theory);
@@ -242,7 +240,7 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
         }
     }
 
-    /// ρI and κGA at the points, as far as the theory asks for them.
+    /// Samples ρI and κGA at the points, as far as the theory needs them.
     fn sample_the_rest(&mut self, bats: &[&Bat], meshes: &[&Mesh]) {
         let (points, shears) = (self.rule.count(), self.theory.shears());
         for (lane, (bat, mesh)) in bats.iter().zip(meshes).enumerate() {
@@ -279,7 +277,7 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
         let mut inertia = RunningSum::<R>::default();
         let count = meshes[0].len();
         self.cells.resize(count, Cell::default());
-        // The knob side's sections come outwards too: last element first, points reversed.
+        // The knob side's sections are stored outwards too: last element first, points reversed.
         let [bending_softness, shear_softness] = &mut self.softness;
         for samples in [
             &mut self.bending_stiffness,
@@ -327,7 +325,7 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
         self.inertia = inertia.value();
     }
 
-    /// Adds what is attached to the inertia.
+    /// Adds the fixtures to the inertia.
     fn attach(&mut self, bats: &[&Bat]) {
         let balance = self.balance;
         let mut lanes = 0..R::LANES;
@@ -351,21 +349,21 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
         Body { cells: &self.cells, split: self.split, mass: self.mass, inertia: self.inertia }
     }
 
-    /// `y = A q`; `loads` is scratch space. Returns the rigid motion that was taken out of the
-    /// motion with these strains when it is at rest at the root.
+    /// `y = A q`; `loads` is scratch space. Returns the rigid motion that was removed from the motion with these
+    /// strains and the root at rest.
     pub fn apply(&self, q: &[R], y: &mut [R], loads: &mut Loads<R, W>) -> Rigid<R> {
         let (body, fixed) = (self.body(), self.fixed.as_deref());
         apply(&body, fixed, q, Some(y), loads)
     }
 
-    /// The rigid motion alone that [`Self::apply`] takes out of a bare bat: half the work.
+    /// The rigid motion alone that [`Self::apply`] removes from a bare bat: half the work.
     pub fn rigid(&self, q: &[R], loads: &mut Loads<R, W>) -> Rigid<R> {
         debug_assert!(self.fixed.is_none());
         apply(&self.body(), None, q, None, loads)
     }
 }
 
-/// The compliance of a bat times the strains `q`, which go to `y` if they are asked for.
+/// The compliance of a bat times the strains `q`, written to `y` if that is given.
 fn apply<R: Real, const W: usize>(
     body: &Body<'_, R, W>,
     fixed: Option<&Fixed<R>>,
@@ -398,7 +396,7 @@ impl<R: Real, const W: usize> Body<'_, R, W> {
         rigid
     }
 
-    /// Outwards on both sides: leaves the loads, returns the rigid motion they add up to.
+    /// Both sides outwards: leaves the loads, returns the rigid motion that balances them.
     #[inline(always)]
     fn balanced<const KEEP: bool>(&self, q: &[R], loads: &mut Loads<R, W>) -> Rigid<R> {
         loads.cells.resize(self.cells.len(), [R::default(); W]);
@@ -417,7 +415,7 @@ impl<R: Real, const W: usize> Body<'_, R, W> {
     }
 }
 
-/// Numbers of every bat, each in its lane.
+/// Numbers of several bats, each bat in its lane.
 fn each<R: Real, const Q: usize>(bats: &[&Bat], mut of: impl FnMut(&Bat) -> [f64; Q]) -> [R; Q] {
     let mut numbers = [R::default(); Q];
     for (lane, bat) in bats.iter().enumerate() {
@@ -427,9 +425,9 @@ fn each<R: Real, const Q: usize>(bats: &[&Bat], mut of: impl FnMut(&Bat) -> [f64
     numbers
 }
 
-/// The greatest power of two that is not above a positive number.
+/// The greatest power of two not above a positive number.
 fn power_of_two_below(value: f64) -> f64 {
-    // The bits of a normal number without those of its fraction.
+    // The bits of a normal number with the fraction cleared.
     f64::from_bits(value.to_bits() & !((1 << 52) - 1))
 }
 
@@ -469,7 +467,7 @@ mod tests {
         statics
     }
 
-    /// Strains of no particular kind.
+    /// Arbitrary strains.
     fn some(dimension: usize, offset: usize) -> Vec<f64> {
         (0..dimension).map(|k| ((k + offset) as f64 * 0.754_877).fract() - 0.5).collect()
     }
@@ -535,8 +533,8 @@ mod tests {
         }
     }
 
-    /// `qᵀAq` is the kinetic energy of the motion with these strains, element by element in
-    /// Legendre polynomials, and that motion carries neither momentum nor angular momentum.
+    /// `qᵀAq` is the kinetic energy of the motion with these strains, summed over the elements in Legendre polynomials.
+    /// That motion carries neither momentum nor angular momentum.
     fn kinetic<const N: usize, const W: usize>(theory: Theory) {
         let bat = bat([0.033, 0.012]);
         let statics = statics::<N, W>(&bat, 7, theory);

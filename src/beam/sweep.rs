@@ -1,4 +1,4 @@
-//! The two ways over the elements: strains integrated outwards, loads summed up inwards.
+//! The two passes over the elements: strains are integrated outwards, loads are summed inwards.
 
 use std::ops::Range;
 
@@ -46,13 +46,13 @@ impl<S: Real, const W: usize> Cell<S, W> {
 /// A cell of any degree and theory.
 #[derive(Debug, Clone, Copy)]
 pub struct CellView<'a, S> {
-    /// Rows of `L⁻¹`, each with two numbers more than there are strains.
+    /// Rows of `L⁻¹`, each two entries longer than the number of strains.
     inverse: &'a [S],
-    /// Rows of the mass matrix of its scaled strains, deflection and rotation.
+    /// Rows of the mass matrix in its scaled strains, deflection and rotation.
     pub mass: &'a [S],
-    /// What its strains add to the deflection at its outer end (m).
+    /// Contributions of its strains to the deflection at its outer end (m).
     pub lift: &'a [S],
-    /// What they add to the rotation there (rad).
+    /// Their contributions to the rotation there (rad).
     pub turn: &'a [S],
     /// h (m).
     pub length: S,
@@ -73,7 +73,7 @@ impl<S: Real> CellView<'_, S> {
         }
     }
 
-    /// `L⁻¹ f`: scaled strains from what loads are on the strains, in blocks of that size.
+    /// `L⁻¹ f`: scaled strains from loads on the strains, in blocks of that size.
     #[inline(always)]
     pub fn scaled_by_loads(&self, loads: &[S], block: usize, q: &mut [S]) {
         let row = loads.len() + 2;
@@ -85,8 +85,8 @@ impl<S: Real> CellView<'_, S> {
         }
     }
 
-    /// The loads on the cell, its scaled strains, deflection and rotation, of a unit force where
-    /// Legendre's polynomials have those values, as many as a deflection has coefficients.
+    /// The loads on the cell's scaled strains, deflection and rotation due to a unit force at the place where the
+    /// Legendre polynomials have those values, one for each coefficient of a deflection.
     pub fn point_load(&self, values: &[f64]) -> Vec<S> {
         let mut polynomials = [S::default(); MOST_TERMS];
         polynomials.iter_mut().zip(values).for_each(|(p, value)| *p = S::splat(*value));
@@ -117,7 +117,7 @@ impl<const W: usize> Cell<f64, W> {
 pub struct Rigid<R> {
     /// Translation of the balance point (m).
     pub push: R,
-    /// Rotation, as it is seen outwards (rad).
+    /// Rotation, seen outwards (rad).
     pub turn: R,
 }
 
@@ -131,19 +131,19 @@ impl<R: Real> Rigid<R> {
         self.push + self.turn * arm
     }
 
-    /// The motion seen from the other side: what turns outwards there turns inwards here.
+    /// The motion seen from the other side: a rotation that is outwards there is inwards here.
     pub fn mirrored(self) -> Self {
         Self { turn: -self.turn, ..self }
     }
 
-    /// The motion seen outwards on the knob side, 0, or on the tip side, 1.
+    /// The motion seen outwards on side 0, the knob's, or 1, the tip's.
     #[inline(always)]
     pub fn on_side(self, side: usize) -> Self {
         if side == 0 { self.mirrored() } else { self }
     }
 }
 
-/// A bare bat as the running sums see it.
+/// A bare bat in the form of the running sums.
 #[derive(Debug, Clone, Copy)]
 pub struct Body<'a, S, const W: usize> {
     /// Elements of the bat, the knob side first, both sides from the root outwards.
@@ -157,7 +157,7 @@ pub struct Body<'a, S, const W: usize> {
 }
 
 impl<S: Real, const W: usize> Body<'_, S, W> {
-    /// The cells of the knob side, 0, or of the tip side, 1.
+    /// The cells of side 0, the knob's, or 1, the tip's.
     pub fn side(&self, side: usize) -> Range<usize> {
         side_of(self.split, self.cells.len(), side)
     }
@@ -165,7 +165,7 @@ impl<S: Real, const W: usize> Body<'_, S, W> {
 
 /// Cells of any size.
 pub trait Cells<S> {
-    /// The cell of that number.
+    /// The cell with that index.
     fn at(&self, number: usize) -> CellView<'_, S>;
 }
 
@@ -184,7 +184,7 @@ pub struct Bare<'a, S> {
     pub strains: usize,
     /// Number of cells.
     pub count: usize,
-    /// How many of the cells are on the knob side.
+    /// Number of cells on the knob side.
     pub split: usize,
     /// The cells, the knob side first, both sides from the root outwards.
     pub cells: &'a dyn Cells<S>,
@@ -199,14 +199,14 @@ pub struct Bare<'a, S> {
 }
 
 impl<S> Bare<'_, S> {
-    /// The places of the cells of one side, outwards.
+    /// The indices of the cells of one side, outwards.
     pub fn side(&self, side: usize) -> Range<usize> {
         side_of(self.split, self.count, side)
     }
 }
 
-/// What a motion's inertia loads: the cells, and, where something is on the bat or holds it, force
-/// and couple of every point mass (outwards) and the force of every contact.
+/// The loads of a motion's inertia: on the cells and, with fixtures, force and couple of every point mass (outwards)
+/// and the force of every contact.
 #[derive(Debug, Clone, Default)]
 pub struct Loads<R, const W: usize> {
     /// Generalised loads of every cell: strains, deflection, rotation.
@@ -226,8 +226,8 @@ pub fn with_ends<R: Real, const W: usize>(q: &[R], w: R, theta: R) -> Vector<R, 
     motion
 }
 
-/// A way outwards: deflection and rotation so far, force and moment about the balance point of the
-/// inertia.
+/// The state of a pass outwards: deflection and rotation so far, force and moment of the inertia about the balance
+/// point.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Outwards<R, const KEEP: bool> {
     /// Deflection so far (m).
@@ -266,7 +266,7 @@ impl<R: Real, const KEEP: bool> Outwards<R, KEEP> {
     }
 }
 
-/// A way inwards, from a free end: shear and bending moment so far.
+/// The state of a pass inwards from a free end: shear force and bending moment so far.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Inwards<R, const KEEP: bool> {
     /// Shear force so far.
@@ -276,8 +276,8 @@ pub struct Inwards<R, const KEEP: bool> {
 }
 
 impl<R: Real, const KEEP: bool> Inwards<R, KEEP> {
-    /// The scaled strains of these cells under their loads, those of the rigid motion taken out:
-    /// the adjoint of [`Outwards::over`].
+    /// The scaled strains of these cells under their loads, less those of the rigid motion: the adjoint of
+    /// [`Outwards::over`].
     #[inline(always)]
     pub fn over<S: Real, const W: usize>(
         &mut self,

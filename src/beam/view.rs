@@ -11,8 +11,8 @@ use crate::beam::statics::Statics;
 use crate::beam::sweep::{Bare, CellView};
 use crate::beam::walk::{Run, runs};
 
-/// A bat of elements of any degree and theory: what does not step through its strains time and again
-/// is then compiled once.
+/// A bat with elements of any degree and theory. Code that does not step through the strains many times uses this view
+/// and is compiled once.
 #[derive(Clone, Copy)]
 pub struct View<'a, S> {
     /// The bare bat; its fields are read as the view's own.
@@ -33,7 +33,7 @@ pub struct View<'a, S> {
     pub softness: [&'a [S]; 2],
     /// Length of the bat (m).
     pub length: S,
-    /// What is on the bat and what holds it, if anything.
+    /// The fixtures, if any.
     pub fixed: Option<&'a Fixed<S>>,
 }
 
@@ -54,17 +54,17 @@ impl<'a, S: Real> View<'a, S> {
         runs(self.side(side), stops)
     }
 
-    /// Number of strains, those of springs with them.
+    /// Number of strains, including those of springs.
     pub fn dimension(&self) -> usize {
         self.strains * self.count + self.fixed.map_or(0, |fixed| fixed.placed.springs)
     }
 
-    /// Number of rigid motions that nothing holds.
+    /// Number of free rigid motions.
     pub fn rigid_modes(&self) -> usize {
         self.fixed.map_or(2, Fixed::rigid_modes)
     }
 
-    /// Number of the discrete bat's bending modes.
+    /// Number of bending modes of the discrete bat.
     pub fn freedom(&self) -> usize {
         self.dimension() - self.fixed.map_or(0, Fixed::redundant)
     }
@@ -75,7 +75,7 @@ impl<'a, S: Real> View<'a, S> {
         self.placed()?.bed(cell, self.terms)
     }
 
-    /// The cell of that number, and where its numbers are.
+    /// The cell with that index, and the indices of its numbers.
     #[inline(always)]
     pub fn at(&self, number: usize) -> Located<'a, S> {
         let of = |each: usize| number * each..(number + 1) * each;
@@ -83,25 +83,25 @@ impl<'a, S: Real> View<'a, S> {
         Located { number, cell: self.cells.at(number), strains, terms, samples }
     }
 
-    /// What is on the bat, and where.
+    /// The fixtures at their places.
     #[inline(always)]
     pub fn placed(&self) -> Option<&'a Placed<S>> {
         self.fixed.map(|fixed| &fixed.placed)
     }
 }
 
-/// A cell, and where among those of all cells its numbers are.
+/// A cell, and the indices of its numbers among those of all cells.
 #[derive(Debug, Clone)]
 pub struct Located<'a, S> {
-    /// Number of the cell.
+    /// Index of the cell.
     pub number: usize,
     /// The cell itself.
     pub cell: CellView<'a, S>,
-    /// Places of its strains.
+    /// Indices of its strains.
     pub strains: Range<usize>,
-    /// Places of its Legendre coefficients.
+    /// Indices of its Legendre coefficients.
     pub terms: Range<usize>,
-    /// Places of what is known at its Gauss points.
+    /// Indices of the values at its Gauss points.
     pub samples: Range<usize>,
 }
 

@@ -1,21 +1,20 @@
-//! The walk over one side of a bat: outwards from its root, or the same way back inwards.
+//! The pass over one side of a bat: outwards from its root, or reversed, inwards.
 //!
-//! A side is a row of cells. At a [`Stop`], the border of two of them, something is on the bat or holds it.
-//! [`runs`] is the walk from stop to stop; backwards it is the way inwards, on which a stop is met before
-//! the cells of its run.
+//! A side is a row of cells. A [`Stop`] is a border of two cells with a fixture. [`runs`] goes from stop to stop;
+//! reversed it is the pass inwards, which reaches a stop before the cells of its run.
 
 use std::ops::Range;
 
-/// Something at the border of two cells.
+/// A fixture at the border of two cells.
 #[derive(Debug, Clone, Copy)]
 pub struct Stop {
-    /// How many cells of this side lie before it.
+    /// Number of cells of this side before it.
     pub after: usize,
-    /// What is met there.
+    /// The fixture.
     pub what: What,
 }
 
-/// The kind of a [`Stop`], and its number among its kind.
+/// The kind of a [`Stop`], and its index among its kind.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum What {
     /// A point mass.
@@ -26,16 +25,16 @@ pub enum What {
     Contact(usize),
 }
 
-/// Cells in a row, and what stands at their outer end.
+/// Consecutive cells, and the fixture at their outer end.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Run {
-    /// The cells, outwards; none between two stops at one border.
+    /// The cells, outwards; empty between two stops at one border.
     pub cells: Range<usize>,
-    /// What stands at their outer end; none at the end of the bat.
+    /// The fixture at their outer end; `None` at the end of the bat.
     pub stop: Option<What>,
 }
 
-/// The places of the cells of the knob side, 0, or of the tip side, 1, of `count` cells.
+/// The indices of the cells of side 0, the knob's, or 1, the tip's, of `count` cells.
 #[inline(always)]
 pub fn side_of(split: usize, count: usize, side: usize) -> Range<usize> {
     if side == 0 { 0..split } else { split..count }

@@ -1,15 +1,14 @@
-//! What the bat does under the ball and after it: motion, strain and stress anywhere, at any time.
+//! What does the bat do during and after the contact: motion, strain and stress anywhere, at any time?
 //!
-//! Every motion of the bat is driven by the recorded force, whose pieces are polynomials, so that it
-//! is exact at any instant. Deflections are against the swing and positive the way the bat moves:
-//! the ball drives it back, into −.
+//! The recorded force drives every mode. Its pieces are polynomials, so the motion is exact at any instant. Deflections
+//! are positive in the direction of the swing: the ball drives the bat back, into −.
 //!
 //! ```text
 //! v(t) = ∫ e^{s(t−τ)} F dτ,  s = −ζω + iω_d       w = −Σ φ(x) φ(a)/(m ω_d) Im v
 //! ε = r θ′,  σ = E ε                              at the outermost fibre
 //! ```
 //!
-//! Dashpots are counted mode by mode; the hands' own mass is not in the bat.
+//! Dashpots are treated mode by mode. The mass of the hands is not part of the bat.
 
 use faer::c64;
 
@@ -28,7 +27,7 @@ use crate::motion::sound::{Sound, WallTones};
 /// A bat driven by a recorded force.
 pub struct Aftermath<'a> {
     bat: &'a Bat,
-    /// Where the force acts (m).
+    /// Position at which the force acts (m).
     pub place: f64,
     pieces: Vec<Piece>,
     rigid: Vec<Pushed>,
@@ -59,7 +58,7 @@ pub struct Instant {
     modes: Vec<[f64; 3]>,
 }
 
-/// A strain, where and when.
+/// A strain, with its place and its instant.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
@@ -98,15 +97,15 @@ pub struct Line {
 pub struct Watched {
     /// The place (m).
     pub x_m: f64,
-    /// When it begins to move (s).
-    // When the velocity first is a twentieth of its largest.
+    /// Time at which it begins to move (s).
+    // The velocity first reaches a twentieth of its largest.
     pub begins_s: f64,
-    /// The largest motion in the whole time.
+    /// The largest motion over the whole time.
     pub peak: PeakMotion,
-    /// When displacement, velocity and acceleration are the largest (s).
+    /// Times of the largest displacement, velocity and acceleration (s).
     #[serde(skip)]
     pub when: [f64; 3],
-    /// The modes as they ring there when the ball has left.
+    /// The modes at this place when the ball has left.
     pub spectrum: Vec<Line>,
     /// Displacement at every instant (m).
     pub displacement_m: Vec<f64>,
@@ -132,7 +131,7 @@ pub struct PeakMotion {
 }
 
 impl<'a> Aftermath<'a> {
-    /// The bat of that solution under that force at `place` (m). Every mode must swing.
+    /// The solution's bat under that force at `place` (m). Every mode must oscillate.
     pub fn new(bat: &'a Bat, solution: &'a Solution, place: f64, pieces: Vec<Piece>) -> Self {
         let struck = Struck::new(bat, solution);
         let rigid = struck
@@ -147,12 +146,12 @@ impl<'a> Aftermath<'a> {
         Self { bat, place, rigid: rigid.collect(), modes: modes.collect(), pieces }
     }
 
-    /// When the ball leaves (s).
+    /// Time at which the ball leaves (s).
     pub fn end(&self) -> f64 {
         self.pieces.last().map_or(0.0, Piece::end)
     }
 
-    /// The bat at those times (s), which rise.
+    /// The bat at those times (s), which must rise.
     pub fn at(&self, when: &[f64]) -> Vec<Instant> {
         let mut instants: Vec<Instant> = when.iter().map(|t| self.still(*t)).collect();
         let driven_by_force = self.pushed(when);
@@ -181,8 +180,8 @@ impl<'a> Aftermath<'a> {
         instants
     }
 
-    /// `∫∫F dt²` (N s²) and `∫F dt` (N s) until those times (s), which rise: what the force alone does
-    /// to a unit mass, such as the ball's.
+    /// `∫∫F dt²` (N s²) and `∫F dt` (N s) up to those times (s), which must rise: the effect of the force on a unit
+    /// mass, such as the ball's.
     pub fn pushed(&self, when: &[f64]) -> Vec<[f64; 2]> {
         let (mut moved, mut speed, mut next) = (0.0, 0.0, 0);
         let until = |time: &f64| {
@@ -213,7 +212,7 @@ impl<'a> Aftermath<'a> {
         sum
     }
 
-    /// What `x` (m) feels at those instants.
+    /// The motion at `x` (m) at those instants.
     pub fn watched(&self, x: f64, instants: &[Instant]) -> Watched {
         let motions: Vec<[f64; 3]> = instants.iter().map(|now| self.motion(x, now)).collect();
         let [mut peak, mut when] = [[0.0; 3]; 2];
@@ -240,13 +239,13 @@ impl<'a> Aftermath<'a> {
         }
     }
 
-    /// The strain at the outermost fibre of every place (m) at an instant, with its sign: positive
-    /// where the side that the ball hits is stretched.
+    /// The strain at the outermost fibre at every place (m) at an instant, positive where the side that the ball hits
+    /// is stretched.
     pub fn strains(&self, places: &[f64], now: &Instant, count: usize) -> Vec<f64> {
         let bent = |x: &f64| {
             let modes = self.modes.iter().zip(&now.modes).take(count);
             let sum: f64 = modes.map(|(rung, part)| rung.mode.shape.curvature(*x) * part[0]).sum();
-            // So that rest is not −0.
+            // Avoids −0 at rest.
             0.0 - self.bat.profile().at(*x).outer * sum
         };
         places.iter().map(bent).collect()
@@ -293,7 +292,7 @@ impl<'a> Aftermath<'a> {
         self.modes.len()
     }
 
-    /// How every mode rings at `x` (m) when the ball leaves.
+    /// The amplitude of every mode at `x` (m) when the ball leaves.
     pub fn lines(&self, x: f64) -> Vec<Line> {
         let Some(now) = self.at(&[self.end()]).pop() else { return vec![] };
         let line = |(rung, part): (&Rung, &[f64; 3])| {
@@ -309,8 +308,8 @@ impl<'a> Aftermath<'a> {
         self.modes.iter().zip(&now.modes).map(line).collect()
     }
 
-    /// What the hit sounds like, where the ball met the bat, with what the wall of a hollow barrel adds; the solution is
-    /// the one it was made of.
+    /// The sound of the hit at the impact point, including the wall of a hollow barrel; `solution` is the one this was
+    /// made from.
     pub fn sound(&self, solution: &Solution, wall: Option<WallTones>) -> Sound {
         let lines = self.lines(self.place);
         let amplitudes = lines.iter().map(|line| line.acceleration_m_s2);
@@ -318,7 +317,7 @@ impl<'a> Aftermath<'a> {
         Sound::of_modes(solution, amplitudes, self.place, blow, wall)
     }
 
-    /// Nothing has moved yet.
+    /// The bat before any motion.
     fn still(&self, time: f64) -> Instant {
         let piece = self.pieces.iter().find(|piece| piece.end() > time && piece.start <= time);
         let force = piece
@@ -327,7 +326,7 @@ impl<'a> Aftermath<'a> {
         Instant { time, force, rigid, modes }
     }
 
-    /// When a piece begins; the end of the last one where there are no more.
+    /// Time at which a piece begins; after the last piece, its end.
     fn start_of(&self, k: usize) -> f64 {
         self.pieces.get(k).map_or(self.end(), |piece| piece.start)
     }

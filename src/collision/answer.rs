@@ -1,4 +1,4 @@
-//! What each model says of a hit: one function a model.
+//! What each model predicts for a hit: one function per model.
 
 use std::cell::Cell;
 
@@ -12,15 +12,15 @@ use crate::collision::pulse::Pulse;
 use crate::collision::stated::{Answered, fewer};
 use crate::modes::mode::Mode;
 
-/// The flags of a ball that the bat caught up with late or again.
+/// Flags of a hit in which the bat caught up with the ball late, or again.
 pub const LATER: [&str; 2] = ["late_contact", "second_contact"];
 
-/// Beyond these a ball's law was not measured: the longest contact (s) is that at 1 m/s of A. M. Nathan, Am. J. Phys.
-/// 68, 979 (2000), the least restitution the common softball's.
+/// Beyond these limits the ball's law was not measured. The longest contact (s) is that at 1 m/s of A. M. Nathan, Am.
+/// J. Phys. 68, 979 (2000); the least restitution is that of the common softball.
 const LONGEST_MEASURED: f64 = 2e-3;
 const LEAST_MEASURED: f64 = 0.44;
 
-/// What a model says.
+/// The prediction of a model.
 pub(super) struct HitAnswer {
     /// `J` (N s).
     pub impulse: f64,
@@ -44,7 +44,7 @@ pub(super) struct HitAnswer {
 impl HitAnswer {
     /// The answer of a model without modes and times.
     fn new(impulse: f64, cor: f64, lost_in_ball: f64) -> Self {
-        // The models' own formulas are exact to a few roundings.
+        // The models' formulas are exact to a few roundings.
         let error = 8.0 * f64::EPSILON;
         Self {
             impulse,
@@ -67,7 +67,7 @@ impl HitAnswer {
 }
 
 impl Hitter<'_> {
-    /// What the model says of a hit at `x`, if it says anything.
+    /// The model's prediction for a hit at `x`; `None` if there is none.
     pub(super) fn answer(&self, x: f64) -> Option<HitAnswer> {
         self.answers(&[(x, None)]).pop()?
     }
@@ -133,7 +133,7 @@ impl Hitter<'_> {
         let lost = (1.0 - restitution * restitution) * left;
         let mut answer = HitAnswer::new(impulse, restitution, lost);
         answer.in_modes = in_modes;
-        // All modes beyond, and the mesh.
+        // All further modes, and the mesh.
         let slow = self.struck.flexibility(x)[1] - self.struck.taken(&felt.gains)[1];
         let last = self.modes.last().map_or(0.0, |mode| mode[0]);
         let error = |more: f64| {
@@ -194,10 +194,10 @@ impl Hitter<'_> {
     ) -> HitAnswer {
         let Approach { x, closing, cor, known, .. } = *approach;
         let (ball, count) = (self.scene.ball.mass_kg, self.modes_used());
-        // How far another answer is from this one in the end, and when the ball leaves for the first time.
+        // Difference of another answer from this one at the end, and at the time when the ball first leaves.
         let both = |felt: &DrivingPoint, accuracy: f64| {
             let other = self.meet(x, felt, closing, accuracy);
-            // One that comes to no end says nothing.
+            // An answer that does not end gives no information.
             other.map_or([1.0; 2], |(other, _)| {
                 let apart = |other: f64, own: f64| (other - own).abs() / (ball * closing);
                 let first = apart(other.first_impulse, met.first_impulse);
@@ -222,8 +222,8 @@ impl Hitter<'_> {
                 let in_first = |(few, by): (&usize, &f64)| (*few, by.abs() / (ball * closing));
                 let in_first = few.iter().zip(first_changes).map(in_first);
                 first_error.set(answered.left_out(shears, in_first));
-                /// Change of the exit speed, relative to the closing speed, up to which a ball that is met again
-                /// takes it as its first order says.
+                /// Change of the exit speed, relative to the closing speed, up to which the first order is valid for a
+                /// ball that is met again.
                 const SMALL: f64 = 0.1;
                 let change = |(few, by): (&usize, &f64)| {
                     let by = by.abs() / (ball * closing);
@@ -232,9 +232,9 @@ impl Hitter<'_> {
                 };
                 let left_out = answered.left_out(shears, few.iter().zip(changes).map(change));
                 let steps = answered.steps(left_out, |accuracy| counted(felt, accuracy));
-                // A wall softer by all that may be missing, and by what modes that follow the force at once are late:
-                // `y = C F − D F″ + …`, and `F″` of a half sine is `(π/T)² F`. On a stiff bat T is 2.86 to 3.14 times the
-                // time in which the ball would be pressed at its first speed; a wall makes it longer.
+                // A softer wall: by all that may be missing, and by the delay of modes that follow the force at once,
+                // `y = C F − D F″ + …`, where `F″` of a half sine is `(π/T)² F`. On a stiff bat T is 2.86 to 3.14 times
+                // the time in which the ball would be compressed at its first speed; a wall makes it longer.
                 let wall = self.under(x).map_or(0.0, |under| {
                     let late = under.late * (std::f64::consts::PI / (2.86 * self.pressed)).powi(2);
                     let rest = felt.rest + under.unsure + late;
@@ -244,15 +244,15 @@ impl Hitter<'_> {
             });
         let [magnified, round_off] = answered.magnified(ball * closing);
         answer.steps += round_off;
-        // What touches beyond those that were followed could give, and a ball deader than any law.
+        // Possible effect of touches after those that were followed, with a ball deader than any law.
         answer.error +=
             met.open / (ball * closing) + (LEAST_RESTITUTION - cor).max(0.0) * mass / ball;
         answer.error += self.wall_error + answer.truncation + answer.steps + answer.wall;
-        // How long one push of the force lasts (s): a half sine's time on a stiff bat at most.
+        // Duration of one push of the force (s): at most a half sine's on a stiff bat.
         let push = met.time / (met.touches + met.reloads) as f64;
         let push = push.min(std::f64::consts::PI * self.pressed);
         for (doubt, [omega, _]) in self.struck.doubt(x).iter().zip(&self.modes) {
-            // A mode takes the force's changes that are slower than itself hardly at all.
+            // A mode hardly responds to changes of the force slower than itself.
             let turns = omega * push / std::f64::consts::PI;
             let change = doubt * mass * met.impulse / (ball * closing) / (1.0 + turns * turns);
             answer.error += magnified * change;
@@ -268,11 +268,11 @@ impl Hitter<'_> {
         answer.flags = flags.into_iter().filter_map(|(is, name)| is.then_some(name)).collect();
         answer.contact_time = Some(met.time);
         let exit_speed = met.first_impulse / ball - self.scene.ball_speed;
-        // A ball that leaves once has left then.
+        // A ball that leaves only once has then left.
         let own = first_error.get() + self.wall_error;
         let error = match met.again() {
             false => answer.error,
-            // What is magnified may be so in the first touch.
+            // The effect may be magnified even in the first touch.
             true if met.late || met.reloads > 0 => own.max(answer.error),
             true => own,
         };

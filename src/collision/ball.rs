@@ -1,4 +1,4 @@
-//! What ball: mass, size, bounce and stiffness.
+//! Which ball: mass, size, restitution and stiffness?
 
 use serde::{Deserialize, Serialize};
 
@@ -6,7 +6,7 @@ use crate::base::error::{Error, Result};
 use crate::collision::contact::collider::{Law, LawTerms};
 use crate::collision::contact::power_law;
 
-/// What makes the force law of a hit.
+/// Makes the force law of a hit.
 #[derive(Debug, Clone, Copy)]
 pub struct LawOf(pub fn(LawTerms) -> Box<dyn Law>);
 
@@ -23,11 +23,11 @@ impl Default for LawOf {
     }
 }
 
-/// The ball, which compressed by u (m) pushes back with stiffness·u^exponent (N).
+/// The ball. Compressed by u (m) it pushes back with the force stiffness·u^exponent (N).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Ball {
-    /// What the ball is called.
+    /// Name of the ball.
     pub name: String,
     /// Where the numbers of the ball come from.
     pub source: String,
@@ -35,27 +35,27 @@ pub struct Ball {
     pub mass_kg: f64,
     /// Radius (m).
     pub radius_m: f64,
-    /// Radius (m) of its patch on a flat wall; left out where none was given.
-    // Else that of a ball that is compressed by 8 mm. Only a wall that gives way by its hoop modes asks for it.
+    /// Radius (m) of its patch on a flat wall; left out if none was given.
+    // By default that of a ball compressed by 8 mm. Only a wall that gives way by its hoop modes needs it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact_radius_m: Option<f64>,
-    /// Stiffness (N/m^exponent); null where no force law is known.
+    /// Stiffness (N/m^exponent); null if no force law is known.
     pub stiffness: Option<f64>,
-    /// Exponent of the force law; null where no force law is known.
+    /// Exponent of the force law; null if no force law is known.
     pub exponent: Option<f64>,
-    /// The law of these two numbers and e₀ by which the ball springs back.
+    /// The force law for these two numbers and the e₀ of the ball.
     #[serde(skip)]
     pub law: LawOf,
     /// Coefficient of restitution on a rigid wall.
     pub cor: f64,
-    /// Pairs of a speed (m/s) and the coefficient of restitution at it, by rising speed.
-    // They replace `cor` where there are some.
+    /// Pairs of a speed (m/s) and the coefficient of restitution at that speed, by rising speed.
+    // If there are any, they replace `cor`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub cor_by_speed: Vec<[f64; 2]>,
 }
 
 impl Ball {
-    /// A baseball: 5 to 5¼ oz and 9 to 9¼ in around by the rules, the middle of both.
+    /// A baseball, in the middle of the rules' limits: 5 to 5¼ oz, and 9 to 9¼ in around.
     pub fn baseball() -> Self {
         Self {
             name: "baseball".into(),
@@ -73,8 +73,7 @@ impl Ball {
         }
     }
 
-    /// The baseball kept at 50 instead of 30 % relative humidity, so that it is 1.6 % heavier and e₀
-    /// 3.7 % smaller.
+    /// The baseball stored at 50 instead of 30 % relative humidity, which makes it 1.6 % heavier and e₀ 3.7 % smaller.
     pub fn humid_baseball() -> Self {
         let dry = Self::baseball();
         Self {
@@ -91,22 +90,21 @@ impl Ball {
         }
     }
 
-    /// The compression δ (m) by which it presses on a wall as a patch: by Hertz, of a radius `√(R δ)` on a flat
-    /// wall.
+    /// The compression δ (m) for which its patch on a flat wall has the radius `√(R δ)`, by Hertz.
     pub fn patch_compression(&self) -> f64 {
-        /// Half of the largest of a baseball at game speed.
+        /// Half of the largest compression of a baseball at game speed.
         const USUAL: f64 = 0.008;
         self.contact_radius_m.map_or(USUAL, |contact| contact * contact / self.radius_m)
     }
 
-    /// The ball as a linear spring of that stiffness (N/m).
+    /// The ball with a linear spring of that stiffness (N/m).
     ///
-    /// Without loss `½ m v² = ½ F²/k`, so that a force F on a rigid surface at a speed v measures
-    /// `k = F²/(m v²)`, a dynamic stiffness.
+    /// Without loss `½ m v² = ½ F²/k`, so a measured force F on a rigid surface at a speed v gives the dynamic
+    /// stiffness `k = F²/(m v²)`.
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] for a stiffness that no ball has.
+    /// [`Error::Value`] for a stiffness that is impossible for a ball.
     pub fn linear(self, stiffness: f64) -> Result<Self> {
         if !(1.0..=1e12).contains(&stiffness) {
             let found = format!("{stiffness:?} N/m");
@@ -122,7 +120,7 @@ impl Ball {
         })
     }
 
-    /// A 12 in softball: 6¼ to 7 oz, 11⅞ to 12⅛ in around by the rules, e₀ 0.44.
+    /// A 12 in softball, in the middle of the rules' limits: 6¼ to 7 oz, and 11⅞ to 12⅛ in around; e₀ 0.44.
     pub fn softball() -> Self {
         Self {
             name: "softball".into(),
@@ -145,7 +143,7 @@ impl Ball {
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] for a ball of which none is known.
+    /// [`Error::Value`] for a ball whose force law is not known.
     pub fn spring(&self) -> Result<[f64; 2]> {
         self.stiffness.zip(self.exponent).map(<[f64; 2]>::from).ok_or_else(|| {
             let found = format!("{}, of which no force law is known", self.name);
@@ -157,8 +155,8 @@ impl Ball {
         })
     }
 
-    /// e₀ on a rigid wall at that speed (m/s), where it is known by speed: straight lines between the
-    /// known ones, the first and the last beyond them.
+    /// e₀ on a rigid wall at that speed (m/s), if it is known by speed: linear between the known speeds, constant
+    /// beyond them.
     pub fn restitution_at(&self, speed: f64) -> Option<f64> {
         let (first, last) = (self.cor_by_speed.first()?, self.cor_by_speed.last()?);
         let above = self.cor_by_speed.iter().position(|[known, _]| *known > speed);

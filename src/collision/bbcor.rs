@@ -1,14 +1,14 @@
-//! BBCOR as laboratories measure it, place by place: computed, and no certificate.
+//! What BBCOR would a laboratory measure, place by place? A computed value, not a certificate.
 //!
-//! The bat is at rest and turns about a pivot 6 in from the knob end; a ball meets it at the test
-//! speed, and how fast it comes back tells
+//! The bat is at rest and turns about a pivot 6 in from the knob end. A ball hits it at the test speed. Its rebound
+//! speed gives
 //!
 //! ```text
 //! e_A = v_out/v_in,   BBCOR = e_A (1 + r) + r,   r = m Q²/I
 //! ```
 //!
-//! with Q from the pivot to the impact and I about the pivot. The error of `e_A` is that of the exit
-//! speed relative to the closing speed, so that BBCOR may be off by `1 + r` times as much.
+//! with Q the distance from the pivot to the impact and I about the pivot. The error of `e_A` is that of the exit speed
+//! relative to the closing speed; that of BBCOR is `1 + r` times as large.
 
 use serde::{Deserialize, Serialize};
 
@@ -25,7 +25,7 @@ use crate::collision::wall_figures::{WallBbcor, WallFigures};
 
 /// Speed of the ball in the test: 136 mph (m/s).
 pub const TEST_SPEED: f64 = 136.0 * 0.447_04;
-/// Distance from one place of the scan to the next, counted from the tip: half an inch (m).
+/// Step of the scan, counted from the tip: half an inch (m).
 pub const STEP: f64 = 0.0127;
 /// Largest BBCOR that the rules allow.
 ///
@@ -34,28 +34,28 @@ pub const STEP: f64 = 0.0127;
 /// Letter of the NCAA's Baseball Research Panel and Baseball Rules Committee to bat manufacturers, 16
 /// September 2008, as copied on 9county9.com: 0.50 for every length.
 pub const LIMIT: f64 = 0.5;
-/// Where the limit is from, for the documents.
+/// Source of the limit, for the documents.
 pub const LIMIT_SOURCE: &str =
     "NCAA letter to bat manufacturers, 16 September 2008, as copied on 9county9.com";
-/// Where the ball's restitution is from that is taken if none is given.
+/// Source of the ball's default restitution.
 pub const COR_SOURCE: &str =
     "A. M. Nathan, Am. J. Phys. 68, 979 (2000), at game speed; the paper's fit at 58 m/s has 0.53";
-/// Where the definitions of BESR and BPF are from.
+/// Source of the definitions of BESR and BPF.
 pub const MEASURES_SOURCE: &str = "Sports Science Laboratory, Washington State University, \"Bat Performance \
                                    Measures\", ssl.wsu.edu/glossary/bat-performance-measures";
-/// The first and the last place of the scan, from the tip: 12 in and 1 in (m).
+/// First and last place of the scan, from the tip: 12 in and 1 in (m).
 const SCAN: [f64; 2] = [12.0 * 0.0254, 0.0254];
 
-/// A test: what is shot at the bat, and where.
+/// A test: ball, speed and places.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Protocol {
-    /// What is shot at the bat.
+    /// The ball that is shot at the bat.
     pub ball: Ball,
     /// Speed of the ball (m/s).
     pub ball_speed: f64,
-    /// Coefficient of restitution of the ball on a rigid wall, unless its own depends on the speed.
+    /// Coefficient of restitution of the ball on a rigid wall, unless the ball's depends on the speed.
     pub cor: f64,
-    /// Whether that was given, in place of the ball's own.
+    /// Whether it was given, in place of the ball's own.
     pub cor_given: bool,
     /// First and last place of the scan (m from the knob end).
     pub scan: [f64; 2],
@@ -63,32 +63,31 @@ pub struct Protocol {
     pub wall: WallChoice,
 }
 
-/// What was found: the members of a BBCOR document that are of the test.
+/// The result: the members of a BBCOR document that describe the test.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Scan {
     /// Always false: a computed value is not a certificate.
     pub certified: bool,
-    /// The test: what was shot at the bat, and how it was held.
+    /// The test: ball, speed, and how the bat was held.
     pub protocol: Conditions,
     /// The scan, from the knob towards the tip.
     pub places: Vec<Place>,
-    /// The largest BBCOR of the scan; null where no place has one.
+    /// The largest BBCOR of the scan; null if no place has one.
     pub largest: Option<Largest>,
-    /// What a hollow barrel's wall does at that place; left out where it does not give way by its hoop
-    /// modes.
+    /// What a hollow barrel's wall does at that place; left out if it does not give way by its hoop modes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub wall: Option<WallFigures>,
     /// The largest BBCOR that the rules allow.
     pub limit: f64,
-    /// Whether the largest is below the limit; null where its error does not tell.
+    /// Whether the largest BBCOR is below the limit; null if its error leaves that open.
     // The error includes that of the patch on which a ball presses on a hollow barrel.
     pub within_limit: Option<bool>,
     /// Whether every place is as accurate as was asked.
     pub tolerance_met: bool,
 }
 
-/// What was shot at the bat, and how it was held.
+/// Ball and speed, and how the bat was held.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Conditions {
@@ -102,22 +101,22 @@ pub struct Conditions {
     pub step_m: f64,
     /// The ball, with its force law and its restitution.
     pub ball: Ball,
-    /// Coefficient of restitution of the ball at the test speed, unless its own depends on the speed.
+    /// Coefficient of restitution of the ball at the test speed, unless the ball's depends on the speed.
     pub cor: f64,
-    /// Where the coefficient of restitution is from.
+    /// Source of the coefficient of restitution.
     pub cor_source: String,
-    /// Where the limit is from.
+    /// Source of the limit.
     pub limit_source: String,
-    /// Where the definitions of BESR and BPF are from.
+    /// Source of the definitions of BESR and BPF.
     #[serde(default)]
     pub measures_source: String,
 }
 
-/// One place of the scan. Most is null where ball and bat do not meet; `flags` says why.
+/// One place of the scan. Most values are null if ball and bat do not meet; `flags` gives the reason.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Place {
-    /// Where the ball meets the bat (m).
+    /// Position at which the ball meets the bat (m).
     pub x_m: f64,
     /// Distance of the impact point from the tip (m).
     pub from_tip_m: f64,
@@ -132,12 +131,12 @@ pub struct Place {
     #[serde(default)]
     pub besr: Option<f64>,
     /// Bat performance factor, BBCOR over the coefficient of restitution of the ball at the test speed.
-    // None where the ball does not bounce. Source: MEASURES_SOURCE.
+    // None if the ball does not bounce. Source: MEASURES_SOURCE.
     #[serde(default)]
     pub bpf: Option<f64>,
-    /// What is unusual in the hit, as in a hit file.
+    /// Flags of anything unusual in the hit, as in a hit file.
     pub flags: Vec<String>,
-    /// How far the numbers above may be off.
+    /// Estimated errors of the numbers above.
     pub error: PlaceError,
 }
 
@@ -157,7 +156,7 @@ pub struct PlaceError {
 pub struct Largest {
     /// The place (m).
     pub x_m: f64,
-    /// Distance of that from the tip (m).
+    /// Distance of the place from the tip (m).
     pub from_tip_m: f64,
     /// BBCOR there.
     pub bbcor: f64,
@@ -180,15 +179,15 @@ pub struct Tested {
     pub bat: Bat,
     /// The scene of every hit.
     pub scene: Scene,
-    /// What was found.
+    /// The result.
     pub scan: Scan,
     /// The hits as they were computed.
     pub sweep: Sweep,
 }
 
 impl Protocol {
-    /// The laboratories' test of that bat with that ball, every half inch from 12 in to 1 in from the
-    /// tip, as far as that is beyond the middle of the bat.
+    /// The laboratories' test of that bat with that ball: every half inch from 12 in to 1 in from the tip, beyond the
+    /// middle of the bat.
     pub fn of(bat: &Bat, ball: Ball) -> Self {
         let [from, to] = SCAN.map(|from_tip| bat.length() - from_tip);
         let scan = [from.max(0.5 * bat.length()), to.max(0.5 * bat.length())];
@@ -196,12 +195,11 @@ impl Protocol {
         Self { cor: ball.cor, cor_given: false, ball, ball_speed: TEST_SPEED, scan, wall }
     }
 
-    /// This protocol with its force law and its places checked, before anything is computed.
+    /// This protocol after a check of its force law and its places, before anything is computed.
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] for a ball whose force law is not known, and for a scan that ends before it
-    /// begins.
+    /// [`Error::Value`] for a ball whose force law is not known, and for a scan that ends before it begins.
     pub fn checked(self) -> Result<Self> {
         self.ball.spring()?;
         let [from, to] = self.scan;
@@ -214,7 +212,7 @@ impl Protocol {
 
     /// The places (m from the knob end), whole half inches from the tip.
     fn places(&self, length: f64) -> Vec<f64> {
-        /// Share of a step, so that a rounding does not lose the ends.
+        /// Share of a step, so that round-off does not lose the ends.
         const ROUNDING: f64 = 1e-9;
         let [first, last] = self.scan.map(|x| (length - x) / STEP);
         let [most, least] = [(first + ROUNDING).floor(), (last - ROUNDING).ceil()];
@@ -222,7 +220,7 @@ impl Protocol {
         (0..count).map(|k| length - (most - k as f64) * STEP).collect()
     }
 
-    /// The scene of every hit: nothing swings.
+    /// The scene of every hit: the bat is at rest.
     fn scene(&self) -> Scene {
         let Self { ball, ball_speed, cor, .. } = self.clone();
         Scene { swing: 0.0, ball, ball_speed, cor, ..Scene::default() }
@@ -232,8 +230,7 @@ impl Protocol {
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] if there is no place to shoot at, and as
-    /// [`sweep`](crate::collision::sweep::sweep).
+    /// [`Error::Value`] if there is no place to shoot at; those of [`sweep`](crate::collision::sweep::sweep).
     pub fn test(self, bat: &Bat, accuracy: &Accuracy, tell: Tell) -> Result<Tested> {
         let beyond = |x: &f64| *x > STANDARD_PIVOT && *x <= bat.length();
         let places: Vec<f64> = self.places(bat.length()).into_iter().filter(beyond).collect();
@@ -311,7 +308,7 @@ impl Protocol {
     }
 }
 
-/// The bat on the pivot alone: what else held it is taken away.
+/// The bat held by the pivot alone; other supports are removed.
 fn pivoted(bat: &Bat) -> Result<Bat> {
     let pivot = Support { x: STANDARD_PIVOT, kind: Held::Pinned };
     bat.with(|parts| {
@@ -332,7 +329,7 @@ impl Largest {
         })
     }
 
-    /// Whether it is within the limit; None where its error does not tell.
+    /// Whether it is below the limit; `None` if its error leaves that open.
     fn within(&self, wall: Option<&WallFigures>) -> Option<bool> {
         let WallBbcor { with, range, .. } = wall.map(|wall| wall.bbcor).unwrap_or_default();
         let error =

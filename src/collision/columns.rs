@@ -1,5 +1,5 @@
-//! What is told of an impact: each figure once, with its name in files, which ends in its unit, and where
-//! it is from. Tables, CSV, JSON and the page take their values from here; a test holds JSON to the names.
+//! The figures of an impact, each defined once: its value, and its name in files, which ends in its unit. Tables, CSV,
+//! JSON and the page take their values from here; a test compares the JSON with these names.
 
 use crate::collision::hit::{Impact, Outcome};
 
@@ -12,7 +12,7 @@ pub struct Column {
 }
 
 impl Column {
-    /// The figure of that impact; None where there is no such.
+    /// The figure for that impact; `None` if it does not exist.
     pub fn at(&self, impact: &Impact) -> Option<f64> {
         (self.of)(impact)
     }
@@ -22,9 +22,9 @@ impl Column {
 pub const X: Column = Column { name: "x_m", of: |i| Some(i.x) };
 /// Speed of the bat there before the hit (m/s).
 pub const BAT_SPEED: Column = Column { name: "bat_speed_m_s", of: |i| Some(i.bat_speed) };
-/// Speed of the ball off the bat once it is gone for good (m/s).
+/// Speed of the ball off the bat once it has left for good (m/s).
 pub const EXIT_SPEED: Column = Column { name: "exit_speed_m_s", of: |i| of(i, |o| o.exit_speed) };
-/// Speed of the ball off the bat if the bat did not bend (m/s).
+/// Speed of the ball off a bat that did not bend (m/s).
 pub const RIGID_EXIT_SPEED: Column =
     Column { name: "rigid_exit_speed_m_s", of: |i| i.rigid_exit_speed };
 /// Coefficient of restitution of this hit.
@@ -51,7 +51,7 @@ pub const BBCOR_PIVOTED: Column =
 /// Energy of all bending modes after the hit (J).
 pub const VIBRATION: Column = Column { name: "vibration_j", of: |i| of(i, |o| o.energy.vibration) };
 
-/// All of them, in the order of the files.
+/// All figures, in the order of the files.
 pub const ALL: [Column; 13] = [
     X,
     BAT_SPEED,

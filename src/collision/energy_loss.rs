@@ -5,17 +5,17 @@
 //! v′ = v + [−v + √(v² + 2(½ + E_v)(v_r² − v²))]/(1 + 2 E_v)       v_r the rigid model's v′
 //! ```
 //!
-//! The second line solves `½ v_r² − ½ v² = ½ v′² − ½ v² + E_v (J/m)²` with `J/m = v′ − v`: the
-//! ball's energy change of the rigid collision, less the vibration's.
+//! The second line solves `½ v_r² − ½ v² = ½ v′² − ½ v² + E_v (J/m)²` with `J/m = v′ − v`: the ball's energy change in
+//! the rigid collision, less that of the vibration.
 //!
-//! **Empirical, and kept for comparison only.** What is wrong with it:
-//! - `γ = 0.2` and `p = 2` are fitted to no stated measurement. Theory has in their place
-//!   `m S_n²/(2 m_n)` with the spectrum `S_n` of the contact pulse, which falls as `n⁻⁴` and is no
-//!   power of `n`: the fit underrates the first two modes and overrates all beyond.
-//! - It charges the vibration to the ball alone and leaves the bat its rigid energy change although
-//!   a smaller impulse takes less from it, so energy is not conserved.
-//! - It therefore depends on who is looking: a moving observer finds another impulse.
-//! - Near the handle the root is complex. The report plots zero there; here there is no value.
+//! **Empirical, and kept for comparison only.** Its faults:
+//! - `γ = 0.2` and `p = 2` are fitted to no stated measurement. Theory has `m S_n²/(2 m_n)` in their place, with the
+//!   spectrum `S_n` of the contact pulse. That falls as `n⁻⁴` and is no power of `n`: the fit underestimates the first
+//!   two modes and overestimates all others.
+//! - It charges the vibration to the ball alone. The bat keeps its rigid energy change, although a smaller impulse
+//!   takes less energy from it, so energy is not conserved.
+//! - It therefore depends on the observer: a moving one finds another impulse.
+//! - Near the handle the root is complex. The report plots zero there; here the result is `None`.
 //!
 //! # Source
 //!
@@ -30,7 +30,7 @@ use crate::beam::dowel::{Ends, UniformMode, beta_l};
 pub struct EnergyLoss {
     /// `γ`, overall size.
     pub gamma: f64,
-    /// `p`, how fast the share of mode `n` falls.
+    /// `p`, how fast the share falls with the mode number.
     pub decay: f64,
 }
 
@@ -43,16 +43,14 @@ impl Default for EnergyLoss {
 impl EnergyLoss {
     /// `E_v(a)` (dimensionless), for the deflections `W_1(a), W_2(a), …` of the bending modes.
     ///
-    /// The report's shapes are not normalised: on its dowel they are [`crate::collision::energy_loss::wpi_shape`],
-    /// so
-    /// `(1/M) ∫ρA W_n² dx = α_n²`. Scale another bat's modes the same way to compare like with
-    /// like.
+    /// The report's shapes are not normalised: on its dowel they are [`crate::collision::energy_loss::wpi_shape`], so
+    /// `(1/M) ∫ρA W_n² dx = α_n²`. For a fair comparison, scale the modes of another bat in the same way.
     pub fn vibration(&self, shape_at_a: &[f64]) -> f64 {
         let share = |(i, w): (usize, &f64)| w * w / ((2 * i + 3) as f64).powf(self.decay);
         self.gamma * shape_at_a.iter().enumerate().map(share).sum::<f64>()
     }
 
-    /// The energy (J) that the model puts into each mode: `m E_n (J/m)²`, `E_n` its share of `E_v`.
+    /// The energy (J) that the model assigns to each mode: `m E_n (J/m)²`, with `E_n` the mode's share of `E_v`.
     pub fn energies(&self, shape_at_a: &[f64], impulse: f64, ball_mass: f64) -> Vec<f64> {
         let scale = impulse * impulse / ball_mass;
         let energy = |(i, w): (usize, &f64)| {
@@ -61,10 +59,10 @@ impl EnergyLoss {
         shape_at_a.iter().enumerate().map(energy).collect()
     }
 
-    /// The ball's velocity after the hit (m/s), or `None` where the equation has no real root.
+    /// The ball's velocity after the hit (m/s); `None` if the equation has no real root.
     ///
-    /// `incoming < 0` is the ball's velocity, `rigid` what it would leave with from a stiff bat,
-    /// and `vibration` is `E_v`.
+    /// `incoming < 0` is the ball's velocity, `rigid` its exit velocity from a bat that does not bend, and `vibration`
+    /// is `E_v`.
     pub fn exit_velocity(incoming: f64, rigid: f64, vibration: f64) -> Option<f64> {
         let gain = rigid * rigid - incoming * incoming;
         let square = incoming * incoming + 2.0 * (0.5 + vibration) * gain;
@@ -87,7 +85,7 @@ pub fn wpi_alpha(n: usize) -> f64 {
     -(1.0 + tail) / (1.0 - tail)
 }
 
-/// The WPI report's free–free shape `W_n(X)`, left un-normalised as there, without cancellation.
+/// The WPI report's free–free shape `W_n(X)`, un-normalised as in the report, computed without cancellation.
 ///
 /// `W_n(0) = 2 α_n`, `W_n′(0) = 2 βL`.
 pub fn wpi_shape(n: usize, x: f64) -> f64 {
@@ -144,14 +142,13 @@ mod tests {
         let mean = (0..cells).map(at).sum::<f64>() / cells as f64;
         let term = |n: usize| (wpi_alpha(n) / (2 * n + 1) as f64).powi(2);
         let series = 0.2 * (1..=10).map(term).sum::<f64>();
-        // The midpoint rule's end error, h²/24 [d(W²)/dX]₀¹ = −2 h² βL/3 |α| a mode, times γ/(2n +
-        // 1)².
+        // The midpoint rule's end error, h²/24 [d(W²)/dX]₀¹ = −2 h² βL/3 |α| per mode, times γ/(2n + 1)².
         assert!((mean - series).abs() < 1e-6, "{mean} {series}");
         assert!((series - 0.042_98).abs() < 1e-5);
     }
 
-    /// At 0.75 L and 50 rad/s, in inches per second: the rigid gain is 3421.7 for every observer,
-    /// the empirical one 3275.9 at rest and 3326.6 or 3080.5 for one who moves at ∓1000.
+    /// At 0.75 L and 50 rad/s, in inches per second: the rigid gain is 3421.7 for every observer; the empirical one is
+    /// 3275.9 at rest, and 3326.6 or 3080.5 for an observer moving at ∓1000.
     #[test]
     fn it_depends_on_the_observer() {
         let vibration = dowel_vibration(0.75);

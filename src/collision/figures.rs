@@ -1,6 +1,6 @@
-//! The figures by which bats are compared, and how a sweet spot moves with the scene.
+//! By which figures are bats compared, and how does a sweet spot move with the scene?
 //!
-//! They are computed, from this project's models; nothing here is a certificate of any standard.
+//! They are computed from this project's models; they certify no standard.
 
 use serde::{Deserialize, Serialize};
 
@@ -13,11 +13,11 @@ use crate::collision::hitter::Hitter;
 use crate::collision::sweet_spot::{FEW, FINE, HitsAlong, Peak, SweetSpot};
 use crate::collision::wall_figures::WallFigures;
 
-/// How fast this bat is swung by who swings a reference bat at the scene's speed: `Ω = Ω₀
-/// (I_ref/I)^n`, I about the standard pivot.
+/// The swing speed of a bat for a batter who swings a reference bat at the scene's speed: `Ω = Ω₀ (I_ref/I)^n`, with I
+/// about the standard pivot.
 ///
-/// `n = 0` is a fixed angular speed, `n = ½` a fixed energy of rotation about that pivot; what is
-/// measured of batters lies between.
+/// `n = 0` is a fixed angular speed, `n = ½` a fixed energy of rotation about that pivot. Measurements of batters lie
+/// between.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SwingLaw {
     /// Exponent n of the law.
@@ -36,7 +36,7 @@ impl SwingLaw {
     }
 }
 
-/// Speed of a point of the barrel, as broadcasts state a swing.
+/// Speed of a point of the barrel, as in broadcasts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BarrelSpeed {
     /// Speed of the point (m/s).
@@ -46,24 +46,23 @@ pub struct BarrelSpeed {
 }
 
 impl BarrelSpeed {
-    /// Distance from the tip of the point whose speed broadcasts state (m): 6 in.
+    /// Distance from the tip of the point whose speed broadcasts give (m): 6 in.
     pub const BROADCAST: f64 = 6.0 * 0.0254;
 
-    /// Speed of the point at that distance from the tip (m) of a bat that is swung so: `v = Ω (L − at +
-    /// pivot)`.
+    /// Speed of the point at that distance from the tip (m) in that scene: `v = Ω (L − at + pivot)`.
     pub fn of(bat: &Bat, scene: &Scene, from_tip: f64) -> Self {
         Self { speed: scene.swing * (bat.length() - from_tip + scene.pivot), from_tip }
     }
 
-    /// The angular speed (rad/s) that gives the point its speed about a centre `pivot` (m) beyond the
-    /// knob end; None where the point does not move about that centre.
+    /// The angular speed (rad/s) that gives the point its speed about a centre `pivot` (m) beyond the knob end; `None`
+    /// if the point does not move about that centre.
     pub fn swing(&self, bat: &Bat, pivot: f64) -> Option<f64> {
         let radius = bat.length() - self.from_tip + pivot;
         (radius > 0.01 * bat.length()).then_some(self.speed / radius)
     }
 }
 
-/// A swing of Ω₀ (I_ref/I)^exponent, and the fastest ball it gives.
+/// A swing of Ω₀ (I_ref/I)^exponent, and the fastest ball it produces.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
@@ -85,45 +84,43 @@ pub struct Moved {
     /// Sweet spot of the changed scene.
     #[serde(flatten)]
     pub sweet_spot: SweetSpot,
-    /// What differs in the scene, in words.
+    /// The difference of the scene, in words.
     pub change: String,
 }
 
-/// What tests and catalogues state of a bat, and where and why it is best.
+/// The figures of a bat in tests and catalogues, and its sweet spot.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct Figures {
-    /// Where the bat is best, by every definition.
+    /// The sweet spot, by every definition.
     #[serde(skip)]
     pub spot: SweetSpot,
-    /// The hit at the sweet spot: its `e_A`, its bat-ball speed.
+    /// The hit at the sweet spot, with its `e_A` and bat-ball speed.
     #[serde(skip)]
     pub best: Option<Impact>,
-    /// Energy that the bending bat loses to vibration at [`Self::rigid_best`] (J).
+    /// Energy lost to vibration at [`Self::rigid_best`] (J).
     #[serde(skip)]
     pub vibration_at_rigid_best: Option<f64>,
     /// Largest BBCOR of the outer half, of the free bat.
     pub bbcor_max: Option<Peak>,
     /// Largest BBCOR of the outer half, of a bat held 6 in from the knob.
     pub bbcor_pivoted_max: Option<Peak>,
-    /// Place and exit speed (m/s) of the fastest ball if the bat did not bend.
+    /// Place and exit speed (m/s) of the fastest ball off a bat that does not bend.
     #[serde(rename = "rigid_exit_speed_max")]
     pub rigid_best: Option<Peak>,
-    /// What a hollow barrel's wall does at the sweet spot; left out where it does not give way by its hoop
-    /// modes.
+    /// What a hollow barrel's wall does at the sweet spot; left out if it does not give way by its hoop modes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub wall: Option<WallFigures>,
     /// Swings of one batter with this bat, by several laws of swing; empty without a reference inertia.
     pub swings: Vec<Swung>,
-    /// The sweet spot of scenes that differ in one thing each; empty where the fastest place lives on a later
-    /// contact, and small changes move it far.
+    /// The sweet spot of scenes that each differ in one thing; empty if the fastest place depends on a later contact,
+    /// because small changes then move it far.
     pub moves: Vec<Moved>,
 }
 
 impl Figures {
-    /// All of them, of the hits of that hitter. The scene's swing is that of this bat; `law` tells where
-    /// it is from.
+    /// All figures, from the hits of that hitter. The scene's swing is that of this bat; `law` gives its origin.
     ///
     /// # Errors
     ///
@@ -150,7 +147,7 @@ impl Figures {
         }
         let spot = SweetSpot::within(&looked);
         let best = spot.exit_speed_max.map(|peak| hitter.strike(peak.x));
-        // How a place moves that lives on a later contact, no small change tells.
+        // If a place depends on a later contact, no small change shows how it moves.
         let later = |best: &Impact| LATER.iter().any(|flag| best.flags.contains(flag));
         let changes = if best.as_ref().is_some_and(later) { vec![] } else { changes(scene) };
         let moved = threads::map(changes.len(), |k| find(&changes[k].1));
@@ -172,7 +169,7 @@ impl Figures {
     }
 }
 
-/// Scenes that differ in one thing each.
+/// Scenes that each differ in one thing.
 fn changes(scene: &Scene) -> Vec<(String, Scene)> {
     let ball = &scene.ball;
     let mut all = vec![];

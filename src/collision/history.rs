@@ -1,8 +1,8 @@
 //! The ball's force and compression in time, from the recorded force.
 //!
-//! The compression is what ball and bat have come nearer: every motion is exact under a force that is
-//! a polynomial in time ([`crate::collision::contact::encounter`] has the equations). The ball's law is not
-//! asked, whose force near the end is too small to tell a compression from.
+//! The compression is the distance by which ball and bat have approached. Every motion is exact under a force that is a
+//! polynomial in time ([`crate::collision::contact::encounter`] has the equations). The ball's law is not used: near
+//! the end its force is too small to give the compression.
 
 use faer::c64;
 
@@ -24,9 +24,8 @@ pub struct Moment {
     pub compression: f64,
 }
 
-/// The ball from the first touch to the last, the given number of instants in every piece of the force, ends
-/// included: nearing at `speed` (m/s) a bat with those modes, ω (rad/s) and damping ratio, one for
-/// each gain.
+/// The ball from the first touch to the last, with the given number of instants in every piece of the force, ends
+/// included. It approaches at `speed` (m/s) a bat with those modes, ω (rad/s) and damping ratio, one for each gain.
 pub fn history(
     pieces: &[Piece],
     felt: &DrivingPoint,
@@ -52,7 +51,7 @@ pub fn history(
             for ((pole, memory), gain) in poles.iter().zip(&memories).zip(&felt.gains) {
                 nearer -= gain / pole.im * until.drive(*pole, *memory).im;
             }
-            // What is left of round-off where it ends.
+            // Round-off at the end.
             let [force, compression] = [force, nearer].map(|value| value.max(0.0));
             all.push(Moment { time: piece.start + time, force, compression });
         }
@@ -66,7 +65,7 @@ pub fn history(
     all
 }
 
-/// The energy (J) that goes into the ball and does not come back: `∮ F dx`, by straight lines.
+/// The energy (J) that the ball does not return: `∮ F dx`, by straight lines.
 pub fn loop_area(moments: &[Moment]) -> f64 {
     let work = |pair: &[Moment]| {
         0.5 * (pair[0].force + pair[1].force) * (pair[1].compression - pair[0].compression)

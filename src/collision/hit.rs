@@ -1,4 +1,4 @@
-//! What a hit is: model, swing, pitch and ball; exit speed, impulse and where the energy went.
+//! What is a hit: model, swing, pitch and ball; exit speed, impulse and energies?
 
 use serde::{Deserialize, Serialize};
 
@@ -10,12 +10,12 @@ use crate::collision::energy_loss::EnergyLoss;
 use crate::collision::hoop_wall::{HarmonicEnergy, HoopInHit};
 use crate::collision::pulse::Pulse;
 
-/// How the bat's bending is counted; each model is a limit of the last.
+/// How the model treats the bending of the bat; each model is a limit of the next.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Model {
     /// The bat does not bend.
     Rigid,
-    /// Bending takes the WPI report's empirical loss.
+    /// The WPI report's empirical loss to vibration.
     EnergyLoss(EnergyLoss),
     /// A force pulse of known form excites the modes.
     Pulse(Pulse),
@@ -34,7 +34,7 @@ impl Model {
         ]
     }
 
-    /// What the model is called.
+    /// The name of the model.
     pub fn name(self) -> &'static str {
         match self {
             Self::Rigid => "rigid",
@@ -45,62 +45,62 @@ impl Model {
     }
 }
 
-/// Steps times modes of contacts, after which the hits of a hundred places are not made better and best places not
-/// looked for more closely. A usual ball takes 70,000 along an R161, and with all that is told of its hits 1.4
-/// million; with this bound the stiffest balls take ten times as long as a usual one.
+/// Limit on steps times modes of contacts: beyond it, hits at many places are not improved further, and best places are
+/// not searched more closely. A usual ball takes 70,000 along an R161, and 1.4 million with all figures of its hits.
+/// With this limit the stiffest balls take ten times as long as a usual one.
 pub const MOST_WORK: u64 = 6_000_000;
 
-/// How a contact is computed.
+/// Accuracy of a contact's computation.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Effort {
     /// Relative accuracy of the force in the steps.
     pub accuracy: f64,
-    /// Whether the modes that are left out have their flexibility, the last mode as heavy as makes
-    /// it right; else the modes that are taken are all there are.
+    /// Whether the omitted modes contribute their flexibility, by a last mode with a suitable mass; otherwise only the
+    /// given modes count.
     pub completed: bool,
-    /// Whether the answers were not seen to settle: errors are stated three times as large.
+    /// Whether the convergence of the answers was not observed; errors are then stated three times as large.
     pub unsettled: bool,
 }
 
 impl Default for Effort {
-    /// Steps good for exit speeds to 1e-4 of the closing speed and better.
+    /// Steps for exit speeds to 1e-4 of the closing speed or better.
     fn default() -> Self {
         Self { accuracy: 1e-3, completed: true, unsettled: false }
     }
 }
 
-/// A swing meets a pitch.
+/// A swing and a pitch.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scene {
     /// Rotation centre of the swing beyond the knob end (m), negative inside the handle.
     pub pivot: f64,
     /// Angular speed of the swing (rad/s).
     pub swing: f64,
-    /// What is hit.
+    /// The ball.
     pub ball: Ball,
     /// Speed of the ball towards the bat (m/s).
     pub ball_speed: f64,
-    /// Coefficient of restitution, unless the ball's own depends on the speed.
+    /// Coefficient of restitution, unless the ball's depends on the speed.
     pub cor: f64,
-    /// Where the hands feel the hit (m from the knob end).
+    /// Position of the hands (m from the knob end).
     pub hands: f64,
-    /// How the barrel's wall gives way under the ball by a person's own figures, if it does.
+    /// The barrel's wall under the ball, by a person's own figures, if there are any.
     pub wall: Option<Wall>,
-    /// Whether it gives way by its own hoop modes, those of the bat that the scene was made for; of
-    /// another bat they are solved anew. Not where [`Self::wall`] is given.
+    /// Whether the wall gives way by its hoop modes, those of the bat that the scene was made for; for another bat they
+    /// are solved again. Not used if [`Self::wall`] is given.
     pub hoop: HoopInHit,
 }
 
 impl Default for Scene {
-    /// An average swing of the major leagues at a 90 mph pitch: 43 rad/s about a point 2.5 in beyond
-    /// the knob end, a baseball at 83 mph, hands about the standard pivot, a wall that does not give
-    /// way. A bat of 33 in moves at 72 mph 6 in from its tip, and the ball leaves an R161 at 107 mph.
+    /// An average major-league swing at a 90 mph pitch: 43 rad/s about a point 2.5 in beyond the knob end, a baseball
+    /// at 83 mph, hands at the standard pivot, a rigid wall. A bat of 33 in moves at 72 mph 6 in from its tip, and the
+    /// ball leaves an R161 at 107 mph.
     ///
     /// # Source
     ///
-    /// MLB glossary, Statcast, "Bat Speed": taken six inches from the head of the bat; its average in
-    /// the major leagues is 71.5 mph. A pitch of 90 mph at release has about 0.92 of that at the plate,
-    /// the share with which the squared-up balls of `validation/` come out right.
+    /// MLB glossary, Statcast, "Bat Speed": measured six inches from the head of the bat; the average in the major
+    /// leagues is 71.5 mph. A pitch of 90 mph at release has about 0.92 of that at the plate, the share with which the
+    /// squared-up balls of `validation/` come out right.
     fn default() -> Self {
         let ball = Ball::baseball();
         Self {
@@ -117,24 +117,24 @@ impl Default for Scene {
 }
 
 impl Scene {
-    /// Whether the barrel's wall gives way under the ball, by a person's figures or by its own hoop modes.
+    /// Whether the barrel's wall gives way under the ball, by a person's figures or by its hoop modes.
     pub fn wall_gives_way(&self) -> bool {
         self.wall.is_some() || self.hoop.wall().is_some()
     }
 
-    /// Speed (m/s) at which the ball would bring that energy (J, of the relative motion) to a rigid wall, and so be
-    /// compressed as much.
+    /// Speed (m/s) at which the ball would hit a rigid wall with that energy (J, of the relative motion), and so be
+    /// compressed equally.
     fn speed_on_wall(&self, energy: f64) -> f64 {
         (2.0 * energy / self.ball.mass_kg).sqrt()
     }
 
-    /// e₀ of a ball that is met with that energy (J, of the relative motion): that on a rigid wall, at the speed
-    /// at which it would bring as much there.
+    /// e₀ of a ball hit with that energy (J, of the relative motion): its value on a rigid wall at the speed with the
+    /// same energy.
     pub fn restitution(&self, energy: f64) -> f64 {
         self.ball.restitution_at(self.speed_on_wall(energy)).unwrap_or(self.cor)
     }
 
-    /// The ball's force law with that e₀, when it is met with that energy (J, of the relative motion).
+    /// The ball's force law with that e₀, for a hit with that energy (J, of the relative motion).
     ///
     /// # Errors
     ///
@@ -146,11 +146,11 @@ impl Scene {
     }
 }
 
-/// The wall of a hollow barrel as a spring under the ball: a shell mode without momentum of its own,
-/// so that it disturbs neither the rigid motion nor the bending modes.
+/// The wall of a hollow barrel as a spring under the ball: a shell mode without momentum, so that it affects neither
+/// the rigid motion nor the bending modes.
 ///
-/// A mode of mass m and `ω² = k/m` gives way by `F/k` to a slow force. Without a mass it is a
-/// spring in series with the ball.
+/// A mode of mass m and `ω² = k/m` deflects by `F/k` under a slow force. Without a mass it is a spring in series with the
+/// ball.
 ///
 /// # Source
 ///
@@ -164,7 +164,7 @@ pub struct Wall {
     pub mass: f64,
 }
 
-/// One impact. What does not exist (no real solution, no contact) is None.
+/// One impact. A value that does not exist (no real solution, no contact) is `None`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Impact {
@@ -172,19 +172,19 @@ pub struct Impact {
     pub x: f64,
     /// Speed of the bat at `x` before the hit (m/s).
     pub bat_speed: f64,
-    /// Exit speed of the ball if the bat did not bend (m/s).
+    /// Exit speed of the ball off a bat that does not bend (m/s).
     pub rigid_exit_speed: Option<f64>,
-    /// The outcome; None where ball and bat do not meet or there is no real solution.
+    /// The outcome; `None` if ball and bat do not meet or there is no real solution.
     pub outcome: Option<Outcome>,
-    /// What is unusual in this impact, or why it has no outcome.
+    /// Flags of anything unusual in this impact, or of the reason why it has no outcome.
     pub flags: Vec<&'static str>,
 }
 
-/// What the hit left behind.
+/// The result of the hit.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Outcome {
-    /// Speed of the ball off the bat once it is gone for good (m/s).
+    /// Speed of the ball off the bat once it has left for good (m/s).
     pub exit_speed: f64,
     /// Coefficient of restitution e₀ of this hit.
     pub cor: f64,
@@ -192,13 +192,13 @@ pub struct Outcome {
     pub impulse: f64,
     /// Collision efficiency `e_A = (v_out − V)/(v_in + V)`, V the bat's speed at the impact point.
     pub collision_efficiency: f64,
-    /// Contact time (s), all touches together, where the model has one.
+    /// Contact time (s), all touches together, if the model has one.
     pub contact_time: Option<f64>,
-    /// The ball's first departure, where the model has times.
+    /// The ball's first departure, if the model has times.
     pub first_separation: Option<Separation>,
-    /// Largest force (N), where the model has one.
+    /// Largest force (N), if the model has one.
     pub peak_force: Option<f64>,
-    /// Largest compression of the ball (m), where the model has one.
+    /// Largest compression of the ball (m), if the model has one.
     pub peak_compression: Option<f64>,
     /// BBCOR of the free bat: `e_A (1 + r) + r` with `r = m/M_eff`.
     pub bbcor: f64,
@@ -206,21 +206,21 @@ pub struct Outcome {
     pub bbcor_pivoted: f64,
     /// Where the energy went.
     pub energy: Energy,
-    /// Estimated error of the exit speed, relative to the closing speed: for modes left out and
-    /// steps, and for the mesh.
+    /// Estimated error of the exit speed, relative to the closing speed: due to omitted modes, to steps, and to the
+    /// mesh.
     pub error: f64,
-    /// Part of [`Self::error`] that more modes would remove.
+    /// The part of [`Self::error`] that more modes would remove.
     pub truncation: f64,
-    /// Part of [`Self::error`] that shorter steps would remove.
+    /// The part of [`Self::error`] that shorter steps would remove.
     pub steps: f64,
-    /// Part of [`Self::error`] that more and better hoop modes of the wall would remove.
+    /// The part of [`Self::error`] that more and better hoop modes of the wall would remove.
     pub wall: f64,
 }
 
 impl Outcome {
-    /// States errors as they are where better answers were not waited for, which would have shown how these settle: of
-    /// 101 places of an R161 and the stiffest ball (1e10 N/m^1.84) five moved by more than stated before, the most by
-    /// 3.8 times, against the next rounds' answers.
+    /// Enlarges the errors of an answer whose convergence was not observed. Of 101 places of an R161 and the stiffest
+    /// ball (1e10 N/m^1.84), five differed from the answers of the next rounds by more than the error stated before, at
+    /// most by 3.8 times.
     pub(super) fn unsettled(&mut self) {
         const MORE: f64 = 3.0;
         self.error += (MORE - 1.0) * (self.error - self.wall);
@@ -230,8 +230,8 @@ impl Outcome {
     }
 }
 
-/// The moment at which the ball leaves the bat for the first time.
-// It may be caught again.
+/// The moment at which the ball first leaves the bat.
+// The bat may catch up with it again.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
@@ -242,13 +242,13 @@ pub struct Separation {
     /// Speed of the ball at that moment (m/s).
     #[serde(rename = "exit_speed_m_s")]
     pub exit_speed: f64,
-    /// How far that may be off, relative to the closing speed.
+    /// Possible error of that speed, relative to the closing speed.
     #[serde(rename = "exit_speed_error")]
     pub error: f64,
 }
 
-/// Energies (J): the initial one is the sum of all others, each computed on its own.
-// Of a held bat as its hands see them.
+/// Energies (J): the initial one is the sum of all others; each is computed separately.
+// For a held bat, as seen by its hands.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
@@ -267,23 +267,23 @@ pub struct Energy {
     pub dissipated_ball: f64,
     /// Energy lost in the bat's own damping (J).
     pub dissipated_damping: f64,
-    /// Energy left in the barrel's wall (J), where it gives way.
+    /// Energy left in the barrel's wall (J), if the wall gives way.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub wall: f64,
-    /// That energy by the harmonics around the barrel; left out where the wall has none.
+    /// That energy by the harmonics around the barrel; left out if the wall has none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub wall_by_harmonic: Vec<HarmonicEnergy>,
     /// Energy that the model created (−) or failed to account for (+) (J).
     pub imbalance: f64,
 }
 
-/// A wall that does not give way has no line.
+/// A rigid wall has no entry.
 fn is_zero(value: &f64) -> bool {
     *value == 0.0
 }
 
 impl Energy {
-    /// With what the others leave of the initial one.
+    /// Sets the imbalance to the difference between the initial energy and the others.
     pub(super) fn balanced(self) -> Self {
         let dissipated = self.dissipated_ball + self.dissipated_damping;
         let imbalance =
@@ -292,7 +292,7 @@ impl Energy {
     }
 }
 
-/// The greater of two errors; one that is not a number is greater than all, where `f64::max` drops it.
+/// The greater of two errors; NaN counts as the greatest, where `f64::max` would drop it.
 pub fn greater(a: f64, b: f64) -> f64 {
     if a.is_nan() || a > b { a } else { b }
 }

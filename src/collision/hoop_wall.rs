@@ -1,7 +1,7 @@
-//! How does a hollow barrel's own wall give way under a ball?
+//! How far does a hollow barrel's wall give way under a ball?
 //!
-//! Every hoop mode of the wall ([`crate::modes::hoop`]) is one more mode of the contact. What a harmonic has beyond its
-//! kept modes follows the force at once. A ball presses on a patch, so that the sum over the harmonics ends:
+//! Every hoop mode of the wall ([`crate::modes::hoop`]) is an additional mode of the contact. The part of a harmonic
+//! beyond its kept modes follows the force at once. A ball presses on a patch, so the sum over the harmonics converges:
 //!
 //! ```text
 //! y″ + 2ζωy′ + ω²y = −c F       c = (g_n Ū)²/M of every mode (n, m), ζ = η/2
@@ -9,8 +9,7 @@
 //! g_n = P(n a_t/r)/P(a_t/r)     P(k) = 3 (sin k − k cos k)/k³
 //! ```
 //!
-//! A motion that goes as `cos nθ`, n ≠ 1, has neither momentum nor angular momentum: rigid motion and
-//! bending stay as they are.
+//! A motion as `cos nθ`, n ≠ 1, has neither momentum nor angular momentum: rigid motion and bending are unaffected.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -36,13 +35,13 @@ pub struct HarmonicEnergy {
     pub energy_j: f64,
 }
 
-/// A hole that begins so near to the tip (m) is a cup in it, and the barrel is solid.
+/// A hole that begins this close to the tip (m) is a cup, and the barrel is solid.
 pub const CUP: f64 = 0.04;
 
-/// The wall of a hollow barrel as balls of one size feel it.
+/// The wall of a hollow barrel under balls of one size.
 #[derive(Debug, Clone)]
 pub struct HoopWall {
-    /// The bat whose wall it is.
+    /// The bat with this wall.
     bat: Bat,
     ball_radius: f64,
     fineness: Fineness,
@@ -56,11 +55,11 @@ pub struct HoopWall {
 pub struct WallSeries {
     /// `c` of every hoop mode (1/kg).
     pub gains: Vec<f64>,
-    /// Flexibility that is left (m/N).
+    /// The remaining flexibility (m/N).
     pub rest: f64,
 }
 
-/// The wall as a ball feels it at one place.
+/// The wall under a ball at one place.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct WallFelt {
     /// All modes.
@@ -71,15 +70,15 @@ pub struct WallFelt {
     pub soft: f64,
     /// `Σ D_n` (m s²/N).
     pub slow: f64,
-    /// What of that the modes leave out (m s²/N).
+    /// The part of that beyond the modes (m s²/N).
     pub late: f64,
-    /// Flexibility (m/N) that may be missing: of harmonics left out, by the modes' own errors, and by the
-    /// elements close to the patch.
+    /// Flexibility (m/N) that may be missing: that of omitted harmonics, and that due to the errors of the modes and of
+    /// the elements close to the patch.
     pub unsure: f64,
 }
 
 impl WallSeries {
-    /// The bat with these modes before its own, and this flexibility.
+    /// The driving point with these modes before its own, and with this flexibility.
     pub fn before(&self, mut felt: DrivingPoint) -> DrivingPoint {
         felt.gains.splice(0..0, self.gains.iter().copied());
         felt.rest += self.rest;
@@ -88,7 +87,7 @@ impl WallSeries {
 }
 
 impl HoopWall {
-    /// The wall of that bat for balls of that radius (m), for exit speeds within that share of the closing speed.
+    /// The wall of that bat for balls of that radius (m), for exit speeds to that share of the closing speed.
     ///
     /// # Errors
     ///
@@ -103,7 +102,7 @@ impl HoopWall {
         Ok(Arc::new(Self { bat, ball_radius, fineness, response, modes }))
     }
 
-    /// The wall of another bat to the same accuracy; of a bat with the same wall this one.
+    /// The wall of another bat to the same accuracy; this one if the other bat has the same wall.
     ///
     /// # Errors
     ///
@@ -124,17 +123,17 @@ impl HoopWall {
         first.map(|(_, [omega, _])| omega / TAU)
     }
 
-    /// The harmonics that are counted.
+    /// The harmonics that are modelled.
     pub fn harmonics(&self) -> Vec<usize> {
         self.response.harmonics()
     }
 
-    /// How far a frequency may be off, relative.
+    /// Possible relative error of a frequency.
     pub fn off(&self) -> f64 {
         self.response.off()
     }
 
-    /// From where to where the wall is modelled (m).
+    /// Beginning and end of the modelled stretch (m).
     pub fn ends(&self) -> [f64; 2] {
         self.response.ends()
     }
@@ -151,12 +150,12 @@ impl HoopWall {
         all
     }
 
-    /// Where a ball that is compressed by that much (m) presses at `x` (m).
+    /// The patch of a ball compressed by that much (m) at `x` (m).
     pub fn patch(&self, x: f64, compression: f64) -> Patch {
         Patch::under(x, self.ball_radius, self.bat.profile().at(x).outer, compression)
     }
 
-    /// The modes under a ball that presses at `x` (m), compressed by that much (m).
+    /// The modes under a ball at `x` (m) compressed by that much (m).
     pub fn tones(&self, x: f64, compression: f64) -> Vec<WallTone> {
         let shares = self.shares(x, compression).unwrap_or_default();
         let gains = shares.into_iter().flat_map(|share| share.gains);
@@ -168,15 +167,14 @@ impl HoopWall {
         self.modes.iter().zip(gains).map(tone).collect()
     }
 
-    /// How each harmonic gives way at `x` (m) under a ball that is compressed by that much (m); None where the
-    /// modelled stretch ends.
+    /// The compliance of each harmonic at `x` (m) under a ball compressed by that much (m); `None` outside the modelled
+    /// stretch.
     pub fn shares(&self, x: f64, compression: f64) -> Option<Vec<Share>> {
         let patch = self.patch(x, compression);
         self.response.covers(&patch).then(|| self.response.under(&patch))
     }
 
-    /// The wall at `x` (m) under a ball that is compressed by that much (m). Where the modelled stretch
-    /// ends it does not give way.
+    /// The wall at `x` (m) under a ball compressed by that much (m). Outside the modelled stretch it is rigid.
     pub fn under(&self, x: f64, compression: f64) -> WallFelt {
         let mut felt = WallFelt::default();
         let Some(shares) = self.shares(x, compression) else {
@@ -192,7 +190,7 @@ impl HoopWall {
             felt.full.gains.extend(share.gains);
             felt.full.rest += local;
             felt.late += (share.slowness - of_slow).max(0.0);
-            // ω is off by a relative error, 1/ω² by twice that.
+            // A relative error of ω is doubled in 1/ω².
             felt.unsure += 2.0 * self.off() * of_modes + self.fineness.missed * local;
             felt.flexibility.push((share.harmonic, share.flexibility));
             felt.soft += share.flexibility;
@@ -206,8 +204,8 @@ impl HoopWall {
         felt
     }
 
-    /// `Σ C_n` (m/N) and `Σ D_n` (m s²/N) at `x` (m), or where the modelled stretch is nearest to it, under a ball
-    /// that is compressed by that much (m).
+    /// `Σ C_n` (m/N) and `Σ D_n` (m s²/N) under a ball compressed by that much (m) at `x` (m), or at the nearest place
+    /// of the modelled stretch.
     pub fn somewhere(&self, x: f64, compression: f64) -> [f64; 2] {
         let [from, to] = self.ends();
         let from = from + self.patch(x, compression).half_length;
@@ -216,24 +214,24 @@ impl HoopWall {
     }
 }
 
-/// Share of the flexibility of harmonics beyond the last that may be missing.
+/// Possible error of the flexibility of harmonics beyond the last, as a share of it.
 const BEYOND: f64 = 0.3;
 
 impl PartialEq for HoopWall {
-    /// Walls of one bat, for one ball, to one accuracy: their answers are equal.
+    /// Walls of one bat, for one ball, to one accuracy: their results are equal.
     fn eq(&self, other: &Self) -> bool {
         (&self.bat, self.ball_radius, self.fineness)
             == (&other.bat, other.ball_radius, other.fineness)
     }
 }
 
-/// Flexibility (m/N) of the harmonics above the last that is counted: beside the share `g_n²` that the patch has in a
-/// harmonic it goes on falling by the power of n of the last two.
+/// Flexibility (m/N) of the harmonics beyond the last one modelled. Apart from the patch's share `g_n²` in a harmonic,
+/// it continues to fall with the power of n of the last two.
 fn beyond(flexibility: &[(usize, f64)], patch: &Patch, radius: f64) -> f64 {
     const FAR: usize = 60;
     let share = |n: usize| patch.share(n, radius).powi(2);
     let [.., (n, before), (last, soft)] = flexibility else { return 0.0 };
-    // A patch may not drive a harmonic at all, as where a ring bends.
+    // A patch may not excite a harmonic at all, as where a ring bends.
     let own = |n: usize, soft: f64| soft / share(n).max(1e-2);
     let (before, soft) = (own(*n, *before), own(*last, *soft));
     let fall = (before / soft).ln() / (*last as f64 / *n as f64).ln();
@@ -241,20 +239,20 @@ fn beyond(flexibility: &[(usize, f64)], patch: &Patch, radius: f64) -> f64 {
     (last + 1..last + FAR).map(|n| soft * share(n) * (*last as f64 / n as f64).powf(fall)).sum()
 }
 
-/// The tones of a hollow barrel's wall under that ball, by place (m); None of a bat without a wall whose hoop modes can be
-/// found.
+/// The tones of a hollow barrel's wall under that ball, as a function of the place (m); `None` for a bat without a wall
+/// whose hoop modes can be found.
 pub fn heard(bat: &Bat, ball: &Ball) -> Option<impl Fn(f64) -> Vec<WallTone> + use<>> {
     let wall = rings(bat).then(|| HoopWall::of(bat, ball.radius_m, 1e-4).ok()).flatten()?;
     let compression = ball.patch_compression();
     Some(move |x: f64| wall.tones(x, compression))
 }
 
-/// How stiff the barrel's wall is under a ball (N/m), before anything is solved: the least of `3 E h^{5/2}
-/// r^{−3/2}` over the outer half of the bat; None where that is solid.
+/// Stiffness of the barrel's wall under a ball (N/m), before anything is solved: the least of `3 E h^{5/2} r^{−3/2}`
+/// over the outer half of the bat; `None` if that half is solid.
 ///
 /// # Source
 ///
-/// A fit to hoop modes of bats with walls from 1.4 to 6 mm and a patch of a ball compressed by 8 mm, good to a
+/// A fit to hoop modes of bats with walls from 1.4 to 6 mm and the patch of a ball compressed by 8 mm, accurate to a
 /// tenth.
 pub fn rough_stiffness(bat: &Bat) -> Option<f64> {
     let stiffness = |[wall, x]: [f64; 2]| {
@@ -264,13 +262,13 @@ pub fn rough_stiffness(bat: &Bat) -> Option<f64> {
     barrel_walls(bat).into_iter().map(stiffness).min_by(f64::total_cmp)
 }
 
-/// Walls (m) of the outer half of the bat, where a ball is hit, and their places (m); none where that
-/// half is solid. A bore with a core in it is hollow too; a cup in the tip is not.
+/// Walls (m) of the outer half of the bat, where balls are hit, and their places (m); empty if that half is solid. A
+/// bore with a core in it counts as hollow, a cup in the tip does not.
 pub fn barrel_walls(bat: &Bat) -> Vec<[f64; 2]> {
     const STRETCHES: usize = 200;
     let half = 0.5 * bat.length();
     let wall = |k: usize| {
-        // Between the stations too, and not at the tip, where a cap is not a wall.
+        // Between the stations too, but not at the tip, where a cap is not a wall.
         let x = half + half * (k as f64 + 0.5) / STRETCHES as f64;
         let section = bat.profile().at(x);
         (section.inner > 0.0).then_some([section.outer - section.inner, x])
@@ -280,9 +278,9 @@ pub fn barrel_walls(bat: &Bat) -> Vec<[f64; 2]> {
     if hollow { walls } else { vec![] }
 }
 
-/// Restitution of a ball on a wall that gives way, from that on a stiff one, `e = √((e_s² + s)/(1 + s))`,
-/// `s = ½ (1 + α) k_ball/k_wall` the share of the energy that the wall stores and gives back: an
-/// estimate, within 0.03, of a wall much lighter than the ball.
+/// Restitution of a ball on a wall that gives way, from that on a rigid one: `e = √((e_s² + s)/(1 + s))`, with
+/// `s = ½ (1 + α) k_ball/k_wall` the share of the energy that the wall stores and returns. An estimate, within 0.03,
+/// for a wall much lighter than the ball.
 pub fn restitution_with_wall(stiff: f64, exponent: f64, ball_over_wall: f64) -> f64 {
     let share = 0.5 * (1.0 + exponent) * ball_over_wall;
     ((stiff * stiff + share) / (1.0 + share)).sqrt()
@@ -291,37 +289,37 @@ pub fn restitution_with_wall(stiff: f64, exponent: f64, ball_over_wall: f64) -> 
 /// Whether the wall of a bat gives way in a hit by its own hoop modes.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub enum HoopInHit {
-    /// There is no wall that could, or nothing was asked.
+    /// There is no wall that could give way, or it was not requested.
     #[default]
     None,
-    /// There is one, and it is taken as rigid.
+    /// There is one, but it is taken as rigid.
     LeftOut(WhyRigid),
-    /// It does.
+    /// It gives way.
     Counted(Arc<HoopWall>),
 }
 
 /// Why a wall that could give way is taken as rigid.
 #[derive(Debug, Clone, PartialEq)]
 pub enum WhyRigid {
-    /// So it was asked.
+    /// The user asked for it.
     Asked,
-    /// The number of modes was told, and nothing else is counted.
+    /// The number of modes is prescribed, and nothing else may contribute.
     ModesTold,
-    /// It would change the restitution by about that much, less than was asked for.
+    /// Its estimated effect on the restitution is below the tolerance.
     Small {
         /// Estimated change.
         gain: f64,
-        /// Accuracy that was asked for.
+        /// The tolerance.
         tolerance: f64,
     },
-    /// Many bats are compared that differ a little, and the wall of each would have to be solved.
+    /// Many similar bats are compared, and each wall would have to be solved.
     ManyBats,
-    /// Its hoop modes could not be found, for that reason.
+    /// Its hoop modes could not be found, for this reason.
     Unsolved(String),
 }
 
 impl HoopInHit {
-    /// What is done with the wall where many bats are compared: one that is counted is left rigid.
+    /// The choice for comparisons of many bats: a wall that would give way is taken as rigid.
     pub fn left_out(&self) -> Self {
         match self {
             Self::Counted(_) => Self::LeftOut(WhyRigid::ManyBats),
@@ -329,11 +327,11 @@ impl HoopInHit {
         }
     }
 
-    /// How far an exit speed may be off, relative to the closing speed, for a wall that was left out because it
-    /// changes little.
+    /// Possible error of an exit speed, relative to the closing speed, due to a wall that was omitted because its
+    /// effect is small.
     pub fn error(&self) -> f64 {
-        /// Of the estimated change: at an open tip the wall gives way more than twice as far as within the barrel, for
-        /// which the estimate is about twice too large.
+        /// Factor on the estimated change: at an open tip the wall gives way more than twice as far as within the barrel,
+        /// and within the barrel the estimate is about twice too large.
         const AT_THE_TIP: f64 = 2.0;
         match self {
             Self::LeftOut(WhyRigid::Small { gain, .. }) => AT_THE_TIP * gain,
@@ -341,7 +339,7 @@ impl HoopInHit {
         }
     }
 
-    /// The wall, where it gives way.
+    /// The wall, if it gives way.
     pub fn wall(&self) -> Option<&Arc<HoopWall>> {
         match self {
             Self::Counted(wall) => Some(wall),
@@ -354,14 +352,14 @@ impl HoopInHit {
 mod tests {
     use super::*;
 
-    /// A limit: a stiff wall changes nothing, one that stores all gives all back.
+    /// Two limits: a rigid wall changes nothing, and one that stores all energy returns all.
     #[test]
     fn a_wall_returns_what_it_stores() {
         assert!((restitution_with_wall(0.5, 1.84, 0.0) - 0.5).abs() < 1e-15);
         assert!((restitution_with_wall(0.5, 1.84, 1e12) - 1.0).abs() < 1e-9);
     }
 
-    /// Of harmonics that fall as the estimate assumes, what is beyond is stated within a few per cent.
+    /// If the harmonics fall as the estimate assumes, it gives the omitted ones within a few per cent.
     #[test]
     fn harmonics_left_out_are_estimated_from_the_last() {
         let (patch, radius) = (Patch::under(0.7, 0.0366, 0.0333, 0.008), 0.0333);

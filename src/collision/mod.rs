@@ -1,23 +1,24 @@
 //! What do ball and bat do when they meet, and where is the sweet spot?
 //!
-//! Say who meets whom in a [`hit::Scene`], then [`sweep::sweep`] strikes the bat at all places with as many modes as the
-//! accuracy needs. A [`hitter::Hitter`] strikes it once more anywhere, [`sweet_spot::SweetSpot::find`] looks for the best
-//! places and [`figures::Figures`] has the rest of what catalogues state. [`aftermath`] goes on after the ball.
+//! Describe swing and pitch in a [`hit::Scene`]. [`sweep::sweep`] then strikes the bat at all places, with as many
+//! modes as the accuracy needs. A [`hitter::Hitter`] strikes it anywhere else. [`sweet_spot::SweetSpot::find`] searches
+//! for the best places, and [`figures::Figures`] has the other figures of catalogues. [`aftermath`] continues after the
+//! ball has left.
 //!
 //! | module | question |
 //! |---|---|
 //! | [`contact`] | how hard does a ball push back; what happens while they touch, and when do they touch again |
 //! | [`ball`] | what ball |
-//! | [`struck`], [`hoop_wall`] | how does the bat give way to a ball, anywhere; how does a barrel's wall |
+//! | [`struck`], [`hoop_wall`] | how far does the bat give way under a ball, anywhere; how far does a barrel's wall |
 //! | [`rigid`], [`energy_loss`], [`pulse`] | the simpler models: no bending, an empirical loss, a known pulse |
-//! | [`columns`] | which figures of a hit are told, and by which names |
-//! | [`wall_choice`], [`setup`] | does the wall give way in this hit; how is a bat hit, whichever bat it is |
+//! | [`columns`] | which figures of a hit are written, and under which names |
+//! | [`wall_choice`], [`setup`] | does the wall give way in this hit; how is a bat hit, before the bat is known |
 //! | [`hit`], [`hitter`], [`strike`], [`along`], [`sweep`](mod@sweep) | what is a hit, at one place, along the barrel |
-//! | [`sweet_spot`], [`wall_figures`], [`figures`] | where is it best, what does the wall do, by which figures are bats compared |
-//! | [`stated`] | how far may an exit speed be off |
-//! | [`swing`], [`batch`] | all of it in one call; how fast does a ball leave many bats |
-//! | [`bbcor`] | what would a laboratory's test say |
-//! | [`aftermath`], [`strength`] | what do the hands and the wood feel, does it break |
+//! | [`sweet_spot`], [`wall_figures`], [`figures`] | where is the sweet spot, what does the wall do, by which figures are bats compared |
+//! | [`stated`] | what is the error of an exit speed |
+//! | [`swing`], [`batch`] | all of it in one call; the exit speeds of many bats |
+//! | [`bbcor`] | what would a laboratory's test give |
+//! | [`aftermath`], [`strength`] | what do the hands and the wood experience, does the bat break |
 
 #[doc(hidden)]
 pub mod contact;

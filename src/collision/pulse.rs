@@ -1,5 +1,5 @@
-//! The bat under a force pulse of known form: what a half sine of duration τ leaves in every mode,
-//! and the impulse that energy then allows.
+//! The bat under a force pulse of known form: the energy that a half sine of duration τ leaves in every mode, and the
+//! impulse that the energy balance then allows.
 //!
 //! ```text
 //! F = (πJ/2τ) sin(πt/τ),  0 < t < τ
@@ -9,13 +9,12 @@
 //! e = [−g s + √(e₀² (1 + g s) − g s)]/(1 + g s),   J = μ (1 + e) u
 //! ```
 //!
-//! The last line is the balance `μu²(1 − e²)/2 = D + ΣE_n` with the ball's loss `D = (1 − e₀²)(μu²/2
-//! − κ ΣE_n)`: with κ = 0 it loses what it loses on a stiff bat, with κ = 1 a fixed share of what
-//! the vibration leaves. Where too little is left there is no real root. As τ → 0 every mode takes
-//! `J² c_n/2`, and their sum grows without end: that a delta impulse has no answer is not the
-//! series' fault.
+//! The last line is the balance `μu²(1 − e²)/2 = D + ΣE_n` with the ball's loss `D = (1 − e₀²)(μu²/2 − κ ΣE_n)`. With κ
+//! = 0 the ball loses as much as on a rigid bat; with κ = 1 it loses a fixed share of the energy that the vibration
+//! leaves. If too little is left, there is no real root. As τ → 0 every mode takes `J² c_n/2`, and their sum diverges:
+//! a delta impulse has no answer in the model itself, not only in the series.
 //!
-//! τ and κ are not constants of nature: 0.75 ms and 0.6 make this model follow
+//! τ and κ are not constants of nature. With 0.75 ms and 0.6 this model follows
 //! [`crate::collision::contact::encounter`] within 1 m/s on the WPI report's dowel and on a cone, at one speed.
 //!
 //! # Source
@@ -30,7 +29,7 @@ use std::f64::consts::{FRAC_PI_4, PI};
 pub struct Pulse {
     /// τ (s).
     pub duration: f64,
-    /// κ, how much of the vibration's energy the ball need not lose.
+    /// κ, the share of the vibration's energy that reduces the ball's loss.
     pub loss_share: f64,
 }
 
@@ -58,8 +57,8 @@ impl Pulse {
         modes.iter().zip(gains).map(share).collect()
     }
 
-    /// What all modes above ω (rad/s) can have together at most, where `slow` is their `Σ c/ω⁴`
-    /// (m s²/N): `|S| ≤ 1/((ωτ/π)² − 1)`.
+    /// An upper bound for all modes above ω (rad/s) together, where `slow` is their `Σ c/ω⁴` (m s²/N):
+    /// `|S| ≤ 1/((ωτ/π)² − 1)`.
     pub fn beyond(&self, omega: f64, slow: f64) -> f64 {
         let z = (omega * self.duration / PI).powi(2);
         if z <= 1.0 {
@@ -68,8 +67,7 @@ impl Pulse {
         slow.max(0.0) * (PI / self.duration).powi(4) / (1.0 - 1.0 / z).powi(2)
     }
 
-    /// `e` where the ball alone has `e₀` and the modes together the share `s`; None where the
-    /// energy does not suffice.
+    /// `e` if the ball alone has `e₀` and all modes together the share `s`; `None` if the energy is not enough.
     pub fn restitution(&self, ball: f64, s: f64) -> Option<f64> {
         let g = 1.0 - self.loss_share * (1.0 - ball * ball);
         let square = ball * ball * (1.0 + g * s) - g * s;

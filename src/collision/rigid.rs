@@ -1,4 +1,4 @@
-//! A ball meets a free bat that does not bend.
+//! How does a ball rebound from a free bat that does not bend?
 //!
 //! ```text
 //! 1/m_eff = 1/M + y²/I          what the bat weighs at the ball, y from the balance point
@@ -7,9 +7,9 @@
 //! ```
 //!
 //! The bat moves in +, so a pitched ball has `v < 0` here; it leaves with `v′ > 0` if hit back.
-//! The hands do not matter: a hit is over before they feel it.
+//! The hands do not matter: the contact ends before they feel it.
 
-/// What a stiff free body is, for a blow across its axis.
+/// The properties of a rigid free body for a blow across its axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RigidBat {
     /// Mass of the bat (kg).
@@ -20,7 +20,7 @@ pub struct RigidBat {
     pub inertia: f64,
 }
 
-/// How a rigid bat moves: its balance point across the axis (m/s), and its rotation (rad/s).
+/// Motion of a rigid bat: velocity of its balance point across the axis (m/s), and rotation (rad/s).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RigidVelocity {
     /// Velocity of the balance point across the axis (m/s).
@@ -40,7 +40,7 @@ pub struct Incoming {
     pub restitution: f64,
 }
 
-/// What a blow left behind.
+/// The result of a blow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rebound {
     /// Impulse `J` on the ball (N s).
@@ -85,7 +85,7 @@ impl RigidBat {
 
     /// The blow at `x`, by momentum, angular momentum and `e`.
     ///
-    /// For a ball that does not approach, the equations hold formally and mean nothing.
+    /// For a ball that does not approach, the equations hold formally but mean nothing.
     ///
     /// # Source
     ///

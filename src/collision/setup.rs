@@ -1,8 +1,8 @@
-//! How is a bat hit, whichever bat it is?
+//! How is a bat hit, before the bat is known?
 //!
-//! A [`Setup`] is what somebody says of swing, pitch, ball and wall; [`Setup::scene`] makes it the
-//! [`Scene`] of one bat. Its members have the same names in files, in a study's paths and, with `-` for `_`,
-//! as options of the command line; messages write them `` `so` ``.
+//! A [`Setup`] describes swing, pitch, ball and wall; [`Setup::scene`] turns it into the [`Scene`] of one bat. Its
+//! members have the same names in files, in the paths of a study and, with `-` for `_`, as options of the command line;
+//! messages write them in `` `backquotes` ``.
 
 use crate::base::error::{Error, Result};
 use crate::base::units::shown_length;
@@ -19,7 +19,7 @@ use crate::modes::hoop::rings;
 /// Swing, pitch, ball and wall, before the bat is known.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Setup {
-    /// Collision model, with its own constants where none are given below.
+    /// Collision model, with its own constants unless they are given below.
     pub model: Model,
     /// Angular speed of the swing (rad/s).
     pub swing_speed: f64,
@@ -31,22 +31,21 @@ pub struct Setup {
     pub pivot: f64,
     /// Speed of the ball towards the bat (m/s).
     pub pitch: f64,
-    /// What is hit.
+    /// The ball.
     pub ball: Ball,
     /// Coefficient of restitution, in place of the ball's own.
     pub cor: Option<f64>,
-    /// Where the hands feel the hit (m from the knob end).
+    /// Position of the hands (m from the knob end).
     pub hands: f64,
-    /// Whether a hollow barrel's wall gives way by its own hoop modes; a stiffness that is given takes
-    /// their place.
+    /// Whether a hollow barrel's wall gives way by its own hoop modes; a given stiffness replaces them.
     pub wall: WallChoice,
     /// Stiffness of a hollow barrel's wall under the ball (N/m).
     pub wall_stiffness: Option<f64>,
     /// Mass of that wall's own vibration (kg).
     pub wall_mass: Option<f64>,
-    /// Moment of inertia about the standard pivot (kg m²) of the bat that the angular speed is of.
+    /// Moment of inertia about the standard pivot (kg m²) of the bat that the angular speed belongs to.
     pub reference_inertia: Option<f64>,
-    /// How swings slow down with that moment of inertia.
+    /// Exponent with which swings slow down with that moment of inertia.
     pub swing_exponent: Option<f64>,
     /// γ of the empirical loss.
     pub gamma: Option<f64>,
@@ -59,7 +58,7 @@ pub struct Setup {
 }
 
 impl Default for Setup {
-    /// That of [`Scene::default`], a ball and modes in contact.
+    /// The setup of [`Scene::default`], with the contact model.
     fn default() -> Self {
         let scene = Scene::default();
         Self {
@@ -86,7 +85,7 @@ impl Default for Setup {
 }
 
 impl Setup {
-    /// The members that have a name, as files and paths write them; the ball has its own.
+    /// The named members, as in files and paths; the ball has its own.
     pub const MEMBERS: [&'static str; 18] = [
         "model",
         "swing_speed",
@@ -108,7 +107,7 @@ impl Setup {
         "loss_share",
     ];
 
-    /// Implausible speeds, most likely bare numbers in other units: the member, and what to say of it.
+    /// Members with an implausible speed, most likely a bare number in another unit, and the warning for each.
     pub fn warnings(&self) -> Vec<(&'static str, String)> {
         let all = [
             ("pitch", self.pitch, 60.0, "m/s", "\"90 mph\""),
@@ -122,13 +121,13 @@ impl Setup {
         strange.map(told).collect()
     }
 
-    /// The scene on that bat, and where its swing is from. `tolerance` is that of exit speeds over the
-    /// closing speed, by which a hollow barrel's wall gives way or not; None where a number of modes and
-    /// nothing else is to be counted.
+    /// The scene on that bat, and the origin of its swing. `tolerance` is that of exit speeds over the closing speed,
+    /// which decides whether a hollow barrel's wall gives way; `None` if the number of modes is prescribed and nothing
+    /// else may contribute.
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] about a member that cannot be, or not on this bat.
+    /// [`Error::Value`] about a member that is impossible, or impossible on this bat.
     pub fn scene(&self, bat: &Bat, tolerance: Option<f64>) -> Result<(Scene, Option<SwingLaw>)> {
         let mut ball = self.ball.clone();
         let cor = self.cor.unwrap_or(ball.cor);
@@ -161,18 +160,18 @@ impl Setup {
         Ok((scene.with_wall(self.wall, bat, self.model, tolerance)?, law))
     }
 
-    /// Whether a hit on that bat may ask for the modes of its wall.
+    /// Whether a hit on that bat may need the modes of its wall.
     pub fn may_solve_wall(&self, bat: &Bat) -> bool {
         let asked = self.wall != WallChoice::Off && self.wall_stiffness.is_none();
         asked && self.model == Model::Contact && rings(bat)
     }
 
-    /// The speed of a point of the barrel, where that was given.
+    /// The speed of a point of the barrel, if it was given.
     pub fn barrel_speed(&self) -> Option<BarrelSpeed> {
         self.bat_speed.map(|speed| BarrelSpeed { speed, from_tip: self.bat_speed_at })
     }
 
-    /// The swing that gives a point of this bat that speed.
+    /// The swing that gives that speed to a point of this bat.
     fn swing_of(&self, barrel: BarrelSpeed, bat: &Bat) -> Result<f64> {
         let from_tip = shown_length(barrel.from_tip);
         if !(0.0..=bat.length()).contains(&barrel.from_tip) {
@@ -230,8 +229,8 @@ impl Setup {
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] about a constant of another model, or one that cannot be, or a ball of which no force
-    /// law is known.
+    /// [`Error::Value`] about a constant of another model, an impossible constant, or a ball whose force law is not
+    /// known.
     pub fn model(&self) -> Result<Model> {
         let empirical = self.gamma.is_some() || self.decay.is_some();
         let pulsed = self.pulse_duration.is_some() || self.loss_share.is_some();
@@ -254,7 +253,7 @@ impl Setup {
             }),
             Model::Pulse(default) => Model::Pulse(self.pulse(default)?),
             Model::Contact => {
-                // What the ball lacks is told before anything is solved.
+                // Missing data of the ball are reported before anything is solved.
                 self.ball.spring()?;
                 Model::Contact
             }

@@ -1,68 +1,66 @@
-//! How far the exit speed of a contact may be off: by the modes left out, by its steps, and by how
-//! much the hit magnifies small changes.
+//! What is the error of a contact's exit speed: due to omitted modes, to its steps, and to small changes that the hit
+//! magnifies?
 //!
-//! Each comes from other answers to the same hit: with fewer modes (to first order,
-//! [`crate::collision::contact::tangent`]), with finer steps, a little faster (to first order).
-//! The figures are fitted to 1270 random hits that are known otherwise (`search/hits`); those of
-//! `validation/hits` are others, at which `validate --promise` looks.
+//! Each error comes from other answers to the same hit: with fewer modes or a slightly faster ball (to first order,
+//! [`crate::collision::contact::tangent`]), or with finer steps. The constants are fitted to 1270 random hits with known
+//! results (`search/hits`); `validate --promise` checks the different hits of `validation/hits`.
 
 use crate::collision::contact::encounter::Encounter;
 use crate::collision::hit::greater;
 
-/// How much finer the steps are of the answer that shows what the steps are off by, and the finest;
-/// there the answer is compared with one by rougher steps.
+/// Refinement of the steps for the answer that shows their error, and the finest; there the answer is compared with one
+/// by coarser steps.
 const FINER: f64 = 1e-2;
 const FINEST: f64 = 1e-12;
-/// Share of the energy that the steps were off by that is taken as the least error: two answers may
-/// agree by chance.
+/// Share of the error of the energy by the steps that is taken as the least error: two answers may agree by chance.
 const CORRECTED: f64 = 0.03;
-/// Of one touch the steps are off by no more than so much energy, over what they were off by before it was put
-/// right: 99 of 100 hits of `validation/hits` are within it. Where that is so small a share of what modes left out
-/// may change, no finer steps are asked.
+/// For one touch, the steps cause at most this multiple of the energy error before its correction: 99 of 100 hits of
+/// `validation/hits` are within it. If that is a small enough share of the effect of omitted modes, finer steps are not
+/// computed.
 const MOST_CORRECTED: f64 = 2.0;
 const BESIDE: f64 = 0.1;
 
-/// The error falls at least as these powers of the number of modes, without and with shear, to a few
-/// modes less and to half as many; in the mean as 6.5 and 3.2 (example `tuning_modes`: 5.7 to 6.2 and 2.9 to
-/// 3.2 from 10 to 40 modes).
+/// The error falls at least as these powers of the number of modes, without and with shear, compared with a few modes
+/// less and with half as many. The mean powers are 6.5 and 3.2 (example `tuning_modes`: 5.7 to 6.2 and 2.9 to 3.2 from
+/// 10 to 40 modes).
 const FALLS: [[f64; 2]; 2] = [[4.0, 5.0], [2.5, 3.0]];
-/// Share of the error expected from a change by fewer modes.
+/// Error as a share of the change by fewer modes.
 const LEFT_OUT: f64 = 0.6;
 
-/// What is small in any case: the share of the energy that a touch may leave open.
+/// The smallest change considered: the share of the energy that a touch may leave uncertain.
 const SMALL: f64 = 1e-12;
 
-/// An answer to a hit, of `count` modes and steps of that accuracy.
+/// An answer to a hit, with `count` modes and steps of that accuracy.
 #[derive(Debug, Clone, Copy)]
 pub struct Answered<'a> {
-    /// What happened.
+    /// The contact.
     pub met: &'a Encounter,
     /// Number of modes.
     pub count: usize,
     /// Accuracy of the steps, relative.
     pub accuracy: f64,
-    /// How fast ball and stiff bat part, over the closing speed.
+    /// Separation speed of ball and rigid bat over the closing speed.
     pub rebound: f64,
-    /// μ/m: the ball's part in a change of that.
+    /// μ/m: the ball's share in a change of that.
     pub of_ball: f64,
-    /// How many modes are slow beside the contact ([`SLOW`]): as long as some of those are missing, an error does
-    /// not fall with their number as it does beyond.
+    /// Number of modes that are slow compared with the contact ([`SLOW`]). While some of these are missing, the error
+    /// does not fall with the number of modes as it does later.
     pub slow: usize,
 }
 
-/// A mode is quick beside a contact if its ω times the time for which the ball is pressed is that large: a half-wave
-/// of the force then has about three of its periods. The error falls as a power of the number of modes only beyond.
+/// A mode is quick compared with a contact if its ω times the compression time is at least this: half a wave of the
+/// force then spans about three of its periods. Only then does the error fall as a power of the number of modes.
 pub const QUICK: f64 = 6.0;
-/// Below that share of it a mode is slow.
+/// Below this share of it a mode is slow.
 pub const SLOW: f64 = 2.0 / 3.0;
 
 impl Answered<'_> {
-    /// What modes left out may change, relative to the closing speed, by how far answers of [`fewer`]
-    /// modes are from this one: their numbers of modes, and how far each is.
+    /// Possible effect of omitted modes, relative to the closing speed. `apart` gives the numbers of [`fewer`] modes
+    /// and the difference of their answers from this one.
     pub fn left_out(&self, shears: bool, apart: impl Iterator<Item = (usize, f64)>) -> f64 {
         let [near, far] = FALLS[usize::from(shears)];
         let stated = apart.map(|(few, apart)| {
-            /// What a change by fewer modes shows at least, where all of them are slow.
+            /// Least effect of a change by fewer modes if all of them are slow.
             const LEAST: f64 = 0.3;
             let rate = if 2 * few < self.count + 2 { far } else { near };
             let fall = (self.count as f64 / few.max(self.slow) as f64).powf(rate) - 1.0;
@@ -71,8 +69,8 @@ impl Answered<'_> {
         stated.fold(0.0, greater)
     }
 
-    /// What steps may change, relative to the closing speed, where `apart(accuracy)` is how far the
-    /// answer by such steps is from this one; beside an error `left_out`, their most will do.
+    /// Possible effect of the steps, relative to the closing speed; `apart(accuracy)` is the difference of the answer
+    /// by such steps from this one. Beside a large error `left_out`, the upper bound is used.
     pub fn steps(&self, left_out: f64, apart: impl Fn(f64) -> f64) -> f64 {
         let most = self.speed_of(MOST_CORRECTED * self.met.corrected);
         if !self.met.is_delicate() && most < BESIDE * left_out {
@@ -84,19 +82,18 @@ impl Answered<'_> {
         apart(other).max(least)
     }
 
-    /// Change of the exit speed, relative to the closing speed u, by a share dE of the energy `μu²/2`:
-    /// what is left of it, `μ(eu)²/2`, changes by that, `e² + dE = (e + de)²`, and the ball's speed by
-    /// `de μ/m`.
+    /// Change of the exit speed, relative to the closing speed u, due to a share dE of the energy `μu²/2`: the
+    /// remaining energy `μ(eu)²/2` changes by that, `e² + dE = (e + de)²`, and the ball's speed changes by `de μ/m`.
     fn speed_of(&self, share: f64) -> f64 {
         let rebound = self.rebound.abs();
         let after = (rebound * rebound + share).sqrt();
-        // Without the loss of digits of a difference, and 0 where nothing is missing.
+        // Avoids the cancellation of a difference; 0 if nothing is missing.
         if share > 0.0 { self.of_ball * share / (after + rebound) } else { 0.0 }
     }
 
-    /// Factor by which the hit magnifies small changes, and the error that it makes of round-off, for a ball of that
-    /// momentum (N s) at the closing speed: a closing speed that is larger by a share changes the impulse by as much, and
-    /// by what is magnified.
+    /// Factor by which the hit magnifies small changes, and the resulting error from round-off, for a ball of that
+    /// momentum (N s) at the closing speed. A closing speed that is larger by a small share changes the impulse by the
+    /// same share; what it changes beyond that is magnified.
     pub fn magnified(&self, momentum: f64) -> [f64; 2] {
         if !self.met.is_delicate() {
             return [1.0, 0.0];
@@ -107,8 +104,8 @@ impl Answered<'_> {
     }
 }
 
-/// Numbers of modes that are few beside `count`: one, two, three, a quarter and a half less. Several,
-/// since one such answer may agree by chance.
+/// Numbers of modes for comparison with `count`: one, two, three, a quarter and a half less. There are several, since
+/// one such answer may agree by chance.
 pub fn fewer(count: usize) -> Vec<usize> {
     let mut less = vec![1, 2, 3, count / 4, count - count / 2];
     less.retain(|less| (1..count).contains(less));
@@ -125,8 +122,8 @@ mod tests {
         Answered { met, count: 10, accuracy: 1e-6, rebound: 0.5, of_ball: 0.8, slow: 0 }
     }
 
-    /// An error that falls as `n^−6` (`n^−3` with shear) is stated within four times, of any number of
-    /// modes; one that jumps is not overlooked for agreeing once.
+    /// An error that falls as `n^−6` (`n^−3` with shear) is stated within a factor of four, for any number of modes;
+    /// one that jumps is not overlooked because two answers agree once.
     #[test]
     fn errors_that_fall_as_powers_are_stated_near_what_they_are() {
         let met = Encounter { touches: 1, ..Encounter::default() };
@@ -154,7 +151,8 @@ mod tests {
         }
     }
 
-    /// Beside a large error by modes left out the steps' most is stated; a hit that may magnify it is asked.
+    /// Beside a large error due to omitted modes, the upper bound for the steps is stated; a hit that may magnify it is
+    /// computed with finer steps.
     #[test]
     fn finer_steps_are_asked_where_they_could_matter() {
         let met = Encounter { touches: 1, corrected: 1e-8, ..Encounter::default() };
@@ -167,7 +165,8 @@ mod tests {
         }
     }
 
-    /// Of a ball that returns at `e u` a little energy makes `dE/(2e)`; of one that sticks, a root.
+    /// For a ball that returns at `e u`, a small energy changes the speed by `dE/(2e)`; for one that sticks, by a
+    /// square root.
     #[test]
     fn an_energy_is_stated_as_the_speed_that_it_makes() {
         let met = Encounter { touches: 1, ..Encounter::default() };

@@ -1,9 +1,8 @@
-//! How near does a hit come to breaking the bat, where, and at which swing does it get there?
+//! How close does a hit come to breaking the bat, where, and which swing would break it?
 //!
-//! The bending stress at the outermost fibre is set against the material's strength, the strain
-//! against its strain to failure, place by place. Both are of clear wood along the grain: slope of
-//! grain, knots, dents and earlier hits are not known here, nor how much more than in a slow test the
-//! wood bears for a millisecond.
+//! At every place, the bending stress at the outermost fibre is compared with the material's strength, and the strain
+//! with its strain to failure. Both values are for clear wood along the grain. Slope of grain, knots, dents and earlier
+//! hits are not modelled, nor is the higher strength of wood under a load that lasts a millisecond.
 
 use serde::Serialize;
 
@@ -14,7 +13,7 @@ use crate::collision::hit::{Effort, Model, Scene};
 use crate::collision::hitter::Hitter;
 use crate::modes::solve::Solution;
 
-/// What a strength is of.
+/// The kinds of limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
@@ -29,7 +28,7 @@ impl Limit {
     /// Both of them.
     pub const ALL: [Self; 2] = [Self::Stress, Self::Strain];
 
-    /// What the material bears, if it is known.
+    /// The material's limit, if it is known.
     fn of(self, material: &Material) -> Option<f64> {
         match self {
             Self::Stress => material.strength,
@@ -38,30 +37,30 @@ impl Limit {
     }
 }
 
-/// Where a hit comes nearest to a limit of the material.
+/// The place where a hit comes closest to a limit of the material.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct Load {
     /// Which limit.
     pub limit: Limit,
-    /// The stress that the material bears there (Pa); of a limit of stress alone.
+    /// The strength of the material there (Pa); only for a limit of stress.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub strength_pa: Option<f64>,
-    /// The strain at which the material breaks there; of a limit of strain alone.
+    /// The strain to failure of the material there; only for a limit of strain.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub strain_to_failure: Option<f64>,
-    /// The largest strain at the place nearest to the limit.
+    /// The largest strain at the place closest to the limit.
     #[serde(flatten)]
     pub at: Strained,
     /// Largest stress or strain as a share of the limit.
     pub share: f64,
-    /// The swing that reaches the limit (rad/s); null if none up to 200 rad/s does.
-    // As `breaking_swing` finds it: None before.
+    /// The swing that reaches the limit (rad/s); null if no swing up to 200 rad/s does.
+    // Set by `breaking_swing`.
     pub reached_at_swing_rad_s: Option<f64>,
 }
 
-/// The nearest to a limit among the largest strains of every place; None where no material has it.
+/// The load closest to a limit among the largest strains of every place; `None` if no material has that limit.
 pub fn nearest(bat: &Bat, envelope: &[Strained], limit: Limit) -> Option<Load> {
     let load = |at: &Strained| {
         let bears = limit.of(bat.layup(bat.profile().piece_at(at.x_m)).surface())?;
@@ -79,30 +78,30 @@ pub fn nearest(bat: &Bat, envelope: &[Strained], limit: Limit) -> Option<Load> {
     envelope.iter().filter_map(load).max_by(|a, b| a.share.total_cmp(&b.share))
 }
 
-/// Instants at which a hit is looked at, even ones: while the ball is there, and after it, where three
-/// periods of the first mode hold some hundred of the tenth.
+/// Number of evenly spaced instants at which a hit is evaluated: during the contact, and after it. In three periods of
+/// the first mode, there are about a hundred per period of the tenth.
 const INSTANTS: [usize; 2] = [100, 2000];
-/// Places along the bat.
+/// Number of places along the bat.
 const PLACES: usize = 100;
-/// The swing is found where the limit is reached to this share of it.
+/// Relative accuracy of the load at the swing that reaches the limit.
 const FOUND: f64 = 1e-3;
-/// More hits are not tried for it.
+/// Most hits that are tried for it.
 const MOST: usize = 60;
 
-/// What a hit at one place asks of the bat.
+/// How close a hit at one place comes to the limits of the bat.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct Strength {
-    /// Where the ball meets the bat (m).
+    /// Position at which the ball meets the bat (m).
     pub x_m: f64,
-    /// How near the bat comes to each limit that is known.
+    /// The load for each known limit.
     pub limits: Vec<Load>,
 }
 
 impl Strength {
-    /// Of a ball that meets the bat at `x` (m), looked at for three periods of the first mode; None
-    /// where they do not meet, and where the model has no force in time.
+    /// The loads of a hit at `x` (m) over three periods of the first mode; `None` if ball and bat do not meet, or if
+    /// the model has no force in time.
     pub fn at(
         bat: &Bat,
         solution: &Solution,
@@ -120,8 +119,8 @@ impl Strength {
     }
 }
 
-/// The largest strain of places along the bat after a hit at `x` (m), until that time (s) or, if that
-/// is later, until the ball leaves.
+/// The largest strain of places along the bat after a hit at `x` (m), until that time (s) or, if that is later, until
+/// the ball leaves.
 fn largest_strains(
     bat: &Bat,
     solution: &Solution,
@@ -141,9 +140,9 @@ fn largest_strains(
     Some(after.envelope(&places, &after.at(&times), after.count()))
 }
 
-/// The swing (rad/s) at which a ball that meets the bat at `x` (m) takes it to the limit, the rest of
-/// the scene as it is. Each hit is computed anew, since the ball's force does not grow as the swing
-/// does. 0 where the pitch alone is enough; None where no swing up to 200 rad/s is.
+/// The swing (rad/s) at which a hit at `x` (m) reaches the limit, with the rest of the scene unchanged. Each hit is
+/// computed anew, since the ball's force is not proportional to the swing. 0 if the pitch alone is enough; `None` if no
+/// swing up to 200 rad/s reaches it.
 ///
 /// # Source
 ///
@@ -158,7 +157,7 @@ pub fn breaking_swing(
     let beyond = |swing: f64| {
         let scene = Scene { swing, ..scene.clone() };
         let envelope = largest_strains(bat, solution, (&scene, effort), about);
-        // A bat that no ball comes to is not struck, and not broken.
+        // A bat that the ball does not reach is not hit and does not break.
         envelope.map_or(Some(-1.0), |all| Some(nearest(bat, &all, limit)?.share - 1.0))
     };
     let (mut low, mut high) = (0.0, 200.0);
@@ -175,7 +174,7 @@ pub fn breaking_swing(
         if value.abs() < FOUND || high - low < FOUND * high {
             return Some(swing);
         }
-        // The end that stays is taken for half as far, so that it does not stay for ever.
+        // The weight of an end that stays is halved, so that it does not stay for ever.
         match value < 0.0 {
             true => (low, below, above) = (swing, value, 0.5 * above),
             false => (high, above, below) = (swing, value, 0.5 * below),

@@ -1,4 +1,4 @@
-//! A bat as a ball feels it, anywhere along its length.
+//! How far does the bat give way under a ball, anywhere along its length?
 
 use crate::base::linear::dot;
 use crate::bat::body::Bat;
@@ -9,9 +9,9 @@ use crate::modes::solve::Solution;
 
 /// A bat's rigid motions, its modes and the flexibility of all others.
 pub struct Struck<'a> {
-    /// What is struck.
+    /// The bat.
     pub bat: &'a Bat,
-    /// The modes that are struck.
+    /// Its modes.
     pub solution: &'a Solution,
     flexible: Flexible,
 }
@@ -23,20 +23,20 @@ impl<'a> Struck<'a> {
         Self { bat, solution, flexible }
     }
 
-    /// ω (rad/s) and damping ratio of every mode, each by itself: dashpots couple them slowly beside
-    /// a hit.
+    /// ω (rad/s) and damping ratio of every mode, each treated alone: the coupling by dashpots is slow compared with a
+    /// hit.
     pub fn modes(&self) -> Vec<[f64; 2]> {
         let ratio = |k: usize| self.solution.damping.alone.get(k).copied().unwrap_or(0.0);
         let modes = self.solution.modes.iter().enumerate();
         modes.map(|(k, mode)| [mode.omega, ratio(k)]).collect()
     }
 
-    /// `1/M_eff` (1/kg) at `x` (m): how a stiff bat gives way there.
+    /// `1/M_eff` (1/kg) at `x` (m): the compliance of the rigid bat there.
     pub fn recoil(&self, x: f64) -> f64 {
         recoil_between(&self.flexible.rigid, x, x)
     }
 
-    /// The rigid motions that nothing holds.
+    /// The free rigid motions.
     pub fn rigid(&self) -> &[RigidMotion] {
         &self.flexible.rigid
     }
@@ -47,9 +47,9 @@ impl<'a> Struck<'a> {
         self.solution.modes.iter().map(gain).collect()
     }
 
-    /// `Σ φ_n²/(m_n ω_n²)` (m/N) and `Σ φ_n²/(m_n ω_n⁴)` (m s²/N) over all modes there are: the
-    /// deflection at `x` under a force there in balance with the bat's own inertia, by the statics
-    /// operator, and how the inertia of that deflection bends the bat once more.
+    /// `Σ φ_n²/(m_n ω_n²)` (m/N) and `Σ φ_n²/(m_n ω_n⁴)` (m s²/N) over all modes, by the statics operator. The first is
+    /// the deflection at `x` under a unit force there, balanced by the bat's inertia; the second is the further bending
+    /// by the inertia of that deflection.
     pub fn flexibility(&self, x: f64) -> [f64; 2] {
         let row = self.flexible.row(x);
         let unit = self.flexible.energy_unit;
@@ -57,24 +57,24 @@ impl<'a> Struck<'a> {
         [dot(&row, &row) / unit + kink, dot(&row, &self.flexible.inertia(&row)) / unit]
     }
 
-    /// The bat as a ball of that mass (kg) feels it at `x` (m), with `count` modes and nothing else.
+    /// The driving point of the bat at `x` (m) for a ball of that mass (kg), with `count` modes only.
     pub fn with_modes(&self, x: f64, ball: f64, count: usize) -> DrivingPoint {
         let mut gains = self.gains(x);
         gains.truncate(count);
         DrivingPoint { inverse_mass: 1.0 / ball + self.recoil(x), gains, rest: 0.0 }
     }
 
-    /// The bat as a ball of that mass (kg) feels it at `x` (m), with all modes.
+    /// The driving point of the bat at `x` (m) for a ball of that mass (kg), with all modes.
     ///
-    /// Of `count` modes, `count − 1` are kept as they are; the last one gets the mass that makes it
-    /// stand for all beyond it in a slow motion. The flexibility that is still missing then is added.
+    /// Of `count` modes, `count − 1` are kept as they are. The last one gets the mass with which it represents all
+    /// further modes in a slow motion. The flexibility that is still missing then is added.
     ///
-    /// A mode beyond follows a slow force as `y = −c/ω² (F − F″/ω² + …)`. With `C = Σ c/ω²` and `D =
-    /// Σ c/ω⁴` of all that are not taken, the gain `D ω⁴` at the first one's own ω and the
-    /// flexibility `C − D ω²`, which is never negative, have the same first two terms.
+    /// A further mode follows a slow force as `y = −c/ω² (F − F″/ω² + …)`. Let `C = Σ c/ω²` and `D = Σ c/ω⁴` for all
+    /// modes not taken. The gain `D ω⁴` at the ω of the first of these, and the flexibility `C − D ω²`, which is never
+    /// negative, have the same first two terms.
     ///
-    /// In hands or on springs a bat has slow modes, whose C and D are so much greater than those of
-    /// the fast ones that these are lost in their errors: what is not known then is left out.
+    /// In hands or on springs a bat has slow modes. Their C and D are so much larger than those of the fast modes that
+    /// these are lost in the errors; an unknown remainder is omitted.
     pub fn felt(&self, x: f64, ball: f64, count: usize) -> DrivingPoint {
         self.completed(x, self.with_modes(x, ball, count), self.flexibility(x))
     }
@@ -96,7 +96,7 @@ impl<'a> Struck<'a> {
         taken(gains, |k| self.solution.modes[k].omega.powi(2))
     }
 
-    /// How far every gain (1/kg) may be off at `x` for the mesh, that of the frequency with it.
+    /// Possible error of every gain (1/kg) at `x` due to the mesh, including that of the frequency.
     pub fn doubt(&self, x: f64) -> Vec<f64> {
         let doubt = |mode: &Mode| {
             let deflection = mode.shape.deflection(x).abs();
@@ -108,16 +108,16 @@ impl<'a> Struck<'a> {
     }
 }
 
-/// Lets the last of some modes stand for all beyond it, as [`Struck::felt`] says, and returns the
-/// flexibility (m/N) that is still missing then; `all` are C (m/N) and D (m s²/N) of every mode there
-/// is, `unsure` what these are not known to. Without a mode all is flexibility.
+/// Lets the last of the modes represent all further ones, as described at [`Struck::felt`], and returns the flexibility
+/// (m/N) that is still missing. `all` are C (m/N) and D (m s²/N) of every mode, `unsure` their errors. Without a mode
+/// the result is the whole flexibility.
 fn complete(
     gains: &mut [f64],
     square: impl Fn(usize) -> f64,
     [soft, slow]: [f64; 2],
     [unsure, unsure_slow]: [f64; 2],
 ) -> f64 {
-    /// What is left is known if it is this many times its error.
+    /// The remainder is known if it is this many times its error.
     const KNOWN: f64 = 10.0;
     let Some((last, before)) = gains.split_last_mut() else { return soft };
     let [here, there] = taken(before, &square);
@@ -129,14 +129,14 @@ fn complete(
     if rest > KNOWN * unsure { (rest - *last / square).max(0.0) } else { 0.0 }
 }
 
-/// The rigid motions of the bat where springs and hands do not hold it.
+/// The rigid motions of the bat without its springs and hands.
 pub fn without_springs(bat: &Bat, solution: &Solution) -> Vec<RigidMotion> {
     let bare = bat.with(|parts| parts.fixtures = parts.fixtures.without_springs());
     let bare = bare.expect("a bat without its springs is a bat");
     Flexible::new(&bare, solution.elements()).rigid
 }
 
-/// The velocity (m/s) at a place that 1 N s at another gives a bat with these motions alone.
+/// The velocity (m/s) at one place due to 1 N s at another, for a bat with these motions alone.
 pub fn recoil_between(motions: &[RigidMotion], x: f64, there: f64) -> f64 {
     let by = |motion: &RigidMotion| motion.deflection(x) * motion.deflection(there) / motion.mass;
     motions.iter().map(by).sum()

@@ -1,4 +1,4 @@
-//! Where is the sweet spot, by each of its definitions.
+//! Where is the sweet spot, by each of its definitions?
 
 use serde::{Deserialize, Serialize};
 
@@ -19,15 +19,15 @@ pub struct Peak {
     pub value: f64,
 }
 
-/// The sweet spot of the outer half of the bat, by each of its definitions; null where one has none.
+/// The sweet spot of the outer half of the bat, by each of its definitions; null for a definition that gives none.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct SweetSpot {
     /// Where the ball leaves fastest (m/s).
     pub exit_speed_max: Option<Peak>,
-    /// Where the ball leaves fastest for the first time (m/s), of places where the bat does not catch up with it as
-    /// it is leaving; another place than `exit_speed_max` where that lives on a later contact.
+    /// Where the ball first leaves fastest (m/s), among places where the bat does not catch up with it as it leaves. It
+    /// differs from `exit_speed_max` if that depends on a later contact.
     pub first_separation_max: Option<Peak>,
     /// Where the least energy stays in vibration (J).
     pub vibration_min: Option<Peak>,
@@ -40,11 +40,11 @@ pub struct SweetSpot {
     /// The centre of percussion for the swing's own pivot (m).
     #[serde(rename = "center_of_percussion_m")]
     pub center_of_percussion: Option<f64>,
-    /// From where to where the exit speed is within 1 % of its maximum (m).
+    /// Beginning and end of the zone where the exit speed is within 1 % of its maximum (m).
     #[serde(rename = "zone_m")]
     pub zone: Option<[f64; 2]>,
     /// Where the hands feel the least velocity (m/s).
-    // As `Glance::hands` counts it, and so of the next one.
+    // As `Glance::hands` counts it; the next member too.
     pub hands_velocity_min: Option<Peak>,
     /// Where the hands feel the least acceleration (m/s²).
     pub hands_acceleration_min: Option<Peak>,
@@ -52,29 +52,29 @@ pub struct SweetSpot {
     /// beyond the tip.
     #[serde(rename = "inch_off_m_s")]
     pub inch_off: Option<[Option<f64>; 2]>,
-    /// How far apart the places were that were looked at (m), where the bat catches up with the ball late or again and
-    /// a closer look would have taken too long: narrower peaks may be missed. Left out elsewhere.
+    /// Distance of the places that were evaluated (m), if the bat catches up with the ball late or again and a closer
+    /// search would have taken too long: narrower peaks may be missed. Left out otherwise.
     // Longer than `MOST_WORK`.
     #[serde(default, rename = "looked_every_m", skip_serializing_if = "Option::is_none")]
     pub looked_every: Option<f64>,
 }
 
-/// Steps of a first look along the outer half, and the share of it to which a place is located then.
+/// Number of steps of a first pass along the outer half, and the share of it to which a place is then located.
 pub const FINE: (usize, f64) = (128, 1e-6);
-/// Where best places are known to be near others, or many bats are asked: to some 10 µm, as what is told is
-/// how many tenths of a millimetre places move.
+/// The same if the best places are known to be near others, or for many bats: to about 10 µm, because shifts are
+/// reported in tenths of a millimetre.
 pub const FEW: (usize, f64) = (32, 2e-5);
-/// Steps of a closer look between two places of the first.
+/// Number of steps of a closer pass between two places of the first.
 const BETWEEN: usize = 4;
-/// Steps between two places of the first look where the bat catches up with the ball late or again: touches come and
-/// go there within a millimetre, and with them the exit speed.
+/// Number of steps between two places of the first pass if the bat catches up with the ball late or again: touches come
+/// and go there within a millimetre, and the exit speed with them.
 const BETWEEN_LATER: usize = 8;
-/// Stretches between such places that are looked at more closely still.
+/// Number of stretches between such places that are searched even more closely.
 const CLOSER_LATER: usize = 8;
 const INCH: f64 = 0.0254;
 
 impl SweetSpot {
-    /// Searched from the middle of the bat to its tip.
+    /// Finds the sweet spot between the middle of the bat and its tip.
     ///
     /// ```
     /// use sweetspot::Bat;
@@ -97,7 +97,7 @@ impl SweetSpot {
         Self::within(&HitsAlong::outer(FINE, hitter))
     }
 
-    /// Searched on a stretch that was looked along.
+    /// Finds the sweet spot on a stretch after a pass along it.
     pub fn within(looked: &HitsAlong) -> Self {
         let Hitter { scene, solution, .. } = *looked.hitter;
         let bat = looked.hitter.struck.bat;
@@ -109,7 +109,7 @@ impl SweetSpot {
                 .then(|| looked.hitter.glance(x).map(|glance| glance.exit_speed))
                 .flatten()
         };
-        // As the hit has it: without rotary inertia, of a line of mass.
+        // The body as the hit treats it: without rotary inertia, a line of mass.
         let body = bat.inertia();
         let body = if solution.theory.turns() { body } else { body.as_line() };
         Self {
@@ -128,13 +128,13 @@ impl SweetSpot {
     }
 }
 
-/// A stretch of a bat after a first look along it.
+/// A stretch of a bat after a first pass along it.
 pub struct HitsAlong<'a> {
     ends: [f64; 2],
-    /// How exactly places are located (m).
+    /// Accuracy of located places (m).
     width: f64,
     hitter: &'a Hitter<'a>,
-    /// Steps of the first look.
+    /// Number of steps of the first pass.
     steps: usize,
     /// Places (m), rising, and the hits there.
     places: Vec<f64>,
@@ -144,15 +144,15 @@ pub struct HitsAlong<'a> {
 }
 
 impl<'a> HitsAlong<'a> {
-    /// Looks along the outer half of the bat, as [`Self::by`] does along any stretch.
+    /// Makes a pass along the outer half of the bat, as [`Self::by`] does along any stretch.
     pub fn outer(look: (usize, f64), hitter: &'a Hitter<'a>) -> Self {
         let length = hitter.profile.length();
         Self::by([0.5 * length, length], look, hitter)
     }
 
-    /// Looks along a stretch (m) in `steps` steps, and locates places to `share` of it. Fewer steps are enough where the
-    /// best places are known to be near others, and a wider share where only their distance from others is told.
-    /// Where the bat catches up with the ball late or again, the steps are finer.
+    /// Makes a pass along a stretch (m) in `steps` steps, and locates places to `share` of it. Fewer steps are enough
+    /// if the best places are known to be near others, and a larger share if only their distance from others is
+    /// reported. The steps are finer where the bat catches up with the ball late or again.
     pub fn by(ends: [f64; 2], (steps, share): (usize, f64), hitter: &'a Hitter<'a>) -> Self {
         let length = ends[1] - ends[0];
         let parts = steps * BETWEEN_LATER;
@@ -181,7 +181,7 @@ impl<'a> HitsAlong<'a> {
         Self { ends, width: share * length, hitter, steps, places, seen, looked_every }
     }
 
-    /// The last place's number.
+    /// The index of the last place.
     fn last(&self) -> usize {
         self.seen.len() - 1
     }
@@ -191,12 +191,12 @@ impl<'a> HitsAlong<'a> {
         self.places[k]
     }
 
-    /// Where it looked (m), rising.
+    /// The places of the pass (m), rising.
     pub fn places(&self) -> &[f64] {
         &self.places
     }
 
-    /// Values at the places of the look; −∞ where there is none.
+    /// Values at the places of the pass; −∞ where there is none.
     pub fn values(&self, value: impl Fn(&Glance) -> Option<f64>) -> Vec<f64> {
         let of = |glance: &Option<Glance>| glance.as_ref().and_then(&value);
         self.seen.iter().map(|glance| of(glance).unwrap_or(f64::NEG_INFINITY)).collect()
@@ -207,8 +207,8 @@ impl<'a> HitsAlong<'a> {
         self.greatest(|glance| Some(glance.exit_speed))
     }
 
-    /// Where the ball leaves fastest for the first time (m/s), of places where the bat does not catch up with it as
-    /// it is leaving: where it leaves fastest, if the bat catches up with it nowhere.
+    /// Where the ball first leaves fastest (m/s), among places where the bat does not catch up with it as it leaves. It
+    /// is `fastest` if the bat catches up with it nowhere.
     fn first_separation(&self, fastest: Option<Peak>) -> Option<Peak> {
         match self.seen.iter().flatten().any(|glance| glance.later) {
             true => self.greatest(|glance| (!glance.late).then_some(glance.first_exit)),
@@ -221,15 +221,15 @@ impl<'a> HitsAlong<'a> {
         self.least(|glance| glance.vibration)
     }
 
-    /// Where the hands feel the least velocity (m/s, `k` 0) or acceleration (m/s², `k` 1); None for hands that feel
-    /// none anywhere, as those on a pin, and where no mode shakes them.
+    /// Where the hands feel the least velocity (m/s, `k` 0) or acceleration (m/s², `k` 1); `None` for hands that feel
+    /// nothing anywhere, as on a pin, or if no mode shakes them.
     pub fn least_felt(&self, k: usize) -> Option<Peak> {
         let felt = self.seen.iter().flatten().map(|glance| glance.hands[k]);
         let feels = felt.fold(0.0, f64::max) > [1e-9, 1e-5][k];
         feels.then(|| self.least(|glance| Some(glance.hands[k]))).flatten()
     }
 
-    /// Where one of [`Hitter::figures`] is largest; None of a bat that does not bend, whose BBCOR is the ball's own
+    /// Where one of [`Hitter::figures`] is largest; `None` for a bat that does not bend, whose BBCOR equals the ball's
     /// restitution everywhere.
     pub fn largest_figure(&self, k: usize) -> Option<Peak> {
         let bends = self.hitter.modes_used() > 0;
@@ -242,8 +242,8 @@ impl<'a> HitsAlong<'a> {
         Some(Peak { x: greatest.x, value: -greatest.value })
     }
 
-    /// The place of the greatest value: the best of the first look and of a closer one wherever a greater value
-    /// may hide between two places, then Brent's search.
+    /// The place of the greatest value: the best of the first pass, of closer ones wherever a greater value may hide
+    /// between two places, and then of Brent's search.
     pub fn greatest(&self, value: impl Fn(&Glance) -> Option<f64>) -> Option<Peak> {
         let of =
             |glance: &Option<Glance>| glance.as_ref().and_then(&value).unwrap_or(f64::NEG_INFINITY);
@@ -263,7 +263,8 @@ impl<'a> HitsAlong<'a> {
             .map(|k| (k, highest_between(&self.places, &seen, k)))
             .collect();
         closer.retain(|(_, highest)| *highest > here.0.value);
-        // Where touches come and go the whole stretch was looked at closely: the most promising places there will do.
+        // Where touches come and go, the whole stretch was searched closely: the most promising places are enough
+        // there.
         let first = (self.places[self.last()] - self.places[0]) / self.steps as f64;
         let (mut settled, mut later): (Vec<_>, Vec<_>) =
             closer.into_iter().partition(|(k, _)| self.place(k + 1) - self.place(*k) > 0.5 * first);
@@ -285,11 +286,11 @@ impl<'a> HitsAlong<'a> {
         }
         let (here, between) = here;
         let found = brent(between, here, self.width, at);
-        // The ends of the interval may be the best, where the search only comes near.
+        // The ends of the interval may be the best places, and the search only approaches them.
         Some(if found.value > here.value { found } else { here })
     }
 
-    /// Whether a value above `level` was seen, or may hide between two places, farther from `x` than two steps.
+    /// Whether a value above `level` was found, or may hide between two places, farther from `x` than two steps.
     pub fn may_exceed(&self, level: f64, x: f64, value: impl Fn(&Glance) -> Option<f64>) -> bool {
         let (seen, near) =
             (self.values(value), 2.0 * (self.ends[1] - self.ends[0]) / self.steps as f64);
@@ -297,7 +298,7 @@ impl<'a> HitsAlong<'a> {
         (0..self.last()).filter(far).any(|k| highest_between(&self.places, &seen, k) > level)
     }
 
-    /// How far from the peak the exit speed stays within 1 %, by the Illinois method on both sides.
+    /// The zone around the peak in which the exit speed stays within 1 %, by the Illinois method on both sides.
     pub fn zone(&self, peak: Peak) -> [f64; 2] {
         let floor = peak.value - 0.01 * peak.value.abs();
         let above = |glance: &Option<Glance>| glance.map_or(f64::NAN, |g| g.exit_speed - floor);
@@ -308,7 +309,7 @@ impl<'a> HitsAlong<'a> {
             let at = |x: f64| above(&self.hitter.glance(x));
             boundary([peak.x, peak.value - floor], bad, self.width, at)
         };
-        // What is not a number is not enough.
+        // NaN counts as too low.
         let poor = |k: &usize| above(&self.seen[*k]).is_nan() || above(&self.seen[*k]) < 0.0;
         let below = (0..=self.last()).rev().filter(|k| self.place(*k) < peak.x).find(poor);
         let beyond = (0..=self.last()).filter(|k| self.place(*k) > peak.x).find(poor);
@@ -316,8 +317,8 @@ impl<'a> HitsAlong<'a> {
     }
 }
 
-/// How high values may be between place k and the next: above the higher of both by the larger second difference
-/// there, which is eight times as far as a parabola rises. Where a neighbour has no value anything may be.
+/// Upper bound of the values between place k and the next: the higher of both plus the larger second difference there,
+/// which is eight times the rise of a parabola. If a neighbour has no value, there is no bound.
 fn highest_between(places: &[f64], seen: &[f64], k: usize) -> f64 {
     let step = places[k + 1] - places[k];
     let bent = |at: usize| match (seen.get(at.wrapping_sub(1)..at + 2), at) {
@@ -333,8 +334,8 @@ fn highest_between(places: &[f64], seen: &[f64], k: usize) -> f64 {
     if here.max(next) == f64::NEG_INFINITY { here } else { here.max(next) + bent[0].max(bent[1]) }
 }
 
-/// The greatest value on an interval that has one maximum, located to that width: parabolas through
-/// the best three places, golden sections where these do not close in.
+/// The greatest value on an interval with one maximum, located to that width: parabolas through the best three places,
+/// and golden sections if these do not converge.
 ///
 /// # Source
 ///
@@ -392,8 +393,8 @@ fn brent(
     best
 }
 
-/// The last place that is not below zero, between one that is not (place and value) and one that is
-/// or has no value, located to that width.
+/// The last place that is not below zero, between one that is not (place and value) and one that is below or has no
+/// value, located to that width.
 ///
 /// # Source
 ///
@@ -411,9 +412,9 @@ fn boundary(
             break;
         }
         let share = over / (over - under);
-        // Without a value there are halves.
+        // Without a value, halve.
         let share = if share > 0.0 && share < 1.0 { share } else { 0.5 };
-        // Beyond the edge by less than the width, so that the interval closes from both sides.
+        // Aims beyond the edge by less than the width, so that the interval closes from both sides.
         let aimed = good + share * (bad - good);
         let least = 0.5 * width / (bad - good).abs();
         let x = match aimed {
@@ -439,8 +440,8 @@ fn boundary(
 mod tests {
     use super::*;
 
-    /// `1 − |x − a|^p` has its greatest value at a, smooth or a kink; a search that starts beside it
-    /// finds it, and no value beyond the interval is asked for.
+    /// `1 − |x − a|^p` has its greatest value at a, smooth or as a kink. A search that starts beside it finds it and
+    /// evaluates nothing outside the interval.
     #[test]
     fn the_greatest_value_is_found_to_the_width() {
         for (power, a) in [(2.0, 0.61), (1.0, 0.61), (4.0, 0.61), (2.0, 0.5), (1.0, 0.7)] {

@@ -1,4 +1,4 @@
-//! A swing at a bat in one call: theory, tap, modes, wall and accuracy are inside.
+//! A swing at a bat in one call: it chooses theory, fit to the tap, modes, wall and accuracy.
 
 use crate::base::error::{Error, Result};
 use crate::bat::body::Bat;
@@ -10,38 +10,38 @@ use crate::collision::wall_choice::WallChoice;
 use crate::modes::mode::Mode;
 use crate::modes::prepared::{Prepared, prepare};
 
-/// How a bat is swung at what ball, and how well the exit speeds are to be known.
+/// Swing and ball, and the accuracy of the exit speeds.
 #[derive(Debug, Clone)]
 pub struct Swing {
     /// Swing, ball and pitch.
     pub scene: Scene,
-    /// How the bat's bending is counted.
+    /// How the model treats the bending of the bat.
     pub model: Model,
     /// Whether a hollow barrel's wall gives way.
     pub wall: WallChoice,
-    /// How accurate the exit speeds are to be, and what they may be computed from.
+    /// Accuracy of the exit speeds, and limits on the computation.
     pub accuracy: Accuracy,
 }
 
 impl Default for Swing {
-    /// [`Scene::default`] by the contact model, the wall where it counts, [`Accuracy::default`].
+    /// [`Scene::default`] with the contact model, the wall if it matters, and [`Accuracy::default`].
     fn default() -> Self {
         let (scene, accuracy) = (Scene::default(), Accuracy::default());
         Self { scene, model: Model::Contact, wall: WallChoice::Auto, accuracy }
     }
 }
 
-/// Whether what was asked was reached.
+/// Whether the accuracy was reached.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[must_use]
 pub enum Reached {
-    /// Every exit speed that was looked at is within the tolerance, by its own estimate.
+    /// Every exit speed that was evaluated is within the tolerance, by its own estimate.
     Asked,
-    /// It is not: the largest stated error (m/s) of those.
+    /// It was not reached; the largest stated error of those (m/s).
     Within(f64),
 }
 
-/// Where the ball leaves fastest.
+/// The fastest hit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Best {
     /// The place (m from the knob end).
@@ -50,7 +50,7 @@ pub struct Best {
     pub exit_speed: f64,
     /// Error bound of the exit speed (m/s).
     pub error: f64,
-    /// All of the hit there.
+    /// The whole hit there.
     pub impact: Impact,
 }
 
@@ -58,7 +58,7 @@ pub struct Best {
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Hit {
-    /// The bat, as stiff as it was tapped.
+    /// The bat, with moduli fitted to the tap.
     pub bat: Bat,
     /// The swing, with the theory and the wall that were chosen.
     pub swing: Swing,
@@ -66,23 +66,23 @@ pub struct Hit {
     pub best: Best,
     /// The sweet spot by every definition.
     pub spot: SweetSpot,
-    /// Whether what was asked was reached.
+    /// Whether the accuracy was reached.
     pub reached: Reached,
     /// A warning that shear matters but no shear modulus is known; None otherwise.
     pub warning: Option<String>,
     sweep: Sweep,
 }
 
-/// Hits along the outer half by which the number of modes and the steps are found.
+/// Number of hits along the outer half from which the number of modes and the steps are found.
 const LOOKS: usize = 12;
 
 impl Hit {
-    /// Swings the bat and looks for the best place of its outer half.
+    /// Swings the bat and finds the best place of its outer half.
     ///
     /// # Errors
     ///
-    /// Those of [`prepare`], of [`Scene::with_wall`], of [`sweep`], and [`Error::Value`] where the bat and the ball do
-    /// not meet.
+    /// Those of [`prepare`], of [`Scene::with_wall`], of [`sweep`], and [`Error::Value`] if the bat and the ball do not
+    /// meet.
     pub fn of(bat: &Bat, swing: &Swing) -> Result<Self> {
         let Swing { scene, model, wall, accuracy } = swing.clone();
         let Prepared { bat, request, warning } = prepare(bat, &accuracy.request())?;
@@ -118,7 +118,7 @@ impl Hit {
         Ok(Self { bat, swing, best, spot, reached, warning, sweep })
     }
 
-    /// The modes that the ball met.
+    /// The modes of the bat.
     pub fn modes(&self) -> &[Mode] {
         &self.sweep.solution.modes
     }

@@ -1,7 +1,7 @@
 //! Does a hollow barrel's wall give way in a hit?
 //!
-//! It does where it was asked for, and by itself where it changes the answer by more than the accuracy
-//! that was asked for, as far as can be told before anything is solved.
+//! It does if the user asks for it, and by default if its estimated effect exceeds the tolerance. The estimate needs no
+//! solution.
 
 use crate::base::error::{Error, Result};
 use crate::bat::body::Bat;
@@ -15,21 +15,21 @@ use crate::modes::hoop::rings;
 /// Whether a hollow barrel's wall gives way by its own hoop modes.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum WallChoice {
-    /// Where that matters.
+    /// If it matters.
     #[default]
     Auto,
-    /// In any case.
+    /// Always.
     On,
-    /// Not at all.
+    /// Never.
     Off,
 }
 
 impl WallChoice {
-    /// The choices with the words for them.
+    /// The choices and their words.
     pub const ALL: [(&'static str, Self); 3] =
         [("auto", Self::Auto), ("on", Self::On), ("off", Self::Off)];
 
-    /// The choice of that word, [`Self::Auto`] of any other.
+    /// The choice for that word; [`Self::Auto`] for any other.
     pub fn named(word: &str) -> Self {
         Self::ALL
             .into_iter()
@@ -39,12 +39,12 @@ impl WallChoice {
 }
 
 impl Scene {
-    /// This scene with the wall of that bat as it was chosen. `tolerance` is that of exit speeds over
-    /// the closing speed; None where a number of modes and nothing else is to be counted.
+    /// This scene with the chosen treatment of that bat's wall. `tolerance` is that of exit speeds over the closing
+    /// speed; `None` if the number of modes is prescribed and nothing else may contribute.
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] where the wall was asked for and has no hoop modes, or the model no use for them.
+    /// [`Error::Value`] if the wall was asked for but has no hoop modes, or the model cannot use them.
     pub fn with_wall(
         self,
         choice: WallChoice,
@@ -53,7 +53,7 @@ impl Scene {
         tolerance: Option<f64>,
     ) -> Result<Self> {
         let hoop = match (choice, model) {
-            // What a person says of a wall overrides what its shape says.
+            // A person's figures for the wall override those from its shape.
             _ if self.wall.is_some() => HoopInHit::None,
             (WallChoice::On, Model::Contact) => {
                 let tolerance = tolerance.unwrap_or(USUAL);
@@ -74,8 +74,8 @@ impl Scene {
         Ok(Self { hoop, ..self })
     }
 
-    /// This scene with the wall of that bat solved to 1e-3 of the closing speed, if a wall is counted: enough for the
-    /// differences of bats whose walls are all solved so.
+    /// This scene with the wall of that bat solved to 1e-3 of the closing speed, if it gives way: enough for differences
+    /// between bats whose walls are all solved so.
     ///
     /// # Errors
     ///
@@ -90,10 +90,10 @@ impl Scene {
         Ok(Self { hoop, ..self.clone() })
     }
 
-    /// The wall where it may change an exit speed by more than a share of the tolerance; where its modes cannot be
-    /// found it stays rigid, and the reason is kept.
+    /// The wall, if it may change an exit speed by more than a share of the tolerance. If its modes cannot be found it
+    /// stays rigid, and the reason is kept.
     fn where_it_matters(&self, bat: &Bat, tolerance: f64) -> HoopInHit {
-        /// Of the tolerance, so that modes and steps have the rest.
+        /// Share of the tolerance, so that modes and steps have the rest.
         const SHARE: f64 = 0.3;
         let gain = self.gain_by_wall(bat).unwrap_or(0.0);
         let rigid = HoopInHit::LeftOut(WhyRigid::Small { gain, tolerance });
@@ -106,8 +106,8 @@ impl Scene {
         }
     }
 
-    /// By how much the wall would raise the restitution of a hit 6 in from the tip, by an estimate; None
-    /// for a barrel without a wall, and a ball without a force law or that does not come near.
+    /// Estimated increase of the restitution by the wall, for a hit 6 in from the tip; `None` for a barrel without a
+    /// wall, for a ball without a force law, and for one that does not reach the bat.
     pub fn gain_by_wall(&self, bat: &Bat) -> Option<f64> {
         let wall = rough_stiffness(bat)?;
         let (stiffness, exponent) = (self.ball.stiffness?, self.ball.exponent?);
@@ -125,5 +125,5 @@ impl Scene {
     }
 }
 
-/// The tolerance of exit speeds where none is told.
+/// The default tolerance of exit speeds.
 const USUAL: f64 = 1e-4;

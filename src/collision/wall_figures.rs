@@ -1,7 +1,7 @@
-//! What does a hollow barrel's wall do under the ball, and how far is that known?
+//! What does a hollow barrel's wall do under the ball, and how accurately is that known?
 //!
-//! The patch on which a ball presses is the largest error of the model: a hit with half and twice its
-//! compression says what it does to BBCOR.
+//! The patch on which a ball presses is the largest error of the model: hits with half and twice its compression show
+//! its effect on BBCOR.
 
 use serde::{Deserialize, Serialize};
 
@@ -22,33 +22,33 @@ pub struct WallFigures {
     pub stiffness_n_m: f64,
     /// That stiffness over the ball's, its largest force over its largest compression on a stiff wall.
     pub stiffness_over_ball: f64,
-    /// Mass (kg) of one spring-mass with the same answer to a slow force.
+    /// Mass (kg) of a single spring-mass system with the same response to a slow force.
     pub mass_kg: f64,
-    /// BBCOR there with the wall, with a stiff one, and how far the patch leaves it open.
+    /// BBCOR there with the wall, with a rigid wall, and the range due to the patch.
     pub bbcor: WallBbcor,
-    /// The same of the bat held 6 in from the knob.
+    /// BBCOR of the bat held 6 in from the knob, likewise.
     #[serde(skip)]
     pub bbcor_pivoted: WallBbcor,
-    /// How far the wall dents under the largest force (m).
+    /// Depth of the dent under the largest force (m).
     pub dent_m: f64,
-    /// Thickness of the wall there (m); dents beyond half of it are beyond this theory.
+    /// Thickness of the wall there (m); a dent deeper than half of it is outside the theory.
     pub thickness_m: f64,
 }
 
-/// What the wall makes of BBCOR.
+/// The effect of the wall on BBCOR.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct WallBbcor {
     /// With the wall.
     pub with: f64,
-    /// With a stiff wall.
+    /// With a rigid wall.
     pub stiff: f64,
     /// With half and with twice the compression of the patch: the modelling error.
     pub range: [f64; 2],
 }
 
 impl WallFigures {
-    /// Whether the dent is deeper than half the wall, where linear elasticity ends.
+    /// Whether the dent is deeper than half the wall, the limit of linear elasticity.
     pub fn is_deep(&self) -> bool {
         self.dent_m > 0.5 * self.thickness_m
     }
@@ -60,8 +60,8 @@ impl WallFigures {
 }
 
 impl Hitter<'_> {
-    /// The wall under the ball at `x` (m); None where it does not give way by its hoop modes, and where
-    /// ball and bat do not meet.
+    /// The wall under the ball at `x` (m); `None` if it does not give way by its hoop modes, and where ball and bat do not
+    /// meet.
     pub fn wall_figures(&self, x: f64) -> Option<WallFigures> {
         let hoop = self.hoop.as_ref()?;
         let (closing, beyond) = (self.closing(x)?, self.struck.flexibility(x));

@@ -1,9 +1,8 @@
-//! The lowest eigenpairs of a sparse pencil, by ARPACK: a second opinion on our own Lanczos.
+//! The lowest eigenpairs of a sparse pencil, by ARPACK: a check of our own Lanczos.
 //!
-//! ARPACK keeps state between calls in variables of its own, so one search runs at a time in a
-//! process, however many threads ask. It is handed `K/σ` and `M`, whose `μ = λ/σ` has no unit:
-//! where an eigenvalue of the inverse is less than 4e-11, ARPACK would measure convergence
-//! absolutely.
+//! ARPACK keeps state between calls in global variables, so a process runs one search at a time, however many threads
+//! ask. It gets `K/σ` and `M`, whose `μ = λ/σ` has no unit: for eigenvalues of the inverse below 4e-11, ARPACK would
+//! measure convergence absolutely.
 
 use std::any::Any;
 use std::ffi::{c_int, c_void};
@@ -20,8 +19,8 @@ use crate::eigen::shift_invert::{self, Noise, Pairs, multiply};
 
 /// The `count` lowest eigenpairs of `K x = λ M x`, the rigid ones included.
 ///
-/// As [`shift_invert::lowest`], with ARPACK's implicitly restarted Lanczos in its shift-invert
-/// mode in place of our own: the operator is `σ (K + σM)⁻¹ M` in the inner product of `M`.
+/// As [`shift_invert::lowest`], but with ARPACK's implicitly restarted Lanczos in its shift-invert mode: the operator
+/// is `σ (K + σM)⁻¹ M` in the inner product of `M`.
 ///
 /// # Errors
 ///
@@ -60,7 +59,7 @@ fn product(a: &CscMatrix<f64>, x: &[f64]) -> Vec<f64> {
     y
 }
 
-/// What ARPACK asks for, and the panic that came instead of an answer.
+/// The operators that ARPACK calls, and the panic if one of them failed.
 struct Operators<'a> {
     /// `y = B x`
     mass: &'a mut dyn FnMut(&[f64], &mut [f64]),
@@ -69,7 +68,7 @@ struct Operators<'a> {
     panic: Option<Box<dyn Any + Send>>,
 }
 
-/// Operators and their size, as they travel through C.
+/// Operators and their size, passed through C.
 struct Context<'a> {
     size: usize,
     operators: Operators<'a>,
@@ -100,12 +99,12 @@ unsafe extern "C" {
     fn sweetspot_arpack(problem: *mut Problem) -> c_int;
 }
 
-/// ARPACK's variables belong to one search at a time, from its first call to its last.
+/// One search at a time owns ARPACK's variables, from its first call to its last.
 static ARPACK: Mutex<()> = Mutex::new(());
 
 const MOST_RESTARTS: c_int = 300;
 
-/// Everything ARPACK reads and writes.
+/// The arrays that ARPACK reads and writes.
 struct Memory {
     start: Vec<f64>,
     vectors: Vec<f64>,
@@ -164,8 +163,7 @@ impl Memory {
     }
 }
 
-/// The `wanted` largest eigenpairs of `(A + B)⁻¹ B`, or all but one if there are no more: ARPACK
-/// cannot find the last.
+/// The `wanted` largest eigenpairs of `(A + B)⁻¹ B`, but at most all but one: ARPACK cannot find the last.
 fn largest(start: Vec<f64>, wanted: usize, residual: f64, operators: Operators) -> Result<Ritz> {
     let size = start.len();
     let wanted = wanted.min(size.saturating_sub(1));
@@ -191,7 +189,7 @@ fn largest(start: Vec<f64>, wanted: usize, residual: f64, operators: Operators) 
     Ok(memory.pairs(wanted, steps))
 }
 
-/// Runs a callback; a panic is kept for the Rust side of the border and stops the iteration.
+/// Runs a callback. A panic is kept for the Rust side and stops the iteration.
 fn guarded(context: *mut c_void, work: impl FnOnce(&mut Context)) -> c_int {
     // SAFETY: the shim hands back the pointer that `largest` gave it, to a `Context` which lives
     // until the shim has returned and which nothing else touches while a callback runs.

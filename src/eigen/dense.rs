@@ -1,4 +1,4 @@
-//! Eigenpairs of a small pencil, by faer's dense algorithms: the outside check.
+//! Eigenpairs of a small pencil, by faer's dense algorithms, as an independent check.
 
 use faer::linalg::triangular_solve::{
     solve_lower_triangular_in_place, solve_upper_triangular_in_place,
@@ -11,16 +11,15 @@ use crate::eigen::factor::INDEFINITE;
 
 /// The `count` lowest eigenpairs of `K x = λ M x`, rising, with `xᵀMx = 1`.
 ///
-/// `K + σM = L Lᵀ` with σ of the size of the lowest wanted λ, then the symmetric problem
-/// `L⁻¹ M L⁻ᵀ z = z/(λ + σ)`, `x = L⁻ᵀ z √(λ + σ)`. The wanted pairs are then the largest, which
-/// matters: faer's divide and conquer, used beyond 128 unknowns, is accurate relative to the
-/// largest eigenvalue only, and `L⁻¹ K L⁻ᵀ` of a beam of 264 elements came back with a first
-/// frequency of twice its value. What remains is the error of factoring `K`, about `ε n⁴`.
+/// Let `K + σM = L Lᵀ` with σ of the size of the lowest wanted λ. The symmetric problem is `L⁻¹ M L⁻ᵀ z = z/(λ + σ)`,
+/// with `x = L⁻ᵀ z √(λ + σ)`. The wanted pairs are then the largest. That matters: faer's divide and conquer, used
+/// beyond 128 unknowns, is accurate only relative to the largest eigenvalue, and `L⁻¹ K L⁻ᵀ` of a beam of 264 elements
+/// gave twice the first frequency. The remaining error is that of factoring `K`, about `ε n⁴`.
 ///
 /// # Errors
 ///
-/// [`Error::Factorization`] where round-off makes `K + σM` indefinite, as beside an element of a
-/// micrometre; [`Error::NotConverged`] if the symmetric problem has no solution.
+/// [`Error::Factorization`] if round-off makes `K + σM` indefinite, as with an element of a micrometre;
+/// [`Error::NotConverged`] if the symmetric problem has no solution.
 pub fn lowest(
     k: &CscMatrix<f64>,
     m: &CscMatrix<f64>,
@@ -43,7 +42,7 @@ pub fn lowest(
     let failed = Error::NotConverged { wanted: count, converged: 0, steps: 0 };
     let eigen = reduced.self_adjoint_eigen(Side::Lower).map_err(|_| failed)?;
     let count = count.min(n);
-    // faer's values rise, so the lowest frequencies stand last.
+    // faer's values rise, so the lowest frequencies come last.
     let mut vectors = eigen.U().subcols(n - count, count).to_owned();
     solve_upper_triangular_in_place(lower.transpose(), vectors.as_mut(), Par::Seq);
     let inverses: Vec<f64> = eigen.S().column_vector().iter().copied().collect();

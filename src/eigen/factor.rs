@@ -21,8 +21,8 @@ use crate::base::error::{Error, Result};
 
 /// `L` of `K + σM = L Lᵀ`.
 ///
-/// The unknowns keep their order: a beam's, numbered from knob to tip, form a narrow band, and
-/// a band fills in nowhere.
+/// The unknowns keep their order. A beam's unknowns, numbered from knob to tip, form a narrow band, and a band has no
+/// fill-in.
 #[derive(Debug)]
 pub struct Factor {
     symbolic: SymbolicSimplicialCholesky<usize>,
@@ -34,9 +34,9 @@ impl Factor {
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] for a shift that is not positive; [`Error::Factorization`] if the sum is
-    /// not positive definite in double precision. The round-off of `K` is ε times its largest
-    /// entry, in a beam `ε λ_max ~ ε n⁴ λ₁`, and drowns any `σ` near `λ₁` from `n ≈ 10⁴` on.
+    /// [`Error::Value`] for a shift that is not positive; [`Error::Factorization`] if the sum is not positive definite
+    /// in double precision. The round-off of `K` is ε times its largest entry. In a beam that is `ε λ_max ~ ε n⁴ λ₁`,
+    /// which drowns any `σ` near `λ₁` from `n ≈ 10⁴` on.
     pub fn new(k: &CscMatrix<f64>, m: &CscMatrix<f64>, shift: f64) -> Result<Self> {
         if !(shift > 0.0 && shift.is_finite()) {
             return Err(Error::value("shift", shift, "a positive number of 1/s²"));
@@ -69,7 +69,7 @@ impl Factor {
     }
 }
 
-/// The reason given where round-off has eaten `σM`.
+/// The reason if round-off has drowned `σM`.
 pub const INDEFINITE: &str = "round-off makes it indefinite; \
      take fewer elements, or the solver that needs no factorisation";
 

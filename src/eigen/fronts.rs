@@ -1,22 +1,22 @@
 //! How is a long matrix of small dense blocks factored, and how many eigenvalues lie below a shift?
 //!
-//! `K = L D Lᵀ`, block after block: a front holds the unknowns that are eliminated in it and those they touch,
-//! and what is left of it (the complement of Schur) is added to a later one.
+//! `K = L D Lᵀ`, block after block. A front holds the unknowns that it eliminates and those that they are coupled to;
+//! its remainder (the Schur complement) is added to a later front.
 //!
 //! # Source
 //!
-//! I. S. Duff, J. K. Reid, ACM Trans. Math. Softw. 9 (1983) 302: fronts. Sylvester's law of inertia: as many
-//! entries of D are negative as eigenvalues of K.
+//! I. S. Duff, J. K. Reid, ACM Trans. Math. Softw. 9 (1983) 302: fronts. Sylvester's law of inertia: D has as many
+//! negative entries as K has negative eigenvalues.
 
 use crate::base::lanes::vectorized;
 use crate::base::linear::dot;
 
-/// A dense block: its unknowns, and how many of them, from the first on, are eliminated.
+/// A dense block: its unknowns, and the number of them, from the first on, that are eliminated.
 #[derive(Debug, Clone)]
 struct Front {
     unknowns: Vec<usize>,
     eliminated: usize,
-    /// Rows of `Lᵀ`, as long as there are unknowns, the diagonal 1 included.
+    /// Rows of `Lᵀ`, one for each eliminated unknown, with the diagonal of 1.
     rows: Vec<f64>,
 }
 
@@ -26,21 +26,21 @@ pub struct Fronts {
     fronts: Vec<Front>,
     /// D, by unknown.
     pivots: Vec<f64>,
-    /// What is left of fronts that no other has taken: unknowns and upper triangle.
+    /// Remainders of fronts that no later front has taken: unknowns and upper triangle.
     left: Vec<(Vec<usize>, Vec<f64>)>,
-    /// Where an unknown stands in the front being made.
+    /// Index of an unknown in the current front.
     places: Vec<usize>,
 }
 
 impl Fronts {
-    /// No fronts yet, of a matrix of that size.
+    /// An empty factorisation of a matrix of that size.
     pub fn new(size: usize) -> Self {
         Self { pivots: vec![0.0; size], places: vec![usize::MAX; size], ..Self::default() }
     }
 
-    /// Adds a front of which the given number of unknowns, the first ones, are eliminated. Its matrix is 0 but for what `fill` adds to
-    /// the upper triangle, told where each unknown stands; if `take`, all that is left of earlier fronts is
-    /// added.
+    /// Adds a front that eliminates its first `eliminated` unknowns. `fill` adds the entries of the upper triangle to a
+    /// zero matrix; it is told the index of each unknown. If `take`, the remainders of all earlier fronts are added
+    /// too.
     pub fn add(
         &mut self,
         unknowns: Vec<usize>,
@@ -77,7 +77,7 @@ impl Fronts {
         self.fronts.push(Front { unknowns, eliminated, rows: matrix });
     }
 
-    /// Number of negative entries of D, and with them of negative eigenvalues.
+    /// Number of negative entries of D, which equals the number of negative eigenvalues.
     pub fn negative(&self) -> usize {
         self.pivots.iter().filter(|pivot| **pivot < 0.0).count()
     }
@@ -105,12 +105,12 @@ impl Fronts {
     }
 }
 
-/// Right-hand sides that are solved together, so that the factors are read once for them.
+/// Number of right-hand sides that are solved together, so that the factors are read once for all.
 pub const SIDES: usize = 8;
 
 impl Fronts {
-    /// `x ← D^{−½} L⁻¹ x` of several right-hand sides side by side, D being positive: products of two of them are
-    /// those with `K⁻¹` between.
+    /// `x ← D^{−½} L⁻¹ x` of several right-hand sides side by side, for positive D. The product of two results is that
+    /// of the right-hand sides with `K⁻¹` between.
     pub fn halfway_together(&self, x: &mut [[f64; SIDES]]) {
         vectorized!(forward_together(&self.fronts, x));
         for (x, pivot) in x.iter_mut().zip(&self.pivots) {
@@ -129,7 +129,7 @@ fn forward_together(fronts: &[Front], x: &mut [[f64; SIDES]]) {
         own.extend(front.unknowns.iter().map(|unknown| x[*unknown]));
         for (k, row) in front.rows.chunks_exact(front.unknowns.len()).enumerate() {
             let value = own[k];
-            // Loads of one place: nothing before it.
+            // A load at one place: all rows before it are 0.
             if value == [0.0; SIDES] {
                 continue;
             }
@@ -173,10 +173,10 @@ fn backward(fronts: &[Front], x: &mut [f64]) {
     }
 }
 
-/// Rows that are eliminated together, so that the rest is read and written once for them.
+/// Number of rows eliminated together, so that the rest is read and written once for all.
 const TOGETHER: usize = 8;
 
-/// Eliminates the first unknowns of an upper triangle in place: rows of `Lᵀ` above, what is left below; the
+/// Eliminates the first unknowns of an upper triangle in place: rows of `Lᵀ` above, the remainder below. Returns the
 /// pivots.
 #[inline(always)]
 fn eliminate(matrix: &mut [f64], size: usize, eliminated: usize) -> Vec<f64> {
@@ -186,7 +186,7 @@ fn eliminate(matrix: &mut [f64], size: usize, eliminated: usize) -> Vec<f64> {
         let last = (first + TOGETHER).min(eliminated);
         let (above, below) = matrix.split_at_mut(last * size);
         let block = &mut above[first * size..];
-        // Inside the block, row by row; a row stays D times its part of Lᵀ.
+        // Inside the block, row by row; a row stays multiplied by D.
         for k in first..last {
             let pivot = block[(k - first) * size + k];
             pivots.push(pivot);
@@ -222,8 +222,8 @@ fn eliminate(matrix: &mut [f64], size: usize, eliminated: usize) -> Vec<f64> {
     pivots
 }
 
-/// Takes eliminated rows, D times their parts of `Lᵀ`, out of the rows below them, of which the first is row
-/// `first` of the matrix.
+/// Subtracts eliminated rows, which are D times their parts of `Lᵀ`, from the rows below them; the first of these is
+/// row `first` of the matrix.
 #[inline(always)]
 fn subtract<const N: usize>(
     rows: [&[f64]; N],
@@ -252,7 +252,7 @@ fn subtract<const N: usize>(
 mod tests {
     use super::*;
 
-    /// Two overlapping blocks of whole numbers, and the same matrix in one front.
+    /// Two overlapping blocks of whole numbers, compared with the same matrix in one front.
     #[test]
     fn fronts_solve_and_count_as_one_block_does() {
         let entry = |i: usize, j: usize| {
@@ -292,7 +292,7 @@ mod tests {
                 })
                 .collect();
             if shift == 0.0 {
-                // Products of halves are those with the inverse between.
+                // Products of half solutions equal those with the inverse between.
                 fronts.halfway_together(&mut several);
                 let product = |s: usize, t: usize| several.iter().map(|x| x[s] * x[t]).sum::<f64>();
                 let energy: f64 = (0..21).map(|i| product_of(i) * exact[i]).sum();

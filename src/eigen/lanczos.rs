@@ -1,15 +1,15 @@
 //! The largest eigenvalues of a symmetric operator, by Lanczos with full reorthogonalisation.
 //!
-//! The compliance of a beam has eigenvalues that fall like n⁻⁴, so about two steps for each find
-//! the largest (an R161's first 5 in 10 to 12 steps, its first 10 in 17 to 19); keeping every basis
-//! vector costs nothing then, and none of Lanczos' ghosts appear.
+//! The eigenvalues of a beam's compliance fall like n⁻⁴, so about two steps for each find the largest: the first 5 of
+//! an R161 take 10 to 12 steps, the first 10 take 17 to 19. Keeping every basis vector is then cheap, and none of
+//! Lanczos' spurious copies appear.
 
 use crate::base::error::{Error, Result};
 use crate::base::linear::dot;
 use crate::base::real::Real;
 use crate::eigen::tridiagonal::Tridiagonal;
 
-/// The iteration with its memory, which the next run uses again.
+/// The iteration and its memory, which the next run reuses.
 #[derive(Debug, Clone, Default)]
 pub struct Lanczos<R> {
     /// Orthonormal vectors, one after the other.
@@ -25,41 +25,40 @@ pub struct Lanczos<R> {
     pub values: Vec<R>,
     /// Relative residual `‖A v − θ v‖/θ` of every eigenpair.
     pub residuals: Vec<R>,
-    /// The first eigenvalue beyond them, with a residual of 100 times the wanted one at most; none
-    /// if there is no other.
+    /// The next eigenvalue after them, with a residual of at most 100 times the wanted one; `None` if there is none.
     pub beyond: Option<R>,
     /// Orthonormal eigenvectors, one for every value, one after the other.
     pub vectors: Vec<R>,
 }
 
-/// The eigenpair beyond the wanted ones may have a residual this many times as large: it need only
-/// show, and its value, of which nothing more is asked, is off by the square of that.
+/// Factor on the residual of the eigenpair after the wanted ones: it only has to be found, and the error of its value
+/// goes as the square of the residual.
 const NEARLY: f64 = 100.0;
 
-/// What is asked of the iteration.
+/// What the iteration must find.
 #[derive(Debug, Clone, Copy)]
 pub struct Wanted {
     /// Number of eigenpairs.
     pub count: usize,
     /// Largest residual `‖A v − θ v‖/θ`.
     pub residual: f64,
-    /// Convergence is looked for from this many steps beyond `count` on.
+    /// Number of steps beyond `count` before convergence is first tested.
     pub earliest: usize,
-    /// Number of eigenvalues that may lie so near to each other that they need steps of their own.
+    /// Number of eigenvalues that may lie so close together that they need additional steps.
     pub clustered: usize,
 }
 
-/// Where the eigenvectors are.
+/// The space in which the eigenvectors are sought.
 pub struct Space<'a, R> {
-    /// Orthonormal vectors to which they are orthogonal, one after the other.
+    /// Orthonormal vectors to which the eigenvectors must be orthogonal, one after the other.
     pub known: &'a [R],
-    /// Takes out of a vector whatever else the operator does not know.
+    /// Removes from a vector any other direction outside the space of the operator.
     pub allow: &'a mut dyn FnMut(&mut [R]),
 }
 
 impl<R: Real> Lanczos<R> {
-    /// The largest eigenpairs of the symmetric positive operator `apply: (x, y) ↦ y = A x`, from
-    /// the vector that `start` writes, in that space.
+    /// The largest eigenpairs in that space of the symmetric positive operator `apply: (x, y) ↦ y = A x`, from the
+    /// vector that `start` writes.
     ///
     /// Lanczos' three-term recurrence, each new vector orthogonalised against all before it, twice
     /// where cancellation calls for it (Daniel, Gragg, Kaufman and Stewart, Math. Comp. 30 (1976)
@@ -68,8 +67,7 @@ impl<R: Real> Lanczos<R> {
     ///
     /// # Errors
     ///
-    /// [`Error::NotConverged`] if any wanted pair misses that: a list with a hole would be read
-    /// as complete.
+    /// [`Error::NotConverged`] if a wanted pair misses the residual: an incomplete list would be read as complete.
     #[inline(always)]
     pub fn largest(
         &mut self,
@@ -104,7 +102,7 @@ impl<R: Real> Lanczos<R> {
                     self.combine(count, dimension, before);
                     return Ok(());
                 }
-                // As far as the next look and no farther, where a vector would double.
+                // Room up to the next test only, where a vector would double its memory.
                 self.basis.reserve_exact(dimension * (1 + count / 8));
                 if spanned || steps == most {
                     return Err(Error::NotConverged { wanted: count, converged, steps });
@@ -115,7 +113,7 @@ impl<R: Real> Lanczos<R> {
         }
     }
 
-    /// Nothing but known vectors in the basis, which gets room for the given number of values more.
+    /// Resets the basis to the known vectors, with room for the given number of further values.
     #[inline(always)]
     fn begin(&mut self, dimension: usize, known: &[R], room: usize) {
         self.next.clear();
@@ -128,7 +126,7 @@ impl<R: Real> Lanczos<R> {
         self.steps = 0;
     }
 
-    /// A step: the product with the last basis vector, less what is known of it.
+    /// One step: the product with the last basis vector, less its known components.
     #[inline(always)]
     fn multiply(&mut self, dimension: usize, apply: &mut impl FnMut(&[R], &mut [R])) {
         self.steps += 1;
@@ -142,8 +140,7 @@ impl<R: Real> Lanczos<R> {
         }
     }
 
-    /// Looks at the Ritz pairs: how many of the wanted ones have converged, and whether the first
-    /// beyond them shows.
+    /// Tests the Ritz pairs: how many of the wanted ones have converged, and whether the next one has been found.
     #[inline(always)]
     fn look(&mut self, wanted: Wanted, rest: R, spanned: bool) -> Result<(usize, bool)> {
         let (count, steps) = (wanted.count, self.steps);
@@ -157,7 +154,7 @@ impl<R: Real> Lanczos<R> {
         }
         let misses = |residual: &&R| !residual.within(R::splat(wanted.residual));
         let missed = if spanned { 0 } else { self.residuals.iter().filter(misses).count() };
-        // A wanted vector can be told from the first one beyond only if that one shows.
+        // A wanted vector can be told from the next one only if that one has been found.
         self.beyond = (steps > count).then(|| self.small.value(count));
         let shows = self.beyond.is_some_and(|value| {
             let residual = rest * self.small.weight(count, steps - 1).abs();
@@ -175,14 +172,14 @@ impl<R: Real> Lanczos<R> {
         }
     }
 
-    /// Takes everything of the basis out of `next`, in every lane as often as its own cancellation calls
-    /// for; the length that is left.
+    /// Removes all basis vectors from `next`, in every lane as often as its cancellation requires; returns the
+    /// remaining length.
     #[inline(always)]
     fn orthogonalise(&mut self, allow: &mut dyn FnMut(&mut [R])) -> R {
         allow(&mut self.next);
         let (basis, next, parts) = (&self.basis, &mut self.next, &mut self.parts);
         let mut size = dot(next, next).sqrt();
-        // What was lost in the lanes that are not done, 0 in the others.
+        // The remaining share of the length in lanes that are not done, 0 in the others.
         let mut lost = R::splat(1.0);
         for _ in 0..3 {
             parts.clear();
@@ -209,7 +206,7 @@ impl<R: Real> Lanczos<R> {
         self.values.extend((0..count).map(|k| self.small.value(k)));
         let basis = &self.basis[before * dimension..];
         let steps = basis.len() / dimension;
-        // A stretch of all basis vectors stays near the processor while every pair takes its part.
+        // A stretch of all basis vectors stays in the cache while every pair uses it.
         for from in (0..dimension).step_by(STRETCH) {
             let length = STRETCH.min(dimension - from);
             self.next.clear();
@@ -225,7 +222,7 @@ impl<R: Real> Lanczos<R> {
     }
 }
 
-/// Ritz pairs of a symmetric operator and how the iteration went.
+/// Ritz pairs of a symmetric operator and the number of steps.
 #[derive(Debug, Clone)]
 pub struct Ritz {
     /// Eigenvalues, largest first.
@@ -261,12 +258,12 @@ fn subtract<R: Real>(part: R, from: &[R], vector: &mut [R]) {
     vector.iter_mut().zip(from).for_each(|(v, b)| *v -= part * *b);
 }
 
-/// Numbers of every basis vector that are worked on together: of a thousand vectors they are half a
-/// megabyte, as much as a processor's second cache holds.
+/// Length of the stretch of every basis vector that is processed together: with a thousand vectors half a megabyte, the
+/// size of a second-level cache.
 const STRETCH: usize = 64;
 
-/// Takes so much of every vector of a basis out of a vector, one after the other; four at a time, so
-/// that the vector is read and written once for these.
+/// Subtracts `parts[k]` of every basis vector from a vector, in order; four at a time, so that the vector is read and
+/// written once for these.
 #[inline(always)]
 fn subtract_all<R: Real>(parts: &[R], basis: &[R], vector: &mut [R]) {
     let length = vector.len();
@@ -304,7 +301,7 @@ mod tests {
         }
     }
 
-    /// A diagonal operator of more than a stretch: its own unit vectors come back.
+    /// A diagonal operator longer than a stretch: its eigenvectors are the unit vectors.
     #[test]
     fn vectors_longer_than_a_stretch_are_combined_whole() {
         let size = 2 * STRETCH + 7;

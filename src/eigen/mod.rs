@@ -1,8 +1,8 @@
 //! What are the extreme eigenvalues of an operator, or of two matrices?
 //!
-//! It knows matrices, not bats. [`lanczos`] is what [`crate::solve()`] uses; [`dense`],
-//! [`shift_invert`] and, with the feature `arpack`, ARPACK are its outside checks. [`fronts`] factors long
-//! matrices of dense blocks, as the walls of hollow bats have them.
+//! This chapter knows matrices, not bats. [`crate::solve()`] uses [`lanczos`]; [`dense`], [`shift_invert`] and, with
+//! the feature `arpack`, ARPACK are independent checks. [`fronts`] factors long matrices of dense blocks, as for the
+//! walls of hollow bats.
 
 pub mod tridiagonal;
 pub mod lanczos;

@@ -7,14 +7,13 @@ use crate::base::linear::dot;
 use crate::eigen::factor::{Factor, INDEFINITE};
 use crate::eigen::lanczos::{self, Ritz};
 
-/// Eigenpairs of `K x = λ M x` and how the iteration went.
+/// Eigenpairs of `K x = λ M x` and the number of steps.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Pairs {
-    /// Eigenvalues λ, rising (1/s²); the rigid ones are zero but for round-off of either sign.
+    /// Eigenvalues λ, rising (1/s²); the rigid ones are 0 up to round-off of either sign.
     pub values: Vec<f64>,
-    /// How far apart λ and `1/θ − σ` are (1/s²), here or in a lower pair: about the error that
-    /// round-off leaves in λ. On the bats in `meshes/` that error was four times this at most,
-    /// and mostly less than this.
+    /// Difference between λ and `1/θ − σ` (1/s²), the largest of this and all lower pairs: about the round-off error of
+    /// λ. On the bats in `meshes/` that error was at most four times this, and usually less than this.
     pub round_off: Vec<f64>,
     /// Eigenvectors in the order of the values, `xᵀMx = 1`.
     pub vectors: Vec<Vec<f64>>,
@@ -31,17 +30,16 @@ pub struct Pairs {
 /// L⁻¹ M L⁻ᵀ z = θ z,    λ = 1/θ − σ,    x = L⁻ᵀ z / √θ,
 /// ```
 ///
-/// whose largest eigenvalues θ Lanczos finds in a few steps, until the residual of each is below
-/// `residual · θ`. `shift` is σ (1/s²), of the size of the lowest elastic λ: much smaller, and
-/// `K + σM` comes near to singular; much larger, and the wanted θ crowd together. The λ returned
-/// are Rayleigh's quotients `xᵀKx/xᵀMx`, which forgive the factorisation's error in `x` to first
-/// order; its error in θ is about `ε n⁴` of the lowest elastic λ for n elements.
+/// Lanczos finds its largest eigenvalues θ in a few steps, until each residual is below `residual · θ`. `shift` is σ
+/// (1/s²), of the size of the lowest elastic λ. With a much smaller σ, `K + σM` is nearly singular; with a much larger
+/// one, the wanted θ crowd together. The λ returned are Rayleigh's quotients `xᵀKx/xᵀMx`, to which an error of the
+/// factorisation in `x` contributes only in second order. Its error in θ is about `ε n⁴` of the lowest elastic λ for n
+/// elements.
 ///
 /// # Errors
 ///
-/// As [`Factor::new`]; [`Error::Factorization`] too if the factorisation succeeded but cost a
-/// tenth of a wanted λ + σ; [`Error::NotConverged`] if a wanted pair misses `residual`, or if
-/// there are not as many as `count`.
+/// As [`Factor::new`]; [`Error::Factorization`] too if the factorisation succeeded but cost a tenth of a wanted λ + σ;
+/// [`Error::NotConverged`] if a wanted pair misses `residual`, or if there are fewer than `count` pairs.
 pub fn lowest(
     k: &CscMatrix<f64>,
     m: &CscMatrix<f64>,
@@ -72,11 +70,10 @@ pub fn lowest(
 
 /// The `count` largest eigenpairs from searches that each start from a single vector.
 ///
-/// From one vector a Krylov space reaches one direction of a multiple eigenvalue only, and the
-/// rigid motions of a free beam share one. So `search(found, wanted)` is called again, to look
-/// among what is orthogonal to all that was found, until it brings something that is not among
-/// the `count` largest. An eigenvalue of a beam is at most double (two conditions at one end
-/// leave two of four solutions), so the second copy then is among the found if the first is.
+/// The Krylov space of one vector contains a single direction of a multiple eigenvalue, and the rigid motions of a free
+/// beam share one. So `search(found, wanted)` is called again, in the space orthogonal to everything found, until it
+/// finds a pair that is not among the `count` largest. An eigenvalue of a beam is at most double (two conditions at one
+/// end leave two of four solutions), so the second copy is then found whenever the first one is.
 ///
 /// # Errors
 ///
@@ -122,8 +119,8 @@ fn sorted(all: Ritz, count: usize) -> Result<Ritz> {
 ///
 /// # Errors
 ///
-/// [`Error::Factorization`] if λ and `1/θ − σ` differ by more than a tenth of λ + σ: then the
-/// factored matrix has little to do with `K + σM`.
+/// [`Error::Factorization`] if λ and `1/θ − σ` differ by more than a tenth of λ + σ: the factored matrix is then too
+/// far from `K + σM`.
 pub fn pairs(k: &CscMatrix<f64>, m: &CscMatrix<f64>, shift: f64, ritz: Ritz) -> Result<Pairs> {
     let mut product = vec![0.0; m.nrows()];
     let mut rows = Vec::with_capacity(ritz.values.len());
@@ -144,7 +141,7 @@ pub fn pairs(k: &CscMatrix<f64>, m: &CscMatrix<f64>, shift: f64, ritz: Ritz) -> 
     let mut pairs = Pairs { steps: ritz.steps, ..Pairs::default() };
     let mut greatest = 0.0_f64;
     for (lambda, round_off, vector) in rows {
-        // Round-off of K is spread alike over all shapes: one difference may be small by luck.
+        // The round-off of K affects all shapes alike; one difference may be small by chance.
         greatest = greatest.max(round_off);
         pairs.values.push(lambda);
         pairs.round_off.push(greatest);
@@ -153,7 +150,7 @@ pub fn pairs(k: &CscMatrix<f64>, m: &CscMatrix<f64>, shift: f64, ritz: Ritz) -> 
     Ok(pairs)
 }
 
-/// `y = A x` of a symmetric `A`, row by row, which are its columns.
+/// `y = A x` for a symmetric `A`, whose rows are its columns.
 pub fn multiply(a: &CscMatrix<f64>, x: &[f64], y: &mut [f64]) {
     let (offsets, rows, values) = a.csc_data();
     for (y, ends) in y.iter_mut().zip(offsets.windows(2)) {
@@ -162,7 +159,7 @@ pub fn multiply(a: &CscMatrix<f64>, x: &[f64], y: &mut [f64]) {
     }
 }
 
-/// Takes the directions of the orthonormal `found` out of `vector`.
+/// Removes the directions of the orthonormal `found` from `vector`.
 fn remove(found: &[Vec<f64>], vector: &mut [f64]) {
     for direction in found {
         let part = dot(direction, vector);

@@ -2,30 +2,29 @@
 
 use crate::base::real::Real;
 
-/// The eigenpairs with their memory, which the next problem uses again.
+/// The eigenpairs and their memory, which the next problem reuses.
 #[derive(Debug, Clone, Default)]
 pub struct Tridiagonal<R> {
     d: Vec<R>,
     e: Vec<R>,
     /// Columns of the product of all rotations, one after the other.
     vectors: Vec<R>,
-    /// Which columns hold the pairs, largest eigenvalue first.
+    /// The columns of the pairs, largest eigenvalue first.
     order: Vec<usize>,
     sorted: Vec<R>,
     values: Vec<R>,
 }
 
-/// An eigenvalue takes two sweeps or three; EISPACK gives up after thirty.
+/// Most sweeps for one eigenvalue. It takes two or three; EISPACK gives up after thirty.
 const MOST_SWEEPS: usize = 60;
 
 impl<R: Real> Tridiagonal<R> {
-    /// Finds all eigenpairs of the matrix with that diagonal of n entries and the n − 1 (or more;
-    /// the rest is not read) beside it.
+    /// Finds all eigenpairs of the matrix with that diagonal of n entries and the n − 1 entries beside it; further
+    /// entries of `off` are ignored.
     ///
-    /// Implicit QL with Wilkinson's shift (Bowdler, Martin, Reinsch, Wilkinson, Numer. Math. 11
-    /// (1968) 293). Run from the far end, because a Lanczos matrix is graded downwards and QL keeps
-    /// the digits of matrices graded upwards. None if it does not settle, which only numbers beyond
-    /// the range of f64 can cause.
+    /// Implicit QL with Wilkinson's shift (Bowdler, Martin, Reinsch, Wilkinson, Numer. Math. 11 (1968) 293). It runs
+    /// from the far end, because a Lanczos matrix is graded downwards and QL keeps the digits of matrices graded
+    /// upwards. `None` if it does not converge, which only numbers beyond the range of f64 can cause.
     #[inline(always)]
     pub fn solve(&mut self, diagonal: &[R], off: &[R]) -> Option<()> {
         let n = diagonal.len();
@@ -89,8 +88,7 @@ impl<R: Real> Tridiagonal<R> {
     }
 }
 
-/// Where in every lane the unreduced block ends that begins at `low`: there itself if it is a single
-/// eigenvalue.
+/// End of the unreduced block that begins at `low`, in every lane: `low` itself for a single eigenvalue.
 #[inline(always)]
 fn block_ends<R: Real>(d: &[R], e: &[R], low: usize) -> R {
     let last = d.len() - 1;
@@ -102,8 +100,8 @@ fn block_ends<R: Real>(d: &[R], e: &[R], low: usize) -> R {
     ends
 }
 
-/// One implicit QL sweep on the block of every lane from `low` to its end; a lane takes the same steps
-/// whatever the others do, and none where its block has ended.
+/// One implicit QL sweep on the block from `low` to its end, in every lane. A lane takes the same steps whatever the
+/// others do, and none after its block has ended.
 #[inline(always)]
 fn sweep<R: Real>(d: &mut [R], e: &mut [R], vectors: &mut [R], low: usize, ends: R) {
     let (zero, one) = (R::default(), R::splat(1.0));
@@ -119,7 +117,7 @@ fn sweep<R: Real>(d: &mut [R], e: &mut [R], vectors: &mut [R], low: usize, ends:
     let n = d.len();
     for i in (low..high).rev() {
         let place = R::splat((i + 1) as f64);
-        // Zero in the lanes whose block goes on beyond here or ends here.
+        // Zero in the lanes whose block extends beyond this place or ends here.
         let before = zero.max(place - ends);
         let whole = place.within(ends);
         let (f, b) = (sine * e[i], cosine * e[i]);
@@ -140,7 +138,7 @@ fn sweep<R: Real>(d: &mut [R], e: &mut [R], vectors: &mut [R], low: usize, ends:
             continue;
         }
         let own = |new: R, old: R| before.if_zero(new, old);
-        // Where the block begins later everything is as at its beginning.
+        // If the block begins later, everything is as at its beginning.
         (sine, cosine) = (own(next[0], one), own(next[1], one));
         (e[i + 1], d[i + 1]) = (own(r, e[i + 1]), own(inner + turned, d[i + 1]));
         (shift, g) = (own(turned, zero), own(next[1] * half - b, begin));
@@ -149,7 +147,7 @@ fn sweep<R: Real>(d: &mut [R], e: &mut [R], vectors: &mut [R], low: usize, ends:
             (*a, *b) = (own(both[0], *a), own(both[1], *b));
         }
     }
-    // Nothing was done in a lane whose block is a single eigenvalue.
+    // A lane whose block is a single eigenvalue was not changed.
     let done = ends - R::splat(low as f64);
     d[low] = done.if_zero(d[low], d[low] - shift);
     e[low] = done.if_zero(e[low], g);
@@ -199,7 +197,7 @@ mod tests {
         assert_eq!(eigen(&[f64::NAN, 1.0], &[1.0]), None);
     }
 
-    /// Matrices of which one falls apart in the middle, one at its end, one has all eigenvalues already.
+    /// One matrix separates in the middle, one at its end, and one is diagonal already.
     #[test]
     fn a_lane_has_the_bits_that_it_has_alone() {
         const N: usize = 9;
@@ -234,7 +232,7 @@ mod tests {
 
     #[test]
     fn small_eigenvalues_of_a_graded_matrix_keep_their_digits() {
-        // The small eigenvalue of [[1, a], [a, b]] is the determinant over the large one.
+        // The small eigenvalue of [[1, a], [a, b]] is the determinant divided by the large one.
         let (a, b) = (1e-6, 1e-6);
         let (values, _) = eigen(&[1.0, b], &[a]).unwrap();
         let exact = (b - a * a) / (1.0 + a * a / (1.0 - b));

@@ -1,6 +1,6 @@
-//! What ball did somebody write down?
+//! How is a ball written in a file?
 //!
-//! [`Ball::from_file`] reads a `sweetspot-ball/1` file and tells all its mistakes at once.
+//! [`Ball::from_file`] reads a `sweetspot-ball/1` file and reports all its mistakes at once.
 
 use std::path::Path;
 
@@ -38,7 +38,7 @@ impl Ball {
         from_document(&Document::read(path.as_ref())?)
     }
 
-    /// Reads a ball from text; `file` is what messages call it.
+    /// Reads a ball from text; `file` is its name in messages.
     ///
     /// # Errors
     ///
@@ -48,7 +48,7 @@ impl Ball {
     }
 }
 
-/// A ball as a file has it.
+/// A ball as its file members.
 pub fn written(ball: &Ball) -> Value {
     let mut file = json!({
         "format": "sweetspot-ball/1",
@@ -113,7 +113,7 @@ pub(crate) fn from_document(document: &Document) -> Result<Ball> {
 
 /// The radius of the ball's patch, if there is one.
 fn contact_radius(root: &Object) -> Result<Option<f64>> {
-    /// Smaller ones press holes (m).
+    /// A smaller patch would make a hole (m).
     const LEAST: f64 = 1e-3;
     let read = |node: &Node| match positive(node, Some(Quantity::Length))? {
         radius if radius >= LEAST => Ok(radius),
@@ -122,11 +122,11 @@ fn contact_radius(root: &Object) -> Result<Option<f64>> {
     root.get("contact_radius").map(read).transpose()
 }
 
-/// How a ball comes back, in one of the ways in which it may be written.
+/// Restitution, in one of the ways of writing it.
 struct Bounce {
     cor: f64,
     by_speed: Vec<[f64; 2]>,
-    /// Whether it was written as the damping of a linear ball.
+    /// Whether it was given as the damping of a linear ball.
     linear: bool,
 }
 
@@ -141,7 +141,7 @@ fn bounce(root: &Object, exponent: Option<f64>) -> Result<Bounce> {
         (Some(cor), ..) => cor,
         (None, Some(node), _) => e0(node),
         (None, None, Some(cor)) => Ok(cor),
-        // A table that could not be read is told already.
+        // A table that could not be read is already reported.
         (None, None, None) if by_speed.is_none() => Ok(0.0),
         (None, None, None) => root.require("cor", "\"cor\" on a rigid wall").map(|_| 0.0),
     };
@@ -155,7 +155,7 @@ fn positive(node: &Node, quantity: Option<Quantity>) -> Result<f64> {
         Some(quantity) => node.quantity(quantity)?,
         None => node.number()?,
     };
-    // Small enough and large enough for its square to be a number.
+    // Small enough and large enough for its square to be representable.
     if value > 1e-100 && value < 1e100 {
         Ok(value)
     } else {
@@ -168,7 +168,7 @@ pub(crate) fn e0(node: &Node) -> Result<f64> {
     restitution(node.number()?).map_err(|_| node.error(node.shown(), "0 to 1"))
 }
 
-/// `[[speed, e₀], …]`, the speeds rising.
+/// `[[speed, e₀], …]`, with rising speeds.
 fn by_speed(node: &Node) -> Result<Vec<[f64; 2]>> {
     let pairs = node.items()?;
     if pairs.is_empty() {
@@ -199,8 +199,8 @@ fn pair(node: &Node) -> Result<[f64; 2]> {
 /// e₀ of a linear ball, `m x″ + 2ζ√(km) x′ + k x = 0` until its force is zero:
 /// `exp(−2ζ arccos ζ/√(1 − ζ²))`.
 ///
-/// It then is struck as a spring with exponent 1 that returns as much: a dashpot would push at once
-/// where a ball is hardly touched, which no ball does.
+/// The contact is then computed with a spring of exponent 1 that returns as much energy: a dashpot would push at once
+/// at first touch, which no ball does.
 ///
 /// # Source
 ///

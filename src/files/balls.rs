@@ -1,26 +1,26 @@
-//! Which ball is meant: one that is known by its name, or one of a file?
+//! Which ball is meant: a built-in one, or one of a file?
 
 use crate::base::error::{Complaint, Error, Result, nearest};
 use crate::collision::ball::Ball;
 use crate::files::ball_file;
 use crate::files::folder::Folder;
 
-/// A ball's name and what makes it.
+/// A ball's name and its constructor.
 type NamedBall = (&'static str, fn() -> Ball);
 
-/// The balls that are known by name.
+/// The built-in balls.
 const BALLS: [NamedBall; 3] = [
     ("baseball", Ball::baseball),
     ("humid-baseball", Ball::humid_baseball),
     ("softball", Ball::softball),
 ];
 
-/// Whether a ball is known by that name.
+/// Whether a built-in ball has that name.
 pub fn is_built_in(name: &str) -> bool {
     BALLS.iter().any(|(known, _)| *known == name)
 }
 
-/// A ball by its name or its file, as a linear spring if a stiffness (N/m) is given.
+/// A ball by its name or its file; a linear spring if a stiffness (N/m) is given.
 ///
 /// # Errors
 ///
@@ -36,7 +36,7 @@ pub fn ball(name: &str, stiffness: Option<f64>) -> Result<Ball> {
     }
 }
 
-/// A ball by its name or its file, as a file in that folder has it.
+/// A ball by its name or its file, as named by a file in that folder.
 ///
 /// # Errors
 ///
@@ -49,7 +49,7 @@ pub fn ball_in(name: &str, folder: &Folder) -> Result<Ball> {
     ball_file::from_document(&document)
 }
 
-/// A ball that is known by that name.
+/// The built-in ball of that name.
 pub fn built_in(name: &str) -> Option<Ball> {
     BALLS.iter().find(|(known, _)| *known == name).map(|(_, ball)| ball())
 }

@@ -1,4 +1,4 @@
-//! How a bat is written down: the `sweetspot-bat/1` file, read and checked.
+//! How is a bat written in a file? The `sweetspot-bat/1` format, read and checked.
 
 use std::path::{Path, PathBuf};
 
@@ -37,7 +37,7 @@ const KEYS: &[&str] = &[
     "edits",
     "$schema",
 ];
-/// The members of a profile beside its columns.
+/// The members of a profile besides its columns.
 const OF_PROFILE: [&str; 5] = ["interpolation", "unit", "measured_from", "csv", "pieces"];
 const INTERPOLATIONS: &[(&str, Interpolation)] = &[
     ("pchip", Interpolation::Pchip),
@@ -50,13 +50,13 @@ impl Bat {
     ///
     /// # Errors
     ///
-    /// [`Error::Read`] if there is no such file, [`Error::Input`] with line and column, or several, if
-    /// anything in it is wrong or impossible.
+    /// [`Error::Read`] if there is no such file; [`Error::Input`] with line and column, or several, if anything in it
+    /// is wrong or impossible.
     pub fn from_file(path: impl AsRef<Path>) -> Result<Self> {
         Self::with_text(path).map(|(bat, _)| bat)
     }
 
-    /// The bat of a file, and what the file says: a pipe can be read only once.
+    /// The bat of a file, and the text of the file: a pipe can be read only once.
     ///
     /// # Errors
     ///
@@ -69,8 +69,8 @@ impl Bat {
         Ok((bat, document.text))
     }
 
-    /// Reads a bat file that a person has named, whose `csv` may lie anywhere: where it is outside of
-    /// the bat file's folder, that is to be said.
+    /// Reads a bat file that a person has named. Its `csv` may be anywhere; if it is outside the bat file's folder, the
+    /// person is to be told.
     ///
     /// # Errors
     ///
@@ -83,7 +83,7 @@ impl Bat {
         Ok(Named { bat, text: document.text, outside: outside.paths() })
     }
 
-    /// Reads a bat from text; `file` is what messages call it, a `csv` is sought in `folder`.
+    /// Reads a bat from text; `file` is its name in messages, and a `csv` is looked up in `folder`.
     ///
     /// ```
     /// use sweetspot::Bat;
@@ -107,7 +107,8 @@ impl Bat {
         Self::from_text_in(file, text, &Folder::closed(folder))
     }
 
-    /// Reads a bat from text, as [`Self::from_text`], its `csv` sought in a folder that it may be led out of.
+    /// Reads a bat from text as [`Self::from_text`]; its `csv` is looked up in `folder`, which may allow files
+    /// elsewhere.
     pub fn from_text_in(file: &str, text: &str, folder: &Folder) -> Result<Self> {
         from_document(&Document::new(file.to_owned(), text), folder)
     }
@@ -118,13 +119,13 @@ impl Bat {
 pub struct Named {
     /// The bat.
     pub bat: Bat,
-    /// What its file says.
+    /// The text of its file.
     pub text: String,
-    /// Files that it was read from outside of the bat file's folder.
+    /// Files outside the bat file's folder that were read for it.
     pub outside: Vec<PathBuf>,
 }
 
-/// The profile of a table of stations (CSV), and whether it is in inches; `file` is what messages call it.
+/// The profile of a table of stations (CSV), and whether it is in inches; `file` is its name in messages.
 ///
 /// # Errors
 ///
@@ -136,12 +137,12 @@ pub fn profile_of_table(file: &str, text: &str) -> Result<(Profile, bool)> {
     profile.map(|profile| (profile, inches)).map_err(|error| table.locate(error))
 }
 
-/// A profile, as a bat file in `folder` has it, with the columns of its table in place of that table's name: bare
-/// numbers in the unit of the profile.
+/// A profile of a bat file in `folder`, with the columns of its table in place of the table's name: bare numbers in the
+/// unit of the profile.
 ///
 /// # Errors
 ///
-/// [`Error::Value`] for what is wrong with the profile, [`Error::Input`] with line and column for the table.
+/// [`Error::Value`] for a mistake in the profile, [`Error::Input`] with line and column for one in the table.
 pub fn without_table(profile: &Value, folder: &Folder) -> Result<Value> {
     const NAME: &str = "";
     let document = Document::new(NAME.to_owned(), &profile.to_string());
@@ -168,7 +169,7 @@ pub fn without_table(profile: &Value, folder: &Folder) -> Result<Value> {
     }
 }
 
-/// The unit of a profile's bare numbers, and how many m it is.
+/// The unit of a profile's bare numbers, and its length in m.
 fn length_unit(object: &Object) -> Result<(String, f64)> {
     let Some(node) = object.get("unit") else { return Ok(("m".to_owned(), 1.0)) };
     let unit = node.string()?;
@@ -178,12 +179,12 @@ fn length_unit(object: &Object) -> Result<(String, f64)> {
 
 fn from_document(document: &Document, folder: &Folder) -> Result<Bat> {
     let root = Node::root(document)?.members()?;
-    // Before the keys are looked at: another format may have others.
+    // Before the keys are checked: another format may have others.
     root.check_format("sweetspot-bat/1")?;
     let mut mistakes = Mistakes::default();
     let root = root.only(KEYS, &mut mistakes);
     mistakes.note(root.require("format", "\"format\": \"sweetspot-bat/1\"").map(|_| ()));
-    // That is for editors.
+    // This member is for editors.
     mistakes.note(root.string("$schema"));
     let name = mistakes.note(root.string("name"));
     let source = mistakes.note(root.string("source"));
@@ -192,7 +193,7 @@ fn from_document(document: &Document, folder: &Folder) -> Result<Bat> {
     let length = profile.as_ref().map(|(profile, _)| profile.length());
     let weighed = mistakes.some(fixtures_file::weighed(&root, length));
     let material = mistakes.some(material(&root, weighed.as_ref()));
-    // Something sound stands in for a material that could not be read: no bat is made of it.
+    // A valid stand-in for a material that could not be read; no bat is made of it.
     let sound = || Material::new(700.0, 14e9).expect("both are above 0");
     let material = material.unwrap_or_else(sound);
     let on = fixtures_file::On { material: &material, length };
@@ -208,14 +209,14 @@ fn from_document(document: &Document, folder: &Folder) -> Result<Bat> {
     bat.and_then(|bat| bat.edited(&edits)).map_err(placed)
 }
 
-/// The bat's own material. What was weighed may stand for a density or a modulus, and nothing is
-/// asked for in its place where that could not be read.
+/// The bat's own material. A weighed mass or a tapped frequency may replace a density or a modulus; if it could not be
+/// read, no replacement is demanded.
 fn material(root: &Object, weighed: Option<&Weighed>) -> Result<Material> {
     let regions = root.get("regions").is_some();
     let without_density = match (weighed.map(|weighed| weighed.mass), regions) {
         (Some(None), _) => Err("\"density\" here or \"mass\" in \"weighed\""),
         (Some(Some(_)), true) => Err("\"density\": the weighed mass is one factor for all regions"),
-        // The weighed mass will set it; any positive number is as good.
+        // The weighed mass will set it; any positive number will do.
         (Some(Some(_)), false) | (None, _) => Ok(UNTOLD_DENSITY),
     };
     let without_modulus = match (weighed.map(|weighed| weighed.first_bending), regions) {
@@ -225,13 +226,13 @@ fn material(root: &Object, weighed: Option<&Weighed>) -> Result<Material> {
         (Some(Some(_)), true) => {
             Err("\"youngs_modulus\": the tapped frequency is one factor for all regions")
         }
-        // The tap will set it; a wood's is a good beginning.
+        // The tap will set it; start with a value for wood.
         (Some(Some(_)), false) | (None, _) => Ok(1e10),
     };
     part_file::material(root.require("material", "a material")?, without_density, without_modulus)
 }
 
-/// The profile and whether it is in inches, if there is nothing wrong with it but its keys.
+/// The profile, and whether it is in inches; `None` if anything but its keys is wrong.
 fn profile(node: &Node, folder: &Folder, mistakes: &mut Mistakes) -> Option<(Profile, bool)> {
     let keys = [&OF_PROFILE[..], &COLUMNS].concat();
     let object = node.object(&keys, mistakes);
@@ -264,7 +265,7 @@ fn formulas(object: &Object, node: &Node) -> Result<Profile> {
         }
         let pieces: Vec<FormulaPiece> = mistakes::all(items.iter().map(formula_piece))?;
         let placed = |mut complaint: Complaint| {
-            // The field is `pieces[k].key`: its value's place, or that of the piece.
+            // The field is `pieces[k].key`: the place of its value, or of the piece.
             let field = std::mem::take(&mut complaint.field);
             object.node.nearest(&field).complain(complaint)
         };
@@ -290,8 +291,7 @@ fn formula_piece(node: &Node) -> Result<FormulaPiece> {
     mistakes.and(outer.map(|outer| FormulaPiece { from, to, outer, inner }))
 }
 
-/// Columns of stations, in a `profile` object itself or in the CSV file that it names, and whether they
-/// are in inches.
+/// Columns of stations, in a `profile` object itself or in the CSV file that it names, and whether they are in inches.
 fn columns(object: Object, folder: &Folder) -> Result<(Profile, bool)> {
     let mut mistakes = Mistakes::default();
     let unit = length_unit(&object);
@@ -299,14 +299,14 @@ fn columns(object: Object, folder: &Folder) -> Result<(Profile, bool)> {
         Some(node) => node.word(INTERPOLATIONS),
         None => Ok(Interpolation::Pchip),
     };
-    // Straight lines ask least of the stations.
+    // Straight lines demand least of the stations.
     let interpolation = mistakes.some(interpolation).unwrap_or(Interpolation::Linear);
     let table = mistakes.some(table(
         object,
         folder,
         unit.as_ref().map_or(("m", 1.0), |unit| (&unit.0, unit.1)),
     ));
-    // Nothing can be said of places and radii in no unit.
+    // Without a unit, places and radii cannot be checked.
     let profile = unit.and_then(|_| {
         let Some(table) = table else { return Ok(None) };
         let profile = table.stations(interpolation).and_then(Profile::new);

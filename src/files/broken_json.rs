@@ -1,11 +1,11 @@
-//! What to say of text that is not JSON.
+//! How is text that is not JSON reported?
 
 use serde::de::IgnoredAny;
 
 use crate::base::error::{Complaint, Error, shortened};
 use crate::files::document::Document;
 
-/// What to say of a text that does not begin as a JSON object does.
+/// The error for text that does not begin like a JSON object.
 pub(crate) fn not_an_object(document: &Document) -> Error {
     let text = document.text.trim();
     let complaint = match serde_json::from_str::<IgnoredAny>(text) {
@@ -25,14 +25,14 @@ pub(crate) fn not_an_object(document: &Document) -> Error {
     document.error(start..start + first, complaint)
 }
 
-/// What `serde_json` says of text that is not JSON, in found and expected, with its place.
+/// The message of `serde_json` for text that is not JSON, as found and expected, with its place.
 pub(crate) fn told(document: &Document, error: &serde_json::Error) -> Error {
     let text = &document.text;
     let line = text.split_inclusive('\n').take(error.line().saturating_sub(1));
     let offset = line.map(str::len).sum::<usize>() + error.column().saturating_sub(1);
     let said = error.to_string();
     let said = said.split(" at line ").next().unwrap_or_default();
-    // Of these the one before is told.
+    // For these, the character before is reported.
     let control = said.starts_with("control character");
     let offset = offset + usize::from(control);
     let mut offset = if error.is_eof() { text.trim_end().len() } else { offset.min(text.len()) };
@@ -71,7 +71,7 @@ pub(crate) fn told(document: &Document, error: &serde_json::Error) -> Error {
         .error(offset..offset + here.len(), complaint.hinted(mended(&text[..offset], said, here)))
 }
 
-/// The word that a text begins with, or the one character that ends words.
+/// The word at the beginning of a text, or the single character that ends words.
 fn word(text: &str) -> &str {
     let ends = |c: char| c.is_whitespace() || ",:[]{}".contains(c);
     let one = text.chars().next().map_or(0, char::len_utf8);
@@ -88,7 +88,7 @@ fn unclosed(rest: &str) -> &'static str {
     }
 }
 
-/// What to do about the commonest slips in JSON: what stood before, what was said and what is here.
+/// Advice for the commonest slips in JSON, from the text before, the message, and the text here.
 fn mended(before: &str, said: &str, here: &str) -> &'static str {
     let after_comma = before.trim_end().ends_with(',');
     match here.chars().next() {

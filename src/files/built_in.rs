@@ -5,7 +5,8 @@ use std::path::Path;
 use crate::base::error::{Complaint, Error, Result};
 use crate::bat::body::Bat;
 
-/// Name and text of the JSON files of a folder, which is seen from the file that asks, by their names without the ending.
+/// Name and text of the JSON files in a folder, relative to the calling file; names are those of the files without
+/// their ending.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! json_files {
@@ -14,28 +15,28 @@ macro_rules! json_files {
     };
 }
 
-/// The bats that are built in: name and text.
+/// The built-in bats: name and text.
 pub const BATS: &[(&str, &str)] = json_files! { "../../meshes":
     "bbcor_made_up" "bbcor_made_up_open" "composite_made_up" "cone" "corked" "dowel" "house"
     "northwestern_aluminium" "northwestern_wood" "r161" "softball_made_up" "softball_made_up_open"
     "tanh" "torpedo" "two_piece"
 };
 
-/// The names of the bats that are built in: those of their files.
+/// The names of the built-in bats, which are those of their files.
 pub fn bat_names() -> Vec<&'static str> {
     BATS.iter().map(|(name, _)| *name).collect()
 }
 
-/// The text of the bat of that name, if it is built in.
+/// The text of the built-in bat of that name.
 pub fn bat_text(name: &str) -> Option<&'static str> {
     BATS.iter().find(|(other, _)| *other == name).map(|(_, text)| *text)
 }
 
-/// The name and the text of the built-in bat that is meant, if the path names no file.
+/// The name and the text of a built-in bat, if the path is its name and not a file.
 ///
 /// # Errors
 ///
-/// [`Error::Value`] for a name that is neither a file nor built in.
+/// [`Error::Value`] for a name that is neither a file nor a built-in bat.
 pub fn named(path: &Path) -> Result<Option<(&str, &'static str)>> {
     let one_word = path.components().count() == 1 && path.extension().is_none();
     let is_file = path.exists() && !path.is_dir();

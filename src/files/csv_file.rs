@@ -8,21 +8,21 @@ use crate::base::units::Quantity;
 use crate::files::document::Document;
 use crate::files::sheet::{self, Sheet, SheetRow};
 
-/// A table of numbers: the columns of a CSV file in SI, and where each row stands.
+/// A table of numbers: the columns of a CSV file in SI, with the place of each row.
 ///
-/// The header names the columns and gives their units (`x_in,diameter_in`); a [`Sheet`] says in which
-/// ways a table may be written.
+/// The header names the columns and gives their units (`x_in,diameter_in`); [`Sheet`] describes the notations of a
+/// table.
 pub(crate) struct Csv {
     columns: Vec<(&'static str, Vec<f64>)>,
     /// The unit of each column as the header writes it; empty for a column without a unit.
     units: Vec<String>,
-    /// Where the header stands, and each cell, row by row.
+    /// Place of the header, and of each cell, row by row.
     header: Range<usize>,
     cells: Vec<Range<usize>>,
 }
 
 impl Csv {
-    /// Reads columns whose names are among `keys`; one without a unit is times `unit`.
+    /// Reads columns whose names are among `keys`; a column without a unit is multiplied by `unit`.
     pub fn read(
         document: &Document,
         keys: &[&'static str],
@@ -33,7 +33,8 @@ impl Csv {
         Self::read_columns(document, &columns)
     }
 
-    /// Reads columns of several quantities: name, quantity and the unit where the header has none.
+    /// Reads columns of several quantities, each with its name, its quantity, and the unit that applies if the header
+    /// gives none.
     pub fn read_columns(
         document: &Document,
         columns: &[(&'static str, Quantity, f64)],
@@ -56,7 +57,7 @@ impl Csv {
         Ok(Self { columns: filled, units, header: sheet.header_line(), cells })
     }
 
-    /// An error about a value: a row of a column, or the header.
+    /// An error about a value in a row of a column, or about the header.
     pub fn error(
         &self,
         document: &Document,
@@ -70,7 +71,7 @@ impl Csv {
         }
     }
 
-    /// Where a cell stands in the text, and its unit.
+    /// Place of a cell in the text, and its unit.
     pub fn cell(&self, key: &str, row: usize) -> (Range<usize>, &str) {
         let column = self.columns.iter().position(|(name, _)| *name == key).unwrap_or(0);
         let cell = self.cells.get(row * self.columns.len() + column);
@@ -87,8 +88,7 @@ type Scale = (&'static str, f64, String);
 
 /// Key, factor to SI and unit of every column.
 fn scales(sheet: &Sheet, columns: &[(&'static str, Quantity, f64)]) -> Result<Vec<Scale>> {
-    /// Columns that are checked: a header with more than this has a mistake among the first ones, since
-    /// there are fewer keys.
+    /// Number of columns that are checked. There are fewer keys, so a longer header has a mistake among the first ones.
     const LOOKED_AT: usize = 100;
     let mut seen = Vec::new();
     mistakes::all(sheet.header.cells.iter().enumerate().take(LOOKED_AT).map(|(k, name)| {
@@ -129,7 +129,7 @@ fn read_row(
     mistakes.end(())
 }
 
-/// Whether a name is that of a column, with its unit or without.
+/// Whether a name is that of a column, with or without its unit.
 fn names_it(name: &str, key: &str) -> bool {
     name.strip_prefix(key).is_some_and(|rest| rest.is_empty() || rest.starts_with('_'))
 }
@@ -140,7 +140,7 @@ fn column(
     columns: &[(&'static str, Quantity, f64)],
 ) -> std::result::Result<Scale, Complaint> {
     let name = sheet::normal(written);
-    // Longer keys first, so that none is taken for the beginning of another.
+    // Longer keys first, so that a shorter one is not found in them.
     let known = columns.iter().filter(|(key, ..)| names_it(&name, key));
     let Some(&(key, quantity, bare)) = known.max_by_key(|(key, ..)| key.len()) else {
         let keys: Vec<&str> = columns.iter().map(|(key, ..)| *key).collect();

@@ -1,4 +1,4 @@
-//! Where in the file did this stand: the text of one input file and the places in it.
+//! Where in the file is a value: the text of an input file and the places in it.
 
 use std::cell::Cell;
 use std::ops::Range;
@@ -7,28 +7,28 @@ use std::path::Path;
 use crate::base::error::{Complaint, Error, Excerpt, FilePosition, Result};
 use crate::base::file;
 
-/// The text of one input file, a byte-order mark removed.
+/// The text of an input file, without a byte-order mark.
 #[derive(Debug)]
 pub struct Document {
     pub file: String,
     pub text: String,
-    /// Offset, line and column of the last place asked for: the next is most often close behind.
+    /// Offset, line and column of the last place requested: the next one is usually close behind.
     last: Cell<(usize, usize, usize)>,
 }
 
 impl Document {
-    /// Reads a file as UTF-8, or as UTF-16 if it begins with the mark of that.
+    /// Reads a file as UTF-8, or as UTF-16 if it begins with that mark.
     pub fn read(path: &Path) -> Result<Self> {
         Self::of(path, false)
     }
 
-    /// As [`Self::read`], of a table: one that is no UTF-8 is read as Windows-1252, the way western
-    /// spreadsheets write it. Its numbers and separators are ASCII in both.
+    /// As [`Self::read`], for a table. Text that is not UTF-8 is read as Windows-1252, as western spreadsheets write
+    /// it; numbers and separators are ASCII in both.
     pub fn table(path: &Path) -> Result<Self> {
         Self::of(path, true)
     }
 
-    /// A file that another one names, or what is wrong with its letters.
+    /// A file that another one names; an inner error reports an encoding that cannot be read.
     pub fn named(path: &Path, of_a_table: bool) -> Result<Result<Self>> {
         let bytes = file::read_plain(path)?;
         Ok(Self::decoded(path, bytes, of_a_table))
@@ -64,7 +64,7 @@ impl Document {
             }
             Err(error) => {
                 let at = error.utf8_error().valid_up_to();
-                // Up to there the same, and what is wrong as a character that stands for it.
+                // The same text up to there, with a replacement character for the invalid byte.
                 let text = String::from_utf8_lossy(error.as_bytes());
                 let marked = at..at + char::REPLACEMENT_CHARACTER.len_utf8();
                 let document = Self { file: name, text: text.into_owned(), last: START.into() };
@@ -76,7 +76,7 @@ impl Document {
 
     pub fn new(file: String, text: &str) -> Self {
         let mut text = text.trim_start_matches('\u{feff}').to_owned();
-        // Some spreadsheets end lines with a carriage return alone.
+        // Some spreadsheets end lines with a carriage return only.
         if !text.contains('\n') {
             text = text.replace('\r', "\n");
         }
@@ -88,7 +88,7 @@ impl Document {
         Error::Input { place: self.placed(marked), complaint }
     }
 
-    /// Where a stretch of the text stands, in bytes.
+    /// Position of a stretch of the text, in bytes.
     pub fn placed(&self, marked: Range<usize>) -> Box<FilePosition> {
         let (line, column) = self.place(marked.start);
         Box::new(FilePosition {
@@ -116,7 +116,7 @@ impl Document {
     }
 }
 
-/// The text of UTF-16 bytes, and whether it is whole.
+/// The text of UTF-16 bytes, and whether all of it could be read.
 fn utf_16(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> (String, bool) {
     let units: Vec<u16> = bytes.chunks_exact(2).map(|pair| unit([pair[0], pair[1]])).collect();
     match String::from_utf16(&units) {
@@ -125,9 +125,8 @@ fn utf_16(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> (String, bool) {
     }
 }
 
-/// The text of Windows-1252 bytes: those from 0x80 to 0x9f stand for the characters of this list, all others
-/// for those of their own number. Source: the Unicode consortium's mapping `CP1252.TXT`; the five that it
-/// leaves undefined stand for controls.
+/// The text of Windows-1252 bytes. Those from 0x80 to 0x9f are the characters of this list; all others have their own
+/// number. Source: the Unicode consortium's mapping `CP1252.TXT`; the five that it leaves undefined become controls.
 fn windows_1252(bytes: &[u8]) -> String {
     const HIGH: [char; 32] = [
         '€', '\u{81}', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\u{8d}', 'Ž',
@@ -144,10 +143,10 @@ fn windows_1252(bytes: &[u8]) -> String {
 /// The first byte is in line 1, column 1.
 const START: (usize, usize, usize) = (0, 1, 1);
 
-/// The line around a stretch of the text, as much of it as fits a terminal. Of a stretch of several
-/// lines the first character stands for the whole.
+/// The line around a stretch of the text, as much of it as fits a terminal. For a stretch of several lines, only its
+/// first character is marked.
 fn excerpt(text: &str, marked: Range<usize>) -> Excerpt {
-    /// Columns for the line, and for what is marked in it.
+    /// Columns for the line, and for the marked part.
     const LINE: usize = 72;
     const MARKED: usize = 40;
     let whole = &text[marked.clone()];
@@ -156,7 +155,7 @@ fn excerpt(text: &str, marked: Range<usize>) -> Excerpt {
     let shown = head(whole, MARKED);
     let cut = shown.len() < whole.len();
     let (before, after) = (&text[..marked.start], &text[marked.start + shown.len()..]);
-    // As many columns on a side as the other leaves, a third of them at least.
+    // Each side gets the columns that the other leaves, but at least a third.
     let room = LINE - columns(shown);
     let [left, right] = [columns(tail(before, room)), columns(head(after, room))];
     let right = if cut { 0 } else { right.min((room / 3).max(room - left)) };
@@ -164,7 +163,7 @@ fn excerpt(text: &str, marked: Range<usize>) -> Excerpt {
     Excerpt { before, marked: shown.to_owned(), after }
 }
 
-/// The rest of a line, at most the given number of columns of it, `…` where it goes on.
+/// The rest of a line, at most the given number of columns, with `…` if it continues.
 fn begun(text: &str, most: usize) -> String {
     let shown = head(text, most);
     let more = !matches!(text[shown.len()..].bytes().next(), None | Some(b'\n'));
@@ -172,7 +171,7 @@ fn begun(text: &str, most: usize) -> String {
     format!("{}{dots}", shown.trim_end_matches('\r'))
 }
 
-/// What a line has before a place, at most the given number of columns of it, `…` where it begins earlier.
+/// The part of a line before a place, at most the given number of columns, with `…` if it begins earlier.
 fn ended(text: &str, most: usize) -> String {
     let shown = tail(text, most);
     let earlier = &text[..text.len() - shown.len()];
@@ -180,14 +179,14 @@ fn ended(text: &str, most: usize) -> String {
     format!("{dots}{shown}")
 }
 
-/// The beginning of a text, to the end of its line or to the given number of columns.
+/// The beginning of a text, up to the end of its line or the given number of columns.
 fn head(text: &str, most: usize) -> &str {
     let mut left = most;
     let end = text.char_indices().find(|(_, c)| *c == '\n' || !fits(*c, &mut left));
     end.map_or(text, |(end, _)| &text[..end])
 }
 
-/// The end of a text, from the beginning of its last line or from the given number of columns before.
+/// The end of a text, from the beginning of its last line or at most the given number of columns.
 fn tail(text: &str, most: usize) -> &str {
     let mut left = most;
     let end = text.char_indices().rev().find(|(_, c)| *c == '\n' || !fits(*c, &mut left));
@@ -205,7 +204,7 @@ fn columns(text: &str) -> usize {
     text.chars().map(width).sum()
 }
 
-/// Columns of a character in a terminal: a tab is shown as four, what may be wide counts as wide.
+/// Columns of a character in a terminal: a tab takes four, and a character that may be wide counts as wide.
 fn width(c: char) -> usize {
     match c {
         '\t' => 4,
@@ -243,7 +242,7 @@ mod tests {
         assert!(after.starts_with("0123") && after.ends_with("2…"), "{after}");
         let [before, marked, after] = parts(&format!("[{digits}]"), &digits);
         assert_eq!((&*before, size(&marked), &*after), ("[", 40, "…"));
-        // The beginning and the end of a line leave their room to the other side.
+        // At the beginning and the end of a line, the unused room goes to the other side.
         let [before, _, after] = parts(&format!("bad{digits}"), "bad");
         assert_eq!((size(&before), size(&after)), (0, 70));
         let [before, _, after] = parts(&format!("{digits}bad"), "bad");

@@ -1,4 +1,4 @@
-//! How it is written down what is changed about a bat after it was weighed.
+//! How are edits, the changes of a bat after it was weighed, written in a file?
 
 use crate::base::error::Result;
 use crate::base::mistakes::{self, Mistakes};
@@ -30,7 +30,7 @@ fn edit(node: &Node) -> Result<Edit> {
     mistakes.and(change.map(|change| Edit { name, change }))
 }
 
-/// A change by what it is called. Whether it fits the bat is for the bat to say.
+/// A change by its name. Whether it fits the bat is checked by the bat.
 fn change(verb: &str, node: &Node) -> Result<Change> {
     Ok(match verb {
         "cut" => Change::Cut(read_part(node, Cut::default())?),
@@ -51,12 +51,12 @@ fn change(verb: &str, node: &Node) -> Result<Change> {
     })
 }
 
-/// A part whose places are not checked yet: earlier edits may change the length of the bat.
+/// A part whose places are not yet checked: earlier edits may change the length of the bat.
 fn read_part<P: Part>(node: &Node, start: P) -> Result<P> {
     part_file::part(node, start, None)
 }
 
-/// What stands where a material will be read.
+/// A stand-in for a material that will be read.
 fn blank() -> Material {
     Material::new(1.0, 1.0).expect("both are above 0")
 }

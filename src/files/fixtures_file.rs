@@ -1,4 +1,4 @@
-//! How it is written down what a bat carries, what holds it and what was measured on it.
+//! How are fixtures, supports and measured values of a bat written in a file?
 
 use crate::base::error::Result;
 use crate::base::mistakes::{self, Mistakes};
@@ -10,7 +10,7 @@ use crate::bat::weighed::Weighed;
 use crate::files::json_node::Object;
 use crate::files::part_file;
 
-/// What a fixture is on: the bat's material, and its length (m) if that could be read.
+/// The bat under a fixture: its material, and its length (m) if that could be read.
 pub(crate) struct On<'a> {
     pub material: &'a Material,
     pub length: Option<f64>,
@@ -32,20 +32,21 @@ pub(crate) fn read(root: &Object, on: &On, mistakes: &mut Mistakes) -> Fixtures 
     }
 }
 
-/// What a scale and a tap said, as far as the file tells, of a bat of that length (m).
+/// The results of weighing and tapping in a file, for a bat of that length (m).
 pub(crate) fn weighed(root: &Object, length: Option<f64>) -> Result<Weighed> {
     let Some(node) = root.get("weighed") else { return Ok(Weighed::default()) };
     part_file::part(node, Weighed::default(), length)
 }
 
-/// Parts of one kind; what the file does not say of one is as in `start`.
+/// Parts of one kind; a member that the file omits is as in `start`.
 fn list<P: Part>(
     root: &Object,
     key: &str,
     start: impl Fn() -> P,
     length: Option<f64>,
 ) -> Result<Vec<P>> {
-    /// What these take grows faster than their number: a stretch knows every tape on it, and absorbers damp together.
+    /// Most parts of one kind: the work grows faster than their number, since a stretch knows every tape on it and
+    /// absorbers damp together.
     const MOST: usize = 400;
     const GROWING: [&str; 3] = ["regions", "tapes", "absorbers"];
     let Some(node) = root.get(key) else { return Ok(vec![]) };

@@ -1,8 +1,8 @@
 //! Which files may a file name, and how are they read?
 //!
-//! A file may come from a stranger. What it names lies in its own [`Folder`] or below; elsewhere only where a
-//! person has named the file itself, who is told then. No word is quoted of a file that does not begin as it
-//! should, since messages are logged and sent.
+//! A file may come from a stranger. The files that it names must be in its own [`Folder`] or below. They may be
+//! elsewhere only if a person has named the file itself; that person is then told. A file that does not begin as it
+//! should is not quoted, since messages are logged and sent.
 
 use std::cell::RefCell;
 use std::fs;
@@ -13,7 +13,7 @@ use crate::base::file::read_plain;
 use crate::files::document::Document;
 use crate::files::sheet;
 
-/// Files that were read outside of the folder of the file that names them.
+/// Files that were read from outside the folder of the file that names them.
 #[derive(Debug, Default)]
 pub struct Outside(RefCell<Vec<PathBuf>>);
 
@@ -31,31 +31,31 @@ impl Outside {
     }
 }
 
-/// The folder of a file, in which the files that it names are sought.
+/// The folder of a file, in which the files that it names are looked up.
 #[derive(Debug, Clone, Copy)]
 pub struct Folder<'a> {
     path: &'a Path,
-    /// Where to note a file outside of it; without such a place there must be none.
+    /// Record of files outside the folder; without it such files are refused.
     outside: Option<&'a Outside>,
 }
 
 impl<'a> Folder<'a> {
-    /// A folder that no name may lead out of.
+    /// A folder whose files must stay inside it.
     pub fn closed(path: &'a Path) -> Self {
         Self { path, outside: None }
     }
 
-    /// The folder of a file that a person has named: what it reads elsewhere is noted.
+    /// The folder of a file that a person has named; files read from elsewhere are recorded.
     pub fn of(file: &'a Path, outside: &'a Outside) -> Self {
         Self { path: file.parent().unwrap_or(Path::new("")), outside: Some(outside) }
     }
 
-    /// Where it is.
+    /// Path of the folder.
     pub fn path(&self) -> &Path {
         self.path
     }
 
-    /// A folder in this one, which names lead out of as they do out of this one.
+    /// A folder inside this one, with the same rule for files outside.
     pub fn below(self, path: &'a Path) -> Self {
         Self { path, ..self }
     }
@@ -90,13 +90,13 @@ impl<'a> Folder<'a> {
     ///
     /// # Errors
     ///
-    /// As [`Self::find`]; [`Error::Read`]; [`Error::Input`] without a word of a file that does not begin as such a
-    /// document does.
+    /// As [`Self::find`]; [`Error::Read`]; [`Error::Input`], without quoting a file that does not begin like such a
+    /// document.
     pub fn json(&self, name: &str, kind: &str) -> Result<Document> {
         json(&self.find(name)?, kind)
     }
 
-    /// A table of numbers in columns of those names.
+    /// A table of numbers with columns of those names.
     ///
     /// # Errors
     ///
@@ -106,7 +106,7 @@ impl<'a> Folder<'a> {
         let begins = |text: &str| sheet::begins_with_numbers(text, columns);
         match Document::named(&path, true)? {
             Ok(document) if begins(&document.text) => Ok(document),
-            // Letters that cannot be read, further down.
+            // Text that cannot be read occurs only further down.
             Err(error) if begins(&String::from_utf8_lossy(&read_plain(&path)?)) => Err(error),
             _ => {
                 let expected = "names of columns, such as x_in,diameter_in, and numbers below them";
@@ -122,7 +122,7 @@ impl<'a> Folder<'a> {
 ///
 /// Those of [`Folder::json`].
 pub fn json(path: &Path, kind: &str) -> Result<Document> {
-    // One of another kind is told by its format.
+    // A document of another kind is reported by its format.
     let begins = |text: &str| text.trim_start().starts_with('{') && text.contains("\"sweetspot-");
     match Document::named(path, false)? {
         Ok(document) if begins(&document.text) => Ok(document),
@@ -134,7 +134,7 @@ pub fn json(path: &Path, kind: &str) -> Result<Document> {
     }
 }
 
-/// An error about the beginning of a file, without a word of it.
+/// An error about the beginning of a file, without quoting it.
 fn something_else(path: &Path, than: &str, expected: &str) -> Error {
     let (file, excerpt) = (path.display().to_string(), Excerpt::default());
     let place = Box::new(FilePosition { file, line: 1, column: 1, excerpt });

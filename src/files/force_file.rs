@@ -1,6 +1,6 @@
-//! What force in time did somebody write down?
+//! How is a force in time written in a file?
 //!
-//! [`read`] a CSV file: straight lines between its rows, nothing before and after; for
+//! [`read`] reads a CSV file: straight lines between its rows, 0 before and after. For
 //! [`crate::motion::ringing::Ringing::pushed`].
 
 use std::path::Path;
@@ -12,7 +12,7 @@ use crate::files::csv_file::Csv;
 use crate::files::document::Document;
 use crate::motion::force::ForceHistory;
 
-/// Reads columns `t_…` and `force_…`, units in the header, times from 0 on.
+/// Reads columns `t_…` and `force_…` with units in the header; times begin at 0 or later.
 ///
 /// # Errors
 ///

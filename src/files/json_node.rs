@@ -17,10 +17,10 @@ use crate::base::units::{self, Quantity};
 use crate::files::broken_json;
 use crate::files::document::Document;
 
-/// The most members of an object that are looked at one by one: there are fewer keys by far.
+/// Most members of an object that are checked one by one; there are far fewer keys.
 const MOST_MEMBERS: usize = 1000;
 
-/// One JSON value and where it stands.
+/// One JSON value and its place.
 #[derive(Clone)]
 pub struct Node<'a> {
     document: &'a Document,
@@ -47,12 +47,12 @@ impl<'a> Node<'a> {
         }
     }
 
-    /// An error about this value, in the words given.
+    /// An error about this value, with the given words.
     pub fn error(&self, found: impl fmt::Display, expected: impl Into<String>) -> Error {
         self.complain(Complaint::new("", found, expected))
     }
 
-    /// An error about this value; the path is filled in where the complaint has none.
+    /// An error about this value; the path is filled in if the complaint has none.
     pub fn complain(&self, mut complaint: Complaint) -> Error {
         if complaint.field.is_empty() {
             complaint.field.clone_from(&self.path);
@@ -61,8 +61,7 @@ impl<'a> Node<'a> {
         self.document.error(offset..offset + self.raw.len(), complaint)
     }
 
-    /// An error about a part of this text, in bytes of it; about the whole where it is written in
-    /// another way in the file.
+    /// An error about a part of this text, in bytes; about the whole value if the file writes the text with escapes.
     pub fn complain_of(&self, part: Range<usize>, mut complaint: Complaint) -> Error {
         complaint.field.clone_from(&self.path);
         if self.raw.contains('\\') {
@@ -73,32 +72,31 @@ impl<'a> Node<'a> {
         self.document.error(start + part.start..start + part.end, complaint)
     }
 
-    /// Where it stands.
+    /// Position of the value.
     pub fn place(&self) -> Box<FilePosition> {
         let offset = self.offset();
         self.document.placed(offset..offset + self.raw.len())
     }
 
-    /// Where it begins in the text, in bytes.
+    /// Offset of the value in the text, in bytes.
     fn offset(&self) -> usize {
-        // Both are slices of the same text, so the difference of addresses is the offset.
+        // Both are slices of the same text, so the difference of the addresses is the offset.
         self.raw.as_ptr() as usize - self.document.text.as_ptr() as usize
     }
 
-    /// The key of this value, which is a member of an object, in its quotes.
+    /// The key of this value, a member of an object, in its quotes.
     pub fn key(&self) -> Self {
         let text = &self.document.text;
         let before = text[..self.offset()].trim_end().trim_end_matches(':').trim_end();
-        // A quote inside a key has a backslash before it; the one that opens it has none.
+        // A quote inside a key has a backslash before it; the opening quote has none.
         let inside = before.strip_suffix('"').unwrap_or(before);
         let opens = |(at, _): &(usize, &str)| !inside[..*at].ends_with('\\');
         let start = inside.rmatch_indices('"').find(opens).map_or(0, |(at, _)| at);
         Self { raw: &text[start..before.len()], ..self.clone() }
     }
 
-    /// An error about the value at the path in a complaint: a path from the root that begins with
-    /// that of this value. What was found is shown as it stands in the file too, where that has a
-    /// unit.
+    /// An error about the value at the path in a complaint; the path begins at the root and must begin with that of
+    /// this value. If the value has a unit in the file, it is quoted as written too.
     pub fn locate(&self, mut complaint: Complaint) -> Error {
         let inside = complaint.field.strip_prefix(&*self.path).unwrap_or(&complaint.field);
         let place = self.nearest(inside.strip_prefix('.').unwrap_or(inside));
@@ -108,8 +106,7 @@ impl<'a> Node<'a> {
         place.complain(complaint)
     }
 
-    /// The value at a path from here, such as `attachments[1].x`; where it is not there, the
-    /// nearest one around it.
+    /// The value at a path from here, such as `attachments[1].x`; if it does not exist, the nearest value around it.
     pub fn nearest(&self, path: &str) -> Self {
         let mut node = self.clone();
         for step in path.split(['.', '[']) {
@@ -123,7 +120,7 @@ impl<'a> Node<'a> {
         node
     }
 
-    /// The value itself, shortened, to be shown in a message.
+    /// The value itself, shortened, for a message.
     pub fn shown(&self) -> String {
         let kind = match self.raw.as_bytes().first() {
             Some(b'{') => return "an object".into(),
@@ -137,7 +134,7 @@ impl<'a> Node<'a> {
         self.error(self.shown(), expected)
     }
 
-    /// The members of an object, as [`Object::only`] leaves them.
+    /// The members of an object, checked by [`Object::only`].
     pub fn object(&self, known: &[&str], mistakes: &mut Mistakes) -> Result<Object<'a>> {
         Ok(self.members()?.only(known, mistakes))
     }
@@ -185,7 +182,7 @@ impl<'a> Node<'a> {
         })
     }
 
-    /// The value as it is, whatever it is.
+    /// The value as plain JSON.
     pub fn value(&self) -> Value {
         serde_json::from_str(self.raw).unwrap_or_default()
     }
@@ -200,7 +197,7 @@ impl<'a> Node<'a> {
 
     /// A whole number, however it is written: `1000` or `1e3`.
     pub fn whole(&self) -> Result<u64> {
-        /// Whole numbers up to there are what they are with a point or an exponent too.
+        /// Whole numbers up to this are exact with a point or an exponent too.
         const MOST: f64 = 9_007_199_254_740_992.0;
         if let Ok(value) = serde_json::from_str(self.raw) {
             return Ok(value);
@@ -216,7 +213,7 @@ impl<'a> Node<'a> {
         self.scaled(quantity, quantity.si())
     }
 
-    /// As [`Self::quantity`], bare numbers in that unit.
+    /// As [`Self::quantity`], with bare numbers in that unit.
     fn scaled(&self, quantity: Quantity, (unit, factor): (&str, f64)) -> Result<f64> {
         if let Ok(text) = serde_json::from_str::<String>(self.raw) {
             let value = units::parse_beside(&text, quantity, unit);
@@ -228,9 +225,9 @@ impl<'a> Node<'a> {
         }
     }
 
-    /// A list of quantities, bare numbers in the unit of that name and factor to SI.
+    /// A list of quantities, with bare numbers in the unit of that name and factor to SI.
     pub fn quantities(&self, quantity: Quantity, unit: (&str, f64)) -> Result<Vec<f64>> {
-        // The fast way for a million stations; anything unusual goes item by item.
+        // The fast way for a million stations; unusual lists are read item by item.
         if let Ok(values) = serde_json::from_str::<Vec<f64>>(self.raw)
             && values.iter().all(|v| (v * unit.1).is_finite())
         {
@@ -260,7 +257,7 @@ impl<'a> Node<'a> {
         )
     }
 
-    /// Whether it is a note to the reader: a text, or a list of texts.
+    /// Checks that a comment is a text, or a list of texts.
     fn check_comment(&self) -> Result<()> {
         let expected = "a text, or a list of texts";
         if self.raw.starts_with('[') {
@@ -275,14 +272,14 @@ impl<'a> Node<'a> {
 pub struct Object<'a> {
     pub node: Node<'a>,
     members: Vec<(String, Node<'a>)>,
-    /// Whether a key was told that is not known.
+    /// Whether an unknown key was reported.
     strayed: bool,
 }
 
 impl<'a> Object<'a> {
-    /// This object, with every mistake in its keys reported: those that are there twice, and those
-    /// that are neither `known` nor "comment". A key near a known one is taken for it where that is
-    /// missing, so that one slip is reported once.
+    /// This object after a report of every mistake in its keys: those that occur twice, and those that are neither
+    /// `known` nor "comment". If a key near an unknown one is missing, the value is taken for it, so that a slip is
+    /// reported once.
     pub fn only(mut self, known: &[&str], mistakes: &mut Mistakes) -> Self {
         let names: Vec<&str> = known.iter().copied().chain(["comment"]).collect();
         let mut seen: HashSet<String> = self.members.iter().map(|(key, _)| key.clone()).collect();
@@ -313,7 +310,7 @@ impl<'a> Object<'a> {
         self
     }
 
-    /// An error about every key that is there already.
+    /// An error for every key that occurs twice.
     fn check_once(&self) -> Result<()> {
         let mut seen = HashSet::new();
         let again = self.members.iter().map(|(key, node)| {
@@ -326,7 +323,7 @@ impl<'a> Object<'a> {
         mistakes::all(again).map(|_| ())
     }
 
-    /// An error if "format" names another one than `reads`; a file without it may have any.
+    /// An error if "format" names another format than `reads`; a file without it may have any.
     pub fn check_format(&self, reads: &str) -> Result<()> {
         let Some(node) = self.get("format") else { return Ok(()) };
         let Ok(found) = node.string() else { return Err(node.wrong(format!("\"{reads}\""))) };
@@ -362,13 +359,12 @@ impl<'a> Object<'a> {
         self.members.iter().find(|(name, _)| name == key).map(|(_, node)| node)
     }
 
-    /// A member that must be there; `expected` says what it would be.
+    /// A required member; `expected` describes it.
     pub fn require(&self, key: &str, expected: &str) -> Result<&Node<'a>> {
         self.get(key).ok_or_else(|| self.node.error(format!("no \"{key}\""), expected))
     }
 
-    /// An error unless one of these members at least is there, or a key was told that may have been
-    /// meant for one.
+    /// An error unless at least one of these members exists, or an unknown key was reported that may stand for one.
     pub fn require_some(&self, keys: &[&str]) -> Result<()> {
         if self.strayed || keys.iter().any(|key| self.get(key).is_some()) {
             return Ok(());
@@ -378,7 +374,7 @@ impl<'a> Object<'a> {
         Err(self.node.error(format!("none of {names}"), "one of them at least"))
     }
 
-    /// The one member of a set of alternatives that is there, if any; two are an error.
+    /// The one member of a set of alternatives that exists, if any; two are an error.
     pub fn one_of(&self, keys: &[&'static str]) -> Result<Option<(&'static str, &Node<'a>)>> {
         let mut found = None;
         for &key in keys {
@@ -399,7 +395,7 @@ impl<'a> Object<'a> {
     }
 }
 
-/// An object as its keys and raw values, duplicates kept for us to find.
+/// An object as its keys and raw values, with duplicates kept so that they can be reported.
 struct Entries<'a>(Vec<(String, &'a RawValue)>);
 
 impl<'de: 'a, 'a> Deserialize<'de> for Entries<'a> {
@@ -425,7 +421,7 @@ impl<'de: 'a, 'a> Deserialize<'de> for Entries<'a> {
     }
 }
 
-/// What a file of that format without its version is, if people write such files.
+/// What a file of that format is called, if people write such files.
 fn written_by_people(format: &str) -> Option<&'static str> {
     Some(match format.strip_prefix("sweetspot-")? {
         "bat" => "a bat",
@@ -443,12 +439,12 @@ fn written_by_people(format: &str) -> Option<&'static str> {
 mod tests {
     use super::*;
 
-    /// The object that a document is, whatever is wrong with its keys.
+    /// The object of a document, whatever is wrong with its keys.
     fn object<'a>(document: &'a Document, known: &[&str]) -> Object<'a> {
         Node::root(document).unwrap().object(known, &mut Mistakes::default()).unwrap()
     }
 
-    /// What is wrong with the keys of a text, one line each.
+    /// The mistakes in the keys of a text, one line each.
     fn told(text: &str, known: &[&str]) -> Vec<String> {
         let document = Document::new("f".into(), text);
         let mut mistakes = Mistakes::default();

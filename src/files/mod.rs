@@ -1,13 +1,13 @@
-//! How do people and programs write it down?
+//! How do people and programs write it in files?
 //!
-//! Every reader tells all mistakes of a file at once, each with line, column and field.
+//! Every reader reports all mistakes of a file at once, each with line, column and field.
 //!
 //! | file | question |
 //! |---|---|
 //! | `document`, `broken_json`, `json_node` | the text and its places; JSON that does not parse; a value with its place |
 //! | `sheet_number`, `sheet`, `csv_file` | a number in a table; its cells; columns of numbers |
 //! | [`folder`] | which other files may a file name |
-//! | `station_table`, `part_file`, `fixtures_file`, `edits_file`, [`bat_file`], [`built_in`] | a bat; which are built in |
+//! | `station_table`, `part_file`, `fixtures_file`, `edits_file`, [`bat_file`], [`built_in`] | a bat; which bats are built in |
 //! | [`ball_file`], [`balls`], [`scene_file`] | a ball; which ball is meant; how a bat is hit |
 //! | [`shape_file`], [`force_file`] | an initial shape; a force in time |
 

@@ -1,4 +1,4 @@
-//! How a material, and a part on the bat, is written down: read as its list of members says.
+//! How is a material or a fixture written in a file? Reading follows its list of members.
 
 use crate::base::error::{Error, Result};
 use crate::base::mistakes::{self, Mistakes};
@@ -8,18 +8,17 @@ use crate::bat::material::{BUILT_IN, Material, PoissonRatios, ShearModuli};
 use crate::bat::part::{Field, Instead, MemberKind, Part, Slot};
 use crate::files::json_node::{Node, Object};
 
-/// What a support may be called.
+/// The names of the kinds of supports.
 const HELD: [(&str, Held); 2] = [("pinned", Held::Pinned), ("clamped", Held::Clamped)];
 
-/// A number that stands in for one the file does not give, or the words for what is expected.
+/// A stand-in for a number that the file omits, or the expected text.
 pub(crate) type Without<'a> = std::result::Result<f64, &'a str>;
 
-/// A part on a bat of that length (m), if that is known; what the file does not say is as in `start`.
+/// A part on a bat of that length (m), if that is known; a member that the file omits is as in `start`.
 ///
 /// # Errors
 ///
-/// What is wrong with its keys and its values; only where all values could be read also what is wrong
-/// with the part as a whole.
+/// The mistakes in its keys and its values; if all values could be read, also the mistakes of the part as a whole.
 pub(crate) fn part<P: Part>(node: &Node, start: P, length: Option<f64>) -> Result<P> {
     let (mut keys, mut values) = (Mistakes::default(), Mistakes::default());
     let object = node.object(&known::<P>(), &mut keys)?;
@@ -34,8 +33,7 @@ pub(crate) fn part<P: Part>(node: &Node, start: P, length: Option<f64>) -> Resul
     keys.and(part)
 }
 
-/// A material by name, by numbers, or by name with other numbers; and what it is without a density or
-/// without a modulus.
+/// A material by name, by numbers, or by name with other numbers; `density` and `modulus` apply if the file omits them.
 pub(crate) fn material(node: &Node, density: Without, modulus: Without) -> Result<Material> {
     if !node.is_object() {
         return named(node);
@@ -47,7 +45,7 @@ pub(crate) fn material(node: &Node, density: Without, modulus: Without) -> Resul
         Some(name) => values.some(named(name)),
         None => {
             values.note(needed(&object, "density", density));
-            // A shear modulus would grow with one that is only a beginning.
+            // A shear modulus would scale with a modulus that is only a start value.
             let modulus = match object.get("shear_modulus") {
                 Some(_) => Err("\"youngs_modulus\" beside \"shear_modulus\", such as \"18.1 GPa\""),
                 None => modulus,
@@ -56,24 +54,24 @@ pub(crate) fn material(node: &Node, density: Without, modulus: Without) -> Resul
             None
         }
     };
-    // What was not read must not be found wrong besides.
+    // A value that could not be read must not be reported a second time.
     let blank = || Material::new(density.unwrap_or(1.0), modulus.unwrap_or(1.0));
     let start = start.unwrap_or_else(|| blank().expect("both are above 0"));
     let material = filled(&object, start, None, &mut values);
-    // What could not be read is still as it was in the beginning, and that is possible.
+    // A value that could not be read still has its start value, which is possible.
     let material = checked(node, material, 0.0);
     keys.and(values.and(material).map(|mut material| {
         let (e, nu) = (material.youngs_modulus, material.poisson_ratio);
         let made = nu.map(|nu| e / (2.0 * (1.0 + nu)));
         material.shear_modulus = material.shear_modulus.or(made);
-        // With numbers of its own it is no longer the one of that name.
+        // With other numbers it is no longer the built-in material of that name.
         let changed = Material::FIELDS.iter().any(|field| object.get(field.key).is_some());
         material.name = material.name.filter(|_| !changed);
         material
     }))
 }
 
-/// A material for which nothing that was measured stands in.
+/// A material whose numbers may not be replaced by measured values.
 pub fn whole_material(node: &Node) -> Result<Material> {
     let density = Err("\"density\", such as \"0.6 g/cm^3\"");
     let modulus = Err("\"youngs_modulus\", such as \"18.1 GPa\"");
@@ -94,13 +92,13 @@ fn needed(object: &Object, key: &str, without: Without) -> Result<()> {
     }
 }
 
-/// The keys that a part may have.
+/// The keys of a part.
 fn known<P: Part>() -> Vec<&'static str> {
     let fields = P::FIELDS.iter().map(|field| field.key);
     fields.chain(P::INSTEAD.map(|instead| instead.key)).collect()
 }
 
-/// The part with every member that is there.
+/// The part with every member that the file has.
 fn filled<P: Part>(
     object: &Object,
     mut part: P,
@@ -119,13 +117,13 @@ fn filled<P: Part>(
     part
 }
 
-/// The part, if it can be on a bat of that length (m).
+/// The part, if it is possible on a bat of that length (m).
 fn checked<P: Part>(node: &Node, part: P, length: f64) -> Result<P> {
     let placed = |error: Error| error.placed(|complaint| node.locate(complaint));
     part.check(&node.path, length).map_err(placed).map(|()| part)
 }
 
-/// Reads one member, if it is there.
+/// Reads one member, if the file has it.
 fn member<P>(object: &Object, field: &Field<P>, length: Option<f64>, part: &mut P) -> Result<()> {
     let node = match (object.get(field.key), field.needed) {
         (Some(node), _) => node,
@@ -162,7 +160,7 @@ fn member<P>(object: &Object, field: &Field<P>, length: Option<f64>, part: &mut 
     Ok(())
 }
 
-/// A number; the tip in other digits than the profile's is the tip.
+/// A number; a place that equals the tip to round-off is the tip.
 fn number<P>(node: &Node, field: &Field<P>, length: Option<f64>) -> Result<f64> {
     let MemberKind::Number(Some(quantity), _) = field.kind else { return node.number() };
     let value = node.quantity(quantity)?;
@@ -170,7 +168,7 @@ fn number<P>(node: &Node, field: &Field<P>, length: Option<f64>) -> Result<f64> 
     Ok(length.filter(near).unwrap_or(value))
 }
 
-/// Sets the number that is given by something else, if it is.
+/// Sets the number from its replacement, if the file has that.
 fn replaced<P>(object: &Object, instead: &Instead<P>, part: &mut P) -> Result<()> {
     let Instead { key, of, quantity, .. } = *instead;
     match object.one_of(&[of, key])? {

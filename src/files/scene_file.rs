@@ -1,4 +1,4 @@
-//! How is it written down how a bat is hit?
+//! How is a hit's setup written in a file?
 
 use serde_json::{Map, Value};
 
@@ -13,17 +13,17 @@ use crate::files::ball_file::e0;
 use crate::files::document::Document;
 use crate::files::json_node::Node;
 
-/// Members that say something only beside another one.
+/// Members that require another one.
 const BESIDE: [(&str, &str); 4] = [
     ("bat_speed_at", "bat_speed"),
     ("wall_mass", "wall_stiffness"),
     ("swing_exponent", "reference_inertia"),
     ("reference_inertia", "swing_exponent"),
 ];
-/// Members that say the same in two ways.
+/// Members that exclude each other because they say the same.
 const APART: [[&str; 2]; 2] = [["swing_speed", "bat_speed"], ["reference_inertia", "bat_speed"]];
 
-/// The setup whose members stand in an object, with that ball; members that are not there are those of
+/// The setup from the members of an object, with that ball; members that the object omits are those of
 /// [`Setup::default`].
 ///
 /// # Errors
@@ -86,7 +86,7 @@ pub fn read(node: &Node, ball: Ball) -> Result<Setup> {
     mistakes.end(setup)
 }
 
-/// The setup with these members, which no file has.
+/// The setup with these members, which come from no file.
 ///
 /// # Errors
 ///
@@ -95,7 +95,7 @@ pub fn of(members: &Map<String, Value>, ball: Ball) -> Result<Setup> {
     from_text(&Value::Object(members.clone()).to_string(), ball)
 }
 
-/// The setup with the members of an object.
+/// The setup with the members of an object in a text.
 ///
 /// # Errors
 ///

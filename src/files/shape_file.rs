@@ -1,6 +1,6 @@
-//! What initial shape did somebody write down?
+//! How is an initial shape written in a file?
 //!
-//! [`read`] a CSV file of deflections along the bat, straight lines between, for
+//! [`read`] reads a CSV file of deflections along the bat, with straight lines between its rows. For
 //! [`crate::motion::ringing::Ringing::release`].
 
 use std::path::Path;
@@ -12,7 +12,7 @@ use crate::files::csv_file::Csv;
 use crate::files::document::Document;
 use crate::motion::shape::InitialShape;
 
-/// Reads columns `x_…` and `w_…` (units in the header) that span a bat of that length (m).
+/// Reads columns `x_…` and `w_…` (units in the header) that cover a bat of that length (m).
 ///
 /// # Errors
 ///

@@ -1,9 +1,9 @@
 //! The cells of a table as programs and spreadsheets write it, each with its place.
 //!
-//! Commas, semicolons, tabs or blanks between the cells (the first line may say which, as in `sep=;`),
-//! quotes around them, decimal points or commas, fractions of an inch rule, cells and rows left empty at
-//! the end. Lines that begin with `#` are comments, and so are those above the header. Names of columns in
-//! any capitals, their units after `_` or in brackets: `Frequency (Hz)` is `frequency_hz`.
+//! Cells are separated by commas, semicolons, tabs or blanks (the first line may say which, as in `sep=;`). They may be
+//! quoted. Numbers may have decimal points or commas, or fractions of an inch rule. Empty cells and rows at the end are
+//! ignored. Lines that begin with `#` are comments, and so are those above the header. Names of columns may have any
+//! capitals, and their units follow after `_` or in brackets: `Frequency (Hz)` is `frequency_hz`.
 
 use std::ops::Range;
 
@@ -31,8 +31,8 @@ pub struct SheetRow<'a> {
 }
 
 impl<'a> Sheet<'a> {
-    /// Splits the text into cells; `names` says what a header may be, and `known` whether a row of
-    /// [`normal`] names is one.
+    /// Splits the text into cells. `names` checks whether a row may be a header, `known` whether a row of [`normal`]
+    /// names is one.
     pub fn new(
         document: &'a Document,
         names: &str,
@@ -77,8 +77,7 @@ impl<'a> Sheet<'a> {
         Ok(sheet)
     }
 
-    /// The decimal sign of the table: that of its numbers that can be read in one way, or else the one that
-    /// goes with the separator.
+    /// The decimal sign of the table: that of its unambiguous numbers, or else the one that fits the separator.
     fn settled(&self, separator: Separator) -> Result<Decimal> {
         let mut first: Option<(Decimal, &str)> = None;
         for cell in self.rows.iter().flat_map(|row| &row.cells) {
@@ -99,13 +98,13 @@ impl<'a> Sheet<'a> {
         Ok(first.map_or(usual, |(sign, _)| sign))
     }
 
-    /// Where a part of the text stands, in bytes.
+    /// Position of a part of the text, in bytes.
     pub fn place(&self, part: &str) -> Range<usize> {
         let start = part.as_ptr() as usize - self.document.text.as_ptr() as usize;
         start..start + part.len()
     }
 
-    /// Where the header stands.
+    /// Position of the header.
     pub fn header_line(&self) -> Range<usize> {
         line(&self.document.text, self.header.start)
     }
@@ -125,7 +124,7 @@ impl<'a> Sheet<'a> {
     }
 }
 
-/// Cell by cell, for tables whose rows mean different things: those of measured modes.
+/// Cell by cell, for tables with rows of different kinds, such as measured modes.
 impl Sheet<'_> {
     /// An error about a cell.
     pub fn wrong(
@@ -138,7 +137,7 @@ impl Sheet<'_> {
         self.error(at, Complaint::new(field, found, expected))
     }
 
-    /// An error about a cell with its own words in quotes.
+    /// An error about a cell that quotes its text.
     pub fn strange(
         &self,
         (row, cell): (&SheetRow, usize),
@@ -166,7 +165,7 @@ impl Sheet<'_> {
         }
     }
 
-    /// The factor to SI of a name such as `x_in`, its beginning being `stem`.
+    /// The factor to SI of a column name such as `x_in`, which begins with `stem`.
     pub fn factor(&self, at: (&SheetRow, usize), stem: &str, quantity: Quantity) -> Result<f64> {
         let name = normal(at.0.cells[at.1]);
         let Some(unit) = name.strip_prefix(stem).and_then(|rest| rest.strip_prefix('_')) else {
@@ -178,7 +177,7 @@ impl Sheet<'_> {
     }
 }
 
-/// The factor to SI of a unit in small letters, as names of columns have them.
+/// The factor to SI of a unit in lower case, as in names of columns.
 ///
 /// # Errors
 ///
@@ -196,7 +195,7 @@ pub(crate) fn factor(unit: &str, quantity: Quantity) -> std::result::Result<f64,
     units::factor(unit, quantity)
 }
 
-/// A column's name in small letters, its unit after `_`: `Inner Diameter [mm]` is `inner_diameter_mm`.
+/// A column's name in lower case with its unit after `_`: `Inner Diameter [mm]` is `inner_diameter_mm`.
 pub fn normal(name: &str) -> String {
     let small = name.trim().to_lowercase();
     let bracket = small.ends_with([')', ']', '}']).then(|| small.rfind(['(', '[', '{'])).flatten();
@@ -224,11 +223,11 @@ pub fn normal(name: &str) -> String {
     }
 }
 
-/// Whether a text begins as a table of numbers with columns of those names does: they stand in its first line, in
-/// half of the cells at least, or further down with numbers below them, or its first line has other names with
-/// numbers alone below them. A text without a line begins as any.
+/// Whether a text begins like a table of numbers with columns of those names. Its first line has them in at least half
+/// of its cells, or a later line has them with numbers below, or the first line has other names with only numbers
+/// below. A text without lines begins like any table.
 pub(crate) fn begins_with_numbers(text: &str, keys: &[&str]) -> bool {
-    /// Lines that are looked at, and cells of a line.
+    /// Most lines, and most cells of a line, that are checked.
     const LOOKED_AT: usize = 1000;
     let is_empty = |line: &&str| line.trim().is_empty() || line.starts_with('#');
     let is_sign = |c: char| c.is_whitespace() || [',', ';', '|', '"'].contains(&c);
@@ -257,17 +256,17 @@ pub(crate) fn begins_with_numbers(text: &str, keys: &[&str]) -> bool {
         })
 }
 
-/// What stands between the cells of a table.
+/// The separator of the cells of a table.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Separator {
     /// This sign, one between two cells.
     Sign(u8),
-    /// So many blanks at least.
+    /// At least this many blanks.
     Blanks(usize),
 }
 
 impl Separator {
-    /// The cells of the row at `at`, and where the next one begins; or where a quote is without its end.
+    /// The cells of the row at `at` and the start of the next row; the error is the place of a quote without an end.
     fn record(self, text: &str, at: usize) -> std::result::Result<(Vec<&str>, usize), usize> {
         match self {
             Self::Sign(sign) => record(text, at, sign),
@@ -279,13 +278,13 @@ impl Separator {
     }
 }
 
-/// Where the header begins, what stands between the cells, and whether the header is known as one. It is the first
-/// line that is: programs write what was measured and when above it. Without one it is the first line.
+/// Start of the header, the separator, and whether the header is known. It is the first known line, since programs
+/// write what was measured and when above it; otherwise it is the first line.
 fn beginning(
     document: &Document,
     known: impl Fn(&[String]) -> bool,
 ) -> Result<(usize, Separator, bool)> {
-    /// Lines that may stand above a header.
+    /// Most lines above a header.
     const ABOVE: usize = 1000;
     let text = &document.text[..];
     let blank = |line: &str| line.trim_matches([' ', '\t', '\r', '\n']).is_empty();
@@ -303,7 +302,7 @@ fn beginning(
     let Some(&first) = lines.first() else { return Ok((at, Separator::Sign(b','), false)) };
     let told = self::line(text, first);
     let told = text[told].trim_matches([' ', '"']);
-    // Spreadsheets say so in the first line.
+    // Spreadsheets may name the separator in the first line.
     if told.get(..4).is_some_and(|begins| begins.eq_ignore_ascii_case("sep=")) {
         let sign = told.as_bytes().get(4).copied();
         let Some(sign) = sign.filter(|sign| [b',', b';', b'\t', b'|'].contains(sign)) else {
@@ -316,7 +315,7 @@ fn beginning(
     let header = |at: usize, separator: Separator| {
         let cells = separator.record(text, at).map(|(cells, _)| cells).unwrap_or_default();
         let names: Vec<String> = cells.iter().map(|cell| normal(cell)).collect();
-        // A row of numbers may begin as a header does: "frequency_hz, 178.2, 583".
+        // A row of numbers may begin like a header: "frequency_hz, 178.2, 583".
         let number = |cell: &&str| sheet_number::value(cell, Decimal::Point).is_ok();
         (known(&names) && !cells.iter().any(number)).then_some(cells.len())
     };
@@ -326,7 +325,7 @@ fn beginning(
         if signs.is_some_and(|count| count > 1) {
             return Ok((at, sign, true));
         }
-        // A header in blanks has rows in blanks below it.
+        // If blanks separate the header, they also separate the rows below it.
         for least in [2, 1] {
             let blanks = Separator::Blanks(least);
             let below = lines.get(k + 1).and_then(|below| blanks.record(text, *below).ok());
@@ -342,7 +341,7 @@ fn beginning(
     Ok((first, Separator::Sign(between(text, first)), false))
 }
 
-/// The rows from a place on, without comments and empty ones.
+/// The rows from a place on, without comments and empty rows.
 fn records(document: &Document, mut at: usize, separator: Separator) -> Result<Vec<SheetRow<'_>>> {
     let text = &document.text[..];
     let mut rows = vec![];
@@ -359,7 +358,7 @@ fn records(document: &Document, mut at: usize, separator: Separator) -> Result<V
             document.error(quote..quote + 1, complaint.hinted("a closing quote is missing"))
         })?;
         let cells: Vec<&str> = cells.into_iter().map(marks::of_cell).collect();
-        // Spreadsheets leave lines that hold only separators.
+        // Spreadsheets leave lines with only separators.
         if cells.iter().any(|cell| !cell.is_empty()) {
             rows.push(SheetRow { start, cells });
         }
@@ -367,7 +366,8 @@ fn records(document: &Document, mut at: usize, separator: Separator) -> Result<V
     Ok(rows)
 }
 
-/// The cells of a line with the given number of blanks at least between them; brackets belong to the name before them.
+/// The cells of a line that are separated by at least the given number of blanks; brackets belong to the name before
+/// them.
 fn in_blanks(line: &str, least: usize) -> Vec<&str> {
     let blank = |c: char| c.is_whitespace();
     let line = line.trim_matches(blank);
@@ -397,13 +397,13 @@ fn in_blanks(line: &str, least: usize) -> Vec<&str> {
     cells.into_iter().map(|cell| cell.trim_matches('"')).collect()
 }
 
-/// What stands between the names of a header: semicolons or tabs if there are any, or else commas.
-/// Those in quotes or brackets are part of a name.
+/// The separator of the names of a header: semicolons or tabs if there are any, otherwise commas. Those in quotes or
+/// brackets are part of a name.
 fn between(text: &str, at: usize) -> u8 {
     let (mut quoted, mut fresh, mut depth, mut best) = (false, true, 0, b',');
     for byte in text[at..].bytes() {
         match byte {
-            // Inside of a name a quote is the mark of inches.
+            // Inside a name, a quote stands for inches.
             b'"' if quoted || fresh => quoted = !quoted,
             b'(' | b'[' if !quoted => depth += 1,
             b')' | b']' if !quoted => depth -= 1,
@@ -417,7 +417,7 @@ fn between(text: &str, at: usize) -> u8 {
     best
 }
 
-/// The cells of the row at `at`, and where the next one begins; or where a quote is without its end.
+/// The cells of the row at `at` and the start of the next row; the error is the place of a quote without an end.
 fn record(
     text: &str,
     mut at: usize,
@@ -460,7 +460,7 @@ fn record(
     }
 }
 
-/// The line that begins at `offset`, without its end.
+/// The line that begins at `offset`, without its line end.
 fn line(text: &str, offset: usize) -> Range<usize> {
     let line = text[offset..].lines().next().unwrap_or_default();
     offset..offset + line.trim_end().len()

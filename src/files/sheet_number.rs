@@ -1,9 +1,9 @@
-//! Which number stands in a cell of a table, and which decimal sign does it show?
+//! Which number is in a cell of a table, and which decimal sign does it use?
 
 use crate::base::error::Complaint;
 use crate::base::typed;
 
-/// The sign before the decimals.
+/// The decimal sign.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Decimal {
     Point,
@@ -20,8 +20,7 @@ impl Decimal {
     }
 }
 
-/// The decimal sign of a number that can be read in one way; None of whole numbers, of `1,234` and `1.234`,
-/// and of what is not a number.
+/// The decimal sign of an unambiguous number; `None` for whole numbers, for `1,234` and `1.234`, and for text.
 pub(crate) fn certain(cell: &str) -> Option<Decimal> {
     let can = |sign: Decimal| decimal(cell, sign).is_some();
     if !cell.contains(['.', ',']) {
@@ -43,7 +42,7 @@ pub(crate) fn value(cell: &str, sign: Decimal) -> Result<f64, Complaint> {
     let (read, other) = (decimal(cell, sign), decimal(cell, sign.other()));
     let found = format!("\"{cell}\"");
     match (read, other) {
-        // A lone sign of the other kind before three digits is between thousands, or a slip of the hand.
+        // A single sign of the other kind before three digits separates thousands, or is a slip.
         (Some(whole), Some(small)) if cell.contains(sign.other().sign()) && whole != small => {
             let wrong = Complaint::new("", found, "a number that can be read in one way");
             Err(wrong.hinted(format!("it may be {small} or {whole}: write it as it is meant")))
@@ -58,7 +57,7 @@ pub(crate) fn value(cell: &str, sign: Decimal) -> Result<f64, Complaint> {
     }
 }
 
-/// A number with that decimal sign, its thousands apart by the other one, a space or an apostrophe.
+/// A number with that decimal sign; the other one, a space or an apostrophe may separate thousands.
 fn decimal(cell: &str, sign: Decimal) -> Option<f64> {
     let text = cell.replace(['−', '–'], "-");
     let end = text.find(['e', 'E']).unwrap_or(text.len());
@@ -95,7 +94,7 @@ fn fraction(cell: &str) -> Option<f64> {
     if rule && typed { typed::mixed(&text) } else { None }
 }
 
-/// Whether a cell is a date, as spreadsheets make them of fractions.
+/// Whether a cell is a date, into which spreadsheets turn fractions.
 fn like_a_date(cell: &str) -> bool {
     const MONTHS: [&str; 15] = [
         "jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec", "mai",

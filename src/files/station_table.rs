@@ -1,5 +1,4 @@
-//! Columns of stations as a user wrote them, in a bat file or a CSV file, each value with its
-//! place.
+//! Columns of stations as a user wrote them, in a bat file or a CSV file, each value with its place.
 
 use crate::base::error::{Complaint, Error, Result};
 use crate::base::mistakes::{self, Mistakes};
@@ -10,7 +9,7 @@ use crate::files::csv_file::Csv;
 use crate::files::document::Document;
 use crate::files::json_node::{Node, Object};
 
-/// The columns that a profile may have.
+/// The possible columns of a profile.
 pub(crate) const COLUMNS: [&str; 6] =
     ["x", "radius", "diameter", "inner_radius", "inner_diameter", "wall_thickness"];
 const OUTER: [&str; 2] = [COLUMNS[1], COLUMNS[2]];
@@ -22,7 +21,7 @@ struct Column {
     values: Vec<f64>,
 }
 
-/// The columns of a profile and where each value stands.
+/// The columns of a profile and the place of each value.
 pub(crate) struct StationTable<'a> {
     x: Column,
     outer: Column,
@@ -30,14 +29,14 @@ pub(crate) struct StationTable<'a> {
     places: Places<'a>,
 }
 
-/// Where the values stand: members of a JSON object, or cells of a CSV file.
+/// The places of the values: members of a JSON object, or cells of a CSV file.
 enum Places<'a> {
     Json(Object<'a>),
     Csv { document: Document, csv: Csv },
 }
 
 impl<'a> StationTable<'a> {
-    /// The columns of a `profile` object; bare numbers are in the unit of that name and factor to m.
+    /// The columns of a `profile` object; bare numbers are in the unit with that name and factor to m.
     pub fn from_json(object: Object<'a>, unit: (&str, f64)) -> Result<Self> {
         let column = |key: &'static str, node: &Node| -> Result<Column> {
             Ok(Column { key, values: node.quantities(Quantity::Length, unit)? })
@@ -70,8 +69,8 @@ impl<'a> StationTable<'a> {
         Ok(Self { x, outer, inner, places: Places::Json(object) })
     }
 
-    /// The columns of a CSV file, named and given their units by its header (`x_in,diameter_in`);
-    /// a name without a unit is times `unit` (m). Lines that begin with `#` are comments.
+    /// The columns of a CSV file. Its header gives their names and units (`x_in,diameter_in`); a column without a unit
+    /// is multiplied by `unit` (m). Lines that begin with `#` are comments.
     pub fn from_csv(document: Document, unit: f64) -> Result<StationTable<'static>> {
         let csv = Csv::read(&document, &COLUMNS, Quantity::Length, unit)?;
         let header = |found: String, expected: &str| {
@@ -104,7 +103,7 @@ impl<'a> StationTable<'a> {
         all.map(|column| (column.key, &column.values[..]))
     }
 
-    /// Radii from whatever columns there are.
+    /// Radii from the columns that the table has.
     pub fn stations(&self, interpolation: Interpolation) -> Result<Stations> {
         let half = |column: &Column, key: &str| -> Vec<f64> {
             let scale = if column.key == key { 0.5 } else { 1.0 };
@@ -119,7 +118,7 @@ impl<'a> StationTable<'a> {
         Ok(Stations { x: self.x.values.clone(), outer, inner, interpolation })
     }
 
-    /// Outer radius less the wall; a wall as thick as the radius is solid.
+    /// Outer radius less the wall; if the wall equals the radius, the bat is solid.
     fn bore(&self, outer: &[f64], wall: &[f64]) -> Result<Vec<f64>> {
         let bore = |(k, (r, t)): (usize, (&f64, &f64))| {
             let inner = r - t;
@@ -143,20 +142,20 @@ impl<'a> StationTable<'a> {
         ["in", "inch", "inches", "ft", "foot", "feet"].contains(&unit)
     }
 
-    /// Gives an error about stations its places in the file.
+    /// Adds to an error about stations its places in the file.
     pub fn locate(&self, error: Error) -> Error {
         error.placed(|complaint| self.placed(complaint))
     }
 
-    /// A complaint about station `k` of `x`, `outer` or `inner` with its place in the file, and the
-    /// file's own names, values and units.
+    /// A complaint about station `k` of `x`, `outer` or `inner` with its place in the file, and with the file's own
+    /// names, values and units.
     fn placed(&self, mut complaint: Complaint) -> Error {
         let (role, index) = complaint.field.split_once('[').unwrap_or((&complaint.field, ""));
         let index: Option<usize> = index.trim_end_matches(']').parse().ok();
         let column = self.column(role);
         let written = index.map(|k| self.written(column.key, k));
         if let Some(written) = written {
-            // A value is shown as it was written; anything else is told about that value.
+            // A value is quoted as written; anything else is reported about that value.
             let value =
                 complaint.found.strip_suffix(" m").is_some_and(|v| v.parse::<f64>().is_ok());
             complaint.found = if value {
@@ -188,7 +187,7 @@ impl<'a> StationTable<'a> {
         }
     }
 
-    /// What stands in the file for station `k`, with its unit.
+    /// The text in the file for station `k`, with its unit.
     fn written(&self, key: &str, k: usize) -> String {
         match &self.places {
             Places::Json(object) => {
@@ -204,8 +203,8 @@ impl<'a> StationTable<'a> {
         }
     }
 
-    /// The words of `Profile::new` about `x[k]`, `outer[k]`, `inner[k]`, with the names and values
-    /// of the file: `half of diameter[2] (2.5 in)` where a radius is compared with it.
+    /// The words of `Profile::new` about `x[k]`, `outer[k]`, `inner[k]`, with the names and values of the file:
+    /// `half of diameter[2] (2.5 in)` where a radius is compared with it.
     fn told(&self, said: &str, of: &Column) -> String {
         let (mut told, mut rest) = (String::new(), said);
         let next = |rest: &str| {

@@ -1,55 +1,54 @@
-//! Which nodes of a mode are certain, and where can none be told?
+//! Which nodes of a mode are certain, and where can nodes not be determined?
 //!
-//! A deflection w of which every place is known within e(x) has a certain sign where `|w| > 3 e`. Between two
-//! places of different certain sign is a node, and one of the slope w′ is known within `e/|w′|`. On a stretch
-//! where `|w| ≤ 3 e` the computed zeros are not nodes: between equal signs, and up to an end of the bat, there
-//! may be none; between different ones there is one, anywhere in the stretch.
+//! Let the deflection w be known to within e(x). Its sign is certain where `|w| > 3 e`. Between two places of different
+//! certain sign lies a node, known to within `e/|w′|` if the slope there is w′. On a stretch with `|w| ≤ 3 e` the
+//! computed zeros are not nodes: between equal signs, and up to an end of the bat, there may be none; between different
+//! signs there is one somewhere in the stretch.
 //!
-//! Parts of e: the change that the motion's own inertia makes ([`crate::beam::changes`]), the shares that other
-//! modes may have ([`crate::modes::certificate`]), and round-off, which is a share of the largest deflection
-//! however small w is: between stiff springs, or in a thick part that a thin one lets stand still.
+//! The error e has three parts: the change due to the motion's own inertia ([`crate::beam::changes`]), the possible
+//! shares of other modes ([`crate::modes::certificate`]), and round-off. Round-off is a share of the largest deflection
+//! even where w is small, as between stiff springs, or in a thick part that a thin part leaves at rest.
 
 use crate::modes::shape::Shape;
 
-/// A sign is certain where the deflection is this many times its error: beyond that many stated errors a number
-/// is false.
+/// A sign is certain if the deflection is this many times its error: a number is wrong only if it is off by more than
+/// this many stated errors.
 const CERTAIN: f64 = 3.0;
 /// A node is not sought within this share of the bat's length of a clamp.
 pub const BESIDE_CLAMP: f64 = 1e-4;
-/// A part between clamps that moves less than this share of another is at rest but for what the iteration
-/// left.
+/// A part between clamps that moves less than this share of another is at rest; its motion is the iteration's error.
 pub const RESTING: f64 = 1e-3;
 
-/// What may be off in a mode's deflection, place by place, for a largest deflection of 1.
+/// The possible error of a mode's deflection at each place, for a largest deflection of 1.
 #[derive(Debug, Clone, Default)]
 pub struct Doubt {
     /// Place (m), deflection and its change: the knob end, the points of all elements, the tip.
     pub places: Vec<[f64; 3]>,
-    /// Places (m) where the deflection comes nearest to zero without crossing it, and the deflection there.
+    /// Places (m) where the deflection has a minimum of its size without crossing zero, and the deflection there.
     pub dips: Vec<[f64; 2]>,
-    /// A deflection of at most this is 0.
+    /// A deflection up to this counts as 0.
     pub rest: f64,
-    /// Where the bat is clamped and where it is pinned (m).
+    /// Places where the bat is clamped and where it is pinned (m).
     pub held: [Vec<f64>; 2],
     /// The greatest `1/|w′|` of the nodes (m).
     pub flattest: f64,
     /// Round-off of the deflection.
     pub rounding: f64,
-    /// What cancels of the kinetic energy of weights off their place, over all that is left.
+    /// Kinetic energy of weights off their place that cancels, over the kinetic energy that remains.
     pub cancelled: f64,
 }
 
-/// Shares that other motions may have in a mode.
+/// Possible shares of other modes in a mode.
 #[derive(Clone, Copy, Default)]
 pub struct Shares<'a> {
-    /// Number of the motion and its share.
+    /// Index of the other mode and its share.
     pub of: &'a [(usize, f64)],
-    /// The motions that are known; one with another number moves nowhere more than all of these.
+    /// The known modes; a mode with another index is taken to move at each place as far as the largest of these.
     pub motions: &'a [Doubt],
 }
 
 impl Shares<'_> {
-    /// How much of the deflection at a place they may be.
+    /// Their largest contribution to the deflection at a place.
     fn at(&self, place: usize) -> f64 {
         let moves = |motion: &Doubt| motion.places[place][1].abs();
         let mixed = |(number, share): &(usize, f64)| match self.motions.get(*number) {
@@ -60,19 +59,19 @@ impl Shares<'_> {
     }
 }
 
-/// Nodes (m) that are there, an error that holds for those in doubtful stretches, and the stretches where nodes
-/// cannot be told.
+/// Nodes (m) that certainly exist, an error that covers the nodes in doubtful stretches, and the stretches where nodes
+/// cannot be determined.
 #[derive(Debug, Default, PartialEq)]
 pub struct CertainNodes {
     /// Certain nodes (m).
     pub nodes: Vec<f64>,
-    /// Error (m) of the worst of those whose slope does not tell it; 0 if all do.
+    /// Error (m) of the worst node whose error does not follow from its slope; 0 if all do.
     pub error: f64,
-    /// From where to where (m) nodes cannot be told.
+    /// Beginning and end (m) of the stretches where nodes cannot be determined.
     pub untold: Vec<[f64; 2]>,
 }
 
-/// A place of a certain sign, or the end of a part.
+/// A place of certain sign, or the end of a part.
 #[derive(Clone, Copy)]
 struct Side {
     number: Option<usize>,
@@ -80,7 +79,7 @@ struct Side {
     sign: f64,
 }
 
-/// One part of a bat between clamps or ends, on the way along it.
+/// One part of a bat between clamps or ends, as it is scanned.
 struct SpanWalk<'a> {
     doubt: &'a Doubt,
     shape: &'a Shape,
@@ -90,7 +89,7 @@ struct SpanWalk<'a> {
 }
 
 impl Doubt {
-    /// Which of a shape's nodes are certain where other motions may have these shares in it.
+    /// The certain nodes of a shape in which other modes may have these shares.
     pub fn tell(&self, shape: &Shape, nodes: &[f64], shares: Shares) -> CertainNodes {
         let mut way = SpanWalk { doubt: self, shape, shares, nodes, told: CertainNodes::default() };
         let [clamps, _] = &self.held;
@@ -108,12 +107,12 @@ impl Doubt {
         told
     }
 
-    /// How far the deflection at a place may be off.
+    /// Possible error of the deflection at a place.
     fn error(&self, place: usize, shares: Shares) -> f64 {
         self.own(place) + shares.at(place)
     }
 
-    /// What the mesh and round-off may have done there.
+    /// The part of it due to mesh and round-off.
     fn own(&self, place: usize) -> f64 {
         let around = &self.places[place.saturating_sub(1)..(place + 2).min(self.places.len())];
         let change = around.iter().map(|place| place[2].abs()).fold(0.0, f64::max);
@@ -122,7 +121,7 @@ impl Doubt {
 }
 
 impl SpanWalk<'_> {
-    /// Tells the nodes among these places.
+    /// Finds the nodes among these places.
     fn part(&mut self, places: std::ops::Range<usize>) {
         let [clamps, pins] = &self.doubt.held;
         let length = self.shape.length();
@@ -162,8 +161,8 @@ impl SpanWalk<'_> {
         self.between(last, past, &doubtful);
     }
 
-    /// Tells the nodes between two places of certain sign, or such a one and the end of a part, where the
-    /// sign of those places is not certain.
+    /// Finds the nodes between two places of certain sign, or between one and the end of a part, when the places
+    /// between have an uncertain sign.
     fn between(&mut self, a: Side, b: Side, doubtful: &[usize]) {
         let [_, pins] = &self.doubt.held;
         let inside = |x: &&f64| **x >= a.x && **x <= b.x && !self.told.nodes.contains(x);
@@ -184,12 +183,12 @@ impl SpanWalk<'_> {
             .flatten()
             .filter(|_| a.sign != 0.0 && b.sign != 0.0);
         self.told.nodes.extend(fixed.iter().copied().chain(one));
-        // What was found and is not certain lies in the stretch.
+        // Zeros that were found but are not certain belong to the stretch.
         let ends = free.iter().fold(ends, |[a, b], x| [a.min(*x), b.max(*x)]);
         let far = one.map_or(0.0, |x| (x - ends[0]).max(ends[1] - x));
         let error = doubtful.iter().map(|k| self.doubt.error(*k, self.shares)).fold(0.0, f64::max);
         let slope = one.map_or(0.0, |x| self.shape.slopes(&[x])[0].2.abs());
-        // As steep as at the node all over the stretch: the slope tells.
+        // If the slope is the same all over the stretch, the error of the node follows from it.
         let straight = one.is_some() && free.len() == 1 && far * slope <= 2.0 * CERTAIN * error;
         if !straight {
             self.told.error = self.told.error.max(far);
@@ -197,7 +196,7 @@ impl SpanWalk<'_> {
         }
     }
 
-    /// Where the deflection is as small as its error on the way from a certain place to a doubtful one.
+    /// Place where the deflection falls to its error, between a certain place and a doubtful one.
     fn end(&self, certain: Side, doubtful: usize) -> f64 {
         let Some(number) = certain.number else { return certain.x };
         let ([x, w, _], [to, at, _]) = (self.doubt.places[number], self.doubt.places[doubtful]);
@@ -206,8 +205,8 @@ impl SpanWalk<'_> {
         if w > error { x + (to - x) * ((w - error) / (w - at)).clamp(0.0, 1.0) } else { x }
     }
 
-    /// Between two certain places beside each other are all zeros that were found, but for two between which
-    /// the deflection is smaller than its error; and where it comes as near to zero, two may be.
+    /// Between two adjacent certain places, all zeros that were found are nodes, except two between which the
+    /// deflection stays below its error. Where it only comes that close to zero, there may be two.
     fn without_doubt(&mut self, [a, b]: [Side; 2], fixed: Vec<f64>, free: Vec<f64>) {
         let mut dips =
             self.doubt.dips.iter().filter(|dip| dip[0] >= a.x && dip[0] <= b.x).peekable();
@@ -231,7 +230,7 @@ impl SpanWalk<'_> {
         }
     }
 
-    /// As far around a place without slope as the bend leaves the deflection smaller than that.
+    /// The surroundings of a place with zero slope in which the curvature keeps the deflection below `least`.
     fn around(&self, x: f64, least: f64) -> [f64; 2] {
         let [w, _, bend] = self.shape.derivatives_at(x);
         let far = (2.0 * (least + w.abs()) / bend.abs()).sqrt();
@@ -263,7 +262,7 @@ mod tests {
         let (shape, doubt) = line(1.0, 0.42, 1e-3);
         let told = doubt.tell(&shape, &[0.42], Shares::default());
         assert_eq!(told, CertainNodes { nodes: vec![0.42], error: 0.0, untold: vec![] });
-        // Even where a point lies beside the node, in its error.
+        // Also if a point lies beside the node, within its error.
         let (shape, doubt) = line(1.0, 0.401, 1e-3);
         assert_eq!(doubt.tell(&shape, &[0.401], Shares::default()).nodes, [0.401]);
         assert_eq!(doubt.tell(&shape, &[0.401], Shares::default()).untold, [[0.0; 2]; 0]);

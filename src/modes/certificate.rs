@@ -1,24 +1,23 @@
-//! How far may a computed mode be trusted, beyond what its own defect tells?
+//! How accurate is a computed mode, beyond what its own defect tells?
 //!
-//! [`crate::solve()`] calls these; what they find is in [`crate::modes::mode::ModeError`].
+//! [`crate::solve()`] calls these functions; their results are in [`crate::modes::mode::ModeError`].
 
 use crate::modes::certainty::{Doubt, Shares};
 use crate::modes::mode::Mode;
 
 /// Relative round-off of a frequency by the running sums.
 ///
-/// They keep ε of the slowest motion; a faster mode keeps ε times the ratio of their frequencies,
-/// and long sums lose a little more: measured, on cones, steps and dowels of up to 10⁶
-/// elements; `examples/tuning/round_off.rs` prints true and
-/// stated round-off side by side: of a dowel on 100 to 10 000 elements the true is up to two thirds of the
-/// stated. The sections of elements `over` stations are known by their moments, to some ε.
+/// They keep ε for the slowest mode. A faster mode has ε times the ratio of the frequencies, and long sums lose a
+/// little more. This was measured on cones, steps and dowels of up to 10⁶ elements; `examples/tuning/round_off.rs`
+/// prints true and stated round-off side by side. For a dowel on 100 to 10 000 elements the true one is at most two
+/// thirds of the stated one. The moments that describe sections of elements `over` stations are known to a few ε.
 pub fn round_off(ratio: f64, elements: usize, over: bool) -> f64 {
     let length = 1.0 + (elements as f64).sqrt() / 25.0;
     let sections = if over { 64.0 } else { 4.0 };
     f64::EPSILON * (sections + 1.5 * ratio.max(1.0) * length)
 }
 
-/// What is the mesh's fault and what the arithmetic's; `ratio` is that of the frequency to the slowest.
+/// Divides the error between mesh and arithmetic; `ratio` is the frequency over the lowest one.
 ///
 /// A factored `K` loses ε n⁴, which shows in the residual; its square is the error of Rayleigh's
 /// quotient.
@@ -33,17 +32,17 @@ pub fn account(mode: &mut Mode, ratio: f64, (elements, over): (usize, bool), fac
     blur(mode, sums);
 }
 
-/// What a frequency loses of its digits, relative, where the residual is beyond what the iteration stopped at (`left`).
+/// Relative loss of accuracy of a frequency, if the residual exceeds that at which the iteration stopped (`left`).
 ///
-/// Far slower modes leave their own round-off in the compliance: of a mode they and all other slower ones were taken
-/// out of (`apart`), the residual beyond `left` shows it, and half of that is the frequency's. Thick parts on thin
-/// ones leave round-off too, as in a chain of cylinders. The residual of a usual bat is some ε times the square of the
-/// `ratio`, and costs nothing. Where the iteration stopped at a larger residual, round-off cannot be seen in it.
+/// Much slower modes leave their round-off in the compliance. If they and all other slower modes were removed from a
+/// mode (`apart`), the residual beyond `left` shows it, and half of that is the frequency's. Thick parts on thin ones
+/// leave round-off too, as in a chain of cylinders. The residual of a usual bat is a few ε times the square of the
+/// `ratio` and costs nothing. If the iteration stopped at a larger residual, it hides the round-off.
 pub fn lost(residual: f64, left: f64, ratio: f64, apart: bool) -> f64 {
     const USUAL: f64 = 3.0 * f64::EPSILON;
-    /// Iterations stop above; a smaller residual is round-off.
+    /// Iterations stop at more than this; a smaller residual is round-off.
     const ARITHMETIC: f64 = 3e-14;
-    /// A frequency may lose three times the residual where both are a few ε, and no more than this.
+    /// If both are a few ε, the frequency may lose three times the residual, but no more than this.
     const CHANCE: f64 = 48.0 * f64::EPSILON;
     let beyond = ((residual - left) * (residual + left)).max(0.0).sqrt();
     if apart {
@@ -56,10 +55,10 @@ pub fn lost(residual: f64, left: f64, ratio: f64, apart: bool) -> f64 {
     }
 }
 
-/// What round-off of a frequency, relative, is worth in the shape, the nodes and the modal mass.
+/// Turns a relative round-off of a frequency into that of the shape, the nodes and the modal mass.
 ///
-/// The shape's is a share of its largest deflection, so that where it is flat, between stiff springs or in a thick
-/// part beside a thin one, the slope tells how far a node goes with it.
+/// The round-off of the shape is a share of its largest deflection. Where the shape is flat, between stiff springs or
+/// in a thick part beside a thin one, the slope tells how far that moves a node.
 fn blur(mode: &mut Mode, sums: f64) {
     let usual = 10.0 * mode.shape.length() / mode.nodes.len().max(1) as f64;
     mode.error.nodes += sums * usual.max(LOCAL * mode.doubt.flattest);
@@ -68,42 +67,40 @@ fn blur(mode: &mut Mode, sums: f64) {
     mode.error.shape += 10.0 * sums;
 }
 
-/// What a round-off of the frequency, relative, adds: that of the sections, as it goes as `√(EI/ρA)`.
+/// Adds the effect of a relative round-off: a frequency goes as `√(EI/ρA)` of the sections.
 pub fn add_round_off(mode: &mut Mode, relative: f64) {
     mode.error.round_off += relative;
     blur(mode, relative);
 }
 
-/// Round-off of a deflection, of which the largest is 1, over that of the frequency.
+/// Round-off of a deflection, relative to the largest, over that of the frequency.
 const LOCAL: f64 = 3.0;
 
-/// A faster motion's η may be this many times its estimate, or have made as much of the gap to it. This and
-/// the two below are chosen on near twins: `search/bats.py --kind whips` prints the largest ratios of true
-/// to stated errors, of frequencies, masses and nodes.
+/// A faster mode's η may be this many times its estimate, or may have changed the gap to it by that much. This and the
+/// two constants below were chosen on near twins: `search/bats.py --kind whips` prints the largest ratios of true to
+/// stated errors of frequencies, masses and nodes.
 const UNSURE: f64 = 2.0;
 
-/// Where that share of the energy may be another motion's nothing is known of the nodes.
+/// If this share of the energy may belong to another mode, nothing is known about the nodes.
 const UNKNOWN: f64 = 0.25;
 
-/// Beside a motion as near as that, or the next one, a mode's nodes may move far where its deflection is
-/// flat.
+/// If a mode's neighbour is this close, its nodes may move far where its deflection is flat.
 const NEAR: f64 = 0.1;
 
-/// Adds to relative errors of frequencies, of rising `omegas`, what near twins share.
+/// Adds the effect of near twins to relative errors of frequencies; `omegas` rise.
 ///
-/// A mesh may hold two motions of one frequency unequally well: of two equal whips, one on longer
-/// elements, each rings alone on the mesh, while both ring in every mode of the bat. With `r_j` what
-/// is left of the exact compliance's product with motion j, which is orthogonal to the mesh's
-/// motions, the exact eigenvalues are those of
+/// A mesh may represent two modes of one frequency unequally well. If one of two equal whips has longer elements, each
+/// rings alone on the mesh, while both ring in every mode of the bat. Let `r_j` be the remainder of the exact
+/// compliance's product with mode j, orthogonal to the mesh's modes. The exact eigenvalues are those of
 ///
 /// ```text
 /// diag(θ_j) + (r_i·r_j)/θ,     (r_j·r_j)/θ² = η_j
 /// ```
 ///
-/// but for a factor `1 − λ/λ_l` of the motions l that the mesh does not hold, as in η itself. The
-/// second part has no negative eigenvalue and a trace of `Σ η_j`, and slower motions do not raise
-/// the k-th eigenvalue (Courant and Fischer): it rises by no more than `η_k` and those `η_j` of
-/// faster ones that are not small beside their gap `1 − λ_k/λ_j`.
+/// except for a factor `1 − λ/λ_l` of the modes l that the mesh does not represent, as in η itself. The second matrix
+/// has no negative eigenvalue and the trace `Σ η_j`, and slower modes do not raise the k-th eigenvalue (Courant and
+/// Fischer): it rises at most by `η_k` and those `η_j` of faster modes that are not small compared with their gap
+/// `1 − λ_k/λ_j`.
 ///
 /// # Source
 ///
@@ -122,16 +119,15 @@ pub fn share(omegas: &[f64], errors: &mut [f64]) {
     }
 }
 
-/// Whether the motion beyond `count` others is so near to the last of them that it has to be looked
-/// at too, from the `ratio` of their λ (at most 1). A bat's own gaps are about 2/n and more at its
-/// n-th mode. `examples/tuning/gaps.rs` prints the least of 40 modes, times n: 0.7 or more on all bats of
-/// `meshes/`, but for modes 37 and 38 of the two-piece bat with shear (0.07).
+/// Whether the mode after `count` others is so close to the last of them that it must be evaluated too, from the
+/// `ratio` of their λ (at most 1). The gaps of a bat are usually 2/n or more at the n-th mode.
+/// `examples/tuning/gaps.rs` prints the smallest of 40 modes, times n: 0.7 or more on all bats of `meshes/`, except for
+/// modes 37 and 38 of the two-piece bat with shear (0.07).
 pub fn is_twin(ratio: f64, count: usize) -> bool {
     (1.0 - ratio) * (count as f64) < 0.2
 }
 
-/// What is known of a motion beside others: ω (rad/s), the relative error of the frequency, the
-/// modal mass.
+/// Data of a mode among others: ω (rad/s), the relative error of the frequency, the modal mass.
 #[derive(Clone, Copy)]
 struct Known {
     omega: f64,
@@ -139,20 +135,20 @@ struct Known {
     mass: f64,
 }
 
-/// How much of another motion may be in one.
+/// The possible share of another mode in a mode.
 #[derive(Clone, Copy)]
 struct SharedMotion {
-    /// Number of the other.
+    /// Index of the other mode.
     other: usize,
     /// `|1 − λ/λ_j|`.
     gap: f64,
     /// Sine of the angle towards the other.
     turn: f64,
-    /// The other's part of the shape, of which the largest deflection is 1.
+    /// The other mode's part in the shape, whose largest deflection is 1.
     share: f64,
 }
 
-/// What motion `other` may have to do with motion `k` where the iteration left that residual.
+/// The possible share of mode `other` in mode `k` if the iteration left that residual.
 fn part(all: &[Known], k: usize, other: usize, residual: f64) -> SharedMotion {
     let (own, its) = (all[k], all[other]);
     let gap = (1.0 - (own.omega / its.omega).powi(2)).abs().max(f64::EPSILON);
@@ -162,17 +158,16 @@ fn part(all: &[Known], k: usize, other: usize, residual: f64) -> SharedMotion {
     SharedMotion { other, gap, turn, share: turn * (own.mass / its.mass).sqrt() }
 }
 
-/// What other modes add to a mode's errors; `beyond` is ω (rad/s) of the first mode above the list,
-/// `left` the residuals that an iteration stopped at.
+/// Adds the effect of other modes to a mode's errors. `beyond` is ω (rad/s) of the first mode above the list, `left`
+/// the residuals at which an iteration stopped.
 ///
-/// The defect weighs the share `c` of another mode `j` by the gap `|1 − λ/λ_j|`, so it hardly sees
-/// the nearest ones. The eigensolve left no more of them than `c = residual/gap` (Davis and Kahan),
-/// which costs Rayleigh's quotient `c² gap`; the mesh mixes in `c ≈ 2 √(e e_j)/gap`, with `e` the
-/// relative errors of both frequencies: what is off the diagonal in [`share`], over a gap less what
-/// the errors may have made of it. Of the two nearest all is counted, because where a deflection is
-/// superconvergent, at the ends, that is all its error; of the others what the defect does not see.
-/// In a shape of modal mass m the share is `c √(m/m_j)` beside a rest of `√(1 − c²)`. Where there is no mode above or
-/// below, the other side counts twice. Frequencies nearer to each other than ε count as that near.
+/// The defect weights the share `c` of another mode `j` by the gap `|1 − λ/λ_j|`, so it hardly sees the nearest ones.
+/// The eigensolver leaves at most `c = residual/gap` of them (Davis and Kahan), which costs Rayleigh's quotient
+/// `c² gap`. The mesh mixes in `c ≈ 2 √(e e_j)/gap`, with `e` the relative errors of both frequencies: the off-diagonal
+/// part in [`share`] over a gap reduced by the possible errors. For the two nearest modes all of it counts, because it
+/// is the whole error where a deflection is superconvergent, at the ends. For the others, only what the defect does not
+/// see counts. In a shape of modal mass m the share is `c √(m/m_j)` beside a remainder of `√(1 − c²)`. If there is no
+/// mode above or below, the other side counts twice. Frequencies closer to each other than ε count as ε apart.
 pub fn add_neighbours(modes: &mut [Mode], beyond: Option<f64>, left: &[f64], factored: bool) {
     let (mut lightest, mut worst) = (f64::INFINITY, 0.0_f64);
     let mut all: Vec<Known> = Vec::with_capacity(modes.len() + 1);
@@ -187,7 +182,7 @@ pub fn add_neighbours(modes: &mut [Mode], beyond: Option<f64>, left: &[f64], fac
     share(&omegas, &mut errors);
     let doubts: Vec<Doubt> = modes.iter_mut().map(|mode| std::mem::take(&mut mode.doubt)).collect();
     for k in 0..modes.len() {
-        // The residual of a factored `K` is its round-off, in the fastest modes.
+        // The residual with a factored `K` is its round-off, in the fastest modes.
         let residual = if factored { 0.0 } else { modes[k].error.residual };
         let below = (k > 0).then(|| part(&all, k, k - 1, residual));
         let above = (k + 1 < all.len()).then(|| part(&all, k, k + 1, residual));
@@ -214,11 +209,11 @@ pub fn add_neighbours(modes: &mut [Mode], beyond: Option<f64>, left: &[f64], fac
         let nearest = both.iter().map(|part| part.gap).fold(1.0, f64::min);
         let mode = &mut modes[k];
         let length = mode.shape.length();
-        // A frequency is never farther from a mode's than the residual, however near others are.
+        // A frequency is never farther from a mode's than the residual, however close others are.
         let cost_of = |left: &f64| 0.5 * left * (left / nearest).min(1.0);
         mode.error.discretization += left.get(k).map_or(0.0, cost_of) + errors[k] - all[k].error;
         mode.error.modal_mass += mixed * (2.0 + mixed) + lost;
-        // All of a shape, and no more, may be another's, and its nodes anywhere.
+        // At most the whole shape may be another mode's; its nodes may then be anywhere.
         mode.error.shape += (mixed * beside).min(1.0);
         let spread = (mixed * length / mode.nodes.len().max(1) as f64).max(2.0 * moved);
         let shifted = if lost < UNKNOWN { spread * beside } else { length };

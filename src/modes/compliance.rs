@@ -1,10 +1,10 @@
-//! How does a bat give way to a force anywhere, whatever the degree of its elements?
+//! How far does a force anywhere on the bat deflect it, whatever the degree of its elements?
 //!
-//! [`Flexible::new`] on a solution's mesh is what responses and hits are made of.
+//! Responses and hits are built on [`Flexible::new`] on a solution's mesh.
 //!
-//! In scaled strains q, with the unit of energy U, the strain energy is `½ U qᵀq` and the kinetic
-//! energy `½ q̇ᵀA q̇`; a force at x does the work of `row(x)·q`. Where rigid motions are free they
-//! are coordinates of their own, to which these strains are orthogonal.
+//! In scaled strains q, with the unit of energy U, the strain energy is `½ U qᵀq` and the kinetic energy `½ q̇ᵀA q̇`. A
+//! force at x does the work of `row(x)·q`. Free rigid motions are separate coordinates, to which these strains are
+//! orthogonal.
 
 use std::sync::{Arc, LazyLock};
 
@@ -26,7 +26,7 @@ use crate::beam::view::View;
 use crate::modes::mode::Shape;
 use crate::modes::pairs::{Pairs, pairs_of};
 
-/// A bat's strains on a mesh, and what forces and motions do with them.
+/// A bat's strains on a mesh, with the effects of forces and motions on them.
 pub struct Flexible {
     pairs: Box<dyn Pairs>,
     mesh: Mesh,
@@ -35,17 +35,17 @@ pub struct Flexible {
     pub dimension: usize,
     /// Strain energy of `½ qᵀq = 1` (J).
     pub energy_unit: f64,
-    /// The rigid motions that nothing holds.
+    /// The free rigid motions.
     pub rigid: Vec<RigidMotion>,
-    /// The dashpots on the bat and under it.
+    /// The dashpots on the bat and in the hands.
     pub dashpots: Vec<Dashpot>,
-    /// How far strains draw out the springs that absorbers hang on, one after the other.
+    /// Extension of each absorber's spring by strains, one after the other.
     pub hung: Vec<Drawn>,
     /// Loss factors in bending and shear at the points of every cell; empty if there are none.
     losses: Vec<[f64; 2]>,
 }
 
-/// A rigid motion that nothing holds.
+/// A free rigid motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RigidMotion {
     /// Deflection at the balance point (m).
@@ -54,7 +54,7 @@ pub struct RigidMotion {
     pub turn: f64,
     /// Position of the balance point (m).
     pub balance: f64,
-    /// Modal mass of the rigid motion (kg, or kg m² where it is a rotation of 1 rad).
+    /// Modal mass of the rigid motion (kg, or kg m² for a rotation of 1 rad).
     pub mass: f64,
 }
 
@@ -65,28 +65,28 @@ impl RigidMotion {
     }
 }
 
-/// A dashpot and how far it is drawn out.
+/// A dashpot and its extension.
 #[derive(Debug, Clone)]
 pub struct Dashpot {
     /// Damping constant (N s/m).
     pub constant: f64,
-    /// How far every free rigid motion draws the dashpot out (m).
+    /// Extension of the dashpot by every free rigid motion (m).
     pub rigid: Vec<f64>,
-    /// How far the strains draw the dashpot out.
+    /// Extension of the dashpot by the strains.
     pub strains: Drawn,
 }
 
-/// How far strains draw a dashpot or a spring out.
+/// Extension of a dashpot or a spring by strains.
 #[derive(Debug, Clone)]
 pub enum Drawn {
-    /// One strain alone, that of a spring: its index, and metres for a strain of 1.
+    /// Only the spring's own strain: its index, and metres per unit strain.
     Spring(usize, f64),
     /// All strains.
     All(Vec<f64>),
 }
 
 impl Drawn {
-    /// How far the strains `q` draw it out (m).
+    /// The extension by the strains `q` (m).
     pub fn by(&self, q: &[f64]) -> f64 {
         match self {
             Self::Spring(place, softness) => q[*place] * softness,
@@ -94,7 +94,7 @@ impl Drawn {
         }
     }
 
-    /// Adds the strains (times U) of that force of the dashpot.
+    /// Adds the strains (times U) caused by that force of the dashpot.
     pub fn add_force(&self, force: f64, strains: &mut [f64]) {
         match self {
             Self::Spring(place, softness) => strains[*place] += force * softness,
@@ -136,14 +136,14 @@ impl Flexible {
         flexible
     }
 
-    /// ω (rad/s, rising) and unit strains of the slowest modes, as many as wanted or as there are,
-    /// and how many of the first are far slower than the others.
+    /// ω (rad/s, rising) and unit strains of the slowest modes, as many as wanted or as there are, and the number of
+    /// those at the beginning that are far slower than the others.
     ///
     /// # Errors
     ///
     /// As [`crate::eigen::lanczos::Lanczos::largest`].
     pub fn slowest(&mut self, count: usize) -> Result<(Vec<f64>, Vec<Vec<f64>>, usize)> {
-        /// Residual that is as good as arithmetic allows.
+        /// The smallest residual that arithmetic allows.
         const CONVERGED: f64 = 1e-13;
         let count = count.min(self.freedom());
         if count == 0 {
@@ -152,7 +152,7 @@ impl Flexible {
         self.pairs.solve(count, CONVERGED)?;
         let apart = self.pairs.solve_apart(CONVERGED)?;
         let dimension = self.dimension;
-        // The iteration's own values are known to ε of the greatest; what moves and what strains tells more.
+        // The iteration's values are known to ε of the greatest; the ratio of the energies is more accurate.
         let own = std::mem::take(&mut self.pairs.lanczos().vectors);
         let mut motion = Motion::default();
         let omegas = (0..own.len() / dimension).map(|k| {
@@ -165,12 +165,12 @@ impl Flexible {
         Ok((omegas, own.chunks_exact(dimension).map(<[f64]>::to_vec).collect(), apart))
     }
 
-    /// Number of modes that there are.
+    /// Number of modes of the discrete bat.
     pub fn freedom(&self) -> usize {
         self.pairs.view().freedom()
     }
 
-    /// `M q = A q/U` (s²): strains under the inertia of an acceleration q.
+    /// `M q = A q/U` (s²): strains under the inertia of the acceleration q.
     pub fn inertia(&self, q: &[f64]) -> Vec<f64> {
         let mut y = vec![0.0; q.len()];
         self.pairs.apply(q, &mut y);
@@ -178,15 +178,15 @@ impl Flexible {
         y
     }
 
-    /// Takes out of strains what the contacts do not allow.
+    /// Removes from strains what the contacts do not allow.
     pub fn project(&self, strains: &mut [f64]) {
         if let Some(fixed) = self.pairs.view().fixed {
             fixed.project(strains);
         }
     }
 
-    /// What strains q give for the deflection at `x`: `w = row·q`, the free rigid motions left out.
-    /// Divided by U they are the strains under a unit force there.
+    /// Row of the deflection at `x` due to strains q: `w = row·q`, without free rigid motions. Divided by U, it is the
+    /// strains under a unit force there.
     pub fn row(&self, x: f64) -> Vec<f64> {
         let elements = &self.mesh.elements;
         let e = elements.partition_point(|e| e.start <= x).max(1) - 1;
@@ -198,12 +198,12 @@ impl Flexible {
         }
     }
 
-    /// What a unit force at `x` deflects beyond what the element's polynomials show (m/N): its
-    /// bending moment has a kink there, and its shear force a step.
+    /// Deflection under a unit force at `x` that the element's polynomials do not represent (m/N): the bending moment
+    /// has a kink there, and the shear force a step.
     ///
-    /// With `f = (ξ − x)₊` and `P` the polynomials of the curvature, `∫f²/EI dξ` less the same of
-    /// its projection, over the element; and likewise `∫1/κGA dξ` of the step. Moments beyond
-    /// those of the kink are smooth, and the mesh has them.
+    /// With `f = (ξ − x)₊` and `P` the polynomials of the curvature, it is `∫f²/EI dξ` over the element, less that of
+    /// the projection; and likewise `∫1/κGA dξ` of the step. The other parts of the moment are smooth, and the mesh
+    /// represents them.
     pub fn unresolved(&self, x: f64, bat: &Bat) -> f64 {
         static RULE: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| gauss(10));
         let elements = &self.mesh.elements;
@@ -212,7 +212,7 @@ impl Flexible {
         let (e, split) = (&elements[k], view.split);
         let knob_side = k < split;
         let along = ((x - e.start) / e.length).clamp(0.0, 1.0);
-        // Outwards, as the cell is seen.
+        // Outwards, as the cell is stored.
         let (cell, at) = if knob_side { (split - 1 - k, 1.0 - along) } else { (k, along) };
         let (block, strains) = (view.terms - 2, view.strains);
         let mut loads = [0.0; MOST_STRAINS];
@@ -250,20 +250,20 @@ impl Flexible {
         missing.max(0.0)
     }
 
-    /// The deflections along the bat of these strains, the free rigid motions left out.
+    /// The deflection along the bat due to these strains, without free rigid motions.
     pub fn shape(&self, q: &[f64]) -> Shape {
         let mut motion = Motion::default();
         self.pairs.look_at_one(q, &[], Depth::Shape, &mut motion);
         Shape::of(&self.pairs.view(), &motion, &self.stretches)
     }
 
-    /// Whether the materials lose anything.
+    /// Whether a material has a loss factor.
     pub fn loses(&self) -> bool {
         !self.losses.is_empty()
     }
 
-    /// `K″ q`: the strains' stiffness times its loss factors, all layers of a section bending
-    /// alike; springs, joints and beds lose nothing.
+    /// `K″ q`: the strains' stiffness times its loss factors, where all layers of a section bend alike; springs, joints
+    /// and beds have no loss.
     pub fn loss(&self, q: &[f64]) -> Vec<f64> {
         let mut out = vec![0.0; q.len()];
         if self.losses.is_empty() {
@@ -306,12 +306,12 @@ impl Flexible {
         for (k, e) in self.mesh.elements.iter().enumerate() {
             losses(bat, e, rule, |i, loss| all[k * points + i] = loss);
         }
-        // The knob side is seen outwards too.
+        // The knob side is stored outwards too.
         all[..split * points].reverse();
         all
     }
 
-    /// Everything that takes energy out of the bat but its materials.
+    /// All dashpots: everything that damps the bat besides its materials.
     fn dashpots(&self, bat: &Bat) -> Vec<Dashpot> {
         let View { bare: Bare { energy_unit, split, .. }, rule, fixed, .. } = self.pairs.view();
         let contacts = fixed.iter().flat_map(|fixed| &fixed.placed.contacts);
@@ -324,7 +324,7 @@ impl Flexible {
         let mut all: Vec<Dashpot> =
             hung.map(|(absorber, drawn)| beside(absorber.damping, drawn.clone())).collect();
         if let Some(grip) = bat.fixtures().grip.filter(|grip| grip.damping > 0.0) {
-            // One for every point of the bed, of its share: the same as for its spring.
+            // One dashpot for each point of the bed, in proportion to its spring.
             let per_stiffness = grip.damping / grip.stiffness;
             let of = |softness: f64| per_stiffness * energy_unit / (softness * softness);
             let spring = |s: &Spring<f64>| Drawn::Spring(s.place, s.softness);

@@ -1,14 +1,14 @@
-//! How fast do a bat's motions die out, by its materials, hands and absorbers?
+//! How fast do a bat's modes decay, through its materials, hands and absorbers?
 //!
-//! [`crate::Solution::damping`] has the answer; [`damping`](fn@damping) finds it for other modes.
+//! [`crate::Solution::damping`] holds the result; [`damping`](fn@damping) computes it for other modes.
 //!
-//! A material's loss factor η takes `2π η` times the strain energy away in every cycle, so that a
-//! mode has `ζ = ½ Σ η_i U_i/U`, `U_i` its strain energy in material i, bending and shear, springs
-//! and joints without loss. Dashpots couple the modes: the damped bat's own motions are complex,
-//! `e^{st}` with `s = −ζω ± iω√(1 − ζ²)`, `ω = |s|`.
+//! A material with the loss factor η dissipates `2π η` times its strain energy in every cycle. A mode therefore has `ζ
+//! = ½ Σ η_i U_i/U`, with `U_i` its strain energy in material i, bending and shear; springs and joints have no loss.
+//! Dashpots couple the modes: the modes of the damped bat are complex, `e^{st}` with `s = −ζω ± iω√(1 − ζ²)`, `ω =
+//! |s|`.
 //!
-//! In time a material's loss is taken as viscous, with that ζ at the mode's own frequency; in a
-//! frequency response ([`crate::motion::frf`]) the stiffness is `1 + iη` times itself, at every frequency.
+//! In the time domain a material's loss counts as viscous, with that ζ at the mode's own frequency. In a frequency
+//! response ([`crate::motion::frf`]) the stiffness is multiplied by `1 + iη` at every frequency.
 //!
 //! # Source
 //!
@@ -26,25 +26,25 @@ use crate::modes::mode::Mode;
 use crate::modes::pole::Group;
 use crate::modes::reduced::Reduced;
 
-/// How one mode dies out.
+/// How one mode decays.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Damped {
-    /// Natural angular frequency `|s|` (rad/s); of two real s, `√(s₁ s₂)`.
+    /// Natural angular frequency `|s|` (rad/s); for two real s, `√(s₁ s₂)`.
     pub natural: f64,
-    /// Damping ratio ζ = `−Re s/|s|`; 1 or more where the mode does not swing.
+    /// Damping ratio ζ = `−Re s/|s|`; 1 or more if the mode does not oscillate.
     pub ratio: f64,
-    /// Part of ζ that comes from the materials.
+    /// The part of ζ due to the materials.
     pub of_materials: f64,
-    /// `−Re s` (1/s): the amplitude goes as `e^{−decay t}`; the slower one of two real s.
+    /// `−Re s` (1/s): the amplitude goes as `e^{−decay t}`; for two real s, the slower one.
     pub decay: f64,
-    /// How far s may be off, relative to |s|: for the mesh, for the motion being made of few
-    /// strains, and for modes being taken one by one where they are.
+    /// Possible error of s relative to |s|, due to the mesh, to the small number of strains, and to treating modes one
+    /// by one if that was done.
     pub error: f64,
 }
 
 impl Damped {
-    /// One that goes on for ever, or with a damping ratio below 1.
+    /// A mode without damping, or with a damping ratio below 1.
     fn new(natural: f64, ratio: f64, of_materials: f64) -> Self {
         let decay = match ratio > 1.0 {
             true => natural / (ratio + ((ratio - 1.0) * (ratio + 1.0)).sqrt()),
@@ -53,19 +53,19 @@ impl Damped {
         Self { natural, ratio, of_materials, decay, error: 0.0 }
     }
 
-    /// `|Im s|` (rad/s): how fast it swings; 0 if it does not.
+    /// `|Im s|` (rad/s): its angular frequency of oscillation; 0 if it does not oscillate.
     pub fn swinging(&self) -> f64 {
         self.natural * ((1.0 - self.ratio) * (1.0 + self.ratio)).max(0.0).sqrt()
     }
 
-    /// How far another s is from this one, relative to |s|; of two real ones the slower.
+    /// Distance of another s from this one, relative to |s|; for two real ones, of the slower.
     fn apart(&self, other: &Self) -> f64 {
         let [a, b] = [self, other].map(|damped| [damped.decay, damped.swinging()]);
         (a[0] - b[0]).hypot(a[1] - b[1]) / self.natural
     }
 
-    /// Q as the sharpness of a resonance, the frequency over the width between the half-power
-    /// points of light damping: `1/(2ζ)`. None without damping.
+    /// Q as the sharpness of a resonance, the frequency over the half-power bandwidth at light damping: `1/(2ζ)`.
+    /// `None` without damping.
     ///
     /// # Source
     ///
@@ -75,52 +75,52 @@ impl Damped {
         (self.ratio > 0.0).then(|| 0.5 / self.ratio)
     }
 
-    /// Q of the amplitude, as papers on bats count it: `1/ζ`, so that the amplitude falls as
-    /// `e^{−ωt/Q}`. Twice the usual one. None without damping.
+    /// Q of the amplitude, as papers on bats define it: `1/ζ`, so that the amplitude falls as `e^{−ωt/Q}`. Twice the
+    /// usual Q. `None` without damping.
     ///
     /// # Source
     ///
-    /// A. M. Nathan, Am. J. Phys. 68 (2000) 979, after L. L. Van Zandt, Am. J. Phys. 60 (1992) 172,
-    /// who takes it for 10.
+    /// A. M. Nathan, Am. J. Phys. 68 (2000) 979, after L. L. Van Zandt, Am. J. Phys. 60 (1992) 172, who uses a value of
+    /// 10.
     pub fn q_amplitude(&self) -> Option<f64> {
         (self.ratio > 0.0).then(|| 1.0 / self.ratio)
     }
 }
 
-/// How a bat's modes die out.
+/// How a bat's modes decay.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Damping {
     /// One for each mode of the solution; empty without any damping.
     pub modes: Vec<Damped>,
-    /// ζ of each undamped mode taken by itself.
+    /// ζ of each undamped mode treated alone.
     pub alone: Vec<f64>,
-    /// Decay rates (1/s) of the rigid motions that only dashpots hold.
+    /// Decay rates (1/s) of the rigid motions that only dashpots restrain.
     pub rigid: Vec<f64>,
     /// How the modes were found.
     pub kind: DampingMethod,
 }
 
 impl Damping {
-    /// Each mode by itself.
+    /// Each mode treated alone.
     fn by_modes(modes: Vec<Damped>, rigid: Vec<f64>, kind: DampingMethod) -> Self {
         let alone = modes.iter().map(|damped| damped.ratio).collect();
         Self { modes, alone, rigid, kind }
     }
 }
 
-/// How it was found.
+/// Method by which the damping was computed.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 #[non_exhaustive]
 pub enum DampingMethod {
-    /// Nothing damps the bat.
+    /// The bat has no damping.
     #[default]
     None,
-    /// Only materials do: mode by mode.
+    /// Only materials damp the bat: mode by mode.
     Materials,
-    /// Dashpots do, but each mode may be taken by itself: complex ones would differ by that much.
+    /// There are dashpots, but each mode may be treated alone: the complex modes differ by this much.
     Modal(f64),
-    /// Complex modes: one by one they would be off by that much.
+    /// Complex modes; modes treated alone would be off by this much.
     Complex(f64),
 }
 
@@ -145,8 +145,8 @@ impl fmt::Display for DampingMethod {
     }
 }
 
-/// How the modes of a bat die out, found on those elements; complex where the dashpots move a frequency
-/// or a damping ratio by more than `tolerance`.
+/// The decay of the modes of a bat on those elements. Complex modes are computed if the dashpots change a frequency or
+/// a damping ratio by more than `tolerance`.
 ///
 /// ```
 /// use sweetspot::modes::damping::damping;
@@ -209,17 +209,17 @@ pub fn damping(bat: &Bat, elements: Elements, modes: &[Mode], tolerance: f64) ->
 
 /// Relative round-off of the small eigenproblem after its vectors are polished.
 const ROUND_OFF: f64 = 32.0 * f64::EPSILON;
-/// Meshes on which the damped motions are found again.
+/// Most meshes on which the damped modes are recomputed.
 const MOST_REFINEMENTS: usize = 4;
 
-/// The damped bat's own motions on one mesh.
+/// The complex modes of the damped bat on one mesh.
 struct Together {
     motions: Vec<Damped>,
     rigid: Vec<f64>,
 }
 
 impl Together {
-    /// As many motions as there are `of_materials`, which are those ratios.
+    /// Computes as many modes as there are entries in `of_materials`, the damping ratios due to materials.
     fn new(reduced: &mut Reduced, tolerance: f64, of_materials: &[f64]) -> Result<Self> {
         let free = reduced.free_motions(of_materials.len(), accuracy(tolerance))?;
         let motions = free.groups.iter().zip(of_materials);
@@ -229,9 +229,8 @@ impl Together {
         })
     }
 
-    /// These motions on finer elements, until what that changes is within the tolerance: where a dashpot
-    /// is strong the bat moves about it as no mode does, and what the modes say of the mesh is not
-    /// enough.
+    /// Recomputes these modes on finer elements until the change is within the tolerance. Near a strong dashpot the bat
+    /// moves as no undamped mode does, so the error of the undamped modes is not enough.
     fn refined(
         mut self,
         bat: &Bat,
@@ -262,7 +261,7 @@ impl Together {
     }
 }
 
-/// How accurate the damped motions are to be for a tolerance: it costs little.
+/// Accuracy of the damped modes for a tolerance: a high one costs little.
 pub fn accuracy(tolerance: f64) -> f64 {
     (1e-3 * tolerance).clamp(1e-14, 1e-9)
 }

@@ -1,4 +1,4 @@
-//! How does a damped bat follow a force as `e^{iωt}`?
+//! How does a damped bat respond to a force `e^{iωt}`?
 
 use faer::linalg::solvers::Solve;
 use faer::{Mat, c64};
@@ -6,41 +6,41 @@ use faer::{Mat, c64};
 use crate::base::linear::dot;
 use crate::modes::reduced::Reduced;
 
-/// Strains under a force as `e^{iωt}`.
+/// Strains under a force `e^{iωt}`.
 pub struct DrivenStrains {
-    /// Parts of the rigid motions, where they are coupled.
+    /// Amplitudes of the rigid motions, if they are coupled.
     pub rigid: Vec<c64>,
-    /// Parts of the strains.
+    /// Amplitudes of the strains.
     pub parts: Vec<c64>,
-    /// What the projection misses, as real and imaginary strains.
+    /// The residual of the projection, as real and imaginary strains.
     pub residual: [Vec<f64>; 2],
 }
 
-/// A force of 1 N somewhere, and the deflection there.
+/// A unit force (1 N) at a place, and the deflection there.
 #[derive(Debug, Clone)]
 pub struct UnitForce {
     /// Deflection by the free rigid motions (m).
     pub rigid: Vec<f64>,
-    /// Deflection by every strain of the reduced bat (m); those that join later have none.
+    /// Deflection by every strain of the reduced bat (m); strains added later contribute 0.
     pub row: Vec<f64>,
 }
 
-/// What is the same at every frequency.
+/// The quantities that do not depend on the frequency.
 pub struct Driven {
     damping: Mat<f64>,
     apart: Option<Apart>,
 }
 
-/// Strains that no damping couples: each follows a force by itself.
+/// Strains without coupling by damping: each responds alone.
 struct Apart {
-    /// `ℓ` (s) of every one, and its loss factor.
+    /// `ℓ` (s) of each strain, and its loss factor.
     each: Vec<(f64, f64)>,
-    /// The strains, in those of the members.
+    /// The strains in terms of the members.
     turned: Mat<f64>,
 }
 
 impl Reduced {
-    /// A force or a deflection at x; its static strains join the others.
+    /// A force or a deflection at x; its static strains join the members.
     pub fn place(&mut self, x: f64) -> UnitForce {
         let row = self.flexible.row(x);
         self.add(row.clone());
@@ -48,7 +48,7 @@ impl Reduced {
         UnitForce { rigid, row: (0..self.len()).map(|k| dot(self.strains(k), &row)).collect() }
     }
 
-    /// `Σ |q_i| |M_ij| |q_j′|` (s² by the square of a strain's unit) of two answers.
+    /// `Σ |q_i| |M_ij| |q_j′|` (s² times the square of a strain's unit) of two responses.
     pub fn inertia_of(&self, [one, other]: &[DrivenStrains; 2]) -> f64 {
         let row = |i: usize, j: usize| self.mass[i.max(j)][i.min(j)].abs();
         let by = |i: usize| -> f64 {
@@ -57,13 +57,13 @@ impl Reduced {
         one.parts.iter().enumerate().map(|(i, part)| part.norm() * by(i)).sum()
     }
 
-    /// What is the same at every frequency, as long as no strains join.
+    /// The quantities that do not depend on the frequency, valid until further strains join.
     pub fn driven(&self) -> Driven {
         Driven { damping: self.damping(), apart: self.apart() }
     }
 
-    /// The strains one by one. There must be no dashpots, and the loss must couple no two strains: every mode has a
-    /// loss factor, and all other strains have the same one.
+    /// The uncoupled strains, or `None`. There must be no dashpots, and the loss must couple no two strains: every mode
+    /// has a loss factor, and all other strains share one.
     fn apart(&self) -> Option<Apart> {
         const COUPLED: f64 = 1e-12;
         let (n, modes) = (self.len(), self.omega.len());
@@ -79,8 +79,8 @@ impl Reduced {
         Some(Apart { each: lengths.into_iter().zip(own).collect(), turned })
     }
 
-    /// The strains under a force of `e^{iωt}` newtons at a place, the materials' stiffness times
-    /// `1 + iη`; `driven` is [`Self::driven`].
+    /// The strains under a force `e^{iωt}` N at a place, with the materials' stiffness times `1 + iη`; `driven` is
+    /// [`Self::driven`].
     pub fn answer(&self, driven: &Driven, place: &UnitForce, omega: f64) -> DrivenStrains {
         let (rigid, parts) = match &driven.apart {
             Some(apart) => (vec![], self.one_by_one(apart, place, omega)),
@@ -90,7 +90,7 @@ impl Reduced {
         DrivenStrains { rigid, parts, residual }
     }
 
-    /// The parts of strains that nothing couples.
+    /// Amplitudes of uncoupled strains.
     fn one_by_one(&self, apart: &Apart, place: &UnitForce, omega: f64) -> Vec<c64> {
         let (n, modes) = (self.len(), self.omega.len());
         let force = |i: usize| place.row.get(i).copied().unwrap_or(0.0) / self.flexible.energy_unit;
@@ -108,7 +108,7 @@ impl Reduced {
         parts
     }
 
-    /// The parts of rigid motions and strains that dashpots and losses couple.
+    /// Amplitudes of rigid motions and strains coupled by dashpots and losses.
     fn together(&self, damping: &Mat<f64>, place: &UnitForce, omega: f64) -> (Vec<c64>, Vec<c64>) {
         let (n, r) = (self.len(), self.rigid_unknowns());
         let (square, unit) = (omega * omega, self.flexible.energy_unit);
@@ -133,7 +133,7 @@ impl Reduced {
 }
 
 impl DrivenStrains {
-    /// The deflection at a place (m), without the rigid motions that dashpots leave alone.
+    /// The deflection at a place (m), without the rigid motions that no dashpot affects.
     pub fn at(&self, place: &UnitForce) -> c64 {
         let strains = self.parts.iter().zip(&place.row).map(|(part, w)| *part * *w);
         let rigid = self.rigid.iter().zip(&place.rigid).map(|(part, w)| *part * *w);
@@ -154,8 +154,8 @@ mod tests {
     use crate::modes::request::Request;
     use crate::modes::solve::solve;
 
-    /// The short way without coupling and the equations of all strains together, with and without loss, with losses
-    /// of single modes, and with strains beyond the modes; a dashpot leaves the second alone.
+    /// The shortcut without coupling agrees with the equations of all strains together: with and without loss, with
+    /// losses of single modes, and with strains beyond the modes. A dashpot excludes the shortcut.
     #[test]
     fn strains_that_nothing_couples_follow_as_all_together_do() {
         let bat = |more: &str, loss: f64| {

@@ -1,10 +1,10 @@
-//! What are the lowest bending motions of bats on one mesh?
+//! What are the lowest bending modes of bats on one mesh?
 //!
-//! The engine below [`crate::solve()`] and [`crate::modes::batch`], which are what to call: it takes
-//! whatever vectors the machine has, and memory that the next bats use again.
+//! The engine below [`crate::solve()`] and [`crate::modes::batch`]; call those instead. It uses the widest vectors of
+//! the machine, and memory that the next bats reuse.
 //!
-//! Results are equal to the last bit with any vector width and in every lane: nothing is added in
-//! another order, and no product is fused with a sum.
+//! Results are equal to the last bit with any vector width and in every lane: sums keep their order, and no product is
+//! fused with a sum.
 
 use std::ops::Range;
 
@@ -28,8 +28,7 @@ pub struct Eigenpairs<R, const N: usize, const W: usize> {
     pub statics: Statics<R, N, W>,
     /// The iteration.
     pub lanczos: Lanczos<R>,
-    /// The motions that were looked at last: the modes of one bat side by side, or the bats in one
-    /// mode.
+    /// The modes evaluated last: the modes of one bat side by side, or one mode of several bats.
     pub motions: Motion<Lanes>,
     /// Their scaled strains.
     strains: Vec<Lanes>,
@@ -41,10 +40,10 @@ impl<R: Real, const N: usize, const W: usize> Eigenpairs<R, N, W>
 where
     Lanes: Over<R>,
 {
-    /// How many modes are looked at together.
+    /// Number of modes that are evaluated together.
     pub const TOGETHER: usize = WIDTH / R::LANES;
 
-    /// Nothing yet, for bats like this one.
+    /// An empty engine for bats like this one.
     pub fn new(bat: &Bat, theory: Theory) -> Self {
         Self {
             statics: Statics::empty(bat, theory),
@@ -61,7 +60,7 @@ where
         vectorized!(self.statics.assemble(bats, meshes));
     }
 
-    /// Finds the `count` slowest motions to that residual.
+    /// Finds the `count` slowest modes to that residual.
     ///
     /// # Errors
     ///
@@ -71,7 +70,7 @@ where
         self.iterate(self.wanted(count, residual, earliest))
     }
 
-    /// Takes that many steps and no more, whatever residual that leaves: [`Motion::defect`] tells.
+    /// Takes exactly that number of steps, whatever the residual; [`Motion::defect`] gives the accuracy.
     ///
     /// # Errors
     ///
@@ -81,7 +80,7 @@ where
         self.iterate(self.wanted(count, f64::INFINITY, earliest))
     }
 
-    /// What is asked of the iteration: every absorber may ring at nearly one frequency with others.
+    /// The request to the iteration: every absorber may have nearly the same frequency as another mode.
     fn wanted(&self, count: usize, residual: f64, earliest: usize) -> Wanted {
         let clustered = self.statics.fixed.as_ref().map_or(0, |fixed| fixed.placed.hung());
         Wanted { count, residual, earliest, clustered }
@@ -101,7 +100,7 @@ where
         start: &mut dyn FnMut(&Statics<R, N, W>, &mut [R]),
     ) -> Result<()> {
         let Self { statics, lanczos, loads, .. } = self;
-        // What the contacts do not allow: a step divides by a small number, and would let it grow.
+        // Removes what the contacts do not allow: a step divides by a small number and would amplify it.
         let allow =
             &mut |next: &mut [R]| statics.fixed.iter().for_each(|fixed| fixed.project(next));
         let apply = &mut |q: &[R], y: &mut [R]| {
@@ -111,8 +110,8 @@ where
         iterate(lanczos, statics.dimension(), wanted, Space { known, allow }, start, apply)
     }
 
-    /// Looks at the motions from number `first` of those found on, [`Self::TOGETHER`] of them or as
-    /// many as there are, as closely as wanted, their frequencies from the eigenvalues.
+    /// Evaluates the modes that were found, from index `first` on, to the given depth: [`Self::TOGETHER`] of them or as
+    /// many as there are. Frequencies follow from the eigenvalues.
     pub fn look(&mut self, first: usize, depth: Depth) {
         let vectors = std::mem::take(&mut self.lanczos.vectors);
         let last = self.lanczos.values.len() - 1;
@@ -125,13 +124,13 @@ where
         self.lanczos.vectors = vectors;
     }
 
-    /// Looks at the motions of these scaled strains, which come one after the other, from number `first`
-    /// on; their frequencies are taken from both energies.
+    /// Evaluates the modes with these scaled strains, which follow one after the other, from index `first` on.
+    /// Frequencies follow from both energies.
     pub fn look_at(&mut self, vectors: &[R], first: usize, depth: Depth) {
         self.look_closely(vectors, first, None, depth);
     }
 
-    /// Strains side by side, and what their inertia does; the last motion again where there are no more.
+    /// Arranges strains side by side and computes the effect of their inertia; the last mode fills unused lanes.
     fn look_closely(&mut self, vectors: &[R], first: usize, value: Option<Lanes>, depth: Depth) {
         let Self { statics, motions, strains, loads, image, .. } = self;
         let dimension = statics.dimension();
@@ -161,18 +160,18 @@ where
     }
 }
 
-/// Puts the lanes of numbers into those of others, as many numbers as both have.
+/// Copies the lanes of numbers into those of others, up to the shorter of both.
 fn side_by_side<R: Real>(from: &[R], into: &mut [Lanes], lanes: Range<usize>) {
     for (into, from) in into.iter_mut().zip(from) {
         lanes.clone().enumerate().for_each(|(k, lane)| into.set_lane(lane, from.lane(k)));
     }
 }
 
-/// After how many steps beyond `count = n` convergence is likely: looking for it costs as much as some
-/// steps. With a residual of 10^−d it is `2.5 + 0.375 n + 0.35 n^⅓ (d − 4)`, and `2 + 0.65 n + 0.41
-/// √n (d − 4)` where shear brings the frequencies nearer to each other: fitted to a dowel, a cone and
-/// two bats, 1 to 60 modes, right to one step nearly always and to two on all that was run of
-/// `examples/tuning/iterations.rs`, which prints the steps taken beside the formula's.
+/// Number of steps beyond `count = n` after which convergence is likely; a test costs as much as some steps. With a
+/// residual of 10^−d it is `2.5 + 0.375 n + 0.35 n^⅓ (d − 4)`, and `2 + 0.65 n + 0.41 √n (d − 4)` with shear, where
+/// frequencies lie closer together. It was fitted to a dowel, a cone and two bats with 1 to 60 modes. It is right to
+/// one step nearly always, and to two in all runs of `examples/tuning/iterations.rs`, which prints the steps taken
+/// beside the formula's.
 pub fn steps_beyond(theory: Theory, count: usize, residual: f64) -> usize {
     let (n, digits) = (count as f64, -residual.log10());
     let steps = if theory.shears() {
@@ -184,15 +183,15 @@ pub fn steps_beyond(theory: Theory, count: usize, residual: f64) -> usize {
 }
 
 impl<const N: usize, const W: usize> Eigenpairs<f64, N, W> {
-    /// After [`Self::solve`]: where a few modes are far slower than the others, as those of a bat
-    /// on soft springs or with a heavy weight, finds the others again, orthogonal to these, whose
-    /// round-off would else be in them. Returns how many are apart.
+    /// To be called after [`Self::solve`]. If a few modes are far slower than the others, as for a bat on soft springs
+    /// or with a heavy weight, finds the others again, orthogonal to these, whose round-off they would otherwise
+    /// contain. Returns the number of far slower modes.
     ///
     /// # Errors
     ///
     /// As [`Lanczos::largest`].
     pub fn solve_apart(&mut self, residual: f64) -> Result<usize> {
-        /// Eigenvalues of the compliance this far apart: frequencies a hundred times as far.
+        /// Ratio of eigenvalues of the compliance that counts as far: a factor of 100 in frequency.
         const FAR: f64 = 1e4;
         const MOST: usize = 4;
         let found = &self.lanczos.values;
@@ -217,7 +216,7 @@ impl<const N: usize, const W: usize> Eigenpairs<f64, N, W> {
     }
 }
 
-/// The iteration, one for all degrees and theories.
+/// The iteration, compiled once for all degrees and theories.
 fn iterate<R: Real>(
     lanczos: &mut Lanczos<R>,
     dimension: usize,
@@ -229,12 +228,12 @@ fn iterate<R: Real>(
     vectorized!(lanczos.largest(dimension, wanted, space, start, apply))
 }
 
-/// The start of the iteration, one for all degrees and theories.
+/// The start of the iteration, compiled once for all degrees and theories.
 fn begin<R: Real>(view: &View<R>, count: usize, next: &mut [R]) {
     vectorized!(view.start(count, next));
 }
 
-/// The look at motions, one for all degrees and theories.
+/// The evaluation of modes, compiled once for all degrees and theories.
 fn look<S: Real, R: Over<S>>(
     view: &View<S>,
     rigid: Rigid<R>,

@@ -1,4 +1,4 @@
-//! How does a damped bat go on by itself?
+//! How does a damped bat move freely?
 
 use faer::linalg::solvers::Solve;
 use faer::{Mat, c64};
@@ -9,19 +9,17 @@ use crate::modes::pole::{FreeMotions, Group, Pole, grouped, possible};
 use crate::modes::reduced::Reduced;
 
 impl Reduced {
-    /// The slowest `wanted` motions of the damped bat, as groups of
-    /// rising |s|, those of the rigid motions that dashpots slow down, and all others of the reduced
-    /// bat, which are not its own but make a blow's response begin at zero. The materials' loss is
-    /// that of viscous dashpots
-    /// with the modes' own damping ratios.
+    /// The slowest `wanted` modes of the damped bat, as groups of rising |s|; the rigid motions that dashpots slow
+    /// down; and all other modes of the reduced bat. The last are artefacts of the reduction, needed so that the
+    /// response to a blow begins at zero. The materials' loss is that of viscous dashpots with the modes' own damping
+    /// ratios.
     ///
-    /// Strains are taken in until no s changes by more than `tolerance`, relative to |s|, or no
-    /// further ones are there.
+    /// Strains are added until no s changes by more than `tolerance`, relative to |s|, or until there are no more.
     ///
     /// # Errors
     ///
-    /// [`Error::NotConverged`] if the small eigenproblem has no solution, [`Error::Value`] where
-    /// dashpots are so large that round-off leaves no motion that dies out.
+    /// [`Error::NotConverged`] if the small eigenproblem has no solution; [`Error::Value`] if dashpots are so large
+    /// that round-off hides the decay.
     pub fn free_motions(&mut self, wanted: usize, tolerance: f64) -> Result<FreeMotions> {
         const MOST_ROUNDS: usize = 12;
         const MOST_MEMBERS: usize = 400;
@@ -65,8 +63,8 @@ impl Reduced {
         }
     }
 
-    /// Round-off of `vᵀ Z(s) v`. Each of its terms is known to ε of itself. Strains that dashpots couple, a share of
-    /// `|s| |C v|` and 1 at most, are known to 2 ε times the ratio of s to the slowest mode's.
+    /// Round-off of `vᵀ Z(s) v`. Each of its terms is known to a relative ε. Strains coupled by dashpots, a share of
+    /// `|s| |C v|` and at most 1, are known to 2 ε times the ratio of s to the slowest mode's.
     fn round_off(&self, mass: &Mat<f64>, damping: &Mat<f64>, pole: &Pole) -> f64 {
         let r = self.rigid_unknowns();
         let sizes: Vec<f64> = pole.rigid.iter().chain(&pole.parts).map(|v| v.norm()).collect();
@@ -84,9 +82,9 @@ impl Reduced {
         f64::EPSILON * (s * s * form(mass) + s * form(damping) + strained + coupled)
     }
 
-    /// Makes an eigenvalue and its vector as good as arithmetic allows: inverse iteration
-    /// `Z(s) v ← Z′(s) v`, `Z = s²M + sC + K`, and the root of Rayleigh's functional
-    /// `s² vᵀMv + s vᵀCv + vᵀKv`, whose error is the square of the vector's.
+    /// Improves an eigenvalue and its vector as far as arithmetic allows: inverse iteration `Z(s) v ← Z′(s) v` with
+    /// `Z = s²M + sC + K`, and the root of Rayleigh's functional `s² vᵀMv + s vᵀCv + vᵀKv`, whose error is the square
+    /// of the vector's.
     fn polish(&self, mass: &Mat<f64>, damping: &Mat<f64>, pole: &mut Pole) {
         const STEPS: usize = 3;
         let (r, size) = (self.rigid_unknowns(), mass.nrows());
@@ -117,7 +115,7 @@ impl Reduced {
                 s.im = 0.0;
             }
         }
-        /// Beyond that it is another one.
+        /// A larger change leads to another eigenvalue.
         const SAME: f64 = 1e-3;
         if (s - pole.s).norm() < SAME * pole.s.norm() {
             (pole.rigid, pole.parts) = (v[..r].to_vec(), v[r..].to_vec());
@@ -130,9 +128,8 @@ impl Reduced {
     }
 }
 
-/// Makes the first-order error e of every pole, `|vᵀ δZ v|/|s vᵀZ′v|`, one that holds beside another pole at the
-/// relative distance g too: `δ (δ + g) = e g`, for `vᵀZ′v` goes to zero as they meet, and s goes as the root of what
-/// is wrong in Z.
+/// Adapts the first-order error e of every pole, `|vᵀ δZ v|/|s vᵀZ′v|`, to a nearby pole at the relative distance g:
+/// `δ (δ + g) = e g`. As two poles meet, `vᵀZ′v` goes to zero, and s depends on the root of the error in Z.
 fn near_others(groups: &mut [Group], others: &[Pole]) {
     let all: Vec<c64> =
         groups.iter().flat_map(|group| &group.poles).chain(others).map(|p| p.s).collect();
@@ -154,16 +151,14 @@ fn near_others(groups: &mut [Group], others: &[Pole]) {
 /// ```text
 /// μ q = −C q − ℓ p,   μ p = ℓ q,
 /// ```
-///
-/// whose norm is that of the slowest motion, however fast the others are. A rigid motion ρ of
-/// mass m, which only dashpots hold, joins as `ρ′ = ρ + B q`, `B = C_ρρ⁻¹ C_ρq`:
-/// `μ ρ′ = m C_ρρ⁻¹ (B q − ρ′)`, and C becomes `C − C_qρ B` beside `C_qρ ρ′`.
+/// Its norm is that of the slowest mode, however fast the others are. A rigid motion ρ of mass m, restrained only by
+/// dashpots, enters as `ρ′ = ρ + B q` with `B = C_ρρ⁻¹ C_ρq`: `μ ρ′ = m C_ρρ⁻¹ (B q − ρ′)`, and C becomes `C − C_qρ B`
+/// beside `C_qρ ρ′`.
 struct State {
-    /// `ℓ` (s), and the strains for which M is diagonal, in those of the members.
+    /// `ℓ` (s), and the strains that make M diagonal, in terms of the members.
     lengths: Vec<f64>,
     turned: Mat<f64>,
-    /// Units of the rigid motions, in which their mass is that of the slowest mode's strains,
-    /// and that mass (s²).
+    /// Units of the rigid motions that give them the mass of the slowest mode's strains, and that mass (s²).
     unit: Vec<f64>,
     mass: f64,
     /// `B`.
@@ -216,7 +211,7 @@ impl State {
 
     /// All eigenvalues with `Im s ≥ 0`.
     fn poles(&self) -> Result<Vec<Pole>> {
-        /// Round-off takes a double eigenvalue apart by its root, 1e-8.
+        /// Round-off splits a double eigenvalue by its square root, 1e-8.
         const SAME: f64 = 1e-6;
         let (n, r) = (self.lengths.len(), self.unit.len());
         let eigen = self.matrix.eigen().map_err(|_| no_solution(n))?;
@@ -230,8 +225,8 @@ impl State {
             let bound = |k: usize| -> c64 { (0..n).map(|i| strains[i] * self.mixed[(k, i)]).sum() };
             let rigid: Vec<c64> = (0..r).map(|k| column(2 * n + k) - bound(k)).collect();
             let one = self.pole(1.0 / *mu, &strains, &rigid);
-            // What swings has as much of both energies. A pair that has not is the same real
-            // eigenvalue twice, and round-off an imaginary part; its vectors are both parts.
+            // An oscillation has equal parts of both energies. A pair without is one real eigenvalue twice, with an
+            // imaginary part from round-off; real and imaginary part are its two vectors.
             let twice = mu.im != 0.0
                 && mu.im.abs() < SAME * mu.norm()
                 && (one.strain_share - 0.5).abs() > SAME;
@@ -248,7 +243,7 @@ impl State {
         Ok(poles)
     }
 
-    /// The motion of that eigenvalue with those strains and rigid motions of this problem.
+    /// The motion of that eigenvalue with the given strains and rigid motions of this problem.
     fn pole(&self, s: c64, strains: &[c64], rigid: &[c64]) -> Pole {
         let size = |of: &[c64]| of.iter().map(|p| p.norm_sqr()).sum::<f64>();
         let moving = strains.iter().zip(&self.lengths).map(|(p, l)| p.norm_sqr() * l * l);
@@ -271,7 +266,7 @@ impl State {
 /// The root of `a s² + b s + c` that is nearest to a guess.
 fn nearest_root(a: c64, b: c64, c: c64, guess: c64) -> c64 {
     let root = (b * b - a * c * 4.0).sqrt();
-    // The sum that does not cancel.
+    // The sum without cancellation.
     let sum = if (b + root).norm() > (b - root).norm() { b + root } else { b - root };
     let roots = [sum / a * -0.5, c / sum * -2.0];
     let far = |s: &c64| (*s - guess).norm();

@@ -37,8 +37,8 @@ impl Track {
         Self { samples, changes, ends, xi }
     }
 
-    /// Place (m), deflection and change of the knob end, of the points of elements of those middles and lengths, and
-    /// of the tip; deflections and changes times `scale`.
+    /// Place (m), deflection and change at the knob end, at the points of elements with those middles and lengths, and
+    /// at the tip; deflections and changes are multiplied by `scale`.
     pub(super) fn places(&self, stretches: &[(f64, f64)], scale: f64) -> Vec<[f64; 3]> {
         let end = |x: f64, [w, change]: [f64; 2]| [x, scale * w, scale * change];
         let (middle, length) = stretches.last().copied().unwrap_or_default();
@@ -54,7 +54,7 @@ impl Track {
         places
     }
 
-    /// The greatest distance of two places beside each other, ends among them, as ξ.
+    /// The greatest distance in ξ between two adjacent places, ends included.
     fn widest(&self) -> f64 {
         let (first, last) = (self.xi.first().unwrap_or(&1.0), self.xi.last().unwrap_or(&-1.0));
         let inner = self.xi.windows(2).map(|pair| pair[1] - pair[0]);
@@ -86,7 +86,7 @@ impl Shape {
         [even - odd, even + odd]
     }
 
-    /// Least and greatest deflection of all places of element `k`.
+    /// Least and greatest deflection at the places of element `k`.
     fn between(&self, k: usize, track: &Track) -> [f64; 2] {
         let points = track.xi.len();
         let [left, right] = self.ends(k);
@@ -98,8 +98,8 @@ impl Shape {
         [least, most]
     }
 
-    /// Largest |deflection| over the continuous shape, and the relative change there: of the ends
-    /// of every element, where joints make cusps, and of the peaks between its places.
+    /// The largest |deflection| of the continuous shape, and the relative change there. It may lie at the end of an
+    /// element, where joints make cusps, or at a peak between places.
     pub(super) fn largest(&self, track: &Track) -> (f64, f64) {
         let points = track.xi.len();
         let [knob, tip] = track.ends;
@@ -113,7 +113,7 @@ impl Shape {
         let (widest, mut places) = (track.widest(), Vec::with_capacity(points + 2));
         for k in 0..self.stretches.len() {
             let [lowest, greatest] = self.between(k, track);
-            // A peak has no slope, and is that much higher than the places beside it at most.
+            // The slope is zero at a peak, so it exceeds the places beside it by at most this.
             let higher = 0.5 * self.most_bend(k) * widest * widest;
             if greatest.max(-lowest) + higher <= most {
                 continue;
@@ -135,8 +135,8 @@ impl Shape {
         (most, change)
     }
 
-    /// The place ξ beside place `j` of element `k` where the slope is zero, and the deflection
-    /// there; place `j` itself if the slope has one sign up to the next places.
+    /// The place ξ beside place `j` of element `k` where the slope is zero, and the deflection there. It is place `j`
+    /// itself if the slope has one sign up to the next places.
     fn extreme(&self, k: usize, places: &[(f64, f64)], j: usize) -> (f64, f64) {
         let slope = |xi: f64| self.derivatives(k, xi)[1];
         let (at, value) = places[j];
@@ -145,7 +145,7 @@ impl Shape {
         let across = |xi: &f64| here * slope(*xi) < 0.0;
         let Some(mut other) = beside.into_iter().flatten().find(across) else { return (at, value) };
         let (mut own, mut xi) = (at, at);
-        // Newton's steps where they stay inside the shrinking bracket, halving where not.
+        // Newton's steps if they stay inside the shrinking bracket, otherwise halving.
         for _ in 0..60 {
             let [w, slope, bend] = self.derivatives(k, xi);
             if slope * here > 0.0 {
@@ -166,15 +166,16 @@ impl Shape {
 
     /// The isolated zeros of the deflection inside the bat (m), rising.
     ///
-    /// A deflection of at most `rest` counts as 0: a stretch at rest has no nodes. Beside a place of
-    /// zero, such as a pin, the slope tells the sign; between two places of one sign are two zeros
-    /// where the deflection comes nearest to zero beyond it.
+    /// A deflection of at most `rest` counts as 0: a stretch at rest has no nodes. Beside a place of zero deflection,
+    /// such as a pin, the slope gives the sign. Between two places of one sign there are two zeros if the deflection
+    /// crosses zero at its extremum.
     ///
-    /// Beside them the places (m) where it comes nearest to zero without crossing it, and how near.
+    /// Also returns the places (m) where the deflection has an extremum near zero without crossing, and the deflection
+    /// there.
     pub(super) fn zeros(&self, track: &Track, rest: f64) -> (Vec<f64>, Vec<[f64; 2]>) {
         let (mut zeros, mut dips) = (Vec::new(), Vec::new());
         let mut places = Vec::with_capacity(track.xi.len() + 2);
-        // The sign that the deflection had last, and its value at the end of the last element.
+        // The last sign of the deflection, and its value at the end of the last element.
         let (mut before, mut border) = (0.0, None);
         let widest = track.widest();
         for (k, (middle, length)) in self.stretches.iter().enumerate() {
@@ -185,7 +186,7 @@ impl Shape {
                 && sign * border.unwrap_or(sign) > rest
                 && 8.0 * nearest > self.most_bend(k) * widest * widest
             {
-                // No zero, nor room for two between two places.
+                // There is no zero, and no room for two zeros between two places.
                 (before, border) = (sign, Some(self.ends(k)[1]));
                 continue;
             }
@@ -206,7 +207,7 @@ impl Shape {
                     add(left);
                 }
                 if first * signs[1] < 0.0 {
-                    // A zero at a place itself is not the one that is sought.
+                    // A zero at a place itself is not the zero that is sought.
                     let (left, a) = match a {
                         0.0 if signs[0] != 0.0 => self.off(k, [left, right], first),
                         _ => (left, first * a.abs()),
@@ -232,8 +233,8 @@ impl Shape {
         (zeros, dips)
     }
 
-    /// The first place on the way from one to another of element `k`, halving it, where the
-    /// deflection has that sign, and the deflection there.
+    /// The first place from one end to the other of element `k`, by halving, where the deflection has that sign, and
+    /// the deflection there.
     fn off(&self, k: usize, [from, to]: [f64; 2], sign: f64) -> (f64, f64) {
         let value = |xi: f64| (xi, self.derivatives(k, xi)[0]);
         let mut halves = (1..52).map(|halvings| value(from + (to - from) * 0.5f64.powi(halvings)));
@@ -241,10 +242,10 @@ impl Shape {
         found.unwrap_or((from, sign * f64::MIN_POSITIVE))
     }
 
-    /// The sign of the deflection at a place of element `k`, or just beside it on the way `to`
-    /// another where the deflection is `other`.
+    /// The sign of the deflection at a place of element `k`, or just beside it on the way `to` another place, where the
+    /// deflection is `other`.
     fn sign(&self, k: usize, (xi, w): (f64, f64), to: f64, other: f64) -> f64 {
-        // A slope that carries less than this of the other deflection is that of a clamp.
+        // A slope that adds less than this share of the other deflection belongs to a clamp.
         const FLAT: f64 = 1e-6;
         if w != 0.0 {
             return w.signum();
@@ -253,9 +254,8 @@ impl Shape {
         if other != 0.0 && rise.abs() > FLAT * other.abs() { rise.signum() } else { 0.0 }
     }
 
-    /// The most that the second derivative by ξ is on element `k`: `|P_j″| ≤ P_j″(1) = (j − 1) j (j + 1) (j +
-    /// 2)/8`. Between two places the deflection leaves its chord by an eighth of that times the square of
-    /// their distance at most.
+    /// An upper bound of the second derivative by ξ on element `k`: `|P_j″| ≤ P_j″(1) = (j − 1) j (j + 1) (j + 2)/8`.
+    /// Between two places the deflection departs from its chord by at most an eighth of it times the squared distance.
     fn most_bend(&self, k: usize) -> f64 {
         let own = &self.coefficients[k * self.terms..(k + 1) * self.terms];
         let of = |(j, w): (usize, &f64)| {
@@ -265,8 +265,8 @@ impl Shape {
         own.iter().enumerate().map(of).sum()
     }
 
-    /// Where between places `j − 1` and `j` of element `k` the deflection is nearest to zero, if
-    /// it may be between them, and the deflection there.
+    /// The place between places `j − 1` and `j` of element `k` where the deflection is nearest to zero, and the
+    /// deflection there; `None` if it cannot lie between them.
     fn dip(&self, k: usize, places: &[(f64, f64)], j: usize) -> Option<(f64, f64)> {
         let size = |j: usize| places.get(j).map_or(f64::INFINITY, |(_, w)| w.abs());
         let lowest = |j: usize| size(j) <= size(j.wrapping_sub(1)) && size(j) <= size(j + 1);
@@ -275,7 +275,7 @@ impl Shape {
         (xi > places[j - 1].0 && xi < places[j].0).then_some((xi, w))
     }
 
-    /// Leaves no nodes on stretches between clamps where the deflection is nowhere above `rest`.
+    /// Removes the nodes on stretches between clamps where the deflection never exceeds `rest`.
     pub(super) fn leave_still(
         &self,
         nodes: &mut Vec<f64>,
@@ -294,9 +294,8 @@ impl Shape {
         nodes.retain(|node| samples.iter().any(|(x, w)| w.abs() > rest && same(*x, *node)));
     }
 
-    /// The zero between `left` and `right` on element `k`, where the deflection is of different
-    /// sign: Halley's steps `ξ − w w′/(w′² − ½ w w″)` where they stay inside the shrinking bracket,
-    /// halving where not.
+    /// The zero between `left` and `right` on element `k`, where the deflection has different signs: Halley's steps
+    /// `ξ − w w′/(w′² − ½ w w″)` if they stay inside the shrinking bracket, otherwise halving.
     fn zero(&self, k: usize, mut left: f64, mut right: f64, before: f64, after: f64) -> f64 {
         let halley = |xi: f64| {
             let [value, slope, bend] = self.derivatives(k, xi);
@@ -304,11 +303,11 @@ impl Shape {
             let near = value.abs() <= 2.0 * SMALL * slope.abs();
             (value, xi - step, near && (value * bend).abs() <= 4.0 * SMALL * slope * slope)
         };
-        // The error is about the cube of the step, over the square of the distance to where the
-        // slope is zero: after a step of 1e-5 of both it is below round-off.
+        // The error is about the cube of the step over the squared distance to the place of zero slope. After a step of
+        // 1e-5 of both it is below round-off.
         const SMALL: f64 = 1e-5;
         let start = left + (right - left) * (before / (before - after));
-        // Nearly always two steps do, with nothing to decide on the way.
+        // Two steps are nearly always enough, and need no further test.
         let once = halley(start).1;
         let (_, twice, small) = halley(once);
         if small && (twice - once).abs() < SMALL && twice > left && twice < right {
@@ -334,8 +333,8 @@ impl Shape {
         xi
     }
 
-    /// How far nodes may be off (m): the change of the deflection around each over its slope; and the greatest
-    /// of 1/slope (m per unit of deflection).
+    /// Largest possible error of the nodes (m), the change of the deflection at each over its slope; and the largest
+    /// 1/slope (m per unit of deflection).
     pub(super) fn node_error(&self, nodes: &[f64], track: &Track) -> [f64; 2] {
         let points = track.xi.len();
         let error = |x: &f64| {
@@ -360,7 +359,7 @@ mod tests {
 
     const PLACES: [f64; 6] = [-0.93, -0.66, -0.24, 0.24, 0.66, 0.93];
 
-    /// What is known of a shape at the points of its elements, as if it were exact.
+    /// A shape's values at the points of its elements, taken as exact.
     fn track(shape: &Shape) -> Track {
         let samples = |k: usize| PLACES.map(|xi| shape.derivatives(k, xi)[0]);
         let samples: Vec<f64> = (0..shape.stretches.len()).flat_map(samples).collect();
@@ -373,7 +372,7 @@ mod tests {
         shape.zeros(&track(shape), 1e-15).0
     }
 
-    /// A shape of those Legendre coefficients on two elements, from 0 to 1 and on to 2.
+    /// A shape with those Legendre coefficients on two elements, from 0 to 1 and from 1 to 2.
     fn on_two(coefficients: [[f64; 4]; 2]) -> Shape {
         let stretches = Arc::new(vec![(0.5, 1.0), (1.5, 1.0)]);
         Shape { stretches, terms: 4, coefficients: coefficients.concat(), turns: vec![] }
@@ -401,7 +400,7 @@ mod tests {
     fn a_pin_with_a_node_near_it_is_two_nodes() {
         for node in [-0.999, -0.98, -0.94] {
             let slope = -1.0 - node;
-            // Beyond the pin (ξ + 1)(ξ − node), before it the line of that slope.
+            // Beyond the pin (ξ + 1)(ξ − node), before it a line with the same slope.
             let before = [-slope, slope, 0.0, 0.0].map(|w: f64| w);
             let shape = on_two([before, parabola(-1.0, node)]);
             let found = zeros(&shape);

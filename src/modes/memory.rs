@@ -4,20 +4,20 @@ use crate::bat::theory::Theory;
 use crate::modes::eigenpairs::steps_beyond;
 use crate::modes::referee::{MOST_DENSE, Solver};
 
-/// What a solve works on.
+/// The size of a solve.
 #[derive(Debug, Clone, Copy)]
 pub struct Work {
     /// Number of elements.
     pub elements: usize,
     /// Degree of their deflection.
     pub degree: usize,
-    /// Points at which each is sampled.
+    /// Number of points at which each element is sampled.
     pub points: usize,
     /// Number of modes.
     pub modes: usize,
-    /// How many of them are looked at side by side.
+    /// Number of modes evaluated side by side.
     pub together: usize,
-    /// Residual that the iteration stops at.
+    /// Residual at which the iteration stops.
     pub residual: f64,
     /// The beam theory.
     pub theory: Theory,
@@ -26,10 +26,10 @@ pub struct Work {
 }
 
 impl Work {
-    /// The most memory (GB, 10⁹ bytes) that is in use at one time, to 15 % too little at most.
+    /// The most memory (GB, 10⁹ bytes) in use at one time; it may be 15 % too low.
     ///
-    /// What an element stores is counted from the program's own structures; what the solvers that
-    /// factor take was measured on a cone (`tests/memory.rs`), and is an upper bound.
+    /// The memory of an element is counted from the program's structures. That of the factoring solvers was measured on
+    /// a cone (`tests/memory.rs`) and is an upper bound.
     pub fn gigabytes(&self) -> f64 {
         let small = 3.0 * (self.steps() as f64).powi(2);
         8e-9 * (self.elements as f64 * self.numbers_per_element() + small + self.dense())
@@ -40,16 +40,16 @@ impl Work {
         (self.degree - 1) * if self.theory.shears() { 2 } else { 1 }
     }
 
-    /// Steps of the iteration when it has looked for its end once more than expected.
+    /// Number of steps if the iteration needs one test more than expected.
     fn steps(&self) -> usize {
         let beyond = steps_beyond(self.theory, self.modes, self.residual);
         self.modes + beyond + 1 + self.modes / 8
     }
 
-    /// Numbers that are kept for every element.
+    /// Numbers stored for every element.
     fn numbers_per_element(&self) -> f64 {
         let (terms, strains, width) = (self.degree + 1, self.strains(), self.strains() + 2);
-        // EI, ρA, ρI and κGA; deflection, rotation and their changes, and what shear misses.
+        // EI, ρA, ρI and κGA; deflection, rotation and their changes, and the differences of the shear strain.
         let [sections, motions] = match (self.theory.turns(), self.theory.shears()) {
             (_, true) => [4, 5],
             (true, _) => [3, 4],
@@ -57,13 +57,13 @@ impl Work {
         };
         let statics = 2 * width * width + 2 * width + 2 + sections * self.points + width;
         let shape = if self.theory.shears() { 2 * terms } else { terms };
-        // Motions that are looked at: shape, what is sampled of it, its strains and their image.
+        // Evaluated modes: shape, its samples, its strains and their image.
         let one = shape + motions * self.points + 2 * strains + width + 1;
         let motion = self.together * one + 2 * self.points;
         let (basis, vectors) = (self.steps() * strains, self.modes * strains);
-        // Place, deflection and change at every point, until nodes are told.
+        // Place, deflection and change at every point, until the nodes are determined.
         let looked_at = self.modes * (shape + 3 * self.points) + motion;
-        // Places, lengths and defects of a mesh and of the one before.
+        // Places, lengths and defects of a mesh and of the one before it.
         const MESH: usize = 24;
         let matrices = if self.solver == Solver::Statics { 0 } else { 20 * width * width };
         (MESH + statics + matrices + vectors + basis.max(looked_at)) as f64
@@ -71,7 +71,7 @@ impl Work {
 
     /// Numbers in square matrices of all unknowns.
     fn dense(&self) -> f64 {
-        // More are refused for their number.
+        // Larger problems are refused for their number of unknowns.
         let unknowns = self.strains() as f64 * self.elements as f64 + 2.0;
         let unknowns = unknowns.min(MOST_DENSE as f64);
         if self.solver == Solver::Dense { 11.0 * unknowns * unknowns } else { 0.0 }

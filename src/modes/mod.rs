@@ -1,20 +1,20 @@
 //! How does the bat ring, as accurately as asked?
 //!
-//! [`solve()`](solve::solve) plans elements for a tolerance, states every error, and refines until these are within it: `solve`, `refine`, `task`, `pairs`,
-//! `eigenpairs` call each other in this order, and the last one [`Lanczos`](crate::eigen::lanczos).
+//! [`solve()`](solve::solve) plans elements for a tolerance, states every error, and refines until these are within it.
+//! Calls go from `solve` to `refine`, `task`, `pairs`, `eigenpairs` and [`Lanczos`](crate::eigen::lanczos).
 //!
 //! | file | question |
 //! |---|---|
-//! | [`survey`], [`stations`], [`plan`] | how does the wave number go along the bat; what does reaching over a station cost; which elements does a tolerance need |
-//! | [`eigenpairs`] | the lowest motions on one mesh, one bat or several side by side |
+//! | [`survey`], [`stations`], [`plan`] | how does the wave number vary along the bat; what is the cost of an element over a station; which elements does a tolerance need |
+//! | [`eigenpairs`] | the lowest modes on one mesh, one bat or several side by side |
 //! | [`shape`], `landmarks`, `certainty`, [`mode`] | a deflection at a place, its zeros and peaks, and which zeros are certain; frequency, nodes and modal mass of a mode |
 //! | [`certificate`], [`referee`] | how far may each be off; what do other solvers say |
-//! | [`pairs`] | the lowest motions whatever the degree of the elements |
-//! | `memory`, [`request`], [`solution`], [`task`], `refine` | what is asked and how much memory it takes; what is answered; the modes on one mesh, and of a bat as it is |
+//! | [`pairs`] | the lowest modes whatever the degree of the elements |
+//! | `memory`, [`request`], [`solution`], [`task`], `refine` | what is asked and how much memory it takes; what is answered; the modes on one mesh; the modes of a prepared bat |
 //! | [`shifts`], [`theory_choice`], [`tuned`], [`prepared`] | what do rotary inertia and shear do to the frequencies; which theory does a bat need; how stiff is the wood, by a tap; both at once |
 //! | [`solve`](mod@solve), [`up_to`], [`batch`] | solve to a tolerance; up to a frequency; many bats |
-//! | [`compliance`] | how the bat gives way at a place |
-//! | [`pole`], [`reduced`], `driven`, `free_motions`, [`damping`] | few modes with dashpots, how they follow a force, and how they die out |
+//! | [`compliance`] | how far does a force deflect the bat at a place |
+//! | [`pole`], [`reduced`], `driven`, `free_motions`, [`damping`] | a few modes with dashpots: their response to a force and their decay |
 //! | [`hoop`] | how the wall of a hollow bat rings |
 
 pub mod shape;

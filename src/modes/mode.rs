@@ -1,7 +1,6 @@
-//! What does the bat do when it rings: frequencies, shapes, nodes, modal masses?
+//! How does the bat vibrate: frequencies, shapes, nodes, modal masses?
 //!
-//! [`crate::solve()`] gives the [`Mode`]s; [`Mode::frequency`], [`Shape::deflection`] and
-//! [`Mode::error`] are what to ask of one.
+//! [`crate::solve()`] returns the [`Mode`]s; see [`Mode::frequency`], [`Shape::deflection`] and [`Mode::error`].
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -24,29 +23,28 @@ pub struct Mode {
     pub order: usize,
     /// Angular frequency ω (rad/s).
     pub omega: f64,
-    /// Modal mass `∫ρA φ² dx`, with rotary inertia and what is attached, for a largest |φ| of 1 (kg).
+    /// Modal mass `∫ρA φ² dx` with rotary inertia and fixtures, for a largest |φ| of 1 (kg).
     pub modal_mass: f64,
-    /// Where the deflection is zero, from the knob end (m): the nodes that are certainly there.
+    /// Nodes that certainly exist: places of zero deflection, from the knob end (m).
     pub nodes: Vec<f64>,
-    /// From where to where (m) the deflection is below its own error, so that other nodes than [`Self::nodes`]
-    /// cannot be told.
+    /// Stretches (m) where the deflection is below its own error, so that further nodes cannot be determined there.
     pub untold: Vec<[f64; 2]>,
     /// Deflection φ, largest |φ| = 1, the barrel end positive.
     pub shape: Shape,
-    /// How far these numbers may be off.
+    /// Possible errors of these numbers.
     pub error: ModeError,
-    /// What may be off in the deflection, until the nodes are told.
+    /// Possible error of the deflection, kept until the nodes are determined.
     #[serde(skip)]
     pub(super) doubt: Doubt,
 }
 
-/// How far a mode's numbers may be off.
+/// Possible errors of a mode's numbers.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct ModeError {
-    /// Relative error of the frequency because the mesh is finite.
+    /// Relative error of the frequency due to the finite mesh.
     pub discretization: f64,
-    /// Relative error of the frequency because numbers have 53 bits.
+    /// Relative error of the frequency due to round-off.
     pub round_off: f64,
     /// `‖u − λ K⁻¹ M u‖ / ‖u‖` of the computed pair, in the strain energy norm.
     pub residual: f64,
@@ -54,12 +52,12 @@ pub struct ModeError {
     pub nodes: f64,
     /// Relative error of the modal mass.
     pub modal_mass: f64,
-    /// Error of the deflection φ anywhere on the bat, the largest |φ| being 1.
+    /// Error of the deflection φ anywhere on the bat, for a largest |φ| of 1.
     pub shape: f64,
 }
 
 impl ModeError {
-    /// Relative error of the frequency by mesh and round-off together.
+    /// Relative error of the frequency, mesh and round-off together.
     pub fn total(&self) -> f64 {
         self.discretization + self.round_off
     }
@@ -71,14 +69,13 @@ impl Mode {
         self.omega / TAU
     }
 
-    /// Whether it crosses zero as often as the theory of oscillation demands of mode n of a free
-    /// Euler–Bernoulli bat: n + 1 times (Gantmacher and Krein, Oscillation Matrices, 1950). A list
-    /// of modes that all do has no gap.
+    /// Whether it crosses zero as often as oscillation theory requires of mode n of a free Euler–Bernoulli bat: n + 1
+    /// times (Gantmacher and Krein, Oscillation Matrices, 1950). If all modes of a list do, the list is complete.
     pub fn has_its_nodes(&self) -> bool {
         self.nodes.len() == self.order + 1
     }
 
-    /// The mode that is that motion in one lane.
+    /// The mode of that motion in one lane.
     pub fn new<S: Real, R: Over<S>>(
         order: usize,
         view: &View<S>,
@@ -89,8 +86,7 @@ impl Mode {
         let track = Track::new(view, motion, lane);
         let mut shape = Shape::in_lane(view, motion, lane, stretches);
         let (largest, change) = shape.largest(&track);
-        // The barrel end is positive; if it is held, the knob end; if both are, the side of the
-        // peak.
+        // The barrel end is positive; if it is held, the knob end; if both are held, the side of the peak.
         const AT_REST: f64 = 1e-9;
         let moving = |end: usize| track.ends[end][0].abs() > AT_REST * largest;
         let leading = match (moving(1), moving(0)) {
@@ -104,7 +100,7 @@ impl Mode {
         let rest = if view.fixed.is_some() { (STILL * largest).max(2.0 * slack) } else { 0.0 };
         let (mut nodes, mut dips) = shape.zeros(&track, rest);
         if let Some(fixed) = view.fixed {
-            // Where a clamp holds the bat its deflection has more than a zero.
+            // At a clamp the deflection has a multiple zero.
             let near = BESIDE_CLAMP * shape.length();
             nodes.retain(|x| fixed.placed.clamps.iter().all(|clamp| (x - clamp).abs() > near));
             shape.leave_still(&mut nodes, &fixed.placed.clamps, &track, RESTING * largest);
@@ -134,8 +130,8 @@ impl Mode {
             round_off: 0.0,
             residual: motion.residual.lane(lane),
             nodes: node_error,
-            // The mass goes as the square of the shape; where the parts of its own change cancel,
-            // by luck, the shape's change is the better measure.
+            // The mass goes as the square of the shape. If the parts of its change cancel by chance, the shape's change
+            // is the better measure.
             modal_mass: 2.0 * f64::max((motion.work.lane(lane) / kinetic - change).abs(), worst),
             shape: worst,
         };
@@ -145,6 +141,6 @@ impl Mode {
     }
 }
 
-/// Where something holds the bat, a deflection below this share of the largest counts as 0: its round-off. Between stiff
-/// springs a bat moves by 1e-12 of its largest deflection and has nodes all the same.
+/// On a held bat, a deflection below this share of the largest is round-off and counts as 0. Between stiff springs a
+/// bat moves by 1e-12 of its largest deflection and still has nodes.
 const STILL: f64 = 4.0 * f64::EPSILON;

@@ -1,7 +1,7 @@
-//! What are the lowest motions of a bat on a mesh, whatever the degree of its elements?
+//! What are the lowest modes of a bat on a mesh, whatever the degree of its elements?
 //!
-//! [`pairs_of`] takes degree and theory when the program runs; what asks through [`Pairs`] is compiled
-//! once, and what steps through the strains for every degree and theory.
+//! [`pairs_of`] takes degree and theory at run time. Code that uses [`Pairs`] is compiled once; code that steps through
+//! the strains is compiled for every degree and theory.
 
 use crate::base::error::Result;
 use crate::base::lanes::Lanes;
@@ -20,7 +20,7 @@ use crate::modes::referee::{self, Found, Solver};
 
 /// Eigenpairs of a bat on elements of any degree and theory.
 pub trait Pairs: Send + Sync {
-    /// Puts the bat on that mesh.
+    /// Assembles the bat on that mesh.
     fn assemble(&mut self, bat: &Bat, mesh: &Mesh);
     /// The bat on its mesh.
     fn view(&self) -> View<'_, f64>;
@@ -36,9 +36,9 @@ pub trait Pairs: Send + Sync {
     ///
     /// As [`Lanczos::largest`].
     fn solve_apart(&mut self, residual: f64) -> Result<usize>;
-    /// What the iteration found.
+    /// The results of the iteration.
     fn lanczos(&mut self) -> &mut Lanczos<f64>;
-    /// So many of the lowest modes by a solver that factors the stiffness.
+    /// The `count` lowest modes by a solver that factors the stiffness.
     ///
     /// # Errors
     ///
@@ -46,13 +46,13 @@ pub trait Pairs: Send + Sync {
     fn factored(&self, bat: &Bat, mesh: &Mesh, count: usize, solver: Solver) -> Result<Found>;
     /// As [`Eigenpairs::look_at`].
     fn look_at(&mut self, vectors: &[f64], first: usize, depth: Depth);
-    /// The bat on its mesh, and the motions that were looked at last, side by side.
+    /// The bat on its mesh, and the modes evaluated last, side by side.
     fn looked_at(&self) -> (View<'_, f64>, &Motion<Lanes>);
     /// As [`Motion::take_alone`].
     fn look_at_one(&self, strains: &[f64], known: &[f64], depth: Depth, motion: &mut Motion<f64>);
     /// `y = A q`.
     fn apply(&self, q: &[f64], y: &mut [f64]);
-    /// As [`Fixed::under_force`], of a bare bat too.
+    /// As [`Fixed::under_force`], also for a bare bat.
     fn under_force(&self, cell: usize, s: f64) -> Vec<f64>;
 }
 
@@ -106,12 +106,12 @@ impl<const N: usize, const W: usize> Pairs for Eigenpairs<f64, N, W> {
     }
 }
 
-/// Nothing yet, for bats like this one on elements of that degree.
+/// An empty engine for bats like this one, on elements of that degree.
 pub fn pairs_of(bat: &Bat, degree: usize, theory: Theory) -> Box<dyn Pairs> {
     of_degree(degree, theory, Empty { bat, theory })
 }
 
-/// Eigenpairs to be.
+/// Arguments for an empty engine.
 struct Empty<'a> {
     bat: &'a Bat,
     theory: Theory,

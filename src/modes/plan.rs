@@ -1,38 +1,36 @@
-//! Which elements of which degree does the wanted accuracy need?
+//! Which elements of which degree does a tolerance need?
 //!
-//! [`Plan::cheapest`] answers by a formula before anything is solved; [`crate::solve()`] looks at
-//! the errors then and calls [`Plan::refined`] where it was wrong.
+//! [`Plan::cheapest`] answers by a formula before anything is solved. [`crate::solve()`] then checks the errors and
+//! calls [`Plan::refined`] if the formula was wrong.
 //!
-//! On an element of length `h` a mode is nearly `cos kx` with the local wave number
-//! `k = (ω²ρA/EI)^¼`. Polynomials of degree `p − 2` in the curvature miss of it what its Legendre
-//! series has beyond them, with spherical Bessel functions `j_l` at `a = kh/2`
-//!
+//! On an element of length `h` a mode is nearly `cos kx` with the local wave number `k = (ω²ρA/EI)^¼`. Polynomials of
+//! degree `p − 2` in the curvature miss the higher terms of its Legendre series. With spherical Bessel functions `j_l`
+//! at `a = kh/2` the error is
 //! ```text
 //! Δf/f = ½ Σ_{l ≥ p−1} (2l + 1) j_l(a)² ≈ ½ (2p − 1) [a^{p−1}/(2p − 1)!!]²,
 //! ```
 //!
-//! which for `p = 3` is the known `(kh)⁴/1440`.
+//! For `p = 3` this is the known `(kh)⁴/1440`.
 //!
-//! A taper bends the curvature too: under a constant moment it goes as `1/EI ∝ r⁻⁴`, whose series
-//! on an element over which `ln r` changes by `t` gives, with `m = p − 1`,
+//! A taper bends the curvature too. Under a constant moment it goes as `1/EI ∝ r⁻⁴`. On an element over which `ln r`
+//! changes by `t`, its series gives, with `m = p − 1`,
 //!
 //! ```text
 //! Δf/f = ½/(2m + 1) [(m+3 choose 3) m! 2^m/(2m − 1)!!]² tanh(t/4)^{2m}
 //! ```
 //!
-//! (the leading term of the series of `(1 + ξ tanh t/2)⁻⁴`; within a factor 2 of the whole up to `t
-//! = 1`). Where sections turn or shear, `k` is the greater wave number of that theory. An element
-//! may have as much of both as lies on an ellipse. Bores are not looked at: the outer radius stands
-//! for the section, and the check after the solve for the rest.
+//! (the leading term of the series of `(1 + ξ tanh t/2)⁻⁴`, within a factor 2 of the whole up to `t = 1`). With rotary
+//! inertia or shear, `k` is the greater wave number of that theory. The combinations of both that an element may have
+//! lie within an ellipse. Bores are ignored: the outer radius represents the section, and the check after the solve
+//! covers the rest.
 //!
-//! Elements end at stations, or, where that is cheaper, they reach over them; [`crate::modes::stations`]
-//! tells what that costs.
+//! Elements end at stations or, if that is cheaper, reach over them; [`crate::modes::stations`] gives the cost of that.
 //!
 //! # Source
 //!
-//! Rayleigh's expansion of a plane wave and the leading term of `j_l`: Abramowitz and Stegun,
-//! Handbook of Mathematical Functions (1964), 10.1.47 and 10.1.2. The taper's is worked out here,
-//! from the binomial series and the leading coefficient of `P_m`.
+//! Rayleigh's expansion of a plane wave and the leading term of `j_l`: Abramowitz and Stegun, Handbook of Mathematical
+//! Functions (1964), 10.1.47 and 10.1.2. The error for a taper is derived here, from the binomial series and the
+//! leading coefficient of `P_m`.
 
 use std::fmt;
 use std::ops::Range;
@@ -56,11 +54,11 @@ pub struct Plan {
     pub mesh: Mesh,
     /// Degree of their deflection.
     pub degree: usize,
-    /// Why these.
+    /// Reason for the choice.
     pub reason: Reason,
 }
 
-/// Why a plan is as it is.
+/// Reason for a plan.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 #[non_exhaustive]
 pub enum Reason {
@@ -74,12 +72,12 @@ pub enum Reason {
         /// The wanted relative error of every frequency.
         tolerance: f64,
     },
-    /// The plan before missed the tolerance, by little: one degree more.
+    /// The previous plan missed the tolerance by little: one degree more.
     OneDegreeMore {
         /// The wanted relative error of every frequency.
         tolerance: f64,
     },
-    /// The plan before missed the tolerance: more elements where the error was.
+    /// The previous plan missed the tolerance: more elements where the error was.
     Refined {
         /// The wanted relative error of every frequency.
         tolerance: f64,
@@ -109,60 +107,59 @@ impl fmt::Display for Reason {
     }
 }
 
-/// What a plan is to reach.
+/// Requirements on a plan.
 #[derive(Debug, Clone, Copy)]
 pub struct Wanted {
     /// Number of bending modes.
     pub modes: usize,
     /// Relative error of every frequency.
     pub tolerance: f64,
-    /// The degree, if it is not free.
+    /// The degree, if it is prescribed.
     pub degree: Option<usize>,
-    /// More than this only if the profile has as many pieces.
+    /// Upper limit on the unknowns, unless the profile has more pieces.
     pub most_unknowns: usize,
     /// The beam theory.
     pub theory: Theory,
 }
 
-/// The plan aims at this share of the wanted error, because no element is like the formula's;
-/// `examples/tuning/plans.rs` prints the share that first plans come to, 0.02 to 0.2 on dowel, cone and
-/// R161.
+/// The plan aims at this share of the wanted error, because no element is exactly like the formula's.
+/// `examples/tuning/plans.rs` prints the share that first plans reach: 0.02 to 0.2 on dowel, cone and R161.
 const AIM: f64 = 0.4;
-/// The smallest relative error worth planning for: arithmetic tells no finer one.
+/// The smallest relative error worth planning for, below round-off.
 const FINEST: f64 = 1e-16;
-/// The share of the wanted error that sections may lose.
+/// Share of the wanted error that the sampling of sections may cause.
 const MISSED: f64 = 1e-3;
-/// Elements reach over stations for errors down to this: below, a kink at a station costs more than a
-/// border there.
+/// Elements reach over stations for errors down to this. For smaller ones, a kink at a station costs more than a border
+/// there.
 const OVER: f64 = 1e-9;
-/// What kinks leave may be this many times what the formula says.
+/// The error due to kinks may be this many times that of the formula.
 const SURE: f64 = 3.0;
-/// Elements that reach over stations are fewer than this share of the pieces: about as long as these they
-/// would miss what a cubic does between stations.
+/// Elements that reach over stations must be fewer than this share of the pieces: shorter ones would miss what a cubic
+/// does between stations.
 const FEWER: f64 = 0.8;
-/// What sampling a piece costs that elements reach over, in the unit of [`cost`].
+/// Cost of sampling a piece under an element over stations, in the unit of [`cost`].
 const SAMPLING: f64 = 0.5;
-/// Halvings of an element for a formula.
+/// Most halvings of an element for a formula.
 const MOST_HALVINGS: usize = 12;
 
 impl Plan {
-    /// The cheapest plan whose error should be within the tolerance for the `modes` lowest modes,
-    /// with that degree if one is given.
+    /// The cheapest plan whose error should be within the tolerance for the `modes` lowest modes, with the prescribed
+    /// degree if there is one.
     pub fn cheapest(bat: &Bat, wanted: &Wanted) -> Self {
         let (least, most) = DEGREES.into_inner();
         let range = wanted.degree.map_or(least..=most, |degree| degree..=degree);
         Self::cheapest_among(bat, wanted, range)
     }
 
-    /// The cheapest plan within the tolerance with one of these degrees, which rise.
+    /// The cheapest plan within the tolerance with one of these degrees, which must rise.
     pub fn cheapest_among(
         bat: &Bat,
         wanted: &Wanted,
         degrees: impl IntoIterator<Item = usize>,
     ) -> Self {
         let Wanted { modes, tolerance, most_unknowns, .. } = *wanted;
-        // Mode n of a free beam is near the phase (n + ½)π from end to end; what holds a bat adds
-        // to the order of a motion at most one for each thing held beyond the two rigid motions.
+        // Mode n of a free beam has nearly the phase (n + ½)π from end to end. Each constraint beyond the two rigid
+        // motions raises the order of a mode by at most one.
         let held = bat.fixtures().held().saturating_sub(2);
         let phase = ((modes + held) as f64 + 0.5) * std::f64::consts::PI;
         let survey = Survey::of(bat, wanted.theory, phase);
@@ -173,7 +170,7 @@ impl Plan {
         for degree in degrees {
             range = Some([range.map_or(degree, |[from, _]| from), degree]);
             let mut layout = Layout::of(degree, AIM * tolerance.max(FINEST), wave, &survey);
-            // A plan that would be too large is made as large as it may be: rounding up adds to it.
+            // A plan that would be too large is made as large as allowed: rounding up adds to it.
             while (degree - 1) * layout.count > most_unknowns
                 && layout.count > bat.profile().pieces.len()
             {
@@ -188,7 +185,7 @@ impl Plan {
             if !dearer(&best, &layout) {
                 best = Some((layout.cost(pieces, least), layout));
             }
-            // What kinks make of it costs a look of its own.
+            // The effect of kinks is estimated separately.
             if let Some((mut over, stations)) = over.filter(|(over, _)| !dearer(&best, over)) {
                 over.shorten(bat, &survey, stations);
                 let fewer = (over.count as f64) < FEWER * pieces as f64;
@@ -208,22 +205,22 @@ impl Plan {
         Self { mesh, degree, reason: Reason::Cheapest { degrees, tolerance } }
     }
 
-    /// So many elements in all, spread by length, of that degree.
+    /// A plan with that number of elements in all, distributed by length, of that degree.
     pub fn fixed(bat: &Bat, elements: usize, degree: usize) -> Self {
         Self { mesh: Mesh::along(bat, elements), degree, reason: Reason::Asked }
     }
 
-    /// Number of strains without shear, and of unknowns that an element may bend in.
+    /// Number of strains without shear, which equals the unknowns for bending.
     pub fn unknowns(&self) -> usize {
         (self.degree - 1) * self.mesh.len()
     }
 
-    /// The plan after a solve that missed, from every element's `defects` (twice the relative error
-    /// of a frequency): one degree more where little is missing and `free` to choose, else every
-    /// element cut into as many parts as its own part of the error asks for.
+    /// The plan after a solve that missed the tolerance, from every element's `defects` (twice the relative error of a
+    /// frequency): one degree more if little is missing and the degree is `free`, otherwise every element is cut into
+    /// as many parts as its share of the error requires.
     pub fn refined(&self, bat: &Bat, defects: &[f64], tolerance: f64, free: bool) -> Self {
-        // A degree more takes about two digits off the error, and costs a fifth of the time:
-        // `examples/tuning/plans.rs` prints both, the error 20 to 130 times smaller.
+        // One degree more reduces the error by about two digits and costs a fifth of the time:
+        // `examples/tuning/plans.rs` prints both, with errors 20 to 130 times smaller.
         const LITTLE: f64 = 100.0;
         let (count, error) = (self.mesh.len() as f64, 0.5 * defects.iter().sum::<f64>());
         if free && error < LITTLE * tolerance && self.degree < *DEGREES.end() {
@@ -231,7 +228,7 @@ impl Plan {
             return Self { mesh: self.mesh.clone(), degree: self.degree + 1, reason };
         }
         let share = 0.5 * tolerance / count;
-        // A kink inside an element leaves the fifth power of its length at best.
+        // The error of a kink inside an element goes at best as the fifth power of its length.
         let over = self.mesh.over_stations();
         let order = if over { 4.0 } else { 2.0 * (self.degree - 1) as f64 };
         let parts = |k: usize| {
@@ -245,8 +242,8 @@ impl Plan {
     }
 }
 
-/// The mesh with every element halved where the points of its rule miss more of a formula, or of
-/// the κ of a bore that tapers, than the wanted error has room for.
+/// The mesh with elements halved until the points of the rule follow the formula, or the κ of a tapering bore, closely
+/// enough for the wanted error.
 fn resolved(bat: &Bat, mut mesh: Mesh, degree: usize, wanted: &Wanted) -> Mesh {
     let Wanted { theory, tolerance, .. } = *wanted;
     let profile = bat.profile();
@@ -272,15 +269,15 @@ fn resolved(bat: &Bat, mut mesh: Mesh, degree: usize, wanted: &Wanted) -> Mesh {
     mesh
 }
 
-/// How far elements of one degree reach within a tolerance: the share of one that a unit of
-/// `∫(ρA/EI)^¼ dx`, or of taper, uses up.
+/// The length of elements of one degree within a tolerance: the share of an element that a unit of `∫(ρA/EI)^¼ dx`, or
+/// of taper, takes.
 struct Layout {
     degree: usize,
     phase: f64,
     taper: f64,
     /// Number of elements.
     count: usize,
-    /// Number of elements of each stretch, where they reach over stations.
+    /// Number of elements of each stretch, if they reach over stations.
     over: Option<Vec<usize>>,
     /// The wanted error.
     tolerance: f64,
@@ -299,18 +296,18 @@ impl Layout {
         layout
     }
 
-    /// Elements that reach over stations, no longer than these.
+    /// Elements that reach over stations and are at most this long.
     fn over(&self, survey: &Survey, stations: &Stations) -> Self {
         let mut over = Self { over: Some(vec![]), ..*self };
         over.divided(survey, stations, 1.0);
         over
     }
 
-    /// That number of elements on each stretch, that many times as short as waves and tapers ask for.
+    /// The number of elements on each stretch, `shorter` times as short as waves and tapers require.
     fn divided(&mut self, survey: &Survey, stations: &Stations, shorter: f64) {
         let counts = stations.stretches.iter().map(|stretch| {
             let length: f64 = stretch.clone().map(|k| self.length(survey.piece(k))).sum();
-            // Too many for this to be worth it are as good as more of them.
+            // If there are too many for this to be worth it, more make no difference.
             whole((shorter * length).min(1e6))
         });
         let counts: Vec<usize> = counts.collect();
@@ -318,7 +315,7 @@ impl Layout {
         self.over = Some(counts);
     }
 
-    /// Makes elements over stations so short that kinks, too, leave no more than the tolerance.
+    /// Shortens elements over stations until the error due to kinks is within the tolerance too.
     fn shorten(&mut self, bat: &Bat, survey: &Survey, stations: &Stations) {
         let pieces = &bat.profile().pieces;
         let of = |k: usize| self.length(survey.piece(k)) / pieces[k].length;
@@ -335,7 +332,7 @@ impl Layout {
         self.divided(survey, stations, shorter);
     }
 
-    /// What a solve costs beside others.
+    /// Relative cost of a solve.
     fn cost(&self, pieces: usize, least: usize) -> f64 {
         let sampling = if self.over.is_some() { SAMPLING * pieces as f64 } else { 0.0 };
         cost(self.degree) * self.count.max(least) as f64 + sampling
@@ -346,14 +343,14 @@ impl Layout {
         self.taper /= by;
     }
 
-    /// The share that lies between two samples.
+    /// The share of an element between two samples.
     fn share(&self, a: &Sample, b: &Sample) -> f64 {
         let taper = if self.over.is_some() { b.smooth - a.smooth } else { b.taper - a.taper };
         let (phase, taper) = (self.phase * (b.phase - a.phase), self.taper * taper);
         (phase * phase + taper * taper).sqrt()
     }
 
-    /// A piece in elements; of many pieces nearly so.
+    /// Number of elements on a piece; approximate if there are many pieces.
     fn length(&self, piece: &[Sample]) -> f64 {
         match (self.many, piece) {
             (true, [first, .., last]) => self.share(first, last),
@@ -361,17 +358,17 @@ impl Layout {
         }
     }
 
-    /// A piece in elements.
+    /// Number of elements on a piece, exactly.
     fn exactly(&self, piece: &[Sample]) -> f64 {
         piece.windows(2).map(|w| self.share(&w[0], &w[1])).sum()
     }
 
-    /// How many elements the bat takes that end at stations.
+    /// Number of elements of a bat whose elements end at stations.
     fn elements(&self, survey: &Survey) -> usize {
         survey.pieces().map(|piece| whole(self.length(piece))).sum()
     }
 
-    /// The borders of the elements: equal shares between them on every stretch, or on every piece.
+    /// The borders of the elements: equal shares of every stretch, or of every piece.
     fn borders(&self, survey: &Survey, stations: Option<&Stations>) -> Vec<(usize, f64)> {
         let mut borders = vec![(0, 0.0)];
         match (&self.over, stations) {
@@ -386,7 +383,7 @@ impl Layout {
         borders
     }
 
-    /// Adds the borders on these pieces, but for the first.
+    /// Adds the borders on these pieces, except the first.
     fn divide(
         &self,
         survey: &Survey,
@@ -413,7 +410,7 @@ impl Layout {
     }
 }
 
-/// One element at least.
+/// A whole number of elements, at least one.
 fn whole(length: f64) -> usize {
     (length.ceil() as usize).max(1)
 }
@@ -435,7 +432,7 @@ fn of_tapers(degree: usize, tolerance: f64) -> f64 {
     4.0 * root.min(0.9).atanh()
 }
 
-/// What an element of that degree costs beside others: measured, assembly to error estimate.
+/// Relative cost of an element of that degree, measured from assembly to error estimate.
 fn cost(degree: usize) -> f64 {
     let p = degree as f64;
     1.0 + 0.12 * p * p

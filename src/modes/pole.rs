@@ -1,30 +1,30 @@
-//! A motion that goes on by itself and dies out, and which of them belong together.
+//! A free motion that decays, and which of these belong together.
 
 use faer::c64;
 
 use crate::base::error::{Error, Result};
 
-/// A motion as `e^{st}` that goes on by itself.
+/// A free motion `e^{st}`.
 #[derive(Debug, Clone)]
 pub struct Pole {
     /// Complex rate `s` of `e^{st}` (1/s).
     pub s: c64,
-    /// Parts of the rigid motions, where they are coupled.
+    /// Amplitudes of the rigid motions, if they are coupled.
     pub rigid: Vec<c64>,
-    /// Parts of the strains.
+    /// Amplitudes of the strains.
     pub parts: Vec<c64>,
-    /// `vᵀ(2sM + C)v` (J s/m²): with it a unit impulse at a makes `v v(a) e^{st}/norm`.
+    /// `vᵀ(2sM + C)v` (J s/m²): a unit impulse at a causes the motion `v v(a) e^{st}/norm`.
     pub norm: c64,
-    /// Error of s, relative to |s|, because the motion is one on few strains.
+    /// Error of s relative to |s|, due to the small number of strains.
     pub error: f64,
     /// Share of the rigid motions in the kinetic energy.
     pub rigid_share: f64,
-    /// Share of the strains in the sum of both energies: a half where it swings, more where it
-    /// creeps back, less where a dashpot stops it.
+    /// Share of the strains in the sum of both energies: a half for an oscillation, more for a motion that creeps back,
+    /// less for one that a dashpot stops.
     pub strain_share: f64,
 }
 
-/// How a damped bat goes on by itself.
+/// The free motions of a damped bat.
 #[derive(Debug, Clone)]
 pub struct FreeMotions {
     /// Groups of motions by rising |s|.
@@ -38,12 +38,12 @@ pub struct FreeMotions {
 /// One motion of the damped bat: a complex pair, its half with `Im s > 0`, or two real ones.
 #[derive(Debug, Clone)]
 pub struct Group {
-    /// One, or the two real ones.
+    /// One pole, or the two real ones.
     pub poles: Vec<Pole>,
 }
 
 impl Group {
-    /// `√(s s*)`, or `√(s₁ s₂)` of two real ones (rad/s).
+    /// `√(s s*)`, or `√(s₁ s₂)` for two real ones (rad/s).
     pub fn natural(&self) -> f64 {
         match &self.poles[..] {
             [a, b] => (a.s.re * b.s.re).abs().sqrt(),
@@ -58,14 +58,14 @@ impl Group {
     }
 }
 
-/// Complex pairs and pairs of real eigenvalues, by rising |s|; those that belong to `rigid` coupled
-/// rigid motions apart.
+/// Complex pairs and pairs of real eigenvalues, by rising |s|; those that belong to the `rigid` coupled rigid motions
+/// are separate.
 pub fn grouped(poles: Vec<Pole>, rigid: usize) -> FreeMotions {
     let (mut real, pairs): (Vec<Pole>, Vec<Pole>) = poles.into_iter().partition(|p| p.s.im == 0.0);
     real.sort_by(|a, b| b.rigid_share.total_cmp(&a.rigid_share));
     let strained = real.split_off(rigid.min(real.len()));
-    // Of two that belong together one creeps back and the other is stopped, with nearly the same
-    // strains; the slowest looks for its own first.
+    // Of two real poles that belong together, one creeps back and the other is stopped, with nearly equal strains. The
+    // slowest chooses its partner first.
     let (mut slow, mut fast): (Vec<Pole>, Vec<Pole>) =
         strained.into_iter().partition(|pole| pole.strain_share > 0.5);
     slow.sort_by(|a, b| b.s.norm().total_cmp(&a.s.norm()));
@@ -90,7 +90,7 @@ pub fn grouped(poles: Vec<Pole>, rigid: usize) -> FreeMotions {
     FreeMotions { groups, rigid: real, others: slow }
 }
 
-/// Whether all of these motions die out, as they must.
+/// Checks that all of these motions decay, as they must.
 pub fn possible<'a>(mut poles: impl Iterator<Item = &'a Pole>) -> Result<()> {
     const ROUND_OFF: f64 = 1e-9;
     let lost = |pole: &&Pole| !(pole.s.re <= ROUND_OFF * pole.s.norm() && pole.s.norm() > 0.0);

@@ -1,6 +1,6 @@
-//! What is to be known of a bat before it is solved?
+//! What is determined about a bat before it is solved?
 //!
-//! [`prepare`] chooses the theory that a request leaves open, and makes the bat as stiff as it was tapped.
+//! [`prepare`] chooses the theory if the request leaves it open, and fits the moduli to the tapped frequency.
 
 use std::borrow::Cow;
 
@@ -11,10 +11,10 @@ use crate::modes::request::Request;
 use crate::modes::theory_choice;
 use crate::modes::tuned::tuned;
 
-/// A bat to be solved, and how.
+/// A bat ready to be solved, and its request.
 #[derive(Debug, Clone)]
 pub struct Prepared<'a> {
-    /// The bat as stiff as it was tapped.
+    /// The bat with moduli fitted to the tap.
     pub bat: Cow<'a, Bat>,
     /// The request with its theory named.
     pub request: Request,
@@ -22,12 +22,11 @@ pub struct Prepared<'a> {
     pub warning: Option<String>,
 }
 
-/// Prepares a bat as [`crate::modes::solve::solve`] does. What is prepared is not prepared again: who solves
-/// one bat many times, or changes of a tapped bat, does it once.
+/// Prepares a bat as [`crate::modes::solve::solve`] does. A prepared bat is not prepared again, so a caller that solves
+/// one bat many times, or variations of a tapped bat, prepares once.
 ///
-/// The theory is [`theory_choice::theory`]'s where the request says [`Theory::Auto`]; the moduli are those with
-/// which the first bending mode has the frequency of the tap ([`tuned`]). With a named theory and no tap
-/// nothing is computed.
+/// The theory is that of [`theory_choice::theory`] if the request says [`Theory::Auto`]. The moduli are those for which
+/// the first bending mode has the frequency of the tap ([`tuned`]). With a named theory and no tap nothing is computed.
 ///
 /// # Errors
 ///

@@ -1,19 +1,18 @@
-//! How does a damped bat move, in as few unknowns as tell it?
+//! How does a damped bat move, in as few unknowns as possible?
 //!
-//! [`Reduced::new`], then [`Reduced::free_motions`] for what goes on by itself and
-//! `Reduced::answer` for what a force makes of it.
+//! [`Reduced::new`] makes one; [`Reduced::free_motions`] gives its free motions and `Reduced::answer` its response to a
+//! force.
 //!
-//! In scaled strains the stiffness is the identity, and a motion as `e^{st}` obeys
+//! In scaled strains the stiffness is the identity, and a motion `e^{st}` obeys
 //!
 //! ```text
 //! (s² M + s C + 1 + iK″) q = f,   r = f − (s² M + s C + 1 + iK″) V y
 //! ```
 //!
-//! The unknowns are projected on orthonormal strains V: the modes first, whose M is diagonal. What
-//! the projection misses is the residual r; the inverse of 1 takes it to the strains that are
-//! missing, which join V until an eigenvalue or a response no longer changes. Both depend on the
-//! square of r, for everything here is symmetric. Rigid motions that a dashpot moves are unknowns
-//! too; the others have nothing to do with the strains.
+//! The unknowns are projected on orthonormal strains V: first the modes, whose M is diagonal. The residual r is what
+//! the projection misses. Since the stiffness is the identity, r itself gives the missing strains, which join V until
+//! an eigenvalue or a response no longer changes. Both depend on the square of r, because all matrices are symmetric.
+//! Rigid motions that a dashpot moves are unknowns too; the others do not couple with the strains.
 //!
 //! # Source
 //!
@@ -42,19 +41,19 @@ pub struct Reduced {
     pub coupled: bool,
 }
 
-/// One of the strains, and what it loads.
+/// One of the strains, and its loads.
 struct Member {
     strains: Vec<f64>,
-    /// `M v` (s²), without the modes' parts.
+    /// `M v` (s²), without the parts in the modes.
     inertia: Vec<f64>,
     /// `K″ v`.
     loss: Vec<f64>,
-    /// How far it draws every dashpot out (m).
+    /// Extension of every dashpot (m).
     drawn: Vec<f64>,
 }
 
 impl Reduced {
-    /// The bat on those elements with `wanted` of its modes and some more.
+    /// The bat on those elements, with `wanted` of its modes and a few more.
     ///
     /// # Errors
     ///
@@ -62,7 +61,7 @@ impl Reduced {
     pub fn new(bat: &Bat, elements: Elements, wanted: usize) -> Result<Self> {
         let mut flexible = Flexible::new(bat, elements);
         let (omega, strains, _) = flexible.slowest(wanted + (wanted / 2).max(4))?;
-        /// Slower than that share of mode 1 no rigid motion is seen to come to rest.
+        /// A rigid motion slower than this share of mode 1 is not seen to decay.
         const SLOWEST: f64 = 1e-10;
         let moved = |d: &Dashpot| d.rigid.iter().any(|w| *w != 0.0);
         let rate = |(k, motion): (usize, &RigidMotion)| {
@@ -88,7 +87,7 @@ impl Reduced {
         self.members.len()
     }
 
-    /// Whether the number of strains is 0.
+    /// Whether there are no strains.
     pub fn is_empty(&self) -> bool {
         self.members.is_empty()
     }
@@ -98,11 +97,12 @@ impl Reduced {
         &self.members[k].strains
     }
 
-    /// `ℓ` (s), and the strains for which `M = diag(ℓ²)`: the modes, and what is apart of them in the others.
+    /// `ℓ` (s), and the strains for which `M = diag(ℓ²)`: the modes, and the parts of the other strains orthogonal to
+    /// them.
     ///
     /// # Errors
     ///
-    /// [`Error::NotConverged`] where the others' small eigenproblem has no solution.
+    /// [`Error::NotConverged`] if the small eigenproblem of the other strains has no solution.
     pub(super) fn diagonal(&self) -> Result<(Vec<f64>, Mat<f64>)> {
         let (modes, n) = (self.omega.len(), self.len());
         let (mut lengths, mut turned) = (vec![0.0; n], Mat::<f64>::identity(n, n));
@@ -125,7 +125,7 @@ impl Reduced {
         let mut inertia = vec![];
         if with_inertia {
             inertia = self.flexible.inertia(&strains);
-            // What is left of the modes in it is round-off, and of a slow mode that is much.
+            // The remaining part in the modes is round-off, which is large for a slow mode.
             take_out(&mut inertia, &self.members[..self.omega.len()]);
         }
         let loss = if self.flexible.loses() { self.flexible.loss(&strains) } else { vec![] };
@@ -150,9 +150,9 @@ impl Reduced {
         self.loss.push(loss.collect());
     }
 
-    /// Takes these strains in, if they are not there yet.
+    /// Adds these strains; returns whether they were new.
     pub fn add(&mut self, mut strains: Vec<f64>) -> bool {
-        /// Less than that share of them is round-off.
+        /// A smaller remainder than this share is round-off.
         const NEW: f64 = 1e-7;
         if self.members.len() >= self.flexible.freedom() {
             return false;
@@ -180,8 +180,8 @@ impl Reduced {
         self.loss[k][k]
     }
 
-    /// Loss factors of the modes in place of the materials', each by itself: modal damping, as it was measured.
-    /// The strains beyond the modes have none.
+    /// Replaces the materials' loss factors by those of the modes, each alone: modal damping, as measured. The strains
+    /// beyond the modes have no loss.
     pub fn lose(&mut self, losses: &[f64]) {
         for (k, loss) in losses.iter().enumerate().take(self.omega.len()) {
             let member = &mut self.members[k];
@@ -191,24 +191,24 @@ impl Reduced {
         }
     }
 
-    /// Damping of mode k by the dashpots, `vᵀC v` (s) for a strain energy of `½ vᵀv = ½`: its
-    /// damping ratio is half of it times ω.
+    /// Damping of mode k by the dashpots, `vᵀC v` (s), for a strain energy of `½ vᵀv = ½`: its damping ratio is half of
+    /// it times ω.
     pub fn mode_damping(&self, k: usize) -> f64 {
         let drawn = self.members[k].drawn.iter().zip(&self.flexible.dashpots);
         drawn.map(|(w, d)| d.constant * w * w).sum::<f64>() / self.flexible.energy_unit
     }
 
-    /// How many unknowns are rigid motions.
+    /// Number of unknowns that are rigid motions.
     pub(super) fn rigid_unknowns(&self) -> usize {
         if self.coupled { self.flexible.rigid.len() } else { 0 }
     }
 
-    /// Mass of an unknown rigid motion, in the unit of energy (s²/m² or s²).
+    /// Mass of rigid unknown k, in the unit of energy (s²/m² or s²).
     pub(super) fn rigid_mass(&self, k: usize) -> f64 {
         self.flexible.rigid[k].mass / self.flexible.energy_unit
     }
 
-    /// C (s) of all unknowns, rigid motions first, as far as it is the dashpots'.
+    /// C (s) of all unknowns due to the dashpots, rigid motions first.
     pub fn damping(&self) -> Mat<f64> {
         let (rigid, n) = (self.rigid_unknowns(), self.members.len());
         let mut c = Mat::zeros(rigid + n, rigid + n);
@@ -225,8 +225,7 @@ impl Reduced {
         c
     }
 
-    /// Takes the strains' part that the members hold out of a residual `s² M q + s C q + iK″ q` of
-    /// those parts; what is left is the residual.
+    /// The residual `s² M q + s C q + iK″ q` of these amplitudes, without its part in the members.
     pub(super) fn residual(
         &self,
         s: c64,
@@ -261,7 +260,7 @@ impl Reduced {
         left
     }
 
-    /// M (s²) of all unknowns, rigid motions first, and C (s) with the materials' part.
+    /// M (s²) of all unknowns, rigid motions first, and C (s) including the materials' part.
     pub fn viscous(&self) -> [Mat<f64>; 2] {
         let (n, r) = (self.members.len(), self.rigid_unknowns());
         let mass = Mat::from_fn(r + n, r + n, |i, j| match (i < r, j < r) {
@@ -276,8 +275,8 @@ impl Reduced {
         [mass, damping]
     }
 
-    /// The rigid motions that go on for ever where dashpots move them, at `s = 0`: constant
-    /// displacements, with their [`Pole::norm`].
+    /// The rigid motions at `s = 0` that remain although dashpots move them: constant displacements, with their
+    /// [`Pole::norm`].
     pub fn resting(&self) -> Vec<Pole> {
         let r = self.rigid_unknowns();
         let (c, unit) = (self.damping(), self.flexible.energy_unit);
@@ -294,7 +293,7 @@ impl Reduced {
         match r {
             0 => vec![],
             1 => vec![pole(vec![1.0], c[(0, 0)])],
-            // The second without the first's part, as C measures it.
+            // The second one without its part in the first, in the metric of C.
             _ => {
                 let part = c[(0, 1)] / c[(0, 0)];
                 let rest = c[(1, 1)] - part * c[(0, 1)];
@@ -303,8 +302,8 @@ impl Reduced {
         }
     }
 
-    /// How much of a pole's motion is in the displacement of these rigid motions and modes when it
-    /// is let go at rest: `vᵀ(sM + C)u/norm`.
+    /// Share of a pole's motion when the bat is released at rest from the displacement of these rigid motions and
+    /// modes: `vᵀ(sM + C)u/norm`.
     pub fn share(&self, pole: &Pole, rigid: &[f64], modes: &[f64]) -> c64 {
         let r = self.rigid_unknowns();
         let c = self.damping();
@@ -325,7 +324,7 @@ impl Reduced {
     }
 }
 
-/// Takes the members' parts out of strains.
+/// Removes the members' parts from strains.
 fn take_out(strains: &mut [f64], members: &[Member]) {
     for member in members {
         let part = dot(strains, &member.strains);
@@ -333,7 +332,7 @@ fn take_out(strains: &mut [f64], members: &[Member]) {
     }
 }
 
-/// Unit strains, unless there are none.
+/// Scales strains to unit length; false if they are zero.
 fn normalize(strains: &mut [f64]) -> bool {
     let size = dot(strains, strains).sqrt();
     if !(size > 0.0 && size.is_finite()) {

@@ -1,6 +1,6 @@
-//! What do solvers say that factor the assembled stiffness?
+//! What do solvers find that factor the assembled stiffness?
 //!
-//! They are the outside checks: ask for one by [`Solver`] in [`crate::modes::solve::Request::solver`].
+//! They are independent checks: choose one by [`Solver`] in [`crate::modes::solve::Request::solver`].
 
 use serde::Serialize;
 
@@ -19,7 +19,7 @@ use crate::eigen::shift_invert::{self, Pairs};
 
 type Sparse = nalgebra_sparse::CscMatrix<f64>;
 
-/// How the eigenvalues are found.
+/// Method for the eigenvalues.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub enum Solver {
     /// Lanczos on the compliance by running sums: any size, round-off of order ε.
@@ -28,19 +28,19 @@ pub enum Solver {
     Dense,
     /// Lanczos on a sparsely factored `K + σM`: round-off of order ε n⁴.
     ShiftInvert,
-    /// ARPACK on the same, behind the cargo feature `arpack`: the outside referee.
+    /// ARPACK on the same matrix, with the cargo feature `arpack`: the independent referee.
     Arpack,
 }
 
-/// The running sums take more unknowns than this if asked to; a plan does not.
+/// Most unknowns of a plan for the running sums; a fixed mesh may have more.
 const MOST_UNKNOWNS: usize = 1 << 21;
 /// The dense solver needs n² memory and n³ time.
 pub const MOST_DENSE: usize = 4098;
-/// Beyond this a factored `K` loses digits that no recomputing brings back.
+/// With more unknowns a factored `K` loses digits for good.
 const MOST_FACTORED: usize = 20_000;
 
 impl Solver {
-    /// The most unknowns that a plan should have for it.
+    /// The most unknowns of a plan for this solver.
     pub fn most_unknowns(self) -> usize {
         match self {
             Self::Statics => MOST_UNKNOWNS,
@@ -59,10 +59,10 @@ pub struct Found {
     pub steps: usize,
     /// ω (rad/s) of the first mode beyond them, if it was found.
     pub beyond: Option<f64>,
-    /// What an iteration by the statics left of every mode, `‖A v − θ v‖/θ`, free of the round-off
-    /// that is in [`Motion::residual`]; none for solvers that factor.
+    /// Residual of the iteration for every mode, `‖A v − θ v‖/θ`, without the round-off that [`Motion::residual`]
+    /// includes; empty for solvers that factor.
     pub residuals: Vec<f64>,
-    /// How many of the slowest modes were taken out before the others were found.
+    /// Number of slowest modes that were removed before the others were found.
     pub apart: usize,
 }
 
@@ -91,7 +91,7 @@ pub fn strains<const N: usize, const W: usize>(
     })
 }
 
-/// Whether a solver that factors `K` takes that bat on that mesh.
+/// Checks that a solver that factors `K` can take that bat on that mesh.
 fn check<const N: usize, const W: usize>(
     statics: &Statics<f64, N, W>,
     solver: Solver,
@@ -108,8 +108,8 @@ fn check<const N: usize, const W: usize>(
     }
 }
 
-/// The `count` lowest bending modes, and the next if there is one, by a solver that factors `K`;
-/// for the statics, which factors nothing, by shift-invert.
+/// The `count` lowest bending modes, and the next if there is one, by a solver that factors `K`. The statics, which
+/// factors nothing, stands for shift-invert here.
 fn of_pencil<const N: usize, const W: usize>(
     statics: &Statics<f64, N, W>,
     elements: &[Element<f64, N, W>],
@@ -117,7 +117,7 @@ fn of_pencil<const N: usize, const W: usize>(
     solver: Solver,
 ) -> Result<Pairs> {
     let Pencil { stiffness: k, mass: m } = Pencil::assemble(elements);
-    // The rigid motions are found too, and left: a free bat always has two.
+    // The rigid motions are found too and dropped: a free bat always has two.
     let (shift, rigid) = (shift(statics), 2);
     let all = count + rigid + usize::from(count + rigid + 1 < k.nrows());
     let mut pairs = match solver {
@@ -146,7 +146,7 @@ fn arpack(_: &Sparse, _: &Sparse, _: f64, _: usize) -> Result<Pairs> {
     })
 }
 
-/// Rayleigh's quotient of the start vector: any shift of the size of the lowest modes will do.
+/// Rayleigh's quotient of the start vector: any shift of the size of the lowest modes is good enough.
 fn shift<const N: usize, const W: usize>(statics: &Statics<f64, N, W>) -> f64 {
     let mut start = vec![0.0; statics.dimension()];
     statics.view().start(1, &mut start);
@@ -155,7 +155,7 @@ fn shift<const N: usize, const W: usize>(statics: &Statics<f64, N, W>) -> f64 {
     motion.omega.powi(2)
 }
 
-/// Scaled strains, in the order of the statics, of the unknowns of the assembled matrices.
+/// Scaled strains, in the order of the statics, from the unknowns of the assembled matrices.
 fn strains_of<const N: usize, const W: usize>(
     statics: &Statics<f64, N, W>,
     elements: &[Element<f64, N, W>],
@@ -168,7 +168,7 @@ fn strains_of<const N: usize, const W: usize>(
         let own: Vec<f64> = places(W, e).into_iter().map(|at| u[at]).collect();
         let mut c = elements[e].strains_of_hermite(&own);
         if knob_side {
-            // Odd polynomials change their sign, and so does the shear strain itself.
+            // Odd polynomials change their sign, and so does the shear strain.
             let (bent, sheared) = c.split_at_mut(N - 2);
             bent.iter_mut().skip(1).step_by(2).for_each(|c| *c = -*c);
             sheared.iter_mut().step_by(2).for_each(|g| *g = -*g);
@@ -178,10 +178,9 @@ fn strains_of<const N: usize, const W: usize>(
     strains
 }
 
-/// The frequencies of the lowest bending modes on a mesh of cubic elements, each as the solver's
-/// own eigenvalue gives it, `√λ`, and recomputed from its shape as strain energy over kinetic
-/// energy (both rad/s). A λ below 0 counts as 0. Not for [`Solver::Statics`], which has one answer
-/// only.
+/// The frequencies of the lowest bending modes on a mesh of cubic elements (rad/s), each in two ways: the solver's own
+/// eigenvalue, `√λ`, and strain energy over kinetic energy of its shape. A λ below 0 counts as 0. Not for
+/// [`Solver::Statics`], where both are the same.
 ///
 /// # Errors
 ///

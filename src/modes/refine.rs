@@ -1,6 +1,6 @@
-//! What are the modes of a bat that is prepared, as accurately as asked?
+//! What are the modes of a prepared bat, as accurately as asked?
 //!
-//! [`refine`](fn@refine) plans, solves, looks at the errors and refines, by the theory that is named.
+//! [`refine`](fn@refine) plans, solves, checks the errors and refines, with the theory that the request names.
 
 use std::sync::OnceLock;
 
@@ -14,18 +14,17 @@ use crate::modes::request::{CONVERGED, Request, stop_at, wanted};
 use crate::modes::solution::{Ending, Solution, Timing};
 use crate::modes::task::Task;
 
-/// A refinement that leaves more than this of the error gains nothing.
+/// A refinement that leaves more than this share of the error has gained nothing.
 const STALLED: f64 = 0.7;
-/// Refinements before the answer is given as it is.
+/// Most refinements before the result is returned as it is.
 const MOST_ROUNDS: usize = 12;
 
-/// Is told of every bat that is solved by itself (those of a batch are not told), and how: a test sets it, to see that
-/// no bat is solved twice in the same way.
+/// A function called with every bat that is solved alone (not those of a batch) and its request. A test sets it, to
+/// check that no bat is solved twice in the same way.
 #[doc(hidden)]
 pub static SOLVED: OnceLock<fn(&Bat, &Request)> = OnceLock::new();
 
-/// Finds the lowest bending modes of a bat as it is, by the theory that the request names: no tap is
-/// listened to.
+/// Finds the lowest bending modes of a bat with the theory that the request names, without fitting the moduli to a tap.
 ///
 /// # Errors
 ///
@@ -55,14 +54,14 @@ pub(crate) fn refine(bat: &Bat, request: &Request) -> Result<Solution> {
     damped(bat, request, refined(bat, request, plan, timing)?)
 }
 
-/// Why not one mode could be had: of a bat whose thinnest part gives way so much more than the rest that no number
-/// holds both, as the point of `x^1.75`, that.
+/// The error for a bat of which not even one mode can be found, because its thinnest part is so much softer than the
+/// rest that the numbers cannot represent both, as for the point of `x^1.75`; otherwise the given error.
 fn beyond_numbers(bat: &Bat, error: Error) -> Error {
     let Error::NotConverged { converged: 0, .. } = error else { return error };
     let stations = &bat.profile().stations;
     let radii = stations.outer.iter().copied();
     let (thin, thick) = radii.fold((f64::INFINITY, 0.0_f64), |(a, b), r| (a.min(r), b.max(r)));
-    /// Of radii this far apart the fourth powers are 16 digits apart.
+    /// The fourth powers of radii this far apart differ by 16 digits.
     const APART: f64 = 1e-4;
     if thin > APART * thick {
         return error;
@@ -76,7 +75,7 @@ fn beyond_numbers(bat: &Bat, error: Error) -> Error {
     Error::value("profile", found, expected)
 }
 
-/// The solution with how its motions die out.
+/// The solution with its damping.
 pub(super) fn damped(bat: &Bat, request: &Request, mut best: Solution) -> Result<Solution> {
     best.damping = damping(bat, best.elements(), &best.modes, request.tolerance)?;
     let damped = best.damping.modes.iter().map(|damped| damped.error).fold(0.0, f64::max);
@@ -86,12 +85,12 @@ pub(super) fn damped(bat: &Bat, request: &Request, mut best: Solution) -> Result
     Ok(best)
 }
 
-/// The best solution on this plan and those that follow from its errors.
+/// The best solution with this plan and the plans that follow from its errors.
 fn refined(bat: &Bat, request: &Request, mut plan: Plan, mut timing: Timing) -> Result<Solution> {
     let mut best: Option<Solution> = None;
     let mut residual = stop_at(request);
     if !bat.fixtures().none_moving() {
-        // Two frequencies may be the same, and then are no nearer to the truth than the residual.
+        // Two frequencies may coincide; their error is then at most the residual.
         residual = residual.min(request.tolerance).max(CONVERGED);
     }
     for round in 0..MOST_ROUNDS {
@@ -99,7 +98,7 @@ fn refined(bat: &Bat, request: &Request, mut plan: Plan, mut timing: Timing) -> 
         let answer = match (task.run(&mut timing), &mut best) {
             (Ok(answer), _) => answer,
             (Err(error), Some(best)) => {
-                // The answer before this refinement stands.
+                // The result before this refinement is kept.
                 best.stop(error.to_string());
                 break;
             }
@@ -107,7 +106,7 @@ fn refined(bat: &Bat, request: &Request, mut plan: Plan, mut timing: Timing) -> 
         };
         let again = request.solver == Solver::Statics && residual > CONVERGED;
         if again && !answer.complete {
-            // Two modes of nearly one frequency mix, or one is missing: iterate to the end.
+            // Two modes of nearly one frequency are mixed, or one is missing: iterate to the end.
             residual = CONVERGED;
             continue;
         }

@@ -1,4 +1,4 @@
-//! What is asked of a solution, and can it be had?
+//! What is asked of a solution, and is it possible?
 
 use crate::base::error::{Error, Result};
 use crate::base::lanes::WIDTH;
@@ -9,18 +9,18 @@ use crate::modes::memory::Work;
 use crate::modes::plan::{Plan, Wanted};
 use crate::modes::referee::Solver;
 
-/// What is asked of a solution.
+/// The request for a solution.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Request {
     /// Number of bending modes.
     pub modes: usize,
-    /// Wanted relative accuracy of every frequency; not enforced where `elements` is given.
+    /// Wanted relative accuracy of every frequency; not enforced if `elements` is given.
     pub tolerance: f64,
-    /// Fixed number of elements, whatever accuracy that gives; None plans it from the tolerance.
+    /// Fixed number of elements, whatever accuracy that gives; `None` plans it from the tolerance.
     pub elements: Option<usize>,
-    /// Fixed degree of the elements; None plans it, or takes 3 where `elements` is given.
+    /// Fixed degree of the elements; `None` plans it, or takes 3 if `elements` is given.
     pub degree: Option<usize>,
-    /// How the eigenvalues are found.
+    /// Method for the eigenvalues.
     pub solver: Solver,
     /// The beam theory; [`Theory::Auto`] leaves it to [`crate::modes::theory_choice::theory`].
     pub theory: Theory,
@@ -40,7 +40,7 @@ impl Default for Request {
 }
 
 impl Request {
-    /// The default request of the plain beam, Euler and Bernoulli's.
+    /// The default request with Euler and Bernoulli's beam.
     pub fn plain() -> Self {
         Self { theory: Theory::EulerBernoulli, ..Self::default() }
     }
@@ -67,7 +67,7 @@ impl Request {
             return Err(Error::value("elements", 0, "1 or more"));
         }
         let degree = self.degree.unwrap_or(3);
-        // Cubic radii; a formula takes more points, which is looked at when the bat is known.
+        // For cubic radii; a formula takes more points, which is checked when the bat is known.
         let work = self.work(elements, degree, degree + 5);
         self.check_memory(bats as f64 * work.gigabytes(), elements)
     }
@@ -81,13 +81,13 @@ impl Request {
         Work { elements, degree, points, modes, together, residual, theory, solver }
     }
 
-    /// The memory (GB) that a plan for the bat takes.
+    /// The memory (GB) for that plan of the bat.
     pub fn memory(&self, bat: &Bat, plan: &Plan) -> f64 {
         let points = Rule::of(bat, plan.mesh.over_stations(), plan.degree).count();
         self.work(plan.mesh.len(), plan.degree, points).gigabytes()
     }
 
-    /// Why a refinement to that plan is not for this solver and memory, if it is not.
+    /// The reason why a refinement to that plan is impossible with this solver and memory; `None` if it is possible.
     pub fn too_large(&self, bat: &Bat, plan: &Plan) -> Option<String> {
         let (unknowns, gigabytes) = (plan.unknowns(), self.memory(bat, plan));
         let fits = unknowns <= self.solver.most_unknowns() && gigabytes <= MOST_GIGABYTES;
@@ -95,7 +95,7 @@ impl Request {
         (!fits).then(said)
     }
 
-    /// Whether the given number of elements fit into memory.
+    /// Checks that the given number of elements fits into memory.
     pub fn check_memory(&self, gigabytes: f64, elements: usize) -> Result<()> {
         if gigabytes <= MOST_GIGABYTES {
             return Ok(());
@@ -114,15 +114,15 @@ impl Request {
 pub const MOST_MODES: usize = 400;
 /// A mesh that needs more memory is refused.
 const MOST_GIGABYTES: f64 = 8.0;
-/// Residual of an eigenpair that is as good as arithmetic allows.
+/// The smallest residual of an eigenpair that arithmetic allows.
 pub const CONVERGED: f64 = 1e-13;
-/// Modes of more unknowns are looked at each alone, not side by side.
+/// With more unknowns than this, modes are evaluated one by one, not side by side.
 pub const LARGE: usize = 20_000;
-/// Modes of a large mesh that are looked at at a time, each by a thread of its own: more would take
-/// the memory of the mesh once more.
+/// Number of modes of a large mesh that are evaluated at a time, each by its own thread: each takes as much memory as
+/// the mesh.
 pub const AT_ONCE: usize = 2;
 
-/// What the planner is asked for.
+/// The request to the planner.
 pub fn wanted(request: &Request) -> Wanted {
     Wanted {
         modes: request.modes,
@@ -133,9 +133,9 @@ pub fn wanted(request: &Request) -> Wanted {
     }
 }
 
-/// The residual to stop the eigensolve at: its part of the error is then small beside the mesh's.
-/// The eigenvalue's is the square of the residual, the shape's is the residual itself;
-/// `examples/tuning/plans.rs` prints the error with this residual and with the best: three digits are alike.
+/// The residual at which the eigensolver stops, small enough that its error is small beside the mesh's. The error of
+/// the eigenvalue is the square of the residual, that of the shape the residual itself. `examples/tuning/plans.rs`
+/// prints the error with this residual and with the smallest: they agree to three digits.
 pub fn stop_at(request: &Request) -> f64 {
     match request.elements {
         Some(_) => 1e-10,

@@ -1,4 +1,4 @@
-//! A deflection along the bat: what is it at a place?
+//! A deflection along the bat, and its value at any place.
 
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ pub struct Shape {
     /// Number of Legendre polynomials on an element.
     pub(super) terms: usize,
     pub(super) coefficients: Vec<f64>,
-    /// The rotation likewise; empty where it is the slope.
+    /// The rotation likewise; empty if it is the slope.
     pub(super) turns: Vec<f64>,
 }
 
@@ -76,7 +76,7 @@ impl Shape {
         }
     }
 
-    /// Where these places (m) are: element, ξ, and the slope of the deflection there (1/m).
+    /// Element, ξ and slope of the deflection (1/m) for each of these places (m).
     pub fn slopes(&self, places: &[f64]) -> Vec<(usize, f64, f64)> {
         let slope = |x: &f64| {
             let (k, xi) = self.locate(*x);
@@ -85,8 +85,8 @@ impl Shape {
         places.iter().map(slope).collect()
     }
 
-    /// How far nodes that are known by their [`Self::slopes`] in another shape on the mesh move (m),
-    /// the farthest of them, for each part of this shape that is added there.
+    /// Largest shift of nodes (m), known by their [`Self::slopes`] in another shape on the mesh, per unit of this shape
+    /// added to that one.
     pub fn shift(&self, nodes: &[(usize, f64, f64)]) -> f64 {
         let of = |(k, xi, slope): &(usize, f64, f64)| (self.value(*k, *xi) / slope).abs();
         nodes.iter().map(of).fold(0.0, f64::max)
@@ -113,8 +113,8 @@ impl Shape {
         }
     }
 
-    /// What a section feels at ξ in [−1, 1] of element `k`, for a largest deflection of 1: deflection w,
-    /// rotation θ (1/m), curvature θ′ (1/m²) and shear strain w′ − θ (1/m).
+    /// Deformation of a section at ξ in [−1, 1] of element `k`, for a largest deflection of 1: deflection w, rotation θ
+    /// (1/m), curvature θ′ (1/m²) and shear strain w′ − θ (1/m).
     pub fn strains(&self, k: usize, xi: f64) -> [f64; 4] {
         let scale = 2.0 / self.stretches[k].1;
         let [w, slope, bend] = self.derivatives(k, xi);
@@ -130,12 +130,12 @@ impl Shape {
         self.stretches.last().map_or(0.0, |(middle, length)| middle + 0.5 * length)
     }
 
-    /// Makes every deflection this many times as large.
+    /// Multiplies every deflection by a factor.
     pub fn scale(&mut self, scale: f64) {
         self.coefficients.iter_mut().chain(&mut self.turns).for_each(|w| *w *= scale);
     }
 
-    /// Where its elements end (m), rising from 0.
+    /// The ends of its elements (m), rising from 0.
     pub fn borders(&self) -> impl Iterator<Item = f64> + '_ {
         let ends = self.stretches.iter().map(|(middle, length)| middle + 0.5 * length);
         std::iter::once(0.0).chain(ends)
@@ -156,8 +156,8 @@ impl Shape {
 
     /// Deflection and its first two derivatives by ξ on element `k`.
     ///
-    /// `P_{j+1} = ((2j + 1) ξ P_j − j P_{j−1})/(j + 1)`, `P′_{j+1} = P′_{j−1} + (2j + 1) P_j` and
-    /// the same for the second.
+    /// `P_{j+1} = ((2j + 1) ξ P_j − j P_{j−1})/(j + 1)`, `P′_{j+1} = P′_{j−1} + (2j + 1) P_j`, and likewise for the
+    /// second derivative.
     pub(super) fn derivatives(&self, k: usize, xi: f64) -> [f64; 3] {
         self.series(&self.coefficients, k, xi)
     }
@@ -179,8 +179,8 @@ impl Shape {
     }
 }
 
-/// Legendre coefficients of every element from knob to tip: outwards is backwards on the knob side,
-/// where odd polynomials change sign and, with `sign` −1, a rotation does.
+/// Legendre coefficients of every element from knob to tip. On the knob side, outwards runs backwards: odd polynomials
+/// change sign there and, with `sign` −1, a rotation does.
 fn coefficients<S: Real, R: Over<S>>(
     view: &View<S>,
     cells: &[R],

@@ -1,15 +1,15 @@
-//! In which stretch of the bat does a mode keep its energy?
+//! Where along the bat is a mode's energy?
 //!
-//! [`Shares::of`] a mode gives the parts of its strain energy that are bending and shear of the wood, and the part
-//! of its kinetic energy that is the wood's, stretch by stretch. Rayleigh's quotient is stationary in the motion, so
-//! that these are the frequency's derivatives:
+//! [`Shares::of`] a mode gives, for each stretch, the shares of its strain energy in bending and in shear of the wood,
+//! and the share of its kinetic energy in the wood. Rayleigh's quotient is stationary in the motion, so these are the
+//! derivatives of the frequency by the properties of the stretch:
 //!
 //! ```text
 //! ∂ln f/∂ln E = ½ U_b/U      ∂ln f/∂ln G = ½ U_s/U      ∂ln f/∂ln ρ = −½ T_ρ/T
 //! U_b = ∫EI θ′² dx           U_s = ∫κGA (w′ − θ)² dx    T_ρ = ∫ρA w² + ρI θ² dx      U = ω² m,  T = m
 //! ```
 //!
-//! of the stretch, m the modal mass. Of a free bat of one material the first two add up to ½ and the third is −½.
+//! where m is the modal mass. For a free bat of one material the first two add up to ½, and the third is −½.
 //!
 //! # Source
 //!
@@ -21,23 +21,24 @@ use crate::bat::material::Material;
 use crate::bat::theory::Theory;
 use crate::modes::mode::Mode;
 
-/// Points on every smooth piece of shape and section: a curvature of degree 10 squared, and a section of degree 12.
+/// Number of points on every smooth piece of shape and section, for the square of a curvature of degree 10 and a
+/// section of degree 12.
 const POINTS: usize = 17;
 
-/// Parts of a mode's energies, one for each stretch.
+/// Shares of a mode's energies, one for each stretch.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shares {
-    /// Bending of the wood, of the strain energy.
+    /// Bending of the wood, as a share of the strain energy.
     pub bending: Vec<f64>,
-    /// Shear of the wood, of the strain energy; 0 in a theory without shear.
+    /// Shear of the wood, as a share of the strain energy; 0 in a theory without shear.
     pub shear: Vec<f64>,
-    /// Motion of the wood, of the kinetic energy.
+    /// Motion of the wood, as a share of the kinetic energy.
     pub kinetic: Vec<f64>,
 }
 
 impl Shares {
-    /// Those of a mode in the stretches between neighbouring `borders` (m, rising); only walls of a material that is
-    /// `wood` count, not cores, sleeves, tape and what is attached.
+    /// The shares of a mode in the stretches between neighbouring `borders` (m, rising). Only walls of a material that
+    /// is `wood` count, not cores, sleeves, tape and other fixtures.
     ///
     /// ```
     /// use sweetspot::modes::shares::Shares;
@@ -92,7 +93,7 @@ impl Shares {
     }
 }
 
-/// Where sections, shape or stretches have an edge (m), rising.
+/// Places where sections, shape or stretches have an edge (m), rising.
 fn smooth(bat: &Bat, mode: &Mode, borders: &[f64]) -> Vec<f64> {
     let length = bat.length();
     let pieces = bat.profile().borders().into_iter();
@@ -112,7 +113,7 @@ mod tests {
         "tapes": [ { "from": 0, "to": "10 in", "mass": "0.7 oz" } ],
         "profile": { "unit": "in", "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5] } }"#;
 
-    /// The shares of two stretches are the derivatives of bats that differ there.
+    /// The shares of two stretches equal the derivatives by the properties of these stretches.
     #[test]
     fn shares_are_the_derivatives_of_the_frequency() {
         let bat = Bat::from_text("bat.json", TEXT, "".as_ref()).unwrap();

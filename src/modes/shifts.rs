@@ -1,9 +1,8 @@
 //! What do rotary inertia and shear do to the frequencies of a bat?
 //!
-//! On a bare bat both shifts come from the plain beam's own mode: rotary inertia adds to the
-//! kinetic energy of Rayleigh's quotient, shear to the compliance. With anything on the bat or
-//! under it the shear force has parts that the mode alone does not tell, and the theories are
-//! solved side by side.
+//! On a bare bat both shifts follow from the plain beam's mode: rotary inertia adds to the kinetic energy of Rayleigh's
+//! quotient, shear to the compliance. With fixtures the shear force has parts that do not follow from the mode, and the
+//! bat is solved with each theory.
 
 use crate::bat::body::Bat;
 use crate::bat::material::Material;
@@ -22,7 +21,7 @@ pub struct Shift {
 }
 
 impl Shift {
-    /// How much too high a frequency is without them, relative to the one with all that count.
+    /// Relative excess of a frequency without these effects over the frequency with all effects that matter.
     pub fn cost(&self, rotary_inertia: bool, shear: bool) -> f64 {
         let left_out = |effect: f64, counts: bool| if counts { 1.0 + effect } else { 1.0 };
         let shear = left_out(self.shear.unwrap_or(0.0), shear);
@@ -30,15 +29,15 @@ impl Shift {
     }
 }
 
-/// What rotary inertia and shear would do to a mode's frequency.
+/// Shift of a mode's frequency by rotary inertia and by shear.
 ///
 /// ```text
 /// rotary inertia: f/f₀ = (1 + ∫ρI φ′² dx / ∫ρA φ² dx)^−½
 /// shear:          f/f₀ = (1 + ∫Q²/(κGA) dx / ∫EI φ″² dx)^−½,   Q(x) = ω² ∫₀ˣ ρA φ dx
 /// ```
 ///
-/// with `∫EI φ″² dx = ω² m` for a mode of modal mass m of a bare bat. Midpoint sums over 400
-/// stretches. Right in the first order; on an R161 within a fifth of the shift of modes 1 to 4.
+/// with `∫EI φ″² dx = ω² m` for a mode of modal mass m of a bare bat. The integrals are midpoint sums over 400
+/// stretches. The shifts are correct to first order: within a fifth of the true shift for modes 1 to 4 of an R161.
 ///
 /// # Source
 ///
@@ -65,8 +64,8 @@ pub fn shift(bat: &Bat, mode: &Mode) -> Shift {
     }
 }
 
-/// Frequency shifts of the lowest modes by rotary inertia and shear: of a bare bat by [`shift`], of any
-/// other by solving with each theory, to that tolerance.
+/// Frequency shifts of the lowest modes by rotary inertia and shear: for a bare bat by [`shift`], for others by solving
+/// with each theory to that tolerance.
 pub fn shifts(bat: &Bat, modes: &[Mode], tolerance: f64) -> Vec<Shift> {
     let by_modes = || modes.iter().map(|mode| shift(bat, mode)).collect();
     match bat.fixtures().none_moving() {
@@ -75,8 +74,8 @@ pub fn shifts(bat: &Bat, modes: &[Mode], tolerance: f64) -> Vec<Shift> {
     }
 }
 
-/// Frequency shifts of the lowest modes by rotary inertia and shear, by solving with each theory to
-/// that tolerance; None where a solve fails.
+/// Frequency shifts of the lowest modes by rotary inertia and shear, by solving with each theory to that tolerance;
+/// `None` if a solve fails.
 pub fn solved_shifts(bat: &Bat, modes: usize, tolerance: f64) -> Option<Vec<Shift>> {
     let all = |theory| {
         let request = Request { modes, tolerance, theory, ..Request::default() };
@@ -91,14 +90,14 @@ pub fn solved_shifts(bat: &Bat, modes: usize, tolerance: f64) -> Option<Vec<Shif
     Some((0..modes).map(shift).collect())
 }
 
-/// What a typical material of that kind has for G/E, where it is not known: wood between 0.058 and
-/// 0.111 ([`crate::bat::material::BUILT_IN`]), an isotropic metal `1/(2 (1 + ν))`.
+/// Typical G/E of a material whose G is not known: for wood between 0.058 and 0.111
+/// ([`crate::bat::material::BUILT_IN`]), for an isotropic metal `1/(2 (1 + ν))`.
 pub fn typical_shear(material: &Material) -> f64 {
     const LIGHT: f64 = 1200.0;
     if material.density < LIGHT { 0.08 } else { 1.0 / (2.0 * 1.33) }
 }
 
-/// The bat with a typical shear modulus in every material that has none.
+/// The bat with a typical shear modulus for every material that has none.
 pub fn with_typical_shear(bat: &Bat) -> Bat {
     let with = bat.with(|parts| {
         let regions = parts.fixtures.regions.iter_mut();

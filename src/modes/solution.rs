@@ -1,4 +1,4 @@
-//! The modes of a bat, and how far they may be trusted.
+//! The modes of a bat, and their accuracy.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -16,19 +16,19 @@ use crate::modes::mode::Mode;
 use crate::modes::plan::Reason;
 use crate::modes::referee::Solver;
 
-/// How the search for the modes of a bat ended. Written out ([`fmt::Display`]) it says for a person why what was
-/// asked was not reached; nothing where it was.
+/// How the search for the modes of a bat ended. [`fmt::Display`] tells a person why the request was not met; it is
+/// empty if it was.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[must_use]
 pub enum Ending {
-    /// Every frequency is within the tolerance by its own estimate, and no mode is missing; of a search within a time,
-    /// it ended in time and no mode is missing.
+    /// Every frequency is within the tolerance by its own estimate, and no mode is missing. For a search with a time
+    /// limit: it ended in time and no mode is missing.
     Reached,
-    /// Round-off alone is larger than the tolerance: this share of a frequency.
+    /// Round-off alone exceeds the tolerance; its relative size.
     RoundOff(f64),
     /// It is not certain that no mode is missing.
     Uncounted,
-    /// This ended the refinement before the tolerance was met.
+    /// The reason why the refinement ended before the tolerance was met.
     Stopped(String),
     /// A further refinement gained nothing.
     Stalled,
@@ -49,15 +49,15 @@ impl fmt::Display for Ending {
     }
 }
 
-/// The modes of a bat, how they were found and how far they may be trusted.
+/// The modes of a bat, the method, and their accuracy.
 #[derive(Debug, Clone, Serialize)]
 #[non_exhaustive]
 pub struct Solution {
     /// The bending modes, by rising frequency.
     pub modes: Vec<Mode>,
-    /// How many motions of the bat are rigid, at frequency 0.
+    /// Number of rigid modes of the bat, at frequency 0.
     pub rigid_modes: usize,
-    /// How the eigenvalues were found.
+    /// Method for the eigenvalues.
     pub solver: Solver,
     /// The beam theory.
     pub theory: Theory,
@@ -69,27 +69,27 @@ pub struct Solution {
     pub reason: Reason,
     /// Products with the compliance or the inverse (Lanczos steps); 0 for the dense solver.
     pub steps: usize,
-    /// How the search for the modes ended: whether what was asked was reached.
+    /// How the search for the modes ended, and whether the request was met.
     pub ending: Ending,
-    /// Whether it is certain that no mode is missing: by the number of nodes where theory demands
-    /// it, or by the number of slower motions.
+    /// Whether the list of modes is certainly complete: by the number of nodes where theory requires one, or by the
+    /// count of slower modes.
     pub complete: bool,
-    /// How the modes die out.
+    /// The decay of the modes.
     pub damping: Damping,
-    /// Where the time went.
+    /// Time for each step.
     pub timing: Timing,
-    /// The bat as stiff as it was tapped, where it was solved so.
+    /// The bat with moduli fitted to the tap, if it was solved so.
     #[serde(skip)]
     pub(crate) tuned: Option<Arc<Bat>>,
 }
 
 impl Solution {
-    /// The bat that this is the solution of: the one that was asked about, as stiff as it was tapped.
+    /// The bat that this solution belongs to: the given one, with moduli fitted to the tap.
     pub fn of<'a>(&'a self, bat: &'a Bat) -> &'a Bat {
         self.tuned.as_deref().filter(|_| bat.tap().is_some()).unwrap_or(bat)
     }
 
-    /// The solution with the bat that was made as stiff as it was tapped, if one was.
+    /// The solution with the bat whose moduli were fitted to the tap, if they were.
     pub(crate) fn of_tapped(mut self, bat: Cow<'_, Bat>) -> Self {
         if let Cow::Owned(bat) = bat {
             self.tuned = Some(Arc::new(bat));
@@ -109,31 +109,31 @@ impl Solution {
         self.modes.iter().map(|mode| mode.error.round_off).fold(0.0, f64::max)
     }
 
-    /// Whether what was asked was reached ([`Ending::Reached`]).
+    /// Whether the request was met ([`Ending::Reached`]).
     pub fn met(&self) -> bool {
         self.ending == Ending::Reached
     }
 
-    /// Notes what ended the refinement before the tolerance was met.
+    /// Stores the reason why the refinement ended before the tolerance was met.
     pub(super) fn stop(&mut self, why: String) {
         if self.ending == Ending::Stalled {
             self.ending = Ending::Stopped(why);
         }
     }
 
-    /// What the bat was divided into.
+    /// The elements of the bat.
     pub fn elements(&self) -> Elements<'_> {
         Elements { mesh: &self.mesh, degree: self.degree, theory: self.theory }
     }
 
-    /// Unknowns of the assembled matrices.
+    /// Number of unknowns of the assembled matrices.
     pub fn degrees_of_freedom(&self) -> usize {
         let strains = if self.theory.shears() { 2 } else { 1 };
         strains * (self.degree - 1) * self.mesh.len() + 2
     }
 }
 
-/// Where the time went.
+/// Time for each step.
 #[derive(Debug, Clone, Copy, Default, Serialize)]
 #[non_exhaustive]
 pub struct Timing {

@@ -1,8 +1,7 @@
 //! What are the modes of a bat, as accurately as asked?
 //!
-//! [`solve`](fn@solve) prepares the bat, plans, solves, looks at the errors and refines; [`solve_within`] takes
-//! a time instead of an accuracy. A [`Request`] says what is wanted, a [`Solution`] what was found
-//! and how far to trust it.
+//! [`solve`](fn@solve) prepares the bat, plans, solves, checks the errors and refines; [`solve_within`] takes a time
+//! instead of an accuracy. A [`Request`] says what is wanted, a [`Solution`] what was found and how accurate it is.
 
 use std::time::Duration;
 
@@ -19,11 +18,10 @@ pub use crate::modes::refine::SOLVED;
 pub use crate::modes::request::{Request, stop_at, wanted};
 pub use crate::modes::solution::{Ending, Solution, Timing};
 
-/// Finds the lowest bending modes of a bat, as accurately as asked: the numbers that the program `sweetspot`
-/// prints.
+/// Finds the lowest bending modes of a bat, as accurately as asked. The program `sweetspot` prints these numbers.
 ///
-/// Where the request names no theory the simplest that is good enough is taken, and a bat whose first
-/// frequency was tapped is solved as stiff as the tap says ([`prepare`]).
+/// If the request names no theory, the simplest one that is accurate enough is used. If the first frequency of the bat
+/// was tapped, the moduli are fitted to it ([`prepare`]).
 ///
 /// ```
 /// use sweetspot::{Bat, Request, solve};
@@ -44,18 +42,17 @@ pub use crate::modes::solution::{Ending, Solution, Timing};
 ///
 /// # Errors
 ///
-/// Those of [`Request::check`] and [`prepare`]; [`crate::Error::TooFewElements`] where the asked elements have
-/// fewer modes than are asked for, [`crate::Error::TooLarge`] for the dense solver, [`crate::Error::Factorization`] for
-/// those that factor `K`, [`crate::Error::NotBuilt`] without ARPACK, [`crate::Error::NotConverged`]. An accuracy that cannot
-/// be reached is not an error: the best answer comes back with the [`Ending`] that says so.
+/// Those of [`Request::check`] and [`prepare`]; [`crate::Error::TooFewElements`] if the given elements have fewer modes
+/// than requested, [`crate::Error::TooLarge`] for the dense solver, [`crate::Error::Factorization`] for solvers that
+/// factor `K`, [`crate::Error::NotBuilt`] without ARPACK, [`crate::Error::NotConverged`]. An accuracy that cannot be
+/// reached is not an error: the best result is returned, and its [`Ending`] gives the reason.
 pub fn solve(bat: &Bat, request: &Request) -> Result<Solution> {
     let Prepared { bat, request, .. } = prepare(bat, request)?;
     Ok(refine(&bat, &request)?.of_tapped(bat))
 }
 
-/// The most accurate answer that a time allows: one digit after the other, until the next would
-/// take too long by the time that the last took. The first digit is given in any case, with an [`Ending`]
-/// that says so if it took longer.
+/// The most accurate result within a time limit. It adds one digit after the other until the next would take too long,
+/// judged by the time for the last one. The first digit is always computed; if it took longer, the [`Ending`] says so.
 ///
 /// ```
 /// use std::time::Duration;
@@ -84,7 +81,7 @@ pub fn solve_within(bat: &Bat, request: &Request, budget: Duration) -> Result<So
         let digit = Request { tolerance: 10f64.powi(-digits), elements: None, ..request };
         let solution = match refine(&bat, &digit) {
             Ok(solution) => solution,
-            // A digit that cannot be had ends the search, not the answer.
+            // If a digit cannot be reached, the search ends and the last result is returned.
             Err(_) if best.is_some() => break,
             Err(error) => return Err(error),
         };

@@ -1,31 +1,30 @@
-//! Over which stations may an element reach, and what does that cost?
+//! Which stations may an element reach over, and what error does that cause?
 //!
-//! Between stations the radii are cubics, and a polynomial's curvature follows them. At a station the m-th
-//! derivative of the radius jumps (m = 2 for the monotone cubic, 1 for straight lines), and with it that
-//! of the curvature `w″ = M/EI`, by `J w″` with
+//! Between stations the radii are cubics, and a polynomial's curvature follows them. At a station the m-th derivative
+//! of the radius jumps (m = 2 for the monotone cubic, 1 for straight lines). That of the curvature `w″ = M/EI` then
+//! jumps by `J w″` with
 //!
 //! ```text
 //! J = 4 (r³ Δr − r_i³ Δr_i)/(r⁴ − r_i⁴),     Δr the jump of the m-th derivative.
 //! ```
 //!
-//! Polynomials of degree p − 2 on an element from a to b, with the station at x, leave of such a kink
+//! Polynomials of degree p − 2 on an element from a to b cannot follow such a kink at the station x; their error is
 //!
 //! ```text
 //! Δf/f = J²/(2π (2m + 1)) (k/Φ) ρ^{2m+1},     ρ = √((x − a)(b − x))/(p − 1)
 //! ```
 //!
-//! with the local wave number k and the phase Φ of the mode from end to end; at a phase φ < 1 from a free end,
-//! where the bending moment grows from 0 as φ², it is φ⁴ of that. Where stations are nearer to
-//! each other than ρ, their kinks are one bend of the side: of the 2m powers of ρ those beyond the first are
-//! then of the distance ℓ.
+//! with the local wave number k and the phase Φ of the mode from end to end. At a phase φ < 1 from a free end, where
+//! the bending moment grows from 0 as φ², it is multiplied by φ⁴. If stations are closer to each other than ρ, their
+//! kinks act as one bend of the side: of the 2m powers of ρ, those beyond the first are then replaced by powers of the
+//! distance ℓ.
 //!
 //! # Source
 //!
-//! Worked out here: the Legendre coefficients of `(ξ − ξ₀)₊^m/m!` are (m + 1)-fold integrals of `P_n`, whose
-//! leading term for large n is that of Abramowitz and Stegun (1964), 22.15 (Darboux), its square taken at
-//! its mean and summed over n from p − 1; the energy of a mode lies along the bat as k (the flux of energy
-//! is the same everywhere), half of it in bending. `examples/tuning/over_stations.rs` prints formula and
-//! truth side by side.
+//! Derived here. The Legendre coefficients of `(ξ − ξ₀)₊^m/m!` are (m + 1)-fold integrals of `P_n`. Their leading term
+//! for large n is that of Abramowitz and Stegun (1964), 22.15 (Darboux); its square is averaged and summed over n from
+//! p − 1. The energy of a mode is distributed along the bat as k, because the flux of energy is constant, and half of
+//! it is in bending. `examples/tuning/over_stations.rs` prints formula and true error side by side.
 
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -34,15 +33,15 @@ use crate::bat::body::Bat;
 use crate::bat::profile::{Cubics, Piece, Radii, SAME_PLACE};
 use crate::modes::survey::Survey;
 
-/// A radius below this share of the widest ends a stretch: the 1/EI of both sides cannot be added.
+/// A radius below this share of the widest ends a stretch: the 1/EI of both sides differ too much to be added.
 const NARROW: f64 = 0.15;
-/// Kinks that are nearer than this share of a resolution are one.
+/// Kinks closer than this share of a resolution are one.
 const NEAR: f64 = 0.5;
 
-/// Stretches that an element may reach over, and the stations in them.
+/// Stretches that an element may reach over, and the stations inside.
 #[derive(Debug)]
 pub struct Stations {
-    /// Pieces between which the section is continuous and nothing begins, ends, is fixed or held.
+    /// Stretches of pieces with a continuous section, without a border, a fixture or a support inside.
     pub stretches: Vec<Range<usize>>,
     /// Their inner stations.
     kinks: Vec<Kink>,
@@ -57,12 +56,12 @@ struct Kink {
     weight: f64,
     /// 2m + 1.
     order: i32,
-    /// The share of the energy of a mode that lies there (1/m).
+    /// Density of a mode's energy there (1/m).
     energy: f64,
 }
 
 impl Stations {
-    /// Those of a bat; None if there is nothing to reach over.
+    /// The stretches of a bat; `None` if no element could reach over a station.
     pub fn of(bat: &Bat, survey: &Survey) -> Option<Self> {
         let pieces = &bat.profile().pieces;
         let widest = bat.profile().widest();
@@ -90,13 +89,13 @@ impl Stations {
         (!kinks.is_empty()).then_some(Self { stretches, kinks })
     }
 
-    /// 2m + 1 of the kinks, the least of them.
+    /// The least 2m + 1 of the kinks.
     pub fn order(&self) -> i32 {
         self.kinks.iter().map(|kink| kink.order).min().unwrap_or(1)
     }
 
-    /// Relative error that the kinks leave of a mode of that phase, where a metre around piece k's ends
-    /// is `per_length(k)` of an element: at their mean over all places in an element.
+    /// Relative error due to the kinks for a mode of that phase, averaged over all positions in an element. One metre
+    /// at the ends of piece k is `per_length(k)` of an element.
     pub fn missed(&self, bat: &Bat, degree: usize, per_length: impl Fn(usize) -> f64) -> f64 {
         let pieces = &bat.profile().pieces;
         let of = |kink: &Kink| {
@@ -113,8 +112,8 @@ impl Stations {
     }
 }
 
-/// [`Kink::weight`] and [`Kink::order`] between two pieces; None where the section jumps, or is so thin
-/// that it has no softness.
+/// [`Kink::weight`] and [`Kink::order`] between two pieces; `None` if the section jumps, or is so thin that it has no
+/// softness.
 fn kink([left, right]: [&Piece; 2], widest: f64) -> Option<(f64, i32)> {
     let (Radii::Cubic(a), Radii::Cubic(b)) = (&left.radii, &right.radii) else { return None };
     let ends = [a.outer[0], a.outer[3], b.outer[3]];

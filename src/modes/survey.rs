@@ -1,4 +1,4 @@
-//! How many waves does a piece of the profile hold, and how much does it taper?
+//! How many waves fit on a piece of the profile, and how much does it taper?
 //!
 //! [`Survey::of`] samples a bat for [`crate::modes::plan`].
 
@@ -6,11 +6,11 @@ use crate::bat::body::Bat;
 use crate::bat::profile::{Cubics, Piece, Radii, Section};
 use crate::bat::theory::Theory;
 
-/// A piece is sampled until the radius changes by no more than this factor between samples.
+/// A piece is sampled until the radius changes by at most this factor between samples.
 const SMOOTH: f64 = 1.35;
-/// With this many pieces each is short beside what changes on a bat.
+/// With this many pieces, each is short compared with the features of a bat.
 pub(super) const MANY: usize = 8;
-/// A radius below this share of the widest counts as that: a point is not an infinite taper.
+/// A radius below this share of the widest is replaced by that share: a point is not an infinite taper.
 const THIN: f64 = 1e-3;
 
 /// One place of a piece.
@@ -21,10 +21,10 @@ pub struct Sample {
     /// `∫k dx/√ω` from the piece's left end, with the wave number `k` at the angular frequency ω:
     /// for the Euler–Bernoulli beam `∫(ρA/EI)^¼ dx`, whatever ω.
     pub phase: f64,
-    /// The taper from there, for a straight side `∫|d ln r|`.
+    /// The taper from the piece's left end; for a straight side `∫|d ln r|`.
     pub taper: f64,
-    /// [`Self::taper`] without what a curve between two stations has of its own, its third derivative: for
-    /// elements that reach over stations.
+    /// [`Self::taper`] without the third derivative that the curve between two stations adds: for elements that reach
+    /// over stations.
     pub smooth: f64,
 }
 
@@ -32,14 +32,14 @@ pub struct Sample {
 #[derive(Debug)]
 pub struct Survey {
     samples: Vec<Sample>,
-    /// Where in them each piece ends.
+    /// Index after the last sample of each piece.
     ends: Vec<usize>,
-    /// The highest frequency that is looked at, as `√ω` (√(rad/s)).
+    /// The highest frequency considered, as `√ω` (√(rad/s)).
     pub root_omega: f64,
 }
 
-/// What the wave number at a sample comes from where sections turn or shear: ρA/EI (s²/m⁴), ρI/EI
-/// and ρA/κGA (s²/m²), and how far the sample before is (m).
+/// Quantities for the wave number at a sample with rotary inertia or shear: ρA/EI (s²/m⁴), ρI/EI and ρA/κGA (s²/m²),
+/// and the distance from the sample before (m).
 #[derive(Debug, Clone, Copy, Default)]
 struct Ratios {
     slender: f64,
@@ -49,7 +49,7 @@ struct Ratios {
 }
 
 impl Ratios {
-    /// The squares of both wave numbers (1/m²) at ω²; the second is of a wave only where positive.
+    /// The squares of both wave numbers (1/m²) at ω²; the second belongs to a wave only if it is positive.
     ///
     /// ```text
     /// k⁴ − ω² (ρA/κGA + ρI/EI) k² + ω⁴ (ρA/κGA)(ρI/EI) − ω² ρA/EI = 0
@@ -67,7 +67,7 @@ impl Ratios {
 }
 
 impl Survey {
-    /// A bat whose highest wanted mode has that phase from end to end (rad), all waves together.
+    /// A bat whose highest wanted mode has that total phase of all waves from end to end (rad).
     pub fn of(bat: &Bat, theory: Theory, phase: f64) -> Self {
         let widest = bat.profile().widest();
         let pieces = &bat.profile().pieces;
@@ -97,10 +97,9 @@ impl Survey {
         survey
     }
 
-    /// Finds the frequency at which the waves have that phase, and the longer of them there.
+    /// Finds the frequency at which the waves have that phase, and the longer wave there.
     fn tune(&mut self, ratios: &[Ratios], phase: f64) {
-        // Waves slowed by shear and rotary inertia go between √ω and ω: the phase is a power of ω
-        // between ½ and 1, and these many steps leave little.
+        // With shear and rotary inertia the phase is a power of ω between ½ and 1; this many steps leave little error.
         for _ in 0..4 {
             let square = self.root_omega.powi(4);
             let both = |r: &Ratios| r.waves(square).map(|k| k.max(0.0).sqrt()).iter().sum::<f64>();
@@ -146,7 +145,7 @@ fn ratios_at(bat: &Bat, piece: &Piece, s: f64, thin: f64, theory: Theory) -> Rat
     Ratios { slender, turning, shear, step: 0.0 }
 }
 
-/// What a sample is made from.
+/// The data of a sample.
 #[derive(Clone, Copy)]
 struct SamplePoint {
     s: f64,
@@ -154,15 +153,15 @@ struct SamplePoint {
     radius: f64,
     /// `(ρA/EI)^¼` (√(s/rad)/m).
     wave: f64,
-    /// The taper for a unit of `s`, where stations tell: `max_j |c_j r_j/r|^{1/j}` with the radius
-    /// `Σ r_j (Δs)^j` around the place and c = 1, 0.5, 0.3. For a straight side it is
-    /// `|d ln r/ds|`, and a cubic counts as the cone whose series falls as slowly.
+    /// The taper per unit of `s`, for stations: `max_j |c_j r_j/r|^{1/j}` with the radius `Σ r_j (Δs)^j` around the
+    /// place and c = 1, 0.5, 0.3. For a straight side it is `|d ln r/ds|`, and a cubic counts as the cone whose series
+    /// falls as slowly.
     ///
-    /// Beside it the same without the third part.
+    /// The second value omits the third term.
     taper: Option<[f64; 2]>,
 }
 
-/// Samples along a piece of the given number, denser where the radius changes; a radius below `thin` counts as that.
+/// Samples along one of `pieces` pieces, denser where the radius changes; a radius below `thin` is replaced by that.
 fn take(bat: &Bat, piece: &Piece, thin: f64, pieces: usize, samples: &mut Vec<Sample>) {
     let at = |s: f64| {
         let section = piece.at(s);
@@ -196,11 +195,10 @@ fn take(bat: &Bat, piece: &Piece, thin: f64, pieces: usize, samples: &mut Vec<Sa
     }
 }
 
-/// [`SamplePoint::taper`] of stations.
+/// [`SamplePoint::taper`] for stations.
 ///
-/// The series of `(1 + c s^j)⁻⁴` has every j-th term of the cone's, with smaller coefficients: the
-/// first is `4/(j+3 choose 3)` of it, 0.4 and 0.2 for j = 2 and 3, the next 0.29² and 0.12². The
-/// factors lie between these.
+/// The series of `(1 + c s^j)⁻⁴` has every j-th term of the cone's, with smaller coefficients: the first is
+/// `4/(j+3 choose 3)` of it, 0.4 and 0.2 for j = 2 and 3, the next 0.29² and 0.12². The factors c lie between these.
 fn taper(cubics: &Cubics, s: f64, radius: f64) -> [f64; 2] {
     let b = &cubics.outer;
     let first = [b[1] - b[0], b[2] - b[1], b[3] - b[2]];
@@ -210,7 +208,7 @@ fn taper(cubics: &Cubics, s: f64, radius: f64) -> [f64; 2] {
     let r1 = 3.0 * (first[0] * t * t + 2.0 * first[1] * t * s + first[2] * s * s);
     let r2 = 3.0 * (second[0] * t + second[1] * s);
     let [r1, r2, r3] = [r1, r2, third].map(|r| (r / radius).abs());
-    // A straight side's higher parts are round-off.
+    // The higher terms of a straight side are round-off.
     if cubics.degree == 1 {
         return [r1; 2];
     }

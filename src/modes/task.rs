@@ -25,7 +25,7 @@ use crate::modes::referee::{Found, Solver};
 use crate::modes::request::{AT_ONCE, CONVERGED, LARGE, Request};
 use crate::modes::solution::{Ending, Solution, Timing};
 
-/// Modes on one mesh.
+/// The modes on one mesh.
 pub struct MeshModes {
     /// The modes, rising.
     pub modes: Vec<Mode>,
@@ -60,7 +60,7 @@ impl MeshModes {
         (solution, self.defects)
     }
 
-    /// What becomes of the search if nothing follows.
+    /// The ending if nothing follows.
     fn ending(&self, tolerance: f64) -> Ending {
         let within = |mode: &Mode| mode.error.total() <= tolerance;
         let round_off = self.modes.iter().map(|mode| mode.error.round_off).fold(0.0, f64::max);
@@ -82,7 +82,7 @@ pub struct Task<'a> {
     pub bat: &'a Bat,
     /// Its elements.
     pub plan: &'a Plan,
-    /// What is asked.
+    /// The request.
     pub request: &'a Request,
     /// Residual of the eigenpairs.
     pub residual: f64,
@@ -107,14 +107,14 @@ impl Task<'_> {
         let factored = request.solver != Solver::Statics;
         add_neighbours(&mut modes, found.beyond, &found.residuals, factored);
         let complete = none_missing(&pairs.view(), &modes, found.beyond, self.residual);
-        // Those beyond were looked at for their near twins' sake.
+        // Those beyond were evaluated only because near twins matter.
         modes.truncate(request.modes);
         timing.solve += assembled.elapsed();
         let (steps, rigid_modes) = (found.steps, pairs.view().rigid_modes());
         Ok(MeshModes { modes, steps, defects, complete, rigid_modes })
     }
 
-    /// Modes of strains, each with its own errors, and each element's part in the worst defect.
+    /// The modes of strains, each with its own errors, and each element's part in the worst defect.
     fn modes(&self, pairs: &mut dyn Pairs, found: &Found) -> (Vec<Mode>, Vec<f64>) {
         let stretches = Arc::new(self.plan.mesh.stretches());
         let mut account = self.account(pairs.view().rule, found);
@@ -132,8 +132,8 @@ impl Task<'_> {
                 let modes = threads::map_each(some, |k, motion| {
                     let k = first + k;
                     let own = &strains[size * k..size * (k + 1)];
-                    // The compliance's rounding in the slower modes is not part of this one; of a large
-                    // mesh that would cost the square of the modes.
+                    // The compliance's round-off in slower modes is not part of this one. On a large mesh its removal
+                    // would cost the square of the number of modes.
                     let slower = if size > LARGE || k < found.apart { 0 } else { k };
                     pairs.look_at_one(own, &strains[..size * slower], Depth::Changes, motion);
                     Mode::new(k + 1, &pairs.view(), motion, 0, &stretches)
@@ -154,7 +154,7 @@ impl Task<'_> {
         (account.modes, defects)
     }
 
-    /// No mode yet, and what every mode's errors are made of.
+    /// An empty account, with the data for every mode's errors.
     fn account<'a>(&self, rule: &Rule, found: &'a Found) -> Account<'a> {
         Account {
             apart: found.apart,
@@ -181,8 +181,8 @@ impl Task<'_> {
                 break;
             }
         }
-        // Bats of far slower modes are stiff parts on soft ones, whose modes may be twins:
-        // these are told apart at the end of the iteration only.
+        // Bats with far slower modes are stiff parts on soft ones, whose modes may be twins. The iteration separates
+        // these only at its end.
         let apart = pairs.solve_apart(CONVERGED)?;
         let lanczos = std::mem::take(pairs.lanczos());
         let omega = |value: f64| (pairs.view().energy_unit / value).sqrt();
@@ -192,27 +192,27 @@ impl Task<'_> {
     }
 }
 
-/// The modes so far, and what their errors are made of beside their own defects.
+/// The modes so far, and the data for their errors besides their own defects.
 pub struct Account<'a> {
     /// The modes, rising.
     pub modes: Vec<Mode>,
-    /// How many of the slowest modes were taken out before the others were found.
+    /// Number of slowest modes that were removed before the others were found.
     pub apart: usize,
     /// Whether the solver factored `K`.
     pub factored: bool,
-    /// Whether frequencies are those of the compliance's eigenvalues, which are known to ε of the greatest.
+    /// Whether frequencies follow from the compliance's eigenvalues, which are known to ε of the greatest.
     pub by_value: bool,
     /// [`Found::residuals`].
     residuals: &'a [f64],
-    /// What the points miss of the sections, and the sections' own round-off.
+    /// Error of the sections at the points, and the sections' own round-off.
     missed: f64,
     rounding: f64,
-    /// How many elements there are, and whether they reach over stations.
+    /// Number of elements, and whether they reach over stations.
     elements: (usize, bool),
 }
 
 impl<'a> Account<'a> {
-    /// No mode yet, of the bat on that mesh sampled by that rule; what the iteration left of each.
+    /// An empty account for the bat on that mesh sampled by that rule, with the iteration's residuals.
     pub fn new(bat: &Bat, mesh: &Mesh, rule: &Rule, theory: Theory, residuals: &'a [f64]) -> Self {
         Self {
             modes: Vec::with_capacity(residuals.len()),
@@ -226,16 +226,16 @@ impl<'a> Account<'a> {
         }
     }
 
-    /// The next mode, with what its errors lack.
+    /// Adds the next mode and completes its errors.
     pub fn add(&mut self, mut mode: Mode) {
         mode.error.discretization += self.missed;
-        // Round-off is that of the slowest mode that was not taken out of the others.
+        // Round-off is relative to the slowest mode that was not removed from the others.
         let slow = self.modes.len() < self.apart;
         let first = self.modes.get(if slow { 0 } else { self.apart });
         let ratio = first.map_or(1.0, |first| mode.omega / first.omega);
         let residual = self.residuals.get(self.modes.len()).copied();
         let left = residual.filter(|_| !(slow || self.factored || self.by_value));
-        // The couple of a weight off its place is that of what the rigid motions leave of its way.
+        // The couple of a weight off its place depends on its motion without the rigid motions.
         let mut rounding = self.rounding + 0.5 * f64::EPSILON * mode.doubt.cancelled;
         if self.by_value {
             mode.error.residual = residual.unwrap_or(0.0);
@@ -251,10 +251,9 @@ impl<'a> Account<'a> {
 }
 
 /// Whether it is certain that no mode is missing, not even a near twin just beyond the list, which an iteration that
-/// ends at `residual` does not tell from the last mode: as many motions must be slower than a
-/// frequency in the last gap of the list that is wide enough. Where that cannot be counted, or the
-/// iteration tells as much as the count would, the nodes do: mode n of a free Euler-Bernoulli bat
-/// has n + 1.
+/// ends at `residual` cannot tell from the last mode. The number of modes below a frequency in the last wide gap of the
+/// list must equal the number in the list. If that cannot be counted, or the iteration tells as much as the count
+/// would, the nodes decide: mode n of a free Euler–Bernoulli bat has n + 1.
 fn none_missing(view: &View<f64>, modes: &[Mode], beyond: Option<f64>, residual: f64) -> bool {
     const WIDE: f64 = 1e-9;
     let oscillates = view.fixed.is_none() && !view.theory.turns();
@@ -271,5 +270,5 @@ fn none_missing(view: &View<f64>, modes: &[Mode], beyond: Option<f64>, residual:
     slower == below + view.rigid_modes()
 }
 
-/// So many motions beyond the wanted ones are looked at where they are near twins of these.
+/// Most modes beyond the wanted ones that are evaluated because they are near twins.
 const MOST_TWINS: usize = 4;

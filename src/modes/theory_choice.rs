@@ -1,6 +1,6 @@
-//! Which theory does the question need?
+//! Which theory does a question need?
 //!
-//! [`theory`] finds the cheapest whose error is below the tolerance.
+//! [`theory`] finds the cheapest theory whose error is below the tolerance.
 
 use crate::base::error::Result;
 use crate::bat::body::Bat;
@@ -9,7 +9,7 @@ use crate::modes::refine::refine;
 use crate::modes::request::Request;
 use crate::modes::shifts::{Shift, shifts, solved_shifts, with_typical_shear};
 
-/// A theory, and what a person should know about the choice.
+/// A theory, and a warning about the choice if there is one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Choice {
     /// The chosen theory.
@@ -18,8 +18,8 @@ pub struct Choice {
     pub warning: Option<String>,
 }
 
-/// The cheapest theory with which every wanted frequency is within the request's tolerance of what
-/// all effects together make it; without shear where a shear modulus is not known.
+/// The cheapest theory for which every wanted frequency is within the request's tolerance of that with all effects;
+/// without shear if a shear modulus is not known.
 ///
 /// ```
 /// use sweetspot::modes::theory_choice::theory;
@@ -37,10 +37,10 @@ pub struct Choice {
 ///
 /// Those of [`crate::modes::solve::solve`].
 pub fn theory(bat: &Bat, request: &Request) -> Result<Choice> {
-    // What cannot be asked is refused before any work.
+    // An impossible request is refused before any work.
     request.check(1)?;
     let known = bat.knows_shear();
-    // Shear and rotary inertia cost the fast modes most: where a few slow ones need both, all do.
+    // Shear and rotary inertia affect the fast modes most: if a few slow ones need both, all do.
     if known && request.modes > FEW {
         let few = Request { modes: FEW, ..*request };
         if costs(bat, &few)?.far_above(request.tolerance) {
@@ -64,7 +64,7 @@ pub fn theory(bat: &Bat, request: &Request) -> Result<Choice> {
     Ok(Choice { theory, warning })
 }
 
-/// The theory that a request names, or [`theory`]'s choice where it leaves it open.
+/// The theory that a request names, or the choice of [`theory`] if it names none.
 ///
 /// # Errors
 ///
@@ -76,17 +76,16 @@ pub fn of(bat: &Bat, request: &Request) -> Result<Theory> {
     }
 }
 
-/// So many modes may show that every effect is needed: of a wooden bat at 1e-4 they do.
+/// Number of modes that may show that every effect is needed; for a wooden bat at 1e-4 they do.
 const FEW: usize = 3;
-/// An estimate of the first order decides only where it is that many times the tolerance, or as
-/// many times below it.
+/// A first-order estimate decides only if it is more than this many times above or below the tolerance.
 const FAR: f64 = 2.0;
 
-/// How much too high frequencies are without an effect, relative, the largest of the modes.
+/// Relative excess of the frequencies without an effect, the largest of the modes.
 struct Costs {
-    /// Without rotary inertia and, where it is known, shear.
+    /// Without rotary inertia and, if known, shear.
     both: f64,
-    /// Without shear; with a typical shear modulus where none is known.
+    /// Without shear; with a typical shear modulus if it is not known.
     shear: f64,
     /// Mode 1 without shear.
     first: f64,
@@ -101,7 +100,7 @@ impl Costs {
         Self { both: most(true, known), shear: most(false, true), first }
     }
 
-    /// Whether one of them is so near to the tolerance that an estimate does not tell.
+    /// Whether one of them is too close to the tolerance for an estimate.
     fn near(&self, tolerance: f64) -> bool {
         let near = |cost: f64| FAR * cost > tolerance && cost < FAR * tolerance;
         near(self.both) || near(self.shear)
@@ -112,11 +111,11 @@ impl Costs {
     }
 }
 
-/// The costs of the theories on that bat, by the plain beam's modes where these tell enough.
+/// The excess frequencies of the theories on that bat, from the plain beam's modes if these are accurate enough.
 fn costs(bat: &Bat, request: &Request) -> Result<Costs> {
-    /// The shifts are to be known to a part of themselves.
+    /// Relative accuracy of the shifts.
     const ROUGH: f64 = 1e-2;
-    /// No shift below that can be told from round-off.
+    /// A smaller shift cannot be distinguished from round-off.
     const FINEST: f64 = 1e-11;
     let Request { modes, tolerance, .. } = *request;
     let plain = Request { modes, tolerance: tolerance.max(ROUGH), ..Request::plain() };
@@ -132,7 +131,7 @@ fn costs(bat: &Bat, request: &Request) -> Result<Costs> {
     Ok(solved.map_or(found, |solved| Costs::of(&solved, known)))
 }
 
-/// A percentage in two digits.
+/// A percentage with two digits.
 fn two_digits(value: f64) -> f64 {
     format!("{value:.1e}").parse().unwrap_or(value)
 }

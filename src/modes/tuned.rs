@@ -10,19 +10,19 @@ use crate::modes::refine::refine;
 use crate::modes::request::Request;
 use crate::modes::theory_choice;
 
-/// The bat, as described, with one factor on every E and G, so that its first bending mode has the
-/// frequency that was tapped; as it is if none was, or if it is as stiff already.
+/// The bat with one factor on every E and G, so that its first bending mode has the tapped frequency. A bat without a
+/// tap, or already fitted, is returned unchanged.
 ///
-/// A free bat's frequencies go as the root of the factor, and one step finds it; springs, joints
-/// and hands do not grow with it. How much a frequency does is the share of the bat's own strain
-/// energy in the mode's, which two solutions tell; the first bending mode is the first one of which
-/// that is at least half, not one in which the bat moves stiffly on what holds it.
+/// The frequencies of a free bat go as the square root of the factor, so one step finds it; springs, joints and hands
+/// do not grow with it. The exponent of a frequency is the share of the bat's own strain energy in the mode's, which
+/// two solutions give. The first bending mode is the first one with a share of at least a half, not a mode in which the
+/// bat moves rigidly on its springs.
 ///
 /// # Errors
 ///
-/// [`Error::Value`] where no factor gives that frequency; those of
-/// [`crate::modes::solve::solve`]; [`Error::Value`] for a bat that was changed by [`Bat::with`] after its edits,
-/// since the tap was heard of the bat before them: tune first, then change.
+/// [`Error::Value`] if no factor gives that frequency; those of [`crate::modes::solve::solve`]; [`Error::Value`] for a
+/// bat that was changed by [`Bat::with`] after its edits, since the tap belongs to the bat before them: tune first,
+/// then change.
 pub fn tuned(mut bat: Bat, theory: Theory, tolerance: f64) -> Result<Bat> {
     const MOST_STEPS: usize = 60;
     const STIFFER: f64 = 1.01;
@@ -32,8 +32,7 @@ pub fn tuned(mut bat: Bat, theory: Theory, tolerance: f64) -> Result<Bat> {
     }
     let theory = theory_choice::of(&bat, &Request { tolerance, theory, ..Request::default() })?;
     let tolerance = (0.01 * tolerance).clamp(1e-12, 1e-6);
-    // Hands and springs leave at most two slow motions that are rigid by themselves; an absorber
-    // adds one more each.
+    // Hands and springs leave at most two slow rigid modes; each absorber adds one more.
     let held = bat.fixtures().holding() || !bat.fixtures().absorbers.is_empty();
     let modes = if held { 3 + bat.fixtures().absorbers.len() } else { 1 };
     let request = Request { modes, tolerance, theory, ..Request::default() };
@@ -52,13 +51,13 @@ pub fn tuned(mut bat: Bat, theory: Theory, tolerance: f64) -> Result<Bat> {
         if nearest == 0.0 || ratio.ln().abs() < (tapped / nearest).ln().abs() {
             nearest = found;
         }
-        // Where arithmetic knows a frequency less well, as well as it does, and half of --tol.
+        // As close as arithmetic knows the frequency, or half of --tol.
         let known = here.modes[bending].error.total().min(50.0 * tolerance);
         if (ratio - 1.0).abs() <= known.max(2.0 * tolerance) {
             bat.heard();
             return Ok(bat);
         }
-        // Newton's step in logarithms, never beyond what is known to be too soft or too stiff.
+        // Newton's step in logarithms, within the bounds already known to be too soft or too stiff.
         let now = bat.factors()[1];
         if ratio > 1.0 {
             low = low.max(now)
@@ -83,8 +82,8 @@ pub fn tuned(mut bat: Bat, theory: Theory, tolerance: f64) -> Result<Bat> {
     Err(Error::value("weighed.first_bending_hz", found, expected))
 }
 
-/// The first mode in which the bat's own strain energy has a share of a half at least, else the one in which it has the
-/// largest.
+/// The first mode in which the bat's own strain energy has a share of at least a half; otherwise the mode with the
+/// largest share.
 fn first_bending(shares: &[f64]) -> usize {
     shares.iter().position(|share| *share >= 0.5).unwrap_or_else(|| {
         let larger = |a: &usize, b: &usize| shares[*a].total_cmp(&shares[*b]);
@@ -92,7 +91,7 @@ fn first_bending(shares: &[f64]) -> usize {
     })
 }
 
-/// The edited bat, as stiff as the bat before its edits was tapped.
+/// The edited bat, with the moduli that the bat before its edits has after the tap.
 fn edited(bat: &Bat, theory: Theory, tolerance: f64) -> Result<Bat> {
     let named = |other: Bat| other.with(|parts| bat.name().clone_into(&mut parts.name));
     let again = bat.unedited().edited(bat.edits())?;

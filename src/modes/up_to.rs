@@ -14,22 +14,21 @@ use crate::modes::refine::refine;
 use crate::modes::request::MOST_MODES;
 use crate::modes::solve::{Request, Solver};
 
-/// More modes than that are not listed.
+/// Most modes that are listed.
 pub const MOST: usize = MOST_MODES;
-/// The highest limit (Hz), far above all that a beam describes.
+/// The highest limit (Hz), far above the range of beam theory.
 const HIGHEST: f64 = 1e9;
-/// Relative accuracy of the frequencies among which is counted.
+/// Relative accuracy of the frequencies for the count.
 const ACCURACY: f64 = 1e-6;
-/// What a mistake names.
+/// The name in an error.
 const FIELD: &str = "frequency limit";
 
-/// The number of bending modes whose frequency is at most `limit` (Hz): the request with the given number
-/// modes has a solution with none above it, and the next mode is above.
+/// The number of bending modes with a frequency of at most `limit` (Hz). A solution of the request with that number of
+/// modes has none above the limit, and the next mode is above it.
 ///
-/// On a mesh that knows the given number of modes well the motions slower than the limit are counted
-/// ([`count`]), so that none is missed. Only if a mode is nearer to the limit than the request's
-/// tolerance tells, or the request has elements of its own, it is solved to see on which side the
-/// answer has it.
+/// The modes below the limit are counted on a mesh that is accurate for that many modes ([`count`]), so that none is
+/// missed. Only if a mode is closer to the limit than the request's tolerance, or the request prescribes the elements,
+/// the bat is solved to find on which side the result lies.
 ///
 /// ```
 /// use sweetspot::modes::up_to::modes_up_to;
@@ -56,7 +55,7 @@ pub fn modes_up_to(bat: &Bat, request: &Request, limit: f64) -> Result<usize> {
     request.check(1)?;
     let mut ready = prepare(bat, request)?;
     let mut modes = slower_modes(&ready, limit)?;
-    // So many modes may need another theory than those that were asked for: at most from each to the next one.
+    // This number of modes may need another theory than the requested number; at most one change to each next theory.
     for _ in Theory::ALL.iter().filter(|_| request.theory == Theory::Auto) {
         let again = prepare(bat, &Request { modes, ..*request })?;
         if again.request.theory <= ready.request.theory {
@@ -68,7 +67,7 @@ pub fn modes_up_to(bat: &Bat, request: &Request, limit: f64) -> Result<usize> {
     Ok(modes)
 }
 
-/// The number of bending modes up to the limit, by the theory that the request names.
+/// The number of bending modes up to the limit, with the theory that the request names.
 fn slower_modes(Prepared { bat, request, .. }: &Prepared, limit: f64) -> Result<usize> {
     let margin = (3.0 * request.tolerance).clamp(10.0 * ACCURACY, 0.5);
     let counts =
@@ -90,9 +89,9 @@ fn slower_modes(Prepared { bat, request, .. }: &Prepared, limit: f64) -> Result<
     }
 }
 
-/// The bending modes slower than the limit (Hz), on meshes for more and more modes until one is fine
-/// enough for all that are slower on it. None for more than [`MOST`], and for a limit so far above
-/// the bat's frequencies that nothing can be counted there.
+/// The number of bending modes below the limit (Hz), on meshes for more and more modes until one is fine enough for all
+/// of them. `None` for more than [`MOST`], and for a limit so far above the bat's frequencies that they cannot be
+/// counted there.
 fn counted(bat: &Bat, theory: Theory, limit: f64) -> Option<usize> {
     const FIRST: usize = 16;
     let most_unknowns = Solver::Statics.most_unknowns();
@@ -110,15 +109,15 @@ fn counted(bat: &Bat, theory: Theory, limit: f64) -> Option<usize> {
     None
 }
 
-/// Degree of the elements on which is counted.
+/// Degree of the elements for the count.
 const DEGREE: usize = 7;
 
-/// How many bending modes are slower than the limit on that mesh.
+/// Number of bending modes below the limit on that mesh.
 fn slower(bat: &Bat, mesh: &Mesh, theory: Theory, limit: f64) -> Option<usize> {
     let mut pairs = pairs_of(bat, DEGREE, theory);
     pairs.assemble(bat, mesh);
     let view = pairs.view();
-    // A frequency that is the mesh's own to the last digit cannot be counted at; one beside it can.
+    // The count fails at a frequency that equals the mesh's own to the last digit; a nearby one works.
     let nearby = (0..8).map(|k| TAU * limit * (1.0 + 1e-13 * f64::from(k * k)));
     let all = nearby.into_iter().find_map(|omega| count::slower(&view, omega))?;
     Some(all.saturating_sub(view.rigid_modes()))

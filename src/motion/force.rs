@@ -1,4 +1,4 @@
-//! What force pushes a bat, in time?
+//! Which force in time acts on a bat?
 
 /// Forces (N) at rising times (s).
 #[derive(Debug, Clone, PartialEq)]
@@ -10,8 +10,8 @@ pub struct ForceHistory {
 }
 
 impl ForceHistory {
-    /// The straight stretches up to a time: how long each lasts (s), and the force at its ends (N);
-    /// the pauses before and after are stretches without force.
+    /// The straight stretches up to a time: the duration of each (s) and the force at its ends (N). The pauses before
+    /// and after are stretches without force.
     pub fn until(&self, t: f64) -> Vec<(f64, [f64; 2])> {
         let mut stretches = vec![(self.t[0].min(t), [0.0; 2])];
         for k in 1..self.t.len() {

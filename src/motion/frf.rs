@@ -1,16 +1,16 @@
-//! How does a bat answer a force that swings: receptance, mobility, accelerance?
+//! How does a bat respond to a harmonic force: receptance, mobility, accelerance?
 //!
-//! [`Frf::new`] for two points, then [`Frf::receptances`] at the frequencies; [`ResponseKind::of`] makes
-//! the others of them.
+//! Make a [`Frf`] for two points with [`Frf::new`], and evaluate it with [`Frf::receptances`]; [`ResponseKind::of`]
+//! gives the factors to the other kinds.
 //!
 //! ```text
 //! H(ω) = Σ_rigid φ(x) φ(a)/(−ω² m) + row(x)ᵀ (1 + iK″ + iωC − ω²M)⁻¹ row(a)/U
 //! ```
 //!
-//! with time as `e^{+iωt}`. The strains are the modes', the static ones under a force at either
-//! point, so that the modes left out answer as they do at 0 Hz, and then what the residuals at the
-//! worst frequencies call for, until the estimate of what is missing is small. That is the product
-//! of the residuals of both points, for H depends on their product.
+//! with time as `e^{+iωt}`. The strains are those of the modes and the static ones under a force at either point, so
+//! that the omitted modes respond as they do at 0 Hz. Further strains follow from the residuals at the worst
+//! frequencies, until the estimated error is small. The error is the product of the residuals of both points, because H
+//! depends on their product.
 
 use std::f64::consts::TAU;
 
@@ -28,7 +28,7 @@ use crate::modes::reduced::Reduced;
 use crate::modes::solve::{Request, Solution, solve};
 use crate::motion::peaks::{self, Peak};
 
-/// What is answered to a force.
+/// Kind of the response to a force.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum ResponseKind {
     /// Deflection (m/N).
@@ -41,7 +41,7 @@ pub enum ResponseKind {
 }
 
 impl ResponseKind {
-    /// All of them.
+    /// All kinds.
     pub const ALL: [Self; 3] = [Self::Receptance, Self::Mobility, Self::Accelerance];
 
     /// The name that the command line and the files use.
@@ -53,7 +53,7 @@ impl ResponseKind {
         }
     }
 
-    /// The unit of the answer, as in the names of columns.
+    /// The unit of the response, as in the names of columns.
     pub fn unit(self) -> &'static str {
         match self {
             Self::Receptance => "m_per_n",
@@ -82,8 +82,8 @@ pub struct Sample {
     /// Deflection per force (m/N).
     #[serde(serialize_with = "parts")]
     pub receptance: c64,
-    /// How far it may be off (m/N): for the strains left out, and for what the modes' own errors, relative,
-    /// make of the inertia in every shape.
+    /// Possible error (m/N), due to omitted strains and to the effect of the modes' own relative errors on the inertia
+    /// of every shape.
     pub truncation: f64,
 }
 
@@ -92,31 +92,31 @@ fn parts<S: Serializer>(value: &c64, to: S) -> std::result::Result<S::Ok, S::Err
     [value.re, value.im].serialize(to)
 }
 
-/// A bat, a point that is forced, one that is watched, and all that is needed for any frequency.
+/// A bat with a forced and a watched point, ready for any frequency.
 pub struct Frf {
     /// The modes, on a mesh with a node at both points.
     pub solution: Solution,
     reduced: Reduced,
-    /// Forced and watched point.
+    /// The forced and the watched point.
     places: [UnitForce; 2],
     points: [f64; 2],
-    /// Damping ratios of the modes in place of the bat's; empty where they are the bat's.
+    /// Damping ratios of the modes in place of the bat's; empty if the bat's apply.
     ratios: Vec<f64>,
 }
 
-/// The mesh of a response has its modes to that accuracy at least.
+/// The modes on the mesh of a response are at least this accurate.
 const MESH: f64 = 1e-8;
-/// How well the inertia of all shapes is known, over the largest relative error of an asked frequency. The mesh is not
-/// planned for shapes above the asked modes.
+/// Error of the inertia of all shapes over the largest relative error of a requested frequency. The mesh is not planned
+/// for shapes above the requested modes.
 const BEYOND: f64 = 12.0;
-/// It is never known better than this.
+/// Least relative error of the inertia.
 const KNOWN: f64 = 1e-12;
-/// What may be missing, relative to the points' own responses.
+/// Allowed error, relative to the points' own responses.
 const MISSING: f64 = 1e-12;
 
 impl Frf {
-    /// The bat forced at `at` and watched at `to` (m from the knob end), for frequencies up to
-    /// about that of the last of the requested modes.
+    /// The bat forced at `at` and watched at `to` (m from the knob end), for frequencies up to about that of the last
+    /// requested mode.
     ///
     /// # Errors
     ///
@@ -132,7 +132,7 @@ impl Frf {
         let bat = bat.with(|parts| parts.profile.cut([at, to]))?;
         let request = Request { tolerance: request.tolerance.min(MESH), ..request };
         let solution = solve(&bat, &request)?;
-        // A force bends the bat with a kink, which no polynomial inside an element has.
+        // A force bends the bat with a kink, which no polynomial inside an element can represent.
         let mesh = solution.mesh.with_nodes(&bat, &[at, to]);
         let elements = Elements { mesh: &mesh, ..solution.elements() };
         let mut reduced = Reduced::new(&bat, elements, solution.modes.len())?;
@@ -143,8 +143,8 @@ impl Frf {
         Ok(Self { solution, reduced, places, points: [at, to], ratios: vec![] })
     }
 
-    /// The response with these damping ratios of its modes in place of the materials' loss factors, as they
-    /// were measured; a mode without one has the mean of the others. For a bat whose materials lose nothing.
+    /// The response with measured damping ratios of its modes in place of the materials' loss factors; a mode without
+    /// one gets the mean of the others. For a bat whose materials have no loss.
     pub fn damped_as(mut self, ratios: &[Option<f64>]) -> Self {
         let known: Vec<f64> = ratios.iter().flatten().copied().collect();
         let mean = known.iter().sum::<f64>() / known.len().max(1) as f64;
@@ -155,21 +155,20 @@ impl Frf {
         self
     }
 
-    /// The damping ratios of [`Self::damped_as`]; empty without.
+    /// The damping ratios given to [`Self::damped_as`]; empty without.
     pub fn damping_ratios(&self) -> &[f64] {
         &self.ratios
     }
 
-    /// The deflection (m/N) under a constant force: of a held bat; of a free one that of its
-    /// bending alone, in balance with its own inertia.
+    /// The deflection (m/N) under a constant force. For a free bat it is the bending alone, balanced by the bat's
+    /// inertia.
     pub fn static_compliance(&self) -> f64 {
         let [at, to] = self.points.map(|x| self.reduced.flexible.row(x));
         dot(&at, &to) / self.reduced.flexible.energy_unit
     }
 
-    /// The receptance (m/N) without the rigid motions that nothing holds, at 0 Hz or more, of the
-    /// strains that are there: those of the modes and of a constant force until
-    /// [`Self::receptances`] has asked for others.
+    /// The receptance (m/N) without the free rigid motions, at 0 Hz or more, with the present strains: those of the
+    /// modes and of a constant force, until [`Self::receptances`] adds others.
     pub fn strained(&self, frequency: f64) -> c64 {
         self.strained_by(&self.reduced.driven(), frequency)
     }
@@ -178,7 +177,7 @@ impl Frf {
         self.reduced.answer(driven, &self.places[0], TAU * frequency).at(&self.places[1])
     }
 
-    /// The part of the receptance (m/N) of rigid motions that nothing holds.
+    /// The part of the receptance (m/N) due to free rigid motions.
     pub fn rigid(&self, frequency: f64) -> f64 {
         if self.reduced.coupled {
             return 0.0;
@@ -189,7 +188,7 @@ impl Frf {
         motions.map(|(motion, (a, b))| -a * b / (square * motion.mass)).sum::<f64>() + 0.0
     }
 
-    /// The receptance (m/N) at a frequency (Hz) by the strains that are there.
+    /// The receptance (m/N) at a frequency (Hz) with the present strains.
     fn receptance(&self, driven: &Driven, frequency: f64) -> c64 {
         self.strained_by(driven, frequency) + c64::new(self.rigid(frequency), 0.0)
     }
@@ -202,7 +201,7 @@ impl Frf {
         modes.map(|(k, mode)| [mode.frequency(), ratio(k)]).collect()
     }
 
-    /// Frequencies between two (Hz) that show every peak: the natural ones, and those around them at
+    /// Frequencies between two limits (Hz) that show every peak: the natural frequencies, and others around them at
     /// shares of their half-power width ([`peaks::around`]), rising.
     pub fn around_modes(&self, [low, high]: [f64; 2]) -> Vec<f64> {
         let all = self.modes().into_iter().flat_map(|[f, ratio]| peaks::around(f, ratio));
@@ -212,25 +211,24 @@ impl Frf {
         within
     }
 
-    /// The peaks between the ends of a rising grid of frequencies (Hz), their sizes in the unit of
-    /// that kind, by the strains that are there: [`Self::receptances`] adds those that are missed.
+    /// The peaks between the ends of a rising grid of frequencies (Hz), in the unit of that kind, with the present
+    /// strains: [`Self::receptances`] adds those that are missing.
     pub fn peaks(&self, kind: ResponseKind, grid: &[f64]) -> Vec<Peak> {
         let driven = self.reduced.driven();
         let size = |f: f64| (self.receptance(&driven, f) * kind.of(f)).norm();
         peaks::of(grid, &self.modes(), &size)
     }
 
-    /// How many strains the answers are made of, modes included.
+    /// Number of strains of the response, modes included.
     pub fn strains(&self) -> usize {
         self.reduced.len()
     }
 
-    /// The receptances at frequencies (Hz); 0 Hz only where no rigid motion is free.
+    /// The receptances at frequencies (Hz); 0 Hz only if there is no free rigid motion.
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] for a frequency that is negative, not finite, or 0 of a bat that is not
-    /// held.
+    /// [`Error::Value`] for a frequency that is negative, not finite, or 0 for a bat that is not held.
     pub fn receptances(&mut self, frequencies: &[f64]) -> Result<Vec<Sample>> {
         const MOST_ROUNDS: usize = 20;
         const PROBES: usize = 16;
@@ -284,12 +282,12 @@ impl Frf {
         [0, 1].map(|k| self.reduced.answer(driven, &self.places[k], omega))
     }
 
-    /// How much of the receptance the strains miss (m/N).
+    /// The part of the receptance that the strains miss (m/N).
     fn missing(&self, answers: &[DrivenStrains; 2]) -> f64 {
         self.reduced.flexible.energy_unit * answers[0].missed() * answers[1].missed()
     }
 
-    /// What the errors of the modes may make of the receptance (m/N): a change δM of the inertia changes it by
+    /// Possible effect of the modes' errors on the receptance (m/N): a change δM of the inertia changes it by
     /// `ω² qᵀ δM q′`.
     fn blurred(&self, answers: &[DrivenStrains; 2], frequency: f64) -> f64 {
         let inertia = (TAU * frequency).powi(2) * self.reduced.inertia_of(answers);
@@ -297,8 +295,7 @@ impl Frf {
         BEYOND * self.solution.worst().max(KNOWN) * (strained + self.rigid(frequency).abs())
     }
 
-    /// The mean size of both points' own receptances (m/N), which one between them may be far
-    /// below.
+    /// The mean magnitude of both points' own receptances (m/N); the receptance between the points may be far smaller.
     fn scale(&self, answers: &[DrivenStrains; 2], frequency: f64) -> f64 {
         let omega = (TAU * frequency).powi(2);
         let own = |k: usize| {

@@ -1,16 +1,16 @@
 //! How does the bat move after a blow, under a force, at a frequency?
 //!
-//! One integral is behind all of it ([`phi`]). Modes are oscillators ([`oscillator`]); their sum is the motion in time ([`ringing`]) and the
-//! response at a frequency ([`frf`]).
+//! The same integral is behind everything ([`phi`]). Modes are oscillators ([`oscillator`]). Their sum is the motion in
+//! time ([`ringing`]) and the response at a frequency ([`frf`]).
 //!
 //! | file | question |
 //! |---|---|
-//! | [`phi`] | what does a force do to a motion as `e^{st}` |
-//! | [`force`], [`shape`] | which force pushes the bat; from which shape is it let go |
-//! | [`oscillator`] | how does one mode answer, damped or not |
+//! | [`phi`] | the effect of a force on a motion `e^{st}` |
+//! | [`force`], [`shape`] | which force acts on the bat; from which shape is it released |
+//! | [`oscillator`] | how does one mode respond, damped or not |
 //! | [`ringing`] | how does the bat move in time |
-//! | [`peaks`] | where does that answer peak, how high and how wide |
-//! | [`frf`] | how does it answer at a frequency |
+//! | [`peaks`] | where does the response peak, how high and how wide |
+//! | [`frf`] | how does the bat respond at a frequency |
 //! | [`sound`] | what does it sound like |
 
 #[doc(hidden)]

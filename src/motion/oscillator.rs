@@ -1,4 +1,4 @@
-//! How does anything ring whose modes are known: free motion as a sum of modes?
+//! How does a system with known modes ring? Free motion as a sum of modes.
 //!
 //! An [`Oscillator`] is one mode.
 //!
@@ -6,7 +6,7 @@
 //! w(x, t) = Σ φ_n(x) q_n(t),    m_n (q̈_n + 2 ζ_n ω_n q̇_n + ω_n² q_n) = 0 after t = 0
 //! ```
 //!
-//! A rigid motion is one too, with `ω = 0`.
+//! A rigid motion is also one, with `ω = 0`.
 
 use faer::c64;
 
@@ -15,11 +15,11 @@ use crate::motion::phi::differences;
 /// One mode in time: a mass on a spring with a damper.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Oscillator {
-    /// Undamped angular frequency (rad/s); 0 is a rigid motion, which nothing slows down.
+    /// Undamped angular frequency (rad/s); 0 for a rigid motion, which is never slowed down.
     pub omega: f64,
     /// Damping ratio `ζ = c/(2 m ω)`, with `c` the modal damping (kg/s); 0 or more, 1 is critical.
     pub damping_ratio: f64,
-    /// Modal mass (kg) of the shape this goes with: `∫ρA φ² dx`.
+    /// Modal mass (kg) for the mode's shape: `∫ρA φ² dx`.
     pub mass: f64,
 }
 
@@ -39,7 +39,7 @@ impl Oscillator {
     pub fn free(&self, q0: f64, v0: f64, t: f64) -> [f64; 2] {
         let (omega, zeta) = (self.omega, self.damping_ratio);
         let root = omega * ((1.0 - zeta) * (1.0 + zeta)).abs().sqrt();
-        // `s`, `ṡ`, and `ṡ + 2ζω s` in a form of its own, as the sum cancels when over-damped.
+        // `s`, `ṡ`, and `ṡ + 2ζω s`, the last by its own formula, because the sum cancels when over-damped.
         let (s, s_dot, c) = if zeta < 1.0 || omega == 0.0 {
             let decay = (-zeta * omega * t).exp();
             let s = decay * if root > 0.0 { (root * t).sin() / root } else { t };
@@ -56,11 +56,11 @@ impl Oscillator {
         [q0 * c + v0 * s, v0 * s_dot - q0 * omega * omega * s]
     }
 
-    /// Displacement and velocity a time `h > 0` after `[q, v]` under a force (N) that goes in a
-    /// straight line from one value to another meanwhile: exact, however long `h` is.
+    /// Displacement and velocity a time `h > 0` after `[q, v]`, under a force (N) that changes linearly from one value
+    /// to the other: exact for any `h`.
     ///
-    /// With the poles `s₁, s₂ = −ζω ± √(ζ² − 1) ω` the impulse response is the divided difference of
-    /// `e^{st}`, and so is what it makes of a force ([`differences`]).
+    /// With the poles `s₁, s₂ = −ζω ± √(ζ² − 1) ω` the impulse response is the divided difference of `e^{st}`, and so
+    /// is the response to a force ([`differences`]).
     pub fn forced(&self, [q, v]: [f64; 2], [from, to]: [f64; 2], h: f64) -> [f64; 2] {
         let [a, b] = self.poles();
         let (whole, [first, second]) = differences(a * h, b * h);
@@ -124,7 +124,7 @@ mod tests {
         close(oscillator(1e6).free(1.0, 0.0, 4e4)[0], (-1.0_f64).exp() * (1.0 + 0.0));
     }
 
-    /// Steps add up: one over a stretch or many over its parts, whichever formula each takes.
+    /// A single step over a stretch and many steps over its parts agree, whichever formula each uses.
     #[test]
     fn a_ramp_in_one_step_or_in_many_is_the_same() {
         let (h, parts) = (0.3, 1000);
@@ -161,7 +161,7 @@ mod tests {
         }
     }
 
-    /// A pole of a single oscillator answers as the oscillator does: `Im/(m ω_d)`.
+    /// A pole of a single oscillator responds as the oscillator does: `Im/(m ω_d)`.
     #[test]
     fn a_driven_pole_is_the_oscillator_s() {
         let mode = oscillator(0.2);

@@ -1,8 +1,8 @@
 //! Where does a response peak, how high and how wide?
 //!
-//! A mode of damping ratio ζ has half its power `ζf` beside its natural frequency f. [`around`] has
-//! frequencies that close, so that a grid with them cannot miss a peak; [`of`] finds the peaks of a
-//! grid, and between its points with what the response is there.
+//! A mode with the damping ratio ζ and the natural frequency f has half its power at a distance `ζf` from f. [`around`]
+//! gives frequencies close enough that a grid with them cannot miss a peak. [`of`] finds the peaks of a grid, with the
+//! response between its points.
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
@@ -11,39 +11,39 @@ use crate::base::golden;
 /// A peak of a response.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Peak {
-    /// Number of the mode, from 1: the one of the nearest natural frequency.
+    /// Number of the mode with the nearest natural frequency, from 1.
     pub mode: usize,
     /// Its undamped natural frequency (Hz).
     pub natural: f64,
     /// Where the response is largest (Hz).
     pub frequency: f64,
-    /// Size of the response there; None where nothing damps the mode, and it has no bound.
+    /// Size of the response there; `None` if the mode is undamped and the response unbounded.
     pub height: Option<f64>,
-    /// Where the response has half the power, below and above (Hz); None where it rises again before.
+    /// Frequencies at half the power, below and above (Hz); `None` if the response rises again before.
     pub half_power: Option<[f64; 2]>,
 }
 
 impl Peak {
     /// Damping ratio by the half-power points f₁ and f₂: `ζ = (f₂² − f₁²)/(4f²)`.
     ///
-    /// Of one mode `H ∝ 1/(1 − r² + iη)` with r the frequency over the natural one: half of the power
-    /// at resonance is where `(1 − r²)² = η²`, so `r₂² − r₁² = 2η` exactly, and η = 2ζ. A viscous one
-    /// has `iηr` in its place, and the same to second order in ζ.
+    /// For one mode `H ∝ 1/(1 − r² + iη)`, with r the frequency over the natural one. Half of the power at resonance is
+    /// where `(1 − r²)² = η²`, so exactly `r₂² − r₁² = 2η`, and η = 2ζ. Viscous damping has `iηr` instead, and the
+    /// result is equal to second order in ζ.
     pub fn damping_ratio(&self) -> Option<f64> {
         let [below, above] = self.half_power?;
         Some((above - below) * (above + below) / (4.0 * self.frequency * self.frequency))
     }
 }
 
-/// Distances from a natural frequency, in half-widths `ζf`. Between two of those near it, a resonance
-/// is at most an eighth of a half-width away from one of them and `√(1 + 1/64)`, 0.8 %, higher.
+/// Distances from a natural frequency in half-widths `ζf`. A resonance between two of the near ones is at most an
+/// eighth of a half-width from one of them and `√(1 + 1/64)`, 0.8 %, higher.
 const DISTANCES: [f64; 11] = [0.0, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, FARTHEST];
-/// The farthest of them, and of a peak from the natural frequency that it belongs to.
+/// The farthest of them; also the greatest distance of a peak from its natural frequency.
 const FARTHEST: f64 = 8.0;
-/// An undamped mode has no width; it has frequencies so near to it, and none on it.
+/// An undamped mode has no width; its frequencies are this close to it, and none is on it.
 const SHARP: f64 = 1e-3;
 
-/// Frequencies (Hz) at and around a natural frequency with that damping ratio, unsorted, each once.
+/// Frequencies (Hz) at and around a natural frequency with that damping ratio, unsorted, without repetitions.
 pub fn around(natural: f64, ratio: f64) -> Vec<f64> {
     let sharp = ratio <= 0.0;
     let width = if sharp { SHARP } else { ratio.min(1.0) };
@@ -51,7 +51,7 @@ pub fn around(natural: f64, ratio: f64) -> Vec<f64> {
     let both = far.flat_map(|far| [1.0 - width * far, 1.0 + width * far]);
     let mut all: Vec<f64> =
         both.filter(|share| *share > 0.0).map(|share| natural * share).collect();
-    // The natural frequency is on neither side.
+    // The natural frequency belongs to both sides.
     all.dedup();
     all
 }
@@ -59,8 +59,8 @@ pub fn around(natural: f64, ratio: f64) -> Vec<f64> {
 /// The peaks of a response between the ends of a rising grid (Hz) without repetitions, by rising frequency. `modes` are
 /// natural frequencies and damping ratios, `size` is the response's size at a frequency.
 ///
-/// A mode whose response at this place is hidden by others has no peak. A hump between modes, farther
-/// than eight half-widths from each, does not count.
+/// A mode whose response at this place is hidden by others has no peak. A hump between modes, farther than eight
+/// half-widths from each, does not count.
 pub fn of(grid: &[f64], modes: &[[f64; 2]], size: &impl Fn(f64) -> f64) -> Vec<Peak> {
     let sizes: Vec<f64> = grid.iter().map(|f| size(*f)).collect();
     let nearest = |f: f64| {
@@ -76,9 +76,9 @@ pub fn of(grid: &[f64], modes: &[[f64; 2]], size: &impl Fn(f64) -> f64) -> Vec<P
         let height = size(frequency);
         let half_power = half_power(size, frequency, grid[k + 1] - grid[k - 1]);
         let [natural, ratio] = modes[mode];
-        // A hump far from every natural frequency is what modes leave between them, no resonance.
+        // A hump far from every natural frequency comes from the flanks of several modes and is no resonance.
         let resonant = (frequency - natural).abs() <= FARTHEST * ratio.max(SHARP) * natural;
-        // Beside an undamped mode there is a largest point of the grid, and no largest value.
+        // Beside an undamped mode one point of the grid is largest, but there is no largest value.
         let sharp = ratio <= 0.0 && (frequency / natural - 1.0).abs() < 2.0 * SHARP;
         let (mode, height) = (mode + 1, Some(height));
         (resonant && !sharp).then_some(Peak { mode, natural, frequency, height, half_power })
@@ -97,8 +97,8 @@ pub fn of(grid: &[f64], modes: &[[f64; 2]], size: &impl Fn(f64) -> f64) -> Vec<P
     peaks
 }
 
-/// Where the response has fallen to half the power on both sides of a peak (Hz), looked for from steps
-/// of a tenth of `width` on.
+/// The frequencies on both sides of a peak where the response has fallen to half the power (Hz), searched from steps of
+/// a tenth of `width` on.
 pub fn half_power(size: &impl Fn(f64) -> f64, peak: f64, width: f64) -> Option<[f64; 2]> {
     let half = FRAC_1_SQRT_2 * size(peak);
     let side = |direction: f64| {
@@ -118,7 +118,7 @@ pub fn half_power(size: &impl Fn(f64) -> f64, peak: f64, width: f64) -> Option<[
     Some([side(-1.0)?, side(1.0)?])
 }
 
-/// Where a function falls to a value, between an end where it is above and one where it is not.
+/// Where a function falls to a value, between an end above it and one that is not above.
 fn crossing(size: &impl Fn(f64) -> f64, value: f64, [mut above, mut below]: [f64; 2]) -> f64 {
     for _ in 0..60 {
         let middle = 0.5 * (above + below);

@@ -1,4 +1,4 @@
-//! How does a motion that goes as `e^{st}` answer a force that is a polynomial in time? Exactly.
+//! How does a motion `e^{st}` respond to a force that is a polynomial in time? Exactly.
 //!
 //! ```text
 //! v(h) = e^{sh} v(0) + ∫₀ʰ e^{s(h−τ)} F(τ) dτ,    F = Σ f_k (τ/h)^k
@@ -7,8 +7,8 @@
 //! φ₀ = e^z,    φ_{k+1}(z) = (φ_k(z) − 1/k!)/z
 //! ```
 //!
-//! The recurrence is taken upwards where z is large; near 0 the last function is a power series, and
-//! the others follow downwards. Both ways round-off is not raised, anywhere in the left half plane.
+//! The recurrence runs upwards where z is large. Near 0 the last function is a power series, and the others follow
+//! downwards. Neither way amplifies round-off anywhere in the left half plane.
 //!
 //! # Source
 //!
@@ -18,7 +18,7 @@ use faer::c64;
 
 /// Terms of the power series: `NEAR^18/18!` is below ε.
 const TERMS: usize = 20;
-/// Absolute value of z up to which the series is taken.
+/// Absolute value of z up to which the series is used.
 const NEAR: f64 = 1.5;
 
 /// `e^z` and `E_k(z)` for k below `COUNT`.
@@ -59,8 +59,8 @@ pub fn exponential(z: c64) -> c64 {
     c64::new(size * cos, size * sin)
 }
 
-/// `e^z` and `E_k(z)` for k below `COUNT` as divided differences `(f(a) − f(b))/(a − b)`, also where
-/// `a = b`; a the larger of both. They are what the pair of poles of one oscillator makes of a force.
+/// `e^z` and `E_k(z)` for k below `COUNT` as divided differences `(f(a) − f(b))/(a − b)`, also for `a = b`; a is the
+/// larger of both. They give the response of the two poles of an oscillator to a force.
 pub fn differences<const COUNT: usize>(a: c64, b: c64) -> (c64, [c64; COUNT]) {
     let (end, others) = moments::<COUNT>(b);
     // (e^a − e^b)/(a − b) = e^b E₀(a − b).
@@ -74,7 +74,7 @@ pub fn differences<const COUNT: usize>(a: c64, b: c64) -> (c64, [c64; COUNT]) {
             above = *difference * (k + 1) as f64;
         }
     } else {
-        // That of z^j is the sum of all products of j − 1 factors a or b.
+        // The divided difference of z^j is the sum of all products of j − 1 factors a or b.
         let (both, product) = (a + b, a * b);
         let (mut before, mut now) = (c64::new(0.0, 0.0), c64::new(1.0, 0.0));
         let (mut scale, mut sum) = (1.0 / COUNT as f64, c64::new(0.0, 0.0));
@@ -112,8 +112,8 @@ pub fn joined<const COUNT: usize>(
     sum
 }
 
-/// `∫∫F dt²` and `∫F dt` over the time h: what the force with the coefficients `f_k` does to the
-/// place and the speed of a unit mass.
+/// `∫∫F dt²` and `∫F dt` over the time h: the displacement and the speed of a unit mass under the force with the
+/// coefficients `f_k`.
 #[inline(always)]
 pub fn pushed<const COUNT: usize>(force: &[f64; COUNT], h: f64) -> [f64; 2] {
     let mut sum = [0.0; 2];
@@ -125,7 +125,7 @@ pub fn pushed<const COUNT: usize>(force: &[f64; COUNT], h: f64) -> [f64; 2] {
     sum
 }
 
-/// Coefficients of the same polynomial with that share of its unit of time as the unit.
+/// Coefficients of the same polynomial if the unit of time is that share of its present one.
 #[inline(always)]
 pub fn shortened<const COUNT: usize>(mut force: [f64; COUNT], share: f64) -> [f64; COUNT] {
     let mut scale = 1.0;
@@ -235,7 +235,7 @@ mod tests {
         (whole, all)
     }
 
-    /// Sizes from nothing to a million, at all angles of the left half plane.
+    /// Magnitudes from zero to a million, at all angles of the left half plane.
     fn left_half_plane() -> impl Iterator<Item = c64> {
         let sizes = (-40..=48).map(|k| 10.0_f64.powf(f64::from(k) / 8.0));
         let sizes = sizes.chain([0.0, 0.999 * NEAR, 1.001 * NEAR]);
@@ -249,7 +249,7 @@ mod tests {
         })
     }
 
-    /// Relative to what the integral is of size: `1/(k + 1)` at most, and `1/|z|`.
+    /// Relative to the size of the integral: at most `1/(k + 1)`, and `1/|z|`.
     #[test]
     fn moments_have_all_digits_in_the_whole_left_half_plane() {
         for z in left_half_plane() {
@@ -264,14 +264,14 @@ mod tests {
         }
     }
 
-    /// Against the exact functions themselves where a and b are far apart, and against their derivative
-    /// `E_k − E_{k+1}` where they are the same.
+    /// Compared with the exact functions where a and b are far apart, and with their derivative `E_k − E_{k+1}` where
+    /// they coincide.
     #[test]
     fn divided_differences_have_all_digits_for_every_pair_of_poles() {
         for a in left_half_plane().filter(|a| a.norm() > 1e-3) {
             let (_, exact) = extended(a);
             let (whole, all) = differences::<3>(a, a);
-            // Relative to what it is of size: 1/|a|², and |e^b|/|a|.
+            // Relative to its size: 1/|a|², and |e^b|/|a|.
             let far = |found: c64, exact: c64, b: c64, k: usize| {
                 let size = a.norm().max((k + 1) as f64);
                 (found - exact).norm() * size * size / (1.0 + b.re.exp() * size)
@@ -282,7 +282,7 @@ mod tests {
                 let derivative = exact[k].plus(minus).near();
                 assert!(far(all[k], derivative, a, k) < 2e-14, "{a} {k} {} {derivative}", all[k]);
             }
-            // An oscillator's poles: a pair that swings, or two that creep.
+            // An oscillator's poles: a pair that oscillates, or two that creep.
             let b = if a.im == 0.0 { a * 0.25 } else { a.conj() };
             if (a - b).norm() > 0.1 * a.norm() {
                 let (other_whole, other) = extended(b);
@@ -305,7 +305,7 @@ mod tests {
         let (s, memory) = (c64::new(-0.4, 9.0), c64::new(0.2, -0.1));
         let part = shortened(force, 0.5);
         let end: f64 = force.iter().sum();
-        // Of the second half, by Taylor at its beginning.
+        // The second half, by Taylor at its beginning.
         let derivative = |n: usize| -> f64 {
             let falling = |k: usize| (k + 1 - n..=k).map(|i| i as f64).product::<f64>();
             let factorial = (1..=n).map(|i| i as f64).product::<f64>();

@@ -1,11 +1,11 @@
 //! How does this bat ring, after a blow, under a force or from an initial shape?
 //!
-//! [`Ringing::new`] from a solution, then [`Ringing::blow`], [`Ringing::pushed`] or
-//! [`Ringing::release`]: its rigid and bending motions in time.
+//! [`Ringing::new`] makes one from a solution. [`Ringing::blow`], [`Ringing::pushed`] or [`Ringing::release`] starts
+//! its rigid and bending motions in time.
 //!
-//! Without dashpots, or with dashpots that leave the modes as they are, every motion is an
-//! [`Oscillator`] with its own damping ratio. Else the damped bat's own complex motions ring: a
-//! blow J at a makes `Re Σ 2 v(x) v(a) J e^{st}/norm`, one term for each pair.
+//! Without dashpots, or with dashpots that leave the modes unchanged, every mode is an [`Oscillator`] with its own
+//! damping ratio. Otherwise the complex modes of the damped bat ring: a blow J at a causes
+//! `Re Σ 2 v(x) v(a) J e^{st}/norm`, one term for each pair.
 //!
 //! # Source
 //!
@@ -27,35 +27,35 @@ use crate::motion::oscillator::Oscillator;
 use crate::motion::phi::driven;
 use crate::motion::shape::InitialShape;
 
-/// How the motion begins: what goes on in every motion.
+/// The start of the motion: the excitation of every mode.
 #[derive(Debug, Clone)]
 pub enum Start {
-    /// An impulse at a place: impulse (N s) times the motion's deflection there.
+    /// An impulse at a place: impulse (N s) times the mode's deflection there.
     Blow(Vec<c64>),
-    /// A force at a place in time: the motion's deflection there.
+    /// A force in time at a place: the mode's deflection there.
     Force(Vec<c64>, ForceHistory),
-    /// A release from rest: the motion's part in the initial shape.
+    /// A release from rest: the mode's part in the initial shape.
     Shape(Vec<c64>),
 }
 
-/// A bat as its motions, which do not disturb each other.
+/// A bat as a set of uncoupled modes.
 pub struct Ringing {
     reduced: Reduced,
-    /// Whether shear leaves rotations their own inertia, for initial shapes.
+    /// Whether the theory with shear gives rotations their own inertia, for initial shapes.
     turns: bool,
     motions: Vec<ModeInTime>,
 }
 
-/// One motion: how it goes in time, and the deflections that go with it.
+/// One mode: its time function and its deflections.
 struct ModeInTime {
     clock: Clock,
-    /// Real part of the deflections, and the imaginary part of a complex motion.
+    /// Real part of the deflections, and the imaginary part for a complex mode.
     forms: Vec<Form>,
 }
 
 enum Clock {
     Oscillator(Oscillator),
-    /// One of a complex pair of motions, the one with `Im s > 0`.
+    /// One of a complex pair, the one with `Im s > 0`.
     Pole(Pole),
 }
 
@@ -63,7 +63,7 @@ enum Clock {
 struct Form {
     rigid: Vec<(f64, RigidMotion)>,
     bent: Option<Shape>,
-    /// How far the absorbers' masses move beyond the bat (m).
+    /// Displacement of the absorbers' masses relative to the bat (m).
     hung: Vec<f64>,
 }
 
@@ -80,8 +80,8 @@ impl Form {
 }
 
 impl Ringing {
-    /// The bat's rigid motions that are free, left out if `bending_only`, and as many bending ones
-    /// as the solution has modes; complex ones are found for that tolerance.
+    /// The bat's free rigid motions, omitted if `bending_only`, and as many bending modes as the solution has; complex
+    /// modes are computed to that tolerance.
     ///
     /// ```
     /// use sweetspot::motion::ringing::Ringing;
@@ -91,7 +91,7 @@ impl Ringing {
     /// # let bat = Bat::builtin("r161")?;
     /// let solution = solve(&bat, &Request::default())?;
     /// let ringing = Ringing::new(&bat, &solution, 1e-4, true)?;
-    /// // A blow of 1 N s in the middle, and how the tip stands 2 ms later.
+    /// // A blow of 1 N s in the middle, and the displacement of the tip 2 ms later.
     /// let parts = ringing.amplitudes(&ringing.blow(0.42, 1.0), 2e-3);
     /// let tip: f64 = ringing.shapes(&[bat.length()]).iter().zip(&parts).map(|(w, q)| w[0] * q).sum();
     /// assert!(tip.is_finite());
@@ -144,7 +144,7 @@ impl Ringing {
         forms.map(|form| x.iter().map(|x| form.at(*x)).collect()).collect()
     }
 
-    /// How large every one of these is at time `t` (s).
+    /// The amplitude of each of these at time `t` (s).
     pub fn amplitudes(&self, start: &Start, t: f64) -> Vec<f64> {
         let (parts, stretches) = match start {
             Start::Blow(parts) | Start::Shape(parts) => (parts, vec![]),
@@ -194,7 +194,7 @@ impl Ringing {
         Start::Force(self.at(x), history)
     }
 
-    /// What a unit impulse at `x` starts: of an oscillator its deflection there, which its impulse
+    /// The excitation of every mode by a unit impulse at `x`: for an oscillator its deflection there, which the impulse
     /// response divides by the mass.
     fn at(&self, x: f64) -> Vec<c64> {
         let part = |motion: &ModeInTime| {
@@ -208,13 +208,13 @@ impl Ringing {
         self.motions.iter().map(part).collect()
     }
 
-    /// The start at rest from that shape: how much of every motion is in it. What is attached goes
-    /// along, absorbers too, and sections are turned by the slope.
+    /// The start at rest from that shape: the part of every mode in it. The fixtures move with the bat, absorbers too,
+    /// and sections are turned by the slope.
     pub fn release(&self, bat: &Bat, shape: &InitialShape) -> Start {
         let points = self.points(bat, shape);
         let product = |form: &Form| self.product(bat, shape, &points, form);
         let hung = || vec![0.0; self.reduced.flexible.hung.len()];
-        // The undamped bat's motions, from which those of the damped one follow.
+        // The undamped modes, from which those of the damped bat follow.
         let complex = self.motions.iter().any(|motion| matches!(motion.clock, Clock::Pole(_)));
         let (mut rigid, mut modes) = (vec![], vec![]);
         if complex {
@@ -235,8 +235,7 @@ impl Ringing {
         Start::Shape(self.motions.iter().map(part).collect())
     }
 
-    /// Gauss points between all places where the bat or the shape has a corner: place, weight (m),
-    /// deflection and slope of the shape.
+    /// Gauss points between all corners of the bat and the shape: place, weight (m), deflection and slope of the shape.
     fn points(&self, bat: &Bat, shape: &InitialShape) -> Vec<[f64; 4]> {
         let rule = gauss(7);
         let starts = bat.profile().pieces.iter().map(|piece| piece.start);
@@ -255,7 +254,7 @@ impl Ringing {
         points
     }
 
-    /// `∫ρA φ w₀ dx + ∫ρI θ w₀′ dx` and the same of what is attached (kg m²).
+    /// `∫ρA φ w₀ dx + ∫ρI θ w₀′ dx`, and the same products for the fixtures (kg m²).
     fn product(&self, bat: &Bat, shape: &InitialShape, points: &[[f64; 4]], form: &Form) -> f64 {
         let mut sum = 0.0;
         for [x, weight, w, slope] in points {
@@ -278,13 +277,13 @@ impl Ringing {
     }
 }
 
-/// The deflection of strains, with those rigid motions.
+/// The deflection due to strains and rigid motions.
 fn form(reduced: &Reduced, strains: &[f64], rigid: Vec<(f64, RigidMotion)>) -> Form {
     let hung = reduced.flexible.hung.iter().map(|drawn| drawn.by(strains)).collect();
     Form { rigid, bent: Some(reduced.flexible.shape(strains)), hung }
 }
 
-/// A pole as a motion.
+/// A pole as a mode in time.
 fn swinging(reduced: &Reduced, pole: Pole, bending_only: bool) -> ModeInTime {
     let take = |of: &dyn Fn(&c64) -> f64| {
         let mut strains = vec![0.0; reduced.flexible.dimension];
@@ -386,7 +385,7 @@ mod tests {
         }
     }
 
-    /// A blow moves nothing at once, whatever the dashpots do to the motions.
+    /// A blow moves nothing at once, whatever the dashpots do to the modes.
     #[test]
     fn a_blow_begins_at_zero() {
         for (stiffness, damping) in [(0.0, 300.0), (3e4, 300.0), (3e4, 3e4), (0.0, 3e4)] {
@@ -410,8 +409,8 @@ mod tests {
         }
     }
 
-    /// A blow and a push of the same impulse, very short, are the same; a push of half a sine by
-    /// its chords is off by the chords' own deviation from it.
+    /// A blow and a very short push with the same impulse agree; a half-sine push by its chords is off by the chords'
+    /// deviation.
     #[test]
     fn a_short_push_is_a_blow() {
         let pin = Support { x: 0.3, kind: Held::Pinned };
@@ -439,8 +438,8 @@ mod tests {
         }
     }
 
-    /// A free bat of its own weight and one with everything that is attached keep the momentum and
-    /// the angular momentum of a blow; a pinned one turns about its pin with them.
+    /// A free bat, bare or with fixtures of every kind, keeps the momentum and the angular momentum of a blow; a pinned
+    /// one turns about its pin.
     #[test]
     fn rigid_motions_carry_what_is_attached() {
         let weight = Attachment { x: 0.8, mass: 0.2, offset: 0.05, ..Attachment::default() };
@@ -461,7 +460,7 @@ mod tests {
         }
     }
 
-    /// Released from the shape of a mode, or from a rigid one, the bat moves in that motion alone.
+    /// Released from the shape of a mode, or from a rigid one, the bat moves in that mode alone.
     #[test]
     fn a_mode_s_own_shape_rings_in_that_mode_alone() {
         let weight = Attachment { x: 0.8, mass: 0.2, offset: 0.05, ..Attachment::default() };
@@ -486,7 +485,7 @@ mod tests {
         }
     }
 
-    /// Released with weak dashpots it starts as it does without.
+    /// With weak dashpots it starts as it does without.
     #[test]
     fn weak_dashpots_change_little() {
         let x: Vec<f64> = (0..=80).map(|k| LENGTH * f64::from(k) / 80.0).collect();

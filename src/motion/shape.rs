@@ -1,4 +1,4 @@
-//! From which shape is a bat let go?
+//! From which shape is a bat released?
 
 /// Deflections `w` (m) at rising places `x` (m).
 #[derive(Debug, Clone, PartialEq)]

@@ -1,16 +1,15 @@
 //! What does a struck bat sound like?
 //!
-//! Its modes, each a tone that dies out. The sound is taken as the acceleration of the surface where the
-//! bat was struck, which is what pushes the air there:
-//!
+//! Each mode is a decaying tone. The sound is taken as the acceleration of the surface at the impact point, which
+//! drives the air there:
 //! ```text
 //! p(t) ~ Σ aₙ e^{−δₙ t} sin(2π fₙ t),   δₙ = ζₙ ωₙ
 //! a blow of impulse J, a half sine of duration T:   aₙ = J φₙ(x)² ωₙ S(ωₙ T)/mₙ
 //! S(ωT) = |cos(ωT/2) / (1 − (ωT/π)²)|
 //! ```
 //!
-//! The wall of a hollow barrel rings beside: of a hoop mode of gain c under what presses there `aₙ = J c ωₙ S(ωₙ T)`. How
-//! well a mode radiates is left out.
+//! The wall of a hollow barrel rings too: a hoop mode with the gain c under the pressing body has
+//! `aₙ = J c ωₙ S(ωₙ T)`. The radiation efficiency of a mode is not modelled.
 
 use std::f64::consts::PI;
 
@@ -22,42 +21,42 @@ use crate::modes::damping::damping;
 use crate::modes::mode::Mode;
 use crate::modes::solve::Solution;
 
-/// A mode that is heard.
+/// An audible mode.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Tone {
-    /// How often it swings in a second (Hz).
+    /// Frequency (Hz).
     pub frequency_hz: f64,
-    /// How fast it dies out (1/s): its amplitude goes as `e^{−decay t}`.
+    /// Decay rate (1/s): the amplitude goes as `e^{−decay t}`.
     pub decay_1_s: f64,
-    /// Acceleration where the bat was struck, at the beginning (m/s²).
+    /// Initial acceleration at the impact point (m/s²).
     pub amplitude_m_s2: f64,
 }
 
-/// A struck bat as it sounds.
+/// The sound of a struck bat.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Sound {
-    /// The modes that are heard, by rising frequency.
+    /// The audible modes, by rising frequency.
     pub tones: Vec<Tone>,
-    /// Largest acceleration that such a blow gives anywhere on the outer half (m/s²), by which the sound is scaled: a blow
-    /// on a node is quieter.
+    /// Largest acceleration that such a blow causes anywhere on the outer half (m/s²), by which the sound is scaled: a
+    /// blow on a node is quieter.
     #[serde(skip)]
     pub loudest_m_s2: f64,
 }
 
-/// Loss factor in a sound, and there alone, of a material of which none is known. Source: wood along the grain has 0.005
-/// to 0.015, T. Ono, M. Norimoto, Jpn. J. Appl. Phys. 22 (1983) 611, as quoted.
+/// Loss factor of a material without a known one, used only in a sound. Source: wood along the grain has 0.005 to
+/// 0.015, T. Ono, M. Norimoto, Jpn. J. Appl. Phys. 22 (1983) 611, as quoted.
 pub const ASSUMED_LOSS: f64 = 0.01;
-/// How long a tap with something hard and light pushes (s); chosen so that the first three or four
-/// modes of a bat are heard, as they are where a bat is tapped.
+/// Duration of a tap with a hard and light object (s), chosen so that the first three or four modes are heard, as when
+/// a bat is tapped.
 pub const TAP: f64 = 3e-4;
-/// The highest frequency that people hear (Hz).
+/// The highest audible frequency (Hz).
 const HEARD: f64 = 20_000.0;
-/// Shortest and longest that a sound is (s).
+/// Shortest and longest duration of a sound (s).
 const LENGTHS: [f64; 2] = [0.3, 3.0];
 
-/// A hoop mode of a barrel's wall under what presses on it.
+/// A hoop mode of a barrel's wall under a pressing body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WallTone {
     /// ω (rad/s).
@@ -68,11 +67,11 @@ pub struct WallTone {
     pub gain: f64,
 }
 
-/// The hoop modes of the wall under what presses at a place (m).
+/// The hoop modes of the wall under a body that presses at a place (m).
 pub type WallTones<'a> = &'a dyn Fn(f64) -> Vec<WallTone>;
 
-/// The bat as it is heard, and its solution: where a material has no loss factor, with the one that is published of its
-/// kind, else [`ASSUMED_LOSS`].
+/// The bat for a sound, and its solution: a material without a loss factor gets the published one of its kind, else
+/// [`ASSUMED_LOSS`].
 ///
 /// # Errors
 ///
@@ -84,7 +83,7 @@ pub fn as_heard(bat: &Bat, solution: &Solution) -> Result<(Bat, Solution)> {
 }
 
 impl Sound {
-    /// Modes with these accelerations (m/s²) at the beginning, in the order of the solution.
+    /// The sound of modes with these initial accelerations (m/s²), in the order of the solution.
     fn new(solution: &Solution, amplitudes: impl Iterator<Item = f64>) -> Self {
         let damped = |k: usize| solution.damping.modes.get(k);
         let swings = |k: usize| damped(k).is_none_or(|damped| damped.ratio < 1.0);
@@ -99,8 +98,8 @@ impl Sound {
         Self { tones: heard.map(tone).collect(), loudest_m_s2: 0.0 }
     }
 
-    /// Modes with these accelerations (m/s²) at the beginning, after a blow of that impulse (N s) and duration (s) at `x`
-    /// (m), and with them the wall.
+    /// The sound of modes with these initial accelerations (m/s²), after a blow of that impulse (N s) and duration (s)
+    /// at `x` (m), including the wall.
     pub fn of_modes(
         solution: &Solution,
         amplitudes: impl Iterator<Item = f64>,
@@ -108,7 +107,7 @@ impl Sound {
         blow: [f64; 2],
         wall: Option<WallTones>,
     ) -> Self {
-        /// Places of the outer half at which it is tried how loud it may be.
+        /// Number of places of the outer half at which the loudness is evaluated.
         const PLACES: usize = 16;
         let mut sound = Self::new(solution, amplitudes);
         let length = solution.modes.first().map_or(0.0, |mode| mode.shape.length());
@@ -127,13 +126,13 @@ impl Sound {
         sound
     }
 
-    /// A blow of that impulse (N s) and duration (s, 0 for one at once) at `x` (m), with what the wall of a hollow barrel
-    /// adds.
+    /// A blow of that impulse (N s) and duration (s, 0 for an instantaneous one) at `x` (m), including the wall of a
+    /// hollow barrel.
     pub fn of_blow(solution: &Solution, x: f64, blow: [f64; 2], wall: Option<WallTones>) -> Self {
         Self::of_modes(solution, bending(solution, x, blow), x, blow, wall)
     }
 
-    /// A tap on the tip with something hard, of 1 N s: what is heard is scaled anyway.
+    /// A tap on the tip with a hard object, of 1 N s; the sound is scaled anyway.
     pub fn of_tap(solution: &Solution, wall: Option<WallTones>) -> Self {
         let tip = solution.modes.first().map_or(0.0, |mode| mode.shape.length());
         Self::of_blow(solution, tip, [1.0, TAP], wall)
@@ -147,20 +146,20 @@ impl Sound {
         self.tones.iter().map(tone).sum()
     }
 
-    /// The largest acceleration of the first instants (m/s²), in which all that sounds is loudest.
+    /// The largest acceleration in the first instants (m/s²), when the sound is loudest.
     fn peak(&self) -> f64 {
-        /// As many of the instants of a usual sound file (44.1 kHz) as there are in 20 ms.
+        /// Number of samples at the usual rate (44.1 kHz) in 20 ms.
         const INSTANTS: u32 = 882;
         (0..INSTANTS).map(|k| self.at(f64::from(k) / 44_100.0).abs()).fold(0.0, f64::max)
     }
 
-    /// How long something is heard (s): until the slowest tone is a thousandth of itself.
+    /// Duration of the sound (s): until the slowest tone has fallen to a thousandth.
     pub fn length(&self) -> f64 {
         let slowest = self.tones.iter().map(|tone| tone.decay_1_s).fold(f64::INFINITY, f64::min);
         (1000.0_f64.ln() / slowest).clamp(LENGTHS[0], LENGTHS[1])
     }
 
-    /// Samples at that rate (1/s), 1 for the loudest that such a blow may be; silence where nothing sounds.
+    /// Samples at that rate (1/s), 1 for the loudest place of such a blow; silence if nothing sounds.
     pub fn samples(&self, rate: u32) -> Vec<f64> {
         let count = (self.length() * f64::from(rate)) as u32;
         let all: Vec<f64> = (0..count).map(|k| self.at(f64::from(k) / f64::from(rate))).collect();
@@ -170,7 +169,7 @@ impl Sound {
     }
 }
 
-/// The accelerations (m/s²) of all modes where a blow of that impulse (N s) and duration (s) struck.
+/// The accelerations (m/s²) of all modes at the place of a blow of that impulse (N s) and duration (s).
 fn bending(solution: &Solution, x: f64, blow: [f64; 2]) -> impl Iterator<Item = f64> {
     let [impulse, duration] = blow;
     solution.modes.iter().map(move |mode| {
@@ -189,7 +188,7 @@ fn rung(wall: Vec<WallTone>, [impulse, duration]: [f64; 2]) -> Vec<Tone> {
     wall.into_iter().map(tone).filter(|tone| tone.frequency_hz < HEARD).collect()
 }
 
-/// `S(ωT)`: what a half sine drives of what a blow of the same impulse at once would.
+/// `S(ωT)`: the response to a half sine over that to an instantaneous blow of the same impulse.
 fn half_sine(omega_t: f64) -> f64 {
     let share = omega_t / PI;
     // At ωT = π the quotient is π/4.

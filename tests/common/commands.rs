@@ -1,7 +1,7 @@
-//! Commands as they are written for people, and their words.
+//! Commands in texts for people, and their words.
 
-/// The lines that begin with `sweetspot `, or with what `cargo run` needs before it, after an
-/// indent of so many spaces; a line that ends in a backslash goes on in the next.
+/// The lines that begin with `sweetspot `, or with the beginning of a `cargo run`, after an indent of that many spaces;
+/// a line that ends in a backslash continues in the next.
 pub fn commands(text: &str, indent: usize) -> Vec<String> {
     let joined = text.replace("\\\n", " ");
     let mut commands = Vec::new();
@@ -42,7 +42,7 @@ pub fn words(command: &str) -> Vec<String> {
     words
 }
 
-/// The lines that are wider than so many columns.
+/// The lines with more than that many columns.
 pub fn wider(text: &str, columns: usize) -> Vec<String> {
     let wide = text.lines().filter(|line| line.chars().count() > columns);
     wide.map(str::to_owned).collect()

@@ -1,22 +1,22 @@
-//! What the program says of wrong input, read back from standard error.
+//! The messages of the program about wrong input, read back from standard error.
 
 use std::path::Path;
 
-/// How the line begins that says it to programs, with `--json`.
+/// The beginning of the line for other programs, with `--json`.
 pub const ERROR: &str = "{\"format\":\"sweetspot-error/1\"";
 
-/// One thing that is wrong, as it is shown.
+/// One mistake as it is shown.
 #[derive(Debug, Default, Clone, PartialEq)]
 pub struct Diagnostic {
     /// The first line, after `error: `.
     pub title: String,
-    /// The number of the line of the file, and what is shown of it.
+    /// The number of the line in the file, and the excerpt shown.
     pub line: Option<(usize, String)>,
     /// Columns before the carets, and the number of carets.
     pub mark: Option<(usize, usize)>,
     pub expected: String,
     pub help: String,
-    /// Lines that belong to no part of a diagnostic, as the command line's own messages have.
+    /// Lines outside the parts of a diagnostic, as in messages of the command line parser.
     pub rest: Vec<String>,
 }
 
@@ -31,8 +31,8 @@ impl Diagnostic {
         format!("{}{expected}{help}{}", self.title, after("\n", &self.rest.join("\n")))
     }
 
-    /// What is wrong with the excerpt: it must be the line of the file that the title names, with
-    /// the mark in the column that it names.
+    /// The mistake in the excerpt, if any. It must be the line of the file that the title names, with the mark in the
+    /// column that the title names.
     pub fn misplaced(&self, folder: &Path) -> Option<String> {
         let (shown_number, shown) = self.line.as_ref()?;
         let mut parts = self.title.splitn(4, ':');
@@ -54,7 +54,7 @@ impl Diagnostic {
         let column: usize = column.parse().ok()?;
         let before: String = written.chars().take(column - 1).collect();
         let (indent, marks) = self.mark.unwrap_or_default();
-        // Only there a column is a character.
+        // Only then a column is a character.
         let plain = whole.is_ascii() && part == shown;
         match () {
             () if !is_line => Some(format!("shown {shown:?} for {whole:?}")),
@@ -67,16 +67,16 @@ impl Diagnostic {
     }
 }
 
-/// What was said on standard error, each mistake in one line.
+/// The messages on standard error, each mistake in one line.
 pub fn in_lines(told: &[u8]) -> String {
     let (found, _) = diagnostics(&String::from_utf8_lossy(told));
     found.iter().map(|one| format!("error: {}\n", one.one_line())).collect()
 }
 
-/// The diagnostics on standard error, and the line that counts them, if any.
+/// The diagnostics on standard error, and the line with their number, if any.
 pub fn diagnostics(told: &str) -> (Vec<Diagnostic>, Option<String>) {
     let mut found: Vec<Diagnostic> = Vec::new();
-    // Which text a line without a name goes on with.
+    // The text that a line without a name continues.
     let mut footer = "";
     for text in told.lines().filter(|line| !line.starts_with(ERROR)) {
         if let Some(title) = text.strip_prefix("error: ") {
@@ -116,7 +116,7 @@ fn numbered(text: &str) -> Option<(usize, &str)> {
     Some((number.trim_start().parse().ok()?, line.strip_prefix(' ').unwrap_or(line)))
 }
 
-/// What stands under the line: carets and what was expected.
+/// Reads the line below the excerpt: carets and the expectation.
 fn marked(diagnostic: &mut Diagnostic, below: &str) {
     let below = below.strip_prefix(' ').unwrap_or(below);
     let indent = below.chars().take_while(|c| *c == ' ').count();

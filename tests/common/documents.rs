@@ -9,19 +9,18 @@ use super::folder::Folder;
 /// How far the numbers of a document repeat.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Numbers {
-    /// To what is asked of them.
+    /// To the requested accuracy.
     Sharp,
     /// To a thousandth: places of flat maxima, motions in time.
     Rough,
-    /// They are times, and what follows from times.
+    /// Times, and values that follow from times.
     Times,
 }
 
-/// One document: its name, that of its format, the command without where it is written, and how far
-/// its numbers repeat.
+/// One document: its name, its format, the command without the output path, and the repeatability of its numbers.
 pub type Written = (&'static str, &'static str, &'static str, Numbers);
 
-/// The formats as they are written, in the folder of [`folder`].
+/// The written formats, in the folder of [`folder`].
 pub const WRITTEN: [Written; 26] = [
     (
         "modes",
@@ -147,7 +146,7 @@ const MEASURED: &str = "x_in,mode_1,mode_2\nfrequency_hz,178.2,583.0\ndamping_ra
 const LOSSY: &str = r#"{ "format": "sweetspot-bat/1", "profile": { "x": [0, 0.8], "radius": [0.02, 0.03] },
     "material": { "density": 700, "youngs_modulus": 14e9, "shear_modulus": 1e9, "loss_factor": 0.02 } }"#;
 
-/// A folder with what the commands read.
+/// A folder with the files that the commands read.
 pub fn folder(test: &str) -> Folder {
     let folder = Folder::new(test);
     folder.write("bat-1.json", include_str!("../golden/bat-1.json"));
@@ -170,13 +169,13 @@ pub fn folder(test: &str) -> Folder {
     folder
 }
 
-/// What the program writes now.
+/// The present output of the program.
 pub fn written(folder: &Folder, (_, _, command, _): Written) -> Value {
     let args: Vec<&str> = command.split(' ').chain(["--json", "-"]).collect();
     folder.json(&args)
 }
 
-/// What is wrong with a bat, `sweetspot-error/1`: the last line on standard error.
+/// The document of the mistakes in a bat, `sweetspot-error/1`: the last line on standard error.
 pub fn error(folder: &Folder) -> Value {
     folder.write("wrong.json", WRONG);
     let output = folder.run(&["modes", "wrong.json", "--json", "-"]);
@@ -207,9 +206,9 @@ pub fn page(folder: &Folder) -> Value {
     serde_json::from_str(data.split_once("</script>").unwrap().0).unwrap()
 }
 
-/// What stands beside the rows of a study, `sweetspot-study-manifest/1`.
+/// The manifest of a study, `sweetspot-study-manifest/1`.
 pub fn manifest(folder: &Folder) -> Value {
-    // It has every member that there is, among them some that change nothing, of which it is warned.
+    // It has every possible member, among them some without effect, which cause warnings.
     assert!(folder.run(&["study", "study-1.json", "--out", "study"]).status.success());
     serde_json::from_str(&folder.read("study/manifest.json")).unwrap()
 }

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use serde_json::Value;
 
-/// A folder of its own for one test, removed afterwards.
+/// A separate folder for one test, removed afterwards.
 pub struct Folder(pub PathBuf);
 
 /// The program, as cargo built it for tests of its crate.
@@ -38,7 +38,7 @@ impl Folder {
         self.read_names(".")
     }
 
-    /// What a folder in it holds.
+    /// The names in a folder inside it.
     pub fn read_names(&self, folder: &str) -> Vec<String> {
         let name = |e: std::io::Result<fs::DirEntry>| e.unwrap().file_name().into_string().unwrap();
         let entries = fs::read_dir(self.0.join(folder)).unwrap();
@@ -68,8 +68,8 @@ impl Folder {
         self.command(args).output().unwrap()
     }
 
-    /// Standard output of a run that must succeed without a word on standard error but that shear
-    /// is not known.
+    /// Standard output of a run that must succeed with an empty standard error, except for a remark about an unknown
+    /// shear modulus.
     pub fn text(&self, args: &[&str]) -> String {
         let output = self.run(args);
         let told = but_shear(&String::from_utf8_lossy(&output.stderr));
@@ -82,13 +82,12 @@ impl Folder {
     }
 }
 
-/// What was said on standard error, without the last line if it is that a material's shear modulus
-/// is missing, without what the densities of two bats give to say, of which one test each has that, and without
-/// how far a study is.
+/// The text of standard error without expected remarks: a missing shear modulus in the last line, the densities of two
+/// bats of the tests, and the progress of a study.
 pub fn but_shear(told: &str) -> String {
     let effective = "warning: northwestern_aluminium: 4794 kg/m³ with";
     let by_path = "northwestern_aluminium.json: 4794 kg/m³ with";
-    // The bat that has every member there is.
+    // The bat with every possible member.
     let full = "bat-1.json: to weigh so much it must have";
     // How far a study is, every half minute.
     let far = " a second";

@@ -1,4 +1,4 @@
-//! What several tests use: bats, and a folder to run the program in.
+//! Shared by several tests: bats, and a folder for running the program.
 #![allow(dead_code)] // Each test file uses some of them.
 
 pub mod diagnostic;

@@ -1,4 +1,4 @@
-//! What must hold in every picture, and how one is read off.
+//! Conditions on every picture, and reading values from one.
 
 use std::collections::BTreeMap;
 
@@ -7,14 +7,14 @@ use sweetspot_report::plot::picture::Picture;
 use sweetspot_report::plot::words::{LABEL, Type};
 use sweetspot_report::plot::{theme, words};
 
-/// A rectangle that holds a text: left, top, right, bottom.
+/// The rectangle of a text: left, top, right, bottom.
 pub type Box = [f64; 4];
 
 pub fn number(node: Node, name: &str) -> f64 {
     node.attribute(name).map_or(0.0, |value| value.parse().unwrap())
 }
 
-/// Where the words of a picture are, as wide as they are in a wide font.
+/// The rectangles of the words of a picture, with the widths of a wide font.
 pub fn texts<'a>(document: &'a Document) -> Vec<(&'a str, Box)> {
     let of = |node: Node<'a, 'a>| {
         let (x, y, size) = (number(node, "x"), number(node, "y"), number(node, "font-size"));
@@ -36,7 +36,7 @@ pub fn texts<'a>(document: &'a Document) -> Vec<(&'a str, Box)> {
     document.descendants().filter(|node| node.has_tag_name("text")).map(of).collect()
 }
 
-/// What must hold in every picture.
+/// The conditions on every picture.
 pub fn check(picture: &Picture, whose: &str) {
     let what = format!("{whose}: {}", picture.name);
     let text = &picture.svg;
@@ -88,8 +88,7 @@ pub fn scale(ticks: BTreeMap<i64, f64>) -> impl Fn(f64) -> f64 {
     move |pixel| c + (d - c) * (pixel - a) / (b - a)
 }
 
-/// Numbers whose texts have that anchor and lie where `keep` says, by a pixel that `along` picks
-/// (tenths).
+/// Numbers whose texts have that anchor and a position accepted by `keep`, by the pixel that `along` picks (tenths).
 pub fn ticks(
     document: &Document,
     anchor: &str,

@@ -1,5 +1,5 @@
-//! The energies of trials once more, in twice the digits and by sums from the knob end, for solid bats whose radius
-//! is straight between stations.
+//! The energies of trials computed again, in twice the digits and by sums from the knob end, for solid bats whose
+//! radius is linear between stations.
 
 use sweetspot::beam::mesh::Mesh;
 use sweetspot::modes::plan::Plan;
@@ -40,7 +40,7 @@ fn plus(mut a: Polynomial, b: &[Twofold]) -> Polynomial {
     a
 }
 
-/// The polynomial of that degree through what a function is at the points.
+/// The polynomial of that degree through the values of a function at the points.
 fn through(degree: usize, f: impl Fn(Twofold) -> Twofold) -> Polynomial {
     let mut out = vec![number(0.0); degree + 1];
     for (xi, w) in gauss_in_two() {

@@ -7,7 +7,7 @@ use sweetspot_proof::series::{Series, Values};
 
 use crate::twofold::{Twofold, legendre, number, two_product, two_sum};
 
-/// Numbers that look random, in [0, 1).
+/// Random-looking numbers in [0, 1).
 pub struct Random(u64);
 
 impl Random {
@@ -36,7 +36,7 @@ impl Random {
     }
 }
 
-/// The exact result lies in the interval, and each end is the double beyond the rounded one at most.
+/// The exact result lies in the interval, and each end is at most the double beyond the rounded one.
 fn holds(found: Interval, [rounded, off]: [f64; 2], told: &str) {
     let exact = |end: f64| (rounded - end) + off;
     assert!(
@@ -140,8 +140,8 @@ fn value(series: &Series, x: f64) -> Twofold {
     exact(&all, number(x))
 }
 
-/// The polynomial is within the radius of the series where it is looked at, and the radius is no more than some
-/// thousands of u.
+/// The polynomial is within the radius of the series at the points examined, and the radius is at most some thousands
+/// of u.
 fn within(series: &Series, of: impl Fn(Twofold) -> Twofold, told: &str) {
     let mut worst = 0.0_f64;
     for k in 0..=40 {
@@ -228,7 +228,7 @@ pub fn gauss_in_two() -> &'static [(Twofold, Twofold)] {
     })
 }
 
-/// A bound that is left out anywhere shows where every value is off by a whole radius.
+/// A missing bound shows where every value is off by a whole radius.
 #[test]
 fn radii_go_through_every_operation() {
     let mut random = Random::new(9);

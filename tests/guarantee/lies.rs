@@ -15,7 +15,7 @@ use sweetspot_proof::validation::Truth;
 use crate::arithmetic::Random;
 use crate::holds;
 
-/// A bat on a mesh with trials of its own.
+/// A bat on a mesh, with its trials.
 struct Scene {
     truth: Truth,
     norms: Norms,
@@ -27,7 +27,7 @@ fn plan(bat: &Bat, elements: usize, degree: usize) -> Plan {
     Plan { mesh: Mesh::along(bat, elements), degree, ..Plan::default() }
 }
 
-/// A bat from its other end, with its joints and what hangs on it.
+/// A bat from its other end, with its joints and its masses on springs.
 fn reversed(bat: &Bat) -> Bat {
     let length = bat.length();
     bat.with(|parts| {
@@ -59,7 +59,7 @@ impl Scene {
         Self { truth, norms, proven, trials }
     }
 
-    /// How many modes these trials prove; every one must hold the known frequency.
+    /// The number of modes that these trials prove; each must contain the known frequency.
     fn proven_by(&self, trials: &[Trial], told: &str) -> usize {
         let energies: Vec<_> = trials.iter().map(|trial| self.proven.energies(trial)).collect();
         let found = conclude(&energies, &self.norms);
@@ -83,7 +83,7 @@ fn with(a: &Trial, part: f64, b: &Trial) -> Trial {
     }
 }
 
-/// A trial of the same size whose strains are not a motion's.
+/// A trial of the same size whose strains belong to no motion.
 fn nonsense(like: &Trial, random: &mut Random) -> Trial {
     let bent = like.bending.iter().fold(0.0, |most: f64, c| most.max(c.abs()));
     let mut of = |all: &[f64]| {
@@ -95,15 +95,15 @@ fn nonsense(like: &Trial, random: &mut Random) -> Trial {
         terms: like.terms,
         bending,
         shear,
-        // What is said of supports is not even asked.
+        // The values at supports are not used at all.
         held: like.held.iter().map(|held| (held.abs() + 0.01 * bent) * random.signed()).collect(),
         bed: like.bed.map(|held| (held.abs() + 0.01 * bent) * random.signed()),
         gives,
     }
 }
 
-/// Tens of thousands of trials that are spoilt: noise, mixtures, one left out, one twice, nonsense; of free bats and of
-/// held ones, on fine meshes and on coarse ones.
+/// Tens of thousands of corrupted trials: noise, mixtures, one missing, one twice, nonsense; of free and of held bats,
+/// on fine and on coarse meshes.
 #[test]
 fn tens_of_thousands_of_lies_prove_nothing_false() {
     let mut random = Random::new(11);
@@ -144,7 +144,7 @@ fn tens_of_thousands_of_lies_prove_nothing_false() {
         let scene = Scene::new(case, elements, degree);
         let own = &scene.trials;
         let told = format!("{case} on {elements} of degree {degree}");
-        // Motions that are wrong for what is on the bat prove little.
+        // Motions that are wrong for the attached parts prove little.
         let good = scene.proven_by(own, &told);
         assert!(good >= 8, "{told}: {good}");
         for round in 0..140 {
@@ -186,7 +186,7 @@ fn tens_of_thousands_of_lies_prove_nothing_false() {
     assert!(attacks > 40_000 && proven > 20_000, "{attacks} {proven}");
 }
 
-/// Trials of no size, of infinite size or with no number in them prove nothing, and do not spoil others.
+/// Trials that are zero, infinite or not a number prove nothing, and do not affect others.
 #[test]
 fn trials_that_are_no_numbers_prove_nothing() {
     let scene = Scene::new("cone_1_2p64", 8, 12);
@@ -198,7 +198,7 @@ fn trials_that_are_no_numbers_prove_nothing() {
     }
 }
 
-/// A bat that looks random: ten stations, some steps, a bore.
+/// A random-looking bat: ten stations, some steps, a bore.
 fn random_bat(random: &mut Random, fixtures: Fixtures) -> Bat {
     let count = 4 + (random.share() * 6.0) as usize;
     let mut x: Vec<f64> = (0..count).map(|k| k as f64 + 0.7 * random.share()).collect();
@@ -257,12 +257,12 @@ fn giving(random: &mut Random, fixtures: Fixtures) -> Fixtures {
     let joints = vec![joint(first, of(2.0, 4.0)), joint(second, of(3.0, 4.0))];
     let mut hung =
         |x: f64| Absorber { x, mass: of(-2.5, 2.0), stiffness: of(3.0, 4.0), damping: 0.0 };
-    // One at a joint's place, one at the end of the bat or the knob.
+    // One at the place of a joint, one at the end of the bat or at the knob.
     let absorbers = vec![hung(first), hung(if second > 0.4 { 0.84 } else { 0.0 })];
     Fixtures { joints, absorbers, ..fixtures }
 }
 
-/// Any two enclosures of one frequency overlap, from whatever meshes they are.
+/// Any two enclosures of one frequency overlap, regardless of their meshes.
 #[test]
 fn enclosures_from_different_meshes_overlap() {
     let mut random = Random::new(21);

@@ -1,4 +1,4 @@
-//! Sections, norms and conclusions, each against what is known of it.
+//! Sections, norms and conclusions, each compared with known values.
 
 use std::f64::consts::TAU;
 
@@ -43,10 +43,10 @@ fn norms_of_the_uniform_bat_are_those_in_closed_form() {
     assert!(all[0] < all[1] && all[1] < all[2]);
 }
 
-/// A contact at a share of the length: whether it holds the rotation, and how soft it is in units of L³/EI or L/EI.
+/// A contact at a share of the length: whether it restrains the rotation, and its softness in units of L³/EI or L/EI.
 type Hold = (f64, bool, f64);
 
-/// The dowel with these contacts, at whose places it is divided.
+/// The dowel with these contacts, divided at their places.
 fn held_dowel(holds: &[Hold]) -> Bat {
     let stiff = MODULUS * std::f64::consts::PI * RADIUS.powi(4) / 4.0;
     let mut fixtures = Fixtures::default();
@@ -98,16 +98,16 @@ fn norms_of_the_held_uniform_bat_are_those_in_closed_form() {
         let exact = [trace * unit, square * unit * unit];
         for (found, exact) in [found.trace, found.square].into_iter().zip(exact) {
             let above = found / exact - 1.0;
-            // The more contacts there are, the more of the free bat's norm they take off and leave its rounding.
+            // More contacts remove more of the norm of the free bat and leave its rounding.
             let most = if holds.len() > 3 { 1e-6 } else { 1e-8 };
             assert!((-1e-13..most).contains(&above), "{holds:?} {above:e}");
         }
     }
 }
 
-/// Trace and square of the norm in units of ρA L⁴/EI of uniform bats that give way, by Green's functions in rational
-/// numbers: a joint in the middle of the free and of the clamped bat; a mass on a spring, in the middle of the free bat
-/// beside the same mass without a spring, and at the tip of the clamped one.
+/// Trace and square of the norm in units of ρA L⁴/EI for uniform bats with compliant parts, by Green's functions in
+/// rational numbers: a joint in the middle of the free and of the clamped bat; a mass on a spring, in the middle of the
+/// free bat next to the same mass without a spring, and at the tip of the clamped one.
 #[test]
 fn norms_of_uniform_bats_that_give_way_are_those_in_closed_form() {
     let stiff = MODULUS * std::f64::consts::PI * RADIUS.powi(4) / 4.0;
@@ -167,8 +167,8 @@ fn norms_of_uniform_bats_that_give_way_are_those_in_closed_form() {
     }
 }
 
-/// A uniform bat all of which lies on a bed keeps its shapes: `1/τ = k/ρA + ω_n²`, with ω = 0 of both rigid motions. Of
-/// the bed eight Legendre coefficients are held, so that norms are above and little so.
+/// A uniform bat entirely on a bed keeps its shapes: `1/τ = k/ρA + ω_n²`, with ω = 0 for both rigid motions. Eight
+/// Legendre coefficients of the bed are restrained, so the norms are slightly above.
 #[test]
 fn norms_on_a_bed_are_above_those_in_closed_form_and_near_them() {
     let stiff = MODULUS * std::f64::consts::PI * RADIUS.powi(4) / 4.0;
@@ -198,7 +198,7 @@ fn norms_on_a_bed_are_above_those_in_closed_form_and_near_them() {
     }
 }
 
-/// Every known eigenvalue is part of the sums; the first few are most of them.
+/// Every known eigenvalue is part of the sums, and the first few are most of them.
 #[test]
 fn norms_are_above_the_sums_over_known_modes_and_near_them() {
     let cases: [&[&str]; 10] = [
@@ -220,7 +220,7 @@ fn norms_are_above_the_sums_over_known_modes_and_near_them() {
         let [sum, squares] =
             [1, 2].map(|power| taus.iter().map(|tau| tau.powi(power)).sum::<f64>());
         let last = taus.last().unwrap();
-        // Beyond mode n of a plain beam τ falls as n⁻⁴, of one that shears as n⁻²; steps make it uneven.
+        // Beyond mode n, τ falls as n⁻⁴ for a plain beam and as n⁻² with shear; steps make it irregular.
         let rest = if truth.theory.shears() { 1.6 } else { 0.5 } * taus.len() as f64 * last;
         let above = (found.trace - sum) / rest;
         assert!(above > 0.2 && above < 1.5, "{cases:?} {above}");
@@ -232,7 +232,7 @@ fn norms_are_above_the_sums_over_known_modes_and_near_them() {
     }
 }
 
-/// The sums do not depend on where the bat is divided: each stretch that is left out would show.
+/// The sums do not depend on the division of the bat, so a missing stretch would show.
 #[test]
 fn norms_are_the_same_whatever_pieces_a_bat_has() {
     let whole = norms(&cone(0.012, 0.033), Theory::EulerBernoulli);
@@ -252,8 +252,8 @@ fn norms_are_the_same_whatever_pieces_a_bat_has() {
     assert!((turned.square / whole.square - 1.0).abs() < 1e-10);
 }
 
-/// Steep stretches, on which a polynomial of degree 12 is not near 1/EI: what is taken for 1/EI must not be
-/// below it anywhere.
+/// Steep stretches, on which a polynomial of degree 12 is not close to 1/EI: its bound must still be nowhere below
+/// 1/EI.
 #[test]
 fn what_is_taken_for_the_softness_is_nowhere_below_it() {
     let mut bounded = 0;
@@ -319,8 +319,8 @@ fn sections_are_what_the_bat_says_they_are_worth_and_never_less_than_their_least
     assert!(looked > 1000, "{looked}");
 }
 
-/// A tube's κGA by Cowper's formula in twice the digits, of every tube that rounds to the radii and moduli in the file:
-/// within its share of the polynomial, and the share is small on thin walls too.
+/// κGA of a tube by Cowper's formula in twice the digits, for every tube that rounds to the radii and moduli in the
+/// file: its relative difference from the polynomial is within the stated one, which is small on thin walls too.
 #[test]
 fn the_shear_stiffness_of_a_tube_is_within_its_share() {
     let one = twofold::number(1.0);
@@ -343,7 +343,7 @@ fn the_shear_stiffness_of_a_tube_is_within_its_share() {
             .collect();
         let nu = twofold::number(0.3);
         let times = |by: f64, of: Twofold| twofold::number(by) * of;
-        // Radii of the file are off by 3u of the outer one at most, inner ones by 6u.
+        // Radii differ from those of the file by at most 3u of the outer one, inner ones by 6u.
         for (outer, inner) in [(0.0, 0.0), (3.0, 6.0), (-3.0, -6.0), (3.0, -6.0), (-3.0, 6.0)] {
             let near = |by: f64| twofold::number(1.0 + by * 0.5 * f64::EPSILON);
             for k in 0..=20 {
@@ -369,7 +369,7 @@ fn the_shear_stiffness_of_a_tube_is_within_its_share() {
     }
 }
 
-/// The mass of a bat that was weighed is what the scale said.
+/// The mass of a weighed bat is that of the scale.
 #[test]
 fn a_weighed_bat_weighs_what_the_scale_said() {
     let bat = cone(0.012, 0.033);
@@ -382,7 +382,7 @@ fn a_weighed_bat_weighs_what_the_scale_said() {
     assert!(mass.low < 0.9 && mass.high > 0.9 && mass.high - mass.low < 1e-12, "{mass:?}");
 }
 
-/// Trials made up for a matrix of known eigenvalues: every interval holds its own.
+/// Trials constructed for a matrix with known eigenvalues: every interval contains its eigenvalue.
 #[test]
 fn conclusions_hold_the_eigenvalues_of_matrices_whose_trials_are_known() {
     let taus: Vec<f64> = (1..=40).map(|n| f64::from(n).powi(-4)).collect();
@@ -399,7 +399,7 @@ fn conclusions_hold_the_eigenvalues_of_matrices_whose_trials_are_known() {
         let noise = 10f64.powf(-1.0 - 7.0 * random.share());
         let mut trials = vec![];
         for n in 0..16 {
-            // One left out now and then, one twice.
+            // Sometimes one is missing, sometimes one occurs twice.
             if round % 5 == 1 && n == round % 16 {
                 continue;
             }
@@ -424,7 +424,7 @@ fn conclusions_hold_the_eigenvalues_of_matrices_whose_trials_are_known() {
             held[0] += 1;
         }
         held[1] += found.proven.len();
-        // With mode n left out at most n − 1 are proven.
+        // Without mode n at most n − 1 are proven.
         if round % 5 == 1 && round % 7 != 2 {
             assert!(found.proven.len() <= round % 16, "{round}");
         }

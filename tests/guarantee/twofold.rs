@@ -11,14 +11,14 @@ pub struct Twofold {
     pub low: f64,
 }
 
-/// `a + b` exactly, as a sum and what it was rounded by.
+/// `a + b` exactly, as the rounded sum and the rounding error.
 pub fn two_sum(a: f64, b: f64) -> [f64; 2] {
     let sum = a + b;
     let of_b = sum - a;
     [sum, (a - (sum - of_b)) + (b - of_b)]
 }
 
-/// `a b` exactly, as a product and what it was rounded by, away from the ends of the range.
+/// `a b` exactly, as the rounded product and the rounding error, away from the ends of the range.
 pub fn two_product(a: f64, b: f64) -> [f64; 2] {
     let product = a * b;
     [product, a.mul_add(b, -product)]

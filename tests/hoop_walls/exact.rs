@@ -1,7 +1,7 @@
-//! Three-dimensional elasticity of layered tubes, exact but for the rounding of a quadrature in r.
+//! Three-dimensional elasticity of layered tubes, exact except for the rounding of a quadrature in r.
 //!
-//! With `u_r = U cos nθ sin kx`, `u_θ = V sin nθ sin kx`, `u_x = W cos nθ cos kx` the equations of motion are six of
-//! the first order in r for U, V, W and the stresses rr, rθ, xr, all of which are continuous through layers:
+//! With `u_r = U cos nθ sin kx`, `u_θ = V sin nθ sin kx`, `u_x = W cos nθ cos kx` the equations of motion are six
+//! equations of first order in r for U, V, W and the stresses rr, rθ, xr, all of which are continuous across layers:
 //!
 //! ```text
 //! U′ = (S − c_rθ e_θ − c_rx e_x)/c_rr,   V′ = T/G_rθ + (V + nU)/r,   W′ = Q/G_xr − kU
@@ -10,7 +10,7 @@
 //! e_θ = (U + nV)/r,   e_x = −kW,   t = G_xθ (kV − nW/r),   s_θ and s_x from the strains
 //! ```
 //!
-//! A frequency is where three motions that leave the bore without load do so at the surface too.
+//! At a frequency, a combination of the three motions with a stress-free bore also has a stress-free surface.
 
 use std::f64::consts::TAU;
 
@@ -32,7 +32,7 @@ pub struct Ring {
 const STEPS: usize = 300;
 
 impl Ring {
-    /// What each of the six quantities changes by with r.
+    /// The derivatives of the six quantities with respect to r.
     fn slopes(&self, of: &Elastic, omega: f64, r: f64, [u, v, w, s, t, q]: [f64; 6]) -> [f64; 6] {
         let (n, k) = (self.n as f64, self.wave);
         let [[c_rr, c_rt, c_rx], [_, c_tt, c_tx], [.., c_xx]] = of.normal;
@@ -54,7 +54,7 @@ impl Ring {
 
     /// Determinant of the loads at the surface of three motions without load at the bore.
     fn determinant(&self, omega: f64) -> f64 {
-        // In plane strain W has nothing to do with the others.
+        // In plane strain W is independent of the others.
         let motions = if self.wave == 0.0 { 2 } else { 3 };
         let mut loads = [[0.0; 3], [0.0; 3], [0.0, 0.0, 1.0]];
         for (k, loads) in loads.iter_mut().enumerate().take(motions) {
@@ -84,7 +84,7 @@ impl Ring {
     }
 }
 
-/// The frequency (Hz) of the ring that is nearest to one, by secants.
+/// The frequency (Hz) of the ring nearest to the given one, by secants.
 pub fn roots_near(ring: &Ring, frequency: f64) -> f64 {
     let value = |f: f64| ring.determinant(TAU * f);
     let (mut a, mut b) = (frequency * (1.0 - 1e-5), frequency * (1.0 + 1e-5));

@@ -13,10 +13,9 @@ use crate::value::tolerance;
 
 /// Which physics this bat needs, and which it can do without
 ///
-/// Rotary inertia, shear, tape, hands, a cork: what does each do to the frequencies of this bat, and
-/// with --full to its nodes, its balance and its damping? The table gives the shift that each makes,
-/// with how far that may be off. Below it is the smallest model whose frequencies are still within
-/// --tol of the full one's, and what no beam model has.
+/// How far do rotary inertia, shear, tape, hands or a cork shift the frequencies of this bat, and with --full its
+/// nodes, its balance and its damping? The table gives each shift with its error. Below it are the smallest model whose
+/// frequencies are still within --tol of the full model's, and the effects that no beam model has.
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES), next_help_heading = "The bat")]
 pub struct Args {
@@ -28,7 +27,7 @@ pub struct Args {
           value_parser = clap::value_parser!(u16).range(1..=MOST_MODES as i64))]
     count: u16,
 
-    /// How near to the full model's frequencies is near enough, such as 1%
+    /// Allowed difference from the full model's frequencies, such as 1%
     #[arg(long, value_name = "T", default_value = "1e-4", value_parser = tolerance,
           help_heading = "Accuracy")]
     tol: f64,

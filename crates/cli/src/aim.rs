@@ -23,11 +23,11 @@ use crate::value::LITTLE;
 
 /// The least change of a bat that meets a wish: where to cut, at what price
 ///
-/// Finds the smallest smooth change of the diameter by which the bat meets the targets, under limits and
-/// rules, and writes the new bat with rounded stations; every value that is told is of that file. Says what a
-/// little more of each target would cost and, where targets cannot be had together, which ones, and how near
-/// each can come (exit code 3; the nearest bat is written). Swung alike unless --reference-inertia says
-/// otherwise: most answers depend on that.
+/// Finds the smallest smooth change of the diameter with which the bat meets the targets, under limits and rules, and
+/// writes the new bat with rounded stations. All values in the answer are those of the written file. It also gives the
+/// cost of a little more of each target. If the targets cannot be met together, it names those that conflict and how
+/// close each can come (exit code 3; the nearest bat is written). Both bats are swung at one speed unless
+/// --reference-inertia is given: most answers depend on that.
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES))]
 pub struct Args {
@@ -39,15 +39,15 @@ pub struct Args {
 
     /// A target, such as "swing weight -3 %"; may be repeated
     ///
-    /// What is aimed at (sweet spot, swing weight, mass, balance point, f1, node 1, best ball, bbcor, drop, or
-    /// the name of an output), then by how much it is to change ("-3 %", "1 cm outward", "+2 Hz", "same"),
-    /// what it is to be ("180 Hz", "6.5 in from the tip"), or "at most 31 oz", "at least 99.5 %". "within 0.5
-    /// Hz" after a change or a value is how far beside it will do. "lose 1 oz", "1 oz lighter" and "keep pop" are
-    /// understood too. "drop -3" and "drop 3" are one: three ounces fewer than inches.
+    /// First the output (sweet spot, swing weight, mass, balance point, f1, node 1, best ball, bbcor, drop, or the name
+    /// of any output), then its change ("-3 %", "1 cm outward", "+2 Hz", "same"), its value ("180 Hz", "6.5 in from the
+    /// tip"), or a limit ("at most 31 oz", "at least 99.5 %"). "within 0.5 Hz" after a change or a value sets its
+    /// tolerance. "lose 1 oz", "1 oz lighter" and "keep pop" are understood too. "drop -3" and "drop 3" are the same:
+    /// three ounces fewer than inches.
     #[arg(long = "target", value_name = "TARGET", allow_hyphen_values = true)]
     targets: Vec<String>,
 
-    /// Wood is only taken off
+    /// Only take wood off
     #[arg(long)]
     remove_only: bool,
 
@@ -63,7 +63,7 @@ pub struct Args {
     #[arg(long, value_name = "LIMIT")]
     diameter: Vec<String>,
 
-    /// The greatest slope of the surface where it is changed, such as 0.25: radius over length
+    /// The greatest slope of the changed surface, such as 0.25: radius over length
     #[arg(long, value_name = "SLOPE", value_parser = slope)]
     slope: Option<f64>,
 
@@ -71,18 +71,18 @@ pub struct Args {
     #[arg(long, value_name = "RULES")]
     rules: Option<String>,
 
-    /// What may change besides the shape; may be repeated
+    /// A further change that is allowed; may be repeated
     ///
-    /// "length 32 in to 34 in" (everything on the bat moves with it), "density 600 kg/m^3 to 700 kg/m^3",
-    /// "wood NAME, NAME" (the one that needs the least change), "knob weight 2 oz" (up to that).
+    /// "length 32 in to 34 in" (everything on the bat moves with it), "density 600 kg/m^3 to 700 kg/m^3", "wood NAME,
+    /// NAME" (the one that needs the least change), "knob weight 2 oz" (up to that weight).
     #[arg(long, value_name = "CHOICE")]
     free: Vec<String>,
 
-    /// Distance of the stations that are written [default: 10 mm, of a bat in inches 0.5 in]
+    /// Distance between the written stations [default: 10 mm; 0.5 in for a bat in inches]
     #[arg(long, value_name = "m", value_parser = spacing)]
     stations: Option<f64>,
 
-    /// What diameters are rounded to [default: 0.1 mm, of a bat in inches 0.005 in]
+    /// Step to which diameters are rounded [default: 0.1 mm; 0.005 in for a bat in inches]
     #[arg(long, value_name = "m", value_parser = spacing)]
     round: Option<f64>,
 
@@ -94,12 +94,12 @@ pub struct Args {
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     cuts: Option<PathBuf>,
 
-    /// What a pass of the lathe takes off the diameter at most
+    /// Most that one pass of the lathe takes off the diameter
     #[arg(long, value_name = "m", default_value = "1 mm", value_parser = spacing,
           help_heading = "Output")]
     pass: f64,
 
-    /// Write a template of the new bat in its own size into this folder: PDF and SVG, for A4 and letter
+    /// Write a full-size template of the new bat into this folder: PDF and SVG, for A4 and letter
     #[arg(long, value_name = "DIR", help_heading = "Output")]
     template: Option<PathBuf>,
 
@@ -165,7 +165,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let placed = |error: Error| placed(error, aim_file.as_ref(), args);
     let progress = args.output.progress("the least change");
     let outcome = Outcome::of(&bat, &wish, &terms).map_err(placed)?;
-    // What is told is of the file as it is read again.
+    // The answer describes the file as it is read back.
     let text = aimed::bat_text(&outcome);
     let written = Bat::from_text("the new bat", &text, Path::new(""))?;
     let outcome =
@@ -186,7 +186,7 @@ pub fn run(args: &Args) -> Result<Done> {
     Ok(Done::new(text, if outcome.met { 0 } else { NOT_REACHED }).with(warning))
 }
 
-/// The wish of the file with what the options add.
+/// The wish of the file, extended by the options.
 fn wish(args: &Args, aim_file: Option<&AimFile>) -> Result<Wish> {
     let mut wish = aim_file.map_or_else(Wish::default, |file| file.wish.clone());
     let option = |option: &'static str| move |complaint| about(option, complaint);

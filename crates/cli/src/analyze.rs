@@ -35,15 +35,15 @@ use crate::value::{READING, SCALE, Use};
 
 /// A bat on one screen
 ///
-/// Where is its sweet spot, how fast does the ball leave there, how wide is the zone, what does the
-/// bat weigh in the swing, how does it ring? Beside every answer stands how far that of the bat in
-/// hand may be from it, and what does most of that: the wood, which differs from piece to piece, or
-/// what it was measured with. Then what would settle it, and what the computation adds.
+/// Where is its sweet spot, how fast does the ball leave there, how wide is the zone, what is its swing weight, how
+/// does it ring? Beside every answer stands its uncertainty for the bat in hand, and the main cause: the wood, which
+/// differs from piece to piece, or the measurements. The last lines say which measurement would reduce it, and how much
+/// error the computation adds.
 ///
-/// With --full also: a sketch with the nodes of the modes and the zone of the best exit speeds; ten
-/// modes, how far they may be off and what the model left out; the solver's proof on a dowel whose
-/// frequencies are known exactly; what this bat's model needs; exit speeds along the barrel, the
-/// sweet spot by every definition, why it is there, and the figures by which bats are compared.
+/// With --full also: a sketch with the nodes of the modes and the zone of the best exit speeds; ten modes, their
+/// errors, and the effects that the model leaves out; the solver's proof on a dowel with exact frequencies; the parts
+/// of the model that this bat needs; exit speeds along the barrel, the sweet spot by every definition, why it is there,
+/// and the figures by which bats are compared.
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES))]
 pub struct Args {
@@ -83,12 +83,12 @@ pub struct Args {
     #[arg(long, value_name = "DIR", help_heading = "Output")]
     plots: Option<PathBuf>,
 
-    /// Write a report for people into this file: a page of its own (.html), or Markdown (.md) with
-    /// its pictures in a folder beside it
+    /// Write a report for people into this file: a self-contained page (.html), or Markdown (.md) with its pictures in
+    /// a folder beside it
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     report: Option<PathBuf>,
 
-    /// Write the live page of this bat beside the report, which opens it by a button
+    /// Write the live page of this bat beside the report; a button of the report opens it
     #[arg(long, requires = "report", help_heading = "Output")]
     lab: bool,
 
@@ -125,7 +125,7 @@ const MODES: usize = 10;
 
 pub fn run(args: &Args) -> Result<Done> {
     let (setup, model) = args.scene.setup()?;
-    // A report that cannot be written is told before it is computed.
+    // A report that cannot be written is refused before anything is computed.
     let made = [&args.out, &args.plots];
     args.report.as_deref().map(|path| page::file::expected(path, &made)).transpose()?;
     if args.lab {
@@ -139,7 +139,7 @@ pub fn run(args: &Args) -> Result<Done> {
     }
     let progress = args.output.progress("modes");
     let modes = args.solve.modes_within(MODES, bat.profile().pieces.len());
-    // Fewer are shown than hits need.
+    // Fewer modes are shown than a hit needs.
     let (solve, of_theory) = match args.bat.count() < MODES {
         true => args.solve.of_hits(&bat, modes)?,
         false => (args.solve.clone(), None),
@@ -169,20 +169,20 @@ pub fn run(args: &Args) -> Result<Done> {
     Ok(Done::new(text, code).with(warning))
 }
 
-/// How far the readings of the bat may be off: as told, else as usual.
+/// The errors of the bat's readings: the given ones, else the usual ones.
 fn readings(args: &Args, bat: &Bat) -> Readings {
     let usual = Readings::of(bat);
     let diameter = args.calipers.unwrap_or(usual.diameter);
     Readings { diameter, length: args.rule, mass: args.scale, ..usual }
 }
 
-/// What a short answer ends with.
+/// The end of a short answer.
 const MORE: &str = "Everything else: --full; on a page to look at: --report FILE.html";
 
-/// Lines of a proof that a screen has: its heads, and the modes of the answers.
+/// Lines of a proof on a screen: its heads, and the modes of the answers.
 const FEW: usize = 5;
 
-/// What a cut does, in wide bands, for the same hits.
+/// The effect of a cut, in wide bands, for the same hits.
 fn lathe(args: &Args, analysis: &Analysis) -> Result<Option<LatheMap>> {
     let Task { model, scene, hits, .. } = &analysis.task;
     let hit = HitTerms { scene: scene.clone(), model: *model, exactly: args.bat.asked() };
@@ -205,18 +205,18 @@ fn inputs(args: &Args, bat: &str) -> Result<Vec<Input>> {
     Ok(all)
 }
 
-/// What was found of the bat.
+/// The results for a bat.
 struct Answer<'a> {
     args: &'a Args,
     analysis: Analysis,
-    /// What is proven of its modes, where that was asked.
+    /// The proof for its modes, if it was asked for.
     proven: Option<Proven>,
-    /// What a cut does, where that is told.
+    /// The effect of a cut, if it is shown.
     lathe: Option<LatheMap>,
 }
 
 impl Answer<'_> {
-    /// The exit code, after a word about what is less accurate than asked.
+    /// The exit code, after a warning about results that are less accurate than asked.
     fn verdict(&self) -> u8 {
         let Args { solve, output, .. } = self.args;
         let code = match &self.proven {
@@ -226,7 +226,7 @@ impl Answer<'_> {
         code.max(hit_verdict(solve, &self.analysis.hits, output))
     }
 
-    /// What is printed: a screen or everything, what is proven, and what was written for people to look at, and where.
+    /// The printed text: a screen or everything, the proof, and the files written for people.
     fn screen(&self) -> String {
         let Self { args, analysis, .. } = self;
         let units = args.output.units(&analysis.bat);
@@ -248,7 +248,7 @@ impl Answer<'_> {
         screen.fitted(room, "", more.as_deref().unwrap_or(MORE)) + &written
     }
 
-    /// All of it in one document.
+    /// All results in one document.
     fn document(&self) -> AnalysisFile {
         AnalysisFile {
             format: Format::new(),
@@ -283,7 +283,7 @@ impl Answer<'_> {
         Some(hoop::document(&self.analysis.bat, barrel, &[], SAMPLES))
     }
 
-    /// Writes what was asked for: the folder of documents, pictures, the report with those files.
+    /// Writes the requested files: the folder of documents, the pictures, the report with those files.
     fn write(&self, inputs: Option<Vec<Input>>, live: Option<String>) -> Result<()> {
         let Self { args, analysis, lathe, .. } = self;
         let lathe = lathe.as_ref();
@@ -311,7 +311,7 @@ impl Answer<'_> {
 /// The nodes of the first three modes and the sweet spot.
 fn rows(analysis: &Analysis) -> Vec<SketchRow> {
     let mut rows = sketch::of_modes(&analysis.bat, &analysis.solution);
-    // The balance point is the last of them.
+    // The balance point is the last row.
     rows.drain(3.min(rows.len() - 1)..rows.len() - 1);
     rows.extend(sketch::of_sweet_spot(&analysis.figures.spot));
     rows
@@ -345,7 +345,7 @@ fn everything(analysis: &Analysis, output: &OutputArgs) -> String {
     )
 }
 
-/// What the model needs, in short.
+/// A summary of the model that the bat needs.
 fn advice(analysis: &Analysis) -> String {
     match &analysis.advice {
         Some(found) => advice::short(found),

@@ -6,7 +6,7 @@ use sweetspot::Profile;
 use sweetspot::base::{marks, number::rounded};
 use sweetspot::bat::profile::{Interpolation, Stations};
 
-/// What a bat maker measures; lengths in `unit`.
+/// Measurements of a bat; lengths in `unit`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measured {
     pub name: String,
@@ -27,7 +27,7 @@ pub struct Measured {
     pub balance: Option<String>,
     /// First bending frequency with its unit, if the bat was tapped.
     pub tap: Option<String>,
-    /// A tape as the file has it, if there is one.
+    /// The line of the file for tape, if there is any.
     pub tape: Option<String>,
 }
 
@@ -77,9 +77,9 @@ pub fn text(bat: &Measured) -> String {
     marks::json(&(out + "\n  }\n}\n"))
 }
 
-/// Place, diameter and diameter of the hole at every station. A cup has stations of its own, with the diameters that
-/// the curve through the measured ones has there; with `v` from 0 at its bottom to 1 at the rim it is as wide as `1 −
-/// (1 − v)³` of its rim, as the edit `cup` has it.
+/// Place, diameter and diameter of the hole at every station. A cup has its own stations, with the outer diameters of
+/// the curve through the measured ones. With `v` from 0 at its bottom to 1 at the rim, its width is `1 − (1 − v)³` of
+/// the rim's, as for the edit `cup`.
 fn rows(bat: &Measured) -> Vec<[f64; 3]> {
     /// Stations of the cup, as shares of its depth from the rim.
     const SHARES: [f64; 4] = [1.0, 0.75, 0.5, 0.25];
@@ -89,7 +89,7 @@ fn rows(bat: &Measured) -> Vec<[f64; 3]> {
     };
     let [x, outer] = [0, 1].map(|k| rows.iter().map(|row| row[k]).collect::<Vec<f64>>());
     let inner = vec![0.0; x.len()];
-    // What is not a profile is told when the file is read.
+    // An invalid profile is reported when the file is read.
     let curve = Profile::new(Stations { x, outer, inner, interpolation: Interpolation::Pchip });
     let own = SHARES.map(|share| end - share * depth);
     let far = |x: &f64| rows.iter().all(|row| (row[0] - x).abs() > 0.1 * depth);

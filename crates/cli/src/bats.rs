@@ -1,4 +1,4 @@
-//! `sweetspot bats`: what is built in.
+//! `sweetspot bats`: the built-in bats.
 
 use sweetspot::files::built_in::bat_names;
 use sweetspot::{Bat, Result};
@@ -10,8 +10,8 @@ use crate::style;
 
 /// The built-in bats
 ///
-/// Each may stand wherever a bat file does. The folder meshes of the source has their files, with where every
-/// number is from.
+/// Their names may be used in place of a bat file. The folder meshes of the source has their files, with the origin of
+/// every number.
 #[derive(clap::Args)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Args {}

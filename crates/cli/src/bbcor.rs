@@ -21,12 +21,11 @@ use crate::value::PLACE;
 
 /// BBCOR as laboratories measure it, computed
 ///
-/// The bat is at rest and turns about a pivot 6 in from the knob end; a ball at 136 mph meets it every
-/// half inch. For the places about the largest, with --full for every one, the table says how fast the
-/// ball comes back, the collision efficiency e_A, BBCOR and how far that may be off by the program's own
-/// errors; below it the largest, beside the limit. Supports, springs and hands of the bat file are taken
-/// away. What is computed is not a certificate: it is as good as the ball's restitution and as the wall of a
-/// hollow barrel is known.
+/// The bat is at rest and turns about a pivot 6 in from the knob end; a ball at 136 mph hits it every half inch. The
+/// table gives the rebound speed of the ball, the collision efficiency e_A, BBCOR and its numerical error at the places
+/// around the largest BBCOR, or with --full at every place. Below it the largest value stands beside the limit.
+/// Supports, springs and hands of the bat file are removed. A computed value is not a certificate: it is only as good
+/// as the known restitution of the ball and the known wall of a hollow barrel.
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES))]
 pub struct Args {
@@ -36,18 +35,17 @@ pub struct Args {
     #[command(flatten)]
     cannon: CannonArgs,
 
-    /// Where the scan begins, from the knob end [default: 12 in from the tip]
+    /// Start of the scan, from the knob end [default: 12 in from the tip]
     #[arg(long, value_name = "m", help_heading = "The test", value_parser = PLACE)]
     from: Option<f64>,
 
-    /// Where the scan ends, from the knob end [default: 1 in from the tip]
+    /// End of the scan, from the knob end [default: 1 in from the tip]
     #[arg(long, value_name = "m", help_heading = "The test", value_parser = PLACE)]
     to: Option<f64>,
 
     /// Whether a hollow barrel's wall gives way by its own hoop modes: auto, on or off
     ///
-    /// auto: where that changes BBCOR by more than 0.15 of --tol, by estimate, and not with a number of modes of
-    /// your own.
+    /// auto: if that changes BBCOR by more than 0.15 of --tol, by an estimate, and the number of modes is not given.
     #[arg(long, value_name = "WHEN", default_value = "auto", help_heading = "The test",
           value_parser = ["auto", "on", "off"], hide_possible_values = true)]
     wall: String,
@@ -99,7 +97,7 @@ pub fn run(args: &Args) -> Result<Done> {
     Ok(Done::new(text, code).with(warning))
 }
 
-/// What is asked of that bat, all that is wrong with it at once.
+/// The test of that bat; all mistakes are reported at once.
 fn protocol(args: &Args, bat: &Bat) -> Result<Protocol> {
     let mut mistakes = Mistakes::default();
     let mut end =

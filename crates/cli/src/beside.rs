@@ -1,4 +1,4 @@
-//! What a person knows of a universal file of measured modes that the file does not say.
+//! Facts about a universal file of measured modes that the file does not contain.
 
 use sweetspot::Result;
 use sweetspot_study::files::measured::Beside;
@@ -8,7 +8,7 @@ use uff58::Units;
 
 use crate::value::{file_unit, named};
 
-/// What is known beside a universal file of modes.
+/// Facts that a universal file of modes does not contain.
 #[derive(clap::Args, Clone)]
 pub struct BesideArgs {
     /// Unit of length of a universal file that names no units (dataset 164), such as mm
@@ -19,32 +19,32 @@ pub struct BesideArgs {
     #[command(flatten)]
     places: PlacesArgs,
 
-    /// What the frequencies or poles of a universal file are in, where it breaks its format: Hz or rad/s
-    /// [default: by the format, unless Modal A or the shapes contradict]
+    /// Unit of the frequencies or poles of a universal file that breaks its format: Hz or rad/s [default: by the
+    /// format, unless Modal A or the shapes contradict]
     #[arg(long, value_name = "UNIT", requires = "measured", help_heading = "A universal file",
           value_parser = named(FrequencyUnit::ALL, FrequencyUnit::name), hide_possible_values = true)]
     frequency_unit: Option<FrequencyUnit>,
 }
 
 impl BesideArgs {
-    /// Reads places that stand in a file.
+    /// Reads the places if they are in a file.
     pub fn read(&self) -> Result<Beside> {
         let (unit, places) = (self.unit.clone(), self.places.read()?);
         Ok(Beside { unit, places, frequency_unit: self.frequency_unit })
     }
 }
 
-/// Where the nodes of a universal file are.
+/// Positions of the nodes of a universal file.
 #[derive(clap::Args, Clone)]
 pub struct PlacesArgs {
-    /// Where the nodes of a universal file without geometry are, from the knob end: "1=0 in, 2=3 in", or
-    /// a CSV file with the columns node,x_in
+    /// Positions of the nodes of a universal file without geometry, from the knob end: "1=0 in, 2=3 in", or a CSV file
+    /// with the columns node,x_in
     #[arg(long, value_name = "PLACES", requires = "measured", help_heading = "A universal file")]
     places: Option<String>,
 }
 
 impl PlacesArgs {
-    /// Reads places that stand in a file.
+    /// Reads the places if they are in a file.
     pub fn read(&self) -> Result<Option<Places>> {
         self.places.as_deref().map(places::read).transpose()
     }

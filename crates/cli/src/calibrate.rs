@@ -1,4 +1,4 @@
-//! `sweetspot calibrate BAT [MEASURED]`: what the wood is, by what was measured.
+//! `sweetspot calibrate BAT [MEASURED]`: the properties of the wood, from measurements.
 
 use std::io::{IsTerminal, StdinLock, stdin};
 use std::path::{Path, PathBuf};
@@ -27,12 +27,12 @@ use crate::output::{FullArgs, LINES, apart, draw, printed, put, warn};
 use crate::style;
 use crate::value::{PLACE, TheoryChoice, choice};
 
-/// What a bat's wood is: E, G and density from scale, ruler, pendulum and tap
+/// The wood of a bat: E, G and density from scale, ruler, pendulum and tap
 ///
-/// Reads what was measured of a bat and finds the wood that shows it, each property with its 95 % interval, how much
-/// of it the readings say and how much was known before. It tells readings that do not fit and lines that were taken
-/// for another mode, and names the measurement that would tell most. Without a file of readings it asks. A mismatch
-/// is told, not fitted away: the exit code is then 1.
+/// Reads measurements of a bat and fits the properties of the wood to them. Each property has its 95 % interval, and
+/// the shares of the readings and of prior knowledge in it. It reports readings that do not fit and lines that were
+/// assigned to another mode, and it names the measurement that would add most. Without a file of readings it asks for
+/// them. A mismatch is reported, not fitted away: the exit code is then 1.
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES), next_help_heading = "Output")]
 pub struct Args {
@@ -41,11 +41,11 @@ pub struct Args {
     bat: PathBuf,
 
     /// Readings file (JSON), a table of measured modes as for compare --measured, or a recording of taps as for tap
-    /// [without it: asked]
+    /// [default: it asks]
     #[arg(help_heading = "The bat")]
     measured: Option<PathBuf>,
 
-    /// Two regions of wood, the barrel's from this place on, such as "42 cm"
+    /// Fit two regions of wood; the barrel's begins at this place, such as "42 cm"
     #[arg(long, value_name = "m", value_parser = PLACE, help_heading = "The bat")]
     regions: Option<f64>,
 
@@ -54,7 +54,7 @@ pub struct Args {
           help_heading = "The bat")]
     hold: Vec<Property>,
 
-    /// Which bending mode a line is, such as "1187 = 3", or "1187 = none"; may be repeated
+    /// Assign a line to a bending mode, such as "1187 = 3", or "1187 = none"; may be repeated
     #[arg(long, value_name = "HZ = N", value_parser = label, allow_hyphen_values = true,
           help_heading = "The bat")]
     mode: Vec<(f64, Option<usize>)>,
@@ -70,7 +70,7 @@ pub struct Args {
     #[arg(long, value_name = "FILE", conflicts_with = "measured")]
     readings: Option<PathBuf>,
 
-    /// Write the bat of the wood that was found to this file (- = standard output, and no table then)
+    /// Write the bat with the fitted wood to this file (- = standard output, and no table then)
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
 
@@ -82,7 +82,7 @@ pub struct Args {
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
 
-    /// Draw what was known before and after, and what does not fit, into this folder, as SVG and PNG
+    /// Draw the properties before and after, and the misfits, into this folder, as SVG and PNG
     #[arg(long, value_name = "DIR")]
     plots: Option<PathBuf>,
 
@@ -131,7 +131,7 @@ pub fn label(text: &str) -> std::result::Result<(f64, Option<usize>), String> {
     Ok((hz, mode))
 }
 
-/// The lines with the labels of `--mode`; a line that is told as none is left out.
+/// The lines with the labels of `--mode`; a line labelled none is omitted.
 fn told_again(lines: &mut Vec<SpectralLine>, told: &[(f64, Option<usize>)]) -> Result<()> {
     /// A line may be named by a rounded frequency.
     const NEAR: f64 = 0.01;
@@ -158,7 +158,7 @@ fn told_again(lines: &mut Vec<SpectralLine>, told: &[(f64, Option<usize>)]) -> R
     Ok(())
 }
 
-/// The command with the labels that fit, where those that were told do not.
+/// The command with the labels that fit, if the given ones do not.
 fn relabelled(args: &Args, found: &Calibration) -> Option<String> {
     let measured = args.measured.as_deref().map_or("readings.json".to_owned(), printed);
     let label = |k: &usize| {
@@ -218,22 +218,22 @@ fn as_told(args: &Args) -> impl Fn(Error) -> Error + '_ {
     }
 }
 
-/// What was measured.
+/// The measurements.
 struct MeasuredArgs {
     readings: BatReadings,
-    /// What it is called.
+    /// Their name.
     name: String,
-    /// Who was asked, if somebody was: the answers are kept until all is done.
+    /// The dialogue, if a person was asked: the answers are kept until the end.
     person: Option<Dialogue<StdinLock<'static>>>,
 }
 
-/// Where answers are kept: they are of one bat.
+/// Place of the kept answers, which belong to one bat.
 fn draft(args: &Args) -> PathBuf {
     let bat = args.bat.file_stem().unwrap_or_default().to_string_lossy();
     draft::stem(args.readings.as_deref(), &format!("{bat}-calibrate"))
 }
 
-/// Reads what was measured, or asks for it; None where who was asked left.
+/// Reads the measurements, or asks for them; `None` if the person left.
 fn readings(args: &Args, bat: &Bat) -> Result<Option<MeasuredArgs>> {
     let Some(path) = &args.measured else {
         if !args.ask && !stdin().is_terminal() {
@@ -245,7 +245,7 @@ fn readings(args: &Args, bat: &Bat) -> Result<Option<MeasuredArgs>> {
         if let Some(path) = &args.readings {
             file::write(path, text.as_bytes())?;
         }
-        // Answers that say nothing must not be given again.
+        // Answers without information must not be offered again.
         let readings = ReadingsForm::from_text("the answers", &text, Path::new(""))
             .inspect_err(|_| person.done())?;
         return Ok(Some(MeasuredArgs {
@@ -298,8 +298,8 @@ fn of_modes(measured: Measured, bat: &Bat, quiet: bool) -> Result<BatReadings> {
     Ok(readings)
 }
 
-/// Measured modes, the number of the computed mode whose shape each has, None where its shape does not tell; and how
-/// many have a shape that is like no mode's.
+/// Measured modes, and for each the number of the computed mode with its shape (`None` if the shape does not decide);
+/// also the number of modes whose shape matches none.
 fn by_shape(bat: &Bat, measured: Measured) -> Result<(Measured, Vec<Option<usize>>, usize)> {
     let mut labels = vec![None; measured.modes.len()];
     if !measured.has_shapes() {

@@ -1,4 +1,4 @@
-//! What a laboratory's cannon shoots at a bat at rest.
+//! The shot of a laboratory's cannon at a bat at rest.
 
 use sweetspot::base::mistakes::Mistakes;
 use sweetspot::collision::ball::Ball;
@@ -16,7 +16,7 @@ pub struct CannonArgs {
     #[arg(long, value_name = "BALL", default_value = "baseball")]
     ball: String,
 
-    /// The ball is a linear spring of this stiffness, in place of its own force law
+    /// Make the ball a linear spring of this stiffness, in place of its own force law
     #[arg(long, value_name = "N/m", value_parser = STIFFNESS)]
     ball_stiffness: Option<f64>,
 
@@ -31,16 +31,16 @@ pub struct CannonArgs {
 
 /// A ball on its way to a bat at rest.
 pub struct Shot {
-    /// The ball; without a restitution by its speed where one was given.
+    /// The ball; without a restitution by speed if a restitution was given.
     pub ball: Ball,
     /// Its speed (m/s).
     pub speed: f64,
-    /// The coefficient of restitution that was given.
+    /// The given coefficient of restitution.
     pub cor: Option<f64>,
 }
 
 impl CannonArgs {
-    /// What is shot.
+    /// The shot.
     ///
     /// # Errors
     ///

@@ -20,7 +20,7 @@ use crate::edits::EditArgs;
 use crate::output::{OutputArgs, warn};
 use crate::value::{TOP_FREQUENCY, TheoryChoice, budget, solver, theory, tolerance};
 
-/// The end of a verb's help: commands to try, how values are written, and the bats that are built in.
+/// The end of a verb's help: example commands, the notation of values, and the built-in bats.
 pub fn examples(commands: &str) -> String {
     format!(
         "{commands}\n\n\
@@ -32,7 +32,7 @@ pub fn examples(commands: &str) -> String {
     )
 }
 
-/// Which bat, and what is changed about it.
+/// The bat and its edits.
 #[derive(clap::Args)]
 pub struct BatFileArgs {
     /// Bat file (JSON), or the name of a built-in bat such as r161
@@ -50,14 +50,14 @@ impl BatFileArgs {
     }
 }
 
-/// Which bat, and how many of its modes.
+/// The bat and the number of its modes.
 #[derive(clap::Args)]
 #[command(next_help_heading = "The bat")]
 pub struct BatArgs {
     /// Bat file (JSON), or the name of a built-in bat such as r161
     bat: PathBuf,
 
-    /// Number of bending modes [default: 10; in a hit as many as it needs]
+    /// Number of bending modes [default: 10; for a hit as many as it needs]
     #[arg(short = 'n', long = "modes", value_name = "N",
           value_parser = clap::value_parser!(u16).range(0..=MOST_MODES as i64))]
     count: Option<u16>,
@@ -71,17 +71,17 @@ pub struct BatArgs {
 }
 
 impl BatArgs {
-    /// Number of bending modes where no frequency was given.
+    /// Number of bending modes if no frequency was given.
     pub fn count(&self) -> usize {
         self.count.unwrap_or(10).into()
     }
 
-    /// Whether a number or a frequency was asked for.
+    /// Whether a number or a frequency was given.
     pub fn asked(&self) -> bool {
         self.count.is_some() || self.up_to.is_some()
     }
 
-    /// Whether `--damping` is that.
+    /// Whether `--damping` has that value.
     pub fn damped_as(&self, whose: &str) -> bool {
         self.edits.damped_as(whose)
     }
@@ -113,7 +113,7 @@ impl BatArgs {
         Ok(Solved { bat, solution, warning })
     }
 
-    /// The bat and what is asked of it: a number of modes, or all up to a frequency.
+    /// The bat and its request: a number of modes, or all up to a frequency.
     pub fn prepare(
         &self,
         bat: Bat,
@@ -122,8 +122,8 @@ impl BatArgs {
         output: &OutputArgs,
     ) -> Result<Prepared> {
         let Some(limit) = self.up_to else { return solve.prepare(bat, modes, output) };
-        // More modes may need a richer theory, and a richer theory has more modes up to there: the
-        // number stays after as many rounds as there are theories.
+        // More modes may need a richer theory, and a richer theory has more modes up to the frequency. The number no
+        // longer changes after as many rounds as there are theories.
         for _ in 0..=Theory::ALL.len() {
             let prepared = solve.prepare(bat.clone(), modes, output)?;
             let found = modes_up_to(&prepared.bat, &prepared.request, limit);
@@ -148,7 +148,7 @@ impl BatArgs {
     }
 }
 
-/// How the modes are found.
+/// Options for the computation of the modes.
 #[derive(Clone, clap::Args)]
 #[command(next_help_heading = "Accuracy")]
 pub struct SolveArgs {
@@ -158,9 +158,9 @@ pub struct SolveArgs {
 
     /// Beam theory
     ///
-    /// auto takes the simplest whose estimated shift of every frequency is within --tol. The others:
-    /// euler-bernoulli (bending alone), rayleigh (and rotary inertia), timoshenko (and shear, which
-    /// needs the material's shear modulus).
+    /// auto takes the simplest theory whose estimated shift of every frequency is within --tol. The others:
+    /// euler-bernoulli (bending alone), rayleigh (with rotary inertia), timoshenko (with shear too, which needs the
+    /// material's shear modulus).
     #[arg(long, value_name = "THEORY", default_value = "auto", value_parser = theory(),
           hide_possible_values = true)]
     theory: TheoryChoice,
@@ -171,7 +171,7 @@ pub struct SolveArgs {
 
     /// Degree of the elements, 3 to 12
     ///
-    /// Alone, there are as many elements as the tolerance needs; with --elements the default is 3.
+    /// The number of elements then follows from the tolerance; with --elements the default is 3.
     #[arg(long, value_name = "P", value_parser = clap::value_parser!(u8).range(3..=12))]
     degree: Option<u8>,
 
@@ -193,7 +193,7 @@ impl SolveArgs {
         Request { modes, tolerance: self.tol, elements, degree, solver: self.solver, theory }
     }
 
-    /// These arguments with the theory that the modes need, if none was named, and what is to be said of it.
+    /// These arguments with the theory that the modes need, if none was given, and a message about the choice.
     pub fn of_hits(&self, bat: &Bat, modes: usize) -> Result<(Self, Option<String>)> {
         let Choice { theory, warning } = match self.theory.0 {
             Some(theory) => Choice { theory, warning: None },
@@ -202,7 +202,7 @@ impl SolveArgs {
         Ok((Self { theory: TheoryChoice(Some(theory)), ..self.clone() }, warning))
     }
 
-    /// Prepares a bat to be solved: chooses the theory for it and makes it as stiff as it was tapped.
+    /// Prepares a bat to be solved: chooses its theory and fits its moduli to the tap.
     pub fn prepare(&self, bat: Bat, modes: usize, output: &OutputArgs) -> Result<Prepared> {
         prepare(bat, self.theory, self.request(modes), output.quiet)
     }
@@ -222,7 +222,7 @@ impl SolveArgs {
         }
     }
 
-    /// Says where more elements were needed than asked for.
+    /// Reports that more elements were needed than given.
     pub fn say_raised(&self, solution: &Solution, output: &OutputArgs) {
         if let Some(asked) = self.elements.filter(|asked| (*asked as usize) < solution.mesh.len()) {
             output.warn(&format!(
@@ -232,20 +232,20 @@ impl SolveArgs {
         }
     }
 
-    /// As many modes as wanted, or as the asked elements can bend in, one at least on every piece
-    /// of the profile.
+    /// The wanted number of modes, or fewer if the given elements have fewer; there is at least one element on every
+    /// piece of the profile.
     pub fn modes_within(&self, wanted: usize, pieces: usize) -> usize {
         let degree = self.degree.map_or(3, usize::from);
         let ways = |asked: u32| (degree - 1) * pieces.max(asked as usize);
         self.elements.map_or(wanted, |asked| wanted.min(ways(asked)))
     }
 
-    /// Whether an accuracy was asked for: asked elements are the user's own choice of it.
+    /// Whether the accuracy must be reached: with given elements it need not be.
     pub fn enforced(&self) -> bool {
         self.elements.is_none()
     }
 
-    /// The exit code, after a word about an answer that is less accurate than asked or later.
+    /// The exit code, after a warning about a result that is less accurate than asked, or late.
     pub fn verdict(&self, solution: &Solution, output: &OutputArgs) -> u8 {
         if solution.met() || !self.enforced() {
             return 0;
@@ -270,8 +270,8 @@ pub fn read(path: &Path, edits: &EditArgs, quiet: bool) -> Result<Bat> {
     read_with_text(path, edits, quiet).map(|(bat, _)| bat)
 }
 
-/// Reads a bat, edits it, passes its warnings on, and returns the text of its file too. A name without
-/// ending is that of a built-in bat, unless there is a file of it.
+/// Reads a bat, edits it and reports its warnings; also returns the text of its file. A name without an ending is that
+/// of a built-in bat, unless there is such a file.
 pub fn read_with_text(path: &Path, edits: &EditArgs, quiet: bool) -> Result<(Bat, String)> {
     let Named { bat, text, outside } = match built_in::named(path)? {
         Some((name, text)) => {
@@ -299,7 +299,7 @@ pub fn note_outside(file: &Path, outside: &[PathBuf], quiet: bool) {
     }
 }
 
-/// A complaint about what has that name for the user.
+/// A complaint with its name for the user.
 pub fn about(field: impl Into<String>, complaint: Complaint) -> Error {
     Error::Value(Complaint { field: field.into(), ..complaint })
 }
@@ -324,8 +324,7 @@ pub struct Solved {
     pub warning: Option<String>,
 }
 
-/// A request with the theory chosen for this bat, if none was asked for, and the bat as stiff as it
-/// was tapped.
+/// A request with the theory chosen for this bat, if none was given, and the bat with its moduli fitted to the tap.
 pub fn prepare(bat: Bat, asked: TheoryChoice, request: Request, quiet: bool) -> Result<Prepared> {
     let theory = asked.0.unwrap_or_default();
     let prepared = prepared::prepare(&bat, &Request { theory, ..request })?;
@@ -333,7 +332,7 @@ pub fn prepare(bat: Bat, asked: TheoryChoice, request: Request, quiet: bool) -> 
     Ok(Prepared { bat: prepared.bat.into_owned(), request, warning })
 }
 
-/// The command as it was typed, so that a shell reads it again.
+/// The command as typed, quoted so that a shell reads it again.
 pub fn command_line() -> String {
     let plain = |c: char| c.is_alphanumeric() || "-_./=:,%+".contains(c);
     let quoted = |arg: String| match !arg.is_empty() && arg.chars().all(plain) {

@@ -25,15 +25,15 @@ use crate::value::{PLACE, SPACING};
 
 /// Bats side by side, or one beside its measured modes
 ///
-/// Swings two to six bats alike and says what differs and matters: the best exit speed and where, the
-/// swing weight, mass, the first frequency, BBCOR, and, where there is room, where along the
-/// barrel which bat is faster. The first bat is the one the others are measured by; a difference within the errors is
-/// none. With --full also: the zone, every frequency and node, vibration, and the exit speed at the same places
-/// from the tip and from the knob, each difference beside how far it may be off.
+/// Swings two to six bats equally and shows the differences that matter: the best exit speed and its place, the swing
+/// weight, mass, first frequency, BBCOR and, if there is room, where along the barrel which bat is faster. All bats are
+/// compared with the first; a difference within the errors does not count. With --full also: the zone, every frequency
+/// and node, vibration, and the exit speeds at equal places from the tip and from the knob, each difference with its
+/// error.
 ///
-/// With --measured FILE one bat's computed modes stand beside measured ones: which is which, how far
-/// apart, damping, and whether the measured shapes are sound; with --full also the MAC of any two, rigid
-/// motion in the shapes, their mass orthogonality, and what the few points cost.
+/// With --measured FILE, one bat's computed modes stand beside measured ones: the pairs, their differences, the
+/// damping, and whether the measured shapes are sound; with --full also the MAC of any two, rigid motion in the shapes,
+/// their mass orthogonality, and the error due to the small number of points.
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES))]
 pub struct Args {
@@ -41,16 +41,15 @@ pub struct Args {
     #[arg(required = true, value_name = "BAT")]
     bats: Vec<PathBuf>,
 
-    /// What if: the first bat changed so, as a bat of its own beside it; once for each
+    /// A changed copy of the first bat beside it; may be repeated
     ///
-    /// Edits with semicolons between them, and a name before a colon: "thin: cut 24 in to 30 in, 1 mm;
-    /// knob 2 oz". An edit is written as the option of its name in the other verbs: cut, knob, cup, bore,
-    /// cork, sleeve, shorten, scale-diameter, wood. Edits come after the bat was weighed, and after those of
-    /// its file.
+    /// Edits separated by semicolons, after an optional name and a colon: "thin: cut 24 in to 30 in, 1 mm; knob 2 oz".
+    /// An edit is written like the option of its name in the other verbs: cut, knob, cup, bore, cork, sleeve, shorten,
+    /// scale-diameter, wood. Edits apply after the bat was weighed, and after those of its file.
     #[arg(long = "edit", value_name = "EDITS", value_parser = what_if, conflicts_with = "measured")]
     edits: Vec<WhatIf>,
 
-    /// Measured modes (CSV or UFF) to stand beside the bat's own
+    /// Measured modes (CSV or UFF) to compare with the bat's own
     #[arg(long, value_name = "FILE", conflicts_with_all = ["SceneArgs", "every", "csv"])]
     measured: Option<PathBuf>,
 
@@ -62,19 +61,19 @@ pub struct Args {
     #[arg(long, requires = "measured")]
     tip_first: bool,
 
-    /// Where the first measured point is, from the knob end [default: by its coordinate]
+    /// Position of the first measured point, from the knob end [default: by its coordinate]
     #[arg(long, value_name = "m", requires = "measured", value_parser = PLACE)]
     origin: Option<f64>,
 
     #[command(flatten)]
     beside: BesideArgs,
 
-    /// Number of bending modes that count in a hit [default: as many as it needs]
+    /// Number of bending modes in a hit [default: as many as it needs]
     #[arg(short = 'n', long = "modes", value_name = "N",
           value_parser = clap::value_parser!(u16).range(0..=MOST_MODES as i64))]
     count: Option<u16>,
 
-    /// Distance of the places where exit speeds are compared
+    /// Distance between the places where exit speeds are compared
     #[arg(long, value_name = "m", default_value = "1 in", value_parser = SPACING)]
     every: f64,
 
@@ -87,7 +86,7 @@ pub struct Args {
     #[arg(long, value_name = "DIR", help_heading = "Output")]
     plots: Option<PathBuf>,
 
-    /// Write all of it on one page for people into this file (.html): what differs first
+    /// Write everything on one page for people into this file (.html), the differences first
     #[arg(long, value_name = "FILE", conflicts_with = "measured", help_heading = "Output")]
     report: Option<PathBuf>,
 
@@ -136,7 +135,7 @@ their own:
 damping_percent will do too, and # begins a remark. Where there are no shapes
 the columns are mode,frequency_hz,damping_ratio, a line for each mode.";
 
-/// More bats do not fit beside each other.
+/// Most bats that fit beside each other.
 const MOST: usize = 6;
 
 pub fn run(args: &Args) -> Result<Done> {
@@ -227,8 +226,8 @@ fn bats_beside(args: &Args) -> Result<Done> {
     Ok(Done::new(text, verdict(args, &compared)).with(warning))
 }
 
-/// The bats of the files, then the first of them with each set of edits; and a word about a change that
-/// a weighed mass hides.
+/// The bats of the files, then the first of them with each set of edits; also a warning about a change that a weighed
+/// mass hides.
 fn bats(args: &Args) -> Result<Vec<(&Path, Bat)>> {
     let mut bats: Vec<(&Path, Bat)> = vec![];
     for path in &args.bats {
@@ -249,7 +248,7 @@ fn bats(args: &Args) -> Result<Vec<(&Path, Bat)>> {
     Ok(bats)
 }
 
-/// Pictures and the page, where they were asked for.
+/// Writes pictures and the page, if they were asked for.
 fn for_people(args: &Args, compared: &Comparison) -> Result<()> {
     let first = &compared.bats[0].bat;
     args.output.draw(&args.plots, first, |sheet| plot::compared::pictures(sheet, compared))?;
@@ -261,7 +260,7 @@ fn for_people(args: &Args, compared: &Comparison) -> Result<()> {
     Ok(())
 }
 
-/// The exit code, after a word about bats whose exit speeds are less accurate than asked.
+/// The exit code, after a warning about bats whose exit speeds are less accurate than asked.
 fn verdict(args: &Args, compared: &Comparison) -> u8 {
     let short = compared.bats.iter().filter(|bat| !bat.sweep.met() && args.solve.enforced());
     let names = short.map(|bat| bat.bat.name()).collect::<Vec<_>>().join(", ");

@@ -1,4 +1,4 @@
-//! `sweetspot completions SHELL`: what the shell needs to complete this program's words.
+//! `sweetspot completions SHELL`: completion of this program's words in a shell.
 
 use clap::Command;
 use clap_complete::{Shell, generate};
@@ -8,8 +8,8 @@ use sweetspot::Result;
 
 /// Print the completions for a shell
 ///
-/// Afterwards the Tab key completes verbs, options and files. Write them where your shell looks for
-/// them, and open a new one.
+/// The Tab key then completes verbs, options and files. Write them to the place where your shell looks for completions,
+/// and open a new shell.
 #[derive(clap::Args)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Args {

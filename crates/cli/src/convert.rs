@@ -23,10 +23,9 @@ use crate::value::TheoryChoice;
 
 /// Modes in the files of other programs: universal file, VTK, NumPy, CSV
 ///
-/// MODES.json is what sweetspot modes BAT --json MODES.json wrote; a bat is solved for its first ten modes
-/// in place of that. The bat lies along x, knob at 0,
-/// and deflects along y; rotations are about z. Shapes have their largest deflection 1, lengths are
-/// in m.
+/// MODES.json is the file that sweetspot modes BAT --json MODES.json wrote. A bat may be given in its place; its first
+/// ten modes are then computed. The bat lies along x, with the knob at 0, and deflects along y; rotations are about z.
+/// Shapes have a largest deflection of 1, lengths are in m.
 #[derive(clap::Args)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Args {
@@ -38,9 +37,9 @@ pub struct Args {
     #[arg(long, value_name = "FORMAT", hide_possible_values = true)]
     to: Format,
 
-    /// File to write (- = standard output, but for npz); with vtu a name that ends in .pvd makes a
-    /// collection, one file for each mode beside it, that ParaView steps through [default: the name
-    /// of MODES.json with the format's ending, in this folder]
+    /// File to write (- = standard output, except for npz). With vtu, a name that ends in .pvd makes a collection
+    /// through which ParaView steps, with one file for each mode beside it [default: the name of MODES.json with the
+    /// format's ending, in this folder]
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
 
@@ -82,7 +81,7 @@ enum Format {
 }
 
 impl Format {
-    /// What it is called on the command line, which is the ending of its files.
+    /// Its name on the command line, which is the ending of its files.
     fn name(self) -> String {
         self.to_possible_value().map_or(String::new(), |value| value.get_name().to_owned())
     }
@@ -95,7 +94,7 @@ pub fn run(args: &Args) -> Result<Done> {
         Some(out) => out.clone(),
         None => {
             let stem = args.modes.file_stem().unwrap_or(args.modes.as_os_str());
-            // A stem may have a dot of its own, so that the ending is added, not put in its place.
+            // A stem may contain a dot, so the ending is added and replaces nothing.
             let mut name = stem.to_owned();
             name.push(format!(".{}", args.to.name()));
             PathBuf::from(name)
@@ -123,13 +122,13 @@ pub fn run(args: &Args) -> Result<Done> {
 /// The modes to be converted.
 struct Modes {
     table: ModeTable,
-    /// What was solved for them, if they are a bat's.
+    /// The solution, if they are a bat's.
     solved: Option<String>,
     /// A warning about that bat.
     warning: Option<String>,
 }
 
-/// The modes of a file, or of a bat that is solved for them.
+/// The modes of a file, or of a bat, which is then solved.
 fn modes(path: &Path) -> Result<Modes> {
     if built_in::named(path)?.is_some() {
         return of_bat(path);
@@ -234,7 +233,7 @@ fn contents(args: &Args, table: &ModeTable, out: &Path) -> Result<Vec<u8>> {
     })
 }
 
-/// A file for each mode, and last the collection, so that it never names what is not there.
+/// Writes a file for each mode, and the collection last, so that it never names a missing file.
 fn collection(
     args: &Args,
     table: &ModeTable,

@@ -1,4 +1,4 @@
-//! Errors as a person at a terminal sees them: the line of the file, a caret, what to do.
+//! Errors for a person at a terminal: the line of the file, a caret, and advice.
 
 use std::io::Write;
 
@@ -12,13 +12,13 @@ use sweetspot_report::schema::mistakes::ErrorFile;
 use crate::done::printable;
 use crate::style::{broken, columns};
 
-/// Columns of a terminal that is not wide.
+/// Columns of a narrow terminal.
 const WIDTH: usize = 80;
 
-/// All that an error says, with a line of its own at the end where several things are wrong.
+/// The whole text of an error, with a count at the end if there are several mistakes.
 pub fn render(error: &Error, coloured: bool) -> String {
     let styled = Renderer::styled().hyperlink(false);
-    // Excerpts are short enough as they are.
+    // Excerpts are short enough already.
     let renderer = if coloured { styled } else { Renderer::plain() }.term_width(10 * WIDTH);
     let show = |group: Group| renderer.render(&[group]).trim_end().to_owned() + "\n";
     match error {
@@ -41,7 +41,7 @@ pub fn as_json(document: impl FnOnce() -> ErrorFile) {
     }
 }
 
-/// One error: a title, the excerpt if it is about a file, and what to do.
+/// One error: a title, the excerpt if it is about a file, and advice.
 fn group(error: &Error) -> Group<'static> {
     match error {
         Error::Input { place, complaint } => input(place, complaint),
@@ -61,7 +61,7 @@ fn group(error: &Error) -> Group<'static> {
     }
 }
 
-/// What the library calls a value, as it is asked for on the command line.
+/// The option for a value that the library names otherwise.
 fn option(field: &str) -> &str {
     match field {
         "every" => "--every",
@@ -105,14 +105,14 @@ fn input(place: &FilePosition, complaint: &Complaint) -> Group<'static> {
     group
 }
 
-/// Where, which field and what was found.
+/// The place, the field and what was found.
 fn headline(place: &FilePosition, complaint: &Complaint) -> String {
     let one_line = Complaint { expected: String::new(), hint: String::new(), ..complaint.clone() };
     let said = one_line.to_string();
     format!("{place}: {}", said.trim_end_matches(", expected "))
 }
 
-/// How many mistakes there are in which files, and how many of them were not shown.
+/// Number of mistakes, their files, and the number that are not shown.
 fn summary(shown: &[Error], more: usize) -> String {
     let mut files: Vec<&str> = Vec::new();
     for error in shown {
@@ -134,7 +134,7 @@ fn footer(name: &str, text: &str) -> String {
     broken(&printable(text), WIDTH - name.len() - 12)
 }
 
-/// A part of a line of a file: tabs as spaces, and nothing that does anything to a terminal.
+/// A part of a line of a file, with tabs as spaces and without characters that act on a terminal.
 fn visible(part: &str) -> String {
     printable(&part.replace('\t', "    "))
 }

@@ -1,14 +1,14 @@
-//! What a verb leaves: text, exit code, warning.
+//! The result of a verb: text, exit code, warning.
 
 pub use sweetspot::base::marks::written_out as printable;
 
-/// What is left to do when a verb is done.
+/// The output of a verb.
 pub struct Done {
-    /// What to print on standard output.
+    /// Text for standard output.
     pub text: String,
     /// The exit code.
     pub code: u8,
-    /// What to say on standard error when everything else is written.
+    /// Warning for standard error, after everything else is written.
     pub warning: Option<String>,
 }
 
@@ -24,5 +24,5 @@ impl Done {
 
 /// A check or a validation failed.
 pub const FAILED: u8 = 1;
-/// The asked accuracy could not be reached; the best answer, if there is one, is given.
+/// The accuracy could not be reached; the best answer, if there is one, is given.
 pub const NOT_REACHED: u8 = 3;

@@ -1,8 +1,7 @@
-//! What-ifs on the command line: a bat that was weighed, and then changed.
+//! Edits on the command line: changes of a bat after it was weighed.
 //!
-//! `--cut "24 in to 30 in, 1 mm"` and `--edit "cut 24 in to 30 in, 1 mm"` are read by one grammar: a
-//! stretch of the bat, then what else the change has, in the order of a bat file or with a word that says
-//! which it is.
+//! `--cut "24 in to 30 in, 1 mm"` and `--edit "cut 24 in to 30 in, 1 mm"` have the same grammar: a stretch of the bat,
+//! then the other values of the change, in the order of a bat file or each with a word that identifies it.
 
 use clap::{Arg, ArgAction, ArgMatches, Command, FromArgMatches};
 
@@ -16,7 +15,7 @@ use sweetspot::{Bat, Error, Material, Result};
 
 use crate::value::{DIAMETER, LITTLE, PART_MASS, PLACE, Use};
 
-/// What is told of each change: its option, what stands for its value in the help, what it does, a value that fits.
+/// For each change: its option, the name of its value, its help, and an example.
 const OPTIONS: [[&str; 4]; 9] = [
     [
         "cut",
@@ -50,23 +49,23 @@ const OPTIONS: [[&str; 4]; 9] = [
     ["wood", "NAME", "Make the bat of another wood", "white-ash-dynamic"],
 ];
 
-/// The option that says whose damping the bat has.
+/// The option that chooses the damping.
 pub const DAMPING: &str = "damping";
 
-/// What is changed about the bat after it was weighed, in the order typed, and whose damping it has.
+/// The edits after the bat was weighed, in the order typed, and the choice of damping.
 #[derive(Debug, Clone, Default)]
 pub struct EditArgs {
     changes: Vec<Change>,
-    /// What `--damping` says.
+    /// The value of `--damping`.
     damping: Option<String>,
 }
 
 impl EditArgs {
-    /// The bat after these edits, with the damping that was asked for.
+    /// The bat after these edits, with the chosen damping.
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] that names the option of what does not fit the bat.
+    /// [`Error::Value`] that names the option that does not fit the bat.
     pub fn edit(&self, bat: Bat) -> Result<Bat> {
         let change = |change: &Change| Edit { name: None, change: change.clone() };
         let edits: Vec<Edit> = self.changes.iter().map(change).collect();
@@ -86,13 +85,13 @@ impl EditArgs {
         }
     }
 
-    /// Whether that damping was asked for.
+    /// Whether that damping was chosen.
     pub fn damped_as(&self, whose: &str) -> bool {
         self.damping.as_deref() == Some(whose)
     }
 }
 
-/// The bat after these edits; what does not fit is told of edit k as it is called.
+/// The bat after these edits; an error names edit k as `called` does.
 pub fn edited(bat: &Bat, edits: &[Edit], called: impl Fn(usize) -> String) -> Result<Bat> {
     let before = bat.edits().len();
     bat.edited(edits).map_err(|error| {
@@ -115,7 +114,7 @@ pub fn edited(bat: &Bat, edits: &[Edit], called: impl Fn(usize) -> String) -> Re
     })
 }
 
-/// How the command line writes what a change is called.
+/// The command line's name of a change.
 fn option(verb: &str) -> String {
     verb.replace('_', "-")
 }
@@ -174,11 +173,10 @@ impl FromArgMatches for EditArgs {
     }
 }
 
-/// Edits that make one other bat, with a name if they have one: `NAME: knob 2 oz; cut 24 in to 30 in,
-/// 1 mm`.
+/// Edits that make one other bat, with a name if they have one: `NAME: knob 2 oz; cut 24 in to 30 in, 1 mm`.
 #[derive(Debug, Clone)]
 pub struct WhatIf {
-    /// What the bat is called: the name, else the edits as they were typed.
+    /// The name of the changed bat, by default the edits as typed.
     pub name: String,
     /// The edits.
     pub edits: Vec<Edit>,
@@ -212,7 +210,7 @@ pub fn what_if(text: &str) -> std::result::Result<WhatIf, String> {
     }
 }
 
-/// What is said of a word that is near one of these names.
+/// The hint for a word that is near one of these names.
 fn hint(word: &str, names: &[&str]) -> String {
     nearest(word, names).map_or(String::new(), |near| format!("; did you mean {near}?"))
 }
@@ -241,7 +239,7 @@ fn read(name: &str, text: &str) -> std::result::Result<Change, String> {
     change.map_err(|said| format!("{said}; written as \"{example}\""))
 }
 
-/// What stands between commas; one between two digits is a decimal comma.
+/// The items between commas; a comma between two digits is a decimal comma.
 fn items(text: &str) -> Vec<&str> {
     let digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
     let apart =
@@ -255,7 +253,7 @@ fn items(text: &str) -> Vec<&str> {
     items
 }
 
-/// Words beside a value that say which member it is.
+/// Words beside a value that identify its member.
 fn words_of(key: &str) -> &'static [&'static str] {
     match key {
         "depth" => &["deep", "off", "depth"],
@@ -292,7 +290,7 @@ fn filled<P: Part>(start: P, text: &str) -> std::result::Result<P, String> {
     }
     while let Some((item, rest)) = items.split_first() {
         let said = fields.iter().position(|field| beside(item, field.key).is_some());
-        // Which end of a bat is meant must be said.
+        // The end of the bat must be named.
         let in_order = P::SOME.is_empty() && !fields.is_empty();
         let k = said.or(in_order.then_some(0));
         let Some(k) = k.filter(|_| !item.is_empty()) else {
@@ -329,7 +327,7 @@ fn filled<P: Part>(start: P, text: &str) -> std::result::Result<P, String> {
     }
 }
 
-/// Where a stretch begins and ends (m).
+/// Beginning and end of a stretch (m).
 fn ends(text: &str) -> std::result::Result<[f64; 2], String> {
     let expected = || format!("found \"{text}\", expected a stretch, such as \"24 in to 30 in\"");
     let (from, to) = text.split_once(" to ").ok_or_else(expected)?;

@@ -1,4 +1,4 @@
-//! What the first word is: a verb, or a bat that is analysed.
+//! What is the first word: a verb, or a bat to be analysed?
 
 use std::ffi::OsString;
 use std::path::Path;
@@ -10,8 +10,8 @@ use sweetspot::base::file;
 use sweetspot::files::built_in;
 use sweetspot::{Error, Result};
 
-/// The command line with the verb `analyze` before a bat that stands alone: a word that ends in .json, has a separator
-/// of paths or is the name of a built-in bat, and is not a verb.
+/// The command line with the verb `analyze` inserted before a bat without a verb: a word that ends in .json, contains a
+/// path separator or is the name of a built-in bat, and is not a verb.
 ///
 /// # Errors
 ///
@@ -29,7 +29,7 @@ pub fn read(mut words: Vec<OsString>, command: &Command) -> Result<Vec<OsString>
     if let Some((kind, verb)) = reader(path) {
         let file = path.display().to_string();
         let found = format!("{file}, which is {kind}, and no verb");
-        // What a shell takes apart is not repeated in a command.
+        // Special characters of a shell are not repeated in a command.
         let is_plain = file.chars().all(|c| c.is_alphanumeric() || "./\\_-:".contains(c));
         let command = verb.replace('@', if is_plain { &file } else { "FILE" });
         return Err(Error::value("", found, format!("`sweetspot {command}`")));
@@ -38,7 +38,7 @@ pub fn read(mut words: Vec<OsString>, command: &Command) -> Result<Vec<OsString>
     Ok(words)
 }
 
-/// What a file is that no bat is in, and the command that reads it.
+/// The kind of a file that contains no bat, and the command that reads it.
 fn reader(path: &Path) -> Option<(&'static str, &'static str)> {
     const READERS: [(&str, &str, &str); 4] = [
         ("study", "a study", "study @ --out FOLDER"),

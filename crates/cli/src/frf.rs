@@ -23,14 +23,14 @@ use crate::frf_grid::{Grid, GridArgs};
 use crate::output::{CsvArgs, MANY, OutputArgs, apart, put};
 use crate::value::{PLACE, file_unit, named};
 
-/// How the bat answers a shaker or a tap, over frequency
+/// The bat's response to a shaker or a tap, over frequency
 ///
-/// What would an accelerometer at one place see if a force swings at another? The table gives size
-/// and phase of the deflection (receptance), velocity (mobility) or acceleration (accelerance) for
-/// a unit force, the peaks with their damping, and how much of it the modes left out may be. With --full,
-/// --points or --frequencies it has every frequency, else some. The grid has every natural frequency in its
-/// range and the points around it that its peak needs.
-/// Undamped bats peak without bound at their frequencies: give the material a loss_factor, or --damping assumed.
+/// What would an accelerometer at one place measure if a harmonic force acts at another? The table gives magnitude and
+/// phase of the deflection (receptance), velocity (mobility) or acceleration (accelerance) per unit force, the peaks
+/// with their damping, and the possible error due to omitted modes. With --full, --points or --frequencies it has every
+/// frequency, otherwise a selection. The grid has every natural frequency in its range and the points around it that
+/// its peak needs. The peaks of an undamped bat have no bound: give the material a loss_factor, or use --damping
+/// assumed.
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES), mut_arg(DAMPING, |arg| arg
     .value_parser(["material", "assumed", "measured"])
@@ -40,17 +40,17 @@ pub struct Args {
     #[command(flatten)]
     bat: BatArgs,
 
-    /// Where the force is, from the knob end [default: as measured]
+    /// Position of the force, from the knob end [default: as measured]
     #[arg(long, value_name = "m", help_heading = "The force", required_unless_present = "measured",
           value_parser = PLACE)]
     at: Option<f64>,
 
-    /// Where the answer is looked at [default: as measured, else where the force is]
+    /// Position of the response [default: as measured, else that of the force]
     #[arg(long, value_name = "m", help_heading = "The force", value_parser = PLACE)]
     to: Option<f64>,
 
-    /// What is answered: receptance (deflection), mobility (velocity) or accelerance [default: as
-    /// measured, else receptance]
+    /// Kind of the response: receptance (deflection), mobility (velocity) or accelerance [default: as measured, else
+    /// receptance]
     #[arg(long, value_name = "KIND", value_parser = named(ResponseKind::ALL, ResponseKind::name),
           hide_possible_values = true, help_heading = "The force")]
     kind: Option<ResponseKind>,
@@ -58,19 +58,19 @@ pub struct Args {
     #[command(flatten)]
     grid: GridArgs,
 
-    /// Measured frequency responses (UFF, dataset 58) to lay over the computed ones
+    /// Overlay measured frequency responses (UFF, dataset 58) on the computed ones
     ///
-    /// Their places are those of their nodes (datasets 15, 2411), from the knob end, unless --at and --to
-    /// say others of one; the range is that of the answer. Of several there is a row for each.
+    /// Their places are those of their nodes (datasets 15, 2411), from the knob end, unless --at and --to replace them
+    /// for one response; the range is that of the measurement. Several responses get a row each.
     #[arg(long, value_name = "FILE", help_heading = "A measured response")]
     measured: Option<PathBuf>,
 
-    /// One of the file's frequency responses, from 1, with all there is to say of it [default: all]
+    /// Choose one of the file's frequency responses, from 1, with all its details [default: all]
     #[arg(long, value_name = "N", requires = "measured", help_heading = "A measured response")]
     function: Option<usize>,
 
-    /// Unit of a file whose axes and datasets name none that is known: of the answer per force, such as
-    /// g/lbf, or of length, with N, or lbf for in and ft
+    /// Unit of a file whose axes and datasets name no known one: of the response per force, such as g/lbf, or of
+    /// length, with N, or lbf for in and ft
     #[arg(long, value_name = "UNIT", requires = "measured", help_heading = "A measured response")]
     unit: Option<String>,
 
@@ -80,13 +80,13 @@ pub struct Args {
     #[command(flatten)]
     csv: CsvArgs,
 
-    /// Write a universal file, datasets 151, 164, 2411 and 58, to this file (- = standard output,
-    /// and no table then). It has six digits for a frequency, so that all are rounded to that many
-    /// first, and they rise; with --linear it has the even steps alone
+    /// Write a universal file, datasets 151, 164, 2411 and 58, to this file (- = standard output, and no table then).
+    /// Its frequencies have six digits, so all are rounded to that first and stay rising; with --linear it has only the
+    /// even steps
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     uff: Option<PathBuf>,
 
-    /// 1 January 1970 for the date in the universal file, so that equal input gives equal bytes
+    /// Date the universal file 1 January 1970, so that equal input gives equal bytes
     #[arg(long, requires = "uff", help_heading = "Output")]
     reproducible: bool,
 
@@ -136,7 +136,7 @@ pub fn run(args: &Args) -> Result<Done> {
     }
 }
 
-/// What the options say of a file of responses.
+/// The options about a file of responses.
 fn known(args: &Args) -> Result<Known> {
     let unit = args.unit.as_deref().map(|text| (file_unit(text), text));
     let (unit, label) = match unit {
@@ -201,7 +201,7 @@ impl Answered {
             frf = frf.damped_as(ratios);
         }
         let grid = asked.grid(&frf, args.uff.is_some())?;
-        // What the strains miss is looked for where it was asked; then the peaks are those of all of it.
+        // Missing strains are sought at the requested frequencies; the peaks then include them.
         frf.receptances(&grid.asked)?;
         let samples = frf.receptances(&grid.all)?;
         let mut rising = grid.all.clone();
@@ -239,7 +239,7 @@ impl Answered {
         bat: &Bat,
         name: &str,
     ) -> Result<Option<Picture>> {
-        // After what is said: looking at more frequencies may add to the modes.
+        // At the end, because more frequencies may add to the modes.
         let drawn = self.frf.receptances(&args.grid.drawn(&self.rising))?;
         let kind = self.kind;
         let values = drawn.iter().map(|s| (s.frequency, s.receptance * kind.of(s.frequency)));
@@ -269,7 +269,7 @@ impl Answered {
     }
 }
 
-/// The frequencies that are asked for, those of a measured response where nothing else is said.
+/// The requested frequencies; by default those of a measured response.
 fn asked(args: &Args, measured: Option<&MeasuredResponse>) -> GridArgs {
     match measured {
         Some(measured) => args.grid.as_measured(&measured.values),
@@ -277,12 +277,11 @@ fn asked(args: &Args, measured: Option<&MeasuredResponse>) -> GridArgs {
     }
 }
 
-/// The bat and what is asked of it, with modes up to the highest frequency of any response, and the theory that
-/// those need.
+/// The bat and its request, with modes up to the highest frequency of any response, and the theory for these.
 fn prepared(args: &Args, bat: Bat, measured: &[&MeasuredResponse]) -> Result<Prepared> {
     let prepare = |modes| args.bat.prepare(bat.clone(), modes, &args.solve, &args.output);
     let mut modes = args.bat.count().max(1);
-    // Another theory has other frequencies: the number stays after as many rounds as there are theories.
+    // Another theory has other frequencies; the number no longer changes after as many rounds as there are theories.
     for _ in 0..Theory::ALL.len() {
         let Prepared { bat, request, warning } = prepare(modes)?;
         let request = Request { modes: request.modes.max(1), ..request };
@@ -363,7 +362,7 @@ fn all(args: &Args, bat: Bat, measured: &[(usize, MeasuredResponse)]) -> Result<
     Ok(Done::new(text, code).with(warning))
 }
 
-/// Where the force is and where the answer is watched (m): as told, else as measured.
+/// Positions of the force and of the response (m): as given, else as measured.
 fn places(args: &Args, bat: &Bat, measured: Option<&MeasuredResponse>) -> Result<[f64; 2]> {
     let missing = |what: &str, options: &str| {
         let source = measured.map_or(String::new(), |m| m.source.clone());
@@ -375,7 +374,7 @@ fn places(args: &Args, bat: &Bat, measured: Option<&MeasuredResponse>) -> Result
     let here = measured.is_none_or(|m| m.is_drive_point()).then_some(at);
     let to = args.to.or(measured.and_then(|m| m.to)).or(here);
     let to = to.ok_or_else(|| missing("answer", "--to"))?;
-    // A place of the file's own is told as that.
+    // A place of the file is reported as such.
     let named = |option: Option<f64>, name: &str, what: &str| match (option, measured) {
         (None, Some(measured)) => {
             format!("{}: {what}, in its unit of length (--unit)", measured.source)

@@ -1,4 +1,4 @@
-//! At which frequencies `frf` answers, and with how many modes.
+//! Which frequencies does `frf` evaluate, and with how many modes?
 
 use faer::c64;
 
@@ -17,20 +17,19 @@ pub struct GridArgs {
     #[arg(long, value_name = "Hz", value_parser = FREQUENCY)]
     pub from_hz: Option<f64>,
 
-    /// Highest frequency [default: a fifth beyond the last mode's]
+    /// Highest frequency [default: 1.2 times the last mode's]
     ///
-    /// There are as many modes as it needs.
+    /// The number of modes follows from it.
     #[arg(long, value_name = "Hz", value_parser = TOP_FREQUENCY)]
     pub to_hz: Option<f64>,
 
     /// Number of frequencies from the lowest to the highest [default: 61]
     ///
-    /// Files and pictures have more: every natural frequency between them, and those around it that
-    /// its peak needs.
+    /// Files and pictures have more: every natural frequency in the range, and those around it that its peak needs.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     points: Option<u32>,
 
-    /// Equal steps between them (else equal ratios)
+    /// Use equal steps instead of equal ratios
     #[arg(long)]
     linear: bool,
 
@@ -42,16 +41,16 @@ pub struct GridArgs {
 
 /// The frequencies of an answer (Hz).
 pub struct Grid {
-    /// Those that were asked for.
+    /// The requested frequencies.
     pub asked: Vec<f64>,
-    /// These and those that show the peaks, without two that are the same.
+    /// These and those that show the peaks, without repetitions.
     pub all: Vec<f64>,
-    /// Start and step where the asked ones are even.
+    /// Start and step if the requested ones are even.
     pub even: Option<[f64; 2]>,
 }
 
 impl GridArgs {
-    /// Frequencies that can be asked for at all.
+    /// Checks that the frequencies are possible.
     pub fn check(&self, free: bool) -> Result<()> {
         const MOST: f64 = 1e6;
         let asked = [("--from-hz", self.from_hz), ("--to-hz", self.to_hz)];
@@ -77,12 +76,12 @@ impl GridArgs {
         }
     }
 
-    /// Whether the user asked for a number of frequencies, or for certain ones.
+    /// Whether the user gave a number of frequencies, or the frequencies.
     pub fn counted(&self) -> bool {
         self.points.is_some() || !self.frequencies.is_empty()
     }
 
-    /// As asked, with the ends of a measurement where no others were.
+    /// The same grid, with the range of a measurement unless a range was given.
     pub fn as_measured(&self, values: &[(f64, c64)]) -> Self {
         let (first, last) = (values.first().map(|v| v.0), values.last().map(|v| v.0));
         let listed = !self.frequencies.is_empty();
@@ -90,7 +89,7 @@ impl GridArgs {
         Self { from_hz: or(self.from_hz, first), to_hz: or(self.to_hz, last), ..self.clone() }
     }
 
-    /// How many modes there are up to the highest frequency, those of the request at least.
+    /// Number of modes up to the highest frequency, at least those of the request.
     pub fn reaching(&self, bat: &Bat, request: &Request) -> Result<usize> {
         const MOST: usize = 200;
         let listed = self.frequencies.iter().copied().reduce(f64::max);
@@ -112,8 +111,7 @@ impl GridArgs {
         Ok(request.modes)
     }
 
-    /// The frequencies; `in_file` where a universal file will hold them, which has six digits and
-    /// none twice.
+    /// The frequencies. `in_file` means that a universal file will hold them, which has six digits and no repetitions.
     pub fn grid(&self, frf: &Frf, in_file: bool) -> Result<Grid> {
         let (mut asked, even) = self.asked(frf, in_file);
         if in_file {
@@ -122,7 +120,7 @@ impl GridArgs {
         let mut all = asked.clone();
         if self.frequencies.is_empty() && asked.len() > 1 {
             let ends = [asked[0], asked[asked.len() - 1]];
-            // With even steps the file has the even ones alone.
+            // With even steps the file has only the even ones.
             let held = |f: f64| if in_file && even.is_none() { six_digits(f) } else { f };
             all.extend(frf.around_modes(ends).into_iter().map(held));
             all.sort_by(f64::total_cmp);
@@ -131,7 +129,7 @@ impl GridArgs {
         Ok(Grid { asked, all, even })
     }
 
-    /// So many that a curve through them shows every dip; those of the grid where no range was asked.
+    /// Enough frequencies for a curve that shows every dip; those of the grid if no range was given.
     pub fn drawn(&self, rising: &[f64]) -> Vec<f64> {
         const STEPS: usize = 1000;
         let (low, high) = (rising[0], rising[rising.len() - 1]);
@@ -143,7 +141,7 @@ impl GridArgs {
         all
     }
 
-    /// The asked frequencies; and start and step where they are even.
+    /// The requested frequencies, and start and step if they are even.
     fn asked(&self, frf: &Frf, in_file: bool) -> (Vec<f64>, Option<[f64; 2]>) {
         let held = |f: f64| if in_file { six_digits(f) } else { f };
         if !self.frequencies.is_empty() {

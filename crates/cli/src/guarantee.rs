@@ -1,4 +1,4 @@
-//! `--guarantee` and `--within`: what is proven of the modes that a verb finds.
+//! `--guarantee` and `--within`: proofs for the modes of a verb.
 
 use sweetspot::{Bat, Result};
 use sweetspot_proof::enclosure::guarantee::guarantee;
@@ -12,22 +12,22 @@ use crate::value::LITTLE;
 
 #[derive(clap::Args)]
 pub struct GuaranteeArgs {
-    /// Prove two numbers between which each frequency of the exact beam lies, --tol wide at most
+    /// Prove an interval for each frequency of the exact beam, at most --tol wide
     ///
-    /// The bat of the file, its decimals exactly as written, as a beam of the theory that is named: each of
-    /// its frequencies lies between both numbers, rounding included, and no mode is missing. The JSON has
-    /// intervals with the nodes in them and the numbers that the proof rests on. It does not cover how wood varies.
+    /// The bat is that of the file, with its decimals exactly as written, as a beam of the named theory. Each of its
+    /// frequencies lies in its interval, rounding included, and no mode is missing. The JSON also has intervals for the
+    /// nodes, and the numbers of the proof. The variation of wood is not covered.
     #[arg(long, help_heading = "Accuracy", conflicts_with_all = ["elements", "degree", "budget", "solver"])]
     guarantee: bool,
 
-    /// And for every bat within this of it: radii and moduli, such as "0.1 mm, 2 %"
+    /// Prove it for every bat within these limits: radii and moduli, such as "0.1 mm, 2 %"
     #[arg(long, value_name = "m, %", help_heading = "Accuracy", requires = "guarantee",
         allow_hyphen_values = true, value_parser = within)]
     within: Option<Within>,
 }
 
 impl GuaranteeArgs {
-    /// The modes of a bat that was read, and what is proven of them where that was asked.
+    /// The modes of a bat that was read, and the proof if it was asked for.
     pub fn solve_for(
         &self,
         bat: Bat,
@@ -48,7 +48,7 @@ impl GuaranteeArgs {
     }
 }
 
-/// The exit code, after a word about what is not proven as asked.
+/// The exit code, after a warning about an incomplete proof.
 pub fn verdict(Proven { guarantee, band }: &Proven, solve: &SolveArgs, output: &OutputArgs) -> u8 {
     if !guarantee.met {
         output.warn(&format!("not proven as asked: {}", guarantee.shortfall(solve.tol)));

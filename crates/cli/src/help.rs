@@ -6,16 +6,16 @@ use clap::{Arg, Command};
 
 use crate::style::broken;
 
-/// Columns of what is said of a verb, and of an option on lines of its own.
+/// Columns of a verb's help, and of an option's help on separate lines.
 const PROSE: usize = 80;
 const BELOW: usize = 70;
-/// At least that is left beside the longest name.
+/// Least columns beside the longest name.
 const BESIDE: usize = 30;
 
 /// A space at which no line breaks.
 const TOGETHER: &str = "\u{a0}";
 
-/// The command with every help text broken into lines, and defaults said in the text.
+/// The command with every help text broken into lines, and defaults written in the text.
 pub fn fitted(command: Command) -> Command {
     let about = command.get_long_about().or(command.get_about()).map(|text| lines(text, PROSE));
     let command = match about {
@@ -41,7 +41,7 @@ pub fn fitted(command: Command) -> Command {
     command.mut_subcommands(fitted)
 }
 
-/// The verbs by what people come for; all others stand under the last heading.
+/// The verbs in groups by purpose; all others are under the last heading.
 const GROUPS: [(&str, &[&str]); 5] = [
     ("Describe a bat", &["new"]),
     ("Look at it", &["analyze", "lab", "modes", "hit"]),
@@ -70,8 +70,7 @@ pub fn grouped(command: Command) -> Command {
     ))
 }
 
-/// Columns before what is said of an option beside its name: two blanks, both names, the value's,
-/// two blanks.
+/// Columns before an option's help on the same line: two blanks, both names, the value's name, two blanks.
 fn columns(arg: &Arg) -> usize {
     let wide = |text: &str| text.chars().count();
     let names = arg.get_long().map_or(0, |long| "-n, --".len() + wide(long));
@@ -80,7 +79,7 @@ fn columns(arg: &Arg) -> usize {
     2 + names + values.sum::<usize>() + 2
 }
 
-/// The text in lines of at most the given number of columns; its own line ends stay.
+/// The text in lines of at most the given number of columns; its line ends are kept.
 fn lines(text: impl Display, width: usize) -> String {
     broken(&text.to_string(), width).replace(TOGETHER, " ")
 }

@@ -22,15 +22,13 @@ use crate::output::{CsvArgs, MANY, OutputArgs};
 use crate::scene::{self, SceneArgs};
 use crate::value::PLACE;
 
-/// How fast the ball leaves, place by place, and the sweet spot
+/// Exit speeds of the ball along the barrel, and the sweet spot
 ///
-/// Sends a ball against the barrel at many places. The table says for each how fast the bat moves
-/// there, how fast the ball leaves, how fast it would leave a bat that does not bend, the collision
-/// efficiency e_A and the energy left in vibration. Below it are the sweet spot by every
-/// definition and why it is there. With --full also: every place, a sketch, BBCOR, what an inch off
-/// costs, and how the sweet spot moves with swing and pitch. Places asked for with --points or --at
-/// are all shown.
-/// --tol is here the error of an exit speed over the closing speed.
+/// Hits the barrel with a ball at many places. For each place the table gives the speed of the bat there, the exit
+/// speed of the ball, the exit speed from a bat that does not bend, the collision efficiency e_A and the energy left in
+/// vibration. Below it are the sweet spot by every definition and the reason for its place. With --full also: every
+/// place, a sketch, BBCOR, the cost of an inch off, and how the sweet spot moves with swing and pitch. Places given by
+/// --points or --at are all shown. --tol is here the error of an exit speed over the closing speed.
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES))]
 pub struct Args {
@@ -73,7 +71,7 @@ Examples:
       --swing-exponent 0.25
       by a batter who swings a lighter bat at 43 rad/s and heavier ones slower";
 
-/// Where the ball meets the bat; all positions from the knob end.
+/// The places where the ball meets the bat; all positions from the knob end.
 #[derive(clap::Args)]
 #[command(next_help_heading = "The hit")]
 pub struct PlaceArgs {
@@ -113,7 +111,7 @@ impl PlaceArgs {
         Ok((0..points).map(place).collect())
     }
 
-    /// Whether the user asked for a number of places, or for one.
+    /// Whether the user gave a number of places, or a place.
     fn asked(&self) -> bool {
         self.points.is_some() || self.at.is_some()
     }
@@ -158,7 +156,7 @@ pub fn run(args: &Args) -> Result<Done> {
     Ok(Done::new(text, code).with(warning))
 }
 
-/// What is printed: a screen, or everything.
+/// The printed text: a screen, or everything.
 fn table(args: &Args, bat: &Bat, trial: Trial, sweep: &Sweep, figures: &Figures) -> String {
     let Trial { model, scene } = trial;
     let units = args.output.units(bat);
@@ -190,14 +188,14 @@ fn table(args: &Args, bat: &Bat, trial: Trial, sweep: &Sweep, figures: &Figures)
     })
 }
 
-/// The exit code, after a word about exit speeds that are less accurate than asked.
+/// The exit code, after a warning about exit speeds that are less accurate than asked.
 pub fn verdict(solve: &SolveArgs, sweep: &Sweep, output: &OutputArgs) -> u8 {
     if sweep.met() || !solve.enforced() {
         return 0;
     }
     let reason = match &sweep.solution.ending {
         Ending::Reached => String::new(),
-        // Modes are sought far better than hits need them: round-off below what was asked does not matter.
+        // Modes are computed far more accurately than hits need: round-off below the request does not matter.
         Ending::RoundOff(share) if *share <= solve.tol => format!(" ({})", Ending::Stalled),
         ending => format!(" ({ending})"),
     };

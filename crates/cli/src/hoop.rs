@@ -1,4 +1,4 @@
-//! `sweetspot hoop BAT`: how does a hollow barrel ring, and what does its wall do to the ball?
+//! `sweetspot hoop BAT`: how does a hollow barrel ring, and how does its wall affect the ball?
 
 use std::path::PathBuf;
 
@@ -21,13 +21,13 @@ use crate::edits::EditArgs;
 use crate::output::{CsvArgs, LINES, OutputArgs, apart, put};
 use crate::value::{PLACE, TheoryChoice, tolerance};
 
-/// How the barrel of a hollow bat rings, and what its wall does to the ball
+/// How the barrel of a hollow bat rings, and how its wall affects the ball
 ///
-/// Which tones does the wall have, how stiff is it under a ball, and how much faster does the ball come
-/// back for it? The wall is computed as an elastic solid from the bat file's own drawing. The table gives
-/// each hoop mode's frequency, how far it may be off, and where it moves most; below it the wall under the
-/// ball, BBCOR without and with it, how much of that the size of the ball's patch leaves open, and the
-/// force that a test of the barrel's compression takes. For bats of metal or of composites; wood is refused.
+/// Which tones does the wall have, how stiff is it under a ball, and how much faster does the ball leave because of it?
+/// The wall is computed as an elastic solid from the drawing in the bat file. The table gives each hoop mode's
+/// frequency, its error, and the place of its largest motion. Below it are the wall under the ball, BBCOR without and
+/// with the wall, the uncertainty due to the size of the ball's patch, and the force of a compression test of the
+/// barrel. For bats of metal or of composites; wood is refused.
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES))]
 pub struct Args {
@@ -43,7 +43,7 @@ pub struct Args {
           value_parser = clap::value_parser!(u16).range(1..=100), help_heading = "The bat")]
     count: Option<u16>,
 
-    /// Where the ball meets the bat, from the knob end [default: 6 in from the tip]
+    /// Position at which the ball meets the bat, from the knob end [default: 6 in from the tip]
     #[arg(long, value_name = "m", help_heading = "The test", value_parser = PLACE)]
     at: Option<f64>,
 
@@ -71,7 +71,7 @@ pub struct Args {
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     uff: Option<PathBuf>,
 
-    /// 1 January 1970 for the date of the universal file, so that equal input gives equal bytes
+    /// Date the universal file 1 January 1970, so that equal input gives equal bytes
     #[arg(long, requires = "uff", help_heading = "Output")]
     reproducible: bool,
 
@@ -105,9 +105,9 @@ Examples:
   sweetspot hoop bbcor_made_up --vtu barrel.vtu --plots barrel
       to look at: in ParaView Warp By Vector with hoop_2_1, and pictures";
 
-/// Modes that a screen has where no number is asked for.
+/// Number of modes on a screen if no number is given.
 const FEW: usize = 3;
-/// Modes in a picture: more would be too long to look at.
+/// Most modes in a picture, which would otherwise be too long.
 const MOST_DRAWN: usize = 12;
 /// Places along the barrel in the files of other programs.
 const ALONG: usize = 61;
@@ -156,7 +156,7 @@ fn modes(args: &Args) -> usize {
     args.count.map_or(10, usize::from)
 }
 
-/// What is asked of the barrel, all that is wrong with it at once.
+/// The test of the barrel; all mistakes are reported at once.
 fn test(args: &Args, bat: &Bat, request: &Request) -> Result<BarrelTest> {
     let mut mistakes = Mistakes::default();
     let at = mistakes.note(args.at.map(|x| on_the_bat(bat, "--at", x)).transpose());
@@ -172,7 +172,7 @@ fn test(args: &Args, bat: &Bat, request: &Request) -> Result<BarrelTest> {
     })
 }
 
-/// Writes the files of other programs; what goes to standard output then.
+/// Writes the files of other programs; returns the text for standard output.
 fn exchanged(args: &Args, bat: &Bat, barrel: &Barrel, text: String) -> Result<String> {
     if args.uff.is_none() && args.vtu.is_none() {
         return Ok(text);

@@ -24,49 +24,49 @@ use crate::value::{
     FREQUENCY, HAMMER, PART_MASS, PLACE, RINGING_TIME, STIFFNESS, choice, file_unit, named,
 };
 
-/// The modes that measured responses share: hammer, accelerometer, a universal file
+/// Modes from measured frequency responses: hammer, accelerometer, a universal file
 ///
-/// Reads frequency responses of one bat (universal files, dataset 58): the hammer strikes many places and an
+/// Reads frequency responses of one bat (universal files, dataset 58). The hammer strikes many places and an
 /// accelerometer stays at one, or the other way round; H1 or H2; deflection, velocity or acceleration per force, in the
-/// units that the axes name. It finds the modes that all responses share, with 95 % intervals by the noise of the
-/// responses, their shapes, and by a response whose hammer and accelerometer were at one place their modal masses.
-/// compare --measured and calibrate read what --out writes. The exit code is 1 where no mode is found.
+/// units that the axes name. It finds the modes that all responses share, with 95 % intervals from the noise of the
+/// responses, and their shapes. A response with hammer and accelerometer at one place also gives the modal masses.
+/// compare --measured and calibrate read the file of --out. The exit code is 1 if no mode is found.
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES), next_help_heading = "Output")]
 pub struct Args {
-    /// Universal files of responses; several are taken together
+    /// Universal files of responses; several are used together
     #[arg(required_unless_present = "simulate", help_heading = "The responses")]
     responses: Vec<PathBuf>,
 
-    /// Unit of a file whose axes and datasets name none that is known: of the answer per force, such as g/lbf, or
-    /// of length, with N, or lbf for in and ft
+    /// Unit of a file whose axes and datasets name no known one: of the response per force, such as g/lbf, or of
+    /// length, with N, or lbf for in and ft
     #[arg(long, value_name = "UNIT", help_heading = "The responses")]
     unit: Option<String>,
 
-    /// Where the nodes of a file without geometry are, from the knob end: "1=0 in, 2=3 in", or a CSV file with the
+    /// Positions of the nodes of a file without geometry, from the knob end: "1=0 in, 2=3 in", or a CSV file with the
     /// columns node,x_in
     #[arg(long, value_name = "PLACES", help_heading = "The responses")]
     places: Option<String>,
 
-    /// What answers are whose axes do not say it: receptance, mobility or accelerance
+    /// Kind of the responses if the axes do not name it: receptance, mobility or accelerance
     #[arg(long, value_name = "KIND", value_parser = named(ResponseKind::ALL, ResponseKind::name),
           hide_possible_values = true, help_heading = "The responses")]
     kind: Option<ResponseKind>,
 
-    /// Leave out what is below this frequency
+    /// Ignore everything below this frequency
     #[arg(long, value_name = "Hz", value_parser = FREQUENCY, help_heading = "The responses")]
     from_hz: Option<f64>,
 
-    /// Leave out what is above this frequency
+    /// Ignore everything above this frequency
     #[arg(long, value_name = "Hz", value_parser = FREQUENCY, help_heading = "The responses")]
     to_hz: Option<f64>,
 
-    /// Mass of an accelerometer, such as "5 g", at most 100 g, which is taken off: of one that stayed, or of each
-    /// that stood in a row; 0 in a virtual test is a laser
+    /// Mass of an accelerometer, such as "5 g", at most 100 g, whose effect is removed: of one that stayed, or of each
+    /// in a row; in a virtual test 0 is a laser
     #[arg(long, value_name = "kg", value_parser = PART_MASS, help_heading = "The responses")]
     accelerometer: Option<f64>,
 
-    /// Time in which the exponential window of the analyser falls to 1/e, whose damping is taken off
+    /// Time in which the exponential window of the analyser falls to 1/e; its damping is removed
     #[arg(long, value_name = "s", value_parser = RINGING_TIME, help_heading = "The responses")]
     window: Option<f64>,
 
@@ -82,7 +82,7 @@ pub struct Args {
     #[arg(long, value_name = "FILE", requires = "simulate")]
     uff: Option<PathBuf>,
 
-    /// 1 January 1970 for the date in the universal file, so that equal input gives equal bytes
+    /// Date the universal file 1 January 1970, so that equal input gives equal bytes
     #[arg(long)]
     reproducible: bool,
 
@@ -117,11 +117,11 @@ Examples:
 #[derive(clap::Args)]
 #[command(next_help_heading = "A virtual test")]
 struct TestArgs {
-    /// Plan a test: what a hammer and accelerometers would find of this bat (file, or built-in name)
+    /// Plan a test: what would a hammer and accelerometers find on this bat (file, or built-in name)
     #[arg(long, value_name = "BAT")]
     simulate: Option<PathBuf>,
 
-    /// What is at another place for every response: hammer or accelerometers (in a row, all at once)
+    /// The part that moves from response to response: hammer or accelerometers (in a row, all at once)
     #[arg(long, value_name = "WHAT", action = clap::ArgAction::Set, hide_possible_values = true, requires = "simulate", default_value = "hammer",
           value_parser = choice(&["hammer", "accelerometers"], |name| name == "hammer"))]
     rove: bool,
@@ -130,15 +130,15 @@ struct TestArgs {
     #[arg(long, value_name = "N", requires = "simulate", default_value_t = 15)]
     points: usize,
 
-    /// How many of them are missing, by chance
+    /// Number of places that are missing, at random
     #[arg(long, value_name = "N", requires = "simulate", default_value_t = 0)]
     missing: usize,
 
-    /// At how many of them the hammer bounces
+    /// Number of places where the hammer bounces
     #[arg(long, value_name = "N", requires = "simulate", default_value_t = 0)]
     double_hits: usize,
 
-    /// Where the other stays, from the knob end [default: the tip]
+    /// Position of the fixed part, from the knob end [default: the tip]
     #[arg(long, value_name = "m", requires = "simulate", value_parser = PLACE)]
     reference: Option<f64>,
 
@@ -173,7 +173,7 @@ impl TestArgs {
         window: Option<f64>,
         top: Option<f64>,
     ) -> VirtualTest {
-        /// A small accelerometer (kg), and the band (Hz) where nothing is said.
+        /// The default mass of an accelerometer (kg) and the default band (Hz).
         const USUAL: (f64, f64) = (0.005, 2000.0);
         VirtualTest {
             hammer_roves: self.rove,
@@ -193,7 +193,7 @@ impl TestArgs {
 }
 
 impl Args {
-    /// What the options say of the files.
+    /// The options about the files.
     fn known(&self) -> Result<Known> {
         let unit = self.unit.as_deref().map(|text| (file_unit(text), text));
         let (unit, label) = match unit {
@@ -214,7 +214,7 @@ impl Args {
         Err(Error::value("--to-hz", format!("{} Hz", band[1]), expected))
     }
 
-    /// What belongs to responses that were measured stands beside no virtual test.
+    /// Refuses options of measured responses in a virtual test.
     fn check(&self) -> Result<()> {
         let given = [
             ("RESPONSES", !self.responses.is_empty()),

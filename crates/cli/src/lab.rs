@@ -11,11 +11,11 @@ use crate::done::Done;
 use crate::edits::EditArgs;
 use crate::output::printed;
 
-/// A page in which the bat is pulled about and answers at once
+/// A page in which you reshape the bat and get answers at once
 ///
-/// Writes one file that any browser opens, without a server and without the net: drag the barrel and exit
-/// speeds, notes, nodes, sweet spot and swing weight move with it; tap the bat and hear it; see what changed.
-/// Every number is computed in the page by this program's engine.
+/// Writes one file that any browser opens, without a server or a network. Drag the barrel, and exit speeds, notes,
+/// nodes, sweet spot and swing weight follow; tap the bat and hear it; see what changed. This program's engine computes
+/// every number in the page.
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES))]
 pub struct Args {
@@ -51,7 +51,7 @@ const PAGE: Option<&str> =
 #[cfg(not(feature = "lab"))]
 const PAGE: Option<&str> = None;
 
-/// What stands in the page in the place of a bat.
+/// The placeholder for a bat in the page.
 const NO_BAT: &str = "<script type=\"application/json\" id=\"bat\">null</script>";
 
 /// The page.
@@ -66,10 +66,10 @@ pub fn page() -> Result<&'static str> {
     })
 }
 
-/// Writes the page with that bat beside a report, and gives its address there: `r161.html` has `r161-lab.html`.
+/// Writes the page with that bat beside a report, and returns its address there: `r161.html` has `r161-lab.html`.
 pub fn beside(report: &Path, bat: &Bat, text: &str) -> Result<String> {
     let name = format!("{}-lab.html", report.file_stem().unwrap_or_default().to_string_lossy());
-    // Edits of the command line stand in no file.
+    // Edits of the command line are in no file.
     let same =
         Bat::from_text("", text, Path::new("")).is_ok_and(|read| read.edits() == bat.edits());
     let text = if same { text.to_owned() } else { alone(bat) };
@@ -95,7 +95,7 @@ pub fn run(args: &Args) -> Result<Done> {
     Ok(Done::new(format!("{}\n", printed(&out)), 0))
 }
 
-/// The text of a bat file that stands alone: as it is, or with the columns of the table that it names.
+/// The text of a self-contained bat file: as it is, or with the columns of the table that it names.
 fn text(path: &Path, quiet: bool) -> Result<String> {
     let (bat, text) = read_with_text(path, &EditArgs::default(), quiet)?;
     let names_a_table = serde_json::from_str::<serde_json::Value>(&text)
@@ -107,13 +107,13 @@ fn alone(bat: &Bat) -> String {
     text_in_columns(&resolved(bat), &bat.unedited().profile().stations, bat.inches())
 }
 
-/// The page with that bat file in it, of which nothing is read as a part of the page.
+/// The page with that bat file in it, escaped so that nothing in it is read as part of the page.
 fn with_bat(page: &str, text: &str) -> String {
     let text = serde_json::Value::from(text).to_string().replace('<', "\\u003c");
     page.replacen(NO_BAT, &NO_BAT.replace("null", &text), 1)
 }
 
-/// Opens a file with what this system opens pages with.
+/// Opens a file with the system's program for pages.
 fn open(path: &Path) -> Result<()> {
     let opener = match std::env::consts::OS {
         "macos" => "open",

@@ -1,4 +1,4 @@
-//! `sweetspot lathe BAT`: where does a cut do what?
+//! `sweetspot lathe BAT`: which cut has which effect?
 
 use std::path::PathBuf;
 
@@ -17,40 +17,40 @@ use crate::output::{CsvArgs, MANY, OutputArgs, Screen};
 use crate::scene::{self, SceneArgs};
 use crate::value::{LITTLE, PLACE, SPACING};
 
-/// What a millimetre off the diameter does, inch by inch
+/// The effect of a millimetre off the diameter, inch by inch
 ///
-/// Says where a millimetre (or 1/32 in) off the diameter does most, what the least cut for a wish is, and
-/// knob weight, cup, hole and cork, solved. With --full, or where --bands names a stretch, or with --outputs
-/// or --depth, also a table of every band: mass, balance point, swing weight, frequencies, node, the fastest
-/// ball for the same swing (n=0) and for the same energy of rotation (n=1/2), which differ in sign, the sweet
-/// spot, and what the hands feel; and a second table of the same for a cut that is not small. Frequencies and
-/// the rigid body by formula, all else by differences of whole bats.
+/// Shows where a millimetre (or 1/32 in) off the diameter has the largest effect, which is the least cut for a wish,
+/// and the computed effects of a knob weight, a cup, a hole and a cork. With --full, with a stretch in --bands, or with
+/// --outputs or --depth, also a table of every band: mass, balance point, swing weight, frequencies, node, the fastest
+/// ball for equal swing speed (n=0) and for equal energy of rotation (n=1/2), which differ in sign, the sweet spot, and
+/// the motion at the hands; and a second table of the same for a finite cut. Frequencies and the rigid body follow from
+/// formulas, all else from differences of whole bats.
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES))]
 pub struct Args {
     #[command(flatten)]
     bat: BatArgs,
 
-    /// Width of the bands, or one band such as "60 cm to 63 cm"; several bands by several options
+    /// Width of the bands, or one band such as "60 cm to 63 cm"; may be repeated for several bands
     #[arg(long, value_name = "m", default_value = "1 in",
           allow_hyphen_values = true, value_parser = band, help_heading = "The map")]
     bands: Vec<BandArg>,
 
-    /// Where the ball is hit for vibration and hands [default: the sweet spot]
+    /// Position of the hit for vibration and hands [default: the sweet spot]
     #[arg(long, value_name = "m", value_parser = PLACE, help_heading = "The map")]
     at: Option<f64>,
 
-    /// Depth of the finite cut that stands beside every derivative, of the diameter [default: 0.5 mm]
+    /// Depth, in diameter, of the finite cut beside every derivative [default: 0.5 mm]
     #[arg(long, value_name = "m", value_parser = LITTLE, help_heading = "The map")]
     depth: Option<f64>,
 
-    /// Look at these alone, such as f1_hz,mass_kg,exit_speed_max.value
+    /// Show only these outputs, such as f1_hz,mass_kg,exit_speed_max.value
     ///
-    /// Names are those of the JSON documents: mass_kg, balance_point_m, inertia_pivot_kg_m2,
-    /// center_of_percussion_m, f1_hz, node_mode_1_m, modal_mass_mode_1_kg, exit_speed_max.value,
-    /// exit_speed_max.x_m, zone_m[0], zone_m[1], vibration_min.value, vibration_min.x_m, bbcor_max,
-    /// hands_velocity_min.value, hands_acceleration_min.value, and, of a hit at a place,
-    /// exit_speed_m_s@0.70, vibration_j@0.70, hands_velocity_m_s@0.70, hands_acceleration_m_s2@0.70.
+    /// The names are those of the JSON documents: mass_kg, balance_point_m, inertia_pivot_kg_m2,
+    /// center_of_percussion_m, f1_hz, node_mode_1_m, modal_mass_mode_1_kg, exit_speed_max.value, exit_speed_max.x_m,
+    /// zone_m[0], zone_m[1], vibration_min.value, vibration_min.x_m, bbcor_max, hands_velocity_min.value,
+    /// hands_acceleration_min.value, and for a hit at a place exit_speed_m_s@0.70, vibration_j@0.70,
+    /// hands_velocity_m_s@0.70, hands_acceleration_m_s2@0.70.
     #[arg(long, value_name = "NAMES", value_delimiter = ',',
           value_parser = |s: &str| Answer::named(s.trim()).map_err(|error| error.to_string()), help_heading = "The map")]
     outputs: Option<Vec<Answer>>,
@@ -64,7 +64,7 @@ pub struct Args {
     #[command(flatten)]
     csv: CsvArgs,
 
-    /// Draw into this folder, as SVG and PNG: the bat coloured by what a cut does, a strip for each output
+    /// Draw into this folder, as SVG and PNG: the bat coloured by the effect of a cut, a strip for each output
     #[arg(long, value_name = "DIR", help_heading = "Output")]
     plots: Option<PathBuf>,
 
@@ -84,10 +84,10 @@ Examples:
       --swing-exponent 0.25 --bands \"3 in\" --json -
       by a batter who swings a lighter bat faster, as JSON";
 
-/// Depth of a cut that is solved whole (m).
+/// Depth of a cut that is computed in full (m).
 const DEPTH: f64 = 0.5e-3;
 
-/// What `--bands` says: a width, or a stretch (m).
+/// The value of `--bands`: a width, or a stretch (m).
 #[derive(Debug, Clone, Copy)]
 enum BandArg {
     Width(f64),
@@ -135,7 +135,7 @@ pub fn run(args: &Args) -> Result<Done> {
     drop(progress);
     args.output.draw(&args.plots, &bat, |sheet| Ok(plot::picture(sheet, &map)))?;
     let units = args.output.units(map.piece.bat());
-    // Who asks for outputs, a depth or a stretch wants the tables of them.
+    // Outputs, a depth or a stretch imply the tables.
     let asked = args.outputs.is_some()
         || args.depth.is_some()
         || args.bands.iter().any(|band| matches!(band, BandArg::Stretch(_)));
@@ -159,7 +159,7 @@ pub fn run(args: &Args) -> Result<Done> {
     Ok(Done::new(text, code).with(warning))
 }
 
-/// The bands and the depth of the finite cut, all that is wrong with them at once.
+/// The bands and the depth of the finite cut; all mistakes are reported at once.
 fn stretches(args: &Args, bat: &Bat) -> Result<(Vec<[f64; 2]>, f64)> {
     let mut mistakes = Mistakes::default();
     let length = bat.length();
@@ -205,7 +205,7 @@ fn stretches(args: &Args, bat: &Bat) -> Result<(Vec<[f64; 2]>, f64)> {
     mistakes.end((all, depth))
 }
 
-/// What is looked at where nothing is named.
+/// The outputs if none are given.
 fn answers(bat: &Bat, request: &Request, hit: &HitTerms, at: Option<f64>) -> Result<Vec<Answer>> {
     /// So many frequencies.
     const FREQUENCIES: usize = 5;

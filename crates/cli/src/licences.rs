@@ -1,12 +1,11 @@
-//! `sweetspot licences`: whose work is in the program, and on what terms.
+//! `sweetspot licences`: authors and licences of everything in the program.
 
 use crate::done::Done;
 use sweetspot::Result;
 
 /// Print the licences of this program and of everything in it
 ///
-/// Its own two, either of which may be chosen, then every package and the font of the pictures with
-/// their texts.
+/// First its own two, either of which you may choose, then every package and the font of the pictures with their texts.
 #[derive(clap::Args)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Args {}

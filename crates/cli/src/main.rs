@@ -1,10 +1,11 @@
-//! What did the user type? One file or folder a verb; no physics: options are parsed, the library is called, `Done` returned.
+//! What did the user type? One file or folder per verb and no physics: options are parsed, the library is called, and
+//! `Done` is returned.
 //!
 //! | file | question |
 //! |---|---|
-//! | `own_file`, `memory` | files of a user's own; the system's memory |
-//! | `done`, `style`, `diagnostic` | what a verb leaves; colours; how a mistake is shown, to people and to programs |
-//! | `value`, `help`, `stop`, `progress`, `edits` | values with units; help that fits; signals; how far a computation is; what-ifs |
+//! | `own_file`, `memory` | files that the program owns; the system's memory |
+//! | `done`, `style`, `diagnostic` | the result of a verb; colours; mistakes as shown to people and to programs |
+//! | `value`, `help`, `stop`, `progress`, `edits` | values with units; help that fits; signals; progress of a computation; edits |
 //! | `output`, `common`, `guarantee`, `bat_text`, `scene`, `cannon` | options of several verbs: files, standard output and pictures; the bat, the tolerance; proofs; a bat file's text; the scene of a hit; the ball of a test |
 //! | `asking`, `tables`, `frf_grid` | questions to the user; the promises as tables; the frequencies of `frf` |
 //! | the rest | one verb each; `first_word` and `verbs` know which was typed, `program` runs it |

@@ -13,7 +13,7 @@ use crate::output::make;
 
 /// Print a manual page, or write all of them
 ///
-/// The words of --help as a manual page, for the pager of your system.
+/// The text of --help as a manual page, for the pager of your system.
 #[derive(clap::Args)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Args {
@@ -55,7 +55,7 @@ pub fn run(args: &Args, command: Command) -> Result<Done> {
     Ok(Done::new(page, 0))
 }
 
-/// Writes every page; says what was written.
+/// Writes every page; returns a message about it.
 fn all(folder: &Path, command: &Command) -> Result<Done> {
     make(folder)?;
     let mut out = String::new();

@@ -19,10 +19,10 @@ use sweetspot_report::parts::columns::{first, numbers};
 
 /// The built-in materials with their sources
 ///
-/// What a bat file may name as its material, and where the numbers come from. Handbook values are
-/// those of slow bending tests of small clear pieces; the ones called dynamic are what makes models
-/// of real bats ring as measured, 20 to 50 % stiffer. Own numbers go into the bat file as an object
-/// with density, youngs_modulus and, if known, shear_modulus.
+/// The names that a bat file may use as its material, and the source of their numbers. Handbook values come from slow
+/// bending tests of small clear pieces. The materials called dynamic are 20 to 50 % stiffer, as models of real bats
+/// need to ring as measured. Other numbers go into the bat file as an object with density, youngs_modulus and, if
+/// known, shear_modulus.
 #[derive(clap::Args)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Args {
@@ -93,7 +93,7 @@ fn table(units: Units) -> String {
     out
 }
 
-/// Where it breaks, if that is known.
+/// The strength, if it is known.
 fn strength(material: &BuiltIn, units: Units) -> String {
     let stress = material.strength.map(|stress| format!("breaks at {}", units.stress(stress, 0)));
     let strain = material.strain_to_failure.map(|e| format!("at a strain of {:.2} %", 100.0 * e));

@@ -1,16 +1,16 @@
-//! Where does the program's memory come from? From the system; where there is none left the program ends with words.
+//! Where does the program's memory come from? From the system; if there is none left, the program ends with a message.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 
 use crate::stop::end_without_memory;
 
-/// Memory of the system; where there is none left the program ends with words, in place of a signal.
+/// Memory of the system; if there is none left, the program ends with a message instead of a signal.
 struct Memory;
 
 #[global_allocator]
 static MEMORY: Memory = Memory;
 
-/// What the system gave, which is something.
+/// The system's memory, never null.
 fn given(memory: *mut u8) -> *mut u8 {
     if memory.is_null() {
         end_without_memory()
@@ -18,8 +18,8 @@ fn given(memory: *mut u8) -> *mut u8 {
     memory
 }
 
-// SAFETY: every request goes to the system's allocator as it came, and its answer goes back as it is. This is
-// the only unsafe code of the program.
+// SAFETY: every request goes to the system's allocator unchanged, and its answer is returned unchanged. This is the
+// only unsafe code of the program.
 unsafe impl GlobalAlloc for Memory {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         given(unsafe { System.alloc(layout) })

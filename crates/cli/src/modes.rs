@@ -19,11 +19,10 @@ use crate::output::{CsvArgs, MANY, OutputArgs, Screen, make};
 
 /// How the bat rings: frequencies, nodes, shapes
 ///
-/// Which tones does the bat have, and where does it stand still in them? The table gives each
-/// bending mode's frequency, how far it may be off, its modal mass and the nodes of the first two, from
-/// knob and tip. With --full also: the nodes of the others, a sketch of them on the bat, what the answer
-/// was made with and what was left out of the model, with what that costs on this bat. The shapes are in
-/// the JSON.
+/// Which tones does the bat have, and where are their nodes? The table gives each bending mode's frequency, its error,
+/// its modal mass, and the nodes of the first two modes, from knob and tip. With --full also: the nodes of the others,
+/// a sketch of them on the bat, how the answer was computed, and the effects that the model leaves out, with their size
+/// on this bat. The shapes are in the JSON.
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES))]
 pub struct Args {
@@ -74,7 +73,7 @@ Examples:
   sweetspot modes northwestern_aluminium --budget \"2 ms\"
       the best that two milliseconds give";
 
-/// Modes whose nodes a screen has.
+/// Number of modes whose nodes are on a screen.
 const FIRST_NODES: usize = 2;
 
 pub fn run(args: &Args) -> Result<Done> {

@@ -52,7 +52,7 @@ pub fn run(args: &Args) -> Result<Done> {
     Ok(done)
 }
 
-/// Where answers are kept until the bat file is written: beside it, which is here where it has no name yet.
+/// Place of the answers until the bat file is written: beside it, or in this folder if it has no name yet.
 fn draft(args: &Args) -> PathBuf {
     draft::stem(Some(args.file.as_deref().unwrap_or(Path::new("sweetspot-new"))), "new")
 }
@@ -68,7 +68,7 @@ fn made(args: &Args, measured: &Measured, text: &str) -> Result<Done> {
     Ok(Done::new(style::table(&shown(&bat, measured, &path)), 0))
 }
 
-/// The bat as it was written, and what to do with it.
+/// The bat as written, and the next steps.
 fn shown(bat: &Bat, measured: &Measured, path: &Path) -> String {
     let places = measured.stations.iter().map(|s| s[0] * bat.length() / end(measured)).collect();
     let rows = [
@@ -91,7 +91,7 @@ fn shown(bat: &Bat, measured: &Measured, path: &Path) -> String {
     screen.fitted(LINES, &all, &format!("Everything else: sweetspot analyze {name} --full"))
 }
 
-/// Where the bat is best and how fast the ball leaves there, as `analyze` has it, or why that is not known.
+/// The sweet spot and the exit speed there, as in `analyze`, or the reason why it is not known.
 fn sweet_spot(bat: &Bat, units: Units) -> String {
     match analysed(bat) {
         Ok(analysis) => trust::in_short(&analysis, units),
@@ -114,7 +114,7 @@ fn analysed(bat: &Bat) -> Result<Analysis> {
     Analysis::new(bat, solution, task)
 }
 
-/// What the mass says of the diameters, as one sentence or two.
+/// What the mass implies about the diameters, in one sentence or two.
 fn verdict(bat: &Bat, measured: &Measured) -> String {
     let (density, factor) = (bat.material().density, bat.factors()[0]);
     let shown = |density| shown_density(density, bat.inches());

@@ -1,4 +1,4 @@
-//! What is said of an answer, and where does it go?
+//! How are results written, and where?
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -18,7 +18,7 @@ use crate::progress::{self, Progress};
 use crate::style;
 use crate::value::unit_system;
 
-/// What is printed, and where.
+/// Format and destination of the output.
 #[derive(clap::Args)]
 #[command(next_help_heading = "Output")]
 pub struct OutputArgs {
@@ -26,8 +26,8 @@ pub struct OutputArgs {
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,
 
-    /// Units of the tables, and of pictures and reports, which count in one: si, us or both (the bat
-    /// file's first; pictures and reports in it)
+    /// Units of the tables, and of pictures and reports: si, us or both (both units, the bat file's first; pictures and
+    /// reports use only that one)
     #[arg(long, value_name = "SYSTEM", default_value = "both", value_parser = unit_system(),
           hide_possible_values = true)]
     units: Units,
@@ -42,17 +42,17 @@ pub struct OutputArgs {
 }
 
 impl OutputArgs {
-    /// The units that a bat is answered in: those asked for, and of both those of its file first.
+    /// The units for a bat: those asked for; for both, the file's first.
     pub fn units(&self, bat: &Bat) -> Units {
         self.units.of(bat)
     }
 
-    /// What is printed: everything, or what a screen of at most `most` lines holds, and where the rest is.
+    /// The printed text: everything, or a screen of at most `most` lines and a hint where the rest is.
     pub fn screen<S: Into<Screen>>(&self, most: usize, said: impl Fn(bool) -> S) -> String {
         screen(self.full, most, said)
     }
 
-    /// Writes the JSON where it was asked for; what is left for standard output.
+    /// Writes the JSON if it was asked for; returns the text for standard output.
     pub fn deliver<D: Serialize>(
         &self,
         table: String,
@@ -61,17 +61,17 @@ impl OutputArgs {
         put(&self.json, style::table(&table), || Ok(schema::text(&document())))
     }
 
-    /// What the pictures of a bat are drawn on: the units asked for, else those of its file.
+    /// The sheet for the pictures of a bat, in the units asked for, else those of its file.
     pub fn sheet(&self, bat: &Bat) -> Sheet {
         Sheet::file(self.units(bat).us_first())
     }
 
-    /// The bat and its places drawn with what this terminal can show.
+    /// The bat and its places, drawn with the characters of this terminal.
     pub fn sketch(&self, bat: &Bat, rows: &[SketchRow]) -> String {
         sketch::draw(bat, rows, self.units(bat), glyphs())
     }
 
-    /// Draws into that folder, if one was asked for, in the units of that bat.
+    /// Draws into the folder, if one was given, in the units of that bat.
     pub fn draw<P: IntoIterator<Item = Picture>>(
         &self,
         folder: &Option<PathBuf>,
@@ -81,7 +81,7 @@ impl OutputArgs {
         draw(folder, self.quiet, || pictures(self.sheet(bat)))
     }
 
-    /// The exit code, after a word about what was not reached, if something was not.
+    /// The exit code, after a warning if something was not reached.
     pub fn reached(&self, short: Option<String>) -> u8 {
         match short {
             Some(short) => {
@@ -97,16 +97,16 @@ impl OutputArgs {
         warn(text, self.quiet);
     }
 
-    /// What takes so long, for a person at a terminal.
+    /// The progress of `what`, for a person at a terminal.
     pub fn progress(&self, what: &str) -> Progress {
         Progress::new(self.quiet, what)
     }
 }
 
-/// Block elements where the locale says that characters are UTF-8.
+/// Block elements if the locale's character set is UTF-8.
 pub fn glyphs() -> Glyphs {
     let set = |name| std::env::var(name).ok().filter(|value| !value.is_empty());
-    // The first of them that is set is the one that counts.
+    // The first variable that is set decides.
     let locale = ["LC_ALL", "LC_CTYPE", "LANG"].into_iter().find_map(set).unwrap_or_default();
     let locale = locale.to_ascii_lowercase();
     if locale.contains("utf-8") || locale.contains("utf8") { Glyphs::Blocks } else { Glyphs::Ascii }
@@ -121,18 +121,18 @@ pub struct CsvArgs {
 }
 
 impl CsvArgs {
-    /// Refuses CSV where the JSON goes already.
+    /// Refuses CSV if the JSON goes to the same place.
     pub fn beside(&self, json: &Option<PathBuf>) -> Result<()> {
         apart(&[("--json", json), ("--csv", &self.csv)])
     }
 
-    /// Writes the table where it was asked for; what goes to standard output then.
+    /// Writes the table if it was asked for; returns the text for standard output.
     pub fn deliver(&self, text: String, table: impl FnOnce() -> String) -> Result<String> {
         put(&self.csv, text, || Ok(table()))
     }
 }
 
-/// How much is said, of a verb without units.
+/// Amount of output, for a verb without units.
 #[derive(clap::Args)]
 pub struct FullArgs {
     /// Everything, not one screen alone
@@ -145,24 +145,24 @@ pub struct FullArgs {
 }
 
 impl FullArgs {
-    /// What is printed, as of [`OutputArgs::screen`].
+    /// The printed text, as [`OutputArgs::screen`].
     pub fn screen<S: Into<Screen>>(&self, most: usize, said: impl Fn(bool) -> S) -> String {
         screen(self.full, most, said)
     }
 }
 
-/// Everything, or what a screen of at most `most` lines holds, and where the rest is.
+/// Everything, or a screen of at most `most` lines and a hint where the rest is.
 fn screen<S: Into<Screen>>(full: bool, most: usize, said: impl Fn(bool) -> S) -> String {
     let all = said(true).into().text();
     if full { all } else { said(false).into().fitted(most, &all, "Everything else: --full") }
 }
 
-/// What a file is called, as text.
+/// The name of a file as text.
 pub fn printed(path: &Path) -> String {
     printable(&path.display().to_string())
 }
 
-/// Says something on standard error, unless nothing is to be said.
+/// Prints a message on standard error, unless `quiet`.
 pub fn warn(text: &str, quiet: bool) {
     if !quiet {
         // A closed standard error is not a reason to stop.
@@ -172,7 +172,7 @@ pub fn warn(text: &str, quiet: bool) {
     }
 }
 
-/// Draws into that folder, if one was asked for; says which pictures of an earlier run still lie there, or that there are
+/// Draws into the folder, if one was given; reports pictures of an earlier run that are still there, or that there are
 /// none.
 pub fn draw<P: IntoIterator<Item = Picture>>(
     folder: &Option<PathBuf>,
@@ -193,7 +193,7 @@ pub fn draw<P: IntoIterator<Item = Picture>>(
     Ok(())
 }
 
-/// Makes a folder, if it is not there.
+/// Makes a folder if it does not exist.
 ///
 /// # Errors
 ///
@@ -203,12 +203,12 @@ pub fn make(folder: &Path) -> Result<()> {
     std::fs::create_dir_all(folder).map_err(failed)
 }
 
-/// Every document goes to a place of its own: of these options, no two name one file, or both
-/// standard output. To be asked before anything is computed or written.
+/// Checks that every document has its own destination: no two of these options name one file, or both standard output.
+/// To be called before anything is computed or written.
 ///
 /// # Errors
 ///
-/// [`Error::Value`] about the second.
+/// [`Error::Value`] about the second option.
 pub fn apart(named: &[(&str, &Option<PathBuf>)]) -> Result<()> {
     let named = named.iter().filter_map(|(option, path)| Some((*option, path.as_deref()?)));
     let named: Vec<(&str, &Path)> = named.collect();
@@ -227,7 +227,7 @@ pub fn apart(named: &[(&str, &Option<PathBuf>)]) -> Result<()> {
     Ok(())
 }
 
-/// Writes a text to its file; what takes the place of `table` if that is standard output.
+/// Writes a text to its file; returns the text that replaces `table` if that is standard output.
 ///
 /// # Errors
 ///

@@ -1,8 +1,8 @@
-//! How is a file kept that this program alone may write over?
+//! How does the program keep a file that no other may overwrite?
 //!
-//! An [`OwnFile`] is at a place where nothing was, or is a file that says in its first line what it is. It is
-//! locked as long as it is held, so that no two programs keep one. What else is at a place stays as it is: links
-//! are not followed, pipes not waited on, devices not read.
+//! An [`OwnFile`] is at a path where there was no file, or is a file whose first line identifies it. It is locked while
+//! it is held, so that no two programs keep the same one. Any other file at the path stays untouched: links are not
+//! followed, pipes not waited on, devices not read.
 
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{ErrorKind, Read, Result};
@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use sweetspot::base::file::{beside, note, number};
 
-/// The largest file that is taken for one's own (bytes).
+/// The largest file that is recognised (bytes).
 const MOST: u64 = 4 << 20;
 
 /// A file that only this program writes, held by this run.
@@ -21,7 +21,7 @@ pub struct OwnFile {
     held: File,
 }
 
-/// What is at a place.
+/// The file at a path.
 #[derive(Debug)]
 pub enum AtPath {
     /// Nothing, not even a link that leads nowhere.
@@ -34,7 +34,7 @@ pub enum AtPath {
     Other,
 }
 
-/// What is at a path; a file is one's own if it begins with that.
+/// Looks at a path; a file of this program begins with `begins`.
 pub fn look(path: &Path, begins: &str) -> AtPath {
     let is = match fs::symlink_metadata(path) {
         Err(error) if error.kind() == ErrorKind::NotFound => return AtPath::Free,
@@ -47,7 +47,7 @@ pub fn look(path: &Path, begins: &str) -> AtPath {
     if held.metadata().is_ok_and(|opened| number(&opened) != number(&is)) {
         return AtPath::Other;
     }
-    // Where files cannot be locked the file is free.
+    // Where files cannot be locked, the file counts as free.
     if let Err(TryLockError::WouldBlock) = held.try_lock() {
         return AtPath::Held;
     }
@@ -62,11 +62,11 @@ pub fn look(path: &Path, begins: &str) -> AtPath {
 }
 
 impl OwnFile {
-    /// A new file where nothing is.
+    /// A new file at a free path.
     ///
     /// # Errors
     ///
-    /// [`ErrorKind::AlreadyExists`] where something is, which stays as it is; what the system says.
+    /// [`ErrorKind::AlreadyExists`] if there is a file, which stays untouched; the system's errors.
     pub fn create(path: &Path, contents: &[u8]) -> Result<Self> {
         let put = |part: &Path| match fs::hard_link(part, path) {
             Ok(()) => fs::remove_file(part),
@@ -80,11 +80,11 @@ impl OwnFile {
         Ok(Self { path: path.to_owned(), held })
     }
 
-    /// Writes it anew, whole.
+    /// Replaces its contents as a whole.
     ///
     /// # Errors
     ///
-    /// [`ErrorKind::AlreadyExists`] if something else is at its place by now; what the system says.
+    /// [`ErrorKind::AlreadyExists`] if another file is at its path by now; the system's errors.
     pub fn write(&mut self, contents: &[u8]) -> Result<()> {
         if !self.is_there() {
             *self = Self::create(&self.path, contents)?;
@@ -95,7 +95,7 @@ impl OwnFile {
         Ok(())
     }
 
-    /// Removes it, if it still is at its place.
+    /// Removes it, if it is still at its path.
     pub fn remove(self) {
         if self.is_there() {
             // It has served: a copy that stays does no harm.
@@ -103,7 +103,7 @@ impl OwnFile {
         }
     }
 
-    /// Where it is.
+    /// Its path.
     pub fn path(&self) -> &Path {
         &self.path
     }

@@ -1,4 +1,4 @@
-//! What does the program do with what was typed? It parses, calls the library and prints.
+//! How does the program run a command? It parses, calls the library and prints.
 
 use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
@@ -9,9 +9,8 @@ use crate::{diagnostic, style, verbs};
 use sweetspot::Error;
 use sweetspot_report::report::mistakes;
 
-/// Runs the verb on the command line; what it answers goes to standard output, what is wrong to
-/// standard error. 0 is an answer as accurate as asked, 2 a mistake in what came in, 3 an accuracy
-/// that was not reached.
+/// Runs the verb on the command line; results go to standard output, errors to standard error. The exit code is 0 for
+/// an answer as accurate as asked, 2 for a mistake in the input, 3 for an accuracy that was not reached.
 pub fn run() -> ExitCode {
     let Done { text, code, warning } = match verbs::run() {
         Ok(done) => done,
@@ -21,14 +20,14 @@ pub fn run() -> ExitCode {
             let coloured = style::coloured(err.is_terminal());
             let _ = write!(err, "{}", diagnostic::render(&error, coloured));
             diagnostic::as_json(|| mistakes::document(&error));
-            // Modes that do not converge are an accuracy not reached; all else is the input.
+            // Modes that do not converge are an accuracy not reached; any other error is in the input.
             let code = if matches!(error, Error::NotConverged { .. }) { NOT_REACHED } else { 2 };
             return ExitCode::from(code);
         }
     };
     let mut out = io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        // Whoever closed the pipe has read enough.
+        // A closed pipe is no error: its reader has read enough.
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
             let _ = writeln!(io::stderr(), "error: cannot write to standard output: {error}");
             ExitCode::from(2)

@@ -1,4 +1,4 @@
-//! What takes long: how far it is and how long it will take, on a terminal and elsewhere.
+//! Progress of a long computation and its remaining time, on a terminal and elsewhere.
 
 use std::io::IsTerminal;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -8,10 +8,10 @@ use std::time::{Duration, Instant};
 
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-/// Nobody is told of what is done sooner.
+/// Shorter work shows no progress.
 const PATIENCE: Duration = Duration::from_millis(500);
 const TICK: Duration = Duration::from_millis(100);
-/// Who reads a pipe or a file is told so often.
+/// Interval of the lines in a pipe or a file.
 const LINE: Duration = Duration::from_secs(30);
 /// The whole work in steps of a bar.
 const STEPS: u64 = 10_000;
@@ -30,14 +30,14 @@ enum ProgressLook {
     Lines(Mutex<Line>),
 }
 
-/// The last line that was said, if one was.
+/// The last line, if there was one.
 struct Line {
     at: Instant,
     any: bool,
 }
 
 impl Progress {
-    /// Begins to wait; `what` is done first.
+    /// Begins; `what` is the first step.
     pub fn new(quiet: bool, what: &str) -> Self {
         let dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
         let hidden = quiet || dumb || !std::io::stderr().is_terminal();
@@ -45,7 +45,7 @@ impl Progress {
         Self { shown, begun: Instant::now(), before: 0.0 }
     }
 
-    /// So much of the work is done, 0 to 1, and this comes next.
+    /// Reports the share of the work that is done, 0 to 1, and the next step.
     pub fn say(&self, share: f64, what: &str) {
         let share = share.clamp(0.0, 1.0);
         let left = left(self.begun.elapsed(), self.before, share);
@@ -71,14 +71,14 @@ impl Progress {
     }
 }
 
-/// The time that is left when a share of all is done, some of it before; None where that cannot be told.
+/// The remaining time when a share of all is done, some of it before the start; `None` if it cannot be estimated.
 fn left(elapsed: Duration, before: f64, share: f64) -> Option<Duration> {
     let done = share - before;
     (done > 0.0 && share < 1.0)
         .then(|| Duration::try_from_secs_f64(elapsed.as_secs_f64() * (1.0 - share) / done).ok())?
 }
 
-/// Many things that are alike, of which some were done before. Where standard error is not a terminal there is a line
+/// Progress of many similar items, of which some were done before. If standard error is not a terminal, a line appears
 /// every half minute.
 pub struct Counted {
     progress: Progress,
@@ -89,11 +89,11 @@ pub struct Counted {
 }
 
 impl Counted {
-    /// How many of `all` are there.
+    /// Reports how many of `all` are done.
     pub fn new(quiet: bool, what: &'static str, all: u64, before: u64) -> Self {
         let mut progress = Progress::new(quiet, what);
         progress.before = before as f64 / all as f64;
-        // It may take days: who looks into a log wants to know too.
+        // The work may take days, and a reader of a log wants to know too.
         if !quiet && matches!(progress.shown, ProgressLook::Not) {
             progress.shown =
                 ProgressLook::Lines(Mutex::new(Line { at: Instant::now(), any: false }));
@@ -121,19 +121,19 @@ impl ProgressLook {
         let wait = move || {
             sleep(PATIENCE);
             let mut last = last();
-            // What is done by then is not shown.
+            // Work that is finished by then shows nothing.
             if !shown.is_finished() {
                 shown.set_draw_target(ProgressDrawTarget::stderr());
                 *last = Some(shown.clone());
             }
             drop(last);
-            // A thread of the bar's own would end the program where none can be started.
+            // The bar's own thread would end the program if none can be started.
             while !shown.is_finished() {
                 shown.tick();
                 sleep(TICK);
             }
         };
-        // Where no thread can be started nothing is shown.
+        // If no thread can be started, nothing is shown.
         let _ = Builder::new().spawn(wait);
         Self::Bar(bar)
     }
@@ -159,14 +159,14 @@ fn last() -> MutexGuard<'static, Option<ProgressBar>> {
     LAST.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Takes the line off the terminal, for a program that is told to stop.
+/// Clears the line from the terminal, for a program that is told to stop.
 pub fn clear() {
     if let Some(bar) = last().take() {
         bar.finish_and_clear();
     }
 }
 
-/// Says something on standard error, the line below it.
+/// Prints a message on standard error, with the progress line below it.
 pub fn beside(say: impl FnOnce()) {
     let bar = last().clone();
     match bar {
@@ -183,7 +183,7 @@ mod tests {
     fn what_was_done_before_took_no_time() {
         let ten = Duration::from_secs(10);
         assert_eq!(left(ten, 0.0, 0.5), Some(ten));
-        // Half was there, and half of the other half took ten seconds.
+        // Half was done before, and half of the other half took ten seconds.
         assert_eq!(left(ten, 0.5, 0.75), Some(ten));
         assert_eq!(left(ten, 0.5, 0.5), None);
         assert_eq!(left(ten, 0.0, 1.0), None);

@@ -1,4 +1,4 @@
-//! Recordings of taps as they are read from the command line.
+//! Recordings of taps, read for the command line.
 
 use std::path::Path;
 
@@ -21,11 +21,11 @@ pub fn read(path: &Path, part: Part) -> Result<Recording> {
     })
 }
 
-/// Recorded taps of a bat as lines and tones that died out, for `calibrate`.
+/// The lines and the decaying tones in recorded taps of a bat, for `calibrate`.
 ///
 /// # Errors
 ///
-/// A file that cannot be read, and one in which there is no tone of this bat.
+/// For a file that cannot be read, and for one without a tone of this bat.
 pub fn readings(path: &Path, bat: &Bat, quiet: bool) -> Result<BatReadings> {
     let recording = read(path, Part::default())?;
     let analysis = Analysis::of(&[recording], None);

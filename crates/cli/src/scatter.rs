@@ -1,4 +1,4 @@
-//! `sweetspot scatter BAT SCATTER`: how much bats of one model differ.
+//! `sweetspot scatter BAT SCATTER`: how much do bats of one model differ?
 
 use std::path::{Path, PathBuf};
 
@@ -24,16 +24,17 @@ use crate::style;
 
 /// How much bats of one model, and swings of one batter, differ
 ///
-/// Draws bats by what differs between them (density, stiffness, what the lathe misses, moisture) and hits by what
-/// differs between swings (speed, pitch, ball, place): percentiles of every output, and what makes it vary; with
-/// --full every percentile with its own error, and every share. The same seed gives the same bytes, on any number of threads.
+/// Draws bats at random from the given distributions (density, stiffness, errors of the lathe, moisture), and hits from
+/// those of the swings (speed, pitch, ball, place). It gives percentiles of every output and the causes of its
+/// variation; with --full every percentile with its own error, and every share. The same seed gives the same bytes, on
+/// any number of threads.
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES))]
 pub struct Args {
     #[command(flatten)]
     bat: BatFileArgs,
 
-    /// Scatter file (JSON): what differs [without it: the wood, by 22 % in stiffness and 10 % in density]
+    /// Scatter file (JSON) with the distributions [default: the wood, by 22 % in stiffness and 10 % in density]
     #[arg(help_heading = "The bat")]
     scatter: Option<PathBuf>,
 
@@ -45,7 +46,7 @@ pub struct Args {
     #[arg(long, value_name = "N", default_value = "1")]
     seed: u64,
 
-    /// Threads [default: as many as there are processors]
+    /// Number of threads [default: one for each processor]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=i64::from(threads::MOST)))]
     jobs: Option<u16>,
 
@@ -53,7 +54,7 @@ pub struct Args {
     #[arg(long, value_name = "DIR", help_heading = "Output")]
     bats: Option<PathBuf>,
 
-    /// The output whose percentiles these bats are nearest to [default: the first]
+    /// The output for whose percentiles bats are written [default: the first]
     #[arg(long, value_name = "NAME", requires = "bats", help_heading = "Output")]
     of: Option<String>,
 
@@ -65,7 +66,7 @@ pub struct Args {
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     csv: Option<PathBuf>,
 
-    /// Draw a histogram of every output and what makes it vary into this folder, as SVG and PNG
+    /// Draw a histogram of every output and the causes of its variation into this folder, as SVG and PNG
     #[arg(long, value_name = "DIR", help_heading = "Output")]
     plots: Option<PathBuf>,
 
@@ -137,7 +138,7 @@ fn write_bats(folder: &Path, rows: &ScatterRows, found: &Scattered, of: usize) -
     Ok(())
 }
 
-/// The output whose percentiles the written bats are of, by its place.
+/// The index of the output for whose percentiles bats are written.
 fn output(args: &Args, plan: &ScatterPlan) -> Result<usize> {
     let Some(name) = &args.of else { return Ok(0) };
     let names: Vec<String> = plan.outputs.iter().map(|output| output.name()).collect();
@@ -148,7 +149,7 @@ fn output(args: &Args, plan: &ScatterPlan) -> Result<usize> {
     })
 }
 
-/// What messages call what differs.
+/// The name of the distributions in messages.
 fn said_by(args: &Args) -> String {
     args.scatter.as_deref().map_or("the wood".to_owned(), printed)
 }

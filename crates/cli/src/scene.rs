@@ -49,21 +49,21 @@ pub struct SceneArgs {
 
     /// Speed of the ball towards the bat, at the plate
     ///
-    /// A ball that is thrown at 90 mph has about 83 mph left there.
+    /// A ball thrown at 90 mph reaches the plate at about 83 mph.
     #[arg(long, value_name = "m/s", default_value = "83 mph", value_parser = PLAY_SPEED)]
     pitch: f64,
 
     /// Ball: baseball, humid-baseball, softball or a ball file
     ///
-    /// humid-baseball is the baseball kept at 50 instead of 30 % relative humidity. No source was
-    /// found for a softball's force law: with --model contact it needs --ball-stiffness.
+    /// humid-baseball is the baseball stored at 50 instead of 30 % relative humidity. No source was found for a
+    /// softball's force law: with --model contact it needs --ball-stiffness.
     #[arg(long, value_name = "BALL", default_value = "baseball")]
     ball: String,
 
-    /// The ball is a linear spring of this stiffness, such as "7000 lbf/in"
+    /// Make the ball a linear spring of this stiffness, such as "7000 lbf/in"
     ///
-    /// In place of its own force law. A dynamic stiffness measured on a rigid cylinder is meant:
-    /// F²/(m v²) for the largest force F at the speed v.
+    /// It replaces the ball's own force law. It is the dynamic stiffness measured on a rigid cylinder: F²/(m v²) for
+    /// the largest force F at the speed v.
     #[arg(long, value_name = "N/m", value_parser = STIFFNESS)]
     ball_stiffness: Option<f64>,
 
@@ -71,14 +71,14 @@ pub struct SceneArgs {
     #[arg(long, value_name = "E", value_parser = cor)]
     cor: Option<f64>,
 
-    /// Where the hands feel the hit, from the knob end
+    /// Position of the hands, from the knob end
     #[arg(long, value_name = "m", default_value = "6 in", value_parser = PLACE)]
     hands: f64,
 
     /// Whether a hollow barrel's wall gives way by its own hoop modes: auto, on or off
     ///
-    /// For the contact model. auto: where that changes BBCOR by more than 0.15 of --tol, by estimate, and not
-    /// with a number of modes of your own.
+    /// For the contact model. auto: if that changes BBCOR by more than 0.15 of --tol, by an estimate, and the number of
+    /// modes is not given.
     #[arg(long, value_name = "WHEN", default_value = "auto",
           value_parser = ["auto", "on", "off"], hide_possible_values = true)]
     wall: String,
@@ -89,14 +89,14 @@ pub struct SceneArgs {
     #[arg(long, value_name = "N/m", value_parser = STIFFNESS)]
     wall_stiffness: Option<f64>,
 
-    /// Mass of that wall's own vibration [default: none, a spring in series]
+    /// Mass of that wall's vibration [default: none, a spring in series]
     #[arg(long, value_name = "kg", requires = "wall_stiffness", value_parser = PART_MASS)]
     wall_mass: Option<f64>,
 
-    /// The swing speed is that of a bat with this swing weight
+    /// Swing weight of the bat to which the swing speed belongs
     ///
-    /// The moment of inertia about a point 6 in from the knob, such as "10000 oz in2". With
-    /// --swing-exponent, without which it changes no swing.
+    /// The moment of inertia about a point 6 in from the knob, such as "10000 oz in2". It has an effect only with
+    /// --swing-exponent.
     #[arg(long, value_name = "kg m2", value_parser = SWING_WEIGHT)]
     reference_inertia: Option<f64>,
 
@@ -133,7 +133,7 @@ impl SceneArgs {
         (!is_built_in(&self.ball)).then(|| Path::new(&self.ball))
     }
 
-    /// What these options say, whichever bat it is, with the model that they make; a file of the ball is read.
+    /// The setup from these options, before the bat is known, with its model; reads the file of the ball.
     pub fn setup(&self) -> Result<(Setup, Model)> {
         let model = Model::all().into_iter().find(|model| model.name() == self.model);
         let setup = Setup {

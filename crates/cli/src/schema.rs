@@ -1,4 +1,4 @@
-//! `sweetspot schema [FILE]`: what the files look like.
+//! `sweetspot schema [FILE]`: the form of the files.
 
 use sweetspot::Result;
 use sweetspot_report::formats::{self, FileKind};
@@ -8,13 +8,12 @@ use crate::value::named;
 
 /// JSON Schema of a bat file, of a ball file, and of what the program writes
 ///
-/// Draft 2020-12, for editors and for programs that check a file. Without a name: one schema of all
-/// of them, which tells them apart by their "format".
+/// Draft 2020-12, for editors and for programs that check a file. Without a name it prints one schema for all of them,
+/// chosen by their "format".
 #[derive(clap::Args)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Args {
-    /// Which file: the word in its "format", such as bat, ball, modes or hit [default: all of them in
-    /// one schema]
+    /// Kind of file, the word in its "format", such as bat, ball, modes or hit [default: all of them in one schema]
     #[arg(value_name = "FILE", value_parser = named(FileKind::ALL, FileKind::name),
           hide_possible_values = true)]
     file: Option<FileKind>,

@@ -21,23 +21,23 @@ use crate::output::{FullArgs, LINES, draw, warn};
 use crate::progress::Counted;
 use crate::style;
 
-/// Many bats: what varies from bat to bat, and what comes of it
+/// Many bats: varied inputs and the resulting outputs
 ///
-/// A study names a bat, a ball and a scene, what of them varies (lists, grids, distributions, with
-/// correlations) and what is asked of every bat. Each row is a bat, with its errors or the reason why there is
-/// no answer. Rows are written in parts of 4096, of 64 where walls of hollow barrels are solved, each a function of
-/// the study and its number alone: started again, it goes on where it was.
+/// A study names a bat, a ball and a scene, the values that vary (lists, grids, distributions, with correlations) and
+/// the outputs for every bat. Each row is a bat, with its errors or the reason why it has no answer. Rows are written
+/// in parts of 4096, or of 64 if walls of hollow barrels are solved. Each part depends only on the study and its
+/// number: a study that is started again continues where it stopped.
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES))]
 pub struct Args {
     /// Study file (JSON)
     study: PathBuf,
 
-    /// Folder of the parts and their manifest, made if it is not there
+    /// Folder of the parts and their manifest, created if necessary
     #[arg(long, value_name = "DIR", help_heading = "Output")]
     out: PathBuf,
 
-    /// Say also what makes the answers vary: Sobol indices of first order and total, with their errors
+    /// Also report what makes the answers vary: Sobol indices of first order and total, with their errors
     #[arg(long)]
     summary: bool,
 
@@ -45,7 +45,7 @@ pub struct Args {
     #[arg(long, help_heading = "Output")]
     npz: bool,
 
-    /// Draw histograms, what makes answers vary, and scatters into this folder, as SVG and PNG
+    /// Draw histograms, the causes of the variation, and scatter plots into this folder, as SVG and PNG
     #[arg(long, value_name = "DIR", help_heading = "Output")]
     plots: Option<PathBuf>,
 
@@ -53,7 +53,7 @@ pub struct Args {
     #[arg(long, num_args = 2, value_names = ["X", "Y"], requires = "plots", help_heading = "Output")]
     scatter: Vec<String>,
 
-    /// Threads [default: as many as there are processors]
+    /// Number of threads [default: one for each processor]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=i64::from(threads::MOST)))]
     jobs: Option<u16>,
 
@@ -61,7 +61,7 @@ pub struct Args {
     #[arg(long, help_heading = "Output")]
     fresh: bool,
 
-    /// Do not ask [with --fresh]
+    /// Do not ask for confirmation [with --fresh]
     #[arg(long, requires = "fresh", help_heading = "Output")]
     yes: bool,
 
@@ -101,11 +101,11 @@ pub fn run(args: &Args) -> Result<Done> {
     let said = summary::text(&table, rows);
     let shares = if args.summary { summary::shares(&table, rows) } else { String::new() };
     let text = args.said.screen(LINES, |_| [(1, "", said.clone()), (2, "shares", shares.clone())]);
-    // A row without an answer is a row; where all are, nothing that was asked was reached.
+    // A row without an answer is still a row; if all rows have none, nothing was reached.
     Ok(Done::new(style::table(&text), if table.met == 0 { NOT_REACHED } else { 0 }))
 }
 
-/// Removes what studies have written into a folder, if the person wants that.
+/// Removes the files of studies in a folder, if the person confirms.
 fn clear(out: &Path, yes: bool) -> Result<()> {
     let files = fresh::files(out)?;
     if files.is_empty() {
@@ -123,7 +123,7 @@ fn clear(out: &Path, yes: bool) -> Result<()> {
         }
         let mut said = String::new();
         let mut errors = std::io::stderr();
-        // Where nothing can be shown, nothing is answered.
+        // If the question cannot be shown, there is no answer.
         let _ = write!(errors, "Remove {there}? [y/N] ").and_then(|()| errors.flush());
         let _ = std::io::stdin().read_line(&mut said);
         if !["y", "yes"].contains(&&*said.trim().to_lowercase()) {

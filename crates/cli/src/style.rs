@@ -7,11 +7,11 @@ use clap::builder::styling::Style;
 
 use crate::done::printable;
 
-/// Longest word or two before a colon that is a heading of its own.
+/// Longest text before a colon that counts as a heading.
 const LABEL: usize = 16;
 
-/// Whether what is said to a stream is coloured: on a terminal, but for `CLICOLOR=0` and
-/// `TERM=dumb`; in any case with `CLICOLOR_FORCE`, and never with `NO_COLOR`.
+/// Whether the output to a stream is coloured: on a terminal, except with `CLICOLOR=0` or `TERM=dumb`; always with
+/// `CLICOLOR_FORCE`, and never with `NO_COLOR`.
 ///
 /// # Source
 ///
@@ -24,14 +24,13 @@ pub fn coloured(terminal: bool) -> bool {
     set("NO_COLOR").is_none() && (forced || terminal && !unwanted && !dumb)
 }
 
-/// The table as it is shown on standard output: with bold headings where there is colour, and
-/// nothing in it that acts on a terminal, whatever a bat is called.
+/// The table for standard output: with bold headings if there is colour, and without characters that act on a terminal.
 pub fn table(text: &str) -> String {
     let text: String = text.split('\n').map(printable).collect::<Vec<_>>().join("\n");
     if coloured(stdout().is_terminal()) { headings(&text) } else { text }
 }
 
-/// The text in lines of at most the given number of columns; its own line ends stay.
+/// The text in lines of at most the given number of columns; its line ends are kept.
 pub fn broken(text: &str, width: usize) -> String {
     let mut out: Vec<String> = Vec::new();
     for paragraph in text.lines() {
@@ -48,7 +47,7 @@ pub fn broken(text: &str, width: usize) -> String {
     out.join("\n")
 }
 
-/// Columns of a text; what may be wide counts as wide.
+/// Columns of a text; a character that may be wide counts as wide.
 pub fn columns(text: &str) -> usize {
     text.chars().map(|c| if c < '\u{1100}' { 1 } else { 2 }).sum()
 }

@@ -1,4 +1,4 @@
-//! The promises and the extremes as tables: each column is said once, its head, its place and what it shows of a row.
+//! The promises and the extremes as tables. Each column is defined once: its head, its place and its text for a row.
 
 use std::fmt::Write;
 
@@ -13,7 +13,7 @@ use sweetspot_proof::proven_promise::ProvenBat;
 use sweetspot_report::parts::columns::{Column, Columns, first, labels, numbers};
 use sweetspot_report::parts::terminal::wrapped;
 
-/// A column, and what it shows of a row.
+/// A column, and its text for a row.
 pub type Shown<T> = (Column, fn(&T) -> String);
 
 /// The line of the heads, and a line for every row.
@@ -58,14 +58,14 @@ pub fn beams(rows: &[CheckedBat]) -> String {
         "                          degree x   worst error     true/stated     within\n",
     );
     for (k, line) in lines.lines().enumerate() {
-        // The line of the heads is the first.
+        // The first line is that of the heads.
         out += if k > 1 && (k - 1) % DIGITS.count() == 0 { "\n" } else { "" };
         out += &format!("{line}\n");
     }
     out + "\n"
 }
 
-/// What is told of a bat, or of all: its name, modes, worst ratios, and what became of every tolerance.
+/// The summary of a bat, or of all: its name, modes, worst ratios, and the result for every tolerance.
 struct ToldBat {
     name: &'static str,
     modes: String,
@@ -73,7 +73,7 @@ struct ToldBat {
     marks: String,
 }
 
-/// A line for each bat: the worst ratios of true to stated errors, and what became of every tolerance.
+/// A line for each bat: the worst ratios of true to stated errors, and the result for every tolerance.
 pub fn beams_in_short(rows: &[CheckedBat]) -> String {
     let columns: [Shown<ToldBat>; 7] = [
         (first(19, "bat"), |bat| bat.name.to_owned()),
@@ -103,7 +103,7 @@ pub fn beams_in_short(rows: &[CheckedBat]) -> String {
     )
 }
 
-/// A ratio to two digits; nothing where nothing is known.
+/// A ratio to two digits; empty if it is not known.
 fn ratio(value: f64) -> String {
     if value == 0.0 { String::new() } else { format!("{value:.2}") }
 }
@@ -136,7 +136,7 @@ pub fn hits(rows: &[CheckedHit]) -> String {
     table(columns, rows) + "\n"
 }
 
-/// A line for every kind of bat and for what happens in a hit, and one for all.
+/// A line for every kind of bat and every kind of hit, and one for all.
 pub fn hits_in_short(rows: &[CheckedHit]) -> String {
     let columns: [Shown<(&str, hit_promise::Summary)>; 5] = [
         (first(22, "hits"), |(name, _)| (*name).to_owned()),

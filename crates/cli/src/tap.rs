@@ -1,4 +1,4 @@
-//! `sweetspot tap BAT RECORDING…`: what a recording of taps says of the bat.
+//! `sweetspot tap BAT RECORDING…`: what does a recording of taps tell about the bat?
 
 use std::path::PathBuf;
 
@@ -21,18 +21,19 @@ use crate::recording::read;
 use crate::style;
 use crate::value::{MOMENT, TOP_FREQUENCY};
 
-/// What a recording of taps says: tones, which mode each is, and the wood
+/// Tones of a recorded tap, the mode of each, and the wood
 ///
-/// Reads a recording (m4a, wav, mp3, flac, ogg) in which the bat is tapped, finds the taps, their tones and how fast
-/// each dies, tells which mode of the bat each is, of a hollow barrel's wall too, and the wood that follows, all with
-/// 95 % intervals. It says when something spoils them: clipping, gain control, one tap, the room. The exit code is 1
-/// where there is no tap or no tone, or where the tones do not fit the bat.
+/// Reads a recording (m4a, wav, mp3, flac, ogg) in which the bat is tapped. It finds the taps, their tones and their
+/// decay, assigns each tone to a mode of the bat or of a hollow barrel's wall, and fits the wood, all with 95 %
+/// intervals. It reports what spoils a recording: clipping, gain control, a single tap, the room. The exit code is 1 if
+/// there is no tap or no tone, or if the tones do not fit the bat.
 ///
-/// How to tap well: hang the bat or hold it with two fingers at a node, 6 to 7 in from the tip. Lay the phone a hand's
-/// breadth from the barrel and record with a plain recorder app, "enhanced recording" off. Tap the tip five to eight
-/// times with something hard of a knuckle's size, label up, a second apart, and let it ring. Move the phone a hand's
-/// breadth between taps: that halves the ± of the loss factor. A furnished room, and no speech. The other plane of the
-/// grain has other tones: turn the bat a quarter for it, and read that recording by itself.
+/// How to tap well: hang the bat, or hold it with two fingers at a node, 6 to 7 in from the tip. Lay the phone a hand's
+/// breadth from the barrel and record with a plain recorder app, with "enhanced recording" off. Tap the tip five to
+/// eight times, a second apart, with a hard object the size of a knuckle, the label facing up, and let it ring. Move
+/// the phone a hand's breadth between taps: that halves the error of the loss factor. Use a furnished room, and do not
+/// speak. The other plane of the grain has other tones: turn the bat a quarter for it, and analyse that recording
+/// separately.
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES), next_help_heading = "Output")]
 pub struct Args {
@@ -40,11 +41,11 @@ pub struct Args {
     #[arg(help_heading = "The bat")]
     bat: PathBuf,
 
-    /// Recordings of taps of this bat; several are taken together
+    /// Recordings of taps of this bat; several are used together
     #[arg(required = true, help_heading = "The recording")]
     recordings: Vec<PathBuf>,
 
-    /// Which bending mode a tone is, such as "1187 = 3", or "1187 = none"; may be repeated
+    /// Assign a tone to a bending mode, such as "1187 = 3", or "1187 = none"; may be repeated
     #[arg(long, value_name = "HZ = N", value_parser = label, allow_hyphen_values = true,
           help_heading = "The bat")]
     mode: Vec<Told>,
@@ -53,7 +54,7 @@ pub struct Args {
     #[arg(long, conflicts_with_all = ["mode", "out", "readings"], help_heading = "The bat")]
     only_tones: bool,
 
-    /// Listen from this time on, such as "2 s"
+    /// Use the recording from this time on, such as "2 s"
     #[arg(long, value_name = "s", value_parser = MOMENT, help_heading = "The recording")]
     from: Option<f64>,
 
@@ -74,7 +75,7 @@ pub struct Args {
     #[arg(long, value_name = "FILE")]
     readings: Option<PathBuf>,
 
-    /// Write the bat of the wood that was found to this file (- = standard output, and no table then)
+    /// Write the bat with the fitted wood to this file (- = standard output, and no table then)
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
 
@@ -104,9 +105,9 @@ Examples:
   sweetspot tap r161 one.m4a two.m4a --mode \"1187 = 3\" --highest \"5 kHz\"
       two recordings of one bat; the tone at 1187 Hz is bending mode 3";
 
-/// What part of the recordings is listened to.
+/// The part of the recordings that is used.
 fn part(args: &Args) -> Result<Part> {
-    /// The lowest tone of a bat is above that (Hz).
+    /// The lowest tone of a bat is above this (Hz).
     const LOWEST: f64 = 60.0;
     let (from, to) = (args.from.unwrap_or(0.0), args.to);
     if from < 0.0 {

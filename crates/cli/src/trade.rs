@@ -21,12 +21,12 @@ use crate::progress::Progress;
 use crate::style;
 use crate::value::{TheoryChoice, budget, theory};
 
-/// What accuracy costs on this bat, measured here and now
+/// The cost of accuracy on this bat, measured now on this machine
 ///
-/// How many elements of which degree, and which solver, for how many digits? It solves the bat in
-/// many ways, compares each with a reference known to 1e-13 and prints those that no other beats in
-/// both time and error, with --full beside what the program would have chosen by itself. With --u-curve it adds
-/// cubic elements up to a million and shows where factoring solvers begin to lose digits.
+/// How many elements of which degree, and which solver, give how many digits? It solves the bat in many ways, compares
+/// each with a reference known to 1e-13, and prints those for which no other is both faster and more accurate; with
+/// --full also the program's own choice. With --u-curve it adds cubic elements up to a million and shows where
+/// factoring solvers begin to lose digits.
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES))]
 pub struct Args {
@@ -40,7 +40,7 @@ pub struct Args {
 
     /// Beam theory: auto, euler-bernoulli, rayleigh or timoshenko
     ///
-    /// auto is the simplest whose estimated shift of every frequency is within 1e-4.
+    /// auto is the simplest theory whose estimated shift of every frequency is within 1e-4.
     #[arg(long, value_name = "THEORY", default_value = "auto", value_parser = theory(),
           hide_possible_values = true, help_heading = "Accuracy")]
     theory: TheoryChoice,
@@ -76,7 +76,7 @@ Examples:
   sweetspot trade dowel --u-curve --budget \"20 s\" --csv u-curve.csv
       where more elements begin to hurt, as rows for a plot";
 
-/// Seconds that the measurement takes if nothing is said.
+/// Default duration of the measurement (s).
 const TRADE: u64 = 5;
 const U_CURVE: u64 = 120;
 /// Elements of the last mesh of a U-curve.

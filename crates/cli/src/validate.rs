@@ -1,4 +1,4 @@
-//! `sweetspot validate`: every known answer beside ours.
+//! `sweetspot validate`: known answers compared with ours.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -26,12 +26,12 @@ use crate::progress::Progress;
 use crate::tables::{self, Shown, table};
 use sweetspot_report::parts::columns::{first, labels, numbers};
 
-/// Every known answer beside ours
+/// Known answers compared with ours
 ///
-/// May I trust it? Published bats, measured and computed, and exact answers are computed anew and
-/// set beside what is known, each with its tolerance; then stated errors are compared with true
-/// ones on bats with exact frequencies. Printed are every miss and of each kind of number the one
-/// nearest to its tolerance; with --full every number. The exit code is 1 if anything is missed.
+/// Can you trust the program? It computes published bats, measured and computed, and exact answers, and compares each
+/// with the known value and its tolerance. Then it compares stated errors with true ones on bats with exact
+/// frequencies. It prints every miss, and for each kind of number the one closest to its tolerance; with --full every
+/// number. The exit code is 1 if anything is missed.
 #[derive(clap::Args)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Args {
@@ -39,18 +39,17 @@ pub struct Args {
     #[arg(long)]
     summary: bool,
 
-    /// This case only, by its name; may be given again
+    /// Only the case of this name; may be repeated
     #[arg(long = "case", value_name = "NAME", value_parser = case)]
     cases: Vec<String>,
 
     /// Write the page docs/validation.md to this file (- = standard output)
     ///
-    /// Published bats side by side and the exact answers in one table; its picture r161_hit.svg is
-    /// written beside it.
+    /// Published bats side by side, and the exact answers in one table; its picture r161_hit.svg is written beside it.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["summary", "cases"])]
     page: Option<PathBuf>,
 
-    /// True beside stated errors only, a line per bat and tolerance
+    /// Only compare true and stated errors, a line per bat and tolerance
     #[arg(long, conflicts_with_all = ["summary", "cases", "page"])]
     promise: bool,
 
@@ -128,7 +127,7 @@ fn case(name: &str) -> std::result::Result<String, Error> {
     Err(Error::Value(complaint.or_nearest(name, &names)))
 }
 
-/// Writes the page; what is left for standard output.
+/// Writes the page; returns the text for standard output.
 fn page(path: &std::path::Path, tell: Tell) -> Result<Done> {
     let answers = PublishedCase::all(tell)?;
     let text = proof_page::text(&answers)?;
@@ -144,7 +143,7 @@ fn page(path: &std::path::Path, tell: Tell) -> Result<Done> {
 /// A case by its file, its name, and its numbers.
 type KnownCase = (&'static str, String, Vec<KnownNumber>);
 
-/// Every known answer beside ours.
+/// Compares every known answer with ours.
 fn known_answers(args: &Args, tell: Tell, out: &mut String) -> Result<Vec<KnownNumber>> {
     let asked = |name: &str| args.cases.is_empty() || args.cases.iter().any(|case| case == name);
     let mut cases: Vec<KnownCase> = vec![];
@@ -227,7 +226,7 @@ fn kinds(all: &[KnownNumber]) -> String {
     table(columns, &kinds.into_iter().collect::<Vec<_>>())
 }
 
-/// The promise about stated errors: a sentence each where it is kept, else bat by bat.
+/// The promise about stated errors: one sentence each if it is kept, otherwise bat by bat.
 fn promises(rows: &[CheckedBat], hits: &[CheckedHit]) -> String {
     let (all, struck) = (Summary::of(rows), hit_promise::Summary::of(hits));
     let mut out = match all.holds() {

@@ -1,4 +1,4 @@
-//! Values on the command line: how they are read, and how they are said.
+//! How are values on the command line read and shown?
 
 use std::any::TypeId;
 use std::ffi::OsStr;
@@ -20,11 +20,11 @@ pub fn file_unit(text: &str) -> std::result::Result<uff58::Units, String> {
     Ok(uff58::Units::of_length(metre, text.trim()))
 }
 
-/// What a value is for: its quantity, and the values that are plausible there.
+/// The use of a value: its quantity, and its plausible values.
 ///
-/// A bare number is in SI, unless it is implausible so and plausible in a unit of the trade: then
-/// both readings are told (90 for a pitch is 201 mph in SI, and somebody means 90 mph). Files are read
-/// without this, as they are made by programs too.
+/// A bare number is in SI, unless it is implausible so and plausible in a unit of the trade. Then the error names both
+/// readings (a pitch of 90 is 201 mph in SI, and the user means 90 mph). Files are read without this check, because
+/// programs write them too.
 #[derive(Clone, Copy)]
 pub struct Use {
     quantity: Quantity,
@@ -40,7 +40,7 @@ pub const PLACE: Use = Use::new(Quantity::Length, [0.0, 1.2], &["in", "cm", "mm"
 pub const BAT_LENGTH: Use = Use::new(Quantity::Length, [0.45, 1.2], &["in", "cm", "mm"]);
 /// Diameter of a bat.
 pub const DIAMETER: Use = Use::new(Quantity::Length, [0.005, 0.1], &["in", "cm", "mm"]);
-/// What is turned off a bat, or put around it.
+/// A thickness turned off a bat, or put around it.
 pub const LITTLE: Use = Use::new(Quantity::Length, [0.0, 0.02], &["mm", "in"]);
 /// Rotation centre of a swing, from the knob end.
 pub const PIVOT: Use = Use::new(Quantity::Length, [0.0, 0.6], &["in", "cm"]);
@@ -73,7 +73,7 @@ pub const RINGING_TIME: Use = Use::new(Quantity::Time, [0.0, 2.0], &["ms", "us"]
 pub const MOMENT: Use = Use::new(Quantity::Time, [0.0, 3600.0], &[]);
 /// Any frequency.
 pub const FREQUENCY: Use = Use::new(Quantity::Frequency, [0.0, f64::MAX], &[]);
-/// The highest frequency that is looked at.
+/// The highest frequency of a range.
 pub const TOP_FREQUENCY: Use = Use::new(Quantity::Frequency, [10.0, 1e6], &["kHz"]);
 /// Frequency of a bat's first bending mode, as a tap sounds.
 pub const TAP: Use = Use::new(Quantity::Frequency, [20.0, 2000.0], &["kHz"]);
@@ -85,7 +85,7 @@ impl Use {
         Self { quantity, plausible, trade }
     }
 
-    /// Whether a value in SI may be meant.
+    /// Whether a value in SI is plausible.
     pub fn has(&self, value: f64) -> bool {
         let [least, most] = self.plausible;
         (least..=most).contains(&value.abs())
@@ -153,7 +153,7 @@ pub fn with_minus(command: Command) -> Command {
     command.mut_subcommands(with_minus)
 }
 
-/// The angular speed of a swing; who gives a speed of the barrel is shown how.
+/// The angular speed of a swing; a speed of the barrel gets a hint how to give it.
 pub fn swing_speed(text: &str) -> std::result::Result<f64, String> {
     let speed = text.trim();
     let answer = format!("for the speed of a point of the barrel write --bat-speed \"{speed}");
@@ -212,7 +212,7 @@ pub fn named<T: Copy + Send + Sync + 'static, const N: usize>(
         .try_map(move |text| of_name(text).ok_or("no such name"))
 }
 
-/// A theory, or none: that which the bat needs.
+/// A theory, or `None` for the one that the bat needs.
 #[derive(Debug, Clone, Copy)]
 pub struct TheoryChoice(pub Option<Theory>);
 

@@ -119,8 +119,7 @@ pub fn run() -> Result<Done> {
     }
 }
 
-/// The command line, or what is to be said in its place. What sets the scene of a hit is for
-/// `ring --hit` alone in that verb.
+/// The command line, or the text to print in its place. In `ring`, options for the scene of a hit need `--hit`.
 fn parse(words: Vec<OsString>) -> std::result::Result<Cli, clap::Error> {
     let scene = scene::SceneArgs::augment_args(clap::Command::new("scene"));
     let command = help::grouped(help::fitted(value::with_minus(Cli::command())));
@@ -136,8 +135,8 @@ fn parse(words: Vec<OsString>) -> std::result::Result<Cli, clap::Error> {
     Cli::from_arg_matches(&matches)
 }
 
-/// What is said, with a tip only where it is near what was typed, as everywhere in the program: clap's own
-/// ones share letters with it and no more, as `completions` with `maple`.
+/// The error with a tip only if it is near what was typed, as elsewhere in the program. clap's own tips only share
+/// letters with it, as `completions` with `maple`.
 fn near_tips(mut said: clap::Error) -> clap::Error {
     use ContextKind::{
         InvalidArg, InvalidSubcommand, InvalidValue, SuggestedArg, SuggestedSubcommand,
@@ -169,7 +168,7 @@ fn near_tips(mut said: clap::Error) -> clap::Error {
     said
 }
 
-/// What is said of a word that is near the name of a built-in bat and of no verb; other mistakes as they are.
+/// The error for a word that is near the name of a built-in bat but near no verb; other errors unchanged.
 fn bat_for_a_verb(said: clap::Error) -> clap::Error {
     let Some(ContextValue::String(word)) = said.get(ContextKind::InvalidSubcommand) else {
         return said;
@@ -191,7 +190,7 @@ fn bat_for_a_verb(said: clap::Error) -> clap::Error {
     }
 }
 
-/// Help and version, which are results as any other; wrong usage is told and answered with 2.
+/// Prints help and version as results; wrong usage is reported with exit code 2.
 fn say(said: &clap::Error) -> Result<Done> {
     if said.use_stderr() {
         // A closed standard error changes nothing.
@@ -220,7 +219,7 @@ fn complaint(said: &clap::Error) -> Complaint {
     Complaint::new(option, found, expected).hinted(tip.unwrap_or_default())
 }
 
-/// Whether an option stands on the command line.
+/// Whether an option is on the command line.
 fn given(matches: &clap::ArgMatches, name: &str) -> bool {
     matches!(matches.try_contains_id(name), Ok(true))
         && matches.value_source(name) == Some(ValueSource::CommandLine)

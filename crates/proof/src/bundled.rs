@@ -33,11 +33,11 @@ pub const CASES: &[(&str, &str)] = json_files! { "../../../validation":
     "van_zandt_computed" "van_zandt_measured" "wall_nathan" "wall_times" "weighed_dowel"
 };
 
-/// One of the bats that travel with the program, by its path in the package.
+/// One of the built-in bats, by its path in the package.
 ///
 /// # Errors
 ///
-/// [`Error::Value`] if there is none of that name.
+/// [`Error::Value`] if there is none with that name.
 pub fn bundled_bat(path: &str) -> Result<Bat> {
     let name = path.strip_prefix("meshes/").and_then(|file| file.strip_suffix(".json"));
     let text = name
@@ -46,7 +46,7 @@ pub fn bundled_bat(path: &str) -> Result<Bat> {
     Bat::from_text(path, text, Path::new(""))
 }
 
-/// The text of the file of that name, if it is among these.
+/// The text of the file with that name, if it is among these.
 fn of(files: &[(&str, &'static str)], name: &str) -> Option<&'static str> {
     files.iter().find(|(other, _)| *other == name).map(|(_, text)| *text)
 }

@@ -1,4 +1,4 @@
-//! What is known of a bat or of a hit, as the files of `validation/` say it?
+//! What is known about a bat or a hit, according to the files of `validation/`?
 
 use std::path::Path;
 
@@ -16,28 +16,28 @@ use sweetspot::files::schema::bat::BatFile;
 use sweetspot::files::schema::document::{Document, Format};
 use sweetspot::modes::solve::Request;
 
-/// One bat, or a rigid wall for a ball, and what is known about it, with the sources of the numbers and
-/// how near ours must be. SI, the unit in every name; positions count from the knob end.
+/// One bat, or a rigid wall for a ball, with known values, the sources of the numbers, and the tolerance for ours. SI
+/// units, named at the end of each member; positions count from the knob end.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(title = "Case of known answers of sweetspot, sweetspot-validation/1")]
 pub struct Case {
     /// Name of the format and its version: sweetspot-validation/1.
     pub format: Format<Case>,
-    /// What it is about.
+    /// Name of the case.
     pub name: String,
-    /// Where the expected numbers come from.
+    /// Source of the expected numbers.
     pub source: String,
     /// Whose numbers they are; a case without it has an exact answer.
     pub published: Option<Published>,
-    /// The bat, or the name of a file that travels with the program; none where a wall is hit.
+    /// The bat, or the name of a built-in file; none for a wall.
     #[serde(default)]
     #[schemars(with = "Option<CaseBat>")]
     pub(super) bat: Value,
-    /// What is asked of the bat's modes.
+    /// The request for the modes of the bat.
     #[serde(default)]
     solve: Solve,
-    /// What is thrown at the bat, or at the wall, where all checks are of hits.
+    /// The ball that hits the bat, or the wall if all checks are of hits.
     pub hit: Option<Throw>,
     /// The known numbers.
     pub checks: Vec<Check>,
@@ -55,39 +55,39 @@ impl Document for Case {
 enum CaseBat {
     /// The name of a bat file that travels with the program.
     File(String),
-    /// A bat file in its own right.
+    /// A complete bat file.
     Bat(Box<BatFile>),
 }
 
-/// Which published numbers a case holds, and where they stand when set side by side.
+/// The published numbers of a case, and their place in a comparison.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Published {
-    /// Cases of one bat stand in one table.
+    /// Cases with the same bat share one table.
     pub bat: String,
-    /// How the numbers were found.
+    /// Origin of the numbers.
     pub kind: Provenance,
     /// Which of several meshes, where the bat has more than one.
     pub row: Option<String>,
 }
 
-/// Where a published number is from.
+/// Origin of published numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Provenance {
-    /// By somebody, on the bat.
+    /// Measured on the bat.
     Measured,
-    /// By somebody else's program.
+    /// Computed with another program.
     Computed,
 }
 
-/// What is asked of the bat's modes.
+/// The request for the modes of the bat.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Solve {
     /// Number of modes.
     modes: usize,
-    /// Relative error of a frequency that is asked for.
+    /// Requested relative error of a frequency.
     tolerance: Option<f64>,
     /// Number of elements; the planner's own choice if absent.
     elements: Option<usize>,
@@ -99,15 +99,15 @@ struct Solve {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Check {
-    /// What is known.
+    /// The known quantity.
     pub quantity: Known,
     /// Number of the mode, from 1.
     pub mode: Option<usize>,
     /// Number of the node of that mode, from 1 at the knob.
     pub node: Option<usize>,
-    /// Where a ball hits, or a force acts (m).
+    /// Position of the hit or force (m).
     pub at: Option<f64>,
-    /// Where the deflection under the force is seen (m).
+    /// Position of the observed deflection (m).
     pub(super) to: Option<f64>,
     /// How fast the force swings (Hz).
     pub(super) frequency_hz: Option<f64>,
@@ -121,14 +121,14 @@ pub struct Check {
     pub(super) relative: Option<f64>,
     /// How large the error may be, in the quantity's unit.
     pub(super) absolute: Option<f64>,
-    /// Shown with its difference and neither passed nor missed; the note says why.
+    /// Shown with its difference, but neither passed nor missed; the note gives the reason.
     #[serde(default)]
     pub(super) information: bool,
-    /// Why the tolerance is what it is; a check without it has the note above.
+    /// The reason for the tolerance; a check without one shares the note above.
     pub note: Option<String>,
 }
 
-/// What is known, with its unit.
+/// A known quantity, with its unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Known {
@@ -169,11 +169,11 @@ pub enum Known {
     Hit(KnownFigure),
 }
 
-/// One of the cases that travel with the program.
+/// One of the built-in cases.
 ///
 /// # Errors
 ///
-/// [`Error::Value`] if there is none of that name.
+/// [`Error::Value`] if there is none with that name.
 pub fn bundled_case(name: &str) -> Result<Case> {
     read(name, text(name)?)
 }
@@ -185,11 +185,11 @@ pub(crate) fn read(name: &str, text: &str) -> Result<Case> {
 }
 
 impl Case {
-    /// The case's bat.
+    /// The bat of the case.
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] for an unknown name, and whatever its file raises.
+    /// [`Error::Value`] for an unknown name, and the errors of its file.
     pub fn bat(&self) -> Result<Bat> {
         match &self.bat {
             Value::String(path) => bundled_bat(path),
@@ -198,7 +198,7 @@ impl Case {
         }
     }
 
-    /// Where the case's bat is from: the file that travels with the program, or what it says.
+    /// Source of the bat: the built-in file, or the statement of the case.
     pub fn bat_source(&self) -> String {
         match &self.bat {
             Value::String(path) => format!("`{path}`."),
@@ -207,7 +207,7 @@ impl Case {
         }
     }
 
-    /// What the case asks of its bat.
+    /// The request of the case for its bat.
     ///
     /// # Errors
     ///

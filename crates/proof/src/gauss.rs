@@ -1,12 +1,12 @@
-//! At which points is a polynomial known, and how are its Legendre coefficients had from there?
+//! At which points is a polynomial evaluated, and how do its Legendre coefficients follow?
 //!
-//! `n` Gauss points integrate polynomials of degree `2n − 1` exactly, so that the values at them of a
-//! polynomial of degree `d ≤ n − 1` give its coefficients `c_j = (2j + 1)/2 Σ_g w_g P_j(ξ_g) v_g`.
+//! `n` Gauss points integrate polynomials of degree `2n − 1` exactly, so the values of a polynomial of degree
+//! `d ≤ n − 1` at these points give its coefficients `c_j = (2j + 1)/2 Σ_g w_g P_j(ξ_g) v_g`.
 //!
 //! # Source
 //!
-//! `search/legendre_tables.py`, which writes the numbers from 60 digits: each is the double nearest to the
-//! true one. Tests hold them against identities in twice the digits.
+//! `search/legendre_tables.py` writes the numbers from 60 digits; each is the double nearest to the true one. Tests
+//! compare them with identities in twice the digits.
 
 use std::array::from_fn;
 use std::sync::LazyLock;

@@ -1,16 +1,16 @@
-//! Do the stated errors of exit speeds hold?
+//! Are the stated errors of exit speeds correct?
 //!
-//! [`rows`] sweeps the random hits of `validation/hits/hits.json`, drawn and followed in time by
-//! `search/hits/` (Taylor series, no code in common with [`sweetspot::collision`]), and
-//! sets what each says of its error beside what it is. The promise is that of frequencies:
+//! [`rows`] computes the random hits of `validation/hits/hits.json`, which were drawn and integrated by `search/hits/`
+//! (Taylor series, no code in common with [`sweetspot::collision`]), and compares the stated error of each with the
+//! true one. The promise is the same as for frequencies:
 //!
 //! ```text
 //! true error ≤ 3 × stated error                                always
 //! stated error ≤ 30 × true error, where that is visible        in nine cases of ten
 //! ```
 //!
-//! relative to the closing speed. Visible is what is above 1e-13 and above three times what the
-//! reference itself may be off by.
+//! relative to the closing speed. An error is visible above 1e-13 and above three times the possible error of the
+//! reference.
 
 use std::path::Path;
 
@@ -28,12 +28,12 @@ use sweetspot::collision::hit::{Model, Scene, Wall};
 use sweetspot::collision::sweep::{Trial, sweep};
 use sweetspot::modes::solve::Request;
 
-/// Where the hits stand, in the project.
+/// The path of the hits in the project.
 const FILE: &str = "validation/hits/hits.json";
-/// What stands there.
+/// The text of the hits.
 const TEXT: &str = include_str!("../../../validation/hits/hits.json");
 
-/// Bats and hits of them (SI).
+/// Bats and their hits (SI).
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Drawn {
@@ -57,22 +57,22 @@ struct Hit {
     exponent: f64,
     cor: f64,
     tolerance: f64,
-    /// So many modes and nothing else.
+    /// The exact number of modes, without any correction for others.
     modes: Option<usize>,
     wall_stiffness: Option<f64>,
     wall_mass: Option<f64>,
     /// Once the ball is gone for good.
     exit_speed: f64,
     first_exit_speed: f64,
-    /// What the reference may be off by, of the closing speed.
+    /// Possible error of the reference, relative to the closing speed.
     known_to: f64,
-    /// What a relative change of the closing speed does beyond what is proportional to it.
+    /// Effect of a relative change of the closing speed beyond the proportional one.
     sensitivity: f64,
     contacts: usize,
     reloads: usize,
 }
 
-/// What happens in a hit, as the reference has it.
+/// The course of a hit in the reference.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ReferenceCourse {
     /// Ball and bat touch once.
@@ -84,12 +84,12 @@ pub enum ReferenceCourse {
 }
 
 impl ReferenceCourse {
-    /// All of them, with their names.
+    /// All courses, with their names.
     pub const ALL: [(Self, &str); 3] =
         [(Self::Single, "one touch"), (Self::Reload, "reload"), (Self::Later, "later touches")];
 }
 
-/// One hit: what was promised and what is true.
+/// One hit: the promise and the truth.
 #[derive(Debug, Clone)]
 pub struct CheckedHit {
     /// Position of the hit in the file, from 0.
@@ -104,25 +104,25 @@ pub struct CheckedHit {
     pub met: bool,
     /// The true error.
     pub truth: f64,
-    /// The stated error; infinite where there is no answer.
+    /// The stated error; infinite without an answer.
     pub stated: f64,
     /// Error bound of the reference.
     pub known_to: f64,
-    /// Factor by which the answer says that changes of the closing speed are magnified.
+    /// Factor by which the answer magnifies changes of the closing speed, as stated.
     pub sensitivity: f64,
     /// Change of the exit speed by later touches, relative to the closing speed.
     pub later: f64,
 }
 
 impl CheckedHit {
-    /// True over stated error, as far as the truth is known.
+    /// True error divided by stated error, as far as the truth is known.
     pub fn ratio(&self) -> f64 {
-        // An error that is not a number is as bad as can be.
+        // An error that is not a number counts as the worst.
         let off = if self.truth.is_nan() { f64::INFINITY } else { self.truth - self.known_to };
         if self.stated.is_infinite() { 0.0 } else { off.max(0.0) / self.stated }
     }
 
-    /// Whether the true error can be told from the reference's own.
+    /// Whether the true error can be distinguished from that of the reference.
     pub fn visible(&self) -> bool {
         self.stated.is_finite() && self.truth > VISIBLE.max(ALWAYS * self.known_to)
     }
@@ -132,7 +132,7 @@ impl CheckedHit {
         self.stated <= MOSTLY * self.truth
     }
 
-    /// Whether every stated error and every claim of the tolerance is true.
+    /// Whether every stated error is true and every claim to meet the tolerance is correct.
     pub fn holds(&self) -> bool {
         self.ratio() <= ALWAYS && !(self.met && self.stated > self.tolerance)
     }
@@ -145,7 +145,7 @@ pub struct Summary {
     pub hits: usize,
     /// The worst true over stated error.
     pub ratio: f64,
-    /// Hits whose true error is visible.
+    /// Hits with a visible true error.
     pub visible: usize,
     /// Visible errors that are stated within 30 times the true error.
     pub close: usize,
@@ -179,11 +179,11 @@ impl Summary {
     }
 }
 
-/// All hits, in the file's order.
+/// All hits, in the order of the file.
 ///
 /// # Errors
 ///
-/// [`Error::Input`] for a file that is not one of hits, and as [`sweep`].
+/// [`Error::Input`] for a file that contains no hits, and as [`sweep`].
 pub fn rows(tell: Tell) -> Result<Vec<CheckedHit>> {
     tell(0.0, "random hits");
     let drawn: Drawn = serde_json::from_str(TEXT).map_err(|error| {

@@ -1,8 +1,8 @@
-//! Do the stated errors of hoop modes hold?
+//! Are the stated errors of hoop modes correct?
 //!
-//! [`rows`] solves barrels to several tolerances and sets what each mode says of its error beside what it is:
-//! against published frequencies (another program of the same elements, compared with exact elasticity), and of
-//! random barrels against solutions some hundred times finer. The promise is the first one of beams:
+//! [`rows`] solves barrels to several tolerances and compares the stated error of each mode with the true one: against
+//! published frequencies (another program with the same elements, compared with exact elasticity), and for random
+//! barrels against solutions some hundred times finer. The promise is the first one of beams:
 //!
 //! ```text
 //! true error ≤ 3 × stated error       always
@@ -31,14 +31,14 @@ const MODES: usize = 3;
 /// Random barrels of the promise.
 pub const BARRELS: usize = 20;
 
-/// One hoop mode at one tolerance: what was promised and what is true.
+/// One hoop mode at one tolerance: the promise and the truth.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CheckedHoop {
     /// Name of the barrel.
     pub barrel: String,
     /// The harmonic and the order of the mode.
     pub mode: [usize; 2],
-    /// The tolerance that was asked for.
+    /// The requested tolerance.
     pub tolerance: f64,
     /// Whether it is claimed.
     pub met: bool,
@@ -51,19 +51,19 @@ pub struct CheckedHoop {
 }
 
 impl CheckedHoop {
-    /// True over stated error, as far as the truth is known.
+    /// True error divided by stated error, as far as the truth is known.
     pub fn ratio(&self) -> f64 {
         let off = if self.truth.is_nan() { f64::INFINITY } else { self.truth - self.known_to };
         off.max(0.0) / self.stated
     }
 
-    /// Whether the stated error and the claim of the tolerance are true.
+    /// Whether the stated error is true and the claim to meet the tolerance is correct.
     pub fn holds(&self) -> bool {
         self.ratio() <= ALWAYS && !(self.met && self.stated > self.tolerance)
     }
 }
 
-/// A barrel and what is known of it: frequencies (Hz) of n = 2 and 3 and how far these may be off.
+/// A barrel with its known frequencies (Hz) for n = 2 and 3 and their possible errors.
 struct Barrel {
     name: String,
     bat: Bat,

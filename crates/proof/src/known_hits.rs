@@ -1,8 +1,8 @@
-//! What is known of a ball on a rigid wall and of a ball on a bat?
+//! What is known about a ball on a rigid wall and a ball on a bat?
 //!
-//! [`crate::validation::run`] is what to call.
+//! The function to call is [`crate::validation::run`].
 //!
-//! What a case of `validation/` says of them, and what the contact finds.
+//! This file has the known values of a case of `validation/`, and the results of the contact.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -43,13 +43,13 @@ pub struct Throw {
     /// Rotation of the bat (rad/s).
     #[serde(default)]
     rotation_rad_per_s: f64,
-    /// The case's modes are all there are, as in a published model; else the flexibility of all
-    /// others is counted too.
+    /// Whether the modes of the case are complete, as in a published model; otherwise the flexibility of all others is
+    /// included too.
     #[serde(default)]
     modes_alone: bool,
 }
 
-/// What is known of a hit, with its unit.
+/// A known figure of a hit, with its unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum KnownFigure {
@@ -73,7 +73,7 @@ pub enum KnownFigure {
     BestPlaceM,
     /// Largest exit speed along the bat (m/s).
     BestExitSpeedMPerS,
-    /// Time until 99 % of the impulse on a wall is done (ms).
+    /// Time until 99 % of the impulse on a wall is complete (ms).
     WallTimeMs,
     /// Contact time on a wall, until the force ends (ms).
     WallContactMs,
@@ -146,7 +146,7 @@ impl Throw {
         })
     }
 
-    /// What the contact finds on a bat, NaN where it finds nothing.
+    /// The result of the contact on a bat, NaN where it has none.
     ///
     /// # Errors
     ///
@@ -172,7 +172,7 @@ impl Throw {
         Ok(wanted.iter().map(|wanted| seen(wanted).unwrap_or(f64::NAN)).collect())
     }
 
-    /// What the contact finds on a rigid wall at a speed (m/s); NaN for what only a bat has.
+    /// The result of the contact on a rigid wall at a speed (m/s); NaN for a figure that needs a bat.
     pub fn on_wall(&self, seen: KnownFigure, speed: f64) -> f64 {
         let law = PowerLaw::new(self.stiffness, self.exponent, self.cor);
         let felt = DrivingPoint { inverse_mass: 1.0 / self.mass_kg, ..DrivingPoint::default() };
@@ -189,8 +189,8 @@ impl Throw {
         }
     }
 
-    /// Exit speeds (m/s) at the places (m) where there are any: by the contact with all modes, of the bat if it did
-    /// not bend, and by the WPI report's loss with that solution's modes.
+    /// Exit speeds (m/s) at the places (m) where they exist: of the contact with all modes, of the rigid bat, and of
+    /// the loss in the WPI report with the modes of that solution.
     ///
     /// # Errors
     ///
@@ -234,11 +234,11 @@ fn of_hit(seen: KnownFigure, outcome: &Outcome, rigid: f64) -> Option<f64> {
     }
 }
 
-/// When (s) the force has given that impulse (N s), NaN if it never does.
+/// The time (s) at which the force has given that impulse (N s); NaN if it never does.
 fn time_of(pieces: &[Piece], impulse: f64) -> f64 {
     let mut left = impulse;
     for piece in pieces {
-        // The integral of the force from the piece's beginning.
+        // The integral of the force from the beginning of the piece.
         let given = |s: f64| {
             let integral: [f64; POINTS] =
                 std::array::from_fn(|k| piece.powers[k] / (k as f64 + 1.0));

@@ -1,15 +1,15 @@
-//! Is it true?
+//! Are the results true?
 //!
 //! | file | question |
 //! |---|---|
 //! | [`gauss`], [`series`] | Gauss's rule and power series in intervals |
-//! | [`enclosure`] | between which numbers do frequencies lie, proven |
-//! | [`bundled`], [`known_hits`], [`case`](mod@case) | what is known, of which bats and hits |
-//! | [`validation`] | is it reproduced |
+//! | [`enclosure`] | between which numbers do frequencies provably lie |
+//! | [`bundled`], [`known_hits`], [`case`](mod@case) | what is known about which bats and hits |
+//! | [`validation`] | are the known values reproduced |
 //! | [`published`] | are published figures reproduced |
-//! | [`promise`], [`hit_promise`], [`hoop_promise`] | do stated errors hold, of modes, of hits and of hoop modes |
-//! | [`proven_promise`] | do they hold where every frequency is proven |
-//! | [`extremes`] | does what no bat is stay right |
+//! | [`promise`], [`hit_promise`], [`hoop_promise`] | are the stated errors of modes, hits and hoop modes correct |
+//! | [`proven_promise`] | are they correct where every frequency is proven |
+//! | [`extremes`] | are bats beyond any real one solved correctly |
 
 #![forbid(unsafe_code)]
 #![allow(clippy::needless_range_loop)]

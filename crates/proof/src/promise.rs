@@ -1,7 +1,6 @@
-//! Do the stated errors hold?
+//! Are the stated errors correct?
 //!
-//! [`rows`] sets what a solution states as its errors beside what they are; [`Summary::of`] sums
-//! that up.
+//! [`rows`] compares the stated errors of solutions with the true ones; [`Summary::of`] summarises the result.
 //!
 //! Every bat with exact frequencies is solved for tolerances from 1e-2 to 1e-12. The promise:
 //!
@@ -11,7 +10,7 @@
 //! ```
 //!
 //! for every frequency, and the first line for nodes and modal masses where they are known too.
-//! A tolerance that round-off puts out of reach breaks no promise if the answer says so.
+//! A tolerance beyond reach because of round-off breaks no promise if the answer says so.
 
 use crate::validation::Truth;
 use sweetspot::base::error::Result;
@@ -19,24 +18,23 @@ use sweetspot::base::telling::Tell;
 use sweetspot::modes::mode::Mode;
 use sweetspot::modes::solve::{Request, Solution, solve};
 
-/// Modes asked for where at least this many are known.
+/// Number of requested modes where at least this many are known.
 pub const MODES: usize = 60;
-/// The asked tolerances, as negative powers of ten.
+/// The requested tolerances, as negative powers of ten.
 pub const DIGITS: std::ops::RangeInclusive<i32> = 2..=12;
 
 /// How many times the stated error a true one may be.
 pub const ALWAYS: f64 = 3.0;
 /// How many times the true error a stated one may be in nine cases of ten.
 pub const MOSTLY: f64 = 30.0;
-/// True errors below this are luck or round-off: whether they are near the stated ones says
-/// nothing.
+/// True errors below this are luck or round-off, so their nearness to the stated ones is meaningless.
 pub const VISIBLE: f64 = 1e-13;
 /// The known frequencies and masses are doubles: right to half a unit in the last place (relative).
 pub const KNOWN_TO: f64 = 1.2e-16;
-/// A node is a zero of a sum of as many terms as the degree has: its own round-off (m).
+/// A node is a zero of a sum with as many terms as the degree; this is its round-off (m).
 const NODE_KNOWN_TO: f64 = 1e-12;
 
-/// The known nodes leave out those nearer to an end than this (m).
+/// Known nodes closer to an end than this are left out (m).
 const BESIDE_AN_END: f64 = 1e-4;
 
 /// The bats: name, and the validation cases that know them; the dowel is known in closed form.
@@ -95,14 +93,14 @@ pub const BATS: &[(&str, &[&str])] = &[
     ("absorber", &["absorber"]),
 ];
 
-/// One bat solved for one tolerance: what was promised and what is true.
+/// One bat solved for one tolerance: the promise and the truth.
 #[derive(Debug, Clone)]
 pub struct CheckedBat {
     /// Name of the bat in the table.
     pub bat: &'static str,
     /// Wanted relative accuracy of every frequency.
     pub tolerance: f64,
-    /// How many modes were asked for.
+    /// Number of requested modes.
     pub modes: usize,
     /// Degree of the plan that the tolerance made.
     pub degree: usize,
@@ -114,12 +112,11 @@ pub struct CheckedBat {
     pub truth: f64,
     /// Largest stated relative error of a frequency.
     pub stated: f64,
-    /// Largest true over stated error of any one frequency; a ratio of 3 is the limit. Where nothing
-    /// is known it is 0.
+    /// Largest ratio of true to stated error of any frequency; the limit is 3. It is 0 where nothing is known.
     pub frequency_ratio: f64,
-    /// Largest true over stated error of any one node; 0 where nothing is known.
+    /// Largest ratio of true to stated error of any node; 0 where nothing is known.
     pub node_ratio: f64,
-    /// Largest true over stated error of any one modal mass; 0 where nothing is known.
+    /// Largest ratio of true to stated error of any modal mass; 0 where nothing is known.
     pub mass_ratio: f64,
     /// Modes whose true error is above 1e-13.
     pub visible: usize,
@@ -128,8 +125,7 @@ pub struct CheckedBat {
 }
 
 impl CheckedBat {
-    /// Whether no true error exceeds three times the stated one, and no claim of the tolerance
-    /// stands on a larger one.
+    /// Whether no true error exceeds three times the stated one, and no claim to meet the tolerance is wrong.
     pub fn holds(&self) -> bool {
         let ratios = [self.frequency_ratio, self.node_ratio, self.mass_ratio];
         ratios.iter().all(|ratio| *ratio <= ALWAYS) && !(self.met && self.stated > self.tolerance)
@@ -212,7 +208,7 @@ fn row(bat: &'static str, truth: &Truth, tolerance: f64) -> Result<CheckedBat> {
     Ok(compared(bat, truth, tolerance, &solution))
 }
 
-/// The row of a solution: each known number beside ours.
+/// The row of a solution, with each known number compared with ours.
 fn compared(bat: &'static str, truth: &Truth, tolerance: f64, solution: &Solution) -> CheckedBat {
     let pairs = solution.modes.iter().zip(&truth.frequencies);
     let frequencies: Vec<(f64, f64)> = pairs
@@ -249,8 +245,8 @@ fn ratio(off: f64, stated: f64, known_to: f64) -> f64 {
     off / (stated + known_to / ALWAYS)
 }
 
-/// The worst of one mode's nodes; a node too many or too few is infinitely wrong. The known ones
-/// are without those beside a heavy end.
+/// The largest ratio for the nodes of one mode; a missing or additional node counts as infinitely wrong. The known
+/// nodes exclude those next to a heavy end.
 fn node_ratio(mode: &Mode, exact: &[f64], length: f64) -> f64 {
     if exact.is_empty() {
         return 0.0;

@@ -1,8 +1,8 @@
-//! Do the stated errors of frequencies hold where every frequency is proven?
+//! Are the stated errors of frequencies correct where every frequency is proven?
 //!
-//! [`rows`] solves [`BATS`] bats that look random for tolerances from 1e-2 to 1e-9 and sets what is stated of each
-//! frequency beside the interval that holds it ([`crate::enclosure`]): the true error is then not below
-//! the distance to the interval and not above that to its farther end, case by case.
+//! [`rows`] solves [`BATS`] random-looking bats for tolerances from 1e-2 to 1e-9 and compares the stated error of each
+//! frequency with the interval that contains the true one ([`crate::enclosure`]). The true error is then at least the
+//! distance to the interval and at most that to its farther end.
 
 use crate::enclosure::guarantee::guarantee;
 use crate::promise::ALWAYS;
@@ -18,15 +18,15 @@ use sweetspot::modes::solve::{Request, solve};
 
 /// Number of random bats.
 pub const BATS: usize = 200;
-/// Modes that are looked at of each.
+/// Number of modes examined of each bat.
 const MODES: usize = 6;
 /// Intervals are this narrow where arithmetic allows.
 const WIDTH: f64 = 1e-11;
 
-/// One bat: what was stated of its modes, and what is proven.
+/// One bat: the stated errors of its modes, and the proven intervals.
 #[derive(Debug, Clone)]
 pub struct ProvenBat {
-    /// What kind of bat it is.
+    /// Kind of the bat.
     pub kind: &'static str,
     /// The theory.
     pub theory: Theory,
@@ -38,7 +38,7 @@ pub struct ProvenBat {
     pub held: usize,
     /// Modes whose true error is proven to be beyond it.
     pub broken: usize,
-    /// The largest proven ratio of true to stated error: what it is at least.
+    /// The largest proven lower bound of the ratio of true to stated error.
     pub at_least: f64,
     /// The widest interval as a share of its frequency.
     pub width: f64,
@@ -86,14 +86,14 @@ fn row(k: usize, random: &mut Random) -> Result<ProvenBat> {
     Ok(row)
 }
 
-/// What the relative error of a frequency is at least and at most, given that the truth is between these.
+/// Bounds of the relative error of a frequency, given that the true one is between these.
 fn between(mode: &Mode, [lower, upper]: [f64; 2]) -> [f64; 2] {
     let found = mode.frequency();
     let beside = f64::max(lower / found - 1.0, 1.0 - upper / found).max(0.0);
     [beside, f64::max(found / lower - 1.0, 1.0 - found / upper)]
 }
 
-/// Numbers that look random, in [0, 1), the same on every machine.
+/// Random-looking numbers in [0, 1), the same on every machine.
 struct Random(u64);
 
 impl Random {

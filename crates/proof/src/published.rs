@@ -1,6 +1,6 @@
 //! How do published numbers of real bats compare with ours?
 //!
-//! [`PublishedCase::all`] computes every case anew, [`side_by_side`] tells those of one bat.
+//! [`PublishedCase::all`] computes every case again, [`side_by_side`] compares those of one bat.
 
 use std::fmt::Write;
 
@@ -25,7 +25,7 @@ pub struct PublishedCase {
 }
 
 impl PublishedCase {
-    /// All cases that travel with the program, computed anew.
+    /// All built-in cases, computed again.
     ///
     /// # Errors
     ///
@@ -39,12 +39,12 @@ impl PublishedCase {
         CASES.iter().enumerate().map(answer).collect()
     }
 
-    /// Whether a number of it is missed.
+    /// Whether it misses a number.
     pub fn missed(&self) -> bool {
         self.rows.iter().any(KnownNumber::missed)
     }
 
-    /// The rows that count: not those for information.
+    /// The rows that count, without those for information only.
     pub fn counted(&self) -> impl Iterator<Item = &KnownNumber> {
         self.rows.iter().filter(|row| !row.information)
     }
@@ -113,13 +113,12 @@ struct Line<'a> {
     mode: usize,
 }
 
-/// The cases of one bat as one table, a line for each mode: measured, computed by others, ours
-/// with and without shear, nodes. An empty column is left out; without modes there is no
-/// table.
+/// The cases of one bat as one table, a line for each mode: measured, computed by others, ours with and without shear,
+/// nodes. Empty columns are omitted. Without modes there is no table.
 ///
 /// # Errors
 ///
-/// What the bats and their solutions raise.
+/// The errors of the bats and their solutions.
 pub fn side_by_side(answers: &[&PublishedCase]) -> Result<String> {
     let lines = lines(answers);
     if lines.is_empty() {
@@ -176,7 +175,7 @@ fn row_of(answer: &PublishedCase) -> Option<&str> {
     answer.case.published.as_ref()?.row.as_deref()
 }
 
-/// What stands in a line of the table, a cell for each heading.
+/// A line of the table, a cell for each heading.
 fn line_of_cells(answers: &[&PublishedCase], line: &Line) -> Result<[String; 9]> {
     let here = || answers.iter().copied().filter(|answer| row_of(answer) == line.row);
     let measured =
@@ -259,7 +258,7 @@ struct Ours {
     nodes: Vec<f64>,
 }
 
-/// The mode of that line by that theory, with the case's own mesh if it asks for one.
+/// The mode of that line by that theory, with the mesh of the case if it requests one.
 fn ours(answer: &PublishedCase, line: &Line, theory: Theory) -> Result<Option<Ours>> {
     let request = Request { theory, modes: line.mode, ..answer.case.request()? };
     let modes = solve(&answer.case.bat()?, &request)?.modes;
@@ -285,7 +284,7 @@ pub fn decimals(value: f64) -> usize {
     value.to_string().split('.').nth(1).map_or(0, str::len)
 }
 
-/// The number to the given number of decimals.
+/// The number with the given number of decimals.
 pub fn number(value: f64, decimals: usize) -> String {
     if value.is_nan() { "none".to_owned() } else { format!("{value:.decimals$}") }
 }

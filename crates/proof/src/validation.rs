@@ -1,7 +1,7 @@
-//! Does the program reproduce what is known?
+//! Does the program reproduce known values?
 //!
-//! [`run`] solves one case and sets its numbers beside the known ones. The cases are data, in the folder
-//! `validation/`, and travel with the program.
+//! [`run`] solves one case and compares its numbers with the known ones. The cases are data in the folder `validation/`
+//! and are built into the program.
 
 use std::f64::consts::TAU;
 
@@ -20,16 +20,16 @@ use sweetspot::modes::solve::{Request, Solution, solve};
 use sweetspot::motion::frf::Frf;
 use sweetspot::motion::ringing::Ringing;
 
-/// A known number beside ours.
+/// A known number compared with ours.
 #[derive(Debug, Clone)]
 pub struct KnownNumber {
     /// Name of its case.
     pub case: String,
-    /// What is known, in words.
+    /// The known quantity, in words.
     pub quantity: String,
     /// The known number.
     pub expected: f64,
-    /// Ours.
+    /// Our number.
     pub found: f64,
     /// In the sense of the tolerance: relative, or absolute in the quantity's unit.
     pub error: f64,
@@ -39,7 +39,7 @@ pub struct KnownNumber {
     pub relative: bool,
     /// For information only: neither passed nor missed.
     pub information: bool,
-    /// Why the tolerance is what it is, or why the check has no tolerance.
+    /// The reason for the tolerance, or for its absence.
     pub note: Option<String>,
 }
 
@@ -62,7 +62,7 @@ impl KnownNumber {
     }
 }
 
-/// What is known of a bat to all digits of a number.
+/// The values of a bat that are known to all digits.
 #[derive(Debug, Clone)]
 pub struct Truth {
     /// The bat.
@@ -71,14 +71,14 @@ pub struct Truth {
     pub theory: Theory,
     /// Frequencies of modes 1, 2, … (Hz).
     pub frequencies: Vec<f64>,
-    /// Nodes of the lowest modes from the knob end (m); empty where they are not known.
+    /// Nodes of the lowest modes from the knob end (m); empty where they are unknown.
     pub nodes: Vec<Vec<f64>>,
     /// Modal masses of the lowest modes (kg), where they are known.
     pub modal_masses: Vec<Option<f64>>,
 }
 
 impl Truth {
-    /// What those cases, all of the same bat, say together.
+    /// The combined values of those cases, all of the same bat.
     ///
     /// # Errors
     ///
@@ -163,7 +163,7 @@ pub fn dowel_proof(request: &Request) -> Result<[f64; 2]> {
 ///
 /// # Errors
 ///
-/// [`Error::Value`] if the case is not well-formed, and whatever its bat and its solution raise.
+/// [`Error::Value`] if the case is malformed, and the errors of its bat and its solution.
 pub fn run(name: &str, text: &str) -> Result<(Case, Vec<KnownNumber>)> {
     let case = read(name, text)?;
     let mut note = None;
@@ -175,9 +175,9 @@ pub fn run(name: &str, text: &str) -> Result<(Case, Vec<KnownNumber>)> {
     Ok((case, rows))
 }
 
-/// A check beside what was found, the note aside.
+/// A check compared with the result, without the note.
 fn row(case: &str, check: &Check, found: f64) -> KnownNumber {
-    // Without a tolerance, places and hits differ by their unit and all else by a share.
+    // Without a tolerance, the differences of places and hits are absolute and all others are relative.
     let absolute = matches!(check.quantity, Known::NodeM | Known::Hit(_));
     let shown = check.information && !absolute;
     let relative = check.relative.is_some() || shown;
@@ -257,7 +257,7 @@ fn label(check: &Check) -> String {
     }
 }
 
-/// What is found of every check, NaN where nothing is: it passes no test.
+/// The result for every check, NaN without one; it passes no test.
 fn all_found(case: &Case) -> Result<Vec<f64>> {
     let seen = |check: &Check| match check.quantity {
         Known::Hit(seen) => Some(seen),

@@ -18,24 +18,24 @@ use sweetspot_study::verdict::Verdict;
 /// Impact points along the outer half of the bat.
 pub const POINTS: usize = 101;
 
-/// What is analysed besides the modes.
+/// What an analysis includes besides the modes.
 #[derive(Debug, Clone)]
 pub struct Task {
     /// How ball and bat meet: rigid, energy-loss, pulse or contact.
     pub model: Model,
     /// Swing, pitch and ball, and where the swing is from.
     pub scene: Scene,
-    /// How the swing goes with the bat's swing weight; None where it is given.
+    /// How the swing depends on the swing weight of the bat; None for a given swing.
     pub law: Option<SwingLaw>,
-    /// What is asked of the hits: their tolerance and theory.
+    /// Tolerance and theory of the hits.
     pub hits: Request,
-    /// What is asked of the proof on the dowel.
+    /// The request for the test on the dowel.
     pub proof: Request,
     /// How exactly the bat was measured.
     pub readings: Readings,
 }
 
-/// Accuracy of the solver on the uniform dowel, where the truth is known.
+/// Accuracy of the solver on the uniform dowel, for which the exact values are known.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Proof {
     /// Number of modes of the uniform dowel that were compared.
@@ -46,41 +46,41 @@ pub struct Proof {
     pub stated: f64,
 }
 
-/// A bat, its modes, its hits, its figures, and how far all of them may be trusted.
+/// A bat, its modes, its hits, its figures and the uncertainty of all of them.
 #[derive(Debug, Clone)]
 pub struct Analysis {
     /// The bat that is analysed.
     pub bat: Bat,
     /// Bending modes of the bat.
     pub solution: Solution,
-    /// What was asked.
+    /// The task.
     pub task: Task,
     /// Hits at [`POINTS`] even places from the middle of the bat to its tip.
     pub hits: Sweep,
     /// The figures by which bats are compared, and the sweet spot.
     pub figures: Figures,
-    /// What hits at the sweet spot and five inches closer to the handle ask of the bat; empty where
-    /// the model has no force in time.
+    /// The load on the bat in hits at the sweet spot and five inches closer to the handle; empty where the model has no
+    /// force in time.
     pub strength: Vec<Strength>,
-    /// Accuracy of the solver on a dowel, whose frequencies are known.
+    /// Accuracy of the solver on a dowel with known frequencies.
     pub proof: Proof,
-    /// What calipers, scale and wood leave open; not counted for a bat whose many pieces would
-    /// make it slow.
+    /// The uncertainty due to calipers, scale and wood; not computed for a bat with so many pieces that it would be
+    /// slow.
     pub spread: Spread,
-    /// How far the answers hold, by all that is known of them.
+    /// The reliability of the answers, from everything known about them.
     pub verdict: Verdict,
-    /// What the model needs; None for a bat of more than a thousand pieces, where it would take long, and where it could
-    /// not be found, for the reason in [`Self::failed`].
+    /// What the model needs. None for a bat of more than a thousand pieces, where it would take long, and where it
+    /// could not be found for the reason in [`Self::failed`].
     pub advice: Option<Advice>,
-    /// How the barrel of a hollow bat rings, and what its wall does to the ball; None for others, and where it
-    /// could not be found, for the reason in [`Self::failed`].
+    /// How the barrel of a hollow bat rings and how its wall affects the ball. None for other bats, and where it could
+    /// not be found for the reason in [`Self::failed`].
     pub barrel: Option<Barrel>,
-    /// What could not be found, and why, a sentence each.
+    /// What could not be found, with the reason, one sentence each.
     pub failed: Vec<String>,
 }
 
 impl Analysis {
-    /// All of it, for a bat whose modes are found.
+    /// The whole analysis of a bat with known modes.
     ///
     /// # Errors
     ///
@@ -89,7 +89,7 @@ impl Analysis {
         Self::telling(bat, solution, task, &nobody)
     }
 
-    /// Analyses a solved bat and tells how far the work has come.
+    /// Analyses a solved bat and reports the progress of the work.
     ///
     /// # Errors
     ///
@@ -158,13 +158,13 @@ fn strength(bat: &Bat, task: &Task, hits: &Sweep, figures: &Figures) -> Vec<Stre
     places.into_iter().filter(|x| *x > 0.0).filter_map(at).collect()
 }
 
-/// What was found; what could not be is noted with its reason.
+/// A result if there is one; a failure is noted with its reason.
 fn found<T>(of: Option<Result<T>>, what: &str, failed: &mut Vec<String>) -> Option<T> {
     let noted = |error| failed.push(format!("Not found: {what} ({error})"));
     of?.map_err(noted).ok()
 }
 
-/// The barrel of a hollow bat under the scene's ball, shot as laboratories do; None where there is none to ring.
+/// The barrel of a hollow bat under the ball of the scene, fired as in laboratories; None without a hollow barrel.
 fn barrel(bat: &Bat, task: &Task, accuracy: Accuracy) -> Option<Result<Barrel>> {
     if !rings(bat) || bat.profile().pieces.len() > MOST_PIECES {
         return None;

@@ -1,5 +1,5 @@
-//! Tables for spreadsheets and other programs: one line of names, then numbers that read back to the
-//! same bits, with commas between them and nothing else.
+//! Tables for spreadsheets and other programs: a line of names, then lines of values separated by commas. The numbers
+//! read back to the same bits.
 
 use csv::Writer;
 
@@ -21,11 +21,11 @@ impl Csv {
         table
     }
 
-    /// One more row, as many cells as there are columns.
+    /// Adds a row with as many cells as there are columns.
     ///
     /// # Panics
     ///
-    /// With more or fewer cells.
+    /// If the number of cells differs.
     pub fn row(&mut self, cells: impl IntoIterator<Item = Cell>) {
         let cells = cells.into_iter().map(Cell::in_file);
         self.0.write_record(cells).expect("as many cells as there are columns");
@@ -35,14 +35,14 @@ impl Csv {
     ///
     /// # Panics
     ///
-    /// Never: it is made of strings.
+    /// Never, because the text is made of strings.
     pub fn text(self) -> String {
         let bytes = self.0.into_inner().expect("memory can be written to");
         String::from_utf8(bytes).expect("it is made of strings")
     }
 }
 
-/// A line of the columns that files have for each row.
+/// The rows as lines, with the columns that files have.
 pub fn rows<T>(columns: &[table::Column<T>], rows: &[T]) -> String {
     let columns = columns.iter().map(table::Column::in_file);
     let columns: Vec<_> = columns.filter(|(name, _)| !name.is_empty()).collect();
@@ -51,7 +51,7 @@ pub fn rows<T>(columns: &[table::Column<T>], rows: &[T]) -> String {
     out.text()
 }
 
-/// A line of those columns for each impact; empty where there is no value.
+/// A line for each impact with those columns; a cell is empty where there is no value.
 pub fn impacts(columns: &[Column], impacts: &[Impact]) -> String {
     let mut table = Csv::new(columns.iter().map(|column| column.name));
     for impact in impacts {
@@ -60,8 +60,7 @@ pub fn impacts(columns: &[Column], impacts: &[Impact]) -> String {
     table.text()
 }
 
-/// A line for each hit: every figure, how many modes took part, how far its exit speed may be off, and what
-/// is unusual in it.
+/// A line for each hit: every figure, the number of modes, the error of the exit speed, and flags.
 pub fn hits(impacts: &[Impact]) -> String {
     let names = columns::ALL.iter().map(|column| column.name);
     let mut table = Csv::new(names.chain(["modes_used", "error.exit_speed", "flags"]));
@@ -76,7 +75,7 @@ pub fn hits(impacts: &[Impact]) -> String {
     table.text()
 }
 
-/// A line for each mode: its figures, how far they may be off, and its nodes in columns of their own.
+/// A line for each mode: its figures with their errors, and its nodes in separate columns.
 pub fn modes(solution: &Solution) -> String {
     const FIGURES: [&str; 9] = [
         "order",

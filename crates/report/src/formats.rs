@@ -36,7 +36,7 @@ use sweetspot_study::files::rules_file::RulesForm;
 use sweetspot_study::files::scatter_file::ScatterForm;
 use sweetspot_study::files::study_file::StudyForm;
 
-/// How many there are: wishes and rules of games are read with the feature `aim`.
+/// The number of formats: wishes and rules of games are read with the feature `aim`.
 const COUNT: usize = if cfg!(feature = "aim") { 31 } else { 29 };
 
 /// A kind of file that has a schema.
@@ -47,7 +47,7 @@ pub struct FileKind {
 }
 
 impl FileKind {
-    /// What is read first, then what is written.
+    /// The formats that are read, then those that are written.
     pub const ALL: [Self; COUNT] = [
         Self::of::<BatFile>(),
         Self::of::<BallFile>(),
@@ -93,7 +93,7 @@ impl FileKind {
         self.name
     }
 
-    /// The `format` by which such a file is known.
+    /// The `format` member that identifies such a file.
     pub fn format(self) -> String {
         format(self.name)
     }
@@ -104,7 +104,7 @@ impl FileKind {
     }
 }
 
-/// One schema of all of them, each by its `format`, with the schema of each inside.
+/// One schema for all of them, selected by `format`, with the schema of each inside.
 pub fn all() -> Value {
     let by_format = |file: FileKind| {
         json!({

@@ -1,6 +1,6 @@
 //! What does the picture `docs/r161_hit.svg` show?
 //!
-//! Exit speeds along an R161, ours beside what others measured and computed; [`svg`] draws it anew.
+//! It shows exit speeds along an R161, ours compared with those that others measured and computed. [`svg`] draws it.
 
 use crate::plot::axis::Axis;
 use crate::plot::plane::{Frame, Plane};
@@ -13,10 +13,10 @@ use sweetspot::modes::solve::{Request, solve};
 use sweetspot_proof::case::{Case, Known, bundled_case};
 use sweetspot_proof::known_hits::KnownFigure;
 
-/// Its name beside the page.
+/// The name of the file beside the page.
 pub const FILE: &str = "r161_hit.svg";
 
-/// What Cross's error bars in the figure are in the mean, from 0.012 to 0.02 (m/s).
+/// Mean length of the error bars in Cross's figure, which range from 0.012 to 0.02 (m/s).
 const CROSS: f64 = 0.015;
 /// How well the other figure can be read (m/s).
 const READ: f64 = 0.4;
@@ -31,7 +31,7 @@ const DIAGRAM: [f64; 2] = [430.0, 286.0];
 ///
 /// # Errors
 ///
-/// What the two hits raise.
+/// The errors of the two hits.
 pub fn svg() -> Result<String> {
     let tap = bundled_case("r161_hit_cross")?;
     let mut slow = curves(&tap)?;
@@ -50,7 +50,7 @@ pub fn svg() -> Result<String> {
     Ok(svg.finish(title, alt))
 }
 
-/// One diagram from that pixel on, to that speed (m/s).
+/// One diagram from that pixel on, with speeds up to that value (m/s).
 fn diagram(svg: &mut Svg, left: f64, (title, most): (&str, f64), series: &[Series]) {
     const TOP: f64 = 84.0;
     let frame = Frame { left, top: TOP, right: left + DIAGRAM[0], bottom: TOP + DIAGRAM[1] };

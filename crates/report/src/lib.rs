@@ -1,16 +1,16 @@
-//! How is it said, drawn and exchanged?
+//! How are results put into words, drawn and exchanged?
 //!
 //! | file | question |
 //! |---|---|
-//! | [`analysis`] | everything there is to say of one bat and its hits |
-//! | [`schema`] | what does every document look like |
-//! | [`parts`] | what a report is made of |
+//! | [`analysis`] | the whole analysis of one bat and its hits |
+//! | [`schema`] | the format of every document |
+//! | [`parts`] | the parts of a report |
 //! | [`report`], [`csv`] | tables for people and for spreadsheets, JSON for programs |
 //! | [`exchange`] | files for other programs |
 //! | [`many`] | the rows of a study and the folder of them |
 //! | [`plot`] | pictures |
-//! | [`page`] | all of it on one page |
-//! | [`template`] | a bat in its own size, to be printed |
+//! | [`page`] | the whole analysis on one page |
+//! | [`template`] | a bat in full size, for printing |
 //! | [`hit_figure`], [`proof_page`] | the published hits as a picture; the page of proofs |
 //! | [`formats`] | every format that is read or written, with its schema |
 

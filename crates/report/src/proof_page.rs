@@ -1,9 +1,9 @@
-//! What stands on the page `docs/validation.md`?
+//! What is on the page `docs/validation.md`?
 //!
-//! Published bats side by side, exact answers in one table; [`text`] writes it anew.
+//! It compares published bats with our results, and has exact answers in one table. [`text`] writes it.
 //!
-//! Everything on it is a case of `validation/` or was computed from one, and rounded so far that
-//! every run and every machine writes the same page.
+//! Everything on it is a case of `validation/` or was computed from one, and is rounded so that every run and every
+//! machine writes the same page.
 
 use std::fmt::Write;
 
@@ -12,7 +12,7 @@ use sweetspot::base::error::Result;
 use sweetspot_proof::published::{self, PublishedCase, decimals, number, percent, signed};
 use sweetspot_proof::validation::KnownNumber;
 
-/// How many numbers were compared, and how many are missed, in one sentence.
+/// The numbers of comparisons and of misses, in one sentence.
 pub fn verdict(answers: &[PublishedCase]) -> String {
     let rows = || answers.iter().flat_map(|answer| &answer.rows);
     let information = rows().filter(|row| row.information).count();
@@ -30,7 +30,7 @@ pub fn verdict(answers: &[PublishedCase]) -> String {
 ///
 /// # Errors
 ///
-/// What the solutions that stand side by side raise.
+/// The errors of the solutions on the page.
 pub fn text(answers: &[PublishedCase]) -> Result<String> {
     let bats = published::bats(answers);
     let (known, exact): (Vec<&PublishedCase>, Vec<&PublishedCase>) =
@@ -109,7 +109,7 @@ fn named(answer: &PublishedCase, bat: &str) -> bool {
     answer.case.published.as_ref().is_some_and(|published| published.bat == bat)
 }
 
-/// A line for each bat: how many of its numbers are within their tolerance, and how far off.
+/// A line for each bat: the number of values within their tolerance, and the deviations.
 fn verdicts(known: &[&PublishedCase], bats: &[&str], out: &mut String) {
     for bat in bats {
         let rows: Vec<&KnownNumber> =
@@ -126,7 +126,7 @@ fn verdicts(known: &[&PublishedCase], bats: &[&str], out: &mut String) {
     }
 }
 
-/// How many exact answers there are and the worst of them.
+/// The number of exact answers and the largest error among them.
 fn exact_verdict(exact: &[&PublishedCase]) -> String {
     let all = exact.iter().map(|answer| answer.counted().count()).sum::<usize>();
     let within = exact.iter().flat_map(|answer| answer.counted()).filter(|row| row.passes());
@@ -204,7 +204,7 @@ fn digits_of_difference(row: &KnownNumber) -> usize {
     decimals.max(0.0) as usize
 }
 
-/// Ours less the published one: a share in per cent, else in the quantity's unit.
+/// Our value minus the published one: relative in per cent, or in the unit of the quantity.
 fn difference(row: &KnownNumber) -> String {
     let difference = row.found - row.expected;
     if row.relative {
@@ -217,7 +217,7 @@ fn tolerance(row: &KnownNumber) -> String {
     match (row.information, row.relative) {
         (true, _) => "none".to_owned(),
         (false, false) => row.tolerance.to_string(),
-        // A share such as 0.07 times 100 is not 7 to the last bit.
+        // A share such as 0.07 times 100 is not exactly 7.
         (false, true) => {
             let percent: f64 = format!("{:.6e}", 100.0 * row.tolerance).parse().unwrap_or(f64::NAN);
             format!("{percent} %")

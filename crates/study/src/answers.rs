@@ -1,7 +1,6 @@
-//! Which answers can be asked of a bat, by which names?
+//! Which answers can a study ask of a bat, and by which names?
 //!
-//! Every answer has one name, that of the member in the other documents of the program, with its unit at the
-//! end.
+//! Every answer has one name: that of the member in the program's other documents, with its unit at the end.
 
 use serde::Serialize;
 
@@ -9,7 +8,7 @@ use sweetspot::base::error::{Complaint, Error, Result};
 use sweetspot::bat::body::{Bat, STANDARD_PIVOT};
 use sweetspot::modes::solve::Solution;
 
-/// A value and how far it may be off, both in the unit of the value.
+/// A value and its error, both in the unit of the value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Figure {
     /// The value.
@@ -18,7 +17,7 @@ pub struct Figure {
     pub error: f64,
 }
 
-/// What masses and lengths are exact to, relative.
+/// Relative accuracy of masses and lengths.
 const EXACT: f64 = 1e-13;
 
 impl Figure {
@@ -39,7 +38,7 @@ pub fn quotient(more: &[Option<f64>], less: &[Option<f64>], run: f64) -> Vec<Opt
     more.iter().zip(less).map(slope).collect()
 }
 
-/// Something that is asked of a bat; in a document by its name.
+/// An answer about a bat; its name in a document.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(into = "String")]
 #[non_exhaustive]
@@ -58,17 +57,17 @@ pub enum Answer {
     Node(usize),
     /// Speed of the fastest ball (m/s).
     ExitSpeed,
-    /// Where the fastest ball is hit, from the knob end (m).
+    /// Place of the fastest ball, from the knob end (m).
     ExitSpeedPlace,
-    /// Where the zone within 1 % of the fastest ball begins or, if true, ends (m).
+    /// Beginning or, if true, end of the zone within 1 % of the fastest ball (m).
     Zone(bool),
     /// The least energy that stays in vibration (J).
     Vibration,
-    /// Where the least energy stays in vibration (m).
+    /// Place where the least energy stays in vibration (m).
     VibrationPlace,
     /// The largest BBCOR of the outer half of the free bat.
     Bbcor,
-    /// Exit speed of a ball that is hit there, from the knob end (m, m/s).
+    /// Exit speed of a ball that hits there, from the knob end (m, m/s).
     ExitSpeedAt(f64),
     /// Modal mass of a bending mode, counted from 1 (kg).
     ModalMass(usize),
@@ -90,7 +89,7 @@ impl From<Answer> for String {
     }
 }
 
-/// Names of the answers that have no number in them.
+/// Names of the answers without a number.
 const NAMED: [(&str, Answer); 14] = [
     ("mass_kg", Answer::Mass),
     ("balance_point_m", Answer::BalancePoint),
@@ -112,7 +111,7 @@ const MOST_MODES: usize = 40;
 const SPEED_AT: &str = "exit_speed_m_s@";
 /// An answer about a hit at a place (m).
 type Local = fn(f64) -> Answer;
-/// What is asked of a hit at a place, each with the beginning of its name.
+/// The answers about a hit at a place, each with the beginning of its name.
 const AT: [(&str, Local); 4] = [
     (SPEED_AT, Answer::ExitSpeedAt),
     ("vibration_j@", Answer::VibrationAt),
@@ -125,7 +124,7 @@ impl Answer {
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] with the nearest name there is.
+    /// [`Error::Value`] with the nearest name.
     pub fn named(name: &str) -> Result<Self> {
         let order = |text: &str| {
             let order = text.parse().ok().filter(|k| (1..=MOST_MODES).contains(k))?;
@@ -162,7 +161,7 @@ impl Answer {
         })
     }
 
-    /// What it is called.
+    /// Its name.
     pub fn name(self) -> String {
         let named = NAMED.iter().find(|(_, answer)| *answer == self);
         match (named, self) {
@@ -179,7 +178,7 @@ impl Answer {
         }
     }
 
-    /// The place (m from the knob end) of a hit that it is asked of.
+    /// The place (m from the knob end) of its hit.
     pub fn place(self) -> Option<f64> {
         match self {
             Self::ExitSpeedAt(x)
@@ -231,7 +230,7 @@ impl Answer {
         self.place().is_some() || self.is_searched()
     }
 
-    /// Whether it is what the hands feel.
+    /// Whether it describes the motion at the hands.
     pub(crate) fn of_the_hands(self) -> bool {
         matches!(
             self,
@@ -251,11 +250,11 @@ impl Answer {
     }
 }
 
-/// Whether every place that is asked for is on the bat.
+/// Checks that every place in the answers is on the bat.
 ///
 /// # Errors
 ///
-/// [`Error::Value`] about the first that is not.
+/// [`Error::Value`] about the first one that is not.
 pub fn on_the_bat(answers: &[Answer], bat: &Bat) -> Result<()> {
     let beyond = |answer: &&Answer| answer.place().is_some_and(|x| x > bat.length());
     let Some(off) = answers.iter().find(beyond) else { return Ok(()) };

@@ -7,18 +7,17 @@ use sweetspot::bat::material::Material;
 use sweetspot::bat::profile::{Profile, Stations};
 use sweetspot::bat::turned::DiameterChange;
 
-/// What another bat, or the ball on its wall, differs in.
+/// A property by which another bat, or the ball on its wall, differs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Parameter {
     /// Which input. A mass on the scale is all densities, a tap the stiffness of all materials.
     pub input: Input,
-    /// The material that alone differs, wherever the bat has it; None for all materials, and for
-    /// what belongs to no material.
+    /// The only material that differs; `None` for all materials, and for a property that belongs to none.
     pub of: Option<Material>,
 }
 
-/// By what factor the ball may be squeezed more or less than the patch is taken for, as
-/// [`sweetspot::collision::wall_figures`] has it.
+/// Factor by which the ball may be compressed more or less than the patch assumes, as in
+/// [`sweetspot::collision::wall_figures`].
 pub const PATCH_FACTOR: f64 = 2.0;
 
 /// Step of a relative input (in its logarithm), and of diameters and length (m).
@@ -27,13 +26,13 @@ const DIAMETER_STEP: f64 = 1e-4;
 const LENGTH_STEP: f64 = 1e-3;
 
 impl Parameter {
-    /// What is of the whole bat.
+    /// A property of the whole bat.
     pub fn whole(input: Input) -> Self {
         Self { input, of: None }
     }
 
-    /// The step of a central difference on that bat: as a logarithm of what is relative, else in m. A patch is
-    /// half and twice as large, as `hit` has it: what it does is not small.
+    /// The step of a central difference on that bat: a logarithm for relative properties, else m. A patch is halved and
+    /// doubled, as in `hit`: its effect is not small.
     pub fn step(&self, bat: &Bat) -> f64 {
         match self.input {
             Input::Stiffness | Input::Density | Input::Mass | Input::Tap => RELATIVE_STEP,
@@ -51,12 +50,12 @@ fn narrowest(profile: &Profile) -> f64 {
     walls.chain(inner.iter().copied()).filter(|size| *size > 0.0).fold(f64::INFINITY, f64::min)
 }
 
-/// The bat with one thing changed: a property by a factor `e^by`, a measure by so much (m). What comes
-/// to a point stays one, and what is solid stays solid.
+/// The bat with one property changed: by a factor `e^by`, or a measure by `by` (m). A point stays a point, and a solid
+/// part stays solid.
 ///
 /// # Errors
 ///
-/// [`sweetspot::Error::Value`] where there is no such bat.
+/// [`sweetspot::Error::Value`] if there is no such bat.
 pub fn changed(bat: &Bat, parameter: &Parameter, by: f64) -> Result<Bat> {
     let all_along = || DiameterChange::band([0.0, bat.length()], by);
     let formulas = bat.profile().formulas.is_some();
@@ -81,7 +80,7 @@ pub fn changed(bat: &Bat, parameter: &Parameter, by: f64) -> Result<Bat> {
     }
 }
 
-/// The bat whose materials, or that one alone, are denser and stiffer by these factors.
+/// The bat with denser and stiffer materials, all or only one, by these factors.
 fn heavier_and_stiffer(
     bat: &Bat,
     of: &Option<Material>,
@@ -111,7 +110,7 @@ fn reshaped(bat: &Bat, change: impl Fn(&mut Stations)) -> Result<Bat> {
     bat.with(|parts| parts.profile = profile)
 }
 
-/// Radii whose diameters are larger by so much (m).
+/// Increases the diameters of radii by this (m).
 fn wider(radii: &mut [f64], by: f64) {
     radii.iter_mut().filter(|radius| **radius > 0.0).for_each(|radius| *radius += 0.5 * by);
 }

@@ -1,6 +1,6 @@
-//! What does a beam theory leave out, and what does that cost on this bat?
+//! What does a beam theory leave out, and how large is the effect on this bat?
 //!
-//! [`ignored`](fn@ignored) says it in sentences, [`shifts`] in numbers.
+//! [`ignored`](fn@ignored) gives it in sentences, [`shifts`] in numbers.
 
 use sweetspot::bat::body::Bat;
 use sweetspot::bat::material::Material;
@@ -12,7 +12,7 @@ use sweetspot::motion::sound::ASSUMED_LOSS;
 
 pub use sweetspot::modes::shifts::{Shift, shift, shifts, solved_shifts, with_typical_shear};
 
-/// By how much effects would change the lowest modes, in words.
+/// The shifts of the lowest modes by an effect, in words.
 fn percents(shifts: &[Shift], change: impl Fn(&Shift) -> f64) -> String {
     let digits = |v: f64| match v.abs() {
         size if size >= 0.095 => format!("{v:.1} %"),
@@ -26,14 +26,14 @@ fn percents(shifts: &[Shift], change: impl Fn(&Shift) -> f64) -> String {
     }
 }
 
-/// How what there is to say of shear begins.
+/// Beginning of the sentence about shear.
 pub(crate) const SHEAR: &str = "shear: ";
 
-/// What the model leaves out and what it costs, a sentence each.
+/// The effects that the model leaves out, with their size, one sentence each.
 pub fn ignored(bat: &Bat, solution: &Solution) -> Vec<String> {
     let bat = solution.of(bat);
     let modes = &solution.modes[..solution.modes.len().min(4)];
-    /// Shifts are shown to two digits.
+    /// Shifts are shown from this size on.
     const SHOWN: f64 = 1e-6;
     let typical = with_typical_shear(bat);
     let shifts = if solution.theory.shears() { vec![] } else { shifts(&typical, modes, SHOWN) };
@@ -81,7 +81,7 @@ pub fn ignored(bat: &Bat, solution: &Solution) -> Vec<String> {
     ignored
 }
 
-/// What is left out of the damping by the materials.
+/// The omitted part of the damping by the materials.
 fn material_damping(bat: &Bat) -> Vec<String> {
     let mut materials = bat.layups().iter().flat_map(|layup| layup.materials());
     let undamped = materials.any(|m| m.losses() == [0.0; 2]);
@@ -98,7 +98,7 @@ fn material_damping(bat: &Bat) -> Vec<String> {
     }
 }
 
-/// What is left out where a metal has the loss factor that is published of its kind.
+/// A note about a metal with the published loss factor of its kind.
 fn published_damping(bat: &Bat) -> Option<String> {
     let mut materials = bat.layups().iter().flat_map(|layup| layup.materials());
     let published = |m: &Material| m.published_loss().filter(|loss| m.losses() == [*loss; 2]);
@@ -109,7 +109,7 @@ fn published_damping(bat: &Bat) -> Option<String> {
     ))
 }
 
-/// What is taken in the sound of a bat whose materials have no loss factor, in words; None where all have one.
+/// The assumed damping in the sound of a bat whose materials have no loss factor, in words; `None` if all have one.
 pub fn damping_in_sound(bat: &Bat) -> Option<String> {
     let materials = || bat.layups().iter().flat_map(|layup| layup.materials());
     let mut taken: Vec<(bool, f64)> = (materials().filter(|material| material.loss_factor == 0.0))
@@ -126,14 +126,14 @@ pub fn damping_in_sound(bat: &Bat) -> Option<String> {
     Some(format!("a material has no loss factor: the sound alone takes {told}"))
 }
 
-/// The thinnest wall (m) of the outer half of the bat, where a ball is hit, and its place (m); None
-/// where that half is solid, as [`barrel_walls`] says.
+/// The thinnest wall (m) of the outer half of the bat, where balls are hit, and its place (m); `None` if that half is
+/// solid, by [`barrel_walls`].
 pub fn thinnest_wall(bat: &Bat) -> Option<[f64; 2]> {
     barrel_walls(bat).into_iter().min_by(|a, b| a[0].total_cmp(&b[0]))
 }
 
-/// What a hit on this bat leaves out, a sentence each: how the wall of a hollow barrel gives way, where
-/// it is taken as rigid.
+/// The effects that a hit on this bat leaves out, one sentence each: the wall of a hollow barrel, if it is taken as
+/// rigid.
 ///
 /// # Source
 ///
@@ -143,7 +143,7 @@ pub fn in_hit(bat: &Bat, scene: &Scene) -> Vec<String> {
     published_damping(bat).into_iter().chain(wall_left_out(bat, scene)).collect()
 }
 
-/// What is left out where the wall of a hollow barrel is taken as rigid.
+/// The note about the wall of a hollow barrel that is taken as rigid.
 pub fn wall_left_out(bat: &Bat, scene: &Scene) -> Option<String> {
     let rigid = thinnest_wall(bat).filter(|_| !scene.wall_gives_way());
     let [wall, x] = rigid?;

@@ -1,4 +1,4 @@
-//! What is not known exactly of a bat, and how exactly was it measured?
+//! Which properties of a bat are uncertain, and how accurate were the measurements?
 
 use serde::Serialize;
 
@@ -19,8 +19,8 @@ pub struct Readings {
 }
 
 impl Readings {
-    /// Those of a bat whose diameters were read to a step of 1/16 in, 1 mm or the like: a reading that was rounded
-    /// to a step lies anywhere within half of it, a standard deviation of `step/√12`; that of calipers at least.
+    /// The errors for a bat. Diameters read to a step of 1/16 in, 1 mm or the like are off by at most half a step, with
+    /// the standard deviation `step/√12`; the error is at least that of calipers.
     ///
     /// # Source
     ///
@@ -39,12 +39,12 @@ impl Default for Readings {
     }
 }
 
-/// What is not known exactly of a bat.
+/// An uncertain property of a bat.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Input {
-    /// E of a material, from piece to piece; G goes with it. Relative.
+    /// E of a material, from piece to piece, and G with it. Relative.
     Stiffness,
     /// Density of a material, from piece to piece. Relative.
     Density,
@@ -56,7 +56,7 @@ pub enum Input {
     Length,
     /// Mass on the scale, which settles the densities (kg).
     Mass,
-    /// First bending frequency as it was tapped, which settles the stiffness. Relative.
+    /// The tapped first bending frequency, which sets the stiffness. Relative.
     Tap,
     /// Compression of the ball by which it presses on a hollow barrel's wall as a patch: the largest error of the
     /// wall's model. Relative, as a logarithm.

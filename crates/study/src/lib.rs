@@ -1,24 +1,24 @@
-//! What follows for a person who asks?
+//! Which questions about a bat can the program answer?
 //!
 //! | file | question |
 //! |---|---|
-//! | [`trade`] | what does a digit cost on this bat |
-//! | [`ignored`] | what does a theory leave out, and what does that cost |
+//! | [`trade`] | what is the cost of a digit on this bat |
+//! | [`ignored`] | what does a theory leave out, and how large is the effect |
 //! | [`calibrate`] | what is the wood, by scale, ruler, pendulum and tap |
-//! | [`tap`] | which mode is a tone of a recording, and what is the wood by all of them |
-//! | [`verdict`] | how far do the answers hold, by all that is known |
-//! | [`answers`] | which answers can be asked of a bat, by which names |
-//! | [`read_to`], [`inputs`] | to what step were diameters read; what is not known exactly of a bat |
+//! | [`tap`] | the modes of a recording's tones, and the wood by all of them |
+//! | [`verdict`] | how reliable are the answers |
+//! | [`answers`] | which answers can a study ask of a bat, and by which names |
+//! | [`read_to`], [`inputs`] | to what step were diameters read; which properties of a bat are uncertain |
 //! | `bat_changes`, [`spread`] | a bat that differs in one input; how far the answers move with all of them |
 //! | [`advise`] | which parts of a model matter on this bat |
-//! | [`comparison`] | which bat hits harder, where, and is the difference more than the errors |
+//! | [`comparison`] | which bat hits harder, where, and is the difference larger than the errors |
 //! | [`many`] | which bats does a study vary |
-//! | [`lathe`] | where does a cut do what |
+//! | [`lathe`] | which cut has which effect |
 //! | `aim` | which profile meets a wish |
 //! | [`scatter`] | how much do bats of one model and swings of one batter differ |
-//! | [`trampoline`] | what does the wall of a hollow barrel do to a ball |
-//! | [`files`] | how do people write down what they ask |
-//! | [`measured`] | which measured mode is which computed one; is the measurement sound |
+//! | [`trampoline`] | how does the wall of a hollow barrel affect a ball |
+//! | [`files`] | how do people write their questions in files |
+//! | [`measured`] | which computed mode is each measured one; is the measurement sound |
 //! | [`identify`] | which modes do measured responses share; what would a test of this bat find |
 
 // Matrices are written with the indices of their formulas.

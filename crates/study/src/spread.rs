@@ -1,16 +1,15 @@
-//! How far do the answers move with what calipers, scale and wood leave open?
+//! How far do the answers change with the uncertainties of calipers, scale and wood?
 //!
-//! [`Spread::new`] takes a bat that is analysed and says of every answer how far it may be from that of
-//! the bat in hand. To first order, with the inputs taken as independent,
+//! [`Spread::new`] takes an analysed bat and gives for every answer its uncertainty for the bat in hand. To first
+//! order, with independent inputs,
 //!
 //! ```text
 //! σ_Q² = Σ (∂Q/∂p σ_p)²
 //! ```
 //!
-//! each derivative a central difference of two bats that differ in `p` alone. A bat that was weighed has
-//! the mass the scale said, whatever its diameters; its densities follow, and the scale's reading stands
-//! in the place of the wood's scatter. A tapped frequency does the same for the stiffness. With `s` the
-//! factor that is settled by the reading `R`,
+//! where each derivative is a central difference of two bats that differ only in `p`. A weighed bat has the weighed
+//! mass whatever its diameters; its densities follow, and the error of the scale replaces the wood's scatter. A tapped
+//! frequency does the same for the stiffness. With `s` the factor that the reading `R` sets,
 //!
 //! ```text
 //! ∂Q/∂p|_R = ∂Q/∂p − (∂Q/∂s / ∂R/∂s) ∂R/∂p        ∂Q/∂R = ∂Q/∂s / ∂R/∂s
@@ -41,8 +40,8 @@ use sweetspot::modes::solve::{Request, Solution, solve};
 #[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 #[non_exhaustive]
 pub struct Source {
-    /// What it is: E (and G with it) or density of a material from piece to piece, readings of diameters,
-    /// bores, length and mass, the note of a tap, the patch on which the ball presses on a hollow barrel's wall.
+    /// Its kind: E (and G with it) or density of a material from piece to piece; readings of diameters, bores, length
+    /// and mass; the note of a tap; the patch on which the ball presses on a hollow barrel's wall.
     pub input: Input,
     /// The material as the bat file calls it, where the bat has several; empty otherwise.
     pub material: String,
@@ -52,7 +51,7 @@ pub struct Source {
     pub deviation: f64,
 }
 
-/// The answers that move, in the order in which they are counted.
+/// The answers with an uncertainty, in order.
 pub const COUNTED: [Answer; 10] = [
     Answer::Mass,
     Answer::BalancePoint,
@@ -66,7 +65,7 @@ pub const COUNTED: [Answer; 10] = [
     Answer::Zone(true),
 ];
 
-/// An answer and how far that of the bat in hand may be from it.
+/// An answer and its uncertainty for the bat in hand.
 #[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 #[non_exhaustive]
 pub struct Estimate {
@@ -79,12 +78,12 @@ pub struct Estimate {
     pub answer: Answer,
     /// As it is computed.
     pub value: f64,
-    /// Standard deviation of all sources together, in the unit of the value; null where a bat that differs
-    /// in one of them has no such answer.
+    /// Standard deviation of all sources together, in the unit of the value; null if a bat that differs in one of them
+    /// has no such answer.
     #[serde(rename = "standard_deviation")]
     pub deviation: Option<f64>,
-    /// What one standard deviation of each source alone makes of it, in the order of the sources; empty
-    /// where the standard deviation is null.
+    /// The effect of one standard deviation of each source alone, in the order of the sources; empty if the standard
+    /// deviation is null.
     // With its sign.
     #[serde(rename = "by_source")]
     pub parts: Vec<f64>,
@@ -109,24 +108,24 @@ impl Estimate {
     }
 }
 
-/// What is not known exactly of a bat, and how far each answer may be off by it: to first order, the
-/// sources taken as independent.
+/// The uncertain properties of a bat, and the resulting uncertainty of each answer: to first order, with independent
+/// sources.
 #[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 #[non_exhaustive]
 pub struct Spread {
-    /// What is open.
+    /// The sources of uncertainty.
     pub sources: Vec<Source>,
     /// How far each answer may be off.
     #[serde(rename = "answers")]
     pub estimates: Vec<Estimate>,
-    /// What could not be counted, a phrase each.
+    /// Sources that could not be included, a phrase each.
     pub left_out: Vec<String>,
 }
 
-/// A bat that was analysed, and what was found of it.
+/// An analysed bat and its results.
 #[derive(Debug, Clone, Copy)]
 pub struct Analysed<'a> {
-    /// The bat, as heavy and as stiff as it was weighed and tapped.
+    /// The bat, with density and moduli from weighing and tapping.
     pub bat: &'a Bat,
     /// Its modes.
     pub solution: &'a Solution,
@@ -134,37 +133,38 @@ pub struct Analysed<'a> {
     pub model: Model,
     /// Swing, ball and pitch.
     pub scene: &'a Scene,
-    /// How the swing goes with the bat's swing weight, if it does.
+    /// The dependence of the swing on the bat's swing weight, if there is one.
     pub law: Option<SwingLaw>,
-    /// Its hits: their number of modes and their steps are taken for those of the other bats.
+    /// Its hits; the other bats use their number of modes and their steps.
     pub hits: &'a Sweep,
-    /// Where it is best.
+    /// The sweet spot.
     pub spot: &'a SweetSpot,
 }
 
-/// Relative accuracy of the modes of the bats that differ: a small part of what 0.1 mm do to a frequency,
+/// Relative accuracy of the modes of the varied bats: a small part of the effect of 0.1 mm on a frequency, which is
 /// some thousandths.
 const TOLERANCE: f64 = 1e-6;
 
-/// The answers of one bat, or what a source makes of them, in the order of [`COUNTED`]; None where
-/// there is none, as of a place that no ball is hit at.
+/// The answers of one bat, or the effect of a source on them, in the order of [`COUNTED`]; `None` if there is none, as
+/// for a place that no ball hits.
 type Answers = Vec<Option<f64>>;
 
 /// A reading of the whole bat that settles a property of all its materials.
 struct Settled {
     source: Source,
-    /// What was read, by its place in [`COUNTED`]; None of a bat that was edited since, whose answer is another one.
+    /// The index of the reading in [`COUNTED`]; `None` for a bat that was edited since, whose answer is a different
+    /// one.
     answer: Option<usize>,
     /// Standard deviation of the reading, in the unit of the answer; without one, of the property that
     /// it settled, relative.
     size: f64,
 }
 
-/// A source, and what one standard deviation of it makes of every answer.
+/// A source, and the effect of one standard deviation of it on every answer.
 type Row = (Source, Answers);
 
 impl Spread {
-    /// What is open of the answers of a bat that was measured so.
+    /// The uncertainty of the answers of a bat with these readings.
     pub fn new(analysed: &Analysed, readings: &Readings) -> Self {
         let mut left_out = vec![];
         let settled = settled(analysed, readings, &mut left_out);
@@ -213,12 +213,12 @@ impl Spread {
         Self { sources: vec![], estimates: estimates(&analysed.answers(), &[]), left_out }
     }
 
-    /// What is open of an answer, if there is that answer.
+    /// The uncertainty of an answer, if there is that answer.
     pub fn of(&self, answer: Answer) -> Option<&Estimate> {
         self.estimates.iter().find(|estimate| estimate.answer == answer)
     }
 
-    /// The source that moves an answer most, and its share of the variance; None where nothing does.
+    /// The source with the largest effect on an answer, and its share of the variance; `None` if there is no effect.
     pub fn mostly(&self, answer: Answer) -> Option<(&Source, f64)> {
         let estimate = self.of(answer)?;
         let squares = estimate.parts.iter().map(|part| part * part);
@@ -228,7 +228,7 @@ impl Spread {
     }
 }
 
-/// What a change of that size makes of the answers, by what a change of 1 does.
+/// The effect of a change of that size on the answers, from the effect of a unit change.
 fn times(slopes: Answers, size: f64) -> Answers {
     slopes.into_iter().map(|slope| Some(slope? * size)).collect()
 }
@@ -266,8 +266,8 @@ fn settled(analysed: &Analysed, readings: &Readings, left_out: &mut Vec<String>)
     scale.into_iter().chain(tap).collect()
 }
 
-/// What else is open, each with how another bat differs in it. A property of the only material that a
-/// reading settles is not.
+/// The other uncertain properties, each with the change of another bat. A property of the only material is certain if a
+/// reading sets it.
 fn open(
     bat: &Bat,
     readings: &Readings,
@@ -334,9 +334,8 @@ fn materials(bat: &Bat) -> Vec<(String, Material)> {
     all
 }
 
-/// Holds a reading while a property of the whole bat gives way: takes from every row what moves the
-/// answer that was read, and returns what a change of that reading by 1 does. None if the property does
-/// not move it.
+/// Holds a reading while a property of the whole bat adapts: subtracts from every row its effect on that answer, and
+/// returns the effect of a unit change of the reading. `None` if the property does not affect it.
 fn settle(rows: &mut [Row], factor: &Answers, answer: usize) -> Option<Answers> {
     let of_reading = factor[answer].filter(|slope| *slope != 0.0)?;
     let by: Answers = factor.iter().map(|slope| Some((*slope)? / of_reading)).collect();
@@ -350,7 +349,7 @@ fn settle(rows: &mut [Row], factor: &Answers, answer: usize) -> Option<Answers> 
     Some(by)
 }
 
-/// The answers with what all sources together make of them.
+/// The answers with the effect of all sources together.
 fn estimates(values: &Answers, rows: &[Row]) -> Vec<Estimate> {
     let of = |(k, (answer, value)): (usize, (Answer, &Option<f64>))| {
         let parts: Option<Vec<f64>> = rows.iter().map(|(_, parts)| parts[k]).collect();
@@ -369,18 +368,17 @@ impl Analysed<'_> {
         answers(self.bat, self.solution, peak.zip(self.spot.zone))
     }
 
-    /// Which frequency is the tapped note (Hz), up to what a rough accuracy leaves of it, by its place.
+    /// The index of the frequency that is the tapped note (Hz), within the rough accuracy.
     fn tapped(&self, note: f64) -> Option<usize> {
         let answers = self.answers();
         let same = |k: &usize| answers[*k].is_some_and(|found| (found / note - 1.0).abs() < 0.01);
         (1..=3).filter_map(|order| place(Answer::Frequency(order))).find(same)
     }
 
-    /// What a change by 1 makes of every answer, by central differences; None where a bat that differs
-    /// so cannot be computed.
+    /// The effect of a unit change on every answer, by central differences; `None` if a changed bat cannot be computed.
     fn slopes(&self, parameters: &[Parameter]) -> Vec<Option<Answers>> {
         let patch = parameters.iter().any(|parameter| parameter.input == Input::Patch);
-        // The ball's patch leaves the bat's modes as they are.
+        // The ball's patch does not affect the bat's modes.
         let known = patch.then(|| self.modes(self.bat).ok()).flatten();
         let sides = threads::map(2 * parameters.len(), |k| {
             let parameter = &parameters[k / 2];
@@ -405,15 +403,15 @@ impl Analysed<'_> {
         parameters.iter().zip(sides.chunks(2)).map(slope).collect()
     }
 
-    /// As many modes of another bat as the hits of this one take, three at least if they are asked for.
+    /// As many modes of another bat as the hits of this one use, at least three if they are requested.
     fn modes(&self, bat: &Bat) -> Result<Solution> {
         let modes = self.hits.solution.modes.len().max(self.solution.modes.len().min(3));
         let theory = self.solution.theory;
         solve(bat, &Request { modes, tolerance: TOLERANCE, theory, ..Request::default() })
     }
 
-    /// The answers of another bat in that scene, by as many modes and such steps. Its wall is solved anew, roughly:
-    /// of the two sides of a difference alike.
+    /// The answers of another bat in that scene, with the same number of modes and the same steps. Its wall is solved
+    /// anew, approximately: equally for both sides of a difference.
     fn beside(&self, bat: &Bat, mut solution: Solution, scene: Scene) -> Result<Answers> {
         let modes = self.hits.solution.modes.len();
         let notes = answers(bat, &solution, None);
@@ -444,9 +442,9 @@ fn answers(bat: &Bat, solution: &Solution, hit: Option<([f64; 2], [f64; 2])>) ->
     COUNTED.into_iter().map(of).collect()
 }
 
-/// Relative standard deviation of every frequency of a bat of one wood by the wood alone, without a
-/// computation: `½ √(v_E² + v_ρ²)`, as a frequency goes as `√(E/ρ)`; the density is not open where the bat
-/// was weighed. None where the stiffness was tapped, or where no scatter is known.
+/// Relative standard deviation of every frequency of a bat of one wood due to the wood alone, without a computation:
+/// `½ √(v_E² + v_ρ²)`, because a frequency goes as `√(E/ρ)`; the density contributes only if the bat was not weighed.
+/// `None` if the stiffness was tapped, or if no scatter is known.
 pub fn of_frequencies(bat: &Bat) -> Option<f64> {
     let [(_, material)] = &materials(bat)[..] else { return None };
     let weighed = bat.unedited().weighed();

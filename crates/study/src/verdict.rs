@@ -1,7 +1,7 @@
-//! How far do the answers of a hit hold, by the worst of all that the program knows?
+//! How reliable are the answers of a hit?
 //!
-//! Computed once: [`Verdict::of`] a hit, and read by every screen that tells of it, so that no screen is more
-//! certain than another.
+//! [`Verdict::of`] a hit is computed once, and every screen about it uses the result, so that no screen is more certain
+//! than another.
 
 use crate::ignored::{SHEAR, ignored, thinnest_wall, wall_left_out};
 use sweetspot::bat::body::Bat;
@@ -11,14 +11,14 @@ use sweetspot::collision::hoop_wall::{HoopInHit, WhyRigid};
 use sweetspot::collision::sweep::Sweep;
 use sweetspot::collision::wall_figures::WallFigures;
 
-/// Why the answers of a hit are less certain than they are computed.
+/// A reason why the answers of a hit are less certain than their computation.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Doubt {
     /// The density that the mass asks for is not that of the material.
     Density(String),
-    /// Shear is left out for want of a shear modulus, in a sentence that says what it would change.
+    /// Shear is left out because there is no shear modulus; the sentence says what it would change.
     Shear(String),
-    /// The wall of the barrel is dented deeper than half of it, where the theory of it ends.
+    /// The wall of the barrel is dented deeper than half of its thickness, where its theory ends.
     Dent(Box<WallFigures>),
     /// The wall of a hollow barrel is taken as rigid, for the reason in the sentence.
     RigidWall(String),
@@ -26,7 +26,7 @@ pub enum Doubt {
     LaterContact,
     /// The ball's law was not measured for such a hit.
     BallLaw,
-    /// Exit speeds are less accurate than was asked.
+    /// Exit speeds are less accurate than requested.
     ExitSpeeds {
         /// The largest error, over the closing speed.
         error: f64,
@@ -34,7 +34,7 @@ pub enum Doubt {
 }
 
 impl Doubt {
-    /// What the doubt is about, in a word.
+    /// The subject of the doubt, in a word.
     pub fn about(&self) -> &'static str {
         match self {
             Self::Density(_) => "density",
@@ -51,12 +51,12 @@ impl Doubt {
 /// How far the answers of a hit hold.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Verdict {
-    /// What there is to doubt; the bat first.
+    /// The doubts; those about the bat first.
     pub doubts: Vec<Doubt>,
 }
 
 impl Verdict {
-    /// The verdict on the hits of a bat, of which the fastest is `best` and dents the wall so.
+    /// The verdict on the hits of a bat; `best` is the fastest, with its dent in the wall.
     pub fn of(
         (bat, scene): (&Bat, &Scene),
         hits: &Sweep,
@@ -80,19 +80,19 @@ impl Verdict {
         Self { doubts: doubts.into_iter().flatten().collect() }
     }
 
-    /// Whether what is known of the bat is a lower limit of what is open of it: it is not of that material, or not
-    /// of that shape.
+    /// Whether the known uncertainty of the bat is only a lower limit, because its material or its shape is not as
+    /// assumed.
     pub fn bat_is_open(&self) -> bool {
         self.doubts.iter().any(|doubt| matches!(doubt, Doubt::Density(_)))
     }
 
-    /// Whether it bends otherwise than is computed: shear is left out.
+    /// Whether it bends otherwise than computed, because shear is left out.
     pub fn bending_is_open(&self) -> bool {
         self.doubts.iter().any(|doubt| matches!(doubt, Doubt::Shear(_)))
     }
 
-    /// Whether what is known of the ball's way after the hit is a lower limit of what is open of it: the wall is
-    /// beyond its theory or left out, the ball beyond its law or struck again.
+    /// Whether the known uncertainty of the ball's exit is only a lower limit: the wall is beyond its theory or left
+    /// out, or the ball is beyond its law or is struck again.
     pub fn ball_is_open(&self) -> bool {
         let open = |doubt: &Doubt| {
             use Doubt::{BallLaw, Dent, LaterContact, RigidWall};
@@ -102,8 +102,8 @@ impl Verdict {
     }
 }
 
-/// Why the wall of a hollow barrel is rigid in a hit that it would change, in a sentence; None where it gives way, and where it
-/// changes less than was asked for.
+/// The reason why the wall of a hollow barrel is rigid in a hit that it would change, in a sentence; `None` if it gives
+/// way, or if it changes less than the tolerance.
 pub fn rigid_wall(bat: &Bat, scene: &Scene) -> Option<String> {
     if let HoopInHit::LeftOut(WhyRigid::Small { .. }) = scene.hoop {
         return None;

@@ -1,9 +1,8 @@
-//! Universal files: the ASCII format in which modal test programs exchange geometry, mode shapes
-//! and measured functions. Of `sweetspot` it uses errors and the reading of files.
+//! Universal files: the ASCII format in which modal test programs exchange geometry, mode shapes and measured
+//! functions. The crate uses only errors and file reading of `sweetspot`.
 //!
-//! A universal file is a list of datasets. Each stands between two fences, lines that hold `-1` in
-//! columns 5 and 6; its first line is its number, and what follows are Fortran records, fields of
-//! fixed widths:
+//! A universal file is a list of datasets. Each is enclosed in two fences, lines with `-1` in columns 5 and 6. Its
+//! first line is its number, followed by Fortran records, which have fields of fixed widths:
 //!
 //! ```text
 //!     -1
@@ -23,8 +22,8 @@
 //! | 55, 2414 | data at nodes: mode shapes; the newer form is read only | [`NodalData`] |
 //! | 58, 58b | functions at a node: frequency responses, records in time | [`Function`] |
 //!
-//! Other datasets are skipped on reading, and noted. A file whose dataset 164 names other units
-//! than SI is read into SI; without one its numbers are taken as they stand.
+//! Other datasets are skipped on reading, with a note. A file whose dataset 164 gives units other than SI is converted
+//! to SI; without this dataset the numbers are not changed.
 //!
 //! # Digits
 //!
@@ -95,12 +94,12 @@ pub enum Dataset {
     Function(Box<Function>),
 }
 
-/// Dataset 151: what the file is and who wrote it.
+/// Dataset 151: the content of the file and its author.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Header {
     /// The model file.
     pub model: String,
-    /// What the model is, in words.
+    /// Description of the model.
     pub description: String,
     /// The program that made the model.
     pub made_by: String,
@@ -130,7 +129,7 @@ pub struct Nodes {
 pub struct Node {
     /// Number of the node, by which other datasets name it.
     pub label: i64,
-    /// Coordinate system in which `at` is given and that of displacements; 0 is the global one.
+    /// Coordinate systems of `at` and of displacements; 0 is the global one.
     pub systems: [i64; 2],
     /// Number of a colour; programs differ in which.
     pub color: i64,
@@ -152,7 +151,7 @@ pub struct TraceLine {
     pub number: i64,
     /// Number of a colour; programs differ in which.
     pub color: i64,
-    /// What the line is called.
+    /// Name of the line.
     pub name: String,
     /// Labels of nodes; 0 lifts the pen. At most [`TraceLine::MOST`].
     pub nodes: Vec<i64>,
@@ -175,9 +174,9 @@ pub struct NodalData {
     /// 1 a scalar, 2 translations x, y, z, 3 translations and rotations about x, y, z, 4 a
     /// symmetric and 5 a general tensor.
     pub characteristic: i64,
-    /// What the values are: 8 displacement, 11 velocity, 12 acceleration, …
+    /// The quantity of the values: 8 displacement, 11 velocity, 12 acceleration, …
     pub quantity: i64,
-    /// Whether the imaginary parts stand in the file.
+    /// Whether the file has imaginary parts.
     pub complex: bool,
     /// Numbers per node.
     pub per_node: usize,
@@ -193,7 +192,7 @@ impl NodalData {
     pub const MOTIONS: i64 = 3;
 }
 
-/// What was computed or measured, in dataset 55.
+/// The kind of analysis in dataset 55.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Analysis {
     /// 2: a real mode.
@@ -204,8 +203,7 @@ pub enum Analysis {
         mode: i64,
         /// Frequency (Hz).
         frequency: f64,
-        /// Modal mass of the shape as it stands in the file (kg m², or kg where displacements are
-        /// numbers).
+        /// Modal mass of the shape with the scale in the file (kg m², or kg where displacements are numbers).
         modal_mass: f64,
         /// Damping ratio of dashpots.
         viscous: f64,
@@ -222,9 +220,9 @@ pub enum Analysis {
         mode: i64,
         /// Eigenvalue (rad/s).
         eigenvalue: Complex,
-        /// Modal A of the state space, as it stands in the file but for units.
+        /// Modal A of the state space, as in the file except for units.
         modal_a: Complex,
-        /// Modal B of the state space, as it stands in the file but for units.
+        /// Modal B of the state space, as in the file except for units.
         modal_b: Complex,
     },
     /// 5: the answer at one frequency.
@@ -236,7 +234,7 @@ pub enum Analysis {
         /// Frequency (Hz).
         frequency: f64,
     },
-    /// Any other type: its integers and reals as they stand.
+    /// Any other type, with its integers and reals unchanged.
     Other {
         /// Number of the type.
         kind: i64,
@@ -259,17 +257,17 @@ pub struct Function {
     pub number: i64,
     /// Version of the function.
     pub version: i64,
-    /// Number of the load case; 0 where it is forced at one point.
+    /// Number of the load case; 0 for a force at one point.
     pub load_case: i64,
-    /// Where, and along what, the answer was watched.
+    /// Node and direction of the response.
     pub response: Dof,
-    /// Where, and along what, it was forced.
+    /// Node and direction of the force.
     pub reference: Dof,
-    /// Where its values are, such as frequencies (Hz) or times (s).
+    /// The abscissae of its values, such as frequencies (Hz) or times (s).
     pub abscissa: Abscissa,
-    /// Values, as many as the abscissa has places.
+    /// The values, one for each abscissa.
     pub values: Values,
-    /// Whether values have 13 digits in the file, else six.
+    /// Whether values have 13 digits in the file instead of six.
     pub double: bool,
     /// Value on the third axis.
     pub z: f64,
@@ -277,7 +275,7 @@ pub struct Function {
     pub axes: [Axis; 4],
 }
 
-/// A node and a direction in it.
+/// A node and one of its directions.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Dof {
     /// Name of the component.
@@ -288,7 +286,7 @@ pub struct Dof {
     pub direction: i64,
 }
 
-/// Where a function has its values; six digits in the file.
+/// The abscissae of a function; six digits in the file.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Abscissa {
     /// At even steps.
@@ -336,7 +334,7 @@ impl Values {
     }
 }
 
-/// What an axis of a function shows.
+/// The quantity of an axis of a function.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Axis {
     /// 0 unknown, 1 general, 8 displacement, 11 velocity, 12 acceleration, 13 force, 17 time, 18
@@ -344,9 +342,9 @@ pub struct Axis {
     pub quantity: i64,
     /// Exponents of length, force and temperature, of a general quantity.
     pub exponents: [i64; 3],
-    /// What the axis is called, such as `force`.
+    /// Label of the axis, such as `force`.
     pub label: String,
-    /// Name of the unit, such as `N`; the numbers are in SI whatever it says.
+    /// Name of the unit, such as `N`; the numbers are in SI regardless of it.
     pub unit: String,
 }
 

@@ -1,4 +1,4 @@
-//! The lines of a universal file, their fields, and where each stands.
+//! The lines of a universal file, their fields, and their positions.
 
 use super::number::{real, whole};
 use sweetspot::base::error::{Complaint, Error, Excerpt, FilePosition, Result, shortened};
@@ -22,11 +22,11 @@ pub fn at_line(
     }
 }
 
-/// What the lines of a file hold, read from the first to the last.
+/// The lines of a file, read from the first to the last.
 pub(super) struct Lines<'a> {
     file: &'a str,
     bytes: &'a [u8],
-    /// Where the next line begins, and its number from 1.
+    /// Position of the next line, and its number from 1.
     at: usize,
     number: usize,
 }
@@ -45,7 +45,7 @@ impl<'a> Lines<'a> {
         Self { file, bytes, at: 0, number: 1 }
     }
 
-    /// The next line, left where it is; none at the end of the file.
+    /// The next line, which is not consumed; none at the end of the file.
     pub fn peek(&self) -> Option<Line<'a>> {
         let rest = &self.bytes[self.at..];
         let end = rest.iter().position(|b| *b == b'\n').unwrap_or(rest.len());
@@ -53,7 +53,7 @@ impl<'a> Lines<'a> {
         (!rest.is_empty()).then_some(Line { file: self.file, number: self.number, bytes })
     }
 
-    /// The next line, taken.
+    /// Consumes and returns the next line.
     pub fn next(&mut self) -> Option<Line<'a>> {
         let line = self.peek()?;
         let rest = &self.bytes[self.at..];
@@ -63,7 +63,7 @@ impl<'a> Lines<'a> {
         Some(line)
     }
 
-    /// The next line, which must exist and must not be a fence.
+    /// Consumes the next line, which must exist and must not be a fence.
     pub fn record(&mut self, what: &str) -> Result<Line<'a>> {
         match self.peek() {
             Some(line) if line.is_fence() => Err(line.wrong("the end of the dataset", what)),
@@ -81,7 +81,7 @@ impl<'a> Lines<'a> {
         self.next()
     }
 
-    /// The text of a line that must be there.
+    /// The text of a required line.
     pub fn name(&mut self, what: &str) -> Result<String> {
         match self.text() {
             Some(line) => Ok(line.name(0, 80)),
@@ -104,20 +104,20 @@ impl<'a> Lines<'a> {
         line.wrong("the end of the file", what)
     }
 
-    /// The bytes that are not yet taken.
+    /// The bytes that are not yet consumed.
     pub fn rest(&self) -> &'a [u8] {
         &self.bytes[self.at..]
     }
 
-    /// Takes the given number of bytes, whatever they are; they count as one line if no other end follows.
+    /// Skips the given number of bytes; they count as one line if no other line end follows.
     pub fn skip(&mut self, count: usize) {
         let taken = &self.rest()[..count];
         self.number += taken.iter().filter(|b| **b == b'\n').count();
         self.at += count;
     }
 
-    /// Numbers of the next lines until there are `count`: columns of these widths, those left blank
-    /// at the end of a line too, or numbers with blanks between.
+    /// Numbers of the next lines until there are `count`, in columns of these widths or separated by blanks. Columns
+    /// left blank at the end of a line count too.
     pub fn reals(&mut self, count: usize, widths: &[usize], what: &str) -> Result<Vec<f64>> {
         let mut values = Vec::new();
         while values.len() < count {
@@ -141,7 +141,7 @@ impl<'a> Lines<'a> {
 }
 
 impl<'a> Line<'a> {
-    /// `-1` in columns 5 and 6; a file whose blanks were lost has it further to the left.
+    /// `-1` in columns 5 and 6; a file that has lost blanks has it further to the left.
     pub fn is_fence(self) -> bool {
         let end = self.bytes.trim_ascii_end();
         end.len() <= 6 && end.trim_ascii_start() == b"-1"
@@ -151,8 +151,8 @@ impl<'a> Line<'a> {
         self.bytes.trim_ascii().is_empty()
     }
 
-    /// The text of columns (from 0), blanks around it removed. Bytes that are no UTF-8 are taken as
-    /// Latin-1, which older programs write.
+    /// The text of columns (from 0), without surrounding blanks. Bytes that are no UTF-8 are read as Latin-1, which
+    /// older programs write.
     pub fn text(self, start: usize, width: usize) -> String {
         let bytes = self.columns(start, width).trim_ascii();
         match std::str::from_utf8(bytes) {
@@ -161,7 +161,7 @@ impl<'a> Line<'a> {
         }
     }
 
-    /// As [`Self::text`], empty where a field must say `NONE` to be empty.
+    /// As [`Self::text`], but empty for `NONE`, the mark of an empty field.
     pub fn name(self, start: usize, width: usize) -> String {
         let text = self.text(start, width);
         if text.eq_ignore_ascii_case("none") { String::new() } else { text }
@@ -200,9 +200,9 @@ impl<'a> Line<'a> {
         self.numbers(widths, whole, what)
     }
 
-    /// What stands in the columns, up to the last number, where the words end as columns do: blank
-    /// is 0, as Fortran reads it. Else the words between blanks, if each is a number that fits a
-    /// column; else the columns, where numbers may touch.
+    /// The content of the columns up to the last number, if the words end where columns do; a blank is 0, as Fortran
+    /// reads it. Otherwise the words between blanks, if each is a number that fits a column. Otherwise the columns,
+    /// where numbers may touch.
     pub fn numbers<T: Default>(
         self,
         widths: &[usize],
@@ -232,7 +232,7 @@ impl<'a> Line<'a> {
         }
     }
 
-    /// Whether there are words, and each ends where a column of these widths does.
+    /// Whether there are words, and each ends at the end of a column of these widths.
     fn is_in_columns(self, widths: &[usize]) -> bool {
         let mut ends = widths.iter().scan(0, |end, width| {
             *end += width;
@@ -254,7 +254,7 @@ impl<'a> Line<'a> {
         self.error(if self.is_blank() { 0 } else { first }, found, expected)
     }
 
-    /// What stands in the line, to be shown.
+    /// The content of the line, for display.
     pub fn shown(self) -> String {
         format!("\"{}\"", shortened(&self.text(0, self.bytes.len()), 40))
     }
@@ -271,7 +271,7 @@ impl<'a> Line<'a> {
         Error::Input { place: Box::new(place), complaint: Complaint::new("", found, expected) }
     }
 
-    /// The line itself, of long ones the surroundings of the column; the word there is marked.
+    /// The line itself, or the surroundings of the column if it is long, with the word there marked.
     fn excerpt(self, column: usize) -> Excerpt {
         const AROUND: usize = 60;
         let (before, rest) = self.bytes.split_at(column.min(self.bytes.len()));

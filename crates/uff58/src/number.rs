@@ -1,8 +1,8 @@
 //! Numbers as Fortran writes and reads them.
 
-/// A number with `decimals` digits behind the point, its exponent after `letter`, as FORMAT
-/// `1PEw.d` and `1PDw.d` have it: `-1.23450E-03`. What is smaller than 1e-99 becomes 0, for its
-/// exponent would need a third digit, which old readers do not know.
+/// A number with `decimals` digits after the point and its exponent after `letter`, as in FORMAT `1PEw.d` and `1PDw.d`:
+/// `-1.23450E-03`. Numbers below 1e-99 become 0, because their exponents would need a third digit, which old readers do
+/// not know.
 pub fn scientific(value: f64, decimals: usize, letter: char) -> String {
     let value = if value.abs() < 1e-99 { 0.0 } else { value };
     let text = format!("{value:.decimals$e}");
@@ -102,7 +102,7 @@ mod tests {
                 if decimals > 15 {
                     prop_assert_eq!(back, Some(value));
                 }
-                // A field of 13, 20 or 25 columns holds it, and so its own rounding.
+                // It fits a field of 13, 20 or 25 columns.
                 prop_assert!(text.len() <= decimals + 8);
                 let six = crate::six_digits(value);
                 prop_assert!(decimals != 5 || back.is_none_or(|back| back == six));

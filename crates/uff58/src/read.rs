@@ -24,21 +24,21 @@ pub fn read(path: &Path) -> Result<Universal> {
     parse(&path.display().to_string(), &file::read(path)?)
 }
 
-/// Reads the bytes of a universal file into SI; `file` is what messages call it.
+/// Reads the bytes of a universal file into SI; `file` is its name in messages.
 ///
 /// # Errors
 ///
-/// [`Error::Input`](sweetspot::Error) with line and column of text in place of a number, of a dataset that
-/// ends too early, and of anything outside a dataset.
+/// [`Error::Input`](sweetspot::Error) with line and column for text in place of a number, for a dataset that ends too
+/// early, and for anything outside a dataset.
 pub fn parse(file: &str, bytes: &[u8]) -> Result<Universal> {
     parse_in(file, bytes, None)
 }
 
-/// As [`parse`], of a file that names no units itself and is in these.
+/// As [`parse`], for a file without units that is in these units.
 ///
 /// # Errors
 ///
-/// Those of [`parse`]; [`Error::Input`](sweetspot::Error) for a dataset 164 where units are given.
+/// Those of [`parse`]; [`Error::Input`](sweetspot::Error) for a dataset 164 in addition to given units.
 pub fn parse_in(file: &str, bytes: &[u8], given: Option<&Units>) -> Result<Universal> {
     let mut lines = Lines::new(file, bytes);
     let mut read = Universal {
@@ -91,7 +91,7 @@ pub fn parse_in(file: &str, bytes: &[u8], given: Option<&Units>) -> Result<Unive
     Ok(read)
 }
 
-/// The number of a dataset; and of 58b, what its bytes are.
+/// The number of a dataset, and for 58b the description of its bytes.
 fn numbered(line: Line) -> Result<(i64, Option<Binary>)> {
     let expected = "the number of a dataset in columns 1 to 6";
     let word = line.text(0, 7);
@@ -115,7 +115,7 @@ fn close(number: i64, lines: &mut Lines) -> Result<()> {
     }
 }
 
-/// What stands before the closing fence; none of a dataset that is not known.
+/// The dataset up to the closing fence; none for an unknown one.
 fn dataset(number: i64, binary: Option<&Binary>, lines: &mut Lines) -> Result<Option<Dataset>> {
     Ok(Some(match number {
         15 => Dataset::Nodes(nodes_15(lines)?),
@@ -136,7 +136,7 @@ fn dataset(number: i64, binary: Option<&Binary>, lines: &mut Lines) -> Result<Op
     }))
 }
 
-/// The next line if it belongs to the dataset still.
+/// The next line if it still belongs to the dataset.
 fn body<'a>(lines: &mut Lines<'a>) -> Option<Line<'a>> {
     lines.peek().filter(|line| !line.is_fence())?;
     lines.next()
@@ -152,7 +152,7 @@ fn entry<'a>(lines: &mut Lines<'a>) -> Option<Line<'a>> {
     }
 }
 
-/// Whatever of a header is there.
+/// As much of a header as exists.
 fn header(lines: &mut Lines) -> Header {
     let mut rows = [None; 7];
     for row in &mut rows {
@@ -360,7 +360,7 @@ fn analysis_data(lines: &mut Lines) -> Result<Option<NodalData>> {
     }))
 }
 
-/// Numbers per node, as a form says.
+/// Numbers per node, according to a form.
 fn values_per_node(form: Line, count: i64) -> Result<usize> {
     let per_node = usize::try_from(count).ok().filter(|n| (1..=1000).contains(n));
     per_node.ok_or_else(|| form.wrong(format!("{count} values per node"), "1 to 1000"))
@@ -400,7 +400,7 @@ fn analysis(lines: &mut Lines, kind: i64) -> Result<Analysis> {
         integers.extend(next.integers(&INTEGERS, expected)?);
     }
     let reals = lines.reals(real, &SINGLES, "the figures of the mode or step")?;
-    // Figures that a program left out are 0.
+    // Numbers that a program left out are 0.
     let r = |k: usize| reals.get(k).copied().unwrap_or_default();
     let i = |k: usize| integers.get(2 + k).copied().unwrap_or_default();
     Ok(match kind {

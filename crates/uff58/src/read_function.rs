@@ -10,7 +10,7 @@ pub(super) struct Binary {
 }
 
 impl Binary {
-    /// What the line `58b …` says, FORMAT(I6,1A1,I6,I6,I12,I12,I6,I6,I12,I12).
+    /// The content of the line `58b …`, FORMAT(I6,1A1,I6,I6,I12,I12,I6,I6,I12,I12).
     pub fn of(line: Line) -> Result<Self> {
         let little_endian = match line.integer(7, 6, "a byte order")? {
             1 => true,
@@ -24,7 +24,7 @@ impl Binary {
     }
 }
 
-/// Record 7: how many values of what kind.
+/// Record 7: number and kind of the values.
 struct Form {
     complex: bool,
     double: bool,
@@ -112,7 +112,7 @@ fn form(line: Line) -> Result<Form> {
         6.0 => (true, true),
         other => return Err(line.wrong(format!("data type {other}"), "2, 4, 5 or 6")),
     };
-    // As many as there may be bytes of; a count beyond them is found out at the end of the file.
+    // Limited to 32 bits; a larger count is found at the end of the file.
     let count = super::number::whole(&n(1).to_string()).and_then(|n| u32::try_from(n).ok());
     let count = count.ok_or_else(|| line.wrong(format!("{} values", n(1)), "a count"))?;
     let even = match n(2) {
@@ -144,7 +144,7 @@ fn spaced_axis(line: Line) -> Option<Axis> {
 }
 
 impl Form {
-    /// Numbers of one value: its abscissa, if that is there, and its parts.
+    /// Numbers in one value: its abscissa, if it is given, and its parts.
     fn per_value(&self) -> usize {
         usize::from(self.even.is_none()) + if self.complex { 2 } else { 1 }
     }
@@ -166,7 +166,7 @@ impl Form {
         uneven + part * if self.complex { 2 } else { 1 }
     }
 
-    /// Abscissa and values from the numbers as they come.
+    /// Abscissa and values from the numbers in the order of the file.
     fn split(&self, numbers: &[f64]) -> (Abscissa, Values) {
         let rows = || numbers.chunks_exact(self.per_value());
         let first = usize::from(self.even.is_none());
@@ -189,8 +189,8 @@ fn text(lines: &mut Lines, form: &Form) -> Result<Vec<f64>> {
     lines.reals(form.count * form.per_value(), form.widths(), &what)
 }
 
-/// The bytes of dataset 58b. An abscissa has four bytes by the format's text; some programs write
-/// eight beside doubles, which the fence behind them tells.
+/// The bytes of dataset 58b. An abscissa has four bytes by the text of the format; some programs write eight bytes with
+/// doubles, which can be seen from the position of the fence.
 fn bytes(lines: &mut Lines, form: &Form, binary: &Binary) -> Result<Vec<f64>> {
     let rest = lines.rest();
     let fenced = |size: usize| {

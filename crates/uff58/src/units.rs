@@ -1,4 +1,4 @@
-//! Units of a universal file: what turns its numbers into SI.
+//! Units of a universal file: the conversion of its numbers to SI.
 
 use super::{Analysis, Dataset, Function, NodalData, Values};
 
@@ -17,7 +17,7 @@ pub struct Units {
     pub force: f64,
     /// The file's degrees in a kelvin.
     pub temperature: f64,
-    /// Offset of the file's temperatures; they are left as they stand.
+    /// Offset of the temperatures in the file; they are not converted.
     pub temperature_offset: f64,
 }
 
@@ -44,19 +44,18 @@ impl Units {
         Self { code: 9, description, length: 1.0 / metre, force, ..Self::si() }
     }
 
-    /// Whether nothing need be converted.
+    /// Whether no conversion is needed.
     pub fn are_si(&self) -> bool {
         self.length == 1.0 && self.force == 1.0
     }
 
-    /// What divides a number of these exponents of length and force.
+    /// The divisor of a number with these exponents of length and force.
     fn factor(&self, [length, force]: [i64; 2]) -> f64 {
         let power = |base: f64, n: i64| base.powi(i32::try_from(n).unwrap_or(i32::MAX));
         power(self.length, length) * power(self.force, force)
     }
 
-    /// Converts a dataset of these units into SI; temperatures are left as they are. False if a
-    /// number leaves the range of numbers.
+    /// Converts a dataset in these units to SI, except temperatures. False if a number overflows.
     pub fn into_si(&self, dataset: &mut Dataset) -> bool {
         let mut sound = true;
         let mut divide = |value: &mut f64, factor: f64| {
@@ -84,7 +83,7 @@ impl Units {
                 value.iter_mut().for_each(|part| divide(part, factor));
             }
         }
-        // The modal mass is a mass, which goes with force over length, times the shape squared.
+        // Modal mass is a mass, i.e. force over length, times the shape squared.
         let [length, force] = exponents(data.quantity, false);
         let mass = self.factor([2 * length - 1, 2 * force + 1]);
         match &mut data.analysis {

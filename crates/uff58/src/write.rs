@@ -7,12 +7,12 @@ use super::{
 };
 use sweetspot::base::error::{Error, Result};
 
-/// The text of a universal file of these datasets, lines ended by a line feed, in ASCII.
+/// The text of a universal file of these datasets in ASCII, with lines ended by a line feed.
 ///
 /// # Errors
 ///
-/// [`Error::Value`] for a number that is not finite or does not fit its columns, for a trace line
-/// of more than [`TraceLine::MOST`] nodes, and for values whose count does not fit.
+/// [`Error::Value`] for a number that is not finite or does not fit its columns, for a trace line with more than
+/// [`TraceLine::MOST`] nodes, and for values with a wrong count.
 pub fn write(datasets: &[Dataset]) -> Result<String> {
     let mut out = Out::default();
     for dataset in datasets {
@@ -50,7 +50,7 @@ fn put(out: &mut Out, dataset: &Dataset) {
     }
 }
 
-/// The text so far, and the first thing that could not be written.
+/// The text so far, and the first object that could not be written.
 #[derive(Default)]
 struct Out {
     text: String,
@@ -104,7 +104,7 @@ impl Out {
         self
     }
 
-    /// As [`Self::name`], `NONE` where there is nothing, since a field may not be blank.
+    /// As [`Self::name`], but `NONE` for an empty text, because a field may not be blank.
     fn id(&mut self, text: &str, width: usize) -> &mut Self {
         self.name(if text.trim().is_empty() { "NONE" } else { text }, width)
     }

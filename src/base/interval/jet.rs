@@ -1,14 +1,13 @@
 //! Which values and which slopes does a function have on a box of the complex plane?
 //!
-//! The derivative gives a second bound of the values, which is the closer one on a small box:
-//! `f(x) ∈ f(m) + f′([a, b]) (x − m)`, the mean-value form.
+//! The derivative gives a second bound of the values, which is the tighter one on a small box: the mean-value form
+//! `f(x) ∈ f(m) + f′([a, b]) (x − m)`.
 
 use std::ops::{Add, Mul, Neg};
 
 use super::{Interval, Rectangle};
 
-/// Values of a function and of its derivative on one box. A function that is not analytic there is
-/// `None`.
+/// Values of a function and of its derivative on one box. Operations return `None` where the function is not analytic.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Jet {
     /// Values.
@@ -28,7 +27,7 @@ impl Jet {
         Self { value, slope: Rectangle::point(1.0) }
     }
 
-    /// A function of it, from its value and its derivative.
+    /// The composition with a function, given its value and its derivative.
     fn chain(self, value: Rectangle, derivative: Rectangle) -> Self {
         Self { value, slope: derivative * self.slope }
     }
@@ -38,8 +37,7 @@ impl Jet {
         self.chain(self.value.square(), Rectangle::point(2.0) * self.value)
     }
 
-    /// Real values on an interval of half that length around where `middle` is, by the mean value
-    /// too.
+    /// Real values on an interval of half length `half`, by the values and by the mean value around `middle`.
     pub fn range(self, middle: Self, half: f64) -> Interval {
         let around = self.slope.re * Interval::within(half.next_up());
         self.value.re.and(middle.value.re + around)

@@ -35,7 +35,7 @@ pub fn down(x: f64) -> f64 {
     let below = x - (PHI * x.abs() + LEAST);
     match below.is_nan() {
         false => below,
-        // Of what is too large to write all that is known is that it is large.
+        // A number too large to represent is known only to be large.
         true if x == f64::INFINITY => f64::MAX,
         true => f64::NEG_INFINITY,
     }
@@ -61,12 +61,12 @@ impl Interval {
         Self { low: value, high: value }
     }
 
-    /// From −`size` to `size`.
+    /// The interval from −`size` to `size`.
     pub fn within(size: f64) -> Self {
         Self { low: -size, high: size }
     }
 
-    /// Every number within this share of `value`.
+    /// The interval of the numbers within the relative distance `share` of `value`.
     pub fn around(value: f64, share: f64) -> Self {
         Self::point(value) + Self::within(up(share * value.abs()))
     }
@@ -77,7 +77,7 @@ impl Interval {
         Self { low: PI, high: PI.next_up() }
     }
 
-    /// An interval whose ends were rounded once, where only what is 0 rounds to 0.
+    /// An interval whose ends were rounded once, where a result of 0 is exact.
     fn rounded(low: f64, high: f64) -> Self {
         let low = if low == 0.0 { low } else { down(low) };
         Self { low, high: if high == 0.0 { high } else { up(high) } }
@@ -88,12 +88,12 @@ impl Interval {
         Self::rounded(low - LIBRARY * low.abs(), high + LIBRARY * high.abs())
     }
 
-    /// Whether it is the number 0.
+    /// Whether this is exactly the number 0.
     fn is_zero(self) -> bool {
         self.low == 0.0 && self.high == 0.0
     }
 
-    /// Whether `value` is in it.
+    /// Whether the interval contains `value`.
     pub fn contains(self, value: f64) -> bool {
         self.low <= value && value <= self.high
     }
@@ -108,40 +108,40 @@ impl Interval {
         f64::max(0.0, f64::max(self.low, -self.high))
     }
 
-    /// What two enclosures of one number leave.
+    /// The intersection of two enclosures of one number.
     pub fn and(self, other: Self) -> Self {
         Self { low: self.low.max(other.low), high: self.high.min(other.high) }
     }
 
-    /// The number in the middle, nearly.
+    /// The number in the middle, to round-off.
     pub fn middle(self) -> f64 {
         0.5 * self.low + 0.5 * self.high
     }
 
-    /// How far numbers in it may be from `value`.
+    /// The largest distance of a number in the interval from `value`.
     pub fn distance(self, value: f64) -> f64 {
         f64::max(up(self.high - value), up(value - self.low)).max(0.0)
     }
 
-    /// What is in one of two or between them.
+    /// The smallest interval that holds both.
     pub fn hull(self, other: Self) -> Self {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
 
-    /// The square, which is not negative.
+    /// The square, never negative.
     pub fn square(self) -> Self {
         let (small, large) = (self.smallest(), self.largest());
         let high = if large == 0.0 { 0.0 } else { up(large * large) };
         Self { low: down(small * small).max(0.0), high }
     }
 
-    /// The square root of what is not negative of it.
+    /// The square root of the part that is not negative.
     pub fn sqrt(self) -> Self {
         let root = Self::rounded(self.low.max(0.0).sqrt(), self.high.max(0.0).sqrt());
         Self { low: root.low.max(0.0), ..root }
     }
 
-    /// `1/x`, if 0 is not in it.
+    /// `1/x`, if the interval does not contain 0.
     pub fn reciprocal(self) -> Option<Self> {
         (self.low > 0.0 || self.high < 0.0).then(|| Self::rounded(1.0 / self.high, 1.0 / self.low))
     }
@@ -151,7 +151,7 @@ impl Interval {
         Self { low: exp.low.max(0.0), high: exp.high.max(f64::MIN_POSITIVE) }
     }
 
-    /// The logarithm of what is positive of it.
+    /// The logarithm of the positive part.
     fn ln(self) -> Self {
         Self::library(self.low.max(0.0).ln(), self.high.ln())
     }
@@ -176,9 +176,9 @@ impl Interval {
         self.wave(self, f64::cos)
     }
 
-    /// A wave whose crests lie where this is a multiple of 2π, by its values at the ends of `at`.
+    /// The range of a wave with crests where this is a multiple of 2π, given its values at the ends of `at`.
     fn wave(self, at: Self, wave: fn(f64) -> f64) -> Self {
-        // Beyond that a period is no longer told from the next.
+        // Beyond this size, rounding exceeds a period.
         const FARTHEST: f64 = 1e12;
         let all = Self::within(1.0);
         let span = at.high - at.low;
@@ -190,7 +190,7 @@ impl Interval {
             |shift: f64| ((self.low - shift) / TAU).floor() < ((self.high - shift) / TAU).floor();
         let low = if crosses(PI) { -1.0 } else { a.min(b) };
         let high = if crosses(0.0) { 1.0 } else { a.max(b) };
-        // The places of crests are rounded too: near one the wave is flat.
+        // The places of crests are rounded too: near a crest the wave is flat.
         let round = f64::EPSILON * (1.0 + at.largest());
         Self::library(low - round * round, high + round * round).and(all)
     }
@@ -216,7 +216,7 @@ impl Neg for Interval {
     }
 }
 
-/// What is less by another is more by the negative of that.
+/// Subtraction is addition of the negative.
 macro_rules! differences {
     ($($of:ty)*) => {$(
         impl Sub for $of {
@@ -250,7 +250,7 @@ impl Mul for Interval {
             (self.high, other.low),
             (self.high, other.high),
         ];
-        // 0 times a number too large to write is 0; what rounds to 0 is not.
+        // 0 times a number too large to represent is 0; a product that rounds to 0 is not exactly 0.
         let round = |(a, b): (f64, f64)| match a == 0.0 || b == 0.0 {
             true => Self::point(0.0),
             false => Self { low: down(a * b), high: up(a * b) },

@@ -1,7 +1,7 @@
 //! Which values does a function take on a box of the complex plane?
 //!
-//! Functions of a box are bounded through their real and imaginary parts, each an [`Interval`]; where
-//! one is not analytic there is no bound.
+//! Functions of a box are bounded through their real and imaginary parts, each an [`Interval`]. Where a function is not
+//! analytic it has no bound.
 
 use std::f64::consts::FRAC_PI_2;
 use std::ops::{Add, Mul, Neg};
@@ -28,7 +28,7 @@ impl Rectangle {
         Self::real(Interval::point(value))
     }
 
-    /// Whether all of it is real.
+    /// Whether the whole box lies on the real axis.
     fn is_real(self) -> bool {
         self.im.is_zero()
     }
@@ -44,7 +44,7 @@ impl Rectangle {
         Self { re: self.re.square() - self.im.square(), im: twice }
     }
 
-    /// `1/z`, if 0 is not in it.
+    /// `1/z`, if the box does not contain 0.
     pub(super) fn reciprocal(self) -> Option<Self> {
         if self.is_real() {
             return self.re.reciprocal().map(Self::real);
@@ -55,7 +55,7 @@ impl Rectangle {
         Some(Self { re: part(self.re), im: part(-self.im) })
     }
 
-    /// `1/z` for a slope: where 0 is in it, without bound; of what is not negative, not negative.
+    /// `1/z` for a slope: unbounded if the box contains 0, and not negative if `z` is not negative.
     pub(super) fn steep(self) -> Self {
         let all = Interval::within(f64::INFINITY);
         match self.reciprocal() {
@@ -67,7 +67,7 @@ impl Rectangle {
         }
     }
 
-    /// Angles in (−π, π), if the box does not touch the real axis left of and at 0.
+    /// Angles in (−π, π), if the box does not touch the real axis at or left of 0.
     fn angle(self) -> Option<Interval> {
         let Self { re, im } = self;
         let right = |re: Interval, im: Interval| {
@@ -117,7 +117,7 @@ impl Rectangle {
         Self { re: re.cos() * im.cosh(), im: -(re.sin() * im.sinh()) }
     }
 
-    /// `tanh z = 1 − 2/(e^{2z} + 1)`, an odd function that is within `2/(e^{2 Re z} − 1)` of 1.
+    /// `tanh z = 1 − 2/(e^{2z} + 1)`, an odd function within `2/(e^{2 Re z} − 1)` of 1.
     pub(super) fn tanh(self) -> Option<Self> {
         if self.is_real() {
             return Some(Self::real(self.re.tanh()));
@@ -133,7 +133,7 @@ impl Rectangle {
         Some(one - two * ((two * self).exp() + one).reciprocal()?)
     }
 
-    /// A whole power from 0 on.
+    /// A whole power, 0 or more.
     pub(super) fn powi(self, n: u32) -> Self {
         match n {
             0 => Self::point(1.0),

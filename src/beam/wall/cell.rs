@@ -1,7 +1,6 @@
 //! What does one element of the wall store when it moves as `cos nθ`?
 //!
-//! With `u_r = U cos nθ`, `u_θ = V sin nθ`, `u_x = W cos nθ` the strains are, in the order rr, θθ, xx, xr, rθ,
-//! xθ:
+//! With `u_r = U cos nθ`, `u_θ = V sin nθ`, `u_x = W cos nθ` the strains are, in the order rr, θθ, xx, xr, rθ, xθ:
 //!
 //! ```text
 //! U_r,   (U + nV)/r,   W_x,   U_x + W_r,   V_r − (V + nU)/r,   V_x − nW/r
@@ -10,19 +9,19 @@
 //! ∂/∂r = 2/(r_b − r_a) ∂/∂η,    ∂/∂x at fixed r = 2/h ∂/∂ξ − [r_a′ (1 − η)/2 + r_b′ (1 + η)/2] ∂/∂r
 //! ```
 //!
-//! The integrals of products of `N`, `N/r`, `N_r` and `N_x` do not know the harmonic: they are taken once.
+//! The integrals of products of `N`, `N/r`, `N_r` and `N_x` do not depend on the harmonic and are taken once.
 //!
 //! # Source
 //!
-//! E. L. Wilson, AIAA Journal 3 (1965) 2269: solids of revolution under loads that are not a function of
-//! revolution, one Fourier term after the other.
+//! E. L. Wilson, AIAA Journal 3 (1965) 2269: solids of revolution under loads without that symmetry, one Fourier term
+//! after the other.
 
 use crate::base::lanes::vectorized;
 use crate::beam::wall::columns::LayerElement;
 use crate::beam::wall::elastic::Elastic;
 use crate::beam::wall::shapes::Shapes;
 
-/// Integrals over an element of products of two functions: `[i][j]`, a row for each first one.
+/// Integrals over an element of products of two functions: `[i][j]`, a row for each `i`.
 #[derive(Debug, Clone)]
 pub struct Cell {
     /// Number of functions, `(p + 1)(q + 1)`; function `i (q + 1) + a` is `φ_i(ξ) χ_a(η)`.
@@ -45,7 +44,7 @@ pub struct Rule {
     pub across: Shapes,
 }
 
-/// Points beyond the degree, along and across: 1/r is not a polynomial.
+/// Additional points along and across: 1/r is not a polynomial.
 const MORE_POINTS: usize = 4;
 
 impl Rule {
@@ -103,8 +102,8 @@ impl Cell {
         vectorized!(integrals(part, rule, h))
     }
 
-    /// Stiffness and `shift` times the mass in harmonic n, without the factor π: unknowns all of U, then of
-    /// V, then of W, row by row.
+    /// Stiffness plus `shift` times mass in harmonic n, without the factor π, row by row: the unknowns are all of U,
+    /// then of V, then of W.
     pub fn stiffness(&self, of: &Elastic, n: usize, shift: f64) -> Vec<f64> {
         let (count, n) = (self.count, n as f64);
         let [[c_rr, c_rt, c_rx], [_, c_tt, c_tx], [.., c_xx]] = of.normal;
@@ -151,8 +150,8 @@ impl Cell {
     }
 }
 
-/// The integrals over one part: sums across the wall at each point along it, times products of functions along it.
-/// In between the sums of all pairs across stand side by side for each pair along.
+/// The integrals over one part: sums across the wall at each point along it, times products of functions along it. The
+/// sums of all pairs across are kept side by side for each pair along.
 #[inline(always)]
 fn integrals(part: &LayerElement, rule: &Rule, h: f64) -> Cell {
     let (p, q) = (rule.along.count, rule.across.count);
@@ -234,8 +233,8 @@ fn across(part: &LayerElement, rule: &Rule, h: f64, k: usize, kinds: &mut [f64])
     }
 }
 
-/// Strain energy and mass that a motion of an element has, from its strains at the points: twice the strain
-/// energy, and the integral of `ρ|u|²`, both without the factor π. `motion` is U, V, W in all functions.
+/// Energy and mass of an element's motion, from its strains at the points: twice the strain energy, and the integral of
+/// `ρ|u|²`, both without the factor π. `motion` holds the coefficients of U, V, W for all functions.
 pub fn energies(
     part: &LayerElement,
     rule: &Rule,

@@ -1,7 +1,7 @@
 //! Where are the elements of the wall: how long along the bat, how thick across?
 //!
-//! Columns between the stations, cut finer in geometric steps towards free ends, kinks and corners; the
-//! layers of a column beside a kink or a corner are cut towards it in the same way.
+//! Columns lie between the stations and are refined in geometric steps towards free ends, kinks and corners. The layers
+//! of a column beside a kink or a corner are refined towards it in the same way.
 //!
 //! # Source
 //!
@@ -9,19 +9,19 @@
 
 use crate::beam::wall::layers::{Layers, Radius, SAME_RADIUS, Stretch};
 
-/// Columns of equal length are no shorter than one over this of the wall.
+/// Columns of equal length are at least this fraction of the wall long: one over this number.
 const MOST: f64 = 400.0;
 /// Ratio of the lengths of neighbours towards a place where the motion is not smooth.
 const STEP: f64 = 0.15;
-/// Length of a column as a multiple of the radius there, where nothing asks for a shorter one.
+/// Usual length of a column as a multiple of the radius there.
 const LENGTH: f64 = 1.8;
-/// Thickest part of a layer as a share of the radius: a motion goes as `r^n` in a core.
+/// Greatest thickness of a part of a layer as a share of the radius: in a core a motion goes as `r^n`.
 const THICKNESS: f64 = 0.3;
-/// A layer is cut at this distance from a corner if that is no less than this many times the distance of the
-/// column's far end.
+/// A layer is cut at this share of the distance between a corner and the column's far end, if the layer is at least
+/// that thick.
 const ACROSS: f64 = 0.05;
 
-/// How many geometric steps are taken towards what.
+/// Number of geometric steps towards each kind of place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Grading {
     /// Towards the knob end, if the wall ends there.
@@ -34,7 +34,7 @@ pub struct Grading {
     pub least_kink: f64,
     /// Towards a corner of layers.
     pub corner: usize,
-    /// Towards a corner of layers that are far softer than the wall beside them, which goes on.
+    /// Towards a corner of layers that are far softer than the wall that continues beside them.
     pub soft: usize,
 }
 
@@ -49,7 +49,7 @@ pub struct LayerElement {
     pub outer: Radius,
 }
 
-/// Elements on top of each other between two places.
+/// A stack of elements between two places.
 #[derive(Debug, Clone)]
 pub struct Column {
     /// Where it begins (m).
@@ -69,14 +69,14 @@ impl Column {
     }
 }
 
-/// What lies at one end of a stretch.
+/// One end of a stretch.
 #[derive(Debug, Clone, Default)]
 struct Border {
     /// Geometric steps towards it.
     steps: usize,
     /// Radii at which the motion is not smooth (m).
     corners: Vec<f64>,
-    /// Radii at which the layers are parted though nothing happens there.
+    /// Radii where the layers are cut only to match the neighbours.
     matched: Vec<f64>,
 }
 
@@ -112,7 +112,7 @@ pub fn columns(layers: &Layers, grading: Grading) -> Vec<Column> {
     columns
 }
 
-/// What lies at a free end, where layers of different materials make corners.
+/// The border at a free end, where layers of different materials make corners.
 fn end(stretch: &Stretch, radii: &[f64], usual: usize, grading: Grading) -> Border {
     let pairs = stretch.materials.windows(2).zip(&radii[1..]);
     let corners: Vec<f64> =
@@ -121,7 +121,7 @@ fn end(stretch: &Stretch, radii: &[f64], usual: usize, grading: Grading) -> Bord
     Border { steps, corners, matched: vec![] }
 }
 
-/// What lies between two stretches, as the left and as the right one sees it.
+/// The border between two stretches, for the left and for the right one.
 fn between(left: &Stretch, right: &Stretch, grading: Grading) -> [Border; 2] {
     let (inside, beyond) = (left.radii(left.to), right.radii(right.from));
     let same = SAME_RADIUS * inside[inside.len() - 1];
@@ -175,7 +175,7 @@ fn divide(
     let usual = (LENGTH * stretch.widest()).max(shortest);
     let count = (length / usual).ceil().max(1.0);
     let reach = length / count;
-    // Steps so that the shortest is as long as beside a usual column.
+    // The number of steps for which the shortest column is as long as beside a usual column.
     let steps = |border: &Border, reach: f64| {
         let fewer = ((usual / reach).ln() / -STEP.ln() - 0.25).round().max(0.0) as usize;
         border.steps.saturating_sub(fewer)
@@ -211,8 +211,8 @@ fn divide(
     }
 }
 
-/// The elements of a column, from the inside out: layers of these materials between these radii, each cut at shares
-/// of it and into parts that are not too thick.
+/// The elements of a column, from the inside out: layers of these materials between these radii, each cut at the given
+/// shares and into parts that are thin enough.
 fn layered(materials: &[usize], radii: &[Radius], cuts: Vec<Vec<f64>>) -> Vec<LayerElement> {
     let mut parts = vec![];
     for (k, (material, mut cuts)) in materials.iter().zip(cuts).enumerate() {
@@ -237,7 +237,7 @@ fn layered(materials: &[usize], radii: &[Radius], cuts: Vec<Vec<f64>>) -> Vec<La
     parts
 }
 
-/// Cuts a layer, already cut at these shares, into parts of one over `count` of it at most; 1 is a cut.
+/// Cuts a layer, already cut at these shares, into parts of at most 1/`count` of it; 1 counts as a cut.
 fn even_out(cuts: &mut Vec<f64>, count: f64) {
     cuts.sort_by(f64::total_cmp);
     cuts.push(1.0);
@@ -250,9 +250,9 @@ fn even_out(cuts: &mut Vec<f64>, count: f64) {
     }
 }
 
-/// Where the layers of a column are cut because of what lies at a border, as shares of the layers.
+/// Where the layers of a column are cut because of a border, as shares of the layers.
 ///
-/// `radii` are the layers' own at the border, `far` is how far the column's other end is from it.
+/// `radii` are the layers' radii at the border, `far` is the distance of the column's other end from it.
 fn cut(radii: &[f64], border: &Border, far: f64, innermost: bool, cuts: &mut [Vec<f64>]) {
     let thickness = radii[radii.len() - 1] - radii[0];
     let same = 1e-6 * thickness;

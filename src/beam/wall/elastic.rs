@@ -1,16 +1,16 @@
-//! How does a material resist when it is stretched and sheared in all directions?
+//! How stiff is a material in all directions?
 
 use crate::base::error::{Error, Result};
 use crate::base::linear::inverse;
 use crate::bat::material::{Material, PoissonRatios, ShearModuli};
 
-/// Poisson's ratio of a metal whose own is not known.
+/// Poisson's ratio assumed for a metal whose own is not known.
 pub const ASSUMED_POISSON_RATIO: f64 = 0.33;
 
 /// Stiffness of a material in the directions of a bat: r across the wall, θ around, x along.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Elastic {
-    /// Stress for a strain, in the order rr, θθ, xx (Pa).
+    /// Stresses per strain, in the order rr, θθ, xx (Pa).
     pub normal: [[f64; 3]; 3],
     /// Shear modulus between x and r (Pa).
     pub shear_xr: f64,
@@ -24,8 +24,7 @@ pub struct Elastic {
     pub loss_factor: f64,
 }
 
-/// Poisson's ratio of a material that is equal in all directions: its own, else the one that E and G have
-/// together if it is possible, `ν = E/2G − 1`, else None.
+/// Poisson's ratio of an isotropic material: its own, else `ν = E/2G − 1` if that is possible, else `None`.
 pub fn poisson_ratio(material: &Material) -> Option<f64> {
     let of_shear = |shear: f64| 0.5 * material.youngs_modulus / shear - 1.0;
     let possible = |ratio: &f64| (0.0..0.5).contains(ratio);
@@ -33,8 +32,7 @@ pub fn poisson_ratio(material: &Material) -> Option<f64> {
 }
 
 impl Elastic {
-    /// A material that is equal in all directions, by Lamé's constants of E and ν:
-    /// `λ = Eν/((1 + ν)(1 − 2ν))`, `μ = E/(2(1 + ν))`.
+    /// An isotropic material, by Lamé's constants: `λ = Eν/((1 + ν)(1 − 2ν))`, `μ = E/(2(1 + ν))`.
     pub fn isotropic(material: &Material, poisson_ratio: f64) -> Self {
         let (e, nu) = (material.youngs_modulus, poisson_ratio);
         let shear = 0.5 * e / (1.0 + nu);
@@ -46,13 +44,12 @@ impl Elastic {
         Self { normal, shear_xr: shear, shear_rt: shear, shear_xt: shear, density, loss_factor }
     }
 
-    /// A composite that differs in its three directions: the inverse of the compliance, whose diagonal is `1/E_r`,
-    /// `1/E_θ`, `1/E_x` and which has `−ν_xθ/E_x`, `−ν_xr/E_x`, `−ν_θr/E_θ` beside it. None for a material that is
-    /// not told to differ.
+    /// An orthotropic composite: the inverse of the compliance with the diagonal `1/E_r`, `1/E_θ`, `1/E_x` and the
+    /// off-diagonal terms `−ν_xθ/E_x`, `−ν_xr/E_x`, `−ν_θr/E_θ`. `None` for a material that gives no such moduli.
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] where the compliance is not positive: the ratios are too large for these moduli.
+    /// [`Error::Value`] if the compliance is not positive definite: the ratios are too large for these moduli.
     ///
     /// # Source
     ///

@@ -1,4 +1,4 @@
-//! Which stretch of a bat rings as a wall?
+//! Which stretch of a bat is modelled as a wall?
 
 use crate::base::error::{Error, Result};
 use crate::bat::body::Bat;
@@ -12,40 +12,40 @@ pub struct Extent {
     pub from: f64,
     /// Where it ends, at the tip (m).
     pub to: f64,
-    /// Why it begins there and no nearer to the knob.
+    /// Why it begins there and not nearer to the knob.
     pub limit: Limit,
 }
 
-/// What ends the stretch on the knob side.
+/// What limits the stretch on the knob side.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Limit {
     /// The modes of the barrel have died out in the handle.
     Handle,
     /// The knob end of the bat.
     Knob,
-    /// A step whose walls do not meet.
+    /// A step at which the walls do not meet.
     Step,
-    /// Wood, which is not a solid of revolution in its grain.
+    /// Wood, whose stiffness along the grain has no symmetry of revolution.
     Wood,
 }
 
-/// Places at which a piece is looked at.
+/// Number of places at which a piece is checked.
 const PLACES: usize = 8;
-/// The handle ends where the radius has grown by this share of its whole growth to the barrel.
+/// The handle ends where the radius has grown by this share of its growth from handle to barrel.
 const GROWN: f64 = 0.005;
 
-/// Whether a bat has a wall to ring: hollow somewhere, and not of wood there.
+/// Whether a bat has a wall that can ring: hollow somewhere, and not of wood there.
 pub fn rings(bat: &Bat) -> bool {
     bat.profile().pieces.iter().any(|piece| is_wall(bat, piece))
 }
 
-/// Whether it has a wall; none is thinner than a millionth of the radius.
+/// Whether it has a bore; no wall is thinner than a millionth of the radius.
 fn is_hollow(piece: &Piece) -> bool {
     let walled = |at: Section| at.inner > 0.0 && at.outer - at.inner > 1e-6 * at.outer;
     [0.0, 0.5, 1.0].iter().any(|s| walled(piece.at(*s)))
 }
 
-/// Whether it is taken for wood and nothing is known of it in other directions.
+/// Whether a material counts as wood and its stiffness in other directions is not given.
 pub fn is_wood(material: &Material) -> bool {
     material.scatter().is_some() && material.hoop_modulus.is_none()
 }
@@ -55,11 +55,11 @@ fn is_wall(bat: &Bat, piece: &Piece) -> bool {
 }
 
 impl Extent {
-    /// The stretch from the handle to the tip, with `lead` times the handle's radius before the taper.
+    /// The stretch from the handle to the tip; it begins `lead` times the handle's radius before the taper.
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] for a bat that is solid, or whose wall is of wood.
+    /// [`Error::Value`] for a solid bat, or one with a wall of wood.
     pub fn of(bat: &Bat, lead: f64) -> Result<Self> {
         let pieces = &bat.profile().pieces;
         let widest = |piece: &Piece| {
@@ -100,7 +100,7 @@ impl Extent {
                 (piece.start + s * piece.length, piece.at(s).outer)
             })
         });
-        // Beyond the widest place a tube may taper too, and that is not a handle.
+        // Beyond the widest place a tube may taper too, but that part is no handle.
         let mut places: Vec<(f64, f64)> = places.collect();
         let widest = (0..places.len()).rev().max_by(|a, b| places[*a].1.total_cmp(&places[*b].1));
         places.truncate(widest.map_or(0, |widest| widest + 1));
@@ -119,7 +119,7 @@ impl Extent {
     }
 }
 
-/// Where the section of a piece begins: on the axis if its bore is filled.
+/// Inner radius of a piece's section: 0 if the bore is filled.
 fn inside(bat: &Bat, piece: &Piece, inner: f64) -> f64 {
     if bat.layup(piece).core.is_some() { 0.0 } else { inner }
 }

@@ -1,4 +1,4 @@
-//! Of which layers is the wall made, from the bore to the surface, and where do they change?
+//! Which layers does the wall have, from the bore to the surface, and where do they change?
 
 use crate::base::error::{Error, Result};
 use crate::base::quadrature::{gauss, legendre};
@@ -8,11 +8,11 @@ use crate::bat::profile::{Piece, Radii, SAME_PLACE};
 use crate::beam::wall::elastic::{ASSUMED_POISSON_RATIO, Elastic, poisson_ratio};
 use crate::beam::wall::extent::is_wood;
 
-/// Radii that differ by less, as a share of the largest, are one.
+/// Radii that differ by less than this share of the largest are equal.
 pub const SAME_RADIUS: f64 = 1e-9;
-/// Slopes of a radius that differ by less are one: a formula goes on.
+/// Slopes of a radius that differ by less are equal: the formula continues.
 const SAME_SLOPE: f64 = 1e-7;
-/// Points at which a formula becomes a polynomial on one column of elements.
+/// Number of points for the polynomial of a formula on one column of elements.
 const FORMULA_POINTS: usize = 16;
 
 /// A stretch where all radii are smooth and the materials do not change.
@@ -34,19 +34,18 @@ pub struct Stretch {
 pub struct Layers {
     /// The stretches, from the knob on.
     pub stretches: Vec<Stretch>,
-    /// What the layers are made of.
+    /// The materials of the layers.
     pub materials: Vec<Elastic>,
-    /// Materials whose Poisson's ratio was not known and was assumed to be
-    /// [`ASSUMED_POISSON_RATIO`], as indices.
+    /// Indices of the materials whose Poisson's ratio was unknown and was taken as [`ASSUMED_POISSON_RATIO`].
     pub assumed: Vec<usize>,
 }
 
-/// A radius along a column of elements, a series of Legendre polynomials of its ξ.
+/// A radius along a column of elements, as a series of Legendre polynomials in its ξ.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Radius(pub Vec<f64>);
 
 impl Radius {
-    /// The radius (m) and its derivative by ξ at that ξ, by Clenshaw's rule in plain sums.
+    /// The radius (m) and its derivative by ξ, by Clenshaw's rule in plain sums.
     pub fn at(&self, xi: f64) -> [f64; 2] {
         let p = legendre(self.0.len(), xi);
         let (mut value, mut slope) = (0.0, 0.0);
@@ -63,13 +62,13 @@ impl Radius {
         [value, slope]
     }
 
-    /// The radius so far from this one towards another, `share` from 0 to 1.
+    /// The radius at a `share`, 0 to 1, of the way from this one to another.
     pub fn towards(&self, other: &Self, share: f64) -> Self {
         let between = |(a, b): (&f64, &f64)| (1.0 - share) * a + share * b;
         Self(self.0.iter().zip(&other.0).map(between).collect())
     }
 
-    /// Whether it is 0 all along.
+    /// Whether it is 0 everywhere.
     pub fn is_axis(&self) -> bool {
         self.0.iter().all(|coefficient| coefficient.abs() < 1e-15)
     }
@@ -105,7 +104,7 @@ impl Stretch {
                 }
             }
         }
-        // A difference as small as rounding is dropped; a constant radius then stays constant.
+        // A difference as small as round-off is dropped; a constant radius then stays constant.
         for radius in &mut radii {
             let largest = radius.0[0].abs();
             let small = |c: &&mut f64| c.abs() < f64::EPSILON * largest;
@@ -135,7 +134,8 @@ impl Stretch {
         (0..=10).map(outer).fold(0.0, f64::max)
     }
 
-    /// Whether the stiffest layer goes on into the next stretch between the same radii, and all others are far softer.
+    /// Whether the stiffest layer continues into the next stretch between the same radii, and all others are far
+    /// softer.
     pub fn stays_stiff(&self, next: &Self, materials: &[Elastic]) -> bool {
         let all = self.materials.iter().chain(&next.materials);
         let Some(stiffest) = stiff_among(all, materials) else { return false };
@@ -149,13 +149,12 @@ impl Stretch {
         }
     }
 
-    /// Whether all its layers but the stiffest are far softer.
+    /// Whether all its layers except the stiffest are far softer.
     pub fn is_soft_within(&self, materials: &[Elastic]) -> bool {
         stiff_among(self.materials.iter(), materials).is_some()
     }
 
-    /// By how much the slope of each border changes where the next stretch goes on with the same layers; None
-    /// where it does not.
+    /// Change of slope of each border if the next stretch continues with the same layers; otherwise `None`.
     pub fn kinks(&self, next: &Self) -> Option<Vec<f64>> {
         if self.materials != next.materials {
             return None;
@@ -176,8 +175,8 @@ impl Layers {
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] where a layer is of wood, which is not a solid of revolution in its grain, and where
-    /// walls to the left and right of a step do not meet.
+    /// [`Error::Value`] if a layer is of wood, which has no symmetry of revolution, or if the walls to the left and
+    /// right of a step do not meet.
     pub fn of(bat: &Bat, from: f64, to: f64) -> Result<Self> {
         let mut layers = Self { stretches: vec![], materials: vec![], assumed: vec![] };
         let mut known: Vec<Material> = vec![];
@@ -213,7 +212,7 @@ impl Layers {
         Ok(layers)
     }
 
-    /// The changes of slope at all places where the layers go on; None if there is a corner of layers.
+    /// The changes of slope at all places where the layers continue; `None` if layers make a corner.
     pub fn kinks(&self) -> Option<Vec<f64>> {
         let one = |stretch: &Stretch| stretch.materials.windows(2).all(|pair| pair[0] == pair[1]);
         let ends = [&self.stretches[0], &self.stretches[self.stretches.len() - 1]];
@@ -225,7 +224,7 @@ impl Layers {
         Some(each?.concat())
     }
 
-    /// Whether all corners are those of layers far softer than the wall, which goes on beside them.
+    /// Whether all corners belong to layers far softer than the wall that continues beside them.
     pub fn stays_stiff(&self) -> bool {
         let goes_on = |pair: &[Stretch]| {
             pair[0].kinks(&pair[1]).is_some() || pair[0].stays_stiff(&pair[1], &self.materials)
@@ -261,7 +260,7 @@ impl Layers {
         Ok(index)
     }
 
-    /// Adds a stretch, to the last one where both are one formula without a kink between them.
+    /// Adds a stretch; extends the last one if both belong to one formula without a kink between them.
     fn add(&mut self, next: Stretch) {
         if let Some(last) = self.stretches.last_mut()
             && let (Some(before), Some(after)) = (last.pieces.last(), next.pieces.first())
@@ -277,7 +276,7 @@ impl Layers {
         self.stretches.push(next);
     }
 
-    /// Walls that meet at every step.
+    /// Checks that the walls meet at every step.
     fn check_steps(&self) -> Result<()> {
         for pair in self.stretches.windows(2) {
             let (left, right) = (pair[0].radii(pair[0].to), pair[1].radii(pair[1].from));
@@ -305,7 +304,7 @@ fn stiff_among<'a>(
     layers: impl Iterator<Item = &'a usize> + Clone,
     materials: &[Elastic],
 ) -> Option<usize> {
-    /// With less of the stiffness of the wall than this share a layer makes no corner that counts.
+    /// A layer with less than this share of the wall's stiffness makes no corner that matters.
     const SOFT: f64 = 0.1;
     let stiffness = |material: &usize| materials[*material].normal[1][1];
     let stiffest = layers.clone().max_by(|a, b| stiffness(a).total_cmp(&stiffness(b)))?;
@@ -313,7 +312,7 @@ fn stiff_among<'a>(
     layers.clone().all(soft).then_some(*stiffest)
 }
 
-/// Whether a wall with these radii touches one with those over some of its thickness.
+/// Whether two walls with these radii touch over some of their thickness.
 pub fn meet(left: &[f64], right: &[f64]) -> bool {
     let ([a, b], [c, d]) = (ends(left), ends(right));
     b.min(d) - a.max(c) > 1e-3 * (b - a).min(d - c)

@@ -1,7 +1,7 @@
-//! Which polynomials does a motion consist of, along an element and across it?
+//! Which polynomials describe a motion along and across an element?
 //!
-//! The two straight lines that are 1 at one end and 0 at the other, then integrated Legendre polynomials,
-//! which are 0 at both ends: `N_k = (P_k − P_{k−2})/√(2(2k − 1))`, `N_k′ = √((2k − 1)/2) P_{k−1}`.
+//! The two straight lines that are 1 at one end and 0 at the other, and integrated Legendre polynomials, which are 0 at
+//! both ends: `N_k = (P_k − P_{k−2})/√(2(2k − 1))`, `N_k′ = √((2k − 1)/2) P_{k−1}`.
 //!
 //! # Source
 //!
@@ -68,11 +68,11 @@ pub fn at(degree: usize, xi: f64) -> [Vec<f64>; 2] {
     [values, slopes]
 }
 
-/// What a polynomial given by these functions is on a part of their element, `[low, high]` in [−1, 1]: the
-/// matrix from its coefficients there to those on the part, rows for the part.
+/// The matrix from the coefficients of a polynomial on an element to those on a part of it, `[low, high]` in [−1, 1];
+/// its rows belong to the part.
 ///
-/// A bubble's coefficient is `(2k − 1)/2 ∫ f′ P_{k−1} dξ / √((2k − 1)/2)` of the function on the part, for
-/// Legendre polynomials are orthogonal.
+/// The coefficient of a bubble is `(2k − 1)/2 ∫ f′ P_{k−1} dξ / √((2k − 1)/2)` on the part, because Legendre
+/// polynomials are orthogonal.
 pub fn restricted(degree: usize, [low, high]: [f64; 2]) -> Vec<Vec<f64>> {
     let count = degree + 1;
     let mut rows = vec![at(degree, low)[0].clone(), at(degree, high)[0].clone()];
@@ -84,7 +84,7 @@ pub fn restricted(degree: usize, [low, high]: [f64; 2]) -> Vec<Vec<f64>> {
         let p = legendre(count, part);
         for k in 2..count {
             let size = (2 * k - 1) as f64;
-            // dξ of the whole is (high − low)/2 of the part's.
+            // dξ of the whole is (high − low)/2 times that of the part.
             let scale = (0.5 * size).sqrt() * p[k - 1] * 2.0 * weight * 0.5 * (high - low);
             rows[k].iter_mut().zip(slopes).for_each(|(row, slope)| *row += scale * slope);
         }

@@ -1,9 +1,9 @@
-//! Which numbers describe the motion of the wall, and how do unequal neighbours share them?
+//! Which unknowns describe the motion of the wall, and how do unequal neighbours share them?
 //!
-//! Functions stand at the borders between columns, on the edges between parts and inside the parts. Where
-//! the columns to the left and right of a border are parted differently, both take the values of polynomials
-//! on the border's own intervals: those radii that neither side passes over inside a part. The motion is
-//! then continuous, however the layers end.
+//! Functions belong to the borders between columns, to the edges between parts, and to the inside of parts. If the
+//! columns to the left and right of a border are cut differently, both take the values of polynomials on the border's
+//! own intervals: the radii that lie inside no part of either side. The motion is then continuous, however the layers
+//! end.
 
 use std::ops::Range;
 
@@ -16,16 +16,16 @@ use crate::beam::wall::shapes::restricted;
 /// How an end of the wall is held.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum EndHold {
-    /// Nothing holds it.
+    /// It is free.
     #[default]
     Free,
-    /// It stays round and in its place, and may move along the bat.
+    /// It stays round and in place, but may move along the bat.
     Diaphragm,
     /// It does not move.
     Clamped,
 }
 
-/// For every function of an element the functions of the mesh that it is made of, with their shares.
+/// Expresses every function of an element in functions of the mesh, with their shares.
 #[derive(Debug, Clone, Default)]
 pub struct Sharing {
     starts: Vec<usize>,
@@ -41,13 +41,13 @@ impl Sharing {
         self.starts.push(self.entries.len());
     }
 
-    /// The functions of the mesh that function `k` of the element is made of.
+    /// The functions of the mesh, with their shares, that make up function `k` of the element.
     pub fn of(&self, k: usize) -> &[(usize, f64)] {
         &self.entries[self.starts[k]..self.starts[k + 1]]
     }
 }
 
-/// The elements of a wall, with their functions numbered.
+/// The elements of a wall, with numbered functions.
 #[derive(Debug, Clone)]
 pub struct WallMesh {
     /// The columns, from the knob side on.
@@ -60,11 +60,11 @@ pub struct WallMesh {
     pub borders: Vec<Vec<f64>>,
     /// Functions of every border.
     pub at_border: Vec<Range<usize>>,
-    /// Functions that are inside parts of a column, one range for each part, then those on its edges.
+    /// Functions inside the parts of a column, one range for each part, then those on its edges.
     pub inside: Vec<Vec<Range<usize>>>,
     /// Integrals of every part of every column.
     pub cells: Vec<Vec<Cell>>,
-    /// What the functions of every part are made of.
+    /// The functions of every part in terms of those of the mesh.
     pub sharing: Vec<Vec<Sharing>>,
     /// Number of functions.
     pub functions: usize,
@@ -77,7 +77,7 @@ impl WallMesh {
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] where two columns do not meet.
+    /// [`Error::Value`] if two columns do not meet.
     pub fn new(columns: Vec<Column>, [p, q]: [usize; 2]) -> Result<Self> {
         let rule = Rule::new(p, q);
         let borders = borders(&columns)?;
@@ -111,7 +111,7 @@ impl WallMesh {
         let [p, q] = self.degrees;
         let mut next = 0;
         let mut take = |count: usize, axis: bool, on_axis: &mut Vec<bool>, first: usize| {
-            // Of functions that follow each other the first `first` are at the innermost radius.
+            // Of consecutive functions, the first `first` are at the innermost radius.
             on_axis.extend((0..count).map(|k| axis && k < first));
             next += count;
             next - count..next
@@ -132,7 +132,7 @@ impl WallMesh {
         self.functions = self.on_axis.len();
     }
 
-    /// What the functions of part `k` of column `c` are made of.
+    /// The functions of part `k` of column `c` in terms of those of the mesh.
     fn share(&self, column: &Column, c: usize, k: usize) -> Sharing {
         let [p, q] = self.degrees;
         let mut sharing = Sharing::default();
@@ -176,7 +176,7 @@ impl WallMesh {
     }
 }
 
-/// The intervals of every border: all radii of both sides but those that the other side passes over.
+/// The intervals of every border: the radii of both sides, except those inside a part of the other side.
 fn borders(columns: &[Column]) -> Result<Vec<Vec<f64>>> {
     let mut borders = vec![columns[0].radii(false)];
     for pair in columns.windows(2) {
@@ -200,14 +200,14 @@ fn borders(columns: &[Column]) -> Result<Vec<Vec<f64>>> {
     Ok(borders)
 }
 
-/// The unknowns of one harmonic: which number each component of each function is.
+/// The unknowns of one harmonic: the index of each component of each function.
 #[derive(Debug, Clone)]
 pub struct Unknowns {
-    /// For U, V, W of every function the unknown and its share; None where the component is 0.
+    /// For U, V, W of every function the unknown and its share; `None` if the component is 0.
     pub of: Vec<[Option<(usize, f64)>; 3]>,
-    /// Number of unknowns to be solved for.
+    /// Number of unknowns to solve for.
     pub count: usize,
-    /// Number of further unknowns, numbered after them, that are held at 0 where a rigid motion is possible.
+    /// Number of further unknowns, numbered after these, that are held at 0 to prevent a rigid motion.
     pub held: usize,
 }
 

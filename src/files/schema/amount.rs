@@ -11,14 +11,13 @@ use crate::base::units::Quantity;
 /// A bare number, or a text such as `"33 in"`.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Amount {
-    /// In the SI unit of what is meant, or in the unit that the profile names.
+    /// In the SI unit of the quantity, or in the unit that the profile names.
     Number(f64),
     /// Such as `33 in`.
     WithUnit(String),
 }
 
-/// A number, then something that may be a unit. Which units there are, and which of them measure
-/// what is meant, is for the reader to say.
+/// A number, then a possible unit. The reader checks whether the unit exists and measures the quantity.
 const WITH_UNIT: &str = r#"^\s*[+−–-]?([0-9][0-9.,]*|\.[0-9]+|[¼½¾⅛⅜⅝⅞])([eE][+-]?[0-9]+|[ -]*[0-9]*[/⁄][0-9]+|\s*[¼½¾⅛⅜⅝⅞])?\s*[A-Za-zµ/*·"'″′”’“‘„]"#;
 
 impl JsonSchema for Amount {
@@ -37,7 +36,7 @@ impl JsonSchema for Amount {
     }
 }
 
-/// Says of a member what it measures, in which unit its bare numbers are, and what it may look like.
+/// Adds to a member's schema its quantity, the unit of its bare numbers, and an example.
 #[derive(Debug, Clone, Copy)]
 pub struct Measures(pub Quantity);
 
@@ -50,7 +49,7 @@ impl Transform for Measures {
     }
 }
 
-/// Says of a list that it is a column of the profile, none of its values below 0.
+/// Adds to a list's schema that it is a column of the profile without values below 0.
 pub fn column(schema: &mut Schema) {
     describe(schema, "Numbers in the profile's \"unit\", or texts such as \"33 in\".");
     schema.insert("minItems".to_owned(), json!(2));
@@ -65,7 +64,7 @@ fn describe(schema: &mut Schema, more: &str) {
     schema.insert("description".to_owned(), json!(both));
 }
 
-/// With a capital and a full stop.
+/// The words with a capital letter and a full stop.
 fn sentence(words: &str) -> String {
     let mut letters = words.chars();
     let first = letters.next().map(|c| c.to_uppercase().to_string()).unwrap_or_default();

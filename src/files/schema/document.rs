@@ -1,4 +1,4 @@
-//! What every document begins with: the name of its format, and the program that wrote it.
+//! The common beginning of every document: the name of its format, and the program that wrote it.
 
 use std::borrow::Cow;
 use std::marker::PhantomData;
@@ -11,11 +11,11 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use crate::bat::body::Bat;
 use crate::bat::edit::Edit;
 
-/// A kind of document, told from the others by its member `format`.
+/// A kind of document, identified by its member `format`.
 pub trait Document: JsonSchema {
     /// Name of the kind, such as `modes`.
     const NAME: &'static str;
-    /// Whether the type says what is read or what is written.
+    /// Whether the type describes input or output.
     const CONTRACT: Contract = Contract::Serialize;
 }
 
@@ -24,12 +24,12 @@ pub fn format(name: &str) -> String {
     format!("sweetspot-{name}/1")
 }
 
-/// The member `format` of a document, which can only be the one of its type.
+/// The member `format` of a document; only the value for its type is valid.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Format<D>(PhantomData<D>);
 
 impl<D> Format<D> {
-    /// The only value there is.
+    /// The only value.
     pub fn new() -> Self {
         Self(PhantomData)
     }
@@ -71,12 +71,12 @@ impl<D: Document> JsonSchema for Format<D> {
     }
 }
 
-/// Which program wrote this.
+/// The program that wrote this.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Generator {
     /// Its name.
     pub program: String,
-    /// Of the program, not of the format.
+    /// Version of the program, not of the format.
     pub version: String,
 }
 
@@ -87,12 +87,12 @@ impl Generator {
     }
 }
 
-/// Which bat a document is about.
+/// The bat that a document is about.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct BatName {
-    /// What the bat is called.
+    /// Name of the bat.
     pub name: String,
-    /// What was changed about the bat after it was weighed; left out where nothing was.
+    /// Changes of the bat after it was weighed; left out if there are none.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub edits: Vec<Edit>,
 }

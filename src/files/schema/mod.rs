@@ -1,9 +1,9 @@
-//! What does a file look like, as a JSON schema says it?
+//! What form does a file have, as a JSON schema?
 //!
 //! | file | question |
 //! |---|---|
-//! | [`document`], [`amount`] | what every document begins with; a number that may carry its unit |
-//! | [`part`], [`resolved`], [`bat`], [`ball`] | a part of a bat; as it was understood; a bat file; a ball file |
+//! | [`document`], [`amount`] | the common beginning of documents; a number that may carry its unit |
+//! | [`part`], [`resolved`], [`bat`], [`ball`] | a part of a bat; a bat as it was understood; a bat file; a ball file |
 
 pub mod document;
 pub mod amount;

@@ -1,4 +1,4 @@
-//! The form of a material and of a part on the bat in a bat file, for its schema.
+//! The form of a material and of a fixture in a bat file, for its schema.
 
 use std::borrow::Cow;
 use std::marker::PhantomData;
@@ -15,7 +15,7 @@ use crate::bat::material::{self as bat, BUILT_IN, BuiltIn};
 use crate::bat::part::{Bound, Field, HEAVIEST, Instead, MOST, MemberKind, Part, Range, SOFTEST};
 use crate::files::schema::amount::{Amount, Measures};
 
-/// A remark for people: a text or a list of texts, which programs pass over.
+/// A remark for people: a text or a list of texts, which programs ignore.
 #[derive(Debug, Clone, PartialEq, JsonSchema)]
 #[schemars(untagged)]
 pub enum Comment {
@@ -25,18 +25,18 @@ pub enum Comment {
     Lines(Vec<String>),
 }
 
-/// A material: the name of a built-in one, or its numbers, along the axis where it is wood.
+/// A material: the name of a built-in one, or its numbers; for wood these are along the grain.
 #[derive(Debug, Clone, PartialEq, JsonSchema)]
 #[schemars(untagged, rename = "NamedMaterial")]
 pub enum Material {
     /// The name of a built-in material.
     Named(#[schemars(schema_with = "names")] String),
-    /// The numbers of a material of your own, or what differs from a built-in one.
+    /// The numbers of a material of your own, or those that differ from a built-in one.
     Numbers(Numbers),
 }
 
-/// The numbers of a material. Density and Young's modulus may be left out where the material has a name
-/// too, and where something that was weighed or tapped stands in for them.
+/// The numbers of a material. Density and Young's modulus may be left out if the material also has a name, or if a
+/// weighed mass or a tapped frequency replaces them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Numbers;
 
@@ -58,7 +58,7 @@ impl JsonSchema for Numbers {
     }
 }
 
-/// The built-in materials, each with where its numbers come from.
+/// The built-in materials, each with the source of its numbers.
 fn names(_: &mut SchemaGenerator) -> Schema {
     let name = |known: &BuiltIn| json!({ "const": known.name, "description": known.source });
     json_schema!({
@@ -67,7 +67,7 @@ fn names(_: &mut SchemaGenerator) -> Schema {
     })
 }
 
-/// A name, or these numbers of its own.
+/// A name, or these numbers.
 pub fn with(numbers: &[&str]) -> Value {
     json!({ "anyOf": [
         { "type": "string" },
@@ -76,12 +76,12 @@ pub fn with(numbers: &[&str]) -> Value {
     ] })
 }
 
-/// A material for which nothing that was measured stands in.
+/// A material whose numbers may not be replaced by measured values.
 pub fn whole() -> Value {
     with(&["density", "youngs_modulus"])
 }
 
-/// A part, as a bat file may write it.
+/// A part in the notation of a bat file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct InFile<P>(PhantomData<P>);
 
@@ -94,9 +94,9 @@ impl<P: Part + JsonSchema> JsonSchema for InFile<P> {
         format!("file {}", P::schema_id()).into()
     }
 
-    /// That of the part, each number an amount within its bounds.
+    /// The schema of the part, with each number as an amount within its bounds.
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        // What its members are called here; what they are, their own list says.
+        // The descriptions come from the part's own schema, the kinds from its list of members.
         let mut schema = P::json_schema(&mut SchemaGenerator::default());
         let comment = generator.subschema_for::<Comment>().to_value();
         let mut properties = Map::from_iter([("comment".to_owned(), comment)]);
@@ -135,7 +135,7 @@ impl<P: Part + JsonSchema> JsonSchema for InFile<P> {
     }
 }
 
-/// An edit, as a bat file may write it.
+/// An edit in the notation of a bat file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EditInFile;
 
@@ -201,7 +201,7 @@ impl JsonSchema for EditInFile {
     }
 }
 
-/// The schema of a member of which the part says so much.
+/// The schema of a member, with the description from the part.
 fn member<P>(field: &Field<P>, said: &str, generator: &mut SchemaGenerator) -> Schema {
     match field.kind {
         MemberKind::Number(quantity, range) => number(field, (quantity, range), said, generator),
@@ -240,7 +240,7 @@ fn number<P>(
     said: &str,
     generator: &mut SchemaGenerator,
 ) -> Schema {
-    // The unit stands in the sentence that follows.
+    // The unit is in the sentence that follows.
     let said = said.rsplit_once(" (").map_or(said, |(said, _)| said).trim_end_matches('.');
     let said = match (range, quantity) {
         (Range::Spring, Some(quantity)) => {
@@ -258,8 +258,7 @@ fn number<P>(
     member
 }
 
-/// The smallest and the largest number in a range, as a schema calls them; the end of a stretch is
-/// above 0.
+/// The smallest and the largest number of a range, with their names in a schema; the end of a stretch is above 0.
 fn bounds(range: Range, end: bool) -> [Option<(&'static str, f64)>; 2] {
     let zero = Some(("minimum", 0.0));
     let some = Some(("exclusiveMinimum", 0.0));

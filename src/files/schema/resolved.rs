@@ -1,4 +1,4 @@
-//! The bat in the documents that are written: as it was understood, in SI, defaults filled in.
+//! The bat in output documents: as it was understood, in SI, with defaults filled in.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -10,28 +10,27 @@ use crate::bat::profile::Interpolation;
 use crate::bat::weighed::Weighed;
 use crate::files::schema::document::{Document, Format};
 
-/// The bat as it was understood: SI, defaults filled in, materials as they were weighed, its edits listed.
-/// A bat file in its own right, of the same bat. Positions count from the knob end.
+/// The bat as it was understood: SI, defaults filled in, densities as weighed, edits listed. It is itself a valid bat
+/// file of the same bat. Positions count from the knob end.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ResolvedBat {
     /// Name of the format and its version: sweetspot-bat/1.
     pub format: Format<ResolvedBat>,
-    /// What the bat is called.
+    /// Name of the bat.
     pub name: String,
     /// Where the numbers of the bat come from.
     pub source: String,
-    /// What the bat is made of where no region says otherwise.
+    /// Material of the bat outside its regions.
     pub material: Material,
     /// Outer and inner radius along the bat.
     pub profile: Profile,
-    /// What is on the bat, and what holds it.
+    /// Fixtures and supports.
     #[serde(flatten)]
     pub fixtures: Fixtures,
     /// Mass, balance point and first frequency as they were measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub weighed: Option<Weighed>,
-    /// What is changed about the bat that the other members describe, after it was weighed, in the order
-    /// in which it is done.
+    /// Changes of the bat that the other members describe, made after it was weighed, in order.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub edits: Vec<Edit>,
 }
@@ -53,7 +52,7 @@ pub enum Profile {
 /// Stations from the knob end.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Columns {
-    /// How the radius runs between stations: what is constant in a bat file is linear here, with steps.
+    /// How the radius runs between stations; "constant" of a bat file is written as linear with steps.
     pub interpolation: Interpolation,
     /// Unit of the columns: m.
     pub unit: String,

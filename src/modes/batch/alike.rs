@@ -4,19 +4,19 @@ use crate::bat::body::Bat;
 use crate::bat::profile::{Piece, Radii, SAME_PLACE};
 use crate::beam::rule::Rule;
 
-/// Whether a bat is made of stations, with masses on it at most and nothing that holds it.
+/// Whether a bat is made of stations and has only masses on it, and nothing that holds it.
 pub fn plain(bat: &Bat) -> bool {
     let formula = |piece: &Piece| matches!(piece.radii, Radii::Formula(_));
     bat.fixtures().only_masses() && !bat.profile().pieces.iter().any(formula)
 }
 
-/// Whether a bat can share the plan of another: as many pieces, sampled at as many points, of like
-/// proportions, and with masses at the same borders, so that the same elements serve both.
+/// Whether a bat can use the plan of another: the same number of pieces, sampled at the same number of points, similar
+/// proportions, and masses at the same borders, so that the same elements suit both.
 pub fn same_pattern(a: &Bat, b: &Bat) -> bool {
     const ALIKE: f64 = 2.5;
     let (widest_a, widest_b) = (a.profile().widest(), b.profile().widest());
     let pieces = a.profile().pieces.iter().zip(&b.profile().pieces);
-    // Where what is on a bat is, by the piece that begins there, and which of it has a mass.
+    // Places of the fixtures, by the piece that begins there, and which of them have a mass.
     let masses = |bat: &Bat| -> Vec<bool> {
         bat.fixtures().attachments.iter().map(|a| a.mass + a.rotary_inertia > 0.0).collect()
     };

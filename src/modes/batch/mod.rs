@@ -1,13 +1,13 @@
-//! What are the modes of many bats, as fast as the machine can?
+//! What are the modes of many bats, as fast as possible?
 //!
-//! [`each`] goes through them on one core, [`all`] on all cores: one after the other or side by
-//! side in the lanes of a vector. [`solutions`] gives of every bat all that [`solve`](crate::modes::solve::solve) gives.
+//! [`each`] solves them on one core, [`all`] on all cores: one after the other, or side by side in the lanes of a
+//! vector. [`solutions`] gives for every bat what [`solve`](crate::modes::solve::solve) gives.
 //!
-//! All share the plan of the first, its root and its number of Lanczos steps, and every lane takes its own
-//! steps: a bat's answer has the same bits whoever is beside it, and one by one too. A bat of other
-//! proportions, of a formula, with anything but masses on it, or whose answer misses the tolerance or a
-//! mode by its own account is planned and solved on its own; so are all where the first is such a bat.
-//! Once warm next to nothing is allocated for the others.
+//! All bats share the first one's plan, root and number of Lanczos steps, and every lane takes its own steps. A bat's
+//! result therefore has the same bits whichever bats share its batch, and also one by one. A bat is planned and solved
+//! alone if it has other proportions, a formula, or fixtures other than masses, or if its result misses the tolerance
+//! or a mode by its own estimate. If the first bat is of this kind, all are solved alone. After the first bats, almost
+//! no memory is allocated.
 
 mod alike;
 mod worker;
@@ -29,7 +29,7 @@ use crate::modes::solve::{Request, Solver, wanted};
 
 pub use crate::modes::batch::worker::Found;
 
-/// How the bats are counted.
+/// How the bats are computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Way {
     /// One after the other.
@@ -38,7 +38,7 @@ pub enum Way {
     SideBySide,
 }
 
-/// Degrees that a batch is compiled for: a program for every one would be large.
+/// Degrees that a batch is compiled for: code for all of them would be large.
 const COMPILED: [usize; 5] = [3, 4, 6, 8, 10];
 
 const fn is_compiled(degree: usize) -> bool {
@@ -49,12 +49,11 @@ const fn is_compiled(degree: usize) -> bool {
     k < COMPILED.len()
 }
 
-/// Solves every bat with the statics solver and shows each result to `visit`, with its place
-/// among the bats.
+/// Solves every bat with the statics solver and passes each result to `visit`, with its index among the bats.
 ///
-/// Every frequency is within the tolerance by its estimate, as far as [`solve`](crate::modes::solve::solve) can reach it. With
-/// `request.elements` every bat gets that mesh, whose cost is not counted: the tolerance is that of
-/// the iteration alone.
+/// Every estimated error of a frequency is within the tolerance, as far as [`solve`](crate::modes::solve::solve) can
+/// reach it. With `request.elements` every bat gets that mesh, and the tolerance covers only the iteration, not the
+/// mesh's error.
 pub fn each(
     bats: &[Bat],
     request: &Request,
@@ -73,7 +72,7 @@ pub fn each(
                 continue;
             }
         };
-        // Those after it that the same theory is chosen for share its plan.
+        // Later bats for which the same theory is chosen share its plan.
         let alike =
             |next: &Result<Prepared>| next.as_ref().is_ok_and(|next| next.request == request);
         let mut run = Vec::with_capacity(bats.len() - place);
@@ -88,12 +87,12 @@ pub fn each(
     }
 }
 
-/// Solves every bat for what is asked of it, with a plan of `model`, and gives each [`Solution`] to `visit`
-/// with its place among the bats: all that [`solve`](crate::modes::solve::solve) gives but the time it took. Bats of which the same is
-/// asked come one after the other.
+/// Solves every bat for its request, with a plan of `model`, and passes each [`Solution`] to `visit` with the bat's
+/// index. A solution has everything that [`solve`](crate::modes::solve::solve) gives except the time. Bats with equal
+/// requests must follow each other.
 ///
-/// A bat's solution depends on itself, its request and the model, and not on the bats beside it. Where a mesh
-/// or another solver is asked for a bat is solved on its own.
+/// A bat's solution depends on the bat, its request and the model, not on the other bats. If the request asks for a
+/// mesh or another solver, the bat is solved alone.
 pub fn solutions(
     model: &Bat,
     asked: &[(&Bat, Request)],
@@ -110,7 +109,7 @@ pub fn solutions(
     let mut left: Vec<usize> = (0..ready.len()).collect();
     while let Some(&first) = left.first() {
         let request = ready[first].1.request;
-        // The first is alike in any case: NaN is not even equal to itself.
+        // The first one always belongs to it: NaN does not even equal itself.
         let alike = |k: &usize| *k == first || ready[*k].1.request == request;
         let (alike, others): (Vec<usize>, Vec<usize>) = left.into_iter().partition(alike);
         let bats: Vec<&Bat> = alike.iter().map(|k| &*ready[*k].1.bat).collect();
@@ -123,7 +122,7 @@ pub fn solutions(
     }
 }
 
-/// Who is shown the bats' answers, in their order, each with its place among them.
+/// The receiver of the bats' results, in order, each with its index.
 enum Visit<'a> {
     Figures(&'a mut dyn FnMut(usize, Result<Found<'_>>)),
     Solutions(&'a mut dyn FnMut(usize, Result<Solution>)),
@@ -137,7 +136,7 @@ fn shown_to(model: &Bat, bats: &[&Bat], request: &Request, way: Way, visit: Visi
         && plain(model)
         && (!request.theory.shears() || model.knows_shear())
         && COMPILED.contains(&degrees[0]);
-    // A whole solution has all its errors, those of a mesh that was asked for among them.
+    // A full solution has all its errors, also those of a mesh that was asked for.
     let whole = matches!(visit, Visit::Solutions(_));
     if !sharing || whole && (request.elements.is_some() || request.modes == 0) {
         return all_alone(bats, request, visit);
@@ -149,7 +148,7 @@ fn shown_to(model: &Bat, bats: &[&Bat], request: &Request, way: Way, visit: Visi
     of_degree(plan.degree, request.theory, Alike { model, bats, request, way, plan, visit })
 }
 
-/// Bats that may share the plan of a model.
+/// Bats that may use the plan of a model.
 struct Alike<'a, 'v> {
     model: &'a Bat,
     bats: &'a [&'a Bat],
@@ -163,7 +162,7 @@ impl OfDegree for Alike<'_, '_> {
     type Output = ();
 
     fn with<const N: usize, const W: usize>(self) {
-        // Side by side for a few degrees: each takes long to compile.
+        // Side by side only for a few degrees: each takes long to compile.
         if const { is_compiled(N - 1) } {
             self.with_degree::<N, W>();
         } else {
@@ -178,7 +177,7 @@ impl Alike<'_, '_> {
         let theory = request.theory;
         let mut alone = Worker::<f64, N, W>::new(model, theory, plan.clone());
         if alone.iterate(&[model], request).is_err() {
-            // The model tells how many Lanczos steps there are to be; without it each is on its own.
+            // The model gives the number of Lanczos steps; without it each bat is solved alone.
             return all_alone(bats, request, visit);
         }
         let mut together = Worker::<Lanes, N, W>::new(model, theory, plan);
@@ -187,8 +186,8 @@ impl Alike<'_, '_> {
         alone.choose(choices);
         let alike =
             |bat: &&Bat| (!theory.shears() || bat.knows_shear()) && same_pattern(bat, model);
-        /// So much stays near a processor: where the vectors of eight bats are more (bytes), each bat by
-        /// itself is faster. The bits are the same.
+        /// Size of a cache (bytes): if the vectors of eight bats are larger, one bat after the other is faster. The
+        /// bits are the same.
         const NEAR: usize = 400_000;
         let near = together.basis(choices) <= NEAR;
         let lanes = if way == Way::SideBySide && near { WIDTH } else { 1 };
@@ -214,7 +213,7 @@ fn all_alone(bats: &[&Bat], request: &Request, mut visit: Visit) {
 }
 
 impl Visit<'_> {
-    /// Looks at as many bats as there are lanes; whether they could be solved.
+    /// Evaluates as many bats as there are lanes; returns whether they could be solved.
     fn look<R: Real, const N: usize, const W: usize>(
         &self,
         worker: &mut Worker<R, N, W>,
@@ -233,7 +232,7 @@ impl Visit<'_> {
         solved
     }
 
-    /// Shows the bat in a lane that was looked at; false where it misses the tolerance or a mode.
+    /// Passes on the bat in an evaluated lane; false if it misses the tolerance or a mode.
     fn show<R: Real, const N: usize, const W: usize>(
         &mut self,
         worker: &mut Worker<R, N, W>,
@@ -254,7 +253,7 @@ impl Visit<'_> {
         shown.is_some()
     }
 
-    /// One bat with a plan of its own.
+    /// Solves one bat with its own plan.
     fn alone(&mut self, (place, bat, request): (usize, &Bat, &Request)) {
         let solved = refine(bat, request);
         match self {
@@ -267,7 +266,7 @@ impl Visit<'_> {
     }
 }
 
-/// What a solution says of every mode.
+/// Passes a solution's figures on, for all modes.
 fn figures(solution: &Solution, request: &Request, visit: impl FnOnce(Found)) {
     let of = |f: &dyn Fn(&Mode) -> f64| -> Vec<f64> { solution.modes.iter().map(f).collect() };
     let error = |mode: &Mode| match request.elements {
@@ -285,10 +284,9 @@ fn figures(solution: &Solution, request: &Request, visit: impl FnOnce(Found)) {
     });
 }
 
-/// Solves every bat on all cores, each share of 256 bats planned by its own first one.
+/// Solves every bat on all cores; each share of 256 bats uses the plan of its first bat.
 ///
-/// What `read` makes of each result comes in the order of the bats; accuracy and mesh are those of
-/// [`each`].
+/// The values that `read` returns come in the order of the bats. Accuracy and mesh are as in [`each`].
 ///
 /// ```
 /// use sweetspot::modes::batch::{Way, all};

@@ -20,19 +20,18 @@ use crate::modes::request::{Request, stop_at};
 use crate::modes::solution::{Solution, Timing};
 use crate::modes::task::{Account, MeshModes};
 
-/// The modes of one bat of many. The slices hold until the next bat.
+/// The modes of one bat of a batch. The slices are valid until the next bat.
 #[derive(Debug, Clone, Copy)]
 pub struct Found<'a> {
     /// Angular frequencies ω (rad/s), rising.
     pub omegas: &'a [f64],
-    /// Relative errors of the frequencies, estimated; where a mesh was asked for, without what the
-    /// mesh costs.
+    /// Estimated relative errors of the frequencies; for a mesh that was asked for, without the mesh's error.
     pub errors: &'a [f64],
     /// `∫ρA φ² dx` (kg).
     pub modal_masses: &'a [f64],
-    /// Deflections φ in Legendre polynomials, `degree + 1` numbers an element, knob to tip, mode
-    /// after mode; the largest |φ| at the ends and the elements' sample points is 1 (anywhere, of a
-    /// bat that was solved on its own), the tip positive.
+    /// Deflections φ in Legendre polynomials: `degree + 1` numbers per element, knob to tip, mode after mode. The
+    /// largest |φ| at the ends and the elements' sample points is 1 (for a bat solved alone, the largest anywhere); the
+    /// tip is positive.
     pub shapes: &'a [f64],
     /// The elements.
     pub mesh: &'a Mesh,
@@ -40,25 +39,25 @@ pub struct Found<'a> {
     pub degree: usize,
 }
 
-/// The memory of one way through the bats.
+/// The memory of one pass over the bats.
 pub struct Worker<R, const N: usize, const W: usize> {
     plan: Plan,
-    /// Lanczos steps for every bat; None for as many as it takes.
+    /// Lanczos steps for every bat; `None` if each takes as many as it needs.
     steps: Option<usize>,
     pairs: Eigenpairs<R, N, W>,
     meshes: Vec<Mesh>,
-    /// Lane after lane, what [`Found`] shows.
+    /// The values of [`Found`], lane after lane.
     omegas: Vec<f64>,
     errors: Vec<f64>,
     modal_masses: Vec<f64>,
     shapes: Vec<f64>,
-    /// Whether it is certain that no mode of a lane's is missing.
+    /// Whether each lane's list of modes is certainly complete.
     counted: Vec<bool>,
-    /// The lanes' solutions that met the tolerance and were not taken yet.
+    /// The lanes' solutions that met the tolerance and were not yet taken.
     solutions: Vec<Option<Solution>>,
 }
 
-/// Choices that each bat makes for itself unless they are given.
+/// Choices that each bat makes for itself unless they are prescribed.
 #[derive(Clone, Copy)]
 pub struct Choices {
     /// Lanczos steps.
@@ -71,7 +70,7 @@ impl<R: Real, const N: usize, const W: usize> Worker<R, N, W>
 where
     Lanes: Over<R>,
 {
-    /// Nothing yet, for bats like that model.
+    /// An empty worker for bats like that model.
     pub fn new(model: &Bat, theory: Theory, plan: Plan) -> Self {
         Self {
             steps: None,
@@ -87,18 +86,18 @@ where
         }
     }
 
-    /// What the bat chose that was iterated last.
+    /// The choices of the bat that was iterated last.
     pub fn choices(&self) -> Choices {
         Choices { steps: self.pairs.lanczos.steps, root: self.pairs.statics.split }
     }
 
-    /// Every bat gets these from now on, so that its answer does not depend on its neighbours.
+    /// Prescribes these choices from now on, so that a bat's result does not depend on the others.
     pub fn choose(&mut self, Choices { steps, root }: Choices) {
         self.steps = Some(steps);
         self.pairs.statics.rooted = Some(root);
     }
 
-    /// Memory (bytes) of the vectors that an iteration keeps.
+    /// Memory (bytes) of the vectors of an iteration.
     pub fn basis(&self, Choices { steps, .. }: Choices) -> usize {
         steps * (W - 2) * self.plan.mesh.len() * size_of::<R>()
     }
@@ -123,7 +122,7 @@ where
             let (least, found) = (modes.div_ceil(W - 2), self.plan.mesh.len());
             return Err(Error::TooFewElements { wanted: modes, least, found });
         }
-        // On an asked mesh both ways are to agree to 1e-12, whatever the tolerance.
+        // On a mesh that was asked for, both ways must agree to 1e-12, whatever the tolerance.
         let most = if request.elements.is_some() { 1e-6 } else { 1.0 };
         let tolerant = Request { elements: None, ..*request };
         match self.steps {
@@ -132,7 +131,7 @@ where
         }
     }
 
-    /// Looks at all modes of the bats that were iterated, as [`Found`] shows them.
+    /// Evaluates all modes of the bats that were iterated, for [`Found`].
     pub fn look(&mut self, bats: &[&Bat], request: &Request) {
         let modes = request.modes;
         let numbers = R::LANES * modes;
@@ -158,7 +157,7 @@ where
             let own = &mut self.errors[lane * modes..(lane + 1) * modes];
             own.iter_mut().for_each(|error| *error += of_sections);
         }
-        // Of a bare bat whose sections do not turn the nodes tell.
+        // For a bare bat without rotary inertia, the number of nodes decides.
         let statics = &self.pairs.statics;
         if modes > 0 && (statics.fixed.is_some() || statics.theory.turns()) {
             let last = std::array::from_fn(|lane| {
@@ -168,7 +167,7 @@ where
         }
     }
 
-    /// What was seen of the bat in a lane; None where its own account misses the tolerance or a mode.
+    /// The result of the bat in a lane; `None` if it misses the tolerance or a mode by its own estimate.
     pub fn found(&self, lane: usize, request: &Request) -> Option<Found<'_>> {
         let (modes, coefficients) = (request.modes, N * self.plan.mesh.len());
         let own = |each: usize| lane * modes * each..(lane + 1) * modes * each;
@@ -184,13 +183,13 @@ where
         })
     }
 
-    /// The solution of a bat that [`Self::look_closely`] has looked at, without how its motions die out; None
-    /// where its own account misses the tolerance or a mode.
+    /// The solution of a bat after [`Self::look_closely`], without damping; `None` if it misses the tolerance or a mode
+    /// by its own estimate.
     pub fn take(&mut self, lane: usize) -> Option<Solution> {
         self.solutions[lane].take()
     }
 
-    /// Looks at all modes of the bats that were iterated with all their errors.
+    /// Evaluates all modes of the bats that were iterated, with all their errors.
     pub fn look_closely(&mut self, bats: &[&Bat], request: &Request) {
         let modes = request.modes;
         let rule = self.pairs.statics.rule;
@@ -235,8 +234,8 @@ where
         self.solutions = found.into_iter().enumerate().map(solution).collect();
     }
 
-    /// Counts the motions of every bat slower than a frequency between its last mode (rad/s) and the next:
-    /// they must be as many as its modes.
+    /// Counts the modes of every bat below a frequency between its last mode (rad/s) and the next; the count must equal
+    /// the number of its modes.
     fn count(&mut self, modes: usize, last: [f64; WIDTH]) {
         let mut between = R::default();
         for lane in 0..R::LANES {
@@ -251,13 +250,13 @@ where
         }
     }
 
-    /// ω (rad/s) of the first motion beyond those of a lane, if it shows.
+    /// ω (rad/s) of the next mode after those of a lane, if the iteration found it.
     fn beyond(&self, lane: usize) -> Option<f64> {
         let unit = self.pairs.statics.energy_unit.lane(lane);
         self.pairs.lanczos.beyond.map(|value| (unit / value.lane(lane)).sqrt())
     }
 
-    /// Whether the first motion beyond those of a lane is too near to the last of them.
+    /// Whether the next mode after those of a lane is too close to the last of them.
     fn has_twin(&self, modes: usize, lane: usize) -> bool {
         let lanczos = &self.pairs.lanczos;
         let last = modes.checked_sub(1).map(|last| lanczos.values[last].lane(lane));
@@ -265,8 +264,8 @@ where
         lanczos.beyond.as_ref().is_some_and(twin)
     }
 
-    /// What the iteration left, `½ residual²/gap`, and what near twins share, as
-    /// [`crate::modes::certificate::add_neighbours`]; a bat with one beyond the list is solved alone.
+    /// Adds the error of the iteration, `½ residual²/gap`, and the share of near twins, as
+    /// [`crate::modes::certificate::add_neighbours`]. A bat with a near twin beyond the list is solved alone.
     fn add_residuals(&mut self, modes: usize) {
         let lanczos = &self.pairs.lanczos;
         for k in 0..modes {
@@ -288,14 +287,14 @@ where
         }
     }
 
-    /// Writes down the motions that were looked at: modes from `first` on, of every bat.
+    /// Stores the evaluated modes of every bat, from mode `first` on.
     fn keep(&mut self, first: usize, modes: usize, depth: Depth) {
         let (statics, motions) = (&self.pairs.statics, &self.pairs.motions);
         let mut largest = motions.ends[0][0].abs().max(motions.ends[1][0].abs());
         motions.deflections.iter().for_each(|w| largest = largest.max(w.abs()));
         let scale = Lanes::splat(1.0).copysign(motions.ends[1][0]) / largest;
         let mass = motions.kinetic * scale * scale;
-        // Else [`Self::count`] tells whether a mode is missing.
+        // Otherwise [`Self::count`] tells whether a mode is missing.
         let by_nodes = statics.fixed.is_none() && !statics.theory.turns();
         let crossings = motions.crossings(statics.split);
         let (elements, over) = (statics.cells.len(), !statics.softness[0].is_empty());
@@ -314,7 +313,7 @@ where
             let shape = &mut self.shapes[place * N * elements..(place + 1) * N * elements];
             let (knob, tip) = motions.shape.split_at(N * statics.split);
             let scale = scale.lane(lane);
-            // Outwards is backwards on the knob side, where odd polynomials change sign.
+            // On the knob side, outwards runs backwards, and odd polynomials change sign.
             for (to, from) in shape.chunks_exact_mut(N).zip(knob.chunks_exact(N).rev()) {
                 for (j, (to, w)) in to.iter_mut().zip(from).enumerate() {
                     *to = if j % 2 == 1 { -scale } else { scale } * w.lane(lane);
@@ -329,7 +328,7 @@ where
     }
 }
 
-/// How many motions are slower than a frequency, of the bats in the lanes.
+/// Number of modes slower than a frequency, for the bats in the lanes.
 fn slower_of_all<R: Real>(view: &View<R>, omega: R) -> Option<R> {
     vectorized!(slower_each(view, omega))
 }

@@ -1,6 +1,6 @@
 //! How fine must the elements be for a tolerance?
 //!
-//! Each harmonic goes from mesh to mesh until the difference of two says that the finer is good enough.
+//! Each harmonic is solved on finer and finer meshes until the difference of two is small enough.
 
 use std::f64::consts::TAU;
 use std::sync::{Arc, OnceLock};
@@ -16,15 +16,14 @@ use crate::modes::hoop::request::HoopRequest;
 use crate::modes::hoop::spectrum::{Spectrum, count_below, keep};
 use crate::modes::hoop::system::Wall;
 
-/// One fineness of the elements after the other: degrees along and across, geometric steps towards ends, kinks
-/// and corners.
+/// The sequence of meshes: degrees along and across, geometric steps towards ends, kinks and corners.
 ///
-/// The last error to fall is that of the wall's edge at a free end. Its corners move as `r^λ`, λ = 2.740 ± 1.119 i,
-/// the least root of `sin(λπ/2) = ±λ` beyond 1 whatever the material (M. L. Williams, J. Appl. Mech. 19, 526, 1952).
-/// One element reaches across the wall, so the error falls as a power of the degree. A wall that bends warps its
-/// sections by odd polynomials: an odd degree gains, and the even one after it a tenth or nothing. Every step from 5
-/// across on therefore adds two degrees; by one, two meshes would agree where both are wrong. The errors of a tube of
-/// Poisson's ratio 0.45 by degree across: 5 1.8e-7, 6 1.7e-7, 7 1.6e-8, 8 1.6e-8, 9 2.8e-9.
+/// The slowest error to fall is that at the wall's edge at a free end. The motion at its corners goes as `r^λ` with λ =
+/// 2.740 ± 1.119 i, the least root of `sin(λπ/2) = ±λ` beyond 1, whatever the material (M. L. Williams, J. Appl. Mech.
+/// 19, 526, 1952). One element reaches across the wall, so the error falls as a power of the degree. A wall that bends
+/// warps its sections by odd polynomials: an odd degree gains much, the even one after it a tenth or nothing. Every
+/// step from 5 across on therefore adds two degrees; steps of one would let two meshes agree on a wrong result. The
+/// errors for a tube of Poisson's ratio 0.45 by degree across: 5 1.8e-7, 6 1.7e-7, 7 1.6e-8, 8 1.6e-8, 9 2.8e-9.
 const LADDER: [([usize; 2], [usize; 3]); 7] = [
     ([4, 2], [0, 0, 1]),
     ([5, 3], [1, 0, 1]),
@@ -34,13 +33,12 @@ const LADDER: [([usize; 2], [usize; 3]); 7] = [
     ([10, 9], [5, 4, 5]),
     ([12, 11], [6, 5, 6]),
 ];
-/// Of a smooth wall this share of the difference of two meshes is stated as the error of the finer: the
-/// error falls at least to 0.47 of itself from one mesh to the next, and a true error may be three times as
-/// large as the stated one.
+/// For a smooth wall, this share of the difference of two meshes is stated as the error of the finer one. The error
+/// falls at least to 0.47 of itself from one mesh to the next, and a true error may be three times the stated one.
 const SMOOTH: f64 = 0.3;
-/// A kink where the slope changes by k costs a frequency about this times k², relative, if the elements beside it
-/// are not graded. Measured on tubes of 62 mm with cones at their ends, k 0.02 to 0.2, walls of 2 and 3 mm, modes 1 to
-/// 4 of n = 2 and 4: 7e-6 to 2.7e-3 at degrees 6 along and 4 across, 2e-6 to 3.5e-4 at 8 and 5.
+/// Relative error of a frequency over k², at a kink where the slope changes by k, if the elements beside it are not
+/// graded. Measured on tubes of 62 mm with cones at their ends, k 0.02 to 0.2, walls of 2 and 3 mm, modes 1 to 4 of n =
+/// 2 and 4: 7e-6 to 2.7e-3 at degrees 6 along and 4 across, 2e-6 to 3.5e-4 at 8 and 5.
 const KINK: f64 = 1e-3;
 
 /// A harmonic on a mesh that is fine enough.
@@ -49,18 +47,18 @@ pub(crate) struct Climbed {
     pub spectrum: Spectrum,
     /// Their stated errors.
     pub errors: Vec<f64>,
-    /// The part of them that the cut in the handle has as a share of what is allowed, the largest.
+    /// The largest error due to the cut in the handle, as a share of the allowed error.
     pub cut: f64,
-    /// Whether each is as small as is allowed.
+    /// Whether each is within the allowed error.
     pub met: bool,
 }
 
-/// Harmonics on meshes that get finer.
+/// Harmonics on finer and finer meshes.
 pub(crate) struct Climb<'a> {
     request: &'a HoopRequest,
     layers: &'a Layers,
     ends: [EndHold; 2],
-    /// Whether the handle is cut off where the stretch begins.
+    /// Whether the stretch begins at a cut in the handle.
     cut: bool,
     materials: Arc<[Elastic]>,
     walls: [OnceLock<std::result::Result<Wall, String>>; LADDER.len()],
@@ -68,7 +66,7 @@ pub(crate) struct Climb<'a> {
     least_kink: f64,
     /// Share of the difference of two meshes that is stated as the error of the finer.
     stated: f64,
-    /// What kinks cost that are left as they are, relative.
+    /// Relative error due to kinks without grading.
     left_kinks: f64,
 }
 
@@ -103,7 +101,7 @@ impl<'a> Climb<'a> {
     fn wall(&self, k: usize) -> Result<&Wall> {
         let wall = threads::made(&self.walls[k], || {
             let (degrees, [end, kink, corner]) = LADDER[k];
-            // A free end at the knob is one of the bat; elsewhere the motion has died out.
+            // A free end at the knob is an end of the bat; at a cut the motion has decayed.
             let knob = if self.layers.stretches[0].from == 0.0 { end } else { 0 };
             let least_kink = self.least_kink;
             let grading = Grading { knob, tip: end, kink, least_kink, corner, soft: corner };
@@ -116,8 +114,8 @@ impl<'a> Climb<'a> {
 
     /// The modes of harmonic n on the first mesh that is fine enough, and their stated errors.
     ///
-    /// Where the handle is cut off, modes of the handle depend on the cut and are not modes of the barrel: those
-    /// that move there by more than a tenth of their largest motion are left out.
+    /// If the handle is cut off, modes of the handle depend on the cut and are not modes of the barrel: modes that move
+    /// there by more than a tenth of their largest motion are omitted.
     pub fn harmonic(&self, n: usize) -> Result<Climbed> {
         let HoopRequest { tol, least, up_to_hz, .. } = *self.request;
         let first = usize::from(tol < 3e-3);
@@ -148,7 +146,7 @@ impl<'a> Climb<'a> {
             }
             let within = |errors: &[f64]| errors.iter().all(|error| *error <= tol);
             if k + 1 == LADDER.len() || within(&errors) {
-                // Motions of n = 0 are waves along the whole bat: theirs are of the stretch that is modelled.
+                // Modes of n = 0 are waves along the whole bat; these belong to the modelled stretch.
                 let dies_out = self.cut && n >= 2;
                 let of_cut = |mode| if dies_out { cut_off(&now, mode) } else { 0.0 };
                 let cut: Vec<f64> = (0..errors.len()).map(of_cut).collect();
@@ -164,15 +162,15 @@ impl<'a> Climb<'a> {
     }
 }
 
-/// Modes of a harmonic that are kept at most, unless more are asked for: no bat of the trade has a tenth of them
+/// Most modes of a harmonic that are kept, unless more are asked for; bats of the trade have less than a tenth of these
 /// below 12 kHz.
 const MOST_MODES: usize = 200;
-/// Modes of the handle, at most, beside those of the barrel that are wanted at least.
+/// Most modes of the handle that are omitted in addition to the required modes of the barrel.
 const MOST_LEFT_OUT: usize = 40;
 
-/// What it costs a mode's frequency, relative, that the handle is cut off: about a fiftieth of its motion there
-/// squared, against its largest, and times the cube of the radii, as the stiffness of a section that does not
-/// stay round. Measured on twenty random barrels, cut off where their taper begins and eight radii before.
+/// Relative error of a mode's frequency due to the cut in the handle: about a fiftieth of its squared motion there,
+/// relative to the largest, and times the cube of the radii, as for the stiffness of a section that does not stay
+/// round. Measured on twenty random barrels, cut where their taper begins and eight radii before.
 fn cut_off(spectrum: &Spectrum, mode: usize) -> f64 {
     let columns = &spectrum.system.mesh.columns;
     let size = |x: f64| spectrum.radial(mode, x).abs();
@@ -186,10 +184,10 @@ fn cut_off(spectrum: &Spectrum, mode: usize) -> f64 {
     0.02 * (there.fold(0.0, f64::max) / largest).powi(2) * radii.powi(3)
 }
 
-/// Places at which the motion beside a cut is looked at.
+/// Number of places at which the motion beside a cut is checked.
 const PLACES: usize = 8;
 
-/// Whether a mode moves where the stretch begins by more than a tenth of its largest motion.
+/// Whether a mode moves, where the stretch begins, by more than a tenth of its largest motion.
 pub(crate) fn in_handle(spectrum: &Spectrum, mode: usize) -> bool {
     let columns = &spectrum.system.mesh.columns;
     let size = |x: f64| spectrum.radial(mode, x).abs();
@@ -199,8 +197,8 @@ pub(crate) fn in_handle(spectrum: &Spectrum, mode: usize) -> bool {
     size(columns[0].from) > 0.1 * largest
 }
 
-/// Round-off of a frequency, relative: 1e-9 where the wall is a hundredth of the radius, and growing as
-/// `(R/h)^3.5` (measured on tubes of h/R from 0.01 to 1e-4).
+/// Relative round-off of a frequency: 1e-9 if the wall is a hundredth of the radius, growing as `(R/h)^3.5` (measured
+/// on tubes of h/R from 0.01 to 1e-4).
 pub(crate) fn round_off(layers: &Layers) -> f64 {
     let (_, thickness, radius) = thinnest(layers);
     1e-9 * (0.01 * radius / thickness).powf(3.5)

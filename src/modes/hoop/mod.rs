@@ -1,17 +1,16 @@
-//! How does the wall of a hollow bat ring when its sections do not stay round?
+//! How does the wall of a hollow bat ring if its sections do not stay round?
 //!
-//! [`Hoop::of`](solve::Hoop::of) solves the wall as a solid of revolution, one harmonic `cos nθ` after the
-//! other, to a tolerance. [`Response::of`](response::Response::of) has what a hit needs of it: how the wall gives way under
-//! a ball.
+//! [`Hoop::of`](solve::Hoop::of) solves the wall as a solid of revolution, one harmonic `cos nθ` after the other, to a
+//! tolerance. [`Response::of`](response::Response::of) gives the data for a hit: how the wall gives way under a ball.
 //!
 //! | file | question |
 //! |---|---|
 //! | [`request`] | what is asked |
 //! | [`patch`] | where does a ball press |
 //! | [`system`], [`spectrum`] | stiffness and mass of one harmonic; its lowest modes on one mesh |
-//! | [`surface`] | how does a ball load the outer surface, and how does that give way |
+//! | [`surface`] | how does a ball load the outer surface, and how far does it give way |
 //! | `climb` | how fine must the elements be for a tolerance |
-//! | [`response`] | what of all that does a hit need, and which walls share it |
+//! | [`response`] | the data for a hit, and which walls share them |
 //! | [`solve`] | the modes to a tolerance, with an error for each |
 
 pub mod request;

@@ -1,7 +1,7 @@
-//! How does the wall give way where a ball presses on it?
+//! How far does the wall give way under a ball?
 //!
-//! The ball presses on a patch, with a pressure that is a parabola along the bat and around it. With
-//! `P(k) = 3 (sin k − k cos k)/k³` and a resultant F across the bat
+//! The ball presses on a patch, with a pressure that is parabolic along the bat and around it. With
+//! `P(k) = 3 (sin k − k cos k)/k³` and a resultant F across the bat:
 //!
 //! ```text
 //! share of harmonic n      g_n = P(n a_t/r)/P(a_t/r),  g_0 = 1/P(a_t/r)
@@ -10,7 +10,7 @@
 //! all modes of n           C_n = f·K⁻¹f = Σ c/ω²,   D_n = (K⁻¹f)·M(K⁻¹f) = Σ c/ω⁴
 //! ```
 //!
-//! where f is the load of F = 1, the work of that pressure.
+//! where f is the load for F = 1, the work of that pressure.
 
 /// Where a ball presses on the barrel.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,22 +23,22 @@ pub struct Patch {
     pub half_width: f64,
 }
 
-/// How one harmonic gives way under a patch.
+/// The compliance of one harmonic under a patch.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Share {
     /// The harmonic n.
     pub harmonic: usize,
     /// `(g_n Ū)²/M` of each kept mode, in their order (1/kg).
     pub gains: Vec<f64>,
-    /// `C_n`: displacement under a steady force of all modes of the harmonic (m/N).
+    /// `C_n`: displacement under a static unit force, all modes of the harmonic (m/N).
     pub flexibility: f64,
     /// `D_n = Σ c/ω⁴` over all modes of the harmonic (m s²/N).
     pub slowness: f64,
 }
 
 impl Patch {
-    /// The patch of a ball that is compressed so far, all lengths in m, as for two elastic bodies that touch:
-    /// `a_x = √(R δ)`, `a_t = √(δ R r/(R + r))` of a ball of radius R on a barrel of radius r.
+    /// The patch of a ball compressed by that amount, all lengths in m, as for two elastic bodies in contact:
+    /// `a_x = √(R δ)`, `a_t = √(δ R r/(R + r))` for a ball of radius R on a barrel of radius r.
     ///
     /// # Source
     ///
@@ -59,7 +59,7 @@ impl Patch {
 /// `P(k) = 3 (sin k − k cos k)/k³`, the Fourier transform of a parabola of area 1 over [−1, 1].
 fn parabola(k: f64) -> f64 {
     if k.abs() < 0.1 {
-        // Its series, where the difference would lose digits.
+        // The series, where the difference would lose digits.
         let square = k * k;
         return 1.0 - square / 10.0 * (1.0 - square / 28.0 * (1.0 - square / 54.0));
     }

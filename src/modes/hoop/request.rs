@@ -10,7 +10,7 @@ pub enum KnobSide {
     Clamped,
 }
 
-/// Which hoop modes, how accurate.
+/// Which hoop modes, and how accurately.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HoopRequest {
     /// Largest relative error of any frequency.
@@ -19,14 +19,14 @@ pub struct HoopRequest {
     pub harmonics: Vec<usize>,
     /// Every mode below this frequency is kept (Hz), up to 200 of a harmonic.
     pub up_to_hz: f64,
-    /// At least the given number of modes of every harmonic are kept.
+    /// At least this many modes of every harmonic are kept.
     pub least: usize,
     /// How the knob side is held.
     pub end: KnobSide,
 }
 
 impl Default for HoopRequest {
-    /// Modes of n = 0 and 2 to 8 up to 12 kHz within 1e-4: they hold 99.7 % of what the wall adds to a hit.
+    /// Modes of n = 0 and 2 to 8 up to 12 kHz to 1e-4: these have 99.7 % of the wall's effect on a hit.
     fn default() -> Self {
         let harmonics = [0].into_iter().chain(2..=8).collect();
         let (tol, end) = (1e-4, KnobSide::Free);

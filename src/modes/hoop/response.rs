@@ -1,16 +1,17 @@
 //! How does the wall respond to a ball, as accurately as a hit needs it?
 //!
-//! One mesh and a few modes do: an exit speed within 1e-4 needs the wall's frequencies within 4e-4 and its
-//! flexibility within 1e-3. Of the wall only figures are kept: how modes move the outer surface, and how it gives
-//! way to every load on it.
+//! One mesh and a few modes are enough: an exit speed to 1e-4 needs the wall's frequencies to 4e-4 and its flexibility
+//! to 1e-3. Only two kinds of figures are kept: the motion of the outer surface in the modes, and its flexibility under
+//! every load.
 //!
 //! ```text
 //! K = L D Lᵀ,   y_s = D^{−½} L⁻¹ e_s for every function s of the outer surface
 //! C(load) = Σ load_s load_t y_s·y_t          the same for any patch, anywhere
 //! ```
 //!
-//! Stiffness and density are scales. With E, the stiffness around the bat, and ρ of the stiffest material taken out,
-//! `ω = ω̂ √(E/ρ)`, `C = Ĉ/E`, `c = ĉ/ρ`. Walls that differ in these alone share one solve if they keep the same modes.
+//! Stiffness and density are scale factors. With E (the stiffness around the bat) and ρ of the stiffest material
+//! divided out, `ω = ω̂ √(E/ρ)`, `C = Ĉ/E`, `c = ĉ/ρ`. Walls that differ only in these share one solve if they keep the
+//! same modes.
 
 use std::collections::VecDeque;
 use std::f64::consts::{PI, TAU};
@@ -35,31 +36,31 @@ use crate::modes::hoop::spectrum::{Figures, Spectrum, count_below};
 use crate::modes::hoop::surface::Surface;
 use crate::modes::hoop::system::Wall;
 
-/// How fine a wall is solved for a hit.
+/// Accuracy of a wall's solution for a hit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fineness {
     /// Degrees of the elements along the bat and across the wall.
     degrees: [usize; 2],
     /// Geometric steps towards the tip, kinks and corners.
     steps: [usize; 3],
-    /// Radii of the handle that are modelled before the taper.
+    /// Length of the handle that is modelled before the taper, in radii.
     lead: f64,
     /// The last harmonic.
     last: usize,
-    /// Modes are kept up to this frequency (Hz); what is faster follows the force.
+    /// Modes are kept up to this frequency (Hz); faster ones follow the force quasi-statically.
     up_to_hz: f64,
-    /// A harmonic keeps no modes if `(2/n)^3.6 (ω_kept/ω_n)²` is below this number: ω_kept is the frequency up to which
-    /// modes are kept, `1/ω_n²` the harmonic's `D/C`.
+    /// A harmonic keeps no modes if `(2/n)^3.6 (ω_kept/ω_n)²` is below this number. ω_kept is the frequency up to which
+    /// modes are kept, and `1/ω_n²` is the harmonic's `D/C`.
     little: f64,
-    /// How far frequencies may be off, relative, on a smooth wall, and beside corners of its layers.
+    /// Possible relative error of frequencies: on a smooth wall, and beside corners of its layers.
     off: [f64; 2],
-    /// Share of the flexibility beyond the modes that elements may miss: that of the wall close to the patch, where
-    /// frequencies do not tell how good the elements are.
+    /// Share of the flexibility beyond the modes that the elements may miss. It is that of the wall close to the patch,
+    /// where frequencies say nothing about the elements.
     pub(crate) missed: f64,
 }
 
 impl Fineness {
-    /// For exit speeds within that share of the closing speed.
+    /// The accuracy for exit speeds within that share of the closing speed.
     pub fn for_exit_speed(tolerance: f64) -> Self {
         match tolerance {
             t if t >= 1e-3 => Self {
@@ -82,7 +83,7 @@ impl Fineness {
                 off: [5e-5, 4e-4],
                 missed: 0.005,
             },
-            // Finer than this the wall is not known: the patch leaves a thousand times as much open.
+            // A higher accuracy is useless: the patch is a thousand times as uncertain.
             _ => Self {
                 degrees: [8, 5],
                 steps: [3, 2, 3],
@@ -97,7 +98,7 @@ impl Fineness {
     }
 }
 
-/// The wall of a bat as balls feel it, solved once.
+/// The wall of a bat under a ball, solved once.
 #[derive(Debug, Clone)]
 pub struct Response {
     solved: Arc<Solved>,
@@ -105,12 +106,12 @@ pub struct Response {
     scale: [f64; 2],
 }
 
-/// The figures of a wall whose stiffest material has c_θθ = 1 and ρ = 1.
+/// The figures of a wall scaled to c_θθ = 1 and ρ = 1 of the stiffest material.
 #[derive(Debug)]
 struct Solved {
     surface: Surface,
     harmonics: Vec<Harmonic>,
-    /// How far frequencies may be off, relative.
+    /// Possible relative error of frequencies.
     off: f64,
 }
 
@@ -121,42 +122,42 @@ struct Harmonic {
     /// Angular frequencies of its modes, rising.
     omegas: Vec<f64>,
     losses: Vec<f64>,
-    /// How far each function of the surface moves in each mode.
+    /// Motion of each function of the surface in each mode.
     motions: Vec<Vec<f64>>,
-    /// How it gives way under loads on the surface.
+    /// Flexibility under loads on the surface.
     flexibility: Flexibility,
-    /// `1/ω²` of all that its modes leave to the flexibility.
+    /// `1/ω²` of the part of the flexibility beyond its modes.
     slow: f64,
 }
 
-/// What a wall's response depends on.
+/// The quantities that determine a wall's response.
 #[derive(Debug, Clone, PartialEq)]
 struct Key {
     layers: Layers,
     cut: bool,
     fineness: Fineness,
-    /// The frequency up to which modes are kept, where c_θθ = 1 and ρ = 1.
+    /// The frequency up to which modes are kept, for c_θθ = 1 and ρ = 1.
     up_to: f64,
 }
 
-/// A wall that is being solved, or was.
+/// A wall that is being solved or has been solved.
 type Cell = Arc<OnceLock<std::result::Result<Arc<Solved>, String>>>;
 
-/// The walls that were asked for last.
+/// The walls that were requested last.
 static KNOWN: Mutex<Vec<(Key, Cell)>> = Mutex::new(vec![]);
-/// At most this many are kept, and fewer if they have more numbers than [`NUMBERS`] together.
+/// At most this many are kept, or fewer if together they exceed [`NUMBERS`] numbers.
 const KEPT: usize = 16;
 /// 32 MB.
 const NUMBERS: usize = 4_000_000;
 
 impl Response {
-    /// The wall of a hollow bat. The last few walls are known: for a bat with the same wall, or with one that differs by a
-    /// few per cent in stiffness and density alone, nothing is solved anew.
+    /// The wall of a hollow bat. The last few walls are cached: a bat with the same wall, or with one whose stiffness
+    /// and density alone differ by a few per cent, needs no new solve.
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] for a solid bat, a wall of wood and walls that do not meet in the barrel, and where no mode
-    /// can be found.
+    /// [`Error::Value`] for a solid bat, a wall of wood, walls that do not meet in the barrel, or if no mode can be
+    /// found.
     pub fn of(bat: &Bat, fineness: Fineness) -> Result<Self> {
         let extent = Extent::of(bat, fineness.lead)?;
         let mut layers = Layers::of(bat, extent.from, extent.to)?;
@@ -186,7 +187,7 @@ impl Response {
         Ok(Self { solved: Arc::clone(solved), scale })
     }
 
-    /// Whether both were had by one solve.
+    /// Whether both come from one solve.
     pub fn shares_with(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.solved, &other.solved)
     }
@@ -201,17 +202,17 @@ impl Response {
         self.solved.harmonics.iter().flat_map(of).collect()
     }
 
-    /// The harmonics that are counted.
+    /// The harmonics that are modelled.
     pub fn harmonics(&self) -> Vec<usize> {
         self.solved.harmonics.iter().map(|harmonic| harmonic.n).collect()
     }
 
-    /// How far a frequency may be off, relative.
+    /// Possible relative error of a frequency.
     pub fn off(&self) -> f64 {
         self.solved.off
     }
 
-    /// From where to where the wall is modelled (m).
+    /// Beginning and end of the modelled stretch (m).
     pub fn ends(&self) -> [f64; 2] {
         self.solved.surface.ends()
     }
@@ -221,7 +222,7 @@ impl Response {
         self.solved.surface.radius(x)
     }
 
-    /// Whether the ball presses on the modelled stretch: at the tip it may overhang, at the knob side not. A patch that is
+    /// Whether the ball presses on the modelled stretch: it may overhang at the tip, but not at the knob side. A patch
     /// longer than that of any ball is not covered.
     pub fn covers(&self, patch: &Patch) -> bool {
         let [from, to] = self.ends();
@@ -229,7 +230,7 @@ impl Response {
         short && patch.x - patch.half_length >= from && patch.x <= to * (1.0 + SAME_PLACE)
     }
 
-    /// How each harmonic gives way under a patch.
+    /// The compliance of each harmonic under a patch.
     pub fn under(&self, patch: &Patch) -> Vec<Share> {
         let (radius, load) = (self.radius(patch.x), self.solved.surface.load(patch));
         let of = |harmonic: &Harmonic| {
@@ -240,7 +241,7 @@ impl Response {
 }
 
 impl Solved {
-    /// How many numbers it has.
+    /// Number of stored numbers.
     fn numbers(&self) -> usize {
         let of = |harmonic: &Harmonic| {
             let kept = harmonic.flexibility.0.iter().map(|(_, row)| row.len()).sum::<usize>();
@@ -251,7 +252,7 @@ impl Solved {
 }
 
 impl Harmonic {
-    /// How it gives way under a load of that resultant, E and ρ being those.
+    /// The compliance under a load with that resultant, for these E and ρ.
     fn under(&self, load: &[(usize, f64)], g: f64, [e, rho]: [f64; 2]) -> Share {
         let turn = if self.n == 0 { TAU } else { PI };
         let moved = |motion: &Vec<f64>| load.iter().map(|(s, a)| a * motion[*s]).sum::<f64>();
@@ -273,7 +274,7 @@ impl Key {
     /// The elements and their outer surface.
     fn mesh(&self) -> Result<(Wall, Surface)> {
         let Fineness { degrees: [p, q], steps: [end, kink, corner], .. } = self.fineness;
-        // A composite is soft in shear across its wall, which takes a degree more.
+        // A composite is soft in shear across its wall and needs one degree more.
         let across = if self.layers.materials.iter().any(differs) { q.max(3) } else { q };
         let knob = if self.layers.stretches[0].from == 0.0 { end } else { 0 };
         let grading = Grading { knob, tip: end, kink, least_kink: LEAST_KINK, corner, soft: 0 };
@@ -287,7 +288,7 @@ impl Key {
         let Fineness { last, off, .. } = self.fineness;
         let (wall, surface) = self.mesh()?;
         let harmonics = std::iter::once(0).chain(2..=last);
-        // One after the other: whoever solves a wall that others wait for does so alone.
+        // One after the other: a thread that solves a wall for others must not wait for the pool.
         let harmonics = harmonics.map(|n| self.harmonic(&wall, &surface, n));
         let harmonics = harmonics.collect::<Result<_>>()?;
         let smooth = self.layers.kinks().is_some() || self.layers.stays_stiff();
@@ -300,7 +301,7 @@ impl Key {
         let ends = [EndHold::Free; 2];
         let mut spectrum = Spectrum::new(wall, n, ends)?;
         let [from, to] = surface.ends();
-        // Six inches from the tip, or where a short wall is.
+        // Six inches from the tip, or the middle of a short wall.
         let middle = (to - 0.1524).max(0.5 * (from + to));
         let radius = surface.radius(middle);
         let patch = Patch::under(middle, 0.0366, radius, 0.008);
@@ -349,17 +350,17 @@ impl Key {
     }
 }
 
-/// By this power of n what a harmonic has of the giving way under a ball falls: n = 3 to 8 on a barrel of 3 mm.
+/// A harmonic's share of the compliance under a ball falls as this power of n: n = 3 to 8 on a barrel of 3 mm.
 const FALLS: f64 = 3.6;
 /// Least change of slope to which the elements are graded.
 const LEAST_KINK: f64 = 0.02;
 
-/// `y_s·y_t` of the functions of a surface: for each s the first t, and all from there to s; it is 0 for those before,
-/// which no patch presses on together with s.
+/// `y_s·y_t` of the functions of a surface: for each s the first t, and all values from there to s. It is 0 for earlier
+/// t, which no patch loads together with s.
 #[derive(Debug, Default)]
 struct Flexibility(Vec<(usize, Vec<f64>)>);
 
-/// `D^{−½} L⁻¹` of a few functions of the surface side by side, and the first unknown where that is not 0.
+/// `D^{−½} L⁻¹` of a few functions of the surface side by side, and the first unknown where it is not 0.
 struct Tile {
     functions: Range<usize>,
     begin: usize,
@@ -367,7 +368,7 @@ struct Tile {
 }
 
 impl Flexibility {
-    /// That of a wall with those factors; `radial` has the unknown and the sign of each function.
+    /// The flexibility of a wall with those factors; `radial` has the unknown and the sign of each function.
     fn of(factors: &Fronts, surface: &Surface, radial: &[Option<(usize, f64)>]) -> Self {
         let mut rows = vec![];
         let mut near: VecDeque<Tile> = VecDeque::new();
@@ -401,7 +402,7 @@ impl Flexibility {
         Self(rows)
     }
 
-    /// `Σ load_s load_t y_s·y_t` of a load whose functions rise.
+    /// `Σ load_s load_t y_s·y_t` of a load with rising function indices.
     fn under(&self, load: &[(usize, f64)]) -> f64 {
         let of = |(k, (s, a)): (usize, &(usize, f64))| {
             let (from, row) = &self.0[*s];
@@ -413,10 +414,10 @@ impl Flexibility {
     }
 }
 
-/// No patch is longer (m): a softball squeezed flat, under twice its compression.
+/// Longest patch (m): a softball squeezed flat, at twice its compression.
 const WIDEST: f64 = 0.15;
 
-/// Products of all columns of one with all of the other.
+/// Products of all columns of one tile with all columns of the other.
 #[inline(always)]
 fn block(one: &[[f64; SIDES]], other: &[[f64; SIDES]]) -> [[f64; SIDES]; SIDES] {
     let mut block = [[0.0; SIDES]; SIDES];
@@ -428,8 +429,8 @@ fn block(one: &[[f64; SIDES]], other: &[[f64; SIDES]]) -> [[f64; SIDES]; SIDES] 
     block
 }
 
-/// Takes E and ρ of the stiffest material out of all of them, and returns both. What is left is rounded to twelve
-/// digits: materials that differ by E and ρ alone are then the same.
+/// Divides all materials by E and ρ of the stiffest, and returns both. The results are rounded to twelve digits, so
+/// that materials that differ only by E and ρ become equal.
 fn normalise(materials: &mut [Elastic]) -> [f64; 2] {
     let around = |of: &Elastic| of.normal[1][1];
     let stiffest = materials.iter().max_by(|a, b| around(a).total_cmp(&around(b)));
@@ -450,13 +451,13 @@ fn rounded(x: f64) -> f64 {
     f64::from_bits((x.to_bits() + DROPPED / 2) & !(DROPPED - 1))
 }
 
-/// The next of a series of numbers that rise by a tenth each: bats that differ a little then keep the same modes.
+/// The next number of a series with steps of a tenth: bats that differ a little then keep the same modes.
 fn stepped(x: f64) -> f64 {
     const STEP: f64 = 1.1;
     STEP.powf((x.ln() / STEP.ln()).ceil())
 }
 
-/// Whether a material differs in its directions.
+/// Whether a material is orthotropic.
 fn differs(of: &Elastic) -> bool {
     of.shear_xr != of.shear_xt || of.normal[0][0] != of.normal[2][2]
 }
@@ -465,8 +466,8 @@ fn differs(of: &Elastic) -> bool {
 mod tests {
     use super::*;
 
-    /// Products of halves against a solve for each load: anywhere, under patches of half and twice the usual length, on
-    /// walls with a taper, a plug and kinks.
+    /// Products of half solutions against a solve for each load: anywhere, under patches of half and twice the usual
+    /// length, on walls with a taper, a plug and kinks.
     #[test]
     fn what_is_kept_of_a_wall_is_what_a_solve_gives() {
         for (name, tolerance) in
@@ -499,8 +500,8 @@ mod tests {
             }
         }
     }
-    /// `D` is extrapolated from one place where a harmonic has no modes, and is that of the modes where it has them:
-    /// along the barrel the sum is within 2 % of solves.
+    /// `D` of a harmonic without modes is extrapolated from one place; with modes it is computed from these. Along the
+    /// barrel the sum is within 2 % of solves.
     #[test]
     fn the_slowness_of_a_wall_is_that_of_solves() {
         for name in ["bbcor_made_up", "northwestern_aluminium", "composite_made_up"] {

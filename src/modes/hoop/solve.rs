@@ -21,7 +21,7 @@ use crate::modes::hoop::spectrum::Spectrum;
 pub struct HoopMode {
     /// Waves around the barrel, n: the motion goes as cos nθ.
     pub harmonic: usize,
-    /// Number of the mode among those of its harmonic, from 1.
+    /// Index of the mode among those of its harmonic, from 1.
     pub order: usize,
     /// Angular frequency (rad/s).
     #[serde(skip)]
@@ -31,13 +31,13 @@ pub struct HoopMode {
     /// Share of critical damping.
     // Half the loss factor of the wall.
     pub damping_ratio: f64,
-    /// How far the frequency may be off, relative.
+    /// Possible relative error of the frequency.
     pub error: f64,
-    /// Where the outer surface moves most across the bat (m).
+    /// Place of the largest radial motion of the outer surface (m).
     pub largest_at_m: f64,
 }
 
-/// Motion of the outer surface along the barrel, the largest motion across being 1.
+/// Motion of the outer surface along the barrel, scaled to a largest radial motion of 1.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Outline {
@@ -51,31 +51,31 @@ pub struct Outline {
     pub along: Vec<f64>,
 }
 
-/// What was assumed, or is worth a warning.
+/// Assumptions and warnings.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Note {
-    /// The wall is so thin that rounding counts.
+    /// The wall is so thin that round-off matters.
     ThinWall {
-        /// Where it is thinnest against its radius (m).
+        /// Place where it is thinnest relative to its radius (m).
         at: f64,
         /// Thickness there (m).
         thickness: f64,
         /// Radius there (m).
         radius: f64,
     },
-    /// The model begins beyond a step whose walls do not meet.
+    /// The model begins beyond a step at which the walls do not meet.
     BeginsBeyondStep {
-        /// Where the step is (m).
+        /// Place of the step (m).
         at: f64,
     },
     /// The model begins where the wood ends.
     BeginsBeyondWood {
-        /// Where the wood ends (m).
+        /// Place where the wood ends (m).
         at: f64,
     },
-    /// The bore is open at the tip: no end cap was given.
+    /// The bore is open at the tip: the file has no end cap.
     OpenTip,
-    /// Tape or weights are on the modelled stretch, whose mass is not in the wall.
+    /// Tape or weights on the modelled stretch, whose mass is not included in the wall.
     WithoutMasses,
 }
 
@@ -98,10 +98,10 @@ const THIN: f64 = 1.0 / 300.0;
 impl Hoop {
     /// The hoop modes of a hollow bat.
     ///
-    /// The stretch from the handle to the tip is a solid of revolution; its modes in the handle, which depend on
-    /// where that is cut off, are left out. Every harmonic is solved on two meshes, the second with a higher
-    /// degree along and across and finer towards ends, kinks and corners; the answer is the second, and their
-    /// difference its stated error. While that is above the tolerance both get finer.
+    /// The stretch from the handle to the tip is a solid of revolution. Its modes in the handle depend on the cut and
+    /// are omitted. Every harmonic is solved on two meshes, the second with a higher degree along and across and finer
+    /// towards ends, kinks and corners. The result is that of the second mesh, and the difference is its stated error.
+    /// While the error exceeds the tolerance, both meshes are refined.
     ///
     /// # Errors
     ///
@@ -116,13 +116,13 @@ impl Hoop {
             let expected = format!("0 to {MOST_HZ:e} Hz");
             return Err(Error::value("up_to_hz", request.up_to_hz, expected));
         }
-        // What is cut off in the handle costs a tenth with every two radii or so.
+        // The error of the cut in the handle falls by a factor of ten about every two radii.
         let lead = 2.5 * (1e-4 / tol).log10().max(0.0);
         let mut extent = Extent::of(bat, lead)?;
         let cut = extent.limit == Limit::Handle;
         let (mut hoop, cut_off) = Self::solved(bat, [extent.from, extent.to], cut, request)?;
         if cut && cut_off > 0.5 {
-            // High modes may reach far into a thin handle: all of it is modelled then.
+            // High modes may reach far into a thin handle; then all of it is modelled.
             extent = Extent::of(bat, f64::INFINITY)?;
             hoop = Self::solved(bat, [extent.from, extent.to], false, request)?.0;
         }
@@ -139,15 +139,15 @@ impl Hoop {
         Ok(hoop)
     }
 
-    /// The `count` lowest modes of n ≥ 2 within `tol`, with the others that their harmonics have below the highest
-    /// of them, and at least three of each.
+    /// The `count` lowest modes of n ≥ 2 within `tol`, with all other modes of their harmonics below the highest of
+    /// them, and at least three of each.
     ///
     /// # Errors
     ///
     /// As [`Self::of`].
     pub fn first(bat: &Bat, count: usize, tol: f64) -> Result<Self> {
         const LAST: usize = 20;
-        // On a rough mesh it is seen which harmonics have one of them.
+        // A coarse mesh shows which harmonics have one of them.
         let rough = |n: usize, least: usize, up_to_hz: f64| -> Result<Vec<f64>> {
             let harmonics = vec![n];
             let request =
@@ -172,7 +172,7 @@ impl Hoop {
         Self::of(bat, &HoopRequest { tol, harmonics, up_to_hz, least, ..HoopRequest::default() })
     }
 
-    /// The hoop modes of a stretch of a bat (m), which is cut off at both ends.
+    /// The hoop modes of a stretch of a bat (m), cut off at both ends.
     ///
     /// # Errors
     ///
@@ -181,8 +181,8 @@ impl Hoop {
         Ok(Self::solved(bat, stretch, stretch[0] > 0.0, request)?.0)
     }
 
-    /// The modes of a stretch; if it is `cut` off in the handle, without those that ring there. Besides, what the
-    /// cut costs, as a share of what may be off.
+    /// The modes of a stretch. If it is `cut` off in the handle, modes that ring there are omitted. Also returns the
+    /// error of the cut as a share of the allowed error.
     fn solved(
         bat: &Bat,
         [from, to]: [f64; 2],
@@ -219,7 +219,7 @@ impl Hoop {
         lowest
     }
 
-    /// Whether every stated error is within what was allowed.
+    /// Whether every stated error is within the tolerance.
     pub fn met(&self) -> bool {
         self.met
     }
@@ -234,13 +234,13 @@ impl Hoop {
         self.to
     }
 
-    /// What was assumed or is worth a warning.
+    /// Assumptions and warnings.
     pub fn notes(&self) -> &[Note] {
         &self.notes
     }
 
-    /// Modal mass of mode `mode` of [`Self::modes`] (kg), the largest radial motion of the outer surface being 1:
-    /// `M = π ∫∫ρ(U² + V² + W²) r dr dx`, 2π in place of π for n = 0.
+    /// Modal mass of mode `mode` of [`Self::modes`] (kg), for a largest radial motion of the outer surface of 1:
+    /// `M = π ∫∫ρ(U² + V² + W²) r dr dx`, with 2π in place of π for n = 0.
     pub fn modal_mass(&self, mode: usize) -> f64 {
         let asked = &self.modes[mode];
         let of_harmonic = |spectrum: &&Spectrum| spectrum.system.n == asked.harmonic;
@@ -287,10 +287,10 @@ fn modes(spectrum: &Spectrum, errors: &[f64]) -> Vec<HoopMode> {
     modes.collect()
 }
 
-/// Samples of a column of elements in which the largest motion is sought.
+/// Number of samples per column of elements among which the largest motion is sought.
 const SAMPLES: usize = 8;
 
-/// Where the outer surface moves most, radially (m).
+/// Place where the outer surface moves most radially (m).
 fn largest_at(spectrum: &Spectrum, mode: usize) -> f64 {
     let motion = &spectrum.motions[mode];
     let size = |x: f64| spectrum.system.surface(motion, x)[0].abs();

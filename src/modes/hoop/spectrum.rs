@@ -15,26 +15,26 @@ pub struct Spectrum {
     pub system: System,
     /// The factors of the stiffness (for n = 1 of `K + shift M`).
     pub factors: Fronts,
-    /// Angular frequencies (rad/s), rising, from the strains or the iteration.
+    /// Angular frequencies (rad/s), rising, from the strains or from the iteration.
     pub omegas: Vec<f64>,
     /// Motions in all unknowns, `xᵀMx = 1` without the factor π.
     pub motions: Vec<Vec<f64>>,
-    /// Loss factors: those of the materials in the proportion of the strain energies.
+    /// Loss factors: those of the materials, weighted by the strain energies.
     pub losses: Vec<f64>,
     /// The rigid motion along the bat that harmonic 0 has, of mass 1, and M times it.
     pub rigid: Option<(Vec<f64>, Vec<f64>)>,
     /// Shift of the factors (1/s²).
     shift: f64,
-    /// Rigid motions among the lowest that the iteration finds.
+    /// Number of rigid motions among the lowest that the iteration finds.
     skipped: usize,
 }
 
-/// What is wanted of the modes.
+/// Which figures of the modes are wanted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Figures {
-    /// Their frequencies as the iteration has them.
+    /// Their frequencies, from the iteration.
     Frequencies,
-    /// Motions beside those.
+    /// Motions too.
     Motions,
     /// Motions, and frequencies and loss factors from the strains.
     Strains,
@@ -44,15 +44,15 @@ pub enum Figures {
 const TOO_THIN: &str = "round-off makes it indefinite; the wall is too thin for its radius, or \
                         a layer far softer than the others";
 
-/// Modes of a high harmonic lie close to each other: half a wave more along the bat is little beside many
-/// around it. So many may have to be told from the last wanted one.
+/// Modes of a high harmonic lie close together: half a wave more along the bat changes little beside many around it.
+/// This many may have to be distinguished from the last wanted one.
 const CLUSTERED: usize = 40;
 
 /// Shift of harmonic 1 (1/s²), which has rigid motions: about 100 Hz.
 const SHIFT: f64 = 4e5;
 
 impl Spectrum {
-    /// The wall with its factors, and no modes yet. Harmonic 0 is held at one place along the bat; harmonic 1 is
+    /// The wall with its factors, before any modes. Harmonic 0 is held at one place along the bat; harmonic 1 is
     /// shifted.
     ///
     /// # Errors
@@ -72,7 +72,7 @@ impl Spectrum {
         Ok(Self { system, factors, shift, omegas, motions, losses, rigid, skipped })
     }
 
-    /// The `count` lowest modes, rigid ones left out, with that residual; their frequencies from the strains.
+    /// The `count` lowest modes to that residual, without rigid ones; frequencies from the strains.
     ///
     /// # Errors
     ///
@@ -89,7 +89,7 @@ impl Spectrum {
         Ok(spectrum)
     }
 
-    /// The frequencies alone, as the iteration has them.
+    /// The frequencies alone, from the iteration.
     ///
     /// # Errors
     ///
@@ -106,7 +106,8 @@ impl Spectrum {
         Ok(spectrum.omegas)
     }
 
-    /// Lanczos on `D^{−½} L⁻¹ M L⁻ᵀ D^{−½}` of `K = L D Lᵀ`, the rigid motion of harmonic 0 taken out of what M sees.
+    /// Lanczos on `D^{−½} L⁻¹ M L⁻ᵀ D^{−½}` of `K = L D Lᵀ`; the rigid motion of harmonic 0 is removed before M is
+    /// applied.
     ///
     /// # Errors
     ///
@@ -160,7 +161,7 @@ impl Spectrum {
 }
 
 impl Spectrum {
-    /// How far the outer surface moves radially at `x` (m) in a mode.
+    /// Radial motion of the outer surface at `x` (m) in a mode.
     pub fn radial(&self, mode: usize, x: f64) -> f64 {
         self.system.surface(&self.motions[mode], x)[0]
     }
@@ -179,12 +180,12 @@ pub fn keep<T>(list: &mut Vec<T>, kept: &[bool]) {
     list.retain(|_| kept.next() == Some(&true));
 }
 
-/// Where the iteration starts: numbers that favour no mode.
+/// The start vector: numbers that favour no mode.
 fn start(z: &mut [f64]) {
     z.iter_mut().enumerate().for_each(|(k, z)| *z = golden::fraction(k) - 0.5);
 }
 
-/// How many rigid motions harmonic n has between ends that are held so.
+/// Number of rigid motions of harmonic n with these ends.
 pub fn rigid_motions(n: usize, ends: [EndHold; 2]) -> usize {
     match n {
         0 => usize::from(ends.iter().all(|end| *end != EndHold::Clamped)),
@@ -193,14 +194,14 @@ pub fn rigid_motions(n: usize, ends: [EndHold; 2]) -> usize {
     }
 }
 
-/// How many modes of harmonic n are below `omega` (rad/s), by the signs of the pivots of `K − ω²M`.
+/// Number of modes of harmonic n below `omega` (rad/s), from the signs of the pivots of `K − ω²M`.
 pub fn count_below(wall: &Wall, n: usize, ends: [EndHold; 2], omega: f64) -> usize {
     let unknowns = Unknowns::free(&wall.mesh, n, ends);
     let below = System::with(wall, n, unknowns).count_below(omega * omega);
     below.saturating_sub(rigid_motions(n, ends))
 }
 
-/// The rigid motion along the bat in all unknowns, of mass 1, and M times it.
+/// The rigid motion along the bat in all unknowns, scaled to mass 1, and M times it.
 fn rigid_along(system: &System) -> (Vec<f64>, Vec<f64>) {
     let all = system.unknowns.all();
     let mut motion = vec![0.0; all];

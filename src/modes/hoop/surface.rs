@@ -17,17 +17,17 @@ pub struct Surface {
     strips: Vec<Strip>,
     /// Degree along the bat.
     degree: usize,
-    /// Which functions of the mesh move it, from the knob side on.
+    /// The functions of the mesh that move it, from the knob side on.
     pub functions: Vec<usize>,
 }
 
 /// The surface of a column of elements.
 #[derive(Debug, Clone)]
 struct Strip {
-    /// From where to where it is (m).
+    /// Beginning and end (m).
     ends: [f64; 2],
     radius: Radius,
-    /// Of which of the surface's functions each shape function along it is made, with their shares.
+    /// The surface's functions, with their shares, that make up each shape function along it.
     made_of: Vec<Vec<(usize, f64)>>,
 }
 
@@ -52,7 +52,7 @@ impl Surface {
         surface
     }
 
-    /// The place of a function of the mesh among those of the surface. It was met no more than a column before.
+    /// The index of a mesh function among those of the surface. It occurred at most one column before.
     fn index(&mut self, function: usize) -> usize {
         let known = self.functions.iter().rposition(|known| *known == function);
         known.unwrap_or_else(|| {
@@ -61,12 +61,12 @@ impl Surface {
         })
     }
 
-    /// From where to where it is modelled (m).
+    /// Beginning and end of the modelled stretch (m).
     pub fn ends(&self) -> [f64; 2] {
         [self.strips[0].ends[0], self.strips[self.strips.len() - 1].ends[1]]
     }
 
-    /// How far the strips of some functions and of a later one are apart (m); 0 where they share one.
+    /// Distance between the strips of some functions and those of a later one (m); 0 if they share a strip.
     pub fn gap(&self, some: Range<usize>, later: usize) -> f64 {
         let has = |strip: &Strip, k: &Range<usize>| {
             strip.made_of.iter().flatten().any(|(of, _)| k.contains(of))
@@ -83,7 +83,7 @@ impl Surface {
         strip.radius.at(xi)[0]
     }
 
-    /// The strip at `x` and the place in it, ξ in [−1, 1].
+    /// The strip at `x`, and the position in it, ξ in [−1, 1].
     fn strip(&self, x: f64) -> (&Strip, f64) {
         let strip = self.strips.partition_point(|strip| strip.ends[0] <= x).max(1) - 1;
         let strip = &self.strips[strip];
@@ -91,8 +91,8 @@ impl Surface {
         (strip, (2.0 * (x - from) / (to - from) - 1.0).clamp(-1.0, 1.0))
     }
 
-    /// The load of a patch of resultant 1 on the functions of the surface: which, and how much. Beyond an end
-    /// nothing is pressed on, so that the rest takes all.
+    /// The load of a patch with resultant 1 on the functions of the surface: their indices and loads. Beyond an end
+    /// there is nothing to press on, so the remaining part carries all.
     pub fn load(&self, patch: &Patch) -> Vec<(usize, f64)> {
         let (from, to) = (patch.x - patch.half_length, patch.x + patch.half_length);
         let weight = |x: f64| 1.0 - ((x - patch.x) / patch.half_length).powi(2);
@@ -125,7 +125,7 @@ impl Surface {
         load.map(|(k, load)| (k, load / total)).collect()
     }
 
-    /// The unknown of the radial motion of each function, and its sign; None where it is held.
+    /// The unknown of the radial motion of each function, and its sign; `None` if it is held.
     pub fn radial<'a>(
         &'a self,
         unknowns: &'a Unknowns,
@@ -133,7 +133,7 @@ impl Surface {
         self.functions.iter().map(|function| unknowns.of[*function][0])
     }
 
-    /// How a harmonic gives way under a patch, by a solve.
+    /// The compliance of a harmonic under a patch, by a solve.
     pub fn under(&self, spectrum: &Spectrum, patch: &Patch) -> Share {
         let system = &spectrum.system;
         let (n, unknowns) = (system.n, &system.unknowns);

@@ -1,4 +1,4 @@
-//! What are stiffness and mass of the whole wall in one harmonic: factors, products, energies?
+//! What are stiffness and mass of the whole wall in one harmonic? Factors, products, energies.
 
 use std::sync::Arc;
 
@@ -21,7 +21,7 @@ impl Links {
     }
 }
 
-/// The elements of a wall and what they are made of.
+/// The elements of a wall and their materials.
 #[derive(Debug, Clone)]
 pub struct Wall {
     /// The elements.
@@ -35,7 +35,7 @@ pub struct Wall {
 pub struct System {
     /// Its elements.
     pub mesh: Arc<WallMesh>,
-    /// What they are made of.
+    /// Their materials.
     pub materials: Arc<[Elastic]>,
     /// The harmonic.
     pub n: usize,
@@ -45,7 +45,7 @@ pub struct System {
 }
 
 impl System {
-    /// The wall on that mesh in harmonic n, held so at its ends.
+    /// The wall on that mesh in harmonic n, with these ends.
     pub fn new(wall: &Wall, n: usize, ends: [EndHold; 2]) -> Self {
         Self::with(wall, n, Unknowns::new(&wall.mesh, n, ends))
     }
@@ -118,7 +118,7 @@ impl System {
         fronts
     }
 
-    /// The unknowns of functions, those that are held left out.
+    /// The unknowns of functions, without those that are held.
     fn numbers(&self, functions: impl Iterator<Item = usize>) -> Vec<usize> {
         let of = |function: usize| {
             let own = self.unknowns.of[function].into_iter().flatten();
@@ -246,13 +246,13 @@ impl System {
         parts[parts.len() - 1].outer.at(xi)[0]
     }
 
-    /// The column at `x` and the values of the functions along it there.
+    /// The column at `x`, and the values of the functions along it there.
     fn place(&self, x: f64) -> (usize, Vec<f64>) {
         let (c, xi) = self.locate(x);
         (c, crate::beam::wall::shapes::at(self.mesh.degrees[0], xi)[0].clone())
     }
 
-    /// The column at `x` and the place in it, ξ in [−1, 1].
+    /// The column at `x`, and the position in it, ξ in [−1, 1].
     fn locate(&self, x: f64) -> (usize, f64) {
         let columns = &self.mesh.columns;
         let c = columns.partition_point(|column| column.from <= x).max(1) - 1;
@@ -260,7 +260,7 @@ impl System {
         (c, (2.0 * (x - column.from) / (column.to - column.from) - 1.0).clamp(-1.0, 1.0))
     }
 
-    /// How many eigenvalues are below `bound` (1/s²); rigid motions count.
+    /// Number of eigenvalues below `bound` (1/s²), rigid motions included.
     pub fn count_below(&self, bound: f64) -> usize {
         self.factors(-bound).negative()
     }

@@ -1,4 +1,4 @@
-//! What a person with a bat, a ruler, calipers and a scale answers.
+//! How are the answers of a person with a ruler, calipers and a scale read?
 
 use sweetspot::base::units::{self, Quantity, inches};
 use sweetspot::base::{error::Complaint, number::rounded, typed};
@@ -7,7 +7,7 @@ use sweetspot::bat::material::{BUILT_IN, BuiltIn};
 use crate::asking::dialogue::Read;
 use crate::value::{BAT_LENGTH, DIAMETER, PLACE, TAP};
 
-/// Where bats change: close at the knob, then every few inches, and just before the tip.
+/// Suggested places for diameters: close together at the knob, then every few inches, and just before the tip.
 pub fn suggested(length: f64, unit: &str) -> Vec<f64> {
     let (near, step): (&[f64], f64) = match unit {
         "in" => (&[0.0, 0.5, 1.0, 1.5, 3.0], 3.0),
@@ -17,9 +17,8 @@ pub fn suggested(length: f64, unit: &str) -> Vec<f64> {
     near.iter().copied().filter(|x| *x < length).chain(rest).chain([length]).collect()
 }
 
-/// A diameter at the suggested place, or a place and its diameter; None for an empty line. Places
-/// rise from those `before`, the first is 0, none is beyond the tip, and two at one place between
-/// are a step.
+/// A diameter at the suggested place, or a place and its diameter; `None` for an empty line. Places must rise from
+/// those `before`. The first is 0, none is beyond the tip, and two equal places between are a step.
 pub fn station(
     text: &str,
     suggested: Option<f64>,
@@ -51,8 +50,8 @@ pub fn station(
     Ok(Some([x, diameter]))
 }
 
-/// The stations with what is measured at the suggested place or at one of its own: a diameter, or two
-/// for a step. What was measured at that place goes. None for an empty line.
+/// The stations after the answer for the suggested place or for a place of the person's choice: a diameter, or two for
+/// a step. It replaces an earlier answer for that place. `None` for an empty line.
 pub fn put(
     text: &str,
     suggested: f64,
@@ -80,8 +79,7 @@ pub fn put(
     Ok(Some(all))
 }
 
-/// Two numbers with a comma or blanks between them. Where a diameter alone would do, whoever writes
-/// 1,5 may mean one and a half.
+/// Two numbers separated by a comma or blanks. Where a single diameter is possible, 1,5 may mean one and a half.
 fn apart(text: &str, one_would_do: bool) -> Option<(&str, &str)> {
     let comma = if one_would_do && !text.contains('.') { ", " } else { "," };
     let number = |text: &str| typed::number(text).is_some();
@@ -136,7 +134,7 @@ pub fn length(text: &str, unit: &str) -> Read<f64> {
     Err(Complaint::new("", format!("{value} {unit}"), expected))
 }
 
-/// Whether somebody says so that nothing is known.
+/// Whether the person says that it is not known.
 pub fn unknown(text: &str) -> bool {
     let plain = text.to_lowercase().replace(['\'', '’'], "");
     ["dont know", "unknown", "none", "no"].contains(&plain.as_str())
@@ -151,7 +149,7 @@ pub fn unit(text: &str) -> Read<&'static str> {
     }
 }
 
-/// A mass with its unit, as it was written; None where it is not known.
+/// A mass with its unit, as written; `None` if it is not known.
 pub fn mass(text: &str) -> Read<Option<String>> {
     if unknown(text) {
         return Ok(None);
@@ -159,7 +157,7 @@ pub fn mass(text: &str) -> Read<Option<String>> {
     weighed(text).map(Some)
 }
 
-/// A balance point as a bat file has it, on a bat so long; None where it is not known.
+/// A balance point for a bat file, on a bat of that length; `None` if it is not known.
 pub fn balance(text: &str, length: f64, unit: &str) -> Read<Option<String>> {
     if unknown(text) {
         return Ok(None);
@@ -173,7 +171,7 @@ pub fn balance(text: &str, length: f64, unit: &str) -> Read<Option<String>> {
     Err(Complaint::new("", format!("{place} {unit}"), expected))
 }
 
-/// The frequency of a tap tone as a bat file has it; None where it is not known.
+/// The frequency of a tap tone for a bat file; `None` if it is not known.
 pub fn tap(text: &str) -> Read<Option<String>> {
     if unknown(text) {
         return Ok(None);
@@ -187,8 +185,7 @@ pub fn tap(text: &str) -> Read<Option<String>> {
     Err(Complaint::new("", format!("{frequency} Hz"), expected))
 }
 
-/// How far a tape reaches from the knob of a bat so long, and its mass, as the line of a bat file; None
-/// where there is none.
+/// The line of a bat file for tape: its end from the knob, on a bat of that length, and its mass; `None` without tape.
 pub fn tape(text: &str, length: f64, unit: &str) -> Read<Option<String>> {
     if unknown(text) {
         return Ok(None);
@@ -206,7 +203,7 @@ pub fn tape(text: &str, length: f64, unit: &str) -> Read<Option<String>> {
     Ok(Some(format!("{{ \"from\": 0, \"to\": \"{reach} {unit}\", \"mass\": {mass} }}")))
 }
 
-/// The thickness of the wall of a hollow bat, as a bat file has it; None of a solid one.
+/// The wall thickness of a hollow bat for a bat file; `None` for a solid one.
 pub fn wall(text: &str, stations: &[[f64; 2]], unit: &str) -> Read<Option<String>> {
     if unknown(text) {
         return Ok(None);
@@ -225,7 +222,7 @@ pub fn wall(text: &str, stations: &[[f64; 2]], unit: &str) -> Read<Option<String
     Err(Complaint::new("", format!("{thickness} {unit}"), expected))
 }
 
-/// Depth and diameter of a cup in the tip, in `unit`; None where there is none.
+/// Depth and diameter of a cup in the tip, in `unit`; `None` without a cup.
 pub fn cup(text: &str, stations: &[[f64; 2]], unit: &str) -> Read<Option<[f64; 2]>> {
     /// The deepest (m): deeper is a hollow barrel.
     const DEEPEST: f64 = 0.039;
@@ -245,7 +242,7 @@ pub fn cup(text: &str, stations: &[[f64; 2]], unit: &str) -> Read<Option<[f64; 2
     Err(wrong(format!("{depth} {unit} deep and {diameter} {unit} wide")))
 }
 
-/// A mass with its unit, as it was written.
+/// A mass with its unit, as written.
 pub fn weighed(text: &str) -> Read<String> {
     let kilograms = match typed::number(text) {
         Some(_) => {
@@ -281,7 +278,7 @@ pub fn material(text: &str) -> Read<String> {
     })
 }
 
-/// A density in the unit that goes with the ruler's.
+/// A density in the unit that belongs to the ruler's.
 pub fn shown_density(density: f64, inches: bool) -> String {
     if inches {
         let pound = units::factor("lb/in^3", Quantity::Density).unwrap_or(1.0);
@@ -308,7 +305,7 @@ pub fn materials(unit: &str) -> Vec<String> {
     BUILT_IN.iter().enumerate().map(line).collect()
 }
 
-/// Where the stiffness of a wood is from.
+/// The origin of a wood's stiffness, in words.
 fn in_words(material: &BuiltIn) -> &'static str {
     /// No wood is denser (kg/m³).
     const WOOD: f64 = 1200.0;

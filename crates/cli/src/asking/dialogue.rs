@@ -1,7 +1,7 @@
-//! Questions to a person, answer by answer; one may go back, and come back another day.
+//! How is a person asked, question by question? One may go back, or continue another day.
 //!
-//! A dialogue is a function of its answers. To go back is to leave the last answer out and to ask from
-//! the beginning, passing over what is known; a draft is a file of the answers.
+//! A dialogue is a function of its answers. To go back means to drop the last answer and to start again, skipping the
+//! questions with known answers. A draft is a file of the answers.
 
 use std::borrow::Cow;
 use std::io::{BufRead, Read as _, Write};
@@ -21,7 +21,7 @@ const MOST_TRIES: usize = 50;
 /// The longest line that is read at once (bytes).
 const LONGEST: u64 = 1 << 16;
 
-/// What an answer means, or why it is invalid.
+/// The meaning of an answer, or why it is invalid.
 pub type Read<T> = std::result::Result<T, Complaint>;
 
 /// Why a question has no answer.
@@ -40,24 +40,24 @@ impl From<Error> for Halt {
     }
 }
 
-/// The answer to a question, or why there is none.
+/// The answer to a question, or the reason why there is none.
 pub type Asked<T> = std::result::Result<T, Halt>;
 
 /// A question.
 #[derive(Clone)]
 pub struct Question<'a> {
-    /// The word by which its answer stands in a draft, which is the name of the option that says the same.
+    /// The key of its answer in a draft, equal to the name of the option with the same meaning.
     pub name: &'static str,
-    /// What is asked.
+    /// The question.
     pub text: Cow<'a, str>,
-    /// What an empty line means.
+    /// The meaning of an empty line.
     pub usual: Option<&'a str>,
-    /// What a question mark is answered with.
+    /// The reply to a question mark.
     pub help: &'a str,
 }
 
 impl<'a> Question<'a> {
-    /// A question, and what an empty line means; [`Self::of`] puts a unit in the place of `@`.
+    /// A question, and the meaning of an empty line; [`Self::of`] replaces `@` by a unit.
     pub const fn new(
         name: &'static str,
         text: &'a str,
@@ -73,16 +73,16 @@ impl<'a> Question<'a> {
     }
 }
 
-/// Whoever answers, line by line; questions go to standard error.
+/// A dialogue with a person who answers line by line; questions go to standard error.
 pub struct Dialogue<R> {
-    /// None where there is no person to ask.
+    /// `None` if there is no person to ask.
     answers: Option<R>,
-    /// Right answers, each after the name of its question.
+    /// Valid answers, each after the name of its question.
     given: Vec<[String; 2]>,
-    /// How many of them have been passed over since the beginning.
+    /// Number of them that were reused since the start.
     passed: usize,
     draft: Option<Draft>,
-    /// A draft of before, until somebody says whether to go on with it.
+    /// An earlier draft, until the person decides whether to continue it.
     before: Option<Answers>,
 }
 
@@ -90,24 +90,24 @@ pub struct Dialogue<R> {
 const LEAVING: [&str; 3] = ["quit", "exit", "q"];
 
 impl<R: BufRead> Dialogue<R> {
-    /// A dialogue that is kept nowhere.
+    /// A dialogue without a draft.
     #[cfg(test)]
     pub fn new(answers: R) -> Self {
         Self { answers: Some(answers), ..Self::nobody() }
     }
 
-    /// A dialogue without a person: every question has its usual answer, if it has one.
+    /// A dialogue without a person: every question gets its default answer, if it has one.
     pub fn nobody() -> Self {
         Self { answers: None, given: vec![], passed: 0, draft: None, before: None }
     }
 
-    /// Whether somebody is there to ask.
+    /// Whether there is a person to ask.
     pub fn is_there(&self) -> bool {
         self.answers.is_some()
     }
 
-    /// A dialogue about that bat, which may not have a name yet, that is kept in a draft. Where there is one of this
-    /// bat, [`Self::hold`] asks whether to go on with it.
+    /// A dialogue about that bat, which may not have a name yet, with a draft. If there is a draft of this bat,
+    /// [`Self::hold`] asks whether to continue it.
     pub fn kept(answers: R, draft: (&str, &Path), of: &str) -> Self {
         let (draft, before) = Draft::of(draft, of);
         let answers = Some(answers);
@@ -118,8 +118,8 @@ impl<R: BufRead> Dialogue<R> {
         dialogue
     }
 
-    /// Asks until there is a result, from the beginning each time that somebody goes back; None where the person
-    /// leaves before. A draft of before is asked about first.
+    /// Asks until there is a result; each time the person goes back it starts again. `None` if the person leaves
+    /// before. It first asks about an earlier draft.
     ///
     /// # Errors
     ///
@@ -160,7 +160,7 @@ impl<R: BufRead> Dialogue<R> {
         Ok(())
     }
 
-    /// Says where the answers are once somebody has left.
+    /// Says where the answers are kept when the person has left.
     fn left<T>(&self) -> Option<T> {
         self.tell(&match self.kept_in() {
             Some(draft) => format!(
@@ -172,13 +172,13 @@ impl<R: BufRead> Dialogue<R> {
         None
     }
 
-    /// Removes the draft, once what it is for is done.
+    /// Removes the draft when its purpose is fulfilled.
     pub fn done(&mut self) {
         self.given.clear();
         self.keep();
     }
 
-    /// Prints a line that asks nothing, unless it was printed before the answers that are known.
+    /// Prints a line that asks nothing, unless it was printed before the known answers.
     pub fn say(&self, text: &str) {
         if self.is_there() && self.passed == self.given.len() {
             self.tell(text);
@@ -191,12 +191,12 @@ impl<R: BufRead> Dialogue<R> {
         let _ = writeln!(std::io::stderr(), "{}", lines.join("\n"));
     }
 
-    /// Where answers are kept, if there are any.
+    /// The place of the kept answers, if there are any.
     fn kept_in(&self) -> Option<String> {
         self.draft.as_ref().and_then(Draft::path).map(printed)
     }
 
-    /// What an option says, or else the answer to the question of its name.
+    /// The value of an option, or else the answer to the question of its name.
     ///
     /// # Errors
     ///
@@ -211,11 +211,11 @@ impl<R: BufRead> Dialogue<R> {
         Ok(read(text).map_err(|complaint| about(format!("--{}", question.name), complaint))?)
     }
 
-    /// Asks until the answer is one.
+    /// Asks until the answer is valid.
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] at the end of the answers, after too many wrong ones, or where there is no person to answer.
+    /// [`Error::Value`] at the end of the answers, after too many wrong ones, or if there is no person to answer.
     pub fn ask<T>(&mut self, question: &Question, read: impl Fn(&str) -> Read<T>) -> Asked<T> {
         if !self.is_there() {
             let usual = question.usual.ok_or_else(|| missing(&format!("--{}", question.name)))?;
@@ -231,7 +231,7 @@ impl<R: BufRead> Dialogue<R> {
         Ok(value)
     }
 
-    /// An answer as it was typed, and what it means.
+    /// An answer as typed, and its meaning.
     fn answered<T>(
         &mut self,
         question: &Question,
@@ -265,8 +265,7 @@ impl<R: BufRead> Dialogue<R> {
         Err(self.ended(question, &found))
     }
 
-    /// The answer to this question that was given before. Others than this one may not follow it: they
-    /// are forgotten.
+    /// The earlier answer to this question. Answers to other questions in its place are forgotten.
     fn known<T>(&mut self, question: &Question, read: impl Fn(&str) -> Read<T>) -> Option<T> {
         let [name, answer] = self.given.get(self.passed)?;
         let value = if name == question.name { read(answer).ok() } else { None };
@@ -307,7 +306,7 @@ impl<R: BufRead> Dialogue<R> {
         Halt::Failed(Error::value(question.text.trim(), found, format!("an answer; {kept}")))
     }
 
-    /// Writes the draft, or removes it where there is nothing to keep.
+    /// Writes the draft, or removes it if it would be empty.
     fn keep(&mut self) {
         let moved = self.draft.as_mut().and_then(|draft| draft.keep(&self.given));
         if let Some(said) = moved {
@@ -316,7 +315,7 @@ impl<R: BufRead> Dialogue<R> {
     }
 }
 
-/// An error about an answer that is missing.
+/// The error about a missing answer.
 pub fn missing(what: &str) -> Error {
     Error::value("new", "none", format!("{what}, or --ask to answer questions"))
 }

@@ -1,8 +1,7 @@
-//! Where are the answers of a dialogue kept until all is done?
+//! Where are the answers of a dialogue kept until it is finished?
 //!
-//! Beside the file that is to be written, or, where none is, in the user's own folder for what programs keep.
-//! Where something else is at that place, another dialogue's draft or a file of somebody's own, the draft has the
-//! next number.
+//! Beside the file that is to be written or, if there is none, in the user's folder for program state. If another file
+//! is at that place (another dialogue's draft, or a file of the user), the draft gets the next number.
 
 use std::env;
 use std::io::ErrorKind;
@@ -13,8 +12,7 @@ use crate::own_file::{AtPath, OwnFile, look};
 use crate::done::printable;
 use crate::output::printed;
 
-/// The first line of a draft, before the verb that it is of and [`GOES_ON`], by which it is told from a file of
-/// somebody's own.
+/// The first line of a draft, before its verb and [`GOES_ON`]. It distinguishes a draft from a user's file.
 const ANSWERS_TO: &str = "# Answers to sweetspot ";
 const GOES_ON: &str = ", which goes on after them\n";
 /// The second line, before the bat's name, where that was no question.
@@ -27,31 +25,30 @@ const PLACES: usize = 9;
 /// The answers of a draft.
 #[derive(Default)]
 pub struct Answers {
-    /// Which bat they are of; empty where none has said so.
+    /// The bat that they belong to; empty if no answer names it.
     pub of: String,
-    /// Each after the name of its question.
+    /// Each answer after the name of its question.
     pub given: Vec<[String; 2]>,
 }
 
-/// Where answers are kept.
+/// The file of kept answers.
 pub struct Draft {
     /// Its path without number and ending.
     stem: PathBuf,
-    /// Number of the place where it is or will be; none that is free if it is too large.
+    /// Number of its place; too large if no place is free.
     place: usize,
     /// Its first line.
     header: String,
-    /// Which bat it is of; empty where an answer says so.
+    /// The bat that it belongs to; empty if an answer names it.
     of: String,
-    /// The file, once there is one.
+    /// The file, once it exists.
     file: Option<OwnFile>,
-    /// What is at the first place, if that is not this draft.
+    /// The kind of the other file at the first place, if there is one.
     instead: Option<String>,
 }
 
 impl Draft {
-    /// The draft of that verb about that bat, at a path without its ending; and the answers that are in it, if there
-    /// are any.
+    /// The draft of that verb about that bat, at a path without its ending, and its answers, if there are any.
     pub fn of((verb, stem): (&str, &Path), bat: &str) -> (Self, Option<Answers>) {
         let mut draft = Self {
             stem: stem.to_owned(),
@@ -85,7 +82,7 @@ impl Draft {
         (draft, None)
     }
 
-    /// Whether answers may be of this draft's bat.
+    /// Whether answers may belong to this draft's bat.
     fn is_of(&self, found: &Answers) -> bool {
         self.of.is_empty() || found.of.is_empty() || found.of == self.of
     }
@@ -97,12 +94,12 @@ impl Draft {
         name.into()
     }
 
-    /// Its path, if there is one by now.
+    /// Its path, once it exists.
     pub fn path(&self) -> Option<&Path> {
         self.file.as_ref().map(OwnFile::path)
     }
 
-    /// Where answers will be kept, and what is in the way.
+    /// Describes where answers will be kept, and which file is in the way.
     pub fn said(&self) -> String {
         let before = self.instead.as_ref();
         let before = before.map_or(String::new(), |what| format!("{what}: it stays as it is. "));
@@ -114,7 +111,7 @@ impl Draft {
         }
     }
 
-    /// Writes answers, or removes the draft where there are none; what to say if it is elsewhere now.
+    /// Writes answers, or removes the draft if there are none; returns a message if it has moved.
     pub fn keep(&mut self, given: &[[String; 2]]) -> Option<String> {
         if given.is_empty() {
             if let Some(file) = self.file.take() {
@@ -129,7 +126,7 @@ impl Draft {
         if let Some(file) = &mut self.file {
             match file.write(text.as_bytes()) {
                 Err(error) if error.kind() == ErrorKind::AlreadyExists => self.file = None,
-                // A folder that cannot be written to is told of in the end, with all answers.
+                // A folder that cannot be written to is reported at the end, with all answers.
                 _ => return None,
             }
         }
@@ -137,7 +134,7 @@ impl Draft {
         while self.place < PLACES {
             match OwnFile::create(&self.at(self.place), text.as_bytes()) {
                 Ok(file) => self.file = Some(file),
-                // Somebody else was quicker.
+                // Another program was quicker.
                 Err(error) if error.kind() == ErrorKind::AlreadyExists => {
                     self.place += 1;
                     continue;
@@ -153,8 +150,8 @@ impl Draft {
     }
 }
 
-/// The answers of a draft without its first line, each after the name of its question, and the bat they are of; None of
-/// another file.
+/// The answers of a draft without its first line, each after the name of its question, and its bat; `None` for another
+/// file.
 fn read(text: &str) -> Option<Answers> {
     let of = text.lines().find_map(|line| line.strip_prefix(OF));
     let lines = text.lines().filter(|line| !line.starts_with(OF));
@@ -165,7 +162,7 @@ fn read(text: &str) -> Option<Answers> {
     (!given.is_empty()).then_some(Answers { of, given })
 }
 
-/// The path without ending of a draft beside a file that is to be written, or of that name in the user's own folder.
+/// The path, without ending, of a draft beside the file that is to be written, or with that name in the user's folder.
 pub fn stem(beside: Option<&Path>, name: &str) -> PathBuf {
     match beside.filter(|file| file.as_os_str() != "-") {
         Some(file) => file.to_owned(),
@@ -175,7 +172,7 @@ pub fn stem(beside: Option<&Path>, name: &str) -> PathBuf {
     }
 }
 
-/// The user's folder for what this program keeps, made if it is not there.
+/// The user's folder for the state of this program; it is created if necessary.
 ///
 /// # Source
 ///

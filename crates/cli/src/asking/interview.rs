@@ -92,7 +92,7 @@ const TAPE: Question = Question::new(
     "How far it reaches from the knob, and its mass, such as: 10 in, 0.7 oz.",
 );
 
-/// What the options say, and answers to the rest.
+/// The values of the options, and answers to the remaining questions.
 pub fn asked<R: BufRead>(args: &Args, person: &mut Dialogue<R>) -> Asked<Measured> {
     person.say(WELCOME);
     let there = person.is_there();
@@ -100,7 +100,7 @@ pub fn asked<R: BufRead>(args: &Args, person: &mut Dialogue<R>) -> Asked<Measure
         return Err(missing("--station or --like").into());
     }
     let name = person.told(&args.name, &CALLED, |name| free(args, name, there))?;
-    // Who gives the length by an option gives the unit by one, if it is another.
+    // A length given by an option is in inches unless an option gives the unit.
     let unit = args.unit.clone().or(args.length.as_ref().map(|_| "in".to_owned()));
     let unit = person.told(&unit, &UNIT, ask::unit)?;
     let length = match there || args.length.is_some() {
@@ -117,7 +117,7 @@ pub fn asked<R: BufRead>(args: &Args, person: &mut Dialogue<R>) -> Asked<Measure
         (None, false) => stations(&args.stations, length, unit)?,
         (None, true) => measured_along(person, length.unwrap_or_default(), unit)?,
     };
-    // Wood is solid unless somebody says otherwise; of a metal somebody who is there has to say it.
+    // Wood is solid by default; for a metal a person, if there is one, must say.
     let wood = Material::named(&material).is_some_and(|material| material.scatter().is_some());
     let question = Question { usual: (wood || !there).then_some("no"), ..WALL.of(unit) };
     let wall = person.told(&args.wall, &question, |text| ask::wall(text, &stations, unit))?;
@@ -133,7 +133,7 @@ pub fn asked<R: BufRead>(args: &Args, person: &mut Dialogue<R>) -> Asked<Measure
     Ok(Measured { name, source, material, mass, unit, stations, wall, cup, balance, tap, tape })
 }
 
-/// Places and diameters from knob to tip, in `unit`, for a bat so long in it.
+/// Places and diameters from knob to tip, in `unit`, for a bat of that length.
 fn measured_along<R: BufRead>(
     person: &mut Dialogue<R>,
     length: f64,
@@ -162,8 +162,8 @@ fn measured_along<R: BufRead>(
     Ok(stations)
 }
 
-/// A name whose file is not there yet, unless the command names a file. If `there` is false, no person can give another
-/// name, and the file is looked for when it is written.
+/// A name whose file does not exist yet, unless the command names a file. If `there` is false, no person can choose
+/// another name, and the file is checked when it is written.
 fn free(args: &Args, name: &str, there: bool) -> Read<String> {
     let path = called(name);
     if !there || args.file.is_some() || refuse_existing(&path, args.force).is_ok() {

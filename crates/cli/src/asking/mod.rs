@@ -2,11 +2,11 @@
 //!
 //! | file | question |
 //! |---|---|
-//! | [`draft`] | where are the answers kept until all is done |
-//! | [`dialogue`] | how is somebody asked, who may go back and come back another day |
+//! | [`draft`] | where are the answers kept until the dialogue is finished |
+//! | [`dialogue`] | how is a person asked, who may go back and continue another day |
 //! | [`ask`] | what does an answer mean |
-//! | [`new_options`], [`interview`] | what `new` is told by options; what it asks |
-//! | [`readings_asked`] | what `calibrate` asks |
+//! | [`new_options`], [`interview`] | the options of `new`; its questions |
+//! | [`readings_asked`] | the questions of `calibrate` |
 
 pub mod draft;
 pub mod dialogue;

@@ -1,4 +1,4 @@
-//! What do the options of `sweetspot new` say?
+//! What do the options of `sweetspot new` mean?
 
 use std::path::{Path, PathBuf};
 
@@ -11,17 +11,17 @@ use crate::common::about;
 
 /// Write a bat file, by asking or from options
 ///
-/// All it needs is a ruler, calipers and a scale: the length, the mass, the material, and the
-/// diameter at the knob, along the handle and every few inches from there. At a terminal it asks
-/// for what the options do not say, and asks again where an answer cannot be right: ? explains a
-/// question, back goes to the one before, quit leaves. Answers are kept in a draft beside the file
-/// until it is written; the next time it asks whether to go on with them. The file is commented and
-/// meant to be edited. In the end it draws the bat, says how dense its material must be to weigh
-/// that much, which tells a slip of the calipers, and where its sweet spot is.
+/// You need a ruler, calipers and a scale, for the length, the mass, and the diameter at the knob, along the handle and
+/// every few inches from there; and you must know the material. At a terminal it asks for everything that the options
+/// do not give, and repeats a question if the answer is impossible. ? explains a question, back returns to the one
+/// before, quit leaves. Answers are kept in a draft beside the file until the file is written; the next time it asks
+/// whether to continue with them. The file has comments and is meant to be edited. At the end it draws the bat,
+/// computes how dense the material must be for the weighed mass, which reveals a slip of the calipers, and gives the
+/// sweet spot.
 #[derive(clap::Args)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Args {
-    /// Where to write it (- = standard output) [default: after the name]
+    /// File to write (- = standard output) [default: named after the bat]
     pub file: Option<PathBuf>,
 
     /// Read answers from standard input, one per line, even when it is not a terminal
@@ -32,7 +32,7 @@ pub struct Args {
     #[arg(long)]
     pub force: bool,
 
-    /// What it is called
+    /// Name of the bat
     #[arg(long, value_name = "TEXT", help_heading = "The bat")]
     pub name: Option<String>,
 
@@ -45,7 +45,7 @@ pub struct Args {
     #[arg(long, help_heading = "The bat")]
     pub length: Option<String>,
 
-    /// Mass on the scale, such as "31.5 oz"
+    /// Mass, weighed with everything on the bat, such as "31.5 oz"
     #[arg(long, value_name = "MASS", help_heading = "The bat", value_parser = |s: &str| ask::weighed(s).map_err(|complaint| complaint.to_string()))]
     pub mass: Option<String>,
 
@@ -53,8 +53,8 @@ pub struct Args {
     #[arg(long, value_name = "NAME", help_heading = "The bat", value_parser = |s: &str| ask::material(s).map_err(|complaint| complaint.to_string()))]
     pub material: Option<String>,
 
-    /// A place from the knob end and the diameter there, such as "3 in, 0.98 in"; bare numbers are
-    /// in the file's unit. Give it as often as you measured, from knob to tip
+    /// A place from the knob end and the diameter there, such as "3 in, 0.98 in"; bare numbers are in the file's unit.
+    /// Repeat it for every place, from knob to tip
     #[arg(long = "station", value_name = "X, D", help_heading = "The bat")]
     pub stations: Vec<String>,
 
@@ -66,7 +66,7 @@ pub struct Args {
     #[arg(long, value_name = "DEPTH, D", help_heading = "The bat")]
     pub cup: Option<String>,
 
-    /// The diameters of a bat that is built in, stretched to the length: r161 or torpedo
+    /// Take the diameters of a built-in bat, stretched to the length: r161 or torpedo
     #[arg(long, value_name = "BAT", help_heading = "The bat", conflicts_with = "stations",
           value_parser = ["r161", "torpedo"], hide_possible_values = true)]
     pub like: Option<String>,
@@ -100,7 +100,7 @@ pub fn source(args: &Args) -> String {
     args.like.as_ref().map_or(SOURCE.to_owned(), of)
 }
 
-/// The stations of the options; the last must be the tip.
+/// The stations given by options; the last must be the tip.
 pub fn stations(given: &[String], length: Option<f64>, unit: &str) -> Result<Vec<[f64; 2]>> {
     let mut stations: Vec<[f64; 2]> = Vec::new();
     for text in given {
@@ -130,10 +130,10 @@ pub fn like(name: &str, length: Option<f64>, unit: &str) -> Result<Vec<[f64; 2]>
     Ok(stations.map(|(x, r)| [x * of_metres * longer, 2.0 * r * of_metres]).collect())
 }
 
-/// Letters of a file's name that is made of the bat's.
+/// Most letters of a file name that is made from the bat's name.
 const LETTERS: usize = 60;
 
-/// A file of the name, for a file that has none.
+/// A file name made from the bat's name.
 pub fn called(name: &str) -> PathBuf {
     let plain = |c: char| if c.is_alphanumeric() { c } else { ' ' };
     let words: String = name.to_lowercase().chars().map(plain).collect();

@@ -1,4 +1,4 @@
-//! What `sweetspot calibrate` asks, in its order: a readings file of the answers.
+//! Which questions does `sweetspot calibrate` ask? It makes a readings file of the answers.
 
 use std::io::BufRead;
 
@@ -79,7 +79,7 @@ pub fn asked<R: BufRead>(person: &mut Dialogue<R>, bat: &Bat) -> Asked<String> {
     Ok(schema::text(&file))
 }
 
-/// A reading, which how far it may be off may follow: `22.8 in ± 1/32 in`. Bare numbers are in `unit`.
+/// A reading, with an optional error: `22.8 in ± 1/32 in`. Bare numbers are in `unit`.
 fn within(
     text: &str,
     unit: &str,
@@ -117,7 +117,7 @@ fn number(text: &str, unit: &str, [low, high]: [f64; 2]) -> Read<Option<f64>> {
     }
 }
 
-/// Rising frequencies (Hz); none where they are not known.
+/// Rising frequencies (Hz); empty if they are not known.
 fn tones(text: &str) -> Read<Vec<f64>> {
     if ask::unknown(text) {
         return Ok(vec![]);

@@ -1,4 +1,4 @@
-//! What `ring` is asked, and what both of its answers need: instants, places, their table, a sound.
+//! The options of `ring`, and the common parts of both of its answers: instants, places, their table, a sound.
 
 use std::path::{Path, PathBuf};
 
@@ -19,12 +19,11 @@ use sweetspot_report::parts::cell::Cell;
 
 /// How the bat moves after a hit, a blow, a push or a release
 ///
-/// How does the handle move, and how near does the bat come to breaking? With --hit a ball is hit and
-/// the table says how the watched places move, where the strain is largest or, where a strength is
-/// published for the material, what share of it the stress is; with --full also the spectrum there and
-/// the strain along the bat. With --at and --impulse or --force, or with --initial, the deflection at
-/// even places and given instants is written as CSV; on a terminal, without --csv, how far the bat is
-/// bent at each of them.
+/// How does the handle move, and how close does the bat come to breaking? With --hit a ball hits the bat. The table
+/// then shows how the watched places move, where the strain is largest and, if the material has a published strength,
+/// the stress as a share of it; with --full also the spectrum there and the strain along the bat. With --at and
+/// --impulse or --force, or with --initial, the deflection at even places and given instants is written as CSV; on a
+/// terminal, without --csv, the largest deflection at each instant is shown.
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES))]
 pub struct Args {
@@ -54,7 +53,7 @@ pub struct Args {
     #[command(flatten)]
     pub scene: SceneArgs,
 
-    /// Where it is struck or pushed, from the knob end
+    /// Position of the blow or push, from the knob end
     #[arg(long, value_name = "m", requires = "load", value_parser = PLACE,
           help_heading = "A blow, a push or a release")]
     pub at: Option<f64>,
@@ -66,8 +65,7 @@ pub struct Args {
 
     /// Push it with the force in this CSV file
     ///
-    /// Columns t_ms,force_n or with other units; straight lines between the rows, nothing before and
-    /// after them.
+    /// Columns t_ms,force_n, or with other units; straight lines between the rows, 0 before and after.
     #[arg(
         long,
         value_name = "FILE",
@@ -106,14 +104,14 @@ pub struct Args {
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     pub csv: Option<PathBuf>,
 
-    /// Draw into this folder, as SVG and PNG: after a hit the motion of the watched places, their
-    /// spectrum and the strain along the bat; else the deflected bat at the instants
+    /// Draw into this folder, as SVG and PNG: after a hit the motion of the watched places, their spectrum and the
+    /// strain along the bat; otherwise the deflected bat at the instants
     #[arg(long, value_name = "DIR", help_heading = "Output")]
     pub plots: Option<PathBuf>,
 
-    /// Write what it sounds like to this file (.wav), where it was struck: after a hit or a blow
+    /// Write the sound at the struck place to this file (.wav): after a hit or a blow
     ///
-    /// A material without a loss factor gets one for the sound only, and that is said.
+    /// A material without a loss factor gets one for the sound only, with a message.
     #[arg(long, value_name = "FILE", help_heading = "Output", conflicts_with_all = ["initial", "force"])]
     pub wav: Option<PathBuf>,
 
@@ -140,8 +138,7 @@ Examples:
   sweetspot ring meshes/r161.json --hit \"60 cm\" --wav sting.wav
       the crack of a ball hit 10 cm closer to the handle than it should be";
 
-/// Writes what a bat sounds like with its wall under such a ball; what was assumed for it and what is not in it is given
-/// back.
+/// Writes the sound of a bat with its wall under such a ball; returns what was assumed and what is missing.
 pub fn write_sound(
     path: &Path,
     (bat, solution): (&Bat, &Solution),
@@ -159,12 +156,12 @@ pub fn write_sound(
     Ok(damping_in_sound(bat).into_iter().chain(ping).collect())
 }
 
-/// The period of mode 1 (s), or what is near that of most bats where there is no mode.
+/// The period of mode 1 (s), or a typical one if there is no mode.
 pub fn period(solution: &Solution) -> f64 {
     solution.modes.first().map_or(0.01, |mode| 1.0 / mode.frequency())
 }
 
-/// The instants asked for, or nine over a period of mode 1 (s).
+/// The given instants, or nine over a period of mode 1 (s).
 pub fn times(args: &Args, solution: &Solution) -> Vec<f64> {
     let nine = || (0..=8).map(|k| period(solution) * f64::from(k) / 8.0).collect();
     if args.times.is_empty() { nine() } else { args.times.clone() }

@@ -1,4 +1,4 @@
-//! `ring --hit`: how the bat moves and what it bears after a hit.
+//! `ring --hit`: motion and strain of the bat after a hit.
 
 use sweetspot::base::units::shown_length;
 use sweetspot::collision::aftermath::{Aftermath, Instant};
@@ -19,7 +19,7 @@ use crate::output::put;
 use crate::ring::args::{Args, csv, period, places, times, write_sound};
 use crate::scene;
 
-/// A hit, and what comes of it.
+/// A hit and its results.
 pub fn run(args: &Args, bat: Bat, x: f64) -> Result<Done> {
     let x = on_the_bat(&bat, "--hit", x)?;
     let count = asked(args, &bat)?;
@@ -76,9 +76,9 @@ pub fn run(args: &Args, bat: Bat, x: f64) -> Result<Done> {
     Ok(Done::new(text, code).with(warning))
 }
 
-/// How many modes are asked for, where all that is asked can be.
+/// Number of requested modes; checks that the options are possible together.
 fn asked(args: &Args, bat: &Bat) -> Result<usize> {
-    /// Modes whose sum is a bat's strain to a few per cent.
+    /// Number of modes whose sum gives a bat's strain to a few per cent.
     const ENOUGH: usize = 40;
     if let Some(place) = args.watch.iter().find(|x| !(0.0..=bat.length()).contains(*x)) {
         on_the_bat(bat, "--watch", *place)?;

@@ -2,9 +2,9 @@
 //!
 //! | file | question |
 //! |---|---|
-//! | `args` | what is asked, and what both answers need |
-//! | `hit` | how the bat moves and what it bears after a hit |
-//! | `motion` | how it moves after all else |
+//! | `args` | the options, and the common parts of both answers |
+//! | `hit` | motion and strain of the bat after a hit |
+//! | `motion` | motion after any other start |
 
 mod args;
 mod hit;

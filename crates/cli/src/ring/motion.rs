@@ -68,7 +68,7 @@ pub fn run(args: &Args, bat: Bat) -> Result<Done> {
             file::write(path, table.as_bytes())?;
             String::new()
         }
-        // With JSON asked for, the table is not thrown in besides.
+        // With JSON the table is not printed in addition.
         None if args.output.json.is_some() => String::new(),
         // Numbers by the hundred are for a file or another program.
         None if stdout().is_terminal() => Screen::from(screen).fitted(most, "", motion::MORE),
@@ -101,7 +101,7 @@ fn document(
     })
 }
 
-/// What sets the bat in motion.
+/// The cause of the motion.
 enum Cause {
     Blow(f64, f64),
     Push(f64, ForceHistory),

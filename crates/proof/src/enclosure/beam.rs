@@ -1,7 +1,7 @@
-//! What is the bat, cell by cell, that frequencies are proven of?
+//! How is a bat represented, cell by cell, for proofs of its frequencies?
 //!
-//! [`Proven::of`] lays the bat out on the stretches of a mesh, each in one piece of the profile, with all that
-//! the energies of a motion need; what is not carried is refused with its reason.
+//! [`Proven::of`] divides the bat into the stretches of a mesh, each within one piece of the profile, with all data for
+//! the energies of a motion. Features without a proof are refused with the reason.
 
 use std::ops::Range;
 
@@ -19,7 +19,7 @@ use sweetspot::bat::profile::Piece;
 use sweetspot::bat::theory::Theory;
 use sweetspot::beam::mesh::Mesh;
 
-/// Points of the energies: they tell polynomials of degree 23 apart and integrate those of degree 47.
+/// Points of the energies: they determine polynomials of degree 23 and integrate those of degree 47 exactly.
 pub const POINTS: usize = 24;
 
 /// A stretch of the bat in one piece of the profile.
@@ -27,7 +27,7 @@ pub const POINTS: usize = 24;
 pub struct Cell {
     /// Half its length (m).
     pub half: Interval,
-    /// Its middle from the place that arms are counted from (m).
+    /// Its middle, from the origin of the arms (m).
     pub middle: Interval,
     /// EI (N m²) at the points.
     pub bending: Values<POINTS>,
@@ -46,15 +46,15 @@ pub struct Cell {
 /// κGA along a cell.
 #[derive(Debug, Clone)]
 pub struct Shear {
-    /// The polynomial that stands for κGA (N), at the points.
+    /// The polynomial that approximates κGA (N), at the points.
     pub values: Values<POINTS>,
-    /// κGA is within this share of it.
+    /// Largest relative difference between κGA and the polynomial.
     pub share: f64,
     /// κGA at least.
     pub least: f64,
 }
 
-/// A point mass, or a joint, which weighs nothing.
+/// A point mass, or a joint, whose mass is 0.
 #[derive(Debug, Clone, Copy)]
 pub struct Mass {
     /// It is at the border before the cell of this number.
@@ -65,9 +65,9 @@ pub struct Mass {
     pub inertia: Interval,
     /// How far its centre is beyond the border (m).
     pub offset: Interval,
-    /// Where the border is: its arm (m).
+    /// Position of the border: its arm (m).
     pub arm: Interval,
-    /// What gives way there: the spring that it hangs on, or the joint.
+    /// The compliant part there: the spring that carries the mass, or the joint.
     pub give: Option<Give>,
 }
 
@@ -80,26 +80,26 @@ pub struct Proven {
     pub cells: Vec<Cell>,
     /// The masses on it, by rising border.
     pub masses: Vec<Mass>,
-    /// What holds it at places.
+    /// The contacts that hold it at places.
     pub contacts: Vec<Contact>,
     /// The bed that holds it.
     pub bed: Option<Bed>,
-    /// The two contacts whose reactions are had from balance.
+    /// The two contacts whose reactions follow from equilibrium.
     pub base: Option<[usize; 2]>,
-    /// The cell that sums run outwards from, beginning at its left end.
+    /// The cell at whose left end outward sums begin.
     pub root: usize,
-    /// Mass (kg), first moment (kg m) and moment of inertia (kg m²) about the place that arms are counted from,
-    /// near the balance point.
+    /// Mass (kg), first moment (kg m) and moment of inertia (kg m²) about the origin of the arms, which is near the
+    /// balance point.
     pub gram: [Interval; 3],
     /// That place from the knob end (m).
     pub origin: f64,
 }
 
-/// What a bat must be for its frequencies to be proven.
+/// Checks that the frequencies of a bat can be proven.
 ///
 /// # Errors
 ///
-/// [`Error::Value`] that names what is not carried.
+/// [`Error::Value`] that names the feature without a proof.
 pub fn carried(bat: &Bat, theory: Theory) -> Result<()> {
     let refuse = |field: &str, found: &str, expected: &str| {
         Err(Error::value(field, found.to_owned(), expected.to_owned()))
@@ -129,7 +129,7 @@ pub fn carried(bat: &Bat, theory: Theory) -> Result<()> {
     if theory.shears() && !bat.knows_shear() {
         return refuse("theory", "timoshenko without a shear modulus", "a shear modulus");
     }
-    // Of the rest what stands for m² in κ is a quotient of polynomials that nothing here bounds.
+    // In other layups the quantity in place of m² in κ is a quotient of polynomials for which there is no bound here.
     let plain = |piece: &Piece| match bat.layup(piece).sleeves.len() {
         0 => true,
         1 => piece.ends().iter().all(|end| end.inner == 0.0),
@@ -147,11 +147,11 @@ pub fn carried(bat: &Bat, theory: Theory) -> Result<()> {
 pub struct Layout {
     /// The pieces of its profile.
     pub curves: Vec<Curved>,
-    /// The factor on densities that a weighed mass leads to, beside that which the bat's own have already.
+    /// The factor on densities due to a weighed mass, in addition to the factors already in the densities of the bat.
     pub heavier: Interval,
-    /// What is on it, by rising place, joints last at one.
+    /// The attached masses by rising place, with joints last at equal places.
     pub masses: Vec<Placed>,
-    /// What holds it, at the border before a piece.
+    /// The contacts, each at the border before a piece.
     pub contacts: Vec<Contact>,
     /// The bed that holds it, between borders of pieces.
     pub bed: Option<Bed>,
@@ -159,7 +159,7 @@ pub struct Layout {
     pub length: Interval,
 }
 
-/// A point mass where it is on the bat, or a joint, which weighs nothing.
+/// A point mass at its place on the bat, or a joint, whose mass is 0.
 #[derive(Debug, Clone, Copy)]
 pub struct Placed {
     /// The piece of the profile that begins there.
@@ -168,11 +168,11 @@ pub struct Placed {
     pub mass: Interval,
     /// Its own moment of inertia (kg m²).
     pub inertia: Interval,
-    /// Where its centre is (m).
+    /// Position of its centre (m).
     pub centre: Interval,
     /// How far that is beyond where it is fixed (m).
     pub offset: Interval,
-    /// What gives way there: the spring that it hangs on, or the joint.
+    /// The compliant part there: the spring that carries the mass, or the joint.
     pub give: Option<Give>,
 }
 
@@ -207,7 +207,7 @@ impl Layout {
             give,
         };
         let Fixtures { attachments, absorbers, joints, .. } = bat.fixtures();
-        // Strains are counted as the solver does: joints, then springs that masses hang on.
+        // Strains have the same order as in the solver: joints, then springs that carry masses.
         let hung = |(number, absorber): (usize, &Absorber)| {
             let Absorber { x, mass, stiffness, .. } = *absorber;
             let give = Give { number, way: YieldingPart::Hung, stiffness: data(stiffness) };
@@ -265,7 +265,7 @@ impl Proven {
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] where the sections of the bat are too far from 1 to be bounded.
+    /// [`Error::Value`] where the sections of the bat have values too far from 1 to be bounded.
     pub fn of(bat: &Bat, layout: &Layout, mesh: &Mesh, theory: Theory) -> Result<Self> {
         let origin = bat.inertia().balance_point;
         let gauss = &GAUSS_24;
@@ -331,7 +331,8 @@ impl Proven {
 }
 
 impl Mass {
-    /// How far its centre moves (m), where the bat moves and turns by that much and what gives way has these strains.
+    /// Displacement of its centre (m), where the bat has that deflection and rotation and the compliant parts have
+    /// these strains.
     pub fn at(&self, [w, turn]: [Interval; 2], strains: &[Interval]) -> Interval {
         w + self.offset * turn + stretch(self.give, strains)
     }
@@ -383,7 +384,7 @@ fn cell(
     Ok(Cell { half, middle, bending, bending_least, mass, mass_series, turning, shear })
 }
 
-/// The middle one of the cells whose bending stiffness is at least half the greatest.
+/// The middle one of the cells whose bending stiffness is at least half the largest.
 fn root(cells: &[Cell]) -> usize {
     let greatest = cells.iter().map(|cell| cell.bending.at[0]).fold(0.0, f64::max);
     let stiff = |k: &usize| cells[*k].bending.at[0] >= 0.5 * greatest;

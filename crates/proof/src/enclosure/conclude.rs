@@ -1,4 +1,4 @@
-//! Which eigenvalues follow from trials and norms, with their numbers, none missing?
+//! Which eigenvalues follow from trials and norms, numbered and without gaps?
 //!
 //! *Temple.* If `a < σ < b` and `(σ − a)(b − σ) ≥ ε²`, then [a, b] holds an eigenvalue: else
 //! `((T − a)(T − b)k, k) > 0`. From trials in falling order of σ, with `l_j`, `h_j` the ends of σ_j's interval:
@@ -23,14 +23,14 @@ use crate::enclosure::energies::Energies;
 use crate::enclosure::norms::Norms;
 use sweetspot::base::interval::{Interval, down, up};
 
-/// What is proven of a bat's eigenvalues.
+/// The proven statements about the eigenvalues of a bat.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Conclusion {
     /// The modes that are proven, from the first on.
     pub proven: Vec<Eigenvalue>,
-    /// No eigenvalue beside those of disjoint intervals is greater (s²).
+    /// Upper bound of every eigenvalue outside the disjoint intervals (s²).
     pub others: f64,
-    /// `trace − Σc` and `√(|T|² − Σc²)` (s²), of which it is the lesser.
+    /// `trace − Σc` and `√(|T|² − Σc²)` (s²); the bound is the smaller one.
     pub by_trace_and_norm: [f64; 2],
     /// An upper bound of the first eigenvalue that is not proven (s²).
     pub next: f64,
@@ -62,14 +62,14 @@ impl Eigenvalue {
         [of(upper).low, of(lower).high]
     }
 
-    /// Width of the frequency's interval as a share of it.
+    /// Width of the interval of the frequency, relative to the frequency.
     pub fn width(&self) -> f64 {
         let [lower, upper] = self.hertz();
         up(up(upper / lower) - 1.0)
     }
 }
 
-/// `l − ε²/(b − h)`, at most; −∞ where nothing follows.
+/// Lower bound `l − ε²/(b − h)`, rounded down; −∞ where nothing follows.
 fn below(Energies { quotient, residual, .. }: &Energies, b: f64) -> f64 {
     let gap = down(b - quotient.high);
     match gap > 0.0 {
@@ -78,13 +78,13 @@ fn below(Energies { quotient, residual, .. }: &Energies, b: f64) -> f64 {
     }
 }
 
-/// `h + ε²/(l − a)`, at least; ∞ where nothing follows.
+/// Upper bound `h + ε²/(l − a)`, rounded up; ∞ where nothing follows.
 fn above(Energies { quotient, residual, .. }: &Energies, a: f64) -> f64 {
     let gap = down(quotient.low - a);
     if gap > 0.0 { up(quotient.high + up(residual / gap)) } else { f64::INFINITY }
 }
 
-/// What follows from trials, in any order; those of which nothing is known are None.
+/// The conclusions from trials in any order; a trial without bounds is None.
 pub fn conclude(trials: &[Option<Energies>], norms: &Norms) -> Conclusion {
     let mut order: Vec<(usize, Energies)> =
         trials.iter().enumerate().filter_map(|(k, trial)| trial.map(|known| (k, known))).collect();
@@ -100,14 +100,14 @@ pub fn conclude(trials: &[Option<Energies>], norms: &Norms) -> Conclusion {
                 [below(energies, d), d]
             }
         };
-        // The interval must lie below the last one, and hold its own quotient.
+        // The interval must lie below the previous one and contain its quotient.
         let apart = ends.last().is_none_or(|[c, _]| end[1] < *c);
         if !(end[1] > h && end[0] > 0.0 && apart) {
             break;
         }
         ends.push(end);
     }
-    // 2 and 3: what is beside them, and which are the first.
+    // Steps 2 and 3: the bound of all others, and the number of the first ones.
     let known: Vec<f64> = ends.iter().map(|[c, _]| *c).collect();
     let by_trace_and_norm = norms.others(&known);
     let others = by_trace_and_norm[0].min(by_trace_and_norm[1]);
@@ -134,7 +134,7 @@ pub fn conclude(trials: &[Option<Energies>], norms: &Norms) -> Conclusion {
         eigenvalue.tau[1] = eigenvalue.tau[1].min(upper);
         beyond = beyond.max(eigenvalue.tau[1]);
     }
-    // An interval without an upper end proves no mode, nor does it say where the others begin.
+    // An interval without an upper end proves no mode and gives no bound for the others.
     let bounded = proven.iter().take_while(|eigenvalue| eigenvalue.tau[1].is_finite()).count();
     let next = proven.get(bounded).map_or(next, |eigenvalue| eigenvalue.tau[1]);
     proven.truncate(bounded);

@@ -1,19 +1,19 @@
-//! What holds the bat: supports, springs to the ground, and the bed of the hands?
+//! How is the bat held: by supports, springs to the ground, and the bed of the hands?
 //!
-//! A contact holds the deflection or the rotation of one place, `b(y) = w(x)` or `θ(x)`: to 0, or by a spring whose
-//! energy is `½ k b(y)²`. A bed holds the deflection of a stretch with the energy `½ ∫k w² dx`.
+//! A contact restrains the deflection or the rotation of one place, `b(y) = w(x)` or `θ(x)`: to 0, or by a spring with
+//! the energy `½ k b(y)²`. A bed restrains the deflection of a stretch with the energy `½ ∫k w² dx`.
 
 use crate::enclosure::radii::NUMBER;
 use sweetspot::base::interval::Interval;
 use sweetspot::bat::body::Bat;
 use sweetspot::bat::fixtures::Held;
 
-/// What holds a deflection or a rotation.
+/// A restraint of a deflection or a rotation.
 #[derive(Debug, Clone, Copy)]
 pub struct Contact {
     /// It is at the border before the piece, cell or stretch of this number.
     pub border: usize,
-    /// Whether it holds the rotation, else the deflection.
+    /// Whether it restrains the rotation instead of the deflection.
     pub turning: bool,
     /// Stiffness of its spring (N/m or N m/rad); None of a support.
     pub stiffness: Option<Interval>,
@@ -51,10 +51,11 @@ pub fn contacts(bat: &Bat, piece_at: impl Fn(f64) -> usize) -> Vec<Contact> {
     supports.chain(springs).map(contact).collect()
 }
 
-/// The two contacts whose reactions are had from balance: any two that hold both rigid motions will do, and
-/// those that are stiff and far apart give narrow intervals. The first holds a deflection.
+/// The two contacts whose reactions follow from equilibrium. Any two that restrain both rigid motions are sufficient;
+/// stiff ones that are far apart give narrow intervals. The first restrains a deflection.
 ///
-/// `arm` is where a contact is (m), `scale` a stiffness of the bat (N/m) below which no difference is made.
+/// `arm` gives the position of a contact (m). Below the stiffness `scale` of the bat (N/m), contacts count as equally
+/// soft.
 pub fn base(
     contacts: &[Contact],
     arm: impl Fn(&Contact) -> f64,

@@ -1,4 +1,4 @@
-//! How far may a trial's Rayleigh quotient be from an eigenvalue: its energies and its residual?
+//! How far can the Rayleigh quotient of a trial be from an eigenvalue? Its energies and its residual give the answer.
 //!
 //! `H` are pairs of strains, curvature χ and shear strain γ, with `(k, k) = ∫EI χ² + κGA γ² dx`. `S` integrates
 //! them to the motion `(w, θ)` and takes the two rigid motions out, orthogonally in
@@ -8,16 +8,16 @@
 //! V′ = ρA w,  m′ = V − ρI θ,  both 0 at both ends;       T k = (m/EI, −V/κGA)
 //! ```
 //!
-//! Three numbers are known of a trial `k`, whatever it is:
+//! Three numbers are known for any trial `k`:
 //!
 //! ```text
 //! a₀ = (k, k)     a₁ = (k, Tk) = ⟨Sk, Sk⟩     σ = a₁/a₀
 //! ε² = |Tk − σk|²/a₀ ≤ (1/a₀) Σ_e [∫(m − zEIχ)²/EI + ∫(V + zκGAγ)²/κGA],   z any number
 //! ```
 //!
-//! and for each spring that gives way its `K` and `(Tk)` of [`super::gives`] likewise, m on the tip side of what is at
-//! its place; for σ is the `z` for which the left side is least. Where κGA is within a share `β` of a polynomial `c`,
-//! `‖V + zκGAγ‖ ≤ ‖V + zcγ‖ + β z ‖cγ‖`.
+//! Each compliant spring adds a similar term with its `K` and the `(Tk)` of [`super::gives`], where m is the value on
+//! the tip side of the masses at its place. This holds because the left side is smallest for `z = σ`. Where κGA differs
+//! from a polynomial `c` by a relative difference of at most `β`, `‖V + zκGAγ‖ ≤ ‖V + zcγ‖ + β z ‖cγ‖`.
 
 use crate::enclosure::beam::{Cell, Mass, Proven};
 use crate::enclosure::gives::{Give, YieldingPart};
@@ -27,7 +27,7 @@ use crate::gauss::GAUSS_24;
 use crate::series::Series;
 use sweetspot::base::interval::{Interval, up};
 
-/// What is proven of a trial.
+/// The proven numbers of a trial.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Energies {
     /// σ (s²).
@@ -41,7 +41,7 @@ pub struct Energies {
 const ZERO: Interval = Interval { low: 0.0, high: 0.0 };
 
 impl Proven {
-    /// What is proven of a trial; None of one without strain.
+    /// The proven numbers of a trial; None for one without strain.
     pub fn energies(&self, trial: &Trial) -> Option<Energies> {
         let own = trial.terms * self.cells.len();
         let sheared = if self.theory.shears() { own } else { 0 };
@@ -151,8 +151,8 @@ impl Proven {
         up(sum * sum)
     }
 
-    /// `Σ_e [∫(m − zEIχ)²/EI + ∫(V + zκGAγ)²/κGA] + Σ_springs (R_j − z k_j b_j)²/k_j` with what gives way likewise, and
-    /// `Σ (kink |m| + jump |V|)`, at most.
+    /// Upper bounds of `Σ_e [∫(m − zEIχ)²/EI + ∫(V + zκGAγ)²/κGA] + Σ_springs (R_j − z k_j b_j)²/k_j`, with similar
+    /// terms of compliant parts, and of `Σ (kink |m| + jump |V|)`.
     fn residual(&self, tried: &Tried, reactions: &[Interval]) -> (f64, f64) {
         let Tried { moved, loads, strains, z } = tried;
         let (mut sum, mut work) = (0.0, 0.0);
@@ -164,7 +164,7 @@ impl Proven {
             sum = up(sum + up(off.square().high / stiffness.low));
         }
         let count = self.cells.len();
-        // What gives way at a border, of the moment on a joint there.
+        // The term of the compliant part at a border, for the moment on a joint there.
         let given = |border: usize, moment: Interval, drift: [f64; 2]| {
             let here = self.masses.iter().filter(|mass| mass.border == border);
             here.fold(0.0, |sum, mass| up(sum + mass.residual(moved, moment, drift, *z)))
@@ -189,15 +189,15 @@ impl Proven {
             at = before;
             sum = up(sum + of_cell(&self.cells[k], &series, &strains[k], *z));
         }
-        // What is in balance has one V and one m at the root, from either side.
+        // In equilibrium, V and m at the root are the same from both sides.
         let one = |k: usize| left[k].low <= at[k].high && at[k].low <= left[k].high;
         debug_assert!(!self.is_held() || one(0) && one(1) || !sum.is_finite());
         (sum, work)
     }
 
-    /// Steps of V and m over what is at a border, masses (`V` by `μ w_a`, `m` by `−(d μ w_a + J θ)`) and contacts
-    /// (`V` by `−R` of a deflection, `m` by `R` of a rotation); returns what kink and jump there are worth at most,
-    /// on either side of them.
+    /// Adds the steps of V and m at a border, due to masses (`V` by `μ w_a`, `m` by `−(d μ w_a + J θ)`) and contacts
+    /// (`V` by `−R` for a deflection, `m` by `R` for a rotation). Returns upper bounds of the terms of kink and jump
+    /// there, on either side of the steps.
     fn cross(
         &self,
         moved: &Moved,
@@ -232,8 +232,8 @@ impl Proven {
 }
 
 impl Moved {
-    /// By how much the trial's own motion may differ at a border at most, seen from the cell inside of it, towards the
-    /// tip for `sign` 1: what that cell drifts, and the step at the border.
+    /// Largest difference of the motion of the trial at a border, seen from the adjacent cell on the inside (towards
+    /// the tip for `sign` 1): the drift of that cell and the step at the border.
     pub fn drift_at(&self, border: usize, sign: f64) -> [f64; 2] {
         let drift = self.drift[if sign > 0.0 { border } else { border - 1 }];
         std::array::from_fn(|i| up(drift[i] + self.steps[border][i]))
@@ -247,7 +247,7 @@ impl Mass {
         std::array::from_fn(|i| Interval::point(at[i]) + Interval::within(drift[i]))
     }
 
-    /// The part of what gives way here in the residual, `(K (Tk) − z K s)²/K`, at most.
+    /// Upper bound of the term of this compliant part in the residual, `(K (Tk) − z K s)²/K`.
     fn residual(&self, moved: &Moved, moment: Interval, drift: [f64; 2], z: f64) -> f64 {
         let Some(Give { number, way, stiffness }) = self.give else { return 0.0 };
         let load = match way {

@@ -1,7 +1,7 @@
-//! Between which numbers do a bat's frequencies lie, as narrow as asked?
+//! Between which numbers do the frequencies of a bat lie, as narrow as requested?
 //!
-//! [`guarantee`] plans and solves for a tenth of the tolerance, tries more modes than asked, proves, and refines
-//! until the intervals are as narrow as asked or nothing is gained.
+//! [`guarantee`] plans and solves for a tenth of the tolerance, tries more modes than requested, proves, and refines
+//! until the intervals are as narrow as requested or stop improving.
 
 use crate::enclosure::beam::{Layout, Proven, carried};
 use crate::enclosure::conclude::{Eigenvalue, conclude};
@@ -19,12 +19,12 @@ use sweetspot::modes::solution::Solution;
 use sweetspot::modes::solve::solve;
 use sweetspot::modes::theory_choice;
 
-/// What is proven of a bat's modes.
+/// The proven statements about the modes of a bat.
 #[derive(Debug, Clone)]
 pub struct Guarantee {
-    /// The asked modes that are proven, from the first on: none is missing between them.
+    /// The requested modes that are proven, without gaps from the first on.
     pub modes: Vec<ProvenMode>,
-    /// How many modes were asked for.
+    /// Number of requested modes.
     pub asked: usize,
     /// Whether all of them are proven, each within the tolerance.
     pub met: bool,
@@ -56,18 +56,18 @@ pub struct Proof {
     pub degree: usize,
     /// Trace and norm of the compliance.
     pub norms: Norms,
-    /// No eigenvalue beside those tried is greater (s²).
+    /// Upper bound of every other eigenvalue (s²).
     pub others: f64,
 }
 
 impl Guarantee {
-    /// The widest of the intervals as a share of its frequency; infinite if an asked mode is not proven.
+    /// The largest relative width of the intervals; infinite if a requested mode is not proven.
     pub fn width(&self) -> f64 {
         let widest = self.modes.iter().map(|mode| mode.eigenvalue.width()).fold(0.0, f64::max);
         if self.modes.len() < self.asked { f64::INFINITY } else { widest }
     }
 
-    /// Why the tolerance was not met, for a person; empty if it was.
+    /// Why the tolerance was not met, for people; empty if it was.
     pub fn shortfall(&self, tolerance: f64) -> String {
         let (asked, proven) = (self.asked, self.modes.len());
         match self.met {
@@ -80,7 +80,7 @@ impl Guarantee {
         }
     }
 
-    /// Whether another has more modes, or as many and is narrower.
+    /// Whether another has more modes, or equally many with narrower intervals.
     fn is_worse_than(&self, other: &Self) -> bool {
         let widest =
             |of: &Self| of.modes.iter().map(|mode| mode.eigenvalue.width()).fold(0.0, f64::max);
@@ -89,7 +89,7 @@ impl Guarantee {
     }
 }
 
-/// A refinement that leaves more than this of the width gains nothing.
+/// A refinement that leaves more than this share of the width is useless.
 const STALLED: f64 = 0.7;
 /// Rounds before the answer is given as it is.
 const MOST_ROUNDS: usize = 6;
@@ -98,13 +98,13 @@ const COARSEST: f64 = 1e-10;
 /// Plans aim at no less than this: arithmetic tells no finer one.
 const FINEST: f64 = 1e-14;
 
-/// The solution of a bat's asked modes, and what is proven of them. The solution's frequencies lie in the
-/// proven intervals.
+/// The solution for the requested modes of a bat, and the proven statements about them. The frequencies of the solution
+/// lie in the proven intervals.
 ///
 /// # Errors
 ///
-/// [`sweetspot::Error::Value`] for a bat of which nothing is proven yet, with its reason, and those of [`solve`]. A width
-/// that cannot be reached is not an error: what is proven comes back with `met` false.
+/// [`sweetspot::Error::Value`] for a bat without a proof, with the reason, and those of [`solve`]. A width that cannot
+/// be reached is not an error: the result then has `met` false.
 pub fn guarantee(bat: &Bat, request: &Request) -> Result<(Solution, Guarantee)> {
     let request = &Request { theory: theory_choice::of(bat, request)?, ..*request };
     carried(bat, request.theory)?;
@@ -131,7 +131,7 @@ pub fn guarantee(bat: &Bat, request: &Request) -> Result<(Solution, Guarantee)> 
         if met || round > 1 && !gained {
             break;
         }
-        // More trials where a mode is not told from the others, a finer mesh where intervals are wide.
+        // More trials where modes are not separated, a finer mesh where intervals are wide.
         if enough && planned > FINEST {
             planned *= 1e-2;
         } else if enough {
@@ -153,7 +153,7 @@ struct Attempt<'a> {
 }
 
 impl Attempt<'_> {
-    /// On that mesh, each element in the given number of pieces or more.
+    /// On that mesh, with each element divided into at least the given number of pieces.
     fn of(
         &self,
         mesh: &Mesh,
@@ -164,7 +164,7 @@ impl Attempt<'_> {
     ) -> Result<Guarantee> {
         let Self { bat, layout, norms, theory } = *self;
         let count = asked + more;
-        // Room for the trials beyond the asked modes.
+        // Room for the trials beyond the requested modes.
         let strains = mesh.len() * (degree - 1);
         let parts = (2 * count).div_ceil(strains).max(cut);
         let mesh = if parts > 1 { mesh.refined(bat, |_| parts) } else { mesh.clone() };

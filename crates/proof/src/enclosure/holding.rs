@@ -1,9 +1,9 @@
-//! What do supports, springs and a bed take off trace and norm of the free bat's compliance?
+//! By how much do supports, springs and a bed reduce trace and norm of the compliance of the free bat?
 //!
-//! Write `G` for the deflections of the free bat under loads, rigid motions taken out of both, `M` for its mass,
-//! `R` for the two rigid motions, and `b_j` for the loads of unit reactions. The held bat under loads `f` moves by
-//! `y = G(f − Bρ) − R r`, where the loads `f − Bρ` are in balance and every contact has `b_j(y) = s_j ρ_j`, with
-//! the softness `s_j = 1/k_j` of its spring and 0 for a support:
+//! Let `G` map loads to deflections of the free bat, with rigid motions removed from both, `M` be its mass, `R` the two
+//! rigid motions, and `b_j` the loads of unit reactions. Under loads `f` the held bat moves by `y = G(f − Bρ) − R r`,
+//! where the loads `f − Bρ` are in equilibrium and every contact satisfies `b_j(y) = s_j ρ_j`, with the softness
+//! `s_j = 1/k_j` of its spring, or 0 for a support:
 //!
 //! ```text
 //! K (ρ, r) = Φ* f,    K = [B*GB + s, B*R; R*B, 0],    Φ = [GB, R],    y = G f − Φ K⁻¹ Φ* f
@@ -11,13 +11,14 @@
 //! |T|² = |MG|² − 2 tr(K⁻¹ W₂) + tr(K⁻¹ W K⁻¹ W),       W₂ = Φ*MGMΦ = diag((T n_i, T n_j), 0)
 //! ```
 //!
-//! for `GMR = 0` and `R*MG = 0`. With `n_j` the strains of the free bat under a unit reaction in balance with its
-//! inertia, `B*GB = (n_i, n_j)` and `⟨Gb_i, Gb_j⟩ = ⟨S n_i, S n_j⟩`. All is worked out for the beam of
-//! [`super::stretches`], of which every integrand is a polynomial, in intervals; that K has an inverse is part of
-//! the answer. Worked out here, and held against closed forms by the tests.
+//! because `GMR = 0` and `R*MG = 0`. With the strains `n_j` of the free bat under a unit reaction in equilibrium with
+//! its inertia, `B*GB = (n_i, n_j)` and `⟨Gb_i, Gb_j⟩ = ⟨S n_i, S n_j⟩`. All is computed in intervals for the beam of
+//! [`super::stretches`], whose integrands are polynomials; the computation includes a proof that K has an inverse.
+//! Derived here, and compared with closed forms in the tests.
 //!
-//! Of a bed of length ℓ the first few Legendre coefficients of its deflection are held, `c_j = (2j + 1)/ℓ ∫w P_j dx` by
-//! springs `k ℓ/(2j + 1)`: by Bessel's inequality it holds no less, so that no `τ_n` is less than the bat's.
+//! For a bed of length ℓ the first few Legendre coefficients of its deflection are restrained,
+//! `c_j = (2j + 1)/ℓ ∫w P_j dx` by springs `k ℓ/(2j + 1)`. By Bessel's inequality this restrains no more than the bed
+//! itself, so that no `τ_n` is less than that of the bat.
 
 use crate::enclosure::contacts::{Bed, Contact};
 use crate::enclosure::energies::{from_left, from_right};
@@ -27,10 +28,10 @@ use crate::gauss::GAUSS_40;
 use crate::series::{Series, Values};
 use sweetspot::base::interval::Interval;
 
-/// How many Legendre coefficients of a bed's deflection are held.
+/// Number of restrained Legendre coefficients of the deflection of a bed.
 pub const OF_A_BED: usize = 8;
 
-/// One number of a motion that is held.
+/// One restrained quantity of a motion.
 #[derive(Debug, Clone, Copy)]
 pub enum Hold {
     /// A contact's.
@@ -39,7 +40,7 @@ pub enum Hold {
     Bed(Bed, usize),
 }
 
-/// A bat as its stretches and what is on it.
+/// The stretches of a bat with the attached parts.
 pub struct Holding<'a> {
     /// From knob to tip.
     pub stretches: &'a [Stretch],
@@ -47,7 +48,7 @@ pub struct Holding<'a> {
     pub masses: &'a [Met],
     /// The border that sums run outwards from.
     pub split: usize,
-    /// The bat as a rigid body, places counted from the knob.
+    /// The bat as a rigid body, with positions from the knob.
     pub rigid: &'a Rigid,
 }
 
@@ -55,11 +56,11 @@ pub struct Holding<'a> {
 struct Motion {
     cells: Vec<[Series; 2]>,
     borders: Vec<[Interval; 2]>,
-    /// The strains of what gives way.
+    /// The strains of the compliant parts.
     gives: Vec<Interval>,
 }
 
-/// Loads along the stretches, and by how much V and m step at borders.
+/// Loads along the stretches, and steps of V and m at borders.
 struct Loads {
     cells: Vec<(Series, Option<Series>)>,
     steps: Vec<[Interval; 2]>,
@@ -70,7 +71,7 @@ struct Loads {
 /// V and m on every stretch.
 struct Forces {
     cells: Vec<[Series; 2]>,
-    /// Moment on a joint, force on what hangs on a spring: by the numbers of what gives way.
+    /// Moment on a joint or force on a mass on a spring, by the number of the compliant part.
     gives: Vec<Interval>,
 }
 type Matrix = Vec<Vec<Interval>>;
@@ -84,7 +85,7 @@ fn point(value: f64) -> Interval {
 }
 
 impl Holding<'_> {
-    /// What the contacts take off `Σ τ_n` and `Σ τ_n²`; None where it is not sure that they hold the bat.
+    /// Decrease of `Σ τ_n` and `Σ τ_n²` due to the contacts; None where it is not certain that they hold the bat.
     pub fn less(&self, holds: &[Hold]) -> Option<[Interval; 2]> {
         let forces: Vec<Forces> = holds.iter().map(|hold| self.unit(hold)).collect();
         let motions: Vec<Motion> = forces.iter().map(|forces| self.motion(forces)).collect();
@@ -119,7 +120,7 @@ impl Holding<'_> {
         Some([trace, first + first - second])
     }
 
-    /// Where a border is (m).
+    /// Position of a border (m).
     fn place(&self, border: usize) -> Interval {
         match self.stretches.get(border) {
             Some(stretch) => stretch.middle - stretch.half,
@@ -127,7 +128,7 @@ impl Holding<'_> {
         }
     }
 
-    /// What gives way, with its mass.
+    /// The compliant parts, with their masses.
     fn gives(&self) -> impl Iterator<Item = (usize, &Met, Give)> {
         let all = self.masses.iter().enumerate();
         all.filter_map(|(k, mass)| mass.give.map(|give| (k, mass, give)))
@@ -155,7 +156,8 @@ impl Holding<'_> {
         }
     }
 
-    /// What is held of the two rigid motions, `(1, 0)` and `(x − x_b, 1)`: force and moment of a unit reaction.
+    /// The restrained quantity for the two rigid motions, `(1, 0)` and `(x − x_b, 1)`: force and moment of a unit
+    /// reaction.
     fn of_rigid(&self, hold: &Hold) -> [Interval; 2] {
         match hold {
             Hold::Place(Contact { turning: true, .. }) => [ZERO, point(1.0)],
@@ -292,7 +294,7 @@ impl Holding<'_> {
         Forces { cells: left, gives }
     }
 
-    /// The motion with the strains of these forces, `(m/EI, −V/κGA)`, rigid motions taken out.
+    /// The motion with the strains of these forces, `(m/EI, −V/κGA)`, with rigid motions removed.
     fn motion(&self, forces: &Forces) -> Motion {
         let gauss = &GAUSS_40;
         let count = self.stretches.len();
@@ -345,7 +347,7 @@ impl Holding<'_> {
         }
     }
 
-    /// `⟨a, b⟩ = ∫ρA w_a w_b + ρI θ_a θ_b dx` and what the masses add.
+    /// `⟨a, b⟩ = ∫ρA w_a w_b + ρI θ_a θ_b dx` with the terms of the masses.
     fn kinetic_energy(&self, a: &Motion, b: &Motion) -> Interval {
         let gauss = &GAUSS_40;
         let mut sum = ZERO;
@@ -364,7 +366,7 @@ impl Holding<'_> {
         sum
     }
 
-    /// `∫m_a m_b/EI + V_a V_b/κGA dx`, and what gives way likewise.
+    /// `∫m_a m_b/EI + V_a V_b/κGA dx`, with similar terms of compliant parts.
     fn strain_energy(&self, a: &Forces, b: &Forces) -> Interval {
         let mut sum = ZERO;
         for (stretch, ([v_a, m_a], [v_b, m_b])) in
@@ -380,7 +382,7 @@ impl Holding<'_> {
     }
 }
 
-/// `∫_{−1}^1 a b c`: of what is beyond degree 33 in `a` and `b`, and of their radii, a bound is added.
+/// `∫_{−1}^1 a b c`, including a bound for coefficients beyond degree 33 of `a` and `b` and for their radii.
 fn weighted(a: &Series, b: &Series, c: &Values<40>) -> Interval {
     let gauss = &GAUSS_40;
     let ((a, off_a), (b, off_b)) = (a.lowered(DEGREE), b.lowered(DEGREE));

@@ -1,21 +1,21 @@
-//! Between which numbers do the frequencies of the exact beam lie, proven?
+//! Between which numbers do the frequencies of the exact beam provably lie?
 //!
-//! [`guarantee`](guarantee::guarantee) answers with intervals that hold the frequencies of the continuous beam, rounding
-//! included, and says that none is missing between them. Nothing is assumed of the solver: its motions are
-//! trials, and bad ones give wide intervals or none. `docs/proof.md` has the theorem in one piece.
+//! [`guarantee`](guarantee::guarantee) gives intervals that contain the frequencies of the continuous beam, rounding
+//! errors included, and proves that no mode is missing between them. The proof makes no assumption about the solver,
+//! whose modes serve as trials; bad ones give wide intervals or none. `docs/proof.md` has the whole theorem.
 //!
 //! | file | question |
 //! |---|---|
-//! | [`radii`], [`sections`] | which radii does the file tell; what are sections worth along a cell |
-//! | [`contacts`], [`gives`] | what holds the bat; what on it gives way |
-//! | [`beam`] | the bat cell by cell, and what is refused |
-//! | [`moved`], [`reactions`] | the motion of a trial, and what holds it in balance |
+//! | [`radii`], [`sections`] | the radii from the file; the properties of sections along a cell |
+//! | [`contacts`], [`gives`] | how the bat is held; its compliant parts |
+//! | [`beam`] | the bat cell by cell, and the refused features |
+//! | [`moved`], [`reactions`] | the motion of a trial, and the reactions in equilibrium with it |
 //! | [`energies`] | Rayleigh quotient and residual of a trial |
-//! | [`stretches`], [`holding`], [`norms`] | trace and norm of the compliance, at most |
-//! | [`conclude`](mod@conclude) | which eigenvalues follow, none missing |
-//! | [`nodes`] | where is a node, proven |
-//! | [`trials`](mod@trials), [`guarantee`](mod@guarantee) | which motions are tried; as narrow as asked |
-//! | [`within`] | every bat within so much of this one |
+//! | [`stretches`], [`holding`], [`norms`] | upper bounds of trace and norm of the compliance |
+//! | [`conclude`](mod@conclude) | the eigenvalues that follow, without gaps |
+//! | [`nodes`] | proven positions of nodes |
+//! | [`trials`](mod@trials), [`guarantee`](mod@guarantee) | the trials; refinement to the requested width |
+//! | [`within`] | every bat within given tolerances of this one |
 
 #[doc(hidden)]
 pub mod radii;

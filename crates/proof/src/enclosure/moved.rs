@@ -1,17 +1,18 @@
-//! Which motion belongs to the strains of a trial?
+//! Which motion has the strains of a trial?
 //!
-//! The motion of a free bat is that of its strains without the two rigid motions ([`Moved`]).
+//! The motion of a free bat is that of its strains, with the two rigid motions removed ([`Moved`]).
 //!
-//! That of a held one is laid through plain numbers `(w_k, θ_k)` at the borders of cells: 0 at supports, what the
-//! trial says at springs, the sums of its strains elsewhere. The first two Legendre coefficients of the curvature
-//! on a cell of half length `h` are then
+//! The motion of a held bat passes through plain numbers `(w_k, θ_k)` at the borders of cells: 0 at supports, the
+//! values of the trial at springs, the sums of its strains elsewhere. The first two Legendre coefficients of the
+//! curvature on a cell of half length `h` are then
 //!
 //! ```text
 //! c_0 = (θ_{k+1} − θ_k)/2h,    c_1 = (3/h) [(θ_k + θ_{k+1})/2 + d_0 − (w_{k+1} − w_k)/2h]
 //! ```
 //!
-//! with `d_0` the mean shear strain: `∫∫P_0 = 2`, `∫∫P_1 = −2/3`, and 0 of all others. So the motion is continuous,
-//! meets every support exactly, and has strains that are known to some units in the last place.
+//! with the mean shear strain `d_0`, because `∫∫P_0 = 2`, `∫∫P_1 = −2/3`, and the double integral of all others is 0.
+//! The motion is therefore continuous, satisfies every support exactly, and its strains are known to a few units in the
+//! last place.
 
 use crate::enclosure::beam::{Mass, Proven};
 use crate::enclosure::contacts::Contact;
@@ -29,8 +30,7 @@ pub struct Trial {
     pub bending: Vec<f64>,
     /// Shear strain likewise; empty of a theory without shear.
     pub shear: Vec<f64>,
-    /// Deflection (m) or rotation (rad) where the bat is held, contact by contact; what a support holds is 0,
-    /// whatever stands here.
+    /// Deflection (m) or rotation (rad) at each contact. At a support it is 0, regardless of the value here.
     pub held: Vec<f64>,
     /// Deflections (m) at both ends of the bed, if there is one.
     pub bed: [f64; 2],
@@ -38,20 +38,20 @@ pub struct Trial {
     pub gives: Vec<f64>,
 }
 
-/// A motion along the bat that is nearly that of a trial: begun anew with plain numbers on every cell.
+/// A motion along the bat close to that of a trial, restarted with plain numbers on every cell.
 ///
-/// A running sum carries its rounding along, and a small error of a rotation moves far what is far away, so
-/// that the motion itself is known to `(kL)² u` only. Begun anew on every cell it has kinks and jumps at the
-/// borders, each of a few `u`, instead. Their motions `d` make it that of the trial, `Sk = P(w + d)` with P the
-/// rigid motions taken out, and what they add to the kinetic energy is
+/// A running sum accumulates rounding, and a small error of a rotation causes large deflections far away, so that the
+/// motion itself is known only to `(kL)² u`. Restarted on every cell, it instead has kinks and jumps of a few `u` at
+/// the borders. Adding their motions `d` gives the motion of the trial, `Sk = P(w + d)`, where P removes the rigid
+/// motions. Their contribution to the kinetic energy is
 ///
 /// ```text
 /// |P(w + d)|² − |Pw|² = 2 Σ (kink · m − jump · V) + |Pd|²
 /// ```
 ///
-/// with the moment and force of the inertia of `w` at the borders, where nothing is amplified.
+/// with the moment and force of the inertia of `w` at the borders, which amplifies nothing.
 ///
-/// That of a held bat is the trial itself: no steps, no drift, and no rigid motion to be taken out.
+/// For a held bat the motion is that of the trial itself, without steps, drift or removed rigid motion.
 pub struct Moved {
     /// Curvature on every cell.
     pub bending: Vec<Series>,
@@ -63,14 +63,14 @@ pub struct Moved {
     pub gives: Vec<Interval>,
     /// Jump (m) and kink (rad) at every border, at most.
     pub steps: Vec<[f64; 2]>,
-    /// By how much deflection (m) and rotation (rad) of the trial's own motion may differ at most on every
-    /// cell: kinks, jumps and rigid motion together.
+    /// Largest difference of deflection (m) and rotation (rad) of the motion of the trial on every cell, due to kinks,
+    /// jumps and rigid motion.
     pub drift: Vec<[f64; 2]>,
-    /// Rigid motion that is left in it: deflection where arms are counted from, and rotation.
+    /// Remaining rigid motion: deflection at the origin of the arms, and rotation.
     pub rigid: [Interval; 2],
 }
 
-/// The motion of a trial with what it is worth along the bat.
+/// The motion of a trial, with the quantities derived from it along the bat.
 pub struct Tried {
     /// The motion.
     pub moved: Moved,
@@ -104,8 +104,8 @@ impl Moved {
 const ZERO: Interval = Interval { low: 0.0, high: 0.0 };
 
 impl Proven {
-    /// The motion of a trial, begun anew on every cell so that hardly any rigid motion is in it; any other
-    /// beginning is as right, and wider.
+    /// The motion of a trial, restarted on every cell so that it contains hardly any rigid motion. Other starting
+    /// values would also be correct but give wider intervals.
     pub fn moved(&self, trial: &Trial) -> Option<Moved> {
         if self.is_held() {
             return self.held(trial);
@@ -126,7 +126,7 @@ impl Proven {
         }
         let value = |k: usize| self.contacts[k].stiffness.map_or(0.0, |_| trial.held[k]);
         let rest = self.integrated(trial, [0.0; 2]);
-        // What the rigid motion is told by: rotation or deflection at two borders.
+        // The rigid motion is determined by rotation or deflection at two borders.
         let known = match (self.base, self.bed) {
             (Some(pair), _) => pair.map(|k| {
                 let Contact { border, turning, .. } = self.contacts[k];
@@ -162,7 +162,7 @@ impl Proven {
         Some(moved)
     }
 
-    /// The curvature on a cell that leads from what is at its left border to what is at its right one, and the
+    /// The curvature on a cell that connects the values at its left border with those at its right border, and the
     /// motion.
     fn between_borders(&self, trial: &Trial, k: usize, moved: &Moved) -> (Series, [Series; 2]) {
         let half = self.cells[k].half;
@@ -192,7 +192,7 @@ impl Proven {
         }
     }
 
-    /// By how much the bat turns at once at a border (rad), strains of what gives way being these.
+    /// The kink of the bat at a border (rad), for these strains of the compliant parts.
     fn kink(&self, border: usize, gives: &[Interval]) -> Interval {
         let there = self.masses.iter().filter(|mass| mass.border == border);
         there.fold(ZERO, |sum, mass| sum + kink(mass.give, gives))
@@ -217,7 +217,7 @@ impl Proven {
             let bend = trial.bending_on(k);
             let turned = bend.integrated().times(half);
             let turns = half * bend.integral();
-            // The slope less θ at the left end.
+            // Slope minus θ at the left end.
             let slope = match trial.shear_on(k) {
                 Some(slip) => turned + slip,
                 None => turned,
@@ -259,7 +259,7 @@ impl Proven {
             side[0] = up(up(side[0] + jump) + up(2.0 * self.cells[k].half.high * side[1]));
             moved.drift[k] = *side;
         }
-        // What is on an end of the bat moves by the step there too.
+        // A mass on an end of the bat also moves by the step there.
         let ends = [moved.drift_at(0, 1.0), moved.drift_at(self.cells.len(), -1.0)];
         let [own, turned] = self.rigid_of(moved.drift.iter().chain(&ends));
         for (cell, drift) in self.cells.iter().zip(&mut moved.drift) {
@@ -269,8 +269,8 @@ impl Proven {
         }
     }
 
-    /// The rigid motion at most (m where arms are counted from, and rad) in a motion that deflects and turns no cell
-    /// by more than these: by Cauchy's inequality `∫ρA |y| ≤ (M ∫ρA y²)^½`.
+    /// Upper bound of the rigid motion (m at the origin of the arms, and rad) in a motion that deflects and rotates no
+    /// cell by more than these: by Cauchy's inequality `∫ρA |y| ≤ (M ∫ρA y²)^½`.
     fn rigid_of<'a>(&self, drift: impl Iterator<Item = &'a [f64; 2]>) -> [f64; 2] {
         let most =
             drift.fold([0.0_f64; 2], |most, drift| [most[0].max(drift[0]), most[1].max(drift[1])]);
@@ -289,7 +289,7 @@ impl Proven {
         ]
     }
 
-    /// The rigid motion in a motion: deflection where arms are counted from, and rotation.
+    /// The rigid part of a motion: deflection at the origin of the arms, and rotation.
     fn rigid(&self, moved: &Moved) -> Option<[Interval; 2]> {
         let [force, moment] = self.inertia(moved);
         let [mass, first, second] = self.gram;
@@ -297,8 +297,7 @@ impl Proven {
         Some([(second * force - first * moment) * over, (mass * moment - first * force) * over])
     }
 
-    /// What the inertia of a motion does on the two rigid motions: force, and moment about where arms are counted
-    /// from.
+    /// The resultants of the inertia of a motion: force, and moment about the origin of the arms.
     pub fn inertia(&self, moved: &Moved) -> [Interval; 2] {
         let (mut force, mut moment) = (ZERO, ZERO);
         for (cell, [w, turn]) in self.cells.iter().zip(&moved.cells) {

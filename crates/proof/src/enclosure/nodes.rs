@@ -1,18 +1,18 @@
-//! Between which places does a mode have a node, proven?
+//! Between which places does a mode provably have a node?
 //!
-//! A trial `k` and its mode `k_n` are at an angle whose sine is at most `ε/gap`, with the gap from σ to the other
+//! The sine of the angle between a trial `k` and its mode `k_n` is at most `ε/gap`, with the gap from σ to the other
 //! eigenvalues. A strain of unit energy moves no place by more than `√Γ`,
 //!
 //! ```text
 //! Γ = ∫ Σ_b max_x φ_t(x)²/C_b dt ≤ ∫ Σ_b [φ_t(0)² + φ_t(t−)² + φ_t(t+)² + φ_t(L)²]/C_b dt
 //! ```
 //!
-//! with the two lines `φ_t` of a unit strain at `t` ([`super::norms`]): so the trial's deflection is a multiple of the
-//! mode's, off by `√(a₀ Γ) ε/gap` at most. Where it is farther from 0 than that at two places, with opposite signs,
-//! the mode has a node between them.
+//! with the two lines `φ_t` of a unit strain at `t` ([`super::norms`]). The deflection of the trial therefore differs
+//! from a multiple of that of the mode by at most `√(a₀ Γ) ε/gap`. Where it exceeds this at two places with opposite
+//! signs, the mode has a node between them.
 //!
-//! Mode n of a free bat without rotary inertia and shear has exactly n + 1 nodes, so that n + 1 such intervals
-//! hold all of them.
+//! Mode n of a free bat without rotary inertia and shear has exactly n + 1 nodes, so n + 1 such intervals contain all
+//! of them.
 //!
 //! # Source
 //!
@@ -26,7 +26,7 @@ use crate::enclosure::norms::Norms;
 use crate::series::Series;
 use sweetspot::base::interval::{Interval, down, up};
 
-/// What nodes follow from.
+/// The data from which nodes follow.
 pub struct Nodes<'a> {
     /// The bat.
     pub proven: &'a Proven,
@@ -36,13 +36,13 @@ pub struct Nodes<'a> {
     pub conclusion: &'a Conclusion,
 }
 
-/// Places on a cell at which the sign of a deflection is looked for first.
+/// Number of places on a cell at which the sign of a deflection is determined first.
 const LOOKS: usize = 6;
 /// Halvings of the way to a node.
 const MOST_HALVINGS: usize = 40;
 
 impl Nodes<'_> {
-    /// Intervals (m) with a node of mode `k`, counted from 0, in each, whose trial that is.
+    /// Intervals (m) that each contain a node of mode `k`, counted from 0, with this trial.
     pub fn of(&self, k: usize, trial: &Trial) -> Vec<[f64; 2]> {
         let Conclusion { proven, next, .. } = self.conclusion;
         let own = &proven[k];
@@ -75,7 +75,7 @@ struct BoundedDeflection<'a> {
 type Place = (usize, f64);
 
 impl BoundedDeflection<'_> {
-    /// The sign of the mode's deflection there, up to a common one; None where it is not sure.
+    /// The sign of the deflection of the mode there, up to a common factor; None where it is uncertain.
     fn sign(&self, (k, xi): Place) -> Option<bool> {
         let value = at(&self.moved.cells[k][0], xi);
         let off = up(self.moved.drift[k][0] + self.off);
@@ -88,7 +88,7 @@ impl BoundedDeflection<'_> {
         }
     }
 
-    /// The places that are looked at first, from the knob.
+    /// The places examined first, from the knob.
     fn places(&self) -> impl Iterator<Item = Place> + use<> {
         let step = 2.0 / LOOKS as f64;
         let on = move |k: usize| (0..LOOKS).map(move |j| (k, -1.0 + step * (j as f64 + 0.5)));
@@ -111,7 +111,7 @@ impl BoundedDeflection<'_> {
 
     /// The narrowest interval with a change of sign between two places, the second of that sign.
     fn between(&self, mut low: Place, mut high: Place, sign: bool) -> [f64; 2] {
-        // From each side as far as the sign is sure, up to the other's last sure place.
+        // From each side up to the last place with a certain sign.
         let ends = [low, high];
         for side in [false, true] {
             let (mut sure, mut unsure) = if side { (ends[1], low) } else { (ends[0], high) };
@@ -138,7 +138,7 @@ fn halfway((a, xi): Place, (b, eta): Place) -> Option<Place> {
         let middle = 0.5 * (xi + eta);
         (middle != xi && middle != eta).then_some((a, middle))
     } else if a < b && xi < 1.0 {
-        // The border between two cells is the end of the one that is sure.
+        // The border between two cells is the end of the certain one.
         Some((a, if xi > 1.0 - 1e-9 { 1.0 } else { 0.5 * (xi + 1.0) }))
     } else if a > b && xi > -1.0 {
         Some((a, if xi < -1.0 + 1e-9 { -1.0 } else { 0.5 * (xi - 1.0) }))

@@ -1,8 +1,7 @@
-//! What are trace and Hilbert-Schmidt norm of the bat's compliance at most?
+//! What are upper bounds of the trace and the Hilbert-Schmidt norm of the compliance of the bat?
 //!
-//! A unit kink (χ) or jump (γ) at `s`, written left of `s`, moves the bat there by `(s − x, −1)` or `(−1, 0)` in
-//! `(w, θ)`, and not at all to the right of it. Its loads on the two rigid motions `(1, 0)` and `(x, 1)` are
-//! running sums,
+//! A unit kink (χ) or jump (γ) at `s` moves the bat on its left by `(s − x, −1)` or `(−1, 0)` in `(w, θ)`, and the bat
+//! on its right not at all. Its loads on the two rigid motions `(1, 0)` and `(x, 1)` are running sums,
 //!
 //! ```text
 //! u_χ(s) = ∫₀^s (A, B − ρI) dx,   u_γ(s) = −(A, B),   A = ∫₀^s ρA dx,   B = ∫₀^s ρA x dx
@@ -10,26 +9,26 @@
 //! G = [1/M + d²/I, −d/I; −d/I, 1/I],   M the mass, I the moment of inertia about the balance point at x = d
 //! ```
 //!
-//! `v(t)` is the line on which the bat lies left of a unit strain at `t` once the rigid motions are out, so the
-//! kernel of T is `k_ab(s, t) = u_a(s)·v_b(t)` for `s ≤ t`. With `C_χ = EI`, `C_γ = κGA`,
+//! Left of a unit strain at `t` the bat lies on the line `v(t)` after removal of the rigid motions, so the kernel of T
+//! is `k_ab(s, t) = u_a(s)·v_b(t)` for `s ≤ t`. With `C_χ = EI`, `C_γ = κGA`,
 //!
 //! ```text
 //! trace T = ∫ Σ_b u_b·v_b/C_b dt        |T|² = Σ τ² = 2 ∫ Σ_b v_bᵀ U v_b/C_b dt,   U′ = Σ_a u_a u_aᵀ/C_a
 //! ```
 //!
-//! What gives way at a place ([`super::gives`]) is met as a strain there with `C = K`: a joint with the `u_χ` and `v_χ`
-//! of its place, a spring under a mass with `u = μ (1, x)`, `v = −G u` and `μ + u·v` in place of `u·v` on itself. Of
-//! `|T|²` it has `(u·v/C)²` besides.
+//! A compliant part ([`super::gives`]) acts like a strain at its place with `C = K`: a joint has the `u_χ` and `v_χ` of
+//! its place, and a spring under a mass has `u = μ (1, x)`, `v = −G u`, with `μ + u·v` in place of `u·v` for itself. It
+//! adds `(u·v/C)²` to `|T|²`.
 //!
-//! Sums run over each side of the balance point from its own end, `x` counted from the beginning of every stretch anew,
-//! so that nothing cancels at thin ends and little elsewhere; pairs of strains on different sides, whose own motions do
-//! not meet, add `2 tr(U_l G U_r G)`. Every integrand with `1/C` is not negative and rises with `1/C`: a polynomial
-//! above `1/C` gives a bound from above.
+//! Sums run over each side of the balance point from its end, with `x` counted anew from the beginning of every
+//! stretch, so that nothing cancels at thin ends and little elsewhere. Pairs of strains on different sides have
+//! separate motions and add `2 tr(U_l G U_r G)`. Every integrand with `1/C` is non-negative and increases with `1/C`,
+//! so a polynomial above `1/C` gives an upper bound.
 //!
 //! # Source
 //!
-//! G. Fichera, Numerical and Quantitative Analysis (1978): orthogonal invariants of a compact operator. The
-//! kernel is worked out here.
+//! G. Fichera, Numerical and Quantitative Analysis (1978): orthogonal invariants of a compact operator. The kernel is
+//! derived here.
 
 use crate::enclosure::beam::Layout;
 use crate::enclosure::contacts::{Bed, Contact};
@@ -50,9 +49,9 @@ pub struct Norms {
     pub trace: f64,
     /// `Σ τ_n²`, at most.
     pub square: f64,
-    /// Γ (m²/J) of [`super::nodes`]: the square of how far a strain of unit energy moves any place, at most.
+    /// Γ (m²/J) of [`super::nodes`]: upper bound of the square of the motion of any place by a strain of unit energy.
     pub reach: f64,
-    /// The largest share by which 1/EI and 1/κGA were taken to be larger.
+    /// The largest relative increase with which 1/EI and 1/κGA were bounded.
     pub above: f64,
     /// Number of stretches that it took.
     pub stretches: usize,
@@ -150,7 +149,8 @@ impl Norms {
         let across = both[0][0] + both[1][1];
         let shares = stretches.iter().chain(&mirrored).map(|stretch| stretch.above);
         let norm = square + square + across + across;
-        // How far a bat that is held, or gives way, is moved at most is not worked out: none of its nodes is proven.
+        // The largest motion of a bat that is held or has compliant parts is not derived here, so none of its nodes is
+        // proven.
         let bare = holds.is_empty() && masses.iter().all(|mass| mass.give.is_none());
         let reach = if bare { reach.high } else { f64::INFINITY };
         Ok(Self {
@@ -162,7 +162,7 @@ impl Norms {
         })
     }
 
-    /// What the eigenvalues beside some that are `known` at least may be, at most: by the trace and by the norm.
+    /// Upper bounds of the eigenvalues besides some that are at least `known`: by the trace and by the norm.
     pub fn others(&self, known: &[f64]) -> [f64; 2] {
         let sum: Interval = known.iter().map(|tau| point(*tau)).sum();
         let squares: Interval = known.iter().map(|tau| point(*tau).square()).sum();
@@ -189,7 +189,7 @@ fn from_end(
 ) -> ([Interval; 3], [Interval; 3]) {
     let mut parts = [ZERO; 3];
     let mut sums = Sums { line: [ZERO; 2], kink: [ZERO; 2], outer: [ZERO; 3] };
-    // Masses that were passed, as `u` of a strain beyond them has them: `Σμ`, `Σμc`, `Σμc² + J`.
+    // The masses passed so far, as `u` of a strain beyond them includes them: `Σμ`, `Σμc`, `Σμc² + J`.
     let mut masses = masses.iter().peekable();
     let mut add = |own: [Interval; 3]| {
         parts.iter_mut().zip(own).for_each(|(sum, part)| *sum = *sum + part);
@@ -213,7 +213,7 @@ fn from_end(
 }
 
 impl Sums {
-    /// Goes over what gives way at a place: its parts of trace and half the square of the norm; Γ is not asked.
+    /// Passes a compliant part at a place and returns its parts of trace and half the square of the norm, without Γ.
     fn given(&mut self, give: Give, met: &Met, at: Interval, rigid: &Rigid) -> [Interval; 3] {
         let [g11, g12, g22] = rigid.inverse(at);
         // Counted from the place itself.
@@ -222,7 +222,7 @@ impl Sums {
             YieldingPart::Hung => ([met.mass, met.mass * (met.centre - at)], [ZERO; 2]),
         };
         let v = [own[0] - g11 * u[0] - g12 * u[1], own[1] - g12 * u[0] - g22 * u[1]];
-        // What the stretch of a spring moves by itself, without the rigid motion, is the mass alone.
+        // The stretch of a spring moves only the mass, apart from rigid motion.
         let alone = if give.way == YieldingPart::Hung { met.mass } else { ZERO };
         let soft = softness(&give);
         let trace = soft * (alone + u[0] * v[0] + u[1] * v[1]);

@@ -1,24 +1,24 @@
-//! What are the radii along the bat, as intervals that hold those of the bat in the file?
+//! What are the radii along the bat, as intervals that contain those of the bat in the file?
 //!
-//! A bat's doubles are decimals of its file times units, each off by some `u` of itself, and what is proven is
-//! proven of the decimals: [`LENGTH`], [`NUMBER`] and [`BORE`] hold all that reading may have rounded. Curves are
-//! laid anew through such intervals by the formulas of `bat/pchip.rs`: slopes are continuous functions
-//! of the stations, so that where an interval leaves a branch open the hull of both is right.
+//! The doubles of a bat are decimals of its file times units, each with a relative error of some `u`. The proof applies
+//! to the decimals: [`LENGTH`], [`NUMBER`] and [`BORE`] cover all rounding on reading. Curves are computed again
+//! through such intervals by the formulas of `bat/pchip.rs`. Slopes are continuous functions of the stations, so that
+//! where an interval leaves a branch open the hull of both branches is correct.
 
 use sweetspot::base::error::{Error, Result};
 use sweetspot::base::interval::{Interval, UNIT, up};
 use sweetspot::bat::body::Bat;
 use sweetspot::bat::profile::{Interpolation, Piece, Radii, SAME_PLACE, Stations};
 
-/// A length is within this share of what its file writes. A fraction of an inch takes a quotient and a sum, the
-/// unit a factor and a product, feet and inches another sum: `5u`, and a half is exact.
+/// Relative error of a length against its text in the file. A fraction of an inch takes a quotient and a sum, the unit
+/// a factor and a product, feet and inches another sum: `5u`, and a half is exact.
 pub const LENGTH: f64 = 6.0 * UNIT;
 /// An inner radius is within this share of the outer one: outer radius less wall, each a length.
 pub const BORE: f64 = 13.0 * UNIT;
-/// Any other number is within this share of what its file writes: a unit such as `lb/in^3` is a quotient of powers
-/// of factors that are products themselves, which rounds fewer than twenty times.
+/// Relative error of any other number against its text in the file. A unit such as `lb/in^3` is a quotient of powers of
+/// factors that are products themselves, with fewer than twenty roundings.
 pub const NUMBER: f64 = 32.0 * UNIT;
-/// Curves laid in plain numbers are nearer than this to those laid in intervals, as a share of the radius.
+/// Largest difference between curves in plain numbers and in intervals, relative to the radius.
 const ALIKE: f64 = 1e-9;
 
 /// Bernstein coefficients of a cubic.
@@ -27,7 +27,7 @@ pub type Cubic = [Interval; 4];
 /// A piece of the profile.
 #[derive(Debug, Clone)]
 pub struct Curved {
-    /// Where it begins (m).
+    /// Position of its beginning (m).
     pub start: Interval,
     /// Its length (m).
     pub length: Interval,
@@ -40,7 +40,7 @@ pub struct Curved {
 }
 
 impl Curved {
-    /// The part from `from` to `to`, in [0, 1] of it.
+    /// The part from `from` to `to`, as fractions of it in [0, 1].
     pub fn part(&self, from: f64, to: f64) -> Self {
         let [from, to] = [from, to].map(Interval::point);
         Self {
@@ -53,7 +53,7 @@ impl Curved {
     }
 }
 
-/// The place `x` (m) from the knob end; of a profile that was turned places are differences from `length`.
+/// The place `x` (m) from the knob end; in a reversed profile places are differences from `length`.
 pub fn place(x: f64, turned: Option<f64>) -> Interval {
     match x == 0.0 {
         true => Interval::point(0.0),
@@ -64,11 +64,11 @@ pub fn place(x: f64, turned: Option<f64>) -> Interval {
     }
 }
 
-/// The pieces of the bat's profile.
+/// The pieces of the profile of the bat.
 ///
 /// # Errors
 ///
-/// [`Error::Value`] for formulas, and for curves that are not those through the stations.
+/// [`Error::Value`] for formulas, and for curves other than those through the stations.
 pub fn curved(bat: &Bat) -> Result<Vec<Curved>> {
     let profile = bat.profile();
     let stations = &profile.stations;
@@ -132,7 +132,7 @@ fn on_piece(
     Ok(curve)
 }
 
-/// One cubic from each station to the next; what stands between two sides of a step is not used.
+/// One cubic from each station to the next; the one between the two sides of a step is unused.
 fn cubics(stations: &Stations, x: &[Interval], y: &[Interval]) -> Vec<Cubic> {
     let mut all = Vec::with_capacity(x.len());
     let mut first = 0;
@@ -191,7 +191,7 @@ fn slopes(x: &[Interval], y: &[Interval]) -> Vec<Interval> {
     slopes
 }
 
-/// Whether numbers of both may have the same sign, 0 being a sign of its own.
+/// Whether numbers of both may have the same sign, where 0 counts as a third sign.
 fn may_agree(a: Interval, b: Interval) -> bool {
     let zero = |of: Interval| of.low <= 0.0 && of.high >= 0.0;
     a.high > 0.0 && b.high > 0.0 || a.low < 0.0 && b.low < 0.0 || zero(a) && zero(b)

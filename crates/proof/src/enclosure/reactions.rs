@@ -1,18 +1,17 @@
-//! Which reactions of supports, springs and the bed balance the inertia of a trial's motion?
+//! Which reactions of supports, springs and the bed are in equilibrium with the inertia of the motion of a trial?
 //!
-//! For every motion z that the supports allow, and reactions `R` in balance with the inertia of `y`,
+//! For every motion z that the supports allow, and reactions `R` in equilibrium with the inertia of `y`,
 //!
 //! ```text
 //! ⟨y, z⟩ = ∫m χ_z − V γ_z dx + Σ R_j b_j(z),    V steps by −R_j at a held deflection, m by R_j at a held rotation
 //! ```
 //!
-//! whatever the reactions are otherwise: those of springs are had from their trial, `R = σ k b(y)`, those of supports
-//! from a motion ψ that is 1 there and 0 beyond the two cells beside it, `R = ⟨y, ψ⟩ − σ ∫EI χ χ_ψ`. These are plain
-//! numbers, which nothing is assumed of; the last two are solved for, as intervals, so that force and moment are in
-//! balance exactly.
+//! for any reactions otherwise. Those of springs come from the trial, `R = σ k b(y)`; those of supports from a motion ψ
+//! that is 1 there and 0 beyond the two adjacent cells, `R = ⟨y, ψ⟩ − σ ∫EI χ χ_ψ`. These are plain numbers without any
+//! assumption. The last two are computed as intervals, so that force and moment are exactly in equilibrium.
 //!
-//! A bed presses by `r = σ k w` and, where two contacts do not hold the bat, by a line `α + β (x − x_m)` besides, which
-//! is solved for in their place; the residual has `∫(r − σ k w)²/k`.
+//! A bed presses by `r = σ k w`. Where no two contacts hold the bat, a line `α + β (x − x_m)` is added, which is
+//! determined in place of the last two reactions; the residual has `∫(r − σ k w)²/k`.
 
 use crate::enclosure::beam::Proven;
 use crate::enclosure::contacts::Contact;
@@ -20,7 +19,7 @@ use crate::enclosure::moved::Tried;
 use crate::series::Series;
 use sweetspot::base::interval::Interval;
 
-/// What holds a motion in balance with its inertia (times s²).
+/// The reactions in equilibrium with a motion's inertia (times s²).
 pub struct Reactions {
     /// Of every contact (N or N m).
     pub contacts: Vec<Interval>,
@@ -29,7 +28,7 @@ pub struct Reactions {
 }
 
 impl Proven {
-    /// The reactions in balance with the inertia of a motion, of which the bed bears `z k w` already.
+    /// The reactions in equilibrium with the inertia of a motion, beyond the part `z k w` of the bed.
     pub fn reactions(&self, tried: &Tried) -> Option<Reactions> {
         let Tried { moved, z, .. } = tried;
         let mut line = [Interval::point(0.0); 2];
@@ -85,7 +84,7 @@ impl Proven {
         Some(Reactions { contacts: all, line })
     }
 
-    /// What the bed bears of a motion on a cell, `z k w`.
+    /// The pressure of the bed on a cell due to a motion, `z k w`.
     pub fn pressed(&self, Tried { moved, z, .. }: &Tried, cell: usize) -> Series {
         let stiffness = self.bed.map_or(Interval::point(0.0), |bed| bed.stiffness);
         moved.cells[cell][0].times(Interval::point(*z) * stiffness)

@@ -1,4 +1,4 @@
-//! What is a section worth along a cell: EI, ρA, ρI and κGA as polynomials, with bounds?
+//! What are EI, ρA, ρI and κGA of the sections along a cell, as polynomials with bounds?
 
 use crate::enclosure::radii::{Cubic, Curved, NUMBER};
 use crate::gauss::{GAUSS_40, Gauss};
@@ -7,7 +7,7 @@ use sweetspot::base::interval::{Interval, down, up};
 use sweetspot::bat::layup::{Layer, Layup};
 use sweetspot::bat::material::Material;
 
-/// Degree of the polynomials that stand for 1/EI, κGA of a tube and 1/κGA.
+/// Degree of the polynomials that approximate 1/EI, κGA of a tube and 1/κGA.
 const DEGREE: usize = 12;
 
 /// The rings of a cell, from the bore outwards.
@@ -16,7 +16,7 @@ pub struct Rings<'a> {
     layup: &'a Layup,
     /// The factor on densities that is not in the materials.
     heavier: Interval,
-    /// Radii of the core, the wall and every sleeve, as far as there are any: inside and outside.
+    /// Inner and outer radii of the core, the wall and every sleeve, as far as they exist.
     core: Option<Ring<'a>>,
     walls: Vec<Ring<'a>>,
     /// The radius of the surface.
@@ -29,7 +29,7 @@ struct Ring<'a> {
     material: &'a Material,
     inside: Option<Border>,
     outside: Border,
-    /// How empty the ring is inside of what bears shear.
+    /// How hollow the ring counts in κ: 1 with an empty inside, 0 with one that carries shear like the ring.
     empty: Interval,
 }
 
@@ -112,7 +112,7 @@ impl Ring<'_> {
         [squares.low.max(0.0), (squares * (b.square() + a.square())).low.max(0.0)]
     }
 
-    /// What a sum of multiples of `b` and `a` is at least: the least of its Bernstein coefficients.
+    /// Lower bound of a sum of multiples of `b` and `a`: the smallest of its Bernstein coefficients.
     fn least(&self, of: impl Fn(Interval, Interval) -> Interval) -> f64 {
         let inside = self.inside.as_ref().map_or([number(0.0); 4], |inside| inside.cubic);
         let both = self.outside.cubic.into_iter().zip(inside);
@@ -128,7 +128,7 @@ impl Ring<'_> {
 }
 
 impl<'a> Rings<'a> {
-    /// The rings of a cell of these materials, whose densities are `heavier` times what is written.
+    /// The rings of a cell of these materials, whose densities are `heavier` times the written ones.
     pub fn of(layup: &'a Layup, curve: &Curved, heavier: Interval) -> Self {
         let surface = Border::of(&curve.outer, curve.degree);
         let bore = curve.inner.map(|inner| Border::of(&inner, curve.degree));
@@ -143,7 +143,7 @@ impl<'a> Rings<'a> {
             inside.and_then(|inside| inside.shear_modulus),
             of.shear_modulus,
         ) {
-            // Two numbers of a file that are the same double are taken to be the same number.
+            // Two numbers of a file with the same double are taken to be the same number.
             (Some(inside), Some(of)) if inside == of => number(0.0),
             (Some(inside), Some(of)) => {
                 let ratio = data(of).reciprocal().map_or(number(0.0), |over| data(inside) * over);
@@ -187,7 +187,7 @@ impl<'a> Rings<'a> {
         self.summed(|ring| ring.fourths(gauss).times(quarter * data(ring.material.youngs_modulus)))
     }
 
-    /// What EI (N m²) is at least on the cell.
+    /// Lower bound of EI (N m²) on the cell.
     pub fn bending_at_least(&self) -> f64 {
         let quarter = Interval::pi() * number(0.25);
         let of = |ring: &Ring| data(ring.material.youngs_modulus) * number(ring.least_powers()[1]);
@@ -217,8 +217,8 @@ impl<'a> Rings<'a> {
         own.sum(&r.product(&r).times(number(0.5) * data(self.layup.tape)))
     }
 
-    /// κGA (N): `κ G π (b² − a²)` of every ring, by Cowper's κ of a tube where it goes with the place. None
-    /// where a shear modulus is not known or nothing bounds κGA.
+    /// κGA (N): `κ G π (b² − a²)` of every ring, with Cowper's κ of a tube where it varies with the place. None where a
+    /// shear modulus is unknown or κGA has no bound.
     pub fn shear(&self) -> Option<Nearly> {
         let gauss = &GAUSS_40;
         let mut sum = Nearly { series: Series::exact(&[]), share: 0.0 };
@@ -237,7 +237,7 @@ impl<'a> Rings<'a> {
         Some(sum)
     }
 
-    /// What κGA (N) is at least on the cell, of a ring whose κ goes with the place by its least.
+    /// Lower bound of κGA (N) on the cell, where a ring with varying κ contributes its smallest value.
     pub fn shear_at_least(&self) -> Option<f64> {
         let mut least = number(0.0);
         for ring in self.all() {
@@ -257,14 +257,14 @@ impl<'a> Rings<'a> {
     }
 }
 
-/// κ of a ring whose `(r_i/r)²` is `hole`.
+/// κ of a ring with `(r_i/r)²` equal to `hole`.
 fn kappa(material: &Material, hole: Interval) -> Interval {
     if let Some(kappa) = material.shear_coefficient {
         return data(kappa);
     }
     let nu = data(material.poisson());
     let (top, [below, mixed]) = cowper(nu);
-    // Divided by (1 + m²)², so that the ratio m²/(1 + m²)² is all that goes with the place.
+    // Divided by (1 + m²)², so that only the ratio m²/(1 + m²)² varies with the place.
     let square = (number(1.0) + hole).square();
     let ratio = hole * square.reciprocal().expect("1 or more");
     top * (below + mixed * ratio).reciprocal().expect("positive")
@@ -276,12 +276,12 @@ fn cowper(nu: Interval) -> (Interval, [Interval; 2]) {
     (top, [number(7.0) + number(6.0) * nu, number(20.0) + number(12.0) * nu])
 }
 
-/// κGA of a tube, `G π (b² − a²)` with `m = e a²/b²` and
-/// `κ = 6 (1 + ν)(b² + ea²)²/D`, `D = (7 + 6ν)(b² + ea²)² + (20 + 12ν) e a² b²`. A polynomial `c` stands for it;
-/// `|D c − N|` is bounded on the whole cell, and so is `|c/κGA − 1| = |D c − N|/N`.
+/// κGA of a tube, `G π (b² − a²)` with `m = e a²/b²` and `κ = 6 (1 + ν)(b² + ea²)²/D`,
+/// `D = (7 + 6ν)(b² + ea²)² + (20 + 12ν) e a² b²`. It is approximated by a polynomial `c`; `|D c − N|` is bounded on
+/// the whole cell, and so is `|c/κGA − 1| = |D c − N|/N`.
 ///
-/// That is asked of plain numbers in the middle of what is known. How far κGA may be from theirs is bounded apart, for
-/// in a polynomial of degree d what is not known of numbers counts d times.
+/// This uses plain numbers in the middle of the intervals. The difference of κGA from the value for these is bounded
+/// separately, because in a polynomial of degree d the uncertainty of numbers counts d times.
 fn of_tube(ring: &Ring) -> Option<Nearly> {
     let gauss = &GAUSS_40;
     let inside = ring.inside.as_ref()?;
@@ -326,7 +326,7 @@ fn off(of: Interval) -> Option<Interval> {
     Some(number(of.distance(of.middle())) * number(of.smallest()).reciprocal()?)
 }
 
-/// The radii of a tube as plain polynomials, and what follows from how far they may be off.
+/// The radii of a tube as plain polynomials, with the consequences of their errors.
 struct Sure {
     outside: Series,
     inside: Series,
@@ -334,7 +334,7 @@ struct Sure {
     outer: Interval,
     inner: Interval,
     wall: Interval,
-    /// By how much `a²/b²` may differ.
+    /// Largest difference of `a²/b²`.
     ratio: Interval,
     /// The share `δ` with which `b² − a²` is that of the plain ones times something in `[1/(1 + δ), 1 + δ]`.
     area: Interval,
@@ -361,8 +361,7 @@ impl Sure {
     }
 }
 
-/// A polynomial near these values of `N/D`, and by what share of itself it may be off, `N` being at least
-/// `least`.
+/// A polynomial close to these values of `N/D`, and its relative error, where `N` is at least `least`.
 fn stands_for(
     values: &[f64; 40],
     denominator: &Values<40>,
@@ -379,8 +378,8 @@ fn stands_for(
     (least > 0.0 && share < 0.5).then(|| Nearly { series, share: up(share / down(1.0 - share)) })
 }
 
-/// `c` with `1/f ≤ c` on the cell, for a positive polynomial `f` of these values, and by what share at most `c`
-/// is above: with `c₀` near `1/f` and `|1 − c₀ f| ≤ β`, `1/f ≤ c₀/(1 − β)`. None where β is not below 1e-8.
+/// `c` with `1/f ≤ c` on the cell, for a positive polynomial `f` with these values, and the largest relative excess of
+/// `c`: with `c₀` near `1/f` and `|1 − c₀ f| ≤ β`, `1/f ≤ c₀/(1 − β)`. None where β is not below 1e-8.
 pub fn inverse(values: &Values<40>, most: f64) -> Option<Nearly> {
     let gauss = &GAUSS_40;
     let near = Series::near(gauss, &values.at.map(|value| 1.0 / value), DEGREE, 0.0);

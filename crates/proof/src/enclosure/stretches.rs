@@ -1,8 +1,8 @@
-//! Which stretches is a bat divided into, on each of which 1/EI and 1/κGA are nearly polynomials?
+//! Into which stretches is a bat divided, so that 1/EI and 1/κGA are nearly polynomials on each?
 //!
-//! Trace and norm are those of a beam whose softness is on every stretch a polynomial of degree 12 that is nowhere
-//! below 1/EI, and one nowhere below 1/κGA. It gives way more than the bat, so that none of its `τ_n` is less than
-//! the bat's, whatever holds both.
+//! Trace and norm are those of a beam whose compliance on every stretch is a polynomial of degree 12 nowhere below
+//! 1/EI, and another nowhere below 1/κGA. It is softer than the bat, so that none of its `τ_n` is less than that of the
+//! bat, for any supports common to both.
 
 use crate::enclosure::beam::Layout;
 use crate::enclosure::gives::Give;
@@ -16,20 +16,20 @@ use sweetspot::bat::body::Bat;
 use sweetspot::bat::theory::Theory;
 
 const ZERO: Interval = Interval { low: 0.0, high: 0.0 };
-/// Polynomials that stand for 1/EI are above it by less than this; where not, the stretch is halved.
+/// Largest relative excess of the polynomials over 1/EI; otherwise the stretch is halved.
 const ABOVE: f64 = 1e-11;
 /// Halvings of a piece of the profile.
 const MOST_HALVINGS: usize = 40;
-/// Halving brings the polynomial nearer by 2¹³, unless it is rounding that is left.
+/// Halving reduces the error of the polynomial by 2¹³, unless only rounding is left.
 const STALLED: f64 = 0.1;
-/// Stretches are no longer than this share of the bat, so that one ends near the balance point.
+/// Stretches are at most this share of the bat, so that one ends near the balance point.
 const LONGEST: f64 = 0.1;
 /// A bat that takes more stretches is refused.
 const MOST_STRETCHES: usize = 20_000;
 /// A polynomial for 1/EI that is farther above it than this is of no use.
 const USELESS: f64 = 1e-3;
 
-/// What one stretch needs.
+/// The data of one stretch.
 pub struct Stretch {
     /// Half its length (m).
     pub half: Interval,
@@ -39,26 +39,26 @@ pub struct Stretch {
     pub mass: Values<40>,
     /// ρI (kg m), where sections turn.
     pub turning: Option<Values<40>>,
-    /// What is above 1/EI (1/(N m²)).
+    /// An upper bound of 1/EI (1/(N m²)).
     pub soft: Values<40>,
-    /// What is above 1/κGA (1/N), in a theory with shear.
+    /// An upper bound of 1/κGA (1/N), in a theory with shear.
     pub slip: Option<Values<40>>,
-    /// By what share at most.
+    /// Largest relative excess of the bounds.
     pub above: f64,
 }
 
-/// A mass as it is met from one end, or a joint, which weighs nothing.
+/// A mass as encountered from one end, or a joint, whose mass is 0.
 #[derive(Clone, Copy)]
 pub struct Met {
     /// It is at the border before the stretch of this number.
     pub before: usize,
-    /// Where its centre is (m).
+    /// Position of its centre (m).
     pub centre: Interval,
     /// Its mass (kg).
     pub mass: Interval,
     /// Its own moment of inertia (kg m²).
     pub inertia: Interval,
-    /// What gives way there.
+    /// The compliant part there.
     pub give: Option<Give>,
 }
 
@@ -120,7 +120,7 @@ pub struct Rigid {
 }
 
 impl Rigid {
-    /// From the masses of rigid motions; None where nothing tells these apart.
+    /// From the masses of rigid motions; None where these cannot be distinguished.
     pub fn of([mass, first, second]: [Interval; 3], length: Interval) -> Option<Self> {
         let over_mass = mass.reciprocal()?;
         let balance = first * over_mass;
@@ -143,7 +143,7 @@ impl Rigid {
 struct PiecePart<'a> {
     piece: usize,
     curve: &'a Curved,
-    /// Where in the piece it begins and ends, in [0, 1].
+    /// Its beginning and end in the piece, in [0, 1].
     of_piece: [f64; 2],
     /// How often the piece was halved for it.
     halvings: usize,
@@ -151,7 +151,7 @@ struct PiecePart<'a> {
     before: f64,
 }
 
-/// A part of a piece, halved until polynomials are near 1/EI and 1/κGA or nothing is gained.
+/// A part of a piece, halved until polynomials are close to 1/EI and 1/κGA or stop improving.
 fn halved(
     bat: &Bat,
     layout: &Layout,
@@ -224,7 +224,7 @@ impl Stretch {
         Series::of(&[self.middle, self.half]).values(&GAUSS_40)
     }
 
-    /// The stretch as it is seen from the other end of a bat of that length.
+    /// The stretch as seen from the other end of a bat of that length.
     pub fn mirrored(mut self, length: Interval) -> Self {
         self.middle = length - self.middle;
         let all =

@@ -1,4 +1,4 @@
-//! Which motions are tried: those of the solver, as strains on the stretches of its mesh?
+//! Which motions are the trials? They are the modes of the solver, as strains on the stretches of its mesh.
 
 use std::ops::Range;
 
@@ -12,7 +12,7 @@ use sweetspot::modes::pairs::pairs_of;
 use sweetspot::modes::plan::Plan;
 use sweetspot::modes::request::CONVERGED;
 
-/// The `count` slowest motions on that plan's mesh, whose elements do not reach over stations.
+/// The `count` slowest modes on the mesh of that plan, whose elements do not reach over stations.
 ///
 /// # Errors
 ///
@@ -55,7 +55,7 @@ fn trial(view: &View<f64>, q: &[f64]) -> Trial {
         spring.map_or(0.0, |spring| q[spring.place] * spring.softness)
     };
     let held = contacts.iter().filter(|contact| !contact.in_a_bed()).map(of);
-    // Legendre coefficients of the deflection on the bed's first and last element, counted outwards.
+    // Legendre coefficients of the deflection on the first and last element of the bed, counted outwards.
     let element = |number: usize| if number < split { split - 1 - number } else { number };
     let on_bed = (0..count).filter_map(|number| Some((element(number), number, view.bed(number)?)));
     let end = |number: usize, bed: Range<usize>, tipwards: bool| -> f64 {

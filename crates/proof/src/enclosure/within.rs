@@ -1,10 +1,10 @@
-//! Between which numbers do the frequencies of every bat lie that is nearly this one?
+//! Between which numbers do the frequencies of every similar bat lie?
 //!
-//! By the minimum-maximum principle a frequency rises where EI or κGA rises and falls where ρA or ρI rises,
-//! whatever else there is. So no bat whose radii are within `d` of these and whose moduli are within a share `m`
-//! rings slower than a beam as stiff as the thinnest of them, of moduli `(1 − m)`, and as heavy as the
-//! thickest; and none rings faster than the opposite. Both are bats with one sleeve of thickness `2d`, around a
-//! wall that is thinner by `d`: a sleeve that weighs and bears nothing, and one that bears and weighs nothing.
+//! By the minimum-maximum principle a frequency rises with EI and κGA and falls with ρA and ρI, other things being
+//! equal. So no bat whose radii are within `d` of these and whose moduli are within a relative tolerance `m` has a
+//! lower frequency than a beam as stiff as the thinnest of them with moduli `(1 − m)`, and as heavy as the thickest;
+//! and none has a higher frequency than the opposite. Both are bats with one sleeve of thickness `2d`, around a wall
+//! that is thinner by `d`: a sleeve with mass and no stiffness, or one with stiffness and no mass.
 //!
 //! # Source
 //!
@@ -21,40 +21,40 @@ use sweetspot::bat::profile::{Profile, Stations};
 use sweetspot::modes::request::Request;
 use sweetspot::modes::theory_choice;
 
-/// How far a bat may be from what its file says.
+/// Tolerances between a bat and its file.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Within {
     /// Every radius, everywhere along the bat (m).
     pub radius: f64,
-    /// Young's and the shear modulus, as a share of what they are.
+    /// Relative tolerance of Young's modulus and the shear modulus.
     pub modulus: f64,
 }
 
-/// What is proven of every bat that near.
+/// The proven statements about every bat within the tolerances.
 #[derive(Debug, Clone)]
 pub struct Band {
-    /// Lower and upper bounds of the frequencies (Hz), of as many modes as are proven.
+    /// Lower and upper bounds of the frequencies (Hz), for the proven modes.
     pub hertz: Vec<[f64; 2]>,
-    /// Whether that is as many as were asked, each end as sharp as asked.
+    /// Whether all requested modes are proven, each bound as sharp as requested.
     pub met: bool,
 }
 
 /// The share by which a sleeve's missing stiffness or mass is not 0.
 const NOTHING: f64 = 1e-18;
-/// Shares that make up for it, and for the rounding of the radii that are made here.
+/// Relative allowance for it, and for the rounding of the radii computed here.
 const ROOM: f64 = 1e-12;
 
-/// The bands of a bat's frequencies for every bat within that of it.
+/// The intervals of the frequencies of every bat within those tolerances.
 ///
 /// # Errors
 ///
-/// [`Error::Value`] for a hollow bat or one of several materials, for one that was weighed, for tape where
-/// sections turn, for radii that are no more than the allowance, and those of [`guarantee`].
+/// [`Error::Value`] for a hollow bat or one of several materials, for one that was weighed, for tape where sections
+/// rotate, for radii not larger than the tolerance, and those of [`guarantee`].
 pub fn band(bat: &Bat, request: &Request, within: Within) -> Result<Band> {
     let request = &Request { theory: theory_choice::of(bat, request)?, ..*request };
     carried(bat, request.theory)?;
     if request.theory.turns() && !bat.fixtures().tapes.is_empty() {
-        // The fastest bat is drawn as thick as the thickest: tape on it would turn more than its own.
+        // The fastest bat has the thickness of the thickest, so that tape on it would have too much rotary inertia.
         let found = format!("tape, and sections that turn ({})", request.theory.name());
         let expected =
             "a bat without tape, or the theory euler-bernoulli, whose tape is a mass alone";

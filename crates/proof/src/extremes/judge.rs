@@ -5,8 +5,8 @@ use crate::promise::{ALWAYS, KNOWN_TO, largest};
 use sweetspot::base::error::{Error, Result};
 use sweetspot::modes::solve::Solution;
 
-/// A solution for a tolerance beside the exact frequencies (Hz): right, or refused with the reason
-/// that the solution gives, if every error is within three times the stated one.
+/// Compares a solution for a tolerance with the exact frequencies (Hz). If every error is within three times the stated
+/// one, it is right, or refused with the reason that the solution gives.
 pub fn against(asked: f64, solution: &Solution, exact: &[f64]) -> Outcome {
     let errors = solution.modes.iter().zip(exact).map(|(mode, f)| mode.frequency() / f - 1.0);
     let found = largest(errors.clone().map(f64::abs));
@@ -24,7 +24,7 @@ pub fn against(asked: f64, solution: &Solution, exact: &[f64]) -> Outcome {
     Outcome { asked, found, stated: solution.worst(), verdict, note: String::new() }
 }
 
-/// A difference that must not be more than asked.
+/// A difference that must not exceed the requested one.
 pub fn difference(asked: f64, found: f64, stated: f64) -> Outcome {
     // NaN fails the comparison: an unknown difference counts as too large.
     let verdict =
@@ -41,7 +41,7 @@ pub fn apart(a: &Solution, b: &Solution, factor: f64) -> f64 {
     largest(pairs.map(|(a, b)| (b.omega * factor / a.omega - 1.0).abs()))
 }
 
-/// What must be refused: right answers to it are wrong.
+/// A case that must be refused: any answer to it is wrong.
 pub fn refusal<T>(asked: f64, answer: Result<T>) -> Outcome {
     let verdict = match answer {
         Err(error @ Error::NotConverged { .. }) => Verdict::Wrong(error.to_string()),

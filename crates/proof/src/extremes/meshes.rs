@@ -59,8 +59,8 @@ fn on_the_line(bat: &Bat, count: usize) -> Result<Bat> {
     Bat::builder(profile, Material::new(density, youngs_modulus)?).build()
 }
 
-/// One element of every degree, as many modes as it has: frequencies above the exact ones
-/// (Rayleigh and Ritz), by no more than three times what is stated.
+/// One element of every degree, with as many modes as it has: frequencies are above the exact ones (Rayleigh and Ritz),
+/// by at most three times the stated error.
 pub fn one_element() -> Result<Outcome> {
     let (mut errors, mut stated, mut outside) = (vec![], vec![], None);
     for degree in 3..=12 {
@@ -97,7 +97,7 @@ pub fn too_large_for_dense() -> Result<Outcome> {
     Ok(refusal(request.tolerance, solve(&dowel(Size::default())?, &request)))
 }
 
-/// Time, and the most memory that the program has had, where the system tells.
+/// Time, and the peak memory of the program, where the system gives it.
 fn note(took: Duration) -> String {
     let seconds = took.as_secs_f64();
     let memory =

@@ -1,10 +1,9 @@
-//! Are bats beyond any real one solved rightly, or refused with the reason?
+//! Are bats beyond any real one solved correctly, or refused with the reason?
 //!
-//! [`EXTREMES`] are the rows, each to be run by itself.
+//! [`EXTREMES`] are the rows, each of which can run separately.
 //!
-//! Every row asks for something beyond any real bat or mesh. It is right if every true error is
-//! within three times the stated one and the wanted accuracy is met, refused if the answer or an
-//! error says why not, wrong otherwise.
+//! Every row requests something beyond any real bat or mesh. It is right if every true error is within three times the
+//! stated one and the wanted accuracy is met, refused if the answer or an error gives the reason, wrong otherwise.
 
 mod judge;
 mod shapes;
@@ -19,18 +18,18 @@ use sweetspot::base::error::Result;
 pub enum Verdict {
     /// Right, within three times the stated error.
     Right,
-    /// Refused, with the reason that a user is told.
+    /// Refused, with the reason given to the user.
     Refused(String),
-    /// Wrong, with what is wrong.
+    /// Wrong, with the mistake.
     Wrong(String),
 }
 
-/// What a row asked and what came of it; errors are relative, except where the row says.
+/// Request and result of a row; errors are relative, except where the row states otherwise.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {
-    /// The wanted accuracy; 0 asks for the same bits.
+    /// The wanted accuracy; 0 requests identical bits.
     pub asked: f64,
-    /// The worst true error or difference.
+    /// The largest true error or difference.
     pub found: f64,
     /// The worst error that the answers state.
     pub stated: f64,
@@ -43,7 +42,7 @@ pub struct Outcome {
 /// One row of the suite.
 #[derive(Debug, Clone, Copy)]
 pub struct Extreme {
-    /// What is asked for, as the table names it.
+    /// The request, as the table names it.
     pub what: &'static str,
     /// Whether it takes seconds rather than milliseconds.
     pub slow: bool,
@@ -51,7 +50,7 @@ pub struct Extreme {
 }
 
 impl Extreme {
-    /// Runs the row; an error that it did not ask for is a wrong answer.
+    /// Runs the row; an unexpected error counts as wrong.
     pub fn run(&self) -> Outcome {
         (self.run)().unwrap_or_else(|error| Outcome {
             asked: f64::NAN,

@@ -1,4 +1,4 @@
-//! What must change nothing, or not one bit.
+//! Changes that must have no effect, or change not a single bit.
 
 use std::thread;
 
@@ -13,10 +13,10 @@ use sweetspot::bat::material::Material;
 use sweetspot::bat::profile::{Interpolation, Profile, Stations};
 use sweetspot::modes::solve::{Request, Solution, solve};
 
-/// Twice the limit of what the same elements in another order may round differently.
+/// Twice the largest difference that another order of the same elements may cause by rounding.
 const ROUNDINGS: f64 = 1e-13;
 
-/// Both directions of one mesh, whose running sums go from either end.
+/// Both directions of one mesh, where running sums begin at either end.
 pub fn turned_on_one_mesh() -> Result<Outcome> {
     let bat = Truth::of_cases(&["cone_1_1000"])?.bat;
     let turned = bat.with(|parts| parts.profile = parts.profile.clone().reversed())?;
@@ -25,7 +25,7 @@ pub fn turned_on_one_mesh() -> Result<Outcome> {
     Ok(difference(ROUNDINGS, apart(&a, &b, 1.0), a.worst()))
 }
 
-/// A bat with stations more, solved for twelve digits, beside what is known of it without.
+/// A bat with additional stations, solved for twelve digits, compared with the known values without them.
 fn with_more_stations(case: &str, places: &[f64]) -> Result<Outcome> {
     let truth = Truth::of_cases(&[case])?;
     let request = Request { tolerance: 1e-12, ..Request::plain() };
@@ -37,7 +37,7 @@ fn with_more_stations(case: &str, places: &[f64]) -> Result<Outcome> {
 fn split(bat: &Bat, places: &[f64]) -> Result<Bat> {
     let (mut x, mut outer, mut inner) = (vec![], vec![], vec![]);
     for piece in &bat.profile().pieces {
-        // The ends of a piece too: where the next begins otherwise, that is a step.
+        // Includes the ends of a piece: where the next piece has another value, that is a step.
         for share in [0.0].iter().chain(places).chain(&[1.0]) {
             let (place, section) = (piece.start + share * piece.length, piece.at(*share));
             let known = x.last() == Some(&place) && outer.last() == Some(&section.outer);
@@ -83,7 +83,7 @@ fn everything() -> Result<Vec<Vec<u64>>> {
     bats.chain(cases).map(|bat| Ok(bits(&solve(&bat?, &request)?))).collect()
 }
 
-/// Asks for 0: what is found is the share of solutions with another bit.
+/// Requests 0; the result is the share of solutions with a different bit.
 fn share_of_others(first: &[Vec<u64>], others: &[Vec<Vec<u64>>]) -> Outcome {
     let different = others.iter().map(|other| {
         let unequal = first.iter().zip(other).filter(|(a, b)| a != b).count();

@@ -32,8 +32,8 @@ pub fn turned(case: &str, modes: usize, asked: f64) -> Result<Outcome> {
     })
 }
 
-/// Whether every known node lies as far from the other end, within three times its stated error
-/// and a picometre.
+/// Whether every known node has the same distance from the other end, within three times its stated error and a
+/// picometre.
 fn mirrored(solution: &Solution, truth: &Truth) -> bool {
     let length = truth.bat.length();
     solution.modes.iter().zip(&truth.nodes).all(|(mode, nodes)| {
@@ -44,8 +44,8 @@ fn mirrored(solution: &Solution, truth: &Truth) -> bool {
     })
 }
 
-/// Ten cylinders, each 1.5 times as thick as the last: two plans of different degree agree within
-/// three times what both state.
+/// Ten cylinders, each 1.5 times as thick as the previous one: two plans of different degree agree within three times
+/// both stated errors.
 pub fn chain_of_steps() -> Result<Outcome> {
     let count = 10;
     let profile = Profile::new(Stations {

@@ -27,9 +27,9 @@ impl Default for Size {
 }
 
 const DENSITY: f64 = 711.0;
-/// What is asked of ten modes of a dowel of any size.
+/// Requested accuracy of ten modes of a dowel of any size.
 const ASKED: f64 = 1e-12;
-/// What a change of unit by decades may change: a few roundings.
+/// Allowed effect of changing a unit by decades: a few roundings.
 const DECADES: f64 = 1e-13;
 
 /// The bat that this bar is.
@@ -71,7 +71,7 @@ pub fn out_of_range(modulus: f64) -> Result<Outcome> {
     Ok(refusal(ASKED, dowel(Size { modulus, ..Size::default() })))
 }
 
-/// That many modes of the dowel, each with the nodes that theory demands.
+/// That many modes of the dowel, each with the number of nodes that theory requires.
 pub fn modes(count: usize, asked: f64) -> Result<Outcome> {
     let truth = Truth::of_dowel(count)?;
     let request = Request { modes: count, tolerance: asked, ..Request::plain() };
@@ -130,7 +130,7 @@ pub fn lengths_by_decades() -> Result<Outcome> {
     }))
 }
 
-/// Powers of two change no digit, so nothing may depend on absolute thresholds.
+/// Powers of two change no digit, so this shows that nothing depends on absolute thresholds.
 fn by_twos(solve: impl Fn(&Bat) -> Result<Solution>, step: [i32; 3]) -> Result<Outcome> {
     let plain = solve(&r161_times(1.0, 1.0, 1.0)?)?;
     let mut found = Vec::new();

@@ -21,11 +21,11 @@ pub struct BarrelGrid {
     pub modes: Vec<MovedBarrel>,
 }
 
-/// A hoop mode on these points. Each mode has a twin at the same frequency, turned about the bat's axis by a
-/// quarter of a wave; one of the two is here, which moves most in the plane of x and y.
+/// A hoop mode at these points. Each mode has a twin at the same frequency, rotated about the axis of the bat by a
+/// quarter of a wave. Of the two, this is the one that moves most in the plane of x and y.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MovedBarrel {
-    /// What it is.
+    /// The mode.
     pub mode: HoopMode,
     /// Modal mass (kg), the largest motion across the surface being 1.
     pub modal_mass: f64,
@@ -34,7 +34,7 @@ pub struct MovedBarrel {
 }
 
 impl BarrelGrid {
-    /// The stretch of a bat that its hoop modes are of, at `places` places with `around` points around each.
+    /// The stretch of a bat that its hoop modes cover, at `places` places with `around` points around each.
     pub fn of(bat: &Bat, hoop: &Hoop, places: usize, around: usize) -> Self {
         let (from, to) = (hoop.from(), hoop.to());
         let ring = |k: usize| from + (to - from) * k as f64 / (places.max(2) - 1) as f64;

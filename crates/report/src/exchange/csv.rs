@@ -4,9 +4,8 @@ use crate::csv::Csv;
 use crate::exchange::modes_file::ModeTable;
 use crate::parts::cell::Cell;
 
-/// A row for each place: `x_m`, both radii, and deflection and rotation of every mode. The header
-/// names the columns with their units, there are no comments, and numbers read back to the same
-/// bits.
+/// A row for each place: `x_m`, both radii, and deflection and rotation of every mode. The header names the columns
+/// with their units. There are no comments. Numbers read back to the same bits.
 pub fn modes(table: &ModeTable) -> String {
     let names = table
         .modes

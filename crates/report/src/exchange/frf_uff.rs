@@ -7,18 +7,18 @@ use uff58::{
     Abscissa, Axis, Complex, Dataset, Dof, Function, Node, Nodes, Stamp, Units, Values, six_digits,
 };
 
-/// What was forced and watched, in which answer, where.
+/// The places and the kind of a response.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measured<'a> {
     /// Name of the bat.
     pub bat: &'a str,
     /// Whether the answer is a displacement, a velocity or an acceleration.
     pub kind: ResponseKind,
-    /// Where the force is (m from the knob end).
+    /// Position of the force (m from the knob end).
     pub at: f64,
-    /// Where the answer is watched (m from the knob end).
+    /// Position of the response (m from the knob end).
     pub to: f64,
-    /// Start and step of the frequencies (Hz) where they are even.
+    /// Start and step of the frequencies (Hz) if they are evenly spaced.
     pub even: Option<[f64; 2]>,
 }
 
@@ -26,8 +26,8 @@ pub struct Measured<'a> {
 /// answer (node 2, or 1 if it is the same place), and 58: answer in +y over force in +y, complex,
 /// in double precision, with time as `e^{+iωt}`.
 ///
-/// Frequencies have six digits in the file: ask for such ones
-/// ([`uff58::six_digits`]), for near a resonance the seventh matters.
+/// Frequencies have six digits in the file. Compute the response at such frequencies ([`uff58::six_digits`]), because
+/// near a resonance the seventh digit matters.
 pub fn response(measured: &Measured, samples: &[Sample], stamp: &Stamp) -> Vec<Dataset> {
     let same = measured.at == measured.to;
     let mut nodes = vec![Node::new(1, [measured.at, 0.0, 0.0])];

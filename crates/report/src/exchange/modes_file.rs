@@ -1,4 +1,4 @@
-//! A `sweetspot-modes/1` file read back: what `sweetspot modes BAT --json FILE` wrote.
+//! Reads a `sweetspot-modes/1` file that `sweetspot modes BAT --json FILE` wrote.
 
 use std::path::Path;
 
@@ -13,9 +13,9 @@ use sweetspot::files::json_node::{Node, Object};
 /// The modes of a bat, sampled along it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModeTable {
-    /// The resolved bat that stands in the file.
+    /// The resolved bat in the file.
     pub bat: Bat,
-    /// Version of the program that found the modes; empty where the file does not say.
+    /// Version of the program that computed the modes; empty where the file does not give it.
     pub version: String,
     /// The places of the samples, rising (m).
     pub x: Vec<f64>,
@@ -32,7 +32,7 @@ pub struct SampledMode {
     pub frequency: f64,
     /// Share of critical damping; 0 without damping.
     pub damping_ratio: f64,
-    /// Modal mass of the shape as it is scaled here (kg).
+    /// Modal mass of the shape with this scale (kg).
     pub modal_mass: f64,
     /// Nodes, where the deflection is 0 (m).
     pub nodes: Vec<f64>,
@@ -50,8 +50,7 @@ impl ModeTable {
     }
 }
 
-/// Reads a modes file. Members that this version does not know are passed over, for a later one may
-/// add some.
+/// Reads a modes file. Unknown members are ignored, because a later version may add some.
 ///
 /// # Errors
 ///
@@ -62,7 +61,7 @@ pub fn read(path: &Path) -> Result<ModeTable> {
     parse(&Document::read(path)?)
 }
 
-/// Reads the text of a modes file; `file` is what messages call it.
+/// Reads the text of a modes file; `file` is its name in messages.
 ///
 /// # Errors
 ///
@@ -123,7 +122,7 @@ fn check_format(root: &Object) -> Result<()> {
     }
 }
 
-/// The resolved bat, which is a bat file in its own right.
+/// The resolved bat, which is a complete bat file.
 fn bat(document: &Document) -> Result<Bat> {
     #[derive(Deserialize)]
     struct Whole<'a> {
@@ -134,7 +133,7 @@ fn bat(document: &Document) -> Result<Bat> {
     let raw = whole.bat.get();
     // Both are slices of the same text, so the difference of addresses is the offset.
     let start = raw.as_ptr() as usize - document.text.as_ptr() as usize;
-    // With everything before it blank, a mistake is told at its place in the whole file.
+    // With everything before it blank, a mistake is reported at its place in the whole file.
     let blank = |c: char| if c == '\n' { '\n' } else { ' ' };
     let text: String = document.text[..start].chars().map(blank).chain(raw.chars()).collect();
     Bat::from_text(&document.file, &text, Path::new(""))

@@ -3,13 +3,11 @@
 use crate::exchange::modes_file::{ModeTable, SampledMode};
 use uff58::{Analysis, Complex, Dataset, Header, NodalData, Node, Nodes, Stamp, TraceLine, Units};
 
-/// The datasets of a bat's modes: 151, 164 (SI), 2411 or, for older programs, 15, 82, and 55 for
-/// each mode, its values being translations x, y, z and rotations about them, with the deflection
-/// in y and the rotation about z.
+/// The datasets of the modes of a bat: 151, 164 (SI), 2411 or, for older programs, 15, 82, and 55 for each mode. The
+/// values of 55 are translations x, y, z and rotations about them, with the deflection in y and the rotation about z.
 ///
-/// A trace line has at most 250 nodes: through more places there are several, each from where the
-/// one before it ends. All damping stands as viscous, nothing as hysteretic: a reader that adds the
-/// two has it once.
+/// A trace line has at most 250 nodes. More places need several lines, each beginning where the previous one ends. All
+/// damping is written as viscous and none as hysteretic, so that a reader that adds the two counts it once.
 pub fn modes(table: &ModeTable, legacy: bool, stamp: &Stamp) -> Vec<Dataset> {
     let nodes = (1..).zip(&table.x).map(|(label, x)| Node::new(label, [*x, 0.0, 0.0])).collect();
     let mut datasets = vec![

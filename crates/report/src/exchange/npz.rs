@@ -59,7 +59,7 @@ impl Archive {
     }
 }
 
-/// What stands before the numbers of an array.
+/// The bytes before the numbers of an array.
 fn header(kind: &str, shape: &[usize]) -> Vec<u8> {
     let lengths: String = shape.iter().map(|n| format!("{n},")).collect();
     let text = format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': ({lengths}), }}");
@@ -74,11 +74,11 @@ fn header(kind: &str, shape: &[usize]) -> Vec<u8> {
     bytes
 }
 
-/// An archive of columns, one array each.
+/// An archive of columns, with one array for each.
 ///
 /// # Errors
 ///
-/// What the zip file cannot hold.
+/// If the data exceed the limits of a zip file.
 pub fn columns(columns: &[(String, Vec<f64>)]) -> Result<Vec<u8>> {
     let mut archive = Archive::new();
     for (name, values) in columns {
@@ -87,13 +87,13 @@ pub fn columns(columns: &[(String, Vec<f64>)]) -> Result<Vec<u8>> {
     archive.finish()
 }
 
-/// The archive of a bat's modes: `x_m`, `radius_m`, `inner_radius_m` at every place; `order`,
-/// `frequency_hz`, `modal_mass_kg`, `damping_ratio` of every mode; `deflection` and
-/// `rotation_rad_per_m`, modes by places; `nodes_m_1`, `nodes_m_2`, … where each mode is at rest.
+/// The archive of the modes of a bat: `x_m`, `radius_m`, `inner_radius_m` at every place; `order`, `frequency_hz`,
+/// `modal_mass_kg`, `damping_ratio` of every mode; `deflection` and `rotation_rad_per_m`, modes by places; `nodes_m_1`,
+/// `nodes_m_2`, … with the nodes of each mode.
 ///
 /// # Errors
 ///
-/// What the zip file cannot hold.
+/// If the data exceed the limits of a zip file.
 pub fn modes(table: &ModeTable) -> Result<Vec<u8>> {
     let mut archive = Archive::new();
     let (count, places) = (table.modes.len(), table.x.len());
@@ -119,21 +119,21 @@ pub fn modes(table: &ModeTable) -> Result<Vec<u8>> {
     archive.finish()
 }
 
-/// The archive of a mesh: `K_data`, `K_indices`, `K_indptr`, `K_shape` and the same of `M` (all
-/// entries, both triangles); `x_m` of its nodes and `deflection_unknown`, which unknown the
-/// deflection of each is (its rotation is the next); `frequency_hz` and `modal_mass_kg` of the
-/// modes and their shapes at the nodes, `deflection` and `rotation_rad_per_m`, modes by nodes.
+/// The archive of a mesh: `K_data`, `K_indices`, `K_indptr`, `K_shape` and the same for `M` (all entries, both
+/// triangles); `x_m` of its nodes and `deflection_unknown`, the index of the deflection of each node among the unknowns
+/// (its rotation is the next one); `frequency_hz` and `modal_mass_kg` of the modes and their shapes at the nodes,
+/// `deflection` and `rotation_rad_per_m`, modes by nodes.
 ///
 /// # Errors
 ///
-/// What the zip file cannot hold.
+/// If the data exceed the limits of a zip file.
 pub fn matrices(pencil: &Pencil, solution: &Solution) -> Result<Vec<u8>> {
     let mut archive = Archive::new();
     for (name, matrix) in [("K", &pencil.stiffness), ("M", &pencil.mass)] {
         sparse(&mut archive, name, matrix)?;
     }
     let x = solution.mesh.nodes();
-    // After those of a node come the unknowns inside the element to its right.
+    // The unknowns of a node are followed by those inside the element to its right.
     let stride = (pencil.stiffness.nrows() - 2) / solution.mesh.len();
     let unknowns: Vec<usize> = (0..x.len()).map(|k| k * stride).collect();
     archive.floats("x_m", &[x.len()], &x)?;

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 /// Points and cells of a surface or a line, in the order of their places along the bat.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Grid {
-    /// Where each point is (m): x along the bat, y in the direction of deflections.
+    /// Position of each point (m): x along the bat, y in the direction of deflections.
     pub points: Vec<[f64; 3]>,
     /// Which place along the bat each point belongs to.
     pub places: Vec<usize>,
@@ -64,7 +64,7 @@ impl Grid {
         grid
     }
 
-    /// The cells between two rings, either of which may be a point.
+    /// The cells between two rings, either of which may be a single point.
     fn join(&mut self, left: &[usize], right: &[usize], around: usize) {
         if left.len() + right.len() == 2 {
             return;

@@ -1,10 +1,9 @@
-//! Modes as VTK files: what ParaView, VTK and meshio open.
+//! Modes as VTK files, which ParaView, VTK and meshio read.
 //!
-//! One `.vtu` file holds the bat and all modes. In ParaView: open it, apply *Warp By Vector* with
-//! one of `mode_01`, `mode_02`, … (scale 0.05), and on a line *Extract Surface* and *Tube*, its
-//! radius varying by the absolute scalar `radius_m`. A `.pvd` collection is one such file for each
-//! mode, with one array `mode` and the mode's frequency as the time: open the `.pvd`, warp by
-//! `mode`, and step through time.
+//! One `.vtu` file holds the bat and all modes. In ParaView: open it, apply *Warp By Vector* with one of `mode_01`,
+//! `mode_02`, … (scale 0.05), and on a line *Extract Surface* and *Tube*, with its radius varied by the absolute scalar
+//! `radius_m`. A `.pvd` collection has one such file for each mode, with one array `mode` and the frequency of the mode
+//! as the time: open the `.pvd`, warp by `mode`, and step through time.
 //!
 //! # Source
 //!
@@ -40,8 +39,8 @@ pub fn one_mode(table: &ModeTable, grid: &Grid, k: usize) -> String {
     file(table, grid, &[mode], |_| "mode".into(), Some(mode.frequency))
 }
 
-/// About how many bytes such a file has, with that number of modes on a grid of that number of points: its
-/// numbers have up to 17 digits.
+/// Approximate size of such a file in bytes, with that number of modes on a grid of that number of points. Its numbers
+/// have up to 17 digits.
 pub fn size(points: usize, modes: usize) -> usize {
     const OF_A_POINT: usize = 100;
     const OF_A_VECTOR: usize = 45;
@@ -88,9 +87,9 @@ fn file(
     .file(grid)
 }
 
-/// What a file holds besides the points and cells of its grid.
+/// The content of a file besides the points and cells of its grid.
 pub(super) struct Contents {
-    /// What it is, in a comment.
+    /// A comment that describes the content.
     pub about: &'static str,
     /// The time of the file, if it has one.
     pub time: Option<f64>,
@@ -113,7 +112,7 @@ impl Contents {
         for (name, values) in &self.fields {
             field(&mut out, name, values);
         }
-        // The one unit that names of arrays do not tell: that of the points.
+        // The only unit that names of arrays do not give, that of the points.
         field(&mut out, "meters_per_unit_length", &[1.0]);
         out += "</FieldData>\n";
         let (points, cells) = (grid.points.len(), grid.cells.len());
@@ -162,7 +161,7 @@ fn put_cells(out: &mut String, grid: &Grid) {
     *out += "</Cells>\n";
 }
 
-/// Numbers that belong to the whole file; empty if there are no such numbers.
+/// Numbers of the whole file; empty if there are none.
 fn field(out: &mut String, name: &str, values: &[f64]) {
     if values.is_empty() {
         return;
@@ -180,7 +179,7 @@ fn vectors(out: &mut String, name: &str, vectors: &[[f64; 3]]) {
     rows(out, vectors.iter().map(|[x, y, z]| format!("{x:?} {y:?} {z:?}")), 2);
 }
 
-/// The head of an array; one component is what is taken where no number stands.
+/// The head of an array. The number of components is omitted for one component, the default.
 fn begin(out: &mut String, kind: &str, name: &str, components: usize) {
     let components = match components {
         1 => String::new(),

@@ -8,7 +8,7 @@
 /// Samples in a second of every file.
 pub const RATE: u32 = 44_100;
 
-/// The largest sample, so that no player clips it: 1 dB below the largest there is.
+/// The largest sample, 1 dB below full scale so that no player clips it.
 const LARGEST: f64 = 0.89 * i16::MAX as f64;
 
 /// A file of samples from −1 to 1, others cut, [`RATE`] in a second.

@@ -1,7 +1,7 @@
-//! Where do the rows of a study go, and which of them are there?
+//! Where are the rows of a study stored, and which of them exist?
 //!
-//! A folder holds a manifest and parts of equally many rows. Both are written whole, and a part depends on the
-//! study and its number alone. A part that is there is therefore right, and a missing one can be made at any time.
+//! A folder holds a manifest and parts with equally many rows. Both are written in one piece, and a part depends only
+//! on the study and its number. An existing part is therefore correct, and a missing one can be made at any time.
 
 use std::env::consts::{ARCH, OS};
 use std::path::{Path, PathBuf};
@@ -26,7 +26,7 @@ use sweetspot_study::many::rows::TOGETHER;
 pub const MANIFEST: &str = "manifest.json";
 /// The program ends where it stops.
 static NEVER: AtomicBool = AtomicBool::new(false);
-/// The C library, whose elementary functions another may round in another way.
+/// The C library. Another library may round elementary functions differently.
 const LIBRARY: &str = match () {
     () if cfg!(target_env = "gnu") => "gnu",
     () if cfg!(target_env = "musl") => "musl",
@@ -41,11 +41,11 @@ pub struct StudyFolder<'a> {
     division: Division,
 }
 
-/// The manifest of a study, whichever it is.
+/// The manifest of any study.
 ///
 /// # Errors
 ///
-/// [`Error::Value`] for a file that is not a study's manifest; [`Error::Read`].
+/// [`Error::Value`] for a file that is no manifest of a study; [`Error::Read`].
 pub(super) fn manifest_at(path: &Path) -> Result<Value> {
     let found: Value = serde_json::from_slice(&file::read_plain(path)?).unwrap_or_default();
     if found["format"].as_str().is_some_and(|of| of.starts_with("sweetspot-study-manifest/")) {
@@ -57,7 +57,7 @@ pub(super) fn manifest_at(path: &Path) -> Result<Value> {
 }
 
 impl<'a> StudyFolder<'a> {
-    /// The folder, made if it is not there, with the manifest of this study.
+    /// The folder with the manifest of this study, created if it does not exist.
     ///
     /// # Errors
     ///
@@ -69,7 +69,7 @@ impl<'a> StudyFolder<'a> {
         if sums::is_there(&manifest)? {
             let found = manifest_at(&manifest)?;
             let each = found.get("rows_per_part").map_or(Some(ROWS), Value::as_u64);
-            // One that was begun with parts of the usual size goes on with them.
+            // A folder that was begun with parts of the usual size keeps that size.
             if each == Some(ROWS) {
                 this.division.rows_per_part = ROWS;
             }
@@ -106,11 +106,11 @@ impl<'a> StudyFolder<'a> {
         self.path.join(format!("part-{k:06}.csv"))
     }
 
-    /// Part k if it is there.
+    /// Part k if it exists.
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] for one that does not fit its sum or, without one, is not as the study makes it.
+    /// [`Error::Value`] for a part that does not match its sum or, without a sum, its rows.
     pub fn kept(&self, k: u64) -> Result<Option<Vec<u8>>> {
         let path = self.part(k);
         if !sums::is_there(&path)? {
@@ -124,7 +124,7 @@ impl<'a> StudyFolder<'a> {
         Ok(Some(part))
     }
 
-    /// The parts that are missing. On request each that is there gets its numbers as a NumPy archive.
+    /// The missing parts. On request each existing part gets its numbers as a NumPy archive.
     ///
     /// # Errors
     ///
@@ -140,8 +140,8 @@ impl<'a> StudyFolder<'a> {
         missing.into_iter().filter_map(Result::transpose).collect()
     }
 
-    /// Makes those parts, on request with their numbers as a NumPy archive; `tell` is told of rows that are
-    /// done, how many more there are.
+    /// Makes those parts, on request with their numbers as a NumPy archive. `tell` receives the number of rows
+    /// completed since the last call.
     ///
     /// # Errors
     ///
@@ -154,7 +154,7 @@ impl<'a> StudyFolder<'a> {
         Ok(())
     }
 
-    /// Parts that are made together, so that every thread has some groups of rows.
+    /// Number of parts made together, so that every thread has some groups of rows.
     fn at_once(&self) -> usize {
         let rows = 4 * TOGETHER * threads::count() as u64;
         rows.div_ceil(self.division.rows_per_part) as usize
@@ -164,14 +164,14 @@ impl<'a> StudyFolder<'a> {
         let path = self.part(k);
         let made = part::made(self.study, self.division.part(k), &NEVER, tell);
         let archive = path.with_extension("npz");
-        // One that is there is of the part that is lost.
+        // An existing archive belongs to the part that was lost.
         if npz || archive.exists() {
             sums::write(&archive, &self.numbers(k, made.as_bytes())?)?;
         }
         sums::write(&path, made.as_bytes())
     }
 
-    /// Looks at the archive of a part that is there, or makes it on request.
+    /// Checks the archive of an existing part, or makes it on request.
     fn archive(&self, k: u64, npz: bool, part: &[u8]) -> Result<()> {
         let path = self.part(k).with_extension("npz");
         if !sums::is_there(&path)? {
@@ -218,10 +218,10 @@ impl<'a> StudyFolder<'a> {
         }
     }
 
-    /// An error that says what has changed since a manifest was written.
+    /// An error that states what has changed since the manifest was written.
     fn same(&self, mut found: Value) -> Result<()> {
         let wanted = serde_json::to_value(self.manifest()).unwrap_or_default();
-        // Every part had as many before manifests said so.
+        // Every part had this size before manifests recorded it.
         if let Some(found) = found.as_object_mut() {
             found.entry("rows_per_part").or_insert(ROWS.into());
         }

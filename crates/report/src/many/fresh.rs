@@ -1,4 +1,4 @@
-//! Which files of a folder have studies written, and how is it begun anew?
+//! Which files in a folder were written by studies, and how is the folder cleared?
 
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -7,11 +7,11 @@ use crate::many::folder::{MANIFEST, manifest_at};
 use crate::many::part;
 use sweetspot::base::error::{Error, Result};
 
-/// Files of a study in a folder, its manifest last; none where no study is.
+/// Files of a study in a folder, with its manifest last; empty where there is no study.
 ///
 /// # Errors
 ///
-/// [`Error::Value`] where the folder's manifest is not of a study; [`Error::Read`].
+/// [`Error::Value`] where the manifest in the folder is not of a study; [`Error::Read`].
 pub fn files(folder: &Path) -> Result<Vec<PathBuf>> {
     let manifest = folder.join(MANIFEST);
     if !manifest.exists() {

@@ -1,14 +1,14 @@
-//! How are many bats kept?
+//! How are the results of many bats stored?
 //!
 //! | file | question |
 //! |---|---|
-//! | [`source`] | which files is a study made from |
-//! | [`sums`] | is a file what it was when it was written |
-//! | [`part`] | which rows are in a part, and what does one look like |
-//! | [`folder`] | where do the rows go, and which of them are there |
-//! | [`fresh`] | which files of a folder have studies written |
-//! | [`table`] | which numbers are in them |
-//! | [`summary`] | what do they come to, on one screen |
+//! | [`source`] | which files make up a study |
+//! | [`sums`] | is a file unchanged since it was written |
+//! | [`part`] | which rows are in a part, and what is its format |
+//! | [`folder`] | where are the rows stored, and which of them exist |
+//! | [`fresh`] | which files in a folder were written by studies |
+//! | [`table`] | which numbers are in the parts |
+//! | [`summary`] | what do they amount to, on one screen |
 
 pub mod source;
 pub mod sums;

@@ -1,6 +1,6 @@
-//! Which rows are in a part, and what does a part look like?
+//! Which rows are in a part, and what is its format?
 //!
-//! Part k is a function of the study, the rows of a part and k alone.
+//! Part k is a function of the study, the number of rows in a part, and k.
 
 use std::ops::Range;
 use std::path::Path;
@@ -17,10 +17,10 @@ use sweetspot_study::many::rows::in_groups;
 
 /// Rows of a part.
 pub const ROWS: u64 = 4096;
-/// Rows of a part of a study that solves walls, of which a row takes a thousand times as long.
+/// Rows in a part of a study that solves walls, where a row takes a thousand times as long.
 pub const ROWS_WITH_WALLS: u64 = 64;
 
-/// How the rows of a study are shared out.
+/// How the rows of a study are divided into parts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Division {
     /// All rows.
@@ -30,7 +30,7 @@ pub struct Division {
 }
 
 impl Division {
-    /// That of a study, by what it asks.
+    /// The division of a study, according to its outputs.
     pub fn of(rows: &Rows) -> Self {
         let rows_per_part = if rows.solves_walls() { ROWS_WITH_WALLS } else { ROWS };
         Self { rows: rows.count(), rows_per_part }
@@ -49,8 +49,8 @@ impl Division {
     }
 }
 
-/// Some rows of a study as a CSV file; `tell` is told of rows that are done, how many more there are. From when
-/// `stop` is set no more rows are begun, and what was made is of no use.
+/// Some rows of a study as a CSV file. `tell` receives the number of rows completed since the last call. Once `stop` is
+/// set, no more rows are begun and the result is useless.
 pub fn made(
     study: &Study,
     rows: Range<u64>,
@@ -65,11 +65,11 @@ pub fn made(
     table.text()
 }
 
-/// Reads a part with those rows, which is at `path`, and gives `each` its rows.
+/// Reads a part with those rows, located at `path`, and passes its rows to `each`.
 ///
 /// # Errors
 ///
-/// [`Error::Value`](sweetspot::Error) for a part that is not as the study makes it.
+/// [`Error::Value`](sweetspot::Error) for a part that differs from what the study makes.
 pub fn read(
     rows: &Rows,
     wanted: Range<u64>,
@@ -104,7 +104,7 @@ pub fn read(
     }
 }
 
-/// Checks a part without a sum: it is what its rows are when they are written anew, to the last line break.
+/// Checks a part without a sum: writing its rows again must give the same file, to the last line break.
 ///
 /// # Errors
 ///
@@ -142,7 +142,7 @@ pub fn columns(
     Ok(columns)
 }
 
-/// A cell that is a number; whether something is so is 1 or 0, what is not there is NaN.
+/// The value of a cell: 1 or 0 for yes or no, NaN where it is missing.
 pub fn number(cell: &str) -> f64 {
     match cell {
         "true" => 1.0,
@@ -151,7 +151,7 @@ pub fn number(cell: &str) -> f64 {
     }
 }
 
-/// Whether a file of that name is a part, an archive of one or the sum of such a file.
+/// Whether that is the name of a part, of the archive of a part, or of the sum of one of these.
 pub fn is_of_one(name: &str) -> bool {
     let name = name.strip_suffix(sums::END).unwrap_or(name);
     let part = name.strip_prefix("part-").and_then(|part| part.split_once('.'));

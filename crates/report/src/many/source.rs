@@ -26,7 +26,7 @@ use sweetspot_study::files::written::WrittenFile;
 pub struct Source {
     /// Its name, as the study has it.
     pub name: String,
-    /// What it says.
+    /// The text of the file.
     pub text: String,
 }
 
@@ -46,16 +46,16 @@ struct Parcel {
     bats: Vec<BatText>,
     /// Profiles in place of the tables that values name, in the order of the study.
     tables: Vec<Value>,
-    /// The ball, if it is of a file.
+    /// The ball, if it comes from a file.
     ball: Option<String>,
 }
 
 impl Study {
-    /// Reads a study, its bats and its ball: files from the study's folder, or what is built in.
+    /// Reads a study with its bats and its ball: files in the folder of the study, or built-in ones.
     ///
     /// # Errors
     ///
-    /// What is wrong with one of the files, or as [`Rows::new`].
+    /// The mistakes in one of the files, or as [`Rows::new`].
     pub fn read(path: &Path) -> Result<Self> {
         let Document { file, text, .. } = Document::read(path)?;
         Self::of(&file, &text, path.parent().unwrap_or(Path::new("")))
@@ -73,7 +73,7 @@ impl Study {
         Ok((study, outside.paths()))
     }
 
-    /// A study from its text; `name` is what messages call it, its files are in `folder` or below.
+    /// A study from its text. `name` is its name in messages, and its files are in `folder` or below.
     ///
     /// # Errors
     ///
@@ -109,11 +109,11 @@ impl Study {
         json!(self.parcel).to_string()
     }
 
-    /// A study that was sent here.
+    /// A study that was sent to this machine.
     ///
     /// # Errors
     ///
-    /// Where the text is not one of [`Self::alone`] of this version.
+    /// If the text is not one of [`Self::alone`] of this version.
     pub fn arrived(text: &str) -> Result<Self> {
         let parcel: Parcel = serde_json::from_str(text)
             .map_err(|error| Error::value("study", error, "one sent by this version"))?;
@@ -124,7 +124,7 @@ impl Study {
         }
         let ball = match &parcel.ball {
             Some(text) => Ball::from_text("ball", text)?,
-            // What is sent names no file here.
+            // A study that was sent names no file on this machine.
             None => built_in(study.ball.as_deref().unwrap_or("baseball"))
                 .ok_or_else(|| Error::value("study", "no ball", "one sent by this version"))?,
         };
@@ -150,13 +150,13 @@ fn tables(folder: Folder, study: &mut StudyFile, sources: &mut Vec<Source>) -> R
     Ok(all)
 }
 
-/// The bats of those names: files from the study's folder, all of a folder, or built-in ones. Of several, one
-/// that is not a bat stays with the reason.
+/// The bats with those names: files from the folder of the study, all of a folder, or built-in ones. Where there are
+/// several, one that is not a valid bat is kept with the reason.
 fn bats(folder: Folder, study: &StudyFile, sources: &mut Vec<Source>) -> Result<Vec<BatText>> {
     let mut all: Vec<(String, PathBuf)> = vec![];
     for name in &study.bats {
         let path = folder.find(name)?;
-        // A folder that is called like a built-in bat is what was made of it.
+        // A folder with the name of a built-in bat probably holds its results.
         let built_in = || built_in::named(Path::new(name)).is_ok_and(|found| found.is_some());
         match path.is_dir() && !built_in() {
             false => all.push((name.clone(), path)),
@@ -168,7 +168,7 @@ fn bats(folder: Folder, study: &StudyFile, sources: &mut Vec<Source>) -> Result<
         if !seen.insert(std::fs::canonicalize(path).unwrap_or_else(|_| path.clone())) {
             return Err(Error::value("bat", format!("{name} a second time"), "every bat once"));
         }
-        // What is not there is a slip of the pen, not a bat that cannot exist.
+        // A missing file is a mistyped name and not an impossible bat.
         if !path.is_file() {
             built_in::named(Path::new(name))?;
         }
@@ -218,7 +218,7 @@ fn files_of(name: &str, folder: Folder) -> Result<Vec<(String, PathBuf)>> {
     Ok(files)
 }
 
-/// Whether a file says of itself that it is a document of this program, and no bat: the study itself, a manifest.
+/// Whether a file declares itself another document of this program and no bat, such as the study itself or a manifest.
 fn is_another_document(path: &Path) -> bool {
     let text = file::read_plain(path).unwrap_or_default();
     let document: Value = serde_json::from_slice(&text).unwrap_or_default();
@@ -226,7 +226,7 @@ fn is_another_document(path: &Path) -> bool {
     format.starts_with("sweetspot-") && !format.starts_with("sweetspot-bat/")
 }
 
-/// The text of a bat, which needs no other file: the columns of a table are put into the bat itself.
+/// The text of a bat that needs no other file: the columns of a table are put into the bat itself.
 fn bat(
     (name, path): (&str, &Path),
     study: &StudyFile,
@@ -243,7 +243,7 @@ fn bat(
     }
     let Document { file, text, .. } = json_at(path, "bat")?;
     read(name, &text);
-    // Nobody has named this file at a keyboard: what it names lies in its own folder.
+    // Nobody typed the name of this file, so the files it names must be in its own folder.
     let folder = Folder::closed(path.parent().unwrap_or(Path::new("")));
     Bat::from_text_in(&file, &text, &folder)?;
     let mut document: Value = serde_json::from_str(&text).unwrap_or_default();

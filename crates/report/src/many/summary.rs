@@ -1,4 +1,4 @@
-//! What came of many bats, on one screen.
+//! The results of many bats, on one screen.
 
 use std::fmt::Write;
 
@@ -12,10 +12,10 @@ use sweetspot_study::files::study_vary::Varied;
 use sweetspot_study::many::design::Axis;
 use sweetspot_study::many::indices::Indices;
 
-/// Reasons that are shown.
+/// Number of reasons shown.
 const REASONS: usize = 5;
 
-/// How many rows there are, why some have no answer, and percentiles of every answer.
+/// The number of rows, the reasons for which some have no answer, and percentiles of every answer.
 pub fn text(table: &Table, rows: &Rows) -> String {
     let mut out = format!("{} bats, {} of them as accurate as asked\n", table.rows, table.met);
     let mut reasons: Vec<&Reason> = table.reasons.values().collect();
@@ -47,7 +47,7 @@ pub fn text(table: &Table, rows: &Rows) -> String {
     out
 }
 
-/// What makes every answer vary, where that can be told.
+/// What causes the variation of every answer, where that can be determined.
 pub fn shares(table: &Table, rows: &Rows) -> String {
     let design = &rows.study.design;
     if rows.several() || design.combinations() > 1 || design.kinds().is_empty() {
@@ -86,7 +86,7 @@ pub fn answers<'a>(table: &'a Table, rows: &'a Rows) -> impl Iterator<Item = &'a
     rows.study.outputs.iter().filter_map(|name| table.column(name))
 }
 
-/// What is drawn, in the order of the indices.
+/// The names of the random inputs, in the order of the indices.
 pub fn names(rows: &Rows) -> Vec<String> {
     let is_drawn = |varied: &&Varied| matches!(varied.axis(), Axis::Drawn(_));
     let drawn = rows.study.varied.iter().filter(is_drawn);
@@ -100,7 +100,7 @@ pub fn sorted(column: &Column) -> Vec<f64> {
     values
 }
 
-/// The value below which a share of sorted ones lies, straight between neighbours; None of none.
+/// The value below which a share of sorted values lies, linear between neighbours; None without values.
 pub fn percentile(sorted: &[f64], share: f64) -> Option<f64> {
     let last = sorted.len().checked_sub(1)?;
     let place = share * last as f64;

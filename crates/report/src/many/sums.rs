@@ -1,7 +1,7 @@
-//! Is a file what it was when it was written?
+//! Is a file unchanged since it was written?
 //!
-//! Beside a part stands a file with its SHA-256, one line as `sha256sum` writes it. The part is written first: if
-//! the program is killed in between, there is a part without a sum, which is checked by what is in it.
+//! Each part has a second file with its SHA-256, one line in the format of `sha256sum`. The part is written first. If
+//! the program is killed in between, the part has no sum and is checked by its content.
 
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -14,11 +14,11 @@ use sweetspot::base::file;
 /// How the name of a sum ends.
 pub const END: &str = ".sha256";
 
-/// Whether a file is there.
+/// Whether a file exists.
 ///
 /// # Errors
 ///
-/// [`Error::Value`] for a link that leads nowhere: nothing is written where it leads.
+/// [`Error::Value`] for a broken link, because writing would follow it.
 pub fn is_there(path: &Path) -> Result<bool> {
     let is_link = path.symlink_metadata().is_ok_and(|is| is.is_symlink());
     if is_link && !path.exists() {
@@ -27,11 +27,11 @@ pub fn is_there(path: &Path) -> Result<bool> {
     Ok(path.exists())
 }
 
-/// Whether a file that was read fits its sum; false where it has none.
+/// Whether a file that was read matches its sum; false where it has no sum.
 ///
 /// # Errors
 ///
-/// [`Error::Value`] where it does not fit, or where what is there is no sum of it; [`Error::Read`].
+/// [`Error::Value`] where it does not match, or where the second file is no sum of it; [`Error::Read`].
 pub fn fits(path: &Path, bytes: &[u8]) -> Result<bool> {
     let beside = beside(path);
     if beside.symlink_metadata().is_err_and(|error| error.kind() == ErrorKind::NotFound) {
@@ -71,7 +71,7 @@ pub fn fits(path: &Path, bytes: &[u8]) -> Result<bool> {
 pub fn write(path: &Path, bytes: &[u8]) -> Result<()> {
     let old = beside(path);
     match std::fs::remove_file(&old) {
-        // That of a file which was here before must not be taken for this one's.
+        // The sum of an earlier file of that name must not be taken for that of this one.
         Err(source) if source.kind() != ErrorKind::NotFound => {
             return Err(Error::Write { path: old, source });
         }
@@ -81,7 +81,7 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<()> {
     add(path, bytes)
 }
 
-/// Writes the sum of a file that is there.
+/// Writes the sum of an existing file.
 ///
 /// # Errors
 ///
@@ -90,7 +90,7 @@ pub fn add(path: &Path, bytes: &[u8]) -> Result<()> {
     file::write(&beside(path), line(path, bytes).as_bytes())
 }
 
-/// The error about a part that is not what it was.
+/// The error about a part that has changed.
 pub fn damaged(path: &Path, found: &str, expected: &str) -> Error {
     let complaint = Complaint::new(path.display().to_string(), found, expected);
     Error::Value(complaint.hinted("without this file the study makes it anew"))

@@ -10,10 +10,10 @@ use sweetspot::base::marks;
 use sweetspot_study::files::study_rows::Rows;
 use sweetspot_study::many::indices::Indices;
 
-/// Rows that are kept in memory; of more every third, fifth, … is: an odd step takes as many of every part of
-/// a design by Sobol.
+/// Number of rows kept in memory. Of more rows, every third, fifth, … is kept: an odd step takes equally many from
+/// every part of a Sobol design.
 const KEPT: u64 = 100_000;
-/// Rows that shares are found from.
+/// Number of rows from which shares are found.
 const FITTED: usize = 8192;
 
 /// A column of numbers.
@@ -21,9 +21,9 @@ const FITTED: usize = 8192;
 pub struct Column {
     /// Its name.
     pub name: String,
-    /// Its unit, which may be none.
+    /// Its unit, possibly empty.
     pub unit: String,
-    /// Its numbers, NaN where a row has none.
+    /// Its numbers, NaN for a row without one.
     pub values: Vec<f64>,
 }
 
@@ -32,15 +32,15 @@ pub struct Column {
 pub struct Table {
     /// Everything that is a number.
     pub columns: Vec<Column>,
-    /// Which rows their values are of.
+    /// The rows whose values are kept.
     pub kept: Vec<u64>,
-    /// How many rows one was kept of.
+    /// One of this number of rows was kept.
     pub every: u64,
-    /// How many rows there are.
+    /// Number of rows.
     pub rows: u64,
-    /// How many are as accurate as asked.
+    /// Number of rows that are as accurate as requested.
     pub met: u64,
-    /// Why others have no answer, by what is left of a reason without its numbers.
+    /// Why others have no answer, by the reason without its numbers.
     pub reasons: BTreeMap<String, Reason>,
 }
 
@@ -49,9 +49,9 @@ pub struct Table {
 pub struct Reason {
     /// How many rows.
     pub rows: u64,
-    /// The first of them.
+    /// The first row with that reason.
     pub first: u64,
-    /// What that one says.
+    /// The reason in that row.
     pub said: String,
 }
 
@@ -107,11 +107,11 @@ impl Table {
         self.columns.iter().find(|column| column.name == name)
     }
 
-    /// What makes an answer vary, of one bat of which nothing varies but what is drawn.
+    /// What causes the variation of an answer, for one bat of which only the random inputs vary.
     ///
     /// # Errors
     ///
-    /// Why that cannot be told.
+    /// The reason for which it cannot be determined.
     pub fn shares(&self, rows: &Rows, name: &str) -> std::result::Result<Indices, String> {
         let design = &rows.study.design;
         if rows.several() || design.combinations() > 1 {
@@ -119,7 +119,7 @@ impl Table {
         }
         let column = self.column(name).ok_or("it is no answer")?;
         let fitted: Vec<(&u64, &f64)> = self.kept.iter().zip(&column.values).take(FITTED).collect();
-        // Those that are missing lie together, mostly in a tail: what is left is of other distributions.
+        // Missing rows lie together, mostly in a tail, and the remaining ones have other distributions.
         let missing = fitted.iter().filter(|(_, y)| !y.is_finite()).count();
         if missing > 0 {
             return Err(format!(
@@ -138,7 +138,7 @@ impl Table {
 fn kind(why: &str) -> String {
     let in_number = |c: char| c.is_ascii_digit() || ".+-".contains(c);
     let words = why.split(' ').map(|word| match word.trim_matches(in_number) {
-        // What is left of 1e-5.
+        // The remainder of 1e-5.
         "e" => "",
         _ => word,
     });

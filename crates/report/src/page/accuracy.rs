@@ -1,4 +1,4 @@
-//! How far the numbers may be trusted: what is certified, what was left out and what that costs.
+//! How reliable are the numbers: what is certified, what was neglected, and the error that causes.
 
 use crate::analysis::Analysis;
 use crate::page::shown::{self, speed};
@@ -13,12 +13,12 @@ use sweetspot_proof::promise::{ALWAYS, largest};
 use sweetspot_study::ignored::{ignored, in_hit};
 use sweetspot_study::trade::reference::solver_name;
 
-/// What wood, scale and calipers leave open of the bat in hand, and what would settle it.
+/// The uncertainty of this bat due to wood, scale and calipers, and what would reduce it.
 pub fn open(analysis: &Analysis, units: Units) -> Vec<String> {
     trust::of_bat(analysis, units).iter().map(|text| shown::sentence(text)).collect()
 }
 
-/// What is certified, a sentence each.
+/// What is certified, one sentence each.
 pub fn certified(analysis: &Analysis, units: Units) -> Vec<String> {
     let Analysis { solution, task, .. } = analysis;
     let tolerance = task.hits.tolerance;
@@ -66,8 +66,8 @@ const MOST_MODES: usize = 10;
 /// Intervals are this narrow as a share of the frequency.
 const WIDTH: f64 = 1e-9;
 
-/// What is proven of the frequencies' stated errors; None where nothing is, or where a stated error is smaller
-/// than the proof tells.
+/// What is proven about the stated errors of the frequencies; None where nothing is proven, or where a stated error is
+/// smaller than the proof can show.
 fn proven(analysis: &Analysis) -> Option<String> {
     let Analysis { bat, solution, .. } = analysis;
     if bat.profile().pieces.len() > MOST_PIECES {
@@ -82,7 +82,7 @@ fn proven(analysis: &Analysis) -> Option<String> {
         let frequency = mode.frequency();
         f64::max(frequency / lower - 1.0, 1.0 - frequency / upper) / mode.error.total()
     });
-    // Rounded up to what is printed.
+    // Rounded up to the printed digits.
     let worst = (100.0 * largest(off)).ceil() / 100.0;
     (found.met && worst <= ALWAYS).then(|| {
         format!(
@@ -105,7 +105,7 @@ fn count_of_modes(analysis: &Analysis) -> &'static str {
     }
 }
 
-/// The largest error of an exit speed, as the model has it.
+/// The largest error of an exit speed within the model.
 fn exit_speeds(analysis: &Analysis, units: Units) -> Option<String> {
     let hits = &analysis.hits;
     let fastest = hits.impacts.iter().map(|i| i.bat_speed + analysis.task.scene.ball_speed);
@@ -157,7 +157,7 @@ pub fn method(analysis: &Analysis) -> Vec<String> {
     told.iter().map(|text| shown::sentence(text)).collect()
 }
 
-/// What the model left out and what that costs.
+/// What the model neglected, and the error that causes.
 pub fn left_out(analysis: &Analysis) -> Vec<String> {
     let ignored = ignored(&analysis.bat, &analysis.solution);
     let mut told: Vec<String> = ignored.iter().map(|text| shown::sentence(text)).collect();
@@ -165,13 +165,13 @@ pub fn left_out(analysis: &Analysis) -> Vec<String> {
     told
 }
 
-/// What the hits left out, of which the modes know nothing.
+/// What the hits neglected, which does not affect the modes.
 pub fn left_out_of_hit(analysis: &Analysis) -> Vec<String> {
     let ignored = in_hit(&analysis.bat, &analysis.task.scene);
     ignored.iter().map(|text| shown::sentence(&format!("Left out: {text}"))).collect()
 }
 
-/// What the model needs on this bat.
+/// What the model of this bat needs.
 pub fn needed(analysis: &Analysis) -> Vec<String> {
     let told = analysis.advice.as_ref().map_or(vec![], advice::recommendation);
     told.iter().map(|text| shown::sentence(text)).collect()

@@ -1,4 +1,4 @@
-//! The barrel of a hollow bat as it rings, for the page's script: rounded to what a picture shows.
+//! The ringing barrel of a hollow bat for the script of the page, rounded to what a picture shows.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -19,12 +19,12 @@ pub struct RingingBarrel {
     pub modes: Vec<RingingMode>,
 }
 
-/// A hoop mode: what moves, and how fast.
+/// A hoop mode: its motion and its frequency.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct RingingMode {
     /// Waves around the barrel, n.
     pub harmonic: usize,
-    /// Number of the mode among those of its harmonic, from 1.
+    /// Number of the mode within its harmonic, from 1.
     pub order: usize,
     /// Natural frequency (Hz).
     pub frequency_hz: f64,
@@ -48,7 +48,7 @@ pub fn moving(barrel: &Barrel) -> Vec<(usize, &HoopMode)> {
 }
 
 impl RingingBarrel {
-    /// The barrel of that bat; None where it has no modes.
+    /// The barrel of that bat; None where it has no hoop modes.
     pub fn new(bat: &Bat, barrel: &Barrel) -> Option<Self> {
         let round = |all: &[f64]| all.iter().map(|value| rounded(*value, 4)).collect();
         let ringing = |(k, mode): &(usize, &HoopMode)| {

@@ -1,4 +1,4 @@
-//! Several bats on one page: what differs first.
+//! Several bats on one page, with the differences first.
 
 use crate::page::figure::Figure;
 use crate::page::html::Page;
@@ -12,7 +12,7 @@ use crate::report::edits;
 use sweetspot::base::error::Result;
 use sweetspot_study::comparison::table::Comparison;
 
-/// The page of bats side by side, made by that command; `us` says which units are shown first.
+/// The page of bats side by side, made by that command; `us` selects which units are shown first.
 ///
 /// # Errors
 ///
@@ -79,7 +79,7 @@ fn sections<'a>(comparison: &Comparison, command: &'a str, units: Units) -> Vec<
 /// The pictures of energies, one for each bat there can be.
 const LEDGERS: [&str; 6] = ["ledger_A", "ledger_B", "ledger_C", "ledger_D", "ledger_E", "ledger_F"];
 
-/// What was changed about which bat.
+/// The changes made to each bat.
 fn edited(comparison: &Comparison, units: Units) -> Vec<String> {
     let bats = comparison.bats.iter().enumerate();
     let told = bats.map(|(k, contender)| (letter(k), edits::listed(&contender.bat, units)));
@@ -87,7 +87,7 @@ fn edited(comparison: &Comparison, units: Units) -> Vec<String> {
     edited.map(|(bat, edits)| format!("{bat} is edited: {edits}.")).collect()
 }
 
-/// How all of them are hit.
+/// The conditions common to all hits.
 fn scene(comparison: &Comparison, units: Units) -> Vec<String> {
     let first = &comparison.bats[0];
     let speed = shown::speed(units, first.scene.ball_speed);
@@ -100,7 +100,7 @@ fn scene(comparison: &Comparison, units: Units) -> Vec<String> {
     ]
 }
 
-/// What is asked first comes first.
+/// The most important rows first.
 fn ordered(mut rows: Vec<Row>) -> Vec<Row> {
     let rank = |row: &Row| FIRST.iter().position(|key| row.key == *key).unwrap_or(FIRST.len());
     rows.sort_by_key(rank);

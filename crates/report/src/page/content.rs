@@ -1,4 +1,4 @@
-//! What a report says, in order, whatever it is written as.
+//! The content of a report, in order, independent of its format.
 
 use crate::analysis::Analysis;
 use crate::page::data::Data;
@@ -20,26 +20,26 @@ use sweetspot::motion::sound::{Sound, WallTones, as_heard};
 use sweetspot_study::ignored::damping_in_sound;
 use sweetspot_study::lathe::map::LatheMap;
 
-/// What a report is made from.
+/// The data of a report.
 #[derive(Clone)]
 pub struct Report<'a> {
     /// All results.
     pub analysis: &'a Analysis,
-    /// The command as it was typed.
+    /// The command as typed.
     pub command: String,
-    /// The files as they were written.
+    /// The input files as written.
     pub inputs: Vec<Input>,
     /// Every picture of the analysis.
     pub figures: Vec<Figure>,
-    /// Hits in time; none where the model knows no force in time.
+    /// Hits in time; empty where the model has no force in time.
     pub moments: Vec<Moment>,
-    /// What a tap on the tip and the hit at the sweet spot sound like; no hit where there is no force.
+    /// The sounds of a tap on the tip and of the hit at the sweet spot; no hit where there is no force.
     pub sounds: (Sound, Option<Sound>),
-    /// What a cut does, where that is known.
+    /// The effects of cuts, where they are known.
     pub map: Option<&'a LatheMap>,
     /// The numbers at the top.
     pub summary: Summary,
-    /// Whether US units are shown first: as in the bat's file, unless others are asked for.
+    /// Whether US units are shown first: as in the file of the bat, unless others are requested.
     pub us: bool,
     /// The address of the live page beside the report.
     pub lab: Option<String>,
@@ -56,13 +56,12 @@ const NO_CONTACT: &str = "This model takes a half sine of given duration as the 
                           squeeze the ball, so the moment of the hit cannot be shown; the model \
                           \"contact\" gives one.";
 const NO_CUTS: &str = "What a cut does to this bat is not known.";
-/// What links call the section that hollow bats alone have.
+/// The link name of the section that only hollow bats have.
 const HOOP: &str = "hoop";
 const NO_MODES: &str = "No bending modes were asked for.";
 
 impl<'a> Report<'a> {
-    /// The report of an analysis, asked for by that command with those files, and of what cuts do if that is
-    /// known.
+    /// The report of an analysis, made by that command with those files, with the effects of cuts if they are known.
     ///
     /// # Errors
     ///
@@ -134,7 +133,7 @@ impl<'a> Report<'a> {
         self.analysis.figures.spot.exit_speed_max.is_some()
     }
 
-    /// Where, how fast, how wide, and why.
+    /// Where the sweet spot is, how fast the ball leaves, how wide the zone is, and why.
     fn answers(&'a self, units: Units) -> Vec<Part<'a>> {
         if !self.hits() {
             return vec![Part::Missing(NO_HIT)];
@@ -229,7 +228,7 @@ impl<'a> Report<'a> {
         ]
     }
 
-    /// The hoop modes of a hollow barrel, and what its wall does to the ball.
+    /// The hoop modes of a hollow barrel, and the effect of its wall on the ball.
     fn hoop(&'a self, units: Units) -> Vec<Part<'a>> {
         let Some(barrel) = &self.analysis.barrel else { return vec![] };
         let bat = &self.analysis.bat;
@@ -298,7 +297,7 @@ impl<'a> Report<'a> {
     }
 }
 
-/// Where a cut does most, each line with its unit of the cut.
+/// The places where a cut has the largest effects, each line with its unit of the cut.
 fn cuts(map: &LatheMap, units: Units) -> Vec<String> {
     let per = lathe::per(map, units);
     lathe::strongest(map, units).iter().map(|line| format!("{line}, per {per} off")).collect()
@@ -327,7 +326,7 @@ fn sounds(analysis: &Analysis) -> Result<(Sound, Option<Sound>)> {
     Ok((tap, hit))
 }
 
-/// Where the physics comes from.
+/// The sources of the physics.
 const SOURCES: [&str; 4] = [
     "Ball and bat in contact: A. M. Nathan, \"Dynamics of the baseball-bat collision\", Am. J. Phys. \
      68, 979 (2000).",

@@ -1,4 +1,4 @@
-//! The numbers that the page's script draws, rounded to what a picture shows; the summary is exact.
+//! The numbers that the script of the page draws, rounded to what a picture shows; those of the summary are exact.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -14,9 +14,9 @@ use sweetspot::collision::hit::{Energy, Impact};
 use sweetspot::files::schema::document::{Document, Format};
 use sweetspot::motion::sound::{ASSUMED_LOSS, Sound};
 
-/// What the script of a report draws: the bat's outline, hits along the barrel, modes and hits in time.
-/// The unit stands in every name; positions count from the knob end; what does not exist is null.
-/// Numbers are rounded to what a picture shows, those of the summary are not.
+/// What the script of a report draws: the outline of the bat, hits along the barrel, modes and hits in time. SI units,
+/// named at the end of each member; positions count from the knob end; a value that does not exist is null. Numbers are
+/// rounded to what a picture shows, except those of the summary.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[schemars(title = "Data of a report of sweetspot, sweetspot-page/1")]
 pub struct Data<'a> {
@@ -24,20 +24,20 @@ pub struct Data<'a> {
     pub format: Format<Data<'a>>,
     /// The numbers at the top of the page, not rounded.
     pub summary: &'a Summary,
-    /// What the bat looks like.
+    /// The outline of the bat.
     pub outline: Outline,
-    /// What hits along the barrel do.
+    /// The hits along the barrel.
     pub curve: Curve,
     /// The first modes, six at most.
     pub modes: Vec<MovingMode>,
-    /// How the barrel of a hollow bat rings; left out of others.
+    /// The ringing barrel of a hollow bat; left out for others.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub barrel: Option<RingingBarrel>,
     /// Hits in time; empty where the model knows no force in time.
     pub moments: &'a [Moment],
-    /// What a tap on the tip sounds like.
+    /// The sound of a tap on the tip.
     pub tap: Heard<'a>,
-    /// What the hit at the sweet spot sounds like; null where the model knows no force in time.
+    /// The sound of the hit at the sweet spot; null where the model has no force in time.
     pub crack: Option<Heard<'a>>,
     /// How large the ball is drawn (mm).
     pub ball_radius_mm: f64,
@@ -47,7 +47,7 @@ impl Document for Data<'_> {
     const NAME: &'static str = "page";
 }
 
-/// The bat's outline at rising places, a step being two at the same; shapes are told there too.
+/// The outline of the bat at rising places, with a step as two equal places; shapes are given at these places too.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Outline {
     /// From the knob end to the tip (mm).
@@ -61,30 +61,30 @@ pub struct Outline {
 /// Hits along the barrel; null where no ball is hit.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Curve {
-    /// Where the ball meets the bat (m from the knob end), rising.
+    /// Position of the impact (m from the knob end), rising.
     pub x_m: Vec<f64>,
     /// Speed of the ball off the bat (m/s).
     pub exit_speed_m_s: Vec<Option<f64>>,
     /// Speed of the ball off the bat if the bat did not bend (m/s).
     pub rigid_exit_speed_m_s: Vec<Option<f64>>,
-    /// What stays in the bat's bending (J).
+    /// Energy left in bending vibration (J).
     pub vibration_j: Vec<Option<f64>>,
-    /// What the ball takes with it (J).
+    /// Energy of the ball after the hit (J).
     pub ball_j: Vec<Option<f64>>,
-    /// What is lost in the ball's own squeezing (J).
+    /// Energy lost in the compression of the ball (J).
     pub lost_in_ball_j: Vec<Option<f64>>,
-    /// What the bat's rigid motion keeps (J).
+    /// Energy of the rigid motion of the bat after the hit (J).
     pub bat_j: Vec<Option<f64>>,
 }
 
-/// One mode: what moves, and how fast.
+/// One mode: its motion and its frequency.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct MovingMode {
     /// Number of the bending mode, from 1.
     pub order: usize,
     /// Natural frequency (Hz).
     pub frequency_hz: f64,
-    /// Where it does not move (mm from the knob end).
+    /// Its nodes (mm from the knob end).
     pub nodes_mm: Vec<f64>,
     /// At the places of the outline, the largest of the whole shape 1.
     pub deflection: Vec<f64>,
@@ -95,13 +95,13 @@ const POINTS: usize = 121;
 /// Modes that move.
 pub const MOVING: usize = 6;
 
-/// A sound, and what is assumed for it.
+/// A sound, and the assumption made for it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct Heard<'a> {
-    /// What is heard.
+    /// The sound.
     #[serde(flatten)]
     pub sound: &'a Sound,
-    /// The loss factor of what has none, and none that is published; null where all have one.
+    /// The loss factor assumed for materials without one; null where all have one.
     pub assumed_loss_factor: Option<f64>,
 }
 
@@ -142,8 +142,7 @@ impl<'a> Data<'a> {
     }
 }
 
-/// The hits along the barrel, and the one at the sweet spot in its place among them: whoever reads the
-/// curve off can stand on it.
+/// The hits along the barrel, including the one at the sweet spot, so that a reader of the curve can stop on it.
 fn read_off(analysis: &Analysis) -> Vec<Impact> {
     let mut all = analysis.hits.impacts.clone();
     let best = analysis.figures.best.iter().filter(|best| best.outcome.is_some());
@@ -158,7 +157,7 @@ fn read_off(analysis: &Analysis) -> Vec<Impact> {
 
 impl Outline {
     fn new(profile: &Profile) -> Self {
-        /// Steps that are drawn: more than this could not be told apart.
+        /// Most steps drawn; more could not be distinguished.
         const MOST: usize = 100;
         let length = profile.length();
         let even = (0..POINTS).map(|k| length * k as f64 / (POINTS - 1) as f64);

@@ -8,7 +8,7 @@ use sweetspot::base::error::Result;
 /// One picture in all its forms.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
-    /// What parts of a page call it: the name of the picture.
+    /// The name of the picture, by which parts of a page refer to it.
     pub name: String,
     /// The picture, wide and narrow, each in SI and in US units.
     pub forms: [[Picture; 2]; 2],
@@ -28,7 +28,7 @@ impl Figure {
         Ok(both.map(|forms| Self { name: forms[0][0].name.clone(), forms }).collect())
     }
 
-    /// The figure with its title and what is to be known, and what belongs on its sheet and below.
+    /// The figure with its title and facts, and further content within it and below it.
     pub fn html(&self, [within, below]: [&str; 2]) -> String {
         let [wide, narrow] = &self.forms;
         let title = escaped(&wide[0].title);
@@ -46,7 +46,7 @@ impl Figure {
     }
 }
 
-/// What is told in both systems of units, once where it is the same.
+/// A text in both systems of units, once where it is the same.
 fn switched(tag: &str, [si, us]: [String; 2]) -> String {
     match si == us {
         true => format!("<{tag}>{si}</{tag}>"),

@@ -1,4 +1,4 @@
-//! The report as a file, of the kind that its name says.
+//! The report as a file, in the format that its name requests.
 
 use std::path::{Path, PathBuf};
 
@@ -9,17 +9,17 @@ use crate::plot::sheet::Sheet;
 use sweetspot::base::error::{Error, Result};
 use sweetspot::base::file;
 
-/// What a report is written as.
+/// Format of a report.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PageFormat {
-    /// One page that needs nothing beside it.
+    /// One page that needs no other file.
     Html,
-    /// Text, and a folder of pictures beside it.
+    /// Text, with a folder of pictures.
     Markdown,
 }
 
 impl PageFormat {
-    /// What that name asks for.
+    /// The format requested by that name.
     ///
     /// # Errors
     ///
@@ -37,8 +37,8 @@ impl PageFormat {
     }
 }
 
-/// Whether a report can be expected there, before it is made: a name of its kind, in a folder that is there or that
-/// is made before the report, with one of `made`.
+/// Checks before the report is made that it can be written there: its name has a known extension, and its folder exists
+/// or is made before the report with one of `made`.
 ///
 /// # Errors
 ///
@@ -70,7 +70,7 @@ pub fn expected_page(path: &Path, made: &[&Option<PathBuf>]) -> Result<()> {
     }
 }
 
-/// Where the pictures of a report in Markdown are: `report.md` has `report_pictures`.
+/// The folder for the pictures of a report in Markdown: `report.md` has `report_pictures`.
 pub fn pictures_of(path: &Path) -> PathBuf {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     path.with_file_name(format!("{stem}_pictures"))

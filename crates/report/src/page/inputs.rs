@@ -1,4 +1,4 @@
-//! What was asked: the scene, the files as they were written, the bat as it was understood.
+//! The request: the scene, the files as written, the bat as the program understood it.
 
 use serde_json::Value;
 
@@ -98,8 +98,7 @@ fn ball(scene: &Scene, units: Units) -> Vec<Line> {
 /// Longer tables are cut.
 const MOST: usize = 400;
 
-/// The bat as it was understood: every value in SI but the columns of the profile, the first many of
-/// them.
+/// The bat as understood: every value in SI except the columns of the profile, limited to the first ones.
 pub fn values(analysis: &Analysis) -> Table {
     let head = ["Key", "Value", "Unit"];
     let mut table = Table::new("The bat as it was understood, in SI", &head);
@@ -165,7 +164,7 @@ fn unit(path: &str) -> &'static str {
     }
 }
 
-/// The columns of the profile in SI, the first many of them; formulas as they were written.
+/// The columns of the profile in SI, limited to the first ones; formulas as written.
 pub fn profile(analysis: &Analysis) -> Table {
     // Edits change it piece by piece, and no column has them.
     let profile = analysis.bat.unedited().profile();

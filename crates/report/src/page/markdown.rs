@@ -1,4 +1,4 @@
-//! The report as Markdown, its pictures as files beside it.
+//! The report as Markdown, with its pictures in separate files.
 
 use std::fmt::Write;
 
@@ -11,7 +11,7 @@ use crate::parts::table::Table;
 use crate::parts::units::Units;
 use crate::plot::picture::Picture;
 
-/// In place of a section of which everything moves or sounds.
+/// Replaces a section in which everything moves or sounds.
 const MOVES: &str = "What moves and sounds needs the page: write the report as HTML.\n\n";
 
 /// The whole text; `pictures` is the folder of the pictures as seen from it.
@@ -59,7 +59,7 @@ fn part(report: &Report, one: &Part, pictures: &str) -> String {
             let inner: String = parts.iter().map(|inner| part(report, inner, pictures)).collect();
             format!("### {title}\n\n{inner}")
         }
-        // What moves needs a page.
+        // Moving parts need a page.
         Part::Moving(_) => String::new(),
     }
 }

@@ -1,9 +1,8 @@
 //! The report: everything about a bat on one page, for those who make or swing it.
 //!
-//! What it says of one bat ([`content`]) or of several ([`compared`]) is a list of [parts](crate::parts),
-//! the same whether it is written as a page ([`html`]) or as Markdown ([`markdown`]). The page is one file that
-//! fetches nothing and is told in both systems of units; what moves on it is drawn by its own script
-//! from the numbers in [`data`], and all the rest is there without.
+//! Its content for one bat ([`content`]) or several ([`compared`]) is a list of [parts](crate::parts), the same for a
+//! page ([`html`]) and for Markdown ([`markdown`]). The page is one file that fetches nothing and shows both systems of
+//! units. Its script draws the moving parts from the numbers in [`data`]; all other parts work without the script.
 
 pub mod shown;
 pub mod summary;

@@ -1,8 +1,8 @@
-//! The moment of the hit, picture by picture: how the ball is squeezed and the bat bends.
+//! The moment of the hit, picture by picture: how the ball is compressed and the bat bends.
 //!
-//! While they touch the ball is squeezed by what [`Hitter::history`] says. Before and after it ball and
-//! bat move apart by `∫∫F dt²/m − v t − w(a)`, v their closing speed and w the bat's motion against its
-//! swing ([`sweetspot::collision::aftermath`]).
+//! During the contact the compression of the ball is that of [`Hitter::history`]. Before and after it, the distance
+//! between ball and bat is `∫∫F dt²/m − v t − w(a)`, where v is their closing speed and w the motion of the bat against
+//! its swing ([`sweetspot::collision::aftermath`]).
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -15,17 +15,17 @@ use sweetspot::collision::aftermath::{Aftermath, Instant};
 use sweetspot::collision::history::Moment as Squeezed;
 use sweetspot::collision::{Hitter, Model};
 
-/// A hit in time, as numbers for drawing: rounded to what a picture shows.
+/// A hit in time as numbers for drawing, rounded to what a picture shows.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Moment {
     /// Name of the place of the hit.
     pub label: String,
-    /// Where the ball meets the bat (m from the knob end).
+    /// Position of the impact (m from the knob end).
     pub x_m: f64,
     /// Time from the first touch to the last (ms).
     pub contact_ms: f64,
-    /// How many times larger than it is the bending should be drawn: the same in every hit of a page,
-    /// so that a hit that bends the bat more is seen to.
+    /// Factor by which the drawing enlarges the bending. It is the same in every hit of a page, so that the pictures
+    /// can be compared.
     pub factor: u32,
     /// Instants (ms), 0 at the first touch.
     pub times_ms: Vec<f64>,
@@ -38,7 +38,7 @@ pub struct Moment {
     pub bending_10_um: Vec<Vec<i32>>,
 }
 
-/// Places along the bat at which its bending is told.
+/// Number of places along the bat at which its bending is given.
 pub const PLACES: usize = 41;
 /// Pictures from before the touch to the end.
 const PICTURES: usize = 201;
@@ -102,7 +102,7 @@ fn moment(analysis: &Analysis, hitter: &Hitter, label: &str, x: f64) -> Option<M
     })
 }
 
-/// Ball and bat as they near each other, touch and part.
+/// Ball and bat as they approach, touch and separate.
 struct Flight<'a> {
     after: &'a Aftermath<'a>,
     touch: Vec<Squeezed>,
@@ -113,11 +113,10 @@ struct Flight<'a> {
 }
 
 impl Flight<'_> {
-    /// How far apart they are at those times (s), which rise; less than 0 while the ball is squeezed
-    /// (m).
+    /// The gap between them at those rising times (s), less than 0 while the ball is compressed (m).
     fn gaps(&self, times: &[f64]) -> Vec<f64> {
         let end = self.after.end();
-        // The squeeze that wall and ball keep at the end of the touch is not part of the ball's flight.
+        // The remaining compression of wall and ball at the end of the contact is not part of the flight of the ball.
         let kept = self.apart(&[end])[0] + squeezed(&self.touch, end);
         let gap = |(time, apart): (&f64, f64)| match *time {
             time if time < 0.0 => apart,
@@ -157,17 +156,18 @@ fn times(analysis: &Analysis, end: f64) -> Vec<f64> {
     (0..PICTURES).map(|k| -BEFORE + (last + BEFORE) * k as f64 / (PICTURES - 1) as f64).collect()
 }
 
-/// By how much a bending of that share of the length is enlarged to be seen.
+/// The enlargement factor for a bending of that share of the length.
 fn factor(share: f64) -> u32 {
     const SEEN: f64 = 0.1;
     let most = SEEN / share.max(1e-9);
     [100, 50, 20, 10, 5, 4, 3, 2].into_iter().find(|f| f64::from(*f) <= most).unwrap_or(1)
 }
 
-/// The bat as seen by who moves with it: the straight motion that carries its mass is taken off.
+/// The bat in a frame that follows its rigid motion: the straight line with its momentum and angular momentum is
+/// subtracted.
 struct Frame {
     places: Vec<f64>,
-    /// Mass at every place (kg); none of a bat that is held, which is seen from where it is held.
+    /// Mass at every place (kg); none for a clamped bat, whose frame is that of the clamp.
     masses: Option<Vec<f64>>,
 }
 

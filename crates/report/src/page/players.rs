@@ -1,4 +1,4 @@
-//! What moves on the page: stages and controls, which the script brings to life.
+//! The moving parts of the page: stages and controls, which the script operates.
 
 use std::fmt::Write;
 
@@ -53,7 +53,7 @@ pub fn moment(moments: &[Moment]) -> String {
     player("moment-player", "Ball and bat at the moment of the hit", &choice, told)
 }
 
-/// Buttons that let the bat be heard.
+/// Buttons that play the sounds of the bat.
 pub fn sounds(tap: &Sound, hit: Option<&Sound>, damping: Option<String>) -> String {
     if tap.tones.is_empty() {
         return String::new();
@@ -71,7 +71,7 @@ pub fn sounds(tap: &Sound, hit: Option<&Sound>, damping: Option<String>) -> Stri
     )
 }
 
-/// Buttons of which one is chosen, at first that one.
+/// Buttons of which one is selected, at first the given one.
 pub fn choice(name: &str, legend: &str, labels: &[String], first: usize) -> String {
     let mut out =
         format!("<fieldset class=\"choice {name}\"><legend>{}</legend>\n", escaped(legend));
@@ -113,5 +113,5 @@ pub fn hair_line(name: &str) -> String {
     )
 }
 
-/// Where what it reads is told.
+/// Where the read-off values appear.
 pub const READING: &str = "<p class=\"moving reading\" aria-live=\"polite\"></p>\n";

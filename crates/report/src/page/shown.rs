@@ -4,7 +4,7 @@ use crate::parts::units::Units;
 use sweetspot::base::number::rounded;
 use sweetspot::base::units::{POUND_FORCE, inches, miles_per_hour, ounce_square_inches, ounces};
 
-/// What there is no number for.
+/// The sign for a missing number.
 pub const NONE: &str = "–";
 
 /// A length along the bat (m), without its unit.
@@ -18,7 +18,7 @@ pub fn length(units: Units, x: f64) -> String {
     format!("{} {}", bare(units, x), length_unit(units))
 }
 
-/// What lengths along the bat are counted in.
+/// The unit of lengths along the bat.
 pub fn length_unit(units: Units) -> &'static str {
     if units == Units::Us { "in" } else { "cm" }
 }
@@ -60,7 +60,7 @@ pub fn decimals(value: f64, decimals: i32) -> String {
     }
 }
 
-/// A value as it came in, with as few digits as read back to it.
+/// A value as it was read, with as few digits as needed to read back the same bits.
 pub fn plain(value: f64) -> String {
     match value.abs() {
         0.0 | 1e-3..1e6 => value.to_string(),

@@ -11,7 +11,7 @@ use crate::report::trust::about;
 use sweetspot::bat::body::STANDARD_PIVOT;
 use sweetspot_study::answers::Answer;
 
-/// The numbers of the summary, in SI, as they stand in the page's data; None for an unknown number.
+/// The numbers of the summary, in SI, as in the data of the page; None for an unknown number.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Summary {
     /// Length from the knob end to the tip (m).
@@ -26,7 +26,7 @@ pub struct Summary {
     pub center_of_percussion_m: Option<f64>,
     /// Frequencies of the first modes, three at most (Hz).
     pub frequencies_hz: Vec<f64>,
-    /// Where the ball leaves fastest (m from the knob end).
+    /// Position of the highest exit speed (m from the knob end).
     pub sweet_spot_m: Option<f64>,
     /// The exit speed there (m/s).
     pub exit_speed_m_s: Option<f64>,
@@ -65,8 +65,8 @@ impl Summary {
         }
     }
 
-    /// The three answers: where, how fast, how wide, and how far the bat in hand may be from them. Empty
-    /// where no ball is hit.
+    /// The three answers: where the sweet spot is, how fast the ball leaves and how wide the zone is, with their
+    /// uncertainty. Empty where no ball is hit.
     pub fn headline(&self, units: Units, analysis: &Analysis) -> Vec<Fact> {
         let (Some(x), Some(speed), Some([from, to])) =
             (self.sweet_spot_m, self.exit_speed_m_s, self.zone_m)
@@ -90,7 +90,7 @@ impl Summary {
         ]
     }
 
-    /// All the rest, those left out that there are no numbers for.
+    /// All other figures for which there are numbers.
     pub fn facts(&self, units: Units, analysis: &Analysis) -> Vec<Fact> {
         let mut facts = self.body(units, analysis);
         if let Some((first, others)) = self.frequencies_hz.split_first() {
@@ -141,7 +141,7 @@ impl Summary {
     }
 }
 
-/// A note with how far the bat in hand may be from what it is of.
+/// A note with the uncertainty of its figure.
 fn with_open(note: String, open: Option<String>) -> String {
     let open = open.map(|open| format!("{open} for the bat in hand"));
     [Some(note), open]

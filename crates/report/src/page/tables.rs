@@ -15,11 +15,11 @@ use sweetspot::collision::hit::Outcome;
 use sweetspot::collision::sweet_spot::{Peak, SweetSpot};
 use sweetspot_study::trampoline::barrel::Barrel;
 
-/// Number of modes whose nodes are listed, and of those whose energies are.
+/// Number of modes whose nodes are listed, and of modes whose energies are listed.
 const LISTED: usize = 6;
 const LARGEST: usize = 3;
 
-/// Frequencies with their errors, modal masses, damping where there is any.
+/// Frequencies with their errors, modal masses, and damping where there is any.
 pub fn modes(analysis: &Analysis, units: Units) -> Table {
     let solution = &analysis.solution;
     let damped = &solution.damping.modes;
@@ -65,7 +65,7 @@ pub fn hoop_modes(bat: &Bat, barrel: &Barrel, units: Units) -> Table {
     table
 }
 
-/// Where the first modes are at rest.
+/// The nodes of the first modes.
 pub fn nodes(analysis: &Analysis, units: Units) -> Table {
     let place = format!("From the knob, {}", length_unit(units));
     let mut table = Table::new("Nodes: where a mode is at rest", &["Mode", &place]);
@@ -90,7 +90,7 @@ pub fn sweet_spots(analysis: &Analysis, units: Units) -> Table {
     table
 }
 
-/// Where the energy of the best hit goes; empty where no ball is hit.
+/// The energies of the best hit; empty where no ball is hit.
 pub fn ledger(analysis: &Analysis, units: Units) -> Table {
     let (unit, per) = units.of_energy();
     let mut table = Table::new("Energy of the hit at the sweet spot", &["Energy", unit, "%"]);
@@ -122,7 +122,7 @@ pub fn ledger(analysis: &Analysis, units: Units) -> Table {
     if energy.wall != 0.0 {
         line("in the barrel's wall", energy.wall);
     }
-    // An empirical model loses some: what is round-off in all others is not for people to read.
+    // An empirical model loses some energy; in all others this is round-off and of no interest to readers.
     if energy.imbalance.abs() > 1e-6 * energy.initial {
         line("not accounted for by this model", energy.imbalance);
     }
@@ -146,7 +146,7 @@ pub fn figures(analysis: &Analysis, units: Units) -> Table {
     table
 }
 
-/// What its force and its duration are, where the model knows them.
+/// Force and duration of the hit, where the model has them.
 fn of_the_hit(outcome: &Outcome, units: Units) -> Vec<(&'static str, String)> {
     let mut lines = vec![("impulse on the ball", shown::impulse(units, outcome.impulse))];
     if let Some(time) = outcome.contact_time {
@@ -164,7 +164,7 @@ fn signed(units: Units, change: f64) -> String {
     units.show(format!("{} m/s", with_sign(change, 2)), format!("{us} mph"))
 }
 
-/// A change, to the given number of decimals.
+/// A signed change with the given number of decimals.
 fn with_sign(value: f64, decimals: usize) -> String {
     number::signed(value, decimals).replace('-', "−")
 }

@@ -1,18 +1,18 @@
-//! A cell of a table: what it holds, and how a quantity is said.
+//! A cell of a table: its content, and how a quantity is shown.
 
 use sweetspot::base::marks;
 use sweetspot::base::number::{rounded, shortest};
 use sweetspot::base::units::{inches, miles_per_hour};
 use sweetspot_study::trade::words::time;
 
-/// What a cell holds.
+/// The content of a cell.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Cell {
     /// A number, in SI.
     Number(f64),
     /// A word or more.
     Words(String),
-    /// What stands as it is: a count, a yes or no, a number that was written before.
+    /// Text that is shown as it is: a count, a yes or no, a formatted number.
     Written(String),
     /// Nothing that is known.
     Empty,
@@ -67,14 +67,14 @@ impl<T: Into<Self>> From<Option<T>> for Cell {
     }
 }
 
-/// What the numbers of a column are, which says their units and how many digits are shown.
+/// The kind of numbers in a column, which determines their units and digits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantity {
     /// A place or a length along the bat (m): cm or in.
     Length,
     /// A speed (m/s): m/s or mph.
     Speed,
-    /// A number without a unit, to the given number of decimals.
+    /// A number without a unit, with the given number of decimals.
     Ratio(usize),
     /// An error bound: one digit and its power of ten.
     Error,
@@ -85,7 +85,7 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// What it is counted in, in SI or in US units; empty without a unit.
+    /// Its unit, in SI or in US units; empty without one.
     pub fn unit(self, us: bool) -> &'static str {
         match (self, us) {
             (Self::Length, false) => "cm",
@@ -96,7 +96,7 @@ impl Quantity {
         }
     }
 
-    /// A cell as people read it, without its unit.
+    /// A cell as text for people, without its unit.
     pub fn shown(self, cell: &Cell, us: bool) -> String {
         let value = match cell {
             Cell::Number(value) => *value,

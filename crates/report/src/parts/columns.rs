@@ -1,5 +1,4 @@
-//! Tables for the terminal: every column says once how wide it is, on which side its cells stand, and
-//! what its head is.
+//! Tables for the terminal. Every column defines its width, its alignment and its head once.
 
 /// Columns of a screen.
 pub const WIDE: usize = 80;

@@ -1,10 +1,10 @@
-//! Text that a page shows as it is, whatever it holds.
+//! Escapes text so that a page shows it unchanged.
 
 use sweetspot::base::marks::is_bidi;
 use sweetspot::base::xml::put;
 
-/// For HTML, between tags and within quoted attributes. Characters that no page may hold become
-/// the sign for what cannot be shown.
+/// For HTML, between tags and within quoted attributes. Characters that are forbidden in a page become the replacement
+/// character.
 pub fn html(text: &str) -> String {
     let mut out = String::with_capacity(text.len() + text.len() / 8);
     for c in text.chars() {
@@ -19,7 +19,7 @@ pub fn html(text: &str) -> String {
     out
 }
 
-/// For JSON within a script element: nothing in it can end the element or open a comment.
+/// For JSON within a script element, so that nothing in it can end the element or open a comment.
 pub fn script(json: &str) -> String {
     json.replace('<', "\\u003c").replace('>', "\\u003e").replace('&', "\\u0026")
 }

@@ -10,9 +10,9 @@ use sweetspot::base::file;
 /// A file as the user wrote it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Input {
-    /// Its path as it was given.
+    /// Its path as given.
     pub name: String,
-    /// What it holds, without a byte order mark.
+    /// Its content, without a byte order mark.
     pub text: String,
 }
 
@@ -20,7 +20,7 @@ impl Input {
     /// Longer ones are cut in a page.
     pub const MOST: usize = 60_000;
 
-    /// Reads one that was read before, whatever it holds; nothing of a pipe, which is empty by now.
+    /// Reads a file that was read before. A pipe gives an empty text, because it has been read.
     ///
     /// # Errors
     ///
@@ -50,7 +50,7 @@ impl Input {
         Ok(all)
     }
 
-    /// The text as a page shows it, and a remark if that is not all of it.
+    /// The text as a page shows it, and a remark if it is shortened.
     pub fn shown(&self) -> (&str, Option<&'static str>) {
         match self.text.char_indices().nth(Self::MOST) {
             Some((end, _)) => (&self.text[..end], Some("Only its beginning is shown.")),

@@ -1,9 +1,9 @@
 //! What is a report made of, and how is it written?
 //!
-//! A report is a list of [`part`]s: headings, sentences, facts, files of the user ([`input`]), and [`table`]s of columns
-//! that say of a row what they hold ([`cell`]) and in which [`units`]. It is said once and written by a syntax:
-//! [`terminal`] with its [`columns`], the page's HTML and Markdown ([`crate::page`], their signs by [`escape`]), CSV
-//! ([`crate::csv`]).
+//! A report is a list of [`part`]s: headings, sentences, facts, files of the user ([`input`]), and [`table`]s, whose
+//! columns extract the cells of a row ([`cell`]) and show them in [`units`]. The content is defined once and written in
+//! several formats: for a [`terminal`] with its [`columns`], as HTML and Markdown for the page ([`crate::page`], with
+//! [`escape`]), as CSV ([`crate::csv`]).
 
 pub mod escape;
 pub mod units;

@@ -1,4 +1,4 @@
-//! What a report is put together from, whatever it is written as: parts, and sections of them.
+//! The elements of a report, independent of its format: parts, and sections of them.
 
 use crate::parts::input::Input;
 use crate::parts::table::Table;
@@ -6,39 +6,39 @@ use crate::parts::table::Table;
 /// A part of the report under a heading.
 #[derive(Debug, Clone)]
 pub struct Section<'a> {
-    /// What links call it.
+    /// Its name in links.
     pub id: &'static str,
     /// The heading as people read it.
     pub title: &'static str,
-    /// Whether a page shows it before it is asked for.
+    /// Whether a page shows it unfolded.
     pub fold: Fold,
-    /// What stands under it, from top to bottom.
+    /// Its content, from top to bottom.
     pub parts: Vec<Part<'a>>,
 }
 
-/// What a page shows of a section.
+/// How a page shows a section.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fold {
-    /// All of it.
+    /// Unfolded.
     Open,
-    /// Its heading, which opens it; on paper all of it.
+    /// Folded under its heading; unfolded on paper.
     Folded,
-    /// Its heading, which opens it; on paper nothing.
+    /// Folded under its heading; omitted on paper.
     ScreenOnly,
 }
 
-/// What stands in a section.
+/// The content of a section.
 #[derive(Debug, Clone)]
 pub enum Part<'a> {
     /// A heading of second order.
     Heading(&'static str),
     /// A paragraph.
     Text(String),
-    /// What there is not, and why.
+    /// What is missing, and the reason.
     Missing(&'static str),
     /// One line for each item.
     List(Vec<String>),
-    /// Numbers that stand out, and what a page calls that kind.
+    /// Prominent numbers, and the class of such numbers on a page.
     Facts(&'static str, Vec<Fact>),
     /// Numbers or words in rows.
     Table(Table),
@@ -52,16 +52,16 @@ pub enum Part<'a> {
     File(&'a Input),
     /// Something long under a line that opens it.
     Folded(&'static str, Vec<Part<'a>>),
-    /// What moves or sounds, where there is a script: HTML.
+    /// HTML of a part that moves or sounds, where there is a script.
     Moving(String),
 }
 
-/// One number with its unit, and what it is.
+/// One number with its unit and label.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fact {
-    /// What it is called in the page's data.
+    /// Its name in the data of the page.
     pub key: &'static str,
-    /// What people call it.
+    /// Its label for people.
     pub label: &'static str,
     /// The number with its unit.
     pub value: String,

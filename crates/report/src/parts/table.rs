@@ -1,4 +1,4 @@
-//! A table: each column says once what it holds of a row, whatever the table is written as.
+//! A table: each column defines once how it extracts its cell from a row, for every format.
 
 use std::fmt::Write;
 
@@ -6,7 +6,7 @@ use crate::parts::cell::{Cell, Quantity};
 use crate::parts::escape;
 use crate::parts::units::Units;
 
-/// A column of a table whose rows are of one kind.
+/// A column of a table whose rows are of type `T`.
 #[derive(Debug, Clone, Copy)]
 pub struct Column<T> {
     /// Above it for people; empty for one that files alone have.
@@ -14,13 +14,13 @@ pub struct Column<T> {
     /// Its name in files, which ends in its unit; empty for one that files do not have.
     name: &'static str,
     quantity: Quantity,
-    /// Whether it is shown in both systems of units where both are.
+    /// Whether it appears in both systems of units where both are shown.
     both: bool,
     of: fn(&T) -> Cell,
 }
 
 impl<T> Column<T> {
-    /// A column that is shown and written.
+    /// A column for screens and files.
     pub const fn new(
         head: &'static str,
         name: &'static str,
@@ -35,7 +35,7 @@ impl<T> Column<T> {
         Self::new("", name, Quantity::Ratio(0), of)
     }
 
-    /// A column in both systems of units where both are shown.
+    /// A column that appears in both systems of units where both are shown.
     pub const fn both(
         head: &'static str,
         name: &'static str,
@@ -45,20 +45,20 @@ impl<T> Column<T> {
         Self { both: true, ..Self::new(head, name, quantity, of) }
     }
 
-    /// Its name in files, and what it holds of a row.
+    /// Its name in files, and its cell for a row.
     pub fn in_file(&self) -> (&'static str, fn(&T) -> Cell) {
         (self.name, self.of)
     }
 }
 
-/// What it shows, its columns, its rows; the first column names the rows.
+/// A caption, columns and rows; the first column names the rows.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Table {
-    /// What it shows, as a line above it.
+    /// The line above the table.
     pub caption: String,
     /// The columns' names, with units where they have one.
     pub head: Vec<String>,
-    /// The columns' units, where they stand apart from the names.
+    /// The units of the columns, where they are separate from the names.
     pub units: Vec<&'static str>,
     /// As many cells each as the head has.
     pub rows: Vec<Vec<String>>,
@@ -67,7 +67,7 @@ pub struct Table {
 }
 
 impl Table {
-    /// The columns that people see of those rows, in those units, without those that are empty in every row.
+    /// A table of those rows in those units, for people, without columns that are empty in every row.
     pub fn of<T>(
         caption: impl Into<String>,
         columns: &[Column<T>],
@@ -97,7 +97,7 @@ impl Table {
         Self { caption: caption.into(), head, ..Self::default() }
     }
 
-    /// A table without rows whose columns hold words.
+    /// A table without rows, for columns of words.
     pub fn of_words(caption: impl Into<String>, head: &[&str]) -> Self {
         Self { words: true, ..Self::new(caption, head) }
     }
@@ -148,7 +148,7 @@ impl Table {
         out + "</tbody>\n</table>\n</div>\n"
     }
 
-    /// For Markdown; nothing without rows.
+    /// As Markdown; empty without rows.
     pub fn markdown(&self) -> String {
         if self.rows.is_empty() {
             return String::new();

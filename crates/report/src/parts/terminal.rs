@@ -1,4 +1,4 @@
-//! A report on a terminal: sentences and tables of at most 80 columns, and a screen that says what it leaves out.
+//! A report on a terminal: sentences and tables of at most 80 columns, and a screen that states what it omits.
 
 use std::cmp::Reverse;
 use std::fmt::Write;
@@ -12,7 +12,7 @@ pub fn text(title: &str, parts: &[Part]) -> String {
     let mut out = wrapped(title, 2);
     let mut told = false;
     for part in parts {
-        // Sentences stand apart from what is above them.
+        // Sentences are separated from what is above them.
         let tells = matches!(part, Part::Text(_) | Part::Missing(_));
         out += if tells && !told { "\n" } else { "" };
         told = tells;
@@ -58,15 +58,15 @@ fn table(table: &Table) -> String {
     lines.iter().fold("\n".to_owned(), |out, line| out + &columns.row(*line))
 }
 
-/// Lines of a screen, and of those of the verbs that have tables along the bat or mode by mode.
+/// Number of lines of a screen, and of the screens of the verbs with tables along the bat or by mode.
 pub const LINES: usize = 24;
 pub const MANY: usize = 40;
 
-/// A piece of a screen: how soon it is cut short, the highest number first and 0 never; what is said to be cut then;
-/// its text.
+/// A piece of a screen: its priority for shortening, the highest number first and 0 never; the name of what is then
+/// omitted; its text.
 pub type Piece = (u8, &'static str, String);
 
-/// What a screen has, from top to bottom.
+/// The pieces of a screen, from top to bottom.
 pub struct Screen(Vec<Piece>);
 
 impl From<String> for Screen {
@@ -82,13 +82,13 @@ impl<const N: usize> From<[Piece; N]> for Screen {
 }
 
 impl Screen {
-    /// All of it, as it is.
+    /// All pieces, unshortened.
     pub fn text(&self) -> String {
         self.0.iter().map(|(.., text)| &**text).collect()
     }
 
-    /// At most `most` lines, broken between words at 80 columns: `all` if it fits, else the pieces that fit, the names of
-    /// those that were cut short, and `rest`, which says where the rest is.
+    /// At most `most` lines, broken between words at 80 columns: `all` if it fits, else the pieces that fit, the names
+    /// of the shortened ones, and `rest`, which says where the rest can be found.
     pub fn fitted(mut self, most: usize, all: &str, rest: &str) -> String {
         let whole = self.text() == all;
         let narrow = |line: &str| wrapped(line, 4);
@@ -113,8 +113,8 @@ impl Screen {
     }
 }
 
-/// A text of at most `most` lines: its last statements are left out, each with all lines into which [`wrapped`] broke
-/// it, and so are headings that nothing follows.
+/// A text of at most `most` lines. Its last statements are omitted, each with all lines into which [`wrapped`] broke
+/// it, and also headings without content.
 fn fitting(text: &str, most: usize) -> String {
     let mut lines: Vec<&str> = text.lines().collect();
     let indent = |line: &str| line.len() - line.trim_start().len();

@@ -1,4 +1,4 @@
-//! In which units are numbers said?
+//! In which units are numbers shown?
 
 use sweetspot::base::number::rounded;
 use sweetspot::base::units::{
@@ -20,8 +20,7 @@ pub enum Units {
 }
 
 impl Units {
-    /// These units as a bat is answered in: where both systems are shown, that of the bat's file comes
-    /// first.
+    /// These units for a bat: where both systems are shown, that of the file of the bat comes first.
     pub fn of(self, bat: &Bat) -> Self {
         match self {
             Self::Both if bat.inches() => Self::BothUsFirst,
@@ -44,7 +43,7 @@ impl Units {
         if self.us_first() { Self::Us } else { Self::Si }
     }
 
-    /// Those of two values, in SI and in US units, that are shown, in their order.
+    /// The shown ones of two values, in SI and in US units, in order.
     pub fn pick<T>(self, si: T, us: T) -> Vec<T> {
         match self {
             Self::Si => vec![si],
@@ -62,7 +61,7 @@ impl Units {
         }
     }
 
-    /// A value in SI, in US units, or the second of both in brackets.
+    /// A value in SI, in US units, or in both with the second in brackets.
     pub fn beside(self, si: String, us: String) -> String {
         match &self.pick(si, us)[..] {
             [first, second] => format!("{first} ({second})"),
@@ -70,7 +69,7 @@ impl Units {
         }
     }
 
-    /// A stress, given in Pa, in MPa to that number of decimals and in whole psi.
+    /// A stress, given in Pa, shown in MPa with that number of decimals and in whole psi.
     pub fn stress(self, pascals: f64, decimals: usize) -> String {
         let psi = format!("{:.0} psi", pascals / PSI);
         self.beside(format!("{:.decimals$} MPa", 1e-6 * pascals), psi)
@@ -81,7 +80,7 @@ impl Units {
         self.show(format!("{metres:.4} m"), format!("{:.2} in", inches(metres)))
     }
 
-    /// A place, given in metres, in cm and in inches to that number of decimals, as running text.
+    /// A place, given in metres, shown in cm and in inches with that number of decimals, as running text.
     pub fn place(self, metres: f64, decimals: usize) -> String {
         let si = format!("{:.decimals$} cm", 100.0 * metres);
         self.beside(si, format!("{:.decimals$} in", inches(metres)))
@@ -104,8 +103,7 @@ impl Units {
         self.show(format!("{si:.2} m/s"), format!("{us:.1} mph"))
     }
 
-    /// What energies are counted in, and how many of it are a joule: joules unless US units alone are
-    /// asked for.
+    /// The unit of energies, and its number per joule: joules unless only US units are requested.
     pub fn of_energy(self) -> (&'static str, f64) {
         if self == Self::Us { ("ft·lbf", 1.0 / FOOT_POUND) } else { ("J", 1.0) }
     }
@@ -135,8 +133,7 @@ impl Units {
     }
 }
 
-/// The unit of the trade for one of SI, and how many of it one is; of a bat in inches, if `us`, and else as it
-/// is.
+/// The trade's unit for an SI unit, and its number per SI unit; unchanged unless `us`.
 pub fn in_trade(unit: &str, us: bool) -> (&str, f64) {
     match unit {
         "m" if us => ("in", inches(1.0)),

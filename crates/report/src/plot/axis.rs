@@ -1,4 +1,4 @@
-//! From a value to a place along an axis, and the round values at which its ticks stand.
+//! Conversion from a value to a place along an axis, and the round values of its ticks.
 
 use crate::plot::sheet::Unit;
 
@@ -13,7 +13,7 @@ pub enum Scale {
     Turn,
 }
 
-/// What an axis says, and the values at its ends; the first may be the larger.
+/// The label of an axis, and the values at its ends; the first may be the larger.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
     /// With its unit: `exit speed (m/s)`.
@@ -22,10 +22,9 @@ pub struct Axis {
     pub from: f64,
     /// The value at the right or upper end.
     pub to: f64,
-    /// How many of the unit that the ticks count in are one of the values: 100 for values in m and
-    /// ticks in cm.
+    /// Number of units of the ticks per unit of the values: 100 for values in m and ticks in cm.
     pub per: f64,
-    /// The name of that unit, empty where there is none.
+    /// The name of that unit, possibly empty.
     pub unit: &'static str,
     /// How values lie between the ends.
     pub scale: Scale,
@@ -34,20 +33,20 @@ pub struct Axis {
 /// A value with a tick, and how it is written.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tick {
-    /// The value of the axis that it stands at.
+    /// The value of the axis at the tick.
     pub value: f64,
-    /// What is written there.
+    /// The text of the tick.
     pub text: String,
 }
 
-/// More decades than this have ticks at some of them only.
+/// With more decades than this, only some of them have ticks.
 const DECADES: usize = 9;
 
 impl Axis {
-    /// From end to end, as given; ends that are the same are moved apart.
+    /// An axis with the given ends; equal ends are moved apart.
     pub fn new(label: &str, [from, to]: [f64; 2]) -> Self {
         let [from, to] = if from.is_finite() && to.is_finite() { [from, to] } else { [0.0, 1.0] };
-        // Closer ends would have ticks of more digits than anybody reads.
+        // Closer ends would have ticks with more digits than are useful.
         let least = 1e-3 * from.abs().max(to.abs());
         let by = if least == 0.0 { 1.0 } else { least };
         let same = (to - from).abs() <= least;
@@ -55,7 +54,7 @@ impl Axis {
         Self { label: label.into(), from, to, per: 1.0, unit: "", scale: Scale::Linear }
     }
 
-    /// As long as those values need, with a tick at both ends, and no more ticks than that.
+    /// An axis long enough for those values, with a tick at both ends, and with at most that number of ticks.
     pub fn around(label: &str, values: impl Iterator<Item = f64>, most: usize) -> Self {
         let axis = Self::new(label, ends(values).unwrap_or([0.0, 1.0]));
         let [mut from, mut to] = [axis.from, axis.to];
@@ -69,7 +68,7 @@ impl Axis {
         Self { from, to, ..axis }
     }
 
-    /// Whole powers of ten around those values above 0.
+    /// A logarithmic axis of whole powers of ten around the positive ones of those values.
     pub fn logarithmic(label: &str, values: impl Iterator<Item = f64>) -> Self {
         let [low, high] = ends(values.filter(|v| *v > 0.0)).unwrap_or([1.0, 10.0]);
         let from = (low.log10() + 1e-9).floor();
@@ -85,7 +84,8 @@ impl Axis {
         Self { label, from: self.from / per, to: self.to / per, per, unit, ..self }
     }
 
-    /// As long as those values in SI need, in that unit, with a tick at both ends and no more ticks than that.
+    /// An axis in that unit, long enough for those values in SI, with a tick at both ends and at most that number of
+    /// ticks.
     pub fn measured(
         label: &str,
         unit: Unit,
@@ -114,8 +114,7 @@ impl Axis {
         (-1e-9..=1.0 + 1e-9).contains(&self.share(value))
     }
 
-    /// Round values on the axis, at most the given number: 1, 2 or 5 times a power of ten apart, or powers of
-    /// ten.
+    /// Round values on the axis, at most the given number: spaced by 1, 2 or 5 times a power of ten, or powers of ten.
     pub fn ticks(&self, most: usize) -> Vec<Tick> {
         let [from, to] = [self.from * self.per, self.to * self.per];
         let [low, high] = [from.min(to), from.max(to)];
@@ -145,7 +144,7 @@ impl Axis {
     }
 }
 
-/// The least and the greatest of those that are numbers.
+/// The smallest and largest finite value.
 fn ends(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
     let finite = values.filter(|value| value.is_finite());
     finite.fold(None, |ends, value| match ends {
@@ -154,7 +153,7 @@ fn ends(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
     })
 }
 
-/// 1, 2 or 5 times a power of ten, the least that divides that length into fewer parts than the given number.
+/// 1, 2 or 5 times a power of ten: the smallest that divides that length into fewer parts than the given number.
 pub fn step(length: f64, most: usize) -> f64 {
     let least = length.abs() / (most.max(2) - 1) as f64;
     let power = 10f64.powf(least.log10().floor());
@@ -162,11 +161,11 @@ pub fn step(length: f64, most: usize) -> f64 {
     factor.unwrap_or(10.0) * power
 }
 
-/// A tick's number, with as many decimals as the ticks need.
+/// The number of a tick, with as many decimals as the ticks need.
 pub fn shown(value: f64, step: f64) -> String {
     let places = (step * (1.0 + 1e-9)).log10().floor();
     let decimals = (-places).max(0.0) as usize;
-    // Neither −0 nor a multiple of the step that is not quite 0.
+    // Neither −0 nor a multiple of the step that is almost 0.
     let value = if value.abs() < 0.5 * step { 0.0 } else { value };
     if value == 0.0 {
         return "0".into();
@@ -178,7 +177,7 @@ pub fn shown(value: f64, step: f64) -> String {
     format!("{value:.decimals$}").replace('-', "−")
 }
 
-/// A tick's power of ten, in full or as a power: the ticks of an axis are of one style.
+/// A power of ten, in full or as a power: all ticks of an axis have the same style.
 fn power_of_ten(k: i32, plain: bool) -> String {
     match plain {
         true => format!("{:.*}", (-k).max(0) as usize, 10f64.powi(k)),

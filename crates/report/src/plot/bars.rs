@@ -11,7 +11,7 @@ use crate::plot::words::{Anchor, LABEL, fitted, width};
 /// Height of a row and of half the thickest bar in it (px).
 const ROW: f64 = 32.0;
 const BAR: f64 = 8.0;
-/// What a name takes at most (px).
+/// Largest width of a name (px).
 const MOST: f64 = 300.0;
 
 /// A bar from one value to another.
@@ -21,11 +21,11 @@ pub struct Bar {
     pub ends: [f64; 2],
     /// Its height as a share of the thickest.
     pub high: f64,
-    /// Its colour, and how much of that covers what is below.
+    /// Its colour and opacity.
     pub look: (Ink, f64),
 }
 
-/// What stands in a row.
+/// The content of a row.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BarRow {
     /// The name before it.
@@ -36,12 +36,13 @@ pub struct BarRow {
     pub spans: Vec<[f64; 2]>,
     /// The value of a circle in it, if there is one.
     pub dot: Option<f64>,
-    /// Where a pointer is told what is there, and what: part of the words for those who cannot see.
+    /// The place and text of the tooltip; the text is also part of the description for readers who cannot see the
+    /// picture.
     pub told: (f64, String),
 }
 
-/// The picture of that name and title, on a file of its own: what it is of and what is to be known, rows from above,
-/// lines from top to bottom, and what the words for those who cannot see begin with.
+/// The picture with that name and title in a separate file: subject and facts, rows from above, vertical lines, and the
+/// beginning of the description for readers who cannot see it.
 pub fn picture(
     (name, title, of): (&str, &str, [&str; 2]),
     x: Axis,

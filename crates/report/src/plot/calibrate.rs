@@ -1,4 +1,4 @@
-//! What was known of a bat's wood before it was measured and after, and which readings do not fit.
+//! The wood of a bat before and after the measurements, and the readings that do not fit.
 
 use crate::plot::axis::Axis;
 use crate::plot::bars::{self, Bar, BarRow};
@@ -9,7 +9,7 @@ use crate::report::calibrate::{short, shown};
 use sweetspot_study::calibrate::calibration::{Calibration, Estimated, NINETY_FIVE};
 use sweetspot_study::calibrate::fit::{OUTLIER, Residual};
 
-/// Both pictures, the second only where something was measured.
+/// Both pictures; the second only where something was measured.
 pub fn pictures(name: &str, found: &Calibration) -> Vec<Picture> {
     let mut all = vec![wood(name, &found.parameters)];
     if !found.data.is_empty() {
@@ -39,7 +39,7 @@ fn wood(name: &str, parameters: &[Estimated]) -> Picture {
     bars::picture(called, x, (&rows, &[(1.0, Pen::new(TEXT, 1.2))]), name)
 }
 
-/// How far each reading is from what all others say; picture `readings`.
+/// The deviation of each reading from the prediction of all others; picture `readings`.
 fn residuals(name: &str, all: &[Residual]) -> Picture {
     let row = |one: &Residual| {
         let label = one.datum.kind.name();

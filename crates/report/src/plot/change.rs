@@ -15,7 +15,7 @@ const PLACES: usize = 420;
 /// The change of the diameter from one bat to the other, place by place as shares of their lengths: `change`.
 pub fn picture(sheet: Sheet, old: &Bat, new: &Bat) -> Picture {
     let length = sheet.length();
-    // A thousandth of an inch is what a change in inches is counted in.
+    // Changes in inches are counted in thousandths of an inch.
     let small =
         if sheet.us { Unit { name: "mil", per: 1e3 * sheet.small().per } } else { sheet.small() };
     let at = |k: usize| {

@@ -1,7 +1,7 @@
-//! A picture of diagrams that stand one below the other, described by what they show.
+//! A picture of diagrams one below the other, described by their content.
 //!
-//! A [`Chart`] has a head, the names of its curves, one axis along and a [`Panel`] for each diagram; where
-//! frames, numbers and names stand follows from that, and the words where a pointer rests from the axes' units.
+//! A [`Chart`] has a head, the names of its curves, one axis along and a [`Panel`] for each diagram. The positions of
+//! frames, numbers and names follow from these, and the tooltips from the units of the axes.
 
 use crate::plot::axis::Axis;
 use crate::plot::picture::Picture;
@@ -13,11 +13,11 @@ use crate::plot::svg::{Pen, Svg};
 use crate::plot::theme::{FRAME, Ink, TEXT};
 use crate::plot::words::{Anchor, SMALL};
 
-/// Between two diagrams, and what words above one take (px).
+/// Distance between two diagrams, and the height of words above one (px).
 const BETWEEN: f64 = 18.0;
 const NOTE: f64 = 14.0;
 
-/// What only one kind of picture has in a diagram.
+/// Additional drawing in a diagram that only one kind of picture has.
 type Extra<'a> = Box<dyn Fn(&mut Svg, &Plane) + 'a>;
 
 /// One diagram of a chart.
@@ -33,18 +33,18 @@ pub struct Panel<'a> {
 }
 
 impl<'a> Panel<'a> {
-    /// Curves, of which the first lies on top, against that axis in a frame of that height (px).
+    /// Curves, with the first on top, against that axis in a frame of that height (px).
     pub fn new(height: f64, y: Axis, curves: Vec<Series>) -> Self {
         Self { y: Some(y), curves, ..Self::plain(height) }
     }
 
-    /// A stretch of paper of that height (px) with no axis upwards, for what is drawn over it.
+    /// A stretch of paper of that height (px) without a vertical axis, to be drawn on.
     pub fn plain(height: f64) -> Self {
         let (y, curves, note, lines) = (None, vec![], String::new(), vec![]);
         Self { height, y, curves, band: None, zero: false, note, lines, over: None }
     }
 
-    /// Curves in SI against an axis that is as long as they and those other values need.
+    /// Curves in SI against an axis long enough for them and for those other values.
     pub fn around(
         height: f64,
         (label, unit): (&str, Unit),
@@ -56,7 +56,7 @@ impl<'a> Panel<'a> {
         Self::new(height, y, curves)
     }
 
-    /// This diagram with a stretch along it tinted, where there is one.
+    /// This diagram with a tinted stretch along it, if one is given.
     pub fn band(self, band: Option<[f64; 2]>, ink: Ink) -> Self {
         Self { band: band.map(|ends| (ends, ink)), ..self }
     }
@@ -66,12 +66,12 @@ impl<'a> Panel<'a> {
         Self { zero: true, ..self }
     }
 
-    /// This diagram with words above its frame; none if they are empty.
+    /// This diagram with words above its frame, unless they are empty.
     pub fn note(self, note: &str) -> Self {
         Self { note: note.to_owned(), ..self }
     }
 
-    /// This diagram with dashed lines from top to bottom at those values, each with its name above the frame.
+    /// This diagram with dashed vertical lines at those values, each with its name above the frame.
     pub fn lines(self, lines: Vec<(f64, &'static str)>) -> Self {
         Self { lines, ..self }
     }
@@ -81,7 +81,7 @@ impl<'a> Panel<'a> {
         Self { over: Some(Box::new(over)), ..self }
     }
 
-    /// What stands above the frame (px).
+    /// Height of the content above the frame (px).
     fn above(&self) -> f64 {
         if self.note.is_empty() && self.lines.is_empty() { 0.0 } else { NOTE }
     }
@@ -128,7 +128,7 @@ pub struct Chart<'a> {
 }
 
 impl<'a> Chart<'a> {
-    /// A picture with its name, its title, what it is of and what is to be known of that; along it is that axis.
+    /// A picture with its name, title, subject and facts, and that horizontal axis.
     pub fn new(name: &'a str, title: &'a str, of: [&'a str; 2], x: Axis) -> Self {
         let (keys, panels, rows, guides) = (vec![], vec![], vec![], None);
         let (above, right, read_off) = (None, 0.0, false);
@@ -146,7 +146,7 @@ impl<'a> Chart<'a> {
         Self { above: Some(tip), ..Self::new(name, title, of, x) }
     }
 
-    /// This picture with the names of those curves above it.
+    /// This picture with a legend of those curves above it.
     pub fn keys(self, keys: &[Series]) -> Self {
         Self { keys: keys.to_vec(), ..self }
     }
@@ -162,22 +162,23 @@ impl<'a> Chart<'a> {
         Self { rows, ..self }
     }
 
-    /// This picture with thin lines down to the places of its rows, from so far below the first frame's top (px).
+    /// This picture with thin lines down to the places of its rows, from that distance below the top of the first frame
+    /// (px).
     pub fn guides(self, from: f64) -> Self {
         Self { guides: Some(from), ..self }
     }
 
-    /// This picture with so much more room right of its frames (px).
+    /// This picture with that much additional room on the right of its frames (px).
     pub fn right(self, right: f64) -> Self {
         Self { right, ..self }
     }
 
-    /// This picture so that a page reads places off its first diagram.
+    /// This picture with a first diagram from which a page reads off places.
     pub fn read_off(self) -> Self {
         Self { read_off: true, ..self }
     }
 
-    /// The picture, with what is to be seen for those who cannot.
+    /// The picture, with a description for readers who cannot see it.
     pub fn picture(self, sheet: Sheet, alt: &str) -> Picture {
         let mut svg = Svg::on(sheet);
         head(&mut svg, self.title, self.of);

@@ -1,4 +1,4 @@
-//! Several bats in the same pictures, and how much faster one hits than another.
+//! Several bats in the same pictures, and the differences of their exit speeds.
 
 use crate::plot::axis::Axis;
 use crate::plot::chart::{Chart, Panel};
@@ -19,8 +19,8 @@ const MODES: usize = 3;
 const DIAGRAM: f64 = 230.0;
 
 /// Pictures of several bats: all bats in each of `sweet_spot`, `profile`, `shapes`, `exit_speed`, `contact`,
-/// `hysteresis` and `hands`; a `ledger_A` of each bat, all to the same scale; and the `difference` of
-/// exit speeds to those of the first bat.
+/// `hysteresis` and `hands`; a `ledger_A` of each bat, all to the same scale; and the `difference` between the exit
+/// speeds and those of the first bat.
 ///
 /// # Errors
 ///
@@ -59,7 +59,7 @@ pub fn pictures(sheet: Sheet, comparison: &Comparison) -> Result<Vec<Picture>> {
     Ok(all)
 }
 
-/// Where the energy goes, bat by bat.
+/// The distribution of the energy for each bat.
 fn ledgers(sheet: Sheet, comparison: &Comparison, names: &[String]) -> Vec<Picture> {
     let most = comparison.bats.iter().map(|c| ledger::greatest(&c.sweep.impacts));
     let most = most.fold(0.0, f64::max);
@@ -75,7 +75,7 @@ fn name(comparison: &Comparison, k: usize) -> String {
     format!("{}: {}", letter(k), comparison.bats[k].bat.name())
 }
 
-/// Exit speeds less those of the first bat at the same distance from the tip.
+/// Exit speeds minus those of the first bat at the same distance from the tip.
 fn difference(sheet: Sheet, comparison: &Comparison, names: &[String]) -> Option<Picture> {
     let at = |bat: usize| {
         let rows = comparison.from_tip.iter().zip(&comparison.by_tip);

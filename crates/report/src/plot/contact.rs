@@ -19,16 +19,16 @@ const PARTS: usize = 6;
 /// Height of each of the diagrams in time (px).
 const DIAGRAM: f64 = 150.0;
 
-/// A hit in time, and what the bat is called.
+/// A hit in time, with the name of the bat.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactCurves<'a> {
-    /// What the bat is called.
+    /// Name of the bat.
     pub name: &'a str,
-    /// Where it is hit (m from the knob end).
+    /// Position of the impact (m from the knob end).
     pub x: f64,
     /// The ball from the first touch to the last.
     pub moments: Vec<Moment>,
-    /// What is lost in the ball (J).
+    /// Energy lost in the ball (J).
     pub lost: f64,
 }
 
@@ -46,8 +46,7 @@ impl<'a> ContactCurves<'a> {
     }
 }
 
-/// Force and compression against time (`contact`), and force against compression (`hysteresis`); none
-/// without a hit.
+/// Force and compression against time (`contact`), and force against compression (`hysteresis`); none without a hit.
 pub fn pictures(sheet: Sheet, subjects: &[ContactCurves]) -> Vec<Picture> {
     match subjects {
         [] => vec![],
@@ -55,8 +54,8 @@ pub fn pictures(sheet: Sheet, subjects: &[ContactCurves]) -> Vec<Picture> {
     }
 }
 
-/// What a picture's second line says: of one bat where it is hit, of several that each is hit at its
-/// own place.
+/// The second line of a picture: the position of the impact for one bat, and for several that each has its own
+/// position.
 fn second<'a>(sheet: Sheet, subjects: &[ContactCurves<'a>]) -> [Cow<'a, str>; 2] {
     match subjects {
         [one] => [one.name.into(), format!("hit {} from the knob end", along(sheet, one.x)).into()],
@@ -166,12 +165,12 @@ fn hysteresis(sheet: Sheet, subjects: &[ContactCurves]) -> Picture {
 fn around(subject: &ContactCurves) -> Vec<Option<[f64; 2]>> {
     let at = |m: &Moment| [m.compression, m.force];
     let last = subject.moments.last().map(at).filter(|[_, force]| *force > 0.0);
-    // A ball that gives nothing back lets go at once.
+    // A ball without restitution separates at once.
     let end = last.map(|[deepest, _]| [deepest, 0.0]);
     subject.moments.iter().map(at).chain(end).map(Some).collect()
 }
 
-/// What is lost in the ball, bat by bat.
+/// The energy lost in the ball, for each bat.
 fn lost(unit: Unit, subjects: &[ContactCurves]) -> String {
     let energies: Vec<String> = subjects.iter().map(|s| digits(unit.per * s.lost, 3)).collect();
     if energies.iter().all(|energy| energy == "0") {

@@ -14,7 +14,7 @@ use sweetspot::collision::sweet_spot::{Peak, SweetSpot};
 /// A bat, the name it has in the picture, its hits and its sweet spot.
 #[derive(Debug, Clone, Copy)]
 pub struct SpeedCurves<'a> {
-    /// What the bat is called.
+    /// Name of the bat.
     pub name: &'a str,
     /// The bat.
     pub bat: &'a Bat,
@@ -85,7 +85,7 @@ fn described(subjects: &[SpeedCurves], rows: &[PlaceRow]) -> String {
     )
 }
 
-/// As the bat is, and if it did not bend; the wall of a hollow one may give way too.
+/// The bat as it is, and as a rigid body (with a rigid wall, where a hollow barrel is compliant).
 fn curves(k: usize, subject: &SpeedCurves, alone: bool) -> Vec<Series> {
     let curve = |name: &str, of: &dyn Fn(&Impact) -> Option<f64>| {
         let points = subject.impacts.iter().map(|i| Some([i.x, of(i)?])).collect();
@@ -108,7 +108,7 @@ fn curves(k: usize, subject: &SpeedCurves, alone: bool) -> Vec<Series> {
     std::iter::once(bent).chain(rigid).filter(seen).collect()
 }
 
-/// What is named of the curves: of several bats that do not bend, one.
+/// The entries of the legend: one for all rigid bats where there are several.
 fn keys(curves: &[Series], alone: bool) -> Vec<Series> {
     let stiff = |curve: &&Series| !alone && curve.pen.width < 2.0;
     let mut named: Vec<Series> = curves.iter().filter(|c| !stiff(c)).cloned().collect();
@@ -129,7 +129,7 @@ fn sweet_spots(sheet: Sheet, subjects: &[SpeedCurves]) -> Vec<PlaceRow> {
         ("node of mode 2", |s| s.spot.node_mode_2),
         ("centre of percussion of the swing", |s| s.spot.center_of_percussion),
         ("slowest at the hands", |s| s.spot.hands_velocity_min.map(|p| p.x)),
-        // Nobody feels the shaking of a bat that nothing damps, which has no end.
+        // The vibration of an undamped bat has no end, and no size that a hand feels.
         ("least shaken at the hands", |s| {
             s.spot.hands_acceleration_min.filter(|_| s.bat.damped()).map(|p| p.x)
         }),

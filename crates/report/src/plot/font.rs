@@ -1,9 +1,8 @@
-//! The one font of words in PNG: the outlines of its letters, how wide they are, how close they stand.
+//! The font of words in PNG: outlines, widths and kerning of its letters.
 //!
-//! The font is Ubuntu Light, under the Ubuntu Font Licence 1.0, as the crate `epaint_default_fonts`
-//! carries it. It has the letters of Latin, Greek and Cyrillic scripts. The font is part of the
-//! program, and the crate `skrifa` reads it. Lengths are in the font's units, 1000 to the size of the
-//! words; y rises upwards.
+//! The font is Ubuntu Light, under the Ubuntu Font Licence 1.0, from the crate `epaint_default_fonts`. It has the
+//! letters of Latin, Greek and Cyrillic scripts. The font is part of the program and is read with the crate `skrifa`.
+//! Lengths are in font units, 1000 per size of the words; y points upwards.
 
 use skrifa::instance::{LocationRef, Size};
 use skrifa::outline::{DrawSettings, OutlinePen};
@@ -19,7 +18,7 @@ pub const UNITS: f32 = 1000.0;
 #[derive(Clone)]
 pub struct Font {
     file: FontRef<'static>,
-    /// How much closer or wider pairs of letters stand.
+    /// Kerning of pairs of letters.
     pairs: Vec<PairPos<'static>>,
 }
 
@@ -29,7 +28,7 @@ impl Default for Font {
     }
 }
 
-/// An outline on a base line, so far to the right.
+/// An outline on a base line, shifted to the right.
 struct Moved<'a> {
     path: &'a mut PathBuilder,
     right: f32,
@@ -58,7 +57,7 @@ impl OutlinePen for Moved<'_> {
 }
 
 impl Font {
-    /// The one font there is.
+    /// The font.
     pub fn new() -> Self {
         let file = FontRef::new(epaint_default_fonts::UBUNTU_LIGHT).expect("the font is whole");
         let adjustments = file.gpos().and_then(|table| table.lookup_list());
@@ -71,9 +70,8 @@ impl Font {
         Self { pairs, file }
     }
 
-    /// Words on a base line that begins at 0, each letter so much further from the next than the
-    /// font has it (units), and how wide they are. What the font has no letter for is a gap, and
-    /// blanks in a row are one, as in SVG.
+    /// Words on a base line that begins at 0, with additional letter spacing (units), and their width. A letter missing
+    /// in the font leaves a gap, and consecutive blanks count as one, as in SVG.
     pub fn set(&self, words: &str, apart: f32) -> (Option<Path>, f32) {
         let (size, location) = (Size::unscaled(), LocationRef::default());
         let widths = self.file.glyph_metrics(size, location);
@@ -86,7 +84,7 @@ impl Font {
             right += last.zip(glyph).map_or(0.0, |(one, next)| self.kerning(one, next));
             if let Some(outline) = glyph.and_then(|glyph| outlines.get(glyph)) {
                 let mut moved = Moved { path: &mut path, right };
-                // What cannot be drawn is a gap.
+                // A glyph that cannot be drawn leaves a gap.
                 let _ = outline.draw(DrawSettings::unhinted(size, location), &mut moved);
             }
             right += widths.advance_width(glyph.unwrap_or_default()).unwrap_or(0.0) + apart;
@@ -100,14 +98,14 @@ impl Font {
         self.file.charmap().map(c).filter(|glyph| *glyph != GlyphId::NOTDEF)
     }
 
-    /// How much further than its width the next letter stands; closer, if it is below 0.
+    /// Kerning between two letters, negative where they are closer.
     fn kerning(&self, one: GlyphId, next: GlyphId) -> f32 {
         let all = self.pairs.iter().filter_map(|pairs| adjustment(pairs, one, next));
         all.map(f32::from).sum()
     }
 }
 
-/// What a table of pairs has for these two, if it has the first.
+/// The kerning of these two letters in a table of pairs, if it has the first.
 fn adjustment(pairs: &PairPos, one: GlyphId, next: GlyphId) -> Option<i16> {
     match pairs {
         PairPos::Format1(listed) => {

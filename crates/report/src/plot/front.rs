@@ -1,4 +1,4 @@
-//! Time against error, as measured on a bat: what is worth its time.
+//! Error against time, as measured on a bat: the settings that are worth their time.
 
 use crate::plot::axis::Axis;
 use crate::plot::chart::{Chart, Panel};
@@ -70,7 +70,7 @@ fn planned(svg: &mut Svg, plane: &Plane, runs: &[Run], at: impl Fn(&Run) -> [f64
         let [x, y] = plane.at(at(run));
         svg.ring([x, y], 8.0, Pen::new(TEXT, 1.4));
         let words = format!("{tolerance:.0e}").replace('-', "−");
-        // Where another's words are, below.
+        // Below, if the words of another point are here.
         let near = |other: &[f64; 2]| (other[0] - x).abs() < 50.0 && (other[1] - y).abs() < 16.0;
         let lower = if taken.iter().any(near) { 16.0 } else { 0.0 };
         taken.push([x, y + lower]);

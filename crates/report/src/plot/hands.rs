@@ -1,4 +1,4 @@
-//! What the hands feel: displacement and velocity of the handle after a hit.
+//! The motion that the hands feel: displacement and velocity of the handle after a hit.
 
 use crate::plot::axis::Axis;
 use crate::plot::chart::{Chart, Panel};
@@ -15,20 +15,20 @@ const INSTANTS: usize = 700;
 const IN_ALL: usize = 1800;
 /// Height of each of the diagrams (px).
 const DIAGRAM: f64 = 150.0;
-/// What is drawn.
+/// The quantities drawn.
 const KINDS: [&str; 2] = ["displacement", "velocity"];
 
 /// A bat after a hit, and where it is held.
 pub struct HandCurves<'a> {
-    /// What the bat is called.
+    /// Name of the bat.
     pub name: &'a str,
     /// The bat under the ball's force.
     pub after: Aftermath<'a>,
-    /// Where the hands feel it (m from the knob end).
+    /// Position at which the hands feel it (m from the knob end).
     pub x: f64,
 }
 
-/// Displacement and velocity at the hands against time; picture `hands`. None where there is no force.
+/// Displacement and velocity at the hands against time; picture `hands`. None without a force.
 pub fn picture(sheet: Sheet, subjects: &[HandCurves]) -> Option<Picture> {
     let until = subjects.iter().map(|s| span(&s.after, s.x)).fold(0.0, f64::max);
     if until <= 0.0 {
@@ -61,7 +61,7 @@ pub fn picture(sheet: Sheet, subjects: &[HandCurves]) -> Option<Picture> {
     Some(chart.picture(sheet, &format!("{alt} {}.", peaks.join(", "))))
 }
 
-/// What the second line says.
+/// The second line of the picture.
 fn words<'a>(sheet: Sheet, subjects: &[HandCurves<'a>]) -> (&'a str, String) {
     match subjects {
         [one] => {
@@ -72,7 +72,7 @@ fn words<'a>(sheet: Sheet, subjects: &[HandCurves<'a>]) -> (&'a str, String) {
     }
 }
 
-/// What the curves are, and when the ball is on a single bat (ms).
+/// The description of the curves, and the time of contact for a single bat (ms).
 fn told(subjects: &[HandCurves]) -> (&'static str, Option<[f64; 2]>) {
     match subjects {
         [one] => (
@@ -95,8 +95,8 @@ fn curves(kind: usize, subjects: &[HandCurves], motions: &[Vec<[f64; 3]>]) -> Ve
     subjects.iter().zip(motions).enumerate().map(curve).collect()
 }
 
-/// Time (ms), displacement (m) and velocity (m/s) at a place; where hardly anything moves beside the
-/// place of the hit, as on a clamp, nothing does.
+/// Time (ms), displacement (m) and velocity (m/s) at a place. A motion that is negligible relative to that at the
+/// impact, as on a clamp, is set to 0.
 fn motions(after: &Aftermath, x: f64, times: &[f64]) -> Vec<[f64; 3]> {
     const NOTHING: f64 = 1e-9;
     let instants = after.at(times);
@@ -112,7 +112,7 @@ fn motions(after: &Aftermath, x: f64, times: &[f64]) -> Vec<[f64; 3]> {
     instants.iter().map(motion).collect()
 }
 
-/// How long is shown (s): the touch a few times, and three swings of the first mode.
+/// The time shown (s): a few times the contact and three periods of the first mode.
 fn span(after: &Aftermath, x: f64) -> f64 {
     let touch = 5.0 * after.end();
     let slowest = after.lines(x).first().map_or(0.0, |line| 3.0 / line.frequency_hz);

@@ -20,13 +20,13 @@ pub const MODES: usize = 5;
 /// Height of a mode (px), and half of the barrel's.
 const ROW: f64 = 88.0;
 const THICK: f64 = 22.0;
-/// What the name of a mode takes at the right edge (px).
+/// Width of the name of a mode at the right edge (px).
 const WORDS: f64 = 96.0;
 /// Places along a mode and around a ring.
 const ALONG: usize = 45;
 const AROUND: usize = 48;
 
-/// The lowest modes, at most the given number, a row each; picture `hoop`. None where there are none.
+/// The lowest modes, at most the given number, a row each; picture `hoop`. None without modes.
 pub fn picture(sheet: Sheet, bat: &Bat, barrel: &Barrel, most: usize) -> Option<Picture> {
     let lowest = barrel.hoop().lowest(most);
     if lowest.is_empty() {
@@ -68,7 +68,7 @@ pub fn picture(sheet: Sheet, bat: &Bat, barrel: &Barrel, most: usize) -> Option<
 struct Size {
     /// Its radius (px).
     ring: f64,
-    /// The largest motion of it and of the barrel beside it (px).
+    /// The largest motion of the ring and of the barrel drawn with it (px).
     moved: f64,
 }
 
@@ -81,7 +81,7 @@ impl Size {
         }
     }
 
-    /// What a ring takes across (px).
+    /// Width of a ring (px).
     fn across(self) -> f64 {
         2.0 * (self.ring + self.moved)
     }
@@ -96,7 +96,7 @@ fn side(
 ) {
     let radius = |x: f64| bat.profile().at(x).outer;
     let widest = outline.x_m.iter().map(|x| radius(*x)).fold(0.0, f64::max);
-    // On the lower side the waves stand as they do half a turn on.
+    // On the lower side the waves have the phase of half a turn.
     let below = if mode.harmonic.is_multiple_of(2) { 1.0 } else { -1.0 };
     let line = |side: f64, moved: f64| -> Vec<Point> {
         let sign = if side < 0.0 { below } else { 1.0 };

@@ -1,4 +1,4 @@
-//! Modes that responses share: what is stable over the number of poles, and the shapes.
+//! The modes common to several responses: stability over the number of poles, and shapes.
 
 use crate::plot::axis::Axis;
 use crate::plot::chart::{Chart, Panel};

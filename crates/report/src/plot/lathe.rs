@@ -1,4 +1,4 @@
-//! The bat coloured by what a cut does there, a strip for each output.
+//! The bat coloured by the effect of a cut at each place, with a strip for each output.
 
 use crate::plot::chart::{Chart, Panel};
 use crate::plot::outline::Lying;
@@ -24,15 +24,15 @@ const BAT: f64 = 34.0;
 const WORDS: f64 = 19.0;
 /// Evenly spaced sections of an outline.
 const OUTLINE: usize = 40;
-/// Bands that say their change where a pointer is.
+/// Most bands with a tooltip.
 const MOST_TOLD: usize = 70;
 /// Opacity of the largest change of a strip.
 const FULL: f64 = 0.85;
-/// A millimetre of diameter; what the picture is per in US units.
+/// Unit of the changes: a millimetre of diameter in SI, and 1/32 inch in US units.
 const MM: f64 = 1e-3;
 const THIRTY_SECOND: f64 = 0.0254 / 32.0;
 
-/// What a strip shows: its name, the unit, how many of it are one SI unit, and a band's change per metre.
+/// A strip: name, unit, number of units per SI unit, and the change per metre for a band.
 struct Strip {
     name: String,
     unit: &'static str,
@@ -41,7 +41,7 @@ struct Strip {
     changes: Vec<Option<f64>>,
 }
 
-/// The bat in strips; picture `lathe`. None where no band has a change to be shown.
+/// The strips of the bat; picture `lathe`. None where no band has a change to show.
 pub fn picture(sheet: Sheet, map: &LatheMap) -> Option<Picture> {
     let strips = strips(sheet, map);
     if strips.is_empty() {
@@ -80,7 +80,7 @@ pub fn picture(sheet: Sheet, map: &LatheMap) -> Option<Picture> {
     Some(chart.panel(panel).picture(sheet, &alt))
 }
 
-/// Few sections that tell the bat's shape: evenly spaced ones, and its stations with both sides of steps.
+/// A few sections that give the shape of the bat: evenly spaced ones, and its stations with both sides of steps.
 fn few_sections(bat: &Bat) -> Vec<(f64, Section)> {
     let (profile, stations) = (bat.profile(), &bat.profile().stations);
     let even = (0..=OUTLINE).map(|k| bat.length() * k as f64 / OUTLINE as f64);
@@ -96,7 +96,7 @@ fn few_sections(bat: &Bat) -> Vec<(f64, Section)> {
     all
 }
 
-/// The sections of a band: those of the outline, and its ends.
+/// The sections of a band: those of the outline, and those at its ends.
 fn between(bat: &Bat, outline: &[(f64, Section)], [from, to]: [f64; 2]) -> Vec<(f64, Section)> {
     let just_before = to - 1e-9 * bat.length();
     let ends = [(from, bat.profile().at(from)), (to, bat.profile().at(just_before))];
@@ -118,7 +118,7 @@ impl Strip {
         self.changes.iter().flatten().fold(0.0, |most: f64, change| most.max(change.abs()))
     }
 
-    /// The colour of a change and how much of it covers the bat, by its share of the largest.
+    /// The colour and opacity of a change, by its share of the largest.
     fn look(&self, change: f64) -> (Ink, f64) {
         let most = self.most();
         let share = if most > 0.0 { change.abs() / most } else { 0.0 };
@@ -126,7 +126,7 @@ impl Strip {
         (ink, (100.0 * FULL * share).round() / 100.0)
     }
 
-    /// Its name and how far the changes go.
+    /// The name, with the range of the changes.
     fn range(&self) -> String {
         let all = self.changes.iter().flatten();
         let [low, high] = all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], change| {
@@ -150,7 +150,7 @@ impl Strip {
     }
 }
 
-/// The strips of what was looked at.
+/// The strips of the outputs.
 fn strips(sheet: Sheet, map: &LatheMap) -> Vec<Strip> {
     let us = sheet.us;
     let per = if us { THIRTY_SECOND } else { MM };

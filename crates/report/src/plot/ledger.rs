@@ -1,4 +1,4 @@
-//! Where the energy of a hit goes, along the bat.
+//! The distribution of the energy of a hit, along the bat.
 
 use crate::plot::chart::{Chart, Panel};
 use crate::plot::picture::Picture;
@@ -14,7 +14,7 @@ use sweetspot::collision::hit::{Energy, Impact};
 const MODES: usize = 3;
 /// Height of the diagram (px).
 const DIAGRAM: f64 = 300.0;
-/// Part of the energy below which a layer is not seen anywhere.
+/// Share of the energy below which a layer is invisible.
 const UNSEEN: f64 = 1e-4;
 
 /// A part of the energy along the bat.
@@ -27,8 +27,7 @@ pub struct Layer {
     look: (Ink, f64),
 }
 
-/// All parts, from the one that is drawn lowest: their sum is the initial energy where the model loses
-/// none.
+/// All parts, from the lowest in the drawing. Their sum is the initial energy unless the model loses some.
 pub fn layers(impacts: &[Impact]) -> Vec<Layer> {
     let energies = || impacts.iter().filter_map(|i| Some(&i.outcome.as_ref()?.energy));
     let count = energies().map(|e| e.vibration_by_mode.len()).max().unwrap_or(0);
@@ -68,8 +67,7 @@ pub fn greatest(impacts: &[Impact]) -> f64 {
     initial.fold(0.0, f64::max)
 }
 
-/// The energies stacked, picture `ledger`, up to those (J) at least. None without two hits side by
-/// side.
+/// The stacked energies, picture `ledger`, on a scale up to these (J) at least. None without two adjacent hits.
 pub fn picture(
     sheet: Sheet,
     name: &str,
@@ -162,7 +160,7 @@ fn areas(impacts: &[Impact], layers: &[Layer], stacks: &[Vec<Option<f64>>]) -> V
     layers.iter().zip(stacks).map(area).collect()
 }
 
-/// The names of the layers beside the frame, where there is room, and their energies where a pointer rests.
+/// The names of the layers beside the frame, where there is room, and their energies in tooltips.
 fn named(
     svg: &mut Svg,
     plane: &Plane,

@@ -1,4 +1,4 @@
-//! Many bats: how an answer is spread, what spreads it, and how two numbers go together.
+//! Many bats: the distribution of an answer, its causes, and the relation between two numbers.
 
 use crate::many::table::Column;
 use crate::plot::axis::Axis;
@@ -61,14 +61,14 @@ pub fn histogram(column: &Column, sorted: &[f64], percentiles: [f64; 3]) -> Opti
     Some(chart.picture(Sheet::file(false), &format!("Histogram of {}: {facts}.", column.name)))
 }
 
-/// What makes an answer vary, the most first: a bar for what it does with others, and in it one for what it does
-/// alone; picture `tornado_NAME`.
+/// The causes of the variation of an answer, the largest first: a bar for the total effect of an input, with a bar for
+/// its own effect inside; picture `tornado_NAME`.
 pub fn tornado(answer: &str, varied: &[String], indices: &Indices) -> Picture {
     let mut order: Vec<usize> = (0..varied.len()).collect();
     order.sort_by(|a, b| indices.total[*b].value.total_cmp(&indices.total[*a].value));
     order.truncate(MOST_BARS);
     let title = format!("What makes {answer} vary");
-    // What is left of an exact fit is round-off.
+    // The remainder of an exact fit is round-off.
     let rest = indices.unexplained.value.max(0.0);
     let facts = format!(
         "shares of its variance, {} bats; dark alone, light with others; {rest:.2} not followed",
@@ -145,7 +145,7 @@ fn label(column: &Column) -> String {
     }
 }
 
-/// A name as part of a file's: letters, digits, and `_` for all else.
+/// A name as part of a file name: letters and digits are kept, others become `_`.
 fn plain(name: &str) -> String {
     name.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect()
 }

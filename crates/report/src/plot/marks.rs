@@ -1,4 +1,4 @@
-//! The places of a bat that matter, and what it is made of and bears, as rows.
+//! The important places of a bat, its materials and its fixtures, as rows.
 
 use crate::plot::place::PlaceRow;
 use crate::plot::series::{digits, short};
@@ -11,7 +11,7 @@ use sweetspot::bat::material::Material;
 /// A bat, the name it has in the picture, and where its swing turns.
 #[derive(Debug, Clone, Copy)]
 pub struct MarkedBat<'a> {
-    /// What the bat is called.
+    /// Name of the bat.
     pub name: &'a str,
     /// The bat.
     pub bat: &'a Bat,
@@ -19,7 +19,7 @@ pub struct MarkedBat<'a> {
     pub swing_pivot: Option<f64>,
 }
 
-/// Balance points, pivots, centres of percussion; what one bat is made of and bears.
+/// Balance points, pivots, centres of percussion; for one bat also its materials and fixtures.
 pub fn marked(sheet: Sheet, subjects: &[MarkedBat]) -> Vec<PlaceRow> {
     let lengths: Vec<f64> = subjects.iter().map(|s| s.bat.length()).collect();
     let of = |what: &str, place: &dyn Fn(&MarkedBat) -> Option<f64>| {
@@ -81,7 +81,7 @@ fn weight(sheet: Sheet, what: &str, mass: f64) -> String {
     }
 }
 
-/// What a region is made of where the rest of the bat is not.
+/// The material of a region where it differs from that of the rest.
 fn made_of(bat: &Bat, region: &Region) -> Option<String> {
     let name = |material: &Material| match &material.name {
         Some(name) => name.clone(),

@@ -1,4 +1,4 @@
-//! A table of numbers from 0 to 1 as a map of colours, the numbers in it.
+//! A table of numbers from 0 to 1 as a map of colours, with the numbers in its cells.
 
 use crate::plot::picture::Picture;
 use crate::plot::plane::head;
@@ -12,11 +12,11 @@ use crate::plot::words::{Anchor, LABEL, SMALL, TITLE, Type, fitted, width};
 pub struct Matrix {
     /// Of the picture's files.
     pub name: String,
-    /// What the picture is called.
+    /// Title of the picture.
     pub title: String,
     /// The line below the title.
     pub second: String,
-    /// What the rows and the columns are: `computed mode`, `measured mode`.
+    /// Labels of rows and columns: `computed mode`, `measured mode`.
     pub sides: [String; 2],
     /// Names of the rows, from above.
     pub rows: Vec<String>,
@@ -24,19 +24,19 @@ pub struct Matrix {
     pub columns: Vec<String>,
     /// Values from 0 to 1, row by row; None for an empty cell.
     pub values: Vec<Vec<Option<f64>>>,
-    /// What the scale says, such as `MAC`.
+    /// Label of the scale, such as `MAC`.
     pub scale: String,
 }
 
 /// Opacity of the largest value: numbers read on it, on light and on dark paper.
 pub const FULL: f64 = 0.5;
-/// Width of a cell (px) at most, its height, and what the scale takes on the right.
+/// Largest width of a cell (px), its height, and the width of the scale on the right.
 const CELL: [f64; 2] = [74.0, 30.0];
 const SCALE: f64 = 90.0;
-/// Rows and columns that are drawn; in more of them nothing is found.
+/// Most rows and columns drawn; a larger map would be unreadable.
 const MOST: usize = 100;
 
-/// The map, as wide as it needs and no wider than the others; of a very large one its beginning.
+/// The map, as wide as it needs and no wider than other pictures; of a very large one only the beginning.
 pub fn picture(matrix: &Matrix) -> Picture {
     if matrix.rows.len().max(matrix.columns.len()) > MOST {
         return picture(&beginning(matrix));
@@ -80,7 +80,7 @@ fn beginning(matrix: &Matrix) -> Matrix {
     }
 }
 
-/// The columns' names, or as many of them as there is room for: every second, fifth or tenth.
+/// The names of the columns, reduced to every second, fifth or tenth for lack of room.
 fn name_columns(svg: &mut Svg, matrix: &Matrix, [left, wide, y]: [f64; 3]) {
     let widest = matrix.columns.iter().map(|name| width(name, LABEL)).fold(0.0, f64::max);
     let fits = |every: &usize| *every as f64 * wide >= widest + 4.0;
@@ -109,7 +109,7 @@ fn opacity(value: f64) -> f64 {
     (100.0 * FULL * value.clamp(0.0, 1.0)).round() / 100.0
 }
 
-/// What the colours are worth.
+/// The scale of the colours.
 fn scale(svg: &mut Svg, matrix: &Matrix, [x, y]: [f64; 2]) {
     const PARTS: usize = 5;
     const STEP: f64 = 22.0;

@@ -1,4 +1,4 @@
-//! Measured modes beside computed ones: how alike they are, and the shapes on each other.
+//! Measured modes compared with computed ones: the similarity of the shapes, and the shapes on top of each other.
 
 use crate::plot::axis::Axis;
 use crate::plot::chart::{Chart, Panel};
@@ -16,14 +16,14 @@ use sweetspot_study::measured::study::{Pair, Shapes, Study};
 const MOST: usize = 8;
 /// Height of a shape's diagram (px).
 const ROW: f64 = 76.0;
-/// Right of the frame, where a mode is named (px).
+/// Width of the names of modes on the right of the frame (px).
 const RIGHT: f64 = 122.0;
-/// Points of a computed curve, and measured ones that are drawn at most.
+/// Points of a computed curve, and the largest number of measured points drawn.
 const POINTS: usize = 160;
 const DRAWN: usize = 400;
 
-/// `mac`, `mass_orthogonality` and `measured_shapes`; none where frequencies are all there is, or no
-/// measured mode bends.
+/// `mac`, `mass_orthogonality` and `measured_shapes`; none without measured shapes, or where no measured mode is a
+/// bending mode.
 pub fn pictures(sheet: Sheet, bat: &str, study: &Study) -> Vec<Picture> {
     let Some(shapes) = &study.shapes else { return vec![] };
     if study.bending.is_empty() {
@@ -58,7 +58,7 @@ fn mac(bat: &str, study: &Study, shapes: &Shapes) -> Picture {
     })
 }
 
-/// Measured below the diagonal and on it, above it what the points cost.
+/// The measured values on and below the diagonal; above it the effect of the finite number of points.
 fn common(bat: &str, study: &Study, own: &[Vec<f64>], sampled: &[Vec<Option<f64>>]) -> Picture {
     let count = own.len();
     let value = |i: usize, j: usize| if j > i { sampled[i][j] } else { Some(own[i][j]) };
@@ -116,14 +116,14 @@ fn series(study: &Study, shapes: &Shapes, pair: &Pair) -> Vec<Series> {
     let computed = (0..=POINTS).map(|k| Some([at(k), shape.deflection(at(k))])).collect();
     let scale = pair.scale.filter(|scale| scale.norm() > 0.0);
     let values = shapes.placed.x.iter().zip(&shapes.placed.shapes[pair.measured]);
-    // Of very many, points beside each other are one on paper.
+    // Where there are very many points, neighbours coincide on paper.
     let values = values.step_by(shapes.placed.x.len().div_ceil(DRAWN));
     let measured = values.map(|(x, w)| Some([*x, (w / scale?).re])).collect();
     let computed = Series::curve("computed", 0, computed).pen(Pen::new(SERIES[0], 1.7)).untold();
     vec![Series::curve("measured", 1, measured).dots(MARKS[0]), computed]
 }
 
-/// Which modes, their frequencies, and the MAC.
+/// The pair of modes, their frequencies, and the MAC.
 fn beside(svg: &mut Svg, frame: Frame, study: &Study, pair: &Pair) {
     let (x, y) = (frame.right + 12.0, frame.top + 16.0);
     let room = svg.width - x - 8.0;

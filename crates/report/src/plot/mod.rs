@@ -1,12 +1,11 @@
 //! Results as pictures: SVG that reads on light and on dark paper, and PNG.
 //!
-//! A picture is a function of plain results, and [`picture::write`] makes files of pictures. Those of
-//! one command are gathered in [`sets`]. The ones that take several subjects lay bats over each
-//! other, one colour, dash and mark each. A [`sheet`] says in which units a picture counts and how wide it
-//! is. All are drawn from the same parts, with which others can be
-//! made: a [`plane::Plane`] has two axes ([`axis`]) and takes [`series`], [`place`] has the axes and
-//! rows of positions, [`matrix`] a table as a map of colours. A position is read off twice: from the
-//! knob end at the bottom, and from the tip at the top.
+//! A picture is a function of plain results, and [`picture::write`] makes files of pictures. Those of one command are
+//! gathered in [`sets`]. Pictures for several subjects show the bats on top of each other, each with its colour, dash
+//! and mark. A [`sheet`] defines the units and the width of a picture. All are drawn from the same parts, which can
+//! also be used for others: a [`plane::Plane`] has two axes ([`axis`]) and takes [`series`], [`place`] has the axes and
+//! rows of positions, [`matrix`] draws a table as a map of colours. Positions can be read from the knob end at the
+//! bottom and from the tip at the top.
 //!
 //! ```
 //! use sweetspot_report::plot::sheet::Sheet;

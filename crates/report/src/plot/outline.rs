@@ -1,4 +1,4 @@
-//! A bat as it looks from the side: outline, bore, and what it is made of.
+//! A bat from the side: outline, bore and materials.
 
 use crate::plot::plane::Plane;
 use crate::plot::route::Point;
@@ -8,18 +8,18 @@ use sweetspot::bat::body::Bat;
 use sweetspot::bat::fixtures::Held;
 use sweetspot::bat::profile::{Profile, Section};
 
-/// Where an outline is drawn, and how thick.
+/// The position of an outline in the drawing, and its thickness.
 #[derive(Debug, Clone, Copy)]
 pub struct Lying<'a> {
     /// For positions.
     pub plane: &'a Plane,
-    /// The height of the axis, and what a metre of radius is high (px).
+    /// The height of the axis, and the scale of radii (px/m).
     pub axis: f64,
     /// Pixels of a metre along the bat.
     pub per_metre: f64,
 }
 
-/// Sections from knob to tip, about the given number at most; both sides of a step, and the ends.
+/// Sections from knob to tip, about the given number at most, including both sides of each step and the ends.
 pub fn sections(profile: &Profile, most: usize) -> Vec<(f64, Section)> {
     let length = profile.length();
     if 3 * profile.pieces.len() > most {
@@ -37,7 +37,7 @@ pub fn sections(profile: &Profile, most: usize) -> Vec<(f64, Section)> {
 }
 
 impl Lying<'_> {
-    /// Where a place (m) and a radius (m, below the axis less than 0) are.
+    /// The point at a place (m) and a radius (m, negative below the axis).
     fn at(&self, x: f64, radius: f64) -> Point {
         [self.plane.across(x), self.axis - self.per_metre * radius]
     }
@@ -56,7 +56,7 @@ impl Lying<'_> {
         svg.line(&closed, pen);
     }
 
-    /// The bat: its wall, its bore, its regions hatched, its joints and what is fastened to it.
+    /// The bat: its wall, its bore, its hatched regions, its joints and its fixtures.
     pub fn draw(&self, svg: &mut Svg, bat: &Bat, ink: Ink) {
         const MOST: usize = 300;
         let all = sections(bat.profile(), MOST);
@@ -118,7 +118,7 @@ impl Lying<'_> {
         }
     }
 
-    /// What fills the bore.
+    /// The filling of the bore.
     fn cores(&self, svg: &mut Svg, bat: &Bat) {
         for region in bat.fixtures().regions.iter().filter(|region| region.layup.core.is_some()) {
             self.hatched(svg, bat, [region.from, region.to], true);
@@ -147,7 +147,7 @@ impl Lying<'_> {
         let mut weights: Vec<f64> =
             weights.chain(bat.fixtures().absorbers.iter().map(|a| a.x)).collect();
         weights.sort_by(f64::total_cmp);
-        // Closer ones cannot be told apart.
+        // Closer ones cannot be distinguished.
         weights.dedup_by(|next, last| self.at(*next, 0.0)[0] - self.at(*last, 0.0)[0] < 3.0);
         for x in weights {
             svg.mark(Mark::Diamond, self.at(x, 0.0), 4.5, TEXT, true);

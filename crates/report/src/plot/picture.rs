@@ -13,22 +13,22 @@ use sweetspot::base::file;
 /// One picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Picture {
-    /// Of its files, without extension, such as `exit_speed`.
+    /// Name of its files, without extension, such as `exit_speed`.
     pub name: String,
-    /// What it is called above itself.
+    /// Title above the picture.
     pub title: String,
-    /// What is to be known beside the title.
+    /// Facts beside the title.
     pub facts: String,
-    /// What is to be seen, for those who cannot.
+    /// Description for readers who cannot see the picture.
     pub alt: String,
-    /// The whole picture, which needs nothing beside it: `<svg …>…</svg>`.
+    /// The whole picture as `<svg …>…</svg>`, which needs no other file.
     pub svg: String,
-    /// What was drawn, of which `svg` was written.
+    /// The drawing from which `svg` was written.
     pub drawing: Svg,
 }
 
 impl Picture {
-    /// What was drawn, under that name.
+    /// A drawing with that name.
     pub fn new(name: &str, title: &str, alt: &str, svg: Svg) -> Self {
         let whole = svg.finish(title, alt);
         let [name, title, alt] = [name, title, alt].map(str::to_owned);
@@ -36,9 +36,8 @@ impl Picture {
     }
 }
 
-/// Writes every picture into that folder, which is made if it does not exist: as SVG, and as PNG of
-/// twice the size where the crate has its feature `png`. The names of others that were drawn there
-/// before are given back: they stay.
+/// Writes every picture into that folder, which is created if it does not exist, as SVG, and as PNG of twice the size
+/// where the crate has its feature `png`. Returns the names of other pictures from earlier calls, which are kept.
 ///
 /// # Errors
 ///

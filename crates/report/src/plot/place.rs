@@ -8,8 +8,8 @@ use crate::plot::svg::{MARKS, Mark, Pen, Svg};
 use crate::plot::theme::{PAPER, series};
 use crate::plot::words::{Anchor, LABEL, SMALL, fitted, width};
 
-/// The axes of a stretch of bats (m): from the knob end, and from the tip. Where the bats are not
-/// equally long it is the first one's tip.
+/// The axes of a stretch of bats (m): from the knob end, and from the tip. For bats of different length it is the tip
+/// of the first.
 pub fn axes(sheet: Sheet, [from, to]: [f64; 2], bats: &[(&str, f64)]) -> [Axis; 2] {
     let length = bats.first().map_or(0.0, |(_, length)| *length);
     let same = bats.iter().all(|(_, other)| (other - length).abs() < 1e-4 * length);
@@ -26,7 +26,7 @@ pub fn axes(sheet: Sheet, [from, to]: [f64; 2], bats: &[(&str, f64)]) -> [Axis; 
     ]
 }
 
-/// A place as it stands beside its mark: from the knob end.
+/// The label of a place, from the knob end.
 pub fn shown(sheet: Sheet, x: f64, length: f64) -> String {
     match x {
         x if x < 0.0 => format!("{} beyond the knob end", along(sheet, -x)),
@@ -64,7 +64,7 @@ pub fn tenths(length: f64) -> String {
 /// Marked places that belong together: one for each bat, or stretches.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlaceRow {
-    /// What the row is called.
+    /// Label of the row.
     pub label: String,
     /// Which bat's, and where (m).
     pub places: Vec<(usize, f64)>,
@@ -78,8 +78,8 @@ impl PlaceRow {
         Self { label, places, stretches: vec![] }
     }
 
-    /// A row of what each bat of these lengths (m) has at one of these places (m), with the places in its label; None
-    /// where no bat has any.
+    /// A row with one of these places (m) for each bat of these lengths (m), and with the places in its label; None
+    /// where no bat has one.
     pub fn named(
         sheet: Sheet,
         what: &str,
@@ -104,9 +104,9 @@ impl PlaceRow {
 
 /// From the edge of a narrow picture to words (px).
 const EDGE: f64 = 10.0;
-/// Between the marks of several bats in a row, so that none hides another (px).
+/// Distance between the marks of several bats in a row, so that none hides another (px).
 const APART: f64 = 10.0;
-/// Height of a row (px); where it is narrow, the words stand on a line of their own above the marks.
+/// Height of a row (px). In a narrow picture the words have a separate line above the marks.
 fn row_height(sheet: Sheet) -> f64 {
     if sheet.narrow() { 33.0 } else { 18.0 }
 }
@@ -117,7 +117,7 @@ fn height_of(sheet: Sheet, top: f64, k: usize) -> f64 {
     top + row * (k + 1) as f64 - if sheet.narrow() { 10.0 } else { 5.0 }
 }
 
-/// What rows take (px).
+/// Height of the rows (px).
 pub fn height(sheet: Sheet, rows: &[PlaceRow]) -> f64 {
     row_height(sheet) * rows.len() as f64 + if rows.is_empty() { 0.0 } else { 8.0 }
 }
@@ -125,8 +125,8 @@ pub fn height(sheet: Sheet, rows: &[PlaceRow]) -> f64 {
 /// Left, upper, right and lower edge (px) of words.
 pub type Edges = [f64; 4];
 
-/// The rows in a frame, a line each, their words where there is most room beside the marks. A place
-/// beyond the frame is an arrow at its edge. Where the words are is given back.
+/// The rows in a frame, a line each, with their words where there is most room beside the marks. A place beyond the
+/// frame becomes an arrow at its edge. Returns the extents of the words.
 pub fn rows(svg: &mut Svg, plane: &Plane, rows: &[PlaceRow]) -> Vec<Edges> {
     let Frame { left, top, right, .. } = plane.frame;
     let mut told = vec![];
@@ -159,7 +159,7 @@ pub fn rows(svg: &mut Svg, plane: &Plane, rows: &[PlaceRow]) -> Vec<Edges> {
     told
 }
 
-/// A place beyond the frame, on that side of it.
+/// An arrow for a place beyond the frame, on that side of it.
 fn arrow(svg: &mut Svg, bat: usize, [x, y]: [f64; 2], side: f64) {
     let points = [[x + 5.0 * side, y], [x - 4.0 * side, y - 5.0], [x - 4.0 * side, y + 5.0]];
     svg.area(&points, series(bat).0, 1.0, None);
@@ -173,7 +173,7 @@ pub fn mark(svg: &mut Svg, bat: usize, at: [f64; 2]) {
     svg.mark(mark, at, half, series(bat).0, true);
 }
 
-/// Thin lines from a height down to the marked places of the rows, but not through those words.
+/// Thin vertical lines from a height down to the marked places of the rows, interrupted by those words.
 pub fn guides(svg: &mut Svg, plane: &Plane, (all, told): (&[PlaceRow], &[Edges]), from: f64) {
     for (k, row) in all.iter().enumerate() {
         let end = height_of(svg.sheet, plane.frame.top, k) - 8.0;
@@ -194,14 +194,14 @@ pub fn guides(svg: &mut Svg, plane: &Plane, (all, told): (&[PlaceRow], &[Edges])
     }
 }
 
-/// What and where, or without the end it is counted from, or what, where there is no room for that.
+/// Name and place; for lack of room without the end it is counted from, or only the name.
 fn shortened(words: &str, room: f64) -> &str {
     let place = words.trim_end_matches(" from the knob end");
     let what = words.split(':').next().unwrap_or(words);
     [words, place].into_iter().find(|words| width(words, LABEL) <= room).unwrap_or(what)
 }
 
-/// A row's words, beside what is taken in it.
+/// The words of a row, in the room left by its marks.
 fn words(svg: &mut Svg, frame: Frame, y: f64, (words, taken): (&str, &[f64])) -> Edges {
     let first = taken.iter().fold(frame.right, |least, x| least.min(*x));
     let last = taken.iter().fold(frame.left, |most, x| most.max(*x));
@@ -217,7 +217,7 @@ fn words(svg: &mut Svg, frame: Frame, y: f64, (words, taken): (&str, &[f64])) ->
     let wide = width(words, LABEL);
     let edges = |from: f64, wide: f64| [from - 2.0, y - 8.0, from + wide + 2.0, y + 8.0];
     if wide > before.max(after) && after.max(before) < 120.0 {
-        // Across what is taken all over.
+        // Over the marks if there is no room beside them.
         let middle = 0.5 * (frame.left + frame.right);
         let [left, top, right, bottom] = edges(middle - 0.5 * wide, wide);
         svg.rect([[left, top], [right, bottom]], PAPER, 1.0, None);

@@ -7,7 +7,7 @@ use crate::plot::svg::{Pen, Svg};
 use crate::plot::theme::{FRAME, GRID, Ink, TINT};
 use crate::plot::words::{Anchor, LABEL, SMALL, TITLE, Type, fitted, width};
 
-/// What numbers and label of an axis take beside a frame (px).
+/// Room for numbers and label of an axis beside a frame (px).
 pub const NUMBERS: f64 = 42.0;
 
 /// Length of every tick, outwards from the frame (px).
@@ -32,7 +32,7 @@ impl Frame {
         Self { left: sheet.left(), top, right: sheet.width() - sheet.right(), bottom }
     }
 
-    /// A frame of that height as wide as this one, so far below it (px).
+    /// A frame of that height and the same width, at that distance below this one (px).
     pub fn below(self, apart: f64, height: f64) -> Self {
         let top = self.bottom + apart;
         Self { top, bottom: top + height, ..self }
@@ -50,8 +50,8 @@ pub struct Plane {
     pub y: Axis,
 }
 
-/// The title and, standing back, what it is of and what is to be known of it; where there is not room
-/// for all, the name is cut. A page has the title beside the picture, and the facts below that.
+/// The title and, in a muted colour, the subject and facts. For lack of room the name is cut. A page has the title
+/// beside the picture, with the facts below it.
 pub fn head(svg: &mut Svg, title: &str, [name, facts]: [&str; 2]) {
     svg.facts = facts.to_owned();
     if svg.sheet.paper != Paper::File {
@@ -64,13 +64,13 @@ pub fn head(svg: &mut Svg, title: &str, [name, facts]: [&str; 2]) {
     svg.text([20.0, 48.0], SMALL, &fitted(&format!("{name}{between}{facts}"), SMALL, most));
 }
 
-/// As many ticks as there is room for along y.
+/// The number of ticks for which there is room along y.
 pub fn ticks_up(height: f64) -> usize {
     ((height / 24.0) as usize).clamp(3, 9)
 }
 
 impl Plane {
-    /// A frame with an axis along it and none upwards.
+    /// A frame with a horizontal axis and no vertical one.
     pub fn strip(frame: Frame, x: &Axis) -> Self {
         Self { frame, x: x.clone(), y: Axis::new("", [0.0, 1.0]) }
     }
@@ -90,7 +90,7 @@ impl Plane {
         ticks_up(self.frame.bottom - self.frame.top)
     }
 
-    /// Lines to count along, the frame's left and lower side, the numbers and the label of y.
+    /// Grid lines, the left and lower side of the frame, the numbers and the label of y.
     pub fn draw(&self, svg: &mut Svg) {
         let Frame { left, top, right, bottom } = self.frame;
         for tick in self.y.ticks(self.ticks_up()) {
@@ -107,7 +107,7 @@ impl Plane {
         self.label_up(svg, (left - 58.0).max(15.0), &self.y.label);
     }
 
-    /// Words along y, as near to its middle as they fit on the picture.
+    /// Words along y, as near to its middle as the picture allows.
     fn label_up(&self, svg: &mut Svg, x: f64, words: &str) {
         let half = 0.5 * width(words, SMALL);
         let middle = 0.5 * (self.frame.top + self.frame.bottom);
@@ -123,7 +123,7 @@ impl Plane {
         along(svg, self.frame, (&self.x, &ticks), [bottom, TICK, 18.0, 36.0]);
     }
 
-    /// Numbers and label of another axis for x, above the frame: distances, so none below 0.
+    /// Numbers and label of another axis for x, above the frame. It shows distances, so there are none below 0.
     pub fn above(&self, svg: &mut Svg, axis: &Axis) {
         let mut ticks = axis.ticks(ticks_along(self.frame, axis));
         ticks.retain(|tick| tick.value >= 0.0);
@@ -151,7 +151,7 @@ impl Plane {
     }
 }
 
-/// As many ticks as there is room for along x.
+/// The number of ticks for which there is room along x.
 fn ticks_along(frame: Frame, axis: &Axis) -> usize {
     let count = |most: &usize| {
         let widest = axis.ticks(*most).iter().map(|t| width(&t.text, LABEL)).fold(0.0, f64::max);

@@ -1,8 +1,8 @@
-//! A picture as pixels, with a [`font`](super::font) of its own: nothing is asked of the system.
+//! A picture as pixels, with its own [`font`](super::font), independent of the system.
 //!
-//! The same shapes that SVG is written from are painted, on light paper and with coordinates to the
-//! same tenth. The font has the letters of Latin, Greek and Cyrillic scripts; in other names of bats
-//! the SVG is whole and the PNG leaves gaps. It has one weight: bold words are drawn around.
+//! The same shapes as in SVG are painted on light paper, with coordinates to the same tenth. The font has the letters
+//! of Latin, Greek and Cyrillic scripts; names of bats in other scripts leave gaps in the PNG but are complete in the
+//! SVG. The font has one weight, so bold words get an outline.
 
 use tiny_skia::{
     Color, FillRule, LineJoin, Paint, Path, PathBuilder, Pixmap, Shader, Stroke, StrokeDash,
@@ -32,17 +32,17 @@ pub fn png(drawing: &Svg, scale: f32) -> Vec<u8> {
 /// A colour on light paper.
 fn colour(ink: Ink, opacity: f64) -> Color {
     let hex = ink.light.get(1..7).and_then(|hex| u32::from_str_radix(hex, 16).ok());
-    // What is not a colour is black.
+    // An invalid colour becomes black.
     let [_, red, green, blue] = hex.unwrap_or(0).to_be_bytes();
     Color::from_rgba8(red, green, blue, (255.0 * opacity.clamp(0.0, 1.0)).round() as u8)
 }
 
-/// What a colour is laid on with.
+/// The paint of a colour with that opacity.
 fn paint(ink: Ink, opacity: f64) -> Paint<'static> {
     Paint { shader: Shader::SolidColor(colour(ink, opacity)), ..Paint::default() }
 }
 
-/// A line through points, back to the first if it is closed.
+/// A path through points, back to the first if it is closed.
 fn path(points: &[Point], closed: bool) -> Option<Path> {
     let mut path = PathBuilder::new();
     for (k, point) in points.iter().enumerate() {
@@ -84,7 +84,7 @@ impl Painter {
         }
     }
 
-    /// A path, filled and drawn around.
+    /// Fills and strokes a path.
     fn drawn(&mut self, path: Option<Path>, look: Look) {
         let Some(path) = path else { return };
         if let Some((ink, opacity)) = look.fill {

@@ -49,7 +49,7 @@ pub fn picture(sheet: Sheet, subjects: &[MarkedBat]) -> Picture {
     chart.rows(rows).guides(axis(0)).picture(sheet, &alt)
 }
 
-/// What the pictures' first two lines say.
+/// The first two lines of the pictures.
 fn words(sheet: Sheet, subjects: &[MarkedBat]) -> (String, String) {
     match subjects {
         [MarkedBat { name, bat, .. }] => {
@@ -88,8 +88,8 @@ pub fn widest(bat: &Bat) -> f64 {
     stations.outer.iter().fold(0.0_f64, |most, r| most.max(*r))
 }
 
-/// How many times as thick as long a bat of that radius (m) is drawn, 1 wherever it can be seen so,
-/// and what a metre of radius is then high; from what a metre is long (px).
+/// Enlargement of the thickness for a bat of that radius (m), 1 wherever this is visible, and the resulting scale of
+/// radii, from the scale along the bat (px/m).
 fn thickness(radius: f64, along: f64) -> [f64; 2] {
     let natural = 2.0 * radius * along;
     let round = |wanted: f64| {
@@ -130,9 +130,9 @@ fn curves(k: usize, MarkedBat { name, bat, .. }: &MarkedBat) -> Vec<Series> {
     curves
 }
 
-/// The positions to be shown: the bats, and what is marked near them (m).
+/// The range of positions shown: the bats, and marks near them (m).
 fn ends(longest: f64, rows: &[PlaceRow]) -> [f64; 2] {
-    /// Of the length: marks farther off are at the edge.
+    /// As a share of the length; more distant marks are drawn at the edge.
     const BEYOND: f64 = 0.15;
     let places = rows.iter().flat_map(|row| row.places.iter().map(|(_, x)| *x));
     let near = places.filter(|x| (-BEYOND * longest..=(1.0 + BEYOND) * longest).contains(x));

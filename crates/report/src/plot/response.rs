@@ -16,21 +16,21 @@ use sweetspot::motion::peaks::Peak;
 
 /// Heights of size and phase (px).
 const DIAGRAMS: [f64; 2] = [230.0, 150.0];
-/// What is less than that share of the largest is not drawn: an antiresonance may be 0.
+/// Values below that share of the largest are not drawn, because an antiresonance may be 0.
 const LEAST: f64 = 1e-8;
 /// Points of a curve in a picture.
 const DRAWN: usize = 4000;
 
-/// A response, and what it is of.
+/// A response and its subject.
 #[derive(Debug, Clone, Copy)]
 pub struct ResponseCurves<'a> {
-    /// What the bat is called.
+    /// Name of the bat.
     pub bat: &'a str,
     /// Deflection, velocity or acceleration.
     pub kind: ResponseKind,
-    /// Where the force is (m from the knob end).
+    /// Position of the force (m from the knob end).
     pub at: f64,
-    /// Where the answer is watched (m from the knob end).
+    /// Position of the response (m from the knob end).
     pub to: f64,
     /// Rising frequencies (Hz) and the answer per force there, in SI.
     pub values: &'a [(f64, c64)],
@@ -89,7 +89,7 @@ fn curve(name: &str, k: usize, points: Vec<Option<[f64; 2]>>) -> Series {
     Series::curve(name, k, points).pen(Pen::new(SERIES[k], 1.7 - 0.4 * k as f64))
 }
 
-/// As many of them as a picture shows.
+/// The values, thinned to the number that a picture shows.
 fn kept(values: &[(f64, c64)]) -> impl Iterator<Item = &(f64, c64)> {
     values.iter().step_by(values.len().div_ceil(DRAWN).max(1))
 }

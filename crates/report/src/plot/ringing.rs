@@ -12,35 +12,35 @@ use crate::plot::svg::MARKS;
 use crate::plot::theme::SERIES;
 use sweetspot::collision::aftermath::{Aftermath, Line, Strained};
 
-/// Heights of a diagram of motion and of one that is alone (px).
+/// Heights of a diagram of motion and of a single diagram (px).
 const MOTION: f64 = 130.0;
 const ALONE: f64 = 250.0;
 /// Instants of a curve, and at most of all.
 const INSTANTS: usize = 900;
 const IN_ALL: usize = 3600;
-/// Curves in one picture: more are not told apart.
+/// Most curves in one picture; more cannot be distinguished.
 const MOST: usize = 6;
 
-/// A bat after a hit, and what is looked at.
+/// A bat after a hit, with the watched quantities.
 pub struct AfterHit<'a> {
-    /// What the bat is called.
+    /// Name of the bat.
     pub bat: &'a str,
     /// Its length (m).
     pub length: f64,
     /// The bat under the ball's force.
     pub after: &'a Aftermath<'a>,
-    /// Watched places (m) and the modes as they ring there.
+    /// Watched places (m) with the vibration of the modes there.
     pub watched: Vec<(f64, &'a [Line])>,
-    /// How long is looked (s).
+    /// End of the time shown (s).
     pub until: f64,
     /// The largest strain of every place.
     pub envelope: &'a [Strained],
-    /// Whether anything damps the bat: else its acceleration has no end.
+    /// Whether the bat is damped; without damping its vibration has no end.
     pub damped: bool,
 }
 
 impl AfterHit<'_> {
-    /// `motion` and `spectrum` of the watched places, the first six of them, and `strain` along the bat.
+    /// `motion` and `spectrum` of the first six watched places, and `strain` along the bat.
     pub fn pictures(&self, sheet: Sheet) -> Vec<Picture> {
         let all = [self.motion(sheet), self.spectrum(sheet), self.strain(sheet)];
         all.into_iter().flatten().collect()
@@ -91,13 +91,13 @@ impl AfterHit<'_> {
         Some(chart.picture(sheet, &alt))
     }
 
-    /// Velocity of every mode at the watched places when the ball has left: a line each.
+    /// Velocity of every mode at the watched places after the contact, a line each.
     fn spectrum(&self, sheet: Sheet) -> Option<Picture> {
         let unit = sheet.speed();
         let lines = || self.watched.iter().take(MOST).flat_map(|(_, lines)| lines.iter());
         let highest = lines().map(|line| line.frequency_hz).fold(0.0, f64::max);
         let largest = lines().map(|line| line.velocity_m_s).fold(0.0, f64::max);
-        // What can be seen at all.
+        // The visible lines.
         let seen = lines().filter(|line| line.velocity_m_s >= 0.003 * largest);
         let end = seen.map(|line| line.frequency_hz).fold(0.0, f64::max).min(highest);
         if end <= 0.0 || largest <= 0.0 {
@@ -113,7 +113,7 @@ impl AfterHit<'_> {
             Series::curve(&Self::name(sheet, *x), k, points)
         };
         let stems: Vec<Series> = self.watched.iter().take(MOST).enumerate().map(curve).collect();
-        // The ends of lines that lie on each other are told apart by their marks.
+        // Coinciding lines are distinguished by the marks at their ends.
         let ends = |(k, stems): (usize, &Series)| {
             let points = stems.points.iter().skip(1).step_by(3).copied().collect();
             Series { points, ..stems.clone() }.dots(MARKS[k % MARKS.len()]).untold()
@@ -167,7 +167,7 @@ fn most(curves: &[Series], unit: Unit) -> String {
 /// A bat that moves, instant by instant.
 #[derive(Debug, Clone, Copy)]
 pub struct Moving<'a> {
-    /// What the bat is called.
+    /// Name of the bat.
     pub bat: &'a str,
     /// Places (m), rising from end to end.
     pub x: &'a [f64],

@@ -1,11 +1,11 @@
-//! Points as a path: pixels from the upper left, to a tenth.
+//! A path through points, in pixels from the upper left, to a tenth.
 
 use std::fmt::Write;
 
 /// A place in pixels.
 pub type Point = [f64; 2];
 
-/// A path through points, without those that it passes by anyway.
+/// A path through points, without those that lie on it anyway.
 pub fn route(points: &[Point]) -> String {
     let mut out = String::new();
     for (k, point) in bends(points).into_iter().enumerate() {
@@ -16,12 +16,12 @@ pub fn route(points: &[Point]) -> String {
     out
 }
 
-/// The first point, the last one, and between them those without which a line would pass another by
-/// more than can be seen.
+/// The first point, the last one, and those between that are needed to keep the line within an invisible distance of
+/// all points.
 pub fn bends(points: &[Point]) -> Vec<Point> {
     /// px
     const SEEN: f64 = 0.06;
-    /// No more points than this are left out in a row.
+    /// Most points left out in a row.
     const MOST: usize = 60;
     let Some(first) = points.first() else { return vec![] };
     let (mut kept, mut from) = (vec![*first], 0);
@@ -54,7 +54,7 @@ pub fn tenth(value: f64) -> f64 {
     (10.0 * value.clamp(-1e6, 1e6)).round() / 10.0 + 0.0
 }
 
-/// A coordinate to a tenth of a pixel, as short as it can be.
+/// A coordinate to a tenth of a pixel, as short as possible.
 pub fn px(value: f64) -> String {
     tenth(value).to_string()
 }

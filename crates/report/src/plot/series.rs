@@ -1,4 +1,4 @@
-//! Curves and points in a diagram, and their names beside them.
+//! Curves and points in a diagram, with their legend.
 
 use crate::plot::plane::{Frame, Plane};
 use crate::plot::route::Point;
@@ -9,22 +9,21 @@ use crate::plot::words::{LABEL, SMALL, fitted, width};
 /// A curve, or points.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Series {
-    /// What the legend calls it.
+    /// Name in the legend.
     pub name: String,
-    /// What it is drawn with.
+    /// Pen of the line.
     pub pen: Pen,
     /// Whether the points are joined.
     pub joined: bool,
-    /// How every point is marked, if it is.
+    /// Mark at every point, if any.
     pub mark: Option<Mark>,
     /// Half height of an error bar at every point, in the unit of y; 0 for none.
     pub error: f64,
     /// Values in the units of the axes; None leaves a gap.
     pub points: Vec<Option<[f64; 2]>>,
-    /// What the inside of the closed line through its points is filled with, and how much of that covers what is
-    /// below.
+    /// Colour and opacity of the interior of the closed line through its points, if filled.
     pub fill: Option<(Ink, f64)>,
-    /// Whether a pointer that rests on it is told name and values.
+    /// Whether tooltips show its name and values.
     pub told: bool,
 }
 
@@ -61,7 +60,7 @@ impl Series {
         Self { fill: Some((ink, opacity)), ..self }
     }
 
-    /// The parts of it that have no gap and are inside of the frame.
+    /// The parts of it without a gap and inside the frame.
     fn runs(&self, plane: &Plane) -> Vec<Vec<[f64; 2]>> {
         let within = |[a, b]: &[f64; 2]| plane.x.holds(*a) && plane.y.holds(*b);
         let seen: Vec<Option<[f64; 2]>> = self.points.iter().map(|p| p.filter(within)).collect();
@@ -100,7 +99,7 @@ impl Series {
         }
     }
 
-    /// A sample of it, that wide.
+    /// A sample of it with that width.
     fn sample(&self, svg: &mut Svg, [x, y]: Point, wide: f64) {
         if let Some((ink, opacity)) = self.fill {
             svg.rect([[x, y - 5.6], [x + wide, y + 5.4]], ink, opacity, None);
@@ -118,8 +117,7 @@ pub fn heights(curves: &[Series]) -> impl Iterator<Item = f64> {
     curves.iter().flat_map(|curve| curve.points.iter().flatten()).map(|[_, value]| *value)
 }
 
-/// What stands where a pointer rests on curves: sixty places on them in all, no curve needs more to
-/// be read.
+/// Tooltips on curves: sixty places in all, because a curve needs no more to be read.
 pub fn hover(svg: &mut Svg, plane: &Plane, curves: &[Series]) {
     const MOST: usize = 60;
     let told: Vec<&Series> = curves.iter().filter(|curve| curve.told).collect();
@@ -142,7 +140,7 @@ pub fn short(value: f64) -> String {
     digits(value, 4)
 }
 
-/// A number with the given number of digits, without zeros at its end.
+/// A number with the given number of digits, without trailing zeros.
 pub fn digits(value: f64, count: i32) -> String {
     if value == 0.0 || !value.is_finite() {
         return "0".into();
@@ -159,8 +157,8 @@ pub fn digits(value: f64, count: i32) -> String {
     }
 }
 
-/// Names in a row with samples below the head; as many rows as they need. The base line of the last
-/// is given back, without names the end of the head.
+/// A legend of names with samples below the head, in as many rows as needed. Returns the base line of the last row, or
+/// the end of the head without names.
 pub fn legend(svg: &mut Svg, series: &[Series]) -> f64 {
     let sheet = svg.sheet;
     if series.is_empty() {
@@ -171,7 +169,7 @@ pub fn legend(svg: &mut Svg, series: &[Series]) -> f64 {
     legend_between(svg, series, ends)
 }
 
-/// A legend between two ends, its first row at `y`.
+/// A legend between two ends, with its first row at `y`.
 pub fn legend_between(svg: &mut Svg, series: &[Series], [left, mut y, right]: [f64; 3]) -> f64 {
     const SAMPLE: f64 = 28.0;
     let mut x = left;
@@ -195,10 +193,10 @@ pub fn bats<S: AsRef<str>>(names: &[S]) -> Vec<Series> {
     all.filter(|_| names.len() > 1).collect()
 }
 
-/// A name beside a frame: the height that it belongs to, the words, their colour.
+/// A name beside a frame: the height of its target, the words, their colour.
 pub type Tag = (f64, String, Ink);
 
-/// What the widest of these words take right of a frame (px), no more than that.
+/// Room for the widest of these words on the right of a frame (px), limited to that.
 pub fn room(words: &[&str], most: f64) -> f64 {
     let widest = words.iter().map(|words| width(words, LABEL)).fold(0.0, f64::max);
     (widest + 30.0).clamp(RIGHT_LEAST, most)
@@ -206,8 +204,8 @@ pub fn room(words: &[&str], most: f64) -> f64 {
 
 const RIGHT_LEAST: f64 = 28.0;
 
-/// Names right of a frame, each as near as can be to the height that it belongs to and joined to it
-/// where it is not there.
+/// Names on the right of a frame, each as near as possible to the height of its target, and connected to it where it is
+/// displaced.
 pub fn tags(svg: &mut Svg, frame: Frame, tags: &[Tag]) {
     const APART: f64 = 16.0;
     let wanted: Vec<f64> = tags.iter().map(|tag| tag.0).collect();
@@ -225,8 +223,8 @@ pub fn tags(svg: &mut Svg, frame: Frame, tags: &[Tag]) {
     }
 }
 
-/// Places as near as can be to those wanted, in their order, at least so far apart and between those
-/// ends; where there is no room, evenly.
+/// Places as near as possible to the wanted ones, in the same order, at least that distance apart and between those
+/// ends; evenly spaced for lack of room.
 pub fn spread(wanted: &[f64], apart: f64, [low, high]: [f64; 2]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..wanted.len()).collect();
     order.sort_by(|a, b| wanted[*a].total_cmp(&wanted[*b]));
@@ -240,7 +238,7 @@ pub fn spread(wanted: &[f64], apart: f64, [low, high]: [f64; 2]) -> Vec<f64> {
         places[*k] = wanted[*k].max(least);
         least = places[*k] + apart;
     }
-    // What was pushed beyond the end pushes back.
+    // Names beyond the end are pushed back.
     let mut most = high;
     for k in order.iter().rev() {
         places[*k] = places[*k].min(most);

@@ -45,8 +45,8 @@ pub struct Hits<'a> {
 }
 
 impl Hits<'_> {
-    /// `exit_speed` and `ledger` along the bat; `contact`, `hysteresis` and `hands` of the hit at one
-    /// place (m), without one at the sweet spot. What the model does not tell is not among them.
+    /// `exit_speed` and `ledger` along the bat; `contact`, `hysteresis` and `hands` of the hit at one place (m), by
+    /// default the sweet spot. Pictures that the model cannot give are left out.
     ///
     /// # Errors
     ///
@@ -64,8 +64,8 @@ impl Hits<'_> {
     }
 }
 
-/// The touch of ball and bat of a hit on each of these bats, with its name in the picture and its place (m), and what
-/// the hands feel of it: `contact`, `hysteresis` and `hands`, where the model tells them.
+/// The contact in a hit on each of these bats, with its name in the picture and its place (m), and the motion at the
+/// hands: `contact`, `hysteresis` and `hands`, where the model gives them.
 ///
 /// # Errors
 ///
@@ -85,8 +85,8 @@ pub fn of_touches(sheet: Sheet, hits: &[(&str, Hits, f64)]) -> Result<Vec<Pictur
     Ok(all)
 }
 
-/// All that belong to an analysis: the bat with its sweet spot (`sweet_spot`), its modes, its hits, the
-/// barrel of a hollow bat (`hoop`), and what cuts do (`lathe`) if that is known.
+/// All pictures of an analysis: the bat with its sweet spot (`sweet_spot`), its modes, its hits, the barrel of a hollow
+/// bat (`hoop`), and the effects of cuts (`lathe`) if they are known.
 ///
 /// # Errors
 ///

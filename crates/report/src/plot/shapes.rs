@@ -19,7 +19,7 @@ use sweetspot::modes::solve::Solution;
 /// A bat, the name it has in the picture, and its modes.
 #[derive(Debug, Clone, Copy)]
 pub struct ShapeCurves<'a> {
-    /// What the bat is called.
+    /// Name of the bat.
     pub name: &'a str,
     /// The bat.
     pub bat: &'a Bat,
@@ -33,10 +33,10 @@ pub const MODES: usize = 5;
 const ROW: f64 = 80.0;
 const DEFLECTED: f64 = 20.0;
 const THICK: f64 = 10.0;
-/// Right of the frame, where a mode is named.
+/// Width of the names of modes on the right of the frame.
 const RIGHT: f64 = 96.0;
 
-/// The first modes, at most the given number, a row each; picture `shapes`. None where there are no modes.
+/// The first modes, at most the given number, a row each; picture `shapes`. None without modes.
 pub fn picture(sheet: Sheet, subjects: &[ShapeCurves], most: usize) -> Option<Picture> {
     let count = subjects.iter().map(|s| s.solution.modes.len()).max()?.min(most);
     if count == 0 {
@@ -158,7 +158,7 @@ fn nodes(svg: &mut Svg, plane: &Plane, axis: f64, (k, mode, count): (usize, &Mod
     let mut free = plane.frame.left;
     for x in &mode.nodes {
         let across = plane.across(*x);
-        // Those of several bats one below the other: none hides another.
+        // The marks of several bats are displaced vertically, so that none hides another.
         let fan = if alone { 0.0 } else { 8.0 * (k as f64 - 0.5 * (count - 1) as f64) };
         place::mark(svg, k, [across, axis + fan]);
         let words = place::tenths(unit.per * x);

@@ -1,12 +1,12 @@
-//! What a picture is drawn on: the units it counts in, and how much room it has.
+//! The sheet of a picture: the units and the available room.
 
 use sweetspot::base::units::{FOOT_POUND, POUND_FORCE, inches, miles_per_hour};
 use sweetspot::bat::body::Bat;
 
-/// A unit of an axis: its name, and how many of it are one SI unit.
+/// A unit of an axis: its name, and its number per SI unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unit {
-    /// As it stands in a label: `cm`.
+    /// As in a label: `cm`.
     pub name: &'static str,
     /// How many are one SI unit: 100 for cm.
     pub per: f64,
@@ -15,20 +15,21 @@ pub struct Unit {
 impl Unit {
     /// Numbers without a unit.
     pub const NONE: Self = Self { name: "", per: 1.0 };
-    /// Milliseconds, of times that are counted in them already.
+    /// Milliseconds, for times that are already given in ms.
     pub const MS: Self = Self { name: "ms", per: 1.0 };
     /// Hertz.
     pub const HZ: Self = Self { name: "Hz", per: 1.0 };
 }
 
-/// Where a picture will stand.
+/// The medium of a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Paper {
-    /// A file of its own, with its title above it.
+    /// A separate file, with the title above the picture.
     File,
-    /// A page that has the title beside it.
+    /// A page that has the title beside the picture.
     Page,
-    /// A page on a telephone, title beside it: as wide as one, the letters as large.
+    /// A page on a telephone, with the title beside the picture: as narrow as the telephone, with letters of the same
+    /// size.
     Narrow,
 }
 
@@ -37,17 +38,17 @@ pub enum Paper {
 pub struct Sheet {
     /// Whether it counts in inches and miles an hour, not in cm and m/s.
     pub us: bool,
-    /// Where it will stand.
+    /// The medium.
     pub paper: Paper,
 }
 
 impl Sheet {
-    /// A file of its own.
+    /// A separate file.
     pub const fn file(us: bool) -> Self {
         Self { us, paper: Paper::File }
     }
 
-    /// A file of its own, in the unit that the bat was measured in.
+    /// A separate file, in the unit in which the bat was measured.
     pub fn of(bat: &Bat) -> Self {
         Self::file(bat.inches())
     }
@@ -61,7 +62,7 @@ impl Sheet {
         }
     }
 
-    /// Small lengths, such as the squeeze of a ball.
+    /// The unit of small lengths, such as the compression of a ball.
     pub fn small(self) -> Unit {
         if self.us { self.length() } else { Unit { name: "mm", per: 1e3 } }
     }
@@ -100,17 +101,17 @@ impl Sheet {
         if self.narrow() { 350.0 } else { 760.0 }
     }
 
-    /// From the left edge to the frames, so that those above each other are in line (px).
+    /// From the left edge to the frames, so that frames above each other are aligned (px).
     pub fn left(self) -> f64 {
         if self.narrow() { 68.0 } else { 74.0 }
     }
 
-    /// From a frame to the right edge, where nothing else stands there (px).
+    /// From a frame to the right edge, where nothing else is drawn there (px).
     pub fn right(self) -> f64 {
         if self.narrow() { 14.0 } else { 28.0 }
     }
 
-    /// What title and second line take at the top (px).
+    /// Height of title and second line at the top (px).
     pub fn head(self) -> f64 {
         if self.paper == Paper::File { 60.0 } else { 8.0 }
     }

@@ -15,7 +15,7 @@ use sweetspot::collision::sweet_spot::SweetSpot;
 /// A bat, the name it has in the picture, and its sweet spot.
 #[derive(Debug, Clone, Copy)]
 pub struct SpotMarks<'a> {
-    /// What the bat is called.
+    /// Name of the bat.
     pub name: &'a str,
     /// The bat.
     pub bat: &'a Bat,
@@ -26,15 +26,15 @@ pub struct SpotMarks<'a> {
 /// Room above a bat for the place of its sweet spot, and below it for the zone (px).
 const ABOVE: f64 = 36.0;
 const BELOW: f64 = 38.0;
-/// Height of a bat's own name, where there are several (px).
+/// Height of the name of a bat, where there are several (px).
 const NAME: f64 = 20.0;
 /// From the edges of the picture to the ends of the longest bat (px).
 const SIDE: f64 = 16.0;
-/// What is to be read at first sight.
+/// The type of the most important words.
 const LARGE: Type = Type { size: 15.0, ..LABEL };
 
-/// The bats one below the other, to one scale and as thick as they are; picture `sweet_spot`. None where
-/// no bat has a sweet spot.
+/// The bats one below the other, to one scale and with their true thickness; picture `sweet_spot`. None where no bat
+/// has a sweet spot.
 pub fn picture(sheet: Sheet, subjects: &[SpotMarks]) -> Option<Picture> {
     subjects.iter().find_map(|s| s.spot.exit_speed_max)?;
     let longest = subjects.iter().map(|s| s.bat.length()).fold(0.0, f64::max);
@@ -111,7 +111,7 @@ impl Lying<'_> {
     }
 }
 
-/// Words with their middle there, or as near as they fit on the paper.
+/// Words centred there, or as near as the paper allows.
 fn centred(svg: &mut Svg, [x, y]: [f64; 2], look: Type, words: &str) {
     let half = 0.5 * width(words, look) + 2.0;
     let x = x.min(svg.width - half).max(half);

@@ -1,8 +1,8 @@
 //! Lines, areas and words, kept as a list of shapes and written as plain SVG.
 //!
-//! Data flows one way: what is drawn becomes a shape, and the shapes become text here and pixels in
-//! `png`. Coordinates are pixels from the upper left, written to a tenth. No picture needs a file beside
-//! it, a font of its own or a name that another picture in the same page might have too.
+//! Data flow one way: drawing makes shapes, which become text here and pixels in `png`. Coordinates are pixels from the
+//! upper left, written to a tenth. A picture needs no other file and no font, and has no names that could conflict with
+//! those of another picture in the same page.
 
 use std::fmt::Write;
 
@@ -12,11 +12,11 @@ use crate::plot::theme::{self, Ink, PAPER};
 use crate::plot::words::{Anchor, Type};
 use sweetspot::base::xml::escaped;
 
-/// What the file of every picture begins with, and of hardly any other.
+/// The beginning of the file of every picture, by which it can be recognised.
 pub const BEGINNING: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"ss\"";
 
-/// The typeface that PNG is painted in, where the reader has it, and what is nearest to it elsewhere;
-/// whichever it is, its small letters are as high as those of the first.
+/// The typeface of the PNG, if the reader has it, and similar ones otherwise, with the size adjusted so that the small
+/// letters are as high as in the first.
 const FAMILY: &str = "'Ubuntu Light', Ubuntu, 'Noto Sans', 'Segoe UI', system-ui, sans-serif";
 
 /// Height of that typeface's small letters, of its size: `sxHeight` of its table "OS/2".
@@ -34,7 +34,7 @@ pub struct Svg {
     pub read_off: Option<[f64; 4]>,
     /// Its units and its room.
     pub sheet: Sheet,
-    /// What is to be known beside the title: see [`super::plane::head`].
+    /// Facts beside the title: see [`super::plane::head`].
     pub facts: String,
     shapes: Vec<Shape>,
 }
@@ -62,7 +62,7 @@ impl Pen {
         Self { ink, width: 2.0, dash }
     }
 
-    /// This pen with dashes, given as SVG has them.
+    /// This pen with dashes, in the notation of SVG.
     pub const fn dashed(self, dash: &'static str) -> Self {
         Self { dash, ..self }
     }
@@ -71,20 +71,20 @@ impl Pen {
 /// How a shape is filled and drawn around.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Look {
-    /// Colour within and how much of it covers what is below, from 0 to 1; none shows what is below.
+    /// Colour and opacity of the interior, from 0 to 1; unfilled if none.
     pub fill: Option<(Ink, f64)>,
-    /// What the edge is drawn with, if it is.
+    /// Pen of the edge, if any.
     pub pen: Option<Pen>,
 }
 
-/// One thing on the paper; what was drawn later covers what was drawn before.
+/// A drawn shape. Later shapes cover earlier ones.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Shape {
     /// Words.
     Words {
-        /// Where their base line begins, has its middle or ends, as their type says.
+        /// The beginning, middle or end of the base line, according to the type.
         at: Point,
-        /// How they look.
+        /// Type of the words.
         look: Type,
         /// The words.
         words: String,
@@ -93,14 +93,14 @@ pub enum Shape {
     Line {
         /// The points in order, two and more.
         points: Vec<Point>,
-        /// What it is drawn with.
+        /// Pen of the line.
         pen: Pen,
     },
     /// An outline that closes itself.
     Area {
         /// Its corners in order, three and more.
         outline: Vec<Point>,
-        /// How it is filled and drawn around.
+        /// Fill and edge.
         look: Look,
     },
     /// A level rectangle.
@@ -109,7 +109,7 @@ pub enum Shape {
         corner: Point,
         /// Its width and its height (px).
         sides: [f64; 2],
-        /// How it is filled and drawn around.
+        /// Fill and edge.
         look: Look,
     },
     /// A circle.
@@ -118,14 +118,14 @@ pub enum Shape {
         middle: Point,
         /// Its radius (px).
         radius: f64,
-        /// How it is filled and drawn around.
+        /// Fill and edge.
         look: Look,
     },
     /// Words that show where a pointer rests; they are not printed.
     Hover(Vec<(Point, String)>),
 }
 
-/// Marks that differ in form, in the order in which they are taken.
+/// Marks of different forms, in the order of use.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mark {
     /// Round.
@@ -147,7 +147,7 @@ pub const MARKS: [Mark; 6] =
     [Mark::Circle, Mark::Square, Mark::Triangle, Mark::Diamond, Mark::Cross, Mark::Wedge];
 
 impl Svg {
-    /// Empty paper of a size of its own, for a file.
+    /// Empty paper of the given size, for a file.
     pub fn new(width: f64, height: f64) -> Self {
         Self { width, height, ..Self::on(Sheet::file(false)) }
     }
@@ -158,7 +158,7 @@ impl Svg {
         Self { width, height, read_off: None, sheet, facts, shapes: vec![] }
     }
 
-    /// What was drawn so far, in that order.
+    /// The shapes drawn so far, in order.
     pub fn shapes(&self) -> &[Shape] {
         &self.shapes
     }
@@ -168,7 +168,7 @@ impl Svg {
         [self.width, self.height].map(f64::ceil)
     }
 
-    /// The picture with its title and, for those who cannot see it, what is to be seen.
+    /// The picture with its title and a description for readers who cannot see it.
     pub fn finish(&self, title: &str, description: &str) -> String {
         let [width, height] = self.sides().map(px);
         let edges = |edges: [f64; 4]| format!(" data-frame=\"{}\"", edges.map(px).join(" "));
@@ -200,7 +200,7 @@ impl Svg {
         }
     }
 
-    /// A closed outline that is filled, so opaque, and drawn around if there is a pen.
+    /// A closed outline, filled with that opacity and stroked if there is a pen.
     pub fn area(&mut self, outline: &[Point], ink: Ink, opacity: f64, pen: Option<Pen>) {
         if outline.len() > 2 {
             let look = Look { fill: Some((ink, opacity)), pen };
@@ -240,14 +240,14 @@ impl Svg {
         self.shapes.push(Shape::Area { outline, look });
     }
 
-    /// A circle that shows what is under it.
+    /// A circle that leaves visible what is under it.
     pub fn ring(&mut self, at: Point, radius: f64, pen: Pen) {
         let look = Look { fill: None, pen: Some(pen) };
         self.shapes.push(Shape::Circle { middle: at, radius, look });
     }
 
-    /// Words that show where a pointer rests, at the given number of points at most: in files, for a page
-    /// reads its pictures off by a line of its own.
+    /// Tooltips at the given number of points at most. Only files have them, because a page reads pictures off with a
+    /// movable line.
     pub fn hover(&mut self, points: &[(Point, String)], most: usize) {
         if !points.is_empty() && self.sheet.paper == Paper::File {
             let every = points.len().div_ceil(most.max(1));

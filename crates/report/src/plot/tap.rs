@@ -16,13 +16,13 @@ use sweetspot_tap::tones::Tone;
 /// Heights of diagrams (px).
 const WAVE: f64 = 160.0;
 const ALONE: f64 = 280.0;
-/// Stretches of a waveform that are drawn, lines of a spectrum and moments of a decay.
+/// Number of drawn stretches of a waveform, lines of a spectrum and moments of a decay.
 const STRETCHES: usize = 700;
 const LINES: usize = 900;
 const MOMENTS: usize = 24;
 /// Window of the spectrum (s).
 const WINDOW: f64 = 0.25;
-/// Tones whose decay is drawn.
+/// Number of tones whose decay is drawn.
 const MOST: usize = 6;
 const LEVEL: Unit = Unit { name: "dB", per: 1.0 };
 
@@ -112,7 +112,7 @@ fn spectrum(report: &TapReport, sheet: Sheet, taps: &[&Tap]) -> Picture {
     chart.panel(panel).picture(sheet, &alt)
 }
 
-/// The strongest tones after the first tap that is used: heard, dotted, and fitted.
+/// The strongest tones after the first tap that is used: measured (dotted) and fitted.
 fn decays(report: &TapReport, sheet: Sheet, taps: &[&Tap]) -> Option<Picture> {
     let recording = &report.recordings[0];
     let tap = taps.iter().find(|tap| tap.used)?;

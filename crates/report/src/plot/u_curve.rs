@@ -15,8 +15,8 @@ const DIAGRAM: f64 = 320.0;
 /// An error of 0 is drawn as this one.
 const NOTHING: f64 = 1e-17;
 
-/// The error of one mode (from 0), as the solver's own eigenvalue says and as recomputed from its
-/// shape; picture `u_curve`, of another mode than the first `u_curve_mode_N`. None without points.
+/// The error of one mode (from 0), of the eigenvalue of the solver and of the one recomputed from the shape; picture
+/// `u_curve`, or `u_curve_mode_N` for a mode other than the first. None without points.
 pub fn picture(name: &str, curves: &[Curve], mode: usize) -> Option<Picture> {
     let mut drawn = vec![];
     for (k, curve) in curves.iter().enumerate() {

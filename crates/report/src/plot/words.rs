@@ -1,11 +1,11 @@
-//! Words in a picture: how they look, and how wide they are.
+//! Words in a picture: their type and their width.
 
 use crate::plot::theme::{Ink, MUTED, TEXT};
 
-/// Which end of a text is at its place.
+/// The end of a text that is at its place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Anchor {
-    /// The left one.
+    /// The left end.
     Start,
     /// Neither: their middle.
     Middle,
@@ -13,7 +13,7 @@ pub enum Anchor {
     End,
 }
 
-/// How words look.
+/// Type of words.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Type {
     /// Colour of the words.
@@ -22,7 +22,7 @@ pub struct Type {
     pub size: f64,
     /// Whether the words are bold.
     pub bold: bool,
-    /// Which end of the words stands at their place.
+    /// The end of the words that is at their place.
     pub anchor: Anchor,
     /// Whether the words run upwards.
     pub upwards: bool,
@@ -31,13 +31,13 @@ pub struct Type {
 /// Numbers at ticks, names of curves.
 pub const LABEL: Type =
     Type { ink: TEXT, size: 12.5, bold: false, anchor: Anchor::Start, upwards: false };
-/// What stands back.
+/// Muted words.
 pub const SMALL: Type = Type { ink: MUTED, ..LABEL };
 /// The first line of a picture.
 pub const TITLE: Type = Type { size: 20.0, bold: true, ..LABEL };
 
 impl Type {
-    /// This type with `anchor`, the end of the words that stands at their place.
+    /// This type with `anchor`, the end of the words that is at their place.
     pub const fn at(self, anchor: Anchor) -> Self {
         Self { anchor, ..self }
     }
@@ -53,7 +53,7 @@ impl Type {
     }
 }
 
-/// How wide words are at most (px), in the widest of the usual sans-serif fonts.
+/// Upper limit of the width of words (px), in the widest of the usual sans-serif fonts.
 pub fn width(words: &str, look: Type) -> f64 {
     let em = |c: char| match c {
         'i' | 'j' | 'l' | '.' | ',' | ' ' | '\'' | '|' | ':' | ';' | 'I' | '·' => 0.34,
@@ -67,7 +67,7 @@ pub fn width(words: &str, look: Type) -> f64 {
     words.chars().map(em).sum::<f64>() * look.size * bold
 }
 
-/// Words cut so that they are no wider than that (px).
+/// Words shortened to that width (px).
 pub fn fitted(words: &str, look: Type, most: f64) -> String {
     if width(words, look) <= most {
         return words.to_owned();

@@ -1,4 +1,4 @@
-//! The advice: what is said of it.
+//! The advice: its text.
 
 use crate::parts::part::Part;
 use crate::parts::table::Table;
@@ -69,7 +69,7 @@ fn by_effect(advice: &Advice, cell: impl Fn(&Effect, usize) -> Option<String>) -
     paired.map(cells).collect()
 }
 
-/// A table of those rows for every five modes; a row has no more cells than it has modes.
+/// A table of those rows for every five modes; a row has at most as many cells as there are modes.
 fn tables(modes: usize, rows: &[Row]) -> Vec<Part<'static>> {
     let block = |from: usize| {
         let block = from..modes.min(from + ABREAST);
@@ -85,7 +85,7 @@ fn tables(modes: usize, rows: &[Row]) -> Vec<Part<'static>> {
     (0..modes).step_by(ABREAST).map(block).collect()
 }
 
-/// Where each part moves the nodes.
+/// The shift of the nodes by each part.
 fn nodes(advice: &Advice, units: Units) -> Vec<Part<'static>> {
     let cm = (100.0, "Nodes: the one that each part moves most, towards the tip, cm");
     let inch = (inches(1.0), "Nodes: the one that each part moves most, towards the tip, in");
@@ -93,12 +93,12 @@ fn nodes(advice: &Advice, units: Units) -> Vec<Part<'static>> {
         let rows = by_effect(advice, |effect, k| {
             let nodes = effect.node_shift_m_by_mode.as_ref()?[k].as_ref()?;
             nodes.first()?;
-            // Of those that a symmetric bat moves as far, the one next to the knob.
+            // A symmetric bat moves several nodes equally far; of these the one next to the knob is taken.
             let most = scale
                 * nodes.iter().fold(0.0, |most: f64, moved| {
                     if moved.abs() > (1.0 + 1e-6) * most.abs() { *moved } else { most }
                 });
-            // A rounding of nothing has no sign.
+            // A value rounded to zero has no sign.
             Some(if most.abs() < 5e-3 { "0.00".to_owned() } else { format!("{most:+.2}") })
         });
         [vec![Part::Heading(title)], tables(advice.modes, &rows)].concat()
@@ -106,7 +106,7 @@ fn nodes(advice: &Advice, units: Units) -> Vec<Part<'static>> {
     units.pick(cm, inch).into_iter().flat_map(table).collect()
 }
 
-/// A few lines of it, for a page about everything.
+/// A few lines of it, for a page about the whole analysis.
 pub fn short(advice: &Advice) -> String {
     let modes = advice.modes;
     let mut shown = Vec::new();
@@ -149,7 +149,7 @@ fn percent([value, error]: [f64; 2]) -> String {
     }
 }
 
-/// Both lists of modes where they cannot be set beside each other; nothing where they can.
+/// Both lists of modes where they cannot be paired; empty where they can.
 fn others(effect: &Effect, modes: usize) -> Vec<Part<'static>> {
     if effect.shift_by_mode.is_some() {
         return vec![];
@@ -203,7 +203,7 @@ fn bodies(advice: &Advice, units: Units) -> Vec<Part<'static>> {
 fn damping(advice: &Advice) -> Vec<Part<'static>> {
     let damping = &advice.damping;
     let [least, most] = damping.material_ratio;
-    // f√(1 − ζ²), to the first order.
+    // f√(1 − ζ²), to first order.
     let lower = format!("it lowers a frequency by ζ²/2, {:.1e} of it at most", 0.5 * most * most);
     let mut told = match (least, most) {
         (_, 0.0) => "Damping: no material has a loss factor".to_owned(),
@@ -305,7 +305,7 @@ pub fn recommendation(advice: &Advice) -> Vec<String> {
     lines
 }
 
-/// As a tolerance is said.
+/// In the notation of a tolerance.
 fn percent_of(value: f64) -> String {
     match value {
         v if v >= 1e-3 => format!("{} %", format!("{:.2e}", 100.0 * v).parse().unwrap_or(f64::NAN)),

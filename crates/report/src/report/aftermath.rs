@@ -1,4 +1,4 @@
-//! What comes of a hit: hands, strain and stress, spectrum; as text, CSV and JSON.
+//! The effects of a hit: hands, strain and stress, spectrum; as text, CSV and JSON.
 
 use std::fmt::Write;
 
@@ -16,11 +16,11 @@ use sweetspot::collision::hit;
 use sweetspot::collision::strength::{Limit, Load, Strength, nearest};
 use sweetspot::files::schema::document::{Format, Generator};
 
-/// All that is told of a hit's aftermath.
+/// The reported effects of a hit.
 pub struct AfterHit {
-    /// How long was looked (s).
+    /// End of the time considered (s).
     pub until: f64,
-    /// What the watched places feel.
+    /// The motion at the watched places.
     pub watched: Vec<Watched>,
     /// The largest strain while the ball is there.
     pub during: Option<Strained>,
@@ -28,16 +28,16 @@ pub struct AfterHit {
     pub after: Option<Strained>,
     /// The largest strain of every place in the whole time.
     pub envelope: Vec<Strained>,
-    /// Where the bat comes nearest to what its materials bear, by every limit that is known.
+    /// The largest load relative to each known strength of the materials.
     pub loads: Vec<Load>,
-    /// Whether anything damps the bat: else its shaking has no end, and no size that a hand feels.
+    /// Whether the bat is damped; without damping its vibration has no end, and no size that a hand feels.
     pub damped: bool,
-    /// How far the largest strain changes where a quarter of the modes is left out, relative.
+    /// Relative change of the largest strain when a quarter of the modes is omitted.
     pub strain_error: f64,
     instants: Vec<Instant>,
 }
 
-/// Points along the bat at which strain is looked for.
+/// Number of points along the bat at which strain is computed.
 const PLACES: usize = 200;
 
 impl AfterHit {
@@ -49,7 +49,7 @@ impl AfterHit {
         let end = after.end();
         let until = until.max(end);
         let step = end / WITHIN as f64;
-        // The same instants however long it is looked: what was found stays found.
+        // The instants do not depend on the end of the time considered, so a maximum once found remains.
         let later = |t: &f64| Some(t + step * (t / (step * SHORT as f64)).max(1.0));
         let within = (0..=WITHIN).map(|k| end * k as f64 / WITHIN as f64);
         let beyond = std::iter::successors(later(&end), later).take_while(|t| *t <= until);
@@ -91,8 +91,8 @@ pub fn impact(impact: &hit::Impact, units: Units) -> String {
     )
 }
 
-/// The tables for the terminal, `full` with strains along the bat and the spectrum. A strength that is known says the
-/// largest strain too.
+/// The tables for the terminal; `full` adds strains along the bat and the spectrum. Where the strength is known, the
+/// largest strain is included in any case.
 pub fn text(report: &AfterHit, units: Units, full: bool) -> String {
     let mut out = format!(
         "\nMotion against the swing, {:.1} ms from the first touch, hands without mass\n",
@@ -157,7 +157,7 @@ fn strains(report: &AfterHit, units: Units) -> String {
     out
 }
 
-/// The modes that a place hears, once the ball has left.
+/// The modes that vibrate at a place after the contact.
 fn spectrum(seen: &Watched, damped: bool, units: Units) -> String {
     let (place, lines) = (units.place(seen.x_m, 2), &seen.spectrum);
     let mut out =
@@ -196,7 +196,7 @@ fn along(report: &AfterHit, units: Units) -> String {
     out
 }
 
-/// What the bat bears of it.
+/// The load relative to the strength.
 fn strength(report: &AfterHit, units: Units) -> String {
     let mut out =
         String::from("\nStrength (clear wood along the grain; grain, knots, dents not known)\n");
@@ -211,7 +211,7 @@ fn strength(report: &AfterHit, units: Units) -> String {
     out + &beyond(report.loads.iter())
 }
 
-/// What a share above 100 % means; empty where there is none.
+/// The meaning of a share above 100 %; empty where there is none.
 fn beyond<'a>(mut loads: impl Iterator<Item = &'a Load>) -> String {
     match loads.any(|load| load.share > 1.0) {
         true => wrapped(
@@ -251,7 +251,7 @@ pub fn reached(load: &Load, units: Units) -> String {
     )
 }
 
-/// What hits at some places ask of the bat, for a screen.
+/// The load on the bat in hits at some places, for a screen.
 pub fn strengths(all: &[Strength], units: Units) -> String {
     if all.iter().all(|at| at.limits.is_empty()) {
         return String::new();
@@ -289,7 +289,7 @@ pub fn history(report: &AfterHit) -> String {
     table.text()
 }
 
-/// The `sweetspot-ring/1` document of a hit, with what was left out of it.
+/// The `sweetspot-ring/1` document of a hit, including the neglected effects.
 pub fn document(
     after: &Aftermath,
     report: &AfterHit,

@@ -45,7 +45,7 @@ pub fn size(goal: Goal, value: f64, us: bool) -> String {
     }
 }
 
-/// What people call a goal.
+/// The name of a goal for people.
 pub fn called(goal: Goal) -> String {
     match goal {
         Goal::Drop => "drop".to_owned(),
@@ -64,11 +64,11 @@ pub fn called(goal: Goal) -> String {
     }
 }
 
-/// What a band asks, in words.
+/// The requirement of a band, in words.
 pub fn asked(band: &Band, us: bool) -> String {
     let said = |value: f64| shown(band.goal, value, us);
     if band.goal == Goal::Drop && !(band.low.is_finite() && band.high.is_finite()) {
-        // A limit of a drop is of ounces fewer than inches, without the sign.
+        // A limit on the drop is in ounces minus inches, without the sign.
         let (word, limit) =
             if band.high.is_finite() { ("at most", band.high) } else { ("at least", band.low) };
         return format!("{word} {} fewer", shortest(rounded(limit, 3)));
@@ -87,7 +87,7 @@ pub fn asked(band: &Band, us: bool) -> String {
     }
 }
 
-/// What cannot be had, in words.
+/// The contradictory targets, in words.
 pub fn conflict_words(conflict: &Conflict, targets: &[AimedTarget], us: bool) -> String {
     let band = |k: usize| &targets[k].band;
     let wish = |k: usize| format!("{} {}", called(band(k).goal), asked(band(k), us));
@@ -104,7 +104,7 @@ pub fn conflict_words(conflict: &Conflict, targets: &[AimedTarget], us: bool) ->
                 2 => format!("{} cannot both be had", all.join(" and ")),
                 _ => format!("{} cannot all be had", all.join(" and ")),
             };
-            // Only what a bat shows that meets the others.
+            // Only values that a bat reaches while meeting the other targets.
             for member in members.iter().filter(|member| member.others_met) {
                 let rest = members.iter().filter(|other| other.target != member.target);
                 let rest: Vec<String> = rest.map(|other| wish(other.target)).collect();
@@ -124,7 +124,7 @@ pub fn conflict_words(conflict: &Conflict, targets: &[AimedTarget], us: bool) ->
     }
 }
 
-/// The bat as a bat file in its own right, its edits made.
+/// The bat as a complete bat file, with its edits applied.
 pub fn resolved(bat: &Bat, source: &str) -> ResolvedBat {
     ResolvedBat {
         format: Format::new(),
@@ -138,7 +138,7 @@ pub fn resolved(bat: &Bat, source: &str) -> ResolvedBat {
     }
 }
 
-/// Where the new bat's numbers are from.
+/// The source of the numbers of the new bat.
 pub fn source(outcome: &Outcome) -> String {
     let wish = |of: &AimedTarget| format!("{} {}", called(of.band.goal), asked(&of.band, false));
     let wishes = outcome.targets.iter().map(wish);
@@ -158,13 +158,13 @@ pub fn bat_text(outcome: &Outcome) -> String {
     text_in_columns(&resolved(bat, &source(outcome)), &bat.profile().stations, bat.inches())
 }
 
-/// What a maker should know before turning: a barrel that rules forbid, with the rule.
+/// A warning before turning: a barrel forbidden by rules, with the rule.
 pub fn warning(outcome: &Outcome, us: bool) -> Option<String> {
     let widest = outcome.widest();
     let shown = |value: f64| {
         if us { format!("{:.2} in", inches(value)) } else { format!("{:.1} mm", 1e3 * value) }
     };
-    // Rules that were asked for have a table of their own.
+    // Requested rules have a separate table.
     let of_diameter = |ruled: &Ruled| matches!(ruled.rule, Rule::DiameterAtMost(_));
     if outcome.rules.as_ref().is_some_and(|set| set.limits.iter().any(of_diameter)) {
         return None;
@@ -192,8 +192,8 @@ pub fn warning(outcome: &Outcome, us: bool) -> Option<String> {
     })
 }
 
-/// The cut list as CSV: a line for each pass at each station, in mm and in inches; where wood is added one of pass 0,
-/// less than nothing off.
+/// The cut list as CSV: a line for each pass at each station, in mm and in inches. A line with pass 0 and a negative
+/// cut stands for added wood.
 pub fn cuts_csv(outcome: &Outcome, pass: f64) -> String {
     let mut table = Csv::new([
         "x_mm",
@@ -209,7 +209,7 @@ pub fn cuts_csv(outcome: &Outcome, pass: f64) -> String {
     let mm = |value: f64| rounded(1e3 * value, 6);
     let inch = |value: f64| rounded(inches(value), 6);
     for cut in cuts(&outcome.change, pass) {
-        // Wood that is added is no pass: 0, and less than nothing off.
+        // Added wood gets pass 0 and a negative cut.
         let added = cut.adds().then(|| (0, cut.off()));
         let passes = cut.passes_m.iter().enumerate().map(|(k, off)| (k + 1, *off));
         for (number, off) in added.into_iter().chain(passes) {

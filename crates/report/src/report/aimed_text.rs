@@ -15,11 +15,11 @@ use sweetspot_study::aim::rules::{Rule, Ruled, RulesKept};
 use sweetspot_study::aim::wish::{Band, Goal};
 use sweetspot_study::answers::Answer;
 
-/// A section that has less of its strength left is told.
+/// A section whose remaining strength is below this share is reported.
 const WEAK: f64 = 0.5;
-/// Stations of the cut list that are shown in full, and on a screen.
+/// Stations of the cut list shown in full, and on a screen.
 const SHOWN: [usize; 2] = [24, 3];
-/// What a screen has of before and after.
+/// The answers that a screen compares before and after.
 const FIRST: [Answer; 5] = [
     Answer::Mass,
     Answer::Inertia,
@@ -28,7 +28,7 @@ const FIRST: [Answer; 5] = [
     Answer::ExitSpeedPlace,
 ];
 
-/// What there is to say, in one system of units; `full` with all answers and more stations.
+/// The whole text in one system of units; `full` adds all answers and more stations.
 pub fn text(outcome: &Outcome, (pass, us, full): (f64, bool, bool)) -> [Piece; 5] {
     let mut out = head(outcome, us);
     out += &targets(outcome, us);
@@ -71,7 +71,7 @@ fn place(x: f64, us: bool) -> String {
     }
 }
 
-/// The verdict, what was changed, and what to know of it.
+/// The verdict, the changes, and remarks.
 fn head(outcome: &Outcome, us: bool) -> String {
     let limits = outcome.limits_broken_m > 0.0 || outcome.steeper_by.is_some_and(|by| by > 0.0);
     let verdict = match (outcome.targets_met(), outcome.broken_rules() > 0, limits) {
@@ -102,7 +102,7 @@ fn head(outcome: &Outcome, us: bool) -> String {
     lines.map(|line| wrapped(&line, 2)).collect::<String>() + "\n"
 }
 
-/// What a maker has to know of the new bat and its limits.
+/// Remarks to the maker about the new bat and its limits.
 fn to_know(outcome: &Outcome, us: bool) -> Vec<String> {
     let mut told = vec![];
     if outcome.remove_only && outcome.start.weighed() != Weighed::default() {
@@ -178,7 +178,7 @@ fn targets(outcome: &Outcome, us: bool) -> String {
     out + "\n"
 }
 
-/// By how much a target is missed, with more digits where that is little.
+/// The amount by which a target is missed, with more digits where it is small.
 fn missed_by(band: &Band, value: f64, us: bool) -> String {
     let limit = if value > band.high { band.high } else { band.low };
     let by = (value - limit).abs();
@@ -190,7 +190,7 @@ fn missed_by(band: &Band, value: f64, us: bool) -> String {
     }
 }
 
-/// What a little more of a target that binds would cost.
+/// The cost of tightening a target that binds.
 fn priced(AimedTarget { band, price, .. }: &AimedTarget, us: bool) -> Option<String> {
     let price = price.filter(|price| *price > 0.0)?;
     let (step, words) = match (band.goal.unit(), us) {
@@ -288,7 +288,7 @@ fn choices(outcome: &Outcome, us: bool) -> String {
 
 fn cut_list(outcome: &Outcome, (pass, us): (f64, bool), most: usize) -> String {
     let every = cuts(&outcome.change, pass);
-    // What would be shown as nothing.
+    // Changes that would be shown as zero.
     let least = if us { 1.27e-5 } else { 5e-6 };
     let (all, little): (Vec<StationCut>, Vec<StationCut>) =
         every.into_iter().partition(|cut| cut.off().abs() >= least);
@@ -322,7 +322,7 @@ fn cut_list(outcome: &Outcome, (pass, us): (f64, bool), most: usize) -> String {
     out
 }
 
-/// The rows that are shown: every second, third or later one where there are too many.
+/// The rows shown: every second, third or later one where there are too many.
 fn cut_rows(all: &[StationCut], us: bool, most: usize) -> String {
     let adds = all.iter().any(StationCut::adds);
     let columns = Columns::new([

@@ -1,10 +1,10 @@
-//! What does an answer count in, and to how many digits is it told?
+//! What is the unit of an answer, and how many digits are shown?
 
 use crate::parts::units::Units;
 use sweetspot::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
 use sweetspot_study::answers::Answer;
 
-/// What an answer counts in.
+/// The unit of an answer.
 #[derive(Clone, Copy)]
 pub enum AnswerUnit {
     Length,
@@ -36,7 +36,7 @@ impl AnswerUnit {
         }
     }
 
-    /// In both systems of units, or in one.
+    /// A value in both systems of units, or in one.
     fn said(self, units: Units, say: impl Fn(f64, usize) -> String) -> String {
         let [si, us] = self.scales();
         let told = |(factor, decimals, name): (f64, usize, &str)| {
@@ -58,7 +58,7 @@ impl AnswerUnit {
     }
 }
 
-/// Two significant digits, the last of them also where it is 0.
+/// Two significant digits, including a last digit 0.
 fn two_digits(value: f64) -> String {
     let rounded: f64 = format!("{value:.1e}").parse().unwrap_or(value);
     format!("{rounded:.*}", decimals(value))

@@ -1,4 +1,4 @@
-//! BBCOR along a bat: what is said of it, and its columns.
+//! BBCOR along a bat: text and columns.
 
 use crate::parts::cell::Quantity::{Error, Length, Ratio, Speed, Words};
 use crate::parts::part::Part;
@@ -27,10 +27,10 @@ pub const COLUMNS: [Column<Place>; 9] = [
     }),
 ];
 
-/// Places on either side of the largest that a screen has.
+/// Number of places on either side of the largest on a screen.
 const BESIDE: usize = 2;
-/// By so much two bats of one wood differ easily: three standard deviations of an R161's, whose stiffness differs by
-/// 22 % and whose density by 10 % (`sweetspot scatter r161`).
+/// A likely difference between two bats of one model: three standard deviations for an R161, with 22 % scatter of
+/// stiffness and 10 % of density (`sweetspot scatter r161`).
 const NEAR: f64 = 0.01;
 
 /// The title, and everything in order; `full` with every place and every source.
@@ -68,7 +68,7 @@ pub fn report(tested: &Tested, units: Units, full: bool) -> (String, Vec<Part<'s
     (format!("BBCOR of {} (computed, not certified)", bat.name()), parts)
 }
 
-/// The places about the largest, as many as a first screen has.
+/// The places around the largest, as many as a first screen shows.
 fn around<'a>(places: &'a [Place], largest: Option<&Largest>) -> &'a [Place] {
     let at =
         largest.and_then(|most| places.iter().position(|place| place.x_m == most.x_m)).unwrap_or(0);

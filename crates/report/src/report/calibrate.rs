@@ -1,4 +1,4 @@
-//! What a bat's wood is: table, JSON, words.
+//! The wood of a bat: table, JSON, words.
 
 use std::fmt::Write;
 
@@ -104,7 +104,7 @@ fn data(found: &Calibration, us: bool) -> String {
     out
 }
 
-/// What a parameter is called in a table.
+/// The name of a parameter in a table.
 pub fn short(property: Property) -> &'static str {
     match property {
         Property::YoungsModulus => "E",
@@ -115,7 +115,7 @@ pub fn short(property: Property) -> &'static str {
     }
 }
 
-/// A value in the unit that people use for it.
+/// A value in the unit that people use.
 pub fn shown(property: Property, value: f64) -> String {
     match property {
         Property::YoungsModulus => format!("{:.2} GPa", 1e-9 * value),
@@ -138,7 +138,7 @@ fn verdict(one: &Estimated) -> String {
     }
 }
 
-/// What follows, a sentence each.
+/// The conclusions, one sentence each.
 pub fn words(found: &Calibration) -> Vec<String> {
     let mut all = vec![];
     all.extend(labelled(found));
@@ -161,7 +161,7 @@ pub fn words(found: &Calibration) -> Vec<String> {
     }
     let silent = |one: &&Estimated| matches!(one.verdict, Verdict::NotDetermined | Verdict::Held);
     let name = |one: &Estimated| match one.property {
-        // G goes with E: what is sought is their quotient.
+        // G is proportional to E: their ratio is estimated.
         Property::ShearModulus => "G over E",
         other => short(other),
     };
@@ -181,7 +181,7 @@ fn list(labels: &[Option<usize>]) -> String {
     labels.iter().map(one).collect::<Vec<_>>().join(", ")
 }
 
-/// What the labels were taken for, where they were sought.
+/// The assignment of labels, where it was sought.
 fn labelled(found: &Calibration) -> Vec<String> {
     let identified = &found.labels;
     let mut all = vec![];
@@ -234,7 +234,7 @@ fn labelled(found: &Calibration) -> Vec<String> {
     all
 }
 
-/// A wood that is another one than the file names.
+/// A wood that differs from the one named in the file.
 fn foreign(found: &Calibration, one: &Estimated) -> Option<String> {
     let times = one.foreign()?;
     let kind = found.material.as_deref().unwrap_or("the file's material");
@@ -281,7 +281,7 @@ fn mismatch(found: &Calibration) -> Option<String> {
     ))
 }
 
-/// What a datum is called in a sentence.
+/// The name of a datum in a sentence.
 fn called(kind: DatumKind) -> String {
     match kind {
         DatumKind::Mass => "the mass".to_owned(),
@@ -291,7 +291,7 @@ fn called(kind: DatumKind) -> String {
     }
 }
 
-/// What to measure next.
+/// The measurement to make next.
 fn advice(found: &Calibration) -> String {
     match found.advice() {
         Some((least, Proposal { kind, .. }, factor)) if factor < 0.95 => format!(

@@ -1,4 +1,4 @@
-//! The bat file of a wood that was found: the file as it was, with another material.
+//! The bat file with the wood that was found: the original file with another material.
 
 use serde_json::{Map, Value, json};
 
@@ -16,7 +16,7 @@ use sweetspot_study::calibrate::calibration::{Calibration, Estimated, Verdict};
 /// Members that a calibrated file has anew, or no more: densities and moduli are known now.
 const ANEW: [&str; 4] = ["source", "comment", "material", "weighed"];
 
-/// The text of the file. `before` is the bat and what its file says, `measured` the name of the readings.
+/// The text of the file. `before` is the bat and the text of its file, `measured` the name of the readings.
 ///
 /// # Errors
 ///
@@ -43,7 +43,7 @@ pub fn text((bat, before): (&Bat, &str), found: &Calibration, measured: &str) ->
             json!([{ "from": from, "to": bat.length(), "material": barrel }]),
         );
     }
-    // What a scale says is said of a bat before its edits.
+    // Values from a scale describe the bat before its edits.
     if !old.contains_key("edits") {
         new.extend(weighed(found).map(|weighed| ("weighed".to_owned(), weighed)));
     }
@@ -60,8 +60,8 @@ pub fn text((bat, before): (&Bat, &str), found: &Calibration, measured: &str) ->
     Ok(schema::text(&Value::Object(new)))
 }
 
-/// What the scale and the tap came to, so that whatever reads the bat knows how well its density and its stiffness
-/// are known: mass and first frequency of the wood that was found. None where neither was read.
+/// The mass and first frequency of the calibrated wood, so that every reader of the bat knows the uncertainty of its
+/// density and stiffness. None where neither was measured.
 fn weighed(found: &Calibration) -> Option<Value> {
     let mut weighed = Map::new();
     if found.readings.mass.is_some() {
@@ -74,7 +74,7 @@ fn weighed(found: &Calibration) -> Option<Value> {
     (!weighed.is_empty()).then_some(Value::Object(weighed))
 }
 
-/// Regions whose material is written out and was that of the bat have the new one too.
+/// Regions with an explicit material equal to that of the bat also get the new one.
 fn regions(file: &mut Map<String, Value>, found: &Calibration) {
     let wood = found.bat.material();
     let known = found.bat.unedited().fixtures().regions.iter();
@@ -87,7 +87,7 @@ fn regions(file: &mut Map<String, Value>, found: &Calibration) {
     }
 }
 
-/// The material with the loss factor that was heard.
+/// The material with the measured loss factor.
 fn material(found: &Calibration, own: &Material) -> Material {
     let loss_factor = found.loss_factor().unwrap_or(own.loss_factor);
     Material { loss_factor, ..own.clone() }

@@ -17,7 +17,7 @@ use sweetspot_study::comparison::table::Comparison;
 use sweetspot_study::ignored::in_hit;
 use sweetspot_study::verdict::Doubt;
 
-/// What matters of bats side by side, in this order, by the keys of the rows: all else comes after it.
+/// The keys of the most important rows, in order; all others follow.
 pub const FIRST: [&str; 10] = [
     "best_exit_speed",
     "best_place",
@@ -31,10 +31,10 @@ pub const FIRST: [&str; 10] = [
     "largest_bbcor",
 ];
 
-/// How sentences begin that say where along the barrel a bat is faster.
+/// The beginning of sentences about where along the barrel a bat is faster.
 pub const ALONG: &str = "By distance from the tip";
 
-/// What a bat is called in the tables: A, B, …
+/// The label of a bat in the tables: A, B, …
 pub fn letter(bat: usize) -> char {
     char::from(b'A' + bat as u8)
 }
@@ -64,7 +64,7 @@ fn scale(unit: Unit, us: bool) -> Scale {
     }
 }
 
-/// A difference of fewer decimals is said with all of them, a smaller one by its power of ten.
+/// A difference with at most this number of decimals is shown in full, a smaller one as a power of ten.
 const MOST_DECIMALS: usize = 4;
 
 impl Scale {
@@ -113,8 +113,7 @@ pub fn text(comparison: &Comparison, units: Units) -> String {
     out
 }
 
-/// The bats, each in a line with what there is to doubt; `full` with how their bending was computed and all that was
-/// left out.
+/// The bats, each in a line with its doubts; `full` adds the beam model and the neglected effects.
 pub fn bats(comparison: &Comparison, units: Units, full: bool) -> String {
     let mut out = String::from("Bats compared; A is the one the others are measured by\n");
     for (k, Contender { bat, scene, sweep, verdict, .. }) in comparison.bats.iter().enumerate() {
@@ -135,7 +134,7 @@ pub fn bats(comparison: &Comparison, units: Units, full: bool) -> String {
     out
 }
 
-/// How all of them are hit.
+/// The conditions common to all hits.
 pub fn hit(comparison: &Comparison, units: Units) -> String {
     let Scene { pivot, ball, ball_speed, .. } = &comparison.bats[0].scene;
     let side = if *pivot < 0.0 { "inside" } else { "beyond" };
@@ -177,7 +176,7 @@ pub fn swing(comparison: &Comparison, units: Units) -> String {
     }
 }
 
-/// Rows that say something in this comparison: places from the tip only where lengths differ.
+/// Rows with information in this comparison: places from the tip appear only where lengths differ.
 fn shown(comparison: &Comparison) -> impl Iterator<Item = &ComparedFigure> {
     let both = !comparison.same_length();
     comparison.figures.iter().filter(move |row| {
@@ -212,24 +211,24 @@ fn overview(comparison: &Comparison, units: Units) -> String {
     out
 }
 
-/// A row of figures for people: what, each bat's value, and what each other bat has more than the first.
+/// A row of figures for people: label, the value of each bat, and the difference of each other bat from the first.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
     /// Key of the figure, as in JSON and CSV.
     pub key: String,
-    /// What is compared, with its unit; of itself, without the row above it.
+    /// The quantity with its unit, complete without the row above it.
     pub label: String,
     /// The value of every bat; empty where it has none.
     pub values: Vec<String>,
     /// Difference of the second bat and those after it from the first; "none" within the errors.
     pub differences: Vec<String>,
-    /// By how much two pieces of one wood differ, with ±; empty where that is not known.
+    /// The difference between two pieces of one wood, with ±; empty where it is not known.
     pub pieces: String,
     /// Whether any bat differs from the first by more than the errors.
     pub differs: bool,
 }
 
-/// The name of a row with its unit where it stands by itself.
+/// The name of a row with its unit, complete without other rows.
 fn alone(figure: &ComparedFigure, unit: &str) -> String {
     let name = match figure.key.trim_end_matches("_from_tip") {
         "best_place" => "sweet spot",
@@ -243,7 +242,7 @@ fn alone(figure: &ComparedFigure, unit: &str) -> String {
     format!("{name}{tip}{unit}")
 }
 
-/// Every row that says something, in one system of units.
+/// Every row with information, in one system of units.
 pub fn rows(comparison: &Comparison, units: Units) -> Vec<Row> {
     let bats = comparison.bats.len();
     let row = |figure: &ComparedFigure| {
@@ -272,7 +271,7 @@ pub fn rows(comparison: &Comparison, units: Units) -> Vec<Row> {
     shown(comparison).map(row).collect()
 }
 
-/// One bat beside the first: figures, then exit speeds by place.
+/// One bat compared with the first: figures, then exit speeds by place.
 fn pair(comparison: &Comparison, bat: usize, units: Units) -> String {
     let all: Vec<&ComparedFigure> = shown(comparison).collect();
     let mut out = figures(&all, bat, units);
@@ -285,7 +284,7 @@ fn pair(comparison: &Comparison, bat: usize, units: Units) -> String {
     out
 }
 
-/// Figures of one bat beside those of the first.
+/// Figures of one bat compared with those of the first.
 pub fn figures(all: &[&ComparedFigure], bat: usize, units: Units) -> String {
     let (us, name) = (units.us_first(), letter(bat));
     let less = format!("{name} less A");
@@ -357,7 +356,7 @@ fn columns(heads: [String; 6]) -> Columns {
     ])
 }
 
-/// A sentence or two about each bat beside the first.
+/// A sentence or two about each bat compared with the first.
 pub fn words(comparison: &Comparison, units: Units) -> Vec<String> {
     let mut all = vec![];
     for bat in 1..comparison.bats.len() {

@@ -37,7 +37,7 @@ fn speeds(distances: &[f64], rows: &[ComparedFigure]) -> Vec<file::Speeds> {
     distances.iter().zip(rows).map(of).collect()
 }
 
-/// What the bats have in common: all of a hit's scene but the swing and what sees the energies.
+/// The common part of the scene: all but the swing and the frame of the energies.
 fn scene(first: &Contender) -> file::Scene {
     let scene = scene_out(&first.bat, &first.scene);
     file::Scene {

@@ -1,4 +1,4 @@
-//! Several bats side by side on a screen: what differs and matters, then where along the barrel.
+//! Several bats side by side on a screen: the important differences, then where along the barrel.
 
 use crate::parts::columns::{Columns, WIDE, first, numbers};
 use crate::parts::terminal::{Screen, wrapped};
@@ -8,11 +8,11 @@ use crate::report::trust::doubts;
 use sweetspot_study::comparison::rows::ComparedFigure;
 use sweetspot_study::comparison::table::Comparison;
 
-/// What a screen has no room for, of that which matters.
+/// Important rows for which a screen has no room.
 const LEFT: [&str; 4] = ["zone_from", "zone_to", "length", "balance_point"];
 
-/// What differs, and where along the barrel, as far as a screen has room for it. Several bats count in one system of
-/// units, that of the first one's file unless another is asked for.
+/// The differences, and where along the barrel they occur, as far as a screen has room. Several bats share one system
+/// of units, that of the file of the first unless another is requested.
 pub fn screen(comparison: &Comparison, units: Units) -> Screen {
     let one = units.first();
     let mut out = bats(comparison, one, false) + &hit(comparison, units);
@@ -38,15 +38,15 @@ pub fn screen(comparison: &Comparison, units: Units) -> Screen {
         let swung = swung(comparison, bat).map_or(String::new(), |swung| format!(" {swung}"));
         words += &wrapped(&format!("  {}: {hit}.{swung}", letter(bat)), 4);
     }
-    // What is doubted stands on the screen before what can be read off a table.
+    // Doubts precede anything that can be read off a table.
     let trust = doubted(comparison, one) + &beside_pieces(comparison, one);
     [(0, "", out), (2, "where along the barrel", words), (1, "trust", trust)].into()
 }
 
-/// Figures whose scatter is told.
+/// Figures whose scatter is shown.
 const OF_WOOD: [&str; 4] = ["best_exit_speed", "swing_weight", "mass", "frequency_1"];
 
-/// What there is to doubt of the bats' hits, each once with all bats of which it is true.
+/// The doubts about the hits, each once with all bats to which it applies.
 fn doubted(comparison: &Comparison, units: Units) -> String {
     let mut all: Vec<(String, Vec<String>)> = vec![];
     for (k, bat) in comparison.bats.iter().enumerate() {
@@ -61,7 +61,7 @@ fn doubted(comparison: &Comparison, units: Units) -> String {
     all.into_iter().map(|one| wrapped(&line(one), 7)).collect()
 }
 
-/// The differences beside what two pieces of one material differ by; of one piece that this cancels.
+/// The differences compared with those between two pieces of one material; for one and the same piece these cancel.
 fn beside_pieces(comparison: &Comparison, units: Units) -> String {
     let others = 1..comparison.bats.len();
     let same = others.clone().filter(|bat| comparison.one_piece(*bat));
@@ -97,7 +97,7 @@ fn beside_pieces(comparison: &Comparison, units: Units) -> String {
     out
 }
 
-/// What matters, in order: what differs of some bat, and what does of none.
+/// The important rows, in order: first those that differ between bats, then the others.
 fn ordered(comparison: &Comparison, units: Units) -> (Vec<Row>, Vec<Row>) {
     let mut all = rows(comparison, units);
     all.retain(|row| FIRST.contains(&row.key.as_str()) && !LEFT.contains(&row.key.as_str()));
@@ -105,7 +105,7 @@ fn ordered(comparison: &Comparison, units: Units) -> (Vec<Row>, Vec<Row>) {
     all.into_iter().partition(|row| row.differs)
 }
 
-/// The values of as many bats as there is room for, at least of the first, and what each other one has more.
+/// The values of as many bats as there is room for, at least the first, and the differences of the others.
 fn table(comparison: &Comparison, differing: &[Row]) -> String {
     const WIDTH: usize = 9;
     let count = comparison.bats.len();

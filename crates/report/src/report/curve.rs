@@ -1,8 +1,8 @@
 //! A curve drawn with characters.
 
-/// Two curves over the same places, `*` over `.`, values on the left, places below.
+/// Two curves over the same places, `*` over `.`, with values on the left and places below.
 ///
-/// `width` columns and `height` rows for the drawing itself; places without a value stay empty.
+/// The drawing has `width` columns and `height` rows; places without a value stay empty.
 pub fn draw(
     places: &[f64],
     curves: [(&[Option<f64>], char); 2],

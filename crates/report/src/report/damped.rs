@@ -9,7 +9,7 @@ use sweetspot::base::number::significant;
 use sweetspot::modes::damping::DampingMethod;
 use sweetspot::modes::solve::Solution;
 
-/// A row for each mode; nothing for a bat without damping.
+/// A row for each mode; empty for a bat without damping.
 pub fn table(solution: &Solution) -> String {
     let damping = &solution.damping;
     if damping.modes.is_empty() {
@@ -45,7 +45,7 @@ pub fn table(solution: &Solution) -> String {
     out
 }
 
-/// What a mode's damping is; None where nothing damps it.
+/// The damping of a mode; None without damping.
 pub fn of_mode(solution: &Solution, k: usize) -> Option<file::Damped> {
     let damped = solution.damping.modes.get(k)?;
     Some(file::Damped {
@@ -61,7 +61,7 @@ pub fn of_mode(solution: &Solution, k: usize) -> Option<file::Damped> {
     })
 }
 
-/// How the damping was found; None for a bat without damping.
+/// The method of the damping; None for a bat without damping.
 pub fn of_model(solution: &Solution) -> Option<file::Damping> {
     let damping = &solution.damping;
     (!damping.modes.is_empty()).then(|| file::Damping {

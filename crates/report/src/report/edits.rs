@@ -1,4 +1,4 @@
-//! What was changed about a bat after it was weighed, in the words of the command line.
+//! The changes to a bat after it was weighed, in the notation of the command line.
 
 use crate::parts::units::Units;
 use sweetspot::base::number::significant;
@@ -7,11 +7,11 @@ use sweetspot::bat::body::Bat;
 use sweetspot::bat::edit::{Change, Edit};
 use sweetspot::bat::material::Material;
 
-/// Digits that are shown of a length or a mass.
+/// Significant digits of a length or a mass.
 const DIGITS: usize = 4;
 
-/// The edits of a bat, one after the other; where both systems of units are shown, each in the one
-/// that it was given in.
+/// The edits of a bat, one after the other. Where both systems of units are shown, each edit is in the one in which it
+/// was given.
 pub fn listed(bat: &Bat, units: Units) -> String {
     let edits: Vec<String> =
         bat.edits().iter().map(|edit| named(edit, units, bat.inches())).collect();
@@ -25,8 +25,8 @@ fn named(edit: &Edit, units: Units, inches: bool) -> String {
     }
 }
 
-/// Whether these values are said in US units: as told, else in the system in which they are the shorter
-/// numbers, which is the one that they were typed in.
+/// Whether these values are shown in US units: as requested, else in the system with the shorter numbers, in which they
+/// were probably typed.
 fn in_us(units: Units, inches: bool, si: &[f64], us: &[f64]) -> bool {
     let long = |values: &[f64]| values.iter().map(|value| digits(*value)).sum::<usize>();
     match units {
@@ -44,7 +44,7 @@ fn digits(value: f64) -> usize {
     mantissa.trim_end_matches('0').bytes().filter(u8::is_ascii_digit).count()
 }
 
-/// A change as `compare --edit` reads it.
+/// A change in the notation of `compare --edit`.
 pub fn words(change: &Change, shown: Units, inches: bool) -> String {
     let us = |lengths: &[f64]| {
         let both: Vec<[f64; 2]> = lengths.iter().map(|x| [1e3 * x, units::inches(*x)]).collect();

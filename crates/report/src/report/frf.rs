@@ -16,23 +16,23 @@ use sweetspot::motion::frf::{Frf, ResponseKind, Sample};
 use sweetspot::motion::peaks::Peak;
 use sweetspot_study::measured::response::{Laid, MeasuredResponse};
 
-/// A response that is told.
+/// A response to report.
 pub struct ToldResponse<'a> {
     /// The bat that answers.
     pub bat: &'a Bat,
     /// Deflection, velocity or acceleration.
     pub kind: ResponseKind,
-    /// Where the force is, and where the answer is watched (m from the knob end).
+    /// Positions of the force and of the response (m from the knob end).
     pub places: [f64; 2],
-    /// What answers.
+    /// The response.
     pub frf: &'a Frf,
     /// The answers.
     pub samples: &'a [Sample],
-    /// The frequencies that were asked for (Hz); the others show the peaks.
+    /// The requested frequencies (Hz); others serve to show the peaks.
     pub asked: &'a [f64],
     /// The peaks of the answer.
     pub peaks: &'a [Peak],
-    /// In which units places are said.
+    /// The units of places.
     pub units: Units,
     /// A measured response, laid over it.
     pub measured: Option<(&'a MeasuredResponse, &'a Laid)>,
@@ -66,7 +66,7 @@ pub fn document(told: &ToldResponse) -> FrfFile {
     }
 }
 
-/// A peak as it stands in a document.
+/// A peak as in a document.
 pub fn line(kind: ResponseKind, peak: &Peak) -> PeakLine {
     PeakLine {
         mode: peak.mode,
@@ -99,7 +99,7 @@ fn beside(kind: ResponseKind, response: &MeasuredResponse, laid: &Laid) -> Measu
     }
 }
 
-/// By how much a computed peak is higher than a measured one (dB).
+/// Level of a computed peak relative to a measured one (dB).
 fn level(computed: &Peak, measured: &Peak) -> Option<f64> {
     let level = 20.0 * (computed.height? / measured.height?).log10();
     Some(level).filter(|level| level.is_finite())
@@ -131,7 +131,7 @@ pub fn csv(kind: ResponseKind, samples: &[Sample]) -> String {
     table.text()
 }
 
-/// Degrees; 0 of nothing.
+/// Degrees; 0 for the number 0.
 pub fn phase(re: f64, im: f64) -> f64 {
     // A zero without a sign: on the negative axis it would turn the phase over.
     (im + 0.0).atan2(re + 0.0).to_degrees()
@@ -150,8 +150,8 @@ pub fn unit(kind: ResponseKind) -> &'static str {
 const FREQUENCIES: usize = 12;
 const PEAKS: usize = 10;
 
-/// The answer at the asked frequencies, the peaks, and what it was made of: all of it with `full`, all asked
-/// frequencies with `every`; a screen of a measured response has the peaks beside those of the measured one alone.
+/// The response at the requested frequencies, the peaks, and the settings. `full` gives all of it and `every` all
+/// requested frequencies. The screen of a measured response has only the peaks, compared with the measured ones.
 pub fn text(told: &ToldResponse, full: bool, every: bool) -> String {
     let ToldResponse { bat, kind, places: [at, to], frf, samples, asked, peaks, measured, units } =
         *told;
@@ -191,7 +191,7 @@ pub fn text(told: &ToldResponse, full: bool, every: bool) -> String {
     out
 }
 
-/// The answer at the given number of asked frequencies at most, evenly among them.
+/// The response at the given number of requested frequencies at most, evenly chosen.
 fn answers(told: &ToldResponse, most: usize) -> String {
     let ToldResponse { kind, samples, asked, .. } = *told;
     let columns = Columns::new([
@@ -213,7 +213,7 @@ fn answers(told: &ToldResponse, most: usize) -> String {
     out
 }
 
-/// How many peaks are not shown; empty where all are.
+/// The number of peaks not shown; empty where all are.
 fn beyond(peaks: usize, most: usize) -> String {
     match peaks.saturating_sub(most) {
         0 => String::new(),
@@ -221,11 +221,11 @@ fn beyond(peaks: usize, most: usize) -> String {
     }
 }
 
-/// What the criterion means.
+/// The meaning of the criterion.
 pub const FRAC: &str = "  FRAC: 1 where both responses are alike but for a factor, 0 where they have nothing in common; peaks \
     that lie apart by more than their width already bring it near 0";
 
-/// A word about damping as measured, or a bat without any beside a measured one; empty for another.
+/// A remark about damping as measured, or about an undamped bat compared with a measurement; empty for another.
 pub fn damping(bat: &Bat, frf: &Frf) -> String {
     if !frf.damping_ratios().is_empty() {
         let all = frf.damping_ratios().iter().map(|ratio| format!("{:.2}", 100.0 * ratio));
@@ -246,7 +246,7 @@ pub fn damping(bat: &Bat, frf: &Frf) -> String {
     wrapped(undamped, 2)
 }
 
-/// What a measured response says of the computed one: the given number of peaks at most, and both as a whole.
+/// The comparison of a measured response with the computed one: the given number of peaks at most, and both as a whole.
 fn differences(
     (bat, frf): (&Bat, &Frf),
     response: &MeasuredResponse,
@@ -302,7 +302,7 @@ fn differences(
     out
 }
 
-/// So many peaks at most, with the damping that their widths tell.
+/// At most that number of peaks, with the damping from their widths.
 fn listed(kind: ResponseKind, peaks: &[Peak], most: usize) -> String {
     if peaks.is_empty() {
         return String::new();

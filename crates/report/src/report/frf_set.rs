@@ -1,4 +1,4 @@
-//! The measured responses of one file beside the computed ones: a row each.
+//! The measured responses of one file compared with the computed ones: a row each.
 
 use crate::csv;
 use crate::parts::columns::{Columns, numbers};
@@ -10,27 +10,27 @@ use crate::report::text::edited;
 use sweetspot::bat::body::Bat;
 use sweetspot_study::measured::response::{Laid, MeasuredResponse};
 
-/// A measured response beside the computed one.
+/// A measured response compared with the computed one.
 pub struct RowOfSet {
     /// Its number in its file, from 1.
     pub number: usize,
-    /// Where the force is, and where the answer is watched (m from the knob end).
+    /// Positions of the force and of the response (m from the knob end).
     places: [f64; 2],
     frac: f64,
-    /// By how much the computed one is larger, and how far they are apart (dB).
+    /// Level of the computed response relative to the measured one, and the difference between them (dB).
     level: f64,
     apart: f64,
-    /// How many of the computed peaks have a measured one, and by how much their frequencies are apart on
-    /// average, as a share; None without any.
+    /// The number of computed peaks that have a measured one, and the mean relative difference of their frequencies;
+    /// None without any.
     pairs: [usize; 2],
     frequencies: Option<f64>,
-    /// What there is to say of the computed modes' damping.
+    /// Remarks about the damping of the computed modes.
     damping: String,
     assumed: Vec<String>,
 }
 
 impl RowOfSet {
-    /// None where nothing is laid over it.
+    /// None without a measured response.
     pub fn new(number: usize, told: &ToldResponse) -> Option<Self> {
         let (MeasuredResponse { assumed, .. }, laid) = told.measured?;
         let Laid { frac, level, apart, peaks, .. } = laid;
@@ -56,7 +56,7 @@ impl RowOfSet {
 /// Rows that a screen has.
 const FEW: usize = 18;
 
-/// The rows for people; without `full` those of the responses that are least alike.
+/// The rows for people; without `full` those of the least similar responses.
 pub fn text(bat: &Bat, source: &str, rows: &[RowOfSet], (units, full): (Units, bool)) -> String {
     let units = units.first();
     let title = format!("Measured frequency responses of {source} beside {}", bat.name());

@@ -49,7 +49,7 @@ pub fn scene_out(bat: &Bat, scene: &Scene) -> file::Scene {
     }
 }
 
-/// How the wall gives way, if it does.
+/// The compliance of the wall, if any.
 fn wall(bat: &Bat, scene: &Scene) -> Option<file::Wall> {
     if let Some(Wall { stiffness, mass }) = scene.wall {
         return Some(file::Wall { stiffness_n_m: stiffness, mass_kg: mass, hoop: None });
@@ -71,7 +71,7 @@ fn wall(bat: &Bat, scene: &Scene) -> Option<file::Wall> {
     })
 }
 
-/// The standard figures, beside the impacts in the same document.
+/// The standard figures, for the document of the impacts.
 pub fn figures(figures: &Figures) -> file::Figures {
     let best = figures.best.as_ref().and_then(|best| best.outcome.as_ref());
     file::Figures {
@@ -118,7 +118,7 @@ mod tests {
     use sweetspot::{Request, solve};
     use sweetspot_proof::bundled::bundled_bat;
 
-    /// A document's members are the columns, by their names; of the energies those of the ledger.
+    /// Members of the document correspond to columns by name; those of the energies to the ledger.
     #[test]
     fn every_column_is_a_member_of_an_impact() {
         let bat = bundled_bat("meshes/r161.json").unwrap();

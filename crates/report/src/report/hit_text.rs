@@ -17,7 +17,7 @@ use sweetspot::collision::sweet_spot::{Peak, SweetSpot};
 use sweetspot::collision::{Impact, Model, Scene, Sweep};
 use sweetspot_study::ignored;
 
-/// What the flags of hits mean, and the letters that stand for them in the table.
+/// The meaning of the flags of hits, and their letters in the table.
 const FLAGS: [(&str, char, &str); 8] = [
     ("reload", 'r', "pressed again while it was springing back"),
     ("late_contact", 'l', "the bat caught up when the force had almost gone"),
@@ -48,10 +48,9 @@ pub fn some(impacts: &[Impact], best: Option<f64>) -> Vec<Impact> {
     (0..impacts.len()).filter(shown).map(|k| impacts[k].clone()).collect()
 }
 
-/// Exit speed along the barrel: positions from knob and tip, speeds, efficiency, vibration, and what
-/// is unusual.
+/// Exit speed along the barrel: positions from knob and tip, speeds, efficiency, vibration and flags.
 pub fn impacts(bat: &Bat, impacts: &[Impact], units: Units) -> String {
-    // A wall that gives way has a column of its own.
+    // A compliant wall has a separate column.
     let walls = impacts.iter().any(|i| i.outcome.as_ref().is_some_and(|o| o.energy.wall > 0.0));
     let widths = if walls { [8, 8, 9, 9, 8, 9, 8, 9, 8] } else { [9, 9, 10, 10, 9, 10, 9, 9, 0] };
     let used = widths.into_iter().take(if walls { 9 } else { 8 });
@@ -132,7 +131,7 @@ pub fn why(figures: &Figures, units: Units) -> String {
     reason(figures, units).map_or(String::new(), |text| wrapped(&text, 0))
 }
 
-/// Why the ball leaves fastest where it does; None where none does.
+/// Why the exit speed is highest where it is; None without such a place.
 pub fn reason(figures: &Figures, units: Units) -> Option<String> {
     let place = |x: f64| units.place(x, 1);
     let (peak, rigid) = (figures.spot.exit_speed_max?, figures.rigid_best?);
@@ -161,7 +160,7 @@ pub fn reason(figures: &Figures, units: Units) -> Option<String> {
     ))
 }
 
-/// What a best place is that is best because the bat catches up with the ball late or again; None of any other.
+/// A remark on a best place that is best because the bat catches up with the ball late or again; None for any other.
 fn lives_on_later(figures: &Figures, units: Units) -> Option<String> {
     let best = figures.best.as_ref()?;
     let has = |flag: &str| best.flags.contains(&flag);
@@ -179,7 +178,7 @@ fn lives_on_later(figures: &Figures, units: Units) -> Option<String> {
     Some(format!("The fastest ball is so fast because the bat's vibration {how}.{first}"))
 }
 
-/// What a model is, wherever its results are printed; an empirical one says so.
+/// The description of a model that accompanies its results; an empirical one is marked as such.
 pub fn meaning(model: Model) -> String {
     let told = match model {
         Model::Rigid => "the bat does not bend in this model",
@@ -197,7 +196,7 @@ pub fn meaning(model: Model) -> String {
     wrapped(&format!("     {told}"), 5)
 }
 
-/// What is left out of a hit with as many modes as it needs.
+/// The effects neglected in a hit with as many modes as it needs.
 pub fn beyond(sweep: &Sweep, scene: &Scene, units: Units) -> String {
     let Some(truncation) = sweep.truncation else { return String::new() };
     let closing = |i: &Impact| i.bat_speed + scene.ball_speed;
@@ -215,14 +214,14 @@ pub fn beyond(sweep: &Sweep, scene: &Scene, units: Units) -> String {
 
 /// The sweet spot by one of its definitions.
 pub struct SpotLine {
-    /// The definition, with what is largest or least there.
+    /// The definition, with the value of the extremum.
     pub what: String,
-    /// Where it is (m from the knob end).
+    /// Its position (m from the knob end).
     pub x: f64,
 }
 
-/// The sweet spot by each definition. Nobody feels the shaking of a bat that nothing damps, which has no end: it is
-/// left out.
+/// The sweet spot by each definition. The vibration of an undamped bat has no end, and no size that a hand feels, so
+/// that definition is omitted.
 pub fn spot_lines(bat: &Bat, spot: &SweetSpot, units: Units) -> Vec<SpotLine> {
     let mut lines = vec![];
     let mut line = |what: &str, x: Option<f64>, value: Option<String>| {
@@ -277,7 +276,7 @@ pub fn sweet_spot(bat: &Bat, spot: &SweetSpot, units: Units) -> String {
     out
 }
 
-/// What is stated of a bat: efficiency, BBCOR, what an inch costs, swings.
+/// The stated figures of a bat: efficiency, BBCOR, effect of an inch, swings.
 pub fn stated(figures: &Figures, units: Units) -> Vec<(String, String)> {
     let Some(outcome) = figures.best.as_ref().and_then(|best| best.outcome.as_ref()) else {
         return vec![];
@@ -321,10 +320,10 @@ pub fn stated(figures: &Figures, units: Units) -> Vec<(String, String)> {
     lines
 }
 
-/// What stands above that.
+/// The heading of these figures.
 pub const STATED: &str = "Figures at the sweet spot (computed, not certified)";
 
-/// What is stated of a bat, a line each.
+/// The stated figures of a bat, a line each.
 pub fn figures(figures: &Figures, units: Units) -> String {
     let lines = stated(figures, units);
     let line = |(what, value): &(String, String)| format!("  {what:<36} {value}\n");

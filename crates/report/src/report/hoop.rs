@@ -1,4 +1,4 @@
-//! How a barrel rings and what its wall does to a ball: the document, the table, in sentences, and in short.
+//! How a barrel rings and how its wall affects a ball: the document, the table, sentences and a summary.
 
 use crate::csv::rows;
 use crate::parts::columns::{Columns, first, labels, numbers};
@@ -20,7 +20,7 @@ use sweetspot_study::trampoline::thickness::{FACTORS, WallTried};
 const MM: f64 = 1e-3;
 const MEGA: f64 = 1e6;
 
-/// The `sweetspot-hoop/1` document; of each mode the given number of samples of its shape.
+/// The `sweetspot-hoop/1` document, with the given number of samples of the shape of each mode.
 pub fn document(bat: &Bat, barrel: &Barrel, tried: &[WallTried], samples: usize) -> HoopFile {
     let hoop = barrel.hoop();
     let modes = hoop.modes().iter().enumerate().map(|(k, mode)| ShapedMode {
@@ -43,7 +43,7 @@ pub fn document(bat: &Bat, barrel: &Barrel, tried: &[WallTried], samples: usize)
     }
 }
 
-/// A mode, and how far from the tip it moves most (m).
+/// A mode, and the distance from the tip where it moves most (m).
 type Placed = (HoopMode, f64);
 
 /// The columns of the modes.
@@ -64,7 +64,7 @@ pub fn csv(bat: &Bat, barrel: &Barrel) -> String {
     rows(&COLUMNS, &modes)
 }
 
-/// The lowest modes, at most the given number, and what the wall does, for the terminal.
+/// The lowest modes, at most the given number, and the effect of the wall, for the terminal.
 pub fn text(bat: &Bat, barrel: &Barrel, most: usize, units: Units) -> [String; 2] {
     let mut out = format!("Hoop modes of {}\n{}", bat.name(), edited(bat, units));
     let [from, to] = [barrel.hoop().from(), barrel.hoop().to()];
@@ -101,13 +101,13 @@ fn modes(bat: &Bat, barrel: &Barrel, most: usize, units: Units) -> String {
     out
 }
 
-/// The wall under the ball, the rebound, the compression and what is to be known, each broken into lines.
+/// The wall under the ball, the rebound, the compression and the remarks, each broken into lines.
 fn sentences(barrel: &Barrel, units: Units) -> String {
     let mut out = String::from("\n");
     for line in answers(barrel, units) {
         out += &wrapped(&line, 2);
     }
-    // What bounds the answer stands last in the document, and first here.
+    // The limits of the answer are last in the document and first here.
     for note in notes(barrel, units).iter().rev() {
         out += &wrapped(&format!("note: {note}"), 2);
     }
@@ -148,7 +148,7 @@ fn pressed(barrel: &Barrel, wall: &PressedWall, units: Units) -> String {
     )
 }
 
-/// What the harmonics have of the wall's giving way, those with half a per cent and more by name.
+/// The shares of the harmonics in the compliance of the wall, by name from half a per cent on.
 fn harmonics(wall: &PressedWall) -> String {
     const LEAST: f64 = 0.5;
     let percent = |share: &HarmonicShare| 100.0 * share.flexibility_m_n * wall.stiffness_n_m;
@@ -204,7 +204,7 @@ fn forces(units: Units, force: f64) -> String {
     units.beside(si, us)
 }
 
-/// What a short answer of a hollow bat ends with, the first hoop mode in it; None where there is none.
+/// The end of a short answer for a hollow bat, with the first hoop mode; None without one.
 pub fn in_a_line(barrel: &Barrel) -> Option<String> {
     let lowest = barrel.hoop().lowest(1);
     let hertz = lowest.first()?.frequency_hz;

@@ -1,4 +1,4 @@
-//! What was assumed of a barrel and where its model ends, in sentences.
+//! The assumptions about a barrel and the limits of its model, in sentences.
 
 use crate::parts::units::Units;
 use sweetspot::base::number::significant;
@@ -24,8 +24,8 @@ pub fn notes(barrel: &Barrel, units: Units) -> Vec<String> {
     all
 }
 
-/// Why the wall under the ball is not computed: the ball misses the modelled stretch, or its patch is
-/// wider than what there is of the stretch on the knob side.
+/// Why the wall under the ball is not computed: the ball misses the modelled stretch, or its patch is wider than the
+/// part of the stretch on the knob side.
 fn unpressed(barrel: &Barrel, units: Units) -> Option<String> {
     if barrel.struck.wall.is_some() {
         return None;
@@ -80,7 +80,7 @@ fn dented(barrel: &Barrel) -> Option<String> {
     })
 }
 
-/// What the solver of the modes noted.
+/// The notes of the solver of the modes.
 fn said(note: &Note, units: Units) -> String {
     let place = |x: f64| units.inline(units.length(x));
     match note {

@@ -22,21 +22,21 @@ const WHIRLING: f64 = 0.9;
 
 /// A mode that moves less at a place, over its largest deflection, is hardly seen there.
 const DEAF: f64 = 0.1;
-/// A hammer whose force falls by more within the band (dB) is too soft.
+/// A hammer whose force spectrum falls by more within the band (dB) is too soft.
 const WEAK: f64 = -20.0;
 
 /// A set of responses and its modes.
 pub struct IdentifyReport<'a> {
     /// The responses.
     pub set: &'a ResponseSet,
-    /// Their modes.
+    /// The modes found.
     pub found: &'a Identified,
     /// The virtual test that they are of, and the bat's name; None where they were measured.
     pub simulated: Option<(&'a Simulated, &'a str)>,
 }
 
 impl IdentifyReport<'_> {
-    /// Responses, modes and words, 80 columns wide; in full a virtual test has what was found by itself too.
+    /// Responses, modes and words, 80 columns wide; in full a virtual test also has the table of the modes found.
     pub fn text(&self, full: bool) -> [Piece; 3] {
         let warnings: String = self.said().iter().map(|one| wrapped(&one.text, 2)).collect();
         let assumed = self.set.assumed.iter().map(|said| wrapped(&format!("note: {said}"), 2));
@@ -98,7 +98,7 @@ impl IdentifyReport<'_> {
         }
     }
 
-    /// The bat's modes beside what the virtual test finds.
+    /// The modes of the bat compared with those found in the virtual test.
     fn planned_table(&self, test: &Simulated) -> String {
         let columns = Columns::new([
             first(6, "mode"),
@@ -137,7 +137,7 @@ impl IdentifyReport<'_> {
         test.modes.iter().zip(&test.loaded).zip(matched).map(one).collect()
     }
 
-    /// Where to hang the bat and where the reference belongs.
+    /// Where to suspend the bat and where to put the reference.
     fn advice(&self, test: &Simulated) -> Vec<IdentifySaid> {
         let one = |code: &str, text: String| IdentifySaid { code: code.to_owned(), text };
         let [hang, other] = test.hang().map(at);
@@ -176,7 +176,7 @@ impl IdentifyReport<'_> {
         all
     }
 
-    /// What is to be said.
+    /// All warnings.
     pub fn said(&self) -> Vec<IdentifySaid> {
         let (set, found) = (self.set, self.found);
         let one = |code: &str, text: String| IdentifySaid { code: code.to_owned(), text };
@@ -228,7 +228,7 @@ impl IdentifyReport<'_> {
         all
     }
 
-    /// What is to be said of the responses themselves.
+    /// Warnings about the responses themselves.
     fn of_responses(&self) -> Vec<IdentifySaid> {
         let (set, found) = (self.set, self.found);
         let one = |code: &str, text: String| IdentifySaid { code: code.to_owned(), text };
@@ -324,7 +324,7 @@ const COLUMNS: [Column<IdentifyMode>; 8] = [
     Column::in_files("modal_mass_kg", |one| one.modal_mass_kg.into()),
 ];
 
-/// What a virtual test is of.
+/// The subject of a virtual test.
 fn tested(test: &VirtualTest, bat: &str) -> String {
     let VirtualTest { hammer, tip, noise, seed, .. } = test;
     let accelerometer = match test.accelerometer {

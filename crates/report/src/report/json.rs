@@ -1,7 +1,7 @@
-//! The JSON file of modes, in SI, the unit in every key's name.
+//! The JSON file of modes, in SI, with the unit in the name of every key.
 //!
-//! Numbers are written in the shortest form that reads back to the same bits; there is never a
-//! NaN or an infinity. What does not exist is null.
+//! Numbers are written in the shortest form that reads back to the same bits; NaN and infinity never occur. A value
+//! that does not exist is null.
 
 use crate::report::damped;
 use crate::report::resolved::resolved;
@@ -57,7 +57,7 @@ pub fn modes(bat: &Bat, solution: &Solution, points: ShapePoints, timing: bool) 
 fn mode(solution: &Solution, k: usize, places: &[f64]) -> file::Mode {
     let mode = &solution.modes[k];
     let along = |f: &dyn Fn(f64) -> f64| places.iter().map(|x| f(*x)).collect::<Vec<f64>>();
-    // NaN and infinity stand for an unknown error.
+    // NaN and infinity represent an unknown error.
     let known = |error: f64| Some(error).filter(|error| error.is_finite());
     file::Mode {
         order: mode.order,
@@ -99,7 +99,7 @@ fn summary(bat: &Bat) -> file::Summary {
     let inertia = bat.inertia();
     let measured = bat.weighed().balance_point;
     let swing_weight = bat.measured_swing_weight();
-    // That was said of the bat before its edits.
+    // The measurement describes the bat before its edits.
     let weighed = bat.unedited().inertia();
     let weighed = (bat.weighed() != Weighed::default()).then(|| file::WeighedFactors {
         density_factor: bat.factors()[0],

@@ -1,4 +1,4 @@
-//! What a cut does, band by band: sentences, CSV and JSON. The table is in [`crate::report::lathe_table`].
+//! The effect of a cut, band by band: sentences, CSV and JSON. The table is in [`crate::report::lathe_table`].
 
 use crate::csv::Csv;
 use crate::parts::cell::Cell;
@@ -36,7 +36,8 @@ fn title(map: &LatheMap, scene: &Scene, units: Units) -> String {
     format!("What a cut does to {}\n{}{}", bat.name(), edited(bat, units), wrapped(&swing, 4))
 }
 
-/// What a screen holds: where a cut does most, and what stands below the tables; None where that is not known.
+/// The text of a screen: where a cut has the largest effects, and the text below the tables; None where that is not
+/// known.
 pub fn screen(map: &LatheMap, scene: &Scene, units: Units) -> Option<String> {
     let most = strongest(map, units);
     if most.is_empty() {
@@ -47,7 +48,7 @@ pub fn screen(map: &LatheMap, scene: &Scene, units: Units) -> Option<String> {
     Some(out + &below(map, TableUnits::of(units, map.piece.bat().inches())))
 }
 
-/// Everything for the terminal: the title, both tables, and what stands below them.
+/// The whole text for the terminal: the title, both tables, and the text below them.
 pub fn text(map: &LatheMap, scene: &Scene, units: Units) -> [String; 4] {
     let shown = TableUnits::of(units, map.piece.bat().inches());
     let (per, unit) = if shown.us() { (0.0254, "in") } else { (MM, "mm") };
@@ -67,7 +68,7 @@ pub fn text(map: &LatheMap, scene: &Scene, units: Units) -> [String; 4] {
     [title(map, scene, units), table(map, shown, TurnedBand::derivative), cuts, out]
 }
 
-/// Where a cut does most, in three lines.
+/// Where a cut has the largest effects, in three lines.
 pub fn in_short(map: &LatheMap, units: Units) -> String {
     let shown = TableUnits::of(units, map.piece.bat().inches());
     let lines = strongest(map, units);
@@ -76,7 +77,7 @@ pub fn in_short(map: &LatheMap, units: Units) -> String {
     if lines.is_empty() { String::new() } else { out + "  More: sweetspot lathe\n" }
 }
 
-/// Where a cut moves the sweet spot, the first frequency and the fastest ball most; a line each.
+/// Where a cut changes the sweet spot, the first frequency and the highest exit speed most; a line each.
 pub fn strongest(map: &LatheMap, units: Units) -> Vec<String> {
     let shown = TableUnits::of(units, map.piece.bat().inches());
     let laws = [(0.0, "the same swing"), (0.5, "a swing of the same energy")];
@@ -98,12 +99,12 @@ pub fn strongest(map: &LatheMap, units: Units) -> Vec<String> {
     lines
 }
 
-/// What [`strongest`] says of, in words for a page.
+/// The unit of cut in [`strongest`], in words for a page.
 pub fn per(map: &LatheMap, units: Units) -> &'static str {
     TableUnits::of(units, map.piece.bat().inches()).per_name()
 }
 
-/// What stands below the tables.
+/// The text below the tables.
 fn below(map: &LatheMap, shown: TableUnits) -> String {
     let mut out = String::new();
     for (k, line) in recipes(map, shown).into_iter().enumerate() {
@@ -138,7 +139,7 @@ fn below(map: &LatheMap, shown: TableUnits) -> String {
     out
 }
 
-/// The least wood for what makers ask most.
+/// The smallest amount of wood for the most frequent wishes.
 fn recipes(map: &LatheMap, shown: TableUnits) -> Vec<String> {
     let cuts = |cuts: &[RecipeCut]| {
         let one = |cut: &RecipeCut| {
@@ -169,7 +170,7 @@ fn recipes(map: &LatheMap, shown: TableUnits) -> Vec<String> {
     wishes.iter().filter_map(one).collect()
 }
 
-/// Knob weight, cup, hole and cork, solved.
+/// Knob weight, cup, hole and cork, each solved.
 fn wholes(map: &LatheMap, shown: TableUnits) -> String {
     let mut out = String::from("\nSolved, for a derivative does not tell it (same swing)\n");
     for whole in &map.found.done_to_the_end {
@@ -202,7 +203,7 @@ pub fn document(map: &LatheMap, scene: &Scene, model: Model) -> LatheFile {
     }
 }
 
-/// A line for each band, SI, per mm of diameter taken off.
+/// A line for each band, SI, per mm of diameter removed.
 pub fn csv(map: &LatheMap) -> String {
     let mut names: Vec<String> = ["from_m", "to_m", "diameter_m"].map(str::to_owned).to_vec();
     let exponents = map.terms.exponents();

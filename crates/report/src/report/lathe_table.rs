@@ -20,7 +20,7 @@ const THIRTY_SECOND: f64 = 0.0254 / 32.0;
 const THOU: f64 = 2.54e-5;
 
 impl TableUnits {
-    /// Those asked for; where both are, those that the bat was measured in.
+    /// The requested units; where both are requested, those in which the bat was measured.
     pub fn of(units: Units, inches: bool) -> Self {
         Self { us: units.us_first() || units == Units::Both && inches }
     }
@@ -30,12 +30,12 @@ impl TableUnits {
         self.us
     }
 
-    /// What comes off the diameter, in a word.
+    /// The unit of cut, in a word.
     pub fn per_name(self) -> &'static str {
         if self.us { "1/32 in" } else { "mm" }
     }
 
-    /// What comes off the diameter (m).
+    /// The unit of cut (m).
     pub fn per(self) -> f64 {
         if self.us { THIRTY_SECOND } else { 1e-3 }
     }
@@ -62,7 +62,7 @@ impl TableUnits {
         format!("sweet spot {far} {}", if by >= 0.0 { "outward" } else { "inward" })
     }
 
-    /// An answer's change as a part of a sentence; None for those that are not told there.
+    /// The change of an answer as part of a sentence; None for an answer without one.
     pub fn sentence(self, answer: Answer, change: f64) -> Option<String> {
         let (what, unit, value, decimals) = match (answer, self.us) {
             (Answer::Mass, false) => ("mass", "g", 1e3 * change, 1),
@@ -79,7 +79,7 @@ impl TableUnits {
     }
 }
 
-/// A column: its head in two lines, width, decimals, what it means, and what is shown of a band's change.
+/// A column: its head in two lines, width, decimals, meaning, and the value for the change of a band.
 struct LatheColumn {
     head: [String; 2],
     means: &'static str,
@@ -87,7 +87,7 @@ struct LatheColumn {
     decimals: usize,
     answer: Answer,
     exponent: f64,
-    /// How many of the column's unit are one SI unit.
+    /// The number of units of the column per SI unit.
     scale: f64,
 }
 
@@ -97,7 +97,7 @@ impl LatheColumn {
     }
 }
 
-/// What a column says of a cut.
+/// The meaning of a column.
 fn meaning(answer: Answer, exponent: f64) -> &'static str {
     match answer {
         Answer::Mass => "what the bat weighs",
@@ -118,7 +118,7 @@ fn meaning(answer: Answer, exponent: f64) -> &'static str {
     }
 }
 
-/// What the columns of the table are, and what a mil is.
+/// The meanings of the columns, and of a mil.
 pub fn legend(map: &LatheMap, units: TableUnits) -> String {
     let columns = shown(map, units);
     let part = |column: &LatheColumn| format!("{}: {}", column.head[0], column.means);
@@ -130,7 +130,7 @@ pub fn legend(map: &LatheMap, units: TableUnits) -> String {
     format!("Columns: {}.", parts.join("; "))
 }
 
-/// The columns that the map has answers for.
+/// The columns for the answers of the map.
 fn shown(map: &LatheMap, units: TableUnits) -> Vec<LatheColumn> {
     let answers = &map.terms.answers;
     let mut all = vec![];
@@ -172,8 +172,7 @@ fn shown(map: &LatheMap, units: TableUnits) -> Vec<LatheColumn> {
     all
 }
 
-/// The table of what `value` finds of a band for an answer and a swing law's exponent, per millimetre of diameter
-/// taken off.
+/// The table of `value` of a band for an answer and an exponent of the swing law, per millimetre of diameter removed.
 pub fn table(
     map: &LatheMap,
     units: TableUnits,
@@ -192,7 +191,7 @@ pub fn table(
             let per_metre = value(band, shown.answer, shown.exponent)? / 1e-3;
             let mut value = per_metre * units.per() * shown.scale;
             if shown.head[1] == "%" {
-                // Of the hands' acceleration as it is.
+                // Relative to the value for the unchanged bat.
                 let mut outputs = map.found.outputs.iter();
                 value /= outputs.find(|output| output.name == shown.answer)?.value?;
             }

@@ -1,4 +1,4 @@
-//! Measured modes beside computed ones: tables of 80 columns, words, JSON.
+//! Measured modes compared with computed ones: tables of 80 columns, words, JSON.
 
 use std::fmt::Write;
 
@@ -35,7 +35,7 @@ pub fn text(bat: &Bat, study: &Study, units: Units, full: bool) -> String {
     out
 }
 
-/// Which file, how many modes and points, and what was assumed.
+/// The file, the numbers of modes and points, and the assumptions.
 fn source(study: &Study, units: Units) -> String {
     let measured = &study.measured;
     let count = measured.modes.len();
@@ -65,7 +65,7 @@ fn cut(name: &str, width: usize) -> String {
     }
 }
 
-/// Frequencies and damping side by side, of the given number of measured modes at most.
+/// Frequencies and damping side by side, for the given number of measured modes at most.
 fn modes(study: &Study, most: usize) -> String {
     let theory = study.solution.theory.name();
     let by = match &study.shapes {
@@ -117,7 +117,7 @@ fn modes(study: &Study, most: usize) -> String {
     out
 }
 
-/// A computed mode beside the measured one it is paired with.
+/// The computed mode paired with a measured one.
 fn partner(study: &Study, pair: &Pair) -> [String; 5] {
     let mode = &study.solution.modes[pair.computed];
     let damping = study.solution.damping.modes.get(pair.computed);
@@ -144,7 +144,7 @@ fn without_partner(study: &Study, k: usize) -> String {
     }
 }
 
-/// The pair of the computed mode that a measured one without a partner is like.
+/// The pair of the computed mode to which an unpaired measured mode is similar.
 fn taken(study: &Study, k: usize) -> Option<&Pair> {
     let row = study.bending.iter().position(|bending| *bending == k)?;
     let row = &study.shapes.as_ref()?.mac[row];

@@ -1,4 +1,4 @@
-//! What is wrong, as a document for other programs.
+//! The mistakes as a document for other programs.
 
 use std::path::Path;
 
@@ -56,7 +56,7 @@ fn said(found: String) -> Mistake {
     Mistake { file, line, column, place: None, found, expected: None, hint: None }
 }
 
-/// Nothing where there is nothing to say.
+/// None for an empty text.
 fn some(text: &str) -> Option<String> {
     (!text.is_empty()).then(|| text.to_owned())
 }

@@ -1,7 +1,8 @@
-//! How is everything that was asked for printed and written?
+//! How are all results printed and written?
 //!
-//! [`text`] and [`hit_text`] make tables of modes and hits, [`json`] and [`hit_json`] their documents; a verb's own file
-//! has its screen. Columns that pictures and CSV share are in [`parts::columns`](crate::parts::columns). Nothing here computes physics.
+//! [`text`] and [`hit_text`] make tables of modes and hits, [`json`] and [`hit_json`] their documents; the file of a
+//! verb has its screen. Columns shared by pictures and CSV are in [`parts::columns`](crate::parts::columns). Nothing
+//! here computes physics.
 
 pub mod curve;
 pub mod resolved;

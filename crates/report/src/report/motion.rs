@@ -17,7 +17,7 @@ pub struct Frames<'a> {
     pub frames: &'a [Vec<f64>],
 }
 
-/// What a screen ends with.
+/// The last line of a screen.
 pub const MORE: &str = "Every place at every instant: --csv FILE (- = here); drawn: --plots DIR";
 
 /// The deflection of both ends at every instant, and the largest along the bat with its place.

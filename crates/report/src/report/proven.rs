@@ -1,4 +1,4 @@
-//! How are proven frequencies said: with both ends, rounded outwards?
+//! How are proven frequencies written, with both ends rounded outwards?
 
 use crate::parts::columns::{Columns, first, numbers};
 use crate::parts::terminal::wrapped;
@@ -6,20 +6,20 @@ use crate::schema::modes as file;
 use sweetspot_proof::enclosure::guarantee::Guarantee;
 use sweetspot_proof::enclosure::within::{Band, Within};
 
-/// What is proven of a bat, and of every bat that is nearly it, where that was asked.
+/// The proven frequencies of a bat, and those of every similar bat if requested.
 pub struct Proven {
     /// Of the bat.
     pub guarantee: Guarantee,
-    /// Of every bat within that of it.
+    /// The frequencies of every bat within these tolerances.
     pub band: Option<(Within, Band)>,
 }
 
-/// Two ends as numbers whose shortest decimals are not inside of them.
+/// Two ends as numbers whose shortest decimals are not inside the interval.
 fn outwards([lower, upper]: [f64; 2]) -> file::ProvenFrequency {
     file::ProvenFrequency { lower_hz: lower.next_down(), upper_hz: upper.next_up() }
 }
 
-/// Writes what is proven into the document of the modes.
+/// Writes the proven frequencies into the document of the modes.
 pub fn write(document: &mut file::ModesFile, proven: &Proven) {
     let Proven { guarantee, band } = proven;
     for (mode, known) in document.modes.iter_mut().zip(&guarantee.modes) {
@@ -73,7 +73,7 @@ pub fn decimals([lower, upper]: [f64; 2]) -> [String; 2] {
     [format!("{lower:.places$}"), format!("{upper:.places$}")]
 }
 
-/// The table of what is proven.
+/// The table of proven frequencies.
 pub fn text(proven: &Proven) -> String {
     let Proven { guarantee, band } = proven;
     let (asked, found) = (guarantee.asked, guarantee.modes.len());

@@ -1,4 +1,4 @@
-//! The bat in the JSON files: as it was understood, and a bat file in its own right.
+//! The bat in the JSON files: as understood, and as a complete bat file.
 
 use serde_json::{Value, json};
 
@@ -12,8 +12,8 @@ use sweetspot::files::schema::document::Format;
 use sweetspot::files::schema::resolved as file;
 use sweetspot::files::schema::resolved::ResolvedBat;
 
-/// The bat as it was understood: SI, defaults filled in, materials as they were weighed. Read as a
-/// bat file it is the same bat.
+/// The bat as understood: SI units, defaults filled in, materials adjusted to the scale. Read as a bat file it gives
+/// the same bat.
 pub fn resolved(bat: &Bat) -> ResolvedBat {
     let edits = bat.edits().to_vec();
     let name = bat.name().to_owned();
@@ -59,7 +59,7 @@ pub fn text_in_columns(bat: &ResolvedBat, stations: &Stations, in_inches: bool) 
     columns.iter().fold(text, |text, (mark, column)| text.replace(mark, column))
 }
 
-/// A profile as it was understood, which names no other file.
+/// A profile as understood, without references to other files.
 pub fn profile(profile: &Profile) -> file::Profile {
     match &profile.formulas {
         Some(formulas) => file::Profile::Pieces(pieces(formulas)),

@@ -17,10 +17,11 @@ use sweetspot_study::scatter::scattered::{
 };
 use sweetspot_study::scatter::spreads::{Difference, Differs};
 
-/// Reasons that are shown.
+/// Number of reasons shown.
 const REASONS: usize = 3;
 
-/// What spreads every output in words, 80 columns wide; three percentiles of it, `full` with all and every share.
+/// The causes of the scatter of every output in words, 80 columns wide, with three percentiles; `full` gives all
+/// percentiles and every share.
 pub fn text(rows: &ScatterRows, found: &Scattered, full: bool) -> String {
     let (count, name) = (rows.count(), rows.bat.name());
     let said = format!("{count} bats like {name}, {} of them as accurate as asked", found.met);
@@ -45,7 +46,7 @@ pub fn text(rows: &ScatterRows, found: &Scattered, full: bool) -> String {
     out
 }
 
-/// An output with its unit, and how many of that unit are one.
+/// An output with its unit, and the number of these units per SI unit.
 fn named(output: &OutputSpread, us: bool) -> (String, f64) {
     let (unit, per) = in_trade(output.unit, us);
     let unit = if unit.is_empty() { String::new() } else { format!(", in {unit}") };
@@ -102,7 +103,7 @@ fn shares(inputs: &[InputSpread], output: &OutputSpread, indices: &Indices) -> S
     format!("What makes {} vary\n{told}{rest}", output.name)
 }
 
-/// What differs, with what it is given.
+/// An input, with the inputs it is conditioned on.
 fn called(InputSpread { name, given, .. }: &InputSpread) -> String {
     match &given[..] {
         [] => (*name).to_owned(),
@@ -110,7 +111,7 @@ fn called(InputSpread { name, given, .. }: &InputSpread) -> String {
     }
 }
 
-/// One sentence an output.
+/// One sentence for each output.
 pub fn words(found: &Scattered) -> Vec<String> {
     let of = |output| sentence(&found.inputs, output);
     let mut all: Vec<String> = found.outputs.iter().filter_map(of).collect();
@@ -151,8 +152,8 @@ pub fn document(bat: &Bat, found: &Scattered) -> ScatterResult {
     }
 }
 
-/// Every row as a line of CSV: its number and scramble, what differs (factors and amounts), outputs, and why one is
-/// missing.
+/// Every row as a line of CSV: its number and scramble, its inputs (factors and amounts), its outputs, and the reason
+/// where one is missing.
 pub fn csv(rows: &ScatterRows, found: &Scattered) -> String {
     let all = &rows.plan.differences.all;
     let inputs = all.iter().map(|one| match one.what {
@@ -175,7 +176,7 @@ pub fn csv(rows: &ScatterRows, found: &Scattered) -> String {
     table.text()
 }
 
-/// What the bat of a row is, as its source says: which percentile it is nearest to, and what differs.
+/// The description of the bat of a row in its file: the percentile it is nearest to, and its inputs.
 pub fn told(
     rows: &ScatterRows,
     found: &Scattered,

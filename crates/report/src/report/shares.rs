@@ -1,4 +1,4 @@
-//! What an answer varies by: a table of shares.
+//! The causes of the variation of an answer: a table of shares.
 
 use crate::parts::columns::{Columns, first, labels};
 use crate::parts::terminal::wrapped;
@@ -7,8 +7,8 @@ use sweetspot_study::many::indices::{Indices, Share};
 /// Shares below this have no row.
 pub const LITTLE: f64 = 0.005;
 
-/// Shares of an answer's variance, a row each from the largest on, those below a least one being sampling alone; the
-/// names of those that are too little for a row; and the row of the rest.
+/// Shares of the variance of an answer, a row each from the largest on, where shares below `least` are sampling error;
+/// the names of those too small for a row; and the row of the remainder.
 pub fn shares_of(names: &[String], indices: &Indices, least: f64, rest: &str) -> [String; 3] {
     let columns = Columns::new([first(44, ""), labels(16, "alone"), labels(16, "with others")]);
     let shown = |share: &Share| format!("{:.3} ± {:.3}", share.value.max(least), share.sd);

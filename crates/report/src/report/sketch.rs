@@ -8,17 +8,17 @@ use sweetspot::bat::body::Bat;
 use sweetspot::collision::sweet_spot::SweetSpot;
 use sweetspot::modes::solve::Solution;
 
-/// Columns left of the drawing, for what its rows are called.
+/// Columns left of the drawing, for the labels of its rows.
 pub const GUTTER: usize = 12;
-/// Columns of the drawing; the knob end is where the first begins, the tip where the last ends.
+/// Columns of the drawing. The knob end is at the beginning of the first and the tip at the end of the last.
 pub const WIDTH: usize = 66;
 /// Rows above and below the axis at most.
 const HALF_HEIGHT: usize = 4;
-/// A character is about twice as high as wide, and a bat drawn three times as thick as it is shows
-/// its taper in half rows.
+/// A character is about twice as high as wide. Drawn at three times its thickness, the bat shows its taper in half
+/// rows.
 const THICKER: f64 = 3.0;
 
-/// What it is drawn with: block elements, or ASCII for terminals that know no others.
+/// The characters of the drawing: block elements, or ASCII for terminals without them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Glyphs {
     /// Unicode's full and half blocks.
@@ -28,7 +28,7 @@ pub enum Glyphs {
 }
 
 impl Glyphs {
-    /// A cell that is full, whose lower half is, whose upper half is; the ruler's line.
+    /// A full cell, one with a full lower half, one with a full upper half; the line of the ruler.
     fn characters(self) -> [char; 4] {
         match self {
             Self::Blocks => ['█', '▄', '▀', '─'],
@@ -37,12 +37,12 @@ impl Glyphs {
     }
 }
 
-/// Places below the bat (m), and what they are called.
+/// Places below the bat (m), and their label.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SketchRow {
-    /// What stands left of the drawing, ten columns at most.
+    /// The label on the left of the drawing, at most ten columns.
     pub label: String,
-    /// What is marked below the bat.
+    /// The marks below the bat.
     pub places: Places,
 }
 
@@ -89,7 +89,7 @@ fn balance(bat: &Bat) -> SketchRow {
     SketchRow::points("balance", &[bat.inertia().balance_point])
 }
 
-/// Where the ball leaves fastest, and the zone of nearly that.
+/// The place of the highest exit speed, and the zone around it.
 pub fn of_sweet_spot(spot: &SweetSpot) -> Vec<SketchRow> {
     let best = spot.exit_speed_max.map(|peak| SketchRow::points("fastest", &[peak.x]));
     let zone =
@@ -97,7 +97,7 @@ pub fn of_sweet_spot(spot: &SweetSpot) -> Vec<SketchRow> {
     best.into_iter().chain(zone).collect()
 }
 
-/// What a hit tells: nodes of the barrel, balance point, centre of percussion, sweet spot.
+/// The places found by a hit: nodes of the barrel, balance point, centre of percussion, sweet spot.
 pub fn of_hit(bat: &Bat, spot: &SweetSpot) -> Vec<SketchRow> {
     let named = [
         ("node 1", spot.node_mode_1),
@@ -141,7 +141,7 @@ fn outline(bat: &Bat, glyphs: Glyphs) -> String {
 /// A line with the number of every `step` where it begins; `step` is doubled or halved until the
 /// numbers fit a very long or very short bat.
 fn ruler(length: f64, step: f64, glyphs: Glyphs) -> String {
-    /// Share of the drawing's length, so that the numbers are apart.
+    /// As a share of the length of the drawing, so that the numbers are separated.
     const LEAST: f64 = 0.09;
     let mut step = step;
     while step < LEAST * length {
@@ -161,7 +161,7 @@ fn ruler(length: f64, step: f64, glyphs: Glyphs) -> String {
     line.into_iter().collect()
 }
 
-/// The column of a place on something so long.
+/// The column of a place on an object of that length.
 fn column(x: f64, length: f64) -> usize {
     ((x / length * WIDTH as f64).max(0.0) as usize).min(WIDTH - 1)
 }
@@ -169,7 +169,7 @@ fn column(x: f64, length: f64) -> usize {
 fn marks(places: &Places, length: f64) -> String {
     let mut line = [' '; WIDTH];
     match places {
-        // What is beside the bat, as a balance point may be, has no column.
+        // A point beyond the bat, such as a balance point may be, has no column.
         Places::Points(points) => {
             let on = points.iter().filter(|x| (0.0..=length).contains(*x));
             on.for_each(|x| line[column(*x, length)] = '^');
@@ -194,7 +194,7 @@ mod tests {
     use sweetspot::modes::solve::{Request, solve};
     use sweetspot_proof::bundled::bundled_bat;
 
-    /// What a line draws, column by column.
+    /// The drawing in a line, column by column.
     fn drawing(line: &str) -> Vec<char> {
         line.chars().skip(GUTTER).collect()
     }

@@ -1,4 +1,4 @@
-//! What a recording of taps says of a bat: table, JSON, CSV, words.
+//! Results of a recording of taps: table, JSON, CSV, words.
 
 use std::f64::consts::LN_2;
 
@@ -24,12 +24,12 @@ use sweetspot_tap::analysis::{Analysis, Code, Condition, Tap};
 use sweetspot_tap::recording::Recording;
 use sweetspot_tap::tones::Tone;
 
-/// Beyond this half-width an interval is told as "about".
+/// Beyond this half-width an interval is shown as "about".
 const ABOUT: f64 = 0.4;
-/// A half-width of the loss factor above which moving the phone is advised.
+/// Half-width of the loss factor above which moving the phone is advised.
 const WIDE: f64 = 0.1;
 
-/// Recordings of a bat's taps, and what was found.
+/// Recordings of taps on a bat, and the results.
 pub struct TapReport<'a> {
     /// The bat.
     pub bat: &'a Bat,
@@ -37,7 +37,7 @@ pub struct TapReport<'a> {
     pub recordings: &'a [Recording],
     /// Their tones.
     pub analysis: &'a Analysis,
-    /// What the tones are; None where that was not asked, or where there are none.
+    /// The modes of the tones; None where they were not requested, or where there are no tones.
     pub tapped: Option<&'a Tapped>,
 }
 
@@ -141,7 +141,7 @@ impl TapReport<'_> {
         wrapped(&format!("Its material: {}, with the density of the bat file.", all.join(", ")), 2)
     }
 
-    /// What spoils the recordings; of several it says which.
+    /// The defects of the recordings; where there are several, each warning names its recording.
     fn warned(&self) -> Vec<TapSaid> {
         let of = |(code, recording): &(Code, Option<usize>)| {
             let name = recording.filter(|_| self.recordings.len() > 1);
@@ -152,7 +152,7 @@ impl TapReport<'_> {
         self.analysis.warnings.iter().map(of).collect()
     }
 
-    /// What is to be said, a sentence or two each.
+    /// The conclusions, a sentence or two each.
     pub fn words(&self) -> Vec<String> {
         let mut all: Vec<String> = self.warned().into_iter().map(|said| said.text).collect();
         let Some(tapped) = self.tapped else { return all };
@@ -228,8 +228,7 @@ impl TapReport<'_> {
         }
     }
 
-    /// The lines of the wood as a readings file: as stiff as the wood is at the lowest tone, modes as they were
-    /// labelled.
+    /// The lines of the wood as a readings file, with the stiffness at the lowest tone and the labels of the modes.
     pub fn readings(&self) -> Value {
         let found = self.tapped.and_then(|tapped| tapped.wood.as_ref());
         let (lines, tones) = match found {
@@ -295,7 +294,7 @@ fn plural(word: &str, count: usize) -> String {
     if count == 1 { word.to_owned() } else { format!("{word}s") }
 }
 
-/// What a mode is called.
+/// The name of a mode.
 pub fn named(mode: BatMode) -> String {
     match mode {
         BatMode::Bending(order) => format!("bending {order}"),
@@ -363,7 +362,7 @@ fn coded(code: Code) -> TapSaid {
     TapSaid { code: code.name().to_owned(), text: said(code).to_owned() }
 }
 
-/// What a warning or a refusal means, and what to do.
+/// The meaning of a warning or a refusal, and what to do.
 pub fn said(code: Code) -> &'static str {
     match code {
         Code::Clipped => {

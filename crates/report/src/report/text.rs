@@ -1,4 +1,4 @@
-//! Tables for the terminal, 80 columns wide, in the units asked for.
+//! Tables for the terminal, 80 columns wide, in the requested units.
 
 use std::fmt::Write;
 
@@ -15,7 +15,7 @@ use sweetspot::modes::solve::Solution;
 use sweetspot_study::ignored::ignored;
 use sweetspot_study::trade::reference::solver_name;
 
-/// What bat this is: size, mass, balance, swing weight, centre of percussion.
+/// The data of a bat: size, mass, balance, swing weight, centre of percussion.
 pub fn summary(bat: &Bat, units: Units) -> String {
     let inertia = bat.inertia();
     let length = bat.length();
@@ -46,7 +46,7 @@ pub fn summary(bat: &Bat, units: Units) -> String {
     out
 }
 
-/// A line about the edits of a bat; nothing for a bat that has none.
+/// A line about the edits of a bat; empty for a bat without any.
 pub fn edited(bat: &Bat, units: Units) -> String {
     match edits::listed(bat, units) {
         list if list.is_empty() => list,
@@ -108,7 +108,7 @@ pub fn modes(bat: &Bat, solution: &Solution, with_nodes: usize, units: Units) ->
     [out, damped::table(solution), nodes(bat, solution, with_nodes, units)]
 }
 
-/// Where the first modes stand still.
+/// The nodes of the first modes.
 fn nodes(bat: &Bat, solution: &Solution, with_nodes: usize, units: Units) -> String {
     let mut out = if with_nodes > 0 { "Nodes\n".to_owned() } else { String::new() };
     for mode in solution.modes.iter().take(with_nodes.min(MOST_NODES)) {
@@ -141,7 +141,7 @@ fn nodes(bat: &Bat, solution: &Solution, with_nodes: usize, units: Units) -> Str
     out
 }
 
-/// How the modes were found, and what the model left out.
+/// The method for the modes, and the neglected effects.
 pub fn model(bat: &Bat, solution: &Solution) -> String {
     let mut model = format!(
         "Model: {}, {} elements of degree {}, solver {}",
@@ -184,7 +184,7 @@ pub fn model(bat: &Bat, solution: &Solution) -> String {
 mod tests {
     use super::*;
 
-    /// As many digits as are known and fit: never fewer than two decimals, never one that is wrong.
+    /// As many digits as are known and fit: at least two decimals, and no wrong digit.
     #[test]
     fn a_frequency_has_the_digits_that_are_known() {
         for (frequency, error, shown) in [

@@ -1,4 +1,4 @@
-//! Speed against accuracy: what is said of it, and its columns.
+//! Speed against accuracy: text and columns.
 
 use crate::csv;
 use crate::parts::cell::Cell;
@@ -15,13 +15,13 @@ use sweetspot_study::trade::words;
 
 /// Runs of the front with a larger error are shown only if there are no others.
 const COARSEST: f64 = 1e-2;
-/// Runs of the front that a screen has.
+/// Number of runs of the front on a screen.
 const FEW: usize = 11;
 
-/// A run as it is shown.
+/// A run in the table.
 struct Line {
     run: Run,
-    /// Smaller errors cannot be told from none.
+    /// Errors below this cannot be distinguished from zero.
     floor: f64,
     /// The fastest run within the tolerance for which the planner chose this one.
     fastest: Option<Run>,
@@ -65,14 +65,14 @@ impl Line {
         Self { run: run.clone(), floor: trade.reference.floor, fastest: within.cloned() }
     }
 
-    /// An error, or below what it cannot be told from none.
+    /// An error, or the limit below which it cannot be distinguished from zero.
     fn error(&self) -> Cell {
         let (error, floor) = (self.run.error, self.floor);
         if error > floor { format!("{error:.1e}") } else { format!("< {floor:.0e}") }.into()
     }
 }
 
-/// The title, the reference and the front; `full` with all of it, the planner's choices and every word.
+/// The title, the reference and the front; `full` adds all runs, the choices of the planner and all remarks.
 pub fn report(bat: &Bat, trade: &Trade, full: bool) -> (String, Vec<Part<'static>>) {
     let (title, mut notes) = heading("Speed against accuracy", bat, &trade.reference);
     let ways = match trade.runs.len() {

@@ -1,4 +1,4 @@
-//! The answers on one screen, each beside how far that of the bat in hand may be from it, and why.
+//! The answers on one screen, each with its uncertainty for this bat, and the reasons.
 
 use crate::analysis::Analysis;
 use crate::parts::columns::{Columns, WIDE, first};
@@ -19,7 +19,7 @@ use sweetspot_study::read_to::diameters_read_to;
 use sweetspot_study::spread::{Input, Source, Spread, of_frequencies};
 use sweetspot_study::verdict::{Doubt, Verdict};
 
-/// The bat and the answers, and how far to trust them.
+/// The bat, the answers and their reliability.
 pub fn screen(analysis: &Analysis, units: Units) -> [String; 2] {
     let name = analysis.bat.name();
     let mut out = format!("{}\n", name.chars().take(WIDE).collect::<String>());
@@ -28,7 +28,7 @@ pub fn screen(analysis: &Analysis, units: Units) -> [String; 2] {
     [out + &table(analysis, units), reasons(analysis, units)]
 }
 
-/// The sweet spot in a sentence, with what there is to doubt of it.
+/// The sweet spot in a sentence, with the doubts about it.
 pub fn in_short(analysis: &Analysis, units: Units) -> String {
     let Analysis { bat, spread, task, verdict, .. } = analysis;
     let [Some(place), Some(speed)] =
@@ -54,7 +54,7 @@ pub fn in_short(analysis: &Analysis, units: Units) -> String {
     [told].into_iter().chain(doubts(verdict, units)).map(|text| wrapped(&text, 0)).collect()
 }
 
-/// The answers and how far to trust them, as a part of more.
+/// The answers and their reliability, as part of a longer text.
 pub fn text(analysis: &Analysis, units: Units) -> String {
     format!("\nAnswers\n{}{}\n", table(analysis, units), reasons(analysis, units))
 }
@@ -81,7 +81,7 @@ fn scene(analysis: &Analysis, units: Units) -> String {
     )
 }
 
-/// What moves an answer, in a word.
+/// The cause of the uncertainty of an answer, in a word.
 pub fn word(source: &Source) -> &'static str {
     match source.input {
         Input::Diameters => "diameters",
@@ -92,7 +92,7 @@ pub fn word(source: &Source) -> &'static str {
     }
 }
 
-/// The answers, how far each may be off, and by what most.
+/// The answers, their uncertainty, and its main cause.
 pub fn table(analysis: &Analysis, units: Units) -> String {
     let spread = &analysis.spread;
     let head =
@@ -127,14 +127,14 @@ pub fn table(analysis: &Analysis, units: Units) -> String {
     out
 }
 
-/// How far to trust the answers: the bat first, what would settle it, then the computation.
+/// The reliability of the answers: the bat first, what would reduce its uncertainty, then the computation.
 pub fn trust(analysis: &Analysis, units: Units) -> Vec<String> {
     let mut told = of_bat(analysis, units);
     told.push(computation(analysis));
     told
 }
 
-/// What is open of the bat in hand, what there is to doubt, and what would settle it.
+/// The uncertainty of this bat, the doubts, and what would reduce it.
 pub fn of_bat(analysis: &Analysis, units: Units) -> Vec<String> {
     let doubts = doubts(&analysis.verdict, units);
     let failed = analysis.failed.iter().map(|text| format!("{text}."));
@@ -142,7 +142,7 @@ pub fn of_bat(analysis: &Analysis, units: Units) -> Vec<String> {
     bat.chain(settled_by(analysis, units)).collect()
 }
 
-/// What there is to doubt of a hit, a sentence each.
+/// The doubts about a hit, one sentence each.
 pub fn doubts(verdict: &Verdict, units: Units) -> Vec<String> {
     verdict.doubts.iter().map(|doubt| doubted(doubt, units)).collect()
 }
@@ -183,14 +183,14 @@ fn doubted(doubt: &Doubt, units: Units) -> String {
     }
 }
 
-/// How far an answer may be from that of the bat in hand, `± 0.54 cm`; None where that is not open. What the ball
-/// does has more to it where the wall is beyond its theory or left out, and everything where the bat is not what its
-/// file says.
+/// The uncertainty of an answer for this bat, `± 0.54 cm`; None where there is none. The uncertainty of the effects on
+/// the ball is larger where the wall is beyond its theory or neglected, and that of everything where the bat differs
+/// from its file.
 pub fn about(analysis: &Analysis, answer: Answer, units: Units) -> Option<String> {
     let spread = &analysis.spread;
     spread.mostly(answer)?;
     let deviation = spread.of(answer)?.deviation?;
-    // No slope tells how far it jumps.
+    // A jump has no slope.
     if answer == Answer::ExitSpeedPlace && analysis.verdict.doubts.contains(&Doubt::LaterContact) {
         return Some("may jump far".to_owned());
     }
@@ -200,12 +200,12 @@ pub fn about(analysis: &Analysis, answer: Answer, units: Units) -> Option<String
     let stiff = [Answer::Mass, Answer::BalancePoint, Answer::Inertia].contains(&answer);
     let bent = analysis.verdict.bending_is_open() && !stiff;
     let more = ball || bent || analysis.verdict.bat_is_open();
-    // Of what is a lower limit one unit is enough.
+    // A lower limit is shown in one unit.
     let (more, units) = if more { (" or more", units.first()) } else { ("", units) };
     Some(format!("± {}{more}", AnswerUnit::of(answer).about(units, deviation)))
 }
 
-/// What is open of the bat, and what that makes of its first frequency.
+/// The uncertainty of the bat, and the resulting one of its first frequency.
 fn bat_first(analysis: &Analysis, units: Units) -> String {
     let Analysis { bat, spread, .. } = analysis;
     let mut told: Vec<String> = vec![];
@@ -218,7 +218,7 @@ fn bat_first(analysis: &Analysis, units: Units) -> String {
     };
     let length = |source: &Source| small((1e3, "mm"), (inches(1.0), "in"), source.deviation);
     let readings = match (diameters_read_to(bat), bat.profile().formulas.is_some()) {
-        // Unless calipers were told that are worse, or better.
+        // Unless calipers with another error were given.
         (Some(read), _)
             if Some(read.deviation()) == find(Input::Diameters).map(|of| of.deviation) =>
         {
@@ -259,7 +259,7 @@ fn bat_first(analysis: &Analysis, units: Units) -> String {
     format!("The bat first: {}{range}.{left_out}", told.join(", "))
 }
 
-/// By how much the bat's materials differ, a phrase for wood and one for metals.
+/// The scatter of the materials of the bat, a phrase for wood and one for metals.
 fn materials(bat: &Bat, spread: &Spread) -> Vec<String> {
     let all: Vec<&Material> = bat.layups().iter().flat_map(|layup| layup.materials()).collect();
     let wood = all.iter().find_map(|material| material.scatter());
@@ -281,15 +281,15 @@ fn materials(bat: &Bat, spread: &Spread) -> Vec<String> {
     kinds.into_iter().filter_map(told).collect()
 }
 
-/// What would settle most of it, where a note or a scale would.
+/// What would remove most of the uncertainty: a tap or a scale, where one would.
 fn settled_by(analysis: &Analysis, units: Units) -> Option<String> {
-    /// From this share of the variance on it is worth a tap.
+    /// From this share of the variance on, a tap is worthwhile.
     const MOST: f64 = 0.5;
     let Analysis { bat, solution, spread, task, .. } = analysis;
     let by = |answer: Answer, input: Input| {
         spread.mostly(answer).is_some_and(|(of, share)| of.input == input && share > MOST)
     };
-    // A note that is known no better than the answer settles nothing.
+    // A note that is known no better than the answer does not help.
     let frequency = spread.of(Answer::Frequency(1));
     let open = frequency.and_then(|of| Some(of.deviation? / of.value)).unwrap_or(0.0);
     if by(Answer::Frequency(1), Input::Stiffness) && open > 2.0 * task.readings.tap {
@@ -312,7 +312,7 @@ fn settled_by(analysis: &Analysis, units: Units) -> Option<String> {
     })
 }
 
-/// What the computation adds.
+/// The error of the computation.
 fn computation(analysis: &Analysis) -> String {
     let Analysis { solution, hits, .. } = analysis;
     let mut told = vec![];
@@ -332,14 +332,14 @@ fn computation(analysis: &Analysis) -> String {
     };
     let told =
         if told.is_empty() { "masses and lengths are exact".to_owned() } else { told.join(", ") };
-    // Beside a doubt the unit of the exit speed does not matter.
+    // Where there are doubts, the reference of the error is omitted.
     let of = if analysis.verdict.doubts.is_empty() { " of the closing speed" } else { "" };
     let of = if told.contains("exit") { of } else { "" };
     format!("The computation{verdict}: {told}{of}.")
 }
 
-/// Whether the errors of the computation are a tenth at most of what is open of every answer that has one. What is open
-/// of a doubtful hit is not known.
+/// Whether the errors of the computation are at most a tenth of the uncertainty of every answer that has one. The
+/// uncertainty of a doubtful hit is not known.
 fn far_more_exact(analysis: &Analysis) -> bool {
     const SMALL: f64 = 0.1;
     let Analysis { solution, hits, spread, verdict, .. } = analysis;
@@ -377,7 +377,7 @@ pub fn of_wood(bat: &Bat) -> String {
     wrapped(&text, 7)
 }
 
-/// Where what is open of a hit is told.
+/// Where the uncertainty of a hit is shown.
 pub const IN_ANALYZE: &str =
     "Trust: what wood, scale and calipers leave open of this: sweetspot analyze\n";
 
@@ -386,7 +386,7 @@ pub fn open(analysis: &Analysis) -> file::Open {
     file::Open { spread: analysis.spread.clone(), doubts: in_file(&analysis.verdict) }
 }
 
-/// What there is to doubt of a hit, as documents have it.
+/// The doubts about a hit, for documents.
 pub fn in_file(verdict: &Verdict) -> Vec<file::Doubt> {
     let doubt = |doubt: &Doubt| file::Doubt {
         about: doubt.about(),

@@ -1,4 +1,4 @@
-//! The U-curve: what is said of it, and its columns.
+//! The U-curve: text and columns.
 
 use crate::csv::Csv;
 use crate::parts::cell::Quantity::{Ratio, Words};
@@ -11,7 +11,7 @@ use sweetspot::modes::solve::Solver;
 use sweetspot_study::trade::reference::{Choice, Confirmation, Reference, solver_name};
 use sweetspot_study::trade::u_curve::{Curve, End, Losses, Reason, SolverFrequency};
 
-/// What was measured, and against what.
+/// The measured quantity and the reference.
 pub fn heading(what: &str, bat: &Bat, reference: &Reference) -> (String, Vec<String>) {
     let discretisation = |choice: &Choice| {
         let elements = if choice.elements == 1 { "element" } else { "elements" };
@@ -31,15 +31,15 @@ pub fn heading(what: &str, bat: &Bat, reference: &Reference) -> (String, Vec<Str
     (format!("{what}: {}", bat.name()), edited.into_iter().chain([truth]).collect())
 }
 
-/// Where a frequency of a solver is lost.
+/// The loss of accuracy of a frequency of a solver.
 struct Lost {
     name: String,
     losses: Losses,
-    /// What stands where an error is not reached.
+    /// Shown where an error is not reached.
     none: String,
 }
 
-/// The columns of what is lost.
+/// The columns of these losses.
 const LOSSES: [Column<Lost>; 6] = [
     Column::new("found by", "", Words, |lost| lost.name.as_str().into()),
     Column::new("best n", "", Ratio(0), |lost| lost.losses.best_elements.into()),
@@ -66,8 +66,8 @@ impl Lost {
     }
 }
 
-/// The title, and where the error of the first mode is lost; `full` with that of the first and the last against the
-/// number of elements.
+/// The title, and where the first mode loses accuracy; `full` adds the errors of the first and the last mode against
+/// the number of elements.
 pub fn report(
     bat: &Bat,
     (reference, curves): (&Reference, &[Curve]),
@@ -98,7 +98,7 @@ pub fn report(
     (title, parts)
 }
 
-/// Why a solver got no further.
+/// Why a solver reached no larger mesh.
 fn ends(curve: &Curve) -> Option<String> {
     let End { elements, reason } = curve.end.as_ref()?;
     let (when, why) = match reason {

@@ -1,4 +1,4 @@
-//! What a hollow barrel's wall does in a hit, in words.
+//! The effect of the wall of a hollow barrel in a hit, in words.
 
 use crate::parts::part::Fact;
 use crate::parts::units::Units;
@@ -9,7 +9,7 @@ use sweetspot::collision::hit::Scene;
 use sweetspot::collision::hoop_wall::HoopWall;
 use sweetspot::collision::wall_figures::WallFigures;
 
-/// What of the wall gives way, and why it is counted.
+/// The compliance of the wall, and why it is included.
 pub fn wall_words(bat: &Bat, scene: &Scene, wall: &HoopWall) -> String {
     let last = wall.harmonics().into_iter().max().unwrap_or(0);
     let why = scene.gain_by_wall(bat).map_or(String::new(), |gain| {
@@ -22,7 +22,7 @@ pub fn wall_words(bat: &Bat, scene: &Scene, wall: &HoopWall) -> String {
     )
 }
 
-/// What a hollow barrel's wall does at a place, and to BBCOR there.
+/// The effect of the wall of a hollow barrel at a place, and on BBCOR there.
 pub fn wall_facts(wall: &WallFigures, units: Units) -> Vec<Fact> {
     let short = |x: f64| units.beside(format!("{:.1} mm", 1e3 * x), format!("{:.2} in", inches(x)));
     let [along, around] = wall.patch_half_lengths_m.map(|half| 2.0 * half);

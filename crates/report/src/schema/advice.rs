@@ -1,4 +1,4 @@
-//! What a bat's model needs, `sweetspot-advice/1`.
+//! What the model of a bat needs, `sweetspot-advice/1`.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -6,9 +6,9 @@ use serde::Serialize;
 use sweetspot::files::schema::document::{BatName, Document, Format, Generator};
 use sweetspot_study::advise::advice::Advice;
 
-/// What each part of a bat's model does to its modes, and the smallest model that will do. SI, the
-/// unit in every name; shifts of frequencies are relative; what does not exist is null. Later versions
-/// of the same number may have more members.
+/// How each part of the model of a bat changes its modes, and the smallest model that suffices. SI units, named at the
+/// end of each member; shifts of frequencies are relative; a value that does not exist is null. Later versions with the
+/// same number may have more members.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 #[schemars(title = "Advice file of sweetspot, sweetspot-advice/1")]
 pub struct AdviceFile {
@@ -18,7 +18,7 @@ pub struct AdviceFile {
     pub generator: Generator,
     /// The bat.
     pub bat: BatName,
-    /// What its model needs.
+    /// What the model needs.
     #[serde(flatten)]
     pub advice: Advice,
 }

@@ -8,9 +8,9 @@ use sweetspot::files::schema::resolved::ResolvedBat;
 use sweetspot_study::aim::aimed::Outcome;
 use sweetspot_study::aim::cuts::StationCut;
 
-/// The least change of a bat that meets a wish, or comes nearest to it. Every value is of the bat as it is
-/// written, with rounded stations. Places count from the knob end; what does not exist is null. Later versions
-/// of the same number may have more members.
+/// The smallest change of a bat that meets a wish, or comes nearest to it. Every value belongs to the new bat as it is
+/// written, with rounded stations. Positions count from the knob end; a value that does not exist is null. Later
+/// versions with the same number may have more members.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 #[schemars(title = "Aimed bat of sweetspot, sweetspot-aimed/1")]
 pub struct AimedFile {
@@ -18,17 +18,17 @@ pub struct AimedFile {
     pub format: Format<AimedFile>,
     /// The program that wrote the file.
     pub generator: Generator,
-    /// The bat as it was.
+    /// The bat before the change.
     pub bat: BatName,
-    /// What came of the wish.
+    /// Whether and how well the wish is met.
     #[serde(flatten)]
     pub outcome: Outcome,
-    /// What changes, station by station: what to turn off, and where wood is added.
+    /// The change at each station: how much to turn off, and where wood is added.
     pub cuts: Vec<StationCut>,
-    /// What to know before the bat is turned, such as a barrel that a rule forbids; missing where there is nothing.
+    /// Warnings before the bat is turned, for example of a barrel that a rule forbids; left out where there are none.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub warnings: Vec<String>,
-    /// The new bat: a bat file in its own right.
+    /// The new bat as a complete bat file.
     pub new_bat: ResolvedBat,
 }
 

@@ -8,9 +8,9 @@ use sweetspot::collision::bbcor::{Scan, Tested};
 use sweetspot::files::schema::document::{Document, Format, Generator};
 use sweetspot_study::ignored;
 
-/// BBCOR along a bat as laboratories measure it, the bat at rest on a pivot: computed, and no
-/// certificate. SI, the unit in every name; positions count from the knob end; what does not exist is
-/// null. Later versions of the same number may have more members.
+/// BBCOR along a bat as laboratories measure it, with the bat at rest on a pivot. It is computed and is no certificate.
+/// SI units, named at the end of each member; positions count from the knob end; a value that does not exist is null.
+/// Later versions with the same number may have more members.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(title = "BBCOR file of sweetspot, sweetspot-bbcor/1")]
 pub struct BbcorFile {
@@ -18,15 +18,15 @@ pub struct BbcorFile {
     pub format: Format<BbcorFile>,
     /// The program that wrote the file.
     pub generator: Generator,
-    /// What the bat is called.
+    /// Name of the bat.
     pub bat_name: String,
-    /// What was changed about the bat after it was weighed; left out where nothing was.
+    /// Changes made to the bat after it was weighed; left out where there are none.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub edits: Vec<Edit>,
-    /// What was done and found.
+    /// Settings and results of the scan.
     #[serde(flatten)]
     pub scan: Scan,
-    /// Effects that were left out, and what they do.
+    /// Neglected effects and their consequences.
     pub ignored: Vec<String>,
 }
 

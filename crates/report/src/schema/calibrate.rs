@@ -1,4 +1,4 @@
-//! What a bat's wood is, `sweetspot-calibrate/1`.
+//! The wood of a bat by its measurements, `sweetspot-calibrate/1`.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -6,8 +6,8 @@ use serde::Serialize;
 use sweetspot::files::schema::document::{BatName, Document, Format, Generator};
 use sweetspot_study::calibrate::calibration::Calibration;
 
-/// What a bat's wood is by what was measured of it, and how much of that the readings say. SI, the unit in every
-/// name; positions count from the knob end; what does not exist is null. Later versions of the same number may have
+/// The wood of a bat by the measurements, and how well they determine it. SI units, named at the end of each member;
+/// positions count from the knob end; a value that does not exist is null. Later versions with the same number may have
 /// more members.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 #[schemars(title = "Calibration of sweetspot, sweetspot-calibrate/1")]
@@ -18,12 +18,12 @@ pub struct CalibrateFile {
     pub generator: Generator,
     /// The bat.
     pub bat: BatName,
-    /// What was found.
+    /// The results.
     #[serde(flatten)]
     pub found: Calibration,
-    /// What to measure next, in words.
+    /// The measurement to make next, in words.
     pub advice: String,
-    /// All of it in sentences.
+    /// All results in sentences.
     pub words: Vec<String>,
 }
 

@@ -14,9 +14,9 @@ use sweetspot::files::schema::document::{Document, Format, Generator};
 use sweetspot_study::comparison::rows::Compared;
 use sweetspot_study::comparison::stretches::Stretch;
 
-/// Several bats side by side: their figures, exit speeds at the same places, and where one hits harder
-/// than the first. SI, the unit in every name; what does not exist is null. Later versions of the same
-/// number may have more members.
+/// Several bats side by side: their figures, their exit speeds at the same places, and the places at which each one
+/// hits harder than the first. SI units, named at the end of each member; a value that does not exist is null. Later
+/// versions with the same number may have more members.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[schemars(title = "Comparison file of sweetspot, sweetspot-compare/1")]
 pub struct CompareFile {
@@ -24,10 +24,10 @@ pub struct CompareFile {
     pub format: Format<CompareFile>,
     /// The program that wrote the file.
     pub generator: Generator,
-    /// How the bats' bending is counted.
+    /// The beam model of the bats.
     #[schemars(extend("enum" = ["rigid", "energy-loss", "pulse", "contact"]))]
     pub model: &'static str,
-    /// What the bats have in common.
+    /// The conditions common to all bats.
     pub scene: Scene,
     /// The bats, the first the one the others are compared with.
     pub bats: Vec<ComparedBat>,
@@ -35,7 +35,7 @@ pub struct CompareFile {
     pub exit_speed_from_tip: Vec<Speeds>,
     /// Exit speeds at equal distances from the knob end.
     pub exit_speed_from_knob: Vec<Speeds>,
-    /// What follows, in sentences.
+    /// The conclusions in sentences.
     pub words: Vec<String>,
 }
 
@@ -43,7 +43,7 @@ impl Document for CompareFile {
     const NAME: &'static str = "compare";
 }
 
-/// What the bats have in common: how they are swung, and what ball they meet.
+/// The conditions common to all bats: the swing and the ball.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[schemars(rename = "CommonScene")]
 pub struct Scene {
@@ -55,12 +55,12 @@ pub struct Scene {
     pub ball_speed_m_s: f64,
     /// Coefficient of restitution, unless the ball's own depends on the speed.
     pub cor: f64,
-    /// Where the hands feel the hit (m).
+    /// Position at which the hands feel the hit (m).
     pub hands_m: f64,
-    /// How the barrel gives way under the ball; left out where it does not.
+    /// The compliance of the barrel under the ball; left out for a rigid barrel.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wall: Option<Wall>,
-    /// How the swing goes with the bat's swing weight; null where all swings are given.
+    /// How the swing depends on the swing weight of the bat; null where all swings are given.
     pub swing_law: Option<SwingLaw>,
 }
 
@@ -78,11 +78,11 @@ pub struct SwingLaw {
 /// One of the bats.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ComparedBat {
-    /// What the bat is called.
+    /// Name of the bat.
     pub name: String,
     /// The bat's file.
     pub file: String,
-    /// What was changed about the bat after it was weighed; left out where nothing was.
+    /// Changes made to the bat after it was weighed; left out where there are none.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub edits: Vec<Edit>,
     /// Angular speed of the swing (rad/s).
@@ -95,15 +95,14 @@ pub struct ComparedBat {
     pub theory: &'static str,
     /// Number of bending modes.
     pub modes: usize,
-    /// Whether every exit speed is as accurate as was asked.
+    /// Whether every exit speed is as accurate as requested.
     pub tolerance_met: bool,
-    /// Effects that were left out, and what they do.
+    /// Neglected effects and their consequences.
     pub ignored: Vec<String>,
-    /// Why the answers of a hit are less certain than they are computed; left out where nothing is known against
-    /// them.
+    /// Reasons for which the answers of a hit are less certain than computed; left out where there are none.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub doubts: Vec<Doubt>,
-    /// Figures by their names, the unit at the end of each; null where this bat has none.
+    /// Figures by name, with the unit at the end of the name; null where this bat has none.
     #[serde(serialize_with = "in_order")]
     #[schemars(with = "BTreeMap<String, Option<Compared>>")]
     pub figures: Vec<(String, Option<Compared>)>,

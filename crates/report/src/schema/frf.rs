@@ -8,9 +8,9 @@ use sweetspot::bat::theory::Theory;
 use sweetspot::files::schema::document::{Document, Format, Generator};
 use sweetspot::motion::frf::ResponseKind;
 
-/// How a bat answers a unit force that swings at one place, seen at another, over frequency; time goes
-/// as e^(+i omega t). SI, the unit in every name; positions count from the knob end. Later versions of
-/// the same number may have more members.
+/// Frequency response of a bat to a harmonic unit force at one place, observed at another; the time dependence is e^(+i
+/// omega t). SI units, named at the end of each member; positions count from the knob end. Later versions with the same
+/// number may have more members.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[schemars(title = "Frequency response file of sweetspot, sweetspot-frf/1")]
 pub struct FrfFile {
@@ -18,22 +18,22 @@ pub struct FrfFile {
     pub format: Format<FrfFile>,
     /// The program that wrote the file.
     pub generator: Generator,
-    /// What was changed about the bat after it was weighed; left out where nothing was.
+    /// Changes made to the bat after it was weighed; left out where there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub edits: Vec<Edit>,
-    /// What is answered: deflection, velocity or acceleration.
+    /// The quantity of the response: deflection, velocity or acceleration.
     #[schemars(extend("enum" = ["receptance", "mobility", "accelerance"]))]
     pub kind: &'static str,
-    /// Where the force is (m).
+    /// Position of the force (m).
     pub at_m: f64,
-    /// Where the answer is seen (m).
+    /// Position of the response (m).
     pub to_m: f64,
     /// Beam theory.
     #[schemars(extend("enum" = Theory::ALL.map(Theory::name)))]
     pub theory: &'static str,
     /// Number of bending modes.
     pub modes: usize,
-    /// Number of shapes in the answer, those of the modes and those that stand for all above.
+    /// Number of shapes in the response: the modes, and the shapes that replace all higher modes.
     pub strains: usize,
     /// Deflection under a constant unit force (m/N); of a free bat that of bending alone.
     pub static_compliance_m_per_n: f64,
@@ -46,10 +46,10 @@ pub struct FrfFile {
     pub answer: ResponseValues,
     /// The peaks between the lowest and the highest frequency.
     pub peaks: Vec<PeakLine>,
-    /// A measured response beside it, where one was given.
+    /// A measured response for comparison, where one was given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub measured: Option<MeasuredAnswer>,
-    /// Damping ratio of every mode, where they are those of the measured peaks; left out elsewhere.
+    /// Damping ratio of every mode, where the ratios of the measured peaks are used; left out otherwise.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub damping_ratios_as_measured: Vec<f64>,
     /// Largest relative error of a mode's frequency.
@@ -60,7 +60,7 @@ impl Document for FrfFile {
     const NAME: &'static str = "frf";
 }
 
-/// The measured frequency responses of one file, each laid over the computed one. Later versions of the same
+/// The measured frequency responses of one file, each compared with the computed one. Later versions with the same
 /// number may have more members.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[schemars(title = "Set of frequency responses of sweetspot, sweetspot-frf-set/1")]
@@ -136,7 +136,7 @@ by_kind! {
 }
 
 by_kind! {
-    /// The size of the answer at a peak, in the unit of its kind; null where it has no bound.
+    /// The magnitude of the response at a peak, in the unit of its kind; null where it has no bound.
     Height {
         magnitude: Option<f64>, "Size of the answer", "; null without bound.",
             "magnitude_m_per_n" "magnitude_m_per_s_n" "magnitude_1_per_kg";
@@ -167,8 +167,8 @@ pub struct PeakLine {
     pub height: Height,
     /// Damping ratio by the half-power points, (f2^2 - f1^2)/(4 f^2); null without them.
     pub damping_ratio: Option<f64>,
-    /// Where the answer has half the power, below and above the peak (Hz); null where it rises again
-    /// before, and where nothing damps the bat.
+    /// Frequencies of half power below and above the peak (Hz); null where the response rises again before it falls to
+    /// half power, and without damping.
     pub half_power_hz: Option<[f64; 2]>,
 }
 
@@ -177,7 +177,7 @@ pub struct PeakLine {
 pub struct MeasuredAnswer {
     /// The file it is from.
     pub source: String,
-    /// What was assumed to read it, a sentence each.
+    /// The assumptions made in reading it, one sentence each.
     pub assumed: Vec<String>,
     /// Measured frequencies (Hz).
     pub frequency_hz: Vec<f64>,
@@ -200,8 +200,8 @@ pub struct MeasuredAnswer {
 pub struct PeakBeside {
     /// The computed peak.
     pub computed: PeakLine,
-    /// The measured one: its frequency is that of the highest value, and it has a damping ratio where
-    /// its half-power band has three steps of the measurement or more; null where there is none.
+    /// The measured peak. Its frequency is that of the highest value. It has a damping ratio if its half-power band has
+    /// three frequency steps or more. Null where there is no such peak.
     pub measured: Option<PeakLine>,
     /// Computed over measured frequency, less 1.
     pub frequency_difference: Option<f64>,

@@ -1,4 +1,4 @@
-//! The hit document, `sweetspot-hit/1`: what is written is this type, and so is its schema.
+//! The hit document, `sweetspot-hit/1`. This type is written, and the schema derives from it.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -9,9 +9,9 @@ use sweetspot::collision::hit::{Energy, Separation};
 use sweetspot::collision::{Ball, SweetSpot};
 use sweetspot::files::schema::document::{Document, Format, Generator};
 
-/// Hits along a bat: exit speeds, forces, energies and the sweet spot. SI, the unit in every name;
-/// positions count from the knob end; what does not exist is null. The bat moves in the direction
-/// +, the ball comes in − and leaves in +. Later versions of the same number may have more members.
+/// Hits along a bat: exit speeds, forces, energies and the sweet spot. SI units, named at the end of each member;
+/// positions count from the knob end; a value that does not exist is null. The bat moves in the + direction; the ball
+/// arrives with − and leaves with +. Later versions with the same number may have more members.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(title = "Hit file of sweetspot, sweetspot-hit/1")]
 pub struct HitFile {
@@ -19,22 +19,22 @@ pub struct HitFile {
     pub format: Format<HitFile>,
     /// The program that wrote the file.
     pub generator: Generator,
-    /// What was changed about the bat after it was weighed; left out where nothing was.
+    /// Changes made to the bat after it was weighed; left out where there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub edits: Vec<Edit>,
-    /// How the bat's bending is counted.
+    /// The beam model of the bat.
     #[schemars(extend("enum" = ["rigid", "energy-loss", "pulse", "contact"]))]
     pub model: String,
-    /// How the bat is swung, and what ball it meets.
+    /// The swing and the ball.
     pub scene: Scene,
-    /// Impacts, one for each place that was asked for, in the order of the places.
+    /// Impacts, one for each requested place, in the order of the places.
     pub impacts: Vec<Impact>,
     /// The sweet spot of this scene, by each of its definitions.
     pub sweet_spot: SweetSpot,
-    /// Effects that were left out of these hits, and what they do; empty where none is known.
+    /// Neglected effects and their consequences; empty where none is known.
     #[serde(default)]
     pub ignored: Vec<String>,
-    /// The figures by which bats are compared; left out where they were not asked for.
+    /// The figures by which bats are compared; left out where they were not requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub figures: Option<Figures>,
 }
@@ -56,25 +56,26 @@ pub struct Scene {
     pub ball_speed_m_s: f64,
     /// Coefficient of restitution, unless the ball's own depends on the speed.
     pub cor: f64,
-    /// Where the hands feel the hit (m).
+    /// Position at which the hands feel the hit (m).
     pub hands_m: f64,
     /// Who sees the energies: the ground, or of a held bat its hands.
     #[schemars(extend("enum" = ["ground", "hands"]))]
     pub energies_seen_from: String,
-    /// How the barrel gives way under the ball; left out where it does not.
+    /// The compliance of the barrel under the ball; left out for a rigid barrel.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wall: Option<Wall>,
 }
 
-/// The barrel's wall as a spring-mass under the ball, where it gives way.
+/// The wall of a compliant barrel as a spring with a mass under the ball.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Wall {
     /// Stiffness (N/m).
     pub stiffness_n_m: f64,
     /// Mass (kg) of its vibration; 0 is a spring in series.
     pub mass_kg: f64,
-    /// The hoop modes by which it gives way; left out where the two numbers above are all there is. These
-    /// are then one spring-mass for a slow force 6 in from the tip, and hits count every mode.
+    /// The hoop modes of the compliant wall; left out where the two numbers above describe it completely. With hoop
+    /// modes, the two numbers describe one spring with a mass that is equivalent for a slow force 6 in from the tip,
+    /// while the hits use every mode.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hoop: Option<HoopInHit>,
 }
@@ -94,17 +95,17 @@ pub struct HoopInHit {
     pub patch_compression_m: f64,
 }
 
-/// One impact. Most is null where ball and bat do not meet, or where the model has no real answer;
-/// `flags` says why.
+/// One impact. Most members are null where ball and bat do not meet, or where the model has no real solution; `flags`
+/// gives the reason.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Impact {
-    /// Where the ball meets the bat (m).
+    /// Position of the impact (m).
     pub x_m: f64,
     /// Distance of the impact point from the tip (m).
     pub from_tip_m: f64,
     /// Speed of the bat at the impact point before the hit (m/s).
     pub bat_speed_m_s: f64,
-    /// Speed of the ball off the bat once it is gone for good (m/s).
+    /// Speed of the ball after its last contact with the bat (m/s).
     pub exit_speed_m_s: Option<f64>,
     /// Speed of the ball off the bat if the bat did not bend (m/s).
     pub rigid_exit_speed_m_s: Option<f64>,
@@ -119,7 +120,7 @@ pub struct Impact {
     pub first_separation: Option<Separation>,
     /// Largest force (N), where the model has one.
     pub peak_force_n: Option<f64>,
-    /// Largest compression of the ball (m), where the model has one.
+    /// Largest compression of the ball (m), if the model has one.
     #[serde(default)]
     pub peak_compression_m: Option<f64>,
     /// Collision efficiency e_A = (v_out − V)/(v_in + V), V the bat's speed at the impact point.
@@ -131,14 +132,13 @@ pub struct Impact {
     pub bbcor_pivoted: Option<f64>,
     /// Number of bending modes that took part.
     pub modes_used: Option<usize>,
-    /// Why the impact has no outcome: no_contact, no_section, no_real_solution, unresolved (the steps
-    /// came to no end, or the energies do not close). Or what makes it delicate: reload (the ball was
-    /// pressed further after it had begun to spring back), late_contact (the bat caught up when the
-    /// force had almost gone), second_contact (the bat caught the ball again after it left; it is
-    /// followed); or that the ball's law was not measured for such a hit (ball_law_beyond). Later versions may have
-    /// more.
+    /// Why the impact has no outcome: no_contact, no_section, no_real_solution, unresolved (the time steps reached no
+    /// end, or the energies do not balance). Or what makes it delicate: reload (the ball was compressed further after
+    /// it had begun to expand), late_contact (the bat caught up when the force had almost vanished), second_contact
+    /// (the bat caught the ball again after it had left; the second contact is included), ball_law_beyond (the law of
+    /// the ball was not measured for such a hit). Later versions may have more flags.
     pub flags: Vec<String>,
-    /// Where the energy went; null without an outcome.
+    /// The distribution of the energy; null without an outcome.
     pub energy_j: Option<Energy>,
     /// How far the numbers above may be off.
     pub error: HitError,
@@ -154,7 +154,7 @@ pub struct HitError {
 /// The figures by which bats are compared, computed from this model.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Figures {
-    /// Always false: these figures certify nothing by any standard.
+    /// Always false: these figures are no certificate under any standard.
     pub certified: bool,
     /// Exit speed at the sweet spot (m/s).
     pub bat_ball_speed_m_s: Option<f64>,

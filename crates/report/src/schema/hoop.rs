@@ -1,4 +1,4 @@
-//! The document of the verb `hoop`, `sweetspot-hoop/1`: what is written is this type, and so is its schema.
+//! The document of the verb `hoop`, `sweetspot-hoop/1`. This type is written, and the schema derives from it.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -10,9 +10,9 @@ use sweetspot_study::trampoline::barrel::{HoopModel, Rebound};
 use sweetspot_study::trampoline::pressed::{BarrelCompression, PressedWall};
 use sweetspot_study::trampoline::thickness::WallTried;
 
-/// How the barrel of a hollow bat rings, how its wall gives way under a ball, and what that does to the ball.
-/// SI, the unit in every name; positions count from the knob end; what does not exist is null. Later
-/// versions of the same number may have more members.
+/// How the barrel of a hollow bat rings, how its wall deforms under a ball, and how that affects the ball. SI units,
+/// named at the end of each member; positions count from the knob end; a value that does not exist is null. Later
+/// versions with the same number may have more members.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[schemars(title = "Hoop file of sweetspot, sweetspot-hoop/1")]
 pub struct HoopFile {
@@ -20,27 +20,27 @@ pub struct HoopFile {
     pub format: Format<HoopFile>,
     /// The program that wrote the file.
     pub generator: Generator,
-    /// What the bat is called.
+    /// Name of the bat.
     pub bat_name: String,
-    /// What was changed about the bat after it was weighed; left out where nothing was.
+    /// Changes made to the bat after it was weighed; left out where there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub edits: Vec<Edit>,
-    /// What the modes were found with.
+    /// The model of the modes.
     pub model: HoopModel,
-    /// Every mode that was found, by rising harmonic, of a harmonic by rising frequency.
+    /// Every mode found, ordered by harmonic and then by frequency.
     pub modes: Vec<ShapedMode>,
     /// The wall under the ball; null where the ball does not meet the stretch that is modelled.
     pub wall: Option<PressedWall>,
     /// How fast the ball comes back; null without a wall under it and for a ball without a force law.
     pub bbcor: Option<Rebound>,
-    /// What a test of the barrel's compression would show; null where there is no wall under the ball.
+    /// The predicted result of a barrel compression test; null where there is no wall under the ball.
     pub compression: Option<BarrelCompression>,
-    /// The bat with thinner and thicker walls, its surface where it is; left out where that was not asked.
+    /// The bat with thinner and thicker walls and the same outer surface; left out where this was not requested.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub wall_sweep: Vec<WallTried>,
-    /// What was assumed, and where the model ends, a sentence each.
+    /// Assumptions and limits of the model, one sentence each.
     pub notes: Vec<String>,
-    /// Whether every frequency is as accurate as was asked.
+    /// Whether every frequency is as accurate as requested.
     pub tolerance_met: bool,
 }
 
@@ -48,14 +48,14 @@ impl Document for HoopFile {
     const NAME: &'static str = "hoop";
 }
 
-/// A mode of the wall, and how the outer surface moves in it.
+/// A mode of the wall, and the motion of the outer surface in it.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[schemars(rename = "HoopMode")]
 pub struct ShapedMode {
     /// The mode.
     #[serde(flatten)]
     pub mode: HoopMode,
-    /// How the outer surface moves; left out where no samples were asked.
+    /// Motion of the outer surface; left out where no samples were requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shape: Option<Outline>,
 }

@@ -5,8 +5,8 @@ use serde::Serialize;
 
 use sweetspot::files::schema::document::{Document, Format, Generator};
 
-/// Modes that measured frequency responses of one bat share. SI, the unit in every name; what does not exist is null.
-/// Later versions of the same number may have more members.
+/// The modes common to the measured frequency responses of one bat. SI units, named at the end of each member; a value
+/// that does not exist is null. Later versions with the same number may have more members.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 #[schemars(title = "Modes of responses of sweetspot, sweetspot-identify/1")]
 pub struct IdentifyFile {
@@ -14,11 +14,11 @@ pub struct IdentifyFile {
     pub format: Format<IdentifyFile>,
     /// The program that wrote the file.
     pub generator: Generator,
-    /// How many responses there are.
+    /// Number of responses.
     pub responses: usize,
-    /// What was at another place for every response: hammer or accelerometer.
+    /// What was moved from response to response: hammer or accelerometer.
     pub roved: String,
-    /// Where the other was.
+    /// Positions of the other one.
     pub references: Vec<IdentifyPlace>,
     /// Lowest and highest frequency (Hz).
     pub band_hz: [f64; 2],
@@ -26,11 +26,11 @@ pub struct IdentifyFile {
     pub damping: String,
     /// The modes, rising.
     pub modes: Vec<IdentifyMode>,
-    /// What was found with 1, 2, … poles, in the order in which they came: frequencies (Hz).
+    /// Frequencies found with 1, 2, … poles, in this order (Hz).
     pub orders_hz: Vec<Vec<f64>>,
-    /// What the virtual test says; null where responses were measured.
+    /// Results of the virtual test; null where responses were measured.
     pub simulated: Option<IdentifySimulated>,
-    /// What is to be said of the responses.
+    /// Warnings about the responses.
     pub warnings: Vec<IdentifySaid>,
 }
 
@@ -43,7 +43,7 @@ impl Document for IdentifyFile {
 pub struct IdentifyPlace {
     /// Label of the node.
     pub node: i64,
-    /// Where it is along the axis, from the file's own origin (m).
+    /// Position along the axis, from the origin of the file (m).
     pub x_m: f64,
 }
 
@@ -52,20 +52,20 @@ pub struct IdentifyPlace {
 pub struct IdentifyMode {
     /// Undamped natural frequency (Hz).
     pub frequency_hz: f64,
-    /// Where it lies in 95 of 100 cases (Hz), by the noise of the responses.
+    /// Interval of 95 % confidence (Hz), by the noise of the responses.
     pub frequency_interval95_hz: [f64; 2],
     /// Damping ratio, half the loss factor.
     pub damping_ratio: f64,
-    /// Where it lies in 95 of 100 cases.
+    /// Interval of 95 % confidence.
     pub damping_ratio_interval95: [f64; 2],
     /// Modal phase collinearity of the shape: 1 where all points move in phase or against it.
     pub phase_collinearity: f64,
-    /// Modal mass of this shape (kg); null without a response whose hammer and accelerometer were at one place.
+    /// Modal mass of this shape (kg); null without a response with hammer and accelerometer at one place.
     pub modal_mass_kg: Option<f64>,
-    /// With how many poles it was found first and ever after.
+    /// The number of poles from which on it was always found.
     pub found_from_order: usize,
-    /// By what the accelerometers' masses lower the frequency, relative, which is taken off; null where they were not
-    /// told.
+    /// Relative decrease of the frequency due to the masses of the accelerometers, for which the frequency is
+    /// corrected; null where the masses were not given.
     pub lowered: Option<f64>,
     /// Its shape, along the axis, the largest deflection of size 1.
     pub shape: Vec<IdentifyPoint>,
@@ -76,7 +76,7 @@ pub struct IdentifyMode {
 pub struct IdentifyPoint {
     /// Label of the node.
     pub node: i64,
-    /// Where it is along the axis, from the file's own origin (m).
+    /// Position along the axis, from the origin of the file (m).
     pub x_m: f64,
     /// Deflection, real part.
     pub re: f64,
@@ -84,7 +84,7 @@ pub struct IdentifyPoint {
     pub im: f64,
 }
 
-/// What a virtual test of a bat says.
+/// Results of the virtual test of a bat.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct IdentifySimulated {
     /// The bat's name.
@@ -101,15 +101,15 @@ pub struct IdentifySimulated {
     pub window_s: Option<f64>,
     /// Which noise, and which places are missing.
     pub seed: u64,
-    /// The bat's modes in the band, and what is found of each.
+    /// The modes of the bat in the band, and the result for each.
     pub modes: Vec<IdentifyPlanned>,
-    /// Where to hang the bat: the wanted modes move least there (m from the knob end).
+    /// Where to suspend the bat: the wanted modes move least there (m from the knob end).
     pub hang_m: Vec<f64>,
-    /// Where the reference shows every wanted mode best (m from the knob end).
+    /// The reference position that shows every wanted mode best (m from the knob end).
     pub reference_m: f64,
-    /// How much of its largest deflection the faintest wanted mode has there.
+    /// The smallest deflection of a wanted mode at the reference, relative to the largest of that mode.
     pub reference_least: f64,
-    /// Spectrum of the force where it is weakest in the band, over the strongest (dB).
+    /// Smallest spectrum of the force in the band, relative to its largest (dB).
     pub force_db: f64,
 }
 
@@ -120,15 +120,15 @@ pub struct IdentifyPlanned {
     pub order: usize,
     /// Frequency of the bat alone (Hz).
     pub frequency_hz: f64,
-    /// By what the accelerometers' masses change the frequency, relative.
+    /// Relative change of the frequency due to the masses of the accelerometers.
     pub by_masses: f64,
-    /// What was found (Hz); null where it is missed.
+    /// The frequency found (Hz); null where the mode is missed.
     pub found_hz: Option<f64>,
-    /// How alike the shape that was found is, 0 to 1; null where it is missed.
+    /// Similarity of the shape found, 0 to 1; null where the mode is missed.
     pub mac: Option<f64>,
 }
 
-/// Something that is said of responses.
+/// A warning about responses.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct IdentifySaid {
     /// Its name for programs.

@@ -1,4 +1,4 @@
-//! The document of a lathe map, `sweetspot-lathe/1`: what is written is this type, and so is its schema.
+//! The document of a lathe map, `sweetspot-lathe/1`. This type is written, and the schema derives from it.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -8,8 +8,8 @@ use sweetspot::bat::edit::Edit;
 use sweetspot::files::schema::document::{Document, Format, Generator};
 use sweetspot_study::lathe::found::LatheFound;
 
-/// What cuts and weights do to a bat. SI, the unit in every output's name; positions count from the knob end;
-/// what does not exist is null. Changes of bands are per millimetre of diameter taken off. Later versions of the
+/// How cuts and weights change a bat. SI units, named at the end of each member; positions count from the knob end; a
+/// value that does not exist is null. Changes of bands are per millimetre of diameter removed. Later versions with the
 /// same number may have more members.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[schemars(title = "Lathe file of sweetspot, sweetspot-lathe/1")]
@@ -18,20 +18,20 @@ pub struct LatheFile {
     pub format: Format<LatheFile>,
     /// The program that wrote the file.
     pub generator: Generator,
-    /// What the bat is called.
+    /// Name of the bat.
     pub bat_name: String,
-    /// What was changed about the bat before; left out where nothing was.
+    /// Changes made to the bat before; left out where there are none.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub edits: Vec<Edit>,
-    /// How the bat's bending is counted in hits.
+    /// The beam model of the bat in hits.
     #[schemars(extend("enum" = ["rigid", "energy-loss", "pulse", "contact"]))]
     pub model: String,
-    /// How the bat is swung, and what ball it meets.
+    /// The swing and the ball.
     pub scene: Scene,
     /// The beam theory of the modes.
     #[schemars(extend("enum" = ["euler-bernoulli", "rayleigh", "timoshenko"]))]
     pub theory: String,
-    /// What was found.
+    /// The results.
     #[serde(flatten)]
     pub found: LatheFound,
 }

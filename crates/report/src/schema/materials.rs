@@ -6,8 +6,8 @@ use serde::Serialize;
 use sweetspot::bat::material::BUILT_IN;
 use sweetspot::files::schema::document::{Document, Format, Generator};
 
-/// The materials that a bat file may name, with where their numbers come from. SI, the unit in every
-/// name; what is not known is null. Later versions of the same number may have more members.
+/// The materials that a bat file may name, with the sources of their numbers. SI units, named at the end of each
+/// member; an unknown value is null. Later versions with the same number may have more members.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[schemars(title = "Materials file of sweetspot, sweetspot-materials/1")]
 pub struct MaterialsFile {
@@ -26,7 +26,7 @@ impl Document for MaterialsFile {
 /// A built-in material, along the axis where it is wood.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Listed {
-    /// What a bat file calls it.
+    /// The name in bat files.
     pub name: &'static str,
     /// Density (kg/m³).
     pub density_kg_m3: f64,
@@ -41,14 +41,14 @@ pub struct Listed {
     pub loss_factor: Option<f64>,
     /// Strain at which it breaks in a blow, if known.
     pub strain_to_failure: Option<f64>,
-    /// Where strength and strain to failure come from; empty where neither is known.
+    /// Source of strength and strain to failure; empty where neither is known.
     pub strength_source: &'static str,
-    /// Where the other numbers come from.
+    /// Source of the other numbers.
     pub source: &'static str,
 }
 
 impl MaterialsFile {
-    /// All there are.
+    /// All materials.
     pub fn built_in() -> Self {
         let materials = BUILT_IN.iter().map(|m| Listed {
             name: m.name,

@@ -1,4 +1,4 @@
-//! Measured modes beside computed ones, `sweetspot-measured/1`.
+//! Measured modes compared with computed ones, `sweetspot-measured/1`.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -8,9 +8,9 @@ use sweetspot::bat::theory::Theory;
 use sweetspot::files::schema::document::{Document, Format, Generator};
 use sweetspot_study::measured::study::Shapes;
 
-/// The measured modes of a bat beside the computed ones: which is which, how far they differ, and how
-/// alike their shapes are. SI, the unit in every name; positions count from the knob end; what does
-/// not exist is null. Later versions of the same number may have more members.
+/// The measured modes of a bat compared with the computed ones: which belong together, how far they differ, and how
+/// similar their shapes are. SI units, named at the end of each member; positions count from the knob end; a value that
+/// does not exist is null. Later versions with the same number may have more members.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[schemars(title = "Measured modes file of sweetspot, sweetspot-measured/1")]
 pub struct MeasuredFile {
@@ -22,7 +22,7 @@ pub struct MeasuredFile {
     pub bat: ComputedBat,
     /// The file of the measured modes.
     pub source: String,
-    /// What had to be assumed to read it, a sentence each.
+    /// The assumptions made in reading it, one sentence each.
     pub assumed: Vec<String>,
     /// Measured modes, by rising frequency.
     pub measured: Vec<MeasuredMode>,
@@ -36,9 +36,9 @@ pub struct MeasuredFile {
     pub unpaired_measured: Vec<String>,
     /// Numbers of the computed modes without a measured partner, up to the highest measured frequency.
     pub unpaired_computed: Vec<usize>,
-    /// What follows, in sentences.
+    /// The conclusions in sentences.
     pub words: Vec<String>,
-    /// What the shapes say; left out where none were measured.
+    /// Results from the shapes; left out where none were measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shapes: Option<Shapes>,
 }
@@ -50,11 +50,11 @@ impl Document for MeasuredFile {
 /// The bat of the computed modes.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ComputedBat {
-    /// What the bat is called.
+    /// Name of the bat.
     pub name: String,
     /// The bat's file.
     pub file: String,
-    /// What was changed about the bat after it was weighed; left out where nothing was.
+    /// Changes made to the bat after it was weighed; left out where there are none.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub edits: Vec<Edit>,
     /// Beam theory.
@@ -62,14 +62,14 @@ pub struct ComputedBat {
     pub theory: &'static str,
 }
 
-/// A measured mode; what follows from a shape is null where that was not measured.
+/// A measured mode. Members that need a shape are null where it was not measured.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct MeasuredMode {
-    /// What the file calls it.
+    /// The name in the file.
     pub name: String,
     /// Measured frequency (Hz).
     pub frequency_hz: f64,
-    /// Damping ratio, if it was measured.
+    /// Damping ratio, if measured.
     pub damping_ratio: Option<f64>,
     /// Whether the bat bends, or moves as a rigid body on its supports.
     #[schemars(extend("enum" = ["bending", "rigid"]))]
@@ -78,7 +78,7 @@ pub struct MeasuredMode {
     pub off_a_straight_line: Option<f64>,
     /// How nearly all points move in phase or against it, 1 if all do.
     pub phase_collinearity: Option<f64>,
-    /// Share of the shape that is out of phase.
+    /// Out-of-phase share of the shape.
     pub out_of_phase: Option<f64>,
     /// Rigid motion in the shape, as a share of its size.
     pub rigid_share: Option<f64>,

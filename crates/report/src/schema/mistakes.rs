@@ -1,13 +1,13 @@
-//! The document of what is wrong, `sweetspot-error/1`: what is written is this type, and so is its schema.
+//! The document of mistakes, `sweetspot-error/1`. This type is written, and the schema derives from it.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use sweetspot::files::schema::document::{Document, Format, Generator};
 
-/// Why there is no answer: every mistake that was found, with its place and what to do. With `--json` it is
-/// the last line on standard error, after the same for people; the exit code is 2, or 3 where an accuracy
-/// was not reached. Later versions of the same number may have more members.
+/// Why there is no answer: every mistake found, with its place and what to do. With `--json` it is the last line on
+/// standard error, after the same text for people. The exit code is 2, or 3 where an accuracy was not reached. Later
+/// versions with the same number may have more members.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(title = "What is wrong, by sweetspot, sweetspot-error/1")]
 pub struct ErrorFile {
@@ -17,7 +17,7 @@ pub struct ErrorFile {
     pub generator: Generator,
     /// The mistakes in the order of the file, one at least.
     pub mistakes: Vec<Mistake>,
-    /// How many more were found that are not listed.
+    /// Number of further mistakes that are not listed.
     pub more: usize,
 }
 
@@ -25,20 +25,20 @@ impl Document for ErrorFile {
     const NAME: &'static str = "error";
 }
 
-/// One mistake. What does not exist is null: a mistake on the command line has no file and no line.
+/// One mistake. A value that does not exist is null: a mistake on the command line has no file and no line.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Mistake {
-    /// The file, as it was given.
+    /// The file, as given.
     pub file: Option<String>,
-    /// The line of the file, counted from 1.
+    /// The line in the file, counted from 1.
     pub line: Option<usize>,
-    /// The column in that line, counted in characters from 1.
+    /// The column in that line, in characters, counted from 1.
     pub column: Option<usize>,
-    /// The value that is wrong: its path in the file such as profile.x\[3\], or its option.
+    /// The place of the wrong value: its path in the file such as profile.x\[3\], or its option.
     pub place: Option<String>,
-    /// What was found there; where it is not a value, what is wrong.
+    /// The value found there, or what is wrong where it is not a value.
     pub found: String,
-    /// What was expected there.
+    /// What was expected.
     pub expected: Option<String>,
     /// What to do about it.
     pub hint: Option<String>,

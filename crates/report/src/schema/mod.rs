@@ -1,9 +1,9 @@
-//! What the files look like: each a type whose JSON Schema follows from it (draft 2020-12).
+//! The formats of the files. Each is a type from which its JSON Schema derives (draft 2020-12).
 //!
-//! The documents that are written, such as [`modes::ModesFile`] and [`hit::HitFile`], are these types
-//! themselves. They may grow: who reads them passes over members he does not know. The files that are
-//! read, [`BatFile`](sweetspot::files::schema::bat::BatFile) and [`BallFile`](sweetspot::files::schema::ball::BallFile), have no members but their own, as their readers. A
-//! document whose name ends in another number than `/1` fits none of these types.
+//! The written documents, such as [`modes::ModesFile`] and [`hit::HitFile`], are these types themselves. They may grow,
+//! so readers must ignore unknown members. The files that are read, [`BatFile`](sweetspot::files::schema::bat::BatFile)
+//! and [`BallFile`](sweetspot::files::schema::ball::BallFile), admit no unknown members, in the schema as in the
+//! reader. A document whose name ends in a number other than `/1` fits none of these types.
 //!
 //! # Source
 //!
@@ -46,12 +46,12 @@ pub fn of<D: Document>() -> Value {
     finished(settings.into_generator().into_root_schema_for::<D>(), &id(D::NAME))
 }
 
-/// The name of the schema of documents of that name, wherever it is kept.
+/// The identifier of the schema of the documents with that name, wherever it is kept.
 pub fn id(name: &str) -> String {
     format!("urn:sweetspot:{name}:1")
 }
 
-/// A document as it is written, in lines.
+/// The text of a document, in lines.
 pub fn text<T: Serialize>(document: &T) -> String {
     marks::json(&format!("{:#}\n", value(document)))
 }
@@ -61,11 +61,11 @@ pub fn value<T: Serialize>(document: &T) -> Value {
     serde_json::to_value(document).expect("these types have text keys and no maps of other keys")
 }
 
-/// The draft of JSON Schema that all of them follow.
+/// The draft of JSON Schema that all schemas follow.
 pub const DRAFT: &str = "https://json-schema.org/draft/2020-12/schema";
 
-/// The schema with its name first, descriptions in whole lines, and no null where a member is left
-/// out instead.
+/// The schema with its identifier first, without line breaks in descriptions, and without null where an absent member
+/// is left out instead.
 fn finished(mut schema: Schema, id: &str) -> Value {
     RecursiveTransform(absent_not_null).transform(&mut schema);
     RecursiveTransform(plain).transform(&mut schema);
@@ -80,7 +80,7 @@ fn finished(mut schema: Schema, id: &str) -> Value {
     named
 }
 
-/// A member that may be absent is never null: only what must be there can say that it has no value.
+/// A member that may be absent is never null. Only a required member uses null for a missing value.
 fn absent_not_null(schema: &mut Schema) {
     let required = schema.get("required").cloned().unwrap_or(json!([]));
     let must = |key: &str| required.as_array().is_some_and(|all| all.contains(&json!(key)));
@@ -103,13 +103,13 @@ fn without_null(member: &mut Map<String, Value>) {
             member.insert("type".to_owned(), one);
         }
     }
-    // Of two alternatives, one of them null, the other one is the schema.
+    // Of two alternatives, one of them null, keep the other.
     let Some(Value::Array(alternatives)) = member.get_mut("anyOf") else { return };
     alternatives.retain(|alternative| *alternative != json!({ "type": "null" }));
     if let [Value::Object(one)] = &alternatives[..] {
         let one = one.clone();
         member.remove("anyOf");
-        // What is said of the member itself stands before what is said of its type.
+        // The description of the member precedes that of its type.
         for (key, value) in one {
             member.entry(key).or_insert(value);
         }

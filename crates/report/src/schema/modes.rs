@@ -1,4 +1,4 @@
-//! The modes document, `sweetspot-modes/1`: what is written is this type, and so is its schema.
+//! The modes document, `sweetspot-modes/1`. This type is written, and the schema derives from it.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -7,9 +7,9 @@ use sweetspot::bat::theory::Theory;
 use sweetspot::files::schema::document::{Document, Format, Generator};
 use sweetspot::files::schema::resolved::ResolvedBat;
 
-/// The bending modes of a bat: frequencies, shapes, nodes and how far they may be trusted. SI, the
-/// unit in every name; positions count from the knob end; what does not exist is null. Later
-/// versions of the same number may have more members.
+/// The bending modes of a bat: frequencies, shapes, nodes and their errors. SI units, named at the end of each member;
+/// positions count from the knob end; a value that does not exist is null. Later versions with the same number may have
+/// more members.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(title = "Modes file of sweetspot, sweetspot-modes/1")]
 pub struct ModesFile {
@@ -17,18 +17,18 @@ pub struct ModesFile {
     pub format: Format<ModesFile>,
     /// The program that wrote the file.
     pub generator: Generator,
-    /// The bat as it was understood, a bat file in its own right.
+    /// The bat as the program understood it, as a complete bat file.
     pub bat: ResolvedBat,
     /// The bat as a rigid body: length, mass, balance point, moments of inertia.
     pub summary: Summary,
-    /// What was computed, and how.
+    /// Model and settings of the computation.
     pub model: Model,
-    /// How many motions of the bat are rigid, at 0 Hz: 2 of a free bat. They are not among `modes`.
+    /// Number of rigid-body modes, at 0 Hz: 2 for a free bat. They are not among `modes`.
     #[schemars(range(max = 2))]
     pub rigid_modes: usize,
     /// The elastic modes, rising in frequency.
     pub modes: Vec<Mode>,
-    /// What the proven frequencies rest on; only where they were asked for.
+    /// The basis of the proven frequencies; only where they were requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub proof: Option<Proof>,
     /// Left out where equal input was to give equal bytes.
@@ -52,18 +52,18 @@ pub struct Summary {
     pub balance_point_m: f64,
     /// Moment of inertia about the balance point (kg m²).
     pub inertia_balance_kg_m2: f64,
-    /// Where standards hold a bat: 6 in from the knob end (m).
+    /// Position at which standards hold a bat: 6 in from the knob end (m).
     pub pivot_m: f64,
     /// Moment of inertia about that pivot (kg m²): the swing weight.
     pub inertia_pivot_kg_m2: f64,
     /// Centre of percussion for that pivot (m); null if the pivot is the balance point.
     pub center_of_percussion_m: Option<f64>,
-    /// What the weighed and tapped values changed; absent for a bat without such values.
+    /// The adjustment to the weighed and tapped values; absent for a bat without such values.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub weighed: Option<WeighedFactors>,
 }
 
-/// What came of what was weighed and tapped; only of a bat of which something was.
+/// The adjustment to the weighed and tapped values; only for a bat with such values.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct WeighedFactors {
     /// Factor on all densities that the weighed mass led to.
@@ -76,7 +76,7 @@ pub struct WeighedFactors {
     /// Computed balance point less the measured one (m).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub balance_point_difference_m: Option<f64>,
-    /// The swing weight that was measured, about 6 in from the knob end, as such or by a pendulum (kg m²).
+    /// The measured swing weight about 6 in from the knob end, given as such or by a pendulum (kg m²).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub inertia_pivot_kg_m2: Option<f64>,
     /// Computed swing weight less the measured one (kg m²).
@@ -84,7 +84,7 @@ pub struct WeighedFactors {
     pub inertia_pivot_difference_kg_m2: Option<f64>,
 }
 
-/// What was computed, and how.
+/// Model and settings of the computation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Model {
     /// Beam theory.
@@ -94,7 +94,7 @@ pub struct Model {
     pub elements: usize,
     /// Degree of the deflection in each element.
     pub degree: usize,
-    /// How the eigenvalues were found.
+    /// The eigenvalue solver.
     #[schemars(extend("enum" = ["statics", "dense", "shift-invert", "arpack"]))]
     pub solver: String,
     /// Unknowns of the assembled matrices.
@@ -103,21 +103,21 @@ pub struct Model {
     pub lanczos_steps: usize,
     /// Why this mesh and this degree, in words.
     pub plan: String,
-    /// Whether every frequency is within the wanted tolerance by its own estimate.
+    /// Whether the estimated error of every frequency is within the wanted tolerance.
     pub tolerance_met: bool,
     /// Whether it is certain that no mode is missing from the list.
     pub no_mode_missing: bool,
-    /// Effects that were left out and what they cost, a sentence each.
+    /// Neglected effects and the errors they cause, one sentence each.
     pub ignored: Vec<String>,
-    /// How the damping was found; only of a damped bat.
+    /// The method of the damping; only for a damped bat.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub damping: Option<Damping>,
 }
 
-/// How the damping was found; only of a damped bat.
+/// The method of the damping; only for a damped bat.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Damping {
-    /// How the damping was found, in words.
+    /// The method in words.
     pub method: String,
     /// Decay rates (1/s) of rigid motions that only dashpots hold.
     pub rigid_decay_1_per_s: Vec<f64>,
@@ -138,20 +138,19 @@ pub struct Mode {
     pub damping_ratio: f64,
     /// Modal mass (kg) under the shape's scaling.
     pub modal_mass_kg: f64,
-    /// Isolated interior zeros of the deflection (m), from the knob: those that are certainly there.
+    /// Isolated interior zeros of the deflection (m), from the knob end, as far as they are certain.
     pub nodes_m: Vec<f64>,
-    /// Stretches (m), from the knob, where the deflection is below its own error, so that no node beside those of
-    /// `nodes_m` can be told there; only of a mode that has such a stretch.
+    /// Stretches (m), from the knob end, where the deflection is smaller than its error, so that no further node can be
+    /// located there; only for a mode with such a stretch.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub nodes_untold_m: Option<Vec<[f64; 2]>>,
-    /// Between which numbers the exact beam's frequency lies; only of a mode of which that was asked and is
-    /// proven.
+    /// Interval that contains the frequency of the exact beam; only for a mode for which it was requested and proven.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub proven: Option<ProvenFrequency>,
-    /// Intervals (m), from the knob, with a node of the mode in each; only where they were asked for.
+    /// Intervals (m), from the knob end, that each contain a node of the mode; only where they were requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub proven_nodes_m: Option<Vec<[f64; 2]>>,
-    /// Between which numbers this frequency of every bat lies that is within the asked tolerances of this one.
+    /// Interval that contains this frequency for every bat within the requested tolerances of this one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub proven_within: Option<ProvenFrequency>,
     /// How far the numbers above may be off.
@@ -172,13 +171,13 @@ pub struct ProvenFrequency {
     pub upper_hz: f64,
 }
 
-/// What proven frequencies rest on: numbers from which the bounds of `τ = 1/ω²` follow by Temple's theorem and
-/// from which it follows that no mode is missing.
+/// The basis of proven frequencies: numbers that give the bounds of `τ = 1/ω²` by Temple's theorem and show that no
+/// mode is missing.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Proof {
-    /// Whether every asked mode is proven and its interval is as narrow as asked.
+    /// Whether every requested mode is proven and its interval is as narrow as requested.
     pub met: bool,
-    /// How many modes are proven, from the first on, none missing.
+    /// Number of proven modes, counted from the first, with none missing.
     pub proven: usize,
     /// How many motions were tried.
     pub trials: usize,
@@ -190,16 +189,16 @@ pub struct Proof {
     pub trace_s2: f64,
     /// The sum of all τ² is at most this (s⁴).
     pub norm_squared_s4: f64,
-    /// No τ beside those of the trials' intervals is above this (s²).
+    /// Upper bound of every τ outside the intervals of the trials (s²).
     pub others_s2: f64,
-    /// What is known of the trial of each proven mode, in their order.
+    /// Data of the trial of each proven mode, in order.
     pub trial: Vec<ProofOfTrial>,
-    /// Every bat within this of the file's was looked at for `proven_within`.
+    /// Tolerances of the bats that `proven_within` covers.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub within: Option<ProofWithin>,
 }
 
-/// What is known of a trial.
+/// Data of a trial.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ProofOfTrial {
     /// Rayleigh's quotient σ of the compliance lies between these (s²).
@@ -208,18 +207,18 @@ pub struct ProofOfTrial {
     pub residual_s4: f64,
 }
 
-/// How far a bat may be from what its file says.
+/// Tolerances between a bat and its file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ProofWithin {
     /// Every radius, everywhere along the bat (m).
     pub radius_m: f64,
-    /// Young's and the shear modulus, as a share of what they are.
+    /// Tolerance of Young's modulus and the shear modulus, relative.
     pub modulus: f64,
-    /// Whether every asked mode has a band, each end as sharp as asked.
+    /// Whether every requested mode has an interval, with each end as sharp as requested.
     pub met: bool,
 }
 
-/// Estimated errors; null where none could be made. Those of the frequency are relative to it.
+/// Estimated errors; null where no estimate was possible. Those of the frequency are relative.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ModeError {
     /// Relative error of the frequency, by the finite elements.
@@ -232,11 +231,11 @@ pub struct ModeError {
     pub nodes_m: Option<f64>,
     /// Relative error of the modal mass.
     pub modal_mass: Option<f64>,
-    /// Error of the shape, where its largest deflection is 1.
+    /// Error of the shape, relative to its largest deflection.
     pub shape: Option<f64>,
 }
 
-/// Samples of a shape; as many places as deflections and rotations.
+/// Samples of a shape; positions, deflections and rotations are equally many.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Shape {
     /// Places at which the shape is sampled (m).
@@ -270,7 +269,7 @@ pub struct Damped {
     pub error: f64,
 }
 
-/// Where the time went.
+/// The time taken by each part.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Timing {
     /// Time for planning (s).

@@ -1,4 +1,4 @@
-//! A bat's motion in time, `sweetspot-ring/1`, and what a hit asks of its strength.
+//! The motion of a bat in time, `sweetspot-ring/1`, and the load on it in a hit.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -10,9 +10,9 @@ use sweetspot::collision::aftermath::{Strained, Watched};
 use sweetspot::collision::strength::Load;
 use sweetspot::files::schema::document::{Document, Format, Generator};
 
-/// How a bat moves in time after a hit, or after a blow, under a force or from an initial shape. SI,
-/// the unit in every name; positions count from the knob end, times from the first touch; what does
-/// not exist is null. Later versions of the same number may have more members.
+/// The motion of a bat in time after a hit, after a blow, under a force or from an initial shape. SI units, named at
+/// the end of each member; positions count from the knob end, times from the first contact; a value that does not exist
+/// is null. Later versions with the same number may have more members.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[schemars(title = "Ring file of sweetspot, sweetspot-ring/1")]
 #[serde(untagged)]
@@ -27,19 +27,19 @@ impl Document for RingFile {
     const NAME: &'static str = "ring";
 }
 
-/// What comes of a hit; motions are against the swing.
+/// The motion after a hit, relative to the swing.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct AfterHit {
     /// Name of the format and its version: sweetspot-ring/1.
     pub format: Format<RingFile>,
     /// The program that wrote the file.
     pub generator: Generator,
-    /// What was changed about the bat after it was weighed; left out where nothing was.
+    /// Changes made to the bat after it was weighed; left out where there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub edits: Vec<Edit>,
     /// Number of bending modes.
     pub modes: usize,
-    /// Where the ball meets the bat (m).
+    /// Position of the impact (m).
     pub at_m: f64,
     /// When the ball is gone for good (s).
     pub contact_s: f64,
@@ -47,21 +47,21 @@ pub struct AfterHit {
     pub times_s: Vec<f64>,
     /// Force between ball and bat at every instant (N).
     pub force_n: Vec<f64>,
-    /// What the watched places feel.
+    /// The motion at the watched places.
     pub watched: Vec<Watched>,
     /// The largest strain while the ball is there.
     pub strain_max_in_contact: Option<Strained>,
     /// The largest strain of the whole time.
     pub strain_max: Option<Strained>,
-    /// How far the largest strain changes where a quarter of the modes is left out, relative.
+    /// Relative change of the largest strain when a quarter of the modes is omitted.
     pub strain_error: f64,
     /// The largest strain of every place in the whole time.
     pub along: Along,
-    /// How near the bat comes to what its materials bear; empty where that is not known.
+    /// The load relative to the strength of the materials; empty where that is not known.
     pub strength: Vec<Load>,
     /// The hit itself, as in a hit file.
     pub impact: Impact,
-    /// Effects that were left out, and what they do.
+    /// Neglected effects and their consequences.
     pub ignored: Vec<String>,
 }
 
@@ -83,7 +83,7 @@ pub struct Motion {
     pub format: Format<RingFile>,
     /// The program that wrote the file.
     pub generator: Generator,
-    /// What was changed about the bat after it was weighed; left out where nothing was.
+    /// Changes made to the bat after it was weighed; left out where there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub edits: Vec<Edit>,
     /// Number of bending modes.
@@ -91,11 +91,11 @@ pub struct Motion {
     /// Beam theory.
     #[schemars(extend("enum" = Theory::ALL.map(Theory::name)))]
     pub theory: &'static str,
-    /// Whether the rigid motion is in it.
+    /// Whether the rigid motion is included.
     pub rigid_motion: bool,
-    /// Where the bat is struck or pushed (m); null where it is released from a shape.
+    /// Position of the blow or force (m); null where the bat is released from a shape.
     pub at_m: Option<f64>,
-    /// Impulse of the blow (N s); null where it is pushed or released.
+    /// Impulse of the blow (N s); null for a force or a release.
     pub impulse_n_s: Option<f64>,
     /// Places (m).
     pub x_m: Vec<f64>,

@@ -6,8 +6,9 @@ use serde::Serialize;
 use sweetspot::files::schema::document::{BatName, Document, Format, Generator};
 use sweetspot_study::scatter::scattered::Scattered;
 
-/// How much bats of one model and swings of one batter differ. SI, the unit in every name; positions count from the knob
-/// end; what does not exist is null. Later versions of the same number may have more members.
+/// How much bats of one model and swings of one batter differ. SI units, named at the end of each member; positions
+/// count from the knob end; a value that does not exist is null. Later versions with the same number may have more
+/// members.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 #[schemars(title = "Result of a scatter of sweetspot, sweetspot-scatter-result/1")]
 pub struct ScatterResult {
@@ -17,10 +18,10 @@ pub struct ScatterResult {
     pub generator: Generator,
     /// The bat in the middle.
     pub bat: BatName,
-    /// What was found.
+    /// The results.
     #[serde(flatten)]
     pub found: Scattered,
-    /// All of it in sentences.
+    /// All results in sentences.
     pub words: Vec<String>,
 }
 

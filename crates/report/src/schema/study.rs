@@ -5,8 +5,8 @@ use serde::Serialize;
 
 use sweetspot::files::schema::document::{Document, Format, Generator};
 
-/// What the parts in a folder are: of which study and which files, made by which program, with which columns,
-/// and how many.
+/// Description of the parts in a folder: the study and its files, the program that made them, the columns, and the
+/// number of rows.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[schemars(title = "Manifest of a study of sweetspot, sweetspot-study-manifest/1")]
 pub struct StudyManifest {

@@ -1,4 +1,4 @@
-//! What a recording of taps says of a bat, `sweetspot-tap/1`.
+//! Results of recordings of taps on a bat, `sweetspot-tap/1`.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -6,8 +6,8 @@ use serde::Serialize;
 use sweetspot::files::schema::document::{BatName, Document, Format, Generator};
 use sweetspot_study::calibrate::calibration::Calibration;
 
-/// What recordings of taps say of a bat: taps, tones, which mode each tone is, and the wood. SI, the unit in every
-/// name; what does not exist is null. Later versions of the same number may have more members.
+/// Results of recordings of taps on a bat: taps, tones, the mode of each tone, and the wood. SI units, named at the end
+/// of each member; a value that does not exist is null. Later versions with the same number may have more members.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 #[schemars(title = "Taps of sweetspot, sweetspot-tap/1")]
 pub struct TapFile {
@@ -23,19 +23,19 @@ pub struct TapFile {
     pub taps: Vec<TapMoment>,
     /// The tones, rising.
     pub tones: Vec<TapTone>,
-    /// The next best labels; null where none come near or none were sought.
+    /// The second best labels; null where no others come near or none were sought.
     pub second: Option<TapSecond>,
-    /// The wood by these tones, its density that of the bat file, its stiffness that at the lowest tone; null where no
+    /// The wood by these tones, with the density of the bat file and the stiffness at the lowest tone; null where no
     /// tone is a bending mode.
     pub wood: Option<Calibration>,
-    /// The loss factor of the wood, at most: that of the bending tone that is damped least. Null where loss factors are
-    /// not to be believed.
+    /// Upper limit of the loss factor of the wood: that of the bending tone with the least damping. Null where the loss
+    /// factors are not reliable.
     pub loss_factor_at_most: Option<TapWithin>,
     /// Whether the tones fit the bat; null where no labels were sought.
     pub fits: Option<bool>,
-    /// What is to be said of the recordings.
+    /// Warnings about the recordings.
     pub warnings: Vec<TapSaid>,
-    /// Why nothing was found; null where tones were.
+    /// Why nothing was found; null where tones were found.
     pub refused: Option<TapSaid>,
 }
 
@@ -54,7 +54,7 @@ pub struct TapRecording {
     pub codec: Option<String>,
     /// Samples per second (Hz).
     pub rate_hz: f64,
-    /// How many channels it has; one of them was listened to.
+    /// Number of channels, of which one was used.
     pub channels: usize,
     /// How long the part is that was listened to (s).
     pub seconds: f64,
@@ -62,9 +62,9 @@ pub struct TapRecording {
     pub largest: f64,
     /// The share of samples above 0.9 of the largest among those above half of it.
     pub clipped_share: f64,
-    /// Hum that was taken off (Hz).
+    /// Frequency of the hum that was removed (Hz).
     pub hum_hz: Option<f64>,
-    /// By how much hiss above 5 kHz rises while a tap rings (dB).
+    /// Increase of the noise above 5 kHz while a tap rings (dB).
     pub gain_rise_db: Option<f64>,
 }
 
@@ -96,7 +96,7 @@ pub enum TapMode {
     Hoop {
         /// Waves around the barrel.
         harmonic: usize,
-        /// Its number among those of its harmonic, from 1.
+        /// Its number within its harmonic, from 1.
         order: usize,
     },
 }
@@ -106,17 +106,17 @@ pub enum TapMode {
 pub struct TapTone {
     /// Frequency (Hz).
     pub frequency_hz: f64,
-    /// Where it lies in 95 of 100 cases (Hz).
+    /// Interval of 95 % confidence (Hz).
     pub frequency_interval95_hz: [f64; 2],
     /// Loss factor; null where it is not to be believed.
     pub loss_factor: Option<f64>,
-    /// Where it lies in 95 of 100 cases.
+    /// Interval of 95 % confidence.
     pub loss_factor_interval95: Option<[f64; 2]>,
     /// Decay of the amplitude (1/s).
     pub decay_1_s: f64,
-    /// In what time the amplitude halves (s).
+    /// Time in which the amplitude halves (s).
     pub half_s: f64,
-    /// In how many taps it was heard.
+    /// Number of taps in which it was heard.
     pub taps: usize,
     /// Amplitude at the onset over that of the strongest tone (dB).
     pub level_db: f64,
@@ -124,7 +124,7 @@ pub struct TapTone {
     pub twin_hz: Option<f64>,
     /// Which mode it is; null where it is no mode of this bat.
     pub mode: Option<TapMode>,
-    /// What the bat of the wood that was found has there (Hz).
+    /// The frequency of the bat with the wood that was found (Hz).
     pub computed_hz: Option<f64>,
     /// The chance that the mode is right, 0 to 1; null without one.
     pub sure: Option<f64>,
@@ -135,7 +135,7 @@ pub struct TapTone {
 pub struct TapSecond {
     /// The mode of each line, in the order of the tones, twins as one.
     pub labels: Vec<Option<TapMode>>,
-    /// By how much their chi2 is larger.
+    /// The increase of chi2 with these labels.
     pub margin: f64,
 }
 
@@ -144,11 +144,11 @@ pub struct TapSecond {
 pub struct TapWithin {
     /// The value.
     pub value: f64,
-    /// Where it lies in 95 of 100 cases.
+    /// Interval of 95 % confidence.
     pub interval95: [f64; 2],
 }
 
-/// Something that is said of a recording.
+/// A warning about a recording.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct TapSaid {
     /// Its name for programs.

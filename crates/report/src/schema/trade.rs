@@ -10,9 +10,9 @@ use sweetspot_study::trade::measure::Trade;
 use sweetspot_study::trade::reference::Reference;
 use sweetspot_study::trade::u_curve::Curve;
 
-/// How accurate a bat's frequencies are for the time they take, measured on many meshes and solvers.
-/// Errors are relative, times in s; what does not exist is null. Later versions of the same number may
-/// have more members.
+/// Accuracy of the frequencies of a bat against computing time, measured for many meshes and solvers. Errors are
+/// relative, times in s; a value that does not exist is null. Later versions with the same number may have more
+/// members.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[schemars(title = "Trade file of sweetspot, sweetspot-trade/1")]
 pub struct TradeFile {
@@ -22,7 +22,7 @@ pub struct TradeFile {
     pub generator: Generator,
     /// The bat.
     pub bat: BatName,
-    /// What was measured.
+    /// The measurements.
     #[serde(flatten)]
     pub trade: Trade,
 }
@@ -32,15 +32,15 @@ impl Document for TradeFile {
 }
 
 impl TradeFile {
-    /// The document of what was measured of that bat.
+    /// The document of the measurements of that bat.
     pub fn of(bat: &Bat, trade: Trade) -> Self {
         Self { format: Format::new(), generator: Generator::this(), bat: BatName::of(bat), trade }
     }
 }
 
-/// The error of a bat's frequencies against the number of cubic elements, solver by solver: more
-/// elements first help and then hurt. Errors are relative, times in s; what does not exist is null.
-/// Later versions of the same number may have more members.
+/// The error of the frequencies of a bat against the number of cubic elements, for each solver: more elements first
+/// reduce the error and then increase it. Errors are relative, times in s; a value that does not exist is null. Later
+/// versions with the same number may have more members.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[schemars(title = "U-curve file of sweetspot, sweetspot-u-curve/1")]
 pub struct UCurveFile {
@@ -54,7 +54,7 @@ pub struct UCurveFile {
     pub modes: usize,
     /// Degree of the elements' deflection.
     pub degree: usize,
-    /// What the errors are measured against.
+    /// The reference of the errors.
     pub reference: Reference,
     /// A column for each solver.
     pub columns: Vec<Curve>,

@@ -1,10 +1,10 @@
-//! A bat in its own size on paper, to be held against the work on the lathe.
+//! Templates of a bat in full size on paper, to hold against the work on the lathe.
 //!
 //! | file | question |
 //! |---|---|
-//! | [`sheet`] | what is drawn on a page, in mm; the page as SVG |
+//! | [`sheet`] | what is on a page, in mm; the page as SVG |
 //! | [`pdf`] | the pages as one PDF |
-//! | [`pages`] | the bat on as many pages as it takes, with a bar to measure the print by |
+//! | [`pages`] | the bat on as many pages as needed, with a bar to check the scale of the print |
 
 pub mod sheet;
 pub mod pdf;

@@ -1,14 +1,14 @@
-//! The bat on as many pages as it takes, with a bar to measure the print by.
+//! The bat on as many pages as needed, with a bar to check the scale of the print.
 //!
-//! Each page has a stretch of the outline in its own size, the old outline in dashes, places and diameters
-//! every 10 mm or half inch, and a mark at both ends where the next page is laid on.
+//! Each page has a stretch of the outline in full size, the old outline in dashes, positions and diameters every 10 mm
+//! or half inch, and a mark at both ends to align the next page.
 
 use crate::template::sheet::{Page, Paper};
 use sweetspot::base::number::rounded;
 use sweetspot::base::units::inches;
 use sweetspot::bat::body::Bat;
 
-/// Distance of what is drawn from the edge of the paper (mm).
+/// Distance of the drawing from the edge of the paper (mm).
 const MARGIN: f64 = 12.0;
 /// Distance of the points of an outline (mm).
 const STEP: f64 = 0.5;
@@ -16,7 +16,7 @@ const STEP: f64 = 0.5;
 /// Pages of a bat, and of the bat that it was, on that paper.
 pub fn pages(new: &Bat, old: &Bat, paper: Paper) -> Vec<Page> {
     let length = 1e3 * new.length();
-    // A whole number of ticks, so that none is on two pages.
+    // A whole number of ticks, so that no tick is on two pages.
     let (tick, unit) = if new.inches() { (12.7, "in") } else { (10.0, "mm") };
     let stretch = ((paper.width - 2.0 * MARGIN) / tick).floor() * tick;
     let count = (length / stretch).ceil().max(1.0) as usize;
@@ -102,7 +102,7 @@ impl Stretch<'_> {
         }
     }
 
-    /// Where the next page is laid on.
+    /// Marks for aligning the next page.
     fn ends(&self, page: &mut Page, axis: f64) {
         for place in [self.from, self.to] {
             let x = MARGIN + place - self.from;

@@ -1,4 +1,4 @@
-//! The pages as one PDF, which printers print in its own size.
+//! The pages as one PDF, for printing in full size.
 
 use std::fmt::Write;
 
@@ -30,7 +30,7 @@ pub fn pdf(pages: &[Page]) -> Vec<u8> {
     file(&objects)
 }
 
-/// What is drawn on a page, as operators.
+/// The drawing of a page, as operators.
 fn content(page: &Page) -> String {
     let height = page.paper.height;
     let at = |[x, y]: [f64; 2]| format!("{:.3} {:.3}", x * PER_MM, (height - y) * PER_MM);

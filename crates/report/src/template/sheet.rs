@@ -1,4 +1,4 @@
-//! What is drawn on a page, in mm from its upper left corner; the page as SVG.
+//! The content of a page, in mm from its upper left corner; the page as SVG.
 
 use std::fmt::Write;
 
@@ -7,7 +7,7 @@ use sweetspot::base::xml::escaped;
 /// A size of paper, lying (mm).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Paper {
-    /// What it is called.
+    /// Name of the paper.
     pub name: &'static str,
     /// Width (mm).
     pub width: f64,
@@ -30,7 +30,7 @@ pub enum Drawn {
         points: Vec<[f64; 2]>,
         /// Width (mm).
         width: f64,
-        /// Length of a dash (mm), 0 for none.
+        /// Length of a dash (mm), 0 for a solid line.
         dash: f64,
     },
     /// Words that begin at a place, letters so high.
@@ -49,7 +49,7 @@ pub enum Drawn {
 pub struct Page {
     /// Its paper.
     pub paper: Paper,
-    /// What is drawn on it.
+    /// The drawing.
     pub drawn: Vec<Drawn>,
 }
 
@@ -71,7 +71,7 @@ impl Page {
         self.drawn.push(Drawn::Words { at, size, text: text.into() });
     }
 
-    /// The page as an SVG file of its own size.
+    /// The page as an SVG file in full size.
     pub fn svg(&self) -> String {
         let Paper { width, height, .. } = self.paper;
         let mut out = format!(

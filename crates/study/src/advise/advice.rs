@@ -14,10 +14,10 @@ use sweetspot::base::telling::{Tell, nobody};
 use sweetspot::bat::body::Bat;
 use sweetspot::modes::tuned::tuned;
 
-/// What a bat's model needs.
+/// The parts of a model that a bat needs.
 #[derive(Debug, Clone, Serialize, schemars::JsonSchema)]
 pub struct Advice {
-    /// Number of modes that were looked at.
+    /// Number of modes that were compared.
     pub modes: usize,
     /// How near to the full model's frequencies is near enough, relative.
     pub tolerance: f64,
@@ -25,7 +25,7 @@ pub struct Advice {
     pub full_model: FullModel,
     /// One effect for everything that can be switched.
     pub effects: Vec<Effect>,
-    /// What the bat's materials and dashpots damp.
+    /// The damping of the bat's materials and dashpots.
     pub damping: Damping,
     /// The smallest model within the tolerance.
     pub smallest_model: Smallest,
@@ -36,10 +36,10 @@ pub struct Advice {
 /// The full model.
 #[derive(Debug, Clone, Serialize, schemars::JsonSchema)]
 pub struct FullModel {
-    /// The model and what it says of the modes.
+    /// The model and its modes.
     #[serde(flatten)]
     pub solved: Rc<Solved>,
-    /// Whether its own frequencies are known to the tolerance.
+    /// Whether its frequencies are known to the tolerance.
     pub tolerance_met: bool,
 }
 
@@ -54,11 +54,11 @@ impl Advice {
 /// Most modes that are advised on.
 pub const MOST_MODES: usize = 100;
 
-/// What each part of a bat's model does to its first modes, and the smallest model whose
-/// frequencies are within `tolerance` of those of everything together.
+/// The effect of each part of a bat's model on its first modes, and the smallest model whose frequencies are within
+/// `tolerance` of those of the full model.
 ///
-/// Every model is solved to an accuracy far below the tolerance and the effects. The stiffness that
-/// a tapped frequency gives is found once, with everything on, and kept when parts are taken off.
+/// Every model is solved far more accurately than the tolerance and the effects. The stiffness from a tapped frequency
+/// is fitted once, with all parts, and kept when parts are removed.
 ///
 /// ```
 /// use sweetspot::Bat;
@@ -82,7 +82,7 @@ pub fn advise(bat: &Bat, modes: usize, tolerance: f64) -> Result<Advice> {
     advise_telling(bat, modes, tolerance, &nobody)
 }
 
-/// Advises as [`advise`] does, and tells how many of the smaller models have been tried.
+/// Advises as [`advise`] does, and reports the progress through the smaller models.
 ///
 /// # Errors
 ///
@@ -95,7 +95,7 @@ pub fn advise_telling(bat: &Bat, modes: usize, tolerance: f64, tell: Tell) -> Re
         let expected = "a number between 0 and 1, such as 1e-6 or 0.01";
         return Err(Error::value("tolerance", tolerance, expected));
     }
-    /// Round-off of a bat is a few times that.
+    /// The round-off of a bat is a few times this.
     const FINEST: f64 = 1e-13;
     const FINE: f64 = 1e-10;
     let accuracy = (0.01 * tolerance).clamp(FINEST, FINE);

@@ -1,4 +1,4 @@
-//! What damps a bat: its materials, its dashpots, and what both make of its modes.
+//! What damps a bat: its materials and its dashpots, and the damping of its modes.
 
 use std::f64::consts::TAU;
 
@@ -10,15 +10,15 @@ use sweetspot::bat::material::Material;
 use sweetspot::modes::damping::Damped;
 use sweetspot::modes::solve::Solution;
 
-/// What materials and dashpots damp.
+/// The damping of materials and dashpots.
 #[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Damping {
     /// Bounds of every mode's damping ratio by the materials alone.
-    // A mode's damping ratio ζ is half the mean of the loss factors, weighed by the strain energy in each
-    // material: η/2 where there is one material. Springs, joints, absorbers and hands may store
-    // energy without loss, which makes 0 the lower bound.
+    // A mode's damping ratio ζ is half the mean of the loss factors, weighted by the strain energy in each material:
+    // η/2 for a single material. Springs, joints, absorbers and hands may store energy without loss, so the lower bound
+    // is 0.
     pub material_ratio: [f64; 2],
-    /// Dashpots: what they are and how strong.
+    /// The dashpots and their strengths.
     pub dashpots: Vec<String>,
     /// Damping ratio of each mode; empty without damping.
     pub ratio_by_mode: Vec<f64>,
@@ -27,7 +27,7 @@ pub struct Damping {
 }
 
 impl Damping {
-    /// What damps that bat, whose modes are those.
+    /// The damping of that bat with those modes.
     pub fn of(bat: &Bat, solution: &Solution) -> Self {
         let lossless =
             [ModelPart::Springs, ModelPart::Absorbers, ModelPart::Joints, ModelPart::Grip]
@@ -58,7 +58,7 @@ impl Damping {
     }
 }
 
-/// The materials that the bat really has: a core only where there is a bore.
+/// The materials of the bat; a core only where there is a bore.
 fn materials(bat: &Bat) -> impl Iterator<Item = &Material> {
     bat.profile().pieces.iter().flat_map(|piece| {
         let layup = bat.layup(piece);

@@ -1,4 +1,4 @@
-//! What one part of a model does: the bat with it beside the bat without it.
+//! The effect of one part of a model: the bat with it compared with the bat without it.
 
 use std::rc::Rc;
 
@@ -12,7 +12,7 @@ use sweetspot::bat::body::STANDARD_PIVOT;
 use sweetspot::bat::theory::Theory;
 use sweetspot::modes::mode::Mode;
 
-/// What is switched.
+/// A part that is switched on or off.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Switch {
@@ -20,7 +20,7 @@ pub enum Switch {
     RotaryInertia,
     /// Shear: from Rayleigh to Timoshenko.
     Shear,
-    /// Shear with the G/E of a material's kind, where it is not known; not part of the full model.
+    /// Shear with the typical G/E of a material whose shear modulus is not known; not part of the full model.
     TypicalShear,
     /// Both: from Euler–Bernoulli to Timoshenko.
     Theory,
@@ -31,7 +31,7 @@ pub enum Switch {
 }
 
 impl Switch {
-    /// What people and files call it.
+    /// Its name for people and in files.
     pub fn name(self) -> &'static str {
         match self {
             Self::RotaryInertia => "rotary inertia",
@@ -50,13 +50,13 @@ impl Serialize for Switch {
     }
 }
 
-/// What one part of the model does; shifts are null where the modes are others altogether.
+/// The effect of one part of the model; shifts are null if the modes do not correspond.
 #[derive(Debug, Clone, Serialize, schemars::JsonSchema)]
 pub struct Effect {
-    /// What is switched, in words.
+    /// The part, in words.
     #[schemars(with = "String")]
     pub switch: Switch,
-    /// Whether the bat file says so; false where a typical value was tried.
+    /// Whether the bat file gives the value; false for a typical one.
     pub known: bool,
     /// The model that has it.
     pub with: Rc<Solved>,
@@ -105,13 +105,13 @@ impl Effect {
         }
     }
 
-    /// The largest |shift| of a frequency; None where the modes are others.
+    /// The largest |shift| of a frequency; `None` if the modes do not correspond.
     pub fn largest(&self) -> Option<f64> {
         let shifts = self.shift_by_mode.as_ref()?;
         Some(shifts.iter().map(|shift| shift.abs()).fold(0.0, f64::max))
     }
 
-    /// The relative change of a mode's frequency (from 0), and how far it may be off; None where the modes are others.
+    /// The relative change of a mode's frequency (counted from 0) and its error; `None` if the modes do not correspond.
     pub fn shift(&self, mode: usize) -> Option<[f64; 2]> {
         Some([self.shift_by_mode.as_ref()?[mode], self.shift_error_by_mode.as_ref()?[mode]])
     }
@@ -149,7 +149,7 @@ pub fn effects(bench: &mut Bench, full: &Model) -> error::Result<Vec<Effect>> {
     Ok(effects)
 }
 
-/// By the full model's theory, or without shear where what is left has no known shear modulus.
+/// With the full model's theory, or without shear if a remaining material has no known shear modulus.
 fn taken_off(
     bench: &mut Bench,
     full: &Model,

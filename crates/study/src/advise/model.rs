@@ -1,4 +1,4 @@
-//! A model of a bat: a theory and the parts that it has; solved once for all questions.
+//! A model of a bat: a theory and a set of parts, solved once for all questions.
 
 use std::rc::Rc;
 
@@ -11,20 +11,20 @@ use sweetspot::bat::inertia::Inertia;
 use sweetspot::bat::theory::Theory;
 use sweetspot::modes::solve::{Request, Solution, solve};
 
-/// What of a bat is in a model.
+/// The parts of a bat in a model.
 #[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Model {
     /// Beam theory.
     #[schemars(with = "String", extend("enum" = Theory::ALL.map(Theory::name)))]
     pub theory: Theory,
-    /// What the model has beside the bare bat, in words.
+    /// The parts beside the bare bat, in words.
     // In the order of [`ModelPart::ALL`].
     #[schemars(with = "Vec<String>")]
     pub parts: Vec<ModelPart>,
 }
 
 impl Model {
-    /// Everything that is known of the bat: with shear if it is known.
+    /// Everything that is known about the bat, with shear if it is known.
     pub fn full(bat: &Bat) -> Self {
         let theory = if bat.knows_shear() { Theory::Timoshenko } else { Theory::Rayleigh };
         let parts = ModelPart::ALL.into_iter().filter(|part| part.is_on(bat)).collect();
@@ -47,11 +47,11 @@ impl Model {
         usize::from(self.theory.turns()) + usize::from(self.theory.shears()) + self.parts.len()
     }
 
-    /// The bat as this model sees it.
+    /// The bat of this model.
     ///
     /// # Errors
     ///
-    /// What is left is not a bat that can be solved: without its supports it may hang on springs too weak.
+    /// If the remaining bat cannot be solved: without its supports it may hang on springs that are too weak.
     pub fn bat(&self, bat: &Bat) -> Result<Bat> {
         let missing = ModelPart::ALL.into_iter().filter(|part| !self.parts.contains(part));
         let missing: Vec<ModelPart> = missing.filter(|part| part.is_on(bat)).collect();
@@ -63,7 +63,7 @@ impl Model {
     }
 }
 
-/// A model and what it says of the modes.
+/// A model and its modes.
 #[derive(Debug, Clone, Serialize, schemars::JsonSchema)]
 pub struct Solved {
     /// The model: a theory and the parts of the bat it includes.
@@ -101,17 +101,17 @@ impl Solved {
         })
     }
 
-    /// What it swings with as a rigid body: a line of mass without rotary inertia.
+    /// Its inertia as a rigid body: a line of mass without rotary inertia.
     pub fn inertia(&self) -> Inertia {
         let body = self.bat.inertia();
         if self.model.theory.turns() { body } else { body.as_line() }
     }
 
-    /// Whether mode k of this is mode k of that, as a part comes on or goes off little by little.
+    /// Whether mode k of one model corresponds to mode k of the other if a part is added gradually.
     ///
-    /// Frequencies in their order go continuously then, but only together with the rigid motions at
-    /// 0 Hz: with as many of them the orders agree. An absorber brings a mode of its own; below its
-    /// own frequency it is a weight, and the orders agree there.
+    /// Frequencies in their order change continuously then, but only together with the rigid motions at 0 Hz: with an
+    /// equal number of these the orders agree. An absorber adds a mode; below its own frequency it acts as a weight,
+    /// and the orders agree there.
     pub fn pairs_with(&self, that: &Self) -> bool {
         let highest = |solved: &Self| solved.solution.modes.last().map_or(0.0, |mode| mode.omega);
         let top = f64::max(highest(self), highest(that));
@@ -125,7 +125,7 @@ impl Solved {
     }
 }
 
-/// The models of one bat that were solved so far.
+/// The models of one bat that have been solved.
 #[derive(Debug)]
 pub struct Bench<'a> {
     bat: &'a Bat,
@@ -134,7 +134,7 @@ pub struct Bench<'a> {
 }
 
 impl<'a> Bench<'a> {
-    /// For the given number of modes, every frequency to that tolerance.
+    /// For the given number of modes, with every frequency to that tolerance.
     pub fn new(bat: &'a Bat, modes: usize, tolerance: f64) -> Self {
         let request = Request { modes, tolerance, ..Request::plain() };
         Self { bat, request, solved: Vec::new() }
@@ -159,7 +159,7 @@ impl<'a> Bench<'a> {
         Ok(solved)
     }
 
-    /// The modes of another bat in a model's place; not kept.
+    /// The modes of another bat in place of a model's; not stored.
     ///
     /// # Errors
     ///

@@ -3,7 +3,7 @@
 use sweetspot::bat::body::Bat;
 use sweetspot::collision::hoop_wall::CUP;
 
-/// What is out of scope, a sentence each, as far as it can matter to this bat.
+/// Effects outside every model, one sentence each, if they can matter to this bat.
 pub fn outside(bat: &Bat) -> Vec<String> {
     let hollow = bat.profile().pieces.iter().any(|piece| {
         let empty = bat.layup(piece).core.is_none() && piece.start < bat.length() - CUP;

@@ -1,11 +1,11 @@
-//! What is on a bat, kind by kind, and the bat without it.
+//! The fixtures of a bat by kind, and the bat without one kind.
 
 use serde::{Serialize, Serializer};
 
 use sweetspot::bat::body::Bat;
 use sweetspot::bat::fixtures::{Attachment, Fixtures};
 
-/// A kind of thing that a model of a bat may have or leave out.
+/// A kind of fixture that a model of a bat may include or omit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum ModelPart {
@@ -19,7 +19,7 @@ pub enum ModelPart {
     Springs,
     /// Masses that hang on springs.
     Absorbers,
-    /// Places that give way to bending.
+    /// Joints that give way to bending.
     Joints,
     /// Pins and clamps.
     Supports,
@@ -28,7 +28,7 @@ pub enum ModelPart {
 }
 
 impl ModelPart {
-    /// All of them, in the order in which they are shown.
+    /// All kinds, in the order of display.
     pub const ALL: [Self; 8] = [
         Self::Materials,
         Self::Weights,
@@ -44,7 +44,7 @@ impl ModelPart {
     pub const ATTACHED: [Self; 6] =
         [Self::Weights, Self::Tapes, Self::Springs, Self::Absorbers, Self::Joints, Self::Supports];
 
-    /// What people and files call it.
+    /// Its name for people and in files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Materials => "other materials",
@@ -73,7 +73,7 @@ impl ModelPart {
         }
     }
 
-    /// Takes all of them off the bat; density and stiffness of the rest stay as they are.
+    /// Removes all of this kind from the bat; the density and stiffness of the rest stay the same.
     pub fn take_off(self, fixtures: &mut Fixtures) {
         match self {
             Self::Materials => fixtures.regions.clear(),

@@ -1,4 +1,4 @@
-//! The smallest model whose frequencies are near enough to those of the full one.
+//! The smallest model whose frequencies are close enough to those of the full one.
 
 use std::rc::Rc;
 
@@ -12,10 +12,10 @@ use sweetspot::bat::theory::Theory;
 /// The smallest model within the tolerance.
 #[derive(Debug, Clone, Serialize, schemars::JsonSchema)]
 pub struct Smallest {
-    /// The model and what it says of the modes.
+    /// The model and its modes.
     #[serde(flatten)]
     pub solved: Rc<Solved>,
-    /// What it leaves out of the full model, in words.
+    /// The parts of the full model that it omits, in words.
     pub left_out: Vec<&'static str>,
     /// Largest relative difference of a frequency from the full model's.
     pub deviation: f64,
@@ -23,7 +23,7 @@ pub struct Smallest {
     pub deviation_error: f64,
 }
 
-/// What a model leaves out of the full one, in words.
+/// The parts of the full model that a model omits, in words.
 fn left_out(kept: &Model, full: &Model) -> Vec<&'static str> {
     let turning = (full.theory.turns() && !kept.theory.turns()).then_some("rotary inertia");
     let shearing = (full.theory.shears() && !kept.theory.shears()).then_some("shear");
@@ -31,9 +31,8 @@ fn left_out(kept: &Model, full: &Model) -> Vec<&'static str> {
     turning.into_iter().chain(shearing).chain(parts.map(|part| part.name())).collect()
 }
 
-/// The model with the fewest switches on whose every frequency is within `tolerance` of the full
-/// one's, errors included; of several, the nearest. Every candidate is solved, from the smallest
-/// on.
+/// The model with the fewest parts whose every frequency is within `tolerance` of the full model's, errors included; of
+/// several, the closest. Every candidate is solved, from the smallest on.
 ///
 /// # Errors
 ///

@@ -1,4 +1,4 @@
-//! What came of a wish: the bat that meets it or comes nearest, with how it was found.
+//! The result of a wish: the bat that meets it or comes nearest, and how it was found.
 
 use serde::Serialize;
 
@@ -11,7 +11,7 @@ use crate::aim::wish::{Band, Grid};
 use crate::answers::Answer;
 use sweetspot::bat::body::Bat;
 
-/// What came of a wish.
+/// The result of a wish.
 #[derive(Debug, Clone, Serialize, schemars::JsonSchema)]
 pub struct Outcome {
     /// Whether every target is met and every limit kept.
@@ -20,7 +20,7 @@ pub struct Outcome {
     pub targets: Vec<AimedTarget>,
     /// The targets that cannot be had together; null where all can.
     pub conflict: Option<Conflict>,
-    /// The rules that were asked for; null without.
+    /// The rules that the wish names; null without.
     pub rules: Option<RulesKept>,
     /// Root of mean(d²) + (5 cm)⁴ mean(d″²) of the change d of the diameter (mm).
     pub norm_mm: f64,
@@ -28,12 +28,12 @@ pub struct Outcome {
     pub largest_cut_m: f64,
     /// Largest amount put on a diameter (m).
     pub largest_added_m: f64,
-    /// How far a limit of the diameter is broken anywhere (m); 0 where all are kept to 1e-9 m.
+    /// Largest violation of a limit of the diameter (m); 0 if all are kept to 1e-9 m.
     pub limits_broken_m: f64,
-    /// How far the diameter moved on the stretches that are kept (m).
+    /// Largest movement of the diameter on the stretches that are kept (m).
     pub kept_within_m: f64,
-    /// How much steeper the surface is anywhere than `slope_at_most` (radius over length); 0 where that is kept,
-    /// null without it.
+    /// Largest excess of the slope of the surface over `slope_at_most` (radius over length); 0 if it is kept, null
+    /// without it.
     pub steeper_by: Option<f64>,
     /// Quadratic programs of the search.
     pub iterations: usize,
@@ -41,7 +41,7 @@ pub struct Outcome {
     pub bats_solved: usize,
     /// Why the search ended before it stood still; null where it did not.
     pub stopped: Option<&'static str>,
-    /// What else was chosen.
+    /// The other free choices.
     pub free: Vec<Choice>,
     /// The material that was chosen; null without a choice.
     pub wood: Option<String>,
@@ -52,36 +52,36 @@ pub struct Outcome {
     /// The bat as it was.
     #[serde(skip)]
     pub start: Bat,
-    /// The bat as it is written.
+    /// The bat as written.
     #[serde(skip)]
     pub bat: Bat,
     /// How its stations were laid.
     #[serde(skip)]
     pub grid: Grid,
-    /// How many times finer than it was wished they are rounded, so that every goal is met.
+    /// Factor by which they are rounded finer than wished, so that every goal is met.
     #[serde(skip)]
     pub finer: f64,
-    /// Greatest slope of the surface where it is changed, if that is limited: radius over length.
+    /// Greatest slope of the changed surface, if it is limited: radius over length.
     #[serde(skip)]
     pub slope: Option<f64>,
     /// Whether wood was only taken off.
     #[serde(skip)]
     pub remove_only: bool,
-    /// Why the wall of a hollow barrel is rigid in the hits; None where it matters to none.
+    /// The reason why the wall of a hollow barrel is rigid in the hits; `None` if it matters to no goal.
     #[serde(skip)]
     pub rigid_wall: Option<String>,
 }
 
-/// A target and what came of it; SI, in the unit of its name.
+/// A target and its result; SI, in the unit of its name.
 #[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct AimedTarget {
     /// Name of the output.
     pub name: String,
     /// The rule it is of; null for a target.
     pub rule: Option<&'static str>,
-    /// Least value that was asked for; null without.
+    /// Least value of the target; null without.
     pub at_least: Option<f64>,
-    /// Greatest value that was asked for; null without.
+    /// Greatest value of the target; null without.
     pub at_most: Option<f64>,
     /// The value of the bat as it was.
     pub start: f64,
@@ -89,10 +89,10 @@ pub struct AimedTarget {
     pub found: Option<f64>,
     /// Whether it is met.
     pub met: bool,
-    /// How much less the norm would be (mm) if the bound that binds gave way by one unit; 0 where none binds,
-    /// null where the target is missed.
+    /// How much smaller the norm (mm) would be if the binding bound gave way by one unit; 0 if none binds, null if the
+    /// target is missed.
     pub price_mm: Option<f64>,
-    /// What it may be.
+    /// Its allowed range.
     #[serde(skip)]
     pub band: Band,
     /// The price where it is missed too; None where the change is not a least one that meets all goals.
@@ -128,7 +128,7 @@ impl AimedTarget {
 /// A choice besides the shape.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Choice {
-    /// What: length_m, density_kg_m3 or knob_weight_kg.
+    /// The choice: length_m, density_kg_m3 or knob_weight_kg.
     #[serde(rename = "name")]
     #[schemars(with = "String")]
     pub what: ExtraKind,
@@ -181,8 +181,8 @@ impl Outcome {
             .count()
     }
 
-    /// Where a section that was cut has least of its strength in bending left, and the share that is left: the
-    /// section modulus `π (d⁴ − d_i⁴) / (32 d)` of a round section of that diameter and bore, after over before.
+    /// The place where a cut section keeps the smallest share of its strength in bending, and that share: the section
+    /// modulus `π (d⁴ − d_i⁴) / (32 d)` of a round section of that diameter and bore, after over before.
     pub fn weakest(&self) -> Option<(f64, f64)> {
         let modulus = |across: f64, bore: f64| (across.powi(4) - bore.powi(4)) / across;
         let left = |station: &Station| {
@@ -193,14 +193,14 @@ impl Outcome {
         cut.map(|station| (station.x, left(station))).min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// The greatest diameter of the bat that is written (m).
+    /// The greatest diameter of the written bat (m).
     pub fn widest(&self) -> f64 {
         let radii = &self.bat.profile().stations.outer;
         2.0 * radii.iter().fold(0.0_f64, |a, b| a.max(*b))
     }
 }
 
-/// The largest amount taken off a diameter, and the largest put on (m).
+/// The largest amount taken off a diameter, and the largest added (m).
 pub(super) fn largest(stations: &[Station]) -> [f64; 2] {
     let changes = stations.iter().map(|station| station.new - station.old);
     changes.fold([0.0, 0.0], |[off, on]: [f64; 2], by| [off.max(-by), on.max(by)])

@@ -1,7 +1,7 @@
-//! The bat that is to be changed: what does it become, and what are its goals then?
+//! The bat to be changed: what are the changed bat and its goals for given unknowns?
 //!
-//! The unknowns are the coefficients of the change of the diameter (mm), then one for each free choice besides
-//! the shape, in units of its own (see [`Extra`]).
+//! The unknowns are the coefficients of the change of the diameter (mm), then one for each free choice besides the
+//! shape, in its unit (see [`Extra`]).
 
 use serde::Serialize;
 
@@ -28,27 +28,27 @@ pub struct Terms {
     pub request: Request,
     /// Swing, ball and model.
     pub hit: HitTerms,
-    /// Where the swing of another bat is from; without it the swing is the same.
+    /// The swing law for other bats; without it the swing is the same.
     pub law: Option<SwingLaw>,
 }
 
-/// A free choice besides the shape. A change by one unit counts as much as that number of millimetres of diameter all
-/// along the bat: less than what it does to the goals, so that it is taken before the shape is.
+/// A free choice besides the shape. One unit of it counts as this many millimetres of diameter all along the bat. That
+/// is less than its effect on the goals, so that it is used before the shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Extra {
-    /// What may change.
+    /// The quantity.
     pub what: ExtraKind,
     /// One unit, in SI.
     pub unit: f64,
-    /// What a unit counts as (mm).
+    /// The weight of a unit (mm).
     pub cost: f64,
-    /// What it is now, in SI.
+    /// Its present value, in SI.
     pub start: f64,
     /// Least and greatest value, in SI.
     pub range: [f64; 2],
 }
 
-/// What may change besides the shape.
+/// The quantities that may change besides the shape.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub enum ExtraKind {
     /// Length of the bat (m), everything on it moving with it.
@@ -62,7 +62,7 @@ pub enum ExtraKind {
     KnobWeight,
 }
 
-/// A bat, what of it may change, and what is asked of it.
+/// A bat, its free quantities and its goals.
 #[derive(Debug, Clone)]
 pub struct Bench {
     bat: Bat,
@@ -82,11 +82,12 @@ pub struct Look {
 }
 
 impl Bench {
-    /// The bat with what a wish leaves free. Diameters are held to the limits where nothing may change.
+    /// The bat with the freedom that a wish leaves. Diameters are checked against the limits where nothing may change.
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] about a wish that leaves nothing free, or whose limits the bat breaks where it stays.
+    /// [`Error::Value`] about a wish that leaves nothing free, or whose limits the bat violates where it may not
+    /// change.
     pub fn new(bat: &Bat, wish: &Wish, terms: Terms) -> Result<Self> {
         let length = bat.length();
         for (k, keep) in wish.keep.iter().enumerate() {
@@ -117,7 +118,7 @@ impl Bench {
         Ok(Self { bat: bat.clone(), terms, splines, extras, goals, changes })
     }
 
-    /// The bat as it is.
+    /// The original bat.
     pub fn bat(&self) -> &Bat {
         &self.bat
     }
@@ -132,22 +133,22 @@ impl Bench {
         &self.splines
     }
 
-    /// What else may change.
+    /// The free choices besides the shape.
     pub fn extras(&self) -> &[Extra] {
         &self.extras
     }
 
-    /// What is asked.
+    /// The goals.
     pub fn goals(&self) -> &[Goal] {
         &self.goals
     }
 
-    /// How many unknowns there are.
+    /// Number of unknowns.
     pub fn unknowns(&self) -> usize {
         self.splines.len() + self.extras.len()
     }
 
-    /// Bats that a look with its slopes computes.
+    /// Number of bats computed for an evaluation with slopes.
     pub fn bats_of_slopes(&self) -> usize {
         let of_hit = |goal: &Goal| match goal.answer() {
             Answer::Node(_) | Answer::ModalMass(_) => true,
@@ -159,14 +160,14 @@ impl Bench {
 
     /// The value of a free choice, in SI.
     pub fn extra(&self, p: &[f64], k: usize) -> f64 {
-        /// Nearer to its start than this share of a unit it is there: the program knows it no better.
+        /// Closer to its start than this share of a unit, a choice is at its start: the program is no more accurate.
         const NEAR: f64 = 1e-6;
         let (extra, by) = (&self.extras[k], p[self.splines.len() + k]);
         let by = if by.abs() < NEAR { 0.0 } else { by };
         (extra.start + by * extra.unit).clamp(extra.range[0], extra.range[1])
     }
 
-    /// The bat with other free choices, its shape but for its length as it is.
+    /// The bat with other free choices; its shape stays except for its length.
     ///
     /// # Errors
     ///
@@ -208,7 +209,7 @@ impl Bench {
         self.rechosen(&turned, p)
     }
 
-    /// The change of the diameter (m), on the bat in its own length.
+    /// The change of the diameter (m), on the bat with its original length.
     pub fn change(&self, p: &[f64]) -> DiameterChange {
         let parts: Vec<(f64, &DiameterChange)> =
             p.iter().copied().zip(&self.changes).filter(|(p, _)| *p != 0.0).collect();
@@ -228,7 +229,7 @@ impl Bench {
         Ok(Look { values, piece, p: p.to_vec() })
     }
 
-    /// The goals of a bat that was not made by the unknowns, such as one that was written.
+    /// The goals of a bat that was not made from the unknowns, such as a written one.
     ///
     /// # Errors
     ///
@@ -238,7 +239,7 @@ impl Bench {
         Ok(self.values(&self.piece_of(bat, &answers)?))
     }
 
-    /// Any answers of any bat, swung as the terms say.
+    /// Any answers of any bat, swung by the terms.
     ///
     /// # Errors
     ///
@@ -252,7 +253,7 @@ impl Bench {
         Workpiece::new(bat, &borders, &self.terms.request, Some(&self.swung(bat)), answers)
     }
 
-    /// Why the wall of a hollow barrel is rigid in the hits of that bat; None where it would change little.
+    /// The reason why the wall of a hollow barrel is rigid in the hits of that bat; `None` if it would change little.
     pub fn rigid_wall(&self, bat: &Bat) -> Option<String> {
         let scene = &self.terms.hit.scene;
         rigid_wall(bat, &Scene { hoop: scene.hoop.left_out(), ..scene.clone() })
@@ -277,7 +278,7 @@ impl Bench {
         self.goals.iter().zip(piece.values()).map(value).collect()
     }
 
-    /// How the goals change with the unknowns: a row for each goal.
+    /// The derivatives of the goals by the unknowns: a row for each goal.
     ///
     /// # Errors
     ///
@@ -318,7 +319,7 @@ impl Bench {
             let mut p = look.p.clone();
             p[at] += by;
             let extra = &self.extras[k];
-            // A choice at the end of its range is left to one side.
+            // A choice at the end of its range gets a one-sided difference.
             let value = self.extra(&p, k);
             p[at] = (value - extra.start) / extra.unit;
             let bat = self.changed(&p)?;
@@ -331,9 +332,9 @@ impl Bench {
     }
 }
 
-/// What else may change, of that bat.
+/// The free choices besides the shape for that bat.
 fn extras(free: &FreeChoice, bat: &Bat) -> Vec<Extra> {
-    /// An inch, a twentieth of the density, an ounce; what each counts as.
+    /// An inch, a twentieth of the density, an ounce; the weight of each.
     const COSTS: [f64; 3] = [0.2, 0.1, 0.1];
     let density = bat.material().density;
     let length = free.length.map(|range| Extra {
@@ -357,7 +358,7 @@ fn extras(free: &FreeChoice, bat: &Bat) -> Vec<Extra> {
         start: 0.0,
         range: [0.0, most],
     });
-    // The length last: what is on the bat moves with it.
+    // The length last: the fixtures move with it.
     density.into_iter().chain(knob).chain(length).collect()
 }
 

@@ -1,8 +1,8 @@
-//! Which of the targets cannot be had together, and how near can each come?
+//! Which targets conflict, and how close can each come?
 //!
-//! Judged from the bat as it is: linearised far from it, what can be had looks impossible. One band after the
-//! other is left out; those without which the others still cannot be met stay out. What remains is a smallest
-//! conflict: without any of its members the others can be met.
+//! It is judged from the original bat, because a linearisation far from it makes feasible targets look impossible. One
+//! band after another is left out; those without which the others still cannot be met stay out. What remains is a
+//! smallest conflict: without any one of its members the others can be met.
 
 use serde::Serialize;
 
@@ -11,15 +11,15 @@ use crate::aim::wish::Band;
 use sweetspot::base::error::Result;
 use sweetspot::base::threads;
 
-/// Targets that cannot be had together: without any one of them the others can.
+/// Conflicting targets: without any one of them the others can be met.
 #[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Conflict {
-    /// The targets, with how near each comes.
+    /// The targets, with how close each comes.
     pub members: Vec<Reach>,
-    /// The conflict in a sentence: the targets that cannot all be had, and how near each comes.
+    /// The conflict in a sentence: the targets that cannot all be met, and how close each comes.
     // A report says it; until then it is empty.
     pub words: String,
-    /// Numbers of the bands that are not part of it and are missed where a member comes nearest.
+    /// Numbers of the bands that do not belong to it but are missed where a member comes closest.
     #[serde(skip)]
     pub aside: Vec<usize>,
     /// Bats that were computed for it.
@@ -32,13 +32,13 @@ pub struct Conflict {
 pub struct Reach {
     /// Name of the output.
     pub name: String,
-    /// Which of the targets, counted from 0.
+    /// Number of the target, from 0.
     pub target: usize,
-    /// The nearest value (SI); null where the bat has none.
+    /// The closest value (SI); null if the bat has none.
     pub reaches: Option<f64>,
     /// Whether the others are met there.
     pub others_met: bool,
-    /// Whether the search stood still there: nothing nearer is beside it.
+    /// Whether the search converged: no closer value is nearby.
     #[serde(skip)]
     pub settled: bool,
 }
@@ -50,7 +50,7 @@ pub fn missed(found: &Found, bands: &[Band], of: &[bool]) -> bool {
 }
 
 impl Conflict {
-    /// The conflict of bands that a search has missed, and the bats in which each member comes nearest.
+    /// The conflict of bands that a search has missed, and the bats in which each member comes closest.
     ///
     /// # Errors
     ///
@@ -60,7 +60,7 @@ impl Conflict {
         let mut stay = vec![true; bands.len()];
         let mut nearest_yet = found.p.clone();
         let mut bats = 0;
-        // What neither binds nor is missed is not part of it, most likely: it is left out first.
+        // A band that neither binds nor is missed probably does not belong to it, and is left out first.
         let mut order: Vec<usize> = (0..bands.len()).collect();
         let idle =
             |k: &usize| found.prices[*k].abs() > 1e-6 || bands[*k].miss(found.values[*k]) > 0.0;
@@ -78,7 +78,7 @@ impl Conflict {
             }
         }
         let members: Vec<usize> = (0..bands.len()).filter(|k| stay[*k]).collect();
-        // How near each comes is sought from where all of them come nearest together.
+        // The search for each member starts where all of them together come closest.
         let reached = threads::map(members.len(), |j| {
             search.from(&nearest_yet, bands, &nearest(&stay, members[j]))
         });
@@ -101,8 +101,8 @@ impl Conflict {
         Ok((Self { members, words: String::new(), aside, bats }, reached))
     }
 
-    /// Weights by which everything else is met and the members come as near as they can together, each by its
-    /// tolerance.
+    /// Weights with which everything else is met and the members come as close as they can together, each measured by
+    /// its tolerance.
     pub fn nearest(&self, bands: usize) -> Weights {
         const OTHERS: f64 = 100.0;
         let mut weights = Weights::met(bands);
@@ -121,8 +121,8 @@ fn some(weights: &Weights, of: &[bool]) -> Weights {
     Weights { miss: weights.miss.iter().zip(of).map(price).collect(), ..*weights }
 }
 
-/// Weights by which the others are met first, then band k comes as near as it can, and the size of the change
-/// hardly counts.
+/// Weights with which the others are met first, then band k comes as close as it can, and the size of the change hardly
+/// counts.
 fn nearest(of: &[bool], k: usize) -> Weights {
     const SIZE: f64 = 1e-6;
     const OTHERS: f64 = 1e3;

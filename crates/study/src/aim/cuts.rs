@@ -7,7 +7,7 @@ use crate::aim::laying::Station;
 /// A change at a station.
 #[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct StationCut {
-    /// Where (m).
+    /// Position (m).
     pub x_m: f64,
     /// Diameter before (m).
     pub from_m: f64,
@@ -18,7 +18,7 @@ pub struct StationCut {
 }
 
 impl StationCut {
-    /// What comes off the diameter (m), below 0 where wood is added.
+    /// Amount off the diameter (m), below 0 where wood is added.
     pub fn off(&self) -> f64 {
         self.from_m - self.to_m
     }
@@ -29,11 +29,11 @@ impl StationCut {
     }
 }
 
-/// A smaller change of a diameter (m) is nothing to a lathe, and what straight lines between stations leave.
+/// A smaller change of a diameter (m) is below the accuracy of a lathe and of straight lines between stations.
 const LEAST: f64 = 5e-6;
 
-/// The change at every station that changes; what is turned off in passes that take no more than `pass` off the
-/// diameter (m). The last one leaves the new diameter, the others are equally deep.
+/// The change at every station that changes. It is turned off in passes of at most `pass` of the diameter (m); the
+/// passes are equally deep, and the last one leaves the new diameter.
 pub fn cuts(stations: &[Station], pass: f64) -> Vec<StationCut> {
     let cut = |station: &Station| {
         let off = station.old - station.new;

@@ -1,26 +1,26 @@
-//! How steep may the surface become where it is changed?
+//! How steep may the changed surface become?
 //!
-//! A tool follows a slope `|r′|` (mm of radius per mm along the bat) only so far. Where the bat is steeper
-//! already, as at its knob, it becomes no steeper. The slope of the changed bat is linear in the change:
+//! A tool can follow a slope `|r′|` (mm of radius per mm along the bat) only up to a limit. Where the bat is steeper
+//! already, as at its knob, it must not become steeper. The slope of the changed bat is linear in the change:
 //!
 //! ```text
 //! −s ≤ r′ + ½ d′ ≤ s,   s = max(limit, |r′|)
 //! ```
 //!
-//! Stations that are rounded make a curve whose slope is off by about what a station is rounded by, over the
-//! distance to the next ([`Steepness::ripple`]): the search keeps so far inside.
+//! The curve through rounded stations is off in slope by about the rounding of a station over the distance to the next
+//! ([`Steepness::ripple`]): the search keeps that distance from the limit.
 
 use crate::aim::wish::Grid;
 use sweetspot::bat::body::Bat;
 use sweetspot::bat::profile::Piece;
 
-/// Distance of the places where the slope is asked (m).
+/// Distance between the places where the slope is checked (m).
 const EVERY: f64 = 5e-3;
-/// Places on every piece between stations at which the slope of the new bat is looked at.
+/// Number of places on every piece between stations at which the slope of the new bat is checked.
 const LOOKS: usize = 16;
-/// Where the bat is as steep already there is so much room, as a share of the ripple.
+/// Room where the bat is that steep already, as a share of the ripple.
 const STEEP_ALREADY: f64 = 0.1;
-/// Half a difference by which a slope is found, as a share of the piece.
+/// Half the difference for a slope, as a share of the piece.
 const BESIDE: f64 = 1e-4;
 
 /// A limit of the slope.
@@ -32,7 +32,7 @@ pub struct Steepness {
     pub ripple: f64,
 }
 
-/// What the slope of the change of the diameter may be at a place (m per m).
+/// Allowed slope of the change of the diameter at a place (m per m).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Incline {
     /// The place (m).
@@ -49,7 +49,7 @@ impl Steepness {
         Self { most, ripple: 0.75 * grid.round / grid.every }
     }
 
-    /// What the slope of a change may be, at the places of the bat where it changes.
+    /// Allowed slopes of a change, at the places of the bat where it changes.
     pub fn inclines(&self, bat: &Bat, changes: &dyn Fn(f64) -> bool) -> Vec<Incline> {
         let mut all = vec![];
         for piece in &bat.profile().pieces {
@@ -82,7 +82,7 @@ impl Steepness {
         all.fold(0.0, f64::max)
     }
 
-    /// The greatest slope of a bat where it was not as steep before.
+    /// The greatest slope of a bat where the old one was not as steep.
     pub fn found(&self, old: &Bat, new: &Bat) -> f64 {
         self.most + self.broken_by(old, new)
     }

@@ -1,11 +1,11 @@
-//! Where do the stations of the changed bat stand?
+//! Where are the stations of the changed bat?
 //!
-//! The bat's own, with their digits where nothing changes, and others at even places where the diameter changes.
+//! They are the bat's own, with their digits where nothing changes, and others at even places where the diameter
+//! changes.
 //!
-//! A curve through stations is laid anew, by two stations on both its sides: at a domed tip, beside a stretch that
-//! is kept or between stations that are far apart it would run beside the changed curve. There other stations
-//! halve the way from one to the next until it does not. They have finer digits, as those have where the change
-//! runs out.
+//! A curve through stations depends on two stations on both sides. At a domed tip, beside a stretch that is kept, or
+//! between stations that are far apart, it would depart from the changed curve. There, further stations halve the
+//! distance until it does not. They have finer digits, and so have those where the change ends.
 
 use serde::Serialize;
 
@@ -19,7 +19,7 @@ use sweetspot::bat::profile::{Interpolation, Profile, Radii, SAME_PLACE, Station
 /// A station of the new bat.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Station {
-    /// Where it is (m).
+    /// Its position (m).
     #[serde(rename = "x_m")]
     pub x: f64,
     /// Diameter that the bat had there (m).
@@ -34,13 +34,13 @@ pub struct Station {
     /// Inner radius (m).
     #[serde(skip)]
     pub(super) inner: f64,
-    /// Least diameter that the limits allow (m), more where the curve beside the station asks for it.
+    /// Least diameter that the limits allow (m); larger if the curve beside the station needs it.
     #[serde(skip)]
     pub(super) low: f64,
-    /// Greatest diameter that the limits allow (m), less where the curve beside the station asks for it.
+    /// Greatest diameter that the limits allow (m); smaller if the curve beside the station needs it.
     #[serde(skip)]
     pub(super) high: f64,
-    /// What its diameter is rounded to (m).
+    /// Step to which its diameter is rounded (m).
     #[serde(skip)]
     pub(super) round: f64,
     /// Whether it is in a stretch that is kept.
@@ -52,16 +52,16 @@ pub struct Station {
 pub struct Laying<'a> {
     /// The bat before the change of its diameter.
     pub bat: &'a Bat,
-    /// What its diameter may be.
+    /// The limits of its diameter.
     pub limits: &'a Limits<'a>,
-    /// The change (mm) and the curves it is made of, places as shares of `stretch`.
+    /// The change (mm) and its basis curves, with places as shares of `stretch`.
     pub change: (&'a Splines, &'a [f64], f64),
     /// How stations are laid.
     pub grid: Grid,
 }
 
-/// A place where a station is to stand (m), another on the same piece of the bat, and how many times finer than
-/// others its diameter is rounded.
+/// The place of a new station (m), another place on the same piece of the bat, and the factor by which its diameter is
+/// rounded finer than others.
 #[derive(Debug, Clone, Copy)]
 struct StationPlace {
     x: f64,
@@ -73,22 +73,22 @@ struct StationPlace {
 const BESIDE: f64 = 1e-6;
 /// A change smaller than this share of the rounding does not count.
 const NOTHING: f64 = 0.25;
-/// So far beside the changed diameter the curve through stations may run, as a share of the rounding; where
-/// nothing changes, so far beside the old one (m).
+/// Allowed distance of the curve through stations from the changed diameter, as a share of the rounding; where nothing
+/// changes, allowed distance from the old one (m).
 const BESIDE_CHANGED: f64 = 0.1;
 const BESIDE_KEPT: f64 = 1e-6;
 /// Least distance between two stations (m).
 const CLOSEST: f64 = 5e-4;
-/// Rounds of looking where else stations are wanted: each makes the curve beside new stations another one.
+/// Most rounds of adding stations: each changes the curve beside new stations.
 const HALVINGS: usize = 40;
-/// Stations nearer than this share of the even distance are near to each other: beside the bat's own there is no
-/// even one, and diameters of both are rounded this many times finer.
+/// Stations closer than this share of the even distance are near: no even station is placed beside the bat's own, and
+/// the diameters of both are rounded this many times finer.
 const NEAR: f64 = 0.7;
 const FINER: f64 = 10.0;
 
 impl Laying<'_> {
-    /// The change at a place (m of diameter): nothing where it is too small to be turned, all of it from twice
-    /// that on.
+    /// The change at a place (m of diameter): 0 where it is too small to be turned, and the full change from twice that
+    /// on.
     fn change(&self, x: f64) -> f64 {
         let (splines, p, stretch) = self.change;
         if !self.is_free(x) {
@@ -118,7 +118,7 @@ impl Laying<'_> {
         x >= 0.0 && x <= self.bat.length() && !self.is_free(x)
     }
 
-    /// Whether the profile is what its stations say, so that they alone make the same curve.
+    /// Whether the profile follows from its stations, so that they alone give the same curve.
     fn is_of_stations(&self) -> bool {
         self.bat.profile().formulas.is_none() && self.bat.edits().is_empty()
     }
@@ -142,7 +142,7 @@ impl Laying<'_> {
             places.extend(between);
             sort(&mut places);
         }
-        // A tenth of a millimetre makes a step between stations that are near to each other.
+        // A tenth of a millimetre makes a visible step between stations that are near each other.
         let near = NEAR * self.grid.every;
         let gaps: Vec<f64> = places.windows(2).map(|two| two[1].x - two[0].x).collect();
         for (k, place) in places.iter_mut().enumerate() {
@@ -160,7 +160,8 @@ impl Laying<'_> {
         let own = &profile.stations;
         let mut places = vec![];
         for (k, x) in own.x.iter().enumerate() {
-            // At a step the first is of the piece to its left; a bat that is cut has several between two stations.
+            // At a step, the first belongs to the piece to its left; a bat that is cut has several between two
+            // stations.
             let left = k > 0 && (k + 1 == own.x.len() || own.x[k + 1] == *x);
             let to = if left { own.x[k - 1] } else { own.x[(k + 1).min(own.x.len() - 1)] };
             places.push(StationPlace { x: *x, inside: x + BESIDE * (to - x), finer: 1.0 });
@@ -179,7 +180,7 @@ impl Laying<'_> {
         places
     }
 
-    /// Places between two stations from which the curve through them runs beside the changed one.
+    /// Places between two stations where the curve through them departs from the changed one.
     fn between(&self, laid: &[Station]) -> Result<Vec<StationPlace>> {
         let through = self.profile(laid, |station| station.exact)?;
         let far = |from: f64, to: f64| {
@@ -209,12 +210,12 @@ impl Laying<'_> {
         let room = self.limits.room(x, at);
         let change = self.change(x);
         let (low, high) = (old + room.low, old + room.high);
-        // Rounding moves the curve beside a station too: what is kept is to feel little of it.
+        // Rounding moves the curve beside a station too; a kept stretch should be affected little.
         let aside = 1.5 * self.grid.every;
         let beside_kept = [x - aside, x + aside].into_iter().any(|x| self.is_kept(x));
         let finer = match () {
             () if beside_kept => FINER * FINER,
-            // Where the change runs out, as between the even stations.
+            // The end of the change, as between the even stations.
             () if change.abs() < self.grid.round => FINER,
             () => finer,
         };

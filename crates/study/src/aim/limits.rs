@@ -1,8 +1,8 @@
 //! How much may the diameter change at a place?
 //!
-//! A rule's or a user's greatest and least diameter, the wall around a bore, and nothing added where wood is
-//! only taken off. The limits hold along the whole curve: [`Limits::rows`] are places close together, and
-//! [`Limits::broken`] looks between them.
+//! A rule or a user sets a greatest and a least diameter; the wall around a bore must stay; and with wood only taken
+//! off, nothing is added. The limits hold along the whole curve: [`Limits::rows`] are places close together, and
+//! [`Limits::broken`] checks between them.
 
 use crate::aim::incline::{Incline, Steepness};
 use crate::aim::wish::{DiameterLimit, Wish};
@@ -12,16 +12,16 @@ use sweetspot::base::units::shown_length;
 use sweetspot::bat::body::Bat;
 use sweetspot::bat::profile::{Profile, SAME_PLACE, Section};
 
-/// Distance of the places where the limits are asked first (m).
+/// Distance between the places where the limits are checked first (m).
 const EVERY: f64 = 5e-3;
-/// Distance of the places between which a curve is looked at (m).
+/// Distance between places of a close check of the curve (m).
 const CLOSE: f64 = 5e-4;
-/// A limit that is kept to this is kept (m).
+/// A limit that is violated by no more than this is kept (m).
 pub const KEPT: f64 = 1e-9;
 /// Least wall around a bore (m), where it is not thinner already.
 const WALL: f64 = 1e-3;
-/// Least diameter of a solid bat (m), and, where it is thinner already as at the point of a tip, the share of
-/// its diameter that must be left.
+/// Least diameter of a solid bat (m), and, where it is thinner already as at the point of a tip, the share of its
+/// diameter that must remain.
 const THINNEST: f64 = 5e-3;
 const LEFT: f64 = 0.9;
 
@@ -37,7 +37,7 @@ pub struct Limits<'a> {
     steepness: Option<Steepness>,
 }
 
-/// What the change of the diameter may be at a place (m).
+/// Allowed change of the diameter at a place (m).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Room {
     /// The place (m).
@@ -51,9 +51,9 @@ pub struct Room {
 /// A place where a curve breaks a limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Broken {
-    /// What the change may be there.
+    /// The allowed change there.
     pub room: Room,
-    /// By how much it is too thick, or below 0 too thin (m).
+    /// Amount by which it is too thick, or below 0 too thin (m).
     pub by: f64,
 }
 
@@ -72,7 +72,7 @@ impl<'a> Limits<'a> {
         Limits { bat, remove_only, rule, stretches, steepness }
     }
 
-    /// What the change may be at `x`, where the bat has that section.
+    /// Allowed change at `x`, where the bat has that section.
     pub fn room(&self, x: f64, section: Section) -> Room {
         let diameter = 2.0 * section.outer;
         let least = match section.inner > 0.0 {
@@ -91,11 +91,11 @@ impl<'a> Limits<'a> {
         Room { x, low, high }
     }
 
-    /// Whether the bat can have these limits where it stays as it is, at places told by `stays`.
+    /// Checks the limits where the bat may not change, at places given by `stays`.
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] about a limit that the bat breaks where nothing may change it.
+    /// [`Error::Value`] about a limit that the bat violates where nothing may change it.
     pub fn check(&self, stays: impl Fn(f64) -> bool) -> Result<()> {
         for (k, limit) in self.stretches.iter().enumerate() {
             self.check_stretch(k, limit)?;
@@ -137,8 +137,8 @@ impl<'a> Limits<'a> {
         Ok(())
     }
 
-    /// The error that the limits leave no room at `x`, where the nearest smooth curve is so much too thick, or below 0
-    /// too thin (m).
+    /// The error that the limits leave no room at `x`, where the nearest smooth curve is too thick by `by` (m), or
+    /// below 0 too thin.
     pub fn no_room(&self, x: f64, by: f64) -> Error {
         let at = shown_length(x);
         let here = 2.0 * self.bat.profile().at(x).outer;
@@ -193,22 +193,22 @@ impl<'a> Limits<'a> {
         Ok(())
     }
 
-    /// The places where limits are asked first, of those where the bat may change; both sides of a step.
+    /// The places where limits are checked first, among those where the bat may change; both sides of a step.
     pub fn rows(&self, changes: &dyn Fn(f64) -> bool) -> Vec<Room> {
         self.every(EVERY, changes)
     }
 
-    /// What the slope of the change may be, of places where the bat may change; empty without a limit.
+    /// Allowed slopes of the change, at places where the bat may change; empty without a limit.
     pub fn inclines(&self, changes: &dyn Fn(f64) -> bool) -> Vec<Incline> {
         self.steepness.map_or(vec![], |steepness| steepness.inclines(self.bat, changes))
     }
 
-    /// How much steeper another bat of the same length is anywhere than it may be: radius over length.
+    /// Largest excess of the slope of another bat of the same length over the allowed one: radius over length.
     pub fn steeper_by(&self, other: &Bat) -> f64 {
         self.steepness.map_or(0.0, |steepness| steepness.broken_by(self.bat, other))
     }
 
-    /// Keeps rounded stations so much farther inside the limit of the slope.
+    /// Reserves this much room below the limit of the slope, for rounded stations.
     pub fn gentler_by(&mut self, by: f64) {
         if let Some(steepness) = &mut self.steepness {
             steepness.ripple += by;
@@ -232,8 +232,8 @@ impl<'a> Limits<'a> {
         rooms
     }
 
-    /// Where a change of the diameter (m, by the place and a place on the same piece of the bat) breaks a
-    /// limit, each stretch at its worst place; the curve has corners at `borders` at most.
+    /// The places where a change of the diameter (m, by the place and a place on the same piece of the bat) violates a
+    /// limit, one for each stretch, the worst; the curve may have corners only at `borders`.
     pub fn broken(&self, borders: &[f64], change: &dyn Fn(f64, f64) -> f64) -> Vec<Broken> {
         let profile = self.bat.profile();
         let mut places = profile.borders();
@@ -253,7 +253,7 @@ impl<'a> Limits<'a> {
         broken
     }
 
-    /// Where a bat of the same length breaks a limit.
+    /// The places where a bat of the same length violates a limit.
     pub fn broken_by(&self, other: &Bat) -> Vec<Broken> {
         let (profile, new) = (self.bat.profile(), other.profile());
         let change = |x: f64, inside: f64| {
@@ -263,13 +263,13 @@ impl<'a> Limits<'a> {
     }
 }
 
-/// The section at `x`, of the piece that has the place `inside`.
+/// The section at `x`, of the piece that contains the place `inside`.
 pub fn section(profile: &Profile, x: f64, inside: f64) -> Section {
     let piece = profile.piece_at(inside);
     piece.at(((x - piece.start) / piece.length).clamp(0.0, 1.0))
 }
 
-/// A change at a place and what it may be.
+/// A change at a place, and its allowed range.
 #[derive(Clone, Copy)]
 struct LimitedChange {
     room: Room,
@@ -277,7 +277,7 @@ struct LimitedChange {
 }
 
 impl LimitedChange {
-    /// By how much it is beyond the nearer limit, below 0 inside (m).
+    /// Distance beyond the nearer limit, below 0 inside (m).
     fn beyond(&self) -> f64 {
         (self.change - self.room.high).max(self.room.low - self.change)
     }
@@ -289,9 +289,9 @@ impl LimitedChange {
     }
 }
 
-/// The worst places of a stretch: local maxima of what is broken, each sought between the places around it.
+/// The worst places of a stretch: local maxima of the violation, each located between the neighbouring places.
 fn worst([from, to]: [f64; 2], at: impl Fn(f64) -> LimitedChange) -> Vec<Broken> {
-    /// What is farther inside is not near a limit (m).
+    /// A place farther inside than this is not near a limit (m).
     const FAR: f64 = -1e-5;
     let count = ((to - from) / CLOSE).ceil().max(4.0) as usize;
     let place = |k: usize| from + (to - from) * k as f64 / count as f64;
@@ -328,7 +328,7 @@ mod tests {
         Wish { remove_only: true, diameter, ..Wish::default() }
     }
 
-    /// A bump between the places where limits are asked first is found to 1e-9 m.
+    /// A bump between the places where limits are checked first is found to 1e-9 m.
     #[test]
     fn a_bump_of_a_nanometre_between_the_places_is_found() {
         let bat = cone();

@@ -2,16 +2,16 @@
 //!
 //! | file | question |
 //! |---|---|
-//! | [`rules`], [`wish`] | what do the rules of a game ask; what does somebody want |
-//! | [`spline`] | which smooth curves may the change of the diameter be |
+//! | [`rules`], [`wish`] | the rules of a game; the wish of a person |
+//! | [`spline`] | which smooth curves may the change of the diameter have |
 //! | [`incline`], [`limits`] | how steep may the surface become; how much may the diameter change at a place |
 //! | [`program`] | the least change under linear wishes and limits |
-//! | [`bench`](mod@bench) | what does the bat become, and what are its goals then |
-//! | [`search`], [`conflict`] | the least change that meets the goals; which of them cannot be had together |
-//! | [`laying`], [`stations`] | where do the stations of the changed bat stand; which diameters is it written with |
-//! | [`rounding`] | which rounding leaves the goals where they are to be |
-//! | [`aimed`], [`outcome`] | what comes of a wish; the bat that meets it, or comes nearest |
-//! | [`cuts`] | what the lathe takes off |
+//! | [`bench`](mod@bench) | the changed bat, and its goals |
+//! | [`search`], [`conflict`] | the least change that meets the goals; which goals conflict |
+//! | [`laying`], [`stations`] | where are the stations of the changed bat; what are their diameters |
+//! | [`rounding`] | which rounding keeps the goals met |
+//! | [`aimed`], [`outcome`] | the result of a wish; the bat that meets it, or comes nearest |
+//! | [`cuts`] | the list for the lathe |
 
 pub mod rules;
 pub mod wish;

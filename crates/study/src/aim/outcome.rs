@@ -1,9 +1,8 @@
 //! The bat that meets a wish, or comes nearest to it.
 //!
-//! [`Outcome::of`] searches the least change, writes it with rounded stations and computes the goals of the bat
-//! that is written. A least change lies on the edge of its tolerances, so that rounding may take it out: the
-//! stations are then rounded anew, aside by what the last ones were off, and if that does not do, the search is
-//! made anew with bands that are moved by as much.
+//! [`Outcome::of`] searches the least change, writes it with rounded stations and computes the goals of the written
+//! bat. A least change lies on the edge of its tolerances, so rounding may move it out. The stations are then rounded
+//! again with compensating targets; if that fails, the search is repeated with bands shifted by the same amount.
 
 use crate::aim::aimed::{AimedTarget, Choice, Outcome, Output, largest};
 use crate::aim::bench::{Bench, Terms};
@@ -18,7 +17,7 @@ use sweetspot::base::error::{Error, Result};
 use sweetspot::base::golden;
 use sweetspot::bat::body::Bat;
 
-/// What is told of every bat before and after.
+/// The answers that are reported before and after.
 const TOLD: [Answer; 10] = [
     Answer::Mass,
     Answer::BalancePoint,
@@ -31,13 +30,13 @@ const TOLD: [Answer; 10] = [
     Answer::ExitSpeed,
     Answer::ExitSpeedPlace,
 ];
-/// How often the search is made anew at most, where rounding has taken the bat out of its bands.
+/// Most repetitions of the search if rounding has moved the bat out of its bands.
 const ANEW: usize = 4;
-/// How many times finer the stations are rounded where no rounding as it was wished leaves the goals in their bands:
-/// two that bind at once may leave less room than a tenth of a millimetre takes.
+/// Factors by which the stations are rounded finer if no rounding as wished keeps the goals in their bands: two binding
+/// goals may leave less room than a tenth of a millimetre needs.
 const FINER: [f64; 4] = [1.0, 10.0, 100.0, 1000.0];
 
-/// The least change of one bat, before it is written.
+/// The least change of a bat, before it is written.
 struct Least {
     bench: Bench,
     found: Found,
@@ -114,7 +113,7 @@ impl Outcome {
         Writing { wish, bands, bat, grid: wish.grid(bat) }.outcome(least)
     }
 
-    /// Takes the bat as it was read from the file that was written, and computes its goals anew.
+    /// Replaces the bat by the one read from the written file, and computes its goals anew.
     ///
     /// # Errors
     ///
@@ -145,7 +144,7 @@ fn least(bench: Bench, wish: &Wish, bands: &[Band], wood: Option<String>) -> Res
     Ok(Least { bench: bench.clone(), found, miss, norm, wood })
 }
 
-/// What is needed to write a change.
+/// The data for writing a change.
 struct Writing<'a> {
     wish: &'a Wish,
     bands: Vec<Band>,
@@ -240,8 +239,8 @@ impl Writing<'_> {
         Ok((best.expect("one draft at least was made"), stopped, bats))
     }
 
-    /// The best rounding of a least change this many times finer than it was wished, why its search stopped, and the
-    /// bats that were computed. Where a rounding takes a goal out, the change is sought anew in narrower bands.
+    /// The best rounding of a least change, this many times finer than wished; the reason why its search stopped; and
+    /// the number of bats computed. If a rounding moves a goal out, the search is repeated with narrower bands.
     fn rounded(&self, tries: &Tries, finer: f64) -> Result<(Rounded, Option<&'static str>, usize)> {
         /// So far inside its band a goal is sought anew, in tolerances.
         const INSIDE: f64 = 0.25;
@@ -262,10 +261,10 @@ impl Writing<'_> {
             if again == ANEW || once || best.as_ref().is_some_and(|(best, _)| best.worst <= 1e-9) {
                 break;
             }
-            // The search anew, for goals that rounding then puts where they are to be.
+            // Repeats the search for goals that rounding then moves to their targets.
             for ((band, of), off) in bands.iter_mut().zip(wanted).zip(&off) {
                 let by = off * of.scale;
-                // Finer digits need a part of what they moved the goal by, then more of it.
+                // Finer digits need only a part of the shift, then more of it.
                 let share = again as f64 / ANEW as f64;
                 let room = match finer > 1.0 {
                     true => (share * share * off.abs()).min(INSIDE / finer),
@@ -283,8 +282,8 @@ impl Writing<'_> {
         Ok((rounded, stopped, bats))
     }
 
-    /// The nearest bat to bands that a search has missed, and their conflict: None where the bat that is found
-    /// beside it meets them all.
+    /// The nearest bat to bands that a search has missed, and their conflict; `None` if the bat found on the way meets
+    /// all of them.
     fn nearest(
         &self,
         bench: &Bench,
@@ -316,8 +315,8 @@ impl Writing<'_> {
         parts.name = format!("{}, aimed", self.bat.name());
     }
 
-    /// What the norm would be less by, per SI unit of each goal: of a least change only, which a bat that misses
-    /// something, one that is hardly changed and one at which the search stopped short are not.
+    /// The decrease of the norm per SI unit of each goal. It exists only for a least change: not for a bat that misses
+    /// a target, that is hardly changed, or for which the search stopped short.
     fn prices(&self, found: &Found, norm: f64) -> Vec<Option<f64>> {
         /// A smaller change (mm) does not count.
         const NONE: f64 = 1e-3;
@@ -331,13 +330,13 @@ impl Writing<'_> {
     }
 }
 
-/// All that a bat misses, in tolerances: of two bats the one with less of it is nearer.
+/// The sum of all misses of a bat, in tolerances: of two bats the one with the smaller sum is nearer.
 fn total(bands: &[Band], found: &Found) -> f64 {
     bands.iter().zip(&found.values).map(|(band, value)| band.miss(*value)).sum()
 }
 
-/// The largest difference of two bats' diameters beside the stretches that may change (m): between any two stations of
-/// either the two curves are cubics, and the largest is sought between the nearest places of a close look.
+/// The largest difference of two bats' diameters outside the stretches that may change (m). Between any two stations of
+/// either, both curves are cubics; the maximum is located between the closest places of a fine scan.
 fn moved_beside(free: &[[f64; 2]], old: &Bat, new: &Bat) -> f64 {
     const PLACES: usize = 16;
     let length = old.length();
@@ -368,7 +367,7 @@ fn moved_beside(free: &[[f64; 2]], old: &Bat, new: &Bat) -> f64 {
     most
 }
 
-/// The main answers of both bats, swung alike.
+/// The main answers of both bats, with equal swings.
 fn told(bench: &Bench, start: &Bat, bat: &Bat) -> Result<Vec<Output>> {
     let of = |bat: &Bat| -> Result<Vec<Option<f64>>> {
         let piece = bench.piece_of(bat, &TOLD)?;
@@ -379,7 +378,7 @@ fn told(bench: &Bench, start: &Bat, bat: &Bat) -> Result<Vec<Output>> {
     Ok(both.map(|(answer, (start, found))| Output { answer, start, found }).collect())
 }
 
-/// The rules, with what the bat has of the matter of each.
+/// The rules, with the bat's value for each.
 fn rules(wish: &Wish, bat: &Bat, bench: &Bench) -> Result<Option<RulesKept>> {
     let Some(set) = &wish.rules else { return Ok(None) };
     let bbcor = match set.rules.iter().any(|rule| matches!(rule, Rule::BbcorAtMost(_))) {

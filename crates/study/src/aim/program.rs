@@ -6,8 +6,8 @@
 //!            low_k ≤ r_k·p ≤ high_k                          limits
 //! ```
 //!
-//! A wish may be missed at its price μ, so that there is always an answer where the limits leave one. The
-//! solver is `clarabel`, an interior-point method.
+//! A wish may be missed at its price μ, so that there is always a solution if the limits leave one. The solver is
+//! `clarabel`, an interior-point method.
 
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{
@@ -25,12 +25,12 @@ pub struct Bounded {
     pub high: f64,
 }
 
-/// A wish, in units of what it may be missed by.
+/// A wish, in units of its tolerance.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Elastic {
     /// Row and bounds.
     pub wish: Bounded,
-    /// What one unit of a miss costs.
+    /// The cost of one unit of a miss.
     pub penalty: f64,
 }
 
@@ -39,24 +39,24 @@ pub struct Elastic {
 pub struct Program {
     /// H, symmetric and positive definite.
     pub form: Vec<Vec<f64>>,
-    /// What is wished.
+    /// The wishes.
     pub wishes: Vec<Elastic>,
-    /// What must be.
+    /// The limits.
     pub limits: Vec<Bounded>,
 }
 
-/// What the program comes to.
+/// The solution of the program.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Least {
     /// The unknowns p.
     pub p: Vec<f64>,
-    /// How much less `pᵀHp + Σ μ t` would be if a wish's bound gave way by one unit of it: 0 where it does
-    /// not bind, above 0 at the upper bound, below 0 at the lower one.
+    /// The decrease of `pᵀHp + Σ μ t` if a wish's bound gave way by one unit: 0 if it does not bind, above 0 at the
+    /// upper bound, below 0 at the lower one.
     pub prices: Vec<f64>,
 }
 
 impl Program {
-    /// The least, if there is one: None where the limits contradict each other.
+    /// The minimum; `None` if the limits contradict each other.
     pub fn solve(&self) -> Option<Least> {
         let (n, m) = (self.form.len(), self.wishes.len());
         let mut rows = Rows::default();
@@ -95,7 +95,7 @@ impl Program {
             solution.status,
             SolverStatus::InsufficientProgress | SolverStatus::MaxIterations
         );
-        // One that stopped short has an answer all the same, if it keeps to the limits.
+        // A solver that stopped short still has a solution, if it keeps the limits.
         if !(found || stopped && self.keeps(&solution.x[..n])) {
             return None;
         }
@@ -105,7 +105,7 @@ impl Program {
         p.iter().all(|p| p.is_finite()).then_some(Least { p, prices })
     }
 
-    /// Whether the limits are kept but for rounding.
+    /// Whether the limits are kept to round-off.
     fn keeps(&self, p: &[f64]) -> bool {
         let within = |limit: &Bounded| {
             let value: f64 = limit.row.iter().zip(p).map(|(a, p)| a * p).sum();
@@ -115,7 +115,7 @@ impl Program {
     }
 }
 
-/// Rows `a·z ≤ b`, of which only what is not 0 is kept.
+/// Rows `a·z ≤ b`, as their entries that are not 0.
 #[derive(Default)]
 struct Rows {
     entries: [Vec<usize>; 2],
@@ -124,7 +124,7 @@ struct Rows {
 }
 
 impl Rows {
-    /// Adds `sign · row·p − t ≤ bound` and tells its number, unless the bound is infinite.
+    /// Adds `sign · row·p − t ≤ bound` and returns its number, unless the bound is infinite.
     fn at_most(
         &mut self,
         row: &[f64],
@@ -152,7 +152,7 @@ impl Rows {
     }
 }
 
-/// 2H in its upper triangle, as `½ zᵀPz` has it, with columns of nothing for what has no square.
+/// The upper triangle of 2H, as `½ zᵀPz` needs it, with empty columns for variables without a square.
 fn rows_of(form: &[Vec<f64>], columns: usize) -> CscMatrix<f64> {
     let (mut rows, mut of, mut values) = (vec![], vec![], vec![]);
     for (i, row) in form.iter().enumerate() {
@@ -177,8 +177,8 @@ mod tests {
         vec![vec![1.0, 0.0], vec![0.0, 1.0]]
     }
 
-    /// The point of the plane x + y = 2 that is nearest to the origin is (1, 1); `|p|² = s²/2`, so that a
-    /// bound that gives way by 1 saves s = 2.
+    /// The point of the plane x + y = 2 nearest to the origin is (1, 1). `|p|² = s²/2`, so a bound that gives way by 1
+    /// saves s = 2.
     #[test]
     fn the_least_is_where_geometry_has_it_and_its_price_is_the_derivative() {
         let wish = Elastic { wish: plane(2.0, f64::INFINITY), penalty: 1e3 };

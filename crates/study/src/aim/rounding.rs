@@ -1,7 +1,7 @@
-//! Which rounding of the least change leaves the goals where they are to be?
+//! Which rounding of the least change keeps the goals met?
 //!
-//! A least change lies on the edge of its tolerances, so that rounding may take it out: the stations are then
-//! rounded anew, aside by what the last ones were off.
+//! A least change lies on the edge of its tolerances, so rounding may move it out: the stations are then rounded again
+//! with compensating targets.
 
 use crate::aim::bench::Bench;
 use crate::aim::laying::Laying;
@@ -15,13 +15,13 @@ use sweetspot::base::linear;
 /// Roundings at most.
 const DRAFTS: usize = 5;
 
-/// What a rounding must keep.
+/// The conditions of a rounding.
 pub struct Rounding<'a> {
-    /// The bat, and what is asked of it.
+    /// The bat and its goals.
     pub bench: &'a Bench,
-    /// What its diameter may be.
+    /// The limits of its diameter.
     pub limits: &'a Limits<'a>,
-    /// What each goal may be.
+    /// The allowed range of each goal.
     pub bands: &'a [Band],
     /// How stations are laid.
     pub grid: Grid,
@@ -33,7 +33,7 @@ pub struct Rounding<'a> {
 pub struct Rounded {
     /// Its stations, and the bat.
     pub draft: Draft,
-    /// What its stations are rounded to.
+    /// The grid of its stations.
     pub grid: Grid,
     /// Its goals.
     pub values: Vec<f64>,
@@ -50,8 +50,7 @@ pub struct Rounded {
 }
 
 impl Rounding<'_> {
-    /// The best of some roundings of a change of that size (mm), and by how much it moved each goal, in
-    /// tolerances.
+    /// The best of several roundings of a change of that size (mm), and how far it moved each goal, in tolerances.
     ///
     /// # Errors
     ///
@@ -102,8 +101,8 @@ impl Rounding<'_> {
         misses.fold(broken, f64::max)
     }
 
-    /// How far inside its band each goal is to be that is at its edge, in tolerances: what the rounding of one
-    /// station does to it.
+    /// Required distance from the edge of its band for each goal that is there, in tolerances: the effect of rounding
+    /// one station.
     fn inside(&self, densities: &[Vec<f64>], found: &Found) -> Vec<f64> {
         let one = |of: &Vec<f64>| {
             let places = (1..100).map(|k| 0.01 * f64::from(k) * self.bench.bat().length());
@@ -122,8 +121,8 @@ impl Rounding<'_> {
         densities.iter().enumerate().map(of).collect()
     }
 
-    /// How much each goal moves, in tolerances, per mm of diameter and m of length, as coefficients of the
-    /// curves: their products with the curves are the slopes.
+    /// The effect on each goal, in tolerances, per mm of diameter and m of length, as coefficients of the curves: their
+    /// products with the curves are the slopes.
     fn densities(&self, found: &Found) -> Vec<Vec<f64>> {
         let overlaps = self.bench.splines().overlaps();
         // Curves that are independent have a positive definite matrix.

@@ -1,26 +1,26 @@
-//! What do the rules of a game ask of a bat?
+//! What do the rules of a game demand of a bat?
 //!
-//! A [`RuleSet`] is data with its source and date; what is computed by it certifies nothing.
+//! A [`RuleSet`] is data with its source and date; a result computed from it certifies nothing.
 
 use serde::{Serialize, Serializer};
 
 use sweetspot::base::units::{inches, ounces};
 use sweetspot::bat::body::{Bat, STANDARD_PIVOT};
 
-/// The rules of a game, as far as they are numbers.
+/// The numerical rules of a game.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct RuleSet {
     /// Short name, such as `mlb`.
     pub name: String,
     /// Which game they are of.
     pub game: String,
-    /// Where the numbers are from.
+    /// Source of the numbers.
     pub source: String,
     /// Year or date of the source.
     pub date: String,
     /// The rules.
     pub rules: Vec<Rule>,
-    /// What the rules ask besides, which nothing here computes.
+    /// Further demands of the rules, which are not computed here.
     pub ask: Vec<String>,
 }
 
@@ -56,19 +56,19 @@ pub struct RulesKept {
     pub name: String,
     /// Which game they are of.
     pub game: String,
-    /// Where the numbers are from.
+    /// Source of the numbers.
     pub source: String,
     /// Year or date of the source.
     pub date: String,
-    /// Always false: what is computed certifies nothing.
+    /// Always false: a computed result certifies nothing.
     pub certified: bool,
     /// The rules.
     pub limits: Vec<Ruled>,
-    /// What the rules ask besides, which nothing here computes.
+    /// Further demands of the rules, which are not computed here.
     pub ask: Vec<String>,
 }
 
-/// A rule, and what came of it.
+/// A rule and its result.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Ruled {
     /// Which, as a rule file calls it.
@@ -76,9 +76,9 @@ pub struct Ruled {
     pub rule: Rule,
     /// Its limit (SI); null where it has no number.
     pub limit: Option<f64>,
-    /// What the new bat has (SI); null where it has no such thing.
+    /// The new bat's value (SI); null if it has none.
     pub value: Option<f64>,
-    /// Whether it is kept; null where that is not known.
+    /// Whether it is kept; null if that is not known.
     pub kept: Option<bool>,
 }
 
@@ -89,7 +89,7 @@ impl Serialize for Rule {
 }
 
 impl Rule {
-    /// What a rule file calls it.
+    /// Its name in a rule file.
     pub fn name(self) -> &'static str {
         match self {
             Self::DiameterAtMost(_) => "diameter_at_most",
@@ -132,7 +132,7 @@ impl RuleSet {
         self.rules.iter().map(of).fold(f64::INFINITY, f64::min)
     }
 
-    /// The rules with what the bat has of the matter of each, and whether it is kept; its BBCOR is told.
+    /// The rules with the bat's value for each, and whether it is kept; `bbcor` is given.
     pub fn judged(&self, bat: &Bat, bbcor: Option<f64>) -> RulesKept {
         let widest = bat.profile().stations.outer.iter().fold(0.0_f64, |a, b| a.max(*b));
         let (body, hole) = (bat.inertia(), cup(bat));
@@ -156,7 +156,7 @@ impl RuleSet {
             let slack = 1e-9 * bound.abs().max(1.0);
             let kept = value
                 .map(|value| if most { value <= bound + slack } else { value >= bound - slack });
-            // Without a cup every rule of cups is kept.
+            // A bat without a cup keeps every rule about cups.
             let of_cup = rule.name().starts_with("cup");
             Ruled {
                 rule,
@@ -171,7 +171,7 @@ impl RuleSet {
     }
 }
 
-/// A hole that is open at the tip: its depth and its diameter there (m). None where there is none.
+/// A hole that is open at the tip: its depth and its diameter there (m); `None` without one.
 fn cup(bat: &Bat) -> Option<[f64; 2]> {
     const SAMPLES: usize = 400;
     let length = bat.length();
@@ -184,7 +184,7 @@ fn cup(bat: &Bat) -> Option<[f64; 2]> {
     (rim > 0.0).then_some([depth, 2.0 * rim])
 }
 
-/// Whether nothing says that the bat is of several pieces.
+/// Whether the bat is of one piece, as far as the file tells.
 fn one_piece(bat: &Bat) -> bool {
     let fixtures = bat.fixtures();
     fixtures.regions.is_empty() && fixtures.joints.is_empty()

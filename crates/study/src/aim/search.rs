@@ -1,9 +1,9 @@
-//! The least change that meets the bands: a sequence of quadratic programs.
+//! The least change that meets the bands, by a sequence of quadratic programs.
 //!
-//! Each step makes the goals linear in the unknowns and solves [`Program`] for the next unknowns. The
-//! objective is exactly quadratic and the goals are nearly linear over a millimetre, so that some steps do. A
-//! step is halved until the penalty function `pᵀHp + Σ μ_i miss_i` falls. From a bat beyond the limits, such as one
-//! that is thicker than the rules allow, the first step is taken whole: what is gained beyond them counts for nothing.
+//! Each step linearises the goals in the unknowns and solves [`Program`] for the next unknowns. The objective is
+//! exactly quadratic and the goals are nearly linear over a millimetre, so a few steps are enough. A step is halved
+//! until the penalty function `pᵀHp + Σ μ_i miss_i` falls. If the bat violates the limits, such as one that is thicker
+//! than the rules allow, the first step is taken in full: a gain beyond the limits does not count.
 
 use crate::aim::bench::{Bench, Look};
 use crate::aim::incline::Incline;
@@ -18,19 +18,19 @@ const MOST: usize = 24;
 const STEPS_TAKEN: &str = "24 steps";
 /// A step changes no coefficient by more than that (mm).
 const TRUST: f64 = 3.0;
-/// Where the limits leave nothing in that, by this many times as much at most.
+/// The trust region grows to this many times its size if the limits leave no room in it.
 const WIDEST: f64 = 32.0;
 /// The search has ended where a step changes no coefficient by more than that (mm).
 const STILL: f64 = 1e-3;
-/// Or where a step makes what is made least less by that share only: at a corner of the limits steps go on and
-/// on.
+/// A step that reduces the objective by less than this share ends the search: at a corner of the limits, steps would
+/// continue without end.
 const NO_GAIN: f64 = 1e-7;
 /// A goal that misses its band by this share of its tolerance has missed.
 pub const MISSED: f64 = 1e-3;
 /// Rounds in which places where a limit is broken between others are added.
 const ROUNDS: usize = 10;
-/// A step that changes a coefficient by more than that (mm) is far from the end: its limits may be broken by some
-/// micrometres between the places where they are asked, which the next steps mend.
+/// A step that changes a coefficient by more than this (mm) is far from the end. Its limits may be violated by some
+/// micrometres between the places where they are checked; the next steps correct that.
 const FAR: f64 = 0.1;
 const ROUGHLY: f64 = 2e-6;
 /// Slopes hold as long as no coefficient has changed by more than that (mm).
@@ -41,11 +41,11 @@ const SAME_SLOPES: f64 = 0.05;
 enum End {
     /// At the least change.
     Least,
-    /// As soon as all that is asked is met.
+    /// As soon as all bands are met.
     Met,
 }
 
-/// What is to be made least: this many times the size of the change, and the price of each band's miss.
+/// The objective: this many times the size of the change, plus the price of each band's miss.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Weights {
     /// Factor of `pᵀHp`.
@@ -57,7 +57,7 @@ pub struct Weights {
 impl Weights {
     /// Bands are met, if they can be, by the least change.
     pub fn met(bands: usize) -> Self {
-        /// More than what a tolerance is worth: a centimetre of the sweet spot, some twenty of them, costs 50.
+        /// More than the price of any tolerance: a centimetre of the sweet spot, about twenty tolerances, costs 50.
         const PENALTY: f64 = 1e3;
         Self { size: 1.0, miss: vec![PENALTY; bands] }
     }
@@ -106,7 +106,7 @@ impl<'a> Search<'a> {
         let changes = |x: f64| bench.splines().basis().iter().any(|curve| curve.at(x) != 0.0);
         let rooms = limits.rows(&changes);
         let steep = |incline: Incline| {
-            // As what is gained or lost over 5 cm, so that all rows are of a size.
+            // As a gain or loss over 5 cm, so that all rows have a similar size.
             const OVER: f64 = 0.05;
             let curves = bench.splines().basis().iter();
             let mut row: Vec<f64> = curves.map(|curve| OVER * curve.slope(incline.x)).collect();
@@ -129,17 +129,17 @@ impl<'a> Search<'a> {
         form.iter().zip(p).map(|(row, p)| p * product(row)).sum()
     }
 
-    /// The search from those unknowns on.
+    /// Searches from those unknowns.
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] where the limits of the diameter contradict each other; those of [`Bench::look`].
+    /// [`Error::Value`] if the limits of the diameter contradict each other; those of [`Bench::look`].
     pub fn from(&self, start: &[f64], bands: &[Band], weights: &Weights) -> Result<Found> {
         self.until(End::Least, start, bands, weights)
     }
 
-    /// The search as far as it shows whether the bands that have a price can be met: where they can, its change
-    /// is not the least.
+    /// Searches only until it is clear whether the bands that have a price can be met; if they can, the change is not
+    /// the least one.
     ///
     /// # Errors
     ///
@@ -182,7 +182,7 @@ impl<'a> Search<'a> {
             };
             let Some((next, taken, tried)) = self.descend((&p, merit), &least.p, bands, weights)
             else {
-                // Of slopes of its own no part of a step makes it better: nothing nearer is beside it.
+                // With slopes from this very bat, no part of a step improves it: nothing nearer is nearby.
                 if of_slopes == p || step <= 10.0 * STILL {
                     return Ok(ended(p, look.values, count, None));
                 }
@@ -206,15 +206,15 @@ impl<'a> Search<'a> {
         found.ok_or_else(|| Error::value("aim", "no step at all", "one step at least"))
     }
 
-    /// What is made least.
+    /// The objective.
     fn merit(&self, p: &[f64], values: &[f64], bands: &[Band], weights: &Weights) -> f64 {
         let misses = bands.iter().zip(values).map(|(band, value)| band.miss(*value));
         let price: f64 = misses.zip(&weights.miss).map(|(miss, price)| miss * price).sum();
         weights.size * self.square(&self.form, p) + price
     }
 
-    /// The step as far as it makes the penalty function less: the bat there, its unknowns, and how many bats
-    /// were tried. None where no part of it does.
+    /// The part of the step that reduces the penalty function: the bat there, its unknowns, and the number of bats
+    /// tried; `None` if no part does.
     fn descend(
         &self,
         (p, merit): (&[f64], f64),
@@ -227,10 +227,10 @@ impl<'a> Search<'a> {
         for k in 0..HALVINGS {
             let share = 0.5_f64.powi(k);
             let tried: Vec<f64> = p.iter().zip(to).map(|(p, to)| p + share * (to - p)).collect();
-            // A bat that cannot be is one step too far.
+            // An impossible bat means that the step is too long.
             let Ok(look) = self.bench.look(&tried) else { continue };
             let now = self.merit(&tried, &look.values, bands, weights);
-            // At the end rounding decides, and the last step is taken.
+            // At the end round-off decides, and the last step is taken.
             if now < merit || small && now <= merit + 1e-6 * (1.0 + merit.abs()) {
                 return Some((look, tried, k as usize + 1));
             }
@@ -272,9 +272,9 @@ impl<'a> Search<'a> {
         (0..self.bench.unknowns()).map(|j| if j == k { 1.0 } else { 0.0 }).collect()
     }
 
-    /// Solves the program under the limits of the diameter, along the whole curve, within the trust region:
-    /// a wider one where the limits leave nothing in it. `rooms` are the places where limits are asked, to which
-    /// are added those where they would be broken.
+    /// Solves the program under the limits of the diameter along the whole curve, within the trust region, which is
+    /// enlarged if the limits leave no room in it. `rooms` are the places where limits are checked; those where they
+    /// would be violated are added.
     fn solve(&self, program: Program, p: &[f64], rooms: &mut Vec<Room>) -> Result<Least> {
         let mut trust = TRUST;
         while trust <= WIDEST * TRUST {
@@ -286,7 +286,7 @@ impl<'a> Search<'a> {
         Err(self.no_room(program, p, rooms))
     }
 
-    /// Where the limits leave no room: where a curve that breaks them as little as it can breaks them most.
+    /// The error that the limits leave no room, at the worst place of the curve that violates them least.
     fn no_room(&self, mut program: Program, p: &[f64], rooms: &[Room]) -> Error {
         /// Price of a break of 1 mm, far above that of any change (mm²).
         const PENALTY: f64 = 1e4;
@@ -315,7 +315,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The trust region: what a step may change each unknown to.
+    /// The trust region: the range of each unknown in a step.
     fn trusted<'b>(&'b self, p: &'b [f64], trust: f64) -> impl Iterator<Item = Bounded> + 'b {
         let around = move |(k, p): (usize, &f64)| Bounded {
             row: self.unit(k),
@@ -357,11 +357,11 @@ impl<'a> Search<'a> {
         let mut row: Vec<f64> =
             self.bench.splines().basis().iter().map(|curve| curve.at(room.x)).collect();
         row.resize(self.bench.unknowns(), 0.0);
-        // So much inside that what is left between two places is within the limit; where the change comes to
-        // nothing there is nothing to be inside of.
+        // Far enough inside that the curve between two places is within the limit; where the change ends, this is not
+        // needed.
         let inside = 4e-7 * row.iter().sum::<f64>();
         let (low, high) = (1e3 * room.low, 1e3 * room.high);
-        // Where the diameter is given exactly there is no inside.
+        // If the diameter is prescribed exactly, there is no inside.
         let inside = if high - low > 2.0 * inside { inside } else { 0.0 };
         let (low, high) = (low + inside, high - inside);
         let now: f64 = row.iter().zip(p).map(|(a, p)| a * p).sum();
@@ -371,7 +371,7 @@ impl<'a> Search<'a> {
         Bounded { row, low, high }
     }
 
-    /// Whether those unknowns break a limit or the range of a free choice.
+    /// Whether those unknowns violate a limit or the range of a free choice.
     fn is_beyond(&self, p: &[f64]) -> bool {
         let out = |range: &Bounded| {
             let value: f64 = range.row.iter().zip(p).map(|(a, p)| a * p).sum();
@@ -381,14 +381,14 @@ impl<'a> Search<'a> {
         broken || self.ranges().iter().any(out)
     }
 
-    /// Where the change of those unknowns breaks a limit.
+    /// The places where the change of those unknowns violates a limit.
     fn broken(&self, p: &[f64]) -> Vec<Broken> {
         let change = self.bench.change(p);
         self.limits.broken(&self.bench.splines().knots(), &|x, _| change.at(x))
     }
 }
 
-/// The prices of all bands, 0 of those that are not asked for.
+/// The prices of all bands, 0 for those without a weight.
 fn asked(prices: &[f64], weights: &Weights) -> Vec<f64> {
     let mut prices = prices.iter();
     let of = |miss: &f64| if *miss > 0.0 { prices.next().copied().unwrap_or(0.0) } else { 0.0 };

@@ -1,8 +1,8 @@
-//! Which smooth curves may the change of the diameter be?
+//! Which smooth curves may the change of the diameter have?
 //!
-//! On every stretch that is not kept, a cubic B-spline with a knot about every 5 cm; where the stretch ends at
-//! one that is kept, value and slope are 0, and at an end of the bat that comes to a point the value is. [`Splines::roughness`] is the quadratic form that a least change
-//! makes least:
+//! On every stretch that is not kept, it is a cubic B-spline with a knot about every 5 cm. Beside a kept stretch its
+//! value and slope are 0, and at a pointed end of the bat its value is 0. [`Splines::roughness`] is the quadratic form
+//! that a least change minimises:
 //!
 //! ```text
 //! pᵀHp = mean(d²) + ℓ⁴ mean(d″²),   d(x) = Σ p_j B_j(x),   ℓ = 5 cm, means over the length of the bat
@@ -10,9 +10,9 @@
 
 use sweetspot::base::quadrature::gauss;
 
-/// Distance of the knots, as near as a whole number of them comes (m).
+/// Distance of the knots, as nearly as a whole number of them allows (m).
 const KNOT_EVERY: f64 = 0.05;
-/// A shorter stretch between two that are kept is kept too (m).
+/// A stretch shorter than this between two kept ones is kept too (m).
 const SHORTEST: f64 = 0.02;
 /// Length below which a bend is rough (m).
 const SMOOTH: f64 = 0.05;
@@ -34,8 +34,8 @@ pub struct BSpline {
 }
 
 impl Splines {
-    /// The splines of a bat of that length (m) on all that is not kept: stretches from, to (m). A `pointed` end
-    /// of the bat, the knob's first, has no diameter to be changed.
+    /// The splines of a bat of that length (m) outside the kept stretches (from, to, m). A `pointed` end of the bat,
+    /// the knob's first, has no diameter to change.
     pub fn beside(keep: &[[f64; 2]], length: f64, pointed: [bool; 2]) -> Self {
         let mut stretches = vec![];
         let mut basis = vec![];
@@ -63,7 +63,7 @@ impl Splines {
         Self { length, basis, stretches }
     }
 
-    /// How many curves there are.
+    /// Number of curves.
     pub fn len(&self) -> usize {
         self.basis.len()
     }
@@ -107,7 +107,7 @@ impl Splines {
         means.into_iter().map(|row| row.into_iter().map(|v| v * self.length).collect()).collect()
     }
 
-    /// The mean over the bat of the products of what is told of each two curves.
+    /// The mean over the bat of the products of a property of each two curves.
     fn form(&self, told: impl Fn(&BSpline, f64) -> [f64; 2]) -> Vec<Vec<f64>> {
         let count = self.len();
         let mut form = vec![vec![0.0; count]; count];
@@ -191,25 +191,25 @@ impl BSpline {
     }
 }
 
-/// What the end of a stretch is.
+/// Kind of the end of a stretch.
 #[derive(Debug, Clone, Copy)]
 enum End {
     /// An end of the bat, which may change.
     Free,
-    /// An end of the bat that comes to a point: the value is 0.
+    /// A pointed end of the bat: the value is 0.
     Pointed,
-    /// The border of what is kept: value and slope are 0.
+    /// The border of a kept stretch: value and slope are 0.
     Kept,
 }
 
-/// The B-splines of a stretch, without those that would move what an end holds.
+/// The B-splines of a stretch, without those that would move its held ends.
 fn on_stretch([from, to]: [f64; 2], held: [End; 2]) -> Vec<BSpline> {
     let pieces = (((to - from) / KNOT_EVERY).round() as usize).max(1);
     let place =
         |k: usize| if k == pieces { to } else { from + (to - from) * k as f64 / pieces as f64 };
     let ends = |x: f64| std::iter::repeat_n(x, 3);
     let knots: Vec<f64> = ends(from).chain((0..=pieces).map(place)).chain(ends(to)).collect();
-    // The value at an end is that of the first curve there, value and slope are those of the first two.
+    // The value at an end depends on the first curve there, value and slope on the first two.
     let [first, last] = held.map(|end| match end {
         End::Free => 0,
         End::Pointed => 1,
@@ -248,8 +248,8 @@ mod tests {
         assert_eq!(Splines::beside(&[[0.0, 0.39], [0.4, 0.84]], 0.84, [false; 2]).len(), 0);
     }
 
-    /// The splines of a bat that may change everywhere add up to 1, and to x with their Greville
-    /// abscissae: constants and lines are among the curves.
+    /// The splines of a bat that may change everywhere add up to 1, and to x with their Greville abscissae: constants
+    /// and lines can be represented.
     #[test]
     fn constants_and_lines_are_among_the_curves() {
         let splines = Splines::beside(&[], 0.8, [false; 2]);

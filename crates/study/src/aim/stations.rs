@@ -1,11 +1,11 @@
-//! Which diameters is the changed bat written with?
+//! Which diameters do the stations of the changed bat get?
 //!
-//! They are rounded up or down so that the goals stay where they are: what one station moves, the next ones
-//! take back. Stations where nothing changes keep their digits.
+//! They are rounded up or down so that the goals stay in place: each station compensates the effect of those before.
+//! Stations where nothing changes keep their digits.
 //!
-//! The curve between rounded stations is a new one. Where it breaks a limit (on a bat of which wood is only
-//! taken off it bulges before the first station that is lower, by some 7 µm for 0.1 mm) the station beside it
-//! gives way, by as many digits more as that takes; one of a stretch that is kept by some µm at most.
+//! The curve between rounded stations is a new one. It may violate a limit: if wood is only taken off, it bulges before
+//! the first lower station, by some 7 µm for 0.1 mm. The station beside the violation then gives way, with as many more
+//! digits as that needs; in a kept stretch, by some µm at most.
 
 use crate::aim::laying::{Laying, Station};
 use crate::aim::limits::Broken;
@@ -20,7 +20,7 @@ pub struct Draft {
     pub stations: Vec<Station>,
     /// The bat.
     pub bat: Bat,
-    /// Limits that are still broken, as the stations beside them may not move.
+    /// Limits that are still violated, because the stations beside them may not move.
     pub broken: Vec<Broken>,
 }
 
@@ -33,9 +33,9 @@ pub struct Drafting<'a> {
     densities: &'a [Vec<f64>],
 }
 
-/// So far a station of a stretch that is kept gives way to a limit (m).
+/// Most that a station of a kept stretch gives way to a limit (m).
 const GIVES_WAY: f64 = 1e-5;
-/// What a station is taken to move the curve by at least, as a share of its own move.
+/// Least effect of a station on the curve, as a share of its own move.
 const LEAST_FELT: f64 = 1e-2;
 /// Rounds of giving way to limits.
 const ROUNDS: usize = 60;
@@ -52,8 +52,8 @@ impl<'a> Drafting<'a> {
         Ok(Self { laying, stations, densities })
     }
 
-    /// The bat as it is written, the goals moved by `aside` (in tolerances) on purpose: what an earlier draft
-    /// was off by.
+    /// The bat as written, with the goals deliberately shifted by `aside` (in tolerances): the error of an earlier
+    /// draft.
     ///
     /// # Errors
     ///
@@ -84,9 +84,9 @@ impl<'a> Drafting<'a> {
         Ok(best.expect("the first draft is one"))
     }
 
-    /// Moves the limit of the station beside a broken one; false where none may move.
+    /// Moves the limit of the station beside a violation; false if none may move.
     fn give_way(&self, stations: &mut [Station], broken: &Broken) -> bool {
-        // Only the stations at both ends of the piece: those beyond would make it worse.
+        // Only the stations at both ends of the piece: others would make it worse.
         let x = broken.room.x;
         let left = stations.iter().map(|s| s.x).filter(|s| *s <= x).fold(0.0, f64::max);
         let right = stations.iter().map(|s| s.x).filter(|s| *s >= x).fold(f64::INFINITY, f64::min);
@@ -96,7 +96,7 @@ impl<'a> Drafting<'a> {
         for end in nearest {
             // The other end where the nearer one may not, and both for a place in the middle.
             if !moved || middle {
-                // A station moves the curve beside it the less the farther from it, by nothing at the next one.
+                // The effect of a station on the curve falls with the distance, to zero at the next one.
                 let felt = 1.0 - (x - end).abs() / (right - left).max(SAME_PLACE);
                 let by = broken.by / felt.max(LEAST_FELT);
                 for station in stations.iter_mut().filter(|station| station.x == end) {
@@ -107,7 +107,7 @@ impl<'a> Drafting<'a> {
         moved
     }
 
-    /// Rounds the diameters, each so that the goals are off least up to there.
+    /// Rounds the diameters, each so that the goals up to there are off least.
     fn round(&self, stations: &mut [Station], aside: &[f64]) {
         let spacing: Vec<f64> = (0..stations.len())
             .map(|k| {
@@ -126,7 +126,7 @@ impl<'a> Drafting<'a> {
                 .collect();
             let cost = |new: f64| {
                 let off = off.iter().zip(&effect).map(|(off, g)| off + g * (new - station.exact));
-                // Where no goal feels it, the nearest.
+                // If it affects no goal, the nearest value.
                 off.map(|off| off * off).sum::<f64>() + 1e3 * (new - station.exact).abs()
             };
             let candidates = candidates(station);
@@ -139,8 +139,8 @@ impl<'a> Drafting<'a> {
     }
 }
 
-/// Moves the limit of a station at which the curve is so much (m) too thick, or below 0 too thin; false where it
-/// may not move. What it is rounded to becomes as fine as that takes.
+/// Moves the limit of a station at which the curve is too thick by `by` (m), or below 0 too thin; false if it may not
+/// move. Its rounding becomes as fine as needed.
 fn gives_way(station: &mut Station, by: f64, round: f64) -> bool {
     let needed = 1.2 * by.abs();
     let step = round * 10.0_f64.powf((needed / round).log10().floor().min(0.0));

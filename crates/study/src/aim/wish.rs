@@ -1,7 +1,7 @@
-//! What does somebody want of a bat?
+//! What does a person want of a bat?
 //!
-//! A [`Wish`] is what is written down: targets, rules, limits of the diameter, what may change besides the
-//! shape. [`Wish::bands`] makes of its targets what each answer may be, in SI, of the bat in hand.
+//! A [`Wish`] has targets, rules, limits of the diameter, and the changes that are allowed besides the shape.
+//! [`Wish::bands`] turns its targets into allowed ranges of each answer, in SI, for the bat in hand.
 
 use crate::aim::rules::{Rule, RuleSet};
 use crate::answers::Answer;
@@ -21,21 +21,21 @@ pub enum Goal {
     Drop,
 }
 
-/// A number as it is wished.
+/// A number in a wish.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Amount {
     /// In SI.
     Si(f64),
-    /// A share of what the bat has now: 0.97 is 97 %.
+    /// A share of the bat's present value: 0.97 is 97 %.
     Share(f64),
     /// A place this far from the tip (m).
     FromTip(f64),
 }
 
-/// What is wished of a goal.
+/// The wish for a goal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Ask {
-    /// So much more than now; a share is of what the bat has now.
+    /// A change of the present value, with an optional tolerance; a share is of the present value.
     Change(Amount, Option<Amount>),
     /// This value.
     Value(Amount, Option<Amount>),
@@ -43,16 +43,16 @@ pub enum Ask {
     Between(Option<Amount>, Option<Amount>),
 }
 
-/// A target: a goal, and what is wished of it.
+/// A target: a goal and the wish for it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Target {
-    /// What is aimed at.
+    /// The goal.
     pub goal: Goal,
-    /// What is wished of it.
+    /// The wish for it.
     pub ask: Ask,
 }
 
-/// What the diameter may be on a stretch (m).
+/// Limits of the diameter on a stretch (m).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DiameterLimit {
     /// Where the stretch begins.
@@ -65,14 +65,14 @@ pub struct DiameterLimit {
     pub at_most: Option<f64>,
 }
 
-/// What may change besides the shape.
+/// Allowed changes besides the shape.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct FreeChoice {
     /// Length, from and to (m): every place on the bat moves with it.
     pub length: Option<[f64; 2]>,
-    /// Density of the bat's own material, from and to (kg/m³), moduli as they are.
+    /// Density of the bat's own material, from and to (kg/m³), with unchanged moduli.
     pub density: Option<[f64; 2]>,
-    /// Woods, of which the one that needs the least change is taken.
+    /// Woods, of which the one that needs the least change is chosen.
     pub woods: Vec<Material>,
     /// Greatest weight on the knob (kg).
     pub knob_weight: Option<f64>,
@@ -89,47 +89,47 @@ pub struct Wish {
     pub remove_only: bool,
     /// Whether wood may be added to a bat that was weighed: one that exists can only be cut.
     pub add: bool,
-    /// Stretches that stay as they are (m).
+    /// Stretches that are kept (m).
     pub keep: Vec<[f64; 2]>,
     /// Limits of the diameter.
     pub diameter: Vec<DiameterLimit>,
-    /// Distance of the stations that are written (m); None for 10 mm, or ½ in of a bat in inches.
+    /// Distance between the written stations (m); `None` for 10 mm, or ½ in for a bat in inches.
     pub stations: Option<f64>,
-    /// What diameters are rounded to (m); None for 0.1 mm, or 0.005 in of a bat in inches.
+    /// Step to which diameters are rounded (m); `None` for 0.1 mm, or 0.005 in for a bat in inches.
     pub round: Option<f64>,
-    /// Greatest slope of the surface where it is changed: radius over length.
+    /// Greatest slope of the changed surface: radius over length.
     pub slope: Option<f64>,
-    /// What else may change.
+    /// Allowed changes besides the shape.
     pub free: FreeChoice,
 }
 
-/// How the stations of the new bat are laid and rounded.
+/// The grid of the new bat's stations and its rounding.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Grid {
     /// Distance of the stations (m).
     pub every: f64,
-    /// What diameters are rounded to (m).
+    /// Step to which diameters are rounded (m).
     pub round: f64,
 }
 
-/// What a goal may be, in SI, and what it is now.
+/// The allowed range of a goal, in SI, and its present value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Band {
-    /// What is aimed at.
+    /// The goal.
     pub goal: Goal,
     /// Least value, which may be minus infinity.
     pub low: f64,
     /// Greatest value, which may be infinity.
     pub high: f64,
-    /// What a miss is measured by: the tolerance.
+    /// The tolerance, in which a miss is measured.
     pub scale: f64,
-    /// What the bat has now.
+    /// The present value.
     pub start: f64,
     /// The rule it is of; None for a target.
     pub rule: Option<&'static str>,
 }
 
-/// The knob, which stays as it is where nothing is said (m).
+/// The knob, which is kept by default (m).
 pub const KNOB: [f64; 2] = [0.0, 0.03];
 
 /// Slopes that a limit may have: radius over length.
@@ -165,7 +165,7 @@ impl Goal {
         }
     }
 
-    /// What it is called.
+    /// Its name.
     pub fn name(self) -> String {
         match self {
             Self::Answer(answer) => answer.name(),
@@ -193,7 +193,7 @@ impl Goal {
         }
     }
 
-    /// Its value, of the answer it is made from and the bat.
+    /// Its value, from the underlying answer and the bat's length.
     pub fn of(self, answer: f64, length: f64) -> f64 {
         match self {
             Self::Answer(_) => answer,
@@ -217,7 +217,7 @@ impl Goal {
         }
     }
 
-    /// The tolerance of a target that names none.
+    /// The default tolerance of a target.
     pub fn tolerance(self, start: f64) -> f64 {
         const THOUSANDTH: f64 = 1e-3;
         match self.unit() {
@@ -232,7 +232,7 @@ impl Goal {
 }
 
 impl Amount {
-    /// The value of a bat that has `start` now, and that length (m).
+    /// Its value in SI, for a bat with the present value `start` and that length (m).
     pub fn of(self, start: f64, length: f64) -> f64 {
         match self {
             Self::Si(value) => value,
@@ -251,7 +251,7 @@ impl Amount {
 }
 
 impl Target {
-    /// What the goal may be, of a bat that has `start` now, and that length (m).
+    /// The allowed range of the goal, for a bat with the present value `start` and that length (m).
     pub fn band(&self, start: f64, length: f64) -> Band {
         let tolerance = |within: Option<Amount>| {
             within.map_or_else(|| self.goal.tolerance(start), |within| within.size(start).abs())
@@ -291,14 +291,13 @@ impl Band {
 }
 
 impl Wish {
-    /// This wish of a bat: one that was weighed exists, and wood is only taken off it unless it may be added.
+    /// This wish for a bat: a weighed bat exists, so wood is only taken off unless adding is allowed.
     pub fn of_bat(&self, bat: &Bat) -> Self {
         let exists = bat.weighed() != Weighed::default();
         Self { remove_only: self.remove_only || exists && !self.add, ..self.clone() }
     }
 
-    /// Every goal that is asked of the bat: those of the targets, then those of the rules, each with its
-    /// rule.
+    /// Every goal of the wish: those of the targets, then those of the rules, each with its rule.
     pub fn goals(&self) -> Vec<(Goal, Option<Rule>)> {
         let of_rule = |rule: &Rule| {
             let goal = match rule {
@@ -321,7 +320,7 @@ impl Wish {
         Grid { every: self.stations.unwrap_or(every), round: self.round.unwrap_or(round) }
     }
 
-    /// What each goal of [`Self::goals`] may be, of a bat whose goals are these now.
+    /// The allowed range of each goal of [`Self::goals`], for a bat with these present values.
     ///
     /// # Errors
     ///
@@ -348,7 +347,7 @@ impl Wish {
         Ok(bands)
     }
 
-    /// Whether target k can be met beside those before it.
+    /// Checks that target k is compatible with those before it.
     fn check(&self, k: usize, bands: &[Band], bat: &Bat) -> Result<()> {
         let (band, field) = (&bands[k], format!("targets[{k}]"));
         let said = |value: f64| shown(band.goal, value);
@@ -360,7 +359,7 @@ impl Wish {
             let found = format!("at least {} and at most {}", said(band.low), said(band.high));
             return Err(Error::value(field, found, "limits that leave something between them"));
         }
-        // Masses, swing weights and frequencies are more than nothing.
+        // Masses, swing weights and frequencies are positive.
         let positive = matches!(band.goal.unit(), "kg" | "kg m²" | "Hz");
         if positive && band.high <= band.scale {
             let found = format!("{} {}", band.goal.name(), range(band));
@@ -378,7 +377,7 @@ impl Wish {
             let expected = format!("a place on the bat, 0 to {}", said(bat.length()));
             return Err(Error::value(field, range(band), expected));
         }
-        // Without anything that could add it, what is turned off weighs nothing less than nothing.
+        // If nothing can be added, the mass can only fall.
         let free = &self.free;
         let heavier =
             free.knob_weight.is_some() || free.density.is_some() || !free.woods.is_empty();
@@ -397,7 +396,7 @@ impl Wish {
     }
 }
 
-/// A value with its unit, and in the trade's.
+/// A value with its unit, also in units of the trade.
 fn shown(goal: Goal, value: f64) -> String {
     let said = significant(value, 7);
     match goal.unit() {
@@ -407,7 +406,7 @@ fn shown(goal: Goal, value: f64) -> String {
     }
 }
 
-/// What a band allows, in words.
+/// The range of a band, in words.
 fn range(band: &Band) -> String {
     let said = |value: f64| shown(band.goal, value);
     match (band.low.is_finite(), band.high.is_finite()) {

@@ -1,4 +1,4 @@
-//! What is this wood, and how much of that do the readings say?
+//! What is this wood, and how much do the readings say about it?
 //!
 //! [`Calibration::new`] from a bat and what was measured of it.
 
@@ -23,46 +23,46 @@ pub const NINETY_FIVE: f64 = 1.959_963_984_540_054;
 /// Labels that cost less than this more than the best ones may be the right ones: of tones of random wood a
 /// labelling that is ahead by 8 is right in 97 of 100 cases with two tones and in all with more.
 pub(crate) const SURE: f64 = 8.0;
-/// Other labels explain what was measured if they cost that much less than those that were told.
+/// Other labels replace the given ones if they cost this much less.
 const EXPLAINS: f64 = 24.0;
 /// How a calibration is made.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct CalibrationPlan {
-    /// Where the barrel's region begins (m), if there are two.
+    /// Position of the border of the barrel's region (m), if there are two regions.
     pub split: Option<f64>,
     /// Properties that stay as the file has them.
     pub held: Vec<Property>,
 }
 
-/// Which mode each line was taken for, in the order of the readings; null for a line of no bending mode.
+/// The mode assigned to each line, in the order of the readings; null for a line of no bending mode.
 #[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Identified {
     /// Frequencies of the lines (Hz).
     pub lines_hz: Vec<f64>,
-    /// The labels that were taken.
+    /// The labels that are used.
     pub taken: Labels,
     /// Their chi2.
     // That of strangers included.
     pub chi2: f64,
-    /// The labels of the readings, where others were taken.
+    /// The labels of the readings, if others are used.
     pub told: Option<Labels>,
     /// Their chi2.
     pub told_chi2: Option<f64>,
-    /// The second best labels, where others were looked at.
-    // The best that contradict those that were taken.
+    /// The second best labels, if others were tried.
+    // The best that contradict those in use.
     pub second: Option<Labels>,
     /// Their chi2.
     pub second_chi2: Option<f64>,
-    /// By how much they cost more in the search over all wood; below 8 they may be the right ones.
+    /// Their additional cost in the search over all wood; below 8 they may be the right ones.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub margin: Option<f64>,
-    /// Measured modes whose shapes are like no bending mode.
+    /// Number of measured modes whose shapes match no bending mode.
     #[serde(skip)]
     pub unlike: usize,
 }
 
 impl Identified {
-    /// Whether no other labels come near those that were taken.
+    /// Whether no other labels come near those in use.
     pub fn is_sure(&self) -> bool {
         self.margin.is_none_or(|margin| margin >= SURE)
     }
@@ -73,7 +73,7 @@ impl Identified {
         all > 1 && 2 * (strangers(&self.taken) + self.unlike) >= all
     }
 
-    /// Lines whose label was told and is another, by their places.
+    /// Indices of the lines with a given label that was replaced.
     pub fn changed(&self) -> Vec<usize> {
         let told = self.told.iter().flat_map(|told| told.iter().zip(&self.taken).enumerate());
         told.filter(|(_, (told, taken))| told.is_some() && told != taken).map(|(k, _)| k).collect()
@@ -102,65 +102,65 @@ pub struct LossFound {
     pub loss_factor: f64,
 }
 
-/// What is known of a bat's wood: the members of a calibration's document that are of the fit.
+/// The properties of a bat's wood: the members of a calibration's document that describe the fit.
 #[derive(Debug, Clone, Serialize, schemars::JsonSchema)]
 pub struct Calibration {
-    /// Where the barrel's region begins (m), if there are two.
+    /// Position of the border of the barrel's region (m), if there are two regions.
     pub regions_at_m: Option<f64>,
     /// The parameters of the wood.
     pub parameters: Vec<Estimated>,
     /// Covariance of the natural logarithms of the parameters, in their order; scatter reads it.
     pub covariance: Vec<Vec<f64>>,
-    /// What was measured, beside what the bat of that wood shows.
+    /// The measured values, each with the value of the fitted bat.
     pub data: Vec<Residual>,
-    /// Sum of squares of all residuals and of what was known before, each over its standard deviation.
+    /// Sum of squares of all residuals and of the deviations from prior knowledge, each over its standard deviation.
     pub chi2: f64,
-    /// What it would be by chance: the number of data.
+    /// Its expected value: the number of data.
     pub expected: usize,
     /// How many times larger all errors would have to be for both to be equal.
     // Birge's ratio.
     pub errors_larger_by: f64,
-    /// How far the beam was taken to be off in a frequency, relative.
+    /// Assumed relative error of the beam model in a frequency.
     pub model: f64,
     /// Whether the readings fit this bat.
-    // None is an outlier, the fit has settled, χ² of the data is not far above their number, no label that was told is
-    // another, no other labels come near, and most of the lines are bending modes.
+    // There is no outlier, the fit has converged, χ² of the data is not far above their number, no given label was
+    // replaced, no other labels come near, and most of the lines are bending modes.
     pub fits: bool,
     /// Steps of the fit.
     pub steps: usize,
-    /// Which mode each line was taken for.
+    /// The mode assigned to each line.
     pub labels: Identified,
     /// Names of the data that do not fit the others.
     #[schemars(with = "Vec<String>")]
     pub outliers: Vec<DatumKind>,
-    /// The parameters without those; null where there are none.
+    /// The parameters without the outliers; null if there are none.
     pub without_outliers: Option<WithoutOutliers>,
     /// Loss factors, frequency by frequency.
     pub loss_factors: Vec<LossFound>,
-    /// What a further measurement would do.
+    /// The effect of further measurements.
     pub next: Vec<Proposal>,
-    /// Whether the readings fit the wood that was found, whatever the labels.
+    /// Whether the readings fit the fitted wood, whatever the labels.
     #[serde(skip)]
     pub readings_agree: bool,
-    /// The first frequency of the wood that was found (Hz), if it was looked at.
+    /// The first frequency of the fitted wood (Hz), if it was computed.
     #[serde(skip)]
     pub first_frequency: Option<f64>,
-    /// Whether G is of its kind, as the file has none.
+    /// Whether G is the typical one of its kind, because the file has none.
     #[serde(skip)]
     pub typical_shear: bool,
     /// The name of the file's material, if it has one.
     #[serde(skip)]
     pub material: Option<String>,
-    /// The bat of the wood that was found.
+    /// The bat with the fitted wood.
     #[serde(skip)]
     pub bat: Bat,
-    /// What was measured.
+    /// The measurements.
     #[serde(skip)]
     pub readings: BatReadings,
 }
 
 impl Calibration {
-    /// The wood of a bat that was measured so.
+    /// The wood of a bat with these measurements.
     ///
     /// ```
     /// use sweetspot::Bat;
@@ -189,8 +189,8 @@ impl Calibration {
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] where nothing was measured, where readings are not of this bat, and those of
-    /// [`WoodenBat::new`] and of a solve.
+    /// [`Error::Value`] if nothing was measured, or if readings do not belong to this bat; those of [`WoodenBat::new`]
+    /// and of a solve.
     pub fn new(bat: &Bat, readings: BatReadings, plan: &CalibrationPlan) -> Result<Self> {
         let pivot = readings.pendulum.map_or(STANDARD_PIVOT, |swing| swing.pivot);
         check(bat, &readings, pivot)?;
@@ -250,14 +250,14 @@ impl Calibration {
         misfit(&self.data)
     }
 
-    /// The loss factor of the wood, the mean of all tones that were heard dying out; None without one.
+    /// The loss factor of the wood, the mean over all tones with a measured decay; `None` without one.
     pub fn loss_factor(&self) -> Option<f64> {
         let all = &self.loss_factors;
         let sum: f64 = all.iter().map(|tone| tone.loss_factor).sum();
         (!all.is_empty()).then(|| sum / all.len() as f64)
     }
 
-    /// The same wood, of which a tone was heard dying out as well.
+    /// The same wood with one more measured decay.
     #[must_use]
     pub fn with_ring_down(mut self, tone: RingDown) -> Self {
         self.loss_factors.push(LossFound::of(&tone));
@@ -265,8 +265,8 @@ impl Calibration {
         self
     }
 
-    /// The parameter that the readings say least of, of those that were sought, and the measurement that would do most
-    /// for it.
+    /// The parameter that the readings determine least, among those sought, and the measurement that would improve it
+    /// most.
     pub fn advice(&self) -> Option<(&Estimated, &Proposal, f64)> {
         let sought = self.parameters.iter().enumerate();
         let sought = sought.filter(|(_, parameter)| parameter.verdict != Verdict::Held);
@@ -283,12 +283,12 @@ impl LossFound {
     }
 }
 
-/// χ² of the given number of data that is not taken for chance: four standard deviations above their number.
+/// The largest χ² of the given number of data that chance explains: four standard deviations above their number.
 fn far(data: usize) -> f64 {
     data as f64 + 4.0 * (2.0 * data as f64).sqrt()
 }
 
-/// Refuses what cannot have been measured of this bat.
+/// Refuses readings that cannot belong to this bat.
 fn check(bat: &Bat, readings: &BatReadings, pivot: f64) -> Result<()> {
     let rigid = [readings.mass.is_some(), readings.balance_point.is_some()];
     if rigid == [false; 2] && readings.pendulum.is_none() && readings.lines.is_empty() {
@@ -325,12 +325,12 @@ fn is_near(fit: &Fit) -> bool {
     fit.settled && misfit(&fit.residuals) <= far(fit.residuals.len())
 }
 
-/// The wood that what was known before is taken to be about, where the file's is another one: of E and density whatever
-/// the readings say, of all else the file's. None where the wood that was found may be one of the file's kind.
+/// The centre of the prior knowledge if the wood is not the file's: E and density as the readings say, all else as in
+/// the file. `None` if the fitted wood may be of the file's kind.
 fn another_wood(search: &Search, fit: &Fit) -> Result<Option<Logs>> {
-    /// χ² of what was known before that one wood in a hundred of the file's kind has.
+    /// χ² of the prior knowledge that one wood in a hundred of the file's kind exceeds.
     const RARE: f64 = 10.0;
-    /// A wood of which nothing was known.
+    /// Standard deviation for a wood about which nothing is known.
     const ANY: f64 = 1e3;
     if fit.chi2 - misfit(&fit.residuals) < RARE || !fit.settled {
         return Ok(None);
@@ -344,8 +344,8 @@ fn another_wood(search: &Search, fit: &Fit) -> Result<Option<Logs>> {
     Ok(found.settled.then_some([e, 0.0, density, barrel, 0.0]))
 }
 
-/// The labels that are taken, and what others come to: those that were told where they fit; else, and where lines
-/// have none, those that fit best over all wood.
+/// The labels in use, and the alternatives. The given labels are used if they fit; otherwise, and for lines without
+/// labels, those that fit best over all wood.
 fn labelled(search: &Search) -> Result<(Labelled, Identified)> {
     let told: Labels = search.readings.lines.iter().map(|line| line.mode).collect();
     let highest = told.iter().flatten().max().copied().unwrap_or(0);
@@ -362,7 +362,7 @@ fn labelled(search: &Search) -> Result<(Labelled, Identified)> {
     }
     let other = best(search, LabelChoice::Changes(&told), searched)?;
     match (kept.first(), other.first()) {
-        // Other labels are taken only where they explain what was measured, and nearly all of it.
+        // Other labels are used only if they explain the readings, and nearly all of them.
         (None, Some(_)) => taken(search, other, None),
         (Some(as_told), Some(found)) if fits(found) && found.chi2 + EXPLAINS < as_told.chi2 => {
             let as_told = (told, as_told.chi2);
@@ -372,7 +372,7 @@ fn labelled(search: &Search) -> Result<(Labelled, Identified)> {
     }
 }
 
-/// The first of these labellings, and the next that contradicts it.
+/// The first of these labellings, and the next one that contradicts it.
 fn taken(
     search: &Search,
     found: Vec<Labelled>,
@@ -402,7 +402,7 @@ fn taken(
     Ok((best, identified))
 }
 
-/// The fit without what does not fit, if anything does not and two data are left.
+/// The fit without outliers, if there are any and two data remain.
 fn without(search: &Search, fit: &Fit) -> Result<Option<WithoutOutliers>> {
     let kept = fit.residuals.iter().filter(|residual| !residual.is_outlier());
     let kept: Vec<_> = kept.map(|residual| residual.datum).collect();

@@ -1,13 +1,13 @@
-//! Which tones does the bat have, of every wood that it may be of?
+//! Which tones does the bat have for every possible wood?
 //!
-//! A bat of one material, whatever masses are on it, has tones that go as
+//! A bat of one material, whatever its fixtures weigh, has tones that go as
 //!
 //! ```text
 //! f_n(E, G) = √(E/E₀) F_n(G/E)
 //! ```
 //!
-//! since every stiffness of it goes with E where G/E stays. F_n is solved at some values of G/E and looked up between
-//! them in logarithms. A bat of several materials, of which one is sought, is solved at some values of E as well.
+//! because every stiffness is proportional to E if G/E is constant. F_n is solved at a few values of G/E and
+//! interpolated in logarithms. A bat of several materials, of which one is sought, is solved at a few values of E too.
 
 use crate::calibrate::fit::Search;
 use crate::calibrate::unknowns::{Logs, Property, UNKNOWNS};
@@ -17,10 +17,10 @@ use sweetspot::base::threads;
 
 /// E is sought from a quarter to four times that of the file.
 const STIFFEST: f64 = 4.0;
-/// G/E of wood is sought between these: those of species, 0.058 to 0.111 (Wood Handbook, FPL-GTR-282, table 5-1),
-/// and as much again to both sides.
+/// Range of G/E for wood: that of species, 0.058 to 0.111 (Wood Handbook, FPL-GTR-282, table 5-1), extended by as much
+/// on both sides.
 const SHEAR: [f64; 2] = [0.03, 0.15];
-/// Above this G/E it is that of an isotropic material, `1/(2 (1 + ν))`, and stays as given.
+/// Above this value, G/E is that of an isotropic material, `1/(2 (1 + ν))`, and stays as given.
 const ISOTROPIC: f64 = 0.3;
 /// Values of G/E and of E at which the bat is solved.
 const SOLVED: [usize; 2] = [8, 9];
@@ -30,19 +30,19 @@ const STEPS: [f64; 2] = [3e-3, 0.08];
 
 /// Tones of the bat over G/E and E.
 pub struct Chart {
-    /// Logarithms of E and of G/E over those of the file, where tones were solved.
+    /// Logarithms of E and of G/E over those of the file, at which tones were solved.
     stiffness: Vec<f64>,
     shear: Vec<f64>,
     /// Logarithms of the tones over `√(E/E₀)`, by stiffness, then shear.
     tones: Vec<Vec<f64>>,
-    /// What stays of the wood: the density that was weighed.
+    /// The unchanged properties of the wood: the weighed density.
     rest: Logs,
     /// Whether E is sought.
     open: bool,
 }
 
 impl Chart {
-    /// The tones of the first modes over all wood that the bat may be of.
+    /// The tones of the first modes over all possible wood.
     ///
     /// # Errors
     ///
@@ -60,7 +60,7 @@ impl Chart {
         let shear = if search.held.contains(&Property::ShearModulus) || known > ISOTROPIC {
             vec![0.0]
         } else {
-            // The file's own value belongs to the stretch, whatever it is.
+            // The value in the file is part of the range in any case.
             let ends = [SHEAR[0].min(known), SHEAR[1].max(known)].map(|ratio| (ratio / known).ln());
             between(ends, SOLVED[0])
         };
@@ -75,7 +75,7 @@ impl Chart {
         Ok(Self { stiffness, shear, tones, rest, open })
     }
 
-    /// Looks at every wood of the chart: its logarithms, and those of its tones (Hz).
+    /// Calls `look` for every wood of the chart, with its logarithms and those of its tones (Hz).
     pub fn each(&self, mut look: impl FnMut(Logs, &[f64])) {
         let most = STIFFEST.ln();
         let steps = |ends: [f64; 2], step: f64| {
@@ -112,7 +112,7 @@ fn with(rest: &Logs, stiffness: f64, shear: f64) -> Logs {
     [stiffness, shear, handle, barrel, ratio]
 }
 
-/// The density that the scale tells, of handle and barrel alike; that of the file where nothing was weighed.
+/// The density from the scale, equal for handle and barrel; that of the file if nothing was weighed.
 fn weighed(search: &Search) -> Result<Logs> {
     let mut logs = [0.0; UNKNOWNS];
     let Some(mass) = search.readings.mass else { return Ok(logs) };
@@ -132,7 +132,7 @@ fn between([from, to]: [f64; 2], count: usize) -> Vec<f64> {
     (0..count).map(|k| from + step * k as f64).collect()
 }
 
-/// In which interval of rising numbers a value lies, and where in it, 0 to 1.
+/// The interval of rising numbers that contains a value, and the position in it, 0 to 1.
 fn within(nodes: &[f64], value: f64) -> (usize, f64) {
     let last = nodes.len().saturating_sub(2);
     let k = nodes.iter().skip(1).take_while(|node| **node < value).count().min(last);

@@ -1,4 +1,4 @@
-//! What was found of a property of the wood?
+//! The estimate of a property of the wood.
 
 use serde::Serialize;
 
@@ -7,29 +7,29 @@ use crate::calibrate::posterior::Posterior;
 use crate::calibrate::unknowns::{Property, UNKNOWNS, form};
 use sweetspot::base::error::Result;
 
-/// E or density further from the file's than this many standard deviations of what was known before, and than that
-/// factor, is not that material.
+/// An E or density farther from the file's than this many standard deviations of the prior knowledge, and than that
+/// factor, belongs to another material.
 const FOREIGN: [f64; 2] = [3.0, 1.25];
-/// What was learned of a parameter that is determined, and of one that is not: `1 − σ²/σ₀²`.
+/// Information about a parameter that counts as determined, and as not determined: `1 − σ²/σ₀²`.
 const DETERMINED: f64 = 0.9;
 const UNDETERMINED: f64 = 0.1;
-/// Two parameters that go together so much are known only together, unless both are known to a twentieth.
+/// Two parameters with a correlation above this are known only together, unless both are known to a twentieth.
 const TOGETHER: f64 = 0.95;
 const WELL_KNOWN: f64 = 0.05;
-/// 95 of 100 of any distribution lie between these shares of it.
+/// The shares of a distribution that enclose 95 of 100.
 const ENDS: [f64; 2] = [0.025, 0.975];
 
 /// How well the readings determine a parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
-    /// The readings alone say it.
+    /// The readings alone determine it.
     Determined,
-    /// The readings and what was known before.
+    /// The readings and the prior knowledge.
     Partly,
     /// Only with another one: the readings know a product or a quotient of the two.
     OnlyTogether,
-    /// The readings say nothing: what was known before.
+    /// The readings do not determine it: only the prior knowledge.
     NotDetermined,
     /// It was not sought.
     Held,
@@ -46,7 +46,7 @@ pub struct Estimated {
     pub unit: &'static str,
     /// Its value.
     pub value: f64,
-    /// Where it lies in 95 of 100 cases.
+    /// Interval that contains it in 95 of 100 cases.
     pub interval95: [f64; 2],
     /// Standard deviation of its natural logarithm.
     pub relative_sd: f64,
@@ -54,10 +54,10 @@ pub struct Estimated {
     pub prior: f64,
     /// Standard deviation of its natural logarithm before anything was measured.
     pub prior_relative_sd: f64,
-    /// How much the readings say of it, from 0 to 1: one less its variance over that before.
+    /// Information from the readings, from 0 to 1: one less its variance over the prior variance.
     // Of G, of G/E.
     pub learned: f64,
-    /// The parameter that it goes with most.
+    /// The parameter with the largest correlation.
     #[schemars(with = "Option<String>")]
     pub correlated_with: Option<Property>,
     /// Correlation of their logarithms.
@@ -75,31 +75,31 @@ impl Estimated {
         (own && far).then_some(times)
     }
 
-    /// Whether it is a density that no material of the file's kind has: then the profile is another one.
+    /// Whether it is a density that no material of the file's kind has: then the profile is wrong.
     pub(super) fn is_foreign_density(&self) -> bool {
         self.property == Property::Density && self.foreign().is_some()
     }
 }
 
-/// The parameters and what is known of them; the covariance of all unknowns, in which those that were held have what
-/// was known before.
+/// The parameters and their uncertainties; the covariance of all unknowns, in which those that were held have the prior
+/// one.
 pub(super) fn estimated(search: &Search, fit: &Fit) -> Result<(Vec<Estimated>, Vec<Vec<f64>>)> {
     let known = Known::of(search, fit)?;
     let all = known.properties.iter().map(|property| known.estimated(*property)).collect();
     Ok((all, known.open))
 }
 
-/// What is known of the unknowns, before and after.
+/// The uncertainties of the unknowns, before and after.
 struct Known<'a> {
     search: &'a Search<'a>,
     fit: &'a Fit,
     properties: &'static [Property],
     free: Vec<usize>,
     posterior: Posterior,
-    /// Covariance before anything was measured, and after that of what was sought.
+    /// Prior covariance, and that of the fitted unknowns after the readings.
     before: Vec<Vec<f64>>,
     left: Vec<Vec<f64>>,
-    /// The latter, in which what was held has what was known before.
+    /// The latter, with the prior covariance for the held unknowns.
     open: Vec<Vec<f64>>,
 }
 
@@ -126,7 +126,7 @@ impl<'a> Known<'a> {
         property.parts(self.before.len())
     }
 
-    /// What a held property has of its own: nothing was learned of it.
+    /// A held property's own prior part: the readings add nothing to it.
     fn of_its_own(&self, property: Property) -> f64 {
         if self.is_free(property) {
             return 0.0;
@@ -135,7 +135,7 @@ impl<'a> Known<'a> {
         self.before[own][own].min(form(&self.before, &parts, &parts))
     }
 
-    /// The file's value and the one found.
+    /// The file's value and the fitted one.
     fn values(&self, property: Property) -> [f64; 2] {
         let start = &self.search.wood.materials(&[0.0; UNKNOWNS])[0];
         let centre = match property {
@@ -149,7 +149,7 @@ impl<'a> Known<'a> {
         [centre, centre * log.exp()]
     }
 
-    /// How much was learned of it and of its own unknown, the less of both.
+    /// Information about it and about its own unknown, the smaller of both.
     fn learned(&self, property: Property) -> f64 {
         if !self.is_free(property) {
             return 0.0;
@@ -161,7 +161,7 @@ impl<'a> Known<'a> {
         of(&own).min(of(&self.parts(property)))
     }
 
-    /// The parameter that it goes with most, and the correlation.
+    /// The parameter with the largest correlation, and the correlation.
     fn correlated(&self, property: Property) -> Option<(Property, f64)> {
         let parts = self.parts(property);
         let correlation = |other: &Property| {

@@ -1,4 +1,4 @@
-//! Which wood shows what was measured?
+//! Which wood fits the measurements?
 //!
 //! Gauss-Newton on
 //!
@@ -6,9 +6,9 @@
 //! χ² = Σ ((y − y(θ))/σ)² + θᵀ P⁻¹ θ
 //! ```
 //!
-//! θ the logarithms of the unknowns over what the file says, P what was known of them before. σ² is that of the
-//! reading and, of a frequency, `(model · y)²` for what a beam leaves out. A step changes no logarithm by more than
-//! 0.3, and is halved until χ² falls.
+//! θ are the logarithms of the unknowns over the file's values, P is their prior covariance. σ² is that of the reading
+//! plus, for a frequency, `(model · y)²` for the error of the beam model. A step changes no logarithm by more than 0.3,
+//! and is halved until χ² falls.
 //!
 //! # Source
 //!
@@ -27,12 +27,12 @@ use sweetspot::base::linear::{dot, inverse};
 const LARGEST_STEP: f64 = 0.3;
 /// A fit that has not ended by then runs away.
 const MOST_STEPS: usize = 40;
-/// Steps of this size change nothing that anybody reads.
+/// Smallest step that still changes a printed digit.
 const SETTLED: f64 = 1e-7;
-/// Beyond this many standard deviations of what was known before, and that factor, a fit has run away.
+/// A fit farther than this many prior standard deviations, and than that factor, has diverged.
 const RUNAWAY: [f64; 2] = [4.0, 8.0];
 
-/// What a datum is of; in a document by its name.
+/// Kind of a datum; in a document by its name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(into = "String")]
 pub enum DatumKind {
@@ -47,7 +47,7 @@ pub enum DatumKind {
 }
 
 impl DatumKind {
-    /// Its name, that of an output of the program where there is one.
+    /// Its name, that of an output of the program if there is one.
     pub fn name(self) -> String {
         match self {
             Self::Mass => "mass_kg".to_owned(),
@@ -57,7 +57,7 @@ impl DatumKind {
         }
     }
 
-    /// What a bat shows of it.
+    /// Its value for a bat.
     pub fn of(self, shown: &BatObservations) -> Slopes {
         match self {
             Self::Mass => shown.mass,
@@ -81,10 +81,10 @@ pub struct Datum {
     #[serde(rename = "name")]
     #[schemars(with = "String")]
     pub kind: DatumKind,
-    /// Which of the lines it is; None for what is not a line.
+    /// Index of the line; `None` if it is no line.
     #[serde(skip)]
     pub line: Option<usize>,
-    /// What was read.
+    /// The reading.
     pub measured: f64,
     /// How far the reading may be off.
     pub reading_sd: f64,
@@ -93,13 +93,13 @@ pub struct Datum {
 }
 
 impl Datum {
-    /// How far it is from what a bat shows, `(y − y(θ))/σ`.
+    /// Its distance from a bat's value, `(y − y(θ))/σ`.
     fn deviations(&self, computed: f64) -> f64 {
         (self.measured - computed) / self.sd
     }
 }
 
-/// The data of these readings, the lines taken for those modes; None where a line is of none of them.
+/// The data of these readings, with the given modes of the lines; lines without a mode are omitted.
 pub fn data(readings: &BatReadings, modes: &[Option<usize>]) -> Vec<Datum> {
     let rigid = [
         (DatumKind::Mass, readings.mass),
@@ -118,35 +118,35 @@ pub fn data(readings: &BatReadings, modes: &[Option<usize>]) -> Vec<Datum> {
     rigid.chain(lines).map(datum).collect()
 }
 
-/// What is sought, and from where.
+/// The search: the data, the unknowns, and the start.
 #[derive(Debug, Clone, Copy)]
 pub struct Search<'a> {
     /// The bat.
     pub wood: &'a WoodenBat,
-    /// What was measured and known before.
+    /// The readings and the prior knowledge.
     pub readings: &'a BatReadings,
     /// Properties that stay as the file has them.
     pub held: &'a [Property],
-    /// The wood that what was known before is about: that of the file, all 0, or one far from it.
+    /// The centre of the prior knowledge: the file's wood, all 0, or one far from it.
     pub about: Logs,
 }
 
 /// Left out by more standard deviations than this, a datum does not fit the others.
 pub const OUTLIER: f64 = 3.0;
 
-/// Something that was measured.
-// Beside what the bat of the wood that was found shows.
+/// A datum.
+// Compared with the bat of the fitted wood.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Residual {
-    /// What was measured.
+    /// The datum.
     #[serde(flatten)]
     pub datum: Datum,
-    /// What the bat of that wood shows.
+    /// The value of the fitted bat.
     pub computed: f64,
     /// Measured less computed, in standard deviations.
     // `(y − y(θ))/σ`.
     pub residual_sd: f64,
-    /// Measured less what the fit to all other data predicts, in standard deviations.
+    /// Reading less the prediction by the fit to all other data, in standard deviations.
     // `z/√(1 − h)`.
     pub left_out_sd: f64,
 }
@@ -158,7 +158,7 @@ impl Residual {
     }
 }
 
-/// χ² of the data alone: how far the bat is from what was measured, whatever was known before.
+/// χ² of the data alone, without the prior knowledge.
 pub fn misfit(data: &[Residual]) -> f64 {
     data.iter().map(|residual| residual.residual_sd.powi(2)).sum()
 }
@@ -168,17 +168,17 @@ pub fn misfit(data: &[Residual]) -> f64 {
 pub struct Fit {
     /// The unknowns.
     pub logs: Logs,
-    /// Their covariance; 0 for what was held.
+    /// Their covariance; 0 for held ones.
     pub covariance: Vec<Vec<f64>>,
-    /// χ², what was known before included.
+    /// χ² including the prior knowledge.
     pub chi2: f64,
-    /// Steps that were taken.
+    /// Number of steps.
     pub steps: usize,
-    /// Whether it ended where it should, and not too far from what was known before.
+    /// Whether it converged, not too far from the prior knowledge.
     pub settled: bool,
-    /// The data beside what the bat shows.
+    /// The data compared with the fitted bat.
     pub residuals: Vec<Residual>,
-    /// Everything that the bat shows.
+    /// All values of the fitted bat.
     pub shown: BatObservations,
 }
 
@@ -206,12 +206,12 @@ impl Search<'_> {
         unknowns.filter(|(_, unknown)| !self.held.contains(unknown)).map(|(k, _)| k).collect()
     }
 
-    /// The wood that shows these data, sought from that one on, of which what is held stays; frequencies up to `modes`
-    /// are looked at.
+    /// The wood that fits these data, starting from that one; held properties stay. Frequencies up to `modes` are
+    /// computed.
     ///
     /// # Errors
     ///
-    /// Those of [`WoodenBat::shown`] at the beginning; a bat that cannot be solved on the way ends the search.
+    /// Those of [`WoodenBat::shown`] at the start; a bat that cannot be solved on the way ends the search.
     pub fn fit(&self, data: &[Datum], modes: usize, from: &Logs) -> Result<Fit> {
         let free = self.free();
         let prior = self.prior();
@@ -273,9 +273,9 @@ impl Search<'_> {
         Fit { logs, covariance, chi2, steps, settled, residuals, shown }
     }
 
-    /// χ², half its downward gradient and the covariance, of the free unknowns.
+    /// χ², half its downward gradient and the covariance, for the free unknowns.
     fn linear(&self, data: &[Datum], shown: &BatObservations, logs: &Logs) -> Linear {
-        // Properties that are held count in what was known before, where they are not as the file has them.
+        // Held properties count in the prior term if they differ from the file's.
         let known = inverse(&self.prior()).unwrap_or_default();
         let away: Vec<f64> = logs.iter().zip(&self.about).map(|(log, mean)| log - mean).collect();
         let (free, at) = (self.free(), &away[..known.len()]);

@@ -1,9 +1,9 @@
 //! Which line is which mode?
 //!
-//! Lines rise with the modes. They are compared with the modes of every wood that the bat may be of
-//! ([`Chart`]), not with those of the file's alone: over all of it the best labelling at each wood is found, and the
-//! best few of these are fitted. A line may be a stranger, no bending mode at all (hum, torsion, a hoop of a hollow
-//! barrel, the second of two planes of the grain), at a price; so may modes be that were not heard.
+//! Lines rise with the modes. They are compared with the modes of every possible wood ([`Chart`]), not only with those
+//! of the file's wood. At each wood the best labelling is found, and the best few of these are fitted. At a price, a
+//! line may be a stranger, no bending mode at all (hum, torsion, a hoop of a hollow barrel, the second of two planes of
+//! the grain), and a mode may be unheard.
 
 use std::collections::BTreeMap;
 
@@ -14,11 +14,11 @@ use crate::calibrate::unknowns::Logs;
 use sweetspot::base::error::Result;
 use sweetspot::base::threads;
 
-/// χ² of a line that is not a bending mode.
+/// Cost in χ² of a line that is not a bending mode.
 pub const STRANGER: f64 = 12.0;
-/// χ² of a label that was told and is taken for another.
+/// Cost in χ² of changing a given label.
 const CHANGED: f64 = 12.0;
-/// χ² of a mode below the highest heard that no line is; the first one is often too faint to be heard.
+/// Cost in χ² of a mode below the highest heard one without a line; the first mode is often too faint to be heard.
 const UNHEARD: [f64; 2] = [1.0, 2.5];
 /// How far a computed tone may be off in the search, relative: the beam, and the two planes of the grain.
 const SEARCHED: f64 = 4e-3;
@@ -29,29 +29,29 @@ const MOST_FITTED: [usize; 2] = [6, 3];
 /// The highest mode that a line may be.
 pub const MOST_MODES: usize = 20;
 
-/// Which mode each line is; None for a line of none of them.
+/// The mode of each line; `None` for a line of none of them.
 pub type Labels = Vec<Option<usize>>;
 
-/// What the labels of a search may be.
+/// The labels that a search may use.
 #[derive(Debug, Clone, Copy)]
 pub enum LabelChoice<'a> {
-    /// Labels that stay; None where nothing was told.
+    /// Fixed labels; `None` if none are given.
     Stays(&'a Labels),
     /// Labels that may be changed, at a price.
     Changes(&'a Labels),
 }
 
-/// A labelling, and what it comes to.
+/// A labelling and its cost.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Labelled {
     /// The labels.
     pub labels: Labels,
     /// The fit.
     pub fit: Fit,
-    /// χ² and what lines of no mode cost.
+    /// χ² and the cost of lines without a mode.
     pub chi2: f64,
-    /// What the search made of it: χ² with E and G/E wide open, and the prices of strangers, of modes that were not
-    /// heard and of labels that were changed.
+    /// Its price in the search: χ² with nearly free E and G/E, and the prices of strangers, of unheard modes and of
+    /// changed labels.
     pub price: f64,
 }
 
@@ -73,7 +73,7 @@ pub fn strangers(labels: &Labels) -> usize {
     labels.iter().filter(|label| label.is_none()).count()
 }
 
-/// Whether labels say something else of a line, not only less: two modes for one line, or no line in common.
+/// Whether labels contradict each other and do not merely omit lines: two modes for one line, or no line in common.
 pub fn contradict(a: &Labels, b: &Labels) -> bool {
     let pairs = || a.iter().zip(b).filter_map(|(a, b)| Some(((*a)?, (*b)?)));
     pairs().any(|(a, b)| a != b) || pairs().count() == 0
@@ -136,19 +136,19 @@ fn opened(readings: &BatReadings) -> BatReadings {
     BatReadings { priors, ..readings.clone() }
 }
 
-/// χ² of a wood in the search, before anything was heard.
+/// χ² of a wood in the search due to the prior knowledge.
 fn prior(search: &Search, logs: &Logs) -> f64 {
     let free = search.free();
     free.iter().filter(|k| **k < 2).map(|k| (logs[*k] / OPEN).powi(2)).sum()
 }
 
-/// Price of the modes that no line is.
+/// Price of the modes without a line.
 fn unheard(labels: &Labels) -> f64 {
     let highest = labels.iter().flatten().max().copied().unwrap_or(0);
     (1..highest).filter(|mode| !labels.contains(&Some(*mode))).map(gap).sum()
 }
 
-/// Price of a bending mode that no line is.
+/// Price of a bending mode without a line.
 pub fn gap(mode: usize) -> f64 {
     UNHEARD[usize::from(mode > 1)]
 }
@@ -158,9 +158,9 @@ pub fn gap(mode: usize) -> f64 {
 pub struct Candidate {
     /// Logarithm of its frequency (Hz).
     pub log: f64,
-    /// What it costs if it was not heard though a higher one was.
+    /// Price if it is unheard although a higher one was heard.
     pub gap: f64,
-    /// What it costs to be it.
+    /// Price of choosing it.
     pub more: f64,
 }
 
@@ -168,10 +168,10 @@ pub struct Candidate {
 struct Line {
     /// Its place in the readings.
     place: usize,
-    /// Logarithm of its frequency, and how far that may be off.
+    /// Logarithm of its frequency, and its error.
     log: f64,
     sigma: f64,
-    /// What was told, and what another label costs.
+    /// The given label, and the price of another one.
     told: Option<usize>,
     other: f64,
 }
@@ -180,7 +180,7 @@ struct Line {
 pub struct Lines(Vec<Line>);
 
 impl Lines {
-    /// The lines of readings, with what was told of them.
+    /// The lines of readings, with their given labels.
     pub fn of(readings: &BatReadings, told: LabelChoice) -> Self {
         let (labels, other) = match told {
             LabelChoice::Stays(labels) => (labels, f64::INFINITY),
@@ -196,7 +196,7 @@ impl Lines {
         Self(all)
     }
 
-    /// Price of the labels that differ from those told.
+    /// Price of the labels that differ from the given ones.
     fn told_price(&self, labels: &Labels) -> f64 {
         let changed = |line: &&Line| line.told.is_some() && line.told != labels[line.place];
         self.0.iter().filter(changed).map(|line| line.other).sum()
@@ -207,12 +207,12 @@ impl Lines {
         self.0.iter().any(|line| line.told == Some(mode) && line.other.is_infinite())
     }
 
-    /// The cheapest rising labels beside these rising tones, which count from 1, and their price: χ² of lines within
-    /// reach, of strangers, of modes that were not heard and of changed labels. From line to line the cheapest way to
-    /// every last mode is kept.
+    /// The cheapest rising labels for these rising tones, which count from 1, and their price: χ² of lines within
+    /// reach, of strangers, of unheard modes and of changed labels. From line to line the cheapest way to every last
+    /// mode is kept.
     pub fn cheapest(&self, tones: &[Candidate]) -> (Labels, f64) {
         let count = tones.len();
-        // Price and choices by the last mode so far, 0 for none.
+        // Price and labels by the last mode so far, 0 for none.
         let mut ways: Vec<Option<(f64, Labels)>> = vec![None; count + 1];
         ways[0] = Some((0.0, vec![None; self.0.len()]));
         for line in &self.0 {
@@ -232,7 +232,7 @@ impl Lines {
                 };
                 offer(None, STRANGER);
                 let mut skipped = 0.0;
-                // A label that stays is kept even where it does not rise.
+                // A fixed label is kept even if it does not rise.
                 let first = match line.told {
                     Some(mode) if line.other.is_infinite() => mode.min(last + 1),
                     _ => last + 1,

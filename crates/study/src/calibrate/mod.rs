@@ -2,16 +2,16 @@
 //!
 //! | file | question |
 //! |---|---|
-//! | [`readings`] | what was measured, how exactly, and what was known before |
-//! | [`unknowns`] | which properties are sought, how far were they open |
-//! | [`wood`] | what would a bat of other wood show, and how does that go with each property |
-//! | [`fit`] | which wood shows what was measured |
-//! | [`chart`] | which tones has the bat, of all wood that it may be of |
+//! | [`readings`] | the readings, their errors, and the prior knowledge |
+//! | [`unknowns`] | which properties are sought, and their prior covariance |
+//! | [`wood`] | the values of a bat of other wood, and their derivatives by each property |
+//! | [`fit`] | which wood fits the readings |
+//! | [`chart`] | the tones of the bat for all possible wood |
 //! | [`labels`] | which line is which mode |
-//! | [`posterior`] | how far is the wood open after all that |
-//! | [`next`] | which measurement would tell most |
-//! | [`estimated`] | what was found of a parameter |
-//! | [`calibration`](mod@calibration) | all of it, and how much of it the readings say |
+//! | [`posterior`] | the remaining uncertainty of the wood |
+//! | [`next`] | which measurement would add most |
+//! | [`estimated`] | the estimate of a parameter |
+//! | [`calibration`](mod@calibration) | the whole result, and the information in the readings |
 
 pub mod readings;
 pub mod unknowns;

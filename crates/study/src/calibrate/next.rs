@@ -1,12 +1,12 @@
-//! Which measurement would tell most?
+//! Which measurement would add most?
 //!
-//! A further datum y with σ makes of the covariance C
+//! A further datum y with σ reduces the covariance C to
 //!
 //! ```text
 //! C − C g gᵀ C/(σ² + gᵀ C g),   g = ∂y/∂θ
 //! ```
 //!
-//! so that no bat need be solved to say what it would be worth.
+//! so no bat has to be solved to find its value.
 
 use serde::Serialize;
 
@@ -14,7 +14,7 @@ use crate::calibrate::fit::{DatumKind, Fit, Search};
 use crate::calibrate::unknowns::form;
 use crate::calibrate::wood::Slopes;
 
-/// Modes beyond the highest one measured that are solved; the first of them is thought of.
+/// Number of modes solved beyond the highest one measured; the first of them is proposed.
 pub const BEYOND: usize = 2;
 
 /// A measurement that was not made.
@@ -30,7 +30,7 @@ pub struct Proposal {
     pub factors: Vec<f64>,
 }
 
-/// Every measurement that is missing, with what it would do to these parameters (each a sum of unknowns).
+/// Every missing measurement, with its effect on these parameters (each a sum of unknowns).
 pub fn proposals(search: &Search, fit: &Fit, parameters: &[Vec<f64>]) -> Vec<Proposal> {
     let made = |kind: DatumKind| fit.residuals.iter().any(|residual| residual.datum.kind == kind);
     let rigid =

@@ -1,14 +1,14 @@
-//! How far is the wood open, after what was measured and what was known before?
+//! What is the remaining uncertainty of the wood, after readings and prior knowledge?
 //!
-//! G/E is often all but untold, and E then goes with it along a curve. So the distribution of the unknowns θ is that
-//! at each value γ of ln G/E, a Gaussian, weighted by how well that value explains the readings:
+//! G/E is often hardly determined, and E then follows it along a curve. The distribution of the unknowns θ is therefore
+//! a sum of Gaussians, one at each value γ of ln G/E, weighted by how well that value explains the readings:
 //!
 //! ```text
 //! p(θ) = Σ w_k N(θ; θ_k, C_k),   w_k ∝ exp(−½ χ²(θ_k)),   θ_k the best fit with γ_k,  γ_k evenly spaced
 //! ```
 //!
-//! The determinant of C_k, which belongs to w_k, is the same for all of them: tones go as powers of E and density,
-//! so their derivatives by logarithms do not change. Where G/E is well known one Gaussian is enough.
+//! The determinant of C_k, a factor of w_k, is the same for all: tones go as powers of E and density, so their
+//! derivatives by logarithms are constant. If G/E is well known, one Gaussian is enough.
 //!
 //! # Source
 //!
@@ -22,12 +22,12 @@ use crate::calibrate::unknowns::{Property, form};
 use sweetspot::base::error::Result;
 use sweetspot::base::threads;
 
-/// G/E known better than this, relative, is told by one Gaussian.
+/// If the relative error of G/E is below this, one Gaussian is enough.
 const KNOWN: f64 = 0.10;
-/// Values of G/E are taken to this many standard deviations on both sides.
+/// Values of G/E extend to this many standard deviations on both sides.
 const VALUES: usize = 13;
 const REACH: f64 = 3.3;
-/// Between two of them the distribution is looked at this many times.
+/// Number of points at which the distribution is evaluated between two of them.
 const BETWEEN: usize = 6;
 /// Place of G/E among the unknowns.
 const SHEAR: usize = 1;
@@ -40,12 +40,12 @@ struct Component {
     covariance: Vec<Vec<f64>>,
 }
 
-/// What is known of the logarithms of the unknowns: a sum of Gaussians.
+/// The distribution of the logarithms of the unknowns: a sum of Gaussians.
 #[derive(Debug, Clone)]
 pub struct Posterior(Vec<Component>);
 
 impl Posterior {
-    /// What these data, which that fit shows best, and what was known before say.
+    /// The distribution after these data, which that fit matches best, and the prior knowledge.
     ///
     /// # Errors
     ///
@@ -63,7 +63,7 @@ impl Posterior {
             return Ok(Self(vec![part(1.0, fit)]));
         }
         let before = search.prior()[SHEAR][SHEAR].sqrt();
-        // The curve bends: its tails may lie further out than the Gaussian at the best fit says.
+        // The curve bends: its tails may lie farther out than the Gaussian at the best fit predicts.
         let step = REACH * before.min(1.5 * own) / (VALUES / 2) as f64;
         let held: Vec<Property> =
             search.held.iter().copied().chain([Property::ShearModulus]).collect();

@@ -1,4 +1,4 @@
-//! What was measured of a bat, how exactly, and what was known before.
+//! The readings of a bat, their errors, and the prior knowledge.
 
 use std::f64::consts::TAU;
 
@@ -7,7 +7,7 @@ use serde::Serialize;
 /// A reading and its standard deviation, in the same unit.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct Reading {
-    /// What was read.
+    /// The reading.
     pub value: f64,
     /// How far it may be off, one standard deviation.
     pub deviation: f64,
@@ -16,7 +16,7 @@ pub struct Reading {
 /// A bat that swings as a pendulum.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct Pendulum {
-    /// Where it hangs (m from the knob end).
+    /// Position of the pivot (m from the knob end).
     pub pivot: f64,
     /// Time of a swing there and back (s).
     pub period: Reading,
@@ -27,7 +27,7 @@ pub struct Pendulum {
 pub struct SpectralLine {
     /// Frequency (Hz).
     pub frequency: Reading,
-    /// Which bending mode it was taken for, from 1; None if it was not said.
+    /// Number of its bending mode, from 1; `None` if not given.
     pub mode: Option<usize>,
 }
 
@@ -36,7 +36,7 @@ pub struct SpectralLine {
 pub struct RingDown {
     /// Which bending mode it is, from 1.
     pub mode: usize,
-    /// Cycles N that were counted.
+    /// Number of cycles N.
     pub cycles: f64,
     /// Amplitude `a_N/a₀` after them.
     pub ratio: f64,
@@ -65,7 +65,7 @@ impl RingDown {
 pub enum ShearPrior {
     /// Of G/E: stiff wood is stiff in shear too.
     OverYoung(f64),
-    /// Of G by itself, whatever E is.
+    /// Of G alone, independent of E.
     Alone(f64),
 }
 
@@ -112,19 +112,19 @@ pub struct BatReadings {
     pub pendulum: Option<Pendulum>,
     /// Lines in the spectrum of a tap.
     pub lines: Vec<SpectralLine>,
-    /// Measured modes whose shapes are like no bending mode of the bat.
+    /// Number of measured modes whose shapes match no bending mode of the bat.
     #[serde(skip)]
     pub unlike: usize,
     /// Tones that died out.
     pub ring_down: Vec<RingDown>,
     /// How far the model may be off in a frequency, relative, one standard deviation.
     pub model: f64,
-    /// What was known before.
+    /// The prior knowledge.
     pub priors: Priors,
 }
 
 impl BatReadings {
-    /// What a beam leaves out of a frequency, relative: 0.3 %.
+    /// Relative error of the beam model in a frequency: 0.3 %.
     pub const MODEL: f64 = 3e-3;
 }
 

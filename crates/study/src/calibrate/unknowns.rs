@@ -1,7 +1,7 @@
-//! Which properties of the wood are sought, and how far were they open?
+//! Which properties of the wood are sought, and what is their prior covariance?
 //!
-//! In natural logarithms of what they are over what the bat file says, so that a step never makes a property
-//! negative and all of them are of one size.
+//! They are natural logarithms of the values over those of the bat file, so that no step makes a property negative and
+//! all are of similar size.
 
 use serde::Serialize;
 
@@ -11,11 +11,11 @@ use crate::calibrate::readings::{Priors, ShearPrior};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Property {
-    /// E (Pa), of the handle where there are two regions.
+    /// E (Pa); with two regions, of the handle.
     YoungsModulus,
-    /// G (Pa), of the handle where there are two regions; with the file's shear coefficient κ, of which only the product κG is found.
+    /// G (Pa); with two regions, of the handle. With the file's shear coefficient κ: only the product κG can be found.
     ShearModulus,
-    /// Density (kg/m³), of the handle where there are two regions.
+    /// Density (kg/m³); with two regions, of the handle.
     Density,
     /// Density of the barrel (kg/m³).
     #[serde(rename = "density_barrel")]
@@ -25,11 +25,11 @@ pub enum Property {
     ModulusRatio,
 }
 
-/// How many there are at most.
+/// Largest number of unknowns.
 pub const UNKNOWNS: usize = 5;
 
 impl Property {
-    /// All of them, in their order.
+    /// All of them, in order.
     pub const ALL: [Self; UNKNOWNS] = [
         Self::YoungsModulus,
         Self::ShearModulus,
@@ -63,7 +63,7 @@ impl Property {
         }
     }
 
-    /// Its logarithm as a sum of the given number of unknowns.
+    /// Its logarithm as a sum of the unknowns.
     pub(super) fn parts(self, unknowns: usize) -> Vec<f64> {
         let mut parts = vec![0.0; unknowns];
         parts[self as usize] = 1.0;
@@ -74,10 +74,10 @@ impl Property {
     }
 }
 
-/// Logarithms of all properties over those of the bat file; those of one region are the first three.
+/// Logarithms of all properties over those of the bat file; with one region, the first three.
 pub type Logs = [f64; UNKNOWNS];
 
-/// The covariance of the unknowns of the given number of regions before anything was measured.
+/// The prior covariance of the unknowns for that number of regions.
 pub fn covariance(priors: &Priors, regions: usize) -> Vec<Vec<f64>> {
     let unknowns = Property::of(regions);
     unknowns.iter().map(|a| unknowns.iter().map(|b| entry(priors, *a, *b)).collect()).collect()
@@ -91,7 +91,7 @@ fn entry(priors: &Priors, a: Property, b: Property) -> f64 {
             ShearPrior::OverYoung(deviation) => deviation.powi(2),
             ShearPrior::Alone(deviation) => deviation.powi(2) + priors.youngs_modulus.powi(2),
         },
-        // G by itself does not go with E, so that G/E goes against it.
+        // If G is independent of E, G/E is anticorrelated with E.
         (ShearModulus, other) | (other, ShearModulus) => match priors.shear {
             ShearPrior::OverYoung(_) => 0.0,
             ShearPrior::Alone(_) => -entry(priors, YoungsModulus, other),

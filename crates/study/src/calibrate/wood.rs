@@ -1,7 +1,7 @@
-//! What would a bat of other wood show, and how does that go with each property?
+//! What are the values of a bat of other wood, and their derivatives by each property?
 //!
-//! Frequencies go with the shares of energy ([`sweetspot::modes::shares`]), rigid-body figures with the integrals over the
-//! stretches: no differences are taken.
+//! The derivatives of frequencies follow from shares of energy ([`sweetspot::modes::shares`]), those of rigid-body
+//! figures from integrals over the stretches: no differences are needed.
 //!
 //! ```text
 //! ∂M/∂ln ρ_j = M_j      ∂x_b/∂ln ρ_j = (S_j − x_b M_j)/M
@@ -44,7 +44,7 @@ pub struct Slopes {
     pub by: Logs,
 }
 
-/// What a bat shows.
+/// The values of a bat.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BatObservations {
     /// Mass (kg).
@@ -60,22 +60,22 @@ pub struct BatObservations {
 /// A bat whose wood is sought.
 #[derive(Debug, Clone)]
 pub struct WoodenBat {
-    /// The bat as its file has it, as heavy and as stiff as it was weighed and tapped.
+    /// The bat of the file, with density and moduli from weighing and tapping.
     pub bat: Bat,
-    /// Where the barrel's region begins (m), if there are two.
+    /// Position of the border of the barrel's region (m), if there are two regions.
     pub split: Option<f64>,
-    /// Whether the file gives no shear modulus, so that one typical of the kind was taken.
+    /// Whether the file gives no shear modulus, so that a typical one was assumed.
     pub typical_shear: bool,
     pivot: f64,
 }
 
 impl WoodenBat {
-    /// The bat, in one region or parted at `split` (m), which would hang at `pivot` (m).
+    /// The bat in one region, or divided at `split` (m), with a pendulum's pivot at `pivot` (m).
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] for a place that is not inside the bat, for two regions of a bat whose file has regions or
-    /// edits, for a bat that was edited to another wood, and for one that is held.
+    /// [`Error::Value`] for a place outside the bat, for two regions of a bat whose file has regions or edits, for a
+    /// bat edited to another wood, and for one that is held.
     pub fn new(bat: &Bat, split: Option<f64>, pivot: f64) -> Result<Self> {
         let wood = |change: &Change| matches!(change, Change::Wood(_));
         if bat.edits().iter().any(|edit| wood(&edit.change)) {
@@ -103,12 +103,12 @@ impl WoodenBat {
         Ok(Self { bat: with_typical_shear(&bat), split, typical_shear, pivot })
     }
 
-    /// How many regions there are.
+    /// Number of regions.
     pub fn regions(&self) -> usize {
         1 + usize::from(self.split.is_some())
     }
 
-    /// Whether all of the bat is of the material that is sought, so that every stiffness goes with its E.
+    /// Whether the whole bat is of the material that is sought, so that every stiffness is proportional to its E.
     pub fn is_of_one_material(&self) -> bool {
         let own = self.bat.material();
         self.bat.layups().iter().flat_map(Layup::materials).all(|material| material == own)
@@ -156,7 +156,7 @@ impl WoodenBat {
         })
     }
 
-    /// What the bat of other wood shows, with the given number of frequencies.
+    /// The values of the bat with other wood, and the given number of frequencies.
     ///
     /// # Errors
     ///

@@ -1,7 +1,6 @@
-//! One of the bats that are compared: its hits, its sweet spot, and how far each may be off.
+//! One of the compared bats: its hits, its sweet spot, and their errors.
 //!
-//! What is stated of an exit speed is that it is within `e` (times the closing speed, m/s). The
-//! other errors follow from it:
+//! The stated error of an exit speed is `e` (times the closing speed, m/s). The other errors follow from it:
 //!
 //! ```text
 //! the best place      3 (e/ℓ)/|v″|, v″ the curvature of the exit speed there, and no more than
@@ -11,9 +10,9 @@
 //! vibration           m e times the closing speed: what the impulse moves between the energies
 //! ```
 //!
-//! The error is a curve along the barrel too; ℓ, half a wave of the first mode left out, is what it
-//! changes by its own size in, and three times as steep it may be. The first and the last line are estimates, no bounds; the tests hold
-//! all of them to hits computed far more accurately.
+//! The error is a curve along the barrel too. It changes by its own size within ℓ, half a wave of the first omitted
+//! mode, and its slope may be three times that. The first and the last line are estimates, not bounds; the tests
+//! compare all of them with far more accurate hits.
 
 pub use crate::answers::Figure;
 use crate::verdict::Verdict;
@@ -28,21 +27,21 @@ use sweetspot::collision::sweep::{Sweep, Trial, sweep};
 use sweetspot::collision::sweet_spot::{HitsAlong, Peak, SweetSpot};
 use sweetspot::modes::solve::Request;
 
-/// Where a place is sought exit speeds are as accurate as this, relative to the closing speed.
+/// Accuracy of the exit speeds in a search for places, relative to the closing speed.
 const SOUGHT: f64 = 1e-6;
 /// A place is located to this share of the bat at best.
 const LOCATED: f64 = 1e-6;
 
-/// How the bats are hit: the same for all of them.
+/// The terms of the hits, equal for all bats.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Terms {
     /// How a hit is computed.
     pub model: Model,
-    /// Whether the request's modes are all there are.
+    /// Whether only the request's modes may contribute.
     pub exactly: bool,
-    /// Distance of the places that are compared (m).
+    /// Distance between the compared places (m).
     pub every: f64,
-    /// Steps of the look for the best places, and the share of the outer half to which they are located.
+    /// Number of steps in the search for the best places, and the share of the outer half to which they are located.
     pub look: (usize, f64),
     /// Speed that a point of every bat's barrel has; None where the swings are alike or by a law.
     pub barrel: Option<BarrelSpeed>,
@@ -57,7 +56,7 @@ pub struct Contender {
     pub inertia: Inertia,
     /// The scene with this bat's own swing.
     pub scene: Scene,
-    /// Where that swing is from, if one batter swings all bats.
+    /// The swing law, if one batter swings all bats.
     pub law: Option<SwingLaw>,
     /// The hits at the places that are compared.
     pub sweep: Sweep,
@@ -65,24 +64,24 @@ pub struct Contender {
     pub spot: SweetSpot,
     /// The fastest ball (m/s).
     pub best_speed: Option<Figure>,
-    /// Where the fastest ball is hit (m from the knob end).
+    /// Place of the fastest ball (m from the knob end).
     pub best_place: Option<Figure>,
     /// Energy that the fastest hit leaves in vibration (J).
     pub vibration: Option<Figure>,
-    /// Where the exit speed is within 1 % of the best (m).
+    /// The zone where the exit speed is within 1 % of the best (m).
     pub zone: Option<[Figure; 2]>,
-    /// Where the least energy stays in vibration (m).
+    /// Place where the least energy stays in vibration (m).
     pub least_place: Option<Figure>,
     /// Least energy that stays in vibration (J).
     pub least_vibration: Option<Figure>,
     /// The largest BBCOR of the outer half, of the free bat and of one held at the standard pivot.
     pub bbcor: [Option<Figure>; 2],
-    /// What there is to doubt of its hits.
+    /// Doubts about its hits.
     pub verdict: Verdict,
 }
 
-/// Places of one bat (m from the knob end), rising: every so far from its tip, a quarter of that
-/// between them, and every so far from its knob end.
+/// Places of one bat (m from the knob end), rising: at multiples of `every` from its tip, at quarters between them, and
+/// at multiples of `every` from its knob end.
 pub fn places(bat: &Bat, every: f64, reach: f64) -> Vec<f64> {
     let length = bat.length();
     let from_tip = multiples([0.0, reach], 0.25 * every).into_iter().map(|k| length - k);
@@ -101,7 +100,7 @@ pub fn multiples([low, high]: [f64; 2], step: f64) -> Vec<f64> {
 }
 
 impl Contender {
-    /// Hits the bat at those places (m, rising) and looks for its sweet spot.
+    /// Hits the bat at those places (m, rising) and finds its sweet spot.
     ///
     /// # Errors
     ///
@@ -119,7 +118,7 @@ impl Contender {
         Self::of(bat, (scene, law), terms, sweep)
     }
 
-    /// Looks for the sweet spot of a bat that has been hit.
+    /// Finds the sweet spot of a bat that has been hit.
     ///
     /// # Errors
     ///
@@ -160,12 +159,12 @@ impl Contender {
         })
     }
 
-    /// What the bat weighs in the swing (kg m²), about a point 6 in from the knob end.
+    /// Swing weight (kg m²), about a point 6 in from the knob end.
     pub fn swing_weight(&self) -> f64 {
         self.inertia.about(STANDARD_PIVOT)
     }
 
-    /// The hit at that place (m from the knob end), if it is one of those hit.
+    /// The hit at that place (m from the knob end), if it was computed.
     pub fn at(&self, x: f64) -> Option<&Impact> {
         let near = |impact: &&Impact| (impact.x - x).abs() < 1e-8 * self.bat.length();
         self.sweep.impacts.iter().find(near)
@@ -196,9 +195,9 @@ pub fn exit_speed(impact: &Impact, scene: &Scene) -> Option<Figure> {
     Some(Figure::new(outcome.exit_speed, outcome.error * closing))
 }
 
-/// What is found by search on the outer half of a bat, with its errors.
+/// The results of the search on the outer half of a bat, with their errors.
 pub struct Sought<'a> {
-    /// The outer half, looked along.
+    /// The outer half after a pass along it.
     pub looked: HitsAlong<'a>,
     length: f64,
     /// The share of the bat to which a place is located.
@@ -207,7 +206,8 @@ pub struct Sought<'a> {
 }
 
 impl<'a> Sought<'a> {
-    /// Looks along the outer half of that hitter's bat, in that number of steps; places are located to that share of it.
+    /// Makes a pass along the outer half of that hitter's bat; `look` has the number of steps and the accuracy of
+    /// places.
     pub fn new(hitter: &'a Hitter<'a>, look: (usize, f64)) -> Self {
         let looked = HitsAlong::outer(look, hitter);
         let length = hitter.profile.length();
@@ -227,7 +227,7 @@ impl<'a> Sought<'a> {
     /// How far the exit speed of a hit may be off (m/s), and its closing speed (m/s).
     fn error_of(&self, impact: &Impact) -> [f64; 2] {
         let closing = impact.bat_speed + self.hitter.scene.ball_speed;
-        // Nothing said is all there is to lose.
+        // Without an outcome the error is the whole speed.
         let error = impact.outcome.as_ref().map_or(1.0, |outcome| outcome.error);
         [error.max(SOUGHT) * closing, closing]
     }
@@ -257,7 +257,7 @@ impl<'a> Sought<'a> {
         [Figure::new(peak.x, off), Figure::new(peak.value, moved)]
     }
 
-    /// How far off the place (m) of a greatest value may be that has that error.
+    /// Possible error of the place (m) of a maximum whose value has that error.
     fn place_error(
         &self,
         peak: Peak,
@@ -281,7 +281,7 @@ impl<'a> Sought<'a> {
         let enough =
             |x: f64| self.hitter.glance(x).and_then(|g| value(&g)).is_some_and(|v| v >= floor);
         let side = |end: f64| {
-            // From the peak outwards, twice as far each time; a far maximum is another one.
+            // From the peak outwards, doubling the distance; a distant maximum is a different one.
             let mut far = self.located * self.length * (end - peak.x).signum();
             while far.abs() < (end - peak.x).abs() && enough(peak.x + far) {
                 far *= 2.0;
@@ -292,7 +292,7 @@ impl<'a> Sought<'a> {
         ends.map(side).into_iter().fold(self.located * self.length, f64::max)
     }
 
-    /// An end of the zone: the speed is known to twice the error, and so is where it falls so low.
+    /// An end of the zone, with its error: the speed there and the threshold have the same error.
     pub fn edge(&self, peak: Peak, x: f64) -> Figure {
         let [error, _] = self.speed_error(x);
         let step = 1e-4 * self.length * (peak.x - x).signum();

@@ -1,15 +1,14 @@
-//! Does a weighed mass hide what was changed between two bats?
+//! Does a weighed mass hide the difference between two bats?
 
 use sweetspot::base::number::significant;
 use sweetspot::bat::body::Bat;
 
-/// A change of the density that is not a rounding, relative.
+/// Least relative change of a density that is no rounding.
 const REAL: f64 = 1e-9;
 
-/// A sentence where both bats were said to weigh the same, of the second bat as `name` (the first as
-/// `first`): its density was then set anew, and what it has more or less of than the first does not
-/// show in its mass. Of bats that are their makers' own that is as it should be; of a bat that was
-/// changed from the other it is not.
+/// A sentence if both bats have the same weighed mass; `name` is the second bat, `first` the first. The density of the
+/// second was then set anew, and the mass does not show what it has more or less of. That is right for bats of
+/// different makers, but not for a bat that was changed from the other.
 pub fn hidden(first: (&str, &Bat), other: (&str, &Bat)) -> Option<String> {
     let [a, b] = [first.1.unedited(), other.1.unedited()];
     let [weighed, again] = [a, b].map(|bat| bat.weighed().mass);

@@ -1,15 +1,14 @@
-//! By how much do two pieces of one wood differ in what is compared?
+//! How much do two pieces of one wood differ in the compared figures?
 //!
-//! Two bats are two pieces of wood, whose E and density differ from the species' mean by the published
-//! scatter, each on its own. A figure whose standard deviation by the wood alone is `σ_A` of the first bat
-//! and `σ_B` of the other is then different by
+//! Two bats are two pieces of wood. Their E and density differ independently from the species' mean by the published
+//! scatter. Let `σ_A` and `σ_B` be the standard deviations of a figure of both bats due to the wood alone. The figure
+//! then differs by
 //!
 //! ```text
 //! ± √(σ_A² + σ_B²),   √2 σ where both are of one model
 //! ```
 //!
-//! between two that are picked from the shelf. A bat beside itself with an edit is one piece: its wood
-//! scatters both alike.
+//! between two bats picked from the shelf. A bat and its edited copy are one piece, with one wood.
 
 use crate::answers::Answer;
 use crate::comparison::contender::Contender;
@@ -18,10 +17,10 @@ use sweetspot::bat::body::Bat;
 use sweetspot::bat::edit::Change;
 use sweetspot::collision::hit::Model;
 
-/// Standard deviations by the wood alone, in the order of [`COUNTED`]; None where there is none known.
+/// Standard deviations due to the wood alone, in the order of [`COUNTED`]; `None` if unknown.
 pub type ByWood = [Option<f64>; COUNTED.len()];
 
-/// What the wood leaves open of every answer of a bat.
+/// The uncertainty of every answer of a bat due to the wood.
 pub fn by_wood(contender: &Contender, model: Model) -> ByWood {
     let analysed = Analysed {
         bat: &contender.bat,
@@ -62,7 +61,7 @@ pub fn answer(key: &str) -> Option<usize> {
     })
 }
 
-/// Whether two bats are one piece of wood: one is the other with edits, none of which changes the wood.
+/// Whether two bats are one piece of wood: one is the other with edits that do not change the wood.
 pub fn one_piece(first: &Bat, other: &Bat) -> bool {
     let wood = |bat: &Bat| bat.edits().iter().any(|edit| matches!(edit.change, Change::Wood(_)));
     let [a, b] = [first, other].map(Bat::unedited);

@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::comparison::contender::{Contender, Figure};
 use sweetspot::bat::body::STANDARD_PIVOT;
 
-/// What a row is measured in, in SI.
+/// The unit of a row, in SI.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unit {
     /// Metres (m).
@@ -42,7 +42,7 @@ impl Unit {
     }
 }
 
-/// Where a place is measured from.
+/// The end from which a place is measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum From {
     /// The value is not a position.
@@ -62,24 +62,24 @@ pub struct ComparedFigure {
     pub name: String,
     /// Unit of the values.
     pub unit: Unit,
-    /// Where places are measured from, if the values are places.
+    /// The end from which places are measured, if the values are places.
     pub from: From,
     /// A value for each bat that has one.
     pub values: Vec<Option<Compared>>,
 }
 
-/// A figure of a bat; its difference is left out for the first bat, and where that has no such figure.
+/// A figure of a bat; its difference is left out for the first bat, and if the first has no such figure.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Compared {
     /// The value.
     pub value: f64,
     /// How far the value may be off.
     pub error: f64,
-    /// What the bat has more than the first one.
+    /// The difference from the first bat.
     #[serde(flatten)]
     pub difference: Option<Difference>,
-    /// One standard deviation of the difference between two pieces of wood, this bat's and the first one's; left
-    /// out where it is not known, and where both are one piece.
+    /// One standard deviation of the difference between two pieces of wood, this bat's and the first one's; left out if
+    /// it is not known, and if both are one piece.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub between_pieces: Option<f64>,
 }
@@ -99,7 +99,7 @@ pub struct Difference {
 }
 
 impl ComparedFigure {
-    /// The figures of all the bats beside those of the first.
+    /// The figures of all bats, compared with those of the first.
     pub(crate) fn new(
         (key, name): (&str, &str),
         unit: Unit,
@@ -123,13 +123,13 @@ impl ComparedFigure {
         format!("{}{}", self.key, self.unit.suffix())
     }
 
-    /// Difference of a bat from the first; None of the first, and where one of them has no value.
+    /// Difference of a bat from the first; `None` for the first, and if one of them has no value.
     pub fn difference(&self, bat: usize) -> Option<Difference> {
         self.values[bat]?.difference
     }
 }
 
-/// Modes whose frequencies and nodes are compared.
+/// Number of modes whose frequencies and nodes are compared.
 const MODES: usize = 3;
 
 /// All rows, the bat's body first. Places are there twice: from the knob end and from the tip.
@@ -218,7 +218,7 @@ impl Rows<'_> {
         self.add(key, name, Unit::Joules, |c| of(c).filter(|_| same));
     }
 
-    /// A place, given from the knob end; and the same from the tip.
+    /// A place, in two rows: from the knob end and from the tip.
     fn place(&mut self, key: &str, name: &str, of: impl Fn(&Contender) -> Option<Figure>) {
         self.add(key, name, Unit::Metres, &of);
         self.add(&format!("{key}_from_tip"), name, Unit::Metres, |c| {

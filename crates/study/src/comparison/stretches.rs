@@ -1,4 +1,4 @@
-//! Which bat hits harder, where and by how much, in sentences' parts.
+//! Which bat hits harder, where and by how much, as parts of sentences.
 
 use serde::Serialize;
 
@@ -7,7 +7,7 @@ use crate::comparison::rows::ComparedFigure;
 /// A stretch of the barrel where one of two bats hits harder, or neither.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Stretch {
-    /// Where it begins and ends, as distances from the tip (m).
+    /// Beginning and end, as distances from the tip (m).
     pub from_tip_m: [f64; 2],
     /// Which bat hits harder; null where the difference is within the errors.
     pub harder: Option<Harder>,
@@ -15,7 +15,7 @@ pub struct Stretch {
     pub largest_difference_m_s: f64,
     /// How far that difference may be off (m/s).
     pub largest_difference_error_m_s: f64,
-    /// Where the difference is largest, as a distance from the tip (m).
+    /// Place of the largest difference, as a distance from the tip (m).
     pub largest_at_from_tip_m: f64,
 }
 

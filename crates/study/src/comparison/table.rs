@@ -1,4 +1,4 @@
-//! Bats hit at the same places, and everything that is compared of them.
+//! Bats hit at the same places, with all compared figures.
 
 use crate::comparison::contender::{Contender, Terms, multiples, places};
 use crate::comparison::pieces::{answer, by_wood, one_piece};
@@ -10,39 +10,39 @@ use sweetspot::collision::figures::SwingLaw;
 use sweetspot::collision::hit::{Model, Scene};
 use sweetspot::modes::solve::Request;
 
-/// A bat with its own swing and its own request: theories may differ.
+/// A bat with its own swing and its own request: the theories may differ.
 #[derive(Debug, Clone)]
 pub struct Entry {
     /// The bat.
     pub bat: Bat,
     /// The scene with this bat's swing.
     pub scene: Scene,
-    /// Where that swing is from, if one batter swings all bats.
+    /// The swing law, if one batter swings all bats.
     pub law: Option<SwingLaw>,
-    /// What is asked of its modes; the tolerance is that of the exit speeds.
+    /// The request for its modes; the tolerance is that of the exit speeds.
     pub request: Request,
 }
 
 /// All figures of several bats; the first is the one the others are compared with.
 #[derive(Debug, Clone)]
 pub struct Comparison {
-    /// How all of them are hit.
+    /// The terms of all hits.
     pub terms: Terms,
     /// The bats, the first the one the others are compared with.
     pub bats: Vec<Contender>,
     /// Everything but the exit speeds by place.
     pub figures: Vec<ComparedFigure>,
-    /// Distances from the tip (m), a quarter of the asked one apart.
+    /// Distances from the tip (m), at quarters of the given step.
     pub from_tip: Vec<f64>,
     /// The exit speeds there.
     pub by_tip: Vec<ComparedFigure>,
-    /// Distances from the knob end (m) where all bats have a place, the asked one apart.
+    /// Distances from the knob end (m) where all bats have a place, at the given step.
     pub from_knob: Vec<f64>,
     /// The exit speeds there.
     pub by_knob: Vec<ComparedFigure>,
 }
 
-/// How much of the shortest bat is compared, from the tip on.
+/// Share of the shortest bat that is compared, from the tip.
 const COMPARED: f64 = 0.4;
 
 impl Comparison {
@@ -90,7 +90,7 @@ impl Comparison {
         })
     }
 
-    /// That figure of that bat; None where the bat has none.
+    /// A figure of a bat; `None` if the bat has none.
     pub fn figure(&self, key: &str, bat: usize) -> Option<Compared> {
         self.figures.iter().find(|row| row.key == key)?.values[bat]
     }
@@ -100,14 +100,14 @@ impl Comparison {
         one_piece(&self.bats[0].bat, &self.bats[bat].bat)
     }
 
-    /// Where that bat hits harder than the first.
+    /// The stretches where that bat hits harder than the first.
     pub fn stretches(&self, bat: usize) -> Vec<Stretch> {
         stretches(&self.from_tip, &self.by_tip, bat)
     }
 }
 
-/// Puts beside every figure by how much it differs between another piece of that bat's wood and another of the first's:
-/// one standard deviation, where the scatter is known and the bats are not one piece.
+/// Adds to every figure its difference between another piece of that bat's wood and another of the first's: one
+/// standard deviation, if the scatter is known and the bats are not one piece.
 fn between_pieces(figures: &mut [ComparedFigure], bats: &[Contender], model: Model) {
     let by_wood: Vec<_> = bats.iter().map(|bat| by_wood(bat, model)).collect();
     let others = (1..bats.len()).filter(|bat| !one_piece(&bats[0].bat, &bats[*bat].bat));

@@ -1,4 +1,4 @@
-//! What does somebody want of a bat, as it is written down: the `sweetspot-aim/1` file.
+//! How is a person's wish for a bat written? The `sweetspot-aim/1` file.
 
 use std::ops::Bound::{Excluded, Included, Unbounded};
 use std::path::{Path, PathBuf};
@@ -25,12 +25,12 @@ use sweetspot::files::schema::part::Material;
 /// An aim file, with which later mistakes find their place.
 pub struct AimFile {
     document: Document,
-    /// What is wished.
+    /// The wish.
     pub wish: Wish,
 }
 
 impl AimFile {
-    /// Reads an aim file that a person has named, and the files outside of its folder that it names.
+    /// Reads an aim file that a person has named, and the files outside its folder that it names.
     ///
     /// # Errors
     ///
@@ -49,31 +49,31 @@ impl AimFile {
 }
 
 written! {
-    /// What somebody wants of a bat: targets, rules of a game, limits of the diameter, what may change and what
-    /// stays. Places count from the knob end.
+    /// A wish for a bat: targets, rules of a game, limits of the diameter, allowed changes, and stretches that stay.
+    /// Places count from the knob end.
     AimForm("aim", "Aim file") {
-        /// What it is called.
+        /// Name of the wish.
         name = text();
-        /// What is aimed at. The command line may add more.
+        /// Targets. The command line may add more.
         targets = few(MOST, in_words::<AimParts>(TARGET, aim_text::target));
         /// Rules of a game: a built-in name, or a rule file from this file's folder.
         rules = text().like("mlb");
-        /// Whether wood may only be taken off. Without it false.
+        /// Whether wood may only be taken off. By default false.
         remove_only = truth();
         /// Whether wood may be added to a bat that was weighed, which otherwise is only cut. Without it false.
         add = truth();
-        /// Stretches that stay as they are. Without it the knob, 0 to 30 mm.
+        /// Stretches that stay as they are. By default the knob, 0 to 30 mm.
         keep = few(MOST, in_words::<AimEnds>(STRETCH, aim_text::stretch));
         /// Limits of the diameter, which hold along the whole curve.
         diameter = few(MOST, object::<AimLimit>());
-        /// Distance of the stations that are written. Without it 10 mm, or 0.5 in of a bat in inches.
+        /// Distance between the written stations. By default 10 mm, or 0.5 in for a bat in inches.
         stations = spacing();
-        /// What diameters are rounded to. Without it 0.1 mm, or 0.005 in of a bat in inches.
+        /// Step to which diameters are rounded. By default 0.1 mm, or 0.005 in for a bat in inches.
         round = spacing();
-        /// Greatest slope of the surface where it is changed: change of the radius over length, 0.01 to 10. Where the
-        /// bat is steeper already it becomes no steeper.
+        /// Greatest slope of the changed surface: change of the radius over length, 0.01 to 10. Where the bat is
+        /// steeper already it does not become steeper.
         slope_at_most = number().within(SLOPES, "a slope from 0.01 to 10");
-        /// What may change besides the shape.
+        /// Allowed changes besides the shape.
         free = object::<AimFree>();
     }
     |of| -> Wish {
@@ -100,9 +100,9 @@ written! {
     }
 }
 
-/// What a search takes grows faster than the number of targets, stretches and limits.
+/// Most targets, stretches and limits: the time of a search grows faster than their number.
 const MOST: usize = 20;
-/// What the parts and words of a list of targets are.
+/// The parts and the words of a list of targets.
 const TARGET: [&str; 2] = [
     "A target: in words, as on the command line, or in parts.",
     "In words, such as \"swing weight -3 % within 5 oz in2\".",
@@ -111,7 +111,7 @@ const TARGET: [&str; 2] = [
 const STRETCH: [&str; 2] =
     ["A stretch of the bat: in words, or its ends.", "In words, such as \"0 to 30 mm\"."];
 
-/// Something in words or in parts; what it is, and what the words are.
+/// A value in words or in parts, with its description and that of the words.
 fn in_words<W: Written<Made: 'static> + 'static>(
     [said, of_words]: [&'static str; 2],
     read: fn(&str) -> std::result::Result<W::Made, Complaint>,
@@ -158,30 +158,29 @@ pub enum AimNumber {
 written! {
     /// A target in parts: one of change and value, or at_least and at_most.
     AimParts {
-        /// By how much it is to change: a number in SI, or a text with a unit, in % of what it is, or with where
-        /// to.
+        /// The change: a number in SI, or a text with a unit, in % of the present value, or with a direction.
         change = later::<AimNumber>().like("-3 %").like("1 cm outward");
-        /// What it is to be.
+        /// The new value.
         value = later::<AimNumber>().like("180 Hz").like("6.5 in from the tip");
-        /// What it is to be at least.
+        /// The least value.
         at_least = later::<AimNumber>().like("99.5 %");
-        /// What it is to be at most.
+        /// The greatest value.
         at_most = later::<AimNumber>().like("31 oz");
-        /// What is aimed at: the name of an output, drop, or what people call it.
+        /// The goal: the name of an output, drop, or a common name.
         name = Form::of::<String>(goal).like("inertia_pivot_kg_m2").like("sweet spot"),
             needed "\"name\": what is aimed at, such as \"f1_hz\"";
-        /// How far beside change or value it may be.
+        /// The tolerance of the change or value.
         within = later::<AimNumber>().like("5 oz in2");
     }
     |of| -> Target {
-        // All others are of the goal.
+        // All other members belong to the goal.
         let ask = name.map(|goal| ask(&of.object, goal)).transpose()?;
         let (goal, ask) = name.zip(ask).unwrap_or((Goal::Drop, Ask::Between(None, None)));
         Ok(Target { goal, ask })
     }
 }
 
-/// What is aimed at.
+/// The goal.
 fn goal(node: &Node) -> Result<Option<Goal>> {
     aim_text::goal(&node.string()?).map(Some).map_err(|complaint| node.complain(complaint))
 }
@@ -207,7 +206,7 @@ fn said<T>(
 
 const WAYS: [&str; 4] = ["change", "value", "at_least", "at_most"];
 
-/// What is wished of a goal.
+/// The wish for a goal.
 fn ask(object: &Object, goal: Goal) -> Result<Ask> {
     let mut mistakes = Mistakes::default();
     let of = |key: &str| object.get(key).map(|node| said(node, goal, aim_text::value)).transpose();
@@ -246,9 +245,9 @@ fn ask(object: &Object, goal: Goal) -> Result<Ask> {
 written! {
     /// The ends of a stretch.
     AimEnds {
-        /// Where it begins.
+        /// Beginning.
         from = amount(Quantity::Length), needed ENDS;
-        /// Where it ends.
+        /// End.
         to = amount(Quantity::Length), needed ENDS;
     }
     |of| -> [f64; 2] {
@@ -264,11 +263,11 @@ const ENDS: &str = "\"from\" and \"to\": a stretch of the bat";
 const RISING: &str = "a stretch that ends after it begins";
 
 written! {
-    /// What the diameter may be on a stretch.
+    /// Limits of the diameter on a stretch.
     AimLimit with { "anyOf": [{ "required": ["at_least"] }, { "required": ["at_most"] }] } {
-        /// Where the stretch begins. Without it at the knob end.
+        /// Beginning of the stretch. By default the knob end.
         from = amount(Quantity::Length);
-        /// Where it ends. Without it at the tip.
+        /// End of the stretch. By default the tip.
         to = amount(Quantity::Length);
         /// Least diameter.
         at_least = above_0();
@@ -302,13 +301,13 @@ fn nothing_between(object: &Object) -> Error {
 }
 
 written! {
-    /// What may change besides the shape.
+    /// Allowed changes besides the shape.
     AimFree {
         /// Least and greatest length; everything on the bat moves with it.
         length = range(Quantity::Length);
-        /// Least and greatest density of the bat's own material, its moduli as they are.
+        /// Least and greatest density of the bat's own material, with unchanged moduli.
         density = range(Quantity::Density);
-        /// Materials, of which the one that needs the least change is taken.
+        /// Materials, of which the one that needs the least change is chosen.
         wood = few(MOST, Form::of::<Material>(part_file::whole_material));
         /// Greatest weight on the knob end.
         knob_weight = amount(Quantity::Mass)

@@ -8,7 +8,7 @@ use sweetspot::base::typed;
 use sweetspot::base::units::{self, Quantity};
 use sweetspot::bat::material::{BUILT_IN, Material};
 
-/// What people call a goal.
+/// Common names of goals.
 const CALLED: [(&str, Goal); 30] = [
     ("sweet spot", Goal::Answer(Answer::ExitSpeedPlace)),
     ("best place", Goal::Answer(Answer::ExitSpeedPlace)),
@@ -42,10 +42,10 @@ const CALLED: [(&str, Goal); 30] = [
     ("node 3", Goal::Answer(Answer::Node(3))),
 ];
 
-/// What is wrong, in parts.
+/// The mistake, in parts.
 type Said<T> = std::result::Result<T, Complaint>;
 
-/// The goal of a name, as documents or as people have it.
+/// The goal with that name, as in documents or as people say it.
 pub fn goal(name: &str) -> Said<Goal> {
     let plain = name.trim().to_lowercase();
     if let Some((_, goal)) = CALLED.iter().find(|(called, _)| *called == plain) {
@@ -70,7 +70,7 @@ pub fn goal(name: &str) -> Said<Goal> {
     })
 }
 
-/// The most that a bat has of it (SI), where a bare number may be meant in another unit.
+/// The largest value of a bat (SI), where a bare number may be meant in another unit.
 fn most_of_a_bat(goal: Goal) -> Option<f64> {
     match goal.quantity()? {
         Quantity::Mass => Some(3.0),
@@ -114,7 +114,7 @@ pub fn amount(text: &str, goal: Goal) -> Said<Amount> {
     units::parse_or_si(&text, quantity).map(Amount::Si)
 }
 
-/// A value as it is wished: as [`amount`], but a drop is the trade's: 3, -3 and "drop -3" are three ounces fewer
+/// A value of a wish: as [`amount`], but drops are written as in the trade: 3, -3 and "drop -3" are three ounces fewer
 /// than inches.
 pub fn value(text: &str, goal: Goal) -> Said<Amount> {
     if goal != Goal::Drop || text.trim_end().ends_with('%') {
@@ -140,7 +140,7 @@ pub fn value(text: &str, goal: Goal) -> Said<Amount> {
     }
 }
 
-/// A change: a number with its sign, or with a word that says where to.
+/// A change: a number with its sign, or with a word for the direction.
 pub fn change(text: &str, goal: Goal) -> Said<Amount> {
     let text = wish_words::figures(&wish_words::plain(text));
     match wish_words::way(&text) {
@@ -154,7 +154,7 @@ pub fn change(text: &str, goal: Goal) -> Said<Amount> {
     }
 }
 
-/// A change of that size, with a word or a verb that has its sign.
+/// A change of that size, with a word or a verb that gives its sign.
 fn by(size: &str, goal: Goal, sign: f64) -> Said<Amount> {
     match amount(size, goal)? {
         Amount::Si(value) if value >= 0.0 => Ok(Amount::Si(sign * value)),
@@ -174,7 +174,7 @@ pub fn tolerance(text: &str, goal: Goal) -> Said<Amount> {
     }
 }
 
-/// A target: what is aimed at and what is wished of it, as people say it.
+/// A target in words: the goal and the wish for it.
 ///
 /// The name may stand first ("mass -1 oz"), last ("keep the balance", "lose 3 % swing weight") or be left out where a
 /// word or a unit says it: "1 oz lighter", "-1 oz"; "-3" alone is a drop.
@@ -211,7 +211,7 @@ fn read(text: &str) -> Said<Target> {
     }
 }
 
-/// What is aimed at, and the other words with their numbers in figures.
+/// The goal, and the other words with their numbers in figures.
 fn of_what(verb: Option<Verb>, rest: &str) -> Said<(Goal, String)> {
     let rest = ["the", "its", "my", "any", "of"]
         .iter()
@@ -240,8 +240,8 @@ fn of_what(verb: Option<Verb>, rest: &str) -> Said<(Goal, String)> {
     named(rest).map(|(goal, rest)| (goal, wish_words::figures(rest)))
 }
 
-/// The goal that a wish without a name is of: by a word such as "lighter", by a unit that only one goal has, or the
-/// drop of a number with a minus.
+/// The goal of a wish without a name: by a word such as "lighter", by a unit that only one goal has, or the drop for a
+/// number with a minus.
 fn unnamed(verb: Option<Verb>, words: &str) -> Option<Goal> {
     if wish_words::of_weight(words) {
         return Some(Goal::Answer(Answer::Mass));
@@ -270,7 +270,7 @@ fn unnamed(verb: Option<Verb>, words: &str) -> Option<Goal> {
     }
 }
 
-/// What is wished of a goal, by the verb and the other words.
+/// The wish for a goal, from the verb and the other words.
 fn asked(text: &str, verb: Option<Verb>, rest: &str, goal: Goal) -> Said<Ask> {
     let way = wish_words::way(rest);
     let none = WishedChange::Plain("");
@@ -322,8 +322,8 @@ fn asked(text: &str, verb: Option<Verb>, rest: &str, goal: Goal) -> Said<Ask> {
     }
 }
 
-/// A change by a word. A lighter bat has the greater drop, but "drop 1 lighter" does not ask for one. Up and down are not
-/// directions along a bat.
+/// A change by a word. A lighter bat has the greater drop, but "drop 1 lighter" does not ask for one. Up and down are
+/// not directions along a bat.
 fn moved(rest: &str, size: &str, goal: Goal, sign: f64) -> Said<Amount> {
     if goal == Goal::Drop && wish_words::of_weight(rest) {
         return Err(wrong(
@@ -338,7 +338,7 @@ fn moved(rest: &str, size: &str, goal: Goal, sign: f64) -> Said<Amount> {
     by(size, goal, sign)
 }
 
-/// The nearest wording that is understood, of one that is not: with another name or word, or as two targets.
+/// The nearest understood wording for one that is not: with another name or word, or as two targets.
 fn wording(text: &str) -> Option<String> {
     let said = |wish: &str| read(wish).is_ok();
     // Two wishes in one.
@@ -351,7 +351,7 @@ fn wording(text: &str) -> Option<String> {
             return Some(format!("a target each: --target \"{first}\" --target \"{second}\""));
         }
     }
-    // A word with a slip in it.
+    // A misspelt word.
     let known = wish_words::known();
     let names = CALLED.iter().flat_map(|(called, _)| called.split(' '));
     let all: Vec<&str> = known.into_iter().chain(names).filter(|word| word.len() > 2).collect();
@@ -375,7 +375,7 @@ fn wording(text: &str) -> Option<String> {
     other.map(|other| format!("say of what, such as \"{other}\""))
 }
 
-/// The goal that a text begins with by the name of an output, and the rest of it.
+/// The goal whose name begins a text, and the rest of the text.
 fn named(text: &str) -> Said<(Goal, &str)> {
     let lower = text.to_lowercase();
     let (name, rest) = text.split_once(' ').unwrap_or((text, ""));
@@ -433,7 +433,7 @@ pub fn diameter(text: &str) -> Said<DiameterLimit> {
     }
 }
 
-/// A free choice besides the shape, added to those there are.
+/// Adds a free choice besides the shape to those in `free`.
 pub fn free(text: &str, free: &mut FreeChoice) -> Said<()> {
     let plain = typed::plain(text);
     let after = |word: &str| plain.strip_prefix(word).map(str::trim);

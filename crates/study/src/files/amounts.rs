@@ -10,17 +10,17 @@ use sweetspot::base::units::{self, Quantity};
 use sweetspot::files::json_node::Node;
 use sweetspot::files::schema::amount::Amount;
 
-/// Marks between a reading and how far it may be off.
+/// Marks between a reading and its standard deviation.
 const MARKS: [&str; 3] = ["±", "+/-", "+-"];
 
-/// The parts of a reading that is followed by how far it may be off.
+/// The two parts of a reading with a standard deviation.
 pub fn with_deviation(text: &str) -> Option<(&str, &str)> {
     let (first, second) = MARKS.iter().find_map(|mark| text.split_once(mark))?;
     Some((first.trim(), second.trim()))
 }
 
-/// How far a reading (SI) may be off that was written so: `second` a share, a bare number in the unit of the first,
-/// or with its own.
+/// The standard deviation (SI) of a reading: `second` is a share, a bare number in the unit of the first, or has its
+/// own unit.
 ///
 /// # Errors
 ///
@@ -69,8 +69,8 @@ pub(crate) fn percent(text: &str) -> Option<f64> {
     typed::number(number).map(|value| 0.01 * value)
 }
 
-/// A reading: a bare number in SI, or a text with its unit, on request with its standard deviation after ±, +/- or +-,
-/// in a unit of its own, in that of the reading, or in per cent.
+/// A reading: a bare number in SI, or a text with its unit, optionally with its standard deviation after ±, +/- or +-,
+/// in its own unit, in that of the reading, or in per cent.
 #[derive(Debug, Clone, PartialEq, JsonSchema)]
 #[schemars(untagged)]
 pub enum UncertainAmount {

@@ -1,11 +1,11 @@
-//! What is asked, and what goes with what, in files that name both?
+//! Names of outputs, and correlations of names, in files.
 
 use crate::files::form::{at, sound};
 use sweetspot::base::error::Result;
 use sweetspot::base::mistakes;
 use sweetspot::files::json_node::Node;
 
-/// What is asked, by its names: something, each once.
+/// The outputs by their names: at least one, each once.
 pub(super) fn outputs<T: Copy + PartialEq>(
     node: &Node,
     named: impl Fn(&str) -> Result<T>,
@@ -24,8 +24,8 @@ pub(super) fn outputs<T: Copy + PartialEq>(
     }))
 }
 
-/// Triples of two names, which `place` finds, and the correlation of what they name; what is expected of all three,
-/// and of the second.
+/// Triples of two names, which `place` finds, and the correlation of the named values; `expected` texts for a triple
+/// and for the second name.
 pub(super) fn correlations(
     node: &Node,
     [all, second]: [&str; 2],

@@ -1,6 +1,6 @@
-//! How is a value of a file written: how is it read, and what does a schema say of it?
+//! How is a value of a file written? Its reader and its schema.
 //!
-//! A [`Form`] is both, so that neither can say what the other does not.
+//! A [`Form`] is both, so that the two cannot disagree.
 
 use std::ops::{Bound, RangeBounds};
 
@@ -27,12 +27,12 @@ pub struct Form<T> {
 }
 
 impl<T: 'static> Form<T> {
-    /// A value that is read so, and looks like those of `S`.
+    /// A value with that reader and the schema of `S`.
     pub fn of<S: JsonSchema>(read: impl Fn(&Node) -> Result<T> + 'static) -> Self {
         Self::looking(|generator| generator.subschema_for::<S>(), read)
     }
 
-    /// A value that is read so, and looks as that schema says.
+    /// A value with that reader and that schema.
     pub fn looking(
         schema: impl Fn(&mut SchemaGenerator) -> Schema + 'static,
         read: impl Fn(&Node) -> Result<T> + 'static,
@@ -46,7 +46,7 @@ impl<T: 'static> Form<T> {
         Self { measures: Some(quantity), ..self }
     }
 
-    /// Says what it may look like.
+    /// Adds an example.
     pub fn like(mut self, example: impl Into<Value>) -> Self {
         if let Value::Array(all) = self.more.entry("examples").or_insert(json!([])) {
             all.push(example.into());
@@ -60,17 +60,17 @@ impl<T: 'static> Form<T> {
         self
     }
 
-    /// What is made of it.
+    /// Converts the value after reading.
     pub fn map<U: 'static>(self, made: impl Fn(T) -> U + 'static) -> Form<U> {
         let Self { read, schema, more, measures } = self;
         Form { read: Box::new(move |node| read(node).map(&made)), schema, more, measures }
     }
 
-    /// The value that is written there.
+    /// Reads the value.
     ///
     /// # Errors
     ///
-    /// What is wrong with it.
+    /// The mistakes in it.
     pub fn read(&self, node: &Node) -> Result<T> {
         (self.read)(node)
     }
@@ -90,7 +90,7 @@ impl<T: 'static> Form<T> {
 }
 
 impl Form<f64> {
-    /// Only a number in that range, which `expected` tells.
+    /// Allows only numbers in that range, which `expected` describes.
     pub fn within(self, range: impl RangeBounds<f64> + 'static, expected: &'static str) -> Self {
         let ends = [
             ("minimum", "exclusiveMinimum", range.start_bound().cloned()),
@@ -157,16 +157,16 @@ pub fn few<T: 'static>(most: usize, item: Form<T>) -> Form<Vec<T>> {
     )
 }
 
-/// A value that looks like those of `S`, and is read once others are known.
+/// A value with the schema of `S`, read when others are known.
 pub fn later<S: JsonSchema>() -> Form<()> {
     Form::of::<S>(|_| Ok(()))
 }
 
-/// An error about a value unless it is sound.
+/// An error about a value unless it is valid.
 ///
 /// # Errors
 ///
-/// What was expected of it.
+/// The expected text.
 pub fn sound(node: &Node, is_sound: bool, expected: &str) -> Result<()> {
     match is_sound {
         true => Ok(()),
@@ -174,7 +174,7 @@ pub fn sound(node: &Node, is_sound: bool, expected: &str) -> Result<()> {
     }
 }
 
-/// What is wrong with something that a value names, said where it does.
+/// An error in something that a value names, reported at the value.
 pub fn at(node: &Node, error: Error) -> Error {
     error.placed(|complaint| node.complain(Complaint { field: String::new(), ..complaint }))
 }

@@ -1,13 +1,13 @@
-//! How do people write down what they ask?
+//! How do people write their questions in files?
 //!
 //! | file | question |
 //! |---|---|
-//! | [`form`], [`written`] | how a value is written; an object, and a file, by one list of its members |
-//! | [`amounts`], `asked` | shares and readings with their uncertainty; what is asked, what goes with what |
-//! | [`readings_file`] | what was measured of a bat |
-//! | [`scatter_file`] | what differs between bats of one model |
-//! | [`study_vary`], [`study_file`], [`study_rows`], `study_warnings` | what a study varies; what it asks; row k of it; what is strange |
-//! | `wish_words`, `aim_text`, `rules_file`, `aim_file` | what is wished of a bat: in words; the rules of a game; a wish |
+//! | [`form`], [`written`] | a value; an object and a file, by one list of its members |
+//! | [`amounts`], `asked` | shares and readings with their uncertainty; outputs and correlations |
+//! | [`readings_file`] | readings of a bat |
+//! | [`scatter_file`] | differences between bats of one model |
+//! | [`study_vary`], [`study_file`], [`study_rows`], `study_warnings` | the inputs that a study varies; its outputs; row k of it; warnings |
+//! | `wish_words`, `aim_text`, `rules_file`, `aim_file` | a wish for a bat: in words; the rules of a game; a wish |
 //! | [`measured`] | measured modes, as laboratories write them |
 
 pub mod form;

@@ -1,4 +1,4 @@
-//! What did somebody measure of a bat? The `sweetspot-readings/1` file.
+//! How are the readings of a bat written? The `sweetspot-readings/1` file.
 
 use std::ops::Bound::Excluded;
 
@@ -18,10 +18,10 @@ use sweetspot::bat::body::STANDARD_PIVOT;
 use sweetspot::files::json_node::Node;
 
 written! {
-    /// What was measured of a bat, for sweetspot calibrate: by scale, ruler, pendulum and microphone. At least one
-    /// reading; places count from the knob end.
+    /// Readings of a bat, for sweetspot calibrate: by scale, ruler, pendulum and microphone. At least one reading;
+    /// places count from the knob end.
     ReadingsForm("readings", "Readings file") {
-        /// What the readings are called.
+        /// Name of the readings.
         name = text();
         /// Mass with everything attached. Without an uncertainty it is 1 g.
         mass = reading(Quantity::Mass, 1e-3, [0.1, 5.0]).like("0.869 kg ± 1 g");
@@ -60,7 +60,7 @@ written! {
 written! {
     /// A swing of the hanging bat.
     PendulumForm {
-        /// Where it hangs, on the knob side of the balance point. Without it 6 in from the knob end.
+        /// Position of the pivot, on the knob side of the balance point. By default 6 in from the knob end.
         pivot = amount(Quantity::Length).like("6 in");
         /// Time of a swing there and back. Without an uncertainty it is 1 ms.
         period = reading(Quantity::Time, 1e-3, [0.3, 5.0]).like("1.470 s ± 1 ms"),
@@ -75,9 +75,9 @@ written! {
         /// Frequency of the line.
         hz = reading(Quantity::Frequency, 0.5, [10.0, 20e3]).like(174.5),
             needed "\"hz\": the frequency of the line";
-        /// Standard deviation of the reading. Without it that of the text, else 0.5 Hz.
+        /// Standard deviation of the reading. By default that of the text, else 0.5 Hz.
         within = amount(Quantity::Frequency).like(0.3);
-        /// Which bending mode it is, from 1. Without it that is found out.
+        /// Number of the bending mode, from 1. By default the program finds it.
         mode = order();
     }
     |of| -> SpectralLine {
@@ -103,7 +103,7 @@ written! {
     ToneForm {
         /// Which bending mode it is, from 1.
         mode = order(), needed "\"mode\": which bending mode died out";
-        /// Cycles that were counted.
+        /// Number of cycles.
         cycles = number().within((Excluded(0.0), Excluded(1e5)), CYCLES);
         /// Amplitude after them over that before.
         ratio = number().within((Excluded(0.0), Excluded(1.0)), RATIO);
@@ -137,7 +137,7 @@ written! {
         youngs_modulus = share();
         /// Of G/E. Without it 35 %, unless shear_modulus is there.
         shear_over_young = share().map(ShearPrior::OverYoung);
-        /// Of G by itself, whatever E is, in place of shear_over_young.
+        /// Of G alone, independent of E, in place of shear_over_young.
         shear_modulus = share().map(ShearPrior::Alone);
         /// Of the density. Without it 10 %.
         density = share();

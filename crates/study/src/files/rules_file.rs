@@ -1,5 +1,5 @@
-//! The rules of a game as they are written down: the `sweetspot-rules/1` file. Some travel with the program;
-//! a file of one's own may say the same or more.
+//! How are the rules of a game written? The `sweetspot-rules/1` file. Some rules are built in; your own file may add
+//! others.
 
 use std::ops::Bound::{Excluded, Unbounded};
 use std::path::Path;
@@ -23,7 +23,7 @@ pub const BUILT_IN: [(&str, &str); 7] = [
     ("softball", include_str!("../../../../rules/softball.json")),
 ];
 
-/// The rules of that name, or of a file, whose name ends in `.json`.
+/// The built-in rules of that name, or those of a file whose name ends in `.json`.
 ///
 /// # Errors
 ///
@@ -32,7 +32,7 @@ pub fn named(name: &str) -> Result<RuleSet> {
     named_by(name, |name| Document::read(Path::new(name)))
 }
 
-/// As [`named`], as a file in that folder names them.
+/// As [`named`], for a name in a file of that folder.
 ///
 /// # Errors
 ///
@@ -56,18 +56,18 @@ fn named_by(name: &str, read: impl Fn(&str) -> Result<Document>) -> Result<RuleS
 }
 
 written! {
-    /// The rules of a game, as far as they are numbers, with their source and date. What is computed by them
-    /// certifies nothing: the rules in their newest edition do, and their laboratories.
+    /// The numerical rules of a game, with their source and date. A result computed from them certifies nothing: only
+    /// the newest edition of the rules and the game's laboratories do.
     RulesForm("rules", "Rule file") {
         /// Short name.
         name = text(), needed "\"name\": a short name";
         /// Which game they are of.
         game = text();
-        /// Where the numbers are from.
+        /// Source of the numbers.
         source = text(), needed "\"source\": where the numbers are from";
         /// Year or date of the source.
         date = text(), needed "\"date\": of the source";
-        /// What the rules ask besides, which nothing here computes.
+        /// Further demands of the rules, which are not computed here.
         ask = list(text());
         /// Greatest diameter anywhere.
         diameter_at_most = above_0(Quantity::Length).map(Rule::DiameterAtMost);

@@ -1,6 +1,6 @@
-//! What differs between bats of one model and swings of one batter, as somebody wrote it down?
+//! How are the differences between bats of one model and swings of one batter written?
 //!
-//! The `sweetspot-scatter/1` file. A covariance in it is the result of a calibration, `sweetspot-calibrate/1`.
+//! In the `sweetspot-scatter/1` file. A covariance in it is the result of a calibration, `sweetspot-calibrate/1`.
 
 use std::collections::BTreeMap;
 use std::ops::Bound::{Excluded, Included};
@@ -23,7 +23,7 @@ use sweetspot::files::balls;
 use sweetspot::files::json_node::Node;
 use sweetspot::files::scene_file;
 
-/// Outputs of a file that names none.
+/// Default outputs.
 const USUAL: [&str; 6] = [
     "f1_hz",
     "mass_kg",
@@ -32,28 +32,28 @@ const USUAL: [&str; 6] = [
     "exit_speed_max.x_m",
     "node_mode_1_m",
 ];
-/// Accuracy where none is asked for.
+/// Default accuracy.
 const TOLERANCE: f64 = 1e-4;
-/// How far along a bat a lathe's error reaches unless the file says so (m): 12 in.
+/// Default width of a lathe's error along a bat (m): 12 in.
 const ALONG: f64 = 0.3048;
 
-/// What a file says.
+/// The content of a file.
 #[derive(Debug, Clone)]
 pub struct ScatterFile {
-    /// What differs.
+    /// The differences.
     pub differences: Differences,
     /// How the bat is hit in the middle.
     pub setup: Setup,
-    /// Where the ball is hit in the middle (m), if that is said.
+    /// Mean impact point (m), if it is given.
     pub impact: Option<f64>,
-    /// What is asked.
+    /// The outputs.
     pub outputs: Vec<Output>,
     /// Accuracy.
     pub tolerance: f64,
 }
 
-/// What differs unless the file says it: the wood, from piece to piece of one species, stiffness and density each by
-/// itself ([`sweetspot::bat::material::Material::scatter`]), the usual outputs asked. None for a bat that is not of wood.
+/// The default differences: the wood, from piece to piece of one species, stiffness and density independent
+/// ([`sweetspot::bat::material::Material::scatter`]), with the usual outputs. `None` for a bat that is not of wood.
 pub fn of_wood(bat: &Bat) -> Option<ScatterFile> {
     let Scatter { youngs_modulus, density } = bat.material().scatter()?;
     let one = |what, deviation| Difference { what, deviation };
@@ -69,32 +69,32 @@ pub fn of_wood(bat: &Bat) -> Option<ScatterFile> {
 }
 
 written! {
-    /// What differs between bats of one model and swings of one batter, for sweetspot scatter: standard deviations, in
-    /// the order in which correlated ones are told. At least one of them.
+    /// The differences between bats of one model and swings of one batter, for sweetspot scatter: standard deviations,
+    /// in the order in which correlated ones are reported. At least one of them.
     ScatterForm("scatter", "Scatter file") {
-        /// What the scatter is called.
+        /// Name of the scatter.
         name = text();
         /// The ball: a ball file, from the folder of this one, or the name of a built-in ball. Without it a baseball.
         ball = text();
-        /// How the bat is hit in the middle: the options of sweetspot hit, such as swing_speed, by their names.
+        /// The mean hit: the options of sweetspot hit, such as swing_speed, by their names.
         scene = later::<BTreeMap<String, Said>>();
-        /// What is asked of every bat, by name; exit_speed_m_s@impact is the speed where the ball is hit.
+        /// The outputs for every bat, by name; exit_speed_m_s@impact is the speed at the impact point.
         outputs = later::<Vec<String>>().saying("minItems", 1).like(["f1_hz", AT_IMPACT].to_vec());
         /// Wanted accuracy of frequencies, relative, and of exit speeds, relative to the closing speed. Without it 1e-4.
         tol = share();
-        /// Triples of two that differ and the correlation of their normal numbers; of the later one its part that the
-        /// earlier one leaves open is told.
+        /// Triples of two differences and the correlation of their normal numbers; the later one is reported with the
+        /// earlier one known.
         correlation = later::<Vec<(String, String, f64)>>();
-        /// Density and moduli as a calibration left them, in place of these three: its result, from the folder of this
-        /// file.
+        /// Density and moduli as a calibration left them, in place of these three: the file with its result, looked up
+        /// from the folder of this file.
         covariance = text();
         /// Density of the wood.
         density = object::<LognormalForm>().map(differing(Differs::Density));
-        /// Young's modulus of the wood; G goes with it.
+        /// Young's modulus of the wood, and G with it.
         youngs_modulus = object::<LognormalForm>().map(differing(Differs::YoungsModulus));
         /// G/E of the wood.
         shear_over_young = object::<LognormalForm>().map(differing(Differs::ShearOverYoung));
-        /// What the lathe misses of the diameter: a smooth curve.
+        /// The lathe's error of the diameter: a smooth curve.
         turning = object::<TurningForm>();
         /// Moisture, as a share of the mass; E and G fall by 1.3 % for each per cent.
         moisture = object::<NormalForm>().map(differing(Differs::Moisture));
@@ -104,7 +104,7 @@ written! {
         pitch = object::<NormalForm>().map(differing(Differs::Pitch));
         /// Coefficient of restitution of the ball, as an amount.
         cor = object::<CorForm>().map(differing(Differs::Cor));
-        /// Where the ball is hit.
+        /// The impact point.
         impact = object::<ImpactForm>();
     }
     |of| -> ScatterFile {
@@ -132,7 +132,7 @@ written! {
             let expected = "one at least, such as \"density\": { \"lognormal\": \"4 %\" }";
             return Err(node.error("nothing that differs", expected));
         }
-        // Correlations that no numbers can have are told here, where their place is known.
+        // Impossible correlations are reported here, where their place is known.
         let node = of.at("correlation").or(of.at("covariance")).unwrap_or(node);
         differences.designs(1.0, 64, 0).map_err(|error| at(node, error))?;
         let (impact, tolerance) = (middle.flatten(), tol.unwrap_or(TOLERANCE));
@@ -170,7 +170,7 @@ written! {
 }
 
 written! {
-    /// What the lathe misses.
+    /// The lathe's error.
     TurningForm {
         /// Standard deviation of the diameter.
         normal = amount(Quantity::Length).like("0.1 mm")
@@ -187,7 +187,7 @@ written! {
 }
 
 written! {
-    /// Where the ball is hit.
+    /// The impact point.
     ImpactForm {
         /// Standard deviation of the place.
         normal = amount(Quantity::Length).like("0.5 in")
@@ -201,7 +201,7 @@ written! {
     }
 }
 
-/// Something that differs by that.
+/// A difference with that standard deviation.
 fn differing(what: Differs) -> impl Fn(f64) -> Difference {
     move |deviation| Difference { what, deviation }
 }
@@ -237,7 +237,7 @@ fn correlations(node: &Node, differences: &Differences) -> Result<Vec<(usize, us
     })
 }
 
-/// Density and moduli as a calibration left them: what it found goes before what the file says.
+/// Density and moduli as a calibration left them: its values take precedence over the file's.
 fn calibrated(of: &Members, name: &str, differences: &mut Differences) -> Result<()> {
     for key in ["density", "youngs_modulus", "shear_over_young"] {
         if let Some(other) = of.at(key) {
@@ -269,7 +269,7 @@ fn calibrated(of: &Members, name: &str, differences: &mut Differences) -> Result
             "youngs_modulus_ratio" => Differs::ModulusRatio,
             _ => return Err(name.error(name.shown(), "a parameter of a calibration")),
         };
-        // What was held does not differ.
+        // A held property does not differ.
         if matrix[k][k] > 1e-16 {
             found.push((k, Difference { what, deviation: matrix[k][k].sqrt() }));
         }
@@ -289,7 +289,7 @@ fn usual() -> Result<Vec<Output>> {
     USUAL.iter().map(|name| Answer::named(name).map(Output::Of)).collect()
 }
 
-/// What is asked; where a place that is hit differs, the speed there too if nothing is named.
+/// The outputs; by default, if the impact point differs, the speed there too.
 fn asked(node: Option<&Node>, differences: &Differences) -> Result<Vec<Output>> {
     let Some(node) = node else {
         let at_impact = differences.all.iter().any(|one| one.what == Differs::Impact);

@@ -1,4 +1,4 @@
-//! Which bats does somebody want to vary, and what is asked of them? The `sweetspot-study/1` file.
+//! How is a study written: its bats, what varies, and its outputs? The `sweetspot-study/1` file.
 
 use std::collections::BTreeMap;
 use std::ops::Bound::Excluded;
@@ -25,31 +25,31 @@ const SPREADS: [(&str, Spread); 3] = [
     ("latin-hypercube", Spread::LatinHypercube),
     ("random", Spread::Random),
 ];
-/// Points of a study that does not say how many.
+/// Default number of points.
 const POINTS: u64 = 1000;
 
 /// A study.
 #[derive(Debug, Clone)]
 pub struct StudyFile {
-    /// Files of bats, folders of them, or names of built-in ones.
+    /// Files of bats, folders of them, or names of built-in bats.
     pub bats: Vec<String>,
     /// File of the ball, or the name of a built-in one.
     pub ball: Option<String>,
     /// Members of the scene, as written.
     pub scene: Map<String, Value>,
-    /// What varies.
+    /// The inputs that vary.
     pub varied: Vec<Varied>,
     /// The rows.
     pub design: Design,
-    /// What is asked of every bat.
+    /// The outputs for every bat.
     pub asked: Asked,
     /// The names of the answers, as written.
     pub outputs: Vec<String>,
-    /// Its members that say how numbers are drawn, where none is.
+    /// Members about random numbers in a study without any.
     pub idle: Vec<&'static str>,
-    /// Where it says what varies, or else which bats there are.
+    /// Position of the inputs that vary, or else of the bats.
     place: Box<FilePosition>,
-    /// Where it names its bats, and its ball.
+    /// Positions of the names of its bats, and of its ball.
     naming: [Box<FilePosition>; 2],
 }
 
@@ -59,7 +59,7 @@ impl StudyFile {
         self.varied.iter().any(|varied| varied.subject == subject)
     }
 
-    /// What is wrong with a bat or a ball that the study names: said where it does.
+    /// An error in a bat or a ball that the study names, reported at the name.
     pub fn names_in_vain(&self, subject: VariedFile, error: Error) -> Error {
         let [of_bats, of_ball] = &self.naming;
         let (place, field, expected) = match subject {
@@ -76,7 +76,7 @@ impl StudyFile {
         Error::Input { place: place.clone(), complaint }
     }
 
-    /// What is wrong with a study that comes to nothing in every row that was tried, by what was wrong with one.
+    /// The error of a study in which every row that was tried fails, from the error of one row.
     pub fn comes_to_nothing(&self, error: Error) -> Error {
         let complaint = match error {
             Error::Several { mut shown, .. } if !shown.is_empty() => {
@@ -106,15 +106,14 @@ impl StudyFile {
 pub enum Bats {
     /// A file, a folder or a name.
     One(String),
-    /// Some of them.
+    /// Several.
     Several(#[schemars(length(min = 1))] Vec<String>),
 }
 
 written! {
-    /// Many bats: some that are or one that varies, how they are hit, and what is asked of each. Places count from
-    /// the knob end.
+    /// Many bats: fixed ones or one that varies, their hits, and the outputs for each. Places count from the knob end.
     StudyForm("study", "Study file") {
-        /// What the study is called.
+        /// Name of the study.
         name = text();
         /// The bats: a bat file or a folder of them, from the study's folder, or the name of a built-in bat; one or a
         /// list.
@@ -122,11 +121,11 @@ written! {
             needed "\"bat\": a bat file or the name of a built-in bat";
         /// The ball: a ball file, from the study's folder, or the name of a built-in ball. Without it a baseball.
         ball = text();
-        /// How the bat is hit: the options of sweetspot hit, such as swing_speed, by their names.
+        /// The hit: the options of sweetspot hit, such as swing_speed, by their names.
         scene = later::<BTreeMap<String, Said>>();
-        /// What varies, by its path: bat., ball. or scene. and the path in that document, such as
-        /// bat.material.density. Lists are gone through in every combination; what is drawn shares one set of
-        /// points. Without it each bat as it is.
+        /// The inputs that vary, by path: bat., ball. or scene. and the path in that document, such as
+        /// bat.material.density. Lists are combined in every way; random numbers share one set of points. By default
+        /// each bat as it is.
         vary = later::<BTreeMap<String, VariationForm>>().saying("minProperties", 1);
         /// Triples of two paths that are drawn and the correlation of their normal scores.
         correlations = later::<Vec<(String, String, f64)>>();
@@ -137,7 +136,7 @@ written! {
         points = whole().saying("minimum", 1);
         /// Another seed draws other points. Without it 0.
         seed = whole();
-        /// What is asked of every bat, by name.
+        /// The outputs for every bat, by name.
         outputs = Form::of::<Vec<String>>(|node| asked::outputs(node, Answer::named))
             .saying("minItems", 1)
             .like(json!(["f1_hz", "exit_speed_max.value", "exit_speed_m_s@0.70"])),
@@ -170,7 +169,7 @@ written! {
     }
 }
 
-/// What is wrong with a design, where the study says it.
+/// An error of a design, reported at its place in the study.
 fn of_design(of: &Members, error: Error) -> Error {
     error.placed(|complaint| {
         let key = match &*complaint.field {
@@ -196,7 +195,7 @@ fn bats_named(node: &Node) -> Result<Vec<String>> {
     mistakes::all(items.iter().map(Node::string))
 }
 
-/// The members of the scene, each of which was read once to see that it can be.
+/// The members of the scene, each of which was read once as a check.
 fn scene_of(node: Option<&Node>) -> Result<Map<String, Value>> {
     let Some(node) = node else { return Ok(Map::new()) };
     scene_file::read(node, Ball::baseball())?;

@@ -1,7 +1,7 @@
-//! Which bat and which hit is row k of a study, and what came of them?
+//! Which bat and which hit is row k of a study, and what are its results?
 //!
-//! What [`Rows::answers`] gives of a row is a function of the study, its bats, its ball and k alone. Of several
-//! bats each has every row of the design, one bat after the other.
+//! [`Rows::answers`] for a row depends only on the study, its bats, its ball and k. If there are several bats, each has
+//! every row of the design, one bat after the other.
 
 use std::ops::Range;
 use std::path::Path;
@@ -30,9 +30,9 @@ const TRIED: u64 = 32;
 /// A bat as a file has it.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct BatText {
-    /// What tables call it.
+    /// Its name in tables.
     pub name: String,
-    /// What the file says, which names no other file; or why it is not a bat.
+    /// The text of its file, which names no other file; or the reason why it is not a bat.
     pub text: std::result::Result<String, String>,
 }
 
@@ -47,27 +47,27 @@ pub struct Rows {
 
 /// A bat that is varied.
 pub(super) struct Varying {
-    /// What tables call it.
+    /// Its name in tables.
     pub name: String,
     /// Its document, or why it is not a bat.
     pub document: std::result::Result<Value, String>,
-    /// A row of which it is a bat, as a model of the others, and that bat; if there is such a row.
+    /// A row in which it is a valid bat, as a model for the others, and that bat; `None` if there is none.
     pub model: Option<(Row, Bat)>,
 }
 
-/// What a row's own is made of: a document, or the thing itself where no row differs in it.
+/// The base of a row's own document: a document, or the finished value if no row changes it.
 enum Base<T> {
     Varied(Value),
     Same(T),
 }
 
 impl Rows {
-    /// Looks whether what varies of a bat and a ball can be varied.
+    /// Checks that the inputs of a bat and a ball can be varied.
     ///
     /// # Errors
     ///
-    /// [`Error::Input`] where no row that was tried is a bat that can be asked, of no bat, so where a path leads
-    /// nowhere; [`Error::Value`] for no bat at all and for more rows than [`MOST_ROWS`].
+    /// [`Error::Input`] if no row that was tried gives a bat with an answer, as when a path leads nowhere;
+    /// [`Error::Value`] for no bat at all and for more rows than [`MOST_ROWS`].
     pub fn new(study: StudyFile, bats: Vec<BatText>, ball: Ball) -> Result<Self> {
         let varying = |BatText { name, text }: BatText| {
             let document = text.and_then(|text| {
@@ -93,7 +93,7 @@ impl Rows {
         let (mut wrong, mut right) = (None, false);
         for k in 0..rows.bats.len() {
             if rows.bats[k].document.is_ok() {
-                // One that can be asked is enough.
+                // One bat with an answer is enough.
                 let (model, why) = rows.model(&rows.bats[k], right);
                 right |= why.is_none();
                 (rows.bats[k].model, wrong) = (model, wrong.or(why));
@@ -109,8 +109,8 @@ impl Rows {
         Err(wrong.or_else(|| rows.bats.iter().find_map(unread)).unwrap_or_else(none))
     }
 
-    /// A row of which a bat can be asked, and that bat. Where none that was tried can be, one that is a bat at
-    /// least, and what was wrong with the first.
+    /// A row in which a bat has an answer, and that bat. If no row that was tried has one, a row that is at least a
+    /// bat, and the first error.
     fn model(
         &self,
         varying: &Varying,
@@ -132,18 +132,18 @@ impl Rows {
         (model, wrong)
     }
 
-    /// An error where all that is asked of a bat in a row is asked in vain.
+    /// An error if none of the outputs is possible for a bat in a row.
     fn can_be_asked(&self, row: &Row, bat: &Bat) -> Result<()> {
         let answers = &self.study.asked.answers;
         match answers.iter().any(|answer| answer.of_a_hit()) {
             true => self.trial(row, bat).map(|_| ())?,
-            // What leads nowhere is wrong where nothing is hit too.
+            // A path that leads nowhere is an error even if nothing is hit.
             false => self.setup(row).map(|_| ())?,
         }
         on_the_bat(answers, bat)
     }
 
-    /// How many rows there are.
+    /// Number of rows.
     pub fn count(&self) -> u64 {
         self.bats.len() as u64 * self.study.design.rows()
     }
@@ -153,7 +153,7 @@ impl Rows {
         self.bats.len() > 1
     }
 
-    /// Whether walls of hollow barrels are solved, in one of the rows that are tried of each bat at least.
+    /// Whether walls of hollow barrels are solved in at least one of the rows that are tried of each bat.
     pub fn solves_walls(&self) -> bool {
         let solved = |bat: &Varying, row: &Row| {
             let setup = self.setup(row).ok()?;
@@ -167,8 +167,8 @@ impl Rows {
         })
     }
 
-    /// What came of those rows, in the order of what is asked, or why there is no answer. A row's answers do
-    /// not depend on which others are asked for with it.
+    /// The results of those rows, in the order of the outputs, or the reason why there are none. A row's results do not
+    /// depend on which other rows are requested.
     pub fn answers(&self, rows: Range<u64>) -> Vec<Result<Found>> {
         let each = self.study.design.rows();
         let mut found = vec![];
@@ -222,7 +222,7 @@ impl Rows {
         first.chain(inputs).chain(answers).chain(last).collect()
     }
 
-    /// Which of the columns are numbers in every row, or whether something is so.
+    /// Which columns are numbers in every row.
     pub fn numbers(&self) -> Vec<usize> {
         let before = 1 + usize::from(self.several());
         let varied = &self.study.varied;
@@ -233,8 +233,8 @@ impl Rows {
         std::iter::once(0).chain(inputs).chain(answers..=last).collect()
     }
 
-    /// The cells of those rows, as they are written: of each its number, of several bats its name, its inputs, answers with their
-    /// errors, whether they are as accurate as asked, and why there are none.
+    /// The cells of those rows as text: number, name of the bat if there are several, inputs, results with their
+    /// errors, whether they are as accurate as asked, and the reason if there are none.
     pub fn cells(&self, rows: Range<u64>) -> Vec<Vec<String>> {
         rows.clone().zip(self.answers(rows)).map(|(k, found)| self.cells_of(k, found)).collect()
     }
@@ -248,7 +248,7 @@ impl Rows {
         cells
     }
 
-    /// The first cell of a row that was read back which cannot be, and what was expected.
+    /// The first impossible cell of a row that was read back, and the expected text.
     pub fn wrong_cell(&self, k: u64, cells: &csv::StringRecord) -> Option<(usize, String)> {
         let inputs = self.inputs_of(k);
         if let Some(wrong) = (0..inputs.len()).find(|cell| cells[*cell] != *inputs[*cell]) {
@@ -259,7 +259,7 @@ impl Rows {
         for cell in inputs.len()..met {
             let text = &cells[cell];
             let is_number = text.parse().is_ok_and(|x: f64| x.is_finite() && shortest(x) == text);
-            // An error that is not known is left out beside its answer.
+            // An unknown error is left out beside its answer.
             let is_error = (cell - inputs.len()) % 2 == 1;
             if !(is_number || text.is_empty() && (explained || is_error)) {
                 return Some((cell, "a finite number, or none and why in the row".to_owned()));
@@ -300,7 +300,7 @@ impl Rows {
         cells
     }
 
-    /// A document with what varies of it in a row.
+    /// A document with its inputs of a row.
     fn document(&self, subject: VariedFile, base: &Value, row: &Row) -> Result<Value> {
         let mut document = base.clone();
         for varied in self.study.varied.iter().filter(|varied| varied.subject == subject) {
@@ -343,7 +343,7 @@ impl Rows {
     }
 }
 
-/// Why there is no answer, without the place in the text of a row, which the program made.
+/// The reason why there is no answer, without the position in a row's text, which the program made.
 pub fn reason(error: &Error) -> String {
     match error {
         Error::Value(complaint) | Error::Input { complaint, .. } => {

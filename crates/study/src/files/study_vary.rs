@@ -1,7 +1,7 @@
-//! What differs between the rows of a study, and where does it go?
+//! Which inputs differ between the rows of a study, and where do they belong?
 //!
-//! What varies is named by its path in the bat file, in the ball file or in the scene; [`Varied::put`] puts a
-//! value there.
+//! An input is named by its path in the bat file, in the ball file or in the scene; [`Varied::put`] writes its value
+//! there.
 
 use serde_json::{Value, json};
 
@@ -20,7 +20,7 @@ use sweetspot::files::json_node::Node;
 use sweetspot::files::schema::amount::Amount;
 
 written! {
-    /// How a member varies: one of these. Numbers of one way are all bare or all in the same unit.
+    /// The variation of a member: one of these. The numbers of one variation are all bare or all in the same unit.
     VariationForm with { "minProperties": 1, "maxProperties": 1 } {
         /// These values, one after the other.
         values = later::<Vec<Value>>().saying("minItems", 1);
@@ -63,7 +63,7 @@ pub struct Varied {
     /// Its path in its document.
     inside: Vec<Step>,
     way: Variation,
-    /// Where the study names it.
+    /// Its position in the study.
     place: Box<FilePosition>,
 }
 
@@ -74,7 +74,7 @@ enum Step {
     Item(usize),
 }
 
-/// How a member varies. The first number is that of its list, or of its distribution, in a row; units may be none.
+/// The variation of a member. The first number is that of its list or its distribution in a row; units may be empty.
 #[derive(Debug, Clone)]
 enum Variation {
     /// By one of these.
@@ -88,9 +88,9 @@ enum Variation {
 /// A value of a list.
 #[derive(Debug, Clone)]
 struct Listed {
-    /// As the study has it.
+    /// As the study writes it.
     said: Value,
-    /// As it goes into a document, which names no file.
+    /// As it goes into a document, without naming a file.
     meant: Value,
 }
 
@@ -108,7 +108,7 @@ impl Varied {
         }
     }
 
-    /// Its value in a row, as a table has it, written as a cell: a number in its unit, or what the list says.
+    /// Its value in a row as a cell of a table: a number in its unit, or the item of the list.
     pub fn cell(&self, row: &Row) -> String {
         match &self.way {
             Variation::Drawn(k, _) => shortest(row.values[*k]),
@@ -120,7 +120,7 @@ impl Varied {
         }
     }
 
-    /// Where its value is in a row.
+    /// Its axis in the design.
     pub fn axis(&self) -> Axis {
         match self.way {
             Variation::Listed(k, _) | Variation::Numbered(k, ..) => Axis::List(k),
@@ -136,7 +136,7 @@ impl Varied {
         }
     }
 
-    /// The unit of its numbers, empty where they are bare and for what is listed.
+    /// The unit of its numbers, empty for bare numbers and for lists.
     pub fn unit(&self) -> &str {
         match &self.way {
             Variation::Drawn(_, unit) | Variation::Numbered(_, _, unit) => unit,
@@ -144,7 +144,7 @@ impl Varied {
         }
     }
 
-    /// Puts what `of` makes of them in place of values that are profiles and name a file: `{"csv": …}`.
+    /// Replaces profiles that name a file, `{"csv": …}`, by what `of` makes of them.
     ///
     /// # Errors
     ///
@@ -161,12 +161,12 @@ impl Varied {
         Ok(())
     }
 
-    /// Puts its value in a row into a document. A member that is not there is added to its object, and so is that
-    /// object; a material that is a name becomes that name with a member of its own.
+    /// Writes its value of a row into a document. A missing member is added to its object, and so is a missing object;
+    /// a material given as a name becomes an object with that name and the member.
     ///
     /// # Errors
     ///
-    /// How far the path leads, where it leads nowhere.
+    /// How far the path leads, if it leads nowhere.
     pub fn put(&self, root: &mut Value, row: &Row) -> Result<()> {
         let (mut here, mut passed) = (root, String::new());
         for step in &self.inside {
@@ -199,7 +199,7 @@ impl Varied {
         Ok(())
     }
 
-    /// Whether a complaint about a document, or about the path itself, is about what varies here.
+    /// Whether a complaint about a document, or about the path itself, is about this input.
     pub fn is_meant(&self, complaint: &Complaint) -> bool {
         complaint.field == self.path
             || steps(&complaint.field).is_some_and(|field| one_within(&field, &self.inside))
@@ -220,7 +220,7 @@ fn member(name: &str) -> Step {
     Step::Member(name.to_owned())
 }
 
-/// The steps of a path such as `attachments[0].mass`, which has one way to be written.
+/// The steps of a path such as `attachments[0].mass`, which has only one notation.
 fn steps(path: &str) -> Option<Vec<Step>> {
     let mut steps = vec![];
     for part in path.split('.') {
@@ -238,12 +238,12 @@ fn steps(path: &str) -> Option<Vec<Step>> {
     Some(steps)
 }
 
-/// Whether one of two paths leads to what the other leads into, or to the same.
+/// Whether one of two paths contains the other, or both are equal.
 fn one_within(a: &[Step], b: &[Step]) -> bool {
     a.starts_with(b) || b.starts_with(a)
 }
 
-/// What varies, with its lists and distributions noted in what the design is made of.
+/// The inputs that vary; their lists and distributions are added to the design.
 pub(crate) fn varied(node: &Node, wanted: &mut Wanted) -> Result<Vec<Varied>> {
     let object = node.members()?;
     let paths = object.keys();
@@ -251,7 +251,7 @@ pub(crate) fn varied(node: &Node, wanted: &mut Wanted) -> Result<Vec<Varied>> {
         let expected = "one path at least, such as \"bat.material.density\"";
         return Err(node.error("an empty object", expected));
     }
-    /// Every row writes all of them into its bat, and finds each there.
+    /// Most inputs: every row writes all of them into its bat.
     const MOST: usize = 100;
     if paths.len() > MOST {
         return Err(node.error(format!("{} paths", paths.len()), format!("{MOST} at most")));
@@ -299,7 +299,7 @@ fn led(path: &str, key: &Node) -> Result<(VariedFile, Vec<Step>)> {
     Ok((subject, steps))
 }
 
-/// How a member varies, noted in what the design is made of.
+/// The variation of a member, added to the design.
 fn way(node: &Node, wanted: &mut Wanted) -> Result<Variation> {
     let mut mistakes = Mistakes::default();
     let object = node.object(VariationForm::KEYS, &mut mistakes)?;
@@ -388,7 +388,7 @@ fn of_one_unit(items: &[Node]) -> Option<(Vec<f64>, String)> {
         .then(|| (numbers, unit.clone()))
 }
 
-/// A number and its unit, which may be none.
+/// A number and its unit, which may be empty.
 fn number(node: &Node) -> Result<(f64, String)> {
     let Ok(text) = node.string() else { return Ok((node.number()?, String::new())) };
     let plain = typed::plain(&text);

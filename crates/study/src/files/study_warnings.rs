@@ -1,4 +1,4 @@
-//! What of a study is strange, or without effect, but no mistake?
+//! What in a study is unusual, or without effect, but no mistake?
 
 use std::path::Path;
 
@@ -10,10 +10,10 @@ use sweetspot::base::threads;
 use sweetspot::bat::body::Bat;
 
 impl Rows {
-    /// What is strange but no mistake, to be told before the work: of the bats, as their files have them and as
-    /// the study varies them, of the scene, and of what varies or is said without effect.
+    /// Warnings before the work: about the bats, as their files describe them and as the study varies them, about the
+    /// scene, and about inputs without effect.
     pub fn warnings(&self) -> Vec<String> {
-        /// Of the given number of bats at most.
+        /// Most bats with warnings.
         const TOLD: usize = 8;
         let own = |bat: &Varying| {
             let document = bat.document.as_ref().ok()?.to_string();
@@ -48,14 +48,14 @@ impl Rows {
         told
     }
 
-    /// What `strange` says of the middle of all that varies, or else of it with another value of a list in that
-    /// document, and which.
+    /// The warnings of `strange` about the median of all inputs, or else about another value of a list in that
+    /// document, and which value.
     fn first_strange(
         &self,
         subject: VariedFile,
         strange: impl Fn(&Row) -> Option<Vec<String>>,
     ) -> Option<String> {
-        /// Values of a list that are looked at, and characters of one that are told.
+        /// Most values of a list that are tried, and most characters of one that are quoted.
         const VALUES: u64 = 64;
         const TOLD: usize = 40;
         let design = &self.study.design;
@@ -77,8 +77,8 @@ impl Rows {
         })
     }
 
-    /// What to say of what may vary as it will and changes nothing that is asked, of no bat by more than 1e-10 of it.
-    /// Some values of some bats are tried, with everything else as it is in one row.
+    /// A warning about inputs that change no output of any bat by more than 1e-10 of it. Some values of some bats are
+    /// tried, with everything else as in one row.
     fn idle(&self) -> Option<String> {
         /// Bats, combinations of lists, and rows that are tried; values of a list.
         const SOME: u64 = 4;
@@ -86,13 +86,13 @@ impl Rows {
         let bats = self.bats.iter().filter_map(|bat| Some((bat, bat.model.as_ref()?)));
         let bats: Vec<_> = bats.take(SOME as usize).collect();
         let varied = &self.study.varied;
-        // What one thing does may hang on another: the rows beside one are tried, and beside others of the design.
+        // The effect of one input may depend on another: the rows beside one are tried, and others of the design.
         let beside = |row: &Row, k: usize| {
             let others = self.study.design.beside(row, varied[k].axis(), VALUES);
             std::iter::once(row.clone()).chain(others).collect::<Vec<_>>()
         };
         let idle = threads::map(varied.len(), |k| {
-            // What cannot be told counts as a change.
+            // An unknown result counts as a change.
             let changes = |bat: &Varying, row: &Row| {
                 let of = beside(row, k);
                 let found = self.answers_of_rows(bat, &of.iter().collect::<Vec<_>>());

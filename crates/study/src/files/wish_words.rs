@@ -1,23 +1,23 @@
-//! What is a wish in words made of: a verb, a number in figures or in words, and where it is to go?
+//! What are the words of a wish: a verb, a number in figures or in words, and a direction?
 //!
-//! Only words are looked at here; what is wished of, and in which unit, is read by [`crate::files::aim_text`].
+//! Only words are read here; [`crate::files::aim_text`] reads the goal and the unit.
 
 use sweetspot::base::typed;
 
-/// What the verb at the beginning of a wish asks.
+/// The meaning of the verb at the beginning of a wish.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verb {
     /// Keep it.
     Keep,
-    /// Lose none of it.
+    /// Lose nothing.
     NoLess,
-    /// Lose so much of it.
+    /// Lose this much.
     Less,
-    /// Gain so much of it.
+    /// Gain this much.
     More,
 }
 
-/// What is wished, with the words of its amount.
+/// The wish, with the words of its amount.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum WishedChange<'a> {
     /// As it is.
@@ -201,7 +201,7 @@ pub fn plain(text: &str) -> String {
     words.join(" ").trim_end_matches(['.', '!']).trim_end().to_owned()
 }
 
-/// What follows a word at the beginning of a text; None where the word is not there, or goes on.
+/// The text after a word at its beginning; `None` if it does not begin with that word.
 pub fn after<'a>(text: &'a str, word: &str) -> Option<&'a str> {
     let head = text.get(..word.len())?;
     let rest = &text[word.len()..];
@@ -214,7 +214,7 @@ pub fn after<'a>(text: &'a str, word: &str) -> Option<&'a str> {
     (head.eq_ignore_ascii_case(word) && !goes_on).then(|| rest.trim_start())
 }
 
-/// What stands before a word at the end of a text.
+/// The text before a word at its end.
 pub fn before<'a>(text: &'a str, word: &str) -> Option<&'a str> {
     let at = text.len().checked_sub(word.len())?;
     let (rest, tail) = (text.get(..at)?, text.get(at..)?);
@@ -222,12 +222,12 @@ pub fn before<'a>(text: &'a str, word: &str) -> Option<&'a str> {
     (apart && tail.eq_ignore_ascii_case(word)).then(|| rest.trim_end())
 }
 
-/// The longest of the words that stands there, and the rest.
+/// The longest of the words that matches, and the rest.
 fn longest<'a>(words: &[&str], rest: impl Fn(&str) -> Option<&'a str>) -> Option<&'a str> {
     words.iter().filter_map(|word| rest(word)).min_by_key(|rest| rest.len())
 }
 
-/// The verb that a text begins with, and the rest of it, without words that say nothing.
+/// The verb at the beginning of a text, and the rest without filler words.
 pub fn verb(mut text: &str) -> (Option<Verb>, &str) {
     while let Some(rest) =
         longest(&FILLERS, |word| after(text, word)).filter(|_| of_verbs(text).is_none())
@@ -244,7 +244,7 @@ fn of_verbs(text: &str) -> Option<(Verb, &str)> {
     (after(found.1, "than").is_none()).then_some(found)
 }
 
-/// What is wished, of the words beside the name; numbers in figures.
+/// The wish in the words beside the name; numbers are in figures.
 pub fn way(text: &str) -> WishedChange<'_> {
     let mut text = longest(&THAN_NOW, |word| before(text, word)).unwrap_or(text);
     let is = |text: &str, words: &[&str]| words.iter().any(|word| word.eq_ignore_ascii_case(text));
@@ -404,7 +404,7 @@ fn and_a_half(words: &mut Vec<String>) {
     }
 }
 
-/// Every word that a wish may have beside names and numbers.
+/// Every word that a wish may have besides names and numbers.
 pub fn known() -> Vec<&'static str> {
     let verbs = VERBS.iter().map(|(word, _)| *word);
     let lists =

@@ -1,7 +1,6 @@
-//! How is an object of a file written: which members has it, and what is made of them?
+//! How is an object of a file written? Its members, and the value made of them.
 //!
-//! One list for each, by the macro `written`: the reader, what is wrong with what was read, and the schema follow
-//! from it.
+//! The macro `written` has one list for each: the reader, its errors and the schema follow from the list.
 
 use std::path::{Path, PathBuf};
 
@@ -19,33 +18,33 @@ use sweetspot::files::schema::part::Comment;
 
 /// An object in a file: reading it and its schema follow from one list of its members.
 pub trait Written: JsonSchema {
-    /// What is made of it.
+    /// The resulting value.
     type Made;
     /// Its keys, in the order in which messages name them.
     const KEYS: &'static [&'static str];
-    /// What it is.
+    /// Its description.
     const SAID: &'static str;
-    /// Of a file the name of its format, and what people call it.
+    /// For a file, the name of its format, and its common name.
     const FILE: Option<(&'static str, &'static str)> = None;
 
-    /// What a schema says of it besides, by keyword.
+    /// Further keywords of its schema.
     fn more() -> Value {
         json!({})
     }
 
-    /// Tells every member to a schema.
+    /// Adds every member to a schema.
     fn tell(schema: &mut Told);
 
-    /// What is made of the members, with all that is wrong with them noted.
+    /// Makes the value from the members, and records all mistakes.
     ///
     /// # Errors
     ///
-    /// Why nothing can be made of them.
+    /// The reason why no value can be made.
     fn made(of: &mut Members) -> Result<Self::Made>;
 }
 
-/// Lists the members of an object: of each what it is, its key and its form. What follows makes something of their
-/// values, which are called as their keys.
+/// Lists the members of an object, each with its description, its key and its form. The code after it makes the result
+/// from the values, which are named like their keys.
 macro_rules! written {
     (
         $(#[doc = $said:literal])+
@@ -112,50 +111,50 @@ macro_rules! value {
 }
 pub(crate) use value;
 
-/// The values of an object, as they are read.
+/// The values of an object while they are read.
 pub struct Members<'a, 'f> {
-    /// Its members as they stand there.
+    /// Its members in the file.
     pub object: Object<'a>,
-    /// Where other files are sought that it names.
+    /// The folder of the files that it names.
     pub folder: &'f Folder<'f>,
-    /// What is wrong with its values.
+    /// The mistakes in its values.
     pub mistakes: Mistakes,
 }
 
 impl<'a> Members<'a, '_> {
-    /// The value of that key, if it is there; what is wrong with it is noted.
+    /// The value of that key, if there is one; mistakes are recorded.
     pub fn value<T: 'static>(&mut self, key: &str, form: &Form<T>) -> Option<T> {
         self.mistakes.some(form.read(self.object.get(key)?))
     }
 
-    /// The value of that key, of which `expected` says what it would be; a stand-in where it is missing or wrong,
-    /// which is noted.
+    /// The value of that key, which `expected` describes; if it is missing or wrong, a stand-in, and the mistake is
+    /// recorded.
     pub fn needed<T: Default + 'static>(&mut self, key: &str, form: &Form<T>, expected: &str) -> T {
         let node = self.object.require(key, expected);
         self.mistakes.note(node.and_then(|node| form.read(node)))
     }
 
-    /// Where the value of that key stands, if it is there.
+    /// The node of that key's value, if there is one.
     pub fn at(&self, key: &str) -> Option<&Node<'a>> {
         self.object.get(key)
     }
 
-    /// Where the object stands.
+    /// The node of the object.
     pub fn node(&self) -> &Node<'a> {
         &self.object.node
     }
 
-    /// Goes no further where something is wrong already.
+    /// Stops if there is a mistake already.
     ///
     /// # Errors
     ///
-    /// All that is wrong so far.
+    /// All mistakes so far.
     pub fn sound(&mut self) -> Result<()> {
         std::mem::take(&mut self.mistakes).end(())
     }
 }
 
-/// The members of an object, as they are told to a schema.
+/// The members of an object for a schema.
 pub struct Told<'g> {
     generator: &'g mut SchemaGenerator,
     properties: Map<String, Value>,
@@ -163,7 +162,7 @@ pub struct Told<'g> {
 }
 
 impl Told<'_> {
-    /// One more, of which so much is said; with what is expected where it is missing, if it must be there.
+    /// Adds a member with its description, and with the expected text if it is required.
     pub fn member<T: 'static>(&mut self, key: &str, said: &str, form: &Form<T>, expected: &[&str]) {
         let schema = form.schema(said, self.generator);
         self.properties.insert(key.to_owned(), schema.to_value());
@@ -171,7 +170,7 @@ impl Told<'_> {
     }
 }
 
-/// The schema of an object; of a file with the members that every file has.
+/// The schema of an object; for a file, with the members that every file has.
 pub fn schema<W: Written>(generator: &mut SchemaGenerator) -> Schema {
     let mut told = Told { generator, properties: Map::new(), required: vec![] };
     let mut title = None;
@@ -239,7 +238,7 @@ pub trait WrittenFile: Written + Document + Sized {
         Ok((made, outside.paths()))
     }
 
-    /// Reads it from text; `file` is what messages call it, other files that it names are sought in `folder`.
+    /// Reads it from text; `file` is its name in messages, and files that it names are looked up in `folder`.
     ///
     /// ```
     /// use sweetspot_study::files::readings_file::ReadingsForm;
@@ -261,7 +260,7 @@ pub trait WrittenFile: Written + Document + Sized {
         Self::from_document(&Text::new(file.to_owned(), text), &Folder::closed(folder))
     }
 
-    /// Reads it from a document, whose other files are sought in `folder`.
+    /// Reads it from a document; files that it names are looked up in `folder`.
     ///
     /// # Errors
     ///

@@ -1,4 +1,4 @@
-//! Poles that were found, with the residues of every response of a set.
+//! Poles with the residues of every response of a set.
 
 use sweetspot_tap::complex::Complex;
 use sweetspot_tap::fit::Pole;
@@ -7,7 +7,7 @@ use sweetspot_tap::resonances::{Projection, Responses};
 
 use crate::identify::set::ResponseSet;
 
-/// Responses over one grid, and which of the set they are.
+/// Responses over one grid, and their indices in the set.
 pub(super) struct Group {
     /// Their places in the set.
     pub which: Vec<usize>,
@@ -22,12 +22,12 @@ pub(super) struct Fitted<'a> {
     groups: &'a [Group],
     all: Vec<Responses>,
     projections: Vec<Projection>,
-    /// The poles, and with how many of them each was found.
+    /// The poles, and the results for every number of poles.
     pub found: &'a Orders,
 }
 
 impl<'a> Fitted<'a> {
-    /// The residues at the poles that were found.
+    /// The residues at these poles.
     pub fn new(
         set: &'a ResponseSet,
         groups: &'a [Group],
@@ -44,7 +44,7 @@ impl<'a> Fitted<'a> {
         &self.found.fit.poles
     }
 
-    /// Where response `k` of the set is: its group, and its place in it.
+    /// The group of response `k` of the set, and its index in the group.
     fn place(&self, k: usize) -> (usize, usize) {
         let at = |group: &Group| group.which.iter().position(|which| *which == k);
         let place = self.groups.iter().enumerate().find_map(|(g, group)| Some((g, at(group)?)));
@@ -57,7 +57,7 @@ impl<'a> Fitted<'a> {
         self.projections[g].residue_of(&self.all[g], j, p)
     }
 
-    /// Standard deviation (1/kg) of that residue, both its parts together, at poles that are known.
+    /// Standard deviation (1/kg) of that residue, real and imaginary part together, at known poles.
     pub fn deviation(&self, k: usize, p: usize) -> f64 {
         let (g, j) = self.place(k);
         self.projections[g].deviation_of(&self.all[g], j, p)
@@ -69,7 +69,7 @@ impl<'a> Fitted<'a> {
         self.projections[g].deviation_at(&self.all[g], j, self.poles(), z)
     }
 
-    /// Response `k` (1/kg) at a complex square of the frequency, pole `without` left out.
+    /// Response `k` (1/kg) at a complex square of the frequency, without the pole `without`.
     pub fn at(&self, k: usize, without: Option<usize>, z: Complex) -> Complex {
         let (g, j) = self.place(k);
         self.projections[g].at(&self.all[g], j, (self.poles(), without), z)

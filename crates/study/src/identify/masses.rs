@@ -1,13 +1,13 @@
 //! Modes without the masses of accelerometers.
 //!
-//! One accelerometer of mass m that stays at k: the bat alone answers
+//! With one accelerometer of mass m that stays at k, the response of the bat alone is
 //!
 //! ```text
 //! H_jk = H′_jk/(1 − m H′_kk)        accelerations per force, H′ as measured
 //! ```
 //!
-//! so its poles are where `m H′_kk = 1`, and its residues follow there: exact, as H′ is the sum of all that was
-//! found, modes beyond the band included. Several accelerometers, to first order in each mode:
+//! so its poles are where `m H′_kk = 1`, and its residues follow there. That is exact, because H′ is the sum of
+//! everything found, modes beyond the band included. Several accelerometers are removed to first order in each mode:
 //! `f² = f′²/(1 − m Σ φ_j²/m_n)`.
 //!
 //! # Source
@@ -27,7 +27,7 @@ use sweetspot::base::error::{Error, Result};
 pub struct Masses {
     /// Mass of each (kg).
     mass: f64,
-    /// The response whose hammer and accelerometer are at one place.
+    /// The response with hammer and accelerometer at one place.
     drive: usize,
     /// Whether it is the only accelerometer.
     pub(super) alone: bool,
@@ -39,31 +39,31 @@ pub(super) struct Unloaded {
     pub pole: Pole,
     /// Residue (1/kg) of every response.
     pub residues: Vec<Complex>,
-    /// What taking them off adds to the standard deviations of the frequency (relative) and of the loss factor (of its
-    /// logarithm).
+    /// Contribution of the removal to the standard deviations of the frequency (relative) and of the loss factor (of
+    /// its logarithm).
     pub deviations: [f64; 2],
 }
 
-/// Turns of the fixed point for a root; it gains two digits a turn where they are small.
+/// Most steps of the fixed point for a root; it gains two digits a step if the masses are small.
 const TURNS: usize = 60;
 /// The root is there where a turn moves it by no more than this, relative.
 const SETTLED: f64 = 1e-11;
 /// `re(1 − m Σ φ²/m_n)` of masses that a bat carries, at least: they lower its frequency by 30 %.
 const CARRIED: f64 = 0.5;
-/// A frequency that falls by no more than this as masses are taken off is that of a mode they do not move.
+/// If the removal changes a frequency by no more than this, the masses do not move in that mode.
 const STILL: f64 = 1e-4;
-/// What masses in a row leave at most, over the square of what they lower a frequency by: as virtual tests of solid and
-/// hollow bats have it, with at least [`PER_MODE`] accelerometers for every mode up to that one, and with fewer.
+/// Largest remaining error of masses in a row, over the square of the lowering of a frequency: from virtual tests of
+/// solid and hollow bats, with at least [`PER_MODE`] accelerometers for every mode up to that one, and with fewer.
 const SECOND: [f64; 2] = [0.7, 5.0];
 /// So many accelerometers for a mode keep it apart from the others.
 const PER_MODE: usize = 3;
 
 impl Masses {
-    /// Accelerometers of that mass (kg) at every place where answers were measured.
+    /// Accelerometers of that mass (kg) at every place of a response.
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] without a drive point, which tells how much the bat gives way there.
+    /// [`Error::Value`] without a drive point, which gives the compliance of the bat there.
     pub fn of(set: &ResponseSet, mass: f64) -> Result<Self> {
         let drive = (0..set.references.len()).find_map(|reference| set.drive(reference));
         let drive = drive.ok_or_else(|| {
@@ -115,7 +115,7 @@ impl Masses {
         (left.re >= CARRIED).then(|| start / left)
     }
 
-    /// The complex square of the frequency where `m H′ = 1`, by a fixed point; None where there is none.
+    /// The complex square of the frequency where `m H′ = 1`, by a fixed point; `None` if there is none.
     fn root(&self, of: &Fitted, p: usize) -> Option<Complex> {
         let (start, own) = (square(of.poles()[p]), of.residue(self.drive, p));
         let mut z = start;
@@ -131,11 +131,11 @@ impl Masses {
         None
     }
 
-    /// What taking the masses off adds to the deviations of frequency and loss factor.
+    /// Contribution of the removal to the deviations of frequency and loss factor.
     ///
-    /// The noise of the drive point moves `z` by a complex number of the size `part`, relative, and has half of its square
-    /// in either part. The errors of the pole turn the residue besides: of one resonance, its size by half of the relative
-    /// error of η, its phase by that of `f/(η f)`.
+    /// The noise of the drive point moves `z` by a complex number of the relative size `part`, half of whose square is
+    /// in either component. The errors of the pole also turn the residue: for a single resonance they change its size
+    /// by half of the relative error of η, and its phase by that of `f/(η f)`.
     fn deviations(&self, of: &Fitted, p: usize, lowered: f64, part: f64) -> [f64; 2] {
         let (loss, [hz, ln]) = (of.poles()[p].loss(), of.found.fit.deviations(p));
         let part = part / 2.0_f64.sqrt();
@@ -144,7 +144,7 @@ impl Masses {
         [(0.5 * re).hypot(second), (im / loss).hypot(second)]
     }
 
-    /// What the first order leaves, over the square of what the masses lower the frequency by.
+    /// Remaining error of the first order, over the square of the lowering of the frequency.
     fn second(&self, of: &Fitted, p: usize) -> f64 {
         let places = if of.set.hammer_roves { &of.set.references } else { &of.set.points };
         let order = of.poles().iter().filter(|pole| pole.hz <= of.poles()[p].hz).count();

@@ -1,11 +1,11 @@
-//! Which modes do measured responses of a bat share?
+//! Which modes do the measured responses of a bat share?
 //!
 //! | file | question |
 //! |---|---|
-//! | [`set`] | which responses are there, at which points, of which references |
-//! | `fitted` | which poles were found, with which residues |
-//! | [`masses`] | what are they without the masses of the accelerometers |
-//! | [`modes`] | the modes that they share, with their shapes and intervals |
+//! | [`set`] | the responses, their points and their references |
+//! | `fitted` | the poles and their residues |
+//! | [`masses`] | the modes without the masses of the accelerometers |
+//! | [`modes`] | the shared modes, with their shapes and intervals |
 //! | [`simulate`] | what would a test of this bat find |
 
 pub mod set;

@@ -1,7 +1,7 @@
 //! The modes that responses share: one pole for all, a residue for each.
 //!
-//! Residues are `A_jk = φ_j φ_k/m`. Of one reference k they are the shape; of several the shape is that which
-//! explains all of them best, and the drive point gives the modal mass, `m = φ_k²/A_kk`.
+//! Residues are `A_jk = φ_j φ_k/m`. With one reference k they are the shape; with several, the shape is the one that
+//! fits all of them best. The drive point gives the modal mass, `m = φ_k²/A_kk`.
 
 use std::f64::consts::TAU;
 
@@ -27,41 +27,41 @@ pub struct SharedMode {
     pub frequency: Within,
     /// Damping ratio, half the loss factor.
     pub damping: Within,
-    /// Deflections at the points of the set, the largest of size 1, as nearly real as they can be, that nearest the
-    /// last point positive. None where no response is of that point.
+    /// Deflections at the points of the set, scaled to a largest size of 1, as nearly real as possible, and positive
+    /// nearest to the last point. `None` for a point without a response.
     pub shape: Vec<Option<c64>>,
     /// Phase collinearity of the shape.
     pub collinearity: f64,
     /// Modal mass of that shape (kg); None without a drive point.
     pub modal_mass: Option<f64>,
-    /// From how many poles on it was found with every number of them, of how many.
+    /// The number of poles from which on it was always found, and the largest number.
     pub orders: [usize; 2],
-    /// By what the accelerometers' masses lower the frequency, relative; None where they were not told.
+    /// Relative lowering of the frequency by the accelerometers' masses; `None` if they are not given.
     pub lowered: Option<f64>,
 }
 
-/// What a set of responses says.
+/// The modes of a set of responses.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Identified {
     /// The modes, by rising frequency.
     pub modes: Vec<SharedMode>,
-    /// How the bat is damped, as far as that can be told.
+    /// The kind of damping, as far as it can be determined.
     pub damping: Damping,
-    /// Poles with 1, 2, … of them.
+    /// The poles for 1, 2, … poles.
     pub orders: Vec<Vec<Pole>>,
     /// Sum over the responses of |acceleration per force|², by frequency, of the first grid.
     pub sum: Vec<[f64; 2]>,
     /// Lowest and highest frequency (Hz).
     pub band: [f64; 2],
-    /// How many different grids of frequencies there are.
+    /// Number of different grids of frequencies.
     pub grids: usize,
-    /// How many responses have coherence; with all of them it tells the noise.
+    /// Number of responses with coherence; if all have it, it gives the noise.
     pub coherent: usize,
-    /// Place of a reference (m) whose hammer and accelerometer point opposite ways, by most modes.
+    /// Place of a reference (m) with hammer and accelerometer in opposite directions, by most modes.
     pub opposite: Option<f64>,
 }
 
-/// What is known of a test beside its responses.
+/// Facts about a test that its responses do not contain.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct TestKnown {
     /// Mass of an accelerometer (kg).
@@ -72,7 +72,7 @@ pub struct TestKnown {
 
 /// A frequency that is known no better than this, relative, is that of no mode: one beyond the band.
 const VAGUE: f64 = 0.005;
-/// A loss factor whose logarithm is known no better than this is that of no mode.
+/// A pole with a larger error of the logarithm of its loss factor is no mode.
 const UNSURE: f64 = 0.35;
 /// Poles of two orders nearer than this, over the half-power width, are one.
 const STABLE: f64 = 0.5;
@@ -82,8 +82,8 @@ impl Identified {
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] for masses of accelerometers without a drive point, or with
-    /// one whose sign is wrong, for masses that are more than is carried and for a window that damps more than a mode.
+    /// [`Error::Value`] for masses of accelerometers without a drive point or with one of wrong sign, for masses larger
+    /// than the responses allow, and for a window that damps more than a mode does.
     pub fn of(set: &ResponseSet, known: &TestKnown) -> Result<Self> {
         let masses = known.accelerometer.map(|mass| Masses::of(set, mass)).transpose()?;
         let (groups, coherent) = groups(set);
@@ -121,7 +121,7 @@ impl Identified {
     }
 }
 
-/// Whether a pole is a mode: it lowers the sum of squares by more than noise does, rings, is known and in the band.
+/// Whether a pole is a mode: it lowers the sum of squares more than noise, oscillates, is well known and in the band.
 fn is_mode(found: &Orders, p: usize, [low, high]: [f64; 2]) -> bool {
     let (pole, [hz, loss]) = (found.fit.poles[p], found.fit.deviations(p));
     let rings = (3.0 * LOSSES[0]..0.5 * LOSSES[1]).contains(&pole.loss());
@@ -132,7 +132,7 @@ fn is_mode(found: &Orders, p: usize, [low, high]: [f64; 2]) -> bool {
         && (low..=high).contains(&pole.hz)
 }
 
-/// Responses by their grids, and how many have coherence.
+/// Responses by their grids, and the number of those with coherence.
 fn groups(set: &ResponseSet) -> (Vec<Group>, usize) {
     let mut grids: Vec<(Vec<f64>, Vec<usize>)> = vec![];
     for (k, one) in set.responses.iter().enumerate() {
@@ -162,7 +162,7 @@ fn accelerance(set: &ResponseSet, k: usize) -> Vec<Complex> {
     one.values.iter().map(turned).collect()
 }
 
-/// Noise of lines, `|H| √(1/γ² − 1)` in the mean over the responses; None where coherence tells nothing.
+/// Noise of lines, the mean of `|H| √(1/γ² − 1)` over the responses; `None` if the coherence gives no information.
 fn by_coherence(set: &ResponseSet, which: &[usize], values: &[Vec<Complex>]) -> Option<Vec<f64>> {
     let lines = values[0].len();
     let mut noise = vec![0.0; lines];
@@ -217,7 +217,7 @@ impl Fitted<'_> {
         Some(self.set.references[first].x)
     }
 
-    /// From how many poles on this one is there with every number of them, and how many there are.
+    /// The number of poles from which on this one is always found, and the largest number.
     fn stable(&self, pole: Pole) -> [usize; 2] {
         let orders = &self.found.orders;
         let near = |other: &Pole| (other.hz - pole.hz).abs() < STABLE * pole.loss() * pole.hz;
@@ -283,7 +283,7 @@ fn shape(set: &ResponseSet, residues: &[Complex]) -> (Vec<Option<c64>>, Option<f
     scaled(set, points.map(at).collect(), value)
 }
 
-/// A shape turned to be as nearly real as it can be, its largest deflection 1, and its modal mass.
+/// A shape turned to be as nearly real as possible, with a largest deflection of 1, and its modal mass.
 fn scaled(
     set: &ResponseSet,
     shape: Vec<Option<c64>>,
@@ -300,7 +300,7 @@ fn scaled(
         let drive = set.drive(reference)?;
         let phi = shape[set.responses[drive].point]?;
         let residue = residue(drive);
-        // A drive point near a node tells no mass.
+        // A drive point near a node gives no mass.
         (phi.norm() > 0.05 && residue.norm() > 0.0).then(|| (phi.norm(), (phi * phi / residue).re))
     };
     let known = (0..set.references.len()).filter_map(mass);
@@ -308,7 +308,7 @@ fn scaled(
     (shape, best.filter(|mass| *mass > 0.0))
 }
 
-/// Places of the points that have a value, with it.
+/// Places and values of the points that have a value.
 pub fn placed<'a>(
     points: &'a [Place],
     shape: &'a [Option<c64>],

@@ -9,7 +9,7 @@ use sweetspot::base::error::{Error, Result};
 /// A place on the bat.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Place {
-    /// The file's label, or a number of its own where labels of several files are not one place.
+    /// The file's label, or a new number if equal labels of several files are different places.
     pub node: i64,
     /// Distance along the axis, from the file's own origin (m).
     pub x: f64,
@@ -18,9 +18,9 @@ pub struct Place {
 /// A response of a set.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SetResponse {
-    /// Which reference it has: what stayed where it was.
+    /// Index of its reference, the part that stayed.
     pub reference: usize,
-    /// Which point it is of: what roved.
+    /// Index of its point, the part that moved.
     pub point: usize,
     /// The response.
     pub measured: MeasuredResponse,
@@ -29,21 +29,21 @@ pub struct SetResponse {
 /// A set of responses.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ResponseSet {
-    /// Points of what roved, along the axis.
+    /// Points of the part that moved, along the axis.
     pub points: Vec<Place>,
-    /// Places of what stayed.
+    /// Places of the part that stayed.
     pub references: Vec<Place>,
-    /// Whether the hammer roved; else accelerometers did, or stood in a row.
+    /// Whether the hammer moved; otherwise accelerometers did, or stood in a row.
     pub hammer_roves: bool,
     /// The responses.
     pub responses: Vec<SetResponse>,
-    /// What was assumed to read them, one sentence each.
+    /// Assumptions in reading them, one sentence each.
     pub assumed: Vec<String>,
 }
 
 /// Places nearer than this are one (m).
 const SAME: f64 = 1e-4;
-/// Fewer frequencies tell no resonance.
+/// With fewer frequencies no resonance can be found.
 const FEWEST: usize = 24;
 
 impl ResponseSet {
@@ -127,7 +127,7 @@ impl ResponseSet {
         Ok(set)
     }
 
-    /// The response whose hammer and accelerometer are at one place, of that reference.
+    /// The response of that reference with hammer and accelerometer at one place.
     pub fn drive(&self, reference: usize) -> Option<usize> {
         let x = self.references[reference].x;
         let own = |one: &SetResponse| {
@@ -157,13 +157,13 @@ impl ResponseSet {
         }
     }
 
-    /// What stayed where it was.
+    /// The part that stayed.
     pub fn fixed(&self) -> &'static str {
         if self.hammer_roves { "accelerometer" } else { "hammer" }
     }
 }
 
-/// Copies of a response, whose noise is no other noise, are dropped; what is said of them.
+/// Drops copies of a response, whose noise is the same, and returns a message.
 fn drop_copies(all: &mut Vec<MeasuredResponse>) -> Option<String> {
     let before = all.len();
     let mut kept: Vec<MeasuredResponse> = vec![];
@@ -184,7 +184,7 @@ fn drop_copies(all: &mut Vec<MeasuredResponse>) -> Option<String> {
     })
 }
 
-/// Responses of one test run the same way round: as most of them do, since noise may turn one.
+/// Turns the responses of one test the way that most of them run, because noise may turn one.
 fn turn_alike(all: &mut [MeasuredResponse]) {
     let turned = 2 * all.iter().filter(|one| one.turned).count() > all.len();
     for one in all.iter_mut().filter(|one| one.turned != turned) {

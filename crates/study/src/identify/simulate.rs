@@ -1,9 +1,9 @@
-//! A virtual test of a bat: responses as hammer and accelerometers would give them, to plan a real one.
+//! A virtual test of a bat: responses as hammer and accelerometers would give them, for planning a real test.
 //!
-//! The bat rings with the accelerometers' masses on it. A hammer of mass m_h with a tip of stiffness k touches for
-//! `T = π √(μ/k)`, `1/μ = 1/m_h + 1/m_eff`, and pushes as a half sine, `F ∝ cos(πfT)/(1 − (2fT)²)`; a double hit
-//! multiplies that by `1 + r e^{−2πifτ}`. The accelerometer's noise is white, so that a response is `H + N/F` and its
-//! coherence `1/(1 + |N/(F H)|²)`. An exponential window moves every pole by its own decay: H is that at `ω − i/τ`.
+//! The bat vibrates with the accelerometers' masses on it. A hammer of mass m_h with a tip of stiffness k is in contact
+//! for `T = π √(μ/k)`, `1/μ = 1/m_h + 1/m_eff`, with a half-sine force, `F ∝ cos(πfT)/(1 − (2fT)²)`. A double hit
+//! multiplies it by `1 + r e^{−2πifτ}`. The accelerometer's noise is white, so a response is `H + N/F` with the
+//! coherence `1/(1 + |N/(F H)|²)`. An exponential window adds its decay to every pole: H is that at `ω − i/τ`.
 
 use std::f64::consts::{PI, TAU};
 
@@ -26,15 +26,15 @@ use sweetspot::{Request, solve};
 /// A virtual test.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct VirtualTest {
-    /// Whether the hammer roves; else accelerometers stand in a row.
+    /// Whether the hammer moves; otherwise accelerometers stand in a row.
     pub hammer_roves: bool,
     /// Places that are struck, or watched, from end to end.
     pub points: usize,
-    /// How many of them are missing.
+    /// Number of missing places.
     pub missing: usize,
-    /// At how many of them the hammer bounced.
+    /// Number of places where the hammer bounces.
     pub double_hits: usize,
-    /// Where the other stays (m from the knob end); None for the tip.
+    /// Position of the fixed part (m from the knob end); `None` for the tip.
     pub reference: Option<f64>,
     /// Mass of each accelerometer (kg).
     pub accelerometer: f64,
@@ -54,18 +54,18 @@ pub struct VirtualTest {
 
 /// Lines of a response.
 const LINES: usize = 1600;
-/// A second touch: how strong, over the first, and how much later (s).
+/// A second touch: its strength relative to the first, and its delay (s).
 const BOUNCE: [f64; 2] = [0.4, 0.012];
 /// Loss factor of a bat whose materials have none, as for its sound.
 pub const ASSUMED_LOSS: f64 = 0.01;
 /// Accuracy of the bat's frequencies, as that of its responses.
 const EXACT: f64 = 1e-8;
-/// A line without force has so much of it.
+/// Share of the force on a line without force.
 const SILENT: f64 = 1e-4;
 /// Places that are tried for the reference and for hanging.
 const TRIED: usize = 200;
 
-/// What a virtual test is of, and what it measures.
+/// The subject of a virtual test, and its measurements.
 pub struct Simulated {
     /// The test.
     pub test: VirtualTest,
@@ -75,7 +75,7 @@ pub struct Simulated {
     pub modes: Vec<Mode>,
     /// Frequencies with the accelerometers on it (Hz).
     pub loaded: Vec<f64>,
-    /// Spectrum of the force where it is weakest in the band, over the strongest (dB).
+    /// Weakest spectrum of the force in the band, relative to the strongest (dB).
     pub force_db: f64,
     /// Whether a loss factor had to be assumed.
     pub assumed_loss: bool,
@@ -84,7 +84,7 @@ pub struct Simulated {
 }
 
 impl VirtualTest {
-    /// Carries the test out.
+    /// Carries out the test.
     ///
     /// # Errors
     ///
@@ -254,7 +254,7 @@ impl VirtualTest {
         })
     }
 
-    /// What an exponential window adds to an accelerance: every mode's term at `ω − i/τ` less that at ω.
+    /// Effect of an exponential window on an accelerance: every mode's term at `ω − i/τ` less that at ω.
     fn windowed(&self, frf: &Frf, [at, to]: [f64; 2], f: f64) -> c64 {
         let Some(tau) = self.window else { return c64::new(0.0, 0.0) };
         let damping = &frf.solution.damping.modes;
@@ -280,7 +280,7 @@ fn normal(seed: u64, k: usize, l: usize) -> c64 {
 }
 
 impl Simulated {
-    /// What was found of every mode: which of the found ones, with the MAC of its shape.
+    /// For every mode, the index of the mode that was found, and the MAC of its shape.
     pub fn matched(&self, found: &Identified) -> Vec<Option<(usize, f64)>> {
         let mut taken = vec![];
         let one = |mode: &Mode| {
@@ -302,8 +302,8 @@ impl Simulated {
         self.modes.iter().map(one).collect()
     }
 
-    /// Where the reference shows the faintest wanted mode best, and how much of its largest deflection that has there;
-    /// at least 2 % of the length from an end, where a hammer slips.
+    /// The place of the reference that shows the faintest wanted mode best, and that mode's share of its largest
+    /// deflection there; at least 2 % of the length from an end, where a hammer slips.
     pub fn reference(&self) -> [f64; 2] {
         let least = |x: f64| {
             self.modes.iter().map(|mode| mode.shape.deflection(x).abs()).fold(1.0, f64::min)
@@ -312,7 +312,7 @@ impl Simulated {
         places.max_by(|a, b| a[1].total_cmp(&b[1])).unwrap_or_default()
     }
 
-    /// The two places, one in each half, at which the wanted modes move least, lower ones counting more.
+    /// The two places, one in each half, at which the wanted modes move least; lower modes count more.
     pub fn hang(&self) -> [f64; 2] {
         let first = self.modes.first().map_or(1.0, |mode| mode.omega);
         let moved = |x: f64| -> f64 {

@@ -1,4 +1,4 @@
-//! What cuts and weights do to a bat: the members of a lathe map's document that are of the bat.
+//! The effects of cuts and weights on a bat: the members of a lathe map's document about the bat.
 
 use std::collections::BTreeMap;
 
@@ -8,31 +8,31 @@ use crate::answers::Answer;
 use crate::lathe::gauges::Rivals;
 use crate::lathe::slopes::Method;
 
-/// Changes of outputs by their names, such as `f1_hz`; null where an output has none.
+/// Changes of outputs by their names, such as `f1_hz`; null for an output without one.
 pub type Changes = BTreeMap<String, Option<f64>>;
 
-/// What cuts and weights do to a bat.
+/// The effects of cuts and weights on a bat.
 #[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct LatheFound {
-    /// What changes of bands are per.
+    /// The unit of the changes of bands.
     pub per: &'static str,
-    /// n of the batter's own law: a bat of moment of inertia I is swung (I₀/I)^n times as fast.
+    /// n of the batter's law: a bat with moment of inertia I is swung (I₀/I)^n times as fast.
     pub swing_exponent: f64,
-    /// What was looked at, with its value for the bat as it is.
+    /// The outputs, with their values for the unchanged bat.
     pub outputs: Vec<Output>,
     /// Stretches of the bat, from the knob towards the tip.
     pub bands: Vec<TurnedBand>,
     /// Changes of the frequencies along the bat.
     pub curves: Curves,
-    /// What a mass on the bat does.
+    /// The effect of a mass on the bat.
     pub added_mass: AddedMass,
-    /// Changes that are solved, as no derivative tells them.
+    /// Changes that are computed in full, because a derivative cannot describe them.
     pub done_to_the_end: Vec<WholeChange>,
     /// Outputs that are not smooth, each with the reason.
     pub not_smooth_at: Vec<Rivals>,
     /// How well the map holds.
     pub check: Check,
-    /// Whether the outputs are as accurate as was asked.
+    /// Whether the outputs are as accurate as asked.
     pub tolerance_met: bool,
 }
 
@@ -42,20 +42,20 @@ pub struct Output {
     /// Its name, the unit at the end.
     #[schemars(with = "String")]
     pub name: Answer,
-    /// Its value for the bat as it is; null where it has none.
+    /// Its value for the unchanged bat; null if it has none.
     pub value: Option<f64>,
     /// How far the value may be off; null where that is not known.
     pub error: Option<f64>,
-    /// How its changes are found.
+    /// Method for its changes.
     pub method: Method,
 }
 
-/// A stretch of the bat and what happens per millimetre of diameter that is taken off it.
+/// A stretch of the bat, and the changes per millimetre of diameter that is taken off it.
 #[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct TurnedBand {
-    /// Where it begins (m).
+    /// Beginning (m).
     pub from_m: f64,
-    /// Where it ends (m).
+    /// End (m).
     pub to_m: f64,
     /// Diameter in its middle (m).
     pub diameter_m: f64,
@@ -63,14 +63,14 @@ pub struct TurnedBand {
     pub change: Option<Changes>,
     /// Those of a hit for a swing of the same energy of rotation (n = 1/2).
     pub change_same_energy: Option<Changes>,
-    /// Those of a hit by the batter's own law; left out where it is one of the two.
+    /// Changes of a hit by the batter's law; left out if it is one of the two.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub change_by_law: Option<Changes>,
-    /// Errors of the derivatives; those by differences count the step and the modes left out.
+    /// Errors of the derivatives; those by differences include the step and the omitted modes.
     pub error: Option<Changes>,
-    /// The change per millimetre when so much comes off; null where it cannot.
+    /// The change per millimetre for a finite cut; null if the cut is impossible.
     pub finite: Option<FiniteCut>,
-    /// Why something is null; left out where nothing is.
+    /// The reason if a value is null; left out otherwise.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
     /// Derivative of the moment of inertia about the point 6 in from the knob end, per metre (kg m).
@@ -85,7 +85,7 @@ pub struct FiniteCut {
     pub cut_mm: f64,
     /// Changes of hits per millimetre for a swing of the same energy.
     pub same_energy: Changes,
-    /// Changes of hits per millimetre by the batter's own law; left out where it is one of the two.
+    /// Changes of hits per millimetre by the batter's law; left out if it is one of the two.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub by_law: Option<Changes>,
     /// Changes per millimetre, the bat swung at the same angular speed.
@@ -104,29 +104,29 @@ pub struct Curves {
     pub density: BTreeMap<String, Vec<f64>>,
 }
 
-/// What a mass fixed to the axis of the bat does, by formula.
+/// The effect of a mass fixed to the axis of the bat, by formula.
 #[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct AddedMass {
     /// Places (m).
     pub x_m: Vec<f64>,
     /// Change of each output per gram there.
-    // Of those that are frequencies or of the rigid body.
+    // For frequencies and the rigid body.
     pub per_g: BTreeMap<String, Vec<Option<f64>>>,
 }
 
 /// A change that was solved.
 #[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct WholeChange {
-    /// What is done.
+    /// The change.
     pub what: &'static str,
     /// Changes of the outputs, the bat swung at the same angular speed; null where it cannot be done.
     pub change: Option<Changes>,
     /// Changes of hits for a swing of the same energy.
     pub change_same_energy: Option<Changes>,
-    /// Changes of hits by the batter's own law; left out where it is one of the two.
+    /// Changes of hits by the batter's law; left out if it is one of the two.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub change_by_law: Option<Changes>,
-    /// Why it cannot be done; left out where it can.
+    /// The reason if it is impossible; left out otherwise.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
 }
@@ -151,7 +151,7 @@ impl TurnedBand {
     }
 
     /// The derivative of an answer per millimetre of diameter taken off, for a swing law's exponent: 0, ½ or the
-    /// batter's own.
+    /// batter's.
     pub fn derivative(&self, answer: Answer, exponent: f64) -> Option<f64> {
         let changes = match exponent {
             0.0 => &self.change,

@@ -1,7 +1,7 @@
-//! Which places of a hit does an answer read, and how?
+//! Which places of a hit does an answer depend on, and how?
 //!
-//! An answer about a hit is made a sum of values at fixed places, whose derivative is that of the answer. With
-//! a value `v(x; p)` of a hit at `x` on a bat that is changed by `p`,
+//! An answer about a hit is expressed as a sum of values at fixed places with the same derivative. For a value
+//! `v(x; p)` of a hit at `x` on a bat that is changed by `p`,
 //!
 //! ```text
 //! greatest value      dv*/dp = ∂v/∂p at x*                  (v_x = 0 there)
@@ -9,13 +9,13 @@
 //! end of the zone     dx_e/dp = −(∂v/∂p at x_e − 0.99 dv*/dp)/v_x at x_e
 //! ```
 //!
-//! so that one look along the bat serves all its changes, and no change needs a search of its own.
+//! so one pass along the bat serves all its changes, and no change needs a new search.
 //!
-//! Slopes along the bat are differences, whose places must be nearer to each other than the value's own curve:
-//! beside a step of the section, and where a ball comes back, that is less than a millimetre. Their distance
-//! is halved until half of it says the same. A value with a corner at its best place has no derivative. The places
-//! themselves move with the distance and with the modes: a gauge is sought again by each ([`Gauge::again`]), and
-//! what that does to a derivative is part of its error, `δ(dv*/dp) = v_xp δx`.
+//! Slopes along the bat are differences between places that must be closer than the features of the value: beside a
+//! step of the section, and where a ball is met again, that is less than a millimetre. The distance is halved until
+//! half of it gives the same. A value with a corner at its best place has no derivative. The places depend on the
+//! distance and on the modes: a gauge is found again for each ([`Gauge::again`]), and the effect on a derivative is
+//! part of its error, `δ(dv*/dp) = v_xp δx`.
 
 use serde::Serialize;
 use std::cell::OnceCell;
@@ -32,7 +32,7 @@ use sweetspot::collision::sweet_spot::{HitsAlong, Peak};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum WhyNotSmooth {
-    /// Two places along the bat have it nearly alike, so that a small change makes the best one jump: no derivative.
+    /// Two places along the bat have nearly equal values, so a small change makes the best one jump: no derivative.
     Rivals,
     /// The value has a corner at its best place: no derivative.
     Corner,
@@ -40,19 +40,19 @@ pub enum WhyNotSmooth {
     Cut,
 }
 
-/// An output that is not smooth. Rivals and a corner leave it without a derivative; after a cut the finite change of
-/// some band is another one than the derivative says.
+/// An output that is not smooth. Rivals and a corner leave it without a derivative; with a cut, the finite change of a
+/// band contradicts the derivative.
 #[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Rivals {
     /// The output.
     #[serde(rename = "name")]
     #[schemars(with = "String")]
     pub answer: Answer,
-    /// Why: two places along the bat are nearly as good, there is a corner at the best place, or a finite cut
+    /// The reason: two places along the bat are nearly equal, there is a corner at the best place, or a finite cut
     /// makes it jump.
     pub why: WhyNotSmooth,
-    /// The best place and the other, or that after the cut (m).
-    // The same where there is a corner.
+    /// The best place and the other one, or the best place after the cut (m).
+    // Equal for a corner.
     pub x_m: [f64; 2],
     /// The values there.
     pub value: [f64; 2],
@@ -71,14 +71,14 @@ impl Rivals {
 pub struct Gauge {
     /// Place (m from the knob end), probe and factor.
     pub terms: Vec<(f64, Probe, f64)>,
-    /// How far the answer is off for each unit that a reading is, and for each unit that the slope of the
-    /// readings along the bat is.
+    /// Error of the answer per unit of error of a reading, and per unit of error of the slope of the readings along the
+    /// bat.
     pub off: [f64; 2],
-    /// How its places were found; None where they were asked for.
+    /// How its places were found; `None` if they were given.
     sought: Option<Sought>,
 }
 
-/// What a gauge reads that was found by a search.
+/// The value that a search found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Wanted {
     /// The best value.
@@ -89,12 +89,12 @@ enum Wanted {
     Edge,
 }
 
-/// How the places of a gauge were found.
+/// The data of a search for the places of a gauge.
 #[derive(Debug, Clone, Copy)]
 struct Sought {
     wanted: Wanted,
     probe: Probe,
-    /// Where the value is best (m).
+    /// Place of the best value (m).
     best: f64,
     /// The end of the zone, or the best place (m).
     x: f64,
@@ -119,15 +119,15 @@ impl Gauge {
             Wanted::Edge => {
                 let greatest = (1.0 - NEARLY * sign) / slope;
                 let terms = vec![(x, probe, -1.0 / slope), (best, probe, greatest)];
-                // The speed there is off, and so is the greatest one.
+                // The speed there is uncertain, and so is the greatest one.
                 (terms, [2.0 / slope.abs(), 0.0])
             }
         };
         Self { terms, off, sought: Some(sought) }
     }
 
-    /// The same answer on a bat of other modes, or by places `share` times as far apart, its places sought
-    /// anew; as it is where they are not found near those that it has.
+    /// The same answer on a bat with other modes, or with places `share` times as far apart; its places are found
+    /// again. Unchanged if they are not found nearby.
     pub fn again(&self, hitter: &Hitter, share: f64) -> Self {
         let Some(sought) = self.sought else { return self.clone() };
         let by = Stencil { hitter, probe: sought.probe, apart: share * sought.apart };
@@ -144,17 +144,17 @@ impl Gauge {
         found().unwrap_or_else(|| self.clone())
     }
 
-    /// How far the answer may be off where speeds are by `speed` (m/s), a curve along the bat that is not shorter
-    /// than `half_wave` (m): 0 of what is not read of speeds.
+    /// Possible error of the answer if speeds are off by `speed` (m/s), an error curve along the bat with half waves of
+    /// at least `half_wave` (m); 0 for an answer without speeds.
     pub fn error(&self, speed: f64, half_wave: f64) -> f64 {
         let speeds = [Probe::Speed, Probe::HandsVelocity];
         let of_speeds = self.terms.iter().all(|(_, probe, _)| speeds.contains(probe));
-        // The slope of such a curve is π/half_wave of it at most.
+        // The slope of such a curve is at most π/half_wave times its size.
         let [value, slope] = self.off;
         if of_speeds { speed * (value + std::f64::consts::PI / half_wave * slope) } else { 0.0 }
     }
 
-    /// The sum on a bat that is hit, of hits seen at those places.
+    /// The sum for a bat, from hits at those places.
     pub fn read(&self, hitter: &Hitter, seen: &GaugeHits) -> Option<f64> {
         let of = |&(x, probe, factor): &(f64, Probe, f64)| {
             Some(factor * probe.read(hitter, seen.at(x))?)
@@ -185,33 +185,33 @@ impl GaugeHits {
     }
 }
 
-/// The outer half of a bat after a look along it, from which gauges are made.
+/// The outer half of a bat after a pass along it, from which gauges are made.
 pub struct OuterHalf<'a> {
-    /// The look, made when it is needed first.
+    /// The pass, made when it is first needed.
     looked: OnceCell<HitsAlong<'a>>,
-    /// The best places of a bat that is nearly this one, and a wide look along this bat where that is needed.
+    /// The best places of a nearly equal bat, and a coarse pass along this bat if needed.
     beside: Option<(&'a BestPlaces, Option<HitsAlong<'a>>)>,
     hitter: &'a Hitter<'a>,
     ends: [f64; 2],
-    /// What was found.
+    /// The results.
     found: BestPlaces,
     /// Answers without a derivative.
     pub rivals: Vec<Rivals>,
 }
 
-/// Where a bat is best.
+/// The best places of a bat.
 #[derive(Clone, Default)]
 pub struct BestPlaces {
-    /// What was found of each probe; None where there is none.
+    /// The result for each probe; `None` if there is none.
     by_probe: Vec<(Probe, Option<Greatest>)>,
-    /// The stretch (m) outside of which no value is nearly as good as the best.
+    /// The stretch (m) outside which no value is nearly as good as the best.
     good: [f64; 2],
     /// The ends of the zone (m).
     zone: [f64; 2],
 }
 
 impl BestPlaces {
-    /// Where the best value is that an answer tells, or whose place or zone it tells.
+    /// Place and size of the best value for an answer about it, its place or its zone.
     pub fn peak(&self, answer: Answer) -> Option<Peak> {
         let probe = match answer {
             Answer::Zone(_) => Probe::Speed,
@@ -225,27 +225,27 @@ impl BestPlaces {
     }
 }
 
-/// Steps of a look along the outer half.
+/// Number of steps of a pass along the outer half.
 const STEPS: usize = 128;
-/// Steps of a look along a bat whose best places are nearly known, which only has to see that no other place is better.
+/// Number of steps of a pass if the best places are nearly known, and only a better place must be excluded.
 const WIDE: usize = 32;
-/// What part of the distance from the best value to the worst is good.
+/// Share of the distance from the best value to the worst that counts as good.
 const GOOD: f64 = 0.25;
 /// Distance of the places of a difference along the bat, as a share of the length: 3 mm of 84 cm. The
 /// difference is of the fourth order.
 const APART: f64 = 1.0 / 280.0;
 /// The distance is halved so often at most: to a tenth of a millimetre.
 const HALVED: usize = 5;
-/// Distances are near enough where half of them changes the second derivative by no more than this share.
+/// The distance is small enough if half of it changes the second derivative by at most this share.
 const ENOUGH: f64 = 1e-3;
-/// Where no distance changes it by less than this there is a corner.
+/// If no distance changes it by less than this, there is a corner.
 const CORNER: f64 = 0.1;
 /// A second best place counts where its value is within this share of the best one's.
 const NEARLY: f64 = 0.01;
-/// To what share of the outer half a search locates the best place before slopes do.
+/// Share of the outer half to which a search locates the best place before slopes do.
 const LOCATED: f64 = 2e-5;
 
-/// The greatest value and what it is like around its place.
+/// The greatest value and its surroundings.
 #[derive(Clone, Copy)]
 pub(super) struct Greatest {
     peak: Peak,
@@ -263,8 +263,8 @@ impl<'a> OuterHalf<'a> {
         Self { looked, beside: None, hitter, ends, found: BestPlaces::default(), rivals: vec![] }
     }
 
-    /// Follows the known best places of a bat that is nearly this one. They are sought anew only where they are lost or,
-    /// unless the bats differ by their swing alone, where another place may be better.
+    /// Follows the known best places of a nearly equal bat. They are searched again only if they are lost or, unless
+    /// the bats differ only in their swing, if another place may be better.
     pub fn beside(
         hitter: &'a Hitter<'a>,
         length: f64,
@@ -278,7 +278,7 @@ impl<'a> OuterHalf<'a> {
         Self { beside: Some((known, wide)), ..new }
     }
 
-    /// What was found.
+    /// The results.
     pub fn found(self) -> BestPlaces {
         if let Some((known, _)) = self.beside {
             return BestPlaces { by_probe: self.found.by_probe, ..*known };
@@ -309,8 +309,8 @@ impl<'a> OuterHalf<'a> {
         self.looked.get_or_init(|| HitsAlong::by(self.ends, (STEPS, LOCATED), self.hitter))
     }
 
-    /// The gauge and the value of an answer about a hit; None where there is no such answer, and no gauge
-    /// where it has no derivative.
+    /// The gauge and the value of an answer about a hit; `None` without such an answer, and no gauge if it has no
+    /// derivative.
     pub fn gauge(&mut self, answer: Answer) -> (Option<Gauge>, Option<f64>) {
         let at = |x: f64, probe: Probe| {
             let value = self.value(probe, x).filter(|value| probe.feels(*value));
@@ -399,7 +399,7 @@ impl<'a> OuterHalf<'a> {
         found
     }
 
-    /// The best place near that of the bat that is nearly this one.
+    /// The best place near that of the nearly equal bat.
     fn followed(&self, probe: Probe) -> Option<Greatest> {
         let (known, wide) = self.beside.as_ref()?;
         let Greatest { peak, smooth, .. } = known.of(probe)?.as_ref()?;
@@ -427,7 +427,7 @@ impl<'a> OuterHalf<'a> {
             let here = || {
                 let (x, by) = stencil.polished(found.x, self.reach())?;
                 let [value, _, bend] = by;
-                // A slope of nothing is that of a valley too, and of a mean over a narrow top.
+                // A zero slope also belongs to a valley, and to a mean over a narrow top.
                 let rough = 1e-9 * found.value.abs();
                 (sign * bend < 0.0 && sign * (value - found.value) >= -rough).then_some(())?;
                 let [_, slope, closer] = half.derivatives(x)?;

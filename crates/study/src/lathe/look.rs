@@ -1,4 +1,4 @@
-//! How is a bat on the lathe hit, and what does a look along it see?
+//! How is a bat on the lathe hit, and what are the values along it?
 
 use crate::comparison::contender::Figure;
 use crate::lathe::gauges::{BestPlaces, Gauge, Rivals};
@@ -19,27 +19,27 @@ pub(super) struct Hit {
     pub effort: Effort,
 }
 
-/// What a look along the bat saw.
+/// The results of a pass along the bat.
 #[derive(Default)]
 pub(super) struct Look {
     /// The answers.
     pub values: Vec<Option<Figure>>,
-    /// How those about a hit are read.
+    /// The gauges of answers about a hit.
     pub gauges: Vec<Option<Gauge>>,
     /// Their derivatives by the swing.
     pub by_swing: Vec<Option<f64>>,
-    /// Where the bat is best.
+    /// The best places of the bat.
     pub best: BestPlaces,
     /// Answers without a derivative.
     pub rivals: Vec<Rivals>,
 }
 
-/// In which ways a difference is taken.
+/// The ways in which a difference is taken.
 #[derive(Clone, Copy)]
 pub(super) enum By<'a> {
     /// By the gauges.
     Gauges,
-    /// And by those of the other ways.
+    /// Also by those of the other ways.
     EveryWay(&'a Ways),
     /// By the finer wall alone.
     FinerWall(&'a (Hit, Vec<Option<Gauge>>)),

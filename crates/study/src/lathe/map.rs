@@ -1,7 +1,7 @@
-//! The map of a bat: what a cut does, band by band, what a weight does, and what cannot be linearised.
+//! The map of a bat: the effect of a cut, band by band, the effect of a weight, and changes that cannot be linearised.
 //!
-//! A band's derivative is for fractions of a millimetre; a finite cut of the same band, solved whole, stands beside
-//! it. Cups, holes, corks and knob weights are solved.
+//! A band's derivative is valid for fractions of a millimetre; beside it is a finite cut of the same band, computed in
+//! full. Cups, holes, corks and knob weights are computed in full.
 
 use crate::answers::Answer;
 use crate::comparison::contender::Figure;
@@ -19,26 +19,26 @@ use sweetspot::bat::material::Material;
 use sweetspot::bat::turned::DiameterChange;
 use sweetspot::modes::solve::Request;
 
-/// What is asked of a map.
+/// The request for a map.
 #[derive(Debug, Clone)]
 pub struct LatheTerms {
     /// Bands (m from the knob end), rising.
     pub bands: Vec<[f64; 2]>,
     /// Depth of the finite cut, of the diameter (m).
     pub cut: f64,
-    /// The exponent n of the batter's swing law: another bat is swung at `Ω (I₀/I)^n`.
+    /// The exponent n of the batter's swing law: a changed bat is swung at `Ω (I₀/I)^n`.
     pub exponent: f64,
-    /// What is looked at.
+    /// The answers.
     pub answers: Vec<Answer>,
 }
 
-/// What cuts and weights do to a bat, and the bat.
+/// The effects of cuts and weights on a bat, and the bat.
 pub struct LatheMap {
     /// The bat on the lathe.
     pub piece: Workpiece,
-    /// What was asked.
+    /// The request.
     pub terms: LatheTerms,
-    /// What was found.
+    /// The results.
     pub found: LatheFound,
 }
 
@@ -54,14 +54,14 @@ struct Cut {
     finite: std::result::Result<ByLaw, String>,
 }
 
-/// Bands of that width (m) from the knob end to the tip; less than half a band that is left over is with the last.
+/// Bands of that width (m) from the knob end to the tip; a remainder of less than half a band joins the last one.
 pub fn bands(length: f64, width: f64) -> Vec<[f64; 2]> {
     let count = (length / width).round().max(1.0) as usize;
     let end = |k: usize| if k == count { length } else { k as f64 * width };
     (0..count).map(|k| [end(k), end(k + 1)]).collect()
 }
 
-/// Where the ball leaves the bat fastest (m from the knob end), found to some micrometres.
+/// Place of the fastest ball (m from the knob end), to some micrometres.
 ///
 /// # Errors
 ///
@@ -71,10 +71,10 @@ pub fn best_place(bat: &Bat, request: &Request, hit: &HitTerms) -> Result<Option
     Ok(piece.values()[0].map(|place| place.value))
 }
 
-/// A finite cut and its derivative that are apart by more than this share are looked at.
+/// A finite cut and its derivative that differ by more than this share are examined.
 const APART: f64 = 0.1;
-/// What half of a cut leaves of that distance where the answer only curves: a half by the second order, a quarter by
-/// the third.
+/// Share of the difference that half of a cut leaves if the answer only curves: a half for second order, a quarter for
+/// third.
 const CURVED: std::ops::RangeInclusive<f64> = 0.15..=0.8;
 /// Places of the curves along the bat.
 const CURVE: usize = 240;
@@ -103,8 +103,8 @@ impl LatheMap {
         Self::new(bat, request, Some(hit), terms).map(Some)
     }
 
-    /// The band where a cut changes an answer most, by that swing law's exponent, and the change per millimetre of
-    /// diameter that is taken off it.
+    /// The band where a cut changes an answer most, for that swing law's exponent, and the change per millimetre of
+    /// diameter taken off it.
     pub fn strongest(&self, answer: Answer, exponent: f64) -> Option<(&TurnedBand, f64)> {
         let bands = self.found.bands.iter();
         let all = bands.filter_map(|band| Some((band, band.derivative(answer, exponent)?)));
@@ -195,7 +195,7 @@ impl Mapping<'_> {
         })
     }
 
-    /// Values by the names of the answers; of hits alone if asked so.
+    /// Values by the names of the answers; only those of hits if `of_hits`.
     fn named(&self, of_hits: bool, value: impl Fn(usize) -> Option<f64>) -> Changes {
         let all = self.terms.answers.iter().enumerate();
         let all = all.filter(|(_, answer)| !of_hits || answer.of_a_hit());
@@ -266,8 +266,8 @@ impl Mapping<'_> {
         Ok(finite.into_iter().enumerate().map(cut).collect())
     }
 
-    /// Searched answers whose finite cut of a band does not go where the derivative points: where both are apart by
-    /// more than [`APART`], half of the cut tells a curve, by which half of the distance is left, from a jump.
+    /// Searched answers whose finite cut of a band contradicts the derivative. If both differ by more than [`APART`],
+    /// half of the cut distinguishes a curve, for which half of the difference remains, from a jump.
     fn cuts_that_jump(&self, cuts: &[Cut]) -> Result<Vec<Rivals>> {
         let answers = &self.terms.answers;
         let of_band = |band: &Cut| -> Result<Vec<Rivals>> {
@@ -328,7 +328,7 @@ impl Mapping<'_> {
         (0..self.terms.answers.len()).filter_map(all).reduce(f64::max)
     }
 
-    /// What a mass does in the middle of each band.
+    /// The effect of a mass in the middle of each band.
     fn added_mass(&self) -> AddedMass {
         let body = self.piece.bat().inertia();
         let arm = body.balance_point - STANDARD_PIVOT;
@@ -358,7 +358,7 @@ impl Mapping<'_> {
         AddedMass { per_g: self.terms.answers.iter().filter_map(per_g).collect(), x_m }
     }
 
-    /// What cannot be told from a derivative, solved.
+    /// Changes that a derivative cannot describe, computed in full.
     fn done_to_the_end(&self, bat: &Bat) -> Vec<WholeChange> {
         let exponents = self.terms.exponents();
         let all = usual_changes(bat.length());
@@ -406,7 +406,7 @@ fn reason(error: &Error) -> String {
     }
 }
 
-/// What is usually done to a bat, as edits of one of that length (m).
+/// The usual changes of a bat, as edits of one with that length (m).
 fn usual_changes(length: f64) -> [(&'static str, Change); 4] {
     const INCH: f64 = 0.0254;
     const OUNCE: f64 = 0.028_349_523_125;

@@ -1,16 +1,16 @@
-//! Where does a cut do what?
+//! Which cut has which effect?
 //!
 //! | file | question |
 //! |---|---|
 //! | [`same_plan`] | what are the modes of a changed bat on the elements of the one before |
 //! | [`samples`] | how do frequencies, mass, balance and swing weight change with the radius: closed formulas |
-//! | [`probe`], [`stencil`], [`gauges`] | which places of a hit does an answer read, and how |
-//! | [`slopes`], [`quotient`] | how an answer changes with the diameter; by differences |
-//! | `look` | how is it hit, and what does a look along it see |
-//! | [`workpiece`] | the bat on the lathe: its answers, and how they change with its diameter |
-//! | [`found`] | what a map says, as its document has it |
-//! | [`map`] | what a cut does band by band, what a weight does, and what has to be solved |
-//! | [`recipe`] | how little wood has to come off for a wish |
+//! | [`probe`], [`stencil`], [`gauges`] | which places of a hit does an answer depend on, and how |
+//! | [`slopes`], [`quotient`] | the derivatives of an answer by the diameter; differences |
+//! | `look` | how is the bat hit, and what are the values along it |
+//! | [`workpiece`] | the bat on the lathe: its answers and their derivatives |
+//! | [`found`] | the results of a map, as in its document |
+//! | [`map`] | the effect of a cut band by band, that of a weight, and changes computed in full |
+//! | [`recipe`] | the least wood that has to come off for a wish |
 
 pub mod same_plan;
 pub mod samples;

@@ -1,19 +1,19 @@
-//! What is read of a hit?
+//! Which value of a hit is read?
 
 use crate::answers::Answer;
 use sweetspot::collision::hitter::Hitter;
 use sweetspot::collision::strike::Glance;
 
-/// What is read of a hit.
+/// A value of a hit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Probe {
     /// Exit speed of the ball (m/s).
     Speed,
     /// Energy left in vibration (J).
     Vibration,
-    /// What the hands feel: velocity (m/s).
+    /// Velocity at the hands (m/s).
     HandsVelocity,
-    /// What the hands feel: acceleration (m/s²).
+    /// Acceleration at the hands (m/s²).
     HandsAcceleration,
     /// BBCOR of the free bat.
     Bbcor,
@@ -44,7 +44,7 @@ impl Probe {
         if matches!(self, Self::Speed | Self::Bbcor) { 1.0 } else { -1.0 }
     }
 
-    /// Whether a value is more than nothing: hands on a pin feel nothing, and without modes nothing shakes them.
+    /// Whether a value is above zero: hands on a pin feel nothing, and without modes nothing shakes them.
     pub(super) fn feels(self, value: f64) -> bool {
         match self {
             Self::HandsVelocity => value > 1e-9,
@@ -54,7 +54,7 @@ impl Probe {
     }
 }
 
-/// What a searched answer reads, and whether it is the place.
+/// The value that a searched answer reads, and whether the answer is its place.
 pub(super) fn searched(answer: Answer) -> Option<(Probe, bool)> {
     Some(match answer {
         Answer::ExitSpeed => (Probe::Speed, false),

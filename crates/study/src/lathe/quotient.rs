@@ -1,22 +1,22 @@
-//! In how many ways is a derivative found by differences, and how far are these apart?
+//! In how many ways is a derivative computed by differences, and how far do these differ?
 
 use crate::comparison::contender::Figure;
 use crate::lathe::gauges::Gauge;
 
-/// In how many ways a derivative is found: by the gauges, by places half as far apart, without the last two modes,
-/// without the last quarter of them. The gauges of each way have the places that it finds.
+/// Number of ways for a derivative: by the gauges, by places half as far apart, without the last two modes, without the
+/// last quarter of them. The gauges of each way have their own places.
 pub(super) const WAYS: usize = 4;
 
 /// The gauges of the other ways.
 pub(super) struct Ways {
     /// By places half as far apart.
     pub closer: Vec<Option<Gauge>>,
-    /// Without the last two modes and without the last quarter, with the number of modes that is left; none where
-    /// modes are not left out.
+    /// Without the last two modes and without the last quarter, with the remaining number of modes; empty if no modes
+    /// are omitted.
     pub fewer: Vec<(usize, Vec<Option<Gauge>>)>,
 }
 
-/// What differences are taken of, answer by answer.
+/// The values for differences, answer by answer.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Raw {
     /// In every way.
@@ -25,15 +25,15 @@ pub(super) struct Raw {
 
 /// A quotient of differences, answer by answer.
 pub(super) struct Quotient {
-    /// Whether it is about the bat as it is; else to one side.
+    /// Whether it is central; otherwise one-sided.
     pub central: bool,
     /// In every way.
     pub by_way: [Vec<Option<f64>>; WAYS],
 }
 
 impl Quotient {
-    /// How far an answer's slope may be off by its way: by what the last two modes or the last quarter of them do to
-    /// it, and by the distance of places, whose error falls with that at least.
+    /// Possible error of an answer's slope due to its way: the effect of the last two modes or the last quarter of
+    /// them, and that of the distance of places, whose error is at least proportional to the distance.
     pub(super) fn apart(&self, k: usize) -> f64 {
         let [whole, closer, fewer @ ..] = self.by_way.each_ref().map(|way| way[k]);
         let off = |other: Option<f64>| match (whole, other) {
@@ -44,7 +44,7 @@ impl Quotient {
     }
 }
 
-/// The differences of a change: by the whole step, and by half of it where that was looked at.
+/// The differences of a change: by the whole step, and by half of it if that was computed.
 pub(super) struct Differences {
     /// By the whole step.
     pub whole: Quotient,
@@ -54,14 +54,14 @@ pub(super) struct Differences {
     pub finer: Option<Quotient>,
 }
 
-/// What is usual among changes, answer by answer.
+/// Usual values among changes, answer by answer.
 #[derive(Default)]
 pub(super) struct Usual {
-    /// How far the ways are apart, at the mean: where two ways agree by luck, what they do elsewhere tells more.
+    /// Mean difference of the ways: if two ways agree by chance, their differences elsewhere are more reliable.
     apart: Vec<f64>,
     /// The largest error of the step; None where no step was halved.
     step: Vec<Option<f64>>,
-    /// What a fine wall changes, as a share of the derivative, and the derivative's usual size.
+    /// Change by a fine wall as a share of the derivative, and the derivative's usual size.
     wall: Vec<[f64; 2]>,
 }
 
@@ -93,15 +93,15 @@ impl Differences {
         Self { whole, half: None, finer: None }
     }
 
-    /// The error of a central difference by its step, four thirds of what half of the step changes.
+    /// The error of a central difference due to its step: four thirds of the change with half of the step.
     fn step(&self, k: usize) -> Option<f64> {
         let half = self.half.as_ref().filter(|half| half.central && self.whole.central)?;
         Some(4.0 / 3.0 * (self.whole.by_way[0][k]? - half.by_way[0][k]?).abs())
     }
 
-    /// The derivative. Its error is that of the step, which is taken to be the largest that was seen where this step was
-    /// not halved, how far the ways are apart, or usually of such an answer, and what a finer wall changes of the
-    /// derivatives that were looked at so.
+    /// The derivative. Its error has three parts: that of the step (if this step was not halved, the largest that was
+    /// seen), the difference of the ways (at least the usual one of such an answer), and the change by a finer wall for
+    /// derivatives where that was computed.
     pub(super) fn joined(&self, k: usize, usual: &Usual) -> Option<Figure> {
         let whole = self.whole.by_way[0][k]?;
         let [share, size] = usual.wall[k];
@@ -117,7 +117,7 @@ impl Differences {
         })
     }
 
-    /// Two steps as one of the fourth order, where both were taken and are central.
+    /// Two steps combined to fourth order, if both were computed and are central.
     pub(super) fn fourth_order(&self, k: usize) -> Option<f64> {
         let half = self.half.as_ref().filter(|half| half.central && self.whole.central)?;
         Some((4.0 * half.by_way[0][k]? - self.whole.by_way[0][k]?) / 3.0)

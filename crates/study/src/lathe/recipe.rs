@@ -1,15 +1,15 @@
-//! How little wood has to come off for a wish, to first order?
+//! What is the least wood that has to come off for a wish, to first order?
 //!
-//! Depths `c` of the bands, none negative, that change answers by `t` where a unit of depth changes them by `G`:
+//! Depths `c` of the bands, none negative, change answers by `t`; a unit of depth changes them by `G`:
 //!
 //! ```text
 //! minimise Σ wⱼ cⱼ²   subject to   G c = t,  c ≥ 0        w the width of a band
 //! ```
 //!
-//! by the active set: on the bands that are cut `c = W⁻¹Gᵀ λ` with `(G W⁻¹ Gᵀ) λ = t`; a band that would grow is
-//! left alone, and cut again where its `gᵀλ` is positive. Every cut lowers the swing weight, so that it cannot be
-//! kept to the last digit: where the least wood for the first wish alone lowers it by more than is allowed, what is
-//! allowed is the second row of G.
+//! It is solved by the active set: on the bands that are cut, `c = W⁻¹Gᵀ λ` with `(G W⁻¹ Gᵀ) λ = t`. A band that would
+//! grow is not cut, and is cut again if its `gᵀλ` becomes positive. Every cut lowers the swing weight, so it cannot be
+//! kept exactly: if the least wood for the first wish lowers it by more than is allowed, the allowed change is the
+//! second row of G.
 
 use crate::answers::Answer;
 use crate::lathe::found::TurnedBand;
@@ -24,12 +24,12 @@ pub struct RecipeCut {
     pub depth: f64,
 }
 
-/// A cut deeper than this share of the diameter is more than a derivative tells of.
+/// A cut deeper than this share of the diameter is beyond the range of a derivative.
 const DEEPEST: f64 = 0.1;
 
-/// The least wood off the bat that changes an answer by `by` (in its unit) and lowers the swing weight by no more
-/// than `most` (kg m²), for the same swing, to first order; stretches from the knob on. None where taking wood
-/// off does not do it with cuts of at most a tenth of the diameter, or the answers are not known.
+/// The least wood off the bat that changes an answer by `by` (in its unit) and lowers the swing weight by no more than
+/// `most` (kg m²), at the same swing, to first order; stretches from the knob on. `None` if cuts of at most a tenth of
+/// the diameter cannot do it, or if the answers are not known.
 pub fn least_wood(
     map: &LatheMap,
     (answer, by): (Answer, f64),
@@ -52,7 +52,7 @@ pub fn least_wood(
     found.iter().all(within).then_some(found)
 }
 
-/// The least cuts of bands: one depth for all of a stretch of neighbours where that does it, else one for each.
+/// The least cuts of bands: one depth for each run of neighbours if possible, else one for each band.
 fn recipe(bands: &[Stretch], by: f64, most: f64) -> Option<Vec<RecipeCut>> {
     let rows: Vec<[f64; 3]> = bands.iter().map(|band| band.row).collect();
     let depths = allowed(&rows, by, most)?;
@@ -68,7 +68,7 @@ fn recipe(bands: &[Stretch], by: f64, most: f64) -> Option<Vec<RecipeCut>> {
     cuts(merged, by, most).or_else(each).filter(|cuts: &Vec<_>| !cuts.is_empty())
 }
 
-/// The least cuts of those stretches that do all of it, one depth for each, without what is too little to be told.
+/// The least cuts of those stretches for the whole change, one depth for each, without negligible ones.
 fn cuts(mut stretches: Vec<Stretch>, by: f64, most: f64) -> Option<Vec<RecipeCut>> {
     loop {
         let rows: Vec<[f64; 3]> = stretches.iter().map(|stretch| stretch.row).collect();
@@ -106,15 +106,15 @@ fn deepest(depths: &[f64]) -> f64 {
     depths.iter().fold(0.0, |most, depth| most.max(*depth))
 }
 
-/// The least depths that change the first answer by so much and the second by no more than is allowed.
+/// The least depths that change the first answer by `by` and the second by no more than `most`.
 fn allowed(rows: &[[f64; 3]], by: f64, most: f64) -> Option<Vec<f64>> {
     let alone = least(rows, [Some(by), None])?;
     let lost: f64 = -rows.iter().zip(&alone).map(|(row, depth)| row[1] * depth).sum::<f64>();
     if lost <= most { Some(alone) } else { least(rows, [Some(by), Some(-most)]) }
 }
 
-/// Depths of bands whose rows are the two slopes and the width, that change the first by one target and the second
-/// by the other, if it has one.
+/// Depths of bands whose rows are the two slopes and the width, that change the first answer by one target and the
+/// second by the other, if there is one.
 fn least(rows: &[[f64; 3]], targets: [Option<f64>; 2]) -> Option<Vec<f64>> {
     let mut cut = vec![true; rows.len()];
     for _ in 0..4 * rows.len() + 8 {
@@ -136,7 +136,7 @@ fn least(rows: &[[f64; 3]], targets: [Option<f64>; 2]) -> Option<Vec<f64>> {
     None
 }
 
-/// λ of the bands that are cut.
+/// λ for the bands that are cut.
 fn multipliers(rows: &[[f64; 3]], cut: &[bool], targets: [Option<f64>; 2]) -> Option<[f64; 2]> {
     let [mut aa, mut ab, mut bb] = [0.0; 3];
     for ([a, b, width], _) in rows.iter().zip(cut).filter(|(_, cut)| **cut) {
@@ -149,7 +149,7 @@ fn multipliers(rows: &[[f64; 3]], cut: &[bool], targets: [Option<f64>; 2]) -> Op
         None => [first / aa, 0.0],
         Some(second) => {
             let determinant = aa * bb - ab * ab;
-            // Rows that are nearly one cannot be told apart.
+            // Nearly parallel rows cannot be separated.
             (determinant > 1e-12 * aa * bb).then_some(())?;
             [(first * bb - second * ab) / determinant, (second * aa - first * ab) / determinant]
         }
@@ -179,8 +179,9 @@ mod tests {
         assert!(depths.iter().all(|depth| *depth > 0.0), "{depths:?}");
     }
 
-    /// What is told does all of it and loses no more than is allowed, where one depth for a stretch would lose more too.
-    /// Slopes of the sweet spot (mm) and the swing weight (kg cm²) per mm off an R161's last bands of an inch.
+    /// The reported cuts meet the whole wish and lose no more than allowed, even where one depth for a stretch would
+    /// lose more. Slopes of the sweet spot (mm) and the swing weight (kg cm²) per mm off an R161's last bands of an
+    /// inch.
     #[test]
     fn what_is_told_does_the_whole() {
         let slopes = [[0.02, -4.39], [0.09, -4.86], [0.12, -5.36], [-0.06, -5.88]];
@@ -207,7 +208,7 @@ mod tests {
         assert!(recipe(&bands, -2.0, 19.06).is_none());
     }
 
-    /// A band that would have to grow is left alone, and a wish that only growing meets is not met.
+    /// A band that would have to grow is not cut, and a wish that only growing meets is not met.
     #[test]
     fn no_band_grows() {
         let depths = least(&[[1.0, 0.0, 1.0], [-1.0, 0.0, 1.0]], [Some(0.3), None]).unwrap();

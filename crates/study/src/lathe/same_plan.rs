@@ -1,7 +1,7 @@
 //! What are the modes of a changed bat on the elements of the one before?
 //!
-//! A difference of two bats is a derivative only if both are solved alike: [`SamePlan`] holds elements,
-//! degree and number of modes fixed, so that the error of the mesh cancels in the difference.
+//! A difference of two bats is a derivative only if both are solved in the same way: [`SamePlan`] fixes elements,
+//! degree and number of modes, so that the error of the mesh cancels in the difference.
 
 use sweetspot::base::error::Result;
 use sweetspot::bat::body::Bat;
@@ -20,16 +20,16 @@ pub struct SamePlan {
     request: Request,
 }
 
-/// Residual of the eigenpairs: what is left of it is far below what a difference of two bats shows.
+/// Residual of the eigenpairs, far below the differences of two bats.
 const RESIDUAL: f64 = 1e-12;
 /// Accuracy of the frequencies from which elements end at every border of the profile's pieces.
 const AT_BORDERS: f64 = 9e-10;
-/// Accuracies below that cost more and show nothing.
+/// Higher accuracies cost more without effect.
 const FINEST: f64 = 1e-13;
 
 impl SamePlan {
-    /// The plan for a bat, with its modes. Shapes are needed to the request's tolerance; the frequencies, whose
-    /// error is the square of the shapes', are found to the tolerance's square.
+    /// The plan for a bat, with its modes. Shapes are needed to the request's tolerance; the frequencies, whose error
+    /// is the square of the shapes', are computed to the square of the tolerance.
     ///
     /// # Errors
     ///
@@ -42,7 +42,7 @@ impl SamePlan {
         Ok((plan, solution))
     }
 
-    /// The modes of a bat whose profile has its borders where that of the first bat has them.
+    /// The modes of a bat whose profile has the same borders as the first bat's.
     ///
     /// # Errors
     ///
@@ -59,7 +59,7 @@ impl SamePlan {
         Ok(solution)
     }
 
-    /// The modes of another bat, on elements of its own, as accurate and as many.
+    /// The modes of another bat on its own elements, to the same accuracy and number.
     ///
     /// # Errors
     ///

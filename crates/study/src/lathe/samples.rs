@@ -1,15 +1,14 @@
 //! How do frequencies, mass, balance point and swing weight change with the radius along the bat?
 //!
-//! Rayleigh's quotient is stationary in the motion, so that only the sections vary. With the modal mass `m`
-//! of a motion `w`, rotation θ, shear strain `γ = w′ − θ`,
+//! Rayleigh's quotient is stationary in the motion, so only the sections vary. With the modal mass `m` of a motion `w`,
+//! rotation θ and shear strain `γ = w′ − θ`,
 //!
 //! ```text
 //! δω² = (1/m) ∫ [δEI θ′² + δκGA γ² − ω² (δρA w² + δρI θ²)] dx,        δf = δω²/(8π² f),
 //! ```
 //!
-//! where a theory without shear has no γ, and one without rotary inertia no ρI. A bat that is held has the same
-//! with its own motion. A mass δm at x, its centre `d` beyond, changes f by `−f (w + dθ)² δm/(2m)`. The rigid
-//! body:
+//! where a theory without shear has no γ, and one without rotary inertia no ρI. A held bat has the same formula with
+//! its own motion. A mass δm at x, with its centre `d` beyond, changes f by `−f (w + dθ)² δm/(2m)`. The rigid body:
 //!
 //! ```text
 //! δM = ∫ δρA dx,    δx_b = ∫ (x − x_b) δρA dx/M,    δI = ∫ [(x − p)² δρA + δρI] dx about p,
@@ -39,9 +38,9 @@ struct Sample {
     x: f64,
     /// Weight of the sample (m).
     weight: f64,
-    /// The element, and where in it, from −1 to 1.
+    /// The element, and the position in it, from −1 to 1.
     at: (usize, f64),
-    /// What the section is worth more per metre of outer and of inner radius.
+    /// Derivatives of the section's values per metre of outer and of inner radius.
     slopes: [Worth; 2],
 }
 
@@ -60,7 +59,7 @@ pub struct BodySlope {
     pub mass: f64,
     /// Balance point from the knob end (m).
     pub balance_point: f64,
-    /// Moment of inertia about the asked pivot (kg m²).
+    /// Moment of inertia about the given pivot (kg m²).
     pub inertia: f64,
     /// Centre of percussion of a swing about that pivot (m); None if the bat balances there.
     pub center_of_percussion: Option<f64>,
@@ -91,8 +90,8 @@ impl SectionSlopes {
         Self { all, body: bat.inertia(), theory: solution.theory }
     }
 
-    /// Change of a mode's frequency (Hz), and how far off it may be, for a change of the outer and of the inner
-    /// radius (m) along the bat: a function of the place (m from the knob end), smooth but at the bat's borders.
+    /// Change of a mode's frequency (Hz) and its error, for a change of the outer and of the inner radius (m) along the
+    /// bat: a function of the place (m from the knob end), smooth between the bat's borders.
     pub fn frequency(&self, mode: &Mode, change: impl Fn(f64) -> [f64; 2]) -> [f64; 2] {
         let (mut sum, mut size) = (0.0, 0.0);
         for sample in &self.all {
@@ -107,7 +106,7 @@ impl SectionSlopes {
                 size += (sample.weight * by * parts).abs();
             }
         }
-        // The parts go as the square of the motion, and the modal mass is off by itself.
+        // The parts go as the square of the motion, and the modal mass has its own error.
         let off = 2.0 * mode.error.shape + mode.error.modal_mass + mode.error.round_off;
         [sum, size * off + 1e-13 * size]
     }
@@ -135,7 +134,7 @@ impl SectionSlopes {
         }
     }
 
-    /// Where integrals are sampled (m from the knob end), rising.
+    /// Sampling points of the integrals (m from the knob end), rising.
     pub fn places(&self) -> impl Iterator<Item = f64> {
         self.all.iter().map(|sample| sample.x)
     }
@@ -148,8 +147,8 @@ pub fn frequency_density(bat: &Bat, solution: &Solution, mode: &Mode, x: f64) ->
     density(solution.theory, mode, mode.shape.strains(k, xi), slope)[0]
 }
 
-/// Change of a mode's frequency (Hz) per kg that is fixed at `x`, its centre `offset` (m) beyond, and per kg m²
-/// of its own inertia.
+/// Change of a mode's frequency (Hz) per kg fixed at `x`, with its centre `offset` (m) beyond, and per kg m² of its own
+/// inertia.
 pub fn by_added_mass(mode: &Mode, x: f64, offset: f64) -> [f64; 2] {
     let (w, turn) = (mode.shape.deflection(x), mode.shape.rotation(x));
     let unit = -0.5 * mode.frequency() / mode.modal_mass;

@@ -1,11 +1,11 @@
-//! How does each answer change with the diameter, and how was that found?
+//! How does each answer change with the diameter, and by which method?
 
 use serde::Serialize;
 
 use crate::answers::Answer;
 use crate::comparison::contender::Figure;
 
-/// How a derivative was found.
+/// Method for a derivative.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Method {
@@ -33,15 +33,14 @@ impl Method {
 /// How the answers change per unit of one change of the diameter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Slopes {
-    /// Derivative of each answer with its error, the bat swung at the same angular speed; None where there
-    /// is none.
+    /// Derivative of each answer with its error, at the same angular speed of the swing; `None` if there is none.
     pub same_swing: Vec<Option<Figure>>,
     /// The derivatives of the frequencies by differences too, as a check of the formula; None for other answers
     /// and without two steps.
     pub checked: Vec<Option<f64>>,
     /// Derivative of the moment of inertia about the standard pivot (kg m²).
     pub inertia: f64,
-    /// Change of each answer per rad/s of the swing; 0 for answers that are not of a hit.
+    /// Change of each answer per rad/s of the swing; 0 for answers that do not belong to a hit.
     pub(super) by_swing: Vec<Option<f64>>,
     /// Share by which a swing of the same energy of rotation gains per unit of 2n: `−Ω/I dI`.
     pub(super) gain: f64,

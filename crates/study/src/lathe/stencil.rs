@@ -3,12 +3,12 @@
 use crate::lathe::probe::Probe;
 use sweetspot::collision::hitter::Hitter;
 
-/// Differences of a reading along the bat, of the fourth order, by places so far apart.
+/// Differences of a reading along the bat, of fourth order, with places that far apart.
 #[derive(Clone, Copy)]
 pub(super) struct Stencil<'a> {
     /// Bat and ball.
     pub hitter: &'a Hitter<'a>,
-    /// What is read.
+    /// The value.
     pub probe: Probe,
     /// Distance of the places (m).
     pub apart: f64,
@@ -45,8 +45,8 @@ impl Stencil<'_> {
         None
     }
 
-    /// Newton's steps from some micrometres to as near as numbers are to where the value is `floor`, and the
-    /// derivatives there; None where they lead elsewhere.
+    /// Newton's steps from some micrometres away to the place where the value is `floor`, as close as arithmetic
+    /// allows, and the derivatives there; `None` if they lead elsewhere.
     pub fn edge(&self, start: f64, floor: f64) -> Option<(f64, [f64; 3])> {
         const NEWTON: usize = 4;
         let mut x = start;

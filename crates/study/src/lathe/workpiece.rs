@@ -1,9 +1,9 @@
-//! The bat on the lathe: what are its answers, and how do they change with its diameter?
+//! The bat on the lathe: its answers, and their derivatives by its diameter.
 //!
-//! A [`Workpiece`] is a bat whose elements end where changes of its diameter may. [`Workpiece::slopes`] gives the
-//! derivative of every answer by each of a list of [`DiameterChange`]s: frequencies and the rigid body by closed
-//! formula ([`crate::lathe::samples`]), all else by central differences of whole bats with elements, number
-//! of modes and effort held fixed. [`Workpiece::measure`] gives the answers of a bat that is changed by much.
+//! A [`Workpiece`] is a bat whose elements end at the possible ends of changes of its diameter. [`Workpiece::slopes`]
+//! gives the derivative of every answer by each of a list of [`DiameterChange`]s: frequencies and the rigid body by
+//! closed formula ([`crate::lathe::samples`]), all else by central differences of whole bats with fixed elements,
+//! number of modes and steps. [`Workpiece::measure`] gives the answers of a bat that is changed by more.
 
 use crate::answers::{Answer, figure, on_the_bat, quotient};
 use crate::comparison::contender::Figure;
@@ -30,7 +30,7 @@ pub struct HitTerms {
     pub scene: Scene,
     /// How a hit is computed.
     pub model: Model,
-    /// Whether the request's modes are all there are.
+    /// Whether only the request's modes may contribute.
     pub exactly: bool,
 }
 
@@ -39,7 +39,7 @@ pub struct HitTerms {
 pub enum Care {
     /// Two bats for each change. The error is not known and stated as 0.
     OneStep,
-    /// The error is known: two bats more for some of the changes, with half of the step, and for those that are
+    /// The error is computed: two more bats for some of the changes, with half of the step, and for those that are
     /// one-sided.
     Checked,
 }
@@ -54,9 +54,9 @@ pub struct Workpiece {
     values: Vec<Option<Figure>>,
     /// How it is hit for all differences: a wall is solved roughly, of all bats alike.
     hit: Option<Hit>,
-    /// What a look along it saw then.
+    /// The results of the pass along it.
     look: Look,
-    /// How it is hit with the wall solved as accurately as asked, and the gauges then; None where no wall is rough.
+    /// The hit with the wall solved to the requested accuracy, and its gauges; `None` if no wall is approximate.
     finer: Option<(Hit, Vec<Option<Gauge>>)>,
     /// Answers without a derivative, as two places compete.
     pub rivals: Vec<Rivals>,
@@ -64,20 +64,20 @@ pub struct Workpiece {
     pub met: bool,
 }
 
-/// The largest change of the diameter in a difference (m): 20 μm of radius either way. Half of it changes a
+/// The largest change of the diameter in a difference (m): 20 μm of radius in both directions. Half of it changes a
 /// derivative of the exit speed by less than 1e-7 m/s per mm.
 const STEP: f64 = 4e-5;
-/// Between how many steps along a list of changes the step is halved: five of them tell the error of all.
+/// Number of intervals between the changes whose step is halved: five of them give the error of all.
 const HALF_STEPS: usize = 4;
-/// Step of the swing for a derivative by it, relative.
+/// Relative step of the swing for a derivative by it.
 const FASTER: f64 = 1e-3;
-/// Where a barrel is hit so that modes and steps are planned, as shares of the length.
+/// Impact points by which modes and steps are planned, as shares of the length.
 const ALONG: [f64; 4] = [0.7, 0.775, 0.85, 0.925];
 
 impl Workpiece {
-    /// A bat that is to be changed between these borders (m from the knob end), and what is asked of it. The
-    /// request's tolerance is that of frequencies and exit speeds, its theory holds for all changed bats; `terms`
-    /// are needed where an answer is about a hit.
+    /// A bat that is to be changed between these borders (m from the knob end), and its answers. The request's
+    /// tolerance is that of frequencies and exit speeds, and its theory holds for all changed bats; `terms` are needed
+    /// for answers about a hit.
     ///
     /// # Errors
     ///
@@ -131,8 +131,8 @@ impl Workpiece {
         Ok(Self { hit, ..piece })
     }
 
-    /// Looks along the bat for the places that answers about a hit read; exit speeds may be off by that share
-    /// of the closing speed.
+    /// Makes a pass along the bat for the places of answers about a hit; exit speeds may be off by that share of the
+    /// closing speed.
     fn looked(&self, hit: Option<&Hit>, off: f64) -> Result<Look> {
         let (bat, solution) = (&self.bat, &self.solution);
         let mut look = Look {
@@ -174,7 +174,7 @@ impl Workpiece {
         Ok(look)
     }
 
-    /// What gauges read of a bat that is hit.
+    /// The readings of gauges for a bat that is hit.
     fn readings<const N: usize>(
         hitter: &Hitter,
         gauges: [&[Option<Gauge>]; N],
@@ -189,7 +189,7 @@ impl Workpiece {
         &self.bat
     }
 
-    /// Its modes, as many as the answers need, and their shapes as exact as the tolerance.
+    /// Its modes, as many as the answers need, with shapes as accurate as the tolerance.
     pub fn solution(&self) -> &Solution {
         &self.solution
     }
@@ -199,23 +199,22 @@ impl Workpiece {
         &self.samples
     }
 
-    /// What is asked.
+    /// The answers.
     pub fn answers(&self) -> &[Answer] {
         &self.answers
     }
 
-    /// The answers of the bat as it is, by the hits that changed bats have; None where it has none.
+    /// The answers of the unchanged bat, by the hits that changed bats have; `None` for an answer without a value.
     pub fn compared(&self) -> &[Option<Figure>] {
         &self.look.values
     }
 
-    /// The answers of the bat as it is; None where it has none.
+    /// The answers of the unchanged bat; `None` for an answer without a value.
     pub fn values(&self) -> &[Option<Figure>] {
         &self.values
     }
 
-    /// How the answers change per unit of each of these changes of the diameter, whose knots are among the
-    /// borders.
+    /// The derivatives of the answers by each of these changes of the diameter, whose knots are among the borders.
     ///
     /// # Errors
     ///
@@ -231,7 +230,7 @@ impl Workpiece {
         let now = self.raw(&self.bat, way)?;
         let whole = threads::map(changes.len(), |k| self.difference(&changes[k], 1.0, &now, way));
         let whole: Vec<Quotient> = whole.into_iter().collect::<Result<_>>()?;
-        // What is one-sided is known by two steps alone.
+        // A one-sided difference needs two steps.
         let last = (changes.len() - 1).max(1);
         let looked = |k: &usize| !whole[*k].central || (*k * HALF_STEPS) % last < HALF_STEPS;
         let halved: Vec<usize> =
@@ -312,7 +311,7 @@ impl Workpiece {
         Ok(Quotient { central, by_way })
     }
 
-    /// What differences are taken of, on this plan: nodes, modal masses, and what the gauges read.
+    /// The values for differences on this plan: nodes, modal masses, and the readings of the gauges.
     fn raw(&self, bat: &Bat, by: By) -> Result<Raw> {
         let solution = self.plan.solve(bat)?;
         let read = match &self.hit {
@@ -322,7 +321,7 @@ impl Workpiece {
         let of = |(answer, read): (&Answer, Option<f64>)| match *answer {
             Answer::Node(order) => {
                 let [was, is] = [&self.solution, &solution].map(|s| s.modes.get(order - 1));
-                // A node that comes or goes is another one.
+                // A node that appears or disappears is a different one.
                 let is =
                     is.filter(|is| was.is_some_and(|was| was.nodes.len() == is.nodes.len()))?;
                 is.nodes.last().copied()
@@ -335,7 +334,7 @@ impl Workpiece {
         Ok(Raw { by_way: read.map(all) })
     }
 
-    /// The ways beside the gauges' own, each with its places sought anew; None where nothing is hit.
+    /// The ways besides the gauges' own, each with its places found again; `None` if nothing is hit.
     fn ways(&self) -> Result<Option<Ways>> {
         let Some(hit) = &self.hit else { return Ok(None) };
         let sought = |solution: &Solution, share: f64| -> Result<Vec<Option<Gauge>>> {
@@ -354,7 +353,7 @@ impl Workpiece {
         Ok(Some(Ways { closer, fewer }))
     }
 
-    /// What the gauges read of a bat that is hit, and what those of the other ways do.
+    /// The readings of the gauges for a bat that is hit, and those of the other ways.
     fn every_way(
         &self,
         hit: &Hit,
@@ -393,7 +392,7 @@ impl Workpiece {
         self.measured(&bat, &solution, exponents, true)
     }
 
-    /// Where each searched answer is best, on the bat as it is and after a cut.
+    /// The best place of each searched answer, on the unchanged bat and after a cut.
     ///
     /// # Errors
     ///
@@ -409,7 +408,7 @@ impl Workpiece {
         Ok(self.answers.iter().map(|a| Some([was.peak(*a)?, is.peak(*a)?])).collect())
     }
 
-    /// The answers of any other bat, with elements of its own and as many modes, for batters who swing it at
+    /// The answers of any other bat, on its own elements with the same number of modes, for batters who swing it at
     /// `Ω (I₀/I)^n`: a list for each n.
     ///
     /// # Errors
@@ -419,7 +418,7 @@ impl Workpiece {
         self.measured(bat, &self.plan.solve_anew(bat)?, exponents, false)
     }
 
-    /// The answers of another bat, whose best places are `beside` those of this one or anywhere.
+    /// The answers of another bat, whose best places are near those of this one (`beside`) or anywhere.
     fn measured(
         &self,
         bat: &Bat,

@@ -1,9 +1,8 @@
 //! Which values does row k of a study have?
 //!
-//! [`Design::row`] says it from the study and k alone. Lists are gone through in every combination, the last
-//! one fastest; with each combination go the same points, so that two combinations differ by what is in the
-//! lists and by nothing else. Numbers that are drawn depend on each other as their correlations say: their
-//! normal scores do, which leaves every number its own distribution (a Gaussian copula).
+//! [`Design::row`] computes them from the study and k alone. Lists are combined in every way, the last one fastest.
+//! Every combination has the same points, so two combinations differ only in the values of the lists. Random numbers
+//! are correlated through their normal scores, which leaves every number its own distribution (a Gaussian copula).
 //!
 //! # Source
 //!
@@ -26,7 +25,7 @@ pub enum Spread {
     /// By Sobol's sequence, scrambled.
     #[default]
     Sobol,
-    /// Each of the given number of equal parts of every distribution once.
+    /// One point in each of equal parts of every distribution.
     LatinHypercube,
     /// Thrown.
     Random,
@@ -48,7 +47,7 @@ pub struct Design {
     sobol: Sobol,
 }
 
-/// What a design is made of.
+/// The description of a design.
 #[derive(Debug, Clone, Default)]
 pub struct Wanted {
     /// How many values each list has.
@@ -57,11 +56,11 @@ pub struct Wanted {
     pub drawn: Vec<Distribution>,
     /// Correlations of normal scores, each of two different distributions by their places in `drawn`.
     pub correlations: Vec<(usize, usize, f64)>,
-    /// Points drawn for each combination of the lists; one where nothing is drawn.
+    /// Points for each combination of the lists; one if nothing is random.
     pub points: u64,
     /// How they are spread.
     pub spread: Spread,
-    /// Which of all such designs.
+    /// Seed of the random numbers.
     pub seed: u64,
 }
 
@@ -74,7 +73,7 @@ pub struct Row {
     pub values: Vec<f64>,
 }
 
-/// Where one of the things that vary is in a row.
+/// Position of an input in a row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Axis {
     /// In the list of that number.
@@ -83,7 +82,7 @@ pub enum Axis {
     Drawn(usize),
 }
 
-/// Some of the given count of numbers from 0, which is the first of them.
+/// Some of the numbers from 0 to `count`, evenly spaced, 0 first.
 fn spread_evenly(count: u64, some: u64) -> impl Iterator<Item = u64> {
     let some = count.min(some);
     (0..some).map(move |k| (u128::from(k) * u128::from(count) / u128::from(some)) as u64)
@@ -92,12 +91,12 @@ fn spread_evenly(count: u64, some: u64) -> impl Iterator<Item = u64> {
 impl Design {
     /// # Errors
     ///
-    /// [`Error::Value`] for an empty list, no points, more rows than [`MOST_ROWS`], more distributions than
-    /// Sobol's sequence has coordinates, and correlations that no numbers can have.
+    /// [`Error::Value`] for an empty list, no points, more rows than [`MOST_ROWS`], more distributions than Sobol's
+    /// sequence has coordinates, and impossible correlations.
     pub fn new(wanted: Wanted) -> Result<Self> {
         let Wanted { lists, drawn, correlations, points, spread, seed } = wanted;
         drawn.iter().try_for_each(Distribution::check)?;
-        // Where nothing is drawn every combination is one row; no points are asked for in vain all the same.
+        // Without random numbers every combination is one row.
         let points = if drawn.is_empty() { points.min(1) } else { points };
         let rows = lists.iter().try_fold(points, |rows, list| rows.checked_mul(*list));
         match rows {
@@ -118,12 +117,12 @@ impl Design {
         Ok(Self { lists, drawn, factor, points, spread, seed, sobol })
     }
 
-    /// How many rows there are.
+    /// Number of rows.
     pub fn rows(&self) -> u64 {
         self.combinations() * self.points
     }
 
-    /// Row k of them, counted from 0.
+    /// Row k, counted from 0.
     pub fn row(&self, k: u64) -> Row {
         let (mut combination, point) = (k / self.points, k % self.points);
         let mut picks = vec![0; self.lists.len()];
@@ -134,7 +133,7 @@ impl Design {
         let scores: Vec<f64> = shares.map(standard_normal).collect();
         let value = |(c, distribution): (usize, &Distribution)| {
             let row = &self.factor[c];
-            // What depends on nothing keeps its share to the last bit.
+            // An independent number keeps its share to the last bit.
             if row[..c].iter().all(|part| *part == 0.0) {
                 return distribution.quantile(self.share(point, c));
             }
@@ -144,8 +143,8 @@ impl Design {
         Row { picks, values: self.drawn.iter().enumerate().map(value).collect() }
     }
 
-    /// Some rows that tell of all: combinations of the lists with the median of every distribution, the first of
-    /// every list before all others, and rows of the design; the given number of both at most, at even distances.
+    /// Representative rows: combinations of the lists with the median of every distribution, the first of every list
+    /// before all others, and rows of the design; at most `some` of both, evenly spaced.
     pub fn examples(&self, some: u64) -> impl Iterator<Item = Row> {
         let Row { values, .. } = self.middle();
         let combined = spread_evenly(self.combinations(), some);
@@ -160,8 +159,8 @@ impl Design {
         Row { picks: vec![0; self.lists.len()], values }
     }
 
-    /// Rows that differ from this one along one axis alone: by `some` other values of a list, or by both quartiles of
-    /// a distribution.
+    /// Rows that differ from this one along one axis only: by `some` other values of a list, or by both quartiles of a
+    /// distribution.
     pub fn beside(&self, row: &Row, axis: Axis, some: u64) -> Vec<Row> {
         let other = |change: &dyn Fn(&mut Row)| {
             let mut other = row.clone();
@@ -181,7 +180,7 @@ impl Design {
         }
     }
 
-    /// The independent numbers behind the values that are drawn, and what each of them is.
+    /// The kinds of the independent numbers behind the random values.
     pub fn kinds(&self) -> Vec<VariateKind> {
         let kind = |distribution: &Distribution| match distribution {
             Distribution::Normal { .. } | Distribution::Lognormal { .. } => VariateKind::Score,
@@ -190,7 +189,7 @@ impl Design {
         self.drawn.iter().map(kind).collect()
     }
 
-    /// Those of row k; of correlated values each has what the earlier ones leave open.
+    /// The independent numbers of row k; of correlated values each has the part that the earlier ones leave open.
     pub fn numbers(&self, k: u64) -> Vec<f64> {
         let number = |(c, kind): (usize, VariateKind)| match kind {
             VariateKind::Share => self.share(k % self.points, c),
@@ -199,7 +198,7 @@ impl Design {
         self.kinds().into_iter().enumerate().map(number).collect()
     }
 
-    /// How many combinations of the lists there are.
+    /// Number of combinations of the lists.
     pub fn combinations(&self) -> u64 {
         self.lists.iter().product()
     }
@@ -220,7 +219,7 @@ impl Design {
     }
 }
 
-/// Cholesky's factor of a matrix of correlations, 0 where nothing is said.
+/// Cholesky's factor of a matrix of correlations, 0 by default.
 fn cholesky(count: usize, correlations: &[(usize, usize, f64)]) -> Result<Vec<Vec<f64>>> {
     let mut matrix = vec![vec![0.0; count]; count];
     for &(a, b, r) in correlations {

@@ -1,4 +1,4 @@
-//! Which value lies below that share of all?
+//! Which value lies above that share of a distribution?
 //!
 //! A [`Distribution`] turns a share between 0 and 1 into a value. Only arithmetic, square roots and
 //! functions of the crate `libm` are used, so that the same study gives the same values on every machine.
@@ -45,7 +45,7 @@ pub enum Distribution {
 }
 
 impl Distribution {
-    /// Refuses what is not a distribution.
+    /// Refuses an impossible distribution.
     ///
     /// # Errors
     ///
@@ -151,7 +151,7 @@ const NEAR: Ratio = [
         1.050_750_071_644_416_9e-9,
     ],
 ];
-/// Of their ends, where √(−ln share) is above 5, in it less 5.
+/// For the tails, where √(−ln share) is above 5, in terms of it less 5.
 const FAR: Ratio = [
     [
         6.657_904_643_501_103,
@@ -175,7 +175,7 @@ const FAR: Ratio = [
     ],
 ];
 
-/// The value below which that share of a standard normal distribution lies, to 1e-15 of it.
+/// The value below which that share of a standard normal distribution lies, to a relative 1e-15.
 ///
 /// # Source
 ///

@@ -1,7 +1,7 @@
-//! Which number that looks random belongs to a place?
+//! Which pseudo-random number belongs to an index?
 //!
-//! Studies draw by functions of where a number stands, not by a generator that runs along: so any row can
-//! be made alone, anywhere.
+//! Studies draw random numbers as functions of an index, not from a running generator, so that any row can be made
+//! alone, anywhere.
 //!
 //! # Source
 //!
@@ -19,7 +19,7 @@ pub fn mixed(number: u64) -> u64 {
     z ^ (z >> 31)
 }
 
-/// A number that tells a text from others by chance: two texts of one number can be made on purpose.
+/// A number that distinguishes texts, except by intent: two texts with one number can be constructed.
 pub fn of_text(text: &str) -> u64 {
     let start = mixed(text.len() as u64);
     text.as_bytes().chunks(8).fold(start, |hash, bytes| {
@@ -33,11 +33,11 @@ pub fn of(seed: u64, a: u64, b: u64) -> u64 {
     mixed(mixed(mixed(seed) ^ a).wrapping_add(GOLDEN) ^ b)
 }
 
-/// Where `k` goes when the numbers below `count` are shuffled by that seed.
+/// The new place of `k` when the numbers below `count` are shuffled with that seed.
 ///
-/// Four rounds of a Feistel network shuffle the numbers below the next power of four; what falls beyond
-/// `count` goes on until it does not (M. Luby, C. Rackoff, SIAM Journal on Computing 17 (1988) 373; J.
-/// Black, P. Rogaway, Ciphers with arbitrary finite domains, CT-RSA 2002).
+/// Four rounds of a Feistel network shuffle the numbers below the next power of four; a result beyond `count` is
+/// shuffled again (M. Luby, C. Rackoff, SIAM Journal on Computing 17 (1988) 373; J. Black, P. Rogaway, Ciphers with
+/// arbitrary finite domains, CT-RSA 2002).
 pub fn shuffled(seed: u64, count: u64, k: u64) -> u64 {
     debug_assert!(k < count);
     let half = (64 - (count - 1).leading_zeros()).div_ceil(2);

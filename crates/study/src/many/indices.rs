@@ -1,7 +1,7 @@
-//! Which of the numbers that are drawn make an answer vary?
+//! Which of the random numbers make an answer vary?
 //!
-//! The answer is written as a sum of polynomials in the independent numbers behind a row, each orthonormal in
-//! its own (Hermite's in a normal score, Legendre's in a share), fitted to the rows:
+//! The answer is a sum of polynomials in the independent numbers behind a row, each orthonormal in its number
+//! (Hermite's in a normal score, Legendre's in a share), fitted to the rows:
 //!
 //! ```text
 //! y ≈ Σ c_a Π ψ_{a_i}(ξ_i)          V = Σ_{a≠0} c_a²
@@ -9,10 +9,10 @@
 //! total        T_i = Σ c_a²/V over all those with ξ_i in them
 //! ```
 //!
-//! of the highest degree that has four rows a coefficient. To V comes the mean square of what the polynomials do
-//! not follow, which is told as a share of its own. Errors are those of a jackknife that leaves out one of sixteen
-//! groups of rows, which are thrown together: what lies evenly in all rows would lie evenly in every second.
-//! Of numbers that depend on each other the later one is meant with the earlier ones known.
+//! of the highest degree with four rows for each coefficient. The mean square that the polynomials do not follow is
+//! added to V and reported as a separate share. Errors are those of a jackknife that leaves out one of sixteen groups
+//! of rows; the groups are random, because evenly spaced rows would be as even as the whole. Of correlated numbers, the
+//! later one counts with the earlier ones known.
 //!
 //! # Source
 //!
@@ -28,11 +28,11 @@ use sweetspot::base::linear::dot;
 /// Coefficients per row that a fit may have, and coefficients at most.
 const ROWS_A_TERM: usize = 4;
 const MOST_TERMS: usize = 300;
-/// Highest degree, and how many groups of rows there are.
+/// Highest degree, and the number of groups of rows.
 const MOST_DEGREE: usize = 10;
 const GROUPS: usize = 16;
 
-/// What is drawn, seen as an independent number ξ with its own polynomials.
+/// The kind of a random input, as an independent number ξ with its polynomials.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum VariateKind {
     /// A normal score; Hermite's polynomials.
@@ -46,11 +46,11 @@ pub enum VariateKind {
 pub struct Share {
     /// The share.
     pub value: f64,
-    /// Standard deviation of what sampling leaves open.
+    /// Standard deviation due to sampling.
     pub sd: f64,
 }
 
-/// Shares of a variance, by a polynomial surface in what differs.
+/// Shares of a variance, by a polynomial surface in the inputs.
 #[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Indices {
     /// Degree of the surface.
@@ -61,19 +61,19 @@ pub struct Indices {
     pub first: Vec<Share>,
     /// By each input, alone and with others (total).
     pub total: Vec<Share>,
-    /// What the surface does not follow.
+    /// The share that the surface does not follow.
     pub unexplained: Share,
 }
 
 impl Indices {
-    /// Of rows of independent numbers with their answer; None where there are too few for a plane, or where
-    /// the answer does not vary.
+    /// For rows of independent numbers with their answer; `None` if there are too few for a plane, or if the answer
+    /// does not vary.
     pub fn new(kinds: &[VariateKind], rows: &[(Vec<f64>, f64)]) -> Option<Self> {
         Self::grouped(kinds, &(0..kinds.len()).collect::<Vec<_>>(), rows)
     }
 
-    /// As [`Self::new`], by groups of numbers, 0, 1, … for each number: what they do within their group alone is of first
-    /// order.
+    /// As [`Self::new`], for groups of numbers, given by 0, 1, … for each number: the effect within one group is of
+    /// first order.
     pub fn grouped(
         kinds: &[VariateKind],
         groups: &[usize],
@@ -118,7 +118,7 @@ impl Indices {
     }
 }
 
-/// How many polynomials of at most that degree there are in the given number of numbers: `(n + d)!/(n! d!)`.
+/// Number of polynomials of at most that degree in that number of variables: `(n + d)!/(n! d!)`.
 fn terms(count: usize, degree: usize) -> Option<usize> {
     (1..=degree).try_fold(1_usize, |terms, k| Some(terms.checked_mul(count + k)? / k))
 }
@@ -214,7 +214,7 @@ impl Sums {
                 row[j] = (row[j] - dot(&row[..j], &other[..j])) / other[j];
             }
             let left = row[i] - dot(&row[..i], &row[..i]);
-            // Rows that say nothing about a polynomial.
+            // Rows without information about a polynomial.
             if left <= 1e-10 * row[i] {
                 return None;
             }
@@ -240,7 +240,7 @@ fn shares(
 ) -> Option<Vec<f64>> {
     let c = sums.coefficients()?;
     let [rows, sum, squares] = sums.answer;
-    // Roundings of an answer that is the same for all.
+    // Round-off of an answer that is the same for all.
     if squares / rows - (sum / rows).powi(2) <= 1e-26 * (squares / rows) {
         return None;
     }

@@ -1,13 +1,13 @@
-//! Which bats does a study vary, and what comes of them?
+//! Which bats does a study vary, and what are the results?
 //!
 //! | file | question |
 //! |---|---|
-//! | [`hash`] | which number that looks random belongs to a place |
-//! | [`sobol`] | where are points that fill a cube evenly |
-//! | [`distribution`] | which value lies below that share of all |
+//! | [`hash`] | which pseudo-random number belongs to an index |
+//! | [`sobol`] | points that fill a cube evenly |
+//! | [`distribution`] | which value lies above that share of a distribution |
 //! | [`design`] | which values does row k have |
-//! | [`indices`] | which of the drawn numbers make an answer vary |
-//! | [`rows`] | what comes of each of some bats |
+//! | [`indices`] | which of the random numbers make an answer vary |
+//! | [`rows`] | the results of several bats |
 
 pub mod hash;
 pub mod sobol;

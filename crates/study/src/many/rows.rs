@@ -1,7 +1,6 @@
-//! What comes of each of some bats?
+//! What are the results of several bats?
 //!
-//! Bats that are like one model are computed together, and what is answered of one is a function of itself and
-//! the model.
+//! Bats similar to one model are computed together. The results of a bat depend only on the bat and the model.
 
 use std::ops::Range;
 
@@ -20,7 +19,7 @@ use sweetspot::modes::batch::{Way, solutions};
 use sweetspot::modes::prepared::{Prepared, prepare};
 use sweetspot::modes::solve::{Request, Solution, solve};
 
-/// What is asked of every bat.
+/// The outputs for every bat.
 #[derive(Debug, Clone)]
 pub struct Asked {
     /// The answers, in the order of the columns.
@@ -38,19 +37,19 @@ pub struct Trial {
     pub model: Model,
 }
 
-/// What came of a bat.
+/// The results of a bat.
 #[derive(Debug)]
 pub struct Found {
-    /// Values with their errors in the order asked; None where the bat has no such answer.
+    /// Values with their errors in the order of the outputs; `None` if the bat has no such answer.
     pub figures: Vec<Option<Figure>>,
     /// Whether frequencies and exit speeds are as accurate as asked.
     pub met: bool,
-    /// Why it cannot be hit where or as it is asked, if it cannot.
+    /// The reason if the hit is impossible.
     pub off: Option<Error>,
 }
 
 impl Found {
-    /// Whether another bat has an answer that differs from this one's by more than 1e-10 of it.
+    /// Whether an answer of another bat differs from this one's by more than a relative 1e-10.
     pub fn differs(&self, other: &Self) -> bool {
         const SAME: f64 = 1e-10;
         self.figures.iter().zip(&other.figures).any(|both| match both {
@@ -63,8 +62,7 @@ impl Found {
 /// Rows that are computed together: some bats in the lanes of every vector, on one plan.
 pub const TOGETHER: u64 = 16;
 
-/// What `of` makes of some rows, in their order, on all cores; `tell` is told of rows that are done, how many
-/// more there are.
+/// The values of `of` for some rows, in order, on all cores; `tell` receives the number of further finished rows.
 pub fn in_groups<T: Send>(
     rows: Range<u64>,
     of: impl Fn(Range<u64>) -> Vec<T> + Sync,
@@ -81,32 +79,33 @@ pub fn in_groups<T: Send>(
     threads::map(groups, group).into_iter().flatten().collect()
 }
 
-/// A bat of which all is known that its modes are asked for.
+/// A bat that is ready to be solved.
 struct Ready {
-    /// The bat as it is tuned to its tap.
+    /// The bat with moduli fitted to its tap.
     bat: Bat,
     request: Request,
-    /// How it is hit, and where (m from the knob end), if it is.
+    /// The hit and its places (m from the knob end), if there is one.
     trial: Option<(Trial, Vec<f64>)>,
-    /// Why it cannot be hit, if that was asked.
+    /// The reason if the requested hit is impossible.
     off: Option<Error>,
 }
 
-/// What was computed of a bat.
+/// The solution of a bat.
 enum Solved {
     Modes(Solution),
     Hits(Sweep),
 }
 
 impl Asked {
-    /// What is asked of each of some bats that are like `model`, in their order; `trial` is told the number of a
-    /// bat and the bat as it is tuned to its tap.
+    /// The outputs for each of several bats similar to `model`, in order; `trial` receives the index of a bat and the
+    /// bat with moduli fitted to its tap.
     ///
-    /// The answers of a bat depend on itself and the model, and not on the bats beside it.
+    /// A bat's results depend only on the bat and the model, not on the other bats.
     ///
     /// # Errors
     ///
-    /// Of each bat its own: why there is none, those of [`sweetspot::solve()`], of a hit, and of the trial.
+    /// Each bat has its own: the reason why there is no answer, those of [`sweetspot::solve()`], of a hit, and of the
+    /// trial.
     pub fn of_each<'a>(
         model: &Bat,
         bats: Vec<(&'a Self, Result<Bat>)>,
@@ -143,7 +142,7 @@ impl Asked {
         ready.into_iter().zip(solved).map(found).collect()
     }
 
-    /// The bat as it is tuned to its tap, with what its answers need.
+    /// The bat with moduli fitted to its tap, and the data for its answers.
     fn ready(&self, bat: Bat, trial: impl FnOnce(&Bat) -> Result<Trial>) -> Result<Ready> {
         let modes = self.answers.iter().map(|answer| answer.modes()).max().unwrap_or(0);
         let hit = self.answers.iter().any(|answer| answer.of_a_hit());
@@ -163,7 +162,7 @@ impl Asked {
         Ok(Found { figures, met: solution.worst() <= self.tolerance, off: None })
     }
 
-    /// The answers of a bat that was hit: the modes' from those of the hit where these are enough.
+    /// The answers of a bat that was hit: those about modes from the modes of the hit, if these are accurate enough.
     fn with_hits(&self, Ready { bat, request, trial, .. }: Ready, sweep: Sweep) -> Result<Found> {
         let (Trial { scene, model }, _) = trial.expect("a bat that was hit has its trial");
         let asked = self.answers.iter().map(|answer| answer.modes()).max().unwrap_or(0);
@@ -187,9 +186,9 @@ impl Asked {
         Ok(Found { figures, met: found.met && sweep.met(), off })
     }
 
-    /// Where the barrel is hit (m from the knob end): where it is asked, and where best places are sought.
+    /// Impact points (m from the knob end): the requested ones, and those for the search of best places.
     fn places(&self, bat: &Bat) -> Vec<f64> {
-        /// Where a barrel is hit that is searched, as shares of the length.
+        /// Impact points of a barrel that is searched, as shares of the length.
         const ALONG: [f64; 4] = [0.7, 0.775, 0.85, 0.925];
         let asked = self.answers.iter().filter_map(|answer| answer.place());
         let mut places: Vec<f64> = asked.filter(|x| *x <= bat.length()).collect();
@@ -211,8 +210,7 @@ impl Ready {
     }
 }
 
-/// Energy that an impact leaves in vibration (J): what the error of the impulse moves between the
-/// energies is its error.
+/// Energy left in vibration by an impact (J); its error is the energy that the error of the impulse shifts.
 fn vibration(impact: &Impact, scene: &Scene) -> Option<Figure> {
     let outcome = impact.outcome.as_ref()?;
     let closing = impact.bat_speed + scene.ball_speed;
@@ -221,7 +219,7 @@ fn vibration(impact: &Impact, scene: &Scene) -> Option<Figure> {
         .then(|| Figure::new(outcome.energy.vibration, moved))
 }
 
-/// What is found by search on a bat that was hit: of all that could be sought what is asked for.
+/// The results of the search on a bat that was hit, as far as they are requested.
 struct Searched {
     /// Speed and place of the fastest ball, and the energy it leaves in vibration.
     fastest: Option<[Figure; 3]>,
@@ -237,7 +235,7 @@ impl Searched {
         let (scene, model) = trial;
         let hitter = Hitter::new(model, scene, bat, &sweep.solution, sweep.effort)?;
         let asked = |which: fn(&Answer) -> bool| answers.iter().any(which);
-        // What is asked of a place needs no search.
+        // An answer about a given place needs no search.
         let sought = asked(|answer| answer.is_searched() && answer.place().is_none())
             .then(|| Sought::new(&hitter, FEW));
         let sought = |which| sought.as_ref().filter(|_| asked(which));
@@ -276,17 +274,17 @@ impl Searched {
     }
 }
 
-/// What the hands feel of the hits on a bat. By fewer modes it is another, and the impulse has its error, by
-/// which all of it grows: both are the error.
+/// The motion at the hands due to hits on a bat. Its error has two parts: the change with fewer modes, and the error of
+/// the impulse, to which the motion is proportional.
 struct Hands {
     /// Places of the least velocity and the least acceleration (m).
     least: [Option<f64>; 2],
-    /// Places (m) and what the hands feel there: velocity and acceleration.
+    /// Places (m) and the motion at the hands: velocity and acceleration.
     felt: Vec<(f64, [Figure; 2])>,
 }
 
 impl Hands {
-    /// At the places of the sweep, and where the least velocity and acceleration are (m) if that is asked.
+    /// At the places of the sweep, and, if requested, at those of the least velocity and acceleration (m).
     fn new(
         bat: &Bat,
         (scene, model): (&Scene, Model),
@@ -300,7 +298,7 @@ impl Hands {
             first.modes.truncate(few);
             first
         };
-        // By half of them it is another bat.
+        // With half of them it is a different bat.
         let most = fewer(count).into_iter().filter(|few| 3 * few >= 2 * count).map(first);
         let most: Vec<Solution> = most.collect();
         let hitter = |solution| Hitter::new(model, scene, bat, solution, *effort);

@@ -35,12 +35,12 @@ pub struct Sobol {
 }
 
 impl Sobol {
-    /// With the given number of coordinates, [`MOST_COORDINATES`] at most, scrambled by that seed.
+    /// A sequence with the given number of coordinates, at most [`MOST_COORDINATES`], scrambled with that seed.
     pub fn new(coordinates: usize, seed: u64) -> Self {
         Self { directions: (0..coordinates).map(directions).collect(), seed }
     }
 
-    /// A coordinate of point k, between 0 and 1 and neither of them.
+    /// A coordinate of point k, strictly between 0 and 1.
     pub fn at(&self, k: u64, coordinate: usize) -> f64 {
         let own = of(self.seed, coordinate as u64, 0);
         between(scrambled(plain(&self.directions[coordinate], k), own))
@@ -82,11 +82,11 @@ fn plain(directions: &[u64; 64], k: u64) -> u64 {
     bits.fold(0, |sum, bit| sum ^ directions[bit])
 }
 
-/// Every bit is kept or turned round, by a coin that the bits before it choose.
+/// Keeps or flips every bit, by a coin chosen by the bits before it.
 fn scrambled(point: u64, seed: u64) -> u64 {
     // Which bits a number begins with: they make one node of a tree, whose root is 1.
     let coin = |bit: u32| mixed(seed ^ mixed(1 << bit | point.checked_shr(64 - bit).unwrap_or(0)));
-    // What comes after the 53 bits of a number does not show.
+    // Bits after the 53rd do not affect a number.
     (0..53).fold(point, |sum, bit| sum ^ (coin(bit) & 1) << (63 - bit))
 }
 
@@ -145,8 +145,8 @@ mod tests {
         }
     }
 
-    /// The mean of a smooth function over n scrambled points is off by far less than over n that are
-    /// thrown, and has no bias over seeds.
+    /// The mean of a smooth function over n scrambled points has a far smaller error than over n random ones, and no
+    /// bias over seeds.
     #[test]
     fn means_over_points_converge_fast_and_without_bias() {
         let mean = |seed: u64, count: u64| {

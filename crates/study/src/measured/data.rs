@@ -2,26 +2,26 @@
 
 use faer::c64;
 
-/// Measured modes, at the same points all of them.
+/// Measured modes, all at the same points.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Measured {
     /// The file they are from, for people.
     pub source: String,
     /// Measured modes, by rising frequency.
     pub modes: Vec<MeasuredMode>,
-    /// Where the points are along the bat's axis (m), rising, in the file's own direction and from
-    /// its own origin; empty where frequencies are all there is.
+    /// Positions of the points along the bat's axis (m), rising, in the file's direction and from its origin; empty if
+    /// there are only frequencies.
     pub along: Vec<f64>,
-    /// Whether they count from the knob end, as the file says.
+    /// Whether the file says that they count from the knob end.
     pub from_knob: bool,
-    /// What had to be assumed to read them, one sentence each.
+    /// Assumptions in reading them, one sentence each.
     pub assumed: Vec<String>,
-    /// What the frequencies are if the file writes them in the other of Hz and rad/s; None where that is
-    /// known.
+    /// The meaning of the frequencies if the file writes them in the other of Hz and rad/s; `None` if the unit is
+    /// certain.
     pub otherwise: Option<Otherwise>,
 }
 
-/// What a file counts its frequencies in.
+/// Unit of a file's frequencies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FrequencyUnit {
     /// Cycles a second.
@@ -59,17 +59,17 @@ impl FrequencyUnit {
     }
 }
 
-/// How a file's frequencies may be meant, beside how they were read.
+/// Another possible unit of a file's frequencies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Otherwise {
-    /// What they were read in.
+    /// The unit in which they were read.
     pub read_in: FrequencyUnit,
-    /// Whether the file itself says so, beyond its format.
+    /// Whether data of the file confirm it, beyond its format.
     pub settled: bool,
 }
 
 impl Otherwise {
-    /// What the frequencies are times, read in the other unit.
+    /// The factor to the frequencies if read in the other unit.
     pub fn factor(&self) -> f64 {
         self.read_in.other().hertz() / self.read_in.hertz()
     }
@@ -78,9 +78,9 @@ impl Otherwise {
 /// One measured mode.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeasuredMode {
-    /// What the file calls it.
+    /// Its name in the file.
     pub name: String,
-    /// The number of the bending mode, where the file says so.
+    /// The number of the bending mode, if the file gives it.
     pub order: Option<usize>,
     /// Measured frequency (Hz).
     pub frequency: f64,
@@ -91,7 +91,7 @@ pub struct MeasuredMode {
 }
 
 impl Measured {
-    /// Whether there are shapes and not only frequencies.
+    /// Whether there are shapes besides frequencies.
     pub fn has_shapes(&self) -> bool {
         !self.along.is_empty()
     }

@@ -1,11 +1,10 @@
-//! How alike two shapes at the same points are.
+//! How similar are two shapes at the same points?
 //!
 //! ```text
 //! MAC(φ, ψ) = |φᴴψ|² / (φᴴφ · ψᴴψ)
 //! ```
 //!
-//! is 1 for multiples of one shape, complex ones too, and 0 for shapes with nothing in common at
-//! these points.
+//! is 1 for multiples of one shape, also complex ones, and 0 for shapes that are orthogonal at these points.
 //!
 //! # Source
 //!
@@ -19,7 +18,7 @@ pub fn product(a: &[c64], b: &[c64]) -> c64 {
     a.iter().zip(b).fold(c64::new(0.0, 0.0), |sum, (a, b)| sum + a.conj() * b)
 }
 
-/// The shape whose largest part is of size 1, so that no square of it is beyond the range of numbers.
+/// The shape scaled to a largest component of size 1, so that no square overflows.
 pub fn unit(shape: &[c64]) -> Vec<c64> {
     let largest = shape.iter().map(|v| v.re.abs().max(v.im.abs())).fold(0.0, f64::max);
     match largest {
@@ -28,7 +27,7 @@ pub fn unit(shape: &[c64]) -> Vec<c64> {
     }
 }
 
-/// The modal assurance criterion of two shapes; 0 where one of them is zero.
+/// The modal assurance criterion of two shapes; 0 if one of them is zero.
 pub fn mac(a: &[c64], b: &[c64]) -> f64 {
     let (a, b) = (unit(a), unit(b));
     let sizes = product(&a, &a).re * product(&b, &b).re;
@@ -84,7 +83,7 @@ mod tests {
         assert_eq!(mac(&a, &shape(&[0.0; 5])), 0.0);
     }
 
-    /// A complex phase changes nothing, and the share out of phase is that which was put in.
+    /// A complex phase changes nothing, and the out-of-phase share is the given one.
     #[test]
     fn phase_is_told_from_shape() {
         let (a, b) = ([1.0, -0.3, -0.9, 0.2, 1.4], [0.3, 1.0, 0.0, 0.0, 0.0]);

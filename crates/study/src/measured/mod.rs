@@ -1,10 +1,10 @@
-//! Measured modes beside computed ones: which is which, how far apart, and whether the measurement
-//! itself is sound.
+//! Measured modes compared with computed ones: the pairs, their differences, and whether the measurement itself is
+//! sound.
 //!
-//! A free bat's bending modes carry neither momentum nor angular momentum, and two of them are
-//! orthogonal in the bat's mass: measured shapes are held to both, and so are the computed
-//! shapes at the same points, which tells what the few points cost from what the data are worth. A
-//! measured frequency response is laid over the computed one ([`response`]).
+//! A free bat's bending modes carry neither momentum nor angular momentum, and two of them are orthogonal in the bat's
+//! mass. Measured shapes are checked for both. Computed shapes at the same points are checked too, which separates the
+//! effect of few points from the quality of the data. A measured frequency response is laid over the computed one
+//! ([`response`]).
 
 pub mod data;
 pub mod response;

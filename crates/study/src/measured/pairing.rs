@@ -2,13 +2,13 @@
 
 /// Shapes less alike than this (MAC) are not of one mode.
 pub const LEAST: f64 = 0.5;
-/// What an octave between the frequencies takes from a MAC: with few points several computed modes
-/// may look alike there, and the frequency tells.
+/// Reduction of a MAC for each octave between the frequencies: with few points several computed modes may look similar,
+/// and the frequency decides.
 const OCTAVE: f64 = 0.05;
 /// Modes farther apart are alike by chance.
 const FARTHEST: f64 = 1.0;
 
-/// Octaves between two frequencies that may be of one mode; none where they are too far apart.
+/// Octaves between two frequencies that may belong to one mode; `None` if they are too far apart.
 pub fn octaves(measured: f64, computed: f64) -> Option<f64> {
     Some((measured / computed).log2().abs()).filter(|octaves| *octaves <= FARTHEST)
 }
@@ -63,7 +63,8 @@ mod tests {
         assert_eq!(by_shape(&mac, &[290.0], &[300.0, 200.0]), [(0, 0)]);
         assert_eq!(by_shape(&mac, &[210.0], &[800.0, 200.0]), [(0, 1)]);
         assert_eq!(by_shape(&mac, &[790.0], &[800.0, 200.0]), [(0, 0)]);
-        // Half and twice the frequency may be the mode; what is farther off is not, however alike.
+        // Half and twice the frequency may belong to the mode; a larger difference excludes it, however similar the
+        // shapes.
         let alone = vec![vec![1.0]];
         for (measured, paired) in [(101.0, 1), (99.0, 0), (399.0, 1), (401.0, 0), (0.0, 0)] {
             assert_eq!(by_shape(&alone, &[measured], &[200.0]).len(), paired, "{measured}");

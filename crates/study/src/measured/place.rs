@@ -1,9 +1,8 @@
-//! Where on the bat the measured points are.
+//! Where on the bat are the measured points?
 //!
-//! A file's coordinates have an origin and a direction of their own. Which end comes first is what
-//! was told, or what makes the shapes most like computed ones; where the first point is was told, or
-//! follows from the coordinates: within the bat they count from its end, else the points are taken
-//! as in the middle.
+//! A file's coordinates have their own origin and direction. The end that comes first is given, or it is the one that
+//! makes the shapes most similar to computed ones. The position of the first point is given, or it follows from the
+//! coordinates: if they lie within the bat they count from its end, otherwise the points are assumed to be centred.
 
 use faer::c64;
 use serde::Serialize;
@@ -32,21 +31,21 @@ impl End {
     }
 }
 
-/// What was told about the points.
+/// Given facts about the points.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ToldPoints {
     /// The end that the first point is near, the one with the lowest coordinate.
     pub first: Option<End>,
-    /// Where that point is (m from the knob end).
+    /// Position of that point (m from the knob end).
     pub origin: Option<f64>,
 }
 
 /// The points on the bat.
 #[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Placed {
-    /// What was assumed to place the points on the bat, a sentence each.
+    /// Assumptions in placing the points on the bat, a sentence each.
     pub assumed: Vec<String>,
-    /// The end that the first point of the file is near.
+    /// The end near the first point of the file.
     #[serde(rename = "first_end")]
     pub first: End,
     /// Positions of the points (m).
@@ -59,22 +58,22 @@ pub struct Placed {
     /// How well the shapes fit this way and turned end for end, where either can be.
     #[serde(skip)]
     pub fits: [Option<f64>; 2],
-    /// Whether turned end for end they would fit clearly better, although the file says otherwise.
+    /// Whether the reversed order would fit clearly better, although the file says otherwise.
     #[serde(skip)]
     pub turned_fits_better: bool,
 }
 
-/// Points this far beyond an end (of the length) are at the end.
+/// Points up to this far beyond an end (as a share of the length) are at the end.
 const BEYOND: f64 = 0.01;
-/// One fit is better than another by so much at least.
+/// Least difference by which one fit counts as better.
 const BETTER: f64 = 0.02;
 
-/// Finds the points' places on a bat of that length (m). `fit` says how well shapes at such places
-/// are like computed ones, 1 for entirely.
+/// Finds the points' places on a bat of that length (m). `fit` gives the similarity of shapes at such places to
+/// computed ones, at most 1.
 ///
 /// # Errors
 ///
-/// [`Error::Value`] where the points span more than the bat, or are not on it.
+/// [`Error::Value`] if the points extend beyond the bat.
 pub fn place(
     measured: &Measured,
     length: f64,
@@ -120,7 +119,8 @@ struct DirectionPoints {
     how: String,
 }
 
-/// One of two ways, how well the other fits if it can be, and why it is this one if the file does not say.
+/// One of two orders, the fit of the other one if it is possible, and the reason for the choice if the file does not
+/// decide.
 struct Choice {
     chosen: DirectionPoints,
     other: Option<f64>,
@@ -182,8 +182,8 @@ fn places(measured: &Measured, length: f64, origin: Option<f64>, first: End) -> 
 /// Points that span less of a bat than this share are in another unit: an inch is a fortieth of a metre.
 const LEAST_SPAN: f64 = 0.05;
 
-/// Points that are farther apart than the bat is long do not fit on it; several within a twentieth of it tell no
-/// shape.
+/// Checks the span: points farther apart than the bat's length do not fit on it, and several within a twentieth of it
+/// determine no shape.
 fn fits_on(measured: &Measured, length: f64) -> Result<()> {
     let many = measured.along.len();
     let span = measured.along[many - 1] - measured.along[0];

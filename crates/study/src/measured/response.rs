@@ -13,10 +13,9 @@ pub struct MeasuredResponse {
     pub source: String,
     /// Deflection, velocity or acceleration.
     pub kind: ResponseKind,
-    /// Where the force was (m), in the file's own direction and from its own origin; None where the
-    /// file does not tell.
+    /// Position of the force (m), in the file's direction and from its origin; `None` if the file does not give it.
     pub at: Option<f64>,
-    /// Where the answer was watched (m), likewise.
+    /// Position of the response (m), likewise.
     pub to: Option<f64>,
     /// The nodes of force and answer.
     pub nodes: [i64; 2],
@@ -26,7 +25,7 @@ pub struct MeasuredResponse {
     pub turned: bool,
     /// Rising frequencies (Hz) above 0, and the answer per force there, in SI.
     pub values: Vec<(f64, c64)>,
-    /// What had to be assumed to read it, one sentence each.
+    /// Assumptions in reading it, one sentence each.
     pub assumed: Vec<String>,
 }
 
@@ -37,31 +36,30 @@ impl MeasuredResponse {
     }
 }
 
-/// A measured response beside the computed one at its own frequencies.
+/// A measured response compared with the computed one at its frequencies.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Laid {
-    /// Frequencies (Hz) and measured answers, in the kind that was asked for.
+    /// Frequencies (Hz) and measured values, in the requested kind.
     pub measured: Vec<(f64, c64)>,
     /// The computed answers at the same frequencies.
     pub computed: Vec<c64>,
     /// Frequency response assurance criterion, 1 for responses that are alike but for a factor.
     pub frac: f64,
-    /// Mean of `20 log |computed/measured|` (dB): by how much the computed one is larger.
+    /// Mean of `20 log |computed/measured|` (dB).
     pub level: f64,
-    /// Mean of its size (dB): how far they are apart.
+    /// Mean of its absolute value (dB).
     pub apart: f64,
     /// The computed peaks, each with the measured one near it.
     pub peaks: Vec<(Peak, Option<Peak>)>,
 }
 
-/// A width has to hold that many steps of the measurement, or it tells the steps and not the damping.
+/// A half-power width must span this many steps of the measurement to give a damping.
 const STEPS: f64 = 3.0;
-/// A measured peak is that of a mode only if it is so near (as a share of the frequency).
+/// A measured peak belongs to a mode only if it is this close (as a share of the frequency).
 const NEAR: f64 = 0.3;
 
 impl Laid {
-    /// Lays the measured response over the computed one between two frequencies (Hz), whose peaks are
-    /// given.
+    /// Lays the measured response over the computed one between two frequencies (Hz), with the given peaks.
     ///
     /// The criterion is the modal assurance criterion's formula with frequencies in place of points:
     ///
@@ -69,7 +67,7 @@ impl Laid {
     /// FRAC = |Σ a(ω) x̄(ω)|² / (Σ |a|² · Σ |x|²)
     /// ```
     ///
-    /// Frequencies at which either is 0 say nothing in dB, and are left out of the means.
+    /// Frequencies at which either is 0 have no value in dB and are left out of the means.
     ///
     /// # Errors
     ///
@@ -118,7 +116,7 @@ impl Laid {
     }
 }
 
-/// Every computed peak with the highest measured one between it and its neighbours.
+/// Every computed peak with the highest measured one between its neighbours.
 fn beside(computed: &[Peak], measured: &[(f64, c64)]) -> Vec<(Peak, Option<Peak>)> {
     let between = |k: usize| match (computed.get(k), computed.get(k + 1)) {
         (Some(a), Some(b)) => (a.frequency * b.frequency).sqrt(),

@@ -1,4 +1,4 @@
-//! Everything there is to say of measured modes beside a bat's computed ones.
+//! The whole comparison of measured modes with a bat's computed ones.
 
 use faer::c64;
 use serde::Serialize;
@@ -13,7 +13,7 @@ use sweetspot::bat::body::Bat;
 use sweetspot::modes::mode::Mode;
 use sweetspot::modes::solve::{Request, Solution, solve};
 
-/// Measured modes beside computed ones.
+/// Measured modes compared with computed ones.
 #[derive(Debug, Clone)]
 pub struct Study {
     /// The measurement.
@@ -22,7 +22,7 @@ pub struct Study {
     pub solution: Solution,
     /// The measured modes that are rigid motions on their supports.
     pub rigid: Vec<RigidMode>,
-    /// Numbers (from 0) of those that bend.
+    /// Indices (from 0) of the bending modes.
     pub bending: Vec<usize>,
     /// Which is which.
     pub pairs: Vec<Pair>,
@@ -31,7 +31,7 @@ pub struct Study {
     /// Numbers (from 0) of computed modes up to the highest measured frequency without a measured
     /// partner.
     pub lone_computed: Vec<usize>,
-    /// What the shapes say, where there are shapes.
+    /// Results about the shapes, if there are shapes.
     pub shapes: Option<Shapes>,
 }
 
@@ -62,7 +62,7 @@ pub struct RigidMode {
     pub bent: f64,
 }
 
-/// What measured shapes say of themselves and of the computed ones.
+/// Results about measured shapes and their computed partners.
 #[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Shapes {
     /// The points on the bat, and the shapes there.
@@ -102,10 +102,10 @@ pub struct Shapes {
     pub sampled_rigid_share: Option<Vec<Option<f64>>>,
 }
 
-/// A MAC that leaves no doubt, at points that tell the modes apart.
+/// A MAC without doubt, at points that distinguish the modes.
 pub const ALIKE: f64 = 0.8;
-/// A measured mode below this share of the first bending frequency does not bend the bat, if its
-/// shape is no farther than that from a straight line.
+/// A measured mode below this share of the first bending frequency is rigid, if its shape departs from a straight line
+/// by no more than that.
 const RIGID_BELOW: f64 = 0.5;
 const STRAIGHT: f64 = 0.5;
 /// Computed modes go up to this times the highest measured frequency.
@@ -116,14 +116,14 @@ const MOST: usize = 100;
 const MANY: usize = 400;
 
 impl Study {
-    /// Solves the bat, for the request's modes if `exactly` that number is wanted, else for as many as
-    /// reach beyond the measured frequencies; pairs the modes and looks at the measured shapes. Shapes whose
-    /// frequencies are those of modes like them only in the other of Hz and rad/s are read so.
+    /// Solves the bat, for the request's modes if `exactly`, else for as many as reach beyond the measured frequencies;
+    /// pairs the modes and checks the measured shapes. If the frequencies of shapes match similar modes only in the
+    /// other of Hz and rad/s, they are read so.
     ///
     /// # Errors
     ///
-    /// As [`solve`], and [`Error::Value`] for points that are not on the bat, and for shapes that contradict
-    /// what their file says its frequencies are in.
+    /// As [`solve`], and [`Error::Value`] for points that are not on the bat, and for shapes that contradict the file's
+    /// unit of frequency.
     pub fn new(
         bat: &Bat,
         measured: Measured,
@@ -155,7 +155,7 @@ impl Study {
         }
     }
 
-    /// How many measured modes have a computed one whose shape leaves no doubt.
+    /// Number of measured modes with a computed partner whose shape leaves no doubt.
     fn alike(&self) -> usize {
         let sure = |pair: &&Pair| pair.mac.is_some_and(|mac| mac >= ALIKE);
         self.pairs.iter().filter(sure).count()
@@ -210,7 +210,7 @@ impl Study {
         Ok(study)
     }
 
-    /// What the file calls a measured mode.
+    /// The file's name of a measured mode.
     pub fn name(&self, measured: usize) -> &str {
         &self.measured.modes[measured].name
     }

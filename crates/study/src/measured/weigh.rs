@@ -1,14 +1,12 @@
 //! Mass orthogonality of curves along a bat: their product `φᴴMψ` in its mass.
 //!
-//! `M` is `∫ρA φ*ψ dx`, with `∫ρI φ*′ψ′ dx` where the theory turns the sections, and whatever is
-//! attached. A curve is given by its values at points, the spline through them between. Absorbers
-//! are left out: near its frequency an absorber moves many times as far as the bat beneath it. This factor was not
-//! measured, and a small error of the frequency changes it.
+//! `M` is `∫ρA φ*ψ dx`, plus `∫ρI φ*′ψ′ dx` if the theory has rotary inertia, plus the fixtures. A curve is given by
+//! its values at points, with a spline between. Absorbers are left out: near its frequency an absorber moves many times
+//! as far as the bat beneath it. This factor was not measured, and a small error of the frequency changes it.
 //!
-//! A measurement knows no rotation, so that sections are taken as turning with the slope. Where the
-//! beam shears they turn by less, which on an R161 leaves 0.01 between modes 4 and 5 and 0.05
-//! between 9 and 10 however many the points; without rotary inertia it would be 0.02 between the
-//! low ones too. Computed shapes taken from the same points show it.
+//! A measurement has no rotations, so sections are assumed to turn with the slope. With shear they turn less. On an
+//! R161 that leaves 0.01 between modes 4 and 5 and 0.05 between 9 and 10, for any number of points; without rotary
+//! inertia it would be 0.02 between the low ones too. Computed shapes sampled at the same points show it.
 
 use faer::c64;
 
@@ -38,7 +36,7 @@ struct Share {
 pub struct Curve(Vec<[c64; 2]>);
 
 impl Scale {
-    /// For curves with corners of their third derivative at those points (m).
+    /// For curves whose third derivative has corners at those points (m).
     pub fn new(bat: &Bat, theory: Theory, points: &[f64]) -> Self {
         let turns = if theory.turns() { 1.0 } else { 0.0 };
         // Two cubics and a mass of degree 6 are of degree 12; formulas are smooth.
@@ -105,8 +103,8 @@ impl Scale {
         (0..curves.len()).map(|i| (0..curves.len()).map(|j| entry(i, j)).collect()).collect()
     }
 
-    /// How much of a curve is rigid motion, as a share of its size `√(φᴴMφ)`: the size of what it
-    /// has in common with a shift and a turn.
+    /// Share of rigid motion in a curve, relative to its size `√(φᴴMφ)`: the size of its projection on translation and
+    /// rotation.
     pub fn rigid_share(&self, curve: &Curve) -> f64 {
         let shift = self.line(1.0, 0.0);
         let mass = self.product(&shift, &shift).re;

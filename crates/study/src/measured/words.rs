@@ -1,23 +1,23 @@
-//! What measured modes beside computed ones come to, a sentence each.
+//! The comparison of measured modes with computed ones in sentences.
 
 use crate::measured::study::{Pair, RigidMode, Shapes, Study};
 
 /// A MAC below this between two shapes that should be equal is reported.
 const ALIKE: f64 = 0.9;
-/// Frequencies that differ by less are the same, as far as a laboratory can tell.
+/// Frequencies that differ by less are equal for a laboratory.
 const SAME: f64 = 5e-4;
 /// Ratios of frequencies that are farther than this from their mean are not of one bat and its modes.
 const MISNUMBERED: f64 = 0.1;
-/// MAC above which two computed shapes, which should differ, are taken as alike, if it is more than
-/// twice the MAC at many points: in a plain sum over points even smooth shapes have a MAC above 0.
+/// Two computed shapes, which should differ, count as similar above this MAC, if it is more than twice the MAC at many
+/// points: in a plain sum over points even smooth shapes have a MAC above 0.
 const CONFUSED: f64 = 0.1;
-/// Shares of rigid motion, or mass orthogonality between two shapes, above this are reported where
-/// the points alone do not explain half of it.
+/// Shares of rigid motion, or mass orthogonality between two shapes, are reported above this if the points alone do not
+/// explain half of it.
 const MUCH: f64 = 0.1;
 /// Shares out of phase above this are reported.
 const WHIRLING: f64 = 0.05;
 
-/// All of it; warnings first.
+/// All sentences; warnings first.
 pub fn words(study: &Study) -> Vec<String> {
     let mut all = vec![];
     all.extend(frequencies(study));
@@ -38,7 +38,7 @@ pub fn words(study: &Study) -> Vec<String> {
     all
 }
 
-/// How far all frequencies are off together, and what one factor on the stiffness would leave.
+/// The common error of all frequencies, and the rest after one factor on the stiffness.
 fn frequencies(study: &Study) -> Vec<String> {
     let differences = study.pairs.iter().filter_map(|pair| pair.difference);
     let logs: Vec<f64> = differences.map(f64::ln_1p).collect();
@@ -74,13 +74,13 @@ fn frequencies(study: &Study) -> Vec<String> {
     all
 }
 
-/// The mean of the logarithms of the ratios, and how far the ratios are from it at most.
+/// The mean of the logarithms of the ratios, and the largest deviation from it.
 fn common_factor(logs: &[f64]) -> (f64, f64) {
     let mean = logs.iter().sum::<f64>() / logs.len() as f64;
     (mean, logs.iter().map(|log| (log - mean).exp_m1().abs()).fold(0.0, f64::max))
 }
 
-/// What says that modes without shapes are paired wrongly, and whether other numbers would fit.
+/// The evidence that modes without shapes are paired wrongly, and whether other numbers would fit.
 fn numbers(study: &Study, left: f64) -> String {
     let shifted = |by: isize| {
         let log = |pair: &Pair| {
@@ -132,7 +132,7 @@ fn alike(study: &Study) -> Vec<String> {
     .collect()
 }
 
-/// Computed modes in the measured range that look alike at these points, and would not at many.
+/// Computed modes in the measured range that look similar at these points, but not at many.
 fn confused(study: &Study, shapes: &Shapes) -> Option<String> {
     let highest = study.measured.modes.last()?.frequency;
     let modes = &study.solution.modes;
@@ -167,8 +167,8 @@ fn whirling(study: &Study, shapes: &Shapes) -> Option<String> {
     })
 }
 
-/// Shapes with momentum, which the bending of a free bat does not have. Without a computed partner the influence of
-/// the points on a shape is not known.
+/// Shapes with momentum, which the bending of a free bat cannot have. Without a computed partner the effect of the
+/// points on a shape is not known.
 fn rigid(study: &Study, shapes: &Shapes) -> Option<String> {
     let (own, sampled) = (shapes.rigid_share.as_ref()?, shapes.sampled_rigid_share.as_ref()?);
     let one = |row: usize| {
@@ -187,8 +187,8 @@ fn rigid(study: &Study, shapes: &Shapes) -> Option<String> {
     })
 }
 
-/// The two measured shapes that are the least orthogonal in the bat's mass, of those whose computed
-/// partners tell what the points do to them.
+/// The two measured shapes that are the least orthogonal in the bat's mass, among those whose computed partners show
+/// the effect of the points.
 fn common(study: &Study, shapes: &Shapes) -> Option<String> {
     let (own, sampled) = (shapes.common.as_ref()?, &shapes.sampled_common);
     let pairs = (0..study.bending.len()).flat_map(|i| (0..i).map(move |j| (i, j)));

@@ -1,8 +1,7 @@
-//! Which bat and which hit is row k, and what comes of them?
+//! Which bat and which hit is row k, and what are its results?
 //!
-//! [`ScatterRows::answers`] is a function of what differs, the bat, the seed and k alone: row k is point
-//! `k mod n` of scramble `k / n`. What is asked of a bat is asked as in a study
-//! ([`crate::many::rows`]).
+//! [`ScatterRows::answers`] depends only on the differences, the bat, the seed and k: row k is point `k mod n` of
+//! scramble `k / n`. The outputs are those of a study ([`crate::many::rows`]).
 
 use std::ops::Range;
 
@@ -22,10 +21,10 @@ use sweetspot::collision::sweet_spot::{FEW, HitsAlong};
 use sweetspot::modes::prepared::prepare;
 use sweetspot::modes::solve::Request;
 
-/// The exit speed of a ball that is hit at the place that differs, as an output.
+/// The exit speed at the varying impact point, as an output.
 pub const AT_IMPACT: &str = "exit_speed_m_s@impact";
 
-/// Something that is asked of every row.
+/// An output of every row.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Output {
     /// An answer of a study.
@@ -35,7 +34,7 @@ pub enum Output {
 }
 
 impl Output {
-    /// What it is called.
+    /// Its name.
     pub fn name(self) -> String {
         match self {
             Self::Of(answer) => answer.name(),
@@ -52,16 +51,16 @@ impl Output {
     }
 }
 
-/// What is asked of the rows, and how many there are.
+/// The outputs of the rows, and their number.
 #[derive(Debug, Clone)]
 pub struct ScatterPlan {
-    /// What differs.
+    /// The differences.
     pub differences: Differences,
     /// How the bat is hit in the middle of all rows.
     pub setup: Setup,
-    /// Where the ball is hit in the middle of all rows (m); None for where it leaves fastest.
+    /// Mean impact point of all rows (m); `None` for the place of the fastest ball.
     pub impact: Option<f64>,
-    /// What is asked.
+    /// The outputs.
     pub outputs: Vec<Output>,
     /// Accuracy, as of [`Asked`].
     pub tolerance: f64,
@@ -73,24 +72,24 @@ pub struct ScatterPlan {
 
 /// All rows.
 pub struct ScatterRows {
-    /// What was planned.
+    /// The plan.
     pub plan: ScatterPlan,
-    /// The bat in the middle of them, its density and stiffness settled.
+    /// The mean bat, with its density and stiffness settled.
     pub bat: Bat,
-    /// Where the ball is hit in the middle of them (m).
+    /// Mean impact point (m).
     pub impact: f64,
-    /// The bat in the middle as the rows have it, with all places of what was turned.
+    /// The mean bat of the rows, with all places of turning errors.
     middle: Bat,
     designs: Vec<Design>,
     groups: Vec<usize>,
 }
 
 impl ScatterRows {
-    /// The rows of a bat; the one in the middle is hit once, to see that it can be.
+    /// The rows of a bat; the mean one is hit once as a check.
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] where something differs that the bat has not, and what is wrong with the bat in the middle.
+    /// [`Error::Value`] for a difference that is impossible for the bat, and for errors of the mean bat.
     pub fn new(bat: &Bat, plan: ScatterPlan) -> Result<Self> {
         check(bat, &plan)?;
         let settled = settled(bat, plan.tolerance)?;
@@ -108,7 +107,7 @@ impl ScatterRows {
         Ok(rows)
     }
 
-    /// How many there are.
+    /// Number of rows.
     pub fn count(&self) -> u64 {
         self.plan.points
     }
@@ -125,7 +124,7 @@ impl ScatterRows {
         self.designs[scramble].numbers(point)
     }
 
-    /// What each of those numbers is.
+    /// The kind of each of those numbers.
     pub fn kinds(&self) -> Vec<VariateKind> {
         self.designs[0].kinds()
     }
@@ -140,8 +139,8 @@ impl ScatterRows {
         ((k / each) as usize, k % each)
     }
 
-    /// What comes of those rows, in the order of the outputs, or why there is no answer. A row's answers do not
-    /// depend on which others are asked for with it.
+    /// The results of those rows, in the order of the outputs, or the reason why there are none. A row's results do not
+    /// depend on which other rows are requested.
     pub fn answers(&self, rows: Range<u64>) -> Vec<Result<Found>> {
         self.of(&rows.map(|k| self.values(k)).collect::<Vec<_>>())
     }
@@ -150,12 +149,12 @@ impl ScatterRows {
     ///
     /// # Errors
     ///
-    /// Why there is none.
+    /// The reason why there is none.
     pub fn bat_of(&self, k: u64) -> Result<Bat> {
         self.changed(&self.values(k))
     }
 
-    /// What a difference comes to in row k: a factor, or an amount; of turning the root of the mean square (m).
+    /// The value of a difference in row k: a factor, or an amount; for turning the root mean square (m).
     pub fn told(&self, values: &[f64], k: usize) -> f64 {
         let (what, own) = (self.plan.differences.all[k].what, self.own(values, k));
         match what {
@@ -194,7 +193,7 @@ impl ScatterRows {
         Asked { answers, tolerance: self.plan.tolerance }
     }
 
-    /// The number of a difference; 0 where it does not differ.
+    /// The number of a difference; 0 if it does not differ.
     fn one(&self, values: &[f64], what: Differs) -> f64 {
         let place = self.plan.differences.all.iter().position(|one| one.what == what);
         place.map_or(0.0, |k| self.own(values, k)[0])
@@ -230,7 +229,7 @@ impl ScatterRows {
         let soft = softened(moist);
         let wet = (1.0 + moist).max(0.01);
         let ratio = of(Differs::ModulusRatio);
-        // G goes with E, or has a factor of its own.
+        // G follows E, or has its own factor.
         let by_itself =
             self.plan.differences.all.iter().any(|one| one.what == Differs::ShearModulus);
         let shear =
@@ -262,7 +261,7 @@ impl ScatterRows {
     }
 }
 
-/// The bat as heavy and as stiff as it was weighed and tapped, which is then not asked again.
+/// The bat with density and moduli from weighing and tapping, which are not applied again.
 fn settled(bat: &Bat, tolerance: f64) -> Result<Bat> {
     let request = Request { tolerance, ..Request::default() };
     let bat = prepare(bat, &request)?.bat;
@@ -271,7 +270,7 @@ fn settled(bat: &Bat, tolerance: f64) -> Result<Bat> {
     builder.fixtures(bat.fixtures().clone()).build()
 }
 
-/// Refuses what differs on no bat like this.
+/// Refuses differences that are impossible for the bat.
 fn check(bat: &Bat, plan: &ScatterPlan) -> Result<()> {
     let all = &plan.differences.all;
     let has = |what: &dyn Fn(Differs) -> bool| all.iter().any(|one| what(one.what));
@@ -303,7 +302,7 @@ fn check(bat: &Bat, plan: &ScatterPlan) -> Result<()> {
     }
 }
 
-/// Where the ball leaves the bat fastest (m).
+/// Place of the fastest ball (m).
 fn fastest(bat: &Bat, plan: &ScatterPlan) -> Result<f64> {
     let (scene, _) = plan.setup.scene(bat, Some(plan.tolerance))?;
     let model = plan.setup.model()?;
@@ -321,7 +320,7 @@ fn fastest(bat: &Bat, plan: &ScatterPlan) -> Result<f64> {
     })
 }
 
-/// The value of an answer, if there is one that is a number.
+/// The value of an answer, if it is a finite number.
 pub fn value(figure: &Option<Figure>) -> Option<f64> {
     figure.map(|figure| figure.value).filter(|value| value.is_finite())
 }

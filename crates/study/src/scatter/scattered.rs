@@ -1,4 +1,4 @@
-//! Percentiles with errors, and what makes them so.
+//! Percentiles with errors, and the causes of the variation.
 
 use std::collections::BTreeMap;
 
@@ -9,11 +9,11 @@ use crate::many::rows::in_groups;
 use crate::scatter::rows::{Output, ScatterRows, value};
 use crate::scatter::spreads::SCRAMBLES;
 
-/// The percentiles that are told, as shares.
+/// The reported percentiles, as shares.
 pub const SHARES: [f64; 7] = [0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99];
-/// The percentiles whose bats are written, by their places in [`SHARES`].
+/// The percentiles whose bats are written, as indices of [`SHARES`].
 pub const WRITTEN: [usize; 3] = [1, 3, 5];
-/// Values whose standard deviation is no larger share of their mean are the same value but for rounding.
+/// Values whose standard deviation is at most this share of their mean are equal up to round-off.
 const ROUND_OFF: f64 = 1e-9;
 /// Of Student's distribution with seven degrees of freedom 95 % lie within this many standard deviations.
 const STUDENT: f64 = 2.364_624_251;
@@ -25,8 +25,8 @@ pub struct Percentile {
     pub percent: f64,
     /// Its value.
     pub value: f64,
-    /// Half of its 95 % interval, by what the scrambles differ.
-    // None where one of them has no answer.
+    /// Half of its 95 % interval, from the differences between the scrambles.
+    // None if one of them has no answer.
     pub error: Option<f64>,
 }
 
@@ -43,12 +43,12 @@ pub struct OutputSpread {
     /// The standard deviation of all rows.
     pub sd: Option<f64>,
     /// The percentiles.
-    // Those of [`SHARES`]; none without an answer.
+    // Those of [`SHARES`]; empty without an answer.
     pub percentiles: Vec<Percentile>,
-    /// What makes it vary; null where it does not or rows are too few.
+    /// The causes of its variation; null if it does not vary or the rows are too few.
     #[serde(rename = "shares")]
     pub indices: Option<Indices>,
-    /// The values of all rows; None where a row has none.
+    /// The values of all rows; None for a row without one.
     #[serde(skip)]
     pub values: Vec<Option<f64>>,
 }
@@ -69,11 +69,11 @@ pub struct InputSpread {
     pub name: &'static str,
     /// Its standard deviation: of a logarithm, of a factor, or of an amount (m for turning and impact).
     pub sd: f64,
-    /// Those before it that it goes with: it is meant with them known.
+    /// The earlier ones with which it is correlated: it counts with them known.
     pub given: Vec<&'static str>,
 }
 
-/// What came of all rows: the members of a scatter's document that are of them.
+/// The results of all rows: the members of a scatter's document about them.
 #[derive(Debug, Clone, Serialize, schemars::JsonSchema)]
 pub struct Scattered {
     /// Rows that were drawn.
@@ -84,16 +84,16 @@ pub struct Scattered {
     pub scrambles: u64,
     /// Rows with all their answers.
     pub answered: usize,
-    /// Rows as accurate as asked.
+    /// Number of rows as accurate as asked.
     pub met: usize,
-    /// Why others have no answer, and how many.
+    /// The reasons why others have no answer, with their counts.
     // The commonest first.
     pub reasons: Vec<ReasonCounted>,
-    /// Where the ball is hit in the middle (m); null where nothing is asked of it.
+    /// Mean impact point (m); null if no output depends on it.
     pub impact_m: Option<f64>,
-    /// What differs.
+    /// The differences.
     pub inputs: Vec<InputSpread>,
-    /// What was asked, how it is spread, and what spreads it.
+    /// The outputs, their variation, and its causes.
     pub outputs: Vec<OutputSpread>,
     /// Why a row has no answer, row by row; empty where it has.
     #[serde(skip)]
@@ -101,7 +101,7 @@ pub struct Scattered {
 }
 
 impl Scattered {
-    /// All rows, on as many threads as there are; `tell` is told how many are done.
+    /// Computes all rows, on all threads; `tell` receives the number of finished rows.
     ///
     /// ```
     /// use sweetspot::Bat;
@@ -193,7 +193,7 @@ impl Scattered {
         }
     }
 
-    /// The row whose output k is nearest to its percentile of that place in [`SHARES`].
+    /// The row whose output k is nearest to its percentile with that index in [`SHARES`].
     pub fn nearest(&self, output: usize, percentile: usize) -> Option<usize> {
         let output = &self.outputs[output];
         let wanted = output.percentiles.get(percentile)?.value;
@@ -203,7 +203,7 @@ impl Scattered {
     }
 }
 
-/// How often each reason stands there, the commonest first.
+/// The count of each reason, the commonest first.
 fn counted(missing: &[String]) -> Vec<ReasonCounted> {
     let mut all: BTreeMap<&String, usize> = BTreeMap::new();
     missing.iter().filter(|why| !why.is_empty()).for_each(|why| *all.entry(why).or_default() += 1);
@@ -213,8 +213,8 @@ fn counted(missing: &[String]) -> Vec<ReasonCounted> {
     all
 }
 
-/// The percentiles, each with the error that eight scrambles show: the mean of theirs, and Student's interval of it. Where a
-/// scramble has too few rows for a percentile, the value is that of all rows together.
+/// The percentiles, each with the error from eight scrambles: their mean, and its Student interval. If a scramble has
+/// too few rows for a percentile, the value is that of all rows together.
 fn percentiles(values: &[Option<f64>]) -> Vec<Percentile> {
     let all = sorted(values);
     let each: Vec<Vec<f64>> =
@@ -252,8 +252,8 @@ fn sorted(values: &[Option<f64>]) -> Vec<f64> {
     known
 }
 
-/// The value below which a share of sorted ones lies: the k-th of n stands for the share (k − ½)/n, straight between
-/// neighbours. None of none.
+/// The value below which a share of the sorted ones lies: the k-th of n stands for the share (k − ½)/n, linear between
+/// neighbours. `None` for an empty list.
 pub fn percentile(sorted: &[f64], share: f64) -> Option<f64> {
     let last = sorted.len().checked_sub(1)?;
     let place = (share * sorted.len() as f64 - 0.5).clamp(0.0, last as f64);
@@ -268,7 +268,8 @@ mod tests {
     use crate::many::distribution::standard_normal;
     use crate::scatter::spreads::{Difference, Differences, Differs};
 
-    /// Of a normal number and of a sum of two, 95 of 100 intervals hold the percentile, to what 1500 can tell.
+    /// For a normal number and a sum of two, 95 of 100 intervals contain the percentile, as far as 1500 intervals can
+    /// show.
     #[test]
     fn ninety_five_of_a_hundred_intervals_hold_the_percentile() {
         let one = |what| Difference { what, deviation: 1.0 };

@@ -1,8 +1,8 @@
-//! What differs between bats of one model and swings of one batter, and how?
+//! How do bats of one model and swings of one batter differ?
 //!
-//! Each is a normal number: a factor's logarithm (density, moduli), a factor less one (swing, pitch, moisture), or an
-//! amount (e₀, the place that is hit). Moisture m makes the wood heavier by (1 + m), and E and G lower by 1.3 % for
-//! every per cent.
+//! Each difference is a normal number: the logarithm of a factor (density, moduli), a factor less one (swing, pitch,
+//! moisture), or an amount (e₀, the impact point). Moisture m multiplies the mass of the wood by (1 + m), and lowers E
+//! and G by 1.3 % for every per cent.
 //!
 //! # Source
 //!
@@ -16,7 +16,7 @@ use sweetspot::base::error::{Error, Result};
 
 /// Loss of E and G for a unit of moisture, relative.
 pub const SOFTENED: f64 = 1.3;
-/// Scrambles: each percentile's error is by what they differ.
+/// Number of scrambles; their differences give each percentile's error.
 pub const SCRAMBLES: u64 = 8;
 
 /// Something that differs.
@@ -25,17 +25,17 @@ pub const SCRAMBLES: u64 = 8;
 pub enum Differs {
     /// Density of the wood, a factor.
     Density,
-    /// E of the wood, a factor; G goes with it unless it differs by itself.
+    /// E of the wood, a factor; G follows unless it has its own factor.
     YoungsModulus,
     /// G/E of the wood, a factor.
     ShearOverYoung,
-    /// G of the wood, a factor of its own (as a calibration has it).
+    /// G of the wood, its own factor (as from a calibration).
     ShearModulus,
-    /// Density of the barrel's region, a factor (as a calibration has it).
+    /// Density of the barrel's region, a factor (as from a calibration).
     BarrelDensity,
-    /// E of the barrel's region over that of the handle, a factor (as a calibration has it).
+    /// E of the barrel's region over that of the handle, a factor (as from a calibration).
     ModulusRatio,
-    /// What the lathe misses.
+    /// The lathe's error.
     Turned(Turning),
     /// Moisture, a share of the mass.
     Moisture,
@@ -45,7 +45,7 @@ pub enum Differs {
     Pitch,
     /// Coefficient of restitution of the ball.
     Cor,
-    /// Where the ball is hit (m).
+    /// The impact point (m).
     Impact,
 }
 
@@ -85,10 +85,10 @@ impl Differs {
     }
 }
 
-/// Something that differs, and its standard deviation; that of turning is in it.
+/// A difference and its standard deviation; that of turning is part of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Difference {
-    /// What.
+    /// The kind.
     pub what: Differs,
     /// Standard deviation of its number.
     pub deviation: f64,
@@ -97,10 +97,10 @@ pub struct Difference {
 /// Everything that differs.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Differences {
-    /// In the order of the file, which is that of Cholesky's factor: of two that go together the later one is meant
-    /// with the earlier one known.
+    /// In the order of the file, which is that of Cholesky's factor: of two correlated ones the later counts with the
+    /// earlier known.
     pub all: Vec<Difference>,
-    /// Correlations of two of them, by their places.
+    /// Correlations of two of them, by their indices.
     pub correlations: Vec<(usize, usize, f64)>,
 }
 
@@ -111,7 +111,7 @@ impl Differences {
         each.flat_map(|(k, one)| std::iter::repeat_n(k, one.what.numbers(length))).collect()
     }
 
-    /// The names of those before one that it goes with.
+    /// The names of the earlier ones with which one is correlated.
     pub fn given(&self, k: usize) -> Vec<&'static str> {
         let before = |(a, b, r): &(usize, usize, f64)| {
             let (early, late) = (*a.min(b), *a.max(b));
@@ -120,7 +120,7 @@ impl Differences {
         self.correlations.iter().filter_map(before).collect()
     }
 
-    /// The eight designs of together the given number of points of a bat of that length (m).
+    /// The eight designs, with the given number of points together, for a bat of that length (m).
     ///
     /// # Errors
     ///
@@ -154,7 +154,7 @@ impl Differences {
     }
 }
 
-/// What E and G are multiplied by, of a share of moisture.
+/// The factor on E and G for a share of moisture.
 pub fn softened(moisture: f64) -> f64 {
     (1.0 - SOFTENED * moisture).max(0.01)
 }

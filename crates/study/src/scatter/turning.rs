@@ -1,7 +1,7 @@
-//! How does a lathe miss the profile?
+//! How does a lathe depart from the profile?
 //!
-//! Not by another amount at every station, but by a smooth curve: the error of the diameter is a sum of cubic B-splines
-//! whose knots are so far apart as the error reaches,
+//! Not by a separate amount at every station, but by a smooth curve. The error of the diameter is a sum of cubic
+//! B-splines; the distance of their knots is the width of the error:
 //!
 //! ```text
 //! d(x) = σ/s Σ z_j B(x/ℓ − j),   s² = mean of Σ B² = 151/315
@@ -20,7 +20,7 @@ use sweetspot::bat::profile::{Interpolation, Profile, Stations};
 
 /// `∫ B(t)² dt` of the cubic B-spline of equidistant knots: the mean over x of the sum of squares.
 const MEAN_SQUARE: f64 = 151.0 / 315.0;
-/// A radius is not turned below this share of what it was.
+/// A radius is not turned below this share of its original value.
 const LEAST: f64 = 0.05;
 
 /// How far a lathe misses.
@@ -33,19 +33,19 @@ pub struct Turning {
 }
 
 impl Turning {
-    /// How many splines a bat of that length (m) has.
+    /// Number of splines for a bat of that length (m).
     pub fn splines(&self, length: f64) -> usize {
         (length / self.along).ceil().max(1.0) as usize + 3
     }
 
-    /// The error of the diameter at x (m) of a bat with those numbers.
+    /// The error of the diameter at x (m) for a bat with those numbers.
     pub fn error(&self, x: f64, numbers: &[f64]) -> f64 {
         let t = x / self.along;
         let terms = numbers.iter().enumerate().map(|(j, z)| z * spline(t - j as f64 + 1.0));
         self.deviation / MEAN_SQUARE.sqrt() * terms.sum::<f64>()
     }
 
-    /// The profile as it was turned: stations, and places between far ones, miss by the curve.
+    /// The profile with errors: the curve is added at stations, and at places between distant ones.
     ///
     /// # Errors
     ///
@@ -59,7 +59,7 @@ impl Turning {
         let Stations { x, outer, inner, interpolation } = self.stations(profile);
         let turned = |(k, radius): (usize, &f64)| {
             let least = inner[k] + LEAST * (radius - inner[k]);
-            // A tip that is a point stays one.
+            // A pointed tip stays one.
             let off = if *radius > 0.0 { 0.5 * self.error(x[k], numbers) } else { 0.0 };
             (radius + off).max(least)
         };
@@ -67,7 +67,7 @@ impl Turning {
         Profile::new(Stations { x, outer, inner, interpolation })
     }
 
-    /// The stations, with others on the curve where two are farther apart than a third of what an error reaches.
+    /// The stations, with further ones on the curve where two are farther apart than a third of the error's width.
     fn stations(&self, profile: &Profile) -> Stations {
         let known = &profile.stations;
         // Held values have become steps between straight lines.

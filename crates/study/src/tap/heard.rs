@@ -6,7 +6,7 @@
 //! f_n = F_n (f_n/f₁)^(η/π)
 //! ```
 //!
-//! with F_n of the stiffness that there is at the lowest tone f₁. Lines are the F_n.
+//! with F_n for the stiffness at the lowest tone f₁. The lines are the F_n.
 //!
 //! # Source
 //!
@@ -28,7 +28,7 @@ pub struct HeardLine {
     pub tones: Vec<usize>,
     /// Frequency, by the stiffness at the lowest tone (Hz).
     pub frequency: Reading,
-    /// By what the frequency that is heard is higher.
+    /// Factor by which the recorded frequency is higher.
     pub stiffer: f64,
     /// Level of the loudest of its tones (dB).
     pub level: f64,
@@ -58,7 +58,7 @@ impl Within {
     }
 }
 
-/// The lines of all tones, rising; of wood, which has two planes of the grain, twins are one.
+/// The lines of all tones, rising; for wood, which has two planes of the grain, twins are merged.
 pub fn lines(analysis: &Analysis, wood: bool) -> Vec<HeardLine> {
     let tones = &analysis.tones;
     let losses = tones.iter().map(|tone| tone.pole.loss());

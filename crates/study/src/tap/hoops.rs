@@ -1,9 +1,9 @@
-//! Which tones of a hollow bat are of its wall?
+//! Which tones of a hollow bat belong to its wall?
 //!
-//! A barrel of metal has bending modes and hoop modes among each other. Bending goes with √E, of which a metal leaves
-//! little open; the wall's tones go with that and with its thickness, all of them by one factor more. Over both factors
-//! the cheapest labels are those of the search for bending modes ([`Lines::cheapest`]), the wall's tones among the
-//! others.
+//! The bending modes and the hoop modes of a metal barrel are interspersed. Bending frequencies go with √E, which is
+//! nearly known for a metal. The wall's tones depend also on its thickness: all of them have one further factor. Over
+//! both factors the cheapest labels are found as for bending modes ([`Lines::cheapest`]), with the wall's tones among
+//! the others.
 
 use std::collections::BTreeMap;
 
@@ -17,18 +17,18 @@ use sweetspot::base::error::Result;
 use sweetspot::beam::wall::extent::rings;
 use sweetspot::modes::hoop::{Hoop, HoopMode};
 
-/// How far E of a metal, and the factor of the wall's tones, are open: standard deviations of logarithms.
+/// Standard deviations of the logarithms of E of a metal, and of the factor on the wall's tones.
 pub const METAL: f64 = 0.08;
 const WALL: f64 = 0.06;
-/// How many of them the search goes both ways, in steps of the logarithm of a frequency.
+/// Range of the search on both sides in standard deviations, and its step in the logarithm of a frequency.
 const REACH: f64 = 3.0;
 const STEP: f64 = 2e-3;
-/// What it costs to be a tone of the wall.
+/// Price of being a tone of the wall.
 const HOOP: f64 = 1.0;
-/// How many tones of the wall are looked at, and how accurately.
+/// Number of computed tones of the wall, and their accuracy.
 const MODES: usize = 8;
 const TOLERANCE: f64 = 1e-3;
-/// Bending modes that are looked at.
+/// Number of computed bending modes.
 const BENDING: usize = 12;
 
 /// A mode of a bat.
@@ -36,11 +36,11 @@ const BENDING: usize = 12;
 pub enum BatMode {
     /// A bending mode, from 1.
     Bending(usize),
-    /// A mode of the wall: waves around the barrel, and its number among those.
+    /// A mode of the wall: waves around the barrel, and its index among those.
     Hoop(usize, usize),
 }
 
-/// What was told of a line: nothing, that it is no mode, or its bending mode.
+/// The given label of a line: none, that it is no mode, or its bending mode.
 pub type Known = Option<Option<usize>>;
 
 /// Labels of lines, the best and the next that contradict them.
@@ -54,21 +54,21 @@ pub struct WallLabels {
     pub chi2: Vec<f64>,
     /// The second best.
     pub second: Option<Vec<Option<BatMode>>>,
-    /// By how much they cost more.
+    /// Their additional cost.
     pub margin: Option<f64>,
-    /// By how much every line would cost more as the next mode there that no other line is.
+    /// Additional cost of every line as the next free mode nearby.
     pub apart: Vec<f64>,
 }
 
 impl WallLabels {
-    /// By how much another label of that line costs more.
+    /// Additional cost of another label for that line.
     pub fn margin_of(&self, line: usize) -> Option<f64> {
         Some(self.margin.unwrap_or(f64::INFINITY).min(self.apart[line]))
     }
 }
 
-/// The modes of the wall of a hollow bat; None for a bat whose wall does not ring, as of wood. A wall that cannot be
-/// solved has none to compare with, and the reason.
+/// The modes of the wall of a hollow bat; `None` for a bat without such a wall, as of wood. A wall that cannot be
+/// solved gives no modes, and the reason.
 pub fn wall(wood: &WoodenBat) -> (Option<Vec<HoopMode>>, Option<String>) {
     if !rings(&wood.bat) {
         return (None, None);
@@ -96,7 +96,7 @@ pub fn labels(
     let hoops =
         wall.iter().map(|mode| (BatMode::Hoop(mode.harmonic, mode.order), mode.frequency_hz.ln()));
     let all: Vec<(BatMode, f64)> = bending.chain(hoops).collect();
-    // What was told to be no mode stays without one.
+    // A line given as no mode stays without one.
     let asked: Vec<usize> = (0..heard.len()).filter(|k| known[*k] != Some(None)).collect();
     let line = |k: &usize| SpectralLine { frequency: heard[*k].frequency, mode: None };
     let lines = asked.iter().map(line).collect();
@@ -155,7 +155,7 @@ fn chosen(
     };
     let chi2 =
         |(label, line): (&Option<usize>, &HeardLine)| log(label).map_or(0.0, |log| away(log, line));
-    // A bending mode and one of the wall may lie so close that one tone is either.
+    // A bending mode and one of the wall may be so close that one tone may be either.
     let cost = |k: usize, line: &HeardLine| {
         away(logs[k], line) + if matches!(all[k].0, BatMode::Hoop(..)) { HOOP } else { 0.0 }
     };
@@ -174,7 +174,7 @@ fn chosen(
     }
 }
 
-/// What is known of a metal before: E within 8 %, G/E that of the file.
+/// The prior knowledge about a metal: E within 8 %, G/E as in the file.
 pub fn metal() -> (Priors, Vec<Property>) {
     let priors = Priors { youngs_modulus: METAL, ..Priors::default() };
     (priors, vec![Property::ShearModulus, Property::Density])

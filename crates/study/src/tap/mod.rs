@@ -1,10 +1,10 @@
-//! Which mode of the bat is a tone that was heard, and what is the wood by all of them?
+//! Which mode of the bat is each recorded tone, and what is the wood by all of them?
 //!
 //! | file | question |
 //! |---|---|
-//! | [`heard`] | what is to be labelled: lines of the tones, twins as one |
-//! | [`hoops`] | which tones of a hollow bat are of its wall |
-//! | [`tapped`] | labels, how sure they are, and the wood |
+//! | [`heard`] | lines of the tones for labelling, with twins merged |
+//! | [`hoops`] | which tones of a hollow bat belong to its wall |
+//! | [`tapped`] | labels, their probability, and the wood |
 
 pub mod heard;
 pub mod hoops;

@@ -1,4 +1,4 @@
-//! Labels of the tones of a recording, how sure they are, and the wood by all of them.
+//! Labels of the tones of a recording, their probability, and the wood by all of them.
 
 use sweetspot_tap::analysis::Analysis;
 
@@ -11,46 +11,46 @@ use crate::tap::hoops::{self, BatMode, Known, metal};
 use sweetspot::base::error::{Error, Result};
 use sweetspot::bat::body::{Bat, STANDARD_PIVOT};
 
-/// The most lines whose mode is not told that are labelled.
+/// Most lines without a given mode that are labelled.
 const MOST_UNTOLD: usize = 10;
-/// A tone is the one that was told if it is within this of it, relative.
+/// A tone belongs to a given frequency if it is within this of it, relative.
 const NEAR: f64 = 0.01;
 
-/// What a tone is.
+/// The label of a tone.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct ToneLabel {
     /// The mode; None where it is no mode of this bat.
     pub mode: Option<BatMode>,
-    /// What the bat of the wood that was found has there (Hz).
+    /// The computed frequency of the fitted bat there (Hz).
     pub computed: Option<f64>,
     /// The chance that the label is right.
     pub sure: f64,
 }
 
-/// A label that was told: near that frequency (Hz) is that bending mode, or none.
+/// A given label: the tone near that frequency (Hz) is that bending mode, or no mode.
 pub type Told = (f64, Option<usize>);
 
-/// What tones say of a bat.
+/// The results of the tones of a bat.
 #[derive(Debug, Clone)]
 pub struct Tapped {
-    /// What each tone is.
+    /// The label of each tone.
     pub labels: Vec<ToneLabel>,
-    /// The second best labels, and by how much they cost more.
+    /// The second best labels, and their additional cost.
     pub second: Option<(Vec<Option<BatMode>>, f64)>,
     /// The wood; None where no tone is a bending mode of the bat.
     pub wood: Option<Calibration>,
-    /// The loss factor of the wood, at most: that of the tone that is damped least.
+    /// An upper limit of the loss factor of the wood: that of the least damped tone.
     pub loss: Option<Within>,
-    /// Why the modes of the wall of a hollow bat are not known.
+    /// The reason why the modes of the wall of a hollow bat are not known.
     pub unsolved: Option<String>,
 }
 
 impl Tapped {
-    /// The tones of a bat, of which some may have been told.
+    /// The tones of a bat, some of which may have given labels.
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] for a told tone that was not heard, and those of [`WoodenBat::new`] and of a solve.
+    /// [`Error::Value`] for a given tone that is not in the recording, and those of [`WoodenBat::new`] and of a solve.
     pub fn of(bat: &Bat, analysis: &Analysis, told: &[Told]) -> Result<Self> {
         let wood = WoodenBat::new(bat, None, STANDARD_PIVOT)?;
         let (wall, unsolved) = hoops::wall(&wood);
@@ -58,7 +58,7 @@ impl Tapped {
         let known = known(analysis, &heard, told)?;
         let wall = wall.map(|wall| hoops::labels(&wood, &wall, &heard, &known)).transpose()?;
         let kinds = wall.as_ref().map_or(vec![None; heard.len()], |wall| wall.best.clone());
-        // Bending modes as told; of a hollow bat as found; else sought.
+        // Bending modes as given; for a hollow bat as found; else to be sought.
         let bending = |k: usize| match (known[k], kinds[k]) {
             (Some(told), _) => told,
             (None, Some(BatMode::Bending(mode))) => Some(mode),
@@ -111,8 +111,8 @@ impl Tapped {
         Ok(Self { labels, second, wood, loss: loss.map(|(loss, _)| loss), unsolved })
     }
 
-    /// Whether the tones fit the bat: the readings of its wood do, no other labels come near, and half of the tones
-    /// or more are modes of it.
+    /// Whether the tones fit the bat: they agree with its wood, no other labels come near, and at least half of the
+    /// tones are modes of it.
     pub fn fits(&self) -> bool {
         let known = self.labels.iter().filter(|label| label.mode.is_some()).count();
         let near = self.second.as_ref().is_some_and(|(_, margin)| *margin < SURE);
@@ -126,7 +126,7 @@ impl Tapped {
     }
 }
 
-/// Of the lines whose mode was not told no more than a search labels: the loudest.
+/// The loudest of the lines without a given mode, as many as the search labels.
 fn loudest(
     mut lines: Vec<usize>,
     told: impl Fn(usize) -> bool,
@@ -139,7 +139,7 @@ fn loudest(
     lines
 }
 
-/// What was told of every line, if something was.
+/// The given label of every line, if there is one.
 fn known(analysis: &Analysis, heard: &[HeardLine], told: &[Told]) -> Result<Vec<Known>> {
     let mut known = vec![None; heard.len()];
     for (hz, mode) in told {
@@ -159,7 +159,7 @@ fn known(analysis: &Analysis, heard: &[HeardLine], told: &[Told]) -> Result<Vec<
     }
 }
 
-/// The line nearest to a frequency that was told.
+/// The line nearest to a given frequency.
 fn near(analysis: &Analysis, heard: &[HeardLine], hz: f64) -> Result<usize> {
     let far = |line: &HeardLine| {
         let all = line.tones.iter().map(|k| (analysis.tones[*k].pole.hz / hz).ln().abs());
@@ -193,8 +193,8 @@ fn calibrated(
     }
 }
 
-/// The chance that a label is right, by how much the next labels cost more, and by how near the tone is to what none of
-/// the modes would cost.
+/// The probability that a label is right, from the additional cost of the next labels, and from the distance of the
+/// tone from a mode of zero cost.
 fn sure(margin: Option<f64>, chi2: f64) -> f64 {
     let margin = margin.unwrap_or(f64::INFINITY).min(STRANGER - chi2).max(0.0);
     1.0 / (1.0 + (-0.5 * margin).exp())
@@ -223,7 +223,7 @@ fn second_of(found: &Calibration, taken: &[usize], lines: usize) -> Option<Secon
     Some((all, margin))
 }
 
-/// Labels of lines as labels of their tones, as they sound: stiffer with frequency.
+/// Converts labels of lines to labels of their tones, with the frequencies as recorded.
 fn of_tones(heard: &[HeardLine], labels: &[ToneLabel], tones: usize) -> Vec<ToneLabel> {
     let mut all = vec![ToneLabel::default(); tones];
     for (line, label) in heard.iter().zip(labels) {
@@ -234,7 +234,7 @@ fn of_tones(heard: &[HeardLine], labels: &[ToneLabel], tones: usize) -> Vec<Tone
     all
 }
 
-/// The loss factor of the labelled bending tone that is damped least, and its mode; hands and strings only add to it.
+/// The loss factor of the least damped labelled bending tone, and its mode; hands and strings only add damping.
 fn least_loss(
     analysis: &Analysis,
     heard: &[HeardLine],

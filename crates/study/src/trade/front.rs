@@ -27,8 +27,8 @@ pub struct Run {
     pub on_front: bool,
 }
 
-/// Sorts the runs by time and marks those that are more accurate than every faster one. Errors
-/// below `floor` are all alike, so that the front does not run on into the noise.
+/// Sorts the runs by time and marks those that are more accurate than every faster one. Errors below `floor` count as
+/// equal, so that the front does not continue into the noise.
 pub fn mark(runs: &mut [Run], floor: f64) {
     let error = |run: &Run| run.error.max(floor);
     runs.sort_by(|a, b| a.seconds.total_cmp(&b.seconds).then(error(a).total_cmp(&error(b))));

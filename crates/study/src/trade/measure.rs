@@ -20,7 +20,7 @@ use sweetspot::modes::solve::{Request, Solution, Solver, solve};
 pub struct Trade {
     /// Number of modes.
     pub modes: usize,
-    /// What the errors are measured against.
+    /// The reference for the errors.
     pub reference: Reference,
     /// Every run, fastest first.
     pub runs: Vec<Run>,
@@ -28,11 +28,11 @@ pub struct Trade {
     pub planner: Vec<Run>,
     /// Error against the number of cubic elements, as far as there was time.
     pub more_elements: Vec<Curve>,
-    /// What follows, in sentences.
+    /// The conclusions, in sentences.
     pub words: Vec<String>,
 }
 
-/// The tolerances for which the planner is asked.
+/// The tolerances given to the planner.
 pub const TOLERANCES: [f64; 6] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
 /// The solvers of the ladder.
 const SOLVERS: [Solver; 3] = [Solver::Statics, Solver::ShiftInvert, Solver::Dense];
@@ -44,7 +44,7 @@ const MOST_UNKNOWNS: f64 = 2e6;
 const PATIENCE: usize = 3;
 /// As many elements as the columns go to.
 const FINEST_COLUMN: usize = 8192;
-/// Parts of the time: until the columns are measured, until the ladder ends, until the end.
+/// Shares of the time: until the columns are measured, until the ladder ends, until the end.
 const COLUMNS: f64 = 0.25;
 const LADDER: f64 = 0.75;
 const WHOLE: f64 = 0.97;
@@ -57,11 +57,10 @@ const CHANCE: f64 = 0.5;
 /// Repeats of a run, at most.
 const MOST_REPEATS: usize = 61;
 
-/// Measures the trade for the `modes` lowest modes, in about that time; the reference and one
-/// choice of the planner are always computed, however long they take. `progress` is told what
-/// comes next.
+/// Measures the trade for the `modes` lowest modes, in about that time. The reference and one choice of the planner are
+/// always computed, however long they take. `progress` receives the next step.
 ///
-/// Every time is of a warm run: it was solved before, unless one run alone takes long.
+/// Every time belongs to a warm run, which was solved before, unless a single run takes long.
 ///
 /// # Errors
 ///
@@ -89,7 +88,7 @@ pub fn measure(
     Ok(bench.trade(curves))
 }
 
-/// A run with what was asked and every time it took.
+/// A run with its request and all its times.
 struct Measured {
     run: Run,
     request: Request,
@@ -120,12 +119,12 @@ struct Ladder {
 }
 
 impl Bench<'_> {
-    /// Whether that part of the time is not over.
+    /// Whether that share of the time is not over.
     fn before(&self, part: f64) -> bool {
         self.started.elapsed().as_secs_f64() < part * self.budget
     }
 
-    /// How much of the time is over, 0 to 1.
+    /// The share of the time that is over, 0 to 1.
     fn share(&self) -> f64 {
         (self.started.elapsed().as_secs_f64() / self.budget).min(1.0)
     }
@@ -247,8 +246,8 @@ impl Bench<'_> {
         Ok((solution, started.elapsed().as_secs_f64()))
     }
 
-    /// Times what decides, again and in turn, so that all of it meets the same machine: the
-    /// planner's choices, and what would be on the front if its first times were slow by chance.
+    /// Repeats the decisive runs in turn, so that all of them meet the same machine: the planner's choices, and runs
+    /// that would be on the front if their first times were slow by chance.
     fn repeat_front(&mut self) {
         let floor = self.reference.floor;
         let beats = |other: &Run, run: &Run| {
@@ -291,7 +290,7 @@ impl Bench<'_> {
     }
 }
 
-/// The middle one of the samples, 0 of none.
+/// The median of the samples, 0 for an empty list.
 fn median(samples: &[f64]) -> f64 {
     let mut sorted = samples.to_vec();
     sorted.sort_by(f64::total_cmp);

@@ -1,7 +1,6 @@
-//! What does a digit cost on this bat, by which elements and which solver?
+//! What is the cost of a digit on this bat, with which elements and which solver?
 //!
-//! [`measure::measure`] times a ladder of them against one reference: what is measured, what it is
-//! measured against, what follows.
+//! [`measure::measure`] times a ladder of them against one reference.
 //!
 //! ```text
 //! Bat ─▶ Reference ─▶ runs (degree, elements, solver: time, error) ─▶ front ─▶ words

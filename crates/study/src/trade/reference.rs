@@ -1,4 +1,4 @@
-//! What errors are measured against: the same bat, solved as accurately as can be, twice.
+//! The reference for errors: the same bat, solved twice as accurately as possible.
 
 use std::f64::consts::TAU;
 
@@ -15,7 +15,7 @@ pub struct Choice {
     pub degree: usize,
     /// Number of elements.
     pub elements: usize,
-    /// How the eigenvalues are found.
+    /// Method for the eigenvalues.
     #[serde(serialize_with = "by_name")]
     #[schemars(with = "String", extend("enum" = SOLVERS.map(solver_name)))]
     pub solver: Solver,
@@ -24,7 +24,7 @@ pub struct Choice {
 }
 
 impl Choice {
-    /// What a solution was found with.
+    /// The choices of a solution.
     pub fn of(solution: &Solution) -> Self {
         Self {
             degree: solution.degree,
@@ -54,10 +54,10 @@ pub(crate) fn by_name<S: Serializer>(solver: &Solver, to: S) -> Result<S::Ok, S:
     to.serialize_str(solver_name(*solver))
 }
 
-/// The frequencies everything is measured against, and how far they may be trusted.
+/// The reference frequencies, and their accuracy.
 #[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Reference {
-    /// How they were found.
+    /// The choices.
     #[serde(flatten)]
     pub choice: Choice,
     /// Beam theory.
@@ -70,7 +70,7 @@ pub struct Reference {
     pub omegas: Vec<f64>,
     /// Largest error of a frequency by the solution's own estimate.
     pub stated_error: f64,
-    /// Smaller errors cannot be told from none.
+    /// Smaller errors cannot be distinguished from 0.
     pub floor: f64,
     /// Another discretisation, solved for confirmation.
     pub confirmed_by: Confirmation,
@@ -86,13 +86,12 @@ pub struct Confirmation {
     pub agreement: f64,
 }
 
-/// The accuracy that is asked of both.
+/// The requested accuracy of both.
 const FINEST: f64 = 1e-13;
 
 impl Reference {
-    /// The frequencies of the `modes` lowest bending modes by that theory at a tolerance of 1e-13
-    /// or, where that cannot be reached, as near as can be; and again with elements of one degree
-    /// more or less.
+    /// The frequencies of the `modes` lowest bending modes by that theory at a tolerance of 1e-13, or as close to it as
+    /// possible; and again with elements of one degree more or less.
     ///
     /// # Errors
     ///

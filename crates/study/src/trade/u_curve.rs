@@ -1,7 +1,7 @@
-//! Error against the number of cubic elements: where more of them start to hurt.
+//! Error against the number of cubic elements: where do more elements start to hurt?
 //!
-//! The discretisation's part falls like `n⁻⁴`. The round-off of a solver that factors `K` grows
-//! like `ε n⁴`, so its error has the form of a U; by running sums it stays at ε.
+//! The discretisation error falls like `n⁻⁴`. The round-off of a solver that factors `K` grows like `ε n⁴`, so its
+//! error has the form of a U. By running sums it stays at ε.
 
 use std::time::{Duration, Instant};
 
@@ -15,7 +15,7 @@ use sweetspot::bat::body::Bat;
 use sweetspot::beam::mesh::Mesh;
 use sweetspot::modes::solve::{MOST_DENSE, Request, Solver, own_and_recomputed, solve};
 
-/// Errors at which 8 digits, 4 digits and none are left.
+/// Errors that leave 8 digits, 4 digits and no digit.
 const THRESHOLDS: [f64; 3] = [1e-8, 1e-4, 1.0];
 
 /// The solvers of a U-curve, those of this build.
@@ -27,16 +27,16 @@ pub const SOLVERS: &[Solver] = &[
     Solver::Dense,
 ];
 
-/// The errors of one solver as elements are added.
+/// The errors of one solver for more and more elements.
 #[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Curve {
-    /// How the eigenvalues are found.
+    /// Method for the eigenvalues.
     #[serde(serialize_with = "by_name")]
     #[schemars(with = "String", extend("enum" = reference::SOLVERS.map(solver_name)))]
     pub solver: Solver,
     /// Points by rising number of elements.
     pub points: Vec<MeshErrors>,
-    /// Why the column ends early; null if it has as many points as were asked for.
+    /// The reason why the column ends early; null if it has all requested points.
     pub end: Option<End>,
     /// Where the solver's own eigenvalue of mode 1 is lost; null if it has none.
     pub own_lost_at: Option<Losses>,
@@ -54,13 +54,13 @@ pub struct End {
     pub reason: Reason,
 }
 
-/// Why a solver got no further.
+/// The reason why a solver ended.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub enum Reason {
     /// So many elements are more than the solver takes.
     #[serde(rename = "too large")]
     TooLarge,
-    /// So many elements would have taken longer than there was time for.
+    /// This number of elements would have taken too long.
     #[serde(rename = "no time")]
     NoTime,
     /// The solver gave this error.
@@ -75,8 +75,8 @@ pub struct MeshErrors {
     pub elements: usize,
     /// Time from assembly to frequencies (s).
     pub seconds: f64,
-    /// Error of each frequency as the solver's own eigenvalue says it; null where it has no other.
-    // Statics has no other.
+    /// Error of each frequency by the solver's own eigenvalue; null if there is no separate one.
+    // Statics has none.
     pub own_error_by_mode: Option<Vec<f64>>,
     /// Error of each frequency as strain energy over kinetic energy of the shape.
     pub recomputed_error_by_mode: Vec<f64>,
@@ -110,7 +110,7 @@ pub enum SolverFrequency {
 }
 
 impl MeshErrors {
-    /// The error of each frequency, found that way.
+    /// The error of each frequency, found in that way.
     pub fn errors(&self, way: SolverFrequency) -> &[f64] {
         match way {
             SolverFrequency::Own => self.own_error_by_mode.as_deref().unwrap_or_default(),
@@ -176,8 +176,8 @@ pub fn counts(bat: &Bat, modes: usize, most: usize) -> Vec<usize> {
     counts
 }
 
-/// The curves of these solvers up to `most` elements, for all modes of the reference; what would
-/// not be ready within `time` is left out.
+/// The curves of these solvers up to `most` elements, for all modes of the reference; points that would not be ready
+/// within `time` are left out.
 pub fn measure(
     bat: &Bat,
     reference: &Reference,
@@ -188,7 +188,7 @@ pub fn measure(
 ) -> Vec<Curve> {
     let deadline = Instant::now() + time;
     let counts = counts(bat, reference.omegas.len(), most);
-    // Time goes with the number of elements, and there are as many for every solver.
+    // Time is proportional to the number of elements, and every solver has the same numbers.
     let all = counts.iter().sum::<usize>() as f64;
     let share = |k: usize| k as f64 / solvers.len() as f64;
     let curves = solvers.iter().enumerate().map(|(k, solver)| {
@@ -232,7 +232,7 @@ fn curve(
     Curve::new(solver, points, end)
 }
 
-/// How long the given number of elements should take (s), from the last point.
+/// Expected time for the given number of elements (s), from the last point.
 fn expected(last: Option<&MeshErrors>, elements: usize, solver: Solver) -> f64 {
     let Some(last) = last else { return first_time(2 * elements, solver) };
     last.seconds * (elements as f64 / last.elements as f64).powi(order(solver))

@@ -1,11 +1,11 @@
-//! What the measurement says, in sentences.
+//! The conclusions of the measurement, in sentences.
 
 use crate::trade::front::{Run, fastest};
 use crate::trade::reference::solver_name;
 use crate::trade::u_curve::{Curve, End, Losses, Reason, SolverFrequency};
 use sweetspot::modes::solve::Solver;
 
-/// Digits that are asked for, from the second on.
+/// Numbers of digits that are compared, from the second on.
 const DIGITS: std::ops::RangeInclusive<i32> = 2..=15;
 /// An error that has grown to this many times its least hurts.
 const HURTS: f64 = 10.0;
@@ -21,7 +21,7 @@ pub fn time(seconds: f64) -> String {
     format!("{value:.decimals$} {unit}")
 }
 
-/// What each digit costs: from one power of ten to the next, the fastest runs within them.
+/// The cost of each digit: from one power of ten to the next, the fastest runs within them.
 pub fn digits(runs: &[Run], floor: f64) -> Vec<String> {
     let within = |d: i32| 10f64.powi(-d);
     let reached: Vec<(i32, f64)> = DIGITS
@@ -54,8 +54,7 @@ fn cost(from: f64, to: f64) -> String {
     }
 }
 
-/// How the planner's choices compare with the fastest runs of the same accuracy, and whether
-/// they kept their promise.
+/// The planner's choices compared with the fastest runs of the same accuracy, and whether they kept their promise.
 pub fn planner(runs: &[Run]) -> Vec<String> {
     let plans = runs.iter().filter_map(|run| Some((run, run.planned_for?)));
     let (mut shares, mut broken) = (Vec::new(), Vec::new());
@@ -102,7 +101,7 @@ fn hurt(curve: &Curve, way: SolverFrequency) -> Option<String> {
         (_, SolverFrequency::Own) => format!("{name}, its own λ"),
         (_, SolverFrequency::Recomputed) => format!("{name}, recomputed"),
     };
-    // Below this the error goes up and down by itself.
+    // Below this the error fluctuates.
     let limit = HURTS * error.max(1e-14);
     let beyond = series.iter().find(|(n, error)| *n > least && *error > limit);
     Some(match beyond {

@@ -19,27 +19,27 @@ use sweetspot::collision::sweep::{Accuracy, sweep};
 use sweetspot::collision::wall_figures::WallBbcor;
 use sweetspot::modes::hoop::{Hoop, HoopMode, HoopRequest, KnobSide};
 
-/// Where a ball meets a barrel if nothing else is said, from the tip: 6 in (m).
+/// Default impact point on a barrel, from the tip: 6 in (m).
 pub const FROM_TIP: f64 = 0.1524;
 
-/// What is asked of a barrel.
+/// The test of a barrel.
 #[derive(Debug, Clone)]
 pub struct BarrelTest {
-    /// Where the ball meets the bat (m from the knob end).
+    /// Impact point (m from the knob end).
     pub at: f64,
-    /// What is shot at the bat, which is at rest and free.
+    /// The ball that is shot at the free bat at rest.
     pub ball: Ball,
     /// Speed of the ball (m/s).
     pub ball_speed: f64,
-    /// Coefficient of restitution of the ball on a rigid wall, unless its own depends on the speed.
+    /// Coefficient of restitution of the ball on a rigid wall, unless the ball's depends on the speed.
     pub cor: f64,
-    /// How many of the lowest hoop modes are asked for.
+    /// Number of requested hoop modes, the lowest ones.
     pub modes: usize,
     /// Largest relative error of their frequencies.
     pub tol: f64,
     /// How accurate the exit speeds are to be.
     pub accuracy: Accuracy,
-    /// The wall of a bat under that ball as it is known already; of another bat it is solved as well.
+    /// The wall of a bat under that ball, if it is already known; for another bat it is solved too.
     pub known: Option<Arc<HoopWall>>,
 }
 
@@ -66,31 +66,31 @@ impl BarrelTest {
 /// A barrel that was tested.
 #[derive(Debug, Clone)]
 pub struct Barrel {
-    /// What was asked.
+    /// The test.
     pub test: BarrelTest,
     /// The lowest hoop modes.
     hoop: Hoop,
-    /// What the modes were found with.
+    /// The model of the modes.
     pub model: HoopModel,
-    /// Relative change of the first frequency of harmonic 2 by a Poisson's ratio that is 0.05 smaller and larger;
-    /// None where the ratio is known.
+    /// Relative change of the first frequency of harmonic 2 if Poisson's ratio is 0.05 smaller or larger; `None` if the
+    /// ratio is known.
     pub by_poisson: Option<[f64; 2]>,
     /// The wall and the ball.
     pub struck: BarrelStruck,
 }
 
-/// What the modes were found with.
+/// The model of the modes.
 #[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct HoopModel {
-    /// Where the stretch that is modelled begins (m).
+    /// Beginning of the modelled stretch (m).
     pub from_m: f64,
-    /// Where the stretch that is modelled ends (m).
+    /// End of the modelled stretch (m).
     pub to_m: f64,
     /// Wanted relative accuracy of every frequency.
     pub tolerance: f64,
-    /// By how much the first mode of harmonic 2 rises if the stretch is clamped where it begins, relative:
-    /// how far it is from dead there.
-    // None where that cannot be solved.
+    /// Relative rise of the first mode of harmonic 2 if the stretch is clamped at its beginning: a measure of the
+    /// remaining motion there.
+    // None if that cannot be solved.
     pub clamped_change: Option<f64>,
 }
 
@@ -112,14 +112,14 @@ pub struct Rebound {
     pub ball: Ball,
     /// Speed of the ball (m/s).
     pub ball_speed_m_s: f64,
-    /// Coefficient of restitution of the ball on a rigid wall, unless its own depends on the speed.
+    /// Coefficient of restitution of the ball on a rigid wall, unless the ball's depends on the speed.
     pub cor: f64,
-    /// BBCOR of the bat if its wall did not give way.
+    /// BBCOR of the bat with a rigid wall.
     pub stiff: f64,
     /// BBCOR of the bat with its wall.
     pub wall: f64,
-    /// BBCOR with the patch of a ball that is squeezed twice as much and half as much, the lesser first: how
-    /// much the size of the patch leaves open.
+    /// BBCOR with the patch of a ball compressed twice and half as much, the lesser first: the uncertainty due to the
+    /// size of the patch.
     pub range: [f64; 2],
     /// How far `wall` may be off by the program's own errors.
     pub error: f64,
@@ -127,20 +127,20 @@ pub struct Rebound {
     pub peak_force_n: f64,
     /// How deep that force, acting slowly, dents the wall (m).
     pub dent_m: f64,
-    /// Energy that is left in the wall when the ball is gone (J).
+    /// Energy left in the wall after the contact (J).
     pub left_in_wall_j: f64,
     /// Energy of the ball before (J).
     pub initial_j: f64,
 }
 
-/// Three digits of BBCOR are said, and the patch leaves ten times as much open and more.
+/// BBCOR is printed to three digits, and the patch leaves ten times as much uncertain.
 const SAID: f64 = 1e-3;
-/// So many hoop modes, if nothing else is said.
+/// Default number of hoop modes.
 const MODES: usize = 10;
 
 impl Barrel {
-    /// The barrel of that bat, with what is open of it: a Poisson's ratio that is not known, and an end of the
-    /// stretch where the first mode is not dead.
+    /// The barrel of that bat with its uncertainties: an unknown Poisson's ratio, and motion of the first mode at the
+    /// end of the stretch.
     ///
     /// # Errors
     ///
@@ -174,8 +174,8 @@ impl Barrel {
         &self.hoop
     }
 
-    /// What is less accurate than was asked, in words: a frequency, or BBCOR, of which three digits are said; None
-    /// where all is met.
+    /// The result that is less accurate than requested, in words: a frequency, or BBCOR to three digits; `None` if all
+    /// are met.
     pub fn unmet(&self) -> Option<String> {
         let rebound = self.struck.rebound.as_ref().filter(|rebound| rebound.error > SAID);
         let bbcor = rebound.map(|rebound| {
@@ -189,12 +189,12 @@ impl Barrel {
         (!all.is_empty()).then(|| all.join("; "))
     }
 
-    /// Whether all is as accurate as was asked, or as it is said.
+    /// Whether everything is as accurate as requested, or as it is printed.
     pub fn met(&self) -> bool {
         self.unmet().is_none()
     }
 
-    /// What a test of the barrel's compression takes.
+    /// The force in a test of the barrel's compression.
     pub fn compressed(&self) -> Option<BarrelCompression> {
         self.struck.wall.as_ref().map(|wall| wall.compressed(&self.test.ball))
     }
@@ -224,8 +224,8 @@ fn first(hoop: &Hoop) -> Option<&HoopMode> {
     hoop.modes().iter().find(|mode| mode.harmonic == 2)
 }
 
-/// The ball against the bat at rest and free, and how stiff the pressed wall is beside it; None where they do not
-/// meet.
+/// The rebound of the ball from the free bat at rest, and the stiffness of the wall compared with the ball's; `None` if
+/// they do not meet.
 fn rebound(
     bat: &Bat,
     wall: &Arc<HoopWall>,
@@ -271,7 +271,7 @@ fn rebound(
     }))
 }
 
-/// By how much Poisson's ratio may be another than the one that is assumed.
+/// Possible difference of Poisson's ratio from the assumed one.
 const SPREAD: f64 = 0.05;
 
 /// Whether Poisson's ratio of everything in the bat is known.

@@ -1,10 +1,10 @@
-//! What does the wall of a hollow barrel do to a ball?
+//! How does the wall of a hollow barrel affect a ball?
 //!
 //! | file | question |
 //! |---|---|
-//! | [`pressed`] | how stiff is the wall under a ball, and between two sides |
-//! | [`barrel`] | how does the barrel ring, and how does a ball come back from it |
-//! | [`thickness`] | what would a thinner or a thicker wall do |
+//! | [`pressed`] | the stiffness of the wall under a ball, and between two sides |
+//! | [`barrel`] | the barrel's modes, and the rebound of a ball from it |
+//! | [`thickness`] | the effect of a thinner or a thicker wall |
 
 pub mod pressed;
 pub mod barrel;

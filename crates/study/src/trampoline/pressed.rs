@@ -7,8 +7,7 @@ use sweetspot::collision::ball::Ball;
 use sweetspot::collision::hoop_wall::HoopWall;
 use sweetspot::modes::hoop::Share;
 
-/// By how much a barrel is pressed in by the test of its compression (m): 0.04 in for baseball bats, 0.07 in
-/// for softball bats.
+/// Deflections in the test of a barrel's compression (m): 0.04 in for baseball bats, 0.07 in for softball bats.
 ///
 /// # Source
 ///
@@ -21,7 +20,7 @@ const SOFTBALL: f64 = 0.042;
 /// The wall under a ball at one place.
 #[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct PressedWall {
-    /// Where the ball meets the bat (m).
+    /// Impact point (m).
     pub x_m: f64,
     /// Distance of that from the tip (m).
     pub from_tip_m: f64,
@@ -29,37 +28,37 @@ pub struct PressedWall {
     pub radius_m: f64,
     /// Thickness of the wall there, sleeves included (m).
     pub thickness_m: f64,
-    /// Force on the ball's patch over how far the wall gives way (N/m).
+    /// Force on the ball's patch over the deflection of the wall (N/m).
     // 1/Σ C_n.
     pub stiffness_n_m: f64,
     /// The stiffness over that of the ball, force over compression at the largest force on a stiff wall; null for
     /// a ball without a force law.
     pub over_ball: Option<f64>,
-    /// Compression of the ball for which the patch is as large as it is (m).
+    /// Compression of the ball for which the patch has this size (m).
     pub compression_m: f64,
     /// Half the length of the patch along the bat (m).
     pub patch_half_length_m: f64,
     /// Half the width of the patch around the bat (m).
     pub patch_half_width_m: f64,
-    /// What each harmonic has of it.
+    /// The share of each harmonic.
     pub by_harmonic: Vec<HarmonicShare>,
 }
 
-/// What a harmonic has of the wall's giving way.
+/// The share of a harmonic in the deflection of the wall.
 #[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct HarmonicShare {
     /// Waves around the barrel.
     pub harmonic: usize,
-    /// How far the wall gives way by it to a slow force (m/N).
+    /// Its static flexibility (m/N).
     pub flexibility_m_n: f64,
-    /// Number of its modes that take part in a hit; what is left of the flexibility follows the force.
+    /// Number of its modes in a hit; the remaining flexibility follows the force.
     pub modes: usize,
 }
 
 /// The barrel pressed between two opposite sides, each with the ball's patch.
 #[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct BarrelCompression {
-    /// By how much both sides together are pressed in (m).
+    /// Deflection of both sides together (m).
     pub deflection_m: f64,
     /// Force that it takes (N).
     pub force_n: f64,
@@ -96,8 +95,8 @@ impl PressedWall {
 
     /// Stiffness of the barrel between two opposite sides (N/m), each pressed by the patch.
     ///
-    /// A force F on one side moves that side in by `F Σ C_n`, the other one by `F Σ (−1)ⁿ C_n`. Of two equal
-    /// ones that face each other each side feels both, so that they come nearer to each other by
+    /// A force F on one side moves that side in by `F Σ C_n`, and the other one by `F Σ (−1)ⁿ C_n`. With two equal and
+    /// opposite forces each side moves by both, so that they approach each other by
     ///
     /// ```text
     /// d = 2F Σ (1 + (−1)ⁿ) C_n = 4F Σ C_n over even n
@@ -107,7 +106,7 @@ impl PressedWall {
         1.0 / (4.0 * even.map(|share| share.flexibility_m_n).sum::<f64>())
     }
 
-    /// What a test of the barrel's compression takes for such a ball.
+    /// The force in a test of the barrel's compression with such a ball.
     pub fn compressed(&self, ball: &Ball) -> BarrelCompression {
         let deflection_m = DEFLECTIONS[usize::from(ball.radius_m >= SOFTBALL)];
         BarrelCompression { deflection_m, force_n: deflection_m * self.between_sides() }

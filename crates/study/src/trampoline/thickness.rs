@@ -1,4 +1,4 @@
-//! What would a thinner or a thicker wall do?
+//! What is the effect of a thinner or a thicker wall?
 
 use serde::Serialize;
 
@@ -13,7 +13,7 @@ pub const FACTORS: [f64; 9] = [0.6, 0.7, 0.8, 0.9, 1.0, 1.2, 1.4, 1.7, 2.0];
 /// The bat with another wall.
 #[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct WallTried {
-    /// Thickness of the barrel's wall over what it is.
+    /// Thickness of the barrel's wall relative to the present one.
     pub factor: f64,
     /// Thickness of the wall under the ball (m).
     pub thickness_m: f64,
@@ -23,18 +23,18 @@ pub struct WallTried {
     pub frequency_hz: f64,
     /// Stiffness of the wall under the ball (N/m).
     pub stiffness_n_m: f64,
-    /// BBCOR if the wall did not give way.
+    /// BBCOR with a rigid wall.
     pub stiff: f64,
     /// BBCOR with the wall.
     pub wall: f64,
-    /// BBCOR with the patch of a ball that is squeezed twice as much and half as much, the lesser first.
+    /// BBCOR with the patch of a ball compressed twice and half as much, the lesser first.
     pub range: [f64; 2],
     /// How deep the wall is dented (m).
     pub dent_m: f64,
 }
 
-/// The bat with walls of other thicknesses, by rising thickness: those that can be made and are hit. `tell` hears
-/// how far the work has come.
+/// The bat with walls of other thicknesses, by rising thickness: those that can be made and are hit. `tell` receives
+/// the progress.
 pub fn wall_sweep(bat: &Bat, known: &Barrel, tell: &dyn Fn(f64)) -> Vec<WallTried> {
     let struck = |bat: &Bat, factor: f64| match factor {
         1.0 => Some(known.struck.clone()),
@@ -60,8 +60,8 @@ pub fn wall_sweep(bat: &Bat, known: &Barrel, tell: &dyn Fn(f64)) -> Vec<WallTrie
     FACTORS.into_iter().enumerate().filter_map(tried).collect()
 }
 
-/// The bat whose barrel has a wall this many times as thick as it is under the ball, its surface where it was: the
-/// same length of wall is added or taken all over the barrel, and less and less of it down the taper.
+/// The bat with a barrel wall this many times as thick under the ball, and an unchanged surface: the same thickness is
+/// added or removed all over the barrel, and less and less of it down the taper.
 ///
 /// # Errors
 ///
@@ -70,7 +70,7 @@ pub fn with_wall(bat: &Bat, known: &Barrel, factor: f64) -> Result<Bat> {
     let (from, to) = (known.hoop().from(), bat.length());
     let section = bat.profile().at(known.test.at);
     let full = full_barrel(bat, [from, known.test.at]);
-    // What the wall gains the bore's diameter loses, on both sides.
+    // A thicker wall reduces the bore's diameter on both sides.
     let by = -2.0 * (factor - 1.0) * (section.outer - section.inner);
     let barrel = DiameterChange::band([full, to], by);
     if full - from <= 1e-9 * to {
@@ -80,7 +80,7 @@ pub fn with_wall(bat: &Bat, known: &Barrel, factor: f64) -> Result<Bat> {
     bat.bored(&DiameterChange::sum(&[(1.0, &taper), (1.0, &barrel)]))
 }
 
-/// Where the taper ends (m): from there on to `at` the bat is as thick as at `at`, to a thousandth.
+/// End of the taper (m): from there to `at` the bat is as thick as at `at`, to a thousandth.
 fn full_barrel(bat: &Bat, [from, at]: [f64; 2]) -> f64 {
     const AS_THICK: f64 = 0.999;
     let profile = bat.profile();

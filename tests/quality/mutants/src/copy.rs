@@ -1,4 +1,4 @@
-//! The copy of the package with all errors of a sample in it, each behind its switch.
+//! The copy of the package with all mutants of a sample in it, each with a switch.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -9,14 +9,14 @@ use std::process::Command;
 use crate::Result;
 use crate::sites::{Change, Site};
 
-/// The module of the copy that says which error is on.
+/// The module of the copy that selects the active mutant.
 const SWITCH: &str = "//! Which planted error is on.
 
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 static NUMBER: AtomicUsize = AtomicUsize::new(usize::MAX);
 
-/// Whether the error of that number is on: `MUTANT` in the environment.
+/// Whether the mutant with that number is active: `MUTANT` in the environment.
 #[inline(always)]
 pub fn on(number: usize) -> bool {
     let mut wanted = NUMBER.load(Relaxed);
@@ -35,8 +35,8 @@ fn asked() -> usize {
 }
 ";
 
-/// Writes the copy with those of the sites that compile, and returns these; a site's number is its
-/// place in the list, counted from 1.
+/// Writes the copy with those of the sites that compile, and returns these. The number of a site is its position in the
+/// list, counted from 1.
 pub fn viable(root: &Path, copy: &Path, drawn: Vec<Site>) -> Result<Vec<(usize, Site)>> {
     let mut sites: Vec<(usize, Site)> =
         drawn.into_iter().enumerate().map(|(k, s)| (k + 1, s)).collect();
@@ -68,14 +68,14 @@ fn numbers(of: &BTreeSet<usize>) -> String {
     of.iter().map(|number| format!("{number}\n")).collect()
 }
 
-/// Where an error stands in a file of the copy.
+/// The position of a mutant in a file of the copy.
 struct Planted {
     number: usize,
     file: PathBuf,
     range: Range<usize>,
 }
 
-/// Where all errors stand in the copy, and whether a source file of it changed.
+/// The positions of all mutants in the copy, and whether a source file of it changed.
 fn write(root: &Path, copy: &Path, sites: &[(usize, Site)]) -> Result<(Vec<Planted>, bool)> {
     let listed = Command::new("git").args(["ls-files"]).current_dir(root).output()?.stdout;
     let (mut all, mut changed) = (Vec::new(), false);
@@ -118,8 +118,7 @@ struct Planting {
 }
 
 impl Planting {
-    /// Writes that part of the source with these sites in it, the outermost first; returns where
-    /// they stand.
+    /// Writes that part of the source with these sites in it, the outermost first; returns their positions.
     fn render(
         &mut self,
         range: Range<usize>,

@@ -1,4 +1,4 @@
-//! Plants errors in sweetspot's engine and counts how many of them its tests notice.
+//! Plants errors (mutants) in the engine of sweetspot and counts how many its tests detect.
 //!
 //! A build of the engine costs minutes, so all errors of a sample are built into one copy of the
 //! sources and switched on one at a time by an environment variable (mutant schemata: R. H. Untch,
@@ -8,10 +8,9 @@
 //! mutants ROOT COPY --seed 1 --count 150 --tests hits,beams
 //! ```
 //!
-//! writes the copy of the package ROOT, leaves out errors that do not compile, builds the tests
-//! once, runs them without an error for their times, and then once per error, the quickest first,
-//! until one fails. The result is a table in `COPY/mutants.txt`. What is in there is kept: started
-//! again, the program goes on where it stopped.
+//! writes the copy of the package ROOT, omits mutants that do not compile, builds the tests once, runs them without a
+//! mutant to measure their times, and then once per mutant, the fastest first, until one fails. The result is a table
+//! in `COPY/mutants.txt`. Existing rows are kept: when started again, the program continues where it stopped.
 
 mod copy;
 mod run;
@@ -21,7 +20,7 @@ use std::path::PathBuf;
 
 type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
 
-/// What is asked on the command line.
+/// The command line.
 struct Asked {
     root: PathBuf,
     copy: PathBuf,
@@ -58,7 +57,7 @@ fn asked() -> Result<Asked> {
 
 fn main() -> Result<()> {
     let mut asked = asked()?;
-    // The tests run in the copy: a relative path would mean another place there.
+    // The tests run in the copy, where a relative path would refer to another place.
     std::fs::create_dir_all(&asked.copy)?;
     asked.root = asked.root.canonicalize()?;
     asked.copy = asked.copy.canonicalize()?;

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use crate::Result;
 use crate::sites::Site;
 
-/// A test program with what it takes without an error.
+/// A test program with its time without a mutant.
 struct Program {
     name: String,
     path: PathBuf,
@@ -25,8 +25,7 @@ enum End {
     TooLong,
 }
 
-/// Runs all errors that `COPY/mutants.txt` does not know yet, or those asked for again, and writes
-/// the table.
+/// Runs all mutants that are not yet in `COPY/mutants.txt`, or those requested again, and writes the table.
 pub fn all(copy: &Path, sites: &[(usize, Site)], tests: &[String], only: &[usize]) -> Result<()> {
     let mut programs = build(copy, tests)?;
     for program in &mut programs {
@@ -83,7 +82,7 @@ fn summary(table: &str) {
     println!("{caught} of {} errors caught", last.len());
 }
 
-/// Builds the library's tests and those of `tests/` that are named.
+/// Builds the tests of the library and the named ones of `tests/`.
 fn build(copy: &Path, tests: &[String]) -> Result<Vec<Program>> {
     let mut cargo = Command::new("cargo");
     cargo.args(["test", "--locked", "--no-run", "--lib"]).current_dir(copy);

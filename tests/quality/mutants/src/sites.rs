@@ -1,4 +1,4 @@
-//! Where an error can be planted, and which.
+//! Where a mutant can be planted, and which one.
 
 use std::fs;
 use std::ops::Range;
@@ -20,7 +20,7 @@ pub struct Site {
     /// The line there.
     pub line: usize,
     pub change: Change,
-    /// Before and after, for the table.
+    /// Text before and after, for the table.
     pub what: String,
 }
 
@@ -35,20 +35,20 @@ impl std::fmt::Display for Site {
 pub enum Change {
     /// An expression by another.
     Expression(String),
-    /// A statement left out.
+    /// A removed statement.
     Removal,
     /// A statement put in.
     Insertion(String),
 }
 
-/// All places in the Rust files of those folders, in the order of the files.
+/// All sites in the Rust files of those folders, in the order of the files.
 pub fn of_folders(root: &Path, folders: &[&str]) -> Result<Vec<Site>> {
     let mut sites = Vec::new();
     for folder in folders {
         let entries: std::io::Result<Vec<_>> = fs::read_dir(root.join(folder))?.collect();
         let mut names: Vec<_> = entries?.into_iter().map(|e| e.file_name()).collect();
         names.sort();
-        // Built with the feature of that name only.
+        // Only built with the feature of that name.
         let wanted = |name: &Path| {
             name.extension().is_some_and(|e| e == "rs") && name != Path::new("arpack.rs")
         };
@@ -180,7 +180,7 @@ impl Finder<'_> {
         self.swap(whole, changed);
     }
 
-    /// A function that returns at once, where there is a value of its type that means nothing.
+    /// A function that returns at once, where its type has a trivial value.
     fn body(&mut self, signature: &Signature, block: &Block) {
         let ReturnType::Type(_, of) = &signature.output else { return };
         let of = self.source(of);
@@ -213,7 +213,7 @@ fn has_let(e: &Expr) -> bool {
     }
 }
 
-/// Tests, and what is built with a feature only.
+/// Tests, and code that is only built with a feature.
 fn is_left_out(attributes: &[syn::Attribute]) -> bool {
     attributes.iter().any(|a| a.path().is_ident("cfg"))
 }

@@ -5,7 +5,7 @@ use uff58::{Dataset, Function, Universal, Values};
 /// Number of a coherence among the functions of dataset 58.
 const COHERENCE: i64 = 6;
 
-/// The coherence of the same force and answer over the same frequencies, the first `dropped` left out.
+/// The coherence for the same force and response over the same frequencies, without the first `dropped`.
 pub fn of(universal: &Universal, response: &Function, dropped: usize) -> Option<Vec<f64>> {
     let mut functions = universal.datasets.iter().filter_map(|dataset| match dataset {
         Dataset::Function(function) if function.kind == COHERENCE => Some(&**function),

@@ -1,4 +1,4 @@
-//! Directions in space: the axis of a bat from points on it, and what is normal to it.
+//! Directions in space: the axis of a bat from points on it, and the normals to it.
 
 use faer::{Mat, Side};
 
@@ -54,7 +54,7 @@ pub fn named(direction: Vector) -> String {
     match (0..3).find(|k| direction[*k].abs() > ALONG) {
         Some(k) => ["x", "y", "z"][k].to_owned(),
         None => {
-            // A rounding of nothing has no sign.
+            // Round-off of zero has no sign.
             let [x, y, z] = direction.map(|v| (1e3 * v).round() / 1e3 + 0.0);
             format!("({x:.3}, {y:.3}, {z:.3})")
         }

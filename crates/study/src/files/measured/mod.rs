@@ -14,10 +14,10 @@ use crate::measured::data::{FrequencyUnit, Measured};
 use sweetspot::base::error::{Error, Result};
 use uff58::Units;
 
-/// Fewer points tell no shape from another.
+/// With fewer points, shapes cannot be distinguished.
 const FEWEST: usize = 3;
 
-/// Whether a file is a table, by the ending of its name: what spreadsheets and modal programs call one.
+/// Whether a file is a table, by the ending that spreadsheets and modal programs use.
 pub fn is_table(path: &Path) -> bool {
     ["csv", "txt", "tsv"].contains(&ending(path).as_str())
 }
@@ -31,14 +31,14 @@ fn ending(path: &Path) -> String {
     path.extension().unwrap_or_default().to_string_lossy().to_lowercase()
 }
 
-/// What is known of a universal file beside it.
+/// Facts that a universal file does not contain.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Beside {
     /// The units of a file that names none.
     pub unit: Option<Units>,
-    /// Where the nodes of a file without geometry are.
+    /// Positions of the nodes of a file without geometry.
     pub places: Option<Places>,
-    /// What its frequencies are in, where it writes them otherwise than its format says.
+    /// Unit of its frequencies, if it departs from its format.
     pub frequency_unit: Option<FrequencyUnit>,
 }
 
@@ -46,7 +46,7 @@ pub struct Beside {
 ///
 /// # Errors
 ///
-/// [`Error::Value`] for another ending, and what is known beside a table, which says it itself; those of
+/// [`Error::Value`] for another ending, and for additional facts about a table, which contains them itself; those of
 /// [`table::read`] and [`universal::read`].
 pub fn read(path: &Path, beside: &Beside) -> Result<Measured> {
     match ending(path).as_str() {

@@ -1,4 +1,4 @@
-//! Where the points of a measurement are, for a file that has shapes and no geometry.
+//! Positions of the points of a measurement, for a file with shapes but without geometry.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -12,7 +12,7 @@ use sweetspot::files::sheet::{Sheet, normal};
 /// Distance of every node from the knob end (m), by its label.
 pub type Places = BTreeMap<i64, f64>;
 
-/// What such a text looks like.
+/// An example of such a text.
 const EXAMPLE: &str = "nodes and places such as \"1=0 in, 2=3 in\", or a CSV file of node,x_in";
 
 /// Reads places: `1=0 in, 2=3 in`, or the name of a CSV file with the columns `node` and `x_in` (or

@@ -23,7 +23,7 @@ const GRAVITY: f64 = 9.80665;
 const RESPONSE: i64 = 4;
 /// Number of a record in time.
 const RECORD: i64 = 1;
-/// What is said of a response that was turned over.
+/// The message about a response that was turned over.
 pub const TURNED: &str =
     "the phase rises through the peaks, as with time as e^(-iwt): it is turned over";
 /// Kinds of data of an axis: frequency; displacement, velocity, acceleration; forces.
@@ -32,20 +32,20 @@ const ANSWERS: [(i64, ResponseKind); 3] =
     [(8, ResponseKind::Receptance), (11, ResponseKind::Mobility), (12, ResponseKind::Accelerance)];
 const FORCES: [i64; 2] = [9, 13];
 
-/// What is known of a file of responses that it does not say.
+/// Facts that a file of responses does not contain.
 #[derive(Debug, Clone, Default)]
 pub struct Known {
-    /// Which of its responses, from 1; None for all of them.
+    /// Number of the chosen response, from 1; `None` for all.
     pub which: Option<usize>,
-    /// Its units, for axes that name none of their own and a file without dataset 164; else SI is taken.
+    /// Its units, for axes without units in a file without dataset 164; by default SI.
     pub unit: Option<Units>,
     /// The unit of the answers, with that of the force, as axes name them: `g/lbf`.
     pub label: Option<String>,
-    /// The kind of an answer whose axis does not say it.
+    /// The kind of a response whose axis does not name it.
     pub kind: Option<ResponseKind>,
-    /// Where the nodes of a file without geometry are.
+    /// Positions of the nodes of a file without geometry.
     pub places: Option<Places>,
-    /// Whether the places of the force and of the answer are given beside the file.
+    /// Whether the positions of the force and of the response are given beside the file.
     pub told: [bool; 2],
 }
 
@@ -66,7 +66,7 @@ pub fn read(path: &Path, known: &Known) -> Result<Vec<(usize, MeasuredResponse)>
     chosen.into_iter().map(|(n, k, function)| Ok((n, file.response(k, function)?))).collect()
 }
 
-/// A file, and what is known of it.
+/// A file, and the additional facts about it.
 struct ResponseFile<'a> {
     name: String,
     bytes: Vec<u8>,
@@ -114,7 +114,7 @@ impl ResponseFile<'_> {
         Ok(MeasuredResponse { source, kind, at, to, nodes, coherence, turned, values, assumed })
     }
 
-    /// The factor to SI of an answer per force, and what was taken. Record 9 has the answer's unit.
+    /// The factor to SI of a response per force, and a message about it. Record 9 has the response's unit.
     fn units(
         &self,
         function: &Function,
@@ -188,8 +188,8 @@ impl ResponseFile<'_> {
         Ok((factor, assumed))
     }
 
-    /// Where these degrees of freedom are along the bat's axis, the direction in which the file's nodes
-    /// are farthest apart; None where a node has no place.
+    /// Positions of these degrees of freedom along the bat's axis, the direction in which the file's nodes are farthest
+    /// apart; `None` if a node has no position.
     fn places(&self, dofs: [&Dof; 2]) -> [Option<f64>; 2] {
         let all: Vec<Vector> = self.nodes.values().copied().collect();
         let along =
@@ -198,7 +198,7 @@ impl ResponseFile<'_> {
     }
 }
 
-/// The places of the nodes, or those that were told of a file without.
+/// The positions of the nodes, or those given for a file without.
 fn nodes(
     universal: &Universal,
     file: &str,
@@ -218,9 +218,9 @@ fn nodes(
 }
 
 /// Whether the response runs anticlockwise in the complex plane through its highest peak: with time as e^(+iωt) every
-/// resonance runs clockwise, whatever its sign. The area swept around 0 is twice `Σ Im(H̄ₖ Hₖ₊₁)`; it is taken where the
-/// response is at least half as high as the peak, since an antiresonance runs the other way round. Without a peak in its
-/// range a response says nothing.
+/// resonance runs clockwise, whatever its sign. The area swept around 0 is twice `Σ Im(H̄ₖ Hₖ₊₁)`. It is taken where
+/// the response is at least half as high as the peak, since an antiresonance runs the other way. A response without a
+/// peak in its range gives no information.
 fn turns_back(values: &[(f64, c64)]) -> bool {
     const CLEAR: f64 = 1e-3;
     let size = |k: usize| values[k].1.norm();
@@ -236,7 +236,7 @@ fn turns_back(values: &[(f64, c64)]) -> bool {
     swept > CLEAR * all
 }
 
-/// The factors to SI of the units that the axes are named by.
+/// The factors to SI of the units named by the axes.
 struct Labels {
     answer: Option<f64>,
     force: Option<f64>,
@@ -290,7 +290,7 @@ impl Labels {
         }
     }
 
-    /// What other units than SI are taken, for people.
+    /// A message about units other than SI.
     fn words(&self, kind: ResponseKind) -> Option<String> {
         let said = match (kind, self.answer) {
             (ResponseKind::Accelerance, Some(f)) if f == GRAVITY => {
@@ -317,7 +317,7 @@ fn plain(unit: &str) -> String {
     unit.replace("s-2", "/s2").replace("s-1", "/s").replace("n-1", "/n").replace("//", "/")
 }
 
-/// How the unit of an answer per force is most often written.
+/// The usual notation of the unit of a response per force.
 fn example(kind: ResponseKind) -> &'static str {
     match kind {
         ResponseKind::Receptance => "m/N or in/lbf",
@@ -360,10 +360,10 @@ fn force_unit(unit: &str) -> Option<f64> {
     }
 }
 
-/// A response: its number among them, from 1, which dataset it is, and what stands there.
+/// A response: its number, from 1, the index of its dataset, and the data.
 type Numbered<'a> = (usize, usize, &'a Function);
 
-/// The responses that are meant.
+/// The chosen responses.
 fn chosen<'a>(
     universal: &'a Universal,
     file: &str,
@@ -399,15 +399,15 @@ fn chosen<'a>(
     }
 }
 
-/// A node and a direction, for people.
+/// A node and a direction, for messages.
 fn shown(dof: &Dof) -> String {
     let along = ["", "x", "y", "z"].get(dof.direction.unsigned_abs() as usize).unwrap_or(&"about");
     let sign = if dof.direction < 0 { "-" } else { "" };
     format!("node {} {sign}{along}", dof.node).trim_end().to_owned()
 }
 
-/// What is answered, and −1 if force and answer are along opposite directions. Record 6 has the
-/// directions, 8 to 10 the axes.
+/// The kind of the response, and −1 if force and response have opposite directions. Record 6 has the directions, 8 to
+/// 10 the axes.
 fn meaning(
     function: &Function,
     told: Option<ResponseKind>,
@@ -442,7 +442,7 @@ fn meaning(
     Ok((kind, if opposite { -1.0 } else { 1.0 }))
 }
 
-/// How many Hz the unit of the frequencies is. Record 8 has it.
+/// The factor from the frequency unit to Hz. Record 8 has it.
 fn frequency_unit(
     function: &Function,
     wrong: &impl Fn(usize, String, &str) -> Error,
@@ -461,7 +461,7 @@ fn frequency_unit(
     }
 }
 
-/// Frequencies and values in SI, and how many were at 0 Hz. Record 7 says how they are stored.
+/// Frequencies and values in SI, and the number of those at 0 Hz. Record 7 says how they are stored.
 fn values(
     function: &Function,
     [hertz, factor]: [f64; 2],

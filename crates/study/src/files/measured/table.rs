@@ -1,7 +1,7 @@
 //! Measured modes from a CSV file.
 //!
-//! A table of shapes, as one types it into a spreadsheet: places from the knob end downwards, modes
-//! side by side, the frequency (and the damping) in lines of their own.
+//! A table of shapes, as one types it into a spreadsheet: places from the knob end downwards, modes side by side, and
+//! separate lines for the frequency and the damping.
 //!
 //! ```text
 //! x_in,          mode_1, mode_2
@@ -50,7 +50,7 @@ pub fn read(path: &Path) -> Result<Measured> {
 
 /// Highest frequency that a table may have (Hz).
 const HIGHEST: f64 = 1e6;
-/// Range of a number that has no meaning of its own.
+/// Range of a number without a physical meaning.
 const ANY: [f64; 2] = [-1e100, 1e100];
 
 /// Shapes: points downwards, modes side by side.
@@ -106,7 +106,7 @@ fn named(table: &Sheet) -> Result<Vec<MeasuredMode>> {
     Ok(names.iter().map(|name| unknown(name)).collect())
 }
 
-/// The rows that tell frequencies and dampings, each once, and those of the points.
+/// The rows with frequencies and dampings, each once, and those of the points.
 fn apart<'a, 'b>(table: &'a Sheet<'b>) -> Result<[Vec<&'a SheetRow<'b>>; 2]> {
     let kind =
         |row: &SheetRow| normal(row.cells[0]).split('_').next().unwrap_or_default().to_owned();
@@ -227,7 +227,7 @@ fn order(table: &Sheet, at: (&SheetRow, usize), before: &[MeasuredMode]) -> Resu
 /// The highest number of a mode.
 const MOST: usize = 100;
 
-/// A mode of which nothing is known but the name.
+/// A mode with only a name.
 fn unknown(name: &str) -> MeasuredMode {
     MeasuredMode {
         name: name.to_owned(),

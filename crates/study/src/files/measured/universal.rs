@@ -17,10 +17,10 @@ use sweetspot::base::file;
 use sweetspot::base::linear::dot;
 use uff58::{Analysis, Dataset, NodalData, Node, Universal, six_digits};
 
-/// What a node does.
+/// The motion of a node.
 type Motion = [c64; 3];
 
-/// Reads measured modes, with what is known beside the file.
+/// Reads measured modes, with the additional facts.
 ///
 /// # Errors
 ///
@@ -34,10 +34,10 @@ pub fn read(path: &Path, beside: &Beside) -> Result<Measured> {
 
 /// No bat has a damping ratio above this.
 const MUCH: f64 = 0.2;
-/// Nodes nearer than this along the axis (of the span) are one point.
+/// Nodes closer than this along the axis (relative to the span) are one point.
 const SAME: f64 = 1e-4;
 
-/// The modes of a universal file; `file` is what messages call it.
+/// The modes of a universal file; `file` is its name in messages.
 ///
 /// # Errors
 ///
@@ -46,7 +46,7 @@ pub fn of(universal: &Universal, file: &str) -> Result<Measured> {
     placed(universal, file, &Beside::default())
 }
 
-/// As [`of`], with what is known beside it.
+/// As [`of`], with the additional facts.
 fn placed(universal: &Universal, file: &str, beside: &Beside) -> Result<Measured> {
     let places = beside.places.as_ref();
     let poles = Poles::of(universal, beside.frequency_unit);
@@ -122,8 +122,8 @@ fn placed(universal: &Universal, file: &str, beside: &Beside) -> Result<Measured
     Ok(Measured { source: file.to_owned(), modes, along, from_knob, assumed, otherwise })
 }
 
-/// The axis of coordinates along which the shapes move least, the first of equal ones: that of a bat
-/// whose file does not tell where its nodes are.
+/// The coordinate axis along which the shapes move least, the first of equal ones: the axis of a bat whose file has no
+/// positions of its nodes.
 fn stillest(shapes: &[Shape]) -> Vector {
     let values = || shapes.iter().flat_map(|shape| &shape.data.values);
     let moved = |k: usize| -> f64 {
@@ -136,7 +136,7 @@ fn stillest(shapes: &[Shape]) -> Vector {
     [0, 1, 2].map(|k| if k == least { 1.0 } else { 0.0 })
 }
 
-/// What was left out of the file, and what was converted.
+/// Parts of the file that were ignored, and conversions.
 fn unread(universal: &Universal) -> Vec<String> {
     let mut said = vec![];
     if let Some(skipped) = skipped(universal) {
@@ -178,7 +178,7 @@ fn gaps(name: &str, data: &NodalData, moving: &[i64]) -> Option<String> {
     (there < all).then(|| format!("{name} lists {there} of the {all} nodes that move, {others}"))
 }
 
-/// Labels of the nodes that move in some shape, and of those that are in one and never move.
+/// Labels of the nodes that move in a shape, and of those that never move.
 fn told(shapes: &[Shape]) -> [Vec<i64>; 2] {
     let mut moving: BTreeMap<i64, bool> = BTreeMap::new();
     for (label, values) in shapes.iter().flat_map(|shape| &shape.data.values) {
@@ -200,7 +200,7 @@ fn large(values: &[uff58::Complex]) -> bool {
     values.iter().take(3).flatten().any(|part| part.abs() > LARGEST)
 }
 
-/// Of whatever unit.
+/// In any unit.
 const LARGEST: f64 = 1e100;
 
 /// A dataset 55 that is a mode.
@@ -223,7 +223,7 @@ impl Shape<'_> {
         MeasuredMode { name, order: None, frequency, damping_ratio, shape }
     }
 
-    /// What is wrong with it, and what was expected.
+    /// The mistake, and what was expected.
     fn complaint(&self) -> Option<(String, &'static str)> {
         let (kind, count) = (self.data.characteristic, self.data.per_node);
         let known = matches!(
@@ -291,13 +291,13 @@ fn shapes<'a>(universal: &'a Universal, file: &str, poles: &Poles) -> Result<Vec
 
 /// How a file writes its frequencies and the poles of its complex modes.
 struct Poles {
-    /// What the size of a pole is in: rad/s by the format.
+    /// Unit of the magnitude of a pole: rad/s by the format.
     poles: FrequencyUnit,
-    /// What the frequency of a normal mode is in: Hz by the format.
+    /// Unit of the frequency of a normal mode: Hz by the format.
     normal: FrequencyUnit,
-    /// How else they may be meant.
+    /// The other possible meaning.
     otherwise: Option<Otherwise>,
-    /// Whether the poles are in Hz by what the file itself says.
+    /// Whether the poles are in Hz by other data of the file.
     hertz: bool,
     /// With the opposite sign of the real part, all of them.
     growing: bool,
@@ -306,7 +306,7 @@ struct Poles {
 }
 
 impl Poles {
-    /// As told, or else by what contradicts: `B = -λA`, and `A = 2iω` for a modal mass of 1, with λ in rad/s.
+    /// As given, or else by the data that contradict: `B = -λA`, and `A = 2iω` for a modal mass of 1, with λ in rad/s.
     fn of(universal: &Universal, told: Option<FrequencyUnit>) -> Self {
         let poles: Vec<[f64; 4]> = universal.datasets.iter().filter_map(pole).collect();
         let both = |[_, size, a, b]: &[f64; 4]| *size > 0.0 && *a > 0.0 && *b > 0.0;
@@ -336,7 +336,7 @@ impl Poles {
         Self { poles: poles_in, normal, otherwise, hertz, growing, mixed }
     }
 
-    /// What was taken, for people.
+    /// The interpretation in words.
     fn words(&self) -> Vec<String> {
         let hertz = "the poles are taken as in Hz: Modal A and B are 2 pi times those of rad/s";
         let growing =
@@ -404,7 +404,7 @@ fn points(at: &[Vector], axis: Vector) -> Vec<NodeGroup> {
     points
 }
 
-/// What these nodes do in a shape; one that is not in it does not move.
+/// The motion of these nodes in a shape; a node outside the shape does not move.
 fn motions(data: &NodalData, labels: &[i64]) -> Vec<Motion> {
     let values: BTreeMap<i64, &Vec<uff58::Complex>> =
         data.values.iter().map(|(label, values)| (*label, values)).collect();
@@ -446,7 +446,7 @@ fn deflection(motions: &[Motion], points: &[NodeGroup], axis: Vector) -> (Vec<c6
     (values, named(direction), common(direction, direction) / total.max(f64::MIN_POSITIVE))
 }
 
-/// In which directions the modes move: once where it is one for all.
+/// The directions of the modes' motion; a single one if it is the same for all.
 fn said(directions: &[(String, f64)], modes: &[MeasuredMode]) -> Vec<String> {
     let Some((first, _)) = directions.first() else { return vec![] };
     let least = directions.iter().map(|(_, share)| *share).fold(1.0, f64::min);
