@@ -2088,6 +2088,10 @@ fn readings_and_scatters_that_cannot_be_are_told() {
             r#""ring_down": [ { "mode": 1, "cycles": 20, "ratio": 1.4 } ]"#,
             &["ring_down[0].ratio", "between 0 and 1"],
         ),
+        (
+            r#""lines": [ { "hz": 174.5, "loss_factor": 0.01 } ]"#,
+            &["lines[0].loss_factor", "the \"mode\" of the tone beside it"],
+        ),
         (r#""model": 0"#, &["model: found 0", "above 0 and below 1"]),
         (
             r#""priors": { "correlation": 1.5 }"#,
