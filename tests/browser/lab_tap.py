@@ -41,15 +41,15 @@ def tones(sweetspot):
 
 
 def recorded(path, tones, taps=6, apart=0.9):
-    """A recording of such tones: six taps in faint noise."""
+    """A recording of such tones: six taps in faint noise, as evenly as a hand taps."""
     dice = random.Random(49)
-    sound = [3e-4 * dice.uniform(-1, 1) for _ in range(int((0.5 + apart * taps) * RATE))]
+    sound = [3e-4 * dice.uniform(-1, 1) for _ in range(int((0.7 + apart * taps) * RATE))]
     for tap in range(taps):
-        at = int((0.5 + apart * tap) * RATE)
+        at = int((0.5 + apart * tap + dice.uniform(-0.1, 0.1)) * RATE)
         for k, hz in enumerate(tones):
             turn = cmath.exp((2j - LOSS) * math.pi * hz / RATE)
             one = 0.5 / len(tones) * (0.7 + 0.1 * ((tap + k) % 4)) * cmath.exp(1j * (7 * tap + 3 * k))
-            for n in range(at, min(at + int(apart * RATE) - 2000, len(sound))):
+            for n in range(at, min(at + int((apart - 0.25) * RATE), len(sound))):
                 sound[n] += one.imag
                 one *= turn
     with wave.open(path, "wb") as file:
@@ -90,6 +90,7 @@ def dropped_and_taken(browser, page, sweetspot, path):
     check([tone["mode"]["order"] for tone in program["tones"]] == [1, 2, 3, 4, 5], "the tones are not modes 1 to 5")
     check(len(answer["document"]["taps"]) == 6 == browser.run("document.querySelectorAll('#tap-bat .tap.used').length"),
           "six taps do not light up")
+    check(answer["document"]["warnings"] == [], f"it warns of {answer['document']['warnings']}")
     check(answer["wood"] == browser.run("document.getElementById('tap-wood').textContent"), "the wood is not told")
     printed = subprocess.run([sweetspot, "tap", "r161", path], capture_output=True, text=True).stdout
     plain = " ".join(printed.split())
