@@ -5,11 +5,12 @@ use serde_json::{Value, json};
 use sweetspot::base::error::{Error, Result};
 use sweetspot_report::parts::note::note;
 use sweetspot_report::report::calibrated_bat;
-use sweetspot_report::report::tap::TapReport;
+use sweetspot_report::report::tap::{TapReport, unreadable};
+use sweetspot_report::schema::tap::TapTone;
 use sweetspot_study::answers::Answer;
 use sweetspot_study::tap::tapped::Tapped;
 use sweetspot_tap::analysis::Analysis;
-use sweetspot_tap::recording::{Recording, Unreadable, loudest};
+use sweetspot_tap::recording::{Recording, loudest};
 
 use crate::asked::Question;
 use crate::shown;
@@ -28,14 +29,11 @@ struct Asked {
 pub fn answer(of: &Question, sound: &[u8]) -> Result<Value> {
     let recordings = [recording(of, sound)?];
     let analysis = Analysis::of(&recordings, None);
-    let tapped = match analysis.refused {
-        Some(_) => None,
-        None => Some(Tapped::of(&of.bat, &analysis, &[])?),
-    };
+    let tapped = Tapped::heard(&of.bat, &analysis, &[])?;
     let (bat, tapped) = (&of.bat, tapped.as_ref());
     let report = TapReport { bat, recordings: &recordings, analysis: &analysis, tapped };
     let document = report.document();
-    let tone = |(k, tone): (usize, &sweetspot_report::schema::tap::TapTone)| {
+    let tone = |(k, tone): (usize, &TapTone)| {
         let [frequency, half, loss, is, sure] = report.cells(k);
         let computed = tone.computed_hz.map(|hz| {
             let told = shown::answer(Answer::Frequency(1), of.units, hz);
@@ -73,12 +71,7 @@ fn recording(of: &Question, sound: &[u8]) -> Result<Recording> {
     let samples: Vec<f32> = samples.iter().map(|one| f32::from_le_bytes(*one)).collect();
     let channels = samples.chunks(samples.len() / asked.channels).map(<[f32]>::to_vec).collect();
     let samples = loudest(channels).unwrap_or_default().into_iter().map(f64::from).collect();
-    let recording = Recording::of(&asked.name, samples, asked.rate_hz).map_err(|error| {
-        let (found, expected) = match error {
-            Unreadable::Sound { found, expected } => (found, expected),
-            other => (other.to_string(), "a recording".to_owned()),
-        };
-        Error::value(&asked.name, found, expected)
-    })?;
+    let recording = Recording::of(&asked.name, samples, asked.rate_hz);
+    let recording = recording.map_err(|error| unreadable(&asked.name, error))?;
     Ok(Recording { channels: asked.channels, spoilt: asked.lost, ..recording })
 }

@@ -3,22 +3,18 @@
 use std::path::Path;
 
 use sweetspot::{Bat, Error, Result};
-use sweetspot_report::report::tap::said;
+use sweetspot_report::report::tap::{said, unreadable};
 use sweetspot_study::calibrate::readings::BatReadings;
 use sweetspot_study::tap::tapped::Tapped;
 use sweetspot_tap::analysis::Analysis;
 use sweetspot_tap::decode::{self, Part};
-use sweetspot_tap::recording::{Recording, Unreadable};
+use sweetspot_tap::recording::Recording;
 
 use crate::output::{printed, warn};
 
 /// A recording by its file.
 pub fn read(path: &Path, part: Part) -> Result<Recording> {
-    decode::read(path, part).map_err(|error| match error {
-        Unreadable::File(source) => Error::Read { path: path.to_owned(), source },
-        Unreadable::Sound { found, expected } => Error::value(printed(path), found, expected),
-        other => Error::value(printed(path), other, "a recording"),
-    })
+    decode::read(path, part).map_err(|error| unreadable(&printed(path), error))
 }
 
 /// Recorded taps of a bat as lines and tones that died out, for `calibrate`.

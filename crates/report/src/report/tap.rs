@@ -12,6 +12,7 @@ use crate::report::calibrate::{short, shown};
 use crate::schema::tap::{
     TapFile, TapMode, TapMoment, TapRecording, TapSaid, TapSecond, TapTone, TapWithin,
 };
+use sweetspot::base::error::Error;
 use sweetspot::base::number::{percent, significant};
 use sweetspot::bat::body::Bat;
 use sweetspot::files::schema::document::{BatName, Format, Generator};
@@ -21,7 +22,7 @@ use sweetspot_study::tap::heard::Within;
 use sweetspot_study::tap::hoops::BatMode;
 use sweetspot_study::tap::tapped::{Tapped, ToneLabel};
 use sweetspot_tap::analysis::{Analysis, Code, Condition, Tap};
-use sweetspot_tap::recording::Recording;
+use sweetspot_tap::recording::{Recording, Unreadable};
 use sweetspot_tap::tones::Tone;
 
 /// Beyond this half-width an interval is told as "about".
@@ -366,6 +367,15 @@ fn of_tap(tap: &Tap, refused: bool) -> TapMoment {
 
 fn coded(code: Code) -> TapSaid {
     TapSaid { code: code.name().to_owned(), text: said(code).to_owned() }
+}
+
+/// The error of a recording that cannot be listened to, by the name that is shown.
+pub fn unreadable(shown: &str, error: Unreadable) -> Error {
+    match error {
+        Unreadable::File(source) => Error::Read { path: shown.into(), source },
+        Unreadable::Sound { found, expected } => Error::value(shown, found, expected),
+        other => Error::value(shown, other, "a recording"),
+    }
 }
 
 /// What a warning or a refusal means, and what to do.

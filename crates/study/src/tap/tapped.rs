@@ -46,6 +46,18 @@ pub struct Tapped {
 }
 
 impl Tapped {
+    /// The tones of a bat; None where the recordings are refused.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Tapped::of`].
+    pub fn heard(bat: &Bat, analysis: &Analysis, told: &[Told]) -> Result<Option<Self>> {
+        match analysis.refused {
+            Some(_) => Ok(None),
+            None => Self::of(bat, analysis, told).map(Some),
+        }
+    }
+
     /// The tones of a bat, of which some may have been told.
     ///
     /// # Errors
