@@ -63,7 +63,8 @@ fn recording(of: &Question, sound: &[u8]) -> Result<Recording> {
     let asked = Asked::deserialize(Value::from(of.more.clone()))
         .map_err(|error| Error::value("the request", error, "sound with its rate"))?;
     let bytes = sound.len();
-    if !(1..=8).contains(&asked.channels) || bytes == 0 || bytes % (4 * asked.channels) != 0 {
+    if !(1..=8).contains(&asked.channels) || bytes == 0 || !bytes.is_multiple_of(4 * asked.channels)
+    {
         let found = format!("{bytes} bytes of {} channels", asked.channels);
         return Err(Error::value("the sound", found, "samples of 1 to 8 channels"));
     }
