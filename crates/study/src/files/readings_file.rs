@@ -202,3 +202,24 @@ fn each_mode_once(node: &Node, lines: &[SpectralLine]) -> Result<()> {
     }))
     .map(|_| ())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::files::written::WrittenFile;
+
+    #[test]
+    fn a_line_with_a_loss_factor_is_a_tone_that_died_out() {
+        let read = |members: &str| {
+            let text = format!("{{ \"format\": \"sweetspot-readings/1\", {members} }}");
+            ReadingsForm::from_text("readings", &text, "".as_ref()).unwrap()
+        };
+        let line = read(r#""lines": [{ "hz": 174.5, "mode": 1, "loss_factor": 0.011 }]"#);
+        let apart = read(
+            r#""lines": [{ "hz": 174.5, "mode": 1 }],
+               "ring_down": [{ "mode": 1, "loss_factor": 0.011 }]"#,
+        );
+        assert_eq!(line, apart);
+        assert!((line.ring_down[0].loss_factor() / 0.011 - 1.0).abs() < 1e-12);
+    }
+}
