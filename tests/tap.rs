@@ -1,5 +1,8 @@
 //! Results of `sweetspot tap` for recordings made by the program or from a closed form, and its refusals.
 
+use std::io::Write;
+use std::process::Stdio;
+
 use serde_json::Value;
 use sweetspot_report::exchange::wav::{self, RATE};
 
@@ -236,4 +239,55 @@ fn what_is_told_takes_part_in_the_search_of_a_hollow_bat() {
         assert_eq!(third(*hz)["mode"]["order"], k + 1);
     }
     assert_eq!(third(bending[2])["sure"], 1.0);
+}
+
+/// `new` takes a note, or the recording of a bat whose lowest tone is that of the note.
+#[test]
+fn a_new_bat_is_tapped_by_a_note_or_a_recording() {
+    let folder = Folder::new("tap_new");
+    let file = |tone: &str, name: &str| {
+        let answers =
+            format!("Mine\nin\n33\n25 oz\nwhite-ash\n1.9\n1.2\n\n2.5\nno\nnone\n\n{tone}\n\n");
+        let mut command = folder.command(&["new", "--ask", name]);
+        let mut child = command.stdin(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        let _ = child.stdin.take().unwrap().write_all(answers.as_bytes());
+        let told = String::from_utf8(child.wait_with_output().unwrap().stderr).unwrap();
+        let first = std::fs::read_to_string(folder.0.join(name)).ok().map(|text| {
+            let bat: Value = serde_json::from_str(&text).unwrap();
+            let tone = bat["weighed"]["first_bending_hz"].as_str().unwrap_or_default().to_owned();
+            tone.trim_end_matches(" Hz").parse::<f64>().unwrap()
+        });
+        (first, told)
+    };
+    let (first, told) = file("E3 +34", "noted.json");
+    // 164.814 Hz is E3, and a cent is a 1200th of an octave.
+    let hz = 164.814 * 2.0_f64.powf(34.0 / 1200.0);
+    assert!((first.unwrap() - hz).abs() < 0.02, "{told}");
+    let modes = folder.json(&["modes", "noted.json", "-n", "4", "--json", "-"]);
+    let modes = modes["modes"].as_array().unwrap();
+    let tones: Vec<f64> = modes.iter().map(|one| one["frequency_hz"].as_f64().unwrap()).collect();
+    folder.write("taps.wav", wav::file(&taps(&tones)));
+    folder.write("quiet.wav", wav::file(&vec![0.0; RATE as usize]));
+    let (first, told) = file("taps.wav", "heard.json");
+    assert!((first.unwrap() - hz).abs() < 0.1, "{told}");
+    for (wrong, said) in [("quiet.wav", "No tap was found"), ("gone.wav", "gone.wav")] {
+        let (first, told) = file(wrong, &wrong.replace(".wav", ".json"));
+        assert!(first.is_none() && told.contains(said), "{told}");
+    }
+}
+
+/// A recording says the same on any number of threads.
+#[test]
+fn threads_change_no_byte() {
+    let folder = Folder::new("tap_threads");
+    folder.write("taps.wav", wav::file(&taps(&[174.0, 581.0, 1187.0, 1858.0])));
+    let heard = |threads: &str| {
+        let mut command = folder.command(&["tap", "r161", "taps.wav", "--json", "-"]);
+        command.env("RAYON_NUM_THREADS", threads).output().unwrap().stdout
+    };
+    let one = heard("1");
+    assert!(serde_json::from_slice::<Value>(&one).unwrap()["wood"].is_object());
+    for threads in ["2", "3", "7"] {
+        assert!(heard(threads) == one, "{threads} threads");
+    }
 }

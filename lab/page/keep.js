@@ -2,6 +2,7 @@
 
 import { fragment, unpacked } from "./link.js";
 import { button, byId, made, write } from "./svg.js";
+import { isSound } from "./tap.js";
 
 /** Where the browser keeps the bat, and the largest file (bytes) that is opened. */
 const SHELF = "sweetspot-lab", LARGEST_FILE = 1 << 20;
@@ -80,7 +81,8 @@ export class Keep {
   async file(file) {
     if (!file) return;
     const size = Math.round(file.size / 1024);
-    if (file.size > LARGEST_FILE) this.wrong(`${file.name} has ${size} kB; a bat file or a table has a few.`);
+    if (isSound(file)) { this.dialog.close(); this.bench.tell("recording", file); }
+    else if (file.size > LARGEST_FILE) this.wrong(`${file.name} has ${size} kB; a bat file or a table has a few.`);
     else await this.take(await file.text());
     byId("file").value = "";
   }

@@ -16,6 +16,7 @@ import { compiled, Far, Near } from "./solve.js";
 import { played, Voice } from "./sound.js";
 import { byId, made, write } from "./svg.js";
 import { Table } from "./table.js";
+import { Tapping } from "./tap.js";
 import { Tracing } from "./trace.js";
 import { inUs, setUs, whenUnits } from "./units.js";
 
@@ -149,13 +150,13 @@ async function begin() {
   new Changes(bench, woods);
   new Lathe(bench, picture);
   new Wishes(bench);
-  const tracing = new Tracing(bench, woods, () => far(LIMITS[1]));
+  const tracing = new Tracing(bench, woods, () => far(LIMITS[1])), tapping = new Tapping(bench, () => far(LIMITS[1]));
   const scene = new SceneOfHit(bench), keep = new Keep(bench, about, page);
   bench.on("scene", () => scene.set());
   const lessons = new Lessons(bench, bats, voice);
   controls(bench, drag);
   // For trials of the page: what it holds, and the parts that answer.
-  window.lab = { bench, drag, picture, voice, keep, lessons, tracing, played };
+  window.lab = { bench, drag, picture, voice, keep, lessons, tracing, tapping, played };
   await first(bench, keep, bats);
   addEventListener("beforeunload", (event) => { if (keep.lost) event.preventDefault(); });
 }

@@ -28,7 +28,7 @@
  * @property {"si" | "us"} [units] of every text in the answer (default si)
  */
 
-/** @typedef {"open" | "trace" | "body" | "live" | "sure" | "analyze" | "lathe" | "sound" | "aim" | "files"} Ask */
+/** @typedef {"open" | "trace" | "body" | "live" | "sure" | "analyze" | "lathe" | "sound" | "tap" | "aim" | "files"} Ask */
 
 /**
  * The options of `sweetspot hit` with `_` for `-`; a string carries its unit ("72 mph"), a number is SI.
@@ -155,6 +155,20 @@
  * @property {{ frequency_hz: number, decay_1_s: number, amplitude_m_s2: number }[]} tones
  * @property {number} loudest_m_s2   of such blows anywhere on the barrel
  * @property {string | null} assumed  what is assumed of the damping, in words
+ */
+
+/**
+ * `tap` asks also `name`, `rate_hz`, `channels` and how many pieces were `lost` of a sound whose samples stand behind the
+ * request after a byte 0: channel after channel, four bytes each, the lowest first. The loudest channel is heard.
+ * @typedef {object} Tapped
+ * @property {number} id
+ * @property {object} document       as `sweetspot tap --json` has it
+ * @property {string} heard          taps and rate
+ * @property {{ frequency: string, note: string, half: string, loss: string, is: string, sure: string,
+ *              computed: { frequency: Shown, note: string } | null }[]} tones  the lines of its table
+ * @property {string | null} wood    what the bat's material is
+ * @property {string[]} words        what spoils it, and what to do
+ * @property {string | null} bat_file  the text of the bat of that wood
  */
 
 /**

@@ -3,6 +3,7 @@
 use serde_json::{Value, json};
 use sweetspot::base::error::Result;
 use sweetspot_report::analysis::{Analysis, Task};
+use sweetspot_report::parts::note::note;
 use sweetspot_report::report::{hit_text, hoop, trust};
 use sweetspot_study::answers::Answer;
 use sweetspot_study::spread::Readings;
@@ -11,7 +12,7 @@ use sweetspot_study::verdict::Doubt;
 
 use crate::asked::{Question, request};
 use crate::hit::Solved;
-use crate::shown::{self, note};
+use crate::shown;
 
 /// The lines of the program's table: a sweet spot first, then what the bat weighs and how it rings.
 const LINES: [(&str, Answer); 9] = [

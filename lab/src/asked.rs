@@ -13,7 +13,7 @@ use sweetspot::files::{balls, scene_file};
 use sweetspot::{Bat, Request};
 use sweetspot_report::parts::units::Units;
 
-use crate::{aim, analyze, body, files, hit, lathe, open, sound, trace};
+use crate::{aim, analyze, body, files, hit, lathe, open, sound, tap, trace};
 
 /// A request as the page writes it.
 #[derive(Deserialize)]
@@ -57,15 +57,15 @@ pub fn request() -> Request {
     Request::default()
 }
 
-/// The answer to a request, both in JSON. What is wrong with it is said in the answer. `picture` is what stands behind
-/// the request: the bytes of a photograph, or nothing.
-pub fn answered(text: &str, picture: &[u8]) -> String {
+/// The answer to a request, both in JSON. What is wrong with it is said in the answer. `bytes` is what stands behind
+/// the request: a photograph, sound, or nothing.
+pub fn answered(text: &str, bytes: &[u8]) -> String {
     let asked: Asked = match serde_json::from_str(text) {
         Ok(asked) => asked,
         Err(error) => return failed(0, &Error::value("the request", error, "a request")),
     };
     let id = asked.id;
-    match answer(asked, picture) {
+    match answer(asked, bytes) {
         Ok(mut answer) => {
             answer["id"] = id.into();
             answer.to_string()
@@ -80,7 +80,7 @@ pub fn panicked(words: &str) -> String {
 }
 
 /// One question, one function.
-fn answer(asked: Asked, picture: &[u8]) -> Result<Value> {
+fn answer(asked: Asked, bytes: &[u8]) -> Result<Value> {
     type Answering = fn(&Question) -> Result<Value>;
     const QUESTIONS: [(&str, Answering); 8] = [
         ("body", body::answer),
@@ -99,16 +99,22 @@ fn answer(asked: Asked, picture: &[u8]) -> Result<Value> {
         return open::answer(&asked.bat, units);
     }
     if asked.ask == "trace" {
-        return trace::answer(&asked.more.into(), picture, units);
+        return trace::answer(&asked.more.into(), bytes, units);
     }
-    let Some((_, answering)) = QUESTIONS.iter().find(|(name, _)| *name == asked.ask) else {
+    let answering = QUESTIONS.iter().find(|(name, _)| *name == asked.ask);
+    if answering.is_none() && asked.ask != "tap" {
         let names: Vec<&str> = QUESTIONS.iter().map(|(name, _)| *name).collect();
-        return Err(Error::value("ask", asked.ask, format!("open, trace, {}", names.join(", "))));
-    };
+        let expected = format!("open, trace, tap, {}", names.join(", "));
+        return Err(Error::value("ask", asked.ask, expected));
+    }
     let bat = Bat::from_text(BAT, &asked.bat, Path::new(""))?;
     let setup = setup(&asked.scene)?;
     let Asked { bat: text, scene, more, .. } = asked;
-    answering(&Question { bat, text, setup, scene, units, more })
+    let question = Question { bat, text, setup, scene, units, more };
+    match answering {
+        Some((_, answering)) => answering(&question),
+        None => tap::answer(&question, bytes),
+    }
 }
 
 fn units(name: &str) -> Result<Units> {

@@ -1,7 +1,7 @@
 //! The program's answers in a page, without a server.
 //!
 //! A page writes a request into [`room`], calls [`answer`] and reads as many bytes at [`answer_at`]. Both are JSON, as
-//! `lab/page/types.js` says; a photograph's bytes stand behind the request, after a byte 0. The module imports nothing, so that it can do nothing but compute.
+//! `lab/page/types.js` says; bytes of a photograph or of sound stand behind the request, after a byte 0. The module imports nothing, so that it can do nothing but compute.
 //!
 //! | file | question |
 //! |---|---|
@@ -12,6 +12,7 @@
 //! | `analyze` | how far may the bat in hand be off |
 //! | `lathe`, `aim` | what does a cut do; which cuts meet a wish |
 //! | `sound` | how does it sound |
+//! | `tap` | what does a recording of taps say |
 //! | `trace` | what shape has the bat on a photograph |
 //! | `open`, `files` | how does a bat come in and go out |
 
@@ -26,6 +27,7 @@ mod analyze;
 mod lathe;
 mod aim;
 mod sound;
+mod tap;
 mod trace;
 mod open;
 mod files;
@@ -71,8 +73,8 @@ pub extern "C" fn answer() -> usize {
                 }
             }));
             let text = asked.split(|byte| *byte == 0).next().unwrap_or_default();
-            let picture = asked.get(text.len() + 1..).unwrap_or_default();
-            answered(&String::from_utf8_lossy(text), picture)
+            let bytes = asked.get(text.len() + 1..).unwrap_or_default();
+            answered(&String::from_utf8_lossy(text), bytes)
         }
     };
     ANSWER.replace(text.into_bytes());

@@ -248,3 +248,53 @@ fn a_cut_does_what_its_band_says() {
     let told = number(&changes[k]["value"]);
     assert!((10.0 * by / told - 1.0).abs() < 5e-3, "{by} {told}");
 }
+
+/// Four taps of such tones (Hz) with a loss factor of 0.01, as the page sends them: a quiet channel and a loud one.
+fn taps(tones: &[f64], rate: f64) -> Vec<u8> {
+    let each = 0.8 * rate;
+    let sample = |n: usize| -> f64 {
+        let (tap, t) = ((n as f64 / each).floor(), n as f64 % each / rate);
+        let one = |(k, hz): (usize, &f64)| {
+            let decay = -0.01 * std::f64::consts::PI * hz * t;
+            0.1 * decay.exp() * (std::f64::consts::TAU * hz * t + 3.0 * tap + k as f64).sin()
+        };
+        if tap == 0.0 { 0.0 } else { tones.iter().enumerate().map(one).sum() }
+    };
+    let loud = (0..(5.0 * each) as usize).map(sample);
+    let quiet = loud.clone().map(|x| -0.1 * x);
+    quiet.chain(loud).flat_map(|x| (x as f32).to_le_bytes()).collect()
+}
+
+/// Sound behind a request is heard as the library hears it; the bat file of its wood rings like the sound.
+#[test]
+fn taps_are_heard() {
+    let bat = Bat::builtin("r161").unwrap();
+    let solution = solve(&bat, &Request { modes: 4, ..Request::default() }).unwrap();
+    let tones: Vec<f64> = solution.modes.iter().map(|mode| 1.05 * mode.frequency()).collect();
+    let request = json!({ "id": 3, "ask": "tap", "bat": file("r161"), "name": "taps.wav",
+        "rate_hz": 24_000.0, "channels": 2 });
+    let heard = |sound: &[u8]| -> Value {
+        serde_json::from_str(&answered(&request.to_string(), sound)).unwrap()
+    };
+    let answer = heard(&taps(&tones, 24_000.0));
+    let found = answer["document"]["tones"].as_array().unwrap_or_else(|| panic!("{answer}"));
+    assert_eq!(found.len(), tones.len(), "{answer:#}");
+    for ((tone, told), (k, hz)) in
+        found.iter().zip(answer["tones"].as_array().unwrap()).zip(tones.iter().enumerate())
+    {
+        assert!((number(&tone["frequency_hz"]) / hz - 1.0).abs() < 2e-4, "{tone}");
+        assert!((number(&tone["loss_factor"]) / 0.01 - 1.0).abs() < 0.03, "{tone}");
+        assert_eq!(tone["mode"], json!({ "kind": "bending", "order": k + 1 }));
+        assert_eq!(told["is"], format!("bending {}", k + 1));
+    }
+    let text = answer["bat_file"].as_str().unwrap();
+    let wood = Bat::from_text("wood", text, Path::new("")).unwrap();
+    assert!((wood.material().loss_factor / 0.01 - 1.0).abs() < 0.03);
+    let rings = solve(&wood, &Request::default()).unwrap().modes[0].frequency();
+    assert!((rings / tones[0] - 1.0).abs() < 2e-3, "{rings} {}", tones[0]);
+    assert_eq!(heard(&[0; 80_000])["document"]["refused"]["code"], "no_tap");
+    for (sound, said) in [(&[][..], "0 bytes"), (&[0; 9], "9 bytes"), (&[255; 8000], "NaN")] {
+        let error = heard(sound)["error"].to_string();
+        assert!(error.contains(said), "{error}");
+    }
+}

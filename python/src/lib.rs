@@ -36,10 +36,16 @@ use sweetspot_report::many::sums;
 use sweetspot_report::plot::picture::Picture;
 use sweetspot_report::plot::sets::{Hits, of_modes};
 use sweetspot_report::plot::sheet::Sheet;
+use sweetspot_report::plot::tap;
 use sweetspot_report::report::json::{self, ShapePoints};
+use sweetspot_report::report::tap::{TapReport, unreadable};
 use sweetspot_report::report::{hit_json, mistakes};
 use sweetspot_report::schema;
 use sweetspot_report::schema::hit::HitFile;
+use sweetspot_study::tap::tapped::Tapped;
+use sweetspot_tap::analysis::Analysis;
+use sweetspot_tap::decode::{self, Part};
+use sweetspot_tap::recording::Recording;
 
 /// The package's exception about an error, with its `sweetspot-error/1` document.
 fn raised(py: Python<'_>, error: &Error) -> PyErr {
@@ -145,6 +151,20 @@ impl Asked {
     }
 }
 
+/// The `sweetspot-tap/1` document of a recording of a bat's taps, and pictures.
+fn tapped(
+    bat: &sweetspot::Bat,
+    recording: Recording,
+) -> sweetspot::Result<(String, Vec<(String, String)>)> {
+    let recordings = [recording];
+    let analysis = Analysis::of(&recordings, None);
+    let tapped = Tapped::heard(bat, &analysis, &[])?;
+    let tapped = tapped.as_ref();
+    let report = TapReport { bat, recordings: &recordings, analysis: &analysis, tapped };
+    let pictures = tap::pictures(&report, Sheet::of(bat));
+    Ok((schema::text(&report.document()), named(pictures)))
+}
+
 /// Pictures as their names and SVG texts.
 fn named(pictures: Vec<Picture>) -> Vec<(String, String)> {
     pictures.into_iter().map(|picture| (picture.name, picture.svg)).collect()
@@ -219,6 +239,30 @@ impl Bat {
             let seen = Hits { bat: &bat, model, scene: &scene, sweep: &hits, spot: &figures.spot };
             let pictures = seen.pictures(Sheet::of(&bat), None)?;
             Ok((schema::text(&document), named(pictures)))
+        })
+    }
+
+    /// What a recording of this bat's taps says.
+    fn tap_file(&self, py: Python<'_>, path: PathBuf) -> PyResult<(String, Vec<(String, String)>)> {
+        free(py, || {
+            let shown = written_out(&path.display().to_string());
+            let recording = decode::read(&path, Part::default());
+            tapped(&self.0, recording.map_err(|error| unreadable(&shown, error))?)
+        })
+    }
+
+    /// What samples say, eight bytes each, the lowest first, so many a second.
+    fn tap_samples(
+        &self,
+        py: Python<'_>,
+        samples: &[u8],
+        rate: f64,
+    ) -> PyResult<(String, Vec<(String, String)>)> {
+        let (samples, _) = samples.as_chunks::<8>();
+        let samples = samples.iter().map(|one| f64::from_le_bytes(*one)).collect();
+        free(py, || {
+            let recording = Recording::of("samples", samples, rate);
+            tapped(&self.0, recording.map_err(|error| unreadable("samples", error))?)
         })
     }
 

@@ -4,6 +4,7 @@ import json
 import math
 import pickle
 import threading
+import wave
 
 import numpy as np
 import pytest
@@ -223,3 +224,44 @@ def test_stiffness_and_mass_can_be_unpacked():
     assert set(dict(found)) == set(found.keys()) == {name for name, _ in found.items()}
     # A rigid shift has the bat's mass and no stiffness.
     assert mass[0, 0] > 0 and np.allclose(stiffness, stiffness.T)
+
+
+def taps_of(tones, loss, rate, path=None):
+    """Four taps of damped tones, and a file of 16 bits of them."""
+    t = np.arange(int(0.9 * rate)) / rate
+    tap = lambda k: sum(
+        0.15 * np.exp(-np.pi * hz * loss * t) * np.sin(2 * np.pi * hz * t + 7 * k + n) for n, hz in enumerate(tones)
+    )
+    gaps = [np.zeros(int(gap * rate)) for gap in (0.4, 0.11, 0.02, 0.07)]
+    samples = np.concatenate([part for k, gap in enumerate(gaps) for part in (gap, tap(k))])
+    samples += 1e-4 * np.random.default_rng(1).uniform(-1, 1, samples.size)
+    if path:
+        with wave.open(str(path), "wb") as file:
+            file.setparams((1, 2, int(rate), 0, "NONE", ""))
+            file.writeframes(np.round(samples * 32768).astype("<i2").tobytes())
+    return samples
+
+
+def test_a_tapped_bat_is_heard_from_a_file_and_from_samples(tmp_path):
+    bat = ss.Bat.from_file("r161")
+    tones = bat.modes(4, 1e-8).frequency_hz * 1.04
+    samples = taps_of(tones, 0.01, 32000, tmp_path / "taps.wav")
+    for taps in (bat.tap(tmp_path / "taps.wav"), bat.tap(str(tmp_path / "taps.wav")), bat.tap(samples, 32000), bat.tap(list(samples), 32000.0)):
+        assert taps.document["format"] == "sweetspot-tap/1" and taps.fits
+        assert np.allclose(taps.frequency_hz, tones, rtol=2e-4)
+        assert np.allclose(taps.loss_factor, 0.01, rtol=0.03)
+        inside = taps.frequency_interval_hz
+        assert np.all((inside[:, 0] < taps.frequency_hz) & (taps.frequency_hz < inside[:, 1]))
+        assert taps.loss_factor_interval.shape == (4, 2)
+        assert taps.mode == ["bending 1", "bending 2", "bending 3", "bending 4"] and np.all(taps.sure > 0.9)
+        assert np.allclose(taps.computed_hz, tones, rtol=3e-3) and taps.wood["fits"]
+        assert len(taps.to_pandas()) == 4 and "svg" in taps._repr_html_()
+
+
+def test_what_cannot_be_heard_is_said(tmp_path):
+    bat = ss.Bat.from_file("r161")
+    assert bat.tap(np.zeros(40000), 16000).document["refused"]["code"] == "no_tap"
+    (tmp_path / "none.wav").write_text("no sound")
+    for wrong in ((tmp_path / "none.wav",), (tmp_path / "gone.wav",), (np.full(9, np.nan), 8000), (np.zeros(9), 1.0), (np.zeros(9),), (np.zeros((9, 2)), 8000), ("x", 1)):
+        with pytest.raises(ss.SweetspotError):
+            bat.tap(*wrong)

@@ -30,8 +30,8 @@ def program():
 class Browser:
     """One browser with one page. Use it in a `with`."""
 
-    def __init__(self, limit=300):
-        self.end = time.monotonic() + limit
+    def __init__(self, limit=300, flags=()):
+        self.end, self.flags = time.monotonic() + limit, flags
         self.folder = tempfile.mkdtemp(prefix="sweetspot-chromium-")
         self.events, self.count, self.rest = [], 0, b""
 
@@ -44,7 +44,7 @@ class Browser:
             os.dup2(read_theirs, 40), os.dup2(write_theirs, 41)
             os.dup2(40, 3), os.dup2(41, 4)
 
-        command = [program(), *FLAGS, f"--user-data-dir={self.folder}", "about:blank"]
+        command = [program(), *FLAGS, *self.flags, f"--user-data-dir={self.folder}", "about:blank"]
         self.process = subprocess.Popen(
             command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
             close_fds=False, pass_fds=(), preexec_fn=join, start_new_session=True,

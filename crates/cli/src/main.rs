@@ -29,6 +29,8 @@ mod guarantee;
 mod bat_text;
 mod scene;
 mod cannon;
+#[cfg(feature = "audio")]
+mod recording;
 mod asking;
 mod tables;
 mod modes;
@@ -40,8 +42,6 @@ mod lab;
 mod analyze;
 mod beside;
 mod compare;
-#[cfg(feature = "audio")]
-mod recording;
 mod calibrate;
 #[cfg(feature = "audio")]
 mod tap;

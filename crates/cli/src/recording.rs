@@ -2,23 +2,22 @@
 
 use std::path::Path;
 
+use sweetspot::base::error::Complaint;
+use sweetspot::base::number::rounded;
 use sweetspot::{Bat, Error, Result};
-use sweetspot_report::report::tap::said;
+use sweetspot_report::report::tap::{said, unreadable};
 use sweetspot_study::calibrate::readings::BatReadings;
-use sweetspot_study::tap::tapped::Tapped;
+use sweetspot_study::tap::hoops::BatMode;
+use sweetspot_study::tap::tapped::{Tapped, ToneLabel};
 use sweetspot_tap::analysis::Analysis;
 use sweetspot_tap::decode::{self, Part};
-use sweetspot_tap::recording::{Recording, Unreadable};
+use sweetspot_tap::recording::Recording;
 
 use crate::output::{printed, warn};
 
 /// A recording by its file.
 pub fn read(path: &Path, part: Part) -> Result<Recording> {
-    decode::read(path, part).map_err(|error| match error {
-        Unreadable::File(source) => Error::Read { path: path.to_owned(), source },
-        Unreadable::Sound { found, expected } => Error::value(printed(path), found, expected),
-        other => Error::value(printed(path), other, "a recording"),
-    })
+    decode::read(path, part).map_err(|error| unreadable(&printed(path), error))
 }
 
 /// The lines and the decaying tones in recorded taps of a bat, for `calibrate`.
@@ -43,4 +42,27 @@ pub fn readings(path: &Path, bat: &Bat, quiet: bool) -> Result<BatReadings> {
         Error::value(printed(path), "no tone that is a bending mode", "taps of this bat")
     })?;
     Ok(wood.readings)
+}
+
+/// The tone of recorded taps that is the first bending mode of a bat, by the text of its file, as a bat file has it.
+///
+/// # Errors
+///
+/// What cannot be listened to, and taps without that tone.
+pub fn first_tone(path: &Path, text: &str) -> std::result::Result<String, Complaint> {
+    let wrong = |error: Error| match error {
+        Error::Value(complaint) => complaint,
+        other => Complaint::new("", other, "a recording of taps"),
+    };
+    let bat = Bat::from_text("the bat", text, Path::new("")).map_err(wrong)?;
+    let analysis = Analysis::of(&[read(path, Part::default()).map_err(wrong)?], None);
+    let tapped = Tapped::heard(&bat, &analysis, &[]).map_err(wrong)?;
+    let labels = tapped.map_or(vec![], |tapped| tapped.labels);
+    let is_first = |label: &ToneLabel| label.mode == Some(BatMode::Bending(1));
+    let tone = analysis.tones.iter().zip(&labels).find(|(_, label)| is_first(label));
+    let Some((tone, _)) = tone else {
+        let found = analysis.refused.map_or("taps without the lowest tone of this bat", said);
+        return Err(Complaint::new("", found, "taps of this bat, or its tone in Hz"));
+    };
+    Ok(format!("{} Hz", rounded(tone.pole.hz, 2)))
 }

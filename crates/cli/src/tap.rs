@@ -135,9 +135,9 @@ pub fn run(args: &Args) -> Result<Done> {
     let recordings = args.recordings.iter().map(|path| read(path, part));
     let recordings = recordings.collect::<Result<Vec<_>>>()?;
     let analysis = Analysis::of(&recordings, args.highest);
-    let tapped = match args.only_tones || analysis.refused.is_some() {
+    let tapped = match args.only_tones {
         true => None,
-        false => Some(Tapped::of(&bat, &analysis, &args.mode)?),
+        false => Tapped::heard(&bat, &analysis, &args.mode)?,
     };
     let report = TapReport {
         bat: &bat,

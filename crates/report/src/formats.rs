@@ -4,6 +4,7 @@ use serde_json::{Map, Value, json};
 
 use crate::page::data::Data;
 use crate::schema::advice::AdviceFile;
+#[cfg(feature = "aim")]
 use crate::schema::aimed::AimedFile;
 use crate::schema::analysis::AnalysisFile;
 use crate::schema::bbcor::BbcorFile;
@@ -36,8 +37,8 @@ use sweetspot_study::files::rules_file::RulesForm;
 use sweetspot_study::files::scatter_file::ScatterForm;
 use sweetspot_study::files::study_file::StudyForm;
 
-/// The number of formats: wishes and rules of games are read with the feature `aim`.
-const COUNT: usize = if cfg!(feature = "aim") { 31 } else { 29 };
+/// The number of formats: with the feature `aim`, wishes and rules of games are read and answers to wishes written.
+const COUNT: usize = if cfg!(feature = "aim") { 31 } else { 28 };
 
 /// A kind of file that has a schema.
 #[derive(Debug, Clone, Copy)]
@@ -76,6 +77,7 @@ impl FileKind {
         Self::of::<TapFile>(),
         Self::of::<ScatterResult>(),
         Self::of::<StudyManifest>(),
+        #[cfg(feature = "aim")]
         Self::of::<AimedFile>(),
         Self::of::<TradeFile>(),
         Self::of::<UCurveFile>(),

@@ -10,7 +10,7 @@ use symphonia::core::formats::{FormatOptions, FormatReader, TrackType};
 use symphonia::core::io::MediaSourceStream;
 use symphonia::core::meta::MetadataOptions;
 
-use crate::recording::{LARGEST, LONGEST, RATES, Recording, Unreadable};
+use crate::recording::{LARGEST, LONGEST, RATES, Recording, Unreadable, loudest};
 
 const READ: &str = "a recording as m4a (AAC, ALAC), wav, mp3, flac or ogg (Vorbis)";
 const MOST_CHANNELS: usize = 8;
@@ -38,8 +38,7 @@ pub struct Part {
     pub channel: Option<usize>,
 }
 
-/// A recording by its file. Of several channels the loudest is taken, not their sum: two microphones 15 cm apart
-/// cancel above 1 kHz.
+/// A recording by its file. Of several channels the [`loudest`] is taken.
 ///
 /// # Errors
 ///
@@ -80,10 +79,9 @@ pub fn decode(name: &str, bytes: Vec<u8>, part: Part) -> Result<Recording, Unrea
     })?;
     let Sound { channels, rate, spoilt } = sound(&mut *format, &mut *decoder, track, part)?;
     let count = channels.len();
-    let power = |channel: &Vec<f32>| channel.iter().map(|x| f64::from(*x).powi(2)).sum::<f64>();
     let chosen = match part.channel {
         Some(channel) => channel.checked_sub(1).and_then(|k| channels.into_iter().nth(k)),
-        None => channels.into_iter().max_by(|a, b| power(a).total_cmp(&power(b))),
+        None => loudest(channels),
     };
     let Some(chosen) = chosen else {
         let expected = format!("one of its {count}");

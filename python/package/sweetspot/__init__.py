@@ -10,7 +10,7 @@ Numbers are in SI; texts carry their unit: ``bat.hit(bat_speed="72 mph")``.
 
 from ._bat import Bat, built_in_bats
 from ._errors import SweetspotError, SweetspotTypeError
-from ._results import Hit, Modes
+from ._results import Hit, Modes, Taps
 from ._study import Study, StudyResult, run_study
 
 __all__ = [
@@ -21,6 +21,7 @@ __all__ = [
     "StudyResult",
     "SweetspotError",
     "SweetspotTypeError",
+    "Taps",
     "built_in_bats",
     "run_study",
 ]

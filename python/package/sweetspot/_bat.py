@@ -16,7 +16,7 @@ import numpy as np
 
 from . import _core
 from ._errors import SweetspotError, SweetspotTypeError, all_told
-from ._results import Hit, Modes
+from ._results import Hit, Modes, Taps
 
 Quantity = float | str
 """A number in SI, or a text with its unit, such as ``"28 in"``."""
@@ -227,6 +227,25 @@ class Bat:
             raise SweetspotError(f"at: found {at!r}, expected places in m, numbers") from error
         document, pictures = self._core.hit(json.dumps(_plain(scene)), str(ball), places, tol, theory)
         return Hit(json.loads(document), dict(pictures))
+
+    def tap(self, recording: str | Path | Sequence[float] | np.ndarray, rate: float | None = None) -> Taps:
+        """What a recording of this bat's taps says: tones, which mode each is, the wood.
+
+        ``recording`` is a file (m4a, wav, mp3, flac, ogg), or the samples of one channel with their ``rate`` (1/s), full
+        scale 1. What cannot be listened to raises; without a tap or a tone ``document["refused"]`` says why.
+        """
+        if isinstance(recording, (str, os.PathLike)):
+            document, pictures = self._core.tap_file(Path(recording))
+            return Taps(json.loads(document), dict(pictures))
+        try:
+            samples = np.asarray(_plain(recording) if np.ndim(recording) == 0 else recording, dtype="<f8")
+            if samples.ndim != 1 or rate is None:
+                raise ValueError
+            told = samples.tobytes(), float(rate)
+        except (TypeError, ValueError) as error:
+            raise SweetspotError("recording: expected a file, or the samples of one channel and their rate in 1/s") from error
+        document, pictures = self._core.tap_samples(*told)
+        return Taps(json.loads(document), dict(pictures))
 
     def matrices(self, n: int = 10, tol: float = 1e-4, *, theory: str | None = None) -> Matrices:
         """Arrays of the finite elements that the first ``n`` modes were found with: ``K, M = bat.matrices()``.

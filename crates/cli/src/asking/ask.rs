@@ -3,6 +3,7 @@
 use sweetspot::base::units::{self, Quantity, inches};
 use sweetspot::base::{error::Complaint, number::rounded, typed};
 use sweetspot::bat::material::{BUILT_IN, BuiltIn};
+use sweetspot_report::parts::note;
 
 use crate::asking::dialogue::Read;
 use crate::value::{BAT_LENGTH, DIAMETER, PLACE, TAP};
@@ -171,13 +172,18 @@ pub fn balance(text: &str, length: f64, unit: &str) -> Read<Option<String>> {
     Err(Complaint::new("", format!("{place} {unit}"), expected))
 }
 
-/// The frequency of a tap tone for a bat file; `None` if it is not known.
+/// The frequency of a tap tone, or its note, for a bat file; `None` if it is not known.
 pub fn tap(text: &str) -> Read<Option<String>> {
     if unknown(text) {
         return Ok(None);
     }
-    TAP.sensible(text, "Hz")?;
-    let frequency = units::parse_or_si(text, Quantity::Frequency)?;
+    let frequency = match note::frequency(text) {
+        Some(frequency) => rounded(frequency, 2),
+        None => {
+            TAP.sensible(text, "Hz")?;
+            units::parse_or_si(text, Quantity::Frequency)?
+        }
+    };
     if TAP.has(frequency) {
         return Ok(Some(format!("{frequency} Hz")));
     }
@@ -330,6 +336,10 @@ mod tests {
         assert!(thick.contains("25 mm or 25 in?"), "{thick}");
         assert_eq!(mass("don’t know"), Ok(None));
         assert_eq!(tap("170"), Ok(Some("170 Hz".into())));
+        // 164.81 Hz is E3.
+        assert_eq!(tap("E3"), Ok(Some("164.81 Hz".into())));
+        assert_eq!(tap("e3 +34"), Ok(Some("168.08 Hz".into())));
+        assert!(tap("E8").is_err() && tap("H3").is_err());
         assert!(tap("17 kHz").is_err() && balance("40", 33.0, "in").is_err());
         let tape = tape("10 in, 0.7 oz", 33.0, "in").unwrap().unwrap();
         assert_eq!(tape, "{ \"from\": 0, \"to\": \"10 in\", \"mass\": \"0.7 oz\" }");

@@ -1,16 +1,22 @@
 //! What `sweetspot new` asks, in its order.
 
 use std::io::BufRead;
+#[cfg(feature = "audio")]
+use std::path::Path;
 
 use sweetspot::Material;
 use sweetspot::base::error::Complaint;
+#[cfg(feature = "audio")]
+use sweetspot_tap::decode::is_recording;
 
 use crate::asking::ask;
 use crate::asking::dialogue::{Asked, Dialogue, Question, Read, missing};
 use crate::asking::draft::NAME;
 use crate::asking::new_options::{Args, called, like, refuse_existing, source, stations};
-use crate::bat_text::Measured;
+use crate::bat_text::{self, Measured};
 use crate::output::printed;
+#[cfg(feature = "audio")]
+use crate::recording::first_tone;
 
 const WELCOME: &str = "A bat file. An empty line takes what stands in [ ]; ? explains a question, \
                        back goes to the one before, quit leaves and keeps the answers.";
@@ -80,10 +86,10 @@ const BALANCE: Question = Question::new(
 );
 const TAP: Question = Question::new(
     "tap",
-    "Tone when tapped (first bending frequency), Hz",
+    "Tone when tapped (first bending frequency), Hz, a note or a recording",
     UNKNOWN,
     "Hold the bat loosely some 6 in from the knob, tap the barrel and read the lowest strong tone off a tuner or a \
-     telephone, such as 170 Hz. It sets the stiffness, which differs more from billet to billet than anything else.",
+     telephone, such as 170 Hz or E3 +34 (cents); or name the file of a recording, such as taps.m4a. It sets the stiffness, which differs more from billet to billet than anything else.",
 );
 const TAPE: Question = Question::new(
     "tape",
@@ -127,10 +133,21 @@ pub fn asked<R: BufRead>(args: &Args, person: &mut Dialogue<R>) -> Asked<Measure
     };
     let length = length.or(stations.last().map(|station| station[0])).unwrap_or_default();
     let balance = person.ask(&BALANCE.of(unit), |text| ask::balance(text, length, unit))?;
-    let tap = person.ask(&TAP, ask::tap)?;
+    let (source, tap, tape) = (source(args), None, None);
+    let so_far =
+        Measured { name, source, material, mass, unit, stations, wall, cup, balance, tap, tape };
+    let tap = person.ask(&TAP, |text| tapped(text, &so_far))?;
     let tape = person.ask(&TAPE, |text| ask::tape(text, length, unit))?;
-    let source = source(args);
-    Ok(Measured { name, source, material, mass, unit, stations, wall, cup, balance, tap, tape })
+    Ok(Measured { tap, tape, ..so_far })
+}
+
+/// The first tone of the bat that was measured so far: as it is said, or as it is in a recording.
+fn tapped(text: &str, _so_far: &Measured) -> Read<Option<String>> {
+    #[cfg(feature = "audio")]
+    if is_recording(Path::new(text)) {
+        return first_tone(Path::new(text), &bat_text::text(_so_far)).map(Some);
+    }
+    ask::tap(text)
 }
 
 /// Places and diameters from knob to tip, in `unit`, for a bat of that length.

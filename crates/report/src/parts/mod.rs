@@ -3,10 +3,12 @@
 //! A report is a list of [`part`]s: headings, sentences, facts, files of the user ([`input`]), and [`table`]s, whose
 //! columns extract the cells of a row ([`cell`]) and show them in [`units`]. The content is defined once and written in
 //! several formats: for a [`terminal`] with its [`columns`], as HTML and Markdown for the page ([`crate::page`], with
-//! [`escape`]), as CSV ([`crate::csv`]).
+//! [`escape`]), as CSV ([`crate::csv`]). A frequency may be shown as a
+//! [`note`].
 
 pub mod escape;
 pub mod units;
+pub mod note;
 pub mod cell;
 pub mod table;
 pub mod input;

@@ -12,6 +12,7 @@ use crate::report::calibrate::{short, shown};
 use crate::schema::tap::{
     TapFile, TapMode, TapMoment, TapRecording, TapSaid, TapSecond, TapTone, TapWithin,
 };
+use sweetspot::base::error::Error;
 use sweetspot::base::number::{percent, significant};
 use sweetspot::bat::body::Bat;
 use sweetspot::files::schema::document::{BatName, Format, Generator};
@@ -21,7 +22,7 @@ use sweetspot_study::tap::heard::Within;
 use sweetspot_study::tap::hoops::BatMode;
 use sweetspot_study::tap::tapped::{Tapped, ToneLabel};
 use sweetspot_tap::analysis::{Analysis, Code, Condition, Tap};
-use sweetspot_tap::recording::Recording;
+use sweetspot_tap::recording::{Recording, Unreadable};
 use sweetspot_tap::tones::Tone;
 
 /// Beyond this half-width an interval is shown as "about".
@@ -44,21 +45,20 @@ pub struct TapReport<'a> {
 impl TapReport<'_> {
     /// Recordings, tones, wood and words, 80 columns wide.
     pub fn text(&self) -> [Piece; 3] {
-        let above = self.recordings.iter().zip(&self.analysis.conditions).enumerate();
-        let mut out: String = above.map(|(k, (one, seen))| self.heard(k, one, seen)).collect();
-        let mut wood = String::new();
-        if let Some(refused) = &self.analysis.refused {
-            out += &wrapped(said(*refused), 0);
-        } else {
-            out += &self.table();
-            wood = self.wood();
+        let heard = (0..self.recordings.len()).map(|k| wrapped(&self.heard(k), 2));
+        let mut out: String = heard.collect();
+        match &self.analysis.refused {
+            Some(refused) => out += &wrapped(said(*refused), 0),
+            None => out += &self.table(),
         }
-        let words: String = self.words().iter().map(|line| wrapped(line, 2)).collect();
+        let wood = self.wood().map_or(String::new(), |wood| wrapped(&wood, 2));
+        let words: String = self.words(Some(TELL)).iter().map(|line| wrapped(line, 2)).collect();
         [(0, "", out), (0, "", wood), (1, "words", words)]
     }
 
     /// A line about a recording.
-    fn heard(&self, k: usize, recording: &Recording, seen: &Condition) -> String {
+    pub fn heard(&self, k: usize) -> String {
+        let (recording, seen) = (&self.recordings[k], &self.analysis.conditions[k]);
         let own: Vec<&Tap> = self.analysis.taps.iter().filter(|tap| tap.recording == k).collect();
         let used: Vec<&&Tap> = own.iter().filter(|tap| tap.used).collect();
         let times = match (used.first(), used.last()) {
@@ -76,7 +76,7 @@ impl TapReport<'_> {
         let kinds: Vec<&str> = kinds.into_iter().flatten().chain([&*rate]).collect();
         facts.push(kinds.join(", "));
         facts.extend(seen.hum.map(|hum| format!("{hum:.0} Hz hum left out")));
-        wrapped(&format!("{}: {}", recording.name, facts.join("; ")), 2)
+        format!("{}: {}", recording.name, facts.join("; "))
     }
 
     fn table(&self) -> String {
@@ -88,37 +88,38 @@ impl TapReport<'_> {
             numbers(8, "sure"),
         ]);
         let mut out = columns.heads();
-        for (k, tone) in self.analysis.tones.iter().enumerate() {
-            let label = self.label(k);
-            let is = match (self.tapped, label.mode) {
-                (None, _) => String::new(),
-                (Some(_), None) => "no mode of this bat".to_owned(),
-                (Some(_), Some(mode)) => named(mode),
-            };
-            let sure = label.mode.map_or(String::new(), |_| percent(label.sure, 1));
-            out += &columns.row([
-                frequency(tone),
-                format!("{} ms", significant(1e3 * LN_2 / tone.pole.decay, 3)),
-                if self.analysis.has_loss { loss(&Within::loss(tone)) } else { "-".to_owned() },
-                is,
-                sure,
-            ]);
+        for k in 0..self.analysis.tones.len() {
+            out += &columns.row(self.cells(k));
         }
         out
+    }
+
+    /// A tone's frequency, the time in which it dies to half, its loss factor, what it is, and how sure that is.
+    pub fn cells(&self, k: usize) -> [String; 5] {
+        let (tone, label) = (&self.analysis.tones[k], self.label(k));
+        let is = match (self.tapped, label.mode) {
+            (None, _) => String::new(),
+            (Some(_), None) => "no mode of this bat".to_owned(),
+            (Some(_), Some(mode)) => named(mode),
+        };
+        [
+            frequency(tone),
+            format!("{} ms", significant(1e3 * LN_2 / tone.pole.decay, 3)),
+            if self.analysis.has_loss { loss(&Within::loss(tone)) } else { "-".to_owned() },
+            is,
+            label.mode.map_or(String::new(), |_| percent(label.sure, 1)),
+        ]
     }
 
     fn label(&self, tone: usize) -> ToneLabel {
         self.tapped.map_or(ToneLabel::default(), |tapped| tapped.labels[tone])
     }
 
-    /// The line about the wood.
-    fn wood(&self) -> String {
-        let Some(tapped) = self.tapped else { return String::new() };
+    /// The line about the wood; None where that was not asked.
+    pub fn wood(&self) -> Option<String> {
+        let tapped = self.tapped?;
         let Some(found) = &tapped.wood else {
-            return wrapped(
-                "No tone is a bending mode of this bat, of any wood: the bat file is another bat's.",
-                2,
-            );
+            return Some(NONE.to_owned());
         };
         let open =
             |one: &&Estimated| !matches!(one.verdict, Verdict::Held | Verdict::NotDetermined);
@@ -138,7 +139,7 @@ impl TapReport<'_> {
                 .as_ref()
                 .map(|loss_factor| format!("loss factor at most {}", loss(loss_factor))),
         );
-        wrapped(&format!("Its material: {}, with the density of the bat file.", all.join(", ")), 2)
+        Some(format!("Its material: {}, with the density of the bat file.", all.join(", ")))
     }
 
     /// The defects of the recordings; where there are several, each warning names its recording.
@@ -152,13 +153,13 @@ impl TapReport<'_> {
         self.analysis.warnings.iter().map(of).collect()
     }
 
-    /// The conclusions, a sentence or two each.
-    pub fn words(&self) -> Vec<String> {
+    /// The conclusions, a sentence or two each; `tell` is the way to state the mode of a tone.
+    pub fn words(&self, tell: Option<&str>) -> Vec<String> {
         let mut all: Vec<String> = self.warned().into_iter().map(|said| said.text).collect();
         let Some(tapped) = self.tapped else { return all };
         all.extend(tapped.unsolved.as_deref().map(unsolved));
         if tapped.is_unsure() {
-            all.push(UNSURE.to_owned());
+            all.push(unsure(tell));
         }
         if let Some((labels, margin)) = tapped.second.as_ref().filter(|(_, margin)| *margin < 8.0) {
             let labels = labels.iter().map(|one| one.map_or("none".to_owned(), named));
@@ -182,7 +183,7 @@ impl TapReport<'_> {
         let wall = tapped.and_then(|tapped| tapped.unsolved.as_deref());
         warnings.extend(wall.map(|why| TapSaid { code: "wall".to_owned(), text: unsolved(why) }));
         if tapped.is_some_and(Tapped::is_unsure) {
-            warnings.push(TapSaid { code: "unsure".to_owned(), text: UNSURE.to_owned() });
+            warnings.push(TapSaid { code: "unsure".to_owned(), text: unsure(Some(TELL)) });
         }
         let second = tapped.and_then(|tapped| tapped.second.as_ref());
         let recording = recordings.iter().zip(&analysis.conditions);
@@ -259,8 +260,13 @@ const UNFIT: &str = "The tones do not fit this bat: its profile is another one t
                      something else.";
 const NEXT: &str = "Next: move the phone or the bat a hand's breadth between taps, the phone near the barrel; that halves \
                     the ± of the loss factor.";
-const UNSURE: &str =
-    "Not every label is sure: tell the mode of a tone that you know, such as --mode \"1187 = 3\".";
+const NONE: &str =
+    "No tone is a bending mode of this bat, of any wood: the bat file is another bat's.";
+const TELL: &str = ": tell the mode of a tone that you know, such as --mode \"1187 = 3\"";
+
+fn unsure(tell: Option<&str>) -> String {
+    format!("Not every label is sure{}.", tell.unwrap_or_default())
+}
 
 fn unsolved(why: &str) -> String {
     format!(
@@ -360,6 +366,15 @@ fn of_tap(tap: &Tap, refused: bool) -> TapMoment {
 
 fn coded(code: Code) -> TapSaid {
     TapSaid { code: code.name().to_owned(), text: said(code).to_owned() }
+}
+
+/// The error for a recording that cannot be read, with the name that is shown.
+pub fn unreadable(shown: &str, error: Unreadable) -> Error {
+    match error {
+        Unreadable::File(source) => Error::Read { path: shown.into(), source },
+        Unreadable::Sound { found, expected } => Error::value(shown, found, expected),
+        other => Error::value(shown, other, "a recording"),
+    }
 }
 
 /// The meaning of a warning or a refusal, and what to do.

@@ -28,6 +28,7 @@ pub mod identify;
 pub mod mistakes;
 pub mod study;
 pub mod lathe;
+#[cfg(feature = "aim")]
 pub mod aimed;
 pub mod scatter;
 

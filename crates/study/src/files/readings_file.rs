@@ -39,7 +39,9 @@ written! {
         priors = object::<PriorsForm>();
     }
     |of| -> BatReadings {
-        let lines = lines.unwrap_or_default();
+        let (lines, heard): (Vec<SpectralLine>, Vec<Option<RingDown>>) =
+            lines.unwrap_or_default().into_iter().unzip();
+        let died = ring_down.unwrap_or_default().into_iter().chain(heard.into_iter().flatten());
         if let Some(node) = of.at("lines") {
             let told = each_mode_once(node, &lines);
             of.mistakes.note(told);
@@ -50,7 +52,7 @@ written! {
             pendulum,
             lines,
             unlike: 0,
-            ring_down: ring_down.unwrap_or_default(),
+            ring_down: died.collect(),
             model: model.unwrap_or(BatReadings::MODEL),
             priors: priors.unwrap_or_default(),
         })
@@ -69,6 +71,8 @@ written! {
     |_| -> Pendulum { Ok(Pendulum { pivot: pivot.unwrap_or(STANDARD_PIVOT), period }) }
 }
 
+const LOSS: &str = "a \"loss_factor\" between 0 and 0.5";
+
 written! {
     /// A line in the spectrum of a tap.
     LineForm {
@@ -79,8 +83,13 @@ written! {
         within = amount(Quantity::Frequency).like(0.3);
         /// Number of the bending mode, from 1. By default the program finds it.
         mode = order();
+        /// Loss factor of the tone, whose mode is told.
+        loss_factor = number().within((Excluded(0.0), Excluded(0.5)), LOSS);
     }
-    |of| -> SpectralLine {
+    |of| -> (SpectralLine, Option<RingDown>) {
+        if let (Some(_), Some(node), None) = (loss_factor, of.at("loss_factor"), of.at("mode")) {
+            of.mistakes.add(node.error("a loss factor without \"mode\"", "the \"mode\" of the tone beside it"));
+        }
         if let (Some(node), Some(within)) = (of.at("within"), within) {
             // A line that could not be read is not a bound.
             let below = hz == Reading::default() || within < hz.value;
@@ -89,14 +98,13 @@ written! {
             of.mistakes.note(told);
         }
         let deviation = within.unwrap_or(hz.deviation);
-        Ok(SpectralLine { frequency: Reading { deviation, ..hz }, mode })
+        let heard = mode.zip(loss_factor).map(|(mode, loss)| RingDown::of_loss(mode, loss));
+        Ok((SpectralLine { frequency: Reading { deviation, ..hz }, mode }, heard))
     }
 }
 
 const CYCLES: &str = "\"cycles\" that were counted, more than 0 and below 100000";
 const RATIO: &str = "\"ratio\" of the amplitude after them to that before, between 0 and 1";
-
-const LOSS: &str = "a \"loss_factor\" between 0 and 0.5";
 
 written! {
     /// A tone that died out: cycles and the ratio of amplitudes after them, or its loss factor.
@@ -193,4 +201,25 @@ fn each_mode_once(node: &Node, lines: &[SpectralLine]) -> Result<()> {
         Err::<(), _>(item.error("a mode a second time", "every mode once"))
     }))
     .map(|_| ())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::files::written::WrittenFile;
+
+    #[test]
+    fn a_line_with_a_loss_factor_is_a_tone_that_died_out() {
+        let read = |members: &str| {
+            let text = format!("{{ \"format\": \"sweetspot-readings/1\", {members} }}");
+            ReadingsForm::from_text("readings", &text, "".as_ref()).unwrap()
+        };
+        let line = read(r#""lines": [{ "hz": 174.5, "mode": 1, "loss_factor": 0.011 }]"#);
+        let apart = read(
+            r#""lines": [{ "hz": 174.5, "mode": 1 }],
+               "ring_down": [{ "mode": 1, "loss_factor": 0.011 }]"#,
+        );
+        assert_eq!(line, apart);
+        assert!((line.ring_down[0].loss_factor() / 0.011 - 1.0).abs() < 1e-12);
+    }
 }

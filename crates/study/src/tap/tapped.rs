@@ -46,6 +46,18 @@ pub struct Tapped {
 }
 
 impl Tapped {
+    /// The tones of a bat; `None` if the recordings are refused.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Tapped::of`].
+    pub fn heard(bat: &Bat, analysis: &Analysis, told: &[Told]) -> Result<Option<Self>> {
+        match analysis.refused {
+            Some(_) => Ok(None),
+            None => Self::of(bat, analysis, told).map(Some),
+        }
+    }
+
     /// The tones of a bat, some of which may have given labels.
     ///
     /// # Errors

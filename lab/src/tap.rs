@@ -1,0 +1,78 @@
+//! Which tones does a recording of taps have, which modes are they, and what is the wood?
+
+use serde::Deserialize;
+use serde_json::{Value, json};
+use sweetspot::base::error::{Error, Result};
+use sweetspot_report::parts::note::note;
+use sweetspot_report::report::calibrated_bat;
+use sweetspot_report::report::tap::{TapReport, unreadable};
+use sweetspot_report::schema::tap::TapTone;
+use sweetspot_study::answers::Answer;
+use sweetspot_study::tap::tapped::Tapped;
+use sweetspot_tap::analysis::Analysis;
+use sweetspot_tap::recording::{Recording, loudest};
+
+use crate::asked::Question;
+use crate::shown;
+
+/// What the page asks of sound that the browser decoded.
+#[derive(Deserialize)]
+struct Asked {
+    name: String,
+    rate_hz: f64,
+    channels: usize,
+    /// How many pieces were lost; silence stands for them.
+    #[serde(default)]
+    lost: usize,
+}
+
+pub fn answer(of: &Question, sound: &[u8]) -> Result<Value> {
+    let recordings = [recording(of, sound)?];
+    let analysis = Analysis::of(&recordings, None);
+    let tapped = Tapped::heard(&of.bat, &analysis, &[])?;
+    let (bat, tapped) = (&of.bat, tapped.as_ref());
+    let report = TapReport { bat, recordings: &recordings, analysis: &analysis, tapped };
+    let document = report.document();
+    let tone = |(k, tone): (usize, &TapTone)| {
+        let [frequency, half, loss, is, sure] = report.cells(k);
+        let computed = tone.computed_hz.map(|hz| {
+            let told = shown::answer(Answer::Frequency(1), of.units, hz);
+            json!({ "frequency": told, "note": note(hz) })
+        });
+        json!({
+            "frequency": frequency, "note": note(tone.frequency_hz), "half": half, "loss": loss,
+            "is": is, "sure": sure, "computed": computed,
+        })
+    };
+    let tones: Vec<Value> = document.tones.iter().enumerate().map(tone).collect();
+    let wood = tapped.and_then(|tapped| tapped.wood.as_ref());
+    let name = &recordings[0].name;
+    let file = wood.map(|wood| calibrated_bat::text((bat, &of.text), wood, name)).transpose()?;
+    Ok(json!({
+        "document": document,
+        "heard": report.heard(0),
+        "tones": tones,
+        "wood": report.wood(),
+        "words": report.words(None),
+        "bat_file": file,
+    }))
+}
+
+/// The sound behind the request: channel after channel, each sample four bytes, the lowest first.
+fn recording(of: &Question, sound: &[u8]) -> Result<Recording> {
+    let asked = Asked::deserialize(Value::from(of.more.clone()))
+        .map_err(|error| Error::value("the request", error, "sound with its rate"))?;
+    let bytes = sound.len();
+    if !(1..=8).contains(&asked.channels) || bytes == 0 || !bytes.is_multiple_of(4 * asked.channels)
+    {
+        let found = format!("{bytes} bytes of {} channels", asked.channels);
+        return Err(Error::value("the sound", found, "samples of 1 to 8 channels"));
+    }
+    let (samples, _) = sound.as_chunks::<4>();
+    let samples: Vec<f32> = samples.iter().map(|one| f32::from_le_bytes(*one)).collect();
+    let channels = samples.chunks(samples.len() / asked.channels).map(<[f32]>::to_vec).collect();
+    let samples = loudest(channels).unwrap_or_default().into_iter().map(f64::from).collect();
+    let recording = Recording::of(&asked.name, samples, asked.rate_hz);
+    let recording = recording.map_err(|error| unreadable(&asked.name, error))?;
+    Ok(Recording { channels: asked.channels, spoilt: asked.lost, ..recording })
+}
