@@ -142,7 +142,7 @@ impl<const W: usize> Each<W> {
 
     /// Where a condition does not hold.
     #[inline(always)]
-    pub fn not(self) -> Self {
+    pub fn fails(self) -> Self {
         each!(k => 1.0 - self.0[k])
     }
 
@@ -167,7 +167,7 @@ impl<const W: usize> Each<W> {
     /// Whether a condition holds somewhere.
     #[inline(always)]
     pub fn somewhere(self) -> bool {
-        !self.not().everywhere()
+        !self.fails().everywhere()
     }
 
     /// The power `p` of numbers that are more than 0 and not subnormal, some at once: `2^(p log₂ x)`, within about
@@ -225,7 +225,7 @@ impl<const W: usize> Each<W> {
     fn exponentials<const N: usize>(y: [Self; N]) -> [Self; N] {
         const SERIES: [f64; 12] = [
             1.0,
-            0.6931471805599453,
+            std::f64::consts::LN_2,
             0.24022650695910158,
             0.055504108664821625,
             0.009618129107587256,
@@ -364,9 +364,9 @@ mod tests {
         let a = Each([1.0, -2.0, f64::NAN, 0.0]);
         let less = a.below(Each::all(0.5));
         assert_eq!(less.0, [0.0, 1.0, 0.0, 1.0]);
-        assert_eq!(less.not().0, [1.0, 0.0, 1.0, 0.0]);
+        assert_eq!(less.fails().0, [1.0, 0.0, 1.0, 0.0]);
         assert_eq!(less.choose(Each::all(3.0), Each::all(4.0)).0, [4.0, 3.0, 4.0, 3.0]);
-        assert!(less.somewhere() && !less.everywhere() && less.or(less.not()).everywhere());
-        assert!(!less.and(less.not()).somewhere());
+        assert!(less.somewhere() && !less.everywhere() && less.or(less.fails()).everywhere());
+        assert!(!less.and(less.fails()).somewhere());
     }
 }

@@ -43,11 +43,11 @@ impl<const W: usize> Abreast<'_, W> {
     pub(super) fn press(&mut self, touches: &[Touch<PowerLaw>], schedule: &Schedule) {
         for _ in 0..RUNS {
             let stages = [Stage::Touch, Stage::Anew, Stage::Back, Stage::Late];
-            let waits = |stage: &Stage| self.at_stage(*stage).and(self.failed.not()).somewhere();
+            let waits = |stage: &Stage| self.at_stage(*stage).and(self.failed.fails()).somewhere();
             let Some(stage) = stages.into_iter().find(waits) else { return };
             self.run(stage, touches, schedule);
         }
-        self.failed = self.failed.or(self.at_stage(Stage::Over).not());
+        self.failed = self.failed.or(self.at_stage(Stage::Over).fails());
     }
 
     /// Which places are at that stage.
@@ -66,7 +66,7 @@ impl<const W: usize> Abreast<'_, W> {
         let back = matches!(stage, Stage::Back | Stage::Late);
         self.top = back.then_some(self.tops);
         let cut = self.energy * (1e-6 * self.accuracy).clamp(1e-14, 1e-9);
-        let mut done = self.at_stage(stage).not();
+        let mut done = self.at_stage(stage).fails();
         for step in 0..MOST << (schedule.usual - USUAL) {
             let idle = done.or(self.failed);
             if idle.everywhere() {
@@ -76,14 +76,14 @@ impl<const W: usize> Abreast<'_, W> {
             let event = self.step(schedule.level(stage, step), idle);
             let mut gone = Each::default();
             if back {
-                let rises = self.faint.and(before.below(self.now.force)).and(idle.not());
+                let rises = self.faint.and(before.below(self.now.force)).and(idle.fails());
                 self.late = self.late.or(rises);
                 self.faint =
-                    self.faint.or(self.now.force.below(self.tops[1] * 0.02).and(idle.not()));
+                    self.faint.or(self.now.force.below(self.tops[1] * 0.02).and(idle.fails()));
                 let leaves = self.rate(&self.now).below(Each::default());
-                gone = leaves.and(self.stored().within(cut)).and(idle.or(self.failed).not());
+                gone = leaves.and(self.stored().within(cut)).and(idle.or(self.failed).fails());
             }
-            let event = event.and(self.failed.not());
+            let event = event.and(self.failed.fails());
             done = done.or(event).or(gone);
             if gone.somewhere() {
                 self.release(gone);
@@ -97,7 +97,7 @@ impl<const W: usize> Abreast<'_, W> {
                 }
             }
         }
-        self.failed = self.failed.or(done.not());
+        self.failed = self.failed.or(done.fails());
     }
 
     /// One step of all places that are not idle; where the compression turned in it, or was the largest again on the way
@@ -114,12 +114,12 @@ impl<const W: usize> Abreast<'_, W> {
         let mut fine = solved.found.and(error.within(Each::all(3.0 * self.accuracy)));
         self.advance(table, &solved);
         if self.differ > 0 {
-            self.keep(level, &solved, idle.not());
+            self.keep(level, &solved, idle.fails());
         }
         let [a, b, c, d] = solved.x;
         let course = self.through(&[self.now.compression, a, b, c, d]);
         let (event, smooth) = self.event(&solved);
-        let event = event.and(idle.not());
+        let event = event.and(idle.fails());
         fine = fine.and(smooth.or(event));
         let (mut length, mut moves) = (Each::all(table.length), None);
         if event.somewhere() {
@@ -129,9 +129,9 @@ impl<const W: usize> Abreast<'_, W> {
         }
         self.remember(([Each::all(table.length), length / table.length], course), idle);
         fine = fine.and(self.correct(table, length, [event, idle], moves.as_deref()));
-        let failed = idle.not().and(fine.not());
+        let failed = idle.fails().and(fine.fails());
         (self.coarse, self.failed) = (self.coarse.or(failed), self.failed.or(failed));
-        self.steps += idle.not();
+        self.steps += idle.fails();
         self.hold(idle);
         if event.somewhere() {
             let next = &mut self.next;
@@ -179,7 +179,7 @@ impl<const W: usize> Abreast<'_, W> {
         for k in 0..POINTS {
             last_powers[k] = idle.choose(last_powers[k], powers[k]);
         }
-        self.known = self.known.or(idle.not());
+        self.known = self.known.or(idle.fails());
     }
 
     /// Leaves the next state as it is now at those places.

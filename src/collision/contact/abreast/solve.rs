@@ -215,14 +215,14 @@ pub(super) fn eliminate<const W: usize>(
         for i in c + 1..AHEAD {
             let factor = matrix[i][c];
             for j in c..AHEAD {
-                matrix[i][j] = matrix[i][j] - factor * matrix[c][j];
+                matrix[i][j] -= factor * matrix[c][j];
             }
-            left[i] = left[i] - factor * left[c];
+            left[i] -= factor * left[c];
         }
     }
     for c in (0..AHEAD).rev() {
         for i in 0..c {
-            left[i] = left[i] - matrix[i][c] * left[c];
+            left[i] -= matrix[i][c] * left[c];
         }
     }
     left
