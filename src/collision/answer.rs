@@ -9,7 +9,7 @@ use crate::collision::energy_loss::{EnergyLoss, wpi_alpha};
 use crate::collision::hit::{Model, Separation};
 use crate::collision::hitter::{Blow, Hitter};
 use crate::collision::pulse::Pulse;
-use crate::collision::stated::{Answered, fewer};
+use crate::collision::stated::{Answered, fewer, other_steps};
 use crate::modes::mode::Mode;
 
 /// Flags of a hit in which the bat caught up with the ball late, or again.
@@ -168,12 +168,38 @@ impl Hitter<'_> {
         };
         let blows: Vec<Blow> = (0..places.len()).map(blow).collect();
         let met = self.meet_all(&blows, self.effort.accuracy);
-        let told = places.iter().zip(&felt).zip(met).map(|(((approach, ladder), felt), met)| {
-            let (met, accuracy) = met?;
-            Some(self.told(approach, ladder, &few, felt, &met, accuracy))
-        });
-        let mut told = told.collect::<Vec<_>>().into_iter();
+        let other = self.by_other_steps(&blows, &met);
+        let mut told = Vec::with_capacity(places.len());
+        for (k, ((approach, ladder), met)) in places.iter().zip(&met).enumerate() {
+            let of = |(met, accuracy): &(Encounter, f64)| {
+                let contact =
+                    Contact { felt: &felt[k], met, accuracy: *accuracy, other: other[k].as_ref() };
+                self.told(approach, ladder, &few, contact)
+            };
+            told.push(met.as_ref().map(of));
+        }
+        let mut told = told.into_iter();
         approaches.iter().map(|approach| approach.as_ref().and_then(|_| told.next()?)).collect()
+    }
+
+    /// The same contacts with other steps, for comparison, where a small change may be magnified.
+    fn by_other_steps(
+        &self,
+        blows: &[Blow],
+        met: &[Option<(Encounter, f64)>],
+    ) -> Vec<Option<Encounter>> {
+        let accuracy = self.effort.accuracy;
+        let delicate = |k: &usize| {
+            met[*k].as_ref().is_some_and(|(met, own)| met.is_delicate() && *own == accuracy)
+        };
+        let which: Vec<usize> = (0..met.len()).filter(delicate).collect();
+        let alone = |k: &usize| Blow { others: &Vec::new, compared: true, ..blows[*k] };
+        let again: Vec<Blow> = which.iter().map(alone).collect();
+        let mut all = vec![None; met.len()];
+        for (k, other) in which.into_iter().zip(self.meet_all(&again, other_steps(accuracy))) {
+            all[k] = other.map(|(met, _)| met);
+        }
+        all
     }
 
     /// The bat as the ball feels it at `x` (m) by any number of its modes.
@@ -182,31 +208,29 @@ impl Hitter<'_> {
         Ladder { hitter: self, x, modes: self.by_modes(x), beyond }
     }
 
-    /// What a contact that was `met` by steps of that accuracy says, with its errors.
+    /// The answer of a contact, with its errors.
     fn told(
         &self,
         approach: &Approach,
         ladder: &Ladder,
         few: &[usize],
-        felt: &DrivingPoint,
-        met: &Encounter,
-        accuracy: f64,
+        Contact { felt, met, accuracy, other }: Contact,
     ) -> HitAnswer {
         let Approach { x, closing, cor, known, .. } = *approach;
         let (ball, count) = (self.scene.ball.mass_kg, self.modes_used());
         // Difference of another answer from this one at the end, and at the time when the ball first leaves.
+        let apart = |other: &Encounter| {
+            let apart = |other: f64, own: f64| (other - own).abs() / (ball * closing);
+            let first = apart(other.first_impulse, met.first_impulse);
+            [apart(other.impulse, met.impulse), first]
+        };
+        // An answer that does not end gives no information.
         let both = |felt: &DrivingPoint, accuracy: f64| {
             let other = self.meet(x, felt, closing, accuracy);
-            // An answer that does not end gives no information.
-            other.map_or([1.0; 2], |(other, _)| {
-                let apart = |other: f64, own: f64| (other - own).abs() / (ball * closing);
-                let first = apart(other.first_impulse, met.first_impulse);
-                [apart(other.impulse, met.impulse), first]
-            })
+            other.map_or([1.0; 2], |(other, _)| apart(&other))
         };
         let first_error = Cell::new(0.0);
-        let counted = |felt: &DrivingPoint, accuracy: f64| {
-            let [all, first] = both(felt, accuracy);
+        let count_first = |[all, first]: [f64; 2]| {
             first_error.set(first_error.get() + first);
             all
         };
@@ -231,14 +255,15 @@ impl Hitter<'_> {
                     (*few, if large { both(&ladder.of(*few), accuracy)[0] } else { by })
                 };
                 let left_out = answered.left_out(shears, few.iter().zip(changes).map(change));
-                let steps = answered.steps(left_out, |accuracy| counted(felt, accuracy));
+                let by_steps = |accuracy| other.map_or_else(|| both(felt, accuracy), apart);
+                let steps = answered.steps(left_out, |accuracy| count_first(by_steps(accuracy)));
                 // A softer wall: by all that may be missing, and by the delay of modes that follow the force at once,
                 // `y = C F − D F″ + …`, where `F″` of a half sine is `(π/T)² F`. On a stiff bat T is 2.86 to 3.14 times
                 // the time in which the ball would be compressed at its first speed; a wall makes it longer.
                 let wall = self.under(x).map_or(0.0, |under| {
                     let late = under.late * (std::f64::consts::PI / (2.86 * self.pressed)).powi(2);
                     let rest = felt.rest + under.unsure + late;
-                    counted(&DrivingPoint { rest, ..felt.clone() }, accuracy)
+                    count_first(both(&DrivingPoint { rest, ..felt.clone() }, accuracy))
                 });
                 [left_out, steps, wall]
             });
@@ -296,6 +321,14 @@ struct Approach {
     cor: f64,
     /// Errors that are known.
     known: Option<[f64; 3]>,
+}
+
+/// A contact by steps of that accuracy, and the same by other steps where it is known.
+struct Contact<'a> {
+    felt: &'a DrivingPoint,
+    met: &'a Encounter,
+    accuracy: f64,
+    other: Option<&'a Encounter>,
 }
 
 /// The bat as the ball feels it at a place by any number of its modes.

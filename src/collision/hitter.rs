@@ -13,6 +13,7 @@ use crate::bat::profile::Profile;
 use crate::collision::contact::abreast::meet::Place;
 use crate::collision::contact::collider::{Collider, Law};
 use crate::collision::contact::encounter::Encounter;
+use crate::collision::contact::power_law::PowerLaw;
 use crate::collision::contact::touch::DrivingPoint;
 use crate::collision::hit::{Effort, Model, Scene, Wall};
 use crate::collision::hoop_wall::{HoopWall, WallFelt};
@@ -353,7 +354,8 @@ impl<'a> Hitter<'a> {
         let (mut places, mut which) = (vec![], vec![]);
         for (k, Blow { x, felt, closing: speed, .. }) in blows.iter().enumerate() {
             let law = self.law_at(*x, *speed).and_then(|law| law.powers());
-            if let Some(law) = law {
+            if let Some([stiffness, exponent, unloading]) = law {
+                let law = PowerLaw { stiffness, exponent, unloading };
                 places.push(Place { felt, others: &others[k], law, speed: *speed });
                 which.push(k);
             }

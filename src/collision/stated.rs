@@ -54,6 +54,12 @@ pub const QUICK: f64 = 6.0;
 /// Below this share of it a mode is slow.
 pub const SLOW: f64 = 2.0 / 3.0;
 
+/// The accuracy of the other steps with which an answer by steps of that accuracy is compared.
+pub fn other_steps(accuracy: f64) -> f64 {
+    let finer = FINER * accuracy;
+    if finer < FINEST { accuracy / FINER } else { finer }
+}
+
 impl Answered<'_> {
     /// Possible effect of omitted modes, relative to the closing speed. `apart` gives the numbers of [`fewer`] modes
     /// and the difference of their answers from this one.
@@ -76,8 +82,7 @@ impl Answered<'_> {
         if !self.met.is_delicate() && most < BESIDE * left_out {
             return most;
         }
-        let finer = FINER * self.accuracy;
-        let other = if finer < FINEST { self.accuracy / FINER } else { finer };
+        let other = other_steps(self.accuracy);
         let least = self.speed_of(CORRECTED * self.met.corrected);
         apart(other).max(least)
     }

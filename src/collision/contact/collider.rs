@@ -10,7 +10,6 @@ use crate::collision::contact::collocation::{LANES, Lobatto, POINTS};
 use crate::collision::contact::encounter::Encounter;
 use crate::collision::contact::flight::Landing;
 use crate::collision::contact::force_law::ForceLaw;
-use crate::collision::contact::power_law::PowerLaw;
 use crate::collision::contact::pressing::{LEVELS, Run, StepTables, USUAL};
 use crate::collision::contact::table::{Piece, StepTable};
 use crate::collision::contact::tangent::Tangent;
@@ -175,8 +174,8 @@ pub trait Law: Send + Sync {
     /// The compression (m) that takes that energy (J).
     fn pressed_by(&self, energy: f64) -> f64;
 
-    /// The law as one of powers, if it is one.
-    fn powers(&self) -> Option<PowerLaw>;
+    /// Stiffness and both exponents of a law of powers ([`ForceLaw::powers`]).
+    fn powers(&self) -> Option<[f64; 3]>;
 }
 
 impl<L: ForceLaw> Law for L {
@@ -188,7 +187,7 @@ impl<L: ForceLaw> Law for L {
         self.compression(energy)
     }
 
-    fn powers(&self) -> Option<PowerLaw> {
+    fn powers(&self) -> Option<[f64; 3]> {
         ForceLaw::powers(self)
     }
 }

@@ -13,8 +13,8 @@
 //! to it is Newton's. The ball is gone for good where τ has no end, or where it is faster than the surface can
 //! be.
 
-use crate::collision::contact::abreast::each::Each;
 use crate::collision::contact::collocation::{LANES, sum};
+use crate::collision::contact::each::Each;
 use crate::collision::contact::force_law::ForceLaw;
 use crate::collision::contact::pressing::Run;
 use crate::collision::contact::tangent::Tangent;

@@ -4,8 +4,6 @@
 //! follow. Its force is a function of the compression on the way to the largest one, and another below
 //! it, back and forth, so that what is stored and lost is known in every state.
 
-use crate::collision::contact::power_law::PowerLaw;
-
 /// The largest compression so far (m) and the force there (N), once the ball has given way.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Top {
@@ -33,7 +31,7 @@ pub trait ForceLaw: Copy + Send + Sync {
 
     /// Stiffness, exponent there and exponent back of a law of powers; touches of such a law are met side by side.
     #[inline(always)]
-    fn powers(&self) -> Option<PowerLaw> {
+    fn powers(&self) -> Option<[f64; 3]> {
         None
     }
 

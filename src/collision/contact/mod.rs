@@ -2,6 +2,7 @@
 //!
 //! | file | question |
 //! |---|---|
+//! | [`each`] | one number for each of some places; powers and angles of them |
 //! | [`force_law`] | what does a contact ask of a ball's law |
 //! | [`collocation`] | the points of a step and the modes' exact answer to a force through them |
 //! | [`touch`] | what is felt at the place; the state of ball and bat |
@@ -14,6 +15,7 @@
 //! | [`abreast`] | the same for places side by side |
 //! | [`power_law`] | the law of a baseball: how hard it pushes back |
 
+pub mod each;
 pub mod force_law;
 pub mod collocation;
 pub mod touch;

@@ -59,8 +59,8 @@ impl ForceLaw for PowerLaw {
     }
 
     #[inline(always)]
-    fn powers(&self) -> Option<PowerLaw> {
-        Some(*self)
+    fn powers(&self) -> Option<[f64; 3]> {
+        Some([self.stiffness, self.exponent, self.unloading])
     }
 
     #[inline(always)]

@@ -1,8 +1,8 @@
 //! The energy of a step, and the bump on its force that puts it right, as [`crate::collision::contact::energy`] has it.
 
-use crate::collision::contact::abreast::each::Each;
 use crate::collision::contact::abreast::places::{Abreast, Move};
 use crate::collision::contact::collocation::LANES;
+use crate::collision::contact::each::Each;
 use crate::collision::contact::table::StepTable;
 
 impl<const W: usize> Abreast<'_, W> {

@@ -15,10 +15,10 @@
 //! Adjoints of a discrete motion: E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I (1993),
 //! section I.14, transposed.
 
-use crate::collision::contact::abreast::each::Each;
 use crate::collision::contact::abreast::places::{Abreast, Kept, Turned, Walked};
 use crate::collision::contact::abreast::solve::eliminate;
 use crate::collision::contact::collocation::{LANES, POINTS};
+use crate::collision::contact::each::Each;
 use crate::collision::contact::step::AHEAD;
 use crate::collision::contact::table::StepTable;
 use crate::collision::contact::touch::DrivingPoint;

@@ -4,13 +4,12 @@ use faer::c64;
 use pulp::{Simd, WithSimd};
 
 use crate::base::lanes::widest;
-use crate::collision::contact::abreast::each::Each;
 use crate::collision::contact::abreast::places::{Abreast, Kept};
-use crate::collision::contact::abreast::press::Stage;
-use crate::collision::contact::abreast::schedule::Schedule;
+use crate::collision::contact::abreast::schedule::{Schedule, Stage};
 use crate::collision::contact::collider::{
     Collider, FLIGHT_IN_STEPS, LONGEST_FLIGHT, MOST_TOUCHES,
 };
+use crate::collision::contact::each::Each;
 use crate::collision::contact::encounter::Encounter;
 use crate::collision::contact::flight::Landing;
 use crate::collision::contact::force_law::{ForceLaw, Top};
@@ -61,8 +60,8 @@ impl Collider {
     ///
     /// An encounter depends on its own place alone: it has the same bits one by one.
     pub fn meet_abreast(&self, places: &[Place], accuracy: f64) -> Vec<Option<Encounter>> {
-        /// What is asked beyond this is met one by one.
-        const FINEST: f64 = 1e-10;
+        /// Beyond this, steps that are as long as each place lets them be are fewer by half.
+        const FINEST: f64 = 2e-8;
         let mut all = vec![None; places.len()];
         if accuracy < FINEST || self.poles.iter().any(|s| s.re != 0.0) {
             return all;
@@ -117,11 +116,14 @@ impl<const W: usize> WithSimd for Lanes<'_, W> {
         let differ = places.iter().map(|place| place.differ()).max().unwrap_or(0);
         let mut abreast = Abreast::<W>::new(collider, &touches, differ);
         abreast.press(&touches, &Schedule::new(accuracy, touches[0].law.exponent, finer));
-        let gradients = (differ > 0).then(|| {
-            let whole = abreast.gradient(Each::all(f64::INFINITY));
-            let again = abreast.met.iter().any(Encounter::again);
-            (whole, again.then(|| abreast.gradient(abreast.first)))
-        });
+        // No closures here: these are compiled without the wider vectors.
+        let (mut whole, mut first) = (None, None);
+        if differ > 0 {
+            whole = Some(abreast.gradient(Each::all(f64::INFINITY)));
+            if abreast.met.iter().any(Encounter::again) {
+                first = Some(abreast.gradient(abreast.first));
+            }
+        }
         let mut all = Vec::with_capacity(places.len());
         for l in 0..places.len() {
             if abreast.failed.0[l] != 0.0 {
@@ -131,18 +133,15 @@ impl<const W: usize> WithSimd for Lanes<'_, W> {
             let mut met = std::mem::take(&mut abreast.met[l]);
             met.late |= abreast.late.0[l] != 0.0;
             (met.corrected, met.steps) = (abreast.corrected.0[l], abreast.steps.0[l] as usize);
-            if let Some((whole, first)) =
-                gradients.as_ref().filter(|_| !places[l].others.is_empty())
-            {
-                let changes = |gradient| -> Vec<f64> {
-                    places[l]
-                        .others
-                        .iter()
-                        .map(|other| abreast.change(gradient, other, l))
-                        .collect()
-                };
-                met.changes = changes(whole);
-                met.first_changes = changes(first.as_ref().unwrap_or(whole));
+            if let Some(whole) = whole.as_ref().filter(|_| !places[l].others.is_empty()) {
+                for other in places[l].others {
+                    met.changes.push(abreast.change(whole, other, l));
+                    met.first_changes.push(abreast.change(
+                        first.as_ref().unwrap_or(whole),
+                        other,
+                        l,
+                    ));
+                }
                 met.faster = Some(whole.speed.0[l]);
             }
             all.push(Ok(met));
@@ -322,7 +321,7 @@ mod tests {
             let law = PowerLaw::new(stiff * 6.53e7, 1.84, restitution);
             let places = felt.iter().map(|felt| Place { felt, others: &[], law, speed: SPEED });
             let places: Vec<Place> = places.collect();
-            for accuracy in [1e-3, 1e-5, 1e-8] {
+            for accuracy in [1e-3, 1e-5, 1e-7] {
                 for (place, met) in places.iter().zip(met(&places, accuracy)) {
                     // Where it fails it is met one by one.
                     let Some(met) = met else { continue };
@@ -355,11 +354,14 @@ mod tests {
             }
             other
         };
+        let mut seen = 0;
         for felt in dowels().iter().step_by(4) {
             let others: Vec<DrivingPoint> =
                 [1, 7, 9, 10].map(|which| other(felt, which, SHARE)).to_vec();
             let place = Place { felt, others: &others, law, speed: SPEED };
-            let Some(all) = met(&[place], 1e-8).remove(0) else { panic!("it is met") };
+            // Where it fails it is met one by one.
+            let Some(all) = met(&[place], 1e-7).remove(0) else { continue };
+            seen += 1;
             let impulse = |felt: &DrivingPoint, speed: f64| {
                 let met = collider(10).meet(felt, &law, speed, 1e-10);
                 [met.impulse, met.first_impulse]
@@ -377,5 +379,6 @@ mod tests {
             let sides = [SHARE, -SHARE].map(|share| impulse(felt, SPEED * (1.0 + share))[0]);
             near(SHARE * all.faster.unwrap(), sides);
         }
+        assert!(seen > 7, "{seen}");
     }
 }

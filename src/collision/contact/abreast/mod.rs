@@ -7,22 +7,20 @@
 //!
 //! | file | question |
 //! |---|---|
-//! | [`each`] | what is one number for each place; powers and angles of them |
-//! | [`places`] | what is known of the places, and how hard does each ball push back |
 //! | [`schedule`] | how long are the steps |
-//! | [`press`] | step after step there and back; what is left when the force has gone |
+//! | [`places`] | what is known of the places, and how hard does each ball push back |
 //! | [`solve`] | which forces act in a step, and what do they do to the motions |
 //! | [`turn`] | where is the compression largest |
 //! | [`energy`] | how is the energy put right |
+//! | [`press`] | step after step there and back; what is left when the force has gone |
 //! | [`gradient`] | how does the impulse change with the bat |
 //! | [`meet`] | the whole encounter, place by place |
 
-pub mod each;
-pub mod places;
 pub mod schedule;
-pub mod press;
+pub mod places;
 pub mod solve;
 pub mod turn;
 pub mod energy;
+pub mod press;
 pub mod gradient;
 pub mod meet;

@@ -1,9 +1,9 @@
 //! Places side by side: what is known of them, and how hard the ball pushes back at each.
 
-use crate::collision::contact::abreast::each::Each;
-use crate::collision::contact::abreast::press::Stage;
+use crate::collision::contact::abreast::schedule::Stage;
 use crate::collision::contact::collider::Collider;
 use crate::collision::contact::collocation::POINTS;
+use crate::collision::contact::each::Each;
 use crate::collision::contact::encounter::Encounter;
 use crate::collision::contact::power_law::PowerLaw;
 use crate::collision::contact::step::AHEAD;
@@ -122,7 +122,7 @@ impl<'a, const W: usize> Abreast<'a, W> {
     ) -> Self {
         let mut of = [Each::default(); 8];
         let count = touches[0].felt.gains.len();
-        let omegas: Vec<f64> = collider.poles[..count].iter().map(|s| s.im).collect();
+        let omegas = Vec::from_iter(collider.poles[..count].iter().map(|s| s.im));
         let mut weights = vec![Each::default(); count];
         for l in 0..W {
             let touch = &touches[l.min(touches.len() - 1)];
@@ -136,8 +136,7 @@ impl<'a, const W: usize> Abreast<'a, W> {
                 weights[n].0[l] = felt.gains[n] / omegas[n];
             }
         }
-        let mut stages = [Stage::Over; W];
-        stages[..touches.len()].fill(Stage::Touch);
+        let stage = |l: usize| if l < touches.len() { Stage::Touch } else { Stage::Over };
         let [inverse_mass, rest, speed, energy, deepest, stiffness, exponent, unloading] = of;
         let still = Motion { memories: vec![Default::default(); count], ..Motion::default() };
         Self {
@@ -170,7 +169,7 @@ impl<'a, const W: usize> Abreast<'a, W> {
             differ,
             kept: vec![],
             steps: Each::default(),
-            stages,
+            stages: std::array::from_fn(stage),
             met: std::array::from_fn(|_| Encounter { touches: 1, ..Encounter::default() }),
             began: [0.0; W],
             first: Each::default(),

@@ -7,30 +7,15 @@
 //! ½ a J² − r J = D,    a = 1/μ + Σ c_n, r the rate of x, D the energy that is left in the ball
 //! ```
 
-use crate::collision::contact::abreast::each::Each;
 use crate::collision::contact::abreast::places::{Abreast, Coupling, Kept, Move, Turned, Walked};
-use crate::collision::contact::abreast::schedule::Schedule;
+use crate::collision::contact::abreast::schedule::{Schedule, Stage};
 use crate::collision::contact::abreast::solve::Solved;
 use crate::collision::contact::collocation::{LANES, POINTS};
+use crate::collision::contact::each::Each;
 use crate::collision::contact::power_law::PowerLaw;
 use crate::collision::contact::pressing::USUAL;
 use crate::collision::contact::step::AHEAD;
 use crate::collision::contact::touch::Touch;
-
-/// What comes next at a place.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Stage {
-    /// A touch begins.
-    Touch,
-    /// The ball is pressed beyond its largest compression.
-    Anew,
-    /// The ball springs back.
-    Back,
-    /// It does, and the force that was let go returns.
-    Late,
-    /// The ball is gone for good.
-    Over,
-}
 
 /// Usual steps there or back at the accuracy 1e-3, at most.
 const MOST: usize = 48;

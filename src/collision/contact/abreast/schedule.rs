@@ -1,7 +1,21 @@
 //! How long the steps of places side by side are.
 
-use crate::collision::contact::abreast::press::Stage;
 use crate::collision::contact::pressing::USUAL;
+
+/// What comes next at a place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Stage {
+    /// A touch begins.
+    Touch,
+    /// The ball is pressed beyond its largest compression.
+    Anew,
+    /// The ball springs back.
+    Back,
+    /// It does, and the force that was let go returns.
+    Late,
+    /// The ball is gone for good.
+    Over,
+}
 
 /// The lengths of the steps, as levels: they follow from the accuracy of the steps and the exponent of the law, as
 /// [`Touch::first_level`] and the errors of steps one by one have them on the way to the largest compression.

@@ -1,8 +1,8 @@
 //! The forces of a step by Newton's method, and the motions under them.
 
-use crate::collision::contact::abreast::each::Each;
 use crate::collision::contact::abreast::places::{Abreast, Coupling, Motion};
 use crate::collision::contact::collocation::{LANES, POINTS};
+use crate::collision::contact::each::Each;
 use crate::collision::contact::step::AHEAD;
 use crate::collision::contact::table::StepTable;
 

@@ -1,8 +1,8 @@
 //! Where the compression is largest, or the largest again, by Newton's method on the exact motion.
 
-use crate::collision::contact::abreast::each::Each;
 use crate::collision::contact::abreast::places::{Abreast, Motion, Move};
 use crate::collision::contact::collocation::POINTS;
+use crate::collision::contact::each::Each;
 
 impl<const W: usize> Abreast<'_, W> {
     /// Moves the places that turn in this step to where they do: the length of the step at every place, and what that
