@@ -167,7 +167,9 @@ fn crossing<const W: usize>(
         low = above.choose(s, low);
         high = above.choose(high, s);
         let newton = s - value / slope;
-        let inside = low.below(newton).and(newton.below(high));
+        // Once it is found, the last digits may leave the interval.
+        let found = (newton - s).abs().within(Each::all(1e-10));
+        let inside = low.below(newton).and(newton.below(high)).or(found);
         s = inside.choose(newton, (low + high) * 0.5);
     }
     s
