@@ -18,7 +18,7 @@ pub(super) enum Stage {
 }
 
 /// The lengths of the steps, as levels: they follow from the accuracy of the steps and the exponent of the law, as
-/// [`Touch::first_level`] and the errors of steps one by one have them on the way to the largest compression.
+/// steps one by one have them on the way to the largest compression.
 pub(super) struct Schedule {
     first: usize,
     /// The level of a usual step.
