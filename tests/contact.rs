@@ -222,7 +222,7 @@ fn a_mode_at_its_node_adds_nothing() {
     assert!((impulse(2, node + 0.03) / impulse(1, node + 0.03) - 1.0).abs() > 1e-4);
 }
 
-/// How large a mode is drawn is nobody's business.
+/// The scale of a mode shape does not change a hit.
 #[test]
 fn a_mode_s_scale_changes_nothing() {
     let bat = bundled_bat("meshes/r161.json").unwrap();

@@ -1,4 +1,5 @@
-//! Trial along a bat, with modes as good and as many as the wanted exit speeds need.
+//! How fast does the ball leave along the barrel? A [`Trial`] takes as many modes, elements and steps as the wanted exit
+//! speeds need.
 
 use std::borrow::Cow;
 

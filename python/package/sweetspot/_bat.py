@@ -165,7 +165,7 @@ class Bat:
 
     @property
     def name(self) -> str:
-        """What it is called."""
+        """Its name."""
         return self._summary()[0]
 
     @property

@@ -94,7 +94,7 @@ class Modes(Shown):
 
     @property
     def met(self) -> bool:
-        """Whether every frequency is as accurate as was asked."""
+        """Whether every frequency meets the requested accuracy."""
         return bool(self.document["model"]["tolerance_met"])
 
     @property

@@ -113,8 +113,8 @@ pub(super) struct Turned<const W: usize> {
 }
 
 impl<'a, const W: usize> Abreast<'a, W> {
-    /// Places that were not touched yet; the last one fills the lanes. Bats beside them differ in so many of the last
-    /// modes.
+    /// Places before the first touch; the last one fills the lanes that are left. Bats beside them differ in that number
+    /// of the last modes.
     pub(super) fn new(
         collider: &'a Collider,
         touches: &[Touch<'a, PowerLaw>],
