@@ -10,6 +10,7 @@ use sweetspot::base::telling::nobody;
 use sweetspot::bat::theory::Theory;
 use sweetspot::collision::along::strikes;
 use sweetspot::collision::ball::Ball;
+use sweetspot::collision::contact::abreast::meet::Place;
 use sweetspot::collision::contact::collider::Collider;
 use sweetspot::collision::contact::encounter::Encounter;
 use sweetspot::collision::contact::force_law::{ForceLaw, Top};
@@ -225,11 +226,26 @@ fn compare(hit: &Hit) {
     }
     for (name, collider, felts) in cases {
         for tolerance in [1e-4, 1e-6, 1e-9] {
-            let impulse = move |(felt, x): (&DrivingPoint, &f64)| {
-                collider.meet(felt, law, hit.closing(*x), 10.0 * tolerance).impulse
+            let accuracy = 10.0 * tolerance;
+            let alone = move |felt: &DrivingPoint, x: &f64| {
+                collider.meet(felt, law, hit.closing(*x), accuracy).impulse
             };
-            let all = move || felts.iter().zip(places).map(impulse).collect();
+            let all = move || felts.iter().zip(places).map(|(felt, x)| alone(felt, x)).collect();
             ways.push((format!("{name}, {tolerance:e}"), Box::new(all)));
+            let abreast = move || {
+                let place = |(felt, x): (_, &f64)| Place {
+                    felt,
+                    others: &[],
+                    law: *law,
+                    speed: hit.closing(*x),
+                };
+                let all: Vec<Place> = felts.iter().zip(places).map(place).collect();
+                let met =
+                    collider.meet_abreast(&all, accuracy).into_iter().zip(felts.iter().zip(places));
+                met.map(|(met, (felt, x))| met.map_or_else(|| alone(felt, x), |met| met.impulse))
+                    .collect()
+            };
+            ways.push((format!("  side by side, {tolerance:e}"), Box::new(abreast)));
         }
     }
     println!("\n{}: {POINTS} impacts from {FROM} to {TO} of the length, on one core", hit.name);

@@ -4,7 +4,8 @@ use crate::base::real::Real;
 
 /// `xᵀy` in eight partial sums per block, so that the error does not grow with the length.
 ///
-/// Written as plain loops: where the length is known at the call, the compiler drops the products that are not needed.
+/// Written as plain loops: where the length is known at the call, the compiler unrolls them and only the products
+/// remain.
 #[inline(always)]
 pub fn dot<R: Real>(x: &[R], y: &[R]) -> R {
     const BLOCK: usize = 1024;

@@ -273,7 +273,7 @@ impl Bat {
         }
         for tape in &fixtures.tapes {
             let per_length = tape.mass / (tape.to - tape.from);
-            // Under the tape, each layup a second time.
+            // Under the tape, a piece gets a copy of its layup that includes the tape.
             let bare = layups.len();
             let mut taped: Vec<Option<usize>> = vec![None; bare];
             for piece in &mut profile.pieces {
@@ -344,8 +344,8 @@ impl Bat {
         })
     }
 
-    /// The bat with a loss factor for every material: the published one of its kind, else `unknown`. Errors are those
-    /// of [`Self::with`].
+    /// The bat with a loss factor for every material: its own, else the published one of its kind, else `unknown`.
+    /// Errors are those of [`Self::with`].
     pub fn with_losses(&self, unknown: f64) -> Result<Self> {
         self.losing(|m| {
             let known = Some(m.loss_factor).filter(|loss| *loss > 0.0);

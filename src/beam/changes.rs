@@ -1,5 +1,4 @@
-//! How far may the shape of a motion be off? The difference is the deflection due to its own inertia less its
-//! deflection.
+//! How far may the shape of a motion be off? By `w − w*`: its deflection less the deflection due to its own inertia.
 //!
 //! The differences of the strains that [`Motion::take_defect`] leaves are integrated outwards. The free rigid motions
 //! are then removed, so that the change carries no momentum and moves no contact.

@@ -20,7 +20,7 @@ pub struct Motion<R> {
     pub turns: Vec<R>,
     /// Deflection at the Gauss points of every cell (m).
     pub deflections: Vec<R>,
-    /// Inertial deflection less [`Self::deflections`] (m), at the same points.
+    /// [`Self::deflections`] less the inertial deflection, `w − w*` (m), at the same points.
     pub changes: Vec<R>,
     /// Deflection (m) and its change (m) at the outer ends of both sides: knob end, tip.
     pub ends: [[R; 2]; 2],

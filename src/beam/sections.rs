@@ -265,8 +265,8 @@ pub fn missed_on(bat: &Bat, mesh: &Mesh, rule: &Rule, theory: Theory) -> f64 {
 }
 
 /// Relative round-off of the sections: `r/(r − r_i)` spacings for a wall that is the difference of two radii, and the
-/// evaluation of formulas. The last part of either end is exempt, for it neither weighs nor bends: a formula in the
-/// distance from a pointed tip has few digits there.
+/// evaluation of formulas. The last part of either end is exempt from that of formulas, for it neither weighs nor
+/// bends: a formula in the distance from a pointed tip has few digits there.
 pub fn round_off(bat: &Bat, mesh: &Mesh) -> f64 {
     let of = |e: &Element, piece: usize| match &bat.profile().pieces[piece].radii {
         Radii::Cubic(cubics) if cubics.inner == [0.0; 4] => 0.0,

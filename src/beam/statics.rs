@@ -51,7 +51,7 @@ pub struct Statics<R, const N: usize, const W: usize> {
     pub cells: Vec<Cell<R, W>>,
     /// Number of elements on the knob side.
     pub split: usize,
-    /// That number if it is prescribed; `None` lets the bat choose.
+    /// Prescribed number of elements on the knob side; `None` lets the bat choose.
     pub rooted: Option<usize>,
     /// EI (N m²) at the points of every cell, outwards.
     pub bending_stiffness: Vec<R>,

@@ -1,7 +1,7 @@
 //! What does the bat do during and after the contact: motion, strain and stress anywhere, at any time?
 //!
 //! The recorded force drives every mode. Its pieces are polynomials, so the motion is exact at any instant. Deflections
-//! are positive in the direction of the swing: the ball drives the bat back, into −.
+//! are relative to the swing, and positive in its direction: the ball drives the bat back, into −.
 //!
 //! ```text
 //! v(t) = ∫ e^{s(t−τ)} F dτ,  s = −ζω + iω_d       w = −Σ φ(x) φ(a)/(m ω_d) Im v

@@ -10,7 +10,7 @@ use crate::collision::energy_loss::EnergyLoss;
 use crate::collision::hoop_wall::{HarmonicEnergy, HoopInHit};
 use crate::collision::pulse::Pulse;
 
-/// How the model treats the bending of the bat; each model is a limit of the next.
+/// How the model treats the bending of the bat, from none to ball and modes together.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Model {
     /// The bat does not bend.

@@ -305,7 +305,7 @@ pub enum WhyRigid {
     Asked,
     /// The number of modes is prescribed, and nothing else may contribute.
     ModesTold,
-    /// Its estimated effect on the restitution is below the tolerance.
+    /// Its estimated effect on the restitution is at most 0.15 of the tolerance.
     Small {
         /// Estimated change.
         gain: f64,

@@ -26,8 +26,8 @@ pub struct Peak {
 pub struct SweetSpot {
     /// Where the ball leaves fastest (m/s).
     pub exit_speed_max: Option<Peak>,
-    /// Where the ball first leaves fastest (m/s), among places where the bat does not catch up with it as it leaves. It
-    /// differs from `exit_speed_max` if that depends on a later contact.
+    /// Where the ball is fastest at its first separation (m/s), among places where the bat does not catch up with it as
+    /// it leaves. It differs from `exit_speed_max` if that depends on a later contact.
     pub first_separation_max: Option<Peak>,
     /// Where the least energy stays in vibration (J).
     pub vibration_min: Option<Peak>,
@@ -207,8 +207,8 @@ impl<'a> HitsAlong<'a> {
         self.greatest(|glance| Some(glance.exit_speed))
     }
 
-    /// Where the ball first leaves fastest (m/s), among places where the bat does not catch up with it as it leaves. It
-    /// is `fastest` if the bat catches up with it nowhere.
+    /// Where the ball is fastest at its first separation (m/s), among places where the bat does not catch up with it as
+    /// it leaves. It is `fastest` if the bat catches up with it nowhere.
     fn first_separation(&self, fastest: Option<Peak>) -> Option<Peak> {
         match self.seen.iter().flatten().any(|glance| glance.later) {
             true => self.greatest(|glance| (!glance.late).then_some(glance.first_exit)),

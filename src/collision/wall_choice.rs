@@ -1,7 +1,7 @@
 //! Does a hollow barrel's wall give way in a hit?
 //!
-//! It does if the user asks for it, and by default if its estimated effect exceeds the tolerance. The estimate needs no
-//! solution.
+//! It does if the user asks for it, and by default if its estimated effect exceeds a share of the tolerance. The
+//! estimate needs no solution.
 
 use crate::base::error::{Error, Result};
 use crate::bat::body::Bat;

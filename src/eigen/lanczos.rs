@@ -179,7 +179,8 @@ impl<R: Real> Lanczos<R> {
         allow(&mut self.next);
         let (basis, next, parts) = (&self.basis, &mut self.next, &mut self.parts);
         let mut size = dot(next, next).sqrt();
-        // The remaining share of the length in lanes that are not done, 0 in the others.
+        // How far the length has fallen below 0.7 of what it was, in the lanes that are not done (1 at first); 0 in the
+        // others.
         let mut lost = R::splat(1.0);
         for _ in 0..3 {
             parts.clear();

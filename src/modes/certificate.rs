@@ -67,7 +67,8 @@ fn blur(mode: &mut Mode, sums: f64) {
     mode.error.shape += 10.0 * sums;
 }
 
-/// Adds the effect of a relative round-off: a frequency goes as `√(EI/ρA)` of the sections.
+/// Adds the effect of a relative round-off of the frequency, such as that of the sections: a frequency goes as
+/// `√(EI/ρA)`.
 pub fn add_round_off(mode: &mut Mode, relative: f64) {
     mode.error.round_off += relative;
     blur(mode, relative);

@@ -148,12 +148,9 @@ fn near_others(groups: &mut [Group], others: &[Pole]) {
 ///
 /// With `M = diag(ℓ²)` and `p = ℓq/μ` the problem `(M + μC + μ²) q = 0` is
 ///
-/// ```text
-/// μ q = −C q − ℓ p,   μ p = ℓ q,
-/// ```
-/// Its norm is that of the slowest mode, however fast the others are. A rigid motion ρ of mass m, restrained only by
-/// dashpots, enters as `ρ′ = ρ + B q` with `B = C_ρρ⁻¹ C_ρq`: `μ ρ′ = m C_ρρ⁻¹ (B q − ρ′)`, and C becomes `C − C_qρ B`
-/// beside `C_qρ ρ′`.
+/// ```text μ q = −C q − ℓ p,   μ p = ℓ q, ``` The norm of this matrix is that of the slowest mode, however fast the
+/// others are. A rigid motion ρ of mass m, restrained only by dashpots, enters as `ρ′ = ρ + B q` with `B = C_ρρ⁻¹
+/// C_ρq`: `μ ρ′ = m C_ρρ⁻¹ (B q − ρ′)`, and C becomes `C − C_qρ B` beside `C_qρ ρ′`.
 struct State {
     /// `ℓ` (s), and the strains that make M diagonal, in terms of the members.
     lengths: Vec<f64>,

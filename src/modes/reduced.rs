@@ -275,8 +275,7 @@ impl Reduced {
         [mass, damping]
     }
 
-    /// The rigid motions at `s = 0` that remain although dashpots move them: constant displacements, with their
-    /// [`Pole::norm`].
+    /// The rigid motions that draw dashpots out, at `s = 0`: constant displacements, with their [`Pole::norm`].
     pub fn resting(&self) -> Vec<Pole> {
         let r = self.rigid_unknowns();
         let (c, unit) = (self.damping(), self.flexible.energy_unit);

@@ -90,7 +90,7 @@ fn refined(bat: &Bat, request: &Request, mut plan: Plan, mut timing: Timing) -> 
     let mut best: Option<Solution> = None;
     let mut residual = stop_at(request);
     if !bat.fixtures().none_moving() {
-        // Two frequencies may coincide; their error is then at most the residual.
+        // Two frequencies may coincide; their error is then as large as the residual, not its square.
         residual = residual.min(request.tolerance).max(CONVERGED);
     }
     for round in 0..MOST_ROUNDS {

@@ -89,7 +89,7 @@ impl Stations {
         (!kinks.is_empty()).then_some(Self { stretches, kinks })
     }
 
-    /// The least 2m + 1 of the kinks.
+    /// The smallest value of 2m + 1 among the kinks.
     pub fn order(&self) -> i32 {
         self.kinks.iter().map(|kink| kink.order).min().unwrap_or(1)
     }

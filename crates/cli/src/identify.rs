@@ -38,8 +38,8 @@ pub struct Args {
     #[arg(required_unless_present = "simulate", help_heading = "The responses")]
     responses: Vec<PathBuf>,
 
-    /// Unit of a file whose axes and datasets name no known one: of the response per force, such as g/lbf, or of
-    /// length, with N, or lbf for in and ft
+    /// Unit of a file whose axes and datasets name no known one: that of the response per force, such as g/lbf, or a
+    /// unit of length; the force is then in N, or in lbf with in and ft
     #[arg(long, value_name = "UNIT", help_heading = "The responses")]
     unit: Option<String>,
 

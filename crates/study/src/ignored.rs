@@ -33,7 +33,7 @@ pub(crate) const SHEAR: &str = "shear: ";
 pub fn ignored(bat: &Bat, solution: &Solution) -> Vec<String> {
     let bat = solution.of(bat);
     let modes = &solution.modes[..solution.modes.len().min(4)];
-    /// Shifts are shown from this size on.
+    /// Tolerance of the shifts, which are shown to two digits.
     const SHOWN: f64 = 1e-6;
     let typical = with_typical_shear(bat);
     let shifts = if solution.theory.shears() { vec![] } else { shifts(&typical, modes, SHOWN) };

@@ -17,8 +17,8 @@ const STEP: f64 = 0.15;
 const LENGTH: f64 = 1.8;
 /// Greatest thickness of a part of a layer as a share of the radius: in a core a motion goes as `r^n`.
 const THICKNESS: f64 = 0.3;
-/// A layer is cut at this share of the distance between a corner and the column's far end, if the layer is at least
-/// that thick.
+/// Cuts across the wall lie in geometric steps from a corner, and none is closer to it than this share of the distance
+/// to the column's far end.
 const ACROSS: f64 = 0.05;
 
 /// Number of geometric steps towards each kind of place.

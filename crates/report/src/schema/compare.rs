@@ -24,7 +24,7 @@ pub struct CompareFile {
     pub format: Format<CompareFile>,
     /// The program that wrote the file.
     pub generator: Generator,
-    /// The beam model of the bats.
+    /// The collision model: how the bending of the bats is treated in a hit.
     #[schemars(extend("enum" = ["rigid", "energy-loss", "pulse", "contact"]))]
     pub model: &'static str,
     /// The conditions common to all bats.

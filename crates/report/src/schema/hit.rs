@@ -22,7 +22,7 @@ pub struct HitFile {
     /// Changes made to the bat after it was weighed; left out where there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub edits: Vec<Edit>,
-    /// The beam model of the bat.
+    /// The collision model: how the bending of the bat is treated in a hit.
     #[schemars(extend("enum" = ["rigid", "energy-loss", "pulse", "contact"]))]
     pub model: String,
     /// The swing and the ball.

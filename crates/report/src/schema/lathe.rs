@@ -23,7 +23,7 @@ pub struct LatheFile {
     /// Changes made to the bat before; left out where there are none.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub edits: Vec<Edit>,
-    /// The beam model of the bat in hits.
+    /// The collision model: how the bending of the bat is treated in hits.
     #[schemars(extend("enum" = ["rigid", "energy-loss", "pulse", "contact"]))]
     pub model: String,
     /// The swing and the ball.

@@ -27,7 +27,7 @@ use sweetspot::base::linear::{dot, inverse};
 const LARGEST_STEP: f64 = 0.3;
 /// A fit that has not ended by then runs away.
 const MOST_STEPS: usize = 40;
-/// Smallest step that still changes a printed digit.
+/// A fit has converged when its step is below this: such a step changes no printed digit.
 const SETTLED: f64 = 1e-7;
 /// A fit farther than this many prior standard deviations, and than that factor, has diverged.
 const RUNAWAY: [f64; 2] = [4.0, 8.0];

@@ -222,7 +222,7 @@ impl Rows {
         first.chain(inputs).chain(answers).chain(last).collect()
     }
 
-    /// Which columns are numbers in every row.
+    /// Which columns are numbers in every row, or tell whether something is so (`met`).
     pub fn numbers(&self) -> Vec<usize> {
         let before = 1 + usize::from(self.several());
         let varied = &self.study.varied;

@@ -50,7 +50,7 @@ const TURNS: usize = 60;
 const SETTLED: f64 = 1e-11;
 /// `re(1 − m Σ φ²/m_n)` of masses that a bat carries, at least: they lower its frequency by 30 %.
 const CARRIED: f64 = 0.5;
-/// If the removal changes a frequency by no more than this, the masses do not move in that mode.
+/// A frequency may fall by this much when the masses are removed: it is then that of a mode in which they do not move.
 const STILL: f64 = 1e-4;
 /// Largest remaining error of masses in a row, over the square of the lowering of a frequency: from virtual tests of
 /// solid and hollow bats, with at least [`PER_MODE`] accelerometers for every mode up to that one, and with fewer.

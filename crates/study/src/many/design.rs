@@ -82,7 +82,7 @@ pub enum Axis {
     Drawn(usize),
 }
 
-/// Some of the numbers from 0 to `count`, evenly spaced, 0 first.
+/// Some of the `count` numbers 0 … `count` − 1, evenly spaced, 0 first.
 fn spread_evenly(count: u64, some: u64) -> impl Iterator<Item = u64> {
     let some = count.min(some);
     (0..some).map(move |k| (u128::from(k) * u128::from(count) / u128::from(some)) as u64)

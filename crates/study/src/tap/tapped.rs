@@ -205,8 +205,8 @@ fn calibrated(
     }
 }
 
-/// The probability that a label is right, from the additional cost of the next labels, and from the distance of the
-/// tone from a mode of zero cost.
+/// The probability that a label is right, from the additional cost of the next labels, and from how far the cost of the
+/// tone is below the price of a tone of no mode.
 fn sure(margin: Option<f64>, chi2: f64) -> f64 {
     let margin = margin.unwrap_or(f64::INFINITY).min(STRANGER - chi2).max(0.0);
     1.0 / (1.0 + (-0.5 * margin).exp())

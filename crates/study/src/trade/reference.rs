@@ -1,4 +1,4 @@
-//! The reference for errors: the same bat, solved twice as accurately as possible.
+//! The reference for errors: the same bat, solved two times, each time as accurately as possible.
 
 use std::f64::consts::TAU;
 
