@@ -172,8 +172,12 @@ impl Hitter<'_> {
         let mut told = Vec::with_capacity(places.len());
         for (k, ((approach, ladder), met)) in places.iter().zip(&met).enumerate() {
             let of = |(met, accuracy): &(Encounter, f64)| {
-                let contact =
-                    Contact { felt: &felt[k], met, accuracy: *accuracy, other: other[k].as_ref() };
+                let contact = Contact {
+                    felt: &felt[k],
+                    met,
+                    accuracy: *accuracy,
+                    other: other[k].as_ref().map(Option::as_ref),
+                };
                 self.told(approach, ladder, &few, contact)
             };
             told.push(met.as_ref().map(of));
@@ -187,7 +191,7 @@ impl Hitter<'_> {
         &self,
         blows: &[Blow],
         met: &[Option<(Encounter, f64)>],
-    ) -> Vec<Option<Encounter>> {
+    ) -> Vec<Option<Option<Encounter>>> {
         let accuracy = self.effort.accuracy;
         let delicate = |k: &usize| {
             met[*k].as_ref().is_some_and(|(met, own)| met.is_delicate() && *own == accuracy)
@@ -197,7 +201,7 @@ impl Hitter<'_> {
         let again: Vec<Blow> = which.iter().map(alone).collect();
         let mut all = vec![None; met.len()];
         for (k, other) in which.into_iter().zip(self.meet_all(&again, other_steps(accuracy))) {
-            all[k] = other.map(|(met, _)| met);
+            all[k] = Some(other.map(|(met, _)| met));
         }
         all
     }
@@ -255,7 +259,10 @@ impl Hitter<'_> {
                     (*few, if large { both(&ladder.of(*few), accuracy)[0] } else { by })
                 };
                 let left_out = answered.left_out(shears, few.iter().zip(changes).map(change));
-                let by_steps = |accuracy| other.map_or_else(|| both(felt, accuracy), apart);
+                let by_steps = |accuracy| match other {
+                    Some(other) => other.map_or([1.0; 2], apart),
+                    None => both(felt, accuracy),
+                };
                 let steps = answered.steps(left_out, |accuracy| count_first(by_steps(accuracy)));
                 // A softer wall: by all that may be missing, and by the delay of modes that follow the force at once,
                 // `y = C F − D F″ + …`, where `F″` of a half sine is `(π/T)² F`. On a stiff bat T is 2.86 to 3.14 times
@@ -323,12 +330,13 @@ struct Approach {
     known: Option<[f64; 3]>,
 }
 
-/// A contact by steps of that accuracy, and the same by other steps where it is known.
+/// A contact by steps of that accuracy, and the same by other steps where these were tried; None where they came to no
+/// end.
 struct Contact<'a> {
     felt: &'a DrivingPoint,
     met: &'a Encounter,
     accuracy: f64,
-    other: Option<&'a Encounter>,
+    other: Option<Option<&'a Encounter>>,
 }
 
 /// The bat as the ball feels it at a place by any number of its modes.

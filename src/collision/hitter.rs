@@ -326,23 +326,24 @@ impl<'a> Hitter<'a> {
     }
 
     /// The meetings at some places, each with the accuracy of its steps; side by side, which changes no bit of them.
+    /// Those that magnify small changes are compared in any case.
     pub(super) fn meet_all(&self, blows: &[Blow], accuracy: f64) -> Vec<Option<(Encounter, f64)>> {
-        let mut all = self.meet_abreast(blows, accuracy);
-        // What magnifies small changes is compared in any case.
+        let mut all = self.meet_each(blows, accuracy);
         let delicate = |k: &usize| match &all[*k] {
             Some((met, _)) => met.is_delicate() && !blows[*k].compared,
             None => false,
         };
         let again: Vec<usize> = (0..blows.len()).filter(delicate).collect();
         let compared = again.iter().map(|k| Blow { compared: true, ..blows[*k] });
-        let met = self.meet_abreast(&compared.collect::<Vec<_>>(), accuracy);
+        let met = self.meet_each(&compared.collect::<Vec<_>>(), accuracy);
         again.into_iter().zip(met).for_each(|(k, met)| all[k] = met);
-        for (k, blow) in
-            blows.iter().enumerate().filter(|(k, _)| all[*k].is_none()).collect::<Vec<_>>()
-        {
-            all[k] = self.meet_alone(blow, accuracy);
-        }
         all
+    }
+
+    /// The meetings at some places, those alone that cannot be had side by side.
+    fn meet_each(&self, blows: &[Blow], accuracy: f64) -> Vec<Option<(Encounter, f64)>> {
+        let abreast = self.meet_abreast(blows, accuracy).into_iter().zip(blows);
+        abreast.map(|(met, blow)| met.or_else(|| self.meet_alone(blow, accuracy))).collect()
     }
 
     /// The meetings that can be had side by side.
@@ -361,11 +362,10 @@ impl<'a> Hitter<'a> {
             }
         }
         for (k, met) in which.into_iter().zip(collider.meet_abreast(&places, accuracy)) {
-            let sound = |met: &Encounter| met.is_sound(blows[k].felt, blows[k].closing);
-            if let Some(met) = met.filter(sound) {
-                self.work.fetch_add(met.work(), Ordering::Relaxed);
-                all[k] = Some((met, accuracy));
-            }
+            let Some(met) = met else { continue };
+            self.work.fetch_add(met.work(), Ordering::Relaxed);
+            let sound = met.is_sound(blows[k].felt, blows[k].closing);
+            all[k] = sound.then_some((met, accuracy));
         }
         all
     }
@@ -374,7 +374,7 @@ impl<'a> Hitter<'a> {
     fn meet_alone(&self, blow: &Blow, accuracy: f64) -> Option<(Encounter, f64)> {
         let Blow { x, felt, closing, .. } = *blow;
         let (collider, law) = (self.collider.as_ref()?, self.law_at(x, closing)?);
-        let others = (blow.others)();
+        let others = if blow.compared { (blow.others)() } else { vec![] };
         let meet = |accuracy| {
             let met = collider.meet_beside(felt, &others, &*law, closing, accuracy);
             self.work.fetch_add(met.work(), Ordering::Relaxed);
@@ -389,7 +389,7 @@ impl<'a> Hitter<'a> {
 pub(super) struct Blow<'a> {
     pub x: f64,
     pub felt: &'a DrivingPoint,
-    /// Bats of fewer modes beside it.
+    /// Bats of no more modes beside it.
     pub others: &'a dyn Fn() -> Vec<DrivingPoint>,
     pub closing: f64,
     /// Whether it is compared with those also where ball and bat touch once.

@@ -24,7 +24,7 @@ pub struct Collider {
     /// Steps of length `longest/2^level`, made when first needed.
     tables: Vec<OnceLock<StepTable>>,
     pub(super) longest: f64,
-    tuning: Tuning,
+    pub(super) tuning: Tuning,
 }
 
 /// Touches that are followed; what more could give is part of the error.

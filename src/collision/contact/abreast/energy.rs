@@ -48,20 +48,19 @@ impl<const W: usize> Abreast<'_, W> {
         let slope = next.speed * speed / self.inverse_mass + work;
         let size = -defect / (slope + next.force * (closing + moved));
         let kick = (size * speed / self.speed).abs();
-        let slight = Each::all(0.05 * self.accuracy).max(defect.abs() / self.energy * 3.0);
+        let slight = Each::all(self.collider.tuning.slight * self.accuracy)
+            .max(defect.abs() / self.energy * 3.0);
         let fits = kick.within(slight);
         let size = fits.choose(size, Each::default());
-        let sane = fits.or(off.within(Each::all(1e-12)));
+        let sane = fits.and(off.within(Each::all(1.0))).or(off.within(Each::all(1e-12)));
         self.corrected += idle.choose(Each::default(), off);
         self.defect = idle.choose(self.defect, fits.choose(Each::default(), defect));
-        let mut bumps = [Each::default(); 2];
         for n in 0..self.weights.len() {
-            bumps = self.bump(table, length, turned, moves, n);
+            let bumps = self.bump(table, length, turned, moves, n);
             let next = &mut self.next.memories[n];
             next[0] += size * bumps[0];
             next[1] += size * bumps[1];
         }
-        let _ = bumps;
         self.next.speed += size * speed;
         self.next.closing += size * closing;
         self.next.impulse += size * length * (1.0 / 6.0);

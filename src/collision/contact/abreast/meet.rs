@@ -24,9 +24,11 @@ const EXPONENTS: [f64; 2] = [6.0, 60.0];
 /// A place that is hit beside others.
 #[derive(Debug, Clone, Copy)]
 pub struct Place<'a> {
+    /// The bat as the ball feels it there.
     pub felt: &'a DrivingPoint,
     /// Bats beside it, of no more modes.
     pub others: &'a [DrivingPoint],
+    /// The ball's law.
     pub law: PowerLaw,
     /// Speed (m/s) at which ball and bat near.
     pub speed: f64,
@@ -66,12 +68,19 @@ impl Collider {
         if accuracy < FINEST || self.poles.iter().any(|s| s.re != 0.0) {
             return all;
         }
-        let fits = |k: &usize| places[*k].law.goes_abreast() && !places[*k].felt.gains.is_empty();
+        let modes = |k: usize| places[k].felt.gains.len();
+        let fits = |k: &usize| {
+            places[*k].law.goes_abreast() && (1..=self.poles.len()).contains(&modes(*k))
+        };
+        // Steps are of the same lengths, and of the same modes.
+        let alike = |a: &usize, b: &usize| {
+            places[*a].law.exponent == places[*b].law.exponent && modes(*a) == modes(*b)
+        };
         let mut open: Vec<usize> = (0..places.len()).filter(fits).collect();
         // Where steps of the usual lengths are too coarse, by those of half the length.
         for finer in 0..2 {
             let mut coarse = vec![];
-            for which in open.chunks(ABREAST) {
+            for which in open.chunk_by(alike).flat_map(|alike| alike.chunks(ABREAST)) {
                 let group: Vec<&Place> = which.iter().map(|k| &places[*k]).collect();
                 let met = match group[..] {
                     [alone] => {

@@ -39,6 +39,8 @@ pub(super) struct Abreast<'a, const W: usize> {
     /// `c/ω` of every mode (s/kg).
     pub weights: Vec<Each<W>>,
     pub inverse_mass: Each<W>,
+    /// `1/μ + Σ c_n` (1/kg).
+    pub lightness: Each<W>,
     pub rest: Each<W>,
     pub speed: Each<W>,
     pub energy: Each<W>,
@@ -47,6 +49,8 @@ pub(super) struct Abreast<'a, const W: usize> {
     pub exponent: Each<W>,
     pub unloading: Each<W>,
     pub accuracy: f64,
+    /// What every place has tried.
+    pub runs: Each<W>,
     pub couplings: Vec<(usize, Coupling<W>)>,
     pub now: Motion<W>,
     pub next: Motion<W>,
@@ -54,8 +58,9 @@ pub(super) struct Abreast<'a, const W: usize> {
     pub top: Option<[Each<W>; 2]>,
     /// The same of every place's last turn.
     pub tops: [Each<W>; 2],
-    /// The last step's compression: its length, where it ends in lengths of it, and its powers; and whether it is known.
+    /// The last step's compression: its length, where it ends in lengths of it, and its powers.
     pub last: ([Each<W>; 2], [Each<W>; POINTS]),
+    /// Where that is known.
     pub known: Each<W>,
     /// What the ball lost by touches that are over (J).
     pub spent: Each<W>,
@@ -137,6 +142,10 @@ impl<'a, const W: usize> Abreast<'a, W> {
             }
         }
         let stage = |l: usize| if l < touches.len() { Stage::Touch } else { Stage::Over };
+        let mut lightness = of[0];
+        for n in 0..count {
+            lightness += weights[n] * omegas[n];
+        }
         let [inverse_mass, rest, speed, energy, deepest, stiffness, exponent, unloading] = of;
         let still = Motion { memories: vec![Default::default(); count], ..Motion::default() };
         Self {
@@ -144,6 +153,7 @@ impl<'a, const W: usize> Abreast<'a, W> {
             omegas,
             weights,
             inverse_mass,
+            lightness,
             rest,
             speed,
             energy,
@@ -152,6 +162,7 @@ impl<'a, const W: usize> Abreast<'a, W> {
             exponent,
             unloading,
             accuracy: touches[0].accuracy,
+            runs: Each::default(),
             couplings: Vec::with_capacity(8),
             now: Motion { speed, ..still.clone() },
             next: still,

@@ -13,26 +13,31 @@ use crate::collision::contact::abreast::solve::Solved;
 use crate::collision::contact::collocation::{LANES, POINTS};
 use crate::collision::contact::each::Each;
 use crate::collision::contact::power_law::PowerLaw;
-use crate::collision::contact::pressing::USUAL;
+use crate::collision::contact::pressing::{MISSED, USUAL};
 use crate::collision::contact::step::AHEAD;
 use crate::collision::contact::touch::Touch;
 
 /// Usual steps there or back at the accuracy 1e-3, at most.
 const MOST: usize = 48;
-/// Runs of steps from one change to the next, at most.
-const RUNS: usize = 400;
+/// Runs of steps from one change to the next at a place, and its steps, at most: it is met alone else.
+const RUNS: f64 = 400.0;
+const STEPS: f64 = 4000.0;
+/// Share of the energy of their parting that the force may still give when it is let go.
+const SLIGHT: f64 = 1e-4;
 
 impl<const W: usize> Abreast<'_, W> {
     /// Runs of steps until the ball is gone at every place that does not fail.
     #[inline(always)]
     pub(super) fn press(&mut self, touches: &[Touch<PowerLaw>], schedule: &Schedule) {
-        for _ in 0..RUNS {
+        loop {
             let stages = [Stage::Touch, Stage::Anew, Stage::Back, Stage::Late];
             let waits = |stage: &Stage| self.at_stage(*stage).and(self.failed.fails()).somewhere();
             let Some(stage) = stages.into_iter().find(waits) else { return };
+            self.runs += self.at_stage(stage);
+            let many = Each::all(RUNS).below(self.runs).or(Each::all(STEPS).below(self.steps));
+            self.failed = self.failed.or(many);
             self.run(stage, touches, schedule);
         }
-        self.failed = self.failed.or(self.at_stage(Stage::Over).fails());
     }
 
     /// Which places are at that stage.
@@ -63,10 +68,16 @@ impl<const W: usize> Abreast<'_, W> {
             if back {
                 let rises = self.faint.and(before.below(self.now.force)).and(idle.fails());
                 self.late = self.late.or(rises);
-                self.faint =
-                    self.faint.or(self.now.force.below(self.tops[1] * 0.02).and(idle.fails()));
+                self.faint = self.faint.or(self
+                    .now
+                    .force
+                    .below(self.tops[1] * self.collider.tuning.faint)
+                    .and(idle.fails()));
                 let leaves = self.rate(&self.now).below(Each::default());
-                gone = leaves.and(self.stored().within(cut)).and(idle.or(self.failed).fails());
+                // What is left is little beside the energy of their parting too.
+                let (stored, rate) = (self.stored(), self.rate(&self.now));
+                let little = (self.lightness * stored).within(rate * rate * SLIGHT);
+                gone = leaves.and(little).and(stored.within(cut)).and(idle.or(self.failed).fails());
             }
             let event = event.and(self.failed.fails());
             done = done.or(event).or(gone);
@@ -96,7 +107,9 @@ impl<const W: usize> Abreast<'_, W> {
         let coupling = *self.coupled(level);
         let solved = self.solve(table, &coupling, idle);
         let error = self.error_of(&solved.force, table.length);
-        let mut fine = solved.found.and(error.within(Each::all(3.0 * self.accuracy)));
+        let mut fine = solved
+            .found
+            .and(error.within(Each::all(self.collider.tuning.usual_error * self.accuracy)));
         self.advance(table, &solved);
         if self.differ > 0 {
             self.keep(level, &solved, idle.fails());
@@ -105,35 +118,75 @@ impl<const W: usize> Abreast<'_, W> {
         let course = self.through(&[self.now.compression, a, b, c, d]);
         let (event, smooth) = self.event(&solved);
         let event = event.and(idle.fails());
-        fine = fine.and(smooth.or(event));
+        fine = fine.and(smooth.or(event)).and(self.may_pass(&solved, table.length).fails());
         let (mut length, mut moves) = (Each::all(table.length), None);
         if event.somewhere() {
-            let (time, all) = self.turn(table.length, &self.through(&solved.force), event);
+            let (time, all, there) = self.turn(table.length, &self.through(&solved.force), event);
+            fine = fine.and(there.or(event.fails()));
             (length, moves) = (time, Some(all));
             self.look(&course, time / table.length, event);
         }
         self.remember(([Each::all(table.length), length / table.length], course), idle);
         fine = fine.and(self.correct(table, length, [event, idle], moves.as_deref()));
+        // A number that is none is not itself.
+        fine = fine.and(self.next.compression.within(self.next.compression));
         let failed = idle.fails().and(fine.fails());
         (self.coarse, self.failed) = (self.coarse.or(failed), self.failed.or(failed));
         self.steps += idle.fails();
         self.hold(idle);
         if event.somewhere() {
-            let next = &mut self.next;
-            for (part, top) in
-                [&mut next.compression, &mut next.force].into_iter().zip(&mut self.tops)
-            {
-                match self.top {
-                    Some(_) => *part = event.choose(*top, *part),
-                    None => *top = event.choose(*part, *top),
-                }
-            }
-            if let (true, Some(moves)) = (self.differ > 0, moves) {
-                self.keep_turn(event, length, moves);
-            }
+            self.arrive(event);
+        }
+        if let (true, Some(moves)) = (self.differ > 0, moves) {
+            self.keep_turn(event, length, moves);
         }
         std::mem::swap(&mut self.now, &mut self.next);
         event
+    }
+
+    /// Makes the compression and the force of a turn the largest ones, or these those of the return to them, which may
+    /// have been missed.
+    #[inline(always)]
+    fn arrive(&mut self, event: Each<W>) {
+        let next = &mut self.next;
+        if self.top.is_none() {
+            let [x, force] = self.tops;
+            self.tops = [event.choose(next.compression, x), event.choose(next.force, force)];
+            return;
+        }
+        let [x, force] = self.tops;
+        let near = (next.compression - x).abs().within(x * MISSED);
+        let missed = event.and(near.fails());
+        (self.coarse, self.failed) = (self.coarse.or(missed), self.failed.or(missed));
+        next.compression = event.choose(x, next.compression);
+        next.force = event.choose(force, next.force);
+    }
+
+    /// Where, on the way back, the surface may leave the ball and return between two points of a step
+    /// ([`crate::collision::contact::events`]), or the last of the force, a broken power of the time, is more than little.
+    #[inline(always)]
+    fn may_pass(&self, solved: &Solved<W>, length: f64) -> Each<W> {
+        let Some([top, _]) = self.top else { return Each::default() };
+        let mut least = self.now.compression;
+        for x in solved.x {
+            least = least.min(x);
+        }
+        let tuning = &self.collider.tuning;
+        let much = (self.energy * (tuning.last_energy * self.accuracy)).below(self.stored());
+        let ends = least.within(Each::default());
+        if !least.below(top * 0.1).somewhere() {
+            return Each::default();
+        }
+        let mut bend = Each::default();
+        for n in 0..self.weights.len() {
+            let [before, after] = [&self.now, &self.next].map(|state| {
+                let [re, im] = state.memories[n];
+                re.abs() + im.abs()
+            });
+            bend += self.weights[n] * (self.omegas[n] * self.omegas[n]) * before.max(after);
+        }
+        let way = length * (self.collider.rule.at[2] - self.collider.rule.at[1]);
+        ends.choose(much, least.below(bend * (0.125 * way * way)))
     }
 
     /// Where the compression turns in a step, or is the largest again at its end; and where it goes one way else.
@@ -199,18 +252,19 @@ impl<const W: usize> Abreast<'_, W> {
     /// Lets the force go at those places.
     #[inline(always)]
     fn release(&mut self, gone: Each<W>) {
-        let (now, mut all, mut modes) = (&self.now, self.inverse_mass, Each::default());
+        let (now, mut modes) = (&self.now, Each::default());
         for n in 0..self.weights.len() {
             let [re, im] = now.memories[n];
-            let gain = self.weights[n] * self.omegas[n];
-            all += gain;
-            modes += gain * (re * re + im * im);
+            modes += self.weights[n] * self.omegas[n] * (re * re + im * im);
         }
         let rigid = now.speed * now.speed / self.inverse_mass;
         let left = self.energy - self.spent - self.lost() - (rigid + modes) * 0.5;
         let rate = self.rate(now);
-        let root = (rate * rate + all * left * 2.0).max(Each::default()).sqrt();
-        let kick = gone.choose(left * 2.0 / (root - rate), Each::default());
+        let square = rate * rate + self.lightness * left * 2.0;
+        self.failed = self.failed.or(gone.and(Each::default().below(square).fails()));
+        let kick = left * 2.0 / (square.max(Each::default()).sqrt() - rate);
+        let kick = gone.choose(kick, Each::default());
+        self.corrected += gone.choose(left.abs() / self.energy, Each::default());
         let now = &mut self.now;
         now.impulse += kick;
         now.speed -= kick * self.inverse_mass;

@@ -4,6 +4,9 @@ use crate::collision::contact::abreast::places::{Abreast, Motion, Move};
 use crate::collision::contact::collocation::POINTS;
 use crate::collision::contact::each::Each;
 
+/// Share of a step within which a turn is found.
+const FOUND: f64 = 1e-6;
+
 impl<const W: usize> Abreast<'_, W> {
     /// Moves the places that turn in this step to where they do: the length of the step at every place, and what that
     /// time does to the modes.
@@ -13,26 +16,28 @@ impl<const W: usize> Abreast<'_, W> {
         length: f64,
         powers: &[Each<W>; POINTS],
         turned: Each<W>,
-    ) -> (Each<W>, Vec<Move<W>>) {
+    ) -> (Each<W>, Vec<Move<W>>, Each<W>) {
         let (start, end) = (self.distance(&self.now), self.distance(&self.next));
         let time = crossing(start[0], start[1] * length, end[0], end[1] * length) * length;
         let mut time = turned.choose(time, Each::all(length));
         let mut moves =
             vec![([Each::default(); 2], [[Each::default(); 2]; POINTS]); self.weights.len()];
+        let mut left = Each::default();
         for round in 0..3 {
             for n in 0..self.weights.len() {
                 moves[n] = moments(time * self.omegas[n]);
             }
             self.within(&moves, time, length, powers, turned);
+            let [rate, bend] = self.distance(&self.next);
+            left = rate / bend;
             if round == 2 {
                 break;
             }
-            let [rate, bend] = self.distance(&self.next);
-            let by = rate / bend;
-            let sane = turned.and(by.abs().within(Each::all(0.1 * length)));
-            time = sane.choose(time - by, time);
+            let sane = turned.and(left.abs().within(Each::all(0.1 * length)));
+            let by = sane.choose(left, Each::default());
+            time = (time - by).max(Each::default()).min(Each::all(length));
         }
-        (time, moves)
+        (time, moves, left.abs().within(Each::all(FOUND * length)))
     }
 
     /// What is 0 at the turn, and its rate: the rate of the compression, or on the way back how far it is from the largest.
