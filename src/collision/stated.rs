@@ -103,8 +103,11 @@ impl Answered<'_> {
         if !self.met.is_delicate() {
             return [1.0, 0.0];
         }
-        let faster = self.met.faster.unwrap_or(f64::INFINITY);
-        let magnified = ((faster - self.met.impulse).abs() / momentum).max(1.0);
+        /// A share of a millionth changes the exit speed by the closing speed at most, however steep the derivative is.
+        const MOST: f64 = 1e6;
+        let faster = self.met.faster.map(|faster| (faster - self.met.impulse).abs() / momentum);
+        let known = faster.filter(|magnified| !magnified.is_nan());
+        let magnified = known.unwrap_or(MOST).clamp(1.0, MOST);
         [magnified, magnified * self.speed_of(SMALL)]
     }
 }
