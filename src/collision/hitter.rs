@@ -306,23 +306,8 @@ impl<'a> Hitter<'a> {
         closing: f64,
         accuracy: f64,
     ) -> Option<(Encounter, f64)> {
-        self.meet_beside(x, felt, &[], closing, accuracy)
-    }
-
-    /// As [`Self::meet`], with bats of fewer modes beside it.
-    pub(super) fn meet_beside(
-        &self,
-        x: f64,
-        felt: &DrivingPoint,
-        others: &[DrivingPoint],
-        closing: f64,
-        accuracy: f64,
-    ) -> Option<(Encounter, f64)> {
-        self.meet_all(
-            &[Blow { x, felt, others: &|| others.to_vec(), closing, compared: true }],
-            accuracy,
-        )
-        .pop()?
+        self.meet_all(&[Blow { x, felt, others: &Vec::new, closing, compared: true }], accuracy)
+            .pop()?
     }
 
     /// The meetings at some places, each with the accuracy of its steps; side by side, which changes no bit of them.

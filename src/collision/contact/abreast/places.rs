@@ -125,22 +125,9 @@ impl<'a, const W: usize> Abreast<'a, W> {
         touches: &[Touch<'a, PowerLaw>],
         differ: usize,
     ) -> Self {
-        let mut of = [Each::default(); 8];
         let count = touches[0].felt.gains.len();
         let omegas = Vec::from_iter(collider.poles[..count].iter().map(|s| s.im));
-        let mut weights = vec![Each::default(); count];
-        for l in 0..W {
-            let touch = &touches[l.min(touches.len() - 1)];
-            let Touch { felt, law, speed, energy, deepest, .. } = touch;
-            let parts = [felt.inverse_mass, felt.rest, *speed, *energy, *deepest];
-            let law = [law.stiffness, law.exponent, law.unloading];
-            for (of, part) in of.iter_mut().zip(parts.into_iter().chain(law)) {
-                of.0[l] = part;
-            }
-            for n in 0..count {
-                weights[n].0[l] = felt.gains[n] / omegas[n];
-            }
-        }
+        let (of, weights) = lanes(touches, &omegas);
         let stage = |l: usize| if l < touches.len() { Stage::Touch } else { Stage::Over };
         let mut lightness = of[0];
         for n in 0..count {
@@ -277,4 +264,26 @@ impl<'a, const W: usize> Abreast<'a, W> {
         }
         state.speed - sum
     }
+}
+
+/// 1/μ, flexibility, closing speed, energy, depth, stiffness and both exponents of every place, and `c/ω` of its modes; the
+/// last place fills the lanes that are left.
+#[inline(always)]
+fn lanes<const W: usize>(
+    touches: &[Touch<PowerLaw>],
+    omegas: &[f64],
+) -> ([Each<W>; 8], Vec<Each<W>>) {
+    let (mut of, mut weights) = ([Each::default(); 8], vec![Each::default(); omegas.len()]);
+    for l in 0..W {
+        let Touch { felt, law, speed, energy, deepest, .. } = &touches[l.min(touches.len() - 1)];
+        let parts = [felt.inverse_mass, felt.rest, *speed, *energy, *deepest];
+        let law = [law.stiffness, law.exponent, law.unloading];
+        for (of, part) in of.iter_mut().zip(parts.into_iter().chain(law)) {
+            of.0[l] = part;
+        }
+        for (n, omega) in omegas.iter().enumerate() {
+            weights[n].0[l] = felt.gains[n] / omega;
+        }
+    }
+    (of, weights)
 }
