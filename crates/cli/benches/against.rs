@@ -2,7 +2,7 @@
 //!
 //! `cargo bench -p sweetspot-cli --bench against -- --against PROGRAM` runs both programs in turns and prints the least
 //! time of each and their ratio. Without a program each time is divided by that of the fixed computation in the same
-//! run, and compared with what `benches/kept.csv` has; `-- --keep` writes that file anew. Every command runs on one core.
+//! run, and compared with what `kept.csv` beside it has; `-- --keep` writes that file anew. Every command runs on one core.
 
 use std::hint::black_box;
 use std::path::Path;
@@ -11,7 +11,7 @@ use std::time::Instant;
 
 /// Turns: the least time of them counts.
 const TURNS: usize = 9;
-const KEPT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../benches/kept.csv");
+const KEPT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/kept.csv");
 
 /// Commands by name, and in how many of the turns they run.
 const COMMANDS: [(&str, usize, &[&str]); 13] = [
