@@ -356,7 +356,7 @@ impl<'a> Hitter<'a> {
     }
 
     /// The meeting at a place by itself, with steps that are as short as it needs.
-    fn meet_alone(&self, blow: &Blow, accuracy: f64) -> Option<(Encounter, f64)> {
+    pub(super) fn meet_alone(&self, blow: &Blow, accuracy: f64) -> Option<(Encounter, f64)> {
         let Blow { x, felt, closing, .. } = *blow;
         let (collider, law) = (self.collider.as_ref()?, self.law_at(x, closing)?);
         let others = if blow.compared { (blow.others)() } else { vec![] };

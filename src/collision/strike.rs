@@ -4,7 +4,7 @@ use crate::collision::answer::HitAnswer;
 use crate::collision::contact::table::Piece;
 use crate::collision::history::{Moment, history};
 use crate::collision::hit::{Energy, Impact, Model, Outcome, Scene};
-use crate::collision::hitter::{Hitter, resolved};
+use crate::collision::hitter::{Blow, Hitter, resolved};
 use crate::collision::struck::recoil_between;
 
 /// A hit without its ledger and its error.
@@ -48,7 +48,9 @@ impl Hitter<'_> {
         let (impulse, first, [late, again], in_modes) = match self.model {
             Model::Contact => {
                 let closing = self.closing(x)?;
-                let (met, _) = self.meet(x, &self.felt(x), closing, SMOOTH)?;
+                let felt = &self.felt(x);
+                let blow = Blow { x, felt, others: &Vec::new, closing, compared: true };
+                let (met, _) = self.meet_alone(&blow, SMOOTH)?;
                 let later = [met.late, met.again()];
                 (met.impulse, met.first_impulse, later, met.in_modes)
             }

@@ -18,7 +18,7 @@ use crate::collision::contact::touch::{DrivingPoint, State, Touch};
 /// Halvings of the longest step.
 pub(super) const LEVELS: usize = 42;
 /// Share of the largest compression by which its return may be missed.
-pub(super) const MISSED: f64 = 1e-8;
+const MISSED: f64 = 1e-8;
 /// Share of the energy that the force may still give when it is let go.
 const NOTHING: f64 = 1e-14;
 /// Halvings of the longest step while there is a force, and the most for seeing whether the surface

@@ -13,7 +13,7 @@ use crate::collision::contact::abreast::solve::Solved;
 use crate::collision::contact::collocation::{LANES, POINTS};
 use crate::collision::contact::each::Each;
 use crate::collision::contact::power_law::PowerLaw;
-use crate::collision::contact::pressing::{MISSED, USUAL};
+use crate::collision::contact::pressing::USUAL;
 use crate::collision::contact::step::AHEAD;
 use crate::collision::contact::touch::Touch;
 
@@ -22,6 +22,8 @@ const MOST: usize = 48;
 /// Runs of steps from one change to the next at a place, and its steps, at most: it is met alone else.
 const RUNS: f64 = 400.0;
 const STEPS: f64 = 4000.0;
+/// Share of the largest compression by which its return may be missed, over the accuracy.
+const MISSED: f64 = 1e-3;
 /// Share of the energy of their parting that the force may still give when it is let go.
 const SLIGHT: f64 = 1e-4;
 
@@ -155,7 +157,7 @@ impl<const W: usize> Abreast<'_, W> {
             return;
         }
         let [x, force] = self.tops;
-        let near = (next.compression - x).abs().within(x * MISSED);
+        let near = (next.compression - x).abs().within(x * (MISSED * self.accuracy));
         let missed = event.and(near.fails());
         (self.coarse, self.failed) = (self.coarse.or(missed), self.failed.or(missed));
         next.compression = event.choose(x, next.compression);
