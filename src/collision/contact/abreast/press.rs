@@ -19,7 +19,7 @@ use crate::collision::contact::touch::Touch;
 
 /// Usual steps there or back at the accuracy 1e-3, at most.
 const MOST: usize = 48;
-/// Runs of steps from one change to the next at a place, and its steps, at most: it is met alone else.
+/// Most runs of steps from one change to the next at a place, and most steps; a place that needs more is met alone.
 const RUNS: f64 = 400.0;
 const STEPS: f64 = 4000.0;
 /// Share of the largest compression by which its return may be missed, over the accuracy.
@@ -130,7 +130,7 @@ impl<const W: usize> Abreast<'_, W> {
         }
         self.remember(([Each::all(table.length), length / table.length], course), idle);
         fine = fine.and(self.correct(table, length, [event, idle], moves.as_deref()));
-        // A number that is none is not itself.
+        // A comparison with NaN fails: a compression that is NaN is not within itself.
         fine = fine.and(self.next.compression.within(self.next.compression));
         let failed = idle.fails().and(fine.fails());
         (self.coarse, self.failed) = (self.coarse.or(failed), self.failed.or(failed));
@@ -146,8 +146,8 @@ impl<const W: usize> Abreast<'_, W> {
         event
     }
 
-    /// Makes the compression and the force of a turn the largest ones, or these those of the return to them, which may
-    /// have been missed.
+    /// At a turn, keeps its compression and force as the largest ones. At the return to the largest compression, sets both
+    /// to the largest ones; a place where that return was missed fails.
     #[inline(always)]
     fn arrive(&mut self, event: Each<W>) {
         let next = &mut self.next;

@@ -11,7 +11,7 @@ pub(super) enum Stage {
     Anew,
     /// The ball springs back.
     Back,
-    /// It does, and the force that was let go returns.
+    /// The ball springs back, and the force that was let go returns.
     Late,
     /// The ball is gone for good.
     Over,
