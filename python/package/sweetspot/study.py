@@ -13,7 +13,7 @@ from collections import Counter, deque
 from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import closing, contextmanager
+from contextlib import closing, contextmanager, suppress
 from datetime import timedelta
 from multiprocessing import get_context
 from multiprocessing.connection import Connection
@@ -80,7 +80,8 @@ def shared_out(pool: Pool, parts: list[int]) -> Parts:
                     raise Lost(f"part {k} ended its worker {DEATHS} times, with nothing beside it (memory, perhaps)")
                 again.append(k)
     finally:
-        with undisturbed():
+        # An engine that cannot be closed (after a worker's death, for example) does not hide why the study ended.
+        with undisturbed(), suppress(Exception):
             pool.close()
 
 
