@@ -1,4 +1,4 @@
-//! How do files stay whole? A new file is written beside the old one and renamed; an input is never overwritten.
+//! How do files stay whole? A new file is written next to the old one and renamed; an input is never overwritten.
 //!
 //! [`write()`] follows the name to its target. It writes through an open descriptor, a device or a pipe. It replaces a
 //! file by a whole new one with the same owner and permissions. If that is impossible (the file has other names, or the

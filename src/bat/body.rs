@@ -437,7 +437,7 @@ impl Bat {
     fn check_range(&self) -> Result<()> {
         let Inertia { mass, balance_point, about_balance, line_about_balance } = self.inertia();
         in_range("mass", mass, "kg")?;
-        // Masses beside the bat may put the balance point anywhere.
+        // Masses off the bat may put the balance point anywhere.
         in_range("balance point", balance_point.abs().max(1.0), "m")?;
         in_range("moment of inertia", about_balance, "kg m²")?;
         in_range("moment of inertia as a line", line_about_balance, "kg m²")?;

@@ -24,7 +24,7 @@ pub struct Fixtures {
     /// Masses that hang on springs.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub absorbers: Vec<Absorber>,
-    /// Joints that give way to bending.
+    /// Joints that are flexible in bending.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub joints: Vec<Joint>,
     /// Places that are held.

@@ -22,7 +22,7 @@ pub struct Field<P> {
     pub kind: MemberKind,
     /// The expected text if it is missing; `None` if it is optional.
     pub needed: Option<&'static str>,
-    /// Another key that is required beside it, and the expected text for that.
+    /// Another key that is required with it, and the expected text for that.
     pub with: Option<(&'static str, &'static str)>,
     /// An example in units of the trade, if that of the quantity is of another size.
     pub example: Option<&'static str>,

@@ -36,7 +36,7 @@ pub struct Ball {
     /// Radius (m).
     pub radius_m: f64,
     /// Radius (m) of its patch on a flat wall; left out if none was given.
-    // By default that of a ball compressed by 8 mm. Only a wall that gives way by its hoop modes needs it.
+    // By default that of a ball compressed by 8 mm. Only a wall that deflects in its hoop modes needs it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact_radius_m: Option<f64>,
     /// Stiffness (N/m^exponent); null if no force law is known.

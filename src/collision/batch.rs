@@ -29,7 +29,7 @@ pub struct Blow<'a> {
 /// Strikes every bat and shows what came of it to `visit`, with its place among the bats; those whose exit
 /// speeds ask for the same modes come one after the other.
 ///
-/// A bat's hits depend on itself, its blow and `model`, a bat like the others, and not on the bats beside it.
+/// A bat's hits depend on itself, its blow and `model`, a bat like the others, and not on its neighbours in the batch.
 ///
 /// ```
 /// use sweetspot::collision::batch::{Blow, each};

@@ -59,7 +59,7 @@ pub struct Protocol {
     pub cor_given: bool,
     /// First and last place of the scan (m from the knob end).
     pub scan: [f64; 2],
-    /// Whether a hollow barrel's wall gives way.
+    /// Whether a hollow barrel's wall deflects.
     pub wall: WallChoice,
 }
 
@@ -75,7 +75,7 @@ pub struct Scan {
     pub places: Vec<Place>,
     /// The largest BBCOR of the scan; null if no place has one.
     pub largest: Option<Largest>,
-    /// What a hollow barrel's wall does at that place; left out if it does not give way by its hoop modes.
+    /// What a hollow barrel's wall does at that place; left out if it does not deflect in its hoop modes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub wall: Option<WallFigures>,
     /// The largest BBCOR that the rules allow.

@@ -109,7 +109,7 @@ pub struct Figures {
     /// Place and exit speed (m/s) of the fastest ball off a bat that does not bend.
     #[serde(rename = "rigid_exit_speed_max")]
     pub rigid_best: Option<Peak>,
-    /// What a hollow barrel's wall does at the sweet spot; left out if it does not give way by its hoop modes.
+    /// What a hollow barrel's wall does at the sweet spot; left out if it does not deflect in its hoop modes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub wall: Option<WallFigures>,
     /// Swings of one batter with this bat, by several laws of swing; empty without a reference inertia.

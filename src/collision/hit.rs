@@ -86,7 +86,7 @@ pub struct Scene {
     pub hands: f64,
     /// The barrel's wall under the ball, by a person's own figures, if there are any.
     pub wall: Option<Wall>,
-    /// Whether the wall gives way by its hoop modes, those of the bat that the scene was made for; for another bat they
+    /// Whether the wall deflects in its hoop modes, those of the bat that the scene was made for; for another bat they
     /// are solved again. Not used if [`Self::wall`] is given.
     pub hoop: HoopInHit,
 }
@@ -117,7 +117,7 @@ impl Default for Scene {
 }
 
 impl Scene {
-    /// Whether the barrel's wall gives way under the ball, by a person's figures or by its hoop modes.
+    /// Whether the barrel's wall deflects under the ball, by given figures or in its hoop modes.
     pub fn wall_gives_way(&self) -> bool {
         self.wall.is_some() || self.hoop.wall().is_some()
     }
@@ -267,7 +267,7 @@ pub struct Energy {
     pub dissipated_ball: f64,
     /// Energy lost in the bat's own damping (J).
     pub dissipated_damping: f64,
-    /// Energy left in the barrel's wall (J), if the wall gives way.
+    /// Energy left in the barrel's wall (J), if the wall deflects.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub wall: f64,
     /// That energy by the harmonics around the barrel; left out if the wall has none.

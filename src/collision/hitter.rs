@@ -178,12 +178,12 @@ impl<'a> Hitter<'a> {
         }
     }
 
-    /// How many of the modes are slow beside the contact: not two thirds as quick as the last one has to be.
+    /// How many of the modes are slow compared with the contact: less than two thirds as quick as the last one must be.
     pub(super) fn slow_modes(&self) -> usize {
         self.modes.iter().take_while(|[omega, _]| omega * self.pressed < SLOW * QUICK).count()
     }
 
-    /// How many modes make the last one quick beside the contact, more or less; None where it is.
+    /// About how many modes make the last one quick compared with the contact; None where it is.
     pub(super) fn modes_for_contact(&self) -> Option<usize> {
         /// More than that times as many are not taken at once.
         const AT_ONCE: f64 = 4.0;
@@ -205,7 +205,7 @@ impl<'a> Hitter<'a> {
         [efficiency, bbcor(ball / self.bat.recoil_mass(x)), bbcor(pivoted)]
     }
 
-    /// `1/M_eff` (1/kg): how a bat that does not bend gives way at `x`.
+    /// `1/M_eff` (1/kg): the mobility of a bat that does not bend at `x`.
     pub(super) fn recoil(&self, x: f64) -> f64 {
         if self.held { recoil_between(&self.stiff, x, x) } else { 1.0 / self.bat.recoil_mass(x) }
     }
@@ -244,7 +244,7 @@ impl<'a> Hitter<'a> {
         Some(mass * (1.0 + cor) * closing / self.scene.ball.mass_kg - self.scene.ball_speed)
     }
 
-    /// Whether there is something to hit at `x`: a point gives way without end.
+    /// Whether there is something to hit at `x`: a point deflects without end.
     pub(super) fn has_section(&self, x: f64) -> bool {
         matches!(self.model, Model::Rigid | Model::EnergyLoss(_)) || self.profile.at(x).outer > 0.0
     }
@@ -287,7 +287,7 @@ impl<'a> Hitter<'a> {
         }
     }
 
-    /// The wall at `x` (m), where it gives way by its hoop modes.
+    /// The wall at `x` (m), where it deflects in its hoop modes.
     pub(super) fn under(&self, x: f64) -> Option<WallFelt> {
         Some(self.hoop.as_ref()?.under(x, self.scene.ball.patch_compression()))
     }
@@ -325,13 +325,13 @@ impl<'a> Hitter<'a> {
         all
     }
 
-    /// The meetings at some places, those alone that cannot be had side by side.
+    /// The meetings at some places; those that cannot go side by side are met alone.
     fn meet_each(&self, blows: &[Blow], accuracy: f64) -> Vec<Option<(Encounter, f64)>> {
         let abreast = self.meet_abreast(blows, accuracy).into_iter().zip(blows);
         abreast.map(|(met, blow)| met.or_else(|| self.meet_alone(blow, accuracy))).collect()
     }
 
-    /// The meetings that can be had side by side.
+    /// The meetings that go side by side.
     fn meet_abreast(&self, blows: &[Blow], accuracy: f64) -> Vec<Option<(Encounter, f64)>> {
         let mut all = vec![None; blows.len()];
         let Some(collider) = &self.collider else { return all };
@@ -374,7 +374,7 @@ impl<'a> Hitter<'a> {
 pub(super) struct Blow<'a> {
     pub x: f64,
     pub felt: &'a DrivingPoint,
-    /// Bats of no more modes beside it.
+    /// Varied bats, of no more modes.
     pub others: &'a dyn Fn() -> Vec<DrivingPoint>,
     pub closing: f64,
     /// Whether it is compared with those also where ball and bat touch once.

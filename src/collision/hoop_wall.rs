@@ -1,4 +1,4 @@
-//! How far does a hollow barrel's wall give way under a ball?
+//! How far does a hollow barrel's wall deflect under a ball?
 //!
 //! Every hoop mode of the wall ([`crate::modes::hoop`]) is an additional mode of the contact. The part of a harmonic
 //! beyond its kept modes follows the force at once. A ball presses on a patch, so the sum over the harmonics converges:
@@ -278,7 +278,7 @@ pub fn barrel_walls(bat: &Bat) -> Vec<[f64; 2]> {
     if hollow { walls } else { vec![] }
 }
 
-/// Restitution of a ball on a wall that gives way, from that on a rigid one: `e = √((e_s² + s)/(1 + s))`, with
+/// Restitution of a ball on a wall that deflects, from that on a rigid one: `e = √((e_s² + s)/(1 + s))`, with
 /// `s = ½ (1 + α) k_ball/k_wall` the share of the energy that the wall stores and returns. An estimate, within 0.03,
 /// for a wall much lighter than the ball.
 pub fn restitution_with_wall(stiff: f64, exponent: f64, ball_over_wall: f64) -> f64 {
@@ -286,19 +286,19 @@ pub fn restitution_with_wall(stiff: f64, exponent: f64, ball_over_wall: f64) -> 
     ((stiff * stiff + share) / (1.0 + share)).sqrt()
 }
 
-/// Whether the wall of a bat gives way in a hit by its own hoop modes.
+/// Whether the wall of a bat deflects in a hit in its own hoop modes.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub enum HoopInHit {
-    /// There is no wall that could give way, or it was not requested.
+    /// There is no wall that could deflect, or it was not requested.
     #[default]
     None,
     /// There is one, but it is taken as rigid.
     LeftOut(WhyRigid),
-    /// It gives way.
+    /// It deflects.
     Counted(Arc<HoopWall>),
 }
 
-/// Why a wall that could give way is taken as rigid.
+/// Why a wall that could deflect is taken as rigid.
 #[derive(Debug, Clone, PartialEq)]
 pub enum WhyRigid {
     /// The user asked for it.
@@ -319,7 +319,7 @@ pub enum WhyRigid {
 }
 
 impl HoopInHit {
-    /// The choice for comparisons of many bats: a wall that would give way is taken as rigid.
+    /// The choice for comparisons of many bats: a wall that would deflect is taken as rigid.
     pub fn left_out(&self) -> Self {
         match self {
             Self::Counted(_) => Self::LeftOut(WhyRigid::ManyBats),
@@ -330,8 +330,8 @@ impl HoopInHit {
     /// Possible error of an exit speed, relative to the closing speed, due to a wall that was omitted because its
     /// effect is small.
     pub fn error(&self) -> f64 {
-        /// Factor on the estimated change: at an open tip the wall gives way more than twice as far as within the barrel,
-        /// and within the barrel the estimate is about twice too large.
+        /// Factor on the estimated change: at an open tip the wall deflects more than twice as far as within the
+        /// barrel, and within the barrel the estimate is about twice too large.
         const AT_THE_TIP: f64 = 2.0;
         match self {
             Self::LeftOut(WhyRigid::Small { gain, .. }) => AT_THE_TIP * gain,
@@ -339,7 +339,7 @@ impl HoopInHit {
         }
     }
 
-    /// The wall, if it gives way.
+    /// The wall, if it deflects.
     pub fn wall(&self) -> Option<&Arc<HoopWall>> {
         match self {
             Self::Counted(wall) => Some(wall),

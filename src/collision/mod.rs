@@ -9,10 +9,10 @@
 //! |---|---|
 //! | [`contact`] | how hard does a ball push back; what happens while they touch, and when do they touch again |
 //! | [`ball`] | what ball |
-//! | [`struck`], [`hoop_wall`] | how far does the bat give way under a ball, anywhere; how far does a barrel's wall |
+//! | [`struck`], [`hoop_wall`] | how far does the bat deflect under a ball, anywhere; how far does a barrel's wall |
 //! | [`rigid`], [`energy_loss`], [`pulse`] | the simpler models: no bending, an empirical loss, a known pulse |
 //! | [`columns`] | which figures of a hit are written, and under which names |
-//! | [`wall_choice`], [`setup`] | does the wall give way in this hit; how is a bat hit, before the bat is known |
+//! | [`wall_choice`], [`setup`] | does the wall deflect in this hit; how is a bat hit, before the bat is known |
 //! | [`hit`], [`hitter`], [`strike`], [`along`], [`sweep`](mod@sweep) | what is a hit, at one place, along the barrel |
 //! | [`sweet_spot`], [`wall_figures`], [`figures`] | where is the sweet spot, what does the wall do, by which figures are bats compared |
 //! | [`stated`] | what is the error of an exit speed |

@@ -37,7 +37,7 @@ pub struct Setup {
     pub cor: Option<f64>,
     /// Position of the hands (m from the knob end).
     pub hands: f64,
-    /// Whether a hollow barrel's wall gives way by its own hoop modes; a given stiffness replaces them.
+    /// Whether a hollow barrel's wall deflects in its own hoop modes; a given stiffness replaces them.
     pub wall: WallChoice,
     /// Stiffness of a hollow barrel's wall under the ball (N/m).
     pub wall_stiffness: Option<f64>,
@@ -122,7 +122,7 @@ impl Setup {
     }
 
     /// The scene on that bat, and the origin of its swing. `tolerance` is that of exit speeds over the closing speed,
-    /// which decides whether a hollow barrel's wall gives way; `None` if the number of modes is prescribed and nothing
+    /// which decides whether a hollow barrel's wall deflects; `None` if the number of modes is prescribed and nothing
     /// else may contribute.
     ///
     /// # Errors

@@ -1,4 +1,4 @@
-//! How far does the bat give way under a ball, anywhere along its length?
+//! How far does the bat deflect under a ball, anywhere along its length?
 
 use crate::base::linear::dot;
 use crate::bat::body::Bat;

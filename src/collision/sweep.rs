@@ -22,7 +22,7 @@ use crate::modes::solve::{Request, Solution, Solver, solve};
 pub enum RoundsEnd {
     /// Every hit is resolved and its exit speed within the tolerance by its own estimate.
     Met,
-    /// There are no more modes and no finer steps to be had.
+    /// No more modes and no finer steps are available.
     Settled,
     /// The last round made the answers no better: the hit magnifies what is small, and its exit speed is not
     /// defined better than stated.
@@ -282,7 +282,7 @@ impl Round {
                     now = next;
                     continue;
                 }
-                // Where better modes cannot be had, this answer stands.
+                // Where better modes are not available, this answer stands.
                 if now.request.tolerance >= 1e-13
                     && let Ok(finer) = solve(bat, &next.request)
                 {
@@ -307,8 +307,8 @@ impl Round {
         }
     }
 
-    /// More modes, where one that is slow beside the contact is among those that are left out, and what they are;
-    /// None where more cannot be had or the modes are given.
+    /// More modes, where one of those left out is slow compared with the contact, and what they are;
+    /// None where no more are available or the modes are given.
     fn slow_modes(&self, hitter: &Hitter, bat: &Bat) -> Option<(Request, Solution)> {
         if !self.effort.completed || self.request.elements.is_some() {
             return None;

@@ -440,7 +440,7 @@ fn boundary(
 mod tests {
     use super::*;
 
-    /// `1 − |x − a|^p` has its greatest value at a, smooth or as a kink. A search that starts beside it finds it and
+    /// `1 − |x − a|^p` has its greatest value at a, smooth or as a kink. A search that starts near it finds it and
     /// evaluates nothing outside the interval.
     #[test]
     fn the_greatest_value_is_found_to_the_width() {

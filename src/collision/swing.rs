@@ -17,7 +17,7 @@ pub struct Swing {
     pub scene: Scene,
     /// How the model treats the bending of the bat.
     pub model: Model,
-    /// Whether a hollow barrel's wall gives way.
+    /// Whether a hollow barrel's wall deflects.
     pub wall: WallChoice,
     /// Accuracy of the exit speeds, and limits on the computation.
     pub accuracy: Accuracy,

@@ -1,4 +1,4 @@
-//! Does a hollow barrel's wall give way in a hit?
+//! Does a hollow barrel's wall deflect in a hit?
 //!
 //! It does if the user asks for it, and by default if its estimated effect exceeds a share of the tolerance. The
 //! estimate needs no solution.
@@ -12,7 +12,7 @@ use crate::collision::hoop_wall::{
 };
 use crate::modes::hoop::rings;
 
-/// Whether a hollow barrel's wall gives way by its own hoop modes.
+/// Whether a hollow barrel's wall deflects in its own hoop modes.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum WallChoice {
     /// If it matters.
@@ -74,7 +74,7 @@ impl Scene {
         Ok(Self { hoop, ..self })
     }
 
-    /// This scene with the wall of that bat solved to 1e-3 of the closing speed, if it gives way: enough for differences
+    /// This scene with the wall of that bat solved to 1e-3 of the closing speed, if it deflects: enough for differences
     /// between bats whose walls are all solved so.
     ///
     /// # Errors

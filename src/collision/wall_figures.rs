@@ -60,8 +60,8 @@ impl WallFigures {
 }
 
 impl Hitter<'_> {
-    /// The wall under the ball at `x` (m); `None` if it does not give way by its hoop modes, and where ball and bat do not
-    /// meet.
+    /// The wall under the ball at `x` (m); `None` if it does not deflect in its hoop modes, or where ball and bat do
+    /// not meet.
     pub fn wall_figures(&self, x: f64) -> Option<WallFigures> {
         let hoop = self.hoop.as_ref()?;
         let (closing, beyond) = (self.closing(x)?, self.struck.flexibility(x));

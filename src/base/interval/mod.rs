@@ -2,7 +2,7 @@
 //!
 //! [`Interval`] and [`Rectangle`] hold every value that exact arithmetic could give: results are
 //! rounded outwards, by one place after `+ − × ÷ √` and by `LIBRARY` after other functions. A
-//! [`Jet`] carries the derivative along, so that a range can be had from its middle too.
+//! [`Jet`] carries the derivative along, so that a range follows from its middle too.
 //!
 //! # Source
 //!

@@ -1,7 +1,7 @@
 //! One number for each of some places that are hit side by side, and the functions of a contact in them.
 //!
 //! Plain loops over arrays, which the compiler turns into vector instructions. Only operations that every machine
-//! rounds alike are used, so that a place has the same bits whichever lane it is in and whatever is beside it.
+//! rounds alike are used, so that a place has the same bits whichever lane it is in and whatever is in the other lanes.
 //!
 //! # Source
 //!

@@ -70,11 +70,11 @@ pub struct Encounter {
     pub open: f64,
     /// Steps that were tried.
     pub steps: usize,
-    /// Change of the impulse (N s) for each bat beside this one, to first order.
+    /// Change of the impulse (N s) for each varied bat, to first order.
     pub changes: Vec<f64>,
-    /// Change of the first touch's impulse (N s) for each bat beside this one, to first order.
+    /// Change of the first touch's impulse (N s) for each varied bat, to first order.
     pub first_changes: Vec<f64>,
-    /// Change of the impulse (N s) with the closing speed, times that speed, to first order; None without bats beside.
+    /// Change of the impulse (N s) with the closing speed, times that speed, to first order; None without varied bats.
     pub faster: Option<f64>,
     /// The steps came to no end.
     pub endless: bool,

@@ -157,7 +157,7 @@ impl<L: ForceLaw> Touch<'_, L> {
         let (mut known, mut bump) = (f64::NAN, vec![<[Lanes; 2]>::default(); self.swings.len()]);
         for _ in 0..4 {
             let length = *time;
-            // A bump is small: one that ends a little beside does as well.
+            // A bump is small: one that ends a little earlier or later does as well.
             let as_before = (length - known).abs() <= 1e-6 * length;
             if !as_before {
                 known = length;

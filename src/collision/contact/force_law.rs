@@ -1,6 +1,6 @@
 //! How hard does a compressed ball push back: what a contact asks of any law.
 //!
-//! A law of one's own is a type with [`ForceLaw`]; [`crate::collision::contact::power_law`] is one to
+//! Another law is a type with [`ForceLaw`]; [`crate::collision::contact::power_law`] is one to
 //! follow. Its force is a function of the compression on the way to the largest one, and another below
 //! it, back and forth, so that what is stored and lost is known in every state.
 

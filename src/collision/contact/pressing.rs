@@ -41,14 +41,14 @@ pub(super) struct Run {
     pub steps: usize,
     /// What the force does to the compression, of levels that were needed.
     pub couplings: Vec<(usize, Coupling)>,
-    /// What is followed beside it.
+    /// Changes by varied bats and by the closing speed.
     pub tangents: Vec<Tangent>,
     /// Any state within a step.
     pub between: State,
 }
 
 impl Run {
-    /// From that state on, with nothing beside it.
+    /// From that state on, with no changes followed.
     pub fn new(now: State) -> Self {
         let still = State::at_first(now.memories.len(), 0.0);
         Self {
@@ -82,7 +82,7 @@ pub(super) struct StepTables<'a> {
     pub tables: &'a [OnceLock<StepTable>],
     pub longest: f64,
     pub history: Option<&'a mut Vec<Piece>>,
-    /// Bats beside it.
+    /// Varied bats.
     pub others: &'a [DrivingPoint],
 }
 

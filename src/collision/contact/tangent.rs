@@ -1,4 +1,4 @@
-//! How the impulse would change, to first order, if the bat gave way a little differently: beside the
+//! How the impulse would change, to first order, if the bat's gains and flexibility were a little different: with the
 //! meeting itself, on its own steps.
 //!
 //! Of a bat with `c_n + δc_n` and `C + δC` the force is another by δF, and the compression by δx:
@@ -26,7 +26,7 @@ use crate::collision::contact::step::{AHEAD, Coupling, Step, eliminate};
 use crate::collision::contact::table::StepTable;
 use crate::collision::contact::touch::{DrivingPoint, State, Swings, Touch};
 
-/// A bat that gives way a little differently, and how ball and bat differ for it.
+/// A varied bat, and how the motion of ball and bat differs for it.
 pub(super) struct Tangent {
     /// `δc/ω_d` of every mode (s/kg).
     weights: Vec<Lanes>,

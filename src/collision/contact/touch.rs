@@ -103,7 +103,7 @@ pub struct Swings {
     pub square: Lanes,
     /// `c/ω_d` (s/kg).
     pub weight: Lanes,
-    /// `c/ω_d²` (m/N), how the mode gives way to a slow force; its energy with a memory.
+    /// `c/ω_d²` (m/N), the mode's flexibility under a slow force; its energy with a memory.
     pub flexibility: Lanes,
 }
 

@@ -55,7 +55,7 @@ pub struct BatFile {
     pub tapes: Option<Vec<InFile<Tape>>>,
     /// Masses that hang on springs.
     pub absorbers: Option<Vec<InFile<Absorber>>>,
-    /// Joints that give way to bending, one joint at one place.
+    /// Joints that are flexible in bending, one joint at one place.
     pub joints: Option<Vec<InFile<Joint>>>,
     /// Places that are held, one support at one place; without supports the bat is free.
     pub supports: Option<Vec<InFile<Support>>>,

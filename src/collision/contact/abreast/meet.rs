@@ -21,12 +21,12 @@ use crate::collision::contact::touch::{DrivingPoint, State, Touch};
 /// followed by itself.
 const EXPONENTS: [f64; 2] = [6.0, 60.0];
 
-/// A place that is hit beside others.
+/// One of several places that are hit.
 #[derive(Debug, Clone, Copy)]
 pub struct Place<'a> {
     /// The bat as the ball feels it there.
     pub felt: &'a DrivingPoint,
-    /// Bats beside it, of no more modes.
+    /// Varied bats, of no more modes.
     pub others: &'a [DrivingPoint],
     /// The ball's law.
     pub law: PowerLaw,
@@ -35,7 +35,7 @@ pub struct Place<'a> {
 }
 
 impl Place<'_> {
-    /// How many of the last modes bats beside have otherwise, 1 at least where there are any.
+    /// In how many of the last modes varied bats differ, 1 at least where there are any.
     fn differ(&self) -> usize {
         let gains = &self.felt.gains;
         let same = |other: &DrivingPoint| {
@@ -297,7 +297,7 @@ mod tests {
         collider(10).meet_abreast(places, accuracy)
     }
 
-    /// One by one, side by side, and beside others than before.
+    /// One by one, side by side, and with other places in the other lanes.
     #[test]
     fn a_place_has_the_same_bits_whatever_is_beside_it() {
         let (felt, law) = (dowels(), PowerLaw::new(6.53e7, 1.84, 0.5));

@@ -1,9 +1,9 @@
 //! Places of one bat that are hit side by side, by the equations of [`crate::collision::contact::encounter`].
 //!
 //! The lengths of the steps follow from their accuracy and the ball's exponent alone, so that all places share the
-//! tables of the steps, and a place has the same bits whatever is beside it. Met alone are a place whose steps would have
-//! to be shorter, a bat with damping or without modes, a ball whose law is no power or ends too steeply or not smoothly
-//! enough, and what is asked to better than 2e-8.
+//! tables of the steps, and a place has the same bits whatever is in the other lanes. These are met alone: a place whose
+//! steps would have to be shorter, a bat with damping or without modes, a ball whose law is no power or ends too steeply
+//! or not smoothly enough, and accuracies better than 2e-8.
 //!
 //! | file | question |
 //! |---|---|

@@ -84,7 +84,7 @@ pub(super) struct Abreast<'a, const W: usize> {
     pub first: Each<W>,
 }
 
-/// What is kept for the bats beside.
+/// What is kept for the changes by varied bats.
 pub(super) enum Kept<const W: usize> {
     /// A step.
     Step(Walked<W>),
@@ -118,7 +118,7 @@ pub(super) struct Turned<const W: usize> {
 }
 
 impl<'a, const W: usize> Abreast<'a, W> {
-    /// Places before the first touch; the last one fills the lanes that are left. Bats beside them differ in that number
+    /// Places before the first touch; the last one fills the lanes that are left. Varied bats differ in that number
     /// of the last modes.
     pub(super) fn new(
         collider: &'a Collider,

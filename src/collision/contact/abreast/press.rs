@@ -76,7 +76,7 @@ impl<const W: usize> Abreast<'_, W> {
                     .below(self.tops[1] * self.collider.tuning.faint)
                     .and(idle.fails()));
                 let leaves = self.rate(&self.now).below(Each::default());
-                // What is left is little beside the energy of their parting too.
+                // What is left is also little compared with the energy of their parting.
                 let (stored, rate) = (self.stored(), self.rate(&self.now));
                 let little = (self.lightness * stored).within(rate * rate * SLIGHT);
                 gone = leaves.and(little).and(stored.within(cut)).and(idle.or(self.failed).fails());
@@ -275,7 +275,7 @@ impl<const W: usize> Abreast<'_, W> {
         }
     }
 
-    /// Keeps of a step what bats beside need.
+    /// Keeps of a step what the changes need.
     #[inline(always)]
     pub(super) fn keep(&mut self, level: usize, solved: &Solved<W>, taken: Each<W>) {
         let (table, first) = (self.collider.table(level), self.weights.len() - self.differ);
@@ -298,7 +298,7 @@ impl<const W: usize> Abreast<'_, W> {
         self.kept.push(Kept::Step(walked));
     }
 
-    /// Keeps of a turn what bats beside need.
+    /// Keeps of a turn what the changes need.
     #[inline(always)]
     pub(super) fn keep_turn(&mut self, which: Each<W>, time: Each<W>, moves: Vec<Move<W>>) {
         let (next, first) = (&self.next, self.weights.len() - self.differ);
