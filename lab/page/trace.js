@@ -10,6 +10,8 @@ const LONGEST = 4096, LARGEST_FILE = 60 << 20;
 const USUAL_WOOD = "white-ash-dynamic";
 /** How near (screen px) a pointer takes hold of a point that was set. */
 const NEAR = 12;
+/** What arrow keys do to the cross (px of the picture), and how many times as much with Shift. */
+const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }, FAST = 20;
 
 /**
  * A photograph: its pixels, the points set by hand, and what the core said of it.
@@ -19,7 +21,7 @@ const NEAR = 12;
 export class Tracing {
   /** @param {import("./bench.js").Bench} bench @param {string[]} woods @param {() => Far} far */
   constructor(bench, woods, far) {
-    Object.assign(this, { bench, far, core: null, count: 0, at: 0, held: -1 });
+    Object.assign(this, { bench, far, core: null, count: 0, at: 0, held: -1, cross: null });
     /** @type {Taken[]} */
     this.taken = [];
     this.dialog = byId("tracing");
@@ -31,7 +33,7 @@ export class Tracing {
       byId(`trace-${name}`).addEventListener("change", () => this.trace());
     }
     byId("trace-zoom").addEventListener("input", () => this.size());
-    byId("trace-unpin").addEventListener("click", () => { this.taken[this.at].pins = []; this.trace(); });
+    byId("trace-unpin").addEventListener("click", () => this.set([]));
     byId("trace-less").addEventListener("click", () => this.less());
     byId("trace-stop").addEventListener("click", () => { this.count += 1; this.end(); this.say("Stopped."); });
     byId("trace-use").addEventListener("click", () => this.use());
@@ -41,6 +43,7 @@ export class Tracing {
     svg.addEventListener("pointerdown", (event) => this.down(event));
     svg.addEventListener("pointermove", (event) => this.move(event));
     for (const end of ["pointerup", "pointercancel"]) svg.addEventListener(end, () => this.up());
+    svg.addEventListener("keydown", (event) => this.key(event));
     this.draw();
   }
 
@@ -158,6 +161,7 @@ export class Tracing {
     put(canvas, { width: one?.width ?? 1, height: one?.height ?? 1 });
     if (one) canvas.getContext("2d").putImageData(new ImageData(new Uint8ClampedArray(one.bytes), one.width), 0, 0);
     put(this.svg, { viewBox: `0 0 ${one?.width ?? 1} ${one?.height ?? 1}` });
+    this.cross = null;
     this.size();
     this.draw();
   }
@@ -176,6 +180,10 @@ export class Tracing {
     }
     for (const [x, y] of answer?.ends ?? []) drawn(svg, "circle", { class: "traced-end", cx: x, cy: y, r: 6 });
     for (const [x, y] of one?.pins ?? []) drawn(svg, "circle", { class: "pin", cx: x, cy: y, r: 8 });
+    if (one && this.cross) {
+      const [x, y] = this.cross, arms = `M${x - 12} ${y}h24M${x} ${y - 12}v24`;
+      drawn(svg, "path", { class: "pin", d: arms }).scrollIntoView({ block: "nearest", inline: "nearest" });
+    }
     byId("trace-stage").hidden = !one;
     byId("trace-which").replaceChildren(...taken.map(({ name }, k) => button(`${k + 1}: ${name}`,
       { class: "small-button", "aria-pressed": String(k === at) }, () => { this.at = k; this.show(); })));
@@ -185,26 +193,56 @@ export class Tracing {
     byId("trace-words").replaceChildren(...(answer?.words ?? []).map((text) => made("li", {}, text)));
   }
 
-  /** The place of an event on the picture, and how many of its pixels one of the screen is. */
+  /** How many pixels of the picture one of the screen is. */
+  scale() {
+    return this.taken[this.at].width / this.svg.getBoundingClientRect().width;
+  }
+
+  /** The place of an event on the picture. */
   place(event) {
-    const box = this.svg.getBoundingClientRect(), { width } = this.taken[this.at], scale = width / box.width;
-    return [(event.clientX - box.left) * scale, (event.clientY - box.top) * scale, scale];
+    const box = this.svg.getBoundingClientRect(), scale = this.scale();
+    return [(event.clientX - box.left) * scale, (event.clientY - box.top) * scale];
+  }
+
+  /** Which of the points that were set is near a place, or −1. */
+  near([x, y]) {
+    return this.taken[this.at].pins.findIndex(([a, b]) => Math.hypot(a - x, b - y) < NEAR * this.scale());
+  }
+
+  /** Traces by other points that were set. */
+  set(pins) {
+    this.taken[this.at].pins = pins;
+    this.trace();
+  }
+
+  /** By keys: arrows move a cross, which begins on an edge; Enter sets a point there, Delete removes the one there. */
+  key(event) {
+    const one = this.taken[this.at], by = ARROWS[event.key];
+    if (!one?.answer || !by && event.key !== "Enter" && event.key !== "Delete") return;
+    event.preventDefault();
+    const [edge] = one.answer.edges, far = event.shiftKey ? FAST : 1, most = [one.width - 1, one.height - 1];
+    const place = this.cross ?? edge[edge.length >> 1];
+    this.cross = place.map((at, k) => Math.min(Math.max(at + far * (by?.[k] ?? 0), 0), most[k]));
+    const near = this.near(this.cross);
+    if (by) this.draw();
+    else if (event.key === "Enter" && near < 0) this.set([...one.pins, this.cross]);
+    else if (event.key === "Delete" && near >= 0) this.set(one.pins.toSpliced(near, 1));
   }
 
   /** Takes hold of a point that was set, or sets one: the nearer edge goes through it. */
   down(event) {
     const one = this.taken[this.at];
     if (!one?.answer || event.button !== 0) return;
-    const [x, y, scale] = this.place(event);
-    this.held = one.pins.findIndex(([a, b]) => Math.hypot(a - x, b - y) < NEAR * scale);
-    if (this.held < 0) this.held = one.pins.push([x, y]) - 1;
+    const place = this.place(event);
+    this.held = this.near(place);
+    if (this.held < 0) this.held = one.pins.push(place) - 1;
     this.svg.setPointerCapture(event.pointerId);
     this.draw();
   }
 
   move(event) {
     if (this.held < 0) return;
-    this.taken[this.at].pins[this.held] = this.place(event).slice(0, 2);
+    this.taken[this.at].pins[this.held] = this.place(event);
     this.draw();
   }
 

@@ -457,6 +457,11 @@ def traced(browser, page, folder):
     check(waited(browser, "lab.tracing.taken[0].pins.length === 1 && !!lab.tracing.best", 40), "a point is not set")
     clicked(browser, "trace-unpin")
     check(waited(browser, "lab.tracing.taken[0].pins.length === 0 && !!lab.tracing.best", 40), "the points stay")
+    for keys, pins in ((["ArrowUp", "Enter"], 1), (["ArrowDown", "Delete"], 0)):
+        browser.run("document.getElementById('trace-edges').focus()")
+        for key in keys:
+            browser.key(key)
+        check(waited(browser, f"lab.tracing.taken[0].pins.length === {pins} && !!lab.tracing.best", 40), f"{keys}: not {pins} points")
     clicked(browser, "trace-use")
     check(waited(browser, "lab.bench.body.name === 'a bat from a photograph'", 10), "the bat is not opened")
     check(waited(browser, ANSWERED), f"a traced bat: no answer, {browser.run('lab.bench.trouble')}")
