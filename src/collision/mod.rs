@@ -13,7 +13,7 @@
 //! | [`rigid`], [`energy_loss`], [`pulse`] | the simpler models: no bending, an empirical loss, a known pulse |
 //! | [`columns`] | which figures of a hit are written, and under which names |
 //! | [`wall_choice`], [`setup`] | does the wall deflect in this hit; how is a bat hit, before the bat is known |
-//! | [`hit`], [`hitter`], [`strike`], [`along`], [`sweep`](mod@sweep) | what is a hit, at one place, along the barrel |
+//! | [`history`], [`hit`], [`hitter`], [`answer`], [`strike`], [`along`], [`sweep`](mod@sweep) | the force in time; what is a hit; what does each model say of it; at one place; along the barrel |
 //! | [`sweet_spot`], [`wall_figures`], [`figures`] | where is the sweet spot, what does the wall do, by which figures are bats compared |
 //! | [`stated`] | what is the error of an exit speed |
 //! | [`swing`], [`batch`] | all of it in one call; the exit speeds of many bats |

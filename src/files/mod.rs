@@ -10,6 +10,7 @@
 //! | `station_table`, `part_file`, `fixtures_file`, `edits_file`, [`bat_file`], [`built_in`] | a bat; which bats are built in |
 //! | [`ball_file`], [`balls`], [`scene_file`] | a ball; which ball is meant; how a bat is hit |
 //! | [`shape_file`], [`force_file`] | an initial shape; a force in time |
+//! | `schema` | the form of these files, as a JSON schema (feature `schema`) |
 
 #[doc(hidden)]
 pub mod document;

@@ -14,7 +14,7 @@
 //! | [`shifts`], [`theory_choice`], [`tuned`], [`prepared`] | what do rotary inertia and shear do to the frequencies; which theory does a bat need; how stiff is the wood, by a tap; both at once |
 //! | [`solve`](mod@solve), [`up_to`], [`batch`] | solve to a tolerance; up to a frequency; many bats |
 //! | [`compliance`] | how far does a force deflect the bat at a place |
-//! | [`pole`], [`reduced`], `driven`, `free_motions`, [`damping`] | a few modes with dashpots: their response to a force and their decay |
+//! | [`pole`], [`reduced`], `driven`, `free_motions`, [`shares`], [`damping`] | a few modes with dashpots: their response to a force; where a mode's energy is; their decay |
 //! | [`hoop`] | how the wall of a hollow bat rings |
 
 pub mod shape;

@@ -12,6 +12,9 @@ const BELOW: usize = 70;
 /// Least columns beside the longest name.
 const BESIDE: usize = 30;
 
+/// The verbs with `--budget`: all others refuse it, and their help leaves it out.
+const BUDGETED: [&str; 3] = ["modes", "ring", "trade"];
+
 /// A space at which no line breaks.
 const TOGETHER: &str = "\u{a0}";
 
@@ -24,7 +27,9 @@ pub fn fitted(command: Command) -> Command {
     };
     let longest = command.get_arguments().map(columns).max().unwrap_or(0);
     let beside = PROSE.saturating_sub(longest).max(BESIDE);
+    let refuses = !BUDGETED.contains(&command.get_name());
     let command = command.mut_args(|arg| {
+        let arg = if refuses && arg.get_id() == "budget" { arg.hide(true) } else { arg };
         let values = arg.get_default_values().iter().map(|value| value.to_string_lossy());
         let default = match values.collect::<Vec<_>>().join(" ") {
             values if values.is_empty() || !arg.get_action().takes_values() => String::new(),

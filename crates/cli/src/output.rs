@@ -1,6 +1,6 @@
 //! How are results written, and where?
 
-use std::io::Write;
+use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
@@ -15,7 +15,7 @@ use sweetspot_report::schema;
 
 use crate::done::{NOT_REACHED, printable};
 use crate::progress::{self, Progress};
-use crate::style;
+use crate::style::{self, broken};
 use crate::value::unit_system;
 
 /// Format and destination of the output.
@@ -167,7 +167,10 @@ pub fn warn(text: &str, quiet: bool) {
     if !quiet {
         // A closed standard error is not a reason to stop.
         progress::beside(|| {
-            let _ = writeln!(std::io::stderr(), "{}", printable(text));
+            let mut err = std::io::stderr();
+            let text = printable(text);
+            let text = if err.is_terminal() { broken(&text, 80) } else { text };
+            let _ = writeln!(err, "{text}");
         });
     }
 }

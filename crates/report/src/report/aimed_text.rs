@@ -107,7 +107,7 @@ fn to_know(outcome: &Outcome, us: bool) -> Vec<String> {
     let mut told = vec![];
     if outcome.remove_only && outcome.start.weighed() != Weighed::default() {
         told.push(
-            "the bat was weighed, so that it exists: wood is only taken off; --add lets it be added, for a new bat"
+            "the bat was weighed, so that it exists: material is only taken off; --add lets it be added, for a new bat"
                 .to_owned(),
         );
     }

@@ -19,7 +19,7 @@ use sweetspot_study::calibrate::next::Proposal;
 
 /// Parameters, data and words, 80 columns wide.
 pub fn text(bat: &Bat, found: &Calibration) -> [Piece; 3] {
-    let above = format!("What the wood of {} is\n{}", bat.name(), parameters(&found.parameters));
+    let above = format!("The material of {}\n{}", bat.name(), parameters(&found.parameters));
     let mut out = String::new();
     for tone in &found.loss_factors {
         let [lost, damped] = [tone.loss_factor, tone.damping_ratio].map(|v| significant(v, 3));
@@ -275,7 +275,7 @@ fn mismatch(found: &Calibration) -> Option<String> {
     });
     Some(format!(
         "The readings do not fit this bat: errors would have to be {} times larger. {which}: the \
-         profile, the label or the reading is another one than the file says, and no wood mends \
+         profile, the label or the reading is another one than the file says, and no material mends \
          that.{without}",
         significant(found.errors_larger_by, 2)
     ))

@@ -53,11 +53,6 @@ pub fn impacts(bat: &Bat, impacts: &[Impact], units: Units) -> String {
     // A compliant wall has a separate column.
     let walls = impacts.iter().any(|i| i.outcome.as_ref().is_some_and(|o| o.energy.wall > 0.0));
     let widths = if walls { [8, 8, 9, 9, 8, 9, 8, 9, 8] } else { [9, 9, 10, 10, 9, 10, 9, 9, 0] };
-    let used = widths.into_iter().take(if walls { 9 } else { 8 });
-    let table = Columns::new(used.map(|width| numbers(width, "")));
-    let heads = ["from", "from", "bat", "exit", "exit", "rigid", "e_A", "vibra-", "wall"];
-    let mut out = table.row(heads);
-    out += &table.row(["knob", "tip", "speed", "speed", "speed", "bat", "", "tion", ""]);
     let (near, far) = if units.us_first() { ("in", "mph") } else { ("cm", "m/s") };
     let (tip, second) = match units {
         Units::Si => ("cm", ""),
@@ -66,7 +61,14 @@ pub fn impacts(bat: &Bat, impacts: &[Impact], units: Units) -> String {
         Units::BothUsFirst => ("in", "m/s"),
     };
     let energy = units.of_energy().0;
-    out += &table.row([near, tip, far, far, second, far, "", energy, energy]);
+    // The exit speed in a second unit, and the wall's share, where there are such.
+    let used = |(k, _): &(usize, usize)| (*k != 4 || !second.is_empty()) && (*k != 8 || walls);
+    let used: Vec<(usize, usize)> = widths.into_iter().enumerate().filter(used).collect();
+    let table = Columns::new(used.iter().map(|(_, width)| numbers(*width, "")));
+    let row = |cells: &[&str; 9]| table.row(used.iter().map(|(k, _)| cells[*k]));
+    let mut out = row(&["from", "from", "bat", "exit", "exit", "rigid", "e_A", "vibra-", "wall"]);
+    out += &row(&["knob", "tip", "speed", "speed", "speed", "bat", "", "tion", ""]);
+    out += &row(&[near, tip, far, far, second, far, "", energy, energy]);
     let length = |x: f64, unit: &str| {
         let value = if unit == "in" { inches(x) } else { 100.0 * x };
         // Adding 0 turns a length of −0 into 0.
@@ -87,12 +89,10 @@ pub fn impacts(bat: &Bat, impacts: &[Impact], units: Units) -> String {
         if cells[3].is_empty() {
             cells[3] = "no value".to_owned();
         }
-        if !second.is_empty() {
-            cells[4] = told(columns::EXIT_SPEED, &|v| match units.us_first() {
-                true => format!("{v:.2}"),
-                false => format!("{:.1}", miles_per_hour(v)),
-            });
-        }
+        cells[4] = told(columns::EXIT_SPEED, &|v| match units.us_first() {
+            true => format!("{v:.2}"),
+            false => format!("{:.1}", miles_per_hour(v)),
+        });
         cells[5] = told(columns::RIGID_EXIT_SPEED, &speed);
         cells[6] = told(columns::EFFICIENCY, &|e| format!("{e:.3}"));
         let energy = |energy: f64| format!("{:.2}", units.of_energy().1 * energy);
@@ -101,7 +101,8 @@ pub fn impacts(bat: &Bat, impacts: &[Impact], units: Units) -> String {
         let letters = FLAGS.iter().filter(|flag| impact.flags.contains(&flag.0)).map(|flag| flag.1);
         let marks: String = letters.collect();
         let gap = if marks.is_empty() { "" } else { " " };
-        let _ = writeln!(out, "{}{gap}{marks}", table.row(cells).trim_end_matches('\n'));
+        let cells = cells.each_ref().map(String::as_str);
+        let _ = writeln!(out, "{}{gap}{marks}", row(&cells).trim_end_matches('\n'));
     }
     out + &legend(impacts)
 }
@@ -140,7 +141,8 @@ pub fn reason(figures: &Figures, units: Units) -> Option<String> {
     }
     let here = figures.best.as_ref().and_then(|best| best.outcome.as_ref());
     let (Some(there), Some(here)) = (figures.vibration_at_rigid_best, here) else {
-        let text = "Why there: further out the bat gives way more than its speed makes up for.";
+        let text =
+            "Why there: further out recoil takes more than the bat's speed there makes up for.";
         return Some(text.to_owned());
     };
     let kept = here.energy.wall;
@@ -326,7 +328,7 @@ pub const STATED: &str = "Figures at the sweet spot (computed, not certified)";
 /// The stated figures of a bat, a line each.
 pub fn figures(figures: &Figures, units: Units) -> String {
     let lines = stated(figures, units);
-    let line = |(what, value): &(String, String)| format!("  {what:<36} {value}\n");
+    let line = |(what, value): &(String, String)| format!("  {what:<38} {value}\n");
     let lines: String = lines.iter().map(line).collect();
     if lines.is_empty() { lines } else { format!("{STATED}\n{lines}") }
 }

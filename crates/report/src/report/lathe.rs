@@ -112,25 +112,26 @@ fn below(map: &LatheMap, shown: TableUnits) -> String {
         out += &wrapped(&line, 2);
     }
     out += &wholes(map, shown);
+    let (mut uneven, mut lines) = (vec![], vec![]);
     for rival in &map.found.not_smooth_at {
-        let name = rival.answer.name();
-        let [one, other] = [0, 1].map(|k| {
-            format!("{} at {}", significant(rival.value[k], 4), shown.place(rival.x_m[k]))
-        });
-        let line = match rival.why {
-            WhyNotSmooth::Rivals => format!(
-                "No derivative of {name}: it is {one} and {other}, and a cut may make it jump."
-            ),
-            WhyNotSmooth::Corner => {
-                format!("No derivative of {name}: there is a corner, {one}.")
-            }
-            WhyNotSmooth::Cut => format!(
-                "The derivative of {name} does not tell the finite cut of some band: it is {one}, \
-                 and after the cut {other}."
-            ),
-        };
-        out += &wrapped(&line, 2);
+        let name = named(rival.answer);
+        let [one, other] = rival.x_m.map(|x| shown.place(x));
+        match rival.why {
+            WhyNotSmooth::Rivals => lines.push(format!(
+                "No slope of {name}: places at {one} and {other} are rivals, and a cut may make it jump."
+            )),
+            WhyNotSmooth::Corner => lines.push(format!("No slope of {name}: it has a corner at {one}.")),
+            WhyNotSmooth::Cut if uneven.contains(&name) => {}
+            WhyNotSmooth::Cut => uneven.push(name),
+        }
     }
+    if !uneven.is_empty() {
+        lines.push(format!(
+            "The slopes do not predict finite cuts of some bands for: {}.",
+            uneven.join(", ")
+        ));
+    }
+    lines.iter().for_each(|line| out += &wrapped(line, 2));
     for band in map.found.bands.iter().filter(|band| band.reason.is_some()) {
         let [from, to] = band.ends().map(|x| shown.place(x));
         let reason = band.reason.as_deref().unwrap_or_default();
@@ -160,7 +161,7 @@ fn recipes(map: &LatheMap, shown: TableUnits) -> Vec<String> {
         map.terms.answers.contains(answer).then_some(())?;
         let kept = "keep the swing weight within 1 %";
         Some(match least_wood(map, (*answer, *by), most) {
-            Some(found) => format!("To {what} and {kept}, the least wood: {}.", cuts(&found)),
+            Some(found) => format!("To {what} and {kept}, the least material: {}.", cuts(&found)),
             None => {
                 let how = "not by cuts that leave nine tenths of the diameter";
                 format!("To {what} and {kept}: {how}.")
@@ -170,13 +171,27 @@ fn recipes(map: &LatheMap, shown: TableUnits) -> Vec<String> {
     wishes.iter().filter_map(one).collect()
 }
 
+/// An answer in words.
+fn named(answer: Answer) -> String {
+    let name = match answer {
+        Answer::ExitSpeed => "fastest ball",
+        Answer::ExitSpeedPlace => "sweet spot",
+        Answer::Zone(_) => "sweet zone",
+        Answer::Vibration => "vibration",
+        Answer::Bbcor => "BBCOR",
+        Answer::HandsVelocity | Answer::HandsAcceleration => "hands",
+        _ => return answer.name(),
+    };
+    name.to_owned()
+}
+
 /// Knob weight, cup, hole and cork, each solved.
 fn wholes(map: &LatheMap, shown: TableUnits) -> String {
     let mut out = String::from("\nSolved, for a derivative does not tell it (same swing)\n");
     for whole in &map.found.done_to_the_end {
         let WholeChange { what, reason, .. } = whole;
         let line = match reason {
-            Some(reason) => format!("  {what}: cannot be done here ({reason})"),
+            Some(reason) => format!("  {what}: not on this bat ({reason})"),
             None => {
                 let of = |answer: &Answer| shown.sentence(*answer, whole.of(*answer)?);
                 let all: Vec<String> = map.terms.answers.iter().filter_map(of).collect();

@@ -153,7 +153,7 @@ fn doubted(doubt: &Doubt, units: Units) -> String {
         Doubt::Density(text) => format!("Look at the file: {text}"),
         Doubt::Shear(text) => format!("Shear is left out: {text}."),
         Doubt::Dent(wall) => {
-            let us = units == Units::Us;
+            let us = units.us_first();
             let (per, digits, unit) = if us { (inches(1.0), 2, "in") } else { (1e3, 1, "mm") };
             let deep = |length: f64| format!("{:.digits$}", per * length);
             let [low, high] = wall.bbcor.range;
@@ -167,8 +167,7 @@ fn doubted(doubt: &Doubt, units: Units) -> String {
             )
         }
         Doubt::RigidWall(_) => {
-            "Left out: how the hollow barrel's wall gives way, which lets the ball leave \
-                                faster (why: hit, or --full)."
+            "Left out: how the hollow barrel's wall gives way, which lets the ball leave faster."
                 .to_owned()
         }
         Doubt::LaterContact => {
