@@ -4,9 +4,7 @@
 
 use serde::Serialize;
 
-use sweetspot::base::error::{Complaint, Error, Result};
-use sweetspot::bat::body::{Bat, STANDARD_PIVOT};
-use sweetspot::modes::solve::Solution;
+use crate::engine::{Bat, Complaint, Error, Result, STANDARD_PIVOT, Solution};
 
 /// A value and its error, both in the unit of the value.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -23,18 +23,11 @@ use serde::{Serialize, Serializer};
 
 use crate::answers::{Answer, figure, quotient};
 use crate::bat_changes::{PATCH_FACTOR, Parameter, changed};
+use crate::engine::{
+    Bat, FEW, HitsAlong, Hitter, Material, Model, Request, Result, Scene, Solution, Sweep,
+    SweetSpot, SwingLaw, barrel_walls, solve, threads,
+};
 pub use crate::inputs::{Input, Readings};
-use sweetspot::base::error::Result;
-use sweetspot::base::threads;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::material::Material;
-use sweetspot::collision::figures::SwingLaw;
-use sweetspot::collision::hit::{Model, Scene};
-use sweetspot::collision::hitter::Hitter;
-use sweetspot::collision::hoop_wall::barrel_walls;
-use sweetspot::collision::sweep::Sweep;
-use sweetspot::collision::sweet_spot::{FEW, HitsAlong, SweetSpot};
-use sweetspot::modes::solve::{Request, Solution, solve};
 
 /// Something that is not known exactly.
 #[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]

@@ -8,8 +8,7 @@ use serde::Serialize;
 
 use crate::aim::search::{Found, MISSED, Search, Weights};
 use crate::aim::wish::Band;
-use sweetspot::base::error::Result;
-use sweetspot::base::threads;
+use crate::engine::{Result, threads};
 
 /// Conflicting targets: without any one of them the others can be met.
 #[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]

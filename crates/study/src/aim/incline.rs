@@ -11,8 +11,7 @@
 //! ([`Steepness::ripple`]): the search keeps that distance from the limit.
 
 use crate::aim::wish::Grid;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::profile::Piece;
+use crate::engine::{Bat, Piece};
 
 /// Distance between the places where the slope is checked (m).
 const EVERY: f64 = 5e-3;

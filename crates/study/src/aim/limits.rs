@@ -6,11 +6,7 @@
 
 use crate::aim::incline::{Incline, Steepness};
 use crate::aim::wish::{DiameterLimit, Wish};
-use sweetspot::base::error::{Error, Result};
-use sweetspot::base::golden;
-use sweetspot::base::units::shown_length;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::profile::{Profile, SAME_PLACE, Section};
+use crate::engine::{Bat, Error, Profile, Result, SAME_PLACE, Section, golden, shown_length};
 
 /// Distance between the places where the limits are checked first (m).
 const EVERY: f64 = 5e-3;

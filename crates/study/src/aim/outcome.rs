@@ -13,9 +13,7 @@ use crate::aim::rules::{Rule, RulesKept};
 use crate::aim::search::{Found, MISSED, Search, Weights};
 use crate::aim::wish::{Band, Grid, Wish};
 use crate::answers::Answer;
-use sweetspot::base::error::{Error, Result};
-use sweetspot::base::golden;
-use sweetspot::bat::body::Bat;
+use crate::engine::{Bat, Error, Result, golden};
 
 /// The answers that are reported before and after.
 const TOLD: [Answer; 10] = [
@@ -95,7 +93,7 @@ impl Outcome {
         let bench = Bench::new(bat, wish, terms.clone())?;
         let start = bench.look(&vec![0.0; bench.unknowns()])?.values;
         if let Some(k) = start.iter().position(|value| !value.is_finite()) {
-            let found = format!("{}, which this bat has not", bench.goals()[k].name());
+            let found = format!("{}, which this bat has not", bench.goals[k].name());
             return Err(Error::value(format!("targets[{k}].name"), found, "what this bat has"));
         }
         let bands = wish.bands(&start, bat)?;
@@ -133,7 +131,7 @@ impl Outcome {
 
 /// The least change on that bench.
 fn least(bench: Bench, wish: &Wish, bands: &[Band], wood: Option<String>) -> Result<Least> {
-    let limits = Limits::new(wish, bench.bat());
+    let limits = Limits::new(wish, &bench.bat);
     let search = Search::new(&bench, &limits);
     let start = vec![0.0; bench.unknowns()];
     let found = search.from(&start, bands, &Weights::met(bands.len()))?;
@@ -152,20 +150,11 @@ struct Writing<'a> {
     grid: Grid,
 }
 
-/// A least change that is to be rounded, and whether once will do.
-#[derive(Clone, Copy)]
-struct Tries<'a> {
-    bench: &'a Bench,
-    limits: &'a Limits<'a>,
-    first: &'a Found,
-    once: bool,
-}
-
 impl Writing<'_> {
     fn outcome(self, least: Least) -> Result<Outcome> {
         let Least { bench, found, wood, .. } = least;
         let all = vec![true; self.bands.len()];
-        let limits = Limits::new(self.wish, bench.bat());
+        let limits = Limits::new(self.wish, &bench.bat);
         let search = Search::new(&bench, &limits);
         let (found, conflict) = match missed(&found, &self.bands, &all) {
             true => self.nearest(&bench, &search, found)?,
@@ -173,20 +162,18 @@ impl Writing<'_> {
         };
         let norm = search.norm(&found.p);
         let prices = self.prices(&found, norm);
-        let tries =
-            Tries { bench: &bench, limits: &limits, first: &found, once: conflict.is_some() };
-        let (rounded, stopped, tried) = self.finest(&tries)?;
+        let (rounded, stopped, tried) = self.finest(&bench, &found, conflict.is_some())?;
         let bats = tried + found.bats + conflict.as_ref().map_or(0, |conflict| conflict.bats);
         let Rounded { draft, grid, values, p, norm: written, steeper, .. } = rounded;
-        let chosen = bench.extras().iter().enumerate().map(|(k, extra)| Choice {
+        let chosen = bench.extras.iter().enumerate().map(|(k, extra)| Choice {
             what: extra.what,
             start: extra.start,
             found: bench.extra(&p, k),
         });
         let stretch = bench.stretch(&p);
-        let free = bench.splines().stretches().iter().map(|s| s.map(|end| end * stretch));
+        let free = bench.splines.stretches.iter().map(|s| s.map(|end| end * stretch));
         let kept_within_m =
-            moved_beside(&free.collect::<Vec<_>>(), &bench.rechosen(bench.bat(), &p)?, &draft.bat);
+            moved_beside(&free.collect::<Vec<_>>(), &bench.rechosen(&bench.bat, &p)?, &draft.bat);
         let broken = draft.broken.iter().map(|broken| broken.by.abs()).fold(0.0, f64::max);
         let bat = draft.bat.with(|parts| self.name(parts))?;
         let [largest_cut_m, largest_added_m] = largest(&draft.stations);
@@ -224,13 +211,18 @@ impl Writing<'_> {
 
     /// The rounding of a least change that leaves the goals in their bands, no finer than needed, or the best of all:
     /// why its search stopped, and the bats that were computed.
-    fn finest(&self, tries: &Tries) -> Result<(Rounded, Option<&'static str>, usize)> {
-        let (mut best, mut stopped, mut bats) = (None::<Rounded>, tries.first.stopped, 0);
+    fn finest(
+        &self,
+        bench: &Bench,
+        first: &Found,
+        once: bool,
+    ) -> Result<(Rounded, Option<&'static str>, usize)> {
+        let (mut best, mut stopped, mut bats) = (None::<Rounded>, first.stopped, 0);
         for finer in FINER {
-            if best.as_ref().is_some_and(|best| best.worst <= 1e-9 || tries.once) {
+            if best.as_ref().is_some_and(|best| best.worst <= 1e-9 || once) {
                 break;
             }
-            let (rounded, by, tried) = self.rounded(tries, finer)?;
+            let (rounded, by, tried) = self.rounded((bench, first, once), finer)?;
             bats += tried;
             if best.as_ref().is_none_or(|best| best.worst > rounded.worst) {
                 (best, stopped) = (Some(rounded), by);
@@ -241,10 +233,14 @@ impl Writing<'_> {
 
     /// The best rounding of a least change, this many times finer than wished; the reason why its search stopped; and
     /// the number of bats computed. If a rounding moves a goal out, the search is repeated with narrower bands.
-    fn rounded(&self, tries: &Tries, finer: f64) -> Result<(Rounded, Option<&'static str>, usize)> {
+    fn rounded(
+        &self,
+        (bench, first, once): (&Bench, &Found, bool),
+        finer: f64,
+    ) -> Result<(Rounded, Option<&'static str>, usize)> {
         /// So far inside its band a goal is sought anew, in tolerances.
         const INSIDE: f64 = 0.25;
-        let Tries { bench, limits, first, once } = *tries;
+        let limits = &Limits::new(self.wish, &bench.bat);
         let (wanted, grid) = (&self.bands, Grid { round: self.grid.round / finer, ..self.grid });
         let rounding = Rounding { bench, limits, bands: wanted, grid, finer };
         let (mut bands, mut gentler) = (wanted.clone(), limits.clone());

@@ -9,8 +9,7 @@ use crate::aim::limits::{KEPT, Limits};
 use crate::aim::search::Found;
 use crate::aim::stations::{Draft, Drafting};
 use crate::aim::wish::{Band, Grid};
-use sweetspot::base::error::Result;
-use sweetspot::base::linear;
+use crate::engine::{Result, linear};
 
 /// Roundings at most.
 const DRAFTS: usize = 5;
@@ -57,10 +56,10 @@ impl Rounding<'_> {
     /// Those of [`Drafting::new`], [`Drafting::draft`] and [`Bench::of`].
     pub fn of(&self, found: &Found, norm: f64) -> Result<(Rounded, Vec<f64>)> {
         let bench = self.bench;
-        let base = bench.rechosen(bench.bat(), &found.p)?;
+        let base = bench.rechosen(&bench.bat, &found.p)?;
         let limits = self.limits.on(&base);
-        let shape = &found.p[..bench.splines().len()];
-        let change = (bench.splines(), shape, bench.stretch(&found.p));
+        let shape = &found.p[..bench.splines.len()];
+        let change = (&bench.splines, shape, bench.stretch(&found.p));
         let densities = self.densities(found);
         let laying = Laying { bat: &base, limits: &limits, change, grid: self.grid };
         let drafting = Drafting::new(laying, &densities)?;
@@ -105,8 +104,8 @@ impl Rounding<'_> {
     /// one station.
     fn inside(&self, densities: &[Vec<f64>], found: &Found) -> Vec<f64> {
         let one = |of: &Vec<f64>| {
-            let places = (1..100).map(|k| 0.01 * f64::from(k) * self.bench.bat().length());
-            let effect = places.map(|x| self.bench.splines().at(of, x).abs()).fold(0.0, f64::max);
+            let places = (1..100).map(|k| 0.01 * f64::from(k) * self.bench.bat.length());
+            let effect = places.map(|x| self.bench.splines.at(of, x).abs()).fold(0.0, f64::max);
             1e3 * self.grid.round * self.grid.every * effect
         };
         let of = |(k, density): (usize, &Vec<f64>)| {
@@ -124,7 +123,7 @@ impl Rounding<'_> {
     /// The effect on each goal, in tolerances, per mm of diameter and m of length, as coefficients of the curves: their
     /// products with the curves are the slopes.
     fn densities(&self, found: &Found) -> Vec<Vec<f64>> {
-        let overlaps = self.bench.splines().overlaps();
+        let overlaps = self.bench.splines.overlaps();
         // Curves that are independent have a positive definite matrix.
         let inverse = linear::inverse(&overlaps).unwrap_or_default();
         let of = |(band, slopes): (&Band, &Vec<f64>)| {

@@ -4,8 +4,7 @@
 
 use serde::{Serialize, Serializer};
 
-use sweetspot::base::units::{inches, ounces};
-use sweetspot::bat::body::{Bat, STANDARD_PIVOT};
+use crate::engine::{Bat, STANDARD_PIVOT, inches, ounces};
 
 /// The numerical rules of a game.
 #[derive(Debug, Clone, Default, PartialEq)]

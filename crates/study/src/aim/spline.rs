@@ -8,7 +8,7 @@
 //! pᵀHp = mean(d²) + ℓ⁴ mean(d″²),   d(x) = Σ p_j B_j(x),   ℓ = 5 cm, means over the length of the bat
 //! ```
 
-use sweetspot::base::quadrature::gauss;
+use crate::engine::gauss;
 
 /// Distance of the knots, as nearly as a whole number of them allows (m).
 const KNOT_EVERY: f64 = 0.05;
@@ -21,8 +21,10 @@ const SMOOTH: f64 = 0.05;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Splines {
     length: f64,
-    basis: Vec<BSpline>,
-    stretches: Vec<[f64; 2]>,
+    /// The curves.
+    pub basis: Vec<BSpline>,
+    /// The stretches that may change (m).
+    pub stretches: Vec<[f64; 2]>,
 }
 
 /// A cubic B-spline by its five knots (m); at an end of its stretch some are equal.
@@ -71,16 +73,6 @@ impl Splines {
     /// Whether nothing may change.
     pub fn is_empty(&self) -> bool {
         self.basis.is_empty()
-    }
-
-    /// The stretches that may change (m).
-    pub fn stretches(&self) -> &[[f64; 2]] {
-        &self.stretches
-    }
-
-    /// The curves.
-    pub fn basis(&self) -> &[BSpline] {
-        &self.basis
     }
 
     /// `Σ p_j B_j(x)`.
@@ -235,12 +227,11 @@ mod tests {
         assert_eq!(splines.len(), 17);
         let p: Vec<f64> = (0..17).map(|k| (k as f64).sin()).collect();
         assert_eq!([splines.at(&p, 0.01), splines.at(&p, 0.03)], [0.0; 2]);
-        let slope =
-            |x: f64| splines.basis().iter().zip(&p).map(|(b, p)| p * b.slope(x)).sum::<f64>();
+        let slope = |x: f64| splines.basis.iter().zip(&p).map(|(b, p)| p * b.slope(x)).sum::<f64>();
         assert_eq!(slope(0.03), 0.0);
         assert_eq!(splines.at(&p, 0.84), p[16]);
         let both = Splines::beside(&[[0.0, 0.03], [0.4, 0.5]], 0.84, [false; 2]);
-        assert_eq!(both.stretches(), [[0.03, 0.4], [0.5, 0.84]]);
+        assert_eq!(both.stretches, [[0.03, 0.4], [0.5, 0.84]]);
         assert!(Splines::beside(&[[0.0, 0.84]], 0.84, [false; 2]).is_empty());
         let pointed = Splines::beside(&[[0.0, 0.03]], 0.84, [false, true]);
         assert_eq!((pointed.len(), pointed.at(&p[..16], 0.84)), (16, 0.0));
@@ -254,7 +245,7 @@ mod tests {
     fn constants_and_lines_are_among_the_curves() {
         let splines = Splines::beside(&[], 0.8, [false; 2]);
         let greville: Vec<f64> =
-            splines.basis().iter().map(|b| b.knots[1..4].iter().sum::<f64>() / 3.0).collect();
+            splines.basis.iter().map(|b| b.knots[1..4].iter().sum::<f64>() / 3.0).collect();
         for k in 0..=80 {
             let x = 0.01 * f64::from(k);
             let ones = vec![1.0; splines.len()];
@@ -275,7 +266,7 @@ mod tests {
     /// Derivatives against differences.
     #[test]
     fn slope_and_curvature_are_those_of_the_curve() {
-        for curve in r161().basis() {
+        for curve in &r161().basis {
             for k in 0..40 {
                 let (x, h) = (0.035 + 0.02 * f64::from(k), 1e-6);
                 let slope = (curve.at(x + h) - curve.at(x - h)) / (2.0 * h);

@@ -9,9 +9,7 @@
 
 use crate::aim::laying::{Laying, Station};
 use crate::aim::limits::Broken;
-use sweetspot::base::error::Result;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::profile::SAME_PLACE;
+use crate::engine::{Bat, Result, SAME_PLACE};
 
 /// The new stations, and the bat with them.
 #[derive(Debug, Clone, PartialEq)]

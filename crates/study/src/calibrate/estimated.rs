@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::calibrate::fit::{Fit, Search};
 use crate::calibrate::posterior::Posterior;
 use crate::calibrate::unknowns::{Property, UNKNOWNS, form};
-use sweetspot::base::error::Result;
+use crate::engine::Result;
 
 /// An E or density farther from the file's than this many standard deviations of the prior knowledge, and than that
 /// factor, belongs to another material.

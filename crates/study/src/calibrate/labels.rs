@@ -11,8 +11,7 @@ use crate::calibrate::chart::Chart;
 use crate::calibrate::fit::{Fit, Search, data};
 use crate::calibrate::readings::{BatReadings, Priors, ShearPrior, SpectralLine};
 use crate::calibrate::unknowns::Logs;
-use sweetspot::base::error::Result;
-use sweetspot::base::threads;
+use crate::engine::{Result, threads};
 
 /// Cost in χ² of a line that is not a bending mode.
 pub const STRANGER: f64 = 12.0;

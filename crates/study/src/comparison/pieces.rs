@@ -12,10 +12,8 @@
 
 use crate::answers::Answer;
 use crate::comparison::contender::Contender;
+use crate::engine::{Bat, Change, Model};
 use crate::spread::{Analysed, COUNTED, Input, Readings, Spread, place};
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::edit::Change;
-use sweetspot::collision::hit::Model;
 
 /// Standard deviations due to the wood alone, in the order of [`COUNTED`]; `None` if unknown.
 pub type ByWood = [Option<f64>; COUNTED.len()];

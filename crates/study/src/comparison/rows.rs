@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::comparison::contender::{Contender, Figure};
-use sweetspot::bat::body::STANDARD_PIVOT;
+use crate::engine::STANDARD_PIVOT;
 
 /// The unit of a row, in SI.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

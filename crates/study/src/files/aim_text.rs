@@ -1,46 +1,17 @@
 //! How is a wish said in words: "sweet spot 1 cm outward", "swing weight -3 % within 5 oz in2"?
 
+use std::sync::LazyLock;
+
 use crate::aim::wish::{Amount, Ask, DiameterLimit, FreeChoice, Goal, Target};
 use crate::answers::Answer;
+use crate::engine::{BUILT_IN, Complaint, Error, Material, Quantity, nearest, typed, units};
 use crate::files::wish_words::{self, Verb, WishedChange, after, before};
-use sweetspot::base::error::{Complaint, Error, nearest};
-use sweetspot::base::typed;
-use sweetspot::base::units::{self, Quantity};
-use sweetspot::bat::material::{BUILT_IN, Material};
 
 /// Common names of goals.
-const CALLED: [(&str, Goal); 30] = [
-    ("sweet spot", Goal::Answer(Answer::ExitSpeedPlace)),
-    ("best place", Goal::Answer(Answer::ExitSpeedPlace)),
-    ("swing weight", Goal::Answer(Answer::Inertia)),
-    ("swingweight", Goal::Answer(Answer::Inertia)),
-    ("moment of inertia", Goal::Answer(Answer::Inertia)),
-    ("moi", Goal::Answer(Answer::Inertia)),
-    ("mass", Goal::Answer(Answer::Mass)),
-    ("weight", Goal::Answer(Answer::Mass)),
-    ("balance point", Goal::Answer(Answer::BalancePoint)),
-    ("balance", Goal::Answer(Answer::BalancePoint)),
-    ("cop", Goal::Answer(Answer::CenterOfPercussion)),
-    ("center of percussion", Goal::Answer(Answer::CenterOfPercussion)),
-    ("centre of percussion", Goal::Answer(Answer::CenterOfPercussion)),
-    ("exit speed", Goal::Answer(Answer::ExitSpeed)),
-    ("best ball", Goal::Answer(Answer::ExitSpeed)),
-    ("pop", Goal::Answer(Answer::ExitSpeed)),
-    ("exit velocity", Goal::Answer(Answer::ExitSpeed)),
-    ("exit velo", Goal::Answer(Answer::ExitSpeed)),
-    ("ball speed", Goal::Answer(Answer::ExitSpeed)),
-    ("batted-ball speed", Goal::Answer(Answer::ExitSpeed)),
-    ("batted ball speed", Goal::Answer(Answer::ExitSpeed)),
-    ("vibration", Goal::Answer(Answer::Vibration)),
-    ("bbcor", Goal::Answer(Answer::Bbcor)),
-    ("drop", Goal::Drop),
-    ("fundamental", Goal::Answer(Answer::Frequency(1))),
-    ("first frequency", Goal::Answer(Answer::Frequency(1))),
-    ("second frequency", Goal::Answer(Answer::Frequency(2))),
-    ("node 1", Goal::Answer(Answer::Node(1))),
-    ("node 2", Goal::Answer(Answer::Node(2))),
-    ("node 3", Goal::Answer(Answer::Node(3))),
-];
+static CALLED: LazyLock<Vec<(&str, Goal)>> = LazyLock::new(|| {
+    let goal = |name: &str| Goal::named(name).expect("the words name goals");
+    wish_words::named("goal ").map(|(name, called)| (called, goal(name))).collect()
+});
 
 /// The mistake, in parts.
 type Said<T> = std::result::Result<T, Complaint>;

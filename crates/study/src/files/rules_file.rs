@@ -5,12 +5,9 @@ use std::ops::Bound::{Excluded, Unbounded};
 use std::path::Path;
 
 use crate::aim::rules::{Rule, RuleSet};
+use crate::engine::{Complaint, Document, Error, Folder, Quantity, Result};
 use crate::files::form::{Form, amount, list, number, text, truth};
 use crate::files::written::{WrittenFile, written};
-use sweetspot::base::error::{Complaint, Error, Result};
-use sweetspot::base::units::Quantity;
-use sweetspot::files::document::Document;
-use sweetspot::files::folder::Folder;
 
 /// The rules that travel with the program: name and file.
 pub const BUILT_IN: [(&str, &str); 7] = [

@@ -6,6 +6,9 @@ use std::collections::BTreeMap;
 use std::ops::Bound::{Excluded, Included};
 
 use crate::answers::Answer;
+use crate::engine::{
+    Ball, Bat, Complaint, Node, Quantity, Result, Scatter, Setup, balls, scene_file,
+};
 use crate::files::amounts::{Said, share};
 use crate::files::asked;
 use crate::files::form::{amount, at, later, text};
@@ -13,15 +16,6 @@ use crate::files::written::{Members, object, written};
 use crate::scatter::rows::{AT_IMPACT, Output};
 use crate::scatter::spreads::{Difference, Differences, Differs};
 use crate::scatter::turning::Turning;
-use sweetspot::base::error::{Complaint, Result};
-use sweetspot::base::units::Quantity;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::material::Scatter;
-use sweetspot::collision::ball::Ball;
-use sweetspot::collision::setup::Setup;
-use sweetspot::files::balls;
-use sweetspot::files::json_node::Node;
-use sweetspot::files::scene_file;
 
 /// Default outputs.
 const USUAL: [&str; 6] = [
@@ -296,9 +290,8 @@ fn asked(node: Option<&Node>, differences: &Differences) -> Result<Vec<Output>> 
         let all = usual()?.into_iter().chain(at_impact.then_some(Output::AtImpact));
         return Ok(all.collect());
     };
-    let outputs = asked::outputs(node, |name| match name == AT_IMPACT {
-        true => Ok(Output::AtImpact),
-        false => Answer::named(name).map(Output::Of),
+    let outputs = asked::outputs(node, |name| {
+        if name == AT_IMPACT { Ok(Output::AtImpact) } else { Answer::named(name).map(Output::Of) }
     })?;
     Ok(outputs.into_iter().map(|(_, output)| output).collect())
 }

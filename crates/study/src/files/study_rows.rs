@@ -11,18 +11,12 @@ use serde_json::{Map, Value};
 
 use crate::answers::on_the_bat;
 use crate::comparison::contender::Figure;
+use crate::engine::{Ball, Bat, Error, Result, Setup, marks, scene_file, shortest};
 use crate::files::study_file::StudyFile;
 use crate::files::study_vary::VariedFile;
 use crate::many::design::{MOST_ROWS, Row};
 use crate::many::rows::{Asked, Found, Trial};
-use sweetspot::base::error::{Error, Result};
-use sweetspot::base::marks;
-use sweetspot::base::number::shortest;
-use sweetspot::bat::body::Bat;
-use sweetspot::collision::ball::Ball;
-use sweetspot::collision::setup::Setup;
 use sweetspot::files::ball_file::written;
-use sweetspot::files::scene_file;
 
 /// Combinations of lists, and rows, that are tried.
 const TRIED: u64 = 32;

@@ -2,12 +2,11 @@
 
 use std::path::Path;
 
+use crate::engine::{Bat, threads};
 use crate::files::study_rows::{Rows, Varying};
 use crate::files::study_vary::VariedFile;
 use crate::many::design::{Axis, Row};
 use crate::many::rows::Found;
-use sweetspot::base::threads;
-use sweetspot::bat::body::Bat;
 
 impl Rows {
     /// Warnings before the work: about the bats, as their files describe them and as the study varies them, about the

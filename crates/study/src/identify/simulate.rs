@@ -9,19 +9,15 @@ use std::f64::consts::{PI, TAU};
 
 use faer::c64;
 
+use crate::engine::{
+    Attachment, Bat, Error, Frf, Mode, Prepared, Request, ResponseKind, Result, RigidBat, prepare,
+    solve,
+};
 use crate::identify::modes::Identified;
 use crate::identify::set::ResponseSet;
 use crate::many::hash;
 use crate::measured::mac::mac;
 use crate::measured::response::MeasuredResponse;
-use sweetspot::base::error::{Error, Result};
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::fixtures::Attachment;
-use sweetspot::collision::rigid::RigidBat;
-use sweetspot::modes::mode::Mode;
-use sweetspot::modes::prepared::{Prepared, prepare};
-use sweetspot::motion::frf::{Frf, ResponseKind};
-use sweetspot::{Request, solve};
 
 /// A virtual test.
 #[derive(Debug, Clone, Copy, PartialEq)]

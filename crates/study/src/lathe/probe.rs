@@ -1,8 +1,7 @@
 //! Which value of a hit is read?
 
 use crate::answers::Answer;
-use sweetspot::collision::hitter::Hitter;
-use sweetspot::collision::strike::Glance;
+use crate::engine::{Glance, Hitter};
 
 /// A value of a hit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

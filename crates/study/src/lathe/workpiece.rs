@@ -7,21 +7,16 @@
 
 use crate::answers::{Answer, figure, on_the_bat, quotient};
 use crate::comparison::contender::Figure;
+use crate::engine::{
+    Bat, DiameterChange, Hitter, Model, Peak, Request, Result, STANDARD_PIVOT, Scene, Solution,
+    Trial, sweep, threads,
+};
 use crate::lathe::gauges::{BestPlaces, Gauge, GaugeHits, OuterHalf, Rivals};
 use crate::lathe::look::{By, Hit, Look, with_modes};
 use crate::lathe::quotient::{Differences, Quotient, Raw, Usual, WAYS, Ways};
 use crate::lathe::same_plan::SamePlan;
 use crate::lathe::samples::{BodySlope, SectionSlopes};
 pub use crate::lathe::slopes::{Method, Slopes};
-use sweetspot::base::error::Result;
-use sweetspot::base::threads;
-use sweetspot::bat::body::{Bat, STANDARD_PIVOT};
-use sweetspot::bat::turned::DiameterChange;
-use sweetspot::collision::hit::{Model, Scene};
-use sweetspot::collision::hitter::Hitter;
-use sweetspot::collision::sweep::{Trial, sweep};
-use sweetspot::collision::sweet_spot::Peak;
-use sweetspot::modes::solve::{Request, Solution};
 
 /// How the bat is hit for answers about a hit.
 #[derive(Debug, Clone)]

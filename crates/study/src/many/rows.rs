@@ -6,18 +6,14 @@ use std::ops::Range;
 
 use crate::answers::{Answer, Figure, figure, on_the_bat};
 use crate::comparison::contender::{Sought, exit_speed};
-use sweetspot::base::error::{Error, Result};
-use sweetspot::base::threads;
-use sweetspot::bat::body::Bat;
-use sweetspot::collision::batch::{Blow, each as strike_each};
-use sweetspot::collision::hit::{Impact, Model, Scene, greater};
-use sweetspot::collision::hitter::Hitter;
+use crate::engine::{
+    Bat, Error, FEW, Hitter, Impact, Model, Prepared, Request, Result, Scene, Solution, Sweep, Way,
+    greater, prepare, solutions, solve, threads,
+};
+use sweetspot::collision::batch::Blow;
+use sweetspot::collision::batch::each as strike_each;
 use sweetspot::collision::stated::fewer;
-use sweetspot::collision::sweep::{self as hit, Sweep};
-use sweetspot::collision::sweet_spot::FEW;
-use sweetspot::modes::batch::{Way, solutions};
-use sweetspot::modes::prepared::{Prepared, prepare};
-use sweetspot::modes::solve::{Request, Solution, solve};
+use sweetspot::collision::sweep as hit;
 
 /// The outputs for every bat.
 #[derive(Debug, Clone)]

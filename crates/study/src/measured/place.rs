@@ -7,27 +7,18 @@
 use faer::c64;
 use serde::Serialize;
 
+use crate::engine::{Error, Result, significant};
 use crate::measured::data::Measured;
-use sweetspot::base::error::{Error, Result};
-use sweetspot::base::number::significant;
+use crate::named::named;
 
-/// An end of the bat.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, schemars::JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum End {
-    /// The knob end, where the hands are.
-    Knob,
-    /// The end of the barrel.
-    Tip,
-}
-
-impl End {
-    /// Its name.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Knob => "knob",
-            Self::Tip => "tip",
-        }
+named! {
+    /// An end of the bat.
+    #[derive(schemars::JsonSchema)]
+    pub enum End {
+        /// The knob end, where the hands are.
+        Knob = "knob",
+        /// The end of the barrel.
+        Tip = "tip",
     }
 }
 

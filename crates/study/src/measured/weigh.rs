@@ -10,10 +10,8 @@
 
 use faer::c64;
 
+use crate::engine::{Bat, Theory, gauss};
 use crate::measured::spline::Spline;
-use sweetspot::base::quadrature::gauss;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::theory::Theory;
 
 /// Places and the masses there: a sum over them is an integral over the bat.
 #[derive(Debug, Clone)]

@@ -7,19 +7,14 @@ use std::ops::Range;
 
 use crate::answers::Answer;
 use crate::comparison::contender::Figure;
+use crate::engine::{
+    Bat, Error, FEW, HitsAlong, Hitter, Material, Request, Result, Setup, Trial as Hit, prepare,
+    sweep,
+};
 use crate::many::design::Design;
 use crate::many::indices::VariateKind;
 use crate::many::rows::{Asked, Found, Trial};
 use crate::scatter::spreads::{Differences, Differs, SCRAMBLES, softened};
-use sweetspot::base::error::{Error, Result};
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::material::Material;
-use sweetspot::collision::hitter::Hitter;
-use sweetspot::collision::setup::Setup;
-use sweetspot::collision::sweep::{Trial as Hit, sweep};
-use sweetspot::collision::sweet_spot::{FEW, HitsAlong};
-use sweetspot::modes::prepared::prepare;
-use sweetspot::modes::solve::Request;
 
 /// The exit speed at the varying impact point, as an output.
 pub const AT_IMPACT: &str = "exit_speed_m_s@impact";
@@ -81,7 +76,8 @@ pub struct ScatterRows {
     /// The mean bat of the rows, with all places of turning errors.
     middle: Bat,
     designs: Vec<Design>,
-    groups: Vec<usize>,
+    /// The difference that each number belongs to.
+    pub groups: Vec<usize>,
 }
 
 impl ScatterRows {
@@ -127,11 +123,6 @@ impl ScatterRows {
     /// The kind of each of those numbers.
     pub fn kinds(&self) -> Vec<VariateKind> {
         self.designs[0].kinds()
-    }
-
-    /// The difference that each number belongs to.
-    pub fn groups(&self) -> &[usize] {
-        &self.groups
     }
 
     fn place(&self, k: u64) -> (usize, u64) {

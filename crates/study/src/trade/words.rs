@@ -1,9 +1,9 @@
 //! The conclusions of the measurement, in sentences.
 
+use crate::engine::Solver;
 use crate::trade::front::{Run, fastest};
 use crate::trade::reference::solver_name;
 use crate::trade::u_curve::{Curve, End, Losses, Reason, SolverFrequency};
-use sweetspot::modes::solve::Solver;
 
 /// Numbers of digits that are compared, from the second on.
 const DIGITS: std::ops::RangeInclusive<i32> = 2..=15;

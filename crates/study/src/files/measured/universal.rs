@@ -9,12 +9,10 @@ use std::path::Path;
 
 use faer::c64;
 
+use crate::engine::{Error, Result, dot, file};
 use crate::files::measured::direction::{Vector, axis, named, normals, positive};
 use crate::files::measured::{Beside, FEWEST};
 use crate::measured::data::{FrequencyUnit, Measured, MeasuredMode, Otherwise};
-use sweetspot::base::error::{Error, Result};
-use sweetspot::base::file;
-use sweetspot::base::linear::dot;
 use uff58::{Analysis, Dataset, NodalData, Node, Universal, six_digits};
 
 /// The motion of a node.
