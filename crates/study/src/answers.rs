@@ -30,6 +30,16 @@ impl Figure {
     }
 }
 
+/// Impact points of a barrel that is searched, as shares of the length.
+pub const ALONG: [f64; 4] = [0.7, 0.775, 0.85, 0.925];
+
+/// The first modes of a solution.
+pub(crate) fn with_modes(solution: &Solution, count: usize) -> Solution {
+    let mut fewer = solution.clone();
+    fewer.modes.truncate(count);
+    fewer
+}
+
 /// The quotient of a difference, answer by answer: of a bat with more of something and one with less, `run` apart.
 pub fn quotient(more: &[Option<f64>], less: &[Option<f64>], run: f64) -> Vec<Option<f64>> {
     let slope = |(more, less): (&Option<f64>, &Option<f64>)| Some(((*more)? - (*less)?) / run);

@@ -162,9 +162,9 @@ impl Writing<'_> {
         };
         let norm = search.norm(&found.p);
         let prices = self.prices(&found, norm);
-        let (rounded, stopped, tried) = self.finest(&bench, &found, conflict.is_some())?;
+        let (rounded, tried) = self.finest(&bench, &found, conflict.is_some())?;
         let bats = tried + found.bats + conflict.as_ref().map_or(0, |conflict| conflict.bats);
-        let Rounded { draft, grid, values, p, norm: written, steeper, .. } = rounded;
+        let Rounded { draft, grid, values, p, norm: written, steeper, stopped, .. } = rounded;
         let chosen = bench.extras.iter().enumerate().map(|(k, extra)| Choice {
             what: extra.what,
             start: extra.start,
@@ -209,52 +209,44 @@ impl Writing<'_> {
         Ok(outcome)
     }
 
-    /// The rounding of a least change that leaves the goals in their bands, no finer than needed, or the best of all:
-    /// why its search stopped, and the bats that were computed.
-    fn finest(
-        &self,
-        bench: &Bench,
-        first: &Found,
-        once: bool,
-    ) -> Result<(Rounded, Option<&'static str>, usize)> {
-        let (mut best, mut stopped, mut bats) = (None::<Rounded>, first.stopped, 0);
+    /// The rounding of a least change that leaves the goals in their bands, no finer than needed, or the best of all,
+    /// and the bats that were computed.
+    fn finest(&self, bench: &Bench, first: &Found, once: bool) -> Result<(Rounded, usize)> {
+        let (mut best, mut bats) = (None::<Rounded>, 0);
         for finer in FINER {
             if best.as_ref().is_some_and(|best| best.worst <= 1e-9 || once) {
                 break;
             }
-            let (rounded, by, tried) = self.rounded((bench, first, once), finer)?;
+            let (rounded, tried) = self.rounded((bench, first, once), finer)?;
             bats += tried;
-            if best.as_ref().is_none_or(|best| best.worst > rounded.worst) {
-                (best, stopped) = (Some(rounded), by);
-            }
+            best = Some(rounded.better(best));
         }
-        Ok((best.expect("one draft at least was made"), stopped, bats))
+        Ok((best.expect("one draft at least was made"), bats))
     }
 
-    /// The best rounding of a least change, this many times finer than wished; the reason why its search stopped; and
-    /// the number of bats computed. If a rounding moves a goal out, the search is repeated with narrower bands.
+    /// The best rounding of a least change, this many times finer than wished, and the number of bats computed. If a
+    /// rounding moves a goal out, the search is repeated with narrower bands.
     fn rounded(
         &self,
         (bench, first, once): (&Bench, &Found, bool),
         finer: f64,
-    ) -> Result<(Rounded, Option<&'static str>, usize)> {
+    ) -> Result<(Rounded, usize)> {
         /// So far inside its band a goal is sought anew, in tolerances.
         const INSIDE: f64 = 0.25;
         let limits = &Limits::new(self.wish, &bench.bat);
         let (wanted, grid) = (&self.bands, Grid { round: self.grid.round / finer, ..self.grid });
         let rounding = Rounding { bench, limits, bands: wanted, grid, finer };
         let (mut bands, mut gentler) = (wanted.clone(), limits.clone());
-        let (mut found, mut bats) = (first.clone(), 0);
-        let mut best: Option<(Rounded, Option<&'static str>)> = None;
+        let (mut found, mut bats, mut best) = (first.clone(), 0, None::<Rounded>);
         for again in 1..=ANEW {
             let search = Search::new(bench, &gentler);
             let (rounded, off) = rounding.of(&found, search.norm(&found.p))?;
             bats += rounded.drafts;
             gentler.gentler_by(1.2 * rounded.steeper);
-            if best.as_ref().is_none_or(|(best, _)| best.worst > rounded.worst) {
-                best = Some((rounded, found.stopped));
-            }
-            if again == ANEW || once || best.as_ref().is_some_and(|(best, _)| best.worst <= 1e-9) {
+            let better = rounded.better(best);
+            let enough = again == ANEW || once || better.worst <= 1e-9;
+            best = Some(better);
+            if enough {
                 break;
             }
             // Repeats the search for goals that rounding then moves to their targets.
@@ -274,8 +266,7 @@ impl Writing<'_> {
             found = search.from(&found.p, &bands, &Weights::met(bands.len()))?;
             bats += found.bats;
         }
-        let (rounded, stopped) = best.expect("one draft at least was made");
-        Ok((rounded, stopped, bats))
+        Ok((best.expect("one draft at least was made"), bats))
     }
 
     /// The nearest bat to bands that a search has missed, and their conflict; `None` if the bat found on the way meets
@@ -377,7 +368,7 @@ fn told(bench: &Bench, start: &Bat, bat: &Bat) -> Result<Vec<Output>> {
 /// The rules, with the bat's value for each.
 fn rules(wish: &Wish, bat: &Bat, bench: &Bench) -> Result<Option<RulesKept>> {
     let Some(set) = &wish.rules else { return Ok(None) };
-    let bbcor = match set.rules.iter().any(|rule| matches!(rule, Rule::BbcorAtMost(_))) {
+    let bbcor = match set.rules.iter().any(|(rule, _)| *rule == Rule::BbcorAtMost) {
         true => bench.piece_of(bat, &[Answer::Bbcor])?.values()[0].map(|figure| figure.value),
         false => None,
     };

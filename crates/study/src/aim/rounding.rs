@@ -46,6 +46,18 @@ pub struct Rounded {
     pub steeper: f64,
     /// Bats that were computed for it.
     pub drafts: usize,
+    /// Why the search of the change that was rounded stopped.
+    pub stopped: Option<&'static str>,
+}
+
+impl Rounded {
+    /// The better of two; the first where both are as good.
+    pub fn better(self, other: Option<Self>) -> Self {
+        match other {
+            Some(other) if other.worst <= self.worst => other,
+            _ => self,
+        }
+    }
 }
 
 impl Rounding<'_> {
@@ -80,7 +92,9 @@ impl Rounding<'_> {
             }
             if best.as_ref().is_none_or(|(best, _)| best.worst > worst) {
                 let (p, grid) = (found.p.clone(), self.grid);
-                let rounded = Rounded { draft, grid, values, p, norm, worst, steeper, drafts };
+                let stopped = found.stopped;
+                let rounded =
+                    Rounded { draft, grid, values, p, norm, worst, steeper, drafts, stopped };
                 best = Some((rounded, off.clone()));
             }
             if worst <= 1e-9 {

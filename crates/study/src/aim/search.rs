@@ -6,7 +6,6 @@
 //! than the rules allow, the first step is taken in full: a gain beyond the limits does not count.
 
 use crate::aim::bench::{Bench, Look};
-use crate::aim::incline::Incline;
 use crate::aim::limits::{Broken, Limits, Room};
 use crate::aim::program::{Bounded, Elastic, Least, Program};
 use crate::aim::wish::Band;
@@ -105,7 +104,7 @@ impl<'a> Search<'a> {
         }
         let changes = |x: f64| bench.splines.basis.iter().any(|curve| curve.at(x) != 0.0);
         let rooms = limits.rows(&changes);
-        let steep = |incline: Incline| {
+        let steep = |incline: Room| {
             // As a gain or loss over 5 cm, so that all rows have a similar size.
             const OVER: f64 = 0.05;
             let curves = bench.splines.basis.iter();

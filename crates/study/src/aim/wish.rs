@@ -274,17 +274,17 @@ impl Wish {
         Self { remove_only: self.remove_only || exists && !self.add, ..self.clone() }
     }
 
-    /// Every goal of the wish: those of the targets, then those of the rules, each with its rule.
-    pub fn goals(&self) -> Vec<(Goal, Option<Rule>)> {
-        let of_rule = |rule: &Rule| {
+    /// Every goal of the wish: those of the targets, then those of the rules, each with its rule and the limit.
+    pub fn goals(&self) -> Vec<(Goal, Option<(Rule, f64)>)> {
+        let of_rule = |&(rule, limit): &(Rule, Option<f64>)| {
             let goal = match rule {
-                Rule::MassAtMost(_) => Goal::Answer(Answer::Mass),
-                Rule::DropAtMost(_) => Goal::Drop,
-                Rule::BbcorAtMost(_) => Goal::Answer(Answer::Bbcor),
-                Rule::InertiaAtLeast(_) => Goal::Answer(Answer::Inertia),
+                Rule::MassAtMost => Goal::Answer(Answer::Mass),
+                Rule::DropAtMost => Goal::Drop,
+                Rule::BbcorAtMost => Goal::Answer(Answer::Bbcor),
+                Rule::InertiaAtLeast => Goal::Answer(Answer::Inertia),
                 _ => return None,
             };
-            Some((goal, Some(*rule)))
+            Some((goal, Some((rule, limit?))))
         };
         let rules = self.rules.iter().flat_map(|set| &set.rules).filter_map(of_rule);
         self.targets.iter().map(|target| (target.goal, None)).chain(rules).collect()
@@ -306,10 +306,9 @@ impl Wish {
         let length = bat.length();
         let goals = self.goals();
         let band = |(k, start): (usize, &f64)| match goals[k] {
-            (goal, Some(rule)) => {
-                let limit = rule.limit().unwrap_or(f64::INFINITY);
+            (goal, Some((rule, limit))) => {
                 let (low, high) = match rule {
-                    Rule::InertiaAtLeast(_) => (limit, f64::INFINITY),
+                    Rule::InertiaAtLeast => (limit, f64::INFINITY),
                     _ => (f64::NEG_INFINITY, limit),
                 };
                 let scale = goal.tolerance(*start);

@@ -52,10 +52,3 @@ impl Hit {
         Hitter::new(self.model, scene, bat, solution, self.effort)
     }
 }
-
-/// The first modes of a solution.
-pub(super) fn with_modes(solution: &Solution, count: usize) -> Solution {
-    let mut fewer = solution.clone();
-    fewer.modes.truncate(count);
-    fewer
-}

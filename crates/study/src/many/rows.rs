@@ -4,7 +4,7 @@
 
 use std::ops::Range;
 
-use crate::answers::{Answer, Figure, figure, on_the_bat};
+use crate::answers::{ALONG, Answer, Figure, figure, on_the_bat, with_modes};
 use crate::comparison::contender::{Sought, exit_speed};
 use crate::engine::{
     Bat, Error, FEW, Hitter, Impact, Model, Prepared, Request, Result, Scene, Solution, Sweep, Way,
@@ -167,14 +167,16 @@ impl Asked {
             false => self.of_modes(&bat, &solve(&bat, &Request { modes: asked, ..request })?)?,
         };
         let searched = match self.answers.iter().any(|answer| answer.is_searched()) {
-            true => Some(Searched::new(&self.answers, &bat, (&scene, model), &sweep)?),
-            false => None,
+            true => searched(&self.answers, &bat, (&scene, model), &sweep)?,
+            false => vec![],
         };
         let at = |x: f64| sweep.impacts.iter().find(|impact| impact.x == x);
         let of = |(answer, known): (&Answer, Option<Figure>)| match *answer {
             Answer::ExitSpeedAt(x) => exit_speed(at(x)?, &scene),
             Answer::VibrationAt(x) => vibration(at(x)?, &scene),
-            answer if answer.is_searched() => searched.as_ref()?.figure(answer),
+            answer if answer.is_searched() => {
+                searched.iter().find(|(known, _)| *known == answer).map(|(_, figure)| *figure)
+            }
             _ => known,
         };
         let figures = self.answers.iter().zip(found.figures).map(of).collect();
@@ -184,8 +186,6 @@ impl Asked {
 
     /// Impact points (m from the knob end): the requested ones, and those for the search of best places.
     fn places(&self, bat: &Bat) -> Vec<f64> {
-        /// Impact points of a barrel that is searched, as shares of the length.
-        const ALONG: [f64; 4] = [0.7, 0.775, 0.85, 0.925];
         let asked = self.answers.iter().filter_map(|answer| answer.place());
         let mut places: Vec<f64> = asked.filter(|x| *x <= bat.length()).collect();
         if self.answers.iter().any(|answer| answer.is_searched()) {
@@ -215,118 +215,82 @@ fn vibration(impact: &Impact, scene: &Scene) -> Option<Figure> {
         .then(|| Figure::new(outcome.energy.vibration, moved))
 }
 
-/// The results of the search on a bat that was hit, as far as they are requested.
-struct Searched {
-    /// Speed and place of the fastest ball, and the energy it leaves in vibration.
-    fastest: Option<[Figure; 3]>,
-    zone: Option<[Figure; 2]>,
-    /// Place and value of the least vibration.
-    least: Option<[Figure; 2]>,
-    bbcor: Option<Figure>,
-    hands: Option<Hands>,
-}
-
-impl Searched {
-    fn new(answers: &[Answer], bat: &Bat, trial: (&Scene, Model), sweep: &Sweep) -> Result<Self> {
-        let (scene, model) = trial;
-        let hitter = Hitter::new(model, scene, bat, &sweep.solution, sweep.effort)?;
-        let asked = |which: fn(&Answer) -> bool| answers.iter().any(which);
-        // An answer about a given place needs no search.
-        let sought = asked(|answer| answer.is_searched() && answer.place().is_none())
-            .then(|| Sought::new(&hitter, FEW));
-        let sought = |which| sought.as_ref().filter(|_| asked(which));
-        let fastest = sought(|answer| {
-            matches!(answer, Answer::ExitSpeed | Answer::ExitSpeedPlace | Answer::Zone(_))
-        });
-        let fastest = fastest.and_then(|sought| sought.looked.fastest().map(|peak| (sought, peak)));
-        let zone = fastest.filter(|_| asked(|answer| matches!(answer, Answer::Zone(_))));
-        let least = sought(|answer| matches!(answer, Answer::Vibration | Answer::VibrationPlace));
-        let felt = [
-            sought(|answer| *answer == Answer::HandsVelocity),
-            sought(|answer| *answer == Answer::HandsAcceleration),
-        ];
-        let felt = [0, 1].map(|k| Some(felt[k]?.looked.least_felt(k)?.x));
-        let hands = asked(|answer| answer.of_the_hands());
-        Ok(Self {
-            fastest: fastest.map(|(sought, peak)| sought.best(peak, &sought.hit(peak))),
-            zone: zone
-                .map(|(sought, peak)| sought.looked.zone(peak).map(|edge| sought.edge(peak, edge))),
-            least: least.and_then(|sought| Some(sought.least(sought.looked.least_vibration()?))),
-            bbcor: sought(|answer| *answer == Answer::Bbcor).and_then(|sought| sought.bbcor(1)),
-            hands: hands.then(|| Hands::new(bat, trial, (sweep, &hitter), felt)).transpose()?,
-        })
-    }
-
-    fn figure(&self, answer: Answer) -> Option<Figure> {
-        match answer {
-            Answer::ExitSpeed => Some(self.fastest?[0]),
-            Answer::ExitSpeedPlace => Some(self.fastest?[1]),
-            Answer::Zone(end) => Some(self.zone?[usize::from(end)]),
-            Answer::Vibration => Some(self.least?[1]),
-            Answer::VibrationPlace => Some(self.least?[0]),
-            Answer::Bbcor => self.bbcor,
-            answer => self.hands.as_ref()?.felt(answer),
+/// The answers that need a search on a bat that was hit, as far as they are requested.
+fn searched(
+    answers: &[Answer],
+    bat: &Bat,
+    (scene, model): (&Scene, Model),
+    sweep: &Sweep,
+) -> Result<Vec<(Answer, Figure)>> {
+    let hitter = Hitter::new(model, scene, bat, &sweep.solution, sweep.effort)?;
+    let asked = |which: fn(&Answer) -> bool| answers.iter().any(which);
+    // An answer about a given place needs no search.
+    let sought = asked(|answer| answer.is_searched() && answer.place().is_none())
+        .then(|| Sought::new(&hitter, FEW));
+    let sought = |which| sought.as_ref().filter(|_| asked(which));
+    let mut found = vec![];
+    let fastest = sought(|answer| {
+        matches!(answer, Answer::ExitSpeed | Answer::ExitSpeedPlace | Answer::Zone(_))
+    });
+    if let Some((sought, peak)) = fastest.and_then(|by| Some((by, by.looked.fastest()?))) {
+        let [speed, place, _] = sought.best(peak, &sought.hit(peak));
+        found.extend([(Answer::ExitSpeed, speed), (Answer::ExitSpeedPlace, place)]);
+        if asked(|answer| matches!(answer, Answer::Zone(_))) {
+            let [from, to] = sought.looked.zone(peak).map(|edge| sought.edge(peak, edge));
+            found.extend([(Answer::Zone(false), from), (Answer::Zone(true), to)]);
         }
     }
+    let least = sought(|answer| matches!(answer, Answer::Vibration | Answer::VibrationPlace));
+    if let Some((sought, peak)) = least.and_then(|by| Some((by, by.looked.least_vibration()?))) {
+        let [place, value] = sought.least(peak);
+        found.extend([(Answer::VibrationPlace, place), (Answer::Vibration, value)]);
+    }
+    let bbcor = sought(|answer| *answer == Answer::Bbcor).and_then(|sought| sought.bbcor(1));
+    found.extend(bbcor.map(|bbcor| (Answer::Bbcor, bbcor)));
+    let felt = [
+        sought(|answer| *answer == Answer::HandsVelocity),
+        sought(|answer| *answer == Answer::HandsAcceleration),
+    ];
+    let felt = [0, 1].map(|k| Some(felt[k]?.looked.least_felt(k)?.x));
+    if asked(|answer| answer.of_the_hands()) {
+        found.extend(hands(bat, (scene, model), (sweep, &hitter), felt)?);
+    }
+    Ok(found)
 }
 
-/// The motion at the hands due to hits on a bat. Its error has two parts: the change with fewer modes, and the error of
-/// the impulse, to which the motion is proportional.
-struct Hands {
-    /// Places of the least velocity and the least acceleration (m).
+/// The motion at the hands due to hits on a bat, at the places of the sweep and at those of the least velocity and
+/// acceleration (m). Its error has two parts: the change with fewer modes, and the error of the impulse, to which the
+/// motion is proportional.
+fn hands(
+    bat: &Bat,
+    (scene, model): (&Scene, Model),
+    (sweep, all): (&Sweep, &Hitter),
     least: [Option<f64>; 2],
-    /// Places (m) and the motion at the hands: velocity and acceleration.
-    felt: Vec<(f64, [Figure; 2])>,
-}
-
-impl Hands {
-    /// At the places of the sweep, and, if requested, at those of the least velocity and acceleration (m).
-    fn new(
-        bat: &Bat,
-        (scene, model): (&Scene, Model),
-        (sweep, all): (&Sweep, &Hitter),
-        least: [Option<f64>; 2],
-    ) -> Result<Self> {
-        let Sweep { solution, impacts, effort, .. } = sweep;
-        let count = solution.modes.len();
-        let first = |few: usize| {
-            let mut first = solution.clone();
-            first.modes.truncate(few);
-            first
-        };
-        // With half of them it is a different bat.
-        let most = fewer(count).into_iter().filter(|few| 3 * few >= 2 * count).map(first);
-        let most: Vec<Solution> = most.collect();
-        let hitter = |solution| Hitter::new(model, scene, bat, solution, *effort);
-        let few: Vec<Hitter> = most.iter().map(hitter).collect::<Result<_>>()?;
-        let share = |impact: &Impact| {
-            let outcome = impact.outcome.as_ref()?;
-            let closing = impact.bat_speed + scene.ball_speed;
-            Some(outcome.error * closing * scene.ball.mass_kg / outcome.impulse)
-        };
-        let unsure = impacts.iter().filter_map(share).fold(0.0, greater);
-        let places = impacts.iter().map(|impact| impact.x).chain(least.into_iter().flatten());
-        let felt = places.filter_map(|x| {
-            let seen = |hitter: &Hitter| hitter.glance(x).map(|seen| seen.hands);
-            let (all, few) = (seen(all)?, few.iter().map(seen).collect::<Option<Vec<_>>>()?);
-            let figure = |k: usize| {
-                let apart = few.iter().map(|few| (all[k] - few[k]).abs()).fold(0.0, greater);
-                Figure::new(all[k], apart + unsure * all[k])
-            };
-            Some((x, [0, 1].map(figure)))
-        });
-        Ok(Self { least, felt: felt.collect() })
-    }
-
-    fn felt(&self, answer: Answer) -> Option<Figure> {
-        let (x, which) = match answer {
-            Answer::HandsVelocity => (self.least[0]?, 0),
-            Answer::HandsAcceleration => (self.least[1]?, 1),
-            Answer::HandsVelocityAt(x) => (x, 0),
-            Answer::HandsAccelerationAt(x) => (x, 1),
-            _ => return None,
-        };
-        let near = |(place, _): &&(f64, _)| (place - x).abs() < 1e-9;
-        self.felt.iter().find(near).map(|(_, felt)| felt[which])
-    }
+) -> Result<Vec<(Answer, Figure)>> {
+    let Sweep { solution, impacts, effort, .. } = sweep;
+    let count = solution.modes.len();
+    // With half of them it is a different bat.
+    let most = fewer(count).into_iter().filter(|few| 3 * few >= 2 * count);
+    let most: Vec<Solution> = most.map(|few| with_modes(solution, few)).collect();
+    let hitter = |solution| Hitter::new(model, scene, bat, solution, *effort);
+    let few: Vec<Hitter> = most.iter().map(hitter).collect::<Result<_>>()?;
+    let share = |impact: &Impact| {
+        let outcome = impact.outcome.as_ref()?;
+        let closing = impact.bat_speed + scene.ball_speed;
+        Some(outcome.error * closing * scene.ball.mass_kg / outcome.impulse)
+    };
+    let unsure = impacts.iter().filter_map(share).fold(0.0, greater);
+    let felt = |x: f64, k: usize| {
+        let seen = |hitter: &Hitter| hitter.glance(x).map(|seen| seen.hands[k]);
+        let (all, few) = (seen(all)?, few.iter().map(seen).collect::<Option<Vec<_>>>()?);
+        let apart = few.iter().map(|few| (all - few).abs()).fold(0.0, greater);
+        Some(Figure::new(all, apart + unsure * all))
+    };
+    let [velocity, acceleration] = least;
+    let at = impacts.iter().flat_map(|impact| {
+        let x = Some(impact.x);
+        [(Answer::HandsVelocityAt(impact.x), x, 0), (Answer::HandsAccelerationAt(impact.x), x, 1)]
+    });
+    let best = [(Answer::HandsVelocity, velocity, 0), (Answer::HandsAcceleration, acceleration, 1)];
+    Ok(at.chain(best).filter_map(|(answer, x, k)| Some((answer, felt(x?, k)?))).collect())
 }
