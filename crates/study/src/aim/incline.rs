@@ -81,11 +81,6 @@ impl Steepness {
             new.profile().pieces.iter().flat_map(|piece| (0..LOOKS).map(move |k| at(piece, k)));
         all.fold(0.0, f64::max)
     }
-
-    /// The greatest slope of a bat where the old one was not as steep.
-    pub fn found(&self, old: &Bat, new: &Bat) -> f64 {
-        self.most + self.broken_by(old, new)
-    }
 }
 
 /// dr/dx at `s` in [0, 1] along a piece.

@@ -88,7 +88,7 @@ impl<'a> Limits<'a> {
         for (k, limit) in self.stretches.iter().enumerate() {
             self.check_stretch(k, limit)?;
         }
-        for room in self.every(EVERY, &|_| true) {
+        for room in self.rows(&|_| true) {
             let fixed = stays(room.x);
             let thick = room.high < -KEPT && fixed;
             let thin = room.low > KEPT && (fixed || self.remove_only);
@@ -181,11 +181,6 @@ impl<'a> Limits<'a> {
         Ok(())
     }
 
-    /// The places where limits are checked first, among those where the bat may change; both sides of a step.
-    pub fn rows(&self, changes: &dyn Fn(f64) -> bool) -> Vec<Room> {
-        self.every(EVERY, changes)
-    }
-
     /// Allowed slopes of the change, at places where the bat may change; empty without a limit.
     pub fn inclines(&self, changes: &dyn Fn(f64) -> bool) -> Vec<Room> {
         self.steepness.map_or(vec![], |steepness| steepness.inclines(self.bat, changes))
@@ -203,9 +198,10 @@ impl<'a> Limits<'a> {
         }
     }
 
-    fn every(&self, step: f64, changes: &dyn Fn(f64) -> bool) -> Vec<Room> {
+    /// The places where limits are checked first, among those where the bat may change; both sides of a step.
+    pub fn rows(&self, changes: &dyn Fn(f64) -> bool) -> Vec<Room> {
         let mut rooms: Vec<Room> = vec![];
-        for (piece, s, x) in places(self.bat, step) {
+        for (piece, s, x) in places(self.bat, EVERY) {
             let room = self.room(x, piece.at(s));
             // Where two pieces meet without a step, once.
             if changes(x) && rooms.last() != Some(&room) {

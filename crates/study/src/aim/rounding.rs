@@ -65,7 +65,7 @@ impl Rounding<'_> {
     ///
     /// # Errors
     ///
-    /// Those of [`Drafting::new`], [`Drafting::draft`] and [`Bench::of`].
+    /// Those of [`Laying::stations`], [`Drafting::draft`] and [`Bench::of`].
     pub fn of(&self, found: &Found, norm: f64) -> Result<(Rounded, Vec<f64>)> {
         let bench = self.bench;
         let base = bench.rechosen(&bench.bat, &found.p)?;
@@ -74,7 +74,8 @@ impl Rounding<'_> {
         let change = (&bench.splines, shape, bench.stretch(&found.p));
         let densities = self.densities(found);
         let laying = Laying { bat: &base, limits: &limits, change, grid: self.grid };
-        let drafting = Drafting::new(laying, &densities)?;
+        let stations = laying.stations()?;
+        let drafting = Drafting { laying, stations, densities: &densities };
         let inside = self.inside(&densities, found);
         let mut aside = inside.clone();
         let mut best: Option<(Rounded, Vec<f64>)> = None;

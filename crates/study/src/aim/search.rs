@@ -35,15 +35,6 @@ const ROUGHLY: f64 = 2e-6;
 /// Slopes hold as long as no coefficient has changed by more than that (mm).
 const SAME_SLOPES: f64 = 0.05;
 
-/// When a search may end.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum End {
-    /// At the least change.
-    Least,
-    /// As soon as all bands are met.
-    Met,
-}
-
 /// The objective: this many times the size of the change, plus the price of each band's miss.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Weights {
@@ -134,7 +125,7 @@ impl<'a> Search<'a> {
     ///
     /// [`Error::Value`] if the limits of the diameter contradict each other; those of [`Bench::look`].
     pub fn from(&self, start: &[f64], bands: &[Band], weights: &Weights) -> Result<Found> {
-        self.until(End::Least, start, bands, weights)
+        self.until(false, start, bands, weights)
     }
 
     /// Searches only until it is clear whether the bands that have a price can be met; if they can, the change is not
@@ -144,10 +135,11 @@ impl<'a> Search<'a> {
     ///
     /// As [`Self::from`].
     pub fn meets(&self, start: &[f64], bands: &[Band], weights: &Weights) -> Result<Found> {
-        self.until(End::Met, start, bands, weights)
+        self.until(true, start, bands, weights)
     }
 
-    fn until(&self, end: End, start: &[f64], bands: &[Band], weights: &Weights) -> Result<Found> {
+    /// Searches; `met` tells whether it ends as soon as all bands are met.
+    fn until(&self, met: bool, start: &[f64], bands: &[Band], weights: &Weights) -> Result<Found> {
         let mut look = self.bench.look(start)?;
         let mut p = start.to_vec();
         let mut count = 1;
@@ -198,7 +190,7 @@ impl<'a> Search<'a> {
                 Some(ended(p.clone(), look.values.clone(), count, (!still).then_some(STEPS_TAKEN)));
             let asked = bands.iter().zip(&look.values).zip(&weights.miss);
             let mut misses = asked.map(|((band, value), price)| price.min(1.0) * band.miss(*value));
-            if still || end == End::Met && misses.all(|miss| miss <= MISSED) {
+            if still || met && misses.all(|miss| miss <= MISSED) {
                 break;
             }
         }

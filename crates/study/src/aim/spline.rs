@@ -31,8 +31,6 @@ pub struct Splines {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BSpline {
     knots: [f64; 5],
-    /// Whether the curve holds its value at its last knot, where the stretch ends.
-    closed: bool,
 }
 
 impl Splines {
@@ -48,12 +46,9 @@ impl Splines {
         for [start, end] in kept {
             let to = f64::min(start, length);
             if to - from >= SHORTEST {
-                let end = |kept: bool, pointed: bool| match (kept, pointed) {
-                    (true, _) => End::Kept,
-                    (false, true) => End::Pointed,
-                    (false, false) => End::Free,
-                };
-                let ends = [end(from > 0.0, pointed[0]), end(to < length, pointed[1])];
+                // Beside a kept stretch value and slope are held, at a point the value.
+                let held = |kept, pointed| if kept { 2 } else { usize::from(pointed) };
+                let ends = [held(from > 0.0, pointed[0]), held(to < length, pointed[1])];
                 let on = on_stretch([from, to], ends);
                 if !on.is_empty() {
                     stretches.push([from, to]);
@@ -156,7 +151,8 @@ impl BSpline {
     fn value(&self, i: usize, degree: usize, x: f64) -> f64 {
         let t = &self.knots;
         if degree == 0 {
-            let last = self.closed && x == t[4] && t[i + 1] == t[4] && t[i] < t[4];
+            // The curve holds its value at its last knot, where the stretch ends.
+            let last = x == t[4] && t[i + 1] == t[4] && t[i] < t[4];
             return if (t[i] <= x && x < t[i + 1]) || last { 1.0 } else { 0.0 };
         }
         let part =
@@ -183,33 +179,17 @@ impl BSpline {
     }
 }
 
-/// Kind of the end of a stretch.
-#[derive(Debug, Clone, Copy)]
-enum End {
-    /// An end of the bat, which may change.
-    Free,
-    /// A pointed end of the bat: the value is 0.
-    Pointed,
-    /// The border of a kept stretch: value and slope are 0.
-    Kept,
-}
-
-/// The B-splines of a stretch, without those that would move its held ends.
-fn on_stretch([from, to]: [f64; 2], held: [End; 2]) -> Vec<BSpline> {
+/// The B-splines of a stretch, without those that would move its held ends: the value at an end depends on the first
+/// curve there, value and slope on the first two.
+fn on_stretch([from, to]: [f64; 2], [first, last]: [usize; 2]) -> Vec<BSpline> {
     let pieces = (((to - from) / KNOT_EVERY).round() as usize).max(1);
     let place =
         |k: usize| if k == pieces { to } else { from + (to - from) * k as f64 / pieces as f64 };
     let ends = |x: f64| std::iter::repeat_n(x, 3);
     let knots: Vec<f64> = ends(from).chain((0..=pieces).map(place)).chain(ends(to)).collect();
-    // The value at an end depends on the first curve there, value and slope on the first two.
-    let [first, last] = held.map(|end| match end {
-        End::Free => 0,
-        End::Pointed => 1,
-        End::Kept => 2,
-    });
     let count = pieces + 3;
     (first..count.saturating_sub(last))
-        .map(|k| BSpline { knots: std::array::from_fn(|i| knots[k + i]), closed: true })
+        .map(|k| BSpline { knots: std::array::from_fn(|i| knots[k + i]) })
         .collect()
 }
 

@@ -15,6 +15,7 @@
 //! compare all of them with far more accurate hits.
 
 pub use crate::answers::Figure;
+use crate::answers::{Answer, figure};
 use crate::engine::{
     BarrelSpeed, Bat, Glance, HitsAlong, Hitter, Impact, Inertia, Model, Peak, Request, Result,
     STANDARD_PIVOT, Scene, Sweep, SweetSpot, SwingLaw, Trial, sweep,
@@ -171,8 +172,7 @@ impl Contender {
 
     /// Frequency of a mode (Hz), counted from 1.
     pub fn frequency(&self, order: usize) -> Option<Figure> {
-        let mode = self.sweep.solution.modes.get(order - 1)?;
-        Some(Figure::new(mode.frequency(), mode.error.total() * mode.frequency()))
+        figure(Answer::Frequency(order), &self.bat, &self.sweep.solution)
     }
 
     /// A node of a mode (m), both counted from 1.
