@@ -335,3 +335,24 @@ fn stretched(bat: &Bat, by: f64) -> Result<Bat> {
         parts.fixtures.places().for_each(|x| *x *= by);
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn everything_on_a_bat_moves_with_its_length() {
+        let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
+            "grip": { "from": "1 in", "to": "6 in", "stiffness": 3e4 },
+            "attachments": [{ "x": "20 in", "mass": "1 oz" }],
+            "profile": { "unit": "in", "x": [0, 6, 20, 33], "diameter": [1.0, 0.9, 1.6, 2.5] } }"#;
+        let bat = Bat::from_text("bat.json", text, "".as_ref()).unwrap();
+        let longer = stretched(&bat, 1.1).unwrap();
+        let grip = longer.fixtures().grip.unwrap();
+        let there = [grip.from, grip.to, longer.fixtures().attachments[0].x, longer.length()];
+        let inches = there.map(|x| x / INCH);
+        for (found, wanted) in inches.into_iter().zip([1.1, 6.6, 22.0, 36.3]) {
+            assert!((found - wanted).abs() < 1e-9, "{inches:?}");
+        }
+    }
+}

@@ -10,7 +10,7 @@ use crate::aim::conflict::{Conflict, missed};
 use crate::aim::limits::{KEPT, Limits, section};
 use crate::aim::rounding::{Rounded, Rounding};
 use crate::aim::rules::{Rule, RulesKept};
-use crate::aim::search::{Found, MISSED, Search, Weights};
+use crate::aim::search::{MISSED, Search, Searched, Weights};
 use crate::aim::wish::{Band, Grid, Wish};
 use crate::answers::Answer;
 use crate::engine::{Bat, Error, Result, golden};
@@ -37,7 +37,7 @@ const FINER: [f64; 4] = [1.0, 10.0, 100.0, 1000.0];
 /// The least change of a bat, before it is written.
 struct Least {
     bench: Bench,
-    found: Found,
+    found: Searched,
     /// Worst miss, in tolerances.
     miss: f64,
     norm: f64,
@@ -211,7 +211,7 @@ impl Writing<'_> {
 
     /// The rounding of a least change that leaves the goals in their bands, no finer than needed, or the best of all,
     /// and the bats that were computed.
-    fn finest(&self, bench: &Bench, first: &Found, once: bool) -> Result<(Rounded, usize)> {
+    fn finest(&self, bench: &Bench, first: &Searched, once: bool) -> Result<(Rounded, usize)> {
         let (mut best, mut bats) = (None::<Rounded>, 0);
         for finer in FINER {
             if best.as_ref().is_some_and(|best| best.worst <= 1e-9 || once) {
@@ -228,7 +228,7 @@ impl Writing<'_> {
     /// rounding moves a goal out, the search is repeated with narrower bands.
     fn rounded(
         &self,
-        (bench, first, once): (&Bench, &Found, bool),
+        (bench, first, once): (&Bench, &Searched, bool),
         finer: f64,
     ) -> Result<(Rounded, usize)> {
         /// So far inside its band a goal is sought anew, in tolerances.
@@ -275,27 +275,27 @@ impl Writing<'_> {
         &self,
         bench: &Bench,
         search: &Search,
-        found: Found,
-    ) -> Result<(Found, Option<Conflict>)> {
+        found: Searched,
+    ) -> Result<(Searched, Option<Conflict>)> {
         let bands = &self.bands;
         let (conflict, mut known) = Conflict::of(search, bands, &found)?;
         let before = found.bats;
         if conflict.members.len() < bands.len() {
             let start = vec![0.0; bench.unknowns()];
             let weighted = search.from(&start, bands, &conflict.nearest(bands.len()))?;
-            known.insert(0, Found { bats: before + weighted.bats, ..weighted });
+            known.insert(0, Searched { bats: before + weighted.bats, ..weighted });
         }
         known.insert(0, found);
-        let nearest = |a: &Found, b: &Found| total(bands, a).total_cmp(&total(bands, b));
+        let nearest = |a: &Searched, b: &Searched| total(bands, a).total_cmp(&total(bands, b));
         let bats = known.iter().map(|found| found.bats).max().unwrap_or(0);
         let best = known.into_iter().min_by(nearest).expect("one was found");
         let all = vec![true; bands.len()];
         if missed(&best, bands, &all) {
-            return Ok((Found { bats, ..best }, Some(conflict)));
+            return Ok((Searched { bats, ..best }, Some(conflict)));
         }
         let least = search.from(&best.p, bands, &Weights::met(bands.len()))?;
         let bats = bats + conflict.bats + least.bats;
-        Ok((Found { bats, ..least }, None))
+        Ok((Searched { bats, ..least }, None))
     }
 
     fn name(&self, parts: &mut sweetspot::bat::body::Parts) {
@@ -304,7 +304,7 @@ impl Writing<'_> {
 
     /// The decrease of the norm per SI unit of each goal. It exists only for a least change: not for a bat that misses
     /// a target, that is hardly changed, or for which the search stopped short.
-    fn prices(&self, found: &Found, norm: f64) -> Vec<Option<f64>> {
+    fn prices(&self, found: &Searched, norm: f64) -> Vec<Option<f64>> {
         /// A smaller change (mm) does not count.
         const NONE: f64 = 1e-3;
         let all = vec![true; self.bands.len()];
@@ -318,7 +318,7 @@ impl Writing<'_> {
 }
 
 /// The sum of all misses of a bat, in tolerances: of two bats the one with the smaller sum is nearer.
-fn total(bands: &[Band], found: &Found) -> f64 {
+fn total(bands: &[Band], found: &Searched) -> f64 {
     bands.iter().zip(&found.values).map(|(band, value)| band.miss(*value)).sum()
 }
 

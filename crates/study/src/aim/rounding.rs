@@ -6,7 +6,7 @@
 use crate::aim::bench::Bench;
 use crate::aim::laying::Laying;
 use crate::aim::limits::{KEPT, Limits};
-use crate::aim::search::Found;
+use crate::aim::search::Searched;
 use crate::aim::stations::{Draft, Drafting};
 use crate::aim::wish::{Band, Grid};
 use crate::engine::{Result, linear};
@@ -66,7 +66,7 @@ impl Rounding<'_> {
     /// # Errors
     ///
     /// Those of [`Laying::stations`], [`Drafting::draft`] and [`Bench::of`].
-    pub fn of(&self, found: &Found, norm: f64) -> Result<(Rounded, Vec<f64>)> {
+    pub fn of(&self, found: &Searched, norm: f64) -> Result<(Rounded, Vec<f64>)> {
         let bench = self.bench;
         let base = bench.rechosen(&bench.bat, &found.p)?;
         let limits = self.limits.on(&base);
@@ -117,7 +117,7 @@ impl Rounding<'_> {
 
     /// Required distance from the edge of its band for each goal that is there, in tolerances: the effect of rounding
     /// one station.
-    fn inside(&self, densities: &[Vec<f64>], found: &Found) -> Vec<f64> {
+    fn inside(&self, densities: &[Vec<f64>], found: &Searched) -> Vec<f64> {
         let one = |of: &Vec<f64>| {
             let places = (1..100).map(|k| 0.01 * f64::from(k) * self.bench.bat.length());
             let effect = places.map(|x| self.bench.splines.at(of, x).abs()).fold(0.0, f64::max);
@@ -137,7 +137,7 @@ impl Rounding<'_> {
 
     /// The effect on each goal, in tolerances, per mm of diameter and m of length, as coefficients of the curves: their
     /// products with the curves are the slopes.
-    fn densities(&self, found: &Found) -> Vec<Vec<f64>> {
+    fn densities(&self, found: &Searched) -> Vec<Vec<f64>> {
         let overlaps = self.bench.splines.overlaps();
         // Curves that are independent have a positive definite matrix.
         let inverse = linear::inverse(&overlaps).unwrap_or_default();

@@ -55,7 +55,7 @@ impl Weights {
 
 /// The end of a search.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Found {
+pub struct Searched {
     /// The unknowns.
     pub p: Vec<f64>,
     /// The goals, in the order of the bands.
@@ -124,7 +124,7 @@ impl<'a> Search<'a> {
     /// # Errors
     ///
     /// [`Error::Value`] if the limits of the diameter contradict each other; those of [`Bench::look`].
-    pub fn from(&self, start: &[f64], bands: &[Band], weights: &Weights) -> Result<Found> {
+    pub fn from(&self, start: &[f64], bands: &[Band], weights: &Weights) -> Result<Searched> {
         self.until(false, start, bands, weights)
     }
 
@@ -134,12 +134,18 @@ impl<'a> Search<'a> {
     /// # Errors
     ///
     /// As [`Self::from`].
-    pub fn meets(&self, start: &[f64], bands: &[Band], weights: &Weights) -> Result<Found> {
+    pub fn meets(&self, start: &[f64], bands: &[Band], weights: &Weights) -> Result<Searched> {
         self.until(true, start, bands, weights)
     }
 
     /// Searches; `met` tells whether it ends as soon as all bands are met.
-    fn until(&self, met: bool, start: &[f64], bands: &[Band], weights: &Weights) -> Result<Found> {
+    fn until(
+        &self,
+        met: bool,
+        start: &[f64],
+        bands: &[Band],
+        weights: &Weights,
+    ) -> Result<Searched> {
         let mut look = self.bench.look(start)?;
         let mut p = start.to_vec();
         let mut count = 1;
@@ -157,7 +163,7 @@ impl<'a> Search<'a> {
             let program = self.program((&p, &look.values, &slopes), bands, weights);
             let mut least = self.solve(program, &p, &mut rooms)?;
             least.prices = asked(&least.prices, weights);
-            let ended = |p: Vec<f64>, values: Vec<f64>, bats: usize, stopped| Found {
+            let ended = |p: Vec<f64>, values: Vec<f64>, bats: usize, stopped| Searched {
                 p,
                 values,
                 slopes: slopes.clone(),

@@ -35,7 +35,7 @@ pub struct Trial {
 
 /// The results of a bat.
 #[derive(Debug)]
-pub struct Found {
+pub struct BatAnswers {
     /// Values with their errors in the order of the outputs; `None` if the bat has no such answer.
     pub figures: Vec<Option<Figure>>,
     /// Whether frequencies and exit speeds are as accurate as asked.
@@ -44,7 +44,7 @@ pub struct Found {
     pub off: Option<Error>,
 }
 
-impl Found {
+impl BatAnswers {
     /// Whether an answer of another bat differs from this one's by more than a relative 1e-10.
     pub fn differs(&self, other: &Self) -> bool {
         const SAME: f64 = 1e-10;
@@ -86,12 +86,6 @@ struct Ready {
     off: Option<Error>,
 }
 
-/// The solution of a bat.
-enum Solved {
-    Modes(Solution),
-    Hits(Sweep),
-}
-
 impl Asked {
     /// The outputs for each of several bats similar to `model`, in order; `trial` receives the index of a bat and the
     /// bat with moduli fitted to its tap.
@@ -106,36 +100,33 @@ impl Asked {
         model: &Bat,
         bats: Vec<(&'a Self, Result<Bat>)>,
         trial: impl Fn(usize, &Bat) -> Result<Trial>,
-    ) -> Vec<Result<Found>> {
+    ) -> Vec<Result<BatAnswers>> {
         let ready = |(k, (asked, bat)): (usize, (&'a Self, Result<Bat>))| {
             (asked, bat.and_then(|bat| asked.ready(bat, |bat| trial(k, bat))))
         };
         let ready: Vec<(&Self, Result<Ready>)> = bats.into_iter().enumerate().map(ready).collect();
-        let mut solved: Vec<Option<Result<Solved>>> = ready.iter().map(|_| None).collect();
+        let mut found: Vec<Option<Result<BatAnswers>>> = ready.iter().map(|_| None).collect();
+        let there = ready.iter().enumerate();
         let there =
-            || ready.iter().enumerate().filter_map(|(k, (_, of))| Some((k, of.as_ref().ok()?)));
-        let blows = there().filter_map(|(k, ready)| Some((k, ready.blow()?)));
-        let (hit, blows): (Vec<usize>, Vec<Blow>) = blows.unzip();
-        strike_each(model, &blows, Way::SideBySide, |k, found| {
-            solved[hit[k]] = Some(found.map(Solved::Hits));
+            || there.clone().filter_map(|(k, (asked, of))| Some((k, *asked, of.as_ref().ok()?)));
+        let blows = there().filter_map(|one| Some((one, one.2.blow()?)));
+        let (hit, blows): (Vec<(usize, &Self, &Ready)>, Vec<Blow>) = blows.unzip();
+        strike_each(model, &blows, Way::SideBySide, |n, sweep| {
+            let (k, asked, ready) = hit[n];
+            found[k] = Some(sweep.and_then(|sweep| asked.with_hits(ready, &sweep)));
         });
-        let others = there().filter(|(_, ready)| ready.trial.is_none());
-        let (others, requests): (Vec<usize>, Vec<_>) =
-            others.map(|(k, ready)| (k, (&ready.bat, ready.request))).unzip();
-        solutions(model, &requests, Way::SideBySide, |k, found| {
-            solved[others[k]] = Some(found.map(Solved::Modes));
+        let others = there().filter(|(.., ready)| ready.trial.is_none());
+        let others: Vec<(usize, &Self, &Ready)> = others.collect();
+        let requests = others.iter().map(|(.., ready)| (&ready.bat, ready.request));
+        solutions(model, &requests.collect::<Vec<_>>(), Way::SideBySide, |n, solution| {
+            let (k, asked, ready) = others[n];
+            found[k] = Some(solution.and_then(|solution| asked.of_modes(&ready.bat, &solution)));
         });
-        let found = |((asked, ready), solved): ((&Self, Result<Ready>), Option<Result<Solved>>)| {
-            let (ready, solved) = (ready?, solved.expect("every bat that is ready is solved"));
-            match solved? {
-                Solved::Modes(solution) => {
-                    let found = asked.of_modes(&ready.bat, &solution)?;
-                    Ok(Found { off: ready.off, ..found })
-                }
-                Solved::Hits(sweep) => asked.with_hits(ready, sweep),
-            }
+        let whole = |((_, ready), found): ((&Self, Result<Ready>), Option<Result<BatAnswers>>)| {
+            let (ready, found) = (ready?, found.expect("every bat that is ready is solved")?);
+            Ok(BatAnswers { off: ready.off.or(found.off), ..found })
         };
-        ready.into_iter().zip(solved).map(found).collect()
+        ready.into_iter().zip(found).map(whole).collect()
     }
 
     /// The bat with moduli fitted to its tap, and the data for its answers.
@@ -153,35 +144,36 @@ impl Asked {
     }
 
     /// The answers of a bat that is not hit.
-    fn of_modes(&self, bat: &Bat, solution: &Solution) -> Result<Found> {
+    fn of_modes(&self, bat: &Bat, solution: &Solution) -> Result<BatAnswers> {
         let figures = self.answers.iter().map(|answer| figure(*answer, bat, solution)).collect();
-        Ok(Found { figures, met: solution.worst() <= self.tolerance, off: None })
+        Ok(BatAnswers { figures, met: solution.worst() <= self.tolerance, off: None })
     }
 
     /// The answers of a bat that was hit: those about modes from the modes of the hit, if these are accurate enough.
-    fn with_hits(&self, Ready { bat, request, trial, .. }: Ready, sweep: Sweep) -> Result<Found> {
-        let (Trial { scene, model }, _) = trial.expect("a bat that was hit has its trial");
+    fn with_hits(&self, ready: &Ready, sweep: &Sweep) -> Result<BatAnswers> {
+        let Ready { bat, request, trial, .. } = ready;
+        let (Trial { scene, model }, _) = trial.as_ref().expect("a bat that was hit has its trial");
         let asked = self.answers.iter().map(|answer| answer.modes()).max().unwrap_or(0);
         let found = match sweep.solution.modes.len() >= asked {
-            true => self.of_modes(&bat, &sweep.solution)?,
-            false => self.of_modes(&bat, &solve(&bat, &Request { modes: asked, ..request })?)?,
+            true => self.of_modes(bat, &sweep.solution)?,
+            false => self.of_modes(bat, &solve(bat, &Request { modes: asked, ..*request })?)?,
         };
         let searched = match self.answers.iter().any(|answer| answer.is_searched()) {
-            true => searched(&self.answers, &bat, (&scene, model), &sweep)?,
+            true => searched(&self.answers, bat, (scene, *model), sweep)?,
             false => vec![],
         };
         let at = |x: f64| sweep.impacts.iter().find(|impact| impact.x == x);
         let of = |(answer, known): (&Answer, Option<Figure>)| match *answer {
-            Answer::ExitSpeedAt(x) => exit_speed(at(x)?, &scene),
-            Answer::VibrationAt(x) => vibration(at(x)?, &scene),
+            Answer::ExitSpeedAt(x) => exit_speed(at(x)?, scene),
+            Answer::VibrationAt(x) => vibration(at(x)?, scene),
             answer if answer.is_searched() => {
                 searched.iter().find(|(known, _)| *known == answer).map(|(_, figure)| *figure)
             }
             _ => known,
         };
         let figures = self.answers.iter().zip(found.figures).map(of).collect();
-        let off = on_the_bat(&self.answers, &bat).err();
-        Ok(Found { figures, met: found.met && sweep.met(), off })
+        let off = on_the_bat(&self.answers, bat).err();
+        Ok(BatAnswers { figures, met: found.met && sweep.met(), off })
     }
 
     /// Impact points (m from the knob end): the requested ones, and those for the search of best places.

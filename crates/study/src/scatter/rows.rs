@@ -13,7 +13,7 @@ use crate::engine::{
 };
 use crate::many::design::Design;
 use crate::many::indices::VariateKind;
-use crate::many::rows::{Asked, Found, Trial};
+use crate::many::rows::{Asked, BatAnswers, Trial};
 use crate::scatter::spreads::{Differences, Differs, SCRAMBLES, softened};
 
 /// The exit speed at the varying impact point, as an output.
@@ -132,7 +132,7 @@ impl ScatterRows {
 
     /// The results of those rows, in the order of the outputs, or the reason why there are none. A row's results do not
     /// depend on which other rows are requested.
-    pub fn answers(&self, rows: Range<u64>) -> Vec<Result<Found>> {
+    pub fn answers(&self, rows: Range<u64>) -> Vec<Result<BatAnswers>> {
         self.of(&rows.map(|k| self.values(k)).collect::<Vec<_>>())
     }
 
@@ -167,7 +167,7 @@ impl ScatterRows {
         pairs.filter(|(_, group)| **group == k).map(|(value, _)| *value).collect()
     }
 
-    fn of(&self, rows: &[Vec<f64>]) -> Vec<Result<Found>> {
+    fn of(&self, rows: &[Vec<f64>]) -> Vec<Result<BatAnswers>> {
         let asked: Vec<Asked> = rows.iter().map(|values| self.asked(values)).collect();
         let bats = asked.iter().zip(rows).map(|(asked, values)| (asked, self.changed(values)));
         Asked::of_each(&self.middle, bats.collect(), |k, bat| self.trial(&rows[k], bat))
