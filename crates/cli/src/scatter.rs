@@ -11,7 +11,7 @@ use sweetspot_report::plot::many;
 use sweetspot_report::plot::picture::Picture;
 use sweetspot_report::report::{resolved, scatter};
 use sweetspot_report::schema;
-use sweetspot_study::files::scatter_file::{self, ScatterFile, ScatterForm};
+use sweetspot_study::files::scatter_file::{self, ScatterForm};
 use sweetspot_study::files::written::WrittenFile;
 use sweetspot_study::scatter::rows::{ScatterPlan, ScatterRows};
 use sweetspot_study::scatter::scattered::{OutputSpread, SHARES, Scattered, WRITTEN};
@@ -101,9 +101,8 @@ pub fn run(args: &Args) -> Result<Done> {
             Error::value("SCATTER", "none", expected)
         })?,
     };
-    let ScatterFile { differences, setup, impact, outputs, tolerance } = said;
     let (points, seed) = (args.points, args.seed);
-    let plan = ScatterPlan { differences, setup, impact, outputs, tolerance, points, seed };
+    let plan = ScatterPlan { points, seed, ..said };
     let of = output(args, &plan)?;
     let rows = ScatterRows::new(&bat, plan).map_err(|error| named(args, error))?;
     let progress = Counted::new(args.said.quiet, "bats", points, 0);

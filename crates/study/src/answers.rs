@@ -4,9 +4,7 @@
 
 use serde::Serialize;
 
-use sweetspot::base::error::{Complaint, Error, Result};
-use sweetspot::bat::body::{Bat, STANDARD_PIVOT};
-use sweetspot::modes::solve::Solution;
+use crate::engine::{Bat, Complaint, Error, Result, STANDARD_PIVOT, Solution};
 
 /// A value and its error, both in the unit of the value.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,6 +28,16 @@ impl Figure {
     pub fn exact(value: f64) -> Self {
         Self { value, error: EXACT * value.abs() }
     }
+}
+
+/// Impact points of a barrel that is searched, as shares of the length.
+pub const ALONG: [f64; 4] = [0.7, 0.775, 0.85, 0.925];
+
+/// The first modes of a solution.
+pub(crate) fn with_modes(solution: &Solution, count: usize) -> Solution {
+    let mut fewer = solution.clone();
+    fewer.modes.truncate(count);
+    fewer
 }
 
 /// The quotient of a difference, answer by answer: of a bat with more of something and one with less, `run` apart.
@@ -89,34 +97,33 @@ impl From<Answer> for String {
     }
 }
 
-/// Names of the answers without a number.
-const NAMED: [(&str, Answer); 14] = [
-    ("mass_kg", Answer::Mass),
-    ("balance_point_m", Answer::BalancePoint),
-    ("inertia_pivot_kg_m2", Answer::Inertia),
-    ("center_of_percussion_m", Answer::CenterOfPercussion),
-    ("exit_speed_max.value", Answer::ExitSpeed),
-    ("exit_speed_max.x_m", Answer::ExitSpeedPlace),
-    ("zone_m[0]", Answer::Zone(false)),
-    ("zone_m[1]", Answer::Zone(true)),
-    ("vibration_min.value", Answer::Vibration),
-    ("vibration_min.x_m", Answer::VibrationPlace),
-    ("bbcor_max", Answer::Bbcor),
-    ("hands_velocity_min.value", Answer::HandsVelocity),
-    ("hands_acceleration_min.value", Answer::HandsAcceleration),
-    ("f1_hz", Answer::Frequency(1)),
+/// Names and units of the answers without a number.
+const NAMED: [(&str, &str, Answer); 14] = [
+    ("mass_kg", "kg", Answer::Mass),
+    ("balance_point_m", "m", Answer::BalancePoint),
+    ("inertia_pivot_kg_m2", "kg m²", Answer::Inertia),
+    ("center_of_percussion_m", "m", Answer::CenterOfPercussion),
+    ("exit_speed_max.value", "m/s", Answer::ExitSpeed),
+    ("exit_speed_max.x_m", "m", Answer::ExitSpeedPlace),
+    ("zone_m[0]", "m", Answer::Zone(false)),
+    ("zone_m[1]", "m", Answer::Zone(true)),
+    ("vibration_min.value", "J", Answer::Vibration),
+    ("vibration_min.x_m", "m", Answer::VibrationPlace),
+    ("bbcor_max", "", Answer::Bbcor),
+    ("hands_velocity_min.value", "m/s", Answer::HandsVelocity),
+    ("hands_acceleration_min.value", "m/s²", Answer::HandsAcceleration),
+    ("f1_hz", "Hz", Answer::Frequency(1)),
 ];
 /// Most modes that a study of many bats may ask for.
 const MOST_MODES: usize = 40;
-const SPEED_AT: &str = "exit_speed_m_s@";
 /// An answer about a hit at a place (m).
 type Local = fn(f64) -> Answer;
-/// The answers about a hit at a place, each with the beginning of its name.
-const AT: [(&str, Local); 4] = [
-    (SPEED_AT, Answer::ExitSpeedAt),
-    ("vibration_j@", Answer::VibrationAt),
-    ("hands_velocity_m_s@", Answer::HandsVelocityAt),
-    ("hands_acceleration_m_s2@", Answer::HandsAccelerationAt),
+/// The answers about a hit at a place, each with the beginning of its name and its unit.
+const AT: [(&str, &str, Local); 4] = [
+    ("exit_speed_m_s@", "m/s", Answer::ExitSpeedAt),
+    ("vibration_j@", "J", Answer::VibrationAt),
+    ("hands_velocity_m_s@", "m/s", Answer::HandsVelocityAt),
+    ("hands_acceleration_m_s2@", "m/s²", Answer::HandsAccelerationAt),
 ];
 
 impl Answer {
@@ -134,9 +141,9 @@ impl Answer {
             let inner = name.strip_prefix(start).and_then(|rest| rest.strip_suffix(end));
             inner.and_then(order)
         };
-        let known = NAMED.iter().find(|(known, _)| *known == name).map(|(_, answer)| *answer);
+        let known = NAMED.iter().find(|(known, ..)| *known == name).map(|(.., answer)| *answer);
         let at = || {
-            let of = |(start, of): &(&str, Local)| Some((name.strip_prefix(start)?, *of));
+            let of = |(start, _, of): &(&str, &str, Local)| Some((name.strip_prefix(start)?, *of));
             let (place, of) = AT.iter().find_map(of)?;
             let is_plain = |c: char| c.is_ascii_digit() || c == '.';
             let plain =
@@ -149,12 +156,12 @@ impl Answer {
             .or_else(|| between("modal_mass_mode_", "_kg").map(Self::ModalMass))
             .or_else(at);
         found.ok_or_else(|| {
-            let names: Vec<&str> = NAMED.iter().map(|(name, _)| *name).collect();
+            let names: Vec<&str> = NAMED.iter().map(|(name, ..)| *name).collect();
             let expected = format!(
                 "{}, f2_hz to f{MOST_MODES}_hz, node_mode_1_m to node_mode_{MOST_MODES}_m, \
                  modal_mass_mode_1_kg to modal_mass_mode_{MOST_MODES}_kg, or {}0.70 for a place in m",
                 names.join(", "),
-                AT.map(|(start, _)| start).join("0.70, ")
+                AT.map(|(start, ..)| start).join("0.70, ")
             );
             let complaint = Complaint::new("outputs", format!("\"{name}\""), expected);
             Error::Value(complaint.or_nearest(name, &names))
@@ -163,19 +170,22 @@ impl Answer {
 
     /// Its name.
     pub fn name(self) -> String {
-        let named = NAMED.iter().find(|(_, answer)| *answer == self);
+        let named = NAMED.iter().find(|(.., answer)| *answer == self);
         match (named, self) {
-            (Some((name, _)), _) => (*name).to_owned(),
+            (Some((name, ..)), _) => (*name).to_owned(),
             (None, Self::Node(order)) => format!("node_mode_{order}_m"),
             (None, Self::ModalMass(order)) => format!("modal_mass_mode_{order}_kg"),
             (None, Self::Frequency(order)) => format!("f{order}_hz"),
             (None, _) => {
-                let of = |(start, of): (&'static str, Local)| {
-                    self.place().filter(|x| of(*x) == self).map(|x| format!("{start}{x}"))
-                };
-                AT.into_iter().find_map(of).expect("every other answer is in the lists of names")
+                self.local().map(|(start, _, x)| format!("{start}{x}")).unwrap_or_default()
             }
         }
+    }
+
+    /// The beginning of the name, the unit and the place of an answer about a hit at a place.
+    fn local(self) -> Option<(&'static str, &'static str, f64)> {
+        let x = self.place()?;
+        AT.into_iter().find(|(.., of)| of(x) == self).map(|(start, unit, _)| (start, unit, x))
     }
 
     /// The place (m from the knob end) of its hit.
@@ -191,23 +201,12 @@ impl Answer {
 
     /// Its unit.
     pub fn unit(self) -> &'static str {
+        let named = NAMED.iter().find(|(.., answer)| *answer == self).map(|(_, unit, _)| *unit);
         match self {
-            Self::Mass | Self::ModalMass(_) => "kg",
-            Self::Inertia => "kg m²",
             Self::Frequency(_) => "Hz",
-            Self::ExitSpeed
-            | Self::ExitSpeedAt(_)
-            | Self::HandsVelocity
-            | Self::HandsVelocityAt(_) => "m/s",
-            Self::HandsAcceleration | Self::HandsAccelerationAt(_) => "m/s²",
-            Self::Vibration | Self::VibrationAt(_) => "J",
-            Self::Bbcor => "",
-            Self::BalancePoint
-            | Self::CenterOfPercussion
-            | Self::Node(_)
-            | Self::ExitSpeedPlace
-            | Self::Zone(_)
-            | Self::VibrationPlace => "m",
+            Self::Node(_) => "m",
+            Self::ModalMass(_) => "kg",
+            _ => named.or(self.local().map(|(_, unit, _)| unit)).unwrap_or_default(),
         }
     }
 

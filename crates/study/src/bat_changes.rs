@@ -1,11 +1,7 @@
 //! How does another bat differ in one thing, for a central difference?
 
+use crate::engine::{Bat, DiameterChange, Material, Profile, Result, Stations};
 use crate::inputs::Input;
-use sweetspot::base::error::Result;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::material::Material;
-use sweetspot::bat::profile::{Profile, Stations};
-use sweetspot::bat::turned::DiameterChange;
 
 /// A property by which another bat, or the ball on its wall, differs.
 #[derive(Debug, Clone, PartialEq)]

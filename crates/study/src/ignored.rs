@@ -2,15 +2,11 @@
 //!
 //! [`ignored`](fn@ignored) gives it in sentences, [`shifts`] in numbers.
 
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::material::Material;
-use sweetspot::collision::hit::Scene;
-use sweetspot::collision::hoop_wall::{HoopInHit, WhyRigid, barrel_walls};
-use sweetspot::modes::shifts::typical_shear;
-use sweetspot::modes::solve::Solution;
-use sweetspot::motion::sound::ASSUMED_LOSS;
-
 pub use sweetspot::modes::shifts::{Shift, shift, shifts, solved_shifts, with_typical_shear};
+
+use crate::engine::{
+    ASSUMED_LOSS, Bat, HoopInHit, Material, Scene, Solution, WhyRigid, barrel_walls, typical_shear,
+};
 
 /// The shifts of the lowest modes by an effect, in words.
 fn percents(shifts: &[Shift], change: impl Fn(&Shift) -> f64) -> String {

@@ -2,8 +2,9 @@
 
 use serde::Serialize;
 
+use crate::engine::Bat;
+use crate::named::named;
 use crate::read_to::diameters_read_to;
-use sweetspot::bat::body::Bat;
 
 /// How exactly a bat was measured, as standard deviations.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -39,42 +40,27 @@ impl Default for Readings {
     }
 }
 
-/// An uncertain property of a bat.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, schemars::JsonSchema)]
-#[serde(rename_all = "snake_case")]
-#[non_exhaustive]
-pub enum Input {
-    /// E of a material, from piece to piece, and G with it. Relative.
-    Stiffness,
-    /// Density of a material, from piece to piece. Relative.
-    Density,
-    /// All outer diameters by the same amount (m).
-    Diameters,
-    /// All diameters of bores by the same amount (m).
-    Bores,
-    /// Length, everything on the bat moving with it (m).
-    Length,
-    /// Mass on the scale, which settles the densities (kg).
-    Mass,
-    /// The tapped first bending frequency, which sets the stiffness. Relative.
-    Tap,
-    /// Compression of the ball by which it presses on a hollow barrel's wall as a patch: the largest error of the
-    /// wall's model. Relative, as a logarithm.
-    Patch,
-}
-
-impl Input {
-    /// Its name, as in JSON.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Stiffness => "stiffness",
-            Self::Density => "density",
-            Self::Diameters => "diameters",
-            Self::Bores => "bores",
-            Self::Length => "length",
-            Self::Mass => "mass",
-            Self::Tap => "tap",
-            Self::Patch => "patch",
-        }
+named! {
+    /// An uncertain property of a bat.
+    #[derive(schemars::JsonSchema)]
+    #[non_exhaustive]
+    pub enum Input {
+        /// E of a material, from piece to piece, and G with it. Relative.
+        Stiffness = "stiffness",
+        /// Density of a material, from piece to piece. Relative.
+        Density = "density",
+        /// All outer diameters by the same amount (m).
+        Diameters = "diameters",
+        /// All diameters of bores by the same amount (m).
+        Bores = "bores",
+        /// Length, everything on the bat moving with it (m).
+        Length = "length",
+        /// Mass on the scale, which settles the densities (kg).
+        Mass = "mass",
+        /// The tapped first bending frequency, which sets the stiffness. Relative.
+        Tap = "tap",
+        /// Compression of the ball by which it presses on a hollow barrel's wall as a patch: the largest error of the
+        /// wall's model. Relative, as a logarithm.
+        Patch = "patch",
     }
 }

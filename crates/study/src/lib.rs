@@ -2,6 +2,8 @@
 //!
 //! | file | question |
 //! |---|---|
+//! | `engine` | the names that the studies use of the engine |
+//! | `named` | enumerations whose variants have names |
 //! | [`trade`] | what is the cost of a digit on this bat |
 //! | [`ignored`] | what does a theory leave out, and how large is the effect |
 //! | [`calibrate`] | what is the wood, by scale, ruler, pendulum and tap |
@@ -25,6 +27,8 @@
 #![allow(clippy::needless_range_loop)]
 #![forbid(unsafe_code)]
 
+mod engine;
+mod named;
 pub mod trade;
 pub mod ignored;
 pub mod calibrate;

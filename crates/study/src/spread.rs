@@ -23,18 +23,11 @@ use serde::{Serialize, Serializer};
 
 use crate::answers::{Answer, figure, quotient};
 use crate::bat_changes::{PATCH_FACTOR, Parameter, changed};
+use crate::engine::{
+    Bat, FEW, HitsAlong, Hitter, Material, Model, Request, Result, Scene, Solution, Sweep,
+    SweetSpot, SwingLaw, barrel_walls, solve, threads,
+};
 pub use crate::inputs::{Input, Readings};
-use sweetspot::base::error::Result;
-use sweetspot::base::threads;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::material::Material;
-use sweetspot::collision::figures::SwingLaw;
-use sweetspot::collision::hit::{Model, Scene};
-use sweetspot::collision::hitter::Hitter;
-use sweetspot::collision::hoop_wall::barrel_walls;
-use sweetspot::collision::sweep::Sweep;
-use sweetspot::collision::sweet_spot::{FEW, HitsAlong, SweetSpot};
-use sweetspot::modes::solve::{Request, Solution, solve};
 
 /// Something that is not known exactly.
 #[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
@@ -71,10 +64,7 @@ pub const COUNTED: [Answer; 10] = [
 pub struct Estimate {
     /// Which answer, its unit at the end.
     #[serde(serialize_with = "key")]
-    #[schemars(with = "String", extend("enum" = [
-        "mass_kg", "balance_point_m", "inertia_pivot_kg_m2", "frequency_1_hz", "frequency_2_hz",
-        "frequency_3_hz", "best_place_m", "exit_speed_m_s", "zone_from_m", "zone_to_m"
-    ]))]
+    #[schemars(with = "String", extend("enum" = KEYS.map(|[key, _]| key)))]
     pub answer: Answer,
     /// As it is computed.
     pub value: f64,
@@ -89,16 +79,23 @@ pub struct Estimate {
     pub parts: Vec<f64>,
 }
 
-/// The name of an answer in JSON, its unit at the end.
+/// The names of the answers of [`COUNTED`] in JSON, the unit at the end, and in a comparison.
+pub(crate) const KEYS: [[&str; 2]; COUNTED.len()] = [
+    ["mass_kg", "mass"],
+    ["balance_point_m", "balance_point"],
+    ["inertia_pivot_kg_m2", "swing_weight"],
+    ["frequency_1_hz", "frequency_1"],
+    ["frequency_2_hz", "frequency_2"],
+    ["frequency_3_hz", "frequency_3"],
+    ["best_place_m", "best_place"],
+    ["exit_speed_m_s", "best_exit_speed"],
+    ["zone_from_m", "zone_from"],
+    ["zone_to_m", "zone_to"],
+];
+
+/// The name of an answer in JSON.
 fn key<S: Serializer>(answer: &Answer, out: S) -> std::result::Result<S::Ok, S::Error> {
-    match answer {
-        Answer::Frequency(order) => out.collect_str(&format_args!("frequency_{order}_hz")),
-        Answer::ExitSpeedPlace => out.serialize_str("best_place_m"),
-        Answer::ExitSpeed => out.serialize_str("exit_speed_m_s"),
-        Answer::Zone(false) => out.serialize_str("zone_from_m"),
-        Answer::Zone(true) => out.serialize_str("zone_to_m"),
-        answer => out.serialize_str(&answer.name()),
-    }
+    out.serialize_str(place(*answer).map_or("", |k| KEYS[k][0]))
 }
 
 impl Estimate {

@@ -3,13 +3,8 @@
 //! [`Verdict::of`] a hit is computed once, and every screen about it uses the result, so that no screen is more certain
 //! than another.
 
+use crate::engine::{Bat, HoopInHit, Impact, LATER, Scene, Sweep, WallFigures, WhyRigid};
 use crate::ignored::{SHEAR, ignored, thinnest_wall, wall_left_out};
-use sweetspot::bat::body::Bat;
-use sweetspot::collision::answer::LATER;
-use sweetspot::collision::hit::{Impact, Scene};
-use sweetspot::collision::hoop_wall::{HoopInHit, WhyRigid};
-use sweetspot::collision::sweep::Sweep;
-use sweetspot::collision::wall_figures::WallFigures;
 
 /// A reason why the answers of a hit are less certain than their computation.
 #[derive(Debug, Clone, PartialEq)]

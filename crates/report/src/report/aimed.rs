@@ -165,7 +165,7 @@ pub fn warning(outcome: &Outcome, us: bool) -> Option<String> {
         if us { format!("{:.2} in", inches(value)) } else { format!("{:.1} mm", 1e3 * value) }
     };
     // Requested rules have a separate table.
-    let of_diameter = |ruled: &Ruled| matches!(ruled.rule, Rule::DiameterAtMost(_));
+    let of_diameter = |ruled: &Ruled| ruled.rule == Rule::DiameterAtMost;
     if outcome.rules.as_ref().is_some_and(|set| set.limits.iter().any(of_diameter)) {
         return None;
     }

@@ -262,11 +262,11 @@ fn of_rules(set: &RulesKept, us: bool) -> String {
 /// A value of a rule.
 fn of_rule(rule: Rule, value: f64, us: bool) -> String {
     let goal = match rule {
-        Rule::BbcorAtMost(_) => Goal::Answer(Answer::Bbcor),
-        Rule::MassAtMost(_) => Goal::Answer(Answer::Mass),
-        Rule::InertiaAtLeast(_) => Goal::Answer(Answer::Inertia),
-        Rule::LengthAtMost(_) => Goal::Answer(Answer::BalancePoint),
-        Rule::DropAtMost(_) => Goal::Drop,
+        Rule::BbcorAtMost => Goal::Answer(Answer::Bbcor),
+        Rule::MassAtMost => Goal::Answer(Answer::Mass),
+        Rule::InertiaAtLeast => Goal::Answer(Answer::Inertia),
+        Rule::LengthAtMost => Goal::Answer(Answer::BalancePoint),
+        Rule::DropAtMost => Goal::Drop,
         _ => return across(value, us),
     };
     shown(goal, value, us)

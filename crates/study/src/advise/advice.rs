@@ -9,10 +9,7 @@ use crate::advise::effect::{Effect, Switch, effects};
 use crate::advise::model::{Bench, Model, Solved};
 use crate::advise::outside::outside;
 use crate::advise::smallest::{Smallest, smallest};
-use sweetspot::base::error::{Error, Result};
-use sweetspot::base::telling::{Tell, nobody};
-use sweetspot::bat::body::Bat;
-use sweetspot::modes::tuned::tuned;
+use crate::engine::{Bat, Error, Result, Tell, nobody, tuned};
 
 /// The parts of a model that a bat needs.
 #[derive(Debug, Clone, Serialize, schemars::JsonSchema)]

@@ -5,10 +5,7 @@ use std::f64::consts::TAU;
 use serde::Serialize;
 
 use crate::advise::part::ModelPart;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::material::Material;
-use sweetspot::modes::damping::Damped;
-use sweetspot::modes::solve::Solution;
+use crate::engine::{Bat, Damped, Material, Solution};
 
 /// The damping of materials and dashpots.
 #[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]

@@ -6,11 +6,8 @@ use serde::{Serialize, Serializer};
 
 use crate::advise::model::{Bench, Model, Solved};
 use crate::advise::part::ModelPart;
+use crate::engine::{Mode, STANDARD_PIVOT, Theory, error};
 use crate::ignored::with_typical_shear;
-use sweetspot::base::error;
-use sweetspot::bat::body::STANDARD_PIVOT;
-use sweetspot::bat::theory::Theory;
-use sweetspot::modes::mode::Mode;
 
 /// A part that is switched on or off.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -132,7 +129,7 @@ pub fn effects(bench: &mut Bench, full: &Model) -> error::Result<Vec<Effect>> {
         effects.push(Effect::new(Switch::Shear, Rc::clone(&shearing), turning));
         effects.push(Effect::new(Switch::Theory, shearing, plain));
     } else {
-        let typical = with_typical_shear(bench.bat());
+        let typical = with_typical_shear(bench.bat);
         let shearing = bench.solve_instead(&full.by(Theory::Timoshenko), typical)?;
         effects.push(Effect::new(Switch::TypicalShear, Rc::new(shearing), turning));
     }
@@ -157,7 +154,7 @@ fn taken_off(
     parts: &[ModelPart],
 ) -> error::Result<Effect> {
     let mut without = full.without(parts);
-    let known = without.bat(bench.bat())?.knows_shear();
+    let known = without.bat(bench.bat)?.knows_shear();
     if without.theory.shears() && !known {
         without = without.by(Theory::Rayleigh);
     }

@@ -5,11 +5,7 @@ use std::rc::Rc;
 use serde::Serialize;
 
 use crate::advise::part::ModelPart;
-use sweetspot::base::error::{Error, Result};
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::inertia::Inertia;
-use sweetspot::bat::theory::Theory;
-use sweetspot::modes::solve::{Request, Solution, solve};
+use crate::engine::{Bat, Error, Inertia, Request, Result, Solution, Theory, solve};
 
 /// The parts of a bat in a model.
 #[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
@@ -128,7 +124,8 @@ impl Solved {
 /// The models of one bat that have been solved.
 #[derive(Debug)]
 pub struct Bench<'a> {
-    bat: &'a Bat,
+    /// The bat with everything on it.
+    pub bat: &'a Bat,
     request: Request,
     solved: Vec<Rc<Solved>>,
 }
@@ -138,11 +135,6 @@ impl<'a> Bench<'a> {
     pub fn new(bat: &'a Bat, modes: usize, tolerance: f64) -> Self {
         let request = Request { modes, tolerance, ..Request::plain() };
         Self { bat, request, solved: Vec::new() }
-    }
-
-    /// The bat with everything on it.
-    pub fn bat(&self) -> &'a Bat {
-        self.bat
     }
 
     /// The modes of a model.

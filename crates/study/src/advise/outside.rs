@@ -1,7 +1,6 @@
 //! The physics of bats that no model here has.
 
-use sweetspot::bat::body::Bat;
-use sweetspot::collision::hoop_wall::CUP;
+use crate::engine::{Bat, CUP};
 
 /// Effects outside every model, one sentence each, if they can matter to this bat.
 pub fn outside(bat: &Bat) -> Vec<String> {

@@ -1,62 +1,35 @@
 //! The fixtures of a bat by kind, and the bat without one kind.
 
-use serde::{Serialize, Serializer};
+use crate::engine::{Attachment, Bat, Fixtures};
+use crate::named::named;
 
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::fixtures::{Attachment, Fixtures};
-
-/// A kind of fixture that a model of a bat may include or omit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-#[non_exhaustive]
-pub enum ModelPart {
-    /// The materials of `regions`; without them the bat's own is everywhere and bores are empty.
-    Materials,
-    /// Masses of `attachments`, with their offset and rotary inertia.
-    Weights,
-    /// Mass spread on the surface of a stretch.
-    Tapes,
-    /// Springs of `attachments` to the ground.
-    Springs,
-    /// Masses that hang on springs.
-    Absorbers,
-    /// Joints that give way to bending.
-    Joints,
-    /// Pins and clamps.
-    Supports,
-    /// Hands, as the springs of an elastic bed.
-    Grip,
+named! {
+    /// A kind of fixture that a model of a bat may include or omit, in the order of display.
+    #[non_exhaustive]
+    pub enum ModelPart {
+        /// The materials of `regions`; without them the bat's own is everywhere and bores are empty.
+        Materials = "other materials",
+        /// Masses of `attachments`, with their offset and rotary inertia.
+        Weights = "weights",
+        /// Mass spread on the surface of a stretch.
+        Tapes = "tape",
+        /// Springs of `attachments` to the ground.
+        Springs = "springs to ground",
+        /// Masses that hang on springs.
+        Absorbers = "absorbers",
+        /// Joints that give way to bending.
+        Joints = "joints",
+        /// Pins and clamps.
+        Supports = "supports",
+        /// Hands, as the springs of an elastic bed.
+        Grip = "grip",
+    }
 }
 
 impl ModelPart {
-    /// All kinds, in the order of display.
-    pub const ALL: [Self; 8] = [
-        Self::Materials,
-        Self::Weights,
-        Self::Tapes,
-        Self::Springs,
-        Self::Absorbers,
-        Self::Joints,
-        Self::Supports,
-        Self::Grip,
-    ];
-
     /// The kinds that are attached to the bat or hold it in a rig.
     pub const ATTACHED: [Self; 6] =
         [Self::Weights, Self::Tapes, Self::Springs, Self::Absorbers, Self::Joints, Self::Supports];
-
-    /// Its name for people and in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Materials => "other materials",
-            Self::Weights => "weights",
-            Self::Tapes => "tape",
-            Self::Springs => "springs to ground",
-            Self::Absorbers => "absorbers",
-            Self::Joints => "joints",
-            Self::Supports => "supports",
-            Self::Grip => "grip",
-        }
-    }
 
     /// Whether the bat has any.
     pub fn is_on(self, bat: &Bat) -> bool {
@@ -94,12 +67,6 @@ impl ModelPart {
             Self::Grip => fixtures.grip = None,
         }
         fixtures.attachments.retain(|a| weighs(a) || springs(a));
-    }
-}
-
-impl Serialize for ModelPart {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        to.serialize_str(self.name())
     }
 }
 

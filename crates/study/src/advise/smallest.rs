@@ -5,9 +5,7 @@ use std::rc::Rc;
 use serde::Serialize;
 
 use crate::advise::model::{Bench, Model, Solved};
-use sweetspot::base::error::Result;
-use sweetspot::base::telling::Tell;
-use sweetspot::bat::theory::Theory;
+use crate::engine::{Result, Tell, Theory};
 
 /// The smallest model within the tolerance.
 #[derive(Debug, Clone, Serialize, schemars::JsonSchema)]
@@ -45,7 +43,7 @@ pub fn smallest(bench: &mut Bench, full: &Model, tolerance: f64, tell: Tell) -> 
         for model in models(full).filter(|model| model.size() == size) {
             tell(f64::from(tried) / all as f64, "smaller models");
             tried += 1;
-            let Ok(bat) = model.bat(bench.bat()) else { continue };
+            let Ok(bat) = model.bat(bench.bat) else { continue };
             let others = bat.fixtures().rigid_modes() != truth.bat.fixtures().rigid_modes();
             if others || (model.theory.shears() && !bat.knows_shear()) {
                 continue;

@@ -9,7 +9,7 @@ use crate::aim::limits::KEPT;
 use crate::aim::rules::RulesKept;
 use crate::aim::wish::{Band, Grid};
 use crate::answers::Answer;
-use sweetspot::bat::body::Bat;
+use crate::engine::Bat;
 
 /// The result of a wish.
 #[derive(Debug, Clone, Serialize, schemars::JsonSchema)]

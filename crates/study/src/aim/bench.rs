@@ -9,17 +9,12 @@ use crate::aim::limits::Limits;
 use crate::aim::spline::Splines;
 use crate::aim::wish::{FreeChoice, Goal, Wish};
 use crate::answers::Answer;
+use crate::engine::{
+    Attachment, Bat, DiameterChange, Error, INCH, Request, Result, SAME_PLACE, Scene, SwingLaw,
+    shown_length,
+};
 use crate::lathe::workpiece::{Care, HitTerms, Workpiece};
 use crate::verdict::rigid_wall;
-use sweetspot::base::error::{Error, Result};
-use sweetspot::base::units::shown_length;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::fixtures::{Attachment, Fixtures};
-use sweetspot::bat::profile::SAME_PLACE;
-use sweetspot::bat::turned::DiameterChange;
-use sweetspot::collision::figures::SwingLaw;
-use sweetspot::collision::hit::Scene;
-use sweetspot::modes::solve::Request;
 
 /// How bats are computed: modes, hit, and the law by which a batter swings another bat.
 #[derive(Debug, Clone)]
@@ -65,11 +60,16 @@ pub enum ExtraKind {
 /// A bat, its free quantities and its goals.
 #[derive(Debug, Clone)]
 pub struct Bench {
-    bat: Bat,
-    terms: Terms,
-    splines: Splines,
-    extras: Vec<Extra>,
-    goals: Vec<Goal>,
+    /// The original bat.
+    pub bat: Bat,
+    /// How bats are computed.
+    pub terms: Terms,
+    /// The curves that the diameter may change by.
+    pub splines: Splines,
+    /// The free choices besides the shape.
+    pub extras: Vec<Extra>,
+    /// The goals.
+    pub goals: Vec<Goal>,
     changes: Vec<DiameterChange>,
 }
 
@@ -104,43 +104,18 @@ impl Bench {
             let expected = "a stretch of more than 2 cm that may change";
             return Err(Error::value("keep", "all of the bat", expected));
         }
-        let free = |x: f64| splines.stretches().iter().any(|s| x > s[0] && x < s[1]);
+        let free = |x: f64| splines.stretches.iter().any(|s| x > s[0] && x < s[1]);
         let end = |x: f64| {
-            let at = |end: f64| splines.stretches().iter().any(|s| s.contains(&end));
+            let at = |end: f64| splines.stretches.iter().any(|s| s.contains(&end));
             (x == 0.0 && at(0.0)) || (x >= length && at(length))
         };
         Limits::new(wish, bat).check(|x| !(free(x) || end(x)))?;
         let change = |curve: &super::spline::BSpline| {
             DiameterChange::through(&curve.knots(), |x| 1e-3 * curve.at(x))
         };
-        let changes = splines.basis().iter().map(change).collect();
+        let changes = splines.basis.iter().map(change).collect();
         let goals = wish.goals().into_iter().map(|(goal, _)| goal).collect();
         Ok(Self { bat: bat.clone(), terms, splines, extras, goals, changes })
-    }
-
-    /// The original bat.
-    pub fn bat(&self) -> &Bat {
-        &self.bat
-    }
-
-    /// How bats are computed.
-    pub fn terms(&self) -> &Terms {
-        &self.terms
-    }
-
-    /// The curves that the diameter may change by.
-    pub fn splines(&self) -> &Splines {
-        &self.splines
-    }
-
-    /// The free choices besides the shape.
-    pub fn extras(&self) -> &[Extra] {
-        &self.extras
-    }
-
-    /// The goals.
-    pub fn goals(&self) -> &[Goal] {
-        &self.goals
     }
 
     /// Number of unknowns.
@@ -222,11 +197,10 @@ impl Bench {
     ///
     /// Those of [`Workpiece::new`].
     pub fn look(&self, p: &[f64]) -> Result<Look> {
-        let bat = self.changed(p)?;
-        let answers: Vec<Answer> = self.goals.iter().map(|goal| goal.answer()).collect();
-        let piece = self.workpiece(&bat, &answers, self.stretch(p))?;
-        let values = self.values(&piece);
-        Ok(Look { values, piece, p: p.to_vec() })
+        let (bat, stretch) = (self.changed(p)?, self.stretch(p));
+        let borders: Vec<f64> = self.splines.knots().iter().map(|x| x * stretch).collect();
+        let piece = self.piece(&bat, &borders, &self.answers())?;
+        Ok(Look { values: self.values(&piece), piece, p: p.to_vec() })
     }
 
     /// The goals of a bat that was not made from the unknowns, such as a written one.
@@ -235,8 +209,7 @@ impl Bench {
     ///
     /// As [`Self::look`].
     pub fn of(&self, bat: &Bat) -> Result<Vec<f64>> {
-        let answers: Vec<Answer> = self.goals.iter().map(|goal| goal.answer()).collect();
-        Ok(self.values(&self.piece_of(bat, &answers)?))
+        Ok(self.values(&self.piece_of(bat, &self.answers())?))
     }
 
     /// Any answers of any bat, swung by the terms.
@@ -245,12 +218,15 @@ impl Bench {
     ///
     /// As [`Self::look`].
     pub fn piece_of(&self, bat: &Bat, answers: &[Answer]) -> Result<Workpiece> {
-        Workpiece::new(bat, &[], &self.terms.request, Some(&self.swung(bat)), answers)
+        self.piece(bat, &[], answers)
     }
 
-    fn workpiece(&self, bat: &Bat, answers: &[Answer], stretch: f64) -> Result<Workpiece> {
-        let borders: Vec<f64> = self.splines.knots().iter().map(|x| x * stretch).collect();
-        Workpiece::new(bat, &borders, &self.terms.request, Some(&self.swung(bat)), answers)
+    fn piece(&self, bat: &Bat, borders: &[f64], answers: &[Answer]) -> Result<Workpiece> {
+        Workpiece::new(bat, borders, &self.terms.request, Some(&self.swung(bat)), answers)
+    }
+
+    fn answers(&self) -> Vec<Answer> {
+        self.goals.iter().map(|goal| goal.answer()).collect()
     }
 
     /// The reason why the wall of a hollow barrel is rigid in the hits of that bat; `None` if it would change little.
@@ -271,11 +247,8 @@ impl Bench {
 
     fn values(&self, piece: &Workpiece) -> Vec<f64> {
         let length = piece.bat().length();
-        let value = |(goal, figure): (&Goal, &Option<_>)| {
-            let figure: &Option<crate::comparison::contender::Figure> = figure;
-            goal.of(figure.map_or(f64::NAN, |figure| figure.value), length)
-        };
-        self.goals.iter().zip(piece.values()).map(value).collect()
+        let known = |k: usize| piece.values()[k].map_or(f64::NAN, |figure| figure.value);
+        self.goals.iter().enumerate().map(|(k, goal)| goal.of(known(k), length)).collect()
     }
 
     /// The derivatives of the goals by the unknowns: a row for each goal.
@@ -291,7 +264,7 @@ impl Bench {
         };
         let changes: Vec<DiameterChange> = match stretch == 1.0 {
             true => self.changes.clone(),
-            false => self.splines.basis().iter().map(along).collect(),
+            false => self.splines.basis.iter().map(along).collect(),
         };
         let exponent = self.terms.law.map_or(0.0, |law| law.exponent);
         let mut rows = vec![vec![]; self.goals.len()];
@@ -337,27 +310,11 @@ fn extras(free: &FreeChoice, bat: &Bat) -> Vec<Extra> {
     /// An inch, a twentieth of the density, an ounce; the weight of each.
     const COSTS: [f64; 3] = [0.2, 0.1, 0.1];
     let density = bat.material().density;
-    let length = free.length.map(|range| Extra {
-        what: ExtraKind::Length,
-        unit: 0.0254,
-        cost: COSTS[0],
-        start: bat.length(),
-        range,
-    });
-    let density = free.density.map(|range| Extra {
-        what: ExtraKind::Density,
-        unit: 0.05 * density,
-        cost: COSTS[1],
-        start: density,
-        range,
-    });
-    let knob = free.knob_weight.map(|most| Extra {
-        what: ExtraKind::KnobWeight,
-        unit: 0.028_349_523_125,
-        cost: COSTS[2],
-        start: 0.0,
-        range: [0.0, most],
-    });
+    let extra = |what, unit, cost, start| move |range| Extra { what, unit, cost, start, range };
+    let length = free.length.map(extra(ExtraKind::Length, INCH, COSTS[0], bat.length()));
+    let knob = free.knob_weight.map(|most| [0.0, most]);
+    let knob = knob.map(extra(ExtraKind::KnobWeight, 0.028_349_523_125, COSTS[2], 0.0));
+    let density = free.density.map(extra(ExtraKind::Density, 0.05 * density, COSTS[1], density));
     // The length last: the fixtures move with it.
     density.into_iter().chain(knob).chain(length).collect()
 }
@@ -375,17 +332,27 @@ fn stretched(bat: &Bat, by: f64) -> Result<Bat> {
         }
         profile.stations.x.iter_mut().for_each(|x| *x *= by);
         profile.formulas = None;
-        let Fixtures { regions, attachments, tapes, absorbers, joints, supports, grip } =
-            &mut parts.fixtures;
-        let ends = regions.iter_mut().flat_map(|r| [&mut r.from, &mut r.to]);
-        let taped = tapes.iter_mut().flat_map(|t| [&mut t.from, &mut t.to]);
-        let places = attachments.iter_mut().map(|a| &mut a.x);
-        let hung = absorbers.iter_mut().map(|a| &mut a.x);
-        let joined = joints.iter_mut().map(|j| &mut j.x);
-        let held = supports.iter_mut().map(|s| &mut s.x);
-        let gripped = grip.iter_mut().map(|g| &mut g.to);
-        let all =
-            ends.chain(taped).chain(places).chain(hung).chain(joined).chain(held).chain(gripped);
-        all.for_each(|x| *x *= by);
+        parts.fixtures.places().for_each(|x| *x *= by);
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn everything_on_a_bat_moves_with_its_length() {
+        let text = r#"{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic",
+            "grip": { "from": "1 in", "to": "6 in", "stiffness": 3e4 },
+            "attachments": [{ "x": "20 in", "mass": "1 oz" }],
+            "profile": { "unit": "in", "x": [0, 6, 20, 33], "diameter": [1.0, 0.9, 1.6, 2.5] } }"#;
+        let bat = Bat::from_text("bat.json", text, "".as_ref()).unwrap();
+        let longer = stretched(&bat, 1.1).unwrap();
+        let grip = longer.fixtures().grip.unwrap();
+        let there = [grip.from, grip.to, longer.fixtures().attachments[0].x, longer.length()];
+        let inches = there.map(|x| x / INCH);
+        for (found, wanted) in inches.into_iter().zip([1.1, 6.6, 22.0, 36.3]) {
+            assert!((found - wanted).abs() < 1e-9, "{inches:?}");
+        }
+    }
 }

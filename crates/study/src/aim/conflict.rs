@@ -6,10 +6,9 @@
 
 use serde::Serialize;
 
-use crate::aim::search::{Found, MISSED, Search, Weights};
+use crate::aim::search::{MISSED, Search, Searched, Weights};
 use crate::aim::wish::Band;
-use sweetspot::base::error::Result;
-use sweetspot::base::threads;
+use crate::engine::{Result, threads};
 
 /// Conflicting targets: without any one of them the others can be met.
 #[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
@@ -44,7 +43,7 @@ pub struct Reach {
 }
 
 /// Whether a search has missed one of these bands.
-pub fn missed(found: &Found, bands: &[Band], of: &[bool]) -> bool {
+pub fn missed(found: &Searched, bands: &[Band], of: &[bool]) -> bool {
     let misses = bands.iter().zip(&found.values).zip(of).filter(|(_, of)| **of);
     misses.into_iter().any(|((band, value), _)| band.miss(*value) > MISSED)
 }
@@ -55,7 +54,7 @@ impl Conflict {
     /// # Errors
     ///
     /// Those of [`Search::from`].
-    pub fn of(search: &Search, bands: &[Band], found: &Found) -> Result<(Self, Vec<Found>)> {
+    pub fn of(search: &Search, bands: &[Band], found: &Searched) -> Result<(Self, Vec<Searched>)> {
         let start = vec![0.0; found.p.len()];
         let mut stay = vec![true; bands.len()];
         let mut nearest_yet = found.p.clone();
@@ -82,8 +81,8 @@ impl Conflict {
         let reached = threads::map(members.len(), |j| {
             search.from(&nearest_yet, bands, &nearest(&stay, members[j]))
         });
-        let reached: Vec<Found> = reached.into_iter().collect::<Result<_>>()?;
-        let reach = |(k, reached): (&usize, &Found)| {
+        let reached: Vec<Searched> = reached.into_iter().collect::<Result<_>>()?;
+        let reach = |(k, reached): (&usize, &Searched)| {
             bats += reached.bats;
             let mut others = stay.clone();
             others[*k] = false;
@@ -94,7 +93,7 @@ impl Conflict {
         };
         let members = members.iter().zip(&reached).map(reach).collect();
         let out = |k: &usize| {
-            let missed = |found: &Found| bands[*k].miss(found.values[*k]) > MISSED;
+            let missed = |found: &Searched| bands[*k].miss(found.values[*k]) > MISSED;
             !stay[*k] && reached.iter().any(missed)
         };
         let aside = (0..bands.len()).filter(out).collect();

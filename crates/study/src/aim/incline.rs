@@ -11,8 +11,7 @@
 //! ([`Steepness::ripple`]): the search keeps that distance from the limit.
 
 use crate::aim::wish::Grid;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::profile::Piece;
+use crate::engine::{Bat, Piece};
 
 /// Distance between the places where the slope is checked (m).
 const EVERY: f64 = 5e-3;
@@ -32,15 +31,25 @@ pub struct Steepness {
     pub ripple: f64,
 }
 
-/// Allowed slope of the change of the diameter at a place (m per m).
+/// The allowed range at a place: of the change of the diameter (m), or of its slope (m per m).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Incline {
+pub struct Room {
     /// The place (m).
     pub x: f64,
-    /// Least slope.
+    /// Least value.
     pub low: f64,
-    /// Greatest slope.
+    /// Greatest value.
     pub high: f64,
+}
+
+/// Places of a bat at most that far apart (m), both ends of every piece among them: the piece, the place on it, from 0
+/// to 1, and the place on the bat (m).
+pub fn places(bat: &Bat, every: f64) -> impl Iterator<Item = (&Piece, f64, f64)> {
+    bat.profile().pieces.iter().flat_map(move |piece| {
+        let count = (piece.length / every).ceil().max(1.0) as usize;
+        let at = move |k: usize| k as f64 / count as f64;
+        (0..=count).map(move |k| (piece, at(k), piece.start + at(k) * piece.length))
+    })
 }
 
 impl Steepness {
@@ -50,22 +59,13 @@ impl Steepness {
     }
 
     /// Allowed slopes of a change, at the places of the bat where it changes.
-    pub fn inclines(&self, bat: &Bat, changes: &dyn Fn(f64) -> bool) -> Vec<Incline> {
-        let mut all = vec![];
-        for piece in &bat.profile().pieces {
-            let count = (piece.length / EVERY).ceil().max(1.0) as usize;
-            for k in 0..=count {
-                let s = k as f64 / count as f64;
-                let x = piece.start + s * piece.length;
-                if changes(x) {
-                    let now = slope(piece, s);
-                    let room = STEEP_ALREADY * self.ripple;
-                    let most = (self.most - self.ripple).max(now.abs() + room);
-                    all.push(Incline { x, low: -2.0 * (most + now), high: 2.0 * (most - now) });
-                }
-            }
-        }
-        all
+    pub fn inclines(&self, bat: &Bat, changes: &dyn Fn(f64) -> bool) -> Vec<Room> {
+        let room = |(piece, s, x): (&Piece, f64, f64)| {
+            let now = slope(piece, s);
+            let most = (self.most - self.ripple).max(now.abs() + STEEP_ALREADY * self.ripple);
+            Room { x, low: -2.0 * (most + now), high: 2.0 * (most - now) }
+        };
+        places(bat, EVERY).filter(|(_, _, x)| changes(*x)).map(room).collect()
     }
 
     /// How much steeper the new bat is anywhere than it may be; 0 where it is not.
@@ -80,11 +80,6 @@ impl Steepness {
         let all =
             new.profile().pieces.iter().flat_map(|piece| (0..LOOKS).map(move |k| at(piece, k)));
         all.fold(0.0, f64::max)
-    }
-
-    /// The greatest slope of a bat where the old one was not as steep.
-    pub fn found(&self, old: &Bat, new: &Bat) -> f64 {
-        self.most + self.broken_by(old, new)
     }
 }
 

@@ -12,9 +12,7 @@ use serde::Serialize;
 use crate::aim::limits::{Limits, section};
 use crate::aim::spline::Splines;
 use crate::aim::wish::Grid;
-use sweetspot::base::error::Result;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::profile::{Interpolation, Profile, Radii, SAME_PLACE, Stations};
+use crate::engine::{Bat, Interpolation, Profile, Radii, Result, SAME_PLACE, Stations};
 
 /// A station of the new bat.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, schemars::JsonSchema)]
@@ -104,7 +102,7 @@ impl Laying<'_> {
         let (splines, _, stretch) = self.change;
         let length = self.bat.length();
         let same = SAME_PLACE * length;
-        splines.stretches().iter().any(|s| {
+        splines.stretches.iter().any(|s| {
             let [from, to] = s.map(|end| end * stretch);
             (x > from + same || from <= same)
                 && (x < to - same || to >= length - same)

@@ -4,13 +4,10 @@
 //! off, nothing is added. The limits hold along the whole curve: [`Limits::rows`] are places close together, and
 //! [`Limits::broken`] checks between them.
 
-use crate::aim::incline::{Incline, Steepness};
+pub use crate::aim::incline::Room;
+use crate::aim::incline::{Steepness, places};
 use crate::aim::wish::{DiameterLimit, Wish};
-use sweetspot::base::error::{Error, Result};
-use sweetspot::base::golden;
-use sweetspot::base::units::shown_length;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::profile::{Profile, SAME_PLACE, Section};
+use crate::engine::{Bat, Error, Profile, Result, SAME_PLACE, Section, golden, shown_length};
 
 /// Distance between the places where the limits are checked first (m).
 const EVERY: f64 = 5e-3;
@@ -37,17 +34,6 @@ pub struct Limits<'a> {
     steepness: Option<Steepness>,
 }
 
-/// Allowed change of the diameter at a place (m).
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Room {
-    /// The place (m).
-    pub x: f64,
-    /// Least change.
-    pub low: f64,
-    /// Greatest change.
-    pub high: f64,
-}
-
 /// A place where a curve breaks a limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Broken {
@@ -67,9 +53,11 @@ impl<'a> Limits<'a> {
     }
 
     /// These limits, applied to another bat.
-    pub fn on<'b>(&self, bat: &'b Bat) -> Limits<'b> {
-        let Self { remove_only, rule, stretches, steepness, .. } = self.clone();
-        Limits { bat, remove_only, rule, stretches, steepness }
+    pub fn on<'b>(&self, bat: &'b Bat) -> Limits<'b>
+    where
+        'a: 'b,
+    {
+        Limits { bat, ..self.clone() }
     }
 
     /// Allowed change at `x`, where the bat has that section.
@@ -100,7 +88,7 @@ impl<'a> Limits<'a> {
         for (k, limit) in self.stretches.iter().enumerate() {
             self.check_stretch(k, limit)?;
         }
-        for room in self.every(EVERY, &|_| true) {
+        for room in self.rows(&|_| true) {
             let fixed = stays(room.x);
             let thick = room.high < -KEPT && fixed;
             let thin = room.low > KEPT && (fixed || self.remove_only);
@@ -193,13 +181,8 @@ impl<'a> Limits<'a> {
         Ok(())
     }
 
-    /// The places where limits are checked first, among those where the bat may change; both sides of a step.
-    pub fn rows(&self, changes: &dyn Fn(f64) -> bool) -> Vec<Room> {
-        self.every(EVERY, changes)
-    }
-
     /// Allowed slopes of the change, at places where the bat may change; empty without a limit.
-    pub fn inclines(&self, changes: &dyn Fn(f64) -> bool) -> Vec<Incline> {
+    pub fn inclines(&self, changes: &dyn Fn(f64) -> bool) -> Vec<Room> {
         self.steepness.map_or(vec![], |steepness| steepness.inclines(self.bat, changes))
     }
 
@@ -215,18 +198,14 @@ impl<'a> Limits<'a> {
         }
     }
 
-    fn every(&self, step: f64, changes: &dyn Fn(f64) -> bool) -> Vec<Room> {
+    /// The places where limits are checked first, among those where the bat may change; both sides of a step.
+    pub fn rows(&self, changes: &dyn Fn(f64) -> bool) -> Vec<Room> {
         let mut rooms: Vec<Room> = vec![];
-        for piece in &self.bat.profile().pieces {
-            let count = (piece.length / step).ceil().max(1.0) as usize;
-            for k in 0..=count {
-                let s = k as f64 / count as f64;
-                let x = piece.start + s * piece.length;
-                let room = self.room(x, piece.at(s));
-                // Where two pieces meet without a step, once.
-                if changes(x) && rooms.last() != Some(&room) {
-                    rooms.push(room);
-                }
+        for (piece, s, x) in places(self.bat, EVERY) {
+            let room = self.room(x, piece.at(s));
+            // Where two pieces meet without a step, once.
+            if changes(x) && rooms.last() != Some(&room) {
+                rooms.push(room);
             }
         }
         rooms
@@ -246,7 +225,10 @@ impl<'a> Limits<'a> {
             let inside = 0.5 * (ends[0] + ends[1]);
             let at = |x: f64| {
                 let room = self.room(x, section(profile, x, inside));
-                LimitedChange { room, change: change(x, inside) }
+                let change = change(x, inside);
+                let (over, under) = (change - room.high, room.low - change);
+                let by = if over >= under { over } else { -under };
+                (Broken { room, by }, over.max(under))
             };
             broken.extend(worst([ends[0], ends[1]], at));
         }
@@ -269,47 +251,27 @@ pub fn section(profile: &Profile, x: f64, inside: f64) -> Section {
     piece.at(((x - piece.start) / piece.length).clamp(0.0, 1.0))
 }
 
-/// A change at a place, and its allowed range.
-#[derive(Clone, Copy)]
-struct LimitedChange {
-    room: Room,
-    change: f64,
-}
-
-impl LimitedChange {
-    /// Distance beyond the nearer limit, below 0 inside (m).
-    fn beyond(&self) -> f64 {
-        (self.change - self.room.high).max(self.room.low - self.change)
-    }
-
-    fn broken(&self) -> Option<Broken> {
-        let (over, under) = (self.change - self.room.high, self.room.low - self.change);
-        let by = if over >= under { over } else { -under };
-        (over.max(under) > 0.5 * KEPT).then_some(Broken { room: self.room, by })
-    }
-}
-
-/// The worst places of a stretch: local maxima of the violation, each located between the neighbouring places.
-fn worst([from, to]: [f64; 2], at: impl Fn(f64) -> LimitedChange) -> Vec<Broken> {
+/// The worst places of a stretch: local maxima of the distance beyond the nearer limit (m, below 0 inside), each located
+/// between the neighbouring places.
+fn worst([from, to]: [f64; 2], at: impl Fn(f64) -> (Broken, f64)) -> Vec<Broken> {
     /// A place farther inside than this is not near a limit (m).
     const FAR: f64 = -1e-5;
     let count = ((to - from) / CLOSE).ceil().max(4.0) as usize;
     let place = |k: usize| from + (to - from) * k as f64 / count as f64;
-    let seen: Vec<LimitedChange> = (0..=count).map(|k| at(place(k))).collect();
-    let beyond = |k: Option<usize>| {
-        k.and_then(|k| seen.get(k)).map_or(f64::NEG_INFINITY, LimitedChange::beyond)
-    };
+    let seen: Vec<(Broken, f64)> = (0..=count).map(|k| at(place(k))).collect();
+    let beyond =
+        |k: Option<usize>| k.and_then(|k| seen.get(k)).map_or(f64::NEG_INFINITY, |seen| seen.1);
     let mut found = vec![];
     for (k, here) in seen.iter().enumerate() {
-        let (before, value, after) = (beyond(k.checked_sub(1)), here.beyond(), beyond(Some(k + 1)));
+        let (before, value, after) = (beyond(k.checked_sub(1)), here.1, beyond(Some(k + 1)));
         let flat = before == value && value == after;
         if value < before || value < after || value < FAR || flat {
             continue;
         }
         let ends = [place(k.saturating_sub(1)), place((k + 1).min(count))];
-        let near = at(golden::least(ends[0], ends[1], |x| -at(x).beyond()));
-        let best = if near.beyond() > value { near } else { *here };
-        found.extend(best.broken());
+        let near = at(golden::least(ends[0], ends[1], |x| -at(x).1));
+        let (broken, beyond) = if near.1 > value { near } else { *here };
+        found.extend((beyond > 0.5 * KEPT).then_some(broken));
     }
     found
 }

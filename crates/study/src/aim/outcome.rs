@@ -10,12 +10,10 @@ use crate::aim::conflict::{Conflict, missed};
 use crate::aim::limits::{KEPT, Limits, section};
 use crate::aim::rounding::{Rounded, Rounding};
 use crate::aim::rules::{Rule, RulesKept};
-use crate::aim::search::{Found, MISSED, Search, Weights};
+use crate::aim::search::{MISSED, Search, Searched, Weights};
 use crate::aim::wish::{Band, Grid, Wish};
 use crate::answers::Answer;
-use sweetspot::base::error::{Error, Result};
-use sweetspot::base::golden;
-use sweetspot::bat::body::Bat;
+use crate::engine::{Bat, Error, Result, golden};
 
 /// The answers that are reported before and after.
 const TOLD: [Answer; 10] = [
@@ -39,7 +37,7 @@ const FINER: [f64; 4] = [1.0, 10.0, 100.0, 1000.0];
 /// The least change of a bat, before it is written.
 struct Least {
     bench: Bench,
-    found: Found,
+    found: Searched,
     /// Worst miss, in tolerances.
     miss: f64,
     norm: f64,
@@ -95,7 +93,7 @@ impl Outcome {
         let bench = Bench::new(bat, wish, terms.clone())?;
         let start = bench.look(&vec![0.0; bench.unknowns()])?.values;
         if let Some(k) = start.iter().position(|value| !value.is_finite()) {
-            let found = format!("{}, which this bat has not", bench.goals()[k].name());
+            let found = format!("{}, which this bat has not", bench.goals[k].name());
             return Err(Error::value(format!("targets[{k}].name"), found, "what this bat has"));
         }
         let bands = wish.bands(&start, bat)?;
@@ -133,7 +131,7 @@ impl Outcome {
 
 /// The least change on that bench.
 fn least(bench: Bench, wish: &Wish, bands: &[Band], wood: Option<String>) -> Result<Least> {
-    let limits = Limits::new(wish, bench.bat());
+    let limits = Limits::new(wish, &bench.bat);
     let search = Search::new(&bench, &limits);
     let start = vec![0.0; bench.unknowns()];
     let found = search.from(&start, bands, &Weights::met(bands.len()))?;
@@ -152,20 +150,11 @@ struct Writing<'a> {
     grid: Grid,
 }
 
-/// A least change that is to be rounded, and whether once will do.
-#[derive(Clone, Copy)]
-struct Tries<'a> {
-    bench: &'a Bench,
-    limits: &'a Limits<'a>,
-    first: &'a Found,
-    once: bool,
-}
-
 impl Writing<'_> {
     fn outcome(self, least: Least) -> Result<Outcome> {
         let Least { bench, found, wood, .. } = least;
         let all = vec![true; self.bands.len()];
-        let limits = Limits::new(self.wish, bench.bat());
+        let limits = Limits::new(self.wish, &bench.bat);
         let search = Search::new(&bench, &limits);
         let (found, conflict) = match missed(&found, &self.bands, &all) {
             true => self.nearest(&bench, &search, found)?,
@@ -173,20 +162,18 @@ impl Writing<'_> {
         };
         let norm = search.norm(&found.p);
         let prices = self.prices(&found, norm);
-        let tries =
-            Tries { bench: &bench, limits: &limits, first: &found, once: conflict.is_some() };
-        let (rounded, stopped, tried) = self.finest(&tries)?;
+        let (rounded, tried) = self.finest(&bench, &found, conflict.is_some())?;
         let bats = tried + found.bats + conflict.as_ref().map_or(0, |conflict| conflict.bats);
-        let Rounded { draft, grid, values, p, norm: written, steeper, .. } = rounded;
-        let chosen = bench.extras().iter().enumerate().map(|(k, extra)| Choice {
+        let Rounded { draft, grid, values, p, norm: written, steeper, stopped, .. } = rounded;
+        let chosen = bench.extras.iter().enumerate().map(|(k, extra)| Choice {
             what: extra.what,
             start: extra.start,
             found: bench.extra(&p, k),
         });
         let stretch = bench.stretch(&p);
-        let free = bench.splines().stretches().iter().map(|s| s.map(|end| end * stretch));
+        let free = bench.splines.stretches.iter().map(|s| s.map(|end| end * stretch));
         let kept_within_m =
-            moved_beside(&free.collect::<Vec<_>>(), &bench.rechosen(bench.bat(), &p)?, &draft.bat);
+            moved_beside(&free.collect::<Vec<_>>(), &bench.rechosen(&bench.bat, &p)?, &draft.bat);
         let broken = draft.broken.iter().map(|broken| broken.by.abs()).fold(0.0, f64::max);
         let bat = draft.bat.with(|parts| self.name(parts))?;
         let [largest_cut_m, largest_added_m] = largest(&draft.stations);
@@ -222,43 +209,44 @@ impl Writing<'_> {
         Ok(outcome)
     }
 
-    /// The rounding of a least change that leaves the goals in their bands, no finer than needed, or the best of all:
-    /// why its search stopped, and the bats that were computed.
-    fn finest(&self, tries: &Tries) -> Result<(Rounded, Option<&'static str>, usize)> {
-        let (mut best, mut stopped, mut bats) = (None::<Rounded>, tries.first.stopped, 0);
+    /// The rounding of a least change that leaves the goals in their bands, no finer than needed, or the best of all,
+    /// and the bats that were computed.
+    fn finest(&self, bench: &Bench, first: &Searched, once: bool) -> Result<(Rounded, usize)> {
+        let (mut best, mut bats) = (None::<Rounded>, 0);
         for finer in FINER {
-            if best.as_ref().is_some_and(|best| best.worst <= 1e-9 || tries.once) {
+            if best.as_ref().is_some_and(|best| best.worst <= 1e-9 || once) {
                 break;
             }
-            let (rounded, by, tried) = self.rounded(tries, finer)?;
+            let (rounded, tried) = self.rounded((bench, first, once), finer)?;
             bats += tried;
-            if best.as_ref().is_none_or(|best| best.worst > rounded.worst) {
-                (best, stopped) = (Some(rounded), by);
-            }
+            best = Some(rounded.better(best));
         }
-        Ok((best.expect("one draft at least was made"), stopped, bats))
+        Ok((best.expect("one draft at least was made"), bats))
     }
 
-    /// The best rounding of a least change, this many times finer than wished; the reason why its search stopped; and
-    /// the number of bats computed. If a rounding moves a goal out, the search is repeated with narrower bands.
-    fn rounded(&self, tries: &Tries, finer: f64) -> Result<(Rounded, Option<&'static str>, usize)> {
+    /// The best rounding of a least change, this many times finer than wished, and the number of bats computed. If a
+    /// rounding moves a goal out, the search is repeated with narrower bands.
+    fn rounded(
+        &self,
+        (bench, first, once): (&Bench, &Searched, bool),
+        finer: f64,
+    ) -> Result<(Rounded, usize)> {
         /// So far inside its band a goal is sought anew, in tolerances.
         const INSIDE: f64 = 0.25;
-        let Tries { bench, limits, first, once } = *tries;
+        let limits = &Limits::new(self.wish, &bench.bat);
         let (wanted, grid) = (&self.bands, Grid { round: self.grid.round / finer, ..self.grid });
         let rounding = Rounding { bench, limits, bands: wanted, grid, finer };
         let (mut bands, mut gentler) = (wanted.clone(), limits.clone());
-        let (mut found, mut bats) = (first.clone(), 0);
-        let mut best: Option<(Rounded, Option<&'static str>)> = None;
+        let (mut found, mut bats, mut best) = (first.clone(), 0, None::<Rounded>);
         for again in 1..=ANEW {
             let search = Search::new(bench, &gentler);
             let (rounded, off) = rounding.of(&found, search.norm(&found.p))?;
             bats += rounded.drafts;
             gentler.gentler_by(1.2 * rounded.steeper);
-            if best.as_ref().is_none_or(|(best, _)| best.worst > rounded.worst) {
-                best = Some((rounded, found.stopped));
-            }
-            if again == ANEW || once || best.as_ref().is_some_and(|(best, _)| best.worst <= 1e-9) {
+            let better = rounded.better(best);
+            let enough = again == ANEW || once || better.worst <= 1e-9;
+            best = Some(better);
+            if enough {
                 break;
             }
             // Repeats the search for goals that rounding then moves to their targets.
@@ -278,8 +266,7 @@ impl Writing<'_> {
             found = search.from(&found.p, &bands, &Weights::met(bands.len()))?;
             bats += found.bats;
         }
-        let (rounded, stopped) = best.expect("one draft at least was made");
-        Ok((rounded, stopped, bats))
+        Ok((best.expect("one draft at least was made"), bats))
     }
 
     /// The nearest bat to bands that a search has missed, and their conflict; `None` if the bat found on the way meets
@@ -288,27 +275,27 @@ impl Writing<'_> {
         &self,
         bench: &Bench,
         search: &Search,
-        found: Found,
-    ) -> Result<(Found, Option<Conflict>)> {
+        found: Searched,
+    ) -> Result<(Searched, Option<Conflict>)> {
         let bands = &self.bands;
         let (conflict, mut known) = Conflict::of(search, bands, &found)?;
         let before = found.bats;
         if conflict.members.len() < bands.len() {
             let start = vec![0.0; bench.unknowns()];
             let weighted = search.from(&start, bands, &conflict.nearest(bands.len()))?;
-            known.insert(0, Found { bats: before + weighted.bats, ..weighted });
+            known.insert(0, Searched { bats: before + weighted.bats, ..weighted });
         }
         known.insert(0, found);
-        let nearest = |a: &Found, b: &Found| total(bands, a).total_cmp(&total(bands, b));
+        let nearest = |a: &Searched, b: &Searched| total(bands, a).total_cmp(&total(bands, b));
         let bats = known.iter().map(|found| found.bats).max().unwrap_or(0);
         let best = known.into_iter().min_by(nearest).expect("one was found");
         let all = vec![true; bands.len()];
         if missed(&best, bands, &all) {
-            return Ok((Found { bats, ..best }, Some(conflict)));
+            return Ok((Searched { bats, ..best }, Some(conflict)));
         }
         let least = search.from(&best.p, bands, &Weights::met(bands.len()))?;
         let bats = bats + conflict.bats + least.bats;
-        Ok((Found { bats, ..least }, None))
+        Ok((Searched { bats, ..least }, None))
     }
 
     fn name(&self, parts: &mut sweetspot::bat::body::Parts) {
@@ -317,7 +304,7 @@ impl Writing<'_> {
 
     /// The decrease of the norm per SI unit of each goal. It exists only for a least change: not for a bat that misses
     /// a target, that is hardly changed, or for which the search stopped short.
-    fn prices(&self, found: &Found, norm: f64) -> Vec<Option<f64>> {
+    fn prices(&self, found: &Searched, norm: f64) -> Vec<Option<f64>> {
         /// A smaller change (mm) does not count.
         const NONE: f64 = 1e-3;
         let all = vec![true; self.bands.len()];
@@ -331,7 +318,7 @@ impl Writing<'_> {
 }
 
 /// The sum of all misses of a bat, in tolerances: of two bats the one with the smaller sum is nearer.
-fn total(bands: &[Band], found: &Found) -> f64 {
+fn total(bands: &[Band], found: &Searched) -> f64 {
     bands.iter().zip(&found.values).map(|(band, value)| band.miss(*value)).sum()
 }
 
@@ -381,7 +368,7 @@ fn told(bench: &Bench, start: &Bat, bat: &Bat) -> Result<Vec<Output>> {
 /// The rules, with the bat's value for each.
 fn rules(wish: &Wish, bat: &Bat, bench: &Bench) -> Result<Option<RulesKept>> {
     let Some(set) = &wish.rules else { return Ok(None) };
-    let bbcor = match set.rules.iter().any(|rule| matches!(rule, Rule::BbcorAtMost(_))) {
+    let bbcor = match set.rules.iter().any(|(rule, _)| *rule == Rule::BbcorAtMost) {
         true => bench.piece_of(bat, &[Answer::Bbcor])?.values()[0].map(|figure| figure.value),
         false => None,
     };

@@ -25,6 +25,18 @@ pub struct Bounded {
     pub high: f64,
 }
 
+impl Bounded {
+    /// The value of the row at those unknowns.
+    pub fn at(&self, p: &[f64]) -> f64 {
+        self.row.iter().zip(p).map(|(a, p)| a * p).sum()
+    }
+
+    /// Whether those unknowns keep the bounds but for that much.
+    pub fn is_kept(&self, p: &[f64], slack: f64) -> bool {
+        (self.low - slack..=self.high + slack).contains(&self.at(p))
+    }
+}
+
 /// A wish, in units of its tolerance.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Elastic {
@@ -96,22 +108,14 @@ impl Program {
             SolverStatus::InsufficientProgress | SolverStatus::MaxIterations
         );
         // A solver that stopped short still has a solution, if it keeps the limits.
-        if !(found || stopped && self.keeps(&solution.x[..n])) {
+        let kept = || self.limits.iter().all(|limit| limit.is_kept(&solution.x[..n], 1e-8));
+        if !(found || stopped && kept()) {
             return None;
         }
         let dual = |side: Option<usize>| side.map_or(0.0, |k| solution.z[k]);
         let prices = sides.into_iter().map(|[high, low]| dual(high) - dual(low)).collect();
         let p = solution.x[..n].to_vec();
         p.iter().all(|p| p.is_finite()).then_some(Least { p, prices })
-    }
-
-    /// Whether the limits are kept to round-off.
-    fn keeps(&self, p: &[f64]) -> bool {
-        let within = |limit: &Bounded| {
-            let value: f64 = limit.row.iter().zip(p).map(|(a, p)| a * p).sum();
-            value >= limit.low - 1e-8 && value <= limit.high + 1e-8
-        };
-        self.limits.iter().all(within)
     }
 }
 

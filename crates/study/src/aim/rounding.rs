@@ -6,11 +6,10 @@
 use crate::aim::bench::Bench;
 use crate::aim::laying::Laying;
 use crate::aim::limits::{KEPT, Limits};
-use crate::aim::search::Found;
+use crate::aim::search::Searched;
 use crate::aim::stations::{Draft, Drafting};
 use crate::aim::wish::{Band, Grid};
-use sweetspot::base::error::Result;
-use sweetspot::base::linear;
+use crate::engine::{Result, linear};
 
 /// Roundings at most.
 const DRAFTS: usize = 5;
@@ -47,6 +46,18 @@ pub struct Rounded {
     pub steeper: f64,
     /// Bats that were computed for it.
     pub drafts: usize,
+    /// Why the search of the change that was rounded stopped.
+    pub stopped: Option<&'static str>,
+}
+
+impl Rounded {
+    /// The better of two; the first where both are as good.
+    pub fn better(self, other: Option<Self>) -> Self {
+        match other {
+            Some(other) if other.worst <= self.worst => other,
+            _ => self,
+        }
+    }
 }
 
 impl Rounding<'_> {
@@ -54,16 +65,17 @@ impl Rounding<'_> {
     ///
     /// # Errors
     ///
-    /// Those of [`Drafting::new`], [`Drafting::draft`] and [`Bench::of`].
-    pub fn of(&self, found: &Found, norm: f64) -> Result<(Rounded, Vec<f64>)> {
+    /// Those of [`Laying::stations`], [`Drafting::draft`] and [`Bench::of`].
+    pub fn of(&self, found: &Searched, norm: f64) -> Result<(Rounded, Vec<f64>)> {
         let bench = self.bench;
-        let base = bench.rechosen(bench.bat(), &found.p)?;
+        let base = bench.rechosen(&bench.bat, &found.p)?;
         let limits = self.limits.on(&base);
-        let shape = &found.p[..bench.splines().len()];
-        let change = (bench.splines(), shape, bench.stretch(&found.p));
+        let shape = &found.p[..bench.splines.len()];
+        let change = (&bench.splines, shape, bench.stretch(&found.p));
         let densities = self.densities(found);
         let laying = Laying { bat: &base, limits: &limits, change, grid: self.grid };
-        let drafting = Drafting::new(laying, &densities)?;
+        let stations = laying.stations()?;
+        let drafting = Drafting { laying, stations, densities: &densities };
         let inside = self.inside(&densities, found);
         let mut aside = inside.clone();
         let mut best: Option<(Rounded, Vec<f64>)> = None;
@@ -81,7 +93,9 @@ impl Rounding<'_> {
             }
             if best.as_ref().is_none_or(|(best, _)| best.worst > worst) {
                 let (p, grid) = (found.p.clone(), self.grid);
-                let rounded = Rounded { draft, grid, values, p, norm, worst, steeper, drafts };
+                let stopped = found.stopped;
+                let rounded =
+                    Rounded { draft, grid, values, p, norm, worst, steeper, drafts, stopped };
                 best = Some((rounded, off.clone()));
             }
             if worst <= 1e-9 {
@@ -103,10 +117,10 @@ impl Rounding<'_> {
 
     /// Required distance from the edge of its band for each goal that is there, in tolerances: the effect of rounding
     /// one station.
-    fn inside(&self, densities: &[Vec<f64>], found: &Found) -> Vec<f64> {
+    fn inside(&self, densities: &[Vec<f64>], found: &Searched) -> Vec<f64> {
         let one = |of: &Vec<f64>| {
-            let places = (1..100).map(|k| 0.01 * f64::from(k) * self.bench.bat().length());
-            let effect = places.map(|x| self.bench.splines().at(of, x).abs()).fold(0.0, f64::max);
+            let places = (1..100).map(|k| 0.01 * f64::from(k) * self.bench.bat.length());
+            let effect = places.map(|x| self.bench.splines.at(of, x).abs()).fold(0.0, f64::max);
             1e3 * self.grid.round * self.grid.every * effect
         };
         let of = |(k, density): (usize, &Vec<f64>)| {
@@ -123,8 +137,8 @@ impl Rounding<'_> {
 
     /// The effect on each goal, in tolerances, per mm of diameter and m of length, as coefficients of the curves: their
     /// products with the curves are the slopes.
-    fn densities(&self, found: &Found) -> Vec<Vec<f64>> {
-        let overlaps = self.bench.splines().overlaps();
+    fn densities(&self, found: &Searched) -> Vec<Vec<f64>> {
+        let overlaps = self.bench.splines.overlaps();
         // Curves that are independent have a positive definite matrix.
         let inverse = linear::inverse(&overlaps).unwrap_or_default();
         let of = |(band, slopes): (&Band, &Vec<f64>)| {

@@ -2,10 +2,10 @@
 //!
 //! A [`RuleSet`] is data with its source and date; a result computed from it certifies nothing.
 
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 
-use sweetspot::base::units::{inches, ounces};
-use sweetspot::bat::body::{Bat, STANDARD_PIVOT};
+use crate::engine::{Bat, STANDARD_PIVOT, inches, ounces};
+use crate::named::named;
 
 /// The numerical rules of a game.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -18,35 +18,36 @@ pub struct RuleSet {
     pub source: String,
     /// Year or date of the source.
     pub date: String,
-    /// The rules.
-    pub rules: Vec<Rule>,
+    /// The rules, each with its limit in SI; None where it has no number.
+    pub rules: Vec<(Rule, Option<f64>)>,
     /// Further demands of the rules, which are not computed here.
     pub ask: Vec<String>,
 }
 
-/// A rule.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Rule {
-    /// Greatest diameter anywhere (m).
-    DiameterAtMost(f64),
-    /// Greatest length (m).
-    LengthAtMost(f64),
-    /// Greatest mass (kg).
-    MassAtMost(f64),
-    /// Greatest drop: length in inches less mass in ounces.
-    DropAtMost(f64),
-    /// Greatest BBCOR.
-    BbcorAtMost(f64),
-    /// Least moment of inertia about the point 6 in from the knob end (kg m²).
-    InertiaAtLeast(f64),
-    /// Greatest depth of a cup in the tip (m).
-    CupDepthAtMost(f64),
-    /// Least diameter of a cup (m).
-    CupDiameterAtLeast(f64),
-    /// Greatest diameter of a cup (m).
-    CupDiameterAtMost(f64),
-    /// The bat is one piece.
-    OnePiece,
+named! {
+    /// A rule, as a rule file calls it.
+    pub enum Rule {
+        /// Greatest diameter anywhere (m).
+        DiameterAtMost = "diameter_at_most",
+        /// Greatest length (m).
+        LengthAtMost = "length_at_most",
+        /// Greatest mass (kg).
+        MassAtMost = "mass_at_most",
+        /// Least moment of inertia about the point 6 in from the knob end (kg m²).
+        InertiaAtLeast = "inertia_at_least",
+        /// Greatest depth of a cup in the tip (m).
+        CupDepthAtMost = "cup_depth_at_most",
+        /// Least diameter of a cup (m).
+        CupDiameterAtLeast = "cup_diameter_at_least",
+        /// Greatest diameter of a cup (m).
+        CupDiameterAtMost = "cup_diameter_at_most",
+        /// Greatest drop: length in inches less mass in ounces.
+        DropAtMost = "drop_at_most",
+        /// Greatest BBCOR.
+        BbcorAtMost = "bbcor_at_most",
+        /// The bat is one piece.
+        OnePiece = "one_piece",
+    }
 }
 
 /// Rules, and whether the new bat keeps them.
@@ -82,88 +83,40 @@ pub struct Ruled {
     pub kept: Option<bool>,
 }
 
-impl Serialize for Rule {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        to.serialize_str(self.name())
-    }
-}
-
-impl Rule {
-    /// Its name in a rule file.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::DiameterAtMost(_) => "diameter_at_most",
-            Self::LengthAtMost(_) => "length_at_most",
-            Self::MassAtMost(_) => "mass_at_most",
-            Self::DropAtMost(_) => "drop_at_most",
-            Self::BbcorAtMost(_) => "bbcor_at_most",
-            Self::InertiaAtLeast(_) => "inertia_at_least",
-            Self::CupDepthAtMost(_) => "cup_depth_at_most",
-            Self::CupDiameterAtLeast(_) => "cup_diameter_at_least",
-            Self::CupDiameterAtMost(_) => "cup_diameter_at_most",
-            Self::OnePiece => "one_piece",
-        }
-    }
-
-    /// Its limit in SI; None where it has no number.
-    pub fn limit(self) -> Option<f64> {
-        match self {
-            Self::DiameterAtMost(limit)
-            | Self::LengthAtMost(limit)
-            | Self::MassAtMost(limit)
-            | Self::DropAtMost(limit)
-            | Self::BbcorAtMost(limit)
-            | Self::InertiaAtLeast(limit)
-            | Self::CupDepthAtMost(limit)
-            | Self::CupDiameterAtLeast(limit)
-            | Self::CupDiameterAtMost(limit) => Some(limit),
-            Self::OnePiece => None,
-        }
-    }
-}
-
 impl RuleSet {
     /// The greatest diameter that the rules allow (m), infinite without one.
     pub fn diameter(&self) -> f64 {
-        let of = |rule: &Rule| match rule {
-            Rule::DiameterAtMost(most) => *most,
-            _ => f64::INFINITY,
-        };
-        self.rules.iter().map(of).fold(f64::INFINITY, f64::min)
+        let of_diameter = self.rules.iter().filter(|(rule, _)| *rule == Rule::DiameterAtMost);
+        of_diameter.filter_map(|(_, most)| *most).fold(f64::INFINITY, f64::min)
     }
 
     /// The rules with the bat's value for each, and whether it is kept; `bbcor` is given.
     pub fn judged(&self, bat: &Bat, bbcor: Option<f64>) -> RulesKept {
         let widest = bat.profile().stations.outer.iter().fold(0.0_f64, |a, b| a.max(*b));
         let (body, hole) = (bat.inertia(), cup(bat));
-        let of = |rule: &Rule| {
-            let (rule, limit) = (*rule, rule.limit());
-            let (value, most) = match rule {
-                Rule::DiameterAtMost(_) => (Some(2.0 * widest), true),
-                Rule::LengthAtMost(_) => (Some(bat.length()), true),
-                Rule::MassAtMost(_) => (Some(body.mass), true),
-                Rule::DropAtMost(_) => (Some(inches(bat.length()) - ounces(body.mass)), true),
-                Rule::BbcorAtMost(_) => (bbcor, true),
-                Rule::InertiaAtLeast(_) => (Some(body.about(STANDARD_PIVOT)), false),
-                Rule::CupDepthAtMost(_) => (hole.map(|hole| hole[0]), true),
-                Rule::CupDiameterAtLeast(_) => (hole.map(|hole| hole[1]), false),
-                Rule::CupDiameterAtMost(_) => (hole.map(|hole| hole[1]), true),
-                Rule::OnePiece => {
-                    return Ruled { rule, limit, value: None, kept: Some(one_piece(bat)) };
-                }
+        let of = |&(rule, limit): &(Rule, Option<f64>)| {
+            let value = match rule {
+                Rule::DiameterAtMost => Some(2.0 * widest),
+                Rule::LengthAtMost => Some(bat.length()),
+                Rule::MassAtMost => Some(body.mass),
+                Rule::InertiaAtLeast => Some(body.about(STANDARD_PIVOT)),
+                Rule::CupDepthAtMost => hole.map(|hole| hole[0]),
+                Rule::CupDiameterAtLeast | Rule::CupDiameterAtMost => hole.map(|hole| hole[1]),
+                Rule::DropAtMost => Some(inches(bat.length()) - ounces(body.mass)),
+                Rule::BbcorAtMost => bbcor,
+                Rule::OnePiece => None,
             };
             let bound = limit.unwrap_or(f64::INFINITY);
             let slack = 1e-9 * bound.abs().max(1.0);
-            let kept = value
-                .map(|value| if most { value <= bound + slack } else { value >= bound - slack });
-            // A bat without a cup keeps every rule about cups.
-            let of_cup = rule.name().starts_with("cup");
-            Ruled {
-                rule,
-                limit,
-                value,
-                kept: if of_cup { Some(kept.unwrap_or(true)) } else { kept },
-            }
+            let least = rule.name().ends_with("_at_least");
+            let keeps = |v: f64| if least { v >= bound - slack } else { v <= bound + slack };
+            let kept = match rule {
+                Rule::OnePiece => Some(one_piece(bat)),
+                // A bat without a cup keeps every rule about cups.
+                _ if rule.name().starts_with("cup") => Some(value.is_none_or(keeps)),
+                _ => value.map(keeps),
+            };
+            Ruled { rule, limit, value, kept }
         };
         let Self { name, game, source, date, ask, .. } = self.clone();
         let limits = self.rules.iter().map(of).collect();

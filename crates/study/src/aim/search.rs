@@ -6,11 +6,10 @@
 //! than the rules allow, the first step is taken in full: a gain beyond the limits does not count.
 
 use crate::aim::bench::{Bench, Look};
-use crate::aim::incline::Incline;
 use crate::aim::limits::{Broken, Limits, Room};
 use crate::aim::program::{Bounded, Elastic, Least, Program};
 use crate::aim::wish::Band;
-use sweetspot::base::error::{Error, Result};
+use crate::engine::{Error, Result};
 
 /// Steps at most.
 const MOST: usize = 24;
@@ -36,15 +35,6 @@ const ROUGHLY: f64 = 2e-6;
 /// Slopes hold as long as no coefficient has changed by more than that (mm).
 const SAME_SLOPES: f64 = 0.05;
 
-/// When a search may end.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum End {
-    /// At the least change.
-    Least,
-    /// As soon as all bands are met.
-    Met,
-}
-
 /// The objective: this many times the size of the change, plus the price of each band's miss.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Weights {
@@ -65,7 +55,7 @@ impl Weights {
 
 /// The end of a search.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Found {
+pub struct Searched {
     /// The unknowns.
     pub p: Vec<f64>,
     /// The goals, in the order of the bands.
@@ -95,20 +85,20 @@ pub struct Search<'a> {
 impl<'a> Search<'a> {
     /// A search on that bench.
     pub fn new(bench: &'a Bench, limits: &'a Limits<'a>) -> Self {
-        let (n, count) = (bench.splines().len(), bench.unknowns());
+        let (n, count) = (bench.splines.len(), bench.unknowns());
         let mut form = vec![vec![0.0; count]; count];
-        for (row, of) in form.iter_mut().zip(bench.splines().roughness()) {
+        for (row, of) in form.iter_mut().zip(bench.splines.roughness()) {
             row[..n].copy_from_slice(&of);
         }
-        for (k, extra) in bench.extras().iter().enumerate() {
+        for (k, extra) in bench.extras.iter().enumerate() {
             form[n + k][n + k] = extra.cost.powi(2);
         }
-        let changes = |x: f64| bench.splines().basis().iter().any(|curve| curve.at(x) != 0.0);
+        let changes = |x: f64| bench.splines.basis.iter().any(|curve| curve.at(x) != 0.0);
         let rooms = limits.rows(&changes);
-        let steep = |incline: Incline| {
+        let steep = |incline: Room| {
             // As a gain or loss over 5 cm, so that all rows have a similar size.
             const OVER: f64 = 0.05;
-            let curves = bench.splines().basis().iter();
+            let curves = bench.splines.basis.iter();
             let mut row: Vec<f64> = curves.map(|curve| OVER * curve.slope(incline.x)).collect();
             row.resize(count, 0.0);
             let [low, high] = [incline.low, incline.high].map(|slope| 1e3 * OVER * slope);
@@ -120,7 +110,7 @@ impl<'a> Search<'a> {
 
     /// The size of the change of the diameter: root of `mean(d²) + ℓ⁴ mean(d″²)` (mm).
     pub fn norm(&self, p: &[f64]) -> f64 {
-        let n = self.bench.splines().len();
+        let n = self.bench.splines.len();
         self.square(&self.form, &p[..n]).max(0.0).sqrt()
     }
 
@@ -134,8 +124,8 @@ impl<'a> Search<'a> {
     /// # Errors
     ///
     /// [`Error::Value`] if the limits of the diameter contradict each other; those of [`Bench::look`].
-    pub fn from(&self, start: &[f64], bands: &[Band], weights: &Weights) -> Result<Found> {
-        self.until(End::Least, start, bands, weights)
+    pub fn from(&self, start: &[f64], bands: &[Band], weights: &Weights) -> Result<Searched> {
+        self.until(false, start, bands, weights)
     }
 
     /// Searches only until it is clear whether the bands that have a price can be met; if they can, the change is not
@@ -144,11 +134,18 @@ impl<'a> Search<'a> {
     /// # Errors
     ///
     /// As [`Self::from`].
-    pub fn meets(&self, start: &[f64], bands: &[Band], weights: &Weights) -> Result<Found> {
-        self.until(End::Met, start, bands, weights)
+    pub fn meets(&self, start: &[f64], bands: &[Band], weights: &Weights) -> Result<Searched> {
+        self.until(true, start, bands, weights)
     }
 
-    fn until(&self, end: End, start: &[f64], bands: &[Band], weights: &Weights) -> Result<Found> {
+    /// Searches; `met` tells whether it ends as soon as all bands are met.
+    fn until(
+        &self,
+        met: bool,
+        start: &[f64],
+        bands: &[Band],
+        weights: &Weights,
+    ) -> Result<Searched> {
         let mut look = self.bench.look(start)?;
         let mut p = start.to_vec();
         let mut count = 1;
@@ -166,7 +163,7 @@ impl<'a> Search<'a> {
             let program = self.program((&p, &look.values, &slopes), bands, weights);
             let mut least = self.solve(program, &p, &mut rooms)?;
             least.prices = asked(&least.prices, weights);
-            let ended = |p: Vec<f64>, values: Vec<f64>, bats: usize, stopped| Found {
+            let ended = |p: Vec<f64>, values: Vec<f64>, bats: usize, stopped| Searched {
                 p,
                 values,
                 slopes: slopes.clone(),
@@ -199,7 +196,7 @@ impl<'a> Search<'a> {
                 Some(ended(p.clone(), look.values.clone(), count, (!still).then_some(STEPS_TAKEN)));
             let asked = bands.iter().zip(&look.values).zip(&weights.miss);
             let mut misses = asked.map(|((band, value), price)| price.min(1.0) * band.miss(*value));
-            if still || end == End::Met && misses.all(|miss| miss <= MISSED) {
+            if still || met && misses.all(|miss| miss <= MISSED) {
                 break;
             }
         }
@@ -260,12 +257,12 @@ impl<'a> Search<'a> {
 
     /// The ranges of the free choices.
     fn ranges(&self) -> Vec<Bounded> {
-        let n = self.bench.splines().len();
+        let n = self.bench.splines.len();
         let range = |(k, extra): (usize, &super::bench::Extra)| {
             let [low, high] = extra.range.map(|value| (value - extra.start) / extra.unit);
             Bounded { row: self.unit(n + k), low, high }
         };
-        self.bench.extras().iter().enumerate().map(range).collect()
+        self.bench.extras.iter().enumerate().map(range).collect()
     }
 
     fn unit(&self, k: usize) -> Vec<f64> {
@@ -302,7 +299,7 @@ impl<'a> Search<'a> {
         };
         let by = |k: usize| {
             let wish = &program.wishes[k].wish;
-            let value: f64 = wish.row.iter().zip(&least.p).map(|(a, p)| a * p).sum();
+            let value = wish.at(&least.p);
             if value > wish.high { value - wish.high } else { (value - wish.low).min(0.0) }
         };
         let worst = (0..rooms.len()).max_by(|a, b| by(*a).abs().total_cmp(&by(*b).abs()));
@@ -355,7 +352,7 @@ impl<'a> Search<'a> {
     /// region reaches.
     fn row(&self, room: &Room, p: &[f64], trust: f64) -> Bounded {
         let mut row: Vec<f64> =
-            self.bench.splines().basis().iter().map(|curve| curve.at(room.x)).collect();
+            self.bench.splines.basis.iter().map(|curve| curve.at(room.x)).collect();
         row.resize(self.bench.unknowns(), 0.0);
         // Far enough inside that the curve between two places is within the limit; where the change ends, this is not
         // needed.
@@ -373,18 +370,14 @@ impl<'a> Search<'a> {
 
     /// Whether those unknowns violate a limit or the range of a free choice.
     fn is_beyond(&self, p: &[f64]) -> bool {
-        let out = |range: &Bounded| {
-            let value: f64 = range.row.iter().zip(p).map(|(a, p)| a * p).sum();
-            value < range.low - STILL || value > range.high + STILL
-        };
         let broken = self.broken(p).iter().any(|broken| broken.by.abs() > ROUGHLY);
-        broken || self.ranges().iter().any(out)
+        broken || !self.ranges().iter().all(|range| range.is_kept(p, STILL))
     }
 
     /// The places where the change of those unknowns violates a limit.
     fn broken(&self, p: &[f64]) -> Vec<Broken> {
         let change = self.bench.change(p);
-        self.limits.broken(&self.bench.splines().knots(), &|x, _| change.at(x))
+        self.limits.broken(&self.bench.splines.knots(), &|x, _| change.at(x))
     }
 }
 

@@ -8,7 +8,7 @@
 //! pᵀHp = mean(d²) + ℓ⁴ mean(d″²),   d(x) = Σ p_j B_j(x),   ℓ = 5 cm, means over the length of the bat
 //! ```
 
-use sweetspot::base::quadrature::gauss;
+use crate::engine::gauss;
 
 /// Distance of the knots, as nearly as a whole number of them allows (m).
 const KNOT_EVERY: f64 = 0.05;
@@ -21,16 +21,16 @@ const SMOOTH: f64 = 0.05;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Splines {
     length: f64,
-    basis: Vec<BSpline>,
-    stretches: Vec<[f64; 2]>,
+    /// The curves.
+    pub basis: Vec<BSpline>,
+    /// The stretches that may change (m).
+    pub stretches: Vec<[f64; 2]>,
 }
 
 /// A cubic B-spline by its five knots (m); at an end of its stretch some are equal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BSpline {
     knots: [f64; 5],
-    /// Whether the curve holds its value at its last knot, where the stretch ends.
-    closed: bool,
 }
 
 impl Splines {
@@ -46,12 +46,9 @@ impl Splines {
         for [start, end] in kept {
             let to = f64::min(start, length);
             if to - from >= SHORTEST {
-                let end = |kept: bool, pointed: bool| match (kept, pointed) {
-                    (true, _) => End::Kept,
-                    (false, true) => End::Pointed,
-                    (false, false) => End::Free,
-                };
-                let ends = [end(from > 0.0, pointed[0]), end(to < length, pointed[1])];
+                // Beside a kept stretch value and slope are held, at a point the value.
+                let held = |kept, pointed| if kept { 2 } else { usize::from(pointed) };
+                let ends = [held(from > 0.0, pointed[0]), held(to < length, pointed[1])];
                 let on = on_stretch([from, to], ends);
                 if !on.is_empty() {
                     stretches.push([from, to]);
@@ -71,16 +68,6 @@ impl Splines {
     /// Whether nothing may change.
     pub fn is_empty(&self) -> bool {
         self.basis.is_empty()
-    }
-
-    /// The stretches that may change (m).
-    pub fn stretches(&self) -> &[[f64; 2]] {
-        &self.stretches
-    }
-
-    /// The curves.
-    pub fn basis(&self) -> &[BSpline] {
-        &self.basis
     }
 
     /// `Σ p_j B_j(x)`.
@@ -164,7 +151,8 @@ impl BSpline {
     fn value(&self, i: usize, degree: usize, x: f64) -> f64 {
         let t = &self.knots;
         if degree == 0 {
-            let last = self.closed && x == t[4] && t[i + 1] == t[4] && t[i] < t[4];
+            // The curve holds its value at its last knot, where the stretch ends.
+            let last = x == t[4] && t[i + 1] == t[4] && t[i] < t[4];
             return if (t[i] <= x && x < t[i + 1]) || last { 1.0 } else { 0.0 };
         }
         let part =
@@ -191,33 +179,17 @@ impl BSpline {
     }
 }
 
-/// Kind of the end of a stretch.
-#[derive(Debug, Clone, Copy)]
-enum End {
-    /// An end of the bat, which may change.
-    Free,
-    /// A pointed end of the bat: the value is 0.
-    Pointed,
-    /// The border of a kept stretch: value and slope are 0.
-    Kept,
-}
-
-/// The B-splines of a stretch, without those that would move its held ends.
-fn on_stretch([from, to]: [f64; 2], held: [End; 2]) -> Vec<BSpline> {
+/// The B-splines of a stretch, without those that would move its held ends: the value at an end depends on the first
+/// curve there, value and slope on the first two.
+fn on_stretch([from, to]: [f64; 2], [first, last]: [usize; 2]) -> Vec<BSpline> {
     let pieces = (((to - from) / KNOT_EVERY).round() as usize).max(1);
     let place =
         |k: usize| if k == pieces { to } else { from + (to - from) * k as f64 / pieces as f64 };
     let ends = |x: f64| std::iter::repeat_n(x, 3);
     let knots: Vec<f64> = ends(from).chain((0..=pieces).map(place)).chain(ends(to)).collect();
-    // The value at an end depends on the first curve there, value and slope on the first two.
-    let [first, last] = held.map(|end| match end {
-        End::Free => 0,
-        End::Pointed => 1,
-        End::Kept => 2,
-    });
     let count = pieces + 3;
     (first..count.saturating_sub(last))
-        .map(|k| BSpline { knots: std::array::from_fn(|i| knots[k + i]), closed: true })
+        .map(|k| BSpline { knots: std::array::from_fn(|i| knots[k + i]) })
         .collect()
 }
 
@@ -235,12 +207,11 @@ mod tests {
         assert_eq!(splines.len(), 17);
         let p: Vec<f64> = (0..17).map(|k| (k as f64).sin()).collect();
         assert_eq!([splines.at(&p, 0.01), splines.at(&p, 0.03)], [0.0; 2]);
-        let slope =
-            |x: f64| splines.basis().iter().zip(&p).map(|(b, p)| p * b.slope(x)).sum::<f64>();
+        let slope = |x: f64| splines.basis.iter().zip(&p).map(|(b, p)| p * b.slope(x)).sum::<f64>();
         assert_eq!(slope(0.03), 0.0);
         assert_eq!(splines.at(&p, 0.84), p[16]);
         let both = Splines::beside(&[[0.0, 0.03], [0.4, 0.5]], 0.84, [false; 2]);
-        assert_eq!(both.stretches(), [[0.03, 0.4], [0.5, 0.84]]);
+        assert_eq!(both.stretches, [[0.03, 0.4], [0.5, 0.84]]);
         assert!(Splines::beside(&[[0.0, 0.84]], 0.84, [false; 2]).is_empty());
         let pointed = Splines::beside(&[[0.0, 0.03]], 0.84, [false, true]);
         assert_eq!((pointed.len(), pointed.at(&p[..16], 0.84)), (16, 0.0));
@@ -254,7 +225,7 @@ mod tests {
     fn constants_and_lines_are_among_the_curves() {
         let splines = Splines::beside(&[], 0.8, [false; 2]);
         let greville: Vec<f64> =
-            splines.basis().iter().map(|b| b.knots[1..4].iter().sum::<f64>() / 3.0).collect();
+            splines.basis.iter().map(|b| b.knots[1..4].iter().sum::<f64>() / 3.0).collect();
         for k in 0..=80 {
             let x = 0.01 * f64::from(k);
             let ones = vec![1.0; splines.len()];
@@ -275,7 +246,7 @@ mod tests {
     /// Derivatives against differences.
     #[test]
     fn slope_and_curvature_are_those_of_the_curve() {
-        for curve in r161().basis() {
+        for curve in &r161().basis {
             for k in 0..40 {
                 let (x, h) = (0.035 + 0.02 * f64::from(k), 1e-6);
                 let slope = (curve.at(x + h) - curve.at(x - h)) / (2.0 * h);

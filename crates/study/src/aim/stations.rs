@@ -9,9 +9,7 @@
 
 use crate::aim::laying::{Laying, Station};
 use crate::aim::limits::Broken;
-use sweetspot::base::error::Result;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::profile::SAME_PLACE;
+use crate::engine::{Bat, Result, SAME_PLACE};
 
 /// The new stations, and the bat with them.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,11 +24,13 @@ pub struct Draft {
 
 /// A change of a bat's diameter that is to be written.
 pub struct Drafting<'a> {
-    laying: Laying<'a>,
-    stations: Vec<Station>,
+    /// The change.
+    pub laying: Laying<'a>,
+    /// The stations that were laid for it.
+    pub stations: Vec<Station>,
     /// How much each goal moves, in tolerances, per mm of diameter and m of length, as coefficients of the
     /// change's curves.
-    densities: &'a [Vec<f64>],
+    pub densities: &'a [Vec<f64>],
 }
 
 /// Most that a station of a kept stretch gives way to a limit (m).
@@ -40,18 +40,7 @@ const LEAST_FELT: f64 = 1e-2;
 /// Rounds of giving way to limits.
 const ROUNDS: usize = 60;
 
-impl<'a> Drafting<'a> {
-    /// Lays the stations of a change. The goals move by these densities, in tolerances per mm of diameter and m
-    /// of length, as coefficients of the change's curves.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`Laying::stations`].
-    pub fn new(laying: Laying<'a>, densities: &'a [Vec<f64>]) -> Result<Self> {
-        let stations = laying.stations()?;
-        Ok(Self { laying, stations, densities })
-    }
-
+impl Drafting<'_> {
     /// The bat as written, with the goals deliberately shifted by `aside` (in tolerances): the error of an earlier
     /// draft.
     ///

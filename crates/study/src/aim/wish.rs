@@ -5,12 +5,9 @@
 
 use crate::aim::rules::{Rule, RuleSet};
 use crate::answers::Answer;
-use sweetspot::base::error::{Complaint, Error, Result};
-use sweetspot::base::number::significant;
-use sweetspot::base::units::{self, Quantity, inches, ounces};
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::material::Material;
-use sweetspot::bat::weighed::Weighed;
+use crate::engine::{
+    Bat, Complaint, Error, Material, Quantity, Result, Weighed, inches, ounces, significant,
+};
 
 /// Something that can be aimed at.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -167,18 +164,12 @@ impl Goal {
 
     /// Its name.
     pub fn name(self) -> String {
-        match self {
-            Self::Answer(answer) => answer.name(),
-            Self::Drop => "drop".to_owned(),
-        }
+        if self == Self::Drop { "drop".to_owned() } else { self.answer().name() }
     }
 
     /// Its unit in SI; empty for the drop and other pure numbers.
     pub fn unit(self) -> &'static str {
-        match self {
-            Self::Answer(answer) => answer.unit(),
-            Self::Drop => "",
-        }
+        if self == Self::Drop { "" } else { self.answer().unit() }
     }
 
     /// The quantity it is; None of energies, accelerations and pure numbers, which have no unit but SI.
@@ -195,26 +186,17 @@ impl Goal {
 
     /// Its value, from the underlying answer and the bat's length.
     pub fn of(self, answer: f64, length: f64) -> f64 {
-        match self {
-            Self::Answer(_) => answer,
-            Self::Drop => units::inches(length) - units::ounces(answer),
-        }
+        if self == Self::Drop { inches(length) - ounces(answer) } else { answer }
     }
 
     /// The answer it is made from.
     pub fn answer(self) -> Answer {
-        match self {
-            Self::Answer(answer) => answer,
-            Self::Drop => Answer::Mass,
-        }
+        if let Self::Answer(answer) = self { answer } else { Answer::Mass }
     }
 
     /// How much more it is where its answer is 1 more.
     pub fn slope(self) -> f64 {
-        match self {
-            Self::Answer(_) => 1.0,
-            Self::Drop => -units::ounces(1.0),
-        }
+        if self == Self::Drop { -ounces(1.0) } else { 1.0 }
     }
 
     /// The default tolerance of a target.
@@ -256,15 +238,10 @@ impl Target {
         let tolerance = |within: Option<Amount>| {
             within.map_or_else(|| self.goal.tolerance(start), |within| within.size(start).abs())
         };
+        let about = |value: f64, within: f64| (value - within, value + within, within);
         let (low, high, scale) = match self.ask {
-            Ask::Change(by, within) => {
-                let (value, within) = (start + by.size(start), tolerance(within));
-                (value - within, value + within, within)
-            }
-            Ask::Value(value, within) => {
-                let (value, within) = (value.of(start, length), tolerance(within));
-                (value - within, value + within, within)
-            }
+            Ask::Change(by, within) => about(start + by.size(start), tolerance(within)),
+            Ask::Value(value, within) => about(value.of(start, length), tolerance(within)),
             Ask::Between(low, high) => {
                 let of = |amount: Option<Amount>, without: f64| {
                     amount.map_or(without, |amount| amount.of(start, length))
@@ -297,17 +274,17 @@ impl Wish {
         Self { remove_only: self.remove_only || exists && !self.add, ..self.clone() }
     }
 
-    /// Every goal of the wish: those of the targets, then those of the rules, each with its rule.
-    pub fn goals(&self) -> Vec<(Goal, Option<Rule>)> {
-        let of_rule = |rule: &Rule| {
+    /// Every goal of the wish: those of the targets, then those of the rules, each with its rule and the limit.
+    pub fn goals(&self) -> Vec<(Goal, Option<(Rule, f64)>)> {
+        let of_rule = |&(rule, limit): &(Rule, Option<f64>)| {
             let goal = match rule {
-                Rule::MassAtMost(_) => Goal::Answer(Answer::Mass),
-                Rule::DropAtMost(_) => Goal::Drop,
-                Rule::BbcorAtMost(_) => Goal::Answer(Answer::Bbcor),
-                Rule::InertiaAtLeast(_) => Goal::Answer(Answer::Inertia),
+                Rule::MassAtMost => Goal::Answer(Answer::Mass),
+                Rule::DropAtMost => Goal::Drop,
+                Rule::BbcorAtMost => Goal::Answer(Answer::Bbcor),
+                Rule::InertiaAtLeast => Goal::Answer(Answer::Inertia),
                 _ => return None,
             };
-            Some((goal, Some(*rule)))
+            Some((goal, Some((rule, limit?))))
         };
         let rules = self.rules.iter().flat_map(|set| &set.rules).filter_map(of_rule);
         self.targets.iter().map(|target| (target.goal, None)).chain(rules).collect()
@@ -329,10 +306,9 @@ impl Wish {
         let length = bat.length();
         let goals = self.goals();
         let band = |(k, start): (usize, &f64)| match goals[k] {
-            (goal, Some(rule)) => {
-                let limit = rule.limit().unwrap_or(f64::INFINITY);
+            (goal, Some((rule, limit))) => {
                 let (low, high) = match rule {
-                    Rule::InertiaAtLeast(_) => (limit, f64::INFINITY),
+                    Rule::InertiaAtLeast => (limit, f64::INFINITY),
                     _ => (f64::NEG_INFINITY, limit),
                 };
                 let scale = goal.tolerance(*start);

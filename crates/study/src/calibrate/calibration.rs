@@ -15,8 +15,7 @@ use crate::calibrate::readings::{BatReadings, Priors, RingDown};
 pub use crate::calibrate::unknowns::Property;
 use crate::calibrate::unknowns::{Logs, UNKNOWNS, form};
 use crate::calibrate::wood::WoodenBat;
-use sweetspot::base::error::{Error, Result};
-use sweetspot::bat::body::{Bat, STANDARD_PIVOT};
+use crate::engine::{Bat, Error, Result, STANDARD_PIVOT};
 
 /// 95 of 100 of a normal distribution lie within this many standard deviations.
 pub const NINETY_FIVE: f64 = 1.959_963_984_540_054;

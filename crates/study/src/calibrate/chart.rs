@@ -12,8 +12,7 @@
 use crate::calibrate::fit::Search;
 use crate::calibrate::unknowns::{Logs, Property, UNKNOWNS};
 use crate::calibrate::wood::Slopes;
-use sweetspot::base::error::Result;
-use sweetspot::base::threads;
+use crate::engine::{Result, threads};
 
 /// E is sought from a quarter to four times that of the file.
 const STIFFEST: f64 = 4.0;

@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::calibrate::fit::{Fit, Search};
 use crate::calibrate::posterior::Posterior;
 use crate::calibrate::unknowns::{Property, UNKNOWNS, form};
-use sweetspot::base::error::Result;
+use crate::engine::Result;
 
 /// An E or density farther from the file's than this many standard deviations of the prior knowledge, and than that
 /// factor, belongs to another material.
@@ -84,13 +84,13 @@ impl Estimated {
 /// The parameters and their uncertainties; the covariance of all unknowns, in which those that were held have the prior
 /// one.
 pub(super) fn estimated(search: &Search, fit: &Fit) -> Result<(Vec<Estimated>, Vec<Vec<f64>>)> {
-    let known = Known::of(search, fit)?;
+    let known = Uncertainties::of(search, fit)?;
     let all = known.properties.iter().map(|property| known.estimated(*property)).collect();
     Ok((all, known.open))
 }
 
 /// The uncertainties of the unknowns, before and after.
-struct Known<'a> {
+struct Uncertainties<'a> {
     search: &'a Search<'a>,
     fit: &'a Fit,
     properties: &'static [Property],
@@ -103,7 +103,7 @@ struct Known<'a> {
     open: Vec<Vec<f64>>,
 }
 
-impl<'a> Known<'a> {
+impl<'a> Uncertainties<'a> {
     fn of(search: &'a Search<'a>, fit: &'a Fit) -> Result<Self> {
         let data: Vec<_> = fit.residuals.iter().map(|residual| residual.datum).collect();
         let posterior = Posterior::of(search, &data, fit)?;

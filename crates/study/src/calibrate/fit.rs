@@ -20,8 +20,7 @@ use serde::Serialize;
 use crate::calibrate::readings::{BatReadings, Reading};
 use crate::calibrate::unknowns::{Logs, Property, covariance, form};
 use crate::calibrate::wood::{BatObservations, Slopes, WoodenBat};
-use sweetspot::base::error::Result;
-use sweetspot::base::linear::{dot, inverse};
+use crate::engine::{Result, dot, inverse};
 
 /// The largest change of a logarithm in one step.
 const LARGEST_STEP: f64 = 0.3;

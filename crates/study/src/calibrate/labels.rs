@@ -11,8 +11,7 @@ use crate::calibrate::chart::Chart;
 use crate::calibrate::fit::{Fit, Search, data};
 use crate::calibrate::readings::{BatReadings, Priors, ShearPrior, SpectralLine};
 use crate::calibrate::unknowns::Logs;
-use sweetspot::base::error::Result;
-use sweetspot::base::threads;
+use crate::engine::{Result, threads};
 
 /// Cost in χ² of a line that is not a bending mode.
 pub const STRANGER: f64 = 12.0;
@@ -165,7 +164,7 @@ pub struct Candidate {
 }
 
 /// A line to be labelled.
-struct Line {
+struct HeardLine {
     /// Its place in the readings.
     place: usize,
     /// Logarithm of its frequency, and its error.
@@ -177,7 +176,7 @@ struct Line {
 }
 
 /// The lines by rising frequency, so that labels rise with them.
-pub struct Lines(Vec<Line>);
+pub struct Lines(Vec<HeardLine>);
 
 impl Lines {
     /// The lines of readings, with their given labels.
@@ -189,16 +188,16 @@ impl Lines {
         let line = |(place, line): (usize, &SpectralLine)| {
             let value = line.frequency.value;
             let sigma = (line.frequency.deviation / value).hypot(readings.model.max(SEARCHED));
-            Line { place, log: value.ln(), sigma, told: labels[place], other }
+            HeardLine { place, log: value.ln(), sigma, told: labels[place], other }
         };
-        let mut all: Vec<Line> = readings.lines.iter().enumerate().map(line).collect();
+        let mut all: Vec<HeardLine> = readings.lines.iter().enumerate().map(line).collect();
         all.sort_by(|a, b| a.log.total_cmp(&b.log));
         Self(all)
     }
 
     /// Price of the labels that differ from the given ones.
     fn told_price(&self, labels: &Labels) -> f64 {
-        let changed = |line: &&Line| line.told.is_some() && line.told != labels[line.place];
+        let changed = |line: &&HeardLine| line.told.is_some() && line.told != labels[line.place];
         self.0.iter().filter(changed).map(|line| line.other).sum()
     }
 

@@ -19,8 +19,7 @@ use std::f64::consts::SQRT_2;
 
 use crate::calibrate::fit::{Datum, Fit, Search};
 use crate::calibrate::unknowns::{Property, form};
-use sweetspot::base::error::Result;
-use sweetspot::base::threads;
+use crate::engine::{Result, threads};
 
 /// If the relative error of G/E is below this, one Gaussian is enough.
 const KNOWN: f64 = 0.10;

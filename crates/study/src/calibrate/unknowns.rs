@@ -3,55 +3,32 @@
 //! They are natural logarithms of the values over those of the bat file, so that no step makes a property negative and
 //! all are of similar size.
 
-use serde::Serialize;
-
 use crate::calibrate::readings::{Priors, ShearPrior};
+use crate::named::named;
 
-/// A property of the wood. The logarithm of each is sought; of G, that of G/E, the same all along the bat.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Property {
-    /// E (Pa); with two regions, of the handle.
-    YoungsModulus,
-    /// G (Pa); with two regions, of the handle. With the file's shear coefficient κ: only the product κG can be found.
-    ShearModulus,
-    /// Density (kg/m³); with two regions, of the handle.
-    Density,
-    /// Density of the barrel (kg/m³).
-    #[serde(rename = "density_barrel")]
-    BarrelDensity,
-    /// E of the barrel over E of the handle.
-    #[serde(rename = "youngs_modulus_ratio")]
-    ModulusRatio,
+named! {
+    /// A property of the wood. The logarithm of each is sought; of G, that of G/E, the same all along the bat.
+    pub enum Property {
+        /// E (Pa); with two regions, of the handle.
+        YoungsModulus = "youngs_modulus",
+        /// G (Pa); with two regions, of the handle. With the file's shear coefficient κ: only the product κG can be found.
+        ShearModulus = "shear_modulus",
+        /// Density (kg/m³); with two regions, of the handle.
+        Density = "density",
+        /// Density of the barrel (kg/m³).
+        BarrelDensity = "density_barrel",
+        /// E of the barrel over E of the handle.
+        ModulusRatio = "youngs_modulus_ratio",
+    }
 }
 
 /// Largest number of unknowns.
-pub const UNKNOWNS: usize = 5;
+pub const UNKNOWNS: usize = Property::ALL.len();
 
 impl Property {
-    /// All of them, in order.
-    pub const ALL: [Self; UNKNOWNS] = [
-        Self::YoungsModulus,
-        Self::ShearModulus,
-        Self::Density,
-        Self::BarrelDensity,
-        Self::ModulusRatio,
-    ];
-
     /// Those of one region or two.
     pub fn of(regions: usize) -> &'static [Self] {
         if regions == 1 { &Self::ALL[..3] } else { &Self::ALL }
-    }
-
-    /// Its name, as in a bat file.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::YoungsModulus => "youngs_modulus",
-            Self::ShearModulus => "shear_modulus",
-            Self::Density => "density",
-            Self::BarrelDensity => "density_barrel",
-            Self::ModulusRatio => "youngs_modulus_ratio",
-        }
     }
 
     /// Its unit.

@@ -17,18 +17,11 @@
 use std::f64::consts::TAU;
 
 use crate::calibrate::unknowns::{Logs, UNKNOWNS};
+use crate::engine::{
+    Bat, Change, Error, Layup, Material, Region, Request, Result, Shares, Solution, Theory, gauss,
+    solve, tuned,
+};
 use crate::ignored::with_typical_shear;
-use sweetspot::base::error::{Error, Result};
-use sweetspot::base::quadrature::gauss;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::edit::Change;
-use sweetspot::bat::fixtures::Region;
-use sweetspot::bat::layup::Layup;
-use sweetspot::bat::material::Material;
-use sweetspot::bat::theory::Theory;
-use sweetspot::modes::shares::Shares;
-use sweetspot::modes::solve::{Request, Solution, solve};
-use sweetspot::modes::tuned::tuned;
 
 /// Standard gravity (m/s²).
 pub const GRAVITY: f64 = 9.80665;

@@ -15,17 +15,12 @@
 //! compare all of them with far more accurate hits.
 
 pub use crate::answers::Figure;
+use crate::answers::{Answer, figure};
+use crate::engine::{
+    BarrelSpeed, Bat, Glance, HitsAlong, Hitter, Impact, Inertia, Model, Peak, Request, Result,
+    STANDARD_PIVOT, Scene, Sweep, SweetSpot, SwingLaw, Trial, sweep,
+};
 use crate::verdict::Verdict;
-use sweetspot::base::error::Result;
-use sweetspot::bat::body::{Bat, STANDARD_PIVOT};
-use sweetspot::bat::inertia::Inertia;
-use sweetspot::collision::figures::{BarrelSpeed, SwingLaw};
-use sweetspot::collision::hit::{Impact, Model, Scene};
-use sweetspot::collision::hitter::Hitter;
-use sweetspot::collision::strike::Glance;
-use sweetspot::collision::sweep::{Sweep, Trial, sweep};
-use sweetspot::collision::sweet_spot::{HitsAlong, Peak, SweetSpot};
-use sweetspot::modes::solve::Request;
 
 /// Accuracy of the exit speeds in a search for places, relative to the closing speed.
 const SOUGHT: f64 = 1e-6;
@@ -177,8 +172,7 @@ impl Contender {
 
     /// Frequency of a mode (Hz), counted from 1.
     pub fn frequency(&self, order: usize) -> Option<Figure> {
-        let mode = self.sweep.solution.modes.get(order - 1)?;
-        Some(Figure::new(mode.frequency(), mode.error.total() * mode.frequency()))
+        figure(Answer::Frequency(order), &self.bat, &self.sweep.solution)
     }
 
     /// A node of a mode (m), both counted from 1.

@@ -1,7 +1,6 @@
 //! Does a weighed mass hide the difference between two bats?
 
-use sweetspot::base::number::significant;
-use sweetspot::bat::body::Bat;
+use crate::engine::{Bat, significant};
 
 /// Least relative change of a density that is no rounding.
 const REAL: f64 = 1e-9;

@@ -10,12 +10,9 @@
 //!
 //! between two bats picked from the shelf. A bat and its edited copy are one piece, with one wood.
 
-use crate::answers::Answer;
 use crate::comparison::contender::Contender;
-use crate::spread::{Analysed, COUNTED, Input, Readings, Spread, place};
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::edit::Change;
-use sweetspot::collision::hit::Model;
+use crate::engine::{Bat, Change, Model};
+use crate::spread::{Analysed, COUNTED, Input, KEYS, Readings, Spread};
 
 /// Standard deviations due to the wood alone, in the order of [`COUNTED`]; `None` if unknown.
 pub type ByWood = [Option<f64>; COUNTED.len()];
@@ -46,19 +43,7 @@ pub fn by_wood(contender: &Contender, model: Model) -> ByWood {
 
 /// The answer that a row of figures is, by its key: its place in [`COUNTED`].
 pub fn answer(key: &str) -> Option<usize> {
-    place(match key {
-        "mass" => Answer::Mass,
-        "balance_point" => Answer::BalancePoint,
-        "swing_weight" => Answer::Inertia,
-        "frequency_1" => Answer::Frequency(1),
-        "frequency_2" => Answer::Frequency(2),
-        "frequency_3" => Answer::Frequency(3),
-        "best_exit_speed" => Answer::ExitSpeed,
-        "best_place" => Answer::ExitSpeedPlace,
-        "zone_from" => Answer::Zone(false),
-        "zone_to" => Answer::Zone(true),
-        _ => return None,
-    })
+    KEYS.iter().position(|[_, of_row]| *of_row == key)
 }
 
 /// Whether two bats are one piece of wood: one is the other with edits that do not change the wood.

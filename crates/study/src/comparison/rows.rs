@@ -3,42 +3,28 @@
 use serde::Serialize;
 
 use crate::comparison::contender::{Contender, Figure};
-use sweetspot::bat::body::STANDARD_PIVOT;
+use crate::engine::STANDARD_PIVOT;
+use crate::named::named;
 
-/// The unit of a row, in SI.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Unit {
-    /// Metres (m).
-    Metres,
-    /// Kilograms (kg).
-    Kilograms,
-    /// Kilograms times square metres (kg m²).
-    KilogramSquareMetres,
-    /// Hertz (Hz).
-    Hertz,
-    /// Radians per second (rad/s).
-    RadiansPerSecond,
-    /// Metres per second (m/s).
-    MetresPerSecond,
-    /// Joules (J).
-    Joules,
-    /// A pure number.
-    One,
-}
-
-impl Unit {
-    /// As keys of JSON and CSV end with it; empty for a pure number.
-    pub fn suffix(self) -> &'static str {
-        match self {
-            Self::Metres => "_m",
-            Self::Kilograms => "_kg",
-            Self::KilogramSquareMetres => "_kg_m2",
-            Self::Hertz => "_hz",
-            Self::RadiansPerSecond => "_rad_s",
-            Self::MetresPerSecond => "_m_s",
-            Self::Joules => "_j",
-            Self::One => "",
-        }
+named! {
+    /// The unit of a row, in SI, as keys of JSON and CSV end.
+    pub enum Unit {
+        /// Metres (m).
+        Metres = "_m",
+        /// Kilograms (kg).
+        Kilograms = "_kg",
+        /// Kilograms times square metres (kg m²).
+        KilogramSquareMetres = "_kg_m2",
+        /// Hertz (Hz).
+        Hertz = "_hz",
+        /// Radians per second (rad/s).
+        RadiansPerSecond = "_rad_s",
+        /// Metres per second (m/s).
+        MetresPerSecond = "_m_s",
+        /// Joules (J).
+        Joules = "_j",
+        /// A pure number.
+        One = "",
     }
 }
 
@@ -120,7 +106,7 @@ impl ComparedFigure {
 
     /// Its key with the unit at the end.
     pub fn key_with_unit(&self) -> String {
-        format!("{}{}", self.key, self.unit.suffix())
+        format!("{}{}", self.key, self.unit.name())
     }
 
     /// Difference of a bat from the first; `None` for the first, and if one of them has no value.

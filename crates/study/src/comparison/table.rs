@@ -4,11 +4,7 @@ use crate::comparison::contender::{Contender, Terms, multiples, places};
 use crate::comparison::pieces::{answer, by_wood, one_piece};
 use crate::comparison::rows::{Compared, ComparedFigure, From, figures, speeds};
 use crate::comparison::stretches::{Stretch, stretches};
-use sweetspot::base::error::{Error, Result};
-use sweetspot::bat::body::Bat;
-use sweetspot::collision::figures::SwingLaw;
-use sweetspot::collision::hit::{Model, Scene};
-use sweetspot::modes::solve::Request;
+use crate::engine::{Bat, Error, Model, Request, Result, Scene, SwingLaw};
 
 /// A bat with its own swing and its own request: the theories may differ.
 #[derive(Debug, Clone)]

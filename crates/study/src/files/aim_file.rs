@@ -7,19 +7,14 @@ use schemars::{JsonSchema, json_schema};
 
 use crate::aim::rules::RuleSet;
 use crate::aim::wish::{self, Ask, DiameterLimit, FreeChoice, Goal, SLOPES, Target, Wish};
+use crate::engine::{
+    Amount, Complaint, Document, Error, Folder, Mistakes, Node, Object, Outside, Quantity, Result,
+    part_file, shortest,
+};
 use crate::files::aim_text;
 use crate::files::form::{Form, amount, at, few, later, number, text, truth};
 use crate::files::rules_file;
 use crate::files::written::{Written, WrittenFile, object, written};
-use sweetspot::base::error::{Complaint, Error, Result};
-use sweetspot::base::mistakes::Mistakes;
-use sweetspot::base::number::shortest;
-use sweetspot::base::units::Quantity;
-use sweetspot::files::document::Document;
-use sweetspot::files::folder::{Folder, Outside};
-use sweetspot::files::json_node::{Node, Object};
-use sweetspot::files::part_file;
-use sweetspot::files::schema::amount::Amount;
 use sweetspot::files::schema::part::Material;
 
 /// An aim file, with which later mistakes find their place.
@@ -252,10 +247,7 @@ written! {
     }
     |of| -> [f64; 2] {
         of.sound()?;
-        match from >= 0.0 && from < to {
-            true => Ok([from, to]),
-            false => Err(of.node().error(format!("{from} m to {to} m"), RISING)),
-        }
+        if from >= 0.0 && from < to { Ok([from, to]) } else { Err(of.node().error(format!("{from} m to {to} m"), RISING)) }
     }
 }
 

@@ -1,46 +1,17 @@
 //! How is a wish said in words: "sweet spot 1 cm outward", "swing weight -3 % within 5 oz in2"?
 
+use std::sync::LazyLock;
+
 use crate::aim::wish::{Amount, Ask, DiameterLimit, FreeChoice, Goal, Target};
 use crate::answers::Answer;
+use crate::engine::{BUILT_IN, Complaint, Error, Material, Quantity, nearest, typed, units};
 use crate::files::wish_words::{self, Verb, WishedChange, after, before};
-use sweetspot::base::error::{Complaint, Error, nearest};
-use sweetspot::base::typed;
-use sweetspot::base::units::{self, Quantity};
-use sweetspot::bat::material::{BUILT_IN, Material};
 
 /// Common names of goals.
-const CALLED: [(&str, Goal); 30] = [
-    ("sweet spot", Goal::Answer(Answer::ExitSpeedPlace)),
-    ("best place", Goal::Answer(Answer::ExitSpeedPlace)),
-    ("swing weight", Goal::Answer(Answer::Inertia)),
-    ("swingweight", Goal::Answer(Answer::Inertia)),
-    ("moment of inertia", Goal::Answer(Answer::Inertia)),
-    ("moi", Goal::Answer(Answer::Inertia)),
-    ("mass", Goal::Answer(Answer::Mass)),
-    ("weight", Goal::Answer(Answer::Mass)),
-    ("balance point", Goal::Answer(Answer::BalancePoint)),
-    ("balance", Goal::Answer(Answer::BalancePoint)),
-    ("cop", Goal::Answer(Answer::CenterOfPercussion)),
-    ("center of percussion", Goal::Answer(Answer::CenterOfPercussion)),
-    ("centre of percussion", Goal::Answer(Answer::CenterOfPercussion)),
-    ("exit speed", Goal::Answer(Answer::ExitSpeed)),
-    ("best ball", Goal::Answer(Answer::ExitSpeed)),
-    ("pop", Goal::Answer(Answer::ExitSpeed)),
-    ("exit velocity", Goal::Answer(Answer::ExitSpeed)),
-    ("exit velo", Goal::Answer(Answer::ExitSpeed)),
-    ("ball speed", Goal::Answer(Answer::ExitSpeed)),
-    ("batted-ball speed", Goal::Answer(Answer::ExitSpeed)),
-    ("batted ball speed", Goal::Answer(Answer::ExitSpeed)),
-    ("vibration", Goal::Answer(Answer::Vibration)),
-    ("bbcor", Goal::Answer(Answer::Bbcor)),
-    ("drop", Goal::Drop),
-    ("fundamental", Goal::Answer(Answer::Frequency(1))),
-    ("first frequency", Goal::Answer(Answer::Frequency(1))),
-    ("second frequency", Goal::Answer(Answer::Frequency(2))),
-    ("node 1", Goal::Answer(Answer::Node(1))),
-    ("node 2", Goal::Answer(Answer::Node(2))),
-    ("node 3", Goal::Answer(Answer::Node(3))),
-];
+static CALLED: LazyLock<Vec<(&str, Goal)>> = LazyLock::new(|| {
+    let goal = |name: &str| Goal::named(name).expect("the words name goals");
+    wish_words::named("goal ").map(|(name, called)| (called, goal(name))).collect()
+});
 
 /// The mistake, in parts.
 type Said<T> = std::result::Result<T, Complaint>;
@@ -200,14 +171,11 @@ fn read(text: &str) -> Said<Target> {
     let (verb, rest) = wish_words::verb(wish);
     let (goal, rest) = of_what(verb, rest)?;
     let within = within.map(|within| tolerance(&wish_words::figures(within), goal)).transpose()?;
-    let ask = asked(text, verb, &rest, goal)?;
-    match (ask, within) {
-        (Ask::Change(by, _), _) => Ok(Target { goal, ask: Ask::Change(by, within) }),
-        (Ask::Value(value, _), _) => Ok(Target { goal, ask: Ask::Value(value, within) }),
-        (Ask::Between(..), None) => Ok(Target { goal, ask }),
-        (Ask::Between(..), Some(_)) => {
+    match asked(text, verb, &rest, (goal, within))? {
+        Ask::Between(..) if within.is_some() => {
             Err(wrong(text, "\"within\" beside a change or a value: a limit is kept exactly"))
         }
+        ask => Ok(Target { goal, ask }),
     }
 }
 
@@ -271,54 +239,37 @@ fn unnamed(verb: Option<Verb>, words: &str) -> Option<Goal> {
 }
 
 /// The wish for a goal, from the verb and the other words.
-fn asked(text: &str, verb: Option<Verb>, rest: &str, goal: Goal) -> Said<Ask> {
-    let way = wish_words::way(rest);
-    let none = WishedChange::Plain("");
-    match (verb, way) {
-        (None, WishedChange::Same) => Ok(Ask::Change(Amount::Si(0.0), None)),
-        (Some(Verb::Keep), way) if way == none || way == WishedChange::Same => {
-            Ok(Ask::Change(Amount::Si(0.0), None))
+fn asked(
+    text: &str,
+    verb: Option<Verb>,
+    rest: &str,
+    (goal, within): (Goal, Option<Amount>),
+) -> Said<Ask> {
+    use WishedChange::{AtLeast, AtMost, Less, More, Plain, Same, To};
+    let keeps = matches!(verb, None | Some(Verb::Keep));
+    let expected = "what is wished of it, such as \"-3 %\", \"at most 31 oz\", \"1 cm outward\"";
+    let changed = |by: Amount| Ok(Ask::Change(by, within));
+    match (verb, wish_words::way(rest)) {
+        (_, Same) if keeps => changed(Amount::Si(0.0)),
+        (Some(Verb::Keep), Plain("")) => changed(Amount::Si(0.0)),
+        (Some(Verb::NoLess), Plain("")) => Ok(Ask::Between(Some(Amount::Share(1.0)), None)),
+        (_, AtMost(most)) if keeps => Ok(Ask::Between(None, Some(value(most, goal)?))),
+        (_, AtLeast(least)) if keeps => Ok(Ask::Between(Some(value(least, goal)?), None)),
+        (verb, To(size)) if verb != Some(Verb::NoLess) => {
+            Ok(Ask::Value(value(size, goal)?, within))
         }
-        (Some(Verb::NoLess), way) if way == none => {
-            Ok(Ask::Between(Some(Amount::Share(1.0)), None))
-        }
-        (None | Some(Verb::Keep), WishedChange::AtMost(most)) => {
-            Ok(Ask::Between(None, Some(value(most, goal)?)))
-        }
-        (None | Some(Verb::Keep), WishedChange::AtLeast(least)) => {
-            Ok(Ask::Between(Some(value(least, goal)?), None))
-        }
-        (None | Some(Verb::Keep | Verb::Less | Verb::More), WishedChange::To(size)) => {
-            Ok(Ask::Value(value(size, goal)?, None))
-        }
-        (Some(Verb::Less), WishedChange::Plain(size) | WishedChange::Less(size))
-            if !size.is_empty() =>
-        {
-            Ok(Ask::Change(by(size, goal, -1.0)?, None))
-        }
-        (Some(Verb::More), WishedChange::Plain(size) | WishedChange::More(size))
-            if !size.is_empty() =>
-        {
-            Ok(Ask::Change(by(size, goal, 1.0)?, None))
-        }
-        (None, WishedChange::More(size)) if !size.is_empty() => {
-            Ok(Ask::Change(moved(rest, size, goal, 1.0)?, None))
-        }
-        (None, WishedChange::Less(size)) if !size.is_empty() => {
-            Ok(Ask::Change(moved(rest, size, goal, -1.0)?, None))
-        }
-        (None, WishedChange::Plain(size)) if !size.is_empty() => {
-            let share = size.ends_with('%');
-            if !share && (goal == Goal::Drop || !size.starts_with(['+', '-'])) {
-                return Ok(Ask::Value(value(size, goal)?, None));
+        (_, Plain("") | Less("") | More("")) => Err(wrong(text, expected)),
+        (Some(Verb::Less), Plain(size) | Less(size)) => changed(by(size, goal, -1.0)?),
+        (Some(Verb::More), Plain(size) | More(size)) => changed(by(size, goal, 1.0)?),
+        (None, More(size)) => changed(moved(rest, size, goal, 1.0)?),
+        (None, Less(size)) => changed(moved(rest, size, goal, -1.0)?),
+        (None, Plain(size)) => {
+            match size.ends_with('%') || goal != Goal::Drop && size.starts_with(['+', '-']) {
+                true => changed(change(size, goal)?),
+                false => Ok(Ask::Value(value(size, goal)?, within)),
             }
-            Ok(Ask::Change(change(size, goal)?, None))
         }
-        _ => {
-            let expected =
-                "what is wished of it, such as \"-3 %\", \"at most 31 oz\", \"1 cm outward\"";
-            Err(wrong(text, expected))
-        }
+        _ => Err(wrong(text, expected)),
     }
 }
 

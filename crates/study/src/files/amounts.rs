@@ -3,12 +3,8 @@
 use schemars::JsonSchema;
 
 use crate::calibrate::readings::Reading;
+use crate::engine::{Amount, Complaint, Node, Quantity, Result, typed, units};
 use crate::files::form::{Form, sound};
-use sweetspot::base::error::{Complaint, Result};
-use sweetspot::base::typed;
-use sweetspot::base::units::{self, Quantity};
-use sweetspot::files::json_node::Node;
-use sweetspot::files::schema::amount::Amount;
 
 /// Marks between a reading and its standard deviation.
 const MARKS: [&str; 3] = ["±", "+/-", "+-"];

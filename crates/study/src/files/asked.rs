@@ -1,9 +1,7 @@
 //! Names of outputs, and correlations of names, in files.
 
+use crate::engine::{Node, Result, mistakes};
 use crate::files::form::{at, sound};
-use sweetspot::base::error::Result;
-use sweetspot::base::mistakes;
-use sweetspot::files::json_node::Node;
 
 /// The outputs by their names: at least one, each once.
 pub(super) fn outputs<T: Copy + PartialEq>(

@@ -8,11 +8,8 @@ use schemars::transform::Transform;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde_json::{Map, Value, json};
 
-use sweetspot::base::error::{Complaint, Error, Result};
-use sweetspot::base::mistakes;
-use sweetspot::base::units::Quantity;
-use sweetspot::files::json_node::Node;
-use sweetspot::files::schema::amount::{Amount, Measures};
+use crate::engine::{Amount, Complaint, Error, Node, Quantity, Result, mistakes};
+use sweetspot::files::schema::amount::Measures;
 
 /// Reads a value of a file, with its place in every mistake.
 type Reader<T> = Box<dyn Fn(&Node) -> Result<T>>;
@@ -168,10 +165,7 @@ pub fn later<S: JsonSchema>() -> Form<()> {
 ///
 /// The expected text.
 pub fn sound(node: &Node, is_sound: bool, expected: &str) -> Result<()> {
-    match is_sound {
-        true => Ok(()),
-        false => Err(node.error(node.shown(), expected)),
-    }
+    if is_sound { Ok(()) } else { Err(node.error(node.shown(), expected)) }
 }
 
 /// An error in something that a value names, reported at the value.

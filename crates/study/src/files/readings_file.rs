@@ -7,15 +7,10 @@ use crate::calibrate::readings::{
     BatReadings, Pendulum, Priors, Reading, RingDown, ShearPrior, SpectralLine,
 };
 use crate::calibrate::unknowns::covariance;
+use crate::engine::{Node, Quantity, Result, STANDARD_PIVOT, inverse, mistakes};
 use crate::files::amounts::{reading, share};
 use crate::files::form::{Form, amount, list, number, sound, text};
 use crate::files::written::{object, written};
-use sweetspot::base::error::Result;
-use sweetspot::base::linear::inverse;
-use sweetspot::base::mistakes;
-use sweetspot::base::units::Quantity;
-use sweetspot::bat::body::STANDARD_PIVOT;
-use sweetspot::files::json_node::Node;
 
 written! {
     /// Readings of a bat, for sweetspot calibrate: by scale, ruler, pendulum and microphone. At least one reading;

@@ -5,12 +5,9 @@ use std::ops::Bound::{Excluded, Unbounded};
 use std::path::Path;
 
 use crate::aim::rules::{Rule, RuleSet};
+use crate::engine::{Complaint, Document, Error, Folder, Quantity, Result};
 use crate::files::form::{Form, amount, list, number, text, truth};
 use crate::files::written::{WrittenFile, written};
-use sweetspot::base::error::{Complaint, Error, Result};
-use sweetspot::base::units::Quantity;
-use sweetspot::files::document::Document;
-use sweetspot::files::folder::Folder;
 
 /// The rules that travel with the program: name and file.
 pub const BUILT_IN: [(&str, &str); 7] = [
@@ -70,32 +67,33 @@ written! {
         /// Further demands of the rules, which are not computed here.
         ask = list(text());
         /// Greatest diameter anywhere.
-        diameter_at_most = above_0(Quantity::Length).map(Rule::DiameterAtMost);
+        diameter_at_most = above_0(Quantity::Length);
         /// Greatest length.
-        length_at_most = above_0(Quantity::Length).map(Rule::LengthAtMost);
+        length_at_most = above_0(Quantity::Length);
         /// Greatest mass.
-        mass_at_most = above_0(Quantity::Mass).map(Rule::MassAtMost);
+        mass_at_most = above_0(Quantity::Mass);
         /// Least moment of inertia about the point 6 in from the knob end.
-        inertia_at_least = above_0(Quantity::Inertia).map(Rule::InertiaAtLeast);
+        inertia_at_least = above_0(Quantity::Inertia);
         /// Greatest depth of a cup in the tip.
-        cup_depth_at_most = above_0(Quantity::Length).map(Rule::CupDepthAtMost);
+        cup_depth_at_most = above_0(Quantity::Length);
         /// Least diameter of a cup.
-        cup_diameter_at_least = above_0(Quantity::Length).map(Rule::CupDiameterAtLeast);
+        cup_diameter_at_least = above_0(Quantity::Length);
         /// Greatest diameter of a cup.
-        cup_diameter_at_most = above_0(Quantity::Length).map(Rule::CupDiameterAtMost);
+        cup_diameter_at_most = above_0(Quantity::Length);
         /// Greatest drop: length in inches less mass in ounces.
-        drop_at_most = number().map(Rule::DropAtMost);
+        drop_at_most = number();
         /// Greatest BBCOR.
-        bbcor_at_most = number().map(Rule::BbcorAtMost);
+        bbcor_at_most = number();
         /// Whether the bat must be one piece.
         one_piece = truth();
     }
     |_| -> RuleSet {
         let measured = [diameter_at_most, length_at_most, mass_at_most, inertia_at_least];
         let of_cup = [cup_depth_at_most, cup_diameter_at_least, cup_diameter_at_most];
-        let others =
-            [drop_at_most, bbcor_at_most, one_piece.filter(|one| *one).map(|_| Rule::OnePiece)];
-        let rules = measured.into_iter().chain(of_cup).chain(others).flatten().collect();
+        let limits = measured.into_iter().chain(of_cup).chain([drop_at_most, bbcor_at_most]);
+        let numbers = Rule::ALL.into_iter().zip(limits).filter(|(_, limit)| limit.is_some());
+        let whole = one_piece.filter(|one| *one).map(|_| (Rule::OnePiece, None));
+        let rules = numbers.chain(whole).collect();
         let (game, ask) = (game.unwrap_or_default(), ask.unwrap_or_default());
         Ok(RuleSet { name, game, source, date, rules, ask })
     }

@@ -6,22 +6,16 @@ use std::collections::BTreeMap;
 use std::ops::Bound::{Excluded, Included};
 
 use crate::answers::Answer;
+use crate::engine::{
+    Ball, Bat, Complaint, Node, Quantity, Result, Scatter, Setup, balls, scene_file,
+};
 use crate::files::amounts::{Said, share};
 use crate::files::asked;
 use crate::files::form::{amount, at, later, text};
 use crate::files::written::{Members, object, written};
-use crate::scatter::rows::{AT_IMPACT, Output};
+use crate::scatter::rows::{AT_IMPACT, Output, ScatterPlan};
 use crate::scatter::spreads::{Difference, Differences, Differs};
 use crate::scatter::turning::Turning;
-use sweetspot::base::error::{Complaint, Result};
-use sweetspot::base::units::Quantity;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::material::Scatter;
-use sweetspot::collision::ball::Ball;
-use sweetspot::collision::setup::Setup;
-use sweetspot::files::balls;
-use sweetspot::files::json_node::Node;
-use sweetspot::files::scene_file;
 
 /// Default outputs.
 const USUAL: [&str; 6] = [
@@ -34,37 +28,26 @@ const USUAL: [&str; 6] = [
 ];
 /// Default accuracy.
 const TOLERANCE: f64 = 1e-4;
+/// Default number of rows.
+const POINTS: u64 = 1024;
 /// Default width of a lathe's error along a bat (m): 12 in.
 const ALONG: f64 = 0.3048;
 
-/// The content of a file.
-#[derive(Debug, Clone)]
-pub struct ScatterFile {
-    /// The differences.
-    pub differences: Differences,
-    /// How the bat is hit in the middle.
-    pub setup: Setup,
-    /// Mean impact point (m), if it is given.
-    pub impact: Option<f64>,
-    /// The outputs.
-    pub outputs: Vec<Output>,
-    /// Accuracy.
-    pub tolerance: f64,
-}
-
 /// The default differences: the wood, from piece to piece of one species, stiffness and density independent
 /// ([`sweetspot::bat::material::Material::scatter`]), with the usual outputs. `None` for a bat that is not of wood.
-pub fn of_wood(bat: &Bat) -> Option<ScatterFile> {
+pub fn of_wood(bat: &Bat) -> Option<ScatterPlan> {
     let Scatter { youngs_modulus, density } = bat.material().scatter()?;
     let one = |what, deviation| Difference { what, deviation };
     let (density, modulus) =
         (one(Differs::Density, density), one(Differs::YoungsModulus, youngs_modulus));
-    Some(ScatterFile {
+    Some(ScatterPlan {
         differences: Differences { all: vec![density, modulus], correlations: vec![] },
         setup: Setup::default(),
         impact: None,
         outputs: usual().ok()?,
         tolerance: TOLERANCE,
+        points: POINTS,
+        seed: 1,
     })
 }
 
@@ -107,7 +90,7 @@ written! {
         /// The impact point.
         impact = object::<ImpactForm>();
     }
-    |of| -> ScatterFile {
+    |of| -> ScatterPlan {
         let setup = setup(of, ball);
         let (impact, middle) = impact.unzip();
         let wood = [density, youngs_modulus, shear_over_young, turning, moisture];
@@ -136,7 +119,8 @@ written! {
         let node = of.at("correlation").or(of.at("covariance")).unwrap_or(node);
         differences.designs(1.0, 64, 0).map_err(|error| at(node, error))?;
         let (impact, tolerance) = (middle.flatten(), tol.unwrap_or(TOLERANCE));
-        Ok(ScatterFile { differences, setup, impact, outputs, tolerance })
+        let (points, seed) = (POINTS, 1);
+        Ok(ScatterPlan { differences, setup, impact, outputs, tolerance, points, seed })
     }
 }
 
@@ -261,14 +245,12 @@ fn calibrated(of: &Members, name: &str, differences: &mut Differences) -> Result
     for (k, item) in listed.iter().enumerate() {
         let object = item.members()?;
         let name = object.require("name", "\"name\" of the parameter")?;
-        let what = match &*name.string()? {
-            "youngs_modulus" => Differs::YoungsModulus,
-            "shear_modulus" => Differs::ShearModulus,
-            "density" => Differs::Density,
-            "density_barrel" => Differs::BarrelDensity,
-            "youngs_modulus_ratio" => Differs::ModulusRatio,
-            _ => return Err(name.error(name.shown(), "a parameter of a calibration")),
-        };
+        use Differs::{BarrelDensity, Density, ModulusRatio, ShearModulus, YoungsModulus};
+        let known = [YoungsModulus, ShearModulus, Density, BarrelDensity, ModulusRatio];
+        let text = name.string()?;
+        let what = known.into_iter().find(|what| what.name() == text);
+        let wrong = || name.error(name.shown(), "a parameter of a calibration");
+        let what = what.ok_or_else(wrong)?;
         // A held property does not differ.
         if matrix[k][k] > 1e-16 {
             found.push((k, Difference { what, deviation: matrix[k][k].sqrt() }));
@@ -296,9 +278,8 @@ fn asked(node: Option<&Node>, differences: &Differences) -> Result<Vec<Output>> 
         let all = usual()?.into_iter().chain(at_impact.then_some(Output::AtImpact));
         return Ok(all.collect());
     };
-    let outputs = asked::outputs(node, |name| match name == AT_IMPACT {
-        true => Ok(Output::AtImpact),
-        false => Answer::named(name).map(Output::Of),
+    let outputs = asked::outputs(node, |name| {
+        if name == AT_IMPACT { Ok(Output::AtImpact) } else { Answer::named(name).map(Output::Of) }
     })?;
     Ok(outputs.into_iter().map(|(_, output)| output).collect())
 }

@@ -7,6 +7,7 @@ use schemars::JsonSchema;
 use serde_json::{Map, Value, json};
 
 use crate::answers::Answer;
+use crate::engine::{Ball, Complaint, Error, FilePosition, Node, Result, mistakes, scene_file};
 use crate::files::amounts::Said;
 use crate::files::asked;
 use crate::files::form::{Form, later, number, text, whole};
@@ -14,17 +15,7 @@ use crate::files::study_vary::{VariationForm, Varied, VariedFile, varied};
 use crate::files::written::{Members, written};
 use crate::many::design::{Axis, Design, Spread, Wanted};
 use crate::many::rows::Asked;
-use sweetspot::base::error::{Complaint, Error, FilePosition, Result};
-use sweetspot::base::mistakes;
-use sweetspot::collision::ball::Ball;
-use sweetspot::files::json_node::Node;
-use sweetspot::files::scene_file;
 
-const SPREADS: [(&str, Spread); 3] = [
-    ("sobol", Spread::Sobol),
-    ("latin-hypercube", Spread::LatinHypercube),
-    ("random", Spread::Random),
-];
 /// Default number of points.
 const POINTS: u64 = 1000;
 
@@ -130,8 +121,8 @@ written! {
         /// Triples of two paths that are drawn and the correlation of their normal scores.
         correlations = later::<Vec<(String, String, f64)>>();
         /// How points are spread. Without it sobol.
-        design = Form::of::<String>(|node| node.word(&SPREADS))
-            .saying("enum", json!(SPREADS.map(|(name, _)| name)));
+        design = Form::of::<String>(|node| node.word(&Spread::ALL.map(|one| (one.name(), one))))
+            .saying("enum", json!(Spread::ALL.map(Spread::name)));
         /// Points drawn for each combination of the lists. Without it 1000.
         points = whole().saying("minimum", 1);
         /// Another seed draws other points. Without it 0.

@@ -11,18 +11,12 @@ use serde_json::{Map, Value};
 
 use crate::answers::on_the_bat;
 use crate::comparison::contender::Figure;
+use crate::engine::{Ball, Bat, Error, Result, Setup, marks, scene_file, shortest};
 use crate::files::study_file::StudyFile;
 use crate::files::study_vary::VariedFile;
 use crate::many::design::{MOST_ROWS, Row};
-use crate::many::rows::{Asked, Found, Trial};
-use sweetspot::base::error::{Error, Result};
-use sweetspot::base::marks;
-use sweetspot::base::number::shortest;
-use sweetspot::bat::body::Bat;
-use sweetspot::collision::ball::Ball;
-use sweetspot::collision::setup::Setup;
+use crate::many::rows::{Asked, BatAnswers, Trial};
 use sweetspot::files::ball_file::written;
-use sweetspot::files::scene_file;
 
 /// Combinations of lists, and rows, that are tried.
 const TRIED: u64 = 32;
@@ -169,7 +163,7 @@ impl Rows {
 
     /// The results of those rows, in the order of the outputs, or the reason why there are none. A row's results do not
     /// depend on which other rows are requested.
-    pub fn answers(&self, rows: Range<u64>) -> Vec<Result<Found>> {
+    pub fn answers(&self, rows: Range<u64>) -> Vec<Result<BatAnswers>> {
         let each = self.study.design.rows();
         let mut found = vec![];
         let mut from = rows.start;
@@ -181,13 +175,17 @@ impl Rows {
         found
     }
 
-    fn answers_of_one_bat(&self, rows: Range<u64>) -> Vec<Result<Found>> {
+    fn answers_of_one_bat(&self, rows: Range<u64>) -> Vec<Result<BatAnswers>> {
         let of: Vec<(&Varying, Row)> = rows.map(|k| self.row(k)).collect();
         let Some((bat, _)) = of.first() else { return vec![] };
         self.answers_of_rows(bat, &of.iter().map(|(_, row)| row).collect::<Vec<_>>())
     }
 
-    pub(super) fn answers_of_rows(&self, varying: &Varying, rows: &[&Row]) -> Vec<Result<Found>> {
+    pub(super) fn answers_of_rows(
+        &self,
+        varying: &Varying,
+        rows: &[&Row],
+    ) -> Vec<Result<BatAnswers>> {
         let asked = &self.study.asked;
         let trial = |k: usize, bat: &Bat| self.trial(rows[k], bat);
         let bats = rows.iter().map(|row| self.bat(varying, row));
@@ -269,7 +267,7 @@ impl Rows {
         (!right).then(|| (met, "true, or false and why in the row".to_owned()))
     }
 
-    fn cells_of(&self, k: u64, found: Result<Found>) -> Vec<String> {
+    fn cells_of(&self, k: u64, found: Result<BatAnswers>) -> Vec<String> {
         let (bat, _) = self.row(k);
         let answers = self.study.asked.answers.len();
         let mut cells = self.inputs_of(k);

@@ -5,19 +5,15 @@
 
 use serde_json::{Value, json};
 
+use crate::engine::{
+    Amount, Complaint, Error, FilePosition, Mistakes, Node, Quantity, Result, Setup, marks,
+    mistakes, shortest, typed, units,
+};
 use crate::files::form::later;
 use crate::files::written::{Written, written};
 use crate::many::design::{Axis, Row, Wanted};
 use crate::many::distribution::Distribution;
-use sweetspot::base::error::{Complaint, Error, FilePosition, Result};
-use sweetspot::base::marks;
-use sweetspot::base::mistakes::{self, Mistakes};
-use sweetspot::base::number::shortest;
-use sweetspot::base::typed;
-use sweetspot::base::units::{self, Quantity};
-use sweetspot::collision::setup::Setup;
-use sweetspot::files::json_node::Node;
-use sweetspot::files::schema::amount::Amount;
+use crate::named::named;
 
 written! {
     /// The variation of a member: one of these. The numbers of one variation are all bare or all in the same unit.
@@ -38,19 +34,16 @@ written! {
     |_| -> () { Ok(()) }
 }
 
-/// The documents whose members may vary.
-const SUBJECTS: &[(&str, VariedFile)] =
-    &[("bat", VariedFile::Bat), ("ball", VariedFile::Ball), ("scene", VariedFile::Scene)];
-
-/// Whose member varies.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum VariedFile {
-    /// The bat file's.
-    Bat,
-    /// The ball file's.
-    Ball,
-    /// The scene's.
-    Scene,
+named! {
+    /// Whose member varies.
+    pub enum VariedFile {
+        /// The bat file's.
+        Bat = "bat",
+        /// The ball file's.
+        Ball = "ball",
+        /// The scene's.
+        Scene = "scene",
+    }
 }
 
 /// A member that varies.
@@ -74,15 +67,17 @@ enum Step {
     Item(usize),
 }
 
-/// The variation of a member. The first number is that of its list or its distribution in a row; units may be empty.
+/// The variation of a member.
 #[derive(Debug, Clone)]
-enum Variation {
-    /// By one of these.
-    Listed(usize, Vec<Listed>),
-    /// By one of these numbers in that unit.
-    Numbered(usize, Vec<f64>, String),
-    /// By a number in that unit.
-    Drawn(usize, String),
+struct Variation {
+    /// Its list or its distribution in a row.
+    axis: Axis,
+    /// The numbers of a list of numbers, in the unit.
+    numbers: Vec<f64>,
+    /// The values of another list.
+    listed: Vec<Listed>,
+    /// The unit of its numbers, which may be empty.
+    unit: String,
 }
 
 /// A value of a list.
@@ -95,53 +90,48 @@ struct Listed {
 }
 
 impl Varied {
+    /// Its number in a row, or the value of its list.
+    fn of_row(&self, row: &Row) -> std::result::Result<f64, &Listed> {
+        match self.way.axis {
+            Axis::Drawn(k) => Ok(row.values[k]),
+            Axis::List(k) => {
+                let pick = row.picks[k] as usize;
+                self.way.numbers.get(pick).copied().ok_or_else(|| &self.way.listed[pick])
+            }
+        }
+    }
+
     /// Its value in a row, as a document has it.
     pub fn value(&self, row: &Row) -> Value {
-        let in_unit = |value: f64, unit: &str| match unit {
-            "" => Value::from(value),
-            unit => format!("{} {unit}", shortest(value)).into(),
-        };
-        match &self.way {
-            Variation::Listed(k, values) => values[row.picks[*k] as usize].meant.clone(),
-            Variation::Numbered(k, values, unit) => in_unit(values[row.picks[*k] as usize], unit),
-            Variation::Drawn(k, unit) => in_unit(row.values[*k], unit),
+        match (self.of_row(row), self.unit()) {
+            (Ok(number), "") => number.into(),
+            (Ok(number), unit) => format!("{} {unit}", shortest(number)).into(),
+            (Err(listed), _) => listed.meant.clone(),
         }
     }
 
     /// Its value in a row as a cell of a table: a number in its unit, or the item of the list.
     pub fn cell(&self, row: &Row) -> String {
-        match &self.way {
-            Variation::Drawn(k, _) => shortest(row.values[*k]),
-            Variation::Numbered(k, values, _) => shortest(values[row.picks[*k] as usize]),
-            Variation::Listed(k, values) => match &values[row.picks[*k] as usize].said {
-                Value::String(text) => marks::cell(text),
-                other => other.to_string(),
-            },
+        match self.of_row(row).map_err(|listed| &listed.said) {
+            Ok(number) => shortest(number),
+            Err(Value::String(text)) => marks::cell(text),
+            Err(other) => other.to_string(),
         }
     }
 
     /// Its axis in the design.
     pub fn axis(&self) -> Axis {
-        match self.way {
-            Variation::Listed(k, _) | Variation::Numbered(k, ..) => Axis::List(k),
-            Variation::Drawn(k, _) => Axis::Drawn(k),
-        }
+        self.way.axis
     }
 
     /// Whether all its values are numbers.
     pub fn is_number(&self) -> bool {
-        match &self.way {
-            Variation::Drawn(..) | Variation::Numbered(..) => true,
-            Variation::Listed(_, values) => values.iter().all(|value| value.said.is_number()),
-        }
+        self.way.listed.iter().all(|value| value.said.is_number())
     }
 
     /// The unit of its numbers, empty for bare numbers and for lists.
     pub fn unit(&self) -> &str {
-        match &self.way {
-            Variation::Drawn(_, unit) | Variation::Numbered(_, _, unit) => unit,
-            Variation::Listed(..) => "",
-        }
+        &self.way.unit
     }
 
     /// Replaces profiles that name a file, `{"csv": …}`, by what `of` makes of them.
@@ -151,8 +141,7 @@ impl Varied {
     /// Those of `of`, in the study.
     pub fn replace_tables(&mut self, mut of: impl FnMut(&Value) -> Result<Value>) -> Result<()> {
         let is_profile = self.subject == VariedFile::Bat && self.inside == [member("profile")];
-        let Variation::Listed(_, values) = &mut self.way else { return Ok(()) };
-        for Listed { meant, .. } in values.iter_mut().filter(|_| is_profile) {
+        for Listed { meant, .. } in self.way.listed.iter_mut().filter(|_| is_profile) {
             if meant.get("csv").is_some() {
                 let placed = |complaint| wrong(&self.path, &self.place, complaint);
                 *meant = of(meant).map_err(|error| error.placed(placed))?;
@@ -279,8 +268,8 @@ pub(crate) fn varied(node: &Node, wanted: &mut Wanted) -> Result<Vec<Varied>> {
 fn led(path: &str, key: &Node) -> Result<(VariedFile, Vec<Step>)> {
     let found = format!("\"{path}\"");
     let subject = path.split_once('.').and_then(|(first, inside)| {
-        let (_, subject) = SUBJECTS.iter().find(|(name, _)| *name == first)?;
-        Some((*subject, inside, steps(inside)?))
+        let subject = VariedFile::ALL.into_iter().find(|subject| subject.name() == first)?;
+        Some((subject, inside, steps(inside)?))
     });
     let Some((subject, inside, steps)) = subject else {
         let expected = "a path that begins with bat., ball. or scene., such as \
@@ -309,20 +298,19 @@ fn way(node: &Node, wanted: &mut Wanted) -> Result<Variation> {
         return Err(node.error("nothing that says how it varies", expected));
     };
     let items = node.items()?;
-    let mut list = |length: usize| {
-        wanted.lists.push(length as u64);
-        wanted.lists.len() - 1
+    let mut list = |numbers: Vec<f64>, listed: Vec<Listed>, unit: String| {
+        wanted.lists.push(numbers.len().max(listed.len()) as u64);
+        Variation { axis: Axis::List(wanted.lists.len() - 1), numbers, listed, unit }
     };
     if way == "values" {
         if items.is_empty() {
             return Err(node.error("an empty list", "one value at least"));
         }
-        let k = list(items.len());
         if let Some((numbers, unit)) = of_one_unit(&items) {
-            return Ok(Variation::Numbered(k, numbers, unit));
+            return Ok(list(numbers, vec![], unit));
         }
         let listed = items.iter().map(Node::value).map(|said| Listed { meant: said.clone(), said });
-        return Ok(Variation::Listed(k, listed.collect()));
+        return Ok(list(vec![], listed.collect(), String::new()));
     }
     let forms: [(&str, &str, usize); 5] = [
         ("grid", "[from, to, how many], such as [\"0 oz\", \"2 oz\", 9]", 3),
@@ -356,7 +344,7 @@ fn way(node: &Node, wanted: &mut Wanted) -> Result<Variation> {
             let share = k as f64 / (count - 1) as f64;
             (1.0 - share) * numbers[0] + share * numbers[1]
         };
-        return Ok(Variation::Numbered(list(count as usize), (0..count).map(at).collect(), unit));
+        return Ok(list((0..count).map(at).collect(), vec![], unit));
     }
     let distribution = match way {
         "uniform" => Distribution::Uniform { from: numbers[0], to: numbers[1] },
@@ -373,7 +361,8 @@ fn way(node: &Node, wanted: &mut Wanted) -> Result<Variation> {
         })
     })?;
     wanted.drawn.push(distribution);
-    Ok(Variation::Drawn(wanted.drawn.len() - 1, unit))
+    let axis = Axis::Drawn(wanted.drawn.len() - 1);
+    Ok(Variation { axis, numbers: vec![], listed: vec![], unit })
 }
 
 /// The numbers of values that all have the same unit, and that.

@@ -2,12 +2,11 @@
 
 use std::path::Path;
 
+use crate::engine::{Bat, threads};
 use crate::files::study_rows::{Rows, Varying};
 use crate::files::study_vary::VariedFile;
 use crate::many::design::{Axis, Row};
-use crate::many::rows::Found;
-use sweetspot::base::threads;
-use sweetspot::bat::body::Bat;
+use crate::many::rows::BatAnswers;
 
 impl Rows {
     /// Warnings before the work: about the bats, as their files describe them and as the study varies them, about the
@@ -96,10 +95,10 @@ impl Rows {
             let changes = |bat: &Varying, row: &Row| {
                 let of = beside(row, k);
                 let found = self.answers_of_rows(bat, &of.iter().collect::<Vec<_>>());
-                let known: Option<Vec<&Found>> =
+                let known: Option<Vec<&BatAnswers>> =
                     found.iter().map(|one| one.as_ref().ok()).collect();
                 let same =
-                    |known: &[&Found]| known[1..].iter().all(|other| !other.differs(known[0]));
+                    |known: &[&BatAnswers]| known[1..].iter().all(|other| !other.differs(known[0]));
                 of.len() == 1 || !known.is_some_and(|known| same(&known))
             };
             let examples = || self.study.design.examples(SOME);

@@ -2,7 +2,9 @@
 //!
 //! Only words are read here; [`crate::files::aim_text`] reads the goal and the unit.
 
-use sweetspot::base::typed;
+use std::sync::LazyLock;
+
+use crate::engine::typed;
 
 /// The meaning of the verb at the beginning of a wish.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -15,6 +17,16 @@ pub enum Verb {
     Less,
     /// Gain this much.
     More,
+}
+
+impl Verb {
+    /// All of them, each with the name of its list of words.
+    const ALL: [(&str, Self); 4] = [
+        ("verb no less", Self::NoLess),
+        ("verb keep", Self::Keep),
+        ("verb less", Self::Less),
+        ("verb more", Self::More),
+    ];
 }
 
 /// The wish, with the words of its amount.
@@ -36,162 +48,28 @@ pub enum WishedChange<'a> {
     Plain(&'a str),
 }
 
-const VERBS: [(&str, Verb); 32] = [
-    ("do not lose any", Verb::NoLess),
-    ("do not lose", Verb::NoLess),
-    ("without losing any", Verb::NoLess),
-    ("without losing", Verb::NoLess),
-    ("no loss of", Verb::NoLess),
-    ("no less", Verb::NoLess),
-    ("do not change", Verb::Keep),
-    ("with the same", Verb::Keep),
-    ("the same", Verb::Keep),
-    ("same", Verb::Keep),
-    ("keep", Verb::Keep),
-    ("hold", Verb::Keep),
-    ("maintain", Verb::Keep),
-    ("preserve", Verb::Keep),
-    ("retain", Verb::Keep),
-    ("unchanged", Verb::Keep),
-    ("lose", Verb::Less),
-    ("shed", Verb::Less),
-    ("trim", Verb::Less),
-    ("remove", Verb::Less),
-    ("take off", Verb::Less),
-    ("cut off", Verb::Less),
-    ("take", Verb::Less),
-    ("cut", Verb::Less),
-    ("reduce", Verb::Less),
-    ("lower", Verb::Less),
-    ("decrease", Verb::Less),
-    ("gain", Verb::More),
-    ("add", Verb::More),
-    ("put on", Verb::More),
-    ("increase", Verb::More),
-    ("raise", Verb::More),
-];
-const FILLERS: [&str; 17] = [
-    "please",
-    "i want to",
-    "i want",
-    "make",
-    "get",
-    "move",
-    "shift",
-    "let",
-    "have",
-    "it",
-    "the",
-    "my",
-    "its",
-    "this",
-    "bat",
-    "be",
-    "with",
-];
-const SAME: [&str; 16] = [
-    "same",
-    "the same",
-    "stays the same",
-    "stay the same",
-    "stays",
-    "as it is",
-    "stays as it is",
-    "as is",
-    "kept",
-    "unchanged",
-    "stays unchanged",
-    "constant",
-    "fixed",
-    "not changed",
-    "as before",
-    "where it is",
-];
-const LINKS: [&str; 10] =
-    [":", "should be", "must be", "stays", "is", "be", "weighs", "by", "of", "further"];
-const AT_MOST: [&str; 16] = [
-    "at most",
-    "no more than",
-    "not more than",
-    "no heavier than",
-    "not above",
-    "not over",
-    "lighter than",
-    "less than",
-    "under",
-    "below",
-    "up to",
-    "maximum",
-    "max",
-    "<=",
-    "≤",
-    "<",
-];
-const AT_LEAST: [&str; 14] = [
-    "at least",
-    "no less than",
-    "not less than",
-    "no lighter than",
-    "not below",
-    "not under",
-    "heavier than",
-    "more than",
-    "over",
-    "above",
-    "minimum",
-    ">=",
-    "≥",
-    ">",
-];
-const OR_LESS: [&str; 6] =
-    ["at most", "at the most", "or less", "or lighter", "or below", "maximum"];
-const OR_MORE: [&str; 5] = ["at least", "or more", "or heavier", "or above", "minimum"];
-const TO: [&str; 4] = ["to", "=", "at", "exactly"];
-const MORE: [&str; 19] = [
-    "outward",
-    "outwards",
-    "out",
-    "further out",
-    "farther out",
-    "towards the tip",
-    "toward the tip",
-    "towards the barrel",
-    "toward the barrel",
-    "towards the end",
-    "toward the end",
-    "more",
-    "higher",
-    "heavier",
-    "faster",
-    "up",
-    "larger",
-    "bigger",
-    "increase",
-];
-const LESS: [&str; 20] = [
-    "inward",
-    "inwards",
-    "further in",
-    "towards the knob",
-    "toward the knob",
-    "towards the handle",
-    "toward the handle",
-    "towards the hands",
-    "toward the hands",
-    "less",
-    "lower",
-    "lighter",
-    "slower",
-    "down",
-    "smaller",
-    "off",
-    "fewer",
-    "lighten",
-    "reduction",
-    "decrease",
-];
-const THAN_NOW: [&str; 5] =
-    ["than now", "than before", "than it is", "than it was", "than it is now"];
+/// Lists of words by their names, in the order of the file.
+static LISTS: LazyLock<Vec<(&str, Vec<&str>)>> = LazyLock::new(|| {
+    let lines = include_str!("wish_words.txt").lines().filter_map(|line| line.split_once(" = "));
+    lines.map(|(name, words)| (name, words.split(", ").collect())).collect()
+});
+
+/// The words of the list with that name.
+fn list(name: &str) -> &'static [&'static str] {
+    LISTS.iter().find(|(known, _)| *known == name).map_or(&[], |(_, words)| words)
+}
+
+/// The words of all lists whose names begin so, each with the rest of its list's name.
+pub fn named(start: &'static str) -> impl Iterator<Item = (&'static str, &'static str)> {
+    let lists =
+        LISTS.iter().filter_map(move |(name, words)| Some((name.strip_prefix(start)?, words)));
+    lists.flat_map(|(name, words)| words.iter().map(move |word| (name, *word)))
+}
+
+/// The list of that kind with a word, by the rest of its name.
+fn listed(start: &'static str, word: &str) -> Option<&'static str> {
+    named(start).find(|(_, known)| known.eq_ignore_ascii_case(word)).map(|(name, _)| name)
+}
 
 /// A text in plain signs: "don't" in full, one blank between words, no full stop at its end.
 pub fn plain(text: &str) -> String {
@@ -230,7 +108,7 @@ fn longest<'a>(words: &[&str], rest: impl Fn(&str) -> Option<&'a str>) -> Option
 /// The verb at the beginning of a text, and the rest without filler words.
 pub fn verb(mut text: &str) -> (Option<Verb>, &str) {
     while let Some(rest) =
-        longest(&FILLERS, |word| after(text, word)).filter(|_| of_verbs(text).is_none())
+        longest(list("filler"), |word| after(text, word)).filter(|_| of_verbs(text).is_none())
     {
         text = rest;
     }
@@ -238,7 +116,9 @@ pub fn verb(mut text: &str) -> (Option<Verb>, &str) {
 }
 
 fn of_verbs(text: &str) -> Option<(Verb, &str)> {
-    let all = VERBS.iter().filter_map(|(word, verb)| Some((*verb, after(text, word)?)));
+    let all = Verb::ALL.into_iter().flat_map(|(name, verb)| {
+        list(name).iter().filter_map(move |word| Some((verb, after(text, word)?)))
+    });
     let found = all.min_by_key(|(_, rest)| rest.len())?;
     // "no less than 30 oz" is a limit.
     (after(found.1, "than").is_none()).then_some(found)
@@ -246,35 +126,35 @@ fn of_verbs(text: &str) -> Option<(Verb, &str)> {
 
 /// The wish in the words beside the name; numbers are in figures.
 pub fn way(text: &str) -> WishedChange<'_> {
-    let mut text = longest(&THAN_NOW, |word| before(text, word)).unwrap_or(text);
+    let mut text = longest(list("than now"), |word| before(text, word)).unwrap_or(text);
     let is = |text: &str, words: &[&str]| words.iter().any(|word| word.eq_ignore_ascii_case(text));
-    if is(text, &SAME) {
+    if is(text, list("same")) {
         return WishedChange::Same;
     }
-    while let Some(rest) = longest(&LINKS, |word| after(text, word)) {
+    while let Some(rest) = longest(list("link"), |word| after(text, word)) {
         text = rest;
     }
     let begins = |words: &[&str]| longest(words, |word| after(text, word));
     let ends = |words: &[&str]| longest(words, |word| before(text, word));
     let by = |rest: &'_ str| after(rest, "by").map_or(0, |by| rest.len() - by.len());
-    if let Some(rest) = begins(&AT_MOST).or_else(|| ends(&OR_LESS)) {
+    if let Some(rest) = begins(list("at most")).or_else(|| ends(list("or less"))) {
         return WishedChange::AtMost(rest);
     }
-    if let Some(rest) = begins(&AT_LEAST).or_else(|| ends(&OR_MORE)) {
+    if let Some(rest) = begins(list("at least")).or_else(|| ends(list("or more"))) {
         return WishedChange::AtLeast(rest);
     }
-    if let Some(rest) = begins(&TO) {
+    if let Some(rest) = begins(list("to")) {
         return match way(rest) {
             WishedChange::Plain(rest) => WishedChange::To(rest),
             bound => bound,
         };
     }
-    if let Some(rest) = ends(&MORE).or_else(|| begins(&MORE)) {
+    if let Some(rest) = ends(list("more")).or_else(|| begins(list("more"))) {
         return WishedChange::More(&rest[by(rest)..]);
     }
-    match ends(&LESS).or_else(|| begins(&LESS)) {
+    match ends(list("less")).or_else(|| begins(list("less"))) {
         Some(rest) => WishedChange::Less(&rest[by(rest)..]),
-        None if is(text, &SAME) => WishedChange::Same,
+        None if is(text, list("same")) => WishedChange::Same,
         None => WishedChange::Plain(text),
     }
 }
@@ -287,41 +167,6 @@ pub fn of_weight(text: &str) -> bool {
 
 /// Numbers in words as figures: "half an ounce" is `0.5 oz`, "an ounce and a half" `1.5 oz`, "minus 3" `-3`.
 pub fn figures(text: &str) -> String {
-    const NUMBERS: [(&str, &str); 16] = [
-        ("a", "1"),
-        ("an", "1"),
-        ("one", "1"),
-        ("two", "2"),
-        ("three", "3"),
-        ("four", "4"),
-        ("five", "5"),
-        ("six", "6"),
-        ("seven", "7"),
-        ("eight", "8"),
-        ("nine", "9"),
-        ("ten", "10"),
-        ("twelve", "12"),
-        ("half", "0.5"),
-        ("quarter", "0.25"),
-        ("zero", "0"),
-    ];
-    const UNITS: [(&str, &str); 12] = [
-        ("ounce", "oz"),
-        ("ounces", "oz"),
-        ("oz.", "oz"),
-        ("gram", "g"),
-        ("grams", "g"),
-        ("gramme", "g"),
-        ("grammes", "g"),
-        ("pound", "lb"),
-        ("pounds", "lb"),
-        ("hertz", "Hz"),
-        ("percent", "%"),
-        ("OZ", "oz"),
-    ];
-    let of = |table: &[(&str, &'static str)], word: &str| {
-        table.iter().find(|(known, _)| known.eq_ignore_ascii_case(word)).map(|(_, said)| *said)
-    };
     /// In place of the last word.
     fn again(out: &mut Vec<String>, word: String) {
         out.pop();
@@ -329,7 +174,7 @@ pub fn figures(text: &str) -> String {
     }
     let mut out: Vec<String> = vec![];
     for word in text.replace("per cent", "percent").split(' ') {
-        let number = of(&NUMBERS, word);
+        let number = listed("number ", word);
         let last = out.last().map(String::as_str).unwrap_or_default();
         let counted = last.parse::<f64>().is_ok() || last.contains('/');
         let figure = word.starts_with(|c: char| c.is_ascii_digit());
@@ -344,7 +189,7 @@ pub fn figures(text: &str) -> String {
             (Some(number), _) => out.push(number.to_owned()),
             (None, "minus" | "-") if figure => again(&mut out, format!("-{word}")),
             (None, "plus" | "+") if figure => again(&mut out, format!("+{word}")),
-            _ => out.push(of(&UNITS, word).unwrap_or(word).to_owned()),
+            _ => out.push(listed("unit ", word).unwrap_or(word).to_owned()),
         }
     }
     and_a_half(&mut out);
@@ -353,19 +198,8 @@ pub fn figures(text: &str) -> String {
 
 /// "frequency 2", "frequency of mode 2", "mode 2 frequency" and "second bending frequency" as `f2`.
 pub fn frequencies(text: &str) -> String {
-    const ORDINALS: [[&str; 2]; 5] = [
-        ["first", "1st"],
-        ["second", "2nd"],
-        ["third", "3rd"],
-        ["fourth", "4th"],
-        ["fifth", "5th"],
-    ];
     let words: Vec<&str> = text.split(' ').collect();
     let is = |word: &str, name: &str| word.eq_ignore_ascii_case(name);
-    let ordinal = |word: &str| {
-        let at = ORDINALS.iter().position(|both| both.iter().any(|one| is(word, one)));
-        at.map(|k| k + 1)
-    };
     let number = |word: &str| word.parse::<usize>().ok().filter(|k| (1..=40).contains(k));
     let mut out: Vec<String> = vec![];
     let mut k = 0;
@@ -376,9 +210,11 @@ pub fn frequencies(text: &str) -> String {
             }
             [mode, n, f, ..] if is(mode, "mode") && is(f, "frequency") => (number(n), 3),
             [nth, bending, f, ..] if is(bending, "bending") && is(f, "frequency") => {
-                (ordinal(nth), 3)
+                (number(listed("ordinal ", nth).unwrap_or_default()), 3)
             }
-            [nth, f, ..] if is(f, "frequency") => (ordinal(nth), 2),
+            [nth, f, ..] if is(f, "frequency") => {
+                (number(listed("ordinal ", nth).unwrap_or_default()), 2)
+            }
             [f, n, ..] if is(f, "frequency") => (number(n), 2),
             _ => (None, 1),
         };
@@ -406,10 +242,10 @@ fn and_a_half(words: &mut Vec<String>) {
 
 /// Every word that a wish may have besides names and numbers.
 pub fn known() -> Vec<&'static str> {
-    let verbs = VERBS.iter().map(|(word, _)| *word);
-    let lists =
-        [&SAME[..], &AT_MOST, &AT_LEAST, &MORE, &LESS, &["within", "ounce", "ounces"]].concat();
-    verbs.chain(lists).filter(|word| word.chars().all(|c| c.is_ascii_alphabetic())).collect()
+    let lists = Verb::ALL.iter().map(|(name, _)| *name);
+    let lists = lists.chain(["same", "at most", "at least", "more", "less"]).flat_map(list);
+    let all = lists.chain(&["within", "ounce", "ounces"]).copied();
+    all.filter(|word| word.chars().all(|c| c.is_ascii_alphabetic())).collect()
 }
 
 #[cfg(test)]

@@ -7,13 +7,10 @@ use std::path::{Path, PathBuf};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde_json::{Map, Value, json};
 
+use crate::engine::{Document as Text, Folder, Mistakes, Node, Object, Outside, Result};
 use crate::files::form::{Form, later, text};
-use sweetspot::base::error::Result;
-use sweetspot::base::mistakes::Mistakes;
-use sweetspot::files::document::Document as Text;
-use sweetspot::files::folder::{Folder, Outside};
-use sweetspot::files::json_node::{Node, Object};
-use sweetspot::files::schema::document::{self, Document};
+use sweetspot::files::schema::document;
+use sweetspot::files::schema::document::Document;
 use sweetspot::files::schema::part::Comment;
 
 /// An object in a file: reading it and its schema follow from one list of its members.

@@ -19,9 +19,9 @@ use sweetspot_tap::fit::Pole;
 use sweetspot_tap::resonances::{at, square};
 
 use crate::calibrate::calibration::NINETY_FIVE;
+use crate::engine::{Error, Result};
 use crate::identify::fitted::Fitted;
 use crate::identify::set::ResponseSet;
-use sweetspot::base::error::{Error, Result};
 
 /// Accelerometers that were on the bat.
 pub struct Masses {
@@ -148,10 +148,7 @@ impl Masses {
     fn second(&self, of: &Fitted, p: usize) -> f64 {
         let places = if of.set.hammer_roves { &of.set.references } else { &of.set.points };
         let order = of.poles().iter().filter(|pole| pole.hz <= of.poles()[p].hz).count();
-        match self.alone {
-            true => 0.0,
-            false => SECOND[usize::from(places.len() < PER_MODE * order)],
-        }
+        if self.alone { 0.0 } else { SECOND[usize::from(places.len() < PER_MODE * order)] }
     }
 
     /// Standard deviation (1/kg) of `Σ φ²/m_n` of several accelerometers, both its parts together.

@@ -12,13 +12,12 @@ use sweetspot_tap::orders::Orders;
 use sweetspot_tap::resonances::{Damping, LOSSES, Responses, at, square};
 
 use crate::calibrate::calibration::NINETY_FIVE;
+use crate::engine::{Error, ResponseKind, Result};
 use crate::identify::fitted::{Fitted, Group};
 use crate::identify::masses::{Masses, Unloaded};
 use crate::identify::set::{Place, ResponseSet};
 use crate::measured::mac::collinearity;
 use crate::tap::heard::Within;
-use sweetspot::base::error::{Error, Result};
-use sweetspot::motion::frf::ResponseKind;
 
 /// A mode that responses share.
 #[derive(Debug, Clone, PartialEq)]

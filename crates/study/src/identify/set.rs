@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
+use crate::engine::{Error, Result};
 use crate::files::measured::response::{Known, TURNED, read};
 use crate::measured::response::MeasuredResponse;
-use sweetspot::base::error::{Error, Result};
 
 /// A place on the bat.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -110,10 +110,8 @@ impl ResponseSet {
         let mut assumed: Vec<String> = copies.into_iter().collect();
         let mut responses = vec![];
         for measured in all {
-            let (roved, stayed) = match hammer_roves {
-                true => (measured.at, measured.to),
-                false => (measured.to, measured.at),
-            };
+            let (roved, stayed) =
+                if hammer_roves { (measured.at, measured.to) } else { (measured.to, measured.at) };
             for said in &measured.assumed {
                 if !assumed.contains(said) {
                     assumed.push(said.clone());

@@ -9,19 +9,15 @@ use std::f64::consts::{PI, TAU};
 
 use faer::c64;
 
+use crate::engine::{
+    Attachment, Bat, Error, Frf, Mode, Prepared, Request, ResponseKind, Result, RigidBat, prepare,
+    solve,
+};
 use crate::identify::modes::Identified;
 use crate::identify::set::ResponseSet;
 use crate::many::hash;
 use crate::measured::mac::mac;
 use crate::measured::response::MeasuredResponse;
-use sweetspot::base::error::{Error, Result};
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::fixtures::Attachment;
-use sweetspot::collision::rigid::RigidBat;
-use sweetspot::modes::mode::Mode;
-use sweetspot::modes::prepared::{Prepared, prepare};
-use sweetspot::motion::frf::{Frf, ResponseKind};
-use sweetspot::{Request, solve};
 
 /// A virtual test.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -138,34 +134,27 @@ impl VirtualTest {
     }
 
     fn check(&self, bat: &Bat) -> Result<()> {
-        let wrong = |option: &str, found: String, expected: String| {
-            Err(Error::value(option, found, expected))
-        };
-        if self.points < 3 || self.points > 100 {
-            return wrong("--points", self.points.to_string(), "3 to 100".to_owned());
-        }
-        if self.missing > self.points - 3 {
-            return wrong(
-                "--missing",
-                self.missing.to_string(),
-                format!("{} at most", self.points - 3),
-            );
-        }
-        if self.double_hits > self.points {
-            let expected = format!("{} at most, as many as there are points", self.points);
-            return wrong("--double-hits", self.double_hits.to_string(), expected);
+        let most = self.points.saturating_sub(3);
+        let all = format!("{} at most, as many as there are points", self.points);
+        for (option, count, range, expected) in [
+            ("--points", self.points, 3..=100, "3 to 100".to_owned()),
+            ("--missing", self.missing, 0..=most, format!("{most} at most")),
+            ("--double-hits", self.double_hits, 0..=self.points, all),
+        ] {
+            if !range.contains(&count) {
+                return Err(Error::value(option, count, expected));
+            }
         }
         for (option, value, unit, [low, high]) in [
             ("--hammer", self.hammer, "kg", [0.01, 2.0]),
             ("--tip", self.tip, "N/m", [1e3, 1e10]),
             ("--to-hz", self.top, "Hz", [10.0, 20_000.0]),
+            ("--reference", self.reference.unwrap_or(0.0), "m", [0.0, bat.length()]),
         ] {
             if !(low..=high).contains(&value) {
-                return wrong(option, format!("{value} {unit}"), format!("{low} to {high} {unit}"));
+                let expected = format!("{low} to {high} {unit}");
+                return Err(Error::value(option, format!("{value} {unit}"), expected));
             }
-        }
-        if let Some(x) = self.reference.filter(|x| !(0.0..=bat.length()).contains(x)) {
-            return wrong("--reference", format!("{x} m"), format!("0 to {} m", bat.length()));
         }
         Ok(())
     }

@@ -21,12 +21,10 @@ use serde::Serialize;
 use std::cell::OnceCell;
 
 use crate::answers::Answer;
+use crate::engine::{Glance, HitsAlong, Hitter, Peak};
 pub use crate::lathe::probe::Probe;
 use crate::lathe::probe::searched;
 use crate::lathe::stencil::{Stencil, by_slope};
-use sweetspot::collision::hitter::Hitter;
-use sweetspot::collision::strike::Glance;
-use sweetspot::collision::sweet_spot::{HitsAlong, Peak};
 
 /// Why an output is not smooth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, schemars::JsonSchema)]

@@ -1,13 +1,9 @@
 //! How is a bat on the lathe hit, and what are the values along it?
 
 use crate::comparison::contender::Figure;
+use crate::engine::{Bat, Effort, Hitter, Model, Result, Scene, Solution};
 use crate::lathe::gauges::{BestPlaces, Gauge, Rivals};
 use crate::lathe::quotient::Ways;
-use sweetspot::base::error::Result;
-use sweetspot::bat::body::Bat;
-use sweetspot::collision::hit::{Effort, Model, Scene};
-use sweetspot::collision::hitter::Hitter;
-use sweetspot::modes::solve::Solution;
 
 /// How the bat is hit, once modes and steps are planned.
 pub(super) struct Hit {
@@ -55,11 +51,4 @@ impl Hit {
     ) -> Result<Hitter<'a>> {
         Hitter::new(self.model, scene, bat, solution, self.effort)
     }
-}
-
-/// The first modes of a solution.
-pub(super) fn with_modes(solution: &Solution, count: usize) -> Solution {
-    let mut fewer = solution.clone();
-    fewer.modes.truncate(count);
-    fewer
 }

@@ -5,19 +5,16 @@
 
 use crate::answers::Answer;
 use crate::comparison::contender::Figure;
+use crate::engine::{
+    Bat, Bore, Change, Cork, Cup, DiameterChange, Edit, Error, Material, Request, Result,
+    STANDARD_PIVOT, threads,
+};
 use crate::lathe::found::{
     AddedMass, Changes, Check, Curves, FiniteCut, LatheFound, Output, TurnedBand, WholeChange,
 };
 use crate::lathe::gauges::{Rivals, WhyNotSmooth};
 use crate::lathe::samples::{by_added_mass, frequency_density};
 use crate::lathe::workpiece::{Care, HitTerms, Method, Slopes, Workpiece};
-use sweetspot::base::error::{Error, Result};
-use sweetspot::base::threads;
-use sweetspot::bat::body::{Bat, STANDARD_PIVOT};
-use sweetspot::bat::edit::{Bore, Change, Cork, Cup, Edit};
-use sweetspot::bat::material::Material;
-use sweetspot::bat::turned::DiameterChange;
-use sweetspot::modes::solve::Request;
 
 /// The request for a map.
 #[derive(Debug, Clone)]

@@ -1,8 +1,7 @@
 //! Which value of a hit is read?
 
 use crate::answers::Answer;
-use sweetspot::collision::hitter::Hitter;
-use sweetspot::collision::strike::Glance;
+use crate::engine::{Glance, Hitter};
 
 /// A value of a hit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,9 +35,7 @@ impl Probe {
             Self::Bbcor => Some(hitter.figures(seen.x, seen.exit_speed)[1]),
         }
     }
-}
 
-impl Probe {
     /// 1 where the greatest value is the best, −1 where the least is.
     pub(super) fn sign(self) -> f64 {
         if matches!(self, Self::Speed | Self::Bbcor) { 1.0 } else { -1.0 }

@@ -16,19 +16,15 @@ pub(super) struct Ways {
     pub fewer: Vec<(usize, Vec<Option<Gauge>>)>,
 }
 
-/// The values for differences, answer by answer.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Raw {
-    /// In every way.
-    pub by_way: [Vec<Option<f64>>; WAYS],
-}
+/// The values for differences in every way, answer by answer.
+pub(super) type ByWay = [Vec<Option<f64>>; WAYS];
 
 /// A quotient of differences, answer by answer.
 pub(super) struct Quotient {
     /// Whether it is central; otherwise one-sided.
     pub central: bool,
     /// In every way.
-    pub by_way: [Vec<Option<f64>>; WAYS],
+    pub by_way: ByWay,
 }
 
 impl Quotient {

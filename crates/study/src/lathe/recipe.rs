@@ -37,7 +37,7 @@ pub fn least_wood(
 ) -> Option<Vec<RecipeCut>> {
     let of_band = |band: &TurnedBand| {
         let per_metre = 1e3 * band.derivative(answer, 0.0)?;
-        Some(Stretch {
+        Some(BandRun {
             ends: band.ends(),
             row: [per_metre, band.inertia?, band.to_m - band.from_m],
         })
@@ -53,11 +53,11 @@ pub fn least_wood(
 }
 
 /// The least cuts of bands: one depth for each run of neighbours if possible, else one for each band.
-fn recipe(bands: &[Stretch], by: f64, most: f64) -> Option<Vec<RecipeCut>> {
+fn recipe(bands: &[BandRun], by: f64, most: f64) -> Option<Vec<RecipeCut>> {
     let rows: Vec<[f64; 3]> = bands.iter().map(|band| band.row).collect();
     let depths = allowed(&rows, by, most)?;
     let cut = || bands.iter().zip(&depths).filter(|(_, depth)| **depth > 0.0);
-    let mut merged: Vec<Stretch> = vec![];
+    let mut merged: Vec<BandRun> = vec![];
     for (band, _) in cut().filter(|(_, depth)| **depth > LEAST_TOLD * deepest(&depths)) {
         match merged.last_mut().filter(|last| (last.ends[1] - band.ends[0]).abs() < 1e-9) {
             Some(last) => last.grow(band),
@@ -69,7 +69,7 @@ fn recipe(bands: &[Stretch], by: f64, most: f64) -> Option<Vec<RecipeCut>> {
 }
 
 /// The least cuts of those stretches for the whole change, one depth for each, without negligible ones.
-fn cuts(mut stretches: Vec<Stretch>, by: f64, most: f64) -> Option<Vec<RecipeCut>> {
+fn cuts(mut stretches: Vec<BandRun>, by: f64, most: f64) -> Option<Vec<RecipeCut>> {
     loop {
         let rows: Vec<[f64; 3]> = stretches.iter().map(|stretch| stretch.row).collect();
         let depths = allowed(&rows, by, most)?;
@@ -88,14 +88,14 @@ const LEAST_TOLD: f64 = 0.1;
 
 /// A stretch of bands that are cut alike.
 #[derive(Clone, Copy)]
-struct Stretch {
+struct BandRun {
     /// From where to where (m).
     ends: [f64; 2],
     /// Both slopes and the width of all of it.
     row: [f64; 3],
 }
 
-impl Stretch {
+impl BandRun {
     fn grow(&mut self, next: &Self) {
         self.ends[1] = next.ends[1];
         self.row.iter_mut().zip(next.row).for_each(|(all, more)| *all += more);
@@ -186,14 +186,14 @@ mod tests {
     fn what_is_told_does_the_whole() {
         let slopes = [[0.02, -4.39], [0.09, -4.86], [0.12, -5.36], [-0.06, -5.88]];
         let slopes = slopes.into_iter().chain([[-0.24, -6.43], [-0.41, -6.99], [-0.63, -8.11]]);
-        let bands: Vec<Stretch> = slopes
+        let bands: Vec<BandRun> = slopes
             .enumerate()
-            .map(|(k, [a, b])| Stretch { ends: [k, k + 1].map(|k| k as f64), row: [a, b, 1.0] })
+            .map(|(k, [a, b])| BandRun { ends: [k, k + 1].map(|k| k as f64), row: [a, b, 1.0] })
             .collect();
         for (by, most) in [(-1.0, 100.0), (-1.0, 19.06), (0.1, 19.06), (-1.2, 19.06)] {
             let cuts = recipe(&bands, by, most).unwrap();
             let sum = |which: usize| {
-                let inside = |cut: &RecipeCut, band: &Stretch| {
+                let inside = |cut: &RecipeCut, band: &BandRun| {
                     cut.ends[0] <= band.ends[0] && band.ends[1] <= cut.ends[1]
                 };
                 let of = |cut: &RecipeCut| {

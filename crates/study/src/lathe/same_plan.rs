@@ -3,14 +3,8 @@
 //! A difference of two bats is a derivative only if both are solved in the same way: [`SamePlan`] fixes elements,
 //! degree and number of modes, so that the error of the mesh cancels in the difference.
 
-use sweetspot::base::error::Result;
-use sweetspot::bat::body::Bat;
-use sweetspot::beam::mesh::Mesh;
+use crate::engine::{Bat, Mesh, Plan, Request, Result, Solution, Task, Timing, solve};
 use sweetspot::modes::damping::damping;
-use sweetspot::modes::plan::Plan;
-use sweetspot::modes::solution::{Solution, Timing};
-use sweetspot::modes::solve::{Request, solve};
-use sweetspot::modes::task::Task;
 
 /// Elements that are kept while the bat is changed.
 #[derive(Debug, Clone)]

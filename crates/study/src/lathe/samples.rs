@@ -22,14 +22,8 @@
 
 use std::f64::consts::PI;
 
-use sweetspot::base::quadrature::gauss;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::inertia::Inertia;
-use sweetspot::bat::layup::Worth;
-use sweetspot::bat::theory::Theory;
+use crate::engine::{Bat, Inertia, Mode, Solution, Theory, Worth, gauss};
 use sweetspot::beam::mesh::Part;
-use sweetspot::modes::mode::Mode;
-use sweetspot::modes::solve::Solution;
 
 /// A place along the bat at which integrals are sampled.
 #[derive(Debug, Clone, Copy)]

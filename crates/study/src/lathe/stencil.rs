@@ -1,7 +1,7 @@
 //! How does a reading change along the bat: by differences.
 
+use crate::engine::Hitter;
 use crate::lathe::probe::Probe;
-use sweetspot::collision::hitter::Hitter;
 
 /// Differences of a reading along the bat, of fourth order, with places that far apart.
 #[derive(Clone, Copy)]

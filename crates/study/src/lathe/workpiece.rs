@@ -5,23 +5,18 @@
 //! closed formula ([`crate::lathe::samples`]), all else by central differences of whole bats with fixed elements,
 //! number of modes and steps. [`Workpiece::measure`] gives the answers of a bat that is changed by more.
 
-use crate::answers::{Answer, figure, on_the_bat, quotient};
+use crate::answers::{ALONG, Answer, figure, on_the_bat, quotient, with_modes};
 use crate::comparison::contender::Figure;
+use crate::engine::{
+    Bat, DiameterChange, Hitter, Model, Peak, Request, Result, STANDARD_PIVOT, Scene, Solution,
+    Trial, sweep, threads,
+};
 use crate::lathe::gauges::{BestPlaces, Gauge, GaugeHits, OuterHalf, Rivals};
-use crate::lathe::look::{By, Hit, Look, with_modes};
-use crate::lathe::quotient::{Differences, Quotient, Raw, Usual, WAYS, Ways};
+use crate::lathe::look::{By, Hit, Look};
+use crate::lathe::quotient::{ByWay, Differences, Quotient, Usual, WAYS, Ways};
 use crate::lathe::same_plan::SamePlan;
 use crate::lathe::samples::{BodySlope, SectionSlopes};
 pub use crate::lathe::slopes::{Method, Slopes};
-use sweetspot::base::error::Result;
-use sweetspot::base::threads;
-use sweetspot::bat::body::{Bat, STANDARD_PIVOT};
-use sweetspot::bat::turned::DiameterChange;
-use sweetspot::collision::hit::{Model, Scene};
-use sweetspot::collision::hitter::Hitter;
-use sweetspot::collision::sweep::{Trial, sweep};
-use sweetspot::collision::sweet_spot::Peak;
-use sweetspot::modes::solve::{Request, Solution};
 
 /// How the bat is hit for answers about a hit.
 #[derive(Debug, Clone)]
@@ -71,8 +66,6 @@ const STEP: f64 = 4e-5;
 const HALF_STEPS: usize = 4;
 /// Relative step of the swing for a derivative by it.
 const FASTER: f64 = 1e-3;
-/// Impact points by which modes and steps are planned, as shares of the length.
-const ALONG: [f64; 4] = [0.7, 0.775, 0.85, 0.925];
 
 impl Workpiece {
     /// A bat that is to be changed between these borders (m from the knob end), and its answers. The request's
@@ -286,7 +279,7 @@ impl Workpiece {
         &self,
         change: &DiameterChange,
         share: f64,
-        now: &Raw,
+        now: &ByWay,
         by: By,
     ) -> Result<Quotient> {
         let all = change.stretches().iter().flat_map(|stretch| stretch.diameter);
@@ -306,13 +299,13 @@ impl Workpiece {
             (Err(error), Err(_)) => return Err(error),
         };
         let run = if central { 2.0 * step } else { step };
-        let slopes = |k: usize| quotient(&thick.by_way[k], &thin.by_way[k], run);
+        let slopes = |k: usize| quotient(&thick[k], &thin[k], run);
         let by_way = std::array::from_fn(slopes);
         Ok(Quotient { central, by_way })
     }
 
     /// The values for differences on this plan: nodes, modal masses, and the readings of the gauges.
-    fn raw(&self, bat: &Bat, by: By) -> Result<Raw> {
+    fn raw(&self, bat: &Bat, by: By) -> Result<ByWay> {
         let solution = self.plan.solve(bat)?;
         let read = match &self.hit {
             Some(hit) => self.every_way(hit, bat, &solution, by)?,
@@ -331,7 +324,7 @@ impl Workpiece {
             _ => read,
         };
         let all = |read: Vec<Option<f64>>| self.answers.iter().zip(read).map(of).collect();
-        Ok(Raw { by_way: read.map(all) })
+        Ok(read.map(all))
     }
 
     /// The ways besides the gauges' own, each with its places found again; `None` if nothing is hit.
@@ -354,13 +347,7 @@ impl Workpiece {
     }
 
     /// The readings of the gauges for a bat that is hit, and those of the other ways.
-    fn every_way(
-        &self,
-        hit: &Hit,
-        bat: &Bat,
-        solution: &Solution,
-        by: By,
-    ) -> Result<[Vec<Option<f64>>; WAYS]> {
+    fn every_way(&self, hit: &Hit, bat: &Bat, solution: &Solution, by: By) -> Result<ByWay> {
         let (hit, gauges) = match by {
             By::FinerWall((finer, gauges)) => (finer, gauges),
             _ => (hit, &self.look.gauges),

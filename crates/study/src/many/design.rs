@@ -9,26 +9,26 @@
 //! M. D. McKay, R. J. Beckman, W. J. Conover, Technometrics 21 (1979) 239: Latin hypercubes. R. B. Nelsen, An
 //! Introduction to Copulas (Springer, 2006), 2.3: the copula.
 
-use serde::{Deserialize, Serialize};
-
+use crate::engine::{Error, Result};
 use crate::many::distribution::{Distribution, share_below, standard_normal};
 use crate::many::hash::{of, shuffled};
 use crate::many::indices::VariateKind;
 use crate::many::sobol::{MOST_COORDINATES, Sobol, between};
-use sweetspot::base::error::{Error, Result};
+use crate::named::named;
 
-/// How points are spread.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-#[non_exhaustive]
-pub enum Spread {
-    /// By Sobol's sequence, scrambled.
-    #[default]
-    Sobol,
-    /// One point in each of equal parts of every distribution.
-    LatinHypercube,
-    /// Thrown.
-    Random,
+named! {
+    /// How points are spread.
+    #[derive(Default, serde::Deserialize)]
+    #[non_exhaustive]
+    pub enum Spread {
+        /// By Sobol's sequence, scrambled.
+        #[default]
+        Sobol = "sobol",
+        /// One point in each of equal parts of every distribution.
+        LatinHypercube = "latin-hypercube",
+        /// Thrown.
+        Random = "random",
+    }
 }
 
 /// Most rows of a study.

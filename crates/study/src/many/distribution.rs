@@ -3,10 +3,11 @@
 //! A [`Distribution`] turns a share between 0 and 1 into a value. Only arithmetic, square roots and
 //! functions of the crate `libm` are used, so that the same study gives the same values on every machine.
 
+use std::sync::LazyLock;
+
 use serde::{Deserialize, Serialize};
 
-use sweetspot::base::error::{Error, Result};
-use sweetspot::base::number::shortest;
+use crate::engine::{Error, Result, shortest};
 
 /// How a number varies.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -103,77 +104,11 @@ pub fn share_below(value: f64) -> f64 {
     0.5 * libm::erfc(-value * std::f64::consts::FRAC_1_SQRT_2)
 }
 
-/// Numerator and denominator, from the constant on.
-type Ratio = [[f64; 8]; 2];
-/// Of shares about a half, in 0.180625 less the square of the distance from it.
-const MIDDLE: Ratio = [
-    [
-        3.387_132_872_796_366_5,
-        133.141_667_891_784_38,
-        1_971.590_950_306_551_3,
-        13_731.693_765_509_46,
-        45_921.953_931_549_87,
-        67_265.770_927_008_7,
-        33_430.575_583_588_13,
-        2_509.080_928_730_122_7,
-    ],
-    [
-        1.0,
-        42.313_330_701_600_91,
-        687.187_007_492_057_9,
-        5_394.196_021_424_751,
-        21_213.794_301_586_597,
-        39_307.895_800_092_71,
-        28_729.085_735_721_943,
-        5_226.495_278_852_854,
-    ],
-];
-/// Of both tails, in √(−ln share) less 1.6.
-const NEAR: Ratio = [
-    [
-        1.423_437_110_749_683_5,
-        4.630_337_846_156_546,
-        5.769_497_221_460_691,
-        3.647_848_324_763_204_5,
-        1.270_458_252_452_368_4,
-        0.241_780_725_177_450_6,
-        0.022_723_844_989_269_184,
-        7.745_450_142_783_414e-4,
-    ],
-    [
-        1.0,
-        2.053_191_626_637_759,
-        1.676_384_830_183_803_8,
-        0.689_767_334_985_1,
-        0.148_103_976_427_480_08,
-        0.015_198_666_563_616_457,
-        5.475_938_084_995_345e-4,
-        1.050_750_071_644_416_9e-9,
-    ],
-];
-/// For the tails, where √(−ln share) is above 5, in terms of it less 5.
-const FAR: Ratio = [
-    [
-        6.657_904_643_501_103,
-        5.463_784_911_164_114,
-        1.784_826_539_917_291_3,
-        0.296_560_571_828_504_87,
-        0.026_532_189_526_576_124,
-        0.001_242_660_947_388_078_4,
-        2.711_555_568_743_487_6e-5,
-        2.010_334_399_292_288e-7,
-    ],
-    [
-        1.0,
-        0.599_832_206_555_888,
-        0.136_929_880_922_735_8,
-        0.014_875_361_290_850_615,
-        7.868_691_311_456_133e-4,
-        1.846_318_317_510_054_8e-5,
-        1.421_511_758_316_446e-7,
-        2.044_263_103_389_939_8e-15,
-    ],
-];
+/// Numerators and denominators about a half, in both tails, and far out.
+static RATIOS: LazyLock<Vec<Vec<f64>>> = LazyLock::new(|| {
+    let rows = include_str!("as241.txt").lines().filter(|line| !line.starts_with('#'));
+    rows.map(|row| row.split(' ').map(|n| n.parse().expect("a number")).collect()).collect()
+});
 
 /// The value below which that share of a standard normal distribution lies, to a relative 1e-15.
 ///
@@ -182,17 +117,17 @@ const FAR: Ratio = [
 /// M. J. Wichura, Algorithm AS 241: the percentage points of the normal distribution, Applied Statistics
 /// 37 (1988) 477: rational functions of degree seven, PPND16.
 pub fn standard_normal(share: f64) -> f64 {
-    let ratio = |[above, below]: Ratio, t: f64| {
-        let sum = |terms: [f64; 8]| terms.iter().rev().fold(0.0, |sum, term| sum * t + term);
-        sum(above) / sum(below)
+    let ratio = |which: usize, t: f64| {
+        let sum = |terms: &[f64]| terms.iter().rev().fold(0.0, |sum, term| sum * t + term);
+        sum(&RATIOS[2 * which]) / sum(&RATIOS[2 * which + 1])
     };
     let beside = share - 0.5;
     if beside.abs() <= 0.425 {
-        return beside * ratio(MIDDLE, 0.180_625 - beside * beside);
+        return beside * ratio(0, 0.180_625 - beside * beside);
     }
     let tail = share.min(1.0 - share);
     let t = (-libm::log(tail)).sqrt();
-    let size = if t <= 5.0 { ratio(NEAR, t - 1.6) } else { ratio(FAR, t - 5.0) };
+    let size = if t <= 5.0 { ratio(1, t - 1.6) } else { ratio(2, t - 5.0) };
     size.copysign(beside)
 }
 

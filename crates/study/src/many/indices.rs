@@ -22,8 +22,8 @@
 
 use serde::Serialize;
 
+use crate::engine::dot;
 use crate::many::hash::mixed;
-use sweetspot::base::linear::dot;
 
 /// Coefficients per row that a fit may have, and coefficients at most.
 const ROWS_A_TERM: usize = 4;

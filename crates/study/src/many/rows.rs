@@ -4,20 +4,16 @@
 
 use std::ops::Range;
 
-use crate::answers::{Answer, Figure, figure, on_the_bat};
+use crate::answers::{ALONG, Answer, Figure, figure, on_the_bat, with_modes};
 use crate::comparison::contender::{Sought, exit_speed};
-use sweetspot::base::error::{Error, Result};
-use sweetspot::base::threads;
-use sweetspot::bat::body::Bat;
-use sweetspot::collision::batch::{Blow, each as strike_each};
-use sweetspot::collision::hit::{Impact, Model, Scene, greater};
-use sweetspot::collision::hitter::Hitter;
+use crate::engine::{
+    Bat, Error, FEW, Hitter, Impact, Model, Prepared, Request, Result, Scene, Solution, Sweep, Way,
+    greater, prepare, solutions, solve, threads,
+};
+use sweetspot::collision::batch::Blow;
+use sweetspot::collision::batch::each as strike_each;
 use sweetspot::collision::stated::fewer;
-use sweetspot::collision::sweep::{self as hit, Sweep};
-use sweetspot::collision::sweet_spot::FEW;
-use sweetspot::modes::batch::{Way, solutions};
-use sweetspot::modes::prepared::{Prepared, prepare};
-use sweetspot::modes::solve::{Request, Solution, solve};
+use sweetspot::collision::sweep as hit;
 
 /// The outputs for every bat.
 #[derive(Debug, Clone)]
@@ -39,7 +35,7 @@ pub struct Trial {
 
 /// The results of a bat.
 #[derive(Debug)]
-pub struct Found {
+pub struct BatAnswers {
     /// Values with their errors in the order of the outputs; `None` if the bat has no such answer.
     pub figures: Vec<Option<Figure>>,
     /// Whether frequencies and exit speeds are as accurate as asked.
@@ -48,7 +44,7 @@ pub struct Found {
     pub off: Option<Error>,
 }
 
-impl Found {
+impl BatAnswers {
     /// Whether an answer of another bat differs from this one's by more than a relative 1e-10.
     pub fn differs(&self, other: &Self) -> bool {
         const SAME: f64 = 1e-10;
@@ -90,12 +86,6 @@ struct Ready {
     off: Option<Error>,
 }
 
-/// The solution of a bat.
-enum Solved {
-    Modes(Solution),
-    Hits(Sweep),
-}
-
 impl Asked {
     /// The outputs for each of several bats similar to `model`, in order; `trial` receives the index of a bat and the
     /// bat with moduli fitted to its tap.
@@ -110,36 +100,33 @@ impl Asked {
         model: &Bat,
         bats: Vec<(&'a Self, Result<Bat>)>,
         trial: impl Fn(usize, &Bat) -> Result<Trial>,
-    ) -> Vec<Result<Found>> {
+    ) -> Vec<Result<BatAnswers>> {
         let ready = |(k, (asked, bat)): (usize, (&'a Self, Result<Bat>))| {
             (asked, bat.and_then(|bat| asked.ready(bat, |bat| trial(k, bat))))
         };
         let ready: Vec<(&Self, Result<Ready>)> = bats.into_iter().enumerate().map(ready).collect();
-        let mut solved: Vec<Option<Result<Solved>>> = ready.iter().map(|_| None).collect();
+        let mut found: Vec<Option<Result<BatAnswers>>> = ready.iter().map(|_| None).collect();
+        let there = ready.iter().enumerate();
         let there =
-            || ready.iter().enumerate().filter_map(|(k, (_, of))| Some((k, of.as_ref().ok()?)));
-        let blows = there().filter_map(|(k, ready)| Some((k, ready.blow()?)));
-        let (hit, blows): (Vec<usize>, Vec<Blow>) = blows.unzip();
-        strike_each(model, &blows, Way::SideBySide, |k, found| {
-            solved[hit[k]] = Some(found.map(Solved::Hits));
+            || there.clone().filter_map(|(k, (asked, of))| Some((k, *asked, of.as_ref().ok()?)));
+        let blows = there().filter_map(|one| Some((one, one.2.blow()?)));
+        let (hit, blows): (Vec<(usize, &Self, &Ready)>, Vec<Blow>) = blows.unzip();
+        strike_each(model, &blows, Way::SideBySide, |n, sweep| {
+            let (k, asked, ready) = hit[n];
+            found[k] = Some(sweep.and_then(|sweep| asked.with_hits(ready, &sweep)));
         });
-        let others = there().filter(|(_, ready)| ready.trial.is_none());
-        let (others, requests): (Vec<usize>, Vec<_>) =
-            others.map(|(k, ready)| (k, (&ready.bat, ready.request))).unzip();
-        solutions(model, &requests, Way::SideBySide, |k, found| {
-            solved[others[k]] = Some(found.map(Solved::Modes));
+        let others = there().filter(|(.., ready)| ready.trial.is_none());
+        let others: Vec<(usize, &Self, &Ready)> = others.collect();
+        let requests = others.iter().map(|(.., ready)| (&ready.bat, ready.request));
+        solutions(model, &requests.collect::<Vec<_>>(), Way::SideBySide, |n, solution| {
+            let (k, asked, ready) = others[n];
+            found[k] = Some(solution.and_then(|solution| asked.of_modes(&ready.bat, &solution)));
         });
-        let found = |((asked, ready), solved): ((&Self, Result<Ready>), Option<Result<Solved>>)| {
-            let (ready, solved) = (ready?, solved.expect("every bat that is ready is solved"));
-            match solved? {
-                Solved::Modes(solution) => {
-                    let found = asked.of_modes(&ready.bat, &solution)?;
-                    Ok(Found { off: ready.off, ..found })
-                }
-                Solved::Hits(sweep) => asked.with_hits(ready, sweep),
-            }
+        let whole = |((_, ready), found): ((&Self, Result<Ready>), Option<Result<BatAnswers>>)| {
+            let (ready, found) = (ready?, found.expect("every bat that is ready is solved")?);
+            Ok(BatAnswers { off: ready.off.or(found.off), ..found })
         };
-        ready.into_iter().zip(solved).map(found).collect()
+        ready.into_iter().zip(found).map(whole).collect()
     }
 
     /// The bat with moduli fitted to its tap, and the data for its answers.
@@ -157,39 +144,40 @@ impl Asked {
     }
 
     /// The answers of a bat that is not hit.
-    fn of_modes(&self, bat: &Bat, solution: &Solution) -> Result<Found> {
+    fn of_modes(&self, bat: &Bat, solution: &Solution) -> Result<BatAnswers> {
         let figures = self.answers.iter().map(|answer| figure(*answer, bat, solution)).collect();
-        Ok(Found { figures, met: solution.worst() <= self.tolerance, off: None })
+        Ok(BatAnswers { figures, met: solution.worst() <= self.tolerance, off: None })
     }
 
     /// The answers of a bat that was hit: those about modes from the modes of the hit, if these are accurate enough.
-    fn with_hits(&self, Ready { bat, request, trial, .. }: Ready, sweep: Sweep) -> Result<Found> {
-        let (Trial { scene, model }, _) = trial.expect("a bat that was hit has its trial");
+    fn with_hits(&self, ready: &Ready, sweep: &Sweep) -> Result<BatAnswers> {
+        let Ready { bat, request, trial, .. } = ready;
+        let (Trial { scene, model }, _) = trial.as_ref().expect("a bat that was hit has its trial");
         let asked = self.answers.iter().map(|answer| answer.modes()).max().unwrap_or(0);
         let found = match sweep.solution.modes.len() >= asked {
-            true => self.of_modes(&bat, &sweep.solution)?,
-            false => self.of_modes(&bat, &solve(&bat, &Request { modes: asked, ..request })?)?,
+            true => self.of_modes(bat, &sweep.solution)?,
+            false => self.of_modes(bat, &solve(bat, &Request { modes: asked, ..*request })?)?,
         };
         let searched = match self.answers.iter().any(|answer| answer.is_searched()) {
-            true => Some(Searched::new(&self.answers, &bat, (&scene, model), &sweep)?),
-            false => None,
+            true => searched(&self.answers, bat, (scene, *model), sweep)?,
+            false => vec![],
         };
         let at = |x: f64| sweep.impacts.iter().find(|impact| impact.x == x);
         let of = |(answer, known): (&Answer, Option<Figure>)| match *answer {
-            Answer::ExitSpeedAt(x) => exit_speed(at(x)?, &scene),
-            Answer::VibrationAt(x) => vibration(at(x)?, &scene),
-            answer if answer.is_searched() => searched.as_ref()?.figure(answer),
+            Answer::ExitSpeedAt(x) => exit_speed(at(x)?, scene),
+            Answer::VibrationAt(x) => vibration(at(x)?, scene),
+            answer if answer.is_searched() => {
+                searched.iter().find(|(known, _)| *known == answer).map(|(_, figure)| *figure)
+            }
             _ => known,
         };
         let figures = self.answers.iter().zip(found.figures).map(of).collect();
-        let off = on_the_bat(&self.answers, &bat).err();
-        Ok(Found { figures, met: found.met && sweep.met(), off })
+        let off = on_the_bat(&self.answers, bat).err();
+        Ok(BatAnswers { figures, met: found.met && sweep.met(), off })
     }
 
     /// Impact points (m from the knob end): the requested ones, and those for the search of best places.
     fn places(&self, bat: &Bat) -> Vec<f64> {
-        /// Impact points of a barrel that is searched, as shares of the length.
-        const ALONG: [f64; 4] = [0.7, 0.775, 0.85, 0.925];
         let asked = self.answers.iter().filter_map(|answer| answer.place());
         let mut places: Vec<f64> = asked.filter(|x| *x <= bat.length()).collect();
         if self.answers.iter().any(|answer| answer.is_searched()) {
@@ -219,118 +207,82 @@ fn vibration(impact: &Impact, scene: &Scene) -> Option<Figure> {
         .then(|| Figure::new(outcome.energy.vibration, moved))
 }
 
-/// The results of the search on a bat that was hit, as far as they are requested.
-struct Searched {
-    /// Speed and place of the fastest ball, and the energy it leaves in vibration.
-    fastest: Option<[Figure; 3]>,
-    zone: Option<[Figure; 2]>,
-    /// Place and value of the least vibration.
-    least: Option<[Figure; 2]>,
-    bbcor: Option<Figure>,
-    hands: Option<Hands>,
-}
-
-impl Searched {
-    fn new(answers: &[Answer], bat: &Bat, trial: (&Scene, Model), sweep: &Sweep) -> Result<Self> {
-        let (scene, model) = trial;
-        let hitter = Hitter::new(model, scene, bat, &sweep.solution, sweep.effort)?;
-        let asked = |which: fn(&Answer) -> bool| answers.iter().any(which);
-        // An answer about a given place needs no search.
-        let sought = asked(|answer| answer.is_searched() && answer.place().is_none())
-            .then(|| Sought::new(&hitter, FEW));
-        let sought = |which| sought.as_ref().filter(|_| asked(which));
-        let fastest = sought(|answer| {
-            matches!(answer, Answer::ExitSpeed | Answer::ExitSpeedPlace | Answer::Zone(_))
-        });
-        let fastest = fastest.and_then(|sought| sought.looked.fastest().map(|peak| (sought, peak)));
-        let zone = fastest.filter(|_| asked(|answer| matches!(answer, Answer::Zone(_))));
-        let least = sought(|answer| matches!(answer, Answer::Vibration | Answer::VibrationPlace));
-        let felt = [
-            sought(|answer| *answer == Answer::HandsVelocity),
-            sought(|answer| *answer == Answer::HandsAcceleration),
-        ];
-        let felt = [0, 1].map(|k| Some(felt[k]?.looked.least_felt(k)?.x));
-        let hands = asked(|answer| answer.of_the_hands());
-        Ok(Self {
-            fastest: fastest.map(|(sought, peak)| sought.best(peak, &sought.hit(peak))),
-            zone: zone
-                .map(|(sought, peak)| sought.looked.zone(peak).map(|edge| sought.edge(peak, edge))),
-            least: least.and_then(|sought| Some(sought.least(sought.looked.least_vibration()?))),
-            bbcor: sought(|answer| *answer == Answer::Bbcor).and_then(|sought| sought.bbcor(1)),
-            hands: hands.then(|| Hands::new(bat, trial, (sweep, &hitter), felt)).transpose()?,
-        })
-    }
-
-    fn figure(&self, answer: Answer) -> Option<Figure> {
-        match answer {
-            Answer::ExitSpeed => Some(self.fastest?[0]),
-            Answer::ExitSpeedPlace => Some(self.fastest?[1]),
-            Answer::Zone(end) => Some(self.zone?[usize::from(end)]),
-            Answer::Vibration => Some(self.least?[1]),
-            Answer::VibrationPlace => Some(self.least?[0]),
-            Answer::Bbcor => self.bbcor,
-            answer => self.hands.as_ref()?.felt(answer),
+/// The answers that need a search on a bat that was hit, as far as they are requested.
+fn searched(
+    answers: &[Answer],
+    bat: &Bat,
+    (scene, model): (&Scene, Model),
+    sweep: &Sweep,
+) -> Result<Vec<(Answer, Figure)>> {
+    let hitter = Hitter::new(model, scene, bat, &sweep.solution, sweep.effort)?;
+    let asked = |which: fn(&Answer) -> bool| answers.iter().any(which);
+    // An answer about a given place needs no search.
+    let sought = asked(|answer| answer.is_searched() && answer.place().is_none())
+        .then(|| Sought::new(&hitter, FEW));
+    let sought = |which| sought.as_ref().filter(|_| asked(which));
+    let mut found = vec![];
+    let fastest = sought(|answer| {
+        matches!(answer, Answer::ExitSpeed | Answer::ExitSpeedPlace | Answer::Zone(_))
+    });
+    if let Some((sought, peak)) = fastest.and_then(|by| Some((by, by.looked.fastest()?))) {
+        let [speed, place, _] = sought.best(peak, &sought.hit(peak));
+        found.extend([(Answer::ExitSpeed, speed), (Answer::ExitSpeedPlace, place)]);
+        if asked(|answer| matches!(answer, Answer::Zone(_))) {
+            let [from, to] = sought.looked.zone(peak).map(|edge| sought.edge(peak, edge));
+            found.extend([(Answer::Zone(false), from), (Answer::Zone(true), to)]);
         }
     }
+    let least = sought(|answer| matches!(answer, Answer::Vibration | Answer::VibrationPlace));
+    if let Some((sought, peak)) = least.and_then(|by| Some((by, by.looked.least_vibration()?))) {
+        let [place, value] = sought.least(peak);
+        found.extend([(Answer::VibrationPlace, place), (Answer::Vibration, value)]);
+    }
+    let bbcor = sought(|answer| *answer == Answer::Bbcor).and_then(|sought| sought.bbcor(1));
+    found.extend(bbcor.map(|bbcor| (Answer::Bbcor, bbcor)));
+    let felt = [
+        sought(|answer| *answer == Answer::HandsVelocity),
+        sought(|answer| *answer == Answer::HandsAcceleration),
+    ];
+    let felt = [0, 1].map(|k| Some(felt[k]?.looked.least_felt(k)?.x));
+    if asked(|answer| answer.of_the_hands()) {
+        found.extend(hands(bat, (scene, model), (sweep, &hitter), felt)?);
+    }
+    Ok(found)
 }
 
-/// The motion at the hands due to hits on a bat. Its error has two parts: the change with fewer modes, and the error of
-/// the impulse, to which the motion is proportional.
-struct Hands {
-    /// Places of the least velocity and the least acceleration (m).
+/// The motion at the hands due to hits on a bat, at the places of the sweep and at those of the least velocity and
+/// acceleration (m). Its error has two parts: the change with fewer modes, and the error of the impulse, to which the
+/// motion is proportional.
+fn hands(
+    bat: &Bat,
+    (scene, model): (&Scene, Model),
+    (sweep, all): (&Sweep, &Hitter),
     least: [Option<f64>; 2],
-    /// Places (m) and the motion at the hands: velocity and acceleration.
-    felt: Vec<(f64, [Figure; 2])>,
-}
-
-impl Hands {
-    /// At the places of the sweep, and, if requested, at those of the least velocity and acceleration (m).
-    fn new(
-        bat: &Bat,
-        (scene, model): (&Scene, Model),
-        (sweep, all): (&Sweep, &Hitter),
-        least: [Option<f64>; 2],
-    ) -> Result<Self> {
-        let Sweep { solution, impacts, effort, .. } = sweep;
-        let count = solution.modes.len();
-        let first = |few: usize| {
-            let mut first = solution.clone();
-            first.modes.truncate(few);
-            first
-        };
-        // With half of them it is a different bat.
-        let most = fewer(count).into_iter().filter(|few| 3 * few >= 2 * count).map(first);
-        let most: Vec<Solution> = most.collect();
-        let hitter = |solution| Hitter::new(model, scene, bat, solution, *effort);
-        let few: Vec<Hitter> = most.iter().map(hitter).collect::<Result<_>>()?;
-        let share = |impact: &Impact| {
-            let outcome = impact.outcome.as_ref()?;
-            let closing = impact.bat_speed + scene.ball_speed;
-            Some(outcome.error * closing * scene.ball.mass_kg / outcome.impulse)
-        };
-        let unsure = impacts.iter().filter_map(share).fold(0.0, greater);
-        let places = impacts.iter().map(|impact| impact.x).chain(least.into_iter().flatten());
-        let felt = places.filter_map(|x| {
-            let seen = |hitter: &Hitter| hitter.glance(x).map(|seen| seen.hands);
-            let (all, few) = (seen(all)?, few.iter().map(seen).collect::<Option<Vec<_>>>()?);
-            let figure = |k: usize| {
-                let apart = few.iter().map(|few| (all[k] - few[k]).abs()).fold(0.0, greater);
-                Figure::new(all[k], apart + unsure * all[k])
-            };
-            Some((x, [0, 1].map(figure)))
-        });
-        Ok(Self { least, felt: felt.collect() })
-    }
-
-    fn felt(&self, answer: Answer) -> Option<Figure> {
-        let (x, which) = match answer {
-            Answer::HandsVelocity => (self.least[0]?, 0),
-            Answer::HandsAcceleration => (self.least[1]?, 1),
-            Answer::HandsVelocityAt(x) => (x, 0),
-            Answer::HandsAccelerationAt(x) => (x, 1),
-            _ => return None,
-        };
-        let near = |(place, _): &&(f64, _)| (place - x).abs() < 1e-9;
-        self.felt.iter().find(near).map(|(_, felt)| felt[which])
-    }
+) -> Result<Vec<(Answer, Figure)>> {
+    let Sweep { solution, impacts, effort, .. } = sweep;
+    let count = solution.modes.len();
+    // With half of them it is a different bat.
+    let most = fewer(count).into_iter().filter(|few| 3 * few >= 2 * count);
+    let most: Vec<Solution> = most.map(|few| with_modes(solution, few)).collect();
+    let hitter = |solution| Hitter::new(model, scene, bat, solution, *effort);
+    let few: Vec<Hitter> = most.iter().map(hitter).collect::<Result<_>>()?;
+    let share = |impact: &Impact| {
+        let outcome = impact.outcome.as_ref()?;
+        let closing = impact.bat_speed + scene.ball_speed;
+        Some(outcome.error * closing * scene.ball.mass_kg / outcome.impulse)
+    };
+    let unsure = impacts.iter().filter_map(share).fold(0.0, greater);
+    let felt = |x: f64, k: usize| {
+        let seen = |hitter: &Hitter| hitter.glance(x).map(|seen| seen.hands[k]);
+        let (all, few) = (seen(all)?, few.iter().map(seen).collect::<Option<Vec<_>>>()?);
+        let apart = few.iter().map(|few| (all - few).abs()).fold(0.0, greater);
+        Some(Figure::new(all, apart + unsure * all))
+    };
+    let [velocity, acceleration] = least;
+    let at = impacts.iter().flat_map(|impact| {
+        let x = Some(impact.x);
+        [(Answer::HandsVelocityAt(impact.x), x, 0), (Answer::HandsAccelerationAt(impact.x), x, 1)]
+    });
+    let best = [(Answer::HandsVelocity, velocity, 0), (Answer::HandsAcceleration, acceleration, 1)];
+    Ok(at.chain(best).filter_map(|(answer, x, k)| Some((answer, felt(x?, k)?))).collect())
 }

@@ -2,6 +2,8 @@
 
 use faer::c64;
 
+use crate::named::named;
+
 /// Measured modes, all at the same points.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Measured {
@@ -21,27 +23,17 @@ pub struct Measured {
     pub otherwise: Option<Otherwise>,
 }
 
-/// Unit of a file's frequencies.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FrequencyUnit {
-    /// Cycles a second.
-    Hertz,
-    /// Radians a second.
-    RadPerS,
+named! {
+    /// Unit of a file's frequencies.
+    pub enum FrequencyUnit {
+        /// Cycles a second.
+        Hertz = "Hz",
+        /// Radians a second.
+        RadPerS = "rad/s",
+    }
 }
 
 impl FrequencyUnit {
-    /// Both.
-    pub const ALL: [Self; 2] = [Self::Hertz, Self::RadPerS];
-
-    /// Its name.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Hertz => "Hz",
-            Self::RadPerS => "rad/s",
-        }
-    }
-
     /// How many Hz it is.
     pub fn hertz(self) -> f64 {
         match self {

@@ -7,27 +7,18 @@
 use faer::c64;
 use serde::Serialize;
 
+use crate::engine::{Error, Result, significant};
 use crate::measured::data::Measured;
-use sweetspot::base::error::{Error, Result};
-use sweetspot::base::number::significant;
+use crate::named::named;
 
-/// An end of the bat.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, schemars::JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum End {
-    /// The knob end, where the hands are.
-    Knob,
-    /// The end of the barrel.
-    Tip,
-}
-
-impl End {
-    /// Its name.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Knob => "knob",
-            Self::Tip => "tip",
-        }
+named! {
+    /// An end of the bat.
+    #[derive(schemars::JsonSchema)]
+    pub enum End {
+        /// The knob end, where the hands are.
+        Knob = "knob",
+        /// The end of the barrel.
+        Tip = "tip",
     }
 }
 
@@ -82,7 +73,7 @@ pub fn place(
 ) -> Result<Placed> {
     fits_on(measured, length)?;
     let shapes: Vec<Vec<c64>> = measured.modes.iter().map(|mode| mode.shape.clone()).collect();
-    let way = |first: End| -> Result<DirectionPoints> {
+    let way = |first: End| -> Result<Placed> {
         let (places, how) = places(measured, length, told.origin, first);
         let mut x = on_the_bat(places, length)?;
         let mut shapes = shapes.clone();
@@ -90,53 +81,41 @@ pub fn place(
             x.reverse();
             shapes.iter_mut().for_each(|shape| shape.reverse());
         }
-        Ok(DirectionPoints { fit: fit(&x, &shapes), x, shapes, first, how })
+        let fits = [Some(fit(&x, &shapes)), None];
+        Ok(Placed { assumed: vec![how], first, x, shapes, fits, turned_fits_better: false })
     };
     let wanted = told.first.or(measured.from_knob.then_some(End::Knob));
-    let (knob, tip) = (way(End::Knob), way(End::Tip));
-    let Choice { chosen, other, reason } = choose(wanted, knob, tip)?;
-    let better = other.is_some_and(|other| other > chosen.fit + BETTER);
-    let mut assumed = vec![chosen.how];
+    let (mut placed, other, reason) = choose(wanted, way(End::Knob), way(End::Tip))?;
+    let fit = placed.fit();
     if let Some(reason) = reason {
-        let first = chosen.first.name();
         let turned = other.map_or(String::new(), |other| format!(", turned round {other:.3}"));
-        let fit = chosen.fit;
-        assumed.push(format!(
+        let first = placed.first.name();
+        placed.assumed.push(format!(
             "the first is nearest the {first}: {reason} (mean MAC {fit:.3}{turned})"
         ));
     }
-    let fits = [Some(chosen.fit), other];
-    let (x, shapes, first) = (chosen.x, chosen.shapes, chosen.first);
-    Ok(Placed { x, shapes, first, fits, assumed, turned_fits_better: better })
+    placed.fits[1] = other;
+    placed.turned_fits_better = other.is_some_and(|other| other > fit + BETTER);
+    Ok(placed)
 }
 
-/// The points in one direction.
-struct DirectionPoints {
-    x: Vec<f64>,
-    shapes: Vec<Vec<c64>>,
-    first: End,
-    fit: f64,
-    how: String,
+/// The points in one of two orders, the fit of the other one if it is possible, and the reason for the choice if the
+/// file does not decide.
+type Choice = (Placed, Option<f64>, Option<&'static str>);
+
+impl Placed {
+    /// How well the shapes fit this way.
+    fn fit(&self) -> f64 {
+        self.fits[0].unwrap_or(0.0)
+    }
 }
 
-/// One of two orders, the fit of the other one if it is possible, and the reason for the choice if the file does not
-/// decide.
-struct Choice {
-    chosen: DirectionPoints,
-    other: Option<f64>,
-    reason: Option<&'static str>,
-}
-
-fn choose(
-    wanted: Option<End>,
-    knob: Result<DirectionPoints>,
-    tip: Result<DirectionPoints>,
-) -> Result<Choice> {
-    let fits = [&knob, &tip].map(|way| way.as_ref().ok().map(|way| way.fit));
-    let (chosen, other, reason) = match (wanted, knob, tip) {
+fn choose(wanted: Option<End>, knob: Result<Placed>, tip: Result<Placed>) -> Result<Choice> {
+    let fits = [&knob, &tip].map(|way| way.as_ref().ok().map(Placed::fit));
+    Ok(match (wanted, knob, tip) {
         (Some(End::Knob), knob, _) => (knob?, fits[1], None),
         (Some(End::Tip), _, tip) => (tip?, fits[0], None),
-        (None, Ok(knob), Ok(tip)) => match tip.fit - knob.fit {
+        (None, Ok(knob), Ok(tip)) => match tip.fit() - knob.fit() {
             d if d > BETTER => (tip, fits[0], Some("so the shapes fit better")),
             d if d < -BETTER => (knob, fits[1], Some("so the shapes fit better")),
             _ => {
@@ -148,8 +127,7 @@ fn choose(
             let either = knob.or_else(|error| tip.map_err(|_| error))?;
             (either, None, Some("the other way points are off the bat"))
         }
-    };
-    Ok(Choice { chosen, other, reason })
+    })
 }
 
 /// Places from the knob end (m) with that end first, and how they were found.

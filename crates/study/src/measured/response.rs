@@ -2,9 +2,9 @@
 
 use faer::c64;
 
-use sweetspot::base::error::{Error, Result};
-use sweetspot::motion::frf::{Frf, ResponseKind};
-use sweetspot::motion::peaks::{self, Peak};
+use crate::engine::{Error, Frf, ResponseKind, Result};
+use sweetspot::motion::peaks;
+use sweetspot::motion::peaks::Peak;
 
 /// A frequency response as a laboratory measured it.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,15 +3,12 @@
 use faer::c64;
 use serde::Serialize;
 
+use crate::engine::{Bat, Error, Mode, Request, Result, Solution, solve};
 use crate::measured::data::{Measured, MeasuredMode};
 use crate::measured::mac;
 use crate::measured::pairing::{by_order, by_shape, octaves};
 use crate::measured::place::{Placed, ToldPoints, place};
 use crate::measured::weigh::{Curve, Scale};
-use sweetspot::base::error::{Error, Result};
-use sweetspot::bat::body::Bat;
-use sweetspot::modes::mode::Mode;
-use sweetspot::modes::solve::{Request, Solution, solve};
 
 /// Measured modes compared with computed ones.
 #[derive(Debug, Clone)]

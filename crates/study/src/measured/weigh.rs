@@ -10,19 +10,17 @@
 
 use faer::c64;
 
+use crate::engine::{Bat, Theory, gauss};
 use crate::measured::spline::Spline;
-use sweetspot::base::quadrature::gauss;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::theory::Theory;
 
 /// Places and the masses there: a sum over them is an integral over the bat.
 #[derive(Debug, Clone)]
 pub struct Scale {
-    shares: Vec<Share>,
+    shares: Vec<MassAt>,
 }
 
 #[derive(Debug, Clone, Copy)]
-struct Share {
+struct MassAt {
     /// Where it is fixed (m), and how far beyond its mass is (m).
     x: f64,
     offset: f64,
@@ -54,13 +52,13 @@ impl Scale {
                     let worth = layup.worth(piece.at((x - piece.start) / piece.length));
                     let dx = weight * (stretch[1] - stretch[0]);
                     let (mass, turning) = (dx * worth.mass, dx * worth.turning * turns);
-                    shares.push(Share { x, offset: 0.0, mass, turning });
+                    shares.push(MassAt { x, offset: 0.0, mass, turning });
                 }
             }
         }
         shares.extend(bat.fixtures().attachments.iter().map(|a| {
             let (mass, turning) = (a.mass, a.rotary_inertia);
-            Share { x: a.x, offset: a.offset, mass, turning }
+            MassAt { x: a.x, offset: a.offset, mass, turning }
         }));
         Self { shares }
     }
@@ -70,7 +68,7 @@ impl Scale {
         let part =
             |of: fn(&c64) -> f64| Spline::new(points, &values.iter().map(of).collect::<Vec<f64>>());
         let (re, im) = (part(|v| v.re), part(|v| v.im));
-        let at = |share: &Share| {
+        let at = |share: &MassAt| {
             let [re, im] = [re.at(share.x), im.at(share.x)];
             let slope = c64::new(re[1], im[1]);
             [c64::new(re[0], im[0]) + slope * share.offset, slope]
@@ -80,7 +78,7 @@ impl Scale {
 
     /// The line `a + b x`.
     pub fn line(&self, a: f64, b: f64) -> Curve {
-        let at = |s: &Share| [c64::new(a + b * (s.x + s.offset), 0.0), c64::new(b, 0.0)];
+        let at = |s: &MassAt| [c64::new(a + b * (s.x + s.offset), 0.0), c64::new(b, 0.0)];
         Curve(self.shares.iter().map(at).collect())
     }
 
@@ -103,7 +101,7 @@ impl Scale {
         (0..curves.len()).map(|i| (0..curves.len()).map(|j| entry(i, j)).collect()).collect()
     }
 
-    /// Share of rigid motion in a curve, relative to its size `√(φᴴMφ)`: the size of its projection on translation and
+    /// MassAt of rigid motion in a curve, relative to its size `√(φᴴMφ)`: the size of its projection on translation and
     /// rotation.
     pub fn rigid_share(&self, curve: &Curve) -> f64 {
         let shift = self.line(1.0, 0.0);

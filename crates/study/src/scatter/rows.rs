@@ -7,19 +7,14 @@ use std::ops::Range;
 
 use crate::answers::Answer;
 use crate::comparison::contender::Figure;
+use crate::engine::{
+    Bat, Error, FEW, HitsAlong, Hitter, Material, Request, Result, Setup, Trial as Hit, prepare,
+    sweep,
+};
 use crate::many::design::Design;
 use crate::many::indices::VariateKind;
-use crate::many::rows::{Asked, Found, Trial};
+use crate::many::rows::{Asked, BatAnswers, Trial};
 use crate::scatter::spreads::{Differences, Differs, SCRAMBLES, softened};
-use sweetspot::base::error::{Error, Result};
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::material::Material;
-use sweetspot::collision::hitter::Hitter;
-use sweetspot::collision::setup::Setup;
-use sweetspot::collision::sweep::{Trial as Hit, sweep};
-use sweetspot::collision::sweet_spot::{FEW, HitsAlong};
-use sweetspot::modes::prepared::prepare;
-use sweetspot::modes::solve::Request;
 
 /// The exit speed at the varying impact point, as an output.
 pub const AT_IMPACT: &str = "exit_speed_m_s@impact";
@@ -81,7 +76,8 @@ pub struct ScatterRows {
     /// The mean bat of the rows, with all places of turning errors.
     middle: Bat,
     designs: Vec<Design>,
-    groups: Vec<usize>,
+    /// The difference that each number belongs to.
+    pub groups: Vec<usize>,
 }
 
 impl ScatterRows {
@@ -129,11 +125,6 @@ impl ScatterRows {
         self.designs[0].kinds()
     }
 
-    /// The difference that each number belongs to.
-    pub fn groups(&self) -> &[usize] {
-        &self.groups
-    }
-
     fn place(&self, k: u64) -> (usize, u64) {
         let each = self.plan.points / SCRAMBLES;
         ((k / each) as usize, k % each)
@@ -141,7 +132,7 @@ impl ScatterRows {
 
     /// The results of those rows, in the order of the outputs, or the reason why there are none. A row's results do not
     /// depend on which other rows are requested.
-    pub fn answers(&self, rows: Range<u64>) -> Vec<Result<Found>> {
+    pub fn answers(&self, rows: Range<u64>) -> Vec<Result<BatAnswers>> {
         self.of(&rows.map(|k| self.values(k)).collect::<Vec<_>>())
     }
 
@@ -176,7 +167,7 @@ impl ScatterRows {
         pairs.filter(|(_, group)| **group == k).map(|(value, _)| *value).collect()
     }
 
-    fn of(&self, rows: &[Vec<f64>]) -> Vec<Result<Found>> {
+    fn of(&self, rows: &[Vec<f64>]) -> Vec<Result<BatAnswers>> {
         let asked: Vec<Asked> = rows.iter().map(|values| self.asked(values)).collect();
         let bats = asked.iter().zip(rows).map(|(asked, values)| (asked, self.changed(values)));
         Asked::of_each(&self.middle, bats.collect(), |k, bat| self.trial(&rows[k], bat))

@@ -162,7 +162,7 @@ impl Scattered {
                 .collect();
             let (mean, sd) = moments(&values).unzip();
             let differ = mean.zip(sd).is_some_and(|(mean, sd)| sd > ROUND_OFF * f64::abs(mean));
-            let indices = differ.then(|| Indices::grouped(&rows.kinds(), rows.groups(), &fitted));
+            let indices = differ.then(|| Indices::grouped(&rows.kinds(), &rows.groups, &fitted));
             OutputSpread {
                 name: output.name(),
                 unit: output.unit(),

@@ -9,10 +9,10 @@
 //! The effect of moisture on the moduli is from memory of wood handbooks (about 1.3 % a per cent below fibre
 //! saturation); give a calibrated figure where it matters.
 
+use crate::engine::{Error, Result};
 use crate::many::design::{Design, Spread, Wanted};
 use crate::many::distribution::Distribution;
 use crate::scatter::turning::Turning;
-use sweetspot::base::error::{Error, Result};
 
 /// Loss of E and G for a unit of moisture, relative.
 pub const SOFTENED: f64 = 1.3;

@@ -14,9 +14,7 @@
 //! C. de Boor, A Practical Guide to Splines (Springer, 2001), chapter IX: B-splines, and the cubic one of equidistant
 //! knots.
 
-use sweetspot::base::error::{Error, Result};
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::profile::{Interpolation, Profile, Stations};
+use crate::engine::{Bat, Error, Interpolation, Profile, Result, Stations};
 
 /// `∫ B(t)² dt` of the cubic B-spline of equidistant knots: the mean over x of the sum of squares.
 const MEAN_SQUARE: f64 = 151.0 / 315.0;

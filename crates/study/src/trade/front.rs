@@ -51,12 +51,12 @@ pub fn fastest(runs: &[Run], tolerance: f64) -> Option<&Run> {
 }
 
 #[cfg(test)]
-pub(crate) mod tests {
+mod tests {
     use super::*;
     use sweetspot::base::golden;
     use sweetspot::modes::solve::Solver;
 
-    pub fn run(seconds: f64, error: f64) -> Run {
+    fn run(seconds: f64, error: f64) -> Run {
         let choice =
             Choice { degree: 5, elements: 7, solver: Solver::Statics, degrees_of_freedom: 30 };
         Run {

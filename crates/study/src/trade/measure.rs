@@ -4,16 +4,11 @@ use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
+use crate::engine::{Bat, DEGREES, Request, Result, Solution, Solver, Tell, Theory, solve};
 use crate::trade::front::{Run, mark};
 use crate::trade::reference::{Choice, Reference, solver_name, worst};
 use crate::trade::u_curve::{self, Curve, first_time, order};
 use crate::trade::words::{digits, hurts, planner};
-use sweetspot::base::error::Result;
-use sweetspot::base::telling::Tell;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::theory::Theory;
-use sweetspot::beam::rule::DEGREES;
-use sweetspot::modes::solve::{Request, Solution, Solver, solve};
 
 /// Speed against accuracy on one bat, as measured.
 #[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]

@@ -3,10 +3,8 @@
 use std::f64::consts::TAU;
 
 use serde::{Serialize, Serializer};
-use sweetspot::base::error;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::theory::Theory;
-use sweetspot::modes::solve::{Request, Solution, Solver, solve};
+
+use crate::engine::{Bat, Request, Solution, Solver, Theory, error, solve};
 
 /// A mesh and the solver for it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, schemars::JsonSchema)]

@@ -7,13 +7,11 @@ use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
+use crate::engine::{
+    Bat, Error, MOST_DENSE, Mesh, Request, Result, Solver, Tell, own_and_recomputed, solve,
+};
 use crate::trade::reference;
 use crate::trade::reference::{Reference, by_name, solver_name};
-use sweetspot::base::error::{Error, Result};
-use sweetspot::base::telling::Tell;
-use sweetspot::bat::body::Bat;
-use sweetspot::beam::mesh::Mesh;
-use sweetspot::modes::solve::{MOST_DENSE, Request, Solver, own_and_recomputed, solve};
 
 /// Errors that leave 8 digits, 4 digits and no digit.
 const THRESHOLDS: [f64; 3] = [1e-8, 1e-4, 1.0];

@@ -1,9 +1,9 @@
 //! The conclusions of the measurement, in sentences.
 
+use crate::engine::Solver;
 use crate::trade::front::{Run, fastest};
 use crate::trade::reference::solver_name;
 use crate::trade::u_curve::{Curve, End, Losses, Reason, SolverFrequency};
-use sweetspot::modes::solve::Solver;
 
 /// Numbers of digits that are compared, from the second on.
 const DIGITS: std::ops::RangeInclusive<i32> = 2..=15;
@@ -125,8 +125,16 @@ fn refusal(curve: &Curve) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::trade::front::tests::run;
+    use crate::trade::reference::Choice;
     use crate::trade::u_curve::MeshErrors;
+
+    fn run(seconds: f64, error: f64) -> Run {
+        let (degree, elements, degrees_of_freedom) = (5, 7, 30);
+        let choice = Choice { degree, elements, solver: Solver::Statics, degrees_of_freedom };
+        let (error_by_mode, planned_for) = (vec![0.5 * error, error], None);
+        let (repeats, stated_error, on_front) = (3, error, false);
+        Run { choice, seconds, repeats, error, error_by_mode, stated_error, planned_for, on_front }
+    }
 
     #[test]
     fn the_next_digit_has_a_price() {

@@ -4,20 +4,12 @@ use std::sync::Arc;
 
 use serde::Serialize;
 
+use crate::engine::{
+    ASSUMED_POISSON_RATIO, Accuracy, Ball, Bat, Fixtures, Hitter, Hoop, HoopInHit, HoopMode,
+    HoopRequest, HoopWall, KnobSide, Material, Model, Result, Scene, TEST_SPEED, WallBbcor,
+    poisson_ratio, sweep,
+};
 use crate::trampoline::pressed::{BarrelCompression, PressedWall};
-use sweetspot::base::error::Result;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::fixtures::Fixtures;
-use sweetspot::bat::material::Material;
-use sweetspot::beam::wall::elastic::{ASSUMED_POISSON_RATIO, poisson_ratio};
-use sweetspot::collision::ball::Ball;
-use sweetspot::collision::bbcor::TEST_SPEED;
-use sweetspot::collision::hit::{Model, Scene};
-use sweetspot::collision::hitter::Hitter;
-use sweetspot::collision::hoop_wall::{HoopInHit, HoopWall};
-use sweetspot::collision::sweep::{Accuracy, sweep};
-use sweetspot::collision::wall_figures::WallBbcor;
-use sweetspot::modes::hoop::{Hoop, HoopMode, HoopRequest, KnobSide};
 
 /// Default impact point on a barrel, from the tip: 6 in (m).
 pub const FROM_TIP: f64 = 0.1524;

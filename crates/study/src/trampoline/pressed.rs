@@ -2,9 +2,7 @@
 
 use serde::Serialize;
 
-use sweetspot::bat::body::Bat;
-use sweetspot::collision::ball::Ball;
-use sweetspot::collision::hoop_wall::HoopWall;
+use crate::engine::{Ball, Bat, HoopWall};
 use sweetspot::modes::hoop::Share;
 
 /// Deflections in the test of a barrel's compression (m): 0.04 in for baseball bats, 0.07 in for softball bats.

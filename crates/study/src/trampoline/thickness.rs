@@ -2,10 +2,8 @@
 
 use serde::Serialize;
 
+use crate::engine::{Bat, DiameterChange, Result};
 use crate::trampoline::barrel::{Barrel, BarrelStruck};
-use sweetspot::base::error::Result;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::turned::DiameterChange;
 
 /// Thicknesses that are tried, over that of the bat.
 pub const FACTORS: [f64; 9] = [0.6, 0.7, 0.8, 0.9, 1.0, 1.2, 1.4, 1.7, 2.0];

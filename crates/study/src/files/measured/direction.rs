@@ -2,7 +2,7 @@
 
 use faer::{Mat, Side};
 
-use sweetspot::base::linear::dot;
+use crate::engine::dot;
 
 /// A direction or a place.
 pub type Vector = [f64; 3];

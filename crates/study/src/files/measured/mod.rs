@@ -9,9 +9,9 @@ pub mod response;
 
 use std::path::Path;
 
+use crate::engine::{Error, Result};
 use crate::files::measured::places::Places;
 use crate::measured::data::{FrequencyUnit, Measured};
-use sweetspot::base::error::{Error, Result};
 use uff58::Units;
 
 /// With fewer points, shapes cannot be distinguished.

@@ -3,11 +3,9 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use crate::engine::{Document, Error, Quantity, Result, Sheet, units};
 use crate::files::measured::is_table;
-use sweetspot::base::error::{Error, Result};
-use sweetspot::base::units::{self, Quantity};
-use sweetspot::files::document::Document;
-use sweetspot::files::sheet::{Sheet, normal};
+use sweetspot::files::sheet::normal;
 
 /// Distance of every node from the knob end (m), by its label.
 pub type Places = BTreeMap<i64, f64>;

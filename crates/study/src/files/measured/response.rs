@@ -6,15 +6,11 @@ use std::path::Path;
 
 use faer::c64;
 
+use crate::engine::{Error, INCH, POUND_FORCE, Quantity, ResponseKind, Result, dot, factor, file};
 use crate::files::measured::coherence;
 use crate::files::measured::direction::{Vector, axis};
 use crate::files::measured::places::Places;
 use crate::measured::response::MeasuredResponse;
-use sweetspot::base::error::{Error, Result};
-use sweetspot::base::file;
-use sweetspot::base::linear::dot;
-use sweetspot::base::units::{INCH, POUND_FORCE, Quantity, factor};
-use sweetspot::motion::frf::ResponseKind;
 use uff58::{Dataset, Dof, Function, Units, Universal, Values, at_line};
 
 /// Standard gravity (m/s²): some programs call their accelerations `g` and mean it.

@@ -19,12 +19,10 @@ use std::path::Path;
 
 use faer::c64;
 
+use crate::engine::{Document, Quantity, Result, Sheet, SheetRow};
 use crate::files::measured::FEWEST;
 use crate::measured::data::{Measured, MeasuredMode};
-use sweetspot::base::error::Result;
-use sweetspot::base::units::Quantity;
-use sweetspot::files::document::Document;
-use sweetspot::files::sheet::{Sheet, SheetRow, normal};
+use sweetspot::files::sheet::normal;
 
 /// Reads measured modes from CSV.
 ///

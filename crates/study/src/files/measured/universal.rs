@@ -9,12 +9,10 @@ use std::path::Path;
 
 use faer::c64;
 
+use crate::engine::{Error, Result, dot, file};
 use crate::files::measured::direction::{Vector, axis, named, normals, positive};
 use crate::files::measured::{Beside, FEWEST};
 use crate::measured::data::{FrequencyUnit, Measured, MeasuredMode, Otherwise};
-use sweetspot::base::error::{Error, Result};
-use sweetspot::base::file;
-use sweetspot::base::linear::dot;
 use uff58::{Analysis, Dataset, NodalData, Node, Universal, six_digits};
 
 /// The motion of a node.
@@ -124,7 +122,7 @@ fn placed(universal: &Universal, file: &str, beside: &Beside) -> Result<Measured
 
 /// The coordinate axis along which the shapes move least, the first of equal ones: the axis of a bat whose file has no
 /// positions of its nodes.
-fn stillest(shapes: &[Shape]) -> Vector {
+fn stillest(shapes: &[FileShape]) -> Vector {
     let values = || shapes.iter().flat_map(|shape| &shape.data.values);
     let moved = |k: usize| -> f64 {
         let parts = values().filter_map(|(_, values)| values.get(k));
@@ -179,7 +177,7 @@ fn gaps(name: &str, data: &NodalData, moving: &[i64]) -> Option<String> {
 }
 
 /// Labels of the nodes that move in a shape, and of those that never move.
-fn told(shapes: &[Shape]) -> [Vec<i64>; 2] {
+fn told(shapes: &[FileShape]) -> [Vec<i64>; 2] {
     let mut moving: BTreeMap<i64, bool> = BTreeMap::new();
     for (label, values) in shapes.iter().flat_map(|shape| &shape.data.values) {
         *moving.entry(*label).or_default() |= moves(values);
@@ -204,14 +202,14 @@ fn large(values: &[uff58::Complex]) -> bool {
 const LARGEST: f64 = 1e100;
 
 /// A dataset 55 that is a mode.
-struct Shape<'a> {
+struct FileShape<'a> {
     number: i64,
     frequency: f64,
     damping_ratio: Option<f64>,
     data: &'a NodalData,
 }
 
-impl Shape<'_> {
+impl FileShape<'_> {
     /// The mode with its deflections, number `k` from 0 in the file, after those before it.
     fn mode(&self, k: usize, shape: Vec<c64>, before: &[MeasuredMode]) -> MeasuredMode {
         let number = if self.number == 0 { k as i64 + 1 } else { self.number };
@@ -260,13 +258,13 @@ impl Shape<'_> {
     }
 }
 
-fn shapes<'a>(universal: &'a Universal, file: &str, poles: &Poles) -> Result<Vec<Shape<'a>>> {
+fn shapes<'a>(universal: &'a Universal, file: &str, poles: &Poles) -> Result<Vec<FileShape<'a>>> {
     let data = universal.datasets.iter().filter_map(|dataset| match dataset {
         Dataset::NodalData(data) => Some(data),
         _ => None,
     });
-    let shapes: Vec<Shape> = data.filter_map(|data| shape(data, poles)).collect();
-    if let Some((found, expected)) = shapes.iter().find_map(Shape::complaint) {
+    let shapes: Vec<FileShape> = data.filter_map(|data| shape(data, poles)).collect();
+    if let Some((found, expected)) = shapes.iter().find_map(FileShape::complaint) {
         return Err(Error::value(file, found, expected));
     }
     if shapes.is_empty() {
@@ -357,7 +355,7 @@ fn pole(dataset: &Dataset) -> Option<[f64; 4]> {
     Some([re, size([re, im]), size(modal_a), size(modal_b)])
 }
 
-fn shape<'a>(data: &'a NodalData, poles: &Poles) -> Option<Shape<'a>> {
+fn shape<'a>(data: &'a NodalData, poles: &Poles) -> Option<FileShape<'a>> {
     let known = |ratio: f64| (ratio > 0.0).then_some(ratio);
     let (number, frequency, damping_ratio) = match data.analysis {
         Analysis::NormalMode { mode, frequency, viscous, hysteretic, .. } => {
@@ -372,7 +370,7 @@ fn shape<'a>(data: &'a NodalData, poles: &Poles) -> Option<Shape<'a>> {
         }
         _ => return None,
     };
-    Some(Shape { number, frequency, damping_ratio, data })
+    Some(FileShape { number, frequency, damping_ratio, data })
 }
 
 fn nodes(universal: &Universal) -> BTreeMap<i64, &Node> {
