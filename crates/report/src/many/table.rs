@@ -4,9 +4,8 @@ use std::collections::BTreeMap;
 
 use crate::many::folder::StudyFolder;
 use crate::many::part::{number, read};
-use sweetspot::base::error::Result;
-use sweetspot::base::file;
-use sweetspot::base::marks;
+use sweetspot::Result;
+use sweetspot::base::{file, marks};
 use sweetspot_study::files::study_rows::Rows;
 use sweetspot_study::many::indices::Indices;
 

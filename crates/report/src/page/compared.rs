@@ -3,13 +3,11 @@
 use crate::page::figure::Figure;
 use crate::page::html::Page;
 use crate::page::shown;
-use crate::parts::part::{Fold, Part, Section};
-use crate::parts::table::Table;
-use crate::parts::units::Units;
+use crate::parts::{Fold, Part, Section, Table, Units};
 use crate::plot::compared::pictures;
 use crate::report::comparison::{ALONG, FIRST, Row, letter, rows, swing, words};
 use crate::report::edits;
-use sweetspot::base::error::Result;
+use sweetspot::Result;
 use sweetspot_study::comparison::table::Comparison;
 
 /// The page of bats side by side, made by that command; `us` selects which units are shown first.

@@ -4,12 +4,11 @@ use serde_json::Value;
 
 use crate::analysis::Analysis;
 use crate::page::shown::{self, NONE, length, speed};
-use crate::parts::table::Table;
-use crate::parts::units::Units;
+use crate::parts::{Table, Units};
 use crate::report::resolved::resolved;
 use crate::schema;
 use sweetspot::collision::figures::BarrelSpeed;
-use sweetspot::collision::hit::{Model, Scene};
+use sweetspot::collision::{Model, Scene};
 
 /// Swing, pitch and ball.
 pub fn scene(analysis: &Analysis, units: Units) -> Table {

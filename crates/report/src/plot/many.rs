@@ -1,15 +1,10 @@
 //! Many bats: the distribution of an answer, its causes, and the relation between two numbers.
 
 use crate::many::table::Column;
-use crate::plot::axis::Axis;
-use crate::plot::bars::{self, Bar, BarRow};
-use crate::plot::chart::{Chart, Panel};
-use crate::plot::picture::Picture;
-use crate::plot::plane::ticks_up;
-use crate::plot::series::{digits, short};
-use crate::plot::sheet::{Sheet, Unit};
-use crate::plot::svg::{Mark, Pen};
-use crate::plot::theme::{GRID, SERIES};
+use crate::plot::{
+    Axis, Bar, BarRow, Chart, GRID, Mark, Panel, Pen, Picture, SERIES, Sheet, Unit, bars, digits,
+    short, ticks_up,
+};
 use sweetspot_study::many::indices::{Indices, Share};
 
 /// Height of a diagram (px).

@@ -1,15 +1,40 @@
 //! The advice: its text.
 
-use crate::parts::part::Part;
-use crate::parts::table::Table;
-use crate::parts::terminal::wrapped;
-use crate::parts::units::Units;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use crate::parts::{Part, Table, Units, wrapped};
 use crate::report::edits;
+use crate::schema::Written;
+use sweetspot::Theory;
 use sweetspot::base::units::{inches, ounce_square_inches, ounces};
-use sweetspot::bat::theory::Theory;
+use sweetspot::files::schema::document::{BatName, Document};
 use sweetspot_study::advise::advice::Advice;
 use sweetspot_study::advise::effect::{Effect, Switch};
 use sweetspot_study::advise::model::Model;
+
+/// How each part of the model of a bat changes its modes, and the smallest model that suffices. SI units, named at the
+/// end of each member; shifts of frequencies are relative; a value that does not exist is null. Later versions with the
+/// same number may have more members.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+#[schemars(title = "Advice file of sweetspot, sweetspot-advice/1")]
+pub struct AdviceFile {
+    /// The bat.
+    pub bat: BatName,
+    /// What the model needs.
+    #[serde(flatten)]
+    pub advice: Advice,
+}
+
+impl Document for AdviceFile {
+    const NAME: &'static str = "advice";
+}
+
+/// The document of that advice.
+pub fn document(advice: &Advice) -> Written<AdviceFile> {
+    let bat = BatName::of(&advice.full_model.solved.bat);
+    Written::of(AdviceFile { bat, advice: advice.clone() })
+}
 
 /// Modes side by side in a table of 80 columns.
 const ABREAST: usize = 5;

@@ -1,13 +1,11 @@
 //! Several bats side by side: tables of 80 columns, and words.
 
-use crate::parts::columns::{Columns, first, numbers};
-use crate::parts::terminal::wrapped;
-use crate::parts::units::Units;
+use crate::parts::{Columns, Units, first, numbers, wrapped};
 use crate::report::edits;
 use crate::report::trust::doubts;
 use sweetspot::base::number::significant;
 use sweetspot::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
-use sweetspot::collision::hit::Scene;
+use sweetspot::collision::Scene;
 use sweetspot_study::comparison::contender::Contender;
 use sweetspot_study::comparison::rows::{
     Compared, ComparedFigure, Difference, From, Unit, energies_compare,

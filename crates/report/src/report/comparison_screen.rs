@@ -1,8 +1,6 @@
 //! Several bats side by side on a screen: the important differences, then where along the barrel.
 
-use crate::parts::columns::{Columns, WIDE, first, numbers};
-use crate::parts::terminal::{Screen, wrapped};
-use crate::parts::units::Units;
+use crate::parts::{Columns, Screen, Units, WIDE, first, numbers, wrapped};
 use crate::report::comparison::{FIRST, Row, along, bats, figures, hit, letter, rows, swung};
 use crate::report::trust::doubts;
 use sweetspot_study::comparison::rows::ComparedFigure;
@@ -15,9 +13,9 @@ const LEFT: [&str; 4] = ["zone_from", "zone_to", "length", "balance_point"];
 /// of units, that of the file of the first unless another is requested.
 pub fn screen(comparison: &Comparison, units: Units) -> Screen {
     let one = units.first();
-    let mut out = bats(comparison, one, false) + &hit(comparison, units);
+    let head = bats(comparison, one, false) + &hit(comparison, units);
     let (differing, same) = ordered(comparison, one);
-    out += &match (comparison.bats.len(), differing.is_empty()) {
+    let mut out = match (comparison.bats.len(), differing.is_empty()) {
         (_, true) => String::new(),
         (2, _) => {
             let keyed = |row: &Row| comparison.figures.iter().find(|figure| figure.key == row.key);
@@ -40,7 +38,11 @@ pub fn screen(comparison: &Comparison, units: Units) -> Screen {
     }
     // Doubts precede anything that can be read off a table.
     let trust = doubted(comparison, one) + &beside_pieces(comparison, one);
-    [(0, "", out), (2, "where along the barrel", words), (1, "trust", trust)].into()
+    // What two bats differ in has room; of several the table goes on below.
+    let last = if comparison.bats.len() == 2 { 0 } else { 3 };
+    let differences = (last, "what differs", out);
+    let along = (2, "where along the barrel", words);
+    [(0, "", head), differences, along, (1, "trust", trust)].into()
 }
 
 /// Figures whose scatter is shown.

@@ -1,11 +1,10 @@
 //! The changes to a bat after it was weighed, in the notation of the command line.
 
-use crate::parts::units::Units;
+use crate::parts::Units;
 use sweetspot::base::number::significant;
 use sweetspot::base::units::{self, ounces};
-use sweetspot::bat::body::Bat;
 use sweetspot::bat::edit::{Change, Edit};
-use sweetspot::bat::material::Material;
+use sweetspot::{Bat, Material};
 
 /// Significant digits of a length or a mass.
 const DIGITS: usize = 4;

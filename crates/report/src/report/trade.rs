@@ -1,13 +1,15 @@
 //! Speed against accuracy: text and columns.
 
+use schemars::JsonSchema;
+use serde::Serialize;
+
 use crate::csv;
-use crate::parts::cell::Cell;
 use crate::parts::cell::Quantity::{Error, Ratio, Time, Words};
-use crate::parts::part::Part;
-use crate::parts::table::{Column, Table};
-use crate::parts::units::Units;
+use crate::parts::{Cell, Column, Part, Table, Units};
 use crate::report::u_curve::heading;
-use sweetspot::bat::body::Bat;
+use crate::schema::Written;
+use sweetspot::Bat;
+use sweetspot::files::schema::document::{BatName, Document};
 use sweetspot_study::trade::front::{Run, fastest, front};
 use sweetspot_study::trade::measure::Trade;
 use sweetspot_study::trade::reference::solver_name;
@@ -103,6 +105,28 @@ pub fn report(bat: &Bat, trade: &Trade, full: bool) -> (String, Vec<Part<'static
     let words = if full { trade.words.clone() } else { words::planner(&trade.runs) };
     parts.extend([Part::Heading("In words"), Part::List(words)]);
     (title, parts)
+}
+
+/// Accuracy of the frequencies of a bat against computing time, measured for many meshes and solvers. Errors are
+/// relative, times in s; a value that does not exist is null. Later versions with the same number may have more
+/// members.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[schemars(title = "Trade file of sweetspot, sweetspot-trade/1")]
+pub struct TradeFile {
+    /// The bat.
+    pub bat: BatName,
+    /// The measurements.
+    #[serde(flatten)]
+    pub trade: Trade,
+}
+
+impl Document for TradeFile {
+    const NAME: &'static str = "trade";
+}
+
+/// The document of the measurements of that bat.
+pub fn document(bat: &Bat, trade: Trade) -> Written<TradeFile> {
+    Written::of(TradeFile { bat: BatName::of(bat), trade })
 }
 
 /// Every run as a line of CSV, fastest first.

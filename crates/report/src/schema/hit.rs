@@ -4,9 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use sweetspot::bat::edit::Edit;
-use sweetspot::collision::figures;
 use sweetspot::collision::hit::{Energy, Separation};
-use sweetspot::collision::{Ball, SweetSpot};
+use sweetspot::collision::{Ball, SweetSpot, figures};
 use sweetspot::files::schema::document::{Document, Format, Generator};
 
 /// Hits along a bat: exit speeds, forces, energies and the sweet spot. SI units, named at the end of each member;

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use sweetspot::bat::theory::Theory;
+use sweetspot::Theory;
 use sweetspot::files::schema::document::{Document, Format, Generator};
 use sweetspot::files::schema::resolved::ResolvedBat;
 

@@ -4,8 +4,8 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::schema::hit::Impact;
+use sweetspot::Theory;
 use sweetspot::bat::edit::Edit;
-use sweetspot::bat::theory::Theory;
 use sweetspot::collision::aftermath::{Strained, Watched};
 use sweetspot::collision::strength::Load;
 use sweetspot::files::schema::document::{Document, Format, Generator};

@@ -4,9 +4,9 @@
 //! or half inch, and a mark at both ends to align the next page.
 
 use crate::template::sheet::{Page, Paper};
+use sweetspot::Bat;
 use sweetspot::base::number::rounded;
 use sweetspot::base::units::inches;
-use sweetspot::bat::body::Bat;
 
 /// Distance of the drawing from the edge of the paper (mm).
 const MARGIN: f64 = 12.0;
