@@ -140,7 +140,7 @@ pub fn run(args: &Args) -> Result<Done> {
         false => None,
     };
     drop(progress);
-    let answer = Answer { args, analysis, proven, lathe };
+    let answer = AnalysisOutput { args, analysis, proven, lathe };
     answer.write(inputs, lab)?;
     let code = answer.verdict();
     let text = args.output.deliver(answer.screen(), || answer.document())?;
@@ -185,7 +185,7 @@ fn inputs(args: &Args, bat: &str) -> Result<Vec<Input>> {
 }
 
 /// The results for a bat.
-struct Answer<'a> {
+struct AnalysisOutput<'a> {
     args: &'a Args,
     analysis: Analysis,
     /// The proof for its modes, if it was asked for.
@@ -194,7 +194,7 @@ struct Answer<'a> {
     lathe: Option<LatheMap>,
 }
 
-impl Answer<'_> {
+impl AnalysisOutput<'_> {
     /// The exit code, after a warning about results that are less accurate than asked.
     fn verdict(&self) -> u8 {
         let Args { solve, output, .. } = self.args;

@@ -6,7 +6,7 @@ use sweetspot::base::error::Complaint;
 use sweetspot::base::{file, threads};
 use sweetspot::{Error, Result};
 use sweetspot_report::many::summary::sorted;
-use sweetspot_report::many::table::Column;
+use sweetspot_report::many::table::NumberColumn;
 use sweetspot_report::plot::{Picture, many};
 use sweetspot_report::report::{resolved, scatter};
 use sweetspot_report::schema;
@@ -144,7 +144,7 @@ fn named(args: &Args, error: Error) -> Error {
 fn drawn(found: &Scattered) -> Vec<Picture> {
     let names: Vec<String> = found.inputs.iter().map(|one| one.name.to_owned()).collect();
     let of_one = |one: &OutputSpread| {
-        let column = Column {
+        let column = NumberColumn {
             name: one.name.clone(),
             unit: one.unit.to_owned(),
             values: one.values.iter().map(|value| value.unwrap_or(f64::NAN)).collect(),

@@ -10,7 +10,7 @@ use sweetspot_report::many::folder::StudyFolder;
 use sweetspot_report::many::fresh;
 use sweetspot_report::many::source::Study;
 use sweetspot_report::many::summary::{self, answers, names, percentile, sorted};
-use sweetspot_report::many::table::{Column, Table};
+use sweetspot_report::many::table::{NumberColumn, Table};
 use sweetspot_report::plot::{Picture, many};
 use sweetspot_study::files::study_rows::Rows;
 
@@ -139,12 +139,12 @@ fn pairs(rows: &Rows, asked: &[String]) -> Result<Vec<[String; 2]>> {
 
 fn drawn(table: &Table, rows: &Rows, pairs: &[[String; 2]]) -> Vec<Picture> {
     let varied = names(rows);
-    let histogram = |column: &Column| {
+    let histogram = |column: &NumberColumn| {
         let values = sorted(column);
         let marks = [0.05, 0.5, 0.95].map(|share| percentile(&values, share).unwrap_or(f64::NAN));
         many::histogram(column, &values, marks)
     };
-    let tornado = |column: &Column| {
+    let tornado = |column: &NumberColumn| {
         let indices = table.shares(rows, &column.name).ok()?;
         Some(many::tornado(&column.name, &varied, &indices))
     };

@@ -16,10 +16,10 @@ use crate::exchange::npz;
 use crate::many::part::{self, Division, ROWS};
 use crate::many::source::Study;
 use crate::many::sums;
-use crate::schema;
+use crate::schema::{self, document};
 use sweetspot::base::error::{Complaint, Error, Result};
 use sweetspot::base::{file, threads};
-use sweetspot::files::schema::document::{Document, Format, Generator};
+use sweetspot::files::schema::document::{Format, Generator};
 use sweetspot_study::many::hash::of_text;
 use sweetspot_study::many::rows::TOGETHER;
 
@@ -58,9 +58,7 @@ pub struct StudyManifest {
     pub parts: u64,
 }
 
-impl Document for StudyManifest {
-    const NAME: &'static str = "study-manifest";
-}
+document!(StudyManifest, "study-manifest");
 
 /// A file that a study was made from.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]

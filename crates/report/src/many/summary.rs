@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::many::table::{Column, Reason, Table};
+use crate::many::table::{NumberColumn, Reason, Table};
 use crate::parts::{first, labels, lines, numbers, wrapped};
 use crate::report::shares::shares_of;
 use sweetspot::base::number::significant;
@@ -80,7 +80,7 @@ pub fn shares(table: &Table, rows: &Rows) -> String {
 }
 
 /// The columns of the answers, without their errors.
-pub fn answers<'a>(table: &'a Table, rows: &'a Rows) -> impl Iterator<Item = &'a Column> {
+pub fn answers<'a>(table: &'a Table, rows: &'a Rows) -> impl Iterator<Item = &'a NumberColumn> {
     rows.study.outputs.iter().filter_map(|name| table.column(name))
 }
 
@@ -92,7 +92,7 @@ pub fn names(rows: &Rows) -> Vec<String> {
 }
 
 /// The numbers of a column, rising.
-pub fn sorted(column: &Column) -> Vec<f64> {
+pub fn sorted(column: &NumberColumn) -> Vec<f64> {
     let mut values: Vec<f64> = column.values.iter().copied().filter(|v| v.is_finite()).collect();
     values.sort_by(f64::total_cmp);
     values

@@ -5,11 +5,11 @@ use serde::Serialize;
 
 use crate::csv::Csv;
 use crate::report::resolved::{profile, text_in_columns};
-use crate::schema::Written;
+use crate::schema::{Written, document};
 use sweetspot::Bat;
 use sweetspot::base::number::{rounded, shortest, signed, significant};
 use sweetspot::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
-use sweetspot::files::schema::document::{BatName, Document, Format};
+use sweetspot::files::schema::document::{BatName, Format};
 use sweetspot::files::schema::resolved::ResolvedBat;
 use sweetspot_study::aim::aimed::{AimedTarget, Outcome};
 use sweetspot_study::aim::conflict::Conflict;
@@ -252,9 +252,7 @@ pub struct AimedFile {
     pub new_bat: ResolvedBat,
 }
 
-impl Document for AimedFile {
-    const NAME: &'static str = "aimed";
-}
+document!(AimedFile, "aimed");
 
 /// The `sweetspot-aimed/1` document; no pass of the lathe takes more than `pass` off the diameter (m).
 pub fn document(outcome: &Outcome, pass: f64) -> Written<AimedFile> {

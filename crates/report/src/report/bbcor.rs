@@ -7,12 +7,11 @@ use crate::parts::cell::Quantity::{Error, Length, Ratio, Speed, Words};
 use crate::parts::{Column, Part, Table, Units};
 use crate::report::edits;
 use crate::report::wall_text::{wall_facts, wall_words};
-use crate::schema::Written;
+use crate::schema::{Written, document};
 use sweetspot::bat::edit::Edit;
 use sweetspot::collision::bbcor::{
     LIMIT, LIMIT_SOURCE, Largest, MEASURES_SOURCE, Place, Scan, Tested,
 };
-use sweetspot::files::schema::document::Document;
 use sweetspot_study::ignored;
 use sweetspot_study::spread::of_frequencies;
 
@@ -34,9 +33,7 @@ pub struct BbcorFile {
     pub ignored: Vec<String>,
 }
 
-impl Document for BbcorFile {
-    const NAME: &'static str = "bbcor";
-}
+document!(BbcorFile, "bbcor");
 
 /// The document of that test.
 pub fn document(tested: &Tested) -> Written<BbcorFile> {
@@ -83,8 +80,7 @@ pub fn report(tested: &Tested, units: Units, full: bool) -> (String, Vec<Part<'s
         "bat at rest on a pivot {pivot} from the knob end; {} at {speed}, cor {cor}{source}",
         protocol.ball.name
     )];
-    let edits = edits::listed(bat, units);
-    notes.extend((!edits.is_empty()).then(|| format!("edited: {edits}")));
+    notes.extend(edits::noted(bat, units));
     notes.extend(scene.hoop.wall().map(|wall| wall_words(bat, scene, wall)));
     notes.extend(ignored::in_hit(bat, scene).iter().map(|effect| format!("left out: {effect}")));
     let shown = if full { &places[..] } else { around(places, largest.as_ref()) };

@@ -7,10 +7,10 @@ use serde::Serialize;
 
 use crate::csv;
 use crate::parts::{Column, Piece, first, in_trade, labels, lines, numbers, wrapped};
-use crate::schema::Written;
+use crate::schema::{Written, document};
 use sweetspot::Bat;
 use sweetspot::base::number::{percent, significant};
-use sweetspot::files::schema::document::{BatName, Document};
+use sweetspot::files::schema::document::BatName;
 use sweetspot_study::calibrate::calibration::{
     Calibration, Estimated, Property, Verdict, WithoutOutliers,
 };
@@ -307,9 +307,7 @@ pub struct CalibrateFile {
     pub words: Vec<String>,
 }
 
-impl Document for CalibrateFile {
-    const NAME: &'static str = "calibrate";
-}
+document!(CalibrateFile, "calibrate");
 
 /// The `sweetspot-calibrate/1` document.
 pub fn document(bat: &Bat, found: &Calibration) -> Written<CalibrateFile> {

@@ -10,12 +10,11 @@ use crate::parts::{Column, Units};
 use crate::report::comparison::{letter, words};
 use crate::report::hit_json::{scene_out, seen_from};
 use crate::report::trust::{DoubtFile, in_file};
-use crate::schema::Written;
 use crate::schema::hit::Wall;
+use crate::schema::{Written, document};
 use sweetspot::Theory;
 use sweetspot::bat::edit::Edit;
 use sweetspot::collision::Ball;
-use sweetspot::files::schema::document::Document;
 use sweetspot_study::comparison::contender::Contender;
 use sweetspot_study::comparison::rows::{Compared, ComparedFigure};
 use sweetspot_study::comparison::stretches::Stretch;
@@ -43,9 +42,7 @@ pub struct CompareFile {
     pub words: Vec<String>,
 }
 
-impl Document for CompareFile {
-    const NAME: &'static str = "compare";
-}
+document!(CompareFile, "compare");
 
 /// The conditions common to all bats: the swing and the ball.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -192,14 +189,14 @@ fn of_bat(comparison: &Comparison, k: usize, bat: &Contender, file: &str) -> Com
 }
 
 /// A figure or a speed of one bat.
-struct Line {
+struct FigureRow {
     quantity: String,
     distance: Option<f64>,
     bat: usize,
     figure: Compared,
 }
 
-const COLUMNS: [Column<Line>; 9] = [
+const COLUMNS: [Column<FigureRow>; 9] = [
     Column::in_files("quantity", |line| line.quantity.as_str().into()),
     Column::in_files("distance_m", |line| line.distance.into()),
     Column::in_files("bat", |line| letter(line.bat).to_string().into()),
@@ -215,15 +212,15 @@ const COLUMNS: [Column<Line>; 9] = [
 
 /// All figures and speeds, a line for each bat's: SI, the unit at the end of the quantity.
 pub fn csv(comparison: &Comparison) -> String {
-    let lines = |quantity: String, distance: Option<f64>, row: &ComparedFigure| -> Vec<Line> {
+    let lines = |quantity: String, distance: Option<f64>, row: &ComparedFigure| -> Vec<FigureRow> {
         let known =
             row.values.iter().enumerate().filter_map(|(bat, figure)| Some((bat, (*figure)?)));
         known
-            .map(|(bat, figure)| Line { quantity: quantity.clone(), distance, bat, figure })
+            .map(|(bat, figure)| FigureRow { quantity: quantity.clone(), distance, bat, figure })
             .collect()
     };
     let Comparison { figures, from_tip, by_tip, from_knob, by_knob, .. } = comparison;
-    let mut all: Vec<Line> =
+    let mut all: Vec<FigureRow> =
         figures.iter().flat_map(|row| lines(row.key_with_unit(), None, row)).collect();
     let ends = [("tip", from_tip, by_tip), ("knob", from_knob, by_knob)];
     for (end, distances, rows) in ends {

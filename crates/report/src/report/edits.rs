@@ -17,6 +17,11 @@ pub fn listed(bat: &Bat, units: Units) -> String {
     edits.join("; ")
 }
 
+/// A note of the edits of a bat; None for a bat without any.
+pub fn noted(bat: &Bat, units: Units) -> Option<String> {
+    (!bat.edits().is_empty()).then(|| format!("edited: {}", listed(bat, units)))
+}
+
 fn named(edit: &Edit, units: Units, inches: bool) -> String {
     match &edit.name {
         Some(name) => format!("{name} ({})", words(&edit.change, units, inches)),

@@ -7,12 +7,11 @@ use crate::csv::rows;
 use crate::parts::{Column, Units, first, labels, lines, numbers, wrapped};
 use crate::report::hoop_notes::notes;
 use crate::report::text::edited;
-use crate::schema::Written;
+use crate::schema::{Written, document};
 use sweetspot::Bat;
 use sweetspot::base::number::{rounded, significant};
 use sweetspot::base::units::{POUND_FORCE, inches};
 use sweetspot::bat::edit::Edit;
-use sweetspot::files::schema::document::Document;
 use sweetspot::modes::hoop::{HoopMode, Outline};
 use sweetspot_study::trampoline::barrel::{Barrel, HoopModel, Rebound};
 use sweetspot_study::trampoline::pressed::{BarrelCompression, HarmonicShare, PressedWall};
@@ -51,9 +50,7 @@ pub struct HoopFile {
     pub tolerance_met: bool,
 }
 
-impl Document for HoopFile {
-    const NAME: &'static str = "hoop";
-}
+document!(HoopFile, "hoop");
 
 /// A mode of the wall, and the motion of the outer surface in it.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]

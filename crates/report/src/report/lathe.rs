@@ -8,12 +8,11 @@ use crate::parts::{Cell, Units, wrapped};
 use crate::report::hit_json::scene_out;
 use crate::report::lathe_table::{TableUnits, legend, table};
 use crate::report::text::edited;
-use crate::schema::{Written, hit};
+use crate::schema::{Written, document, hit};
 use sweetspot::base::number::significant;
 use sweetspot::bat::body::STANDARD_PIVOT;
 use sweetspot::bat::edit::Edit;
 use sweetspot::collision::{Model, Scene};
-use sweetspot::files::schema::document::Document;
 use sweetspot_study::answers::Answer;
 use sweetspot_study::lathe::found::{LatheFound, TurnedBand, WholeChange};
 use sweetspot_study::lathe::gauges::WhyNotSmooth;
@@ -214,9 +213,7 @@ pub struct LatheFile {
     pub found: LatheFound,
 }
 
-impl Document for LatheFile {
-    const NAME: &'static str = "lathe";
-}
+document!(LatheFile, "lathe");
 
 /// The `sweetspot-lathe/1` document.
 pub fn document(map: &LatheMap, scene: &Scene, model: Model) -> Written<LatheFile> {

@@ -5,9 +5,10 @@ use std::path::Path;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::schema::document;
 use sweetspot::Error;
 use sweetspot::base::error::{Complaint, FilePosition};
-use sweetspot::files::schema::document::{Document, Format, Generator};
+use sweetspot::files::schema::document::{Format, Generator};
 
 /// Why there is no answer: every mistake found, with its place and what to do. With `--json` it is the last line on
 /// standard error, after the same text for people. The exit code is 2, or 3 where an accuracy was not reached. Later
@@ -25,9 +26,7 @@ pub struct ErrorFile {
     pub more: usize,
 }
 
-impl Document for ErrorFile {
-    const NAME: &'static str = "error";
-}
+document!(ErrorFile, "error");
 
 /// One mistake. A value that does not exist is null: a mistake on the command line has no file and no line.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -6,10 +6,10 @@ use serde::Serialize;
 use crate::csv::Csv;
 use crate::parts::{Cell, Columns, first, in_trade, lines, numbers, wrapped};
 use crate::report::shares::{LITTLE, shares_of};
-use crate::schema::Written;
+use crate::schema::{Written, document};
 use sweetspot::Bat;
 use sweetspot::base::number::{percent, significant};
-use sweetspot::files::schema::document::{BatName, Document};
+use sweetspot::files::schema::document::BatName;
 use sweetspot_study::many::indices::Indices;
 use sweetspot_study::scatter::rows::ScatterRows;
 use sweetspot_study::scatter::scattered::{
@@ -162,9 +162,7 @@ pub struct ScatterResult {
     pub words: Vec<String>,
 }
 
-impl Document for ScatterResult {
-    const NAME: &'static str = "scatter-result";
-}
+document!(ScatterResult, "scatter-result");
 
 /// The `sweetspot-scatter-result/1` document.
 pub fn document(bat: &Bat, found: &Scattered) -> Written<ScatterResult> {

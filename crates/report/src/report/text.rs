@@ -43,10 +43,7 @@ pub fn summary(bat: &Bat, units: Units) -> String {
 
 /// A line about the edits of a bat; empty for a bat without any.
 pub fn edited(bat: &Bat, units: Units) -> String {
-    match edits::listed(bat, units) {
-        list if list.is_empty() => list,
-        list => wrapped(&format!("  edited: {list}"), 4),
-    }
+    edits::noted(bat, units).map_or(String::new(), |note| wrapped(&format!("  {note}"), 4))
 }
 
 /// So many decimals, or a power of ten where that would be all zeros or very long.

@@ -7,8 +7,8 @@ use crate::csv::Csv;
 use crate::parts::cell::Quantity::{Ratio, Words};
 use crate::parts::{Column, Part, Table, Units};
 use crate::report::edits;
-use crate::schema::Written;
-use sweetspot::files::schema::document::{BatName, Document};
+use crate::schema::{Written, document};
+use sweetspot::files::schema::document::BatName;
 use sweetspot::{Bat, Solver};
 use sweetspot_study::trade::reference::{Choice, Confirmation, Reference, solver_name};
 use sweetspot_study::trade::u_curve::{Curve, End, Losses, Reason, SolverFrequency};
@@ -28,8 +28,7 @@ pub fn heading(what: &str, bat: &Bat, reference: &Reference) -> (String, Vec<Str
         discretisation(other),
         agreement.max(f64::EPSILON)
     );
-    let edits = edits::listed(bat, Units::Both);
-    let edited = (!edits.is_empty()).then(|| format!("edited: {edits}"));
+    let edited = edits::noted(bat, Units::Both);
     (format!("{what}: {}", bat.name()), edited.into_iter().chain([truth]).collect())
 }
 
@@ -162,9 +161,7 @@ pub struct UCurveFile {
     pub columns: Vec<Curve>,
 }
 
-impl Document for UCurveFile {
-    const NAME: &'static str = "u-curve";
-}
+document!(UCurveFile, "u-curve");
 
 /// The document of those curves of that bat.
 pub fn document(bat: &Bat, reference: Reference, columns: Vec<Curve>) -> Written<UCurveFile> {

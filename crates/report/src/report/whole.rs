@@ -5,11 +5,10 @@ use serde::Serialize;
 
 use crate::report::hoop::HoopFile;
 use crate::report::trust::Open;
-use crate::schema::Written;
 use crate::schema::hit::HitFile;
 use crate::schema::modes::ModesFile;
+use crate::schema::{Written, document};
 use sweetspot::collision::strength::Strength;
-use sweetspot::files::schema::document::Document;
 
 /// The whole analysis of a bat: its modes, its hits along the barrel, the stress that they cause, and the uncertainty
 /// of the answers. SI units, named at the end of each member; positions count from the knob end. Later versions with
@@ -31,6 +30,4 @@ pub struct AnalysisFile {
     pub hoop: Option<Written<HoopFile>>,
 }
 
-impl Document for AnalysisFile {
-    const NAME: &'static str = "analysis";
-}
+document!(AnalysisFile, "analysis");

@@ -3,10 +3,9 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::schema::Written;
+use crate::schema::{Written, document};
 use sweetspot::Theory;
 use sweetspot::bat::edit::Edit;
-use sweetspot::files::schema::document::Document;
 use sweetspot::motion::frf::ResponseKind;
 
 /// Frequency response of a bat to a harmonic unit force at one place, observed at another; the time dependence is e^(+i
@@ -53,9 +52,7 @@ pub struct FrfFile {
     pub frequencies_within: f64,
 }
 
-impl Document for FrfFile {
-    const NAME: &'static str = "frf";
-}
+document!(FrfFile, "frf");
 
 /// The measured frequency responses of one file, each compared with the computed one. Later versions with the same
 /// number may have more members.
@@ -68,9 +65,7 @@ pub struct FrfSetFile {
     pub responses: Vec<Written<FrfFile>>,
 }
 
-impl Document for FrfSetFile {
-    const NAME: &'static str = "frf-set";
-}
+document!(FrfSetFile, "frf-set");
 
 /// Members of a document that a kind of answer counts in its unit, with which their names end.
 macro_rules! by_kind {

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use sweetspot::files::schema::document::Document;
+use crate::schema::document;
 
 /// The modes common to the measured frequency responses of one bat. SI units, named at the end of each member; a value
 /// that does not exist is null. Later versions with the same number may have more members.
@@ -30,9 +30,7 @@ pub struct IdentifyFile {
     pub warnings: Vec<IdentifySaid>,
 }
 
-impl Document for IdentifyFile {
-    const NAME: &'static str = "identify";
-}
+document!(IdentifyFile, "identify");
 
 /// A place on the bat.
 #[derive(Debug, Clone, Serialize, JsonSchema)]

@@ -3,9 +3,8 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::schema::Written;
+use crate::schema::{Written, document};
 use sweetspot::bat::material::BUILT_IN;
-use sweetspot::files::schema::document::Document;
 
 /// The materials that a bat file may name, with the sources of their numbers. SI units, named at the end of each
 /// member; an unknown value is null. Later versions with the same number may have more members.
@@ -16,9 +15,7 @@ pub struct MaterialsFile {
     pub materials: Vec<Listed>,
 }
 
-impl Document for MaterialsFile {
-    const NAME: &'static str = "materials";
-}
+document!(MaterialsFile, "materials");
 
 /// A built-in material, along the axis where it is wood.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]

@@ -3,9 +3,9 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::schema::document;
 use sweetspot::Theory;
 use sweetspot::bat::edit::Edit;
-use sweetspot::files::schema::document::Document;
 use sweetspot_study::measured::study::Shapes;
 
 /// The measured modes of a bat compared with the computed ones: which belong together, how far they differ, and how
@@ -39,9 +39,7 @@ pub struct MeasuredFile {
     pub shapes: Option<Shapes>,
 }
 
-impl Document for MeasuredFile {
-    const NAME: &'static str = "measured";
-}
+document!(MeasuredFile, "measured");
 
 /// The bat of the computed modes.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]

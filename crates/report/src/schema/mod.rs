@@ -29,7 +29,17 @@ use serde::Serialize;
 use serde_json::{Map, Value, json};
 
 use sweetspot::base::marks;
-use sweetspot::files::schema::document::{self, Document, Format, Generator};
+use sweetspot::files::schema::document::{Document, Format, Generator, format};
+
+/// Names the documents that a type is.
+macro_rules! document {
+    ($type:ty, $name:literal) => {
+        impl sweetspot::files::schema::document::Document for $type {
+            const NAME: &'static str = $name;
+        }
+    };
+}
+pub(crate) use document;
 
 /// The beginning of a document.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -68,7 +78,7 @@ impl<D: Document> JsonSchema for Written<D> {
 
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
         let mut head = Head::<D>::json_schema(generator).to_value();
-        let about = format!("Name of the format and its version: {}.", document::format(D::NAME));
+        let about = format!("Name of the format and its version: {}.", format(D::NAME));
         head["properties"]["format"]["description"] = about.into();
         let mut whole = D::json_schema(generator).to_value();
         let members = whole["properties"].as_object_mut().map(std::mem::take);
