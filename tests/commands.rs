@@ -20,7 +20,7 @@ const EXCEPTIONS: &[(&str, Instead, &str)] = &[
         "the page is not in the tests' program; tests/browser/lab.py has it",
     ),
     ("new", Instead::Nothing, "it asks; tests/terminal.rs answers"),
-    ("validate --summary", Instead::Elsewhere, "tests/documents.rs runs it and reads it"),
+    ("validate --summary --full", Instead::Elsewhere, "tests/documents.rs runs it and reads it"),
     ("validate --extremes", Instead::Elsewhere, "as above"),
 ];
 

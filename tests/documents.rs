@@ -89,7 +89,7 @@ fn the_readme_shows_ten_lines_of_the_first_command() {
 /// The one run of `validate --summary`, which ends with the table of `validate --promise`.
 #[test]
 fn known_answers_and_the_promise_are_todays() {
-    let now = Folder::new("promise").text(&["validate", "--summary"]);
+    let now = Folder::new("promise").text(&["validate", "--summary", "--full"]);
     let accuracy = page("docs/accuracy.md");
     let (shown, found) = (block(&accuracy, "The promise: "), printed(&now, "The promise: "));
     assert!(found.len() > 60, "{found:#?}");

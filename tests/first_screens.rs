@@ -319,6 +319,7 @@ fn what_was_asked_for_is_all_there() {
     let ten = folder.text(&["hoop", "bbcor_made_up", "-n", "10"]);
     assert_eq!(ten.lines().filter(|line| line.contains("within")).count(), 10);
     assert!(lines(&["bats"]) <= 24);
+    assert!(lines(&["compare", "r161", "torpedo", "house", "two_piece"]) <= 24);
     folder.write("loose.json", LOOSE);
     assert!(lines(&["study", "loose.json", "--out", "loose"]) <= 24);
     assert!(lines(&["study", "loose.json", "--out", "loose", "--summary"]) <= 24);

@@ -7,7 +7,7 @@ use sweetspot::Bat;
 use sweetspot::bat::turned::DiameterChange;
 use sweetspot_proof::bundled::bundled_bat;
 use sweetspot_report::many::summary::sorted;
-use sweetspot_report::many::table::Column;
+use sweetspot_report::many::table::NumberColumn;
 use sweetspot_report::plot::sheet::{Paper, Sheet};
 use sweetspot_report::plot::{calibrate, change, many};
 use sweetspot_report::template::pages::pages;
@@ -76,7 +76,7 @@ fn spreads_of_many_bats_are_drawn_whole() {
     let row = |k: u64| [0, 1, 2].map(|c| sobol.at(k, c));
     let rows: Vec<[f64; 3]> = (0..512).map(row).collect();
     let answer = |x: &[f64; 3]| 170.0 + 20.0 * x[0] + 5.0 * x[1] * x[1];
-    let column = |name: &str, of: &dyn Fn(&[f64; 3]) -> f64| Column {
+    let column = |name: &str, of: &dyn Fn(&[f64; 3]) -> f64| NumberColumn {
         name: name.to_owned(),
         unit: "Hz".to_owned(),
         values: rows.iter().map(of).collect(),
@@ -96,7 +96,7 @@ fn spreads_of_many_bats_are_drawn_whole() {
         check(picture, "many");
     }
     // A constant column has no histogram.
-    let level = Column { values: vec![1.0; 512], ..f1.clone() };
+    let level = NumberColumn { values: vec![1.0; 512], ..f1.clone() };
     assert!(many::histogram(&level, &sorted(&level), [1.0; 3]).is_none());
     // The largest share comes first.
     let document = Document::parse(&all[1].svg).unwrap();

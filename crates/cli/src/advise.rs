@@ -1,15 +1,13 @@
 //! `sweetspot advise BAT`: which physics this bat needs.
 
-use sweetspot::Result;
-use sweetspot_report::parts::terminal;
-use sweetspot_report::report::advice;
-use sweetspot_report::schema::advice::AdviceFile;
-use sweetspot_study::advise::advice::{Advice, MOST_MODES, advise_telling};
-
 use crate::common::{BatFileArgs, examples};
 use crate::done::Done;
 use crate::output::{LINES, OutputArgs};
 use crate::value::tolerance;
+use sweetspot::Result;
+use sweetspot_report::parts::terminal;
+use sweetspot_report::report::advice;
+use sweetspot_study::advise::advice::{Advice, MOST_MODES, advise_telling};
 
 /// Which physics this bat needs, and which it can do without
 ///
@@ -17,7 +15,7 @@ use crate::value::tolerance;
 /// nodes, its balance and its damping? The table gives each shift with its error. Below it are the smallest model whose
 /// frequencies are still within --tol of the full model's, and the effects that no beam model has.
 #[derive(clap::Args)]
-#[command(after_long_help = examples(EXAMPLES), next_help_heading = "The bat")]
+#[command(after_long_help = examples("advise"), next_help_heading = "The bat")]
 pub struct Args {
     #[command(flatten)]
     bat: BatFileArgs,
@@ -36,14 +34,6 @@ pub struct Args {
     output: OutputArgs,
 }
 
-const EXAMPLES: &str = "\
-Examples:
-  sweetspot advise r161 --tol 1%
-      shear matters to a wooden bat, even at one per cent
-
-  sweetspot advise two_piece -n 3 --json advice.json
-      the same figures as JSON";
-
 pub fn run(args: &Args) -> Result<Done> {
     let bat = args.bat.read(args.output.quiet)?;
     let progress = args.output.progress("the full model");
@@ -55,7 +45,7 @@ pub fn run(args: &Args) -> Result<Done> {
         let (title, parts) = advice::report(&advice, args.output.units(&bat), full);
         terminal::text(&title, &parts)
     });
-    Ok(Done::new(args.output.deliver(table, || AdviceFile::of(&advice))?, code))
+    Ok(Done::new(args.output.deliver(table, || advice::document(&advice))?, code))
 }
 
 /// The exit code, after a word about frequencies that are less accurate than the tolerance.

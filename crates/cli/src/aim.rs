@@ -2,17 +2,23 @@
 
 use std::path::{Path, PathBuf};
 
-use sweetspot::base::{error::Complaint, file, typed};
-use sweetspot::collision::{setup::Setup, sweet_spot::FINE};
+use sweetspot::base::error::Complaint;
+use sweetspot::base::{file, typed};
+use sweetspot::collision::setup::Setup;
+use sweetspot::collision::sweet_spot::FINE;
 use sweetspot::{Bat, Error, Result};
-use sweetspot_report::plot::{change, compared, picture::Picture, sheet::Sheet};
+use sweetspot_report::plot::{Picture, Sheet, change, compared};
 use sweetspot_report::report::{aimed, aimed_text};
-use sweetspot_report::template::{pages::pages, pdf::pdf, sheet::PAPERS};
+use sweetspot_report::template::pages::pages;
+use sweetspot_report::template::pdf::pdf;
+use sweetspot_report::template::sheet::PAPERS;
+use sweetspot_study::aim::aimed::Outcome;
+use sweetspot_study::aim::bench::Terms;
 use sweetspot_study::aim::wish::{FreeChoice, SLOPES, Wish};
-use sweetspot_study::aim::{aimed::Outcome, bench::Terms};
 use sweetspot_study::comparison::contender::Terms as Looks;
 use sweetspot_study::comparison::table::{Comparison, Entry};
-use sweetspot_study::files::{aim_file::AimFile, aim_text, rules_file};
+use sweetspot_study::files::aim_file::AimFile;
+use sweetspot_study::files::{aim_text, rules_file};
 use sweetspot_study::lathe::workpiece::HitTerms;
 
 use crate::common::{BatFileArgs, Prepared, SolveArgs, about, as_options, examples, note_outside};
@@ -29,7 +35,7 @@ use crate::value::LITTLE;
 /// close each can come (exit code 3; the nearest bat is written). Both bats are swung at one speed unless
 /// --reference-inertia is given: most answers depend on that.
 #[derive(clap::Args)]
-#[command(after_long_help = examples(EXAMPLES))]
+#[command(after_long_help = examples("aim"))]
 pub struct Args {
     #[command(flatten)]
     bat: BatFileArgs,
@@ -117,20 +123,6 @@ pub struct Args {
     #[command(flatten)]
     output: OutputArgs,
 }
-
-const EXAMPLES: &str = "\
-Examples:
-  sweetspot aim r161 --target \"swing weight -3 %\" \\
-      --target \"f1 same within 0.5 Hz\" --remove-only --out lighter.json
-      where to turn wood off, and the bat that is left
-
-  sweetspot aim r161 --target \"sweet spot 2 mm outward\" --rules mlb \\
-      --diameter \"4 in to 18 in, at least 24 mm\" --cuts cuts.csv
-      under the rules of a game, with the cut list of every station
-
-  sweetspot aim r161 --target \"mass at most 30 oz\" --remove-only \\
-      --template template
-      with pages to print in the bat's own size";
 
 /// A length above 0.
 fn spacing(text: &str) -> std::result::Result<f64, String> {

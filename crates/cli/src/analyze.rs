@@ -4,24 +4,23 @@ use std::path::PathBuf;
 
 use sweetspot::base::file;
 use sweetspot::collision::columns;
-use sweetspot::files::schema::document::{Format, Generator};
 use sweetspot::{Bat, Request, Result};
 use sweetspot_report::analysis::{Analysis, Proof, Task};
-use sweetspot_report::csv;
-use sweetspot_report::page;
 use sweetspot_report::page::content::Report;
-use sweetspot_report::parts::input::Input;
+use sweetspot_report::parts::Input;
 use sweetspot_report::plot::sets;
+use sweetspot_report::report::hoop::{self, HoopFile};
 use sweetspot_report::report::json::{self, ShapePoints};
 use sweetspot_report::report::proven::{self, Proven};
 use sweetspot_report::report::sketch::{self, SketchRow};
-use sweetspot_report::report::{self, advice, aftermath, hit_json, hit_text, hoop, text, trust};
-use sweetspot_report::schema;
-use sweetspot_report::schema::analysis::AnalysisFile;
+use sweetspot_report::report::whole::AnalysisFile;
+use sweetspot_report::report::{self, advice, aftermath, hit_json, hit_text, text, trust};
 use sweetspot_report::schema::hit::HitFile;
-use sweetspot_report::schema::hoop::HoopFile;
 use sweetspot_report::schema::modes::ModesFile;
-use sweetspot_study::lathe::{map::LatheMap, workpiece::HitTerms};
+use sweetspot_report::schema::{self, Written};
+use sweetspot_report::{csv, page};
+use sweetspot_study::lathe::map::LatheMap;
+use sweetspot_study::lathe::workpiece::HitTerms;
 use sweetspot_study::spread::Readings;
 
 use crate::common::{BatArgs, SolveArgs, Solved, as_options, command_line, examples};
@@ -45,7 +44,7 @@ use crate::value::{READING, SCALE, Use};
 /// of the model that this bat needs; exit speeds along the barrel, the sweet spot by every definition, why it is there,
 /// and the figures by which bats are compared.
 #[derive(clap::Args)]
-#[command(after_long_help = examples(EXAMPLES))]
+#[command(after_long_help = examples("analyze"))]
 pub struct Args {
     #[command(flatten)]
     bat: BatArgs,
@@ -100,26 +99,6 @@ pub struct Args {
     output: OutputArgs,
 }
 
-const EXAMPLES: &str = "\
-Examples:
-  sweetspot analyze r161
-      a wooden bat of the major leagues, with an average swing at a 90 mph pitch
-
-  sweetspot analyze r161 --full
-      and everything else there is to say
-
-  sweetspot analyze r161 --report r161.html
-      and a report as a page of its own, to look at, to print and to send
-
-  sweetspot analyze torpedo --units us --swing-speed \"55 rad/s\"
-      in inches, ounces and miles an hour, with a faster swing
-
-  sweetspot analyze r161 --out r161 --plots r161
-      and modes.json, hit.json, curve.csv and pictures in the folder r161
-
-  sweetspot analyze r161 --guarantee
-      and two numbers between which each frequency of the beam is proven to lie";
-
 /// Modes that hits are computed by at first.
 const MODES: usize = 10;
 
@@ -161,7 +140,7 @@ pub fn run(args: &Args) -> Result<Done> {
         false => None,
     };
     drop(progress);
-    let answer = Answer { args, analysis, proven, lathe };
+    let answer = AnalysisOutput { args, analysis, proven, lathe };
     answer.write(inputs, lab)?;
     let code = answer.verdict();
     let text = args.output.deliver(answer.screen(), || answer.document())?;
@@ -206,7 +185,7 @@ fn inputs(args: &Args, bat: &str) -> Result<Vec<Input>> {
 }
 
 /// The results for a bat.
-struct Answer<'a> {
+struct AnalysisOutput<'a> {
     args: &'a Args,
     analysis: Analysis,
     /// The proof for its modes, if it was asked for.
@@ -215,7 +194,7 @@ struct Answer<'a> {
     lathe: Option<LatheMap>,
 }
 
-impl Answer<'_> {
+impl AnalysisOutput<'_> {
     /// The exit code, after a warning about results that are less accurate than asked.
     fn verdict(&self) -> u8 {
         let Args { solve, output, .. } = self.args;
@@ -249,16 +228,14 @@ impl Answer<'_> {
     }
 
     /// All results in one document.
-    fn document(&self) -> AnalysisFile {
-        AnalysisFile {
-            format: Format::new(),
-            generator: Generator::this(),
+    fn document(&self) -> Written<AnalysisFile> {
+        Written::of(AnalysisFile {
             modes: self.modes(),
             hit: self.hit(),
             strength: self.analysis.strength.clone(),
             open: trust::open(&self.analysis),
             hoop: self.hoop(),
-        }
+        })
     }
 
     fn modes(&self) -> ModesFile {
@@ -277,7 +254,7 @@ impl Answer<'_> {
         }
     }
 
-    fn hoop(&self) -> Option<HoopFile> {
+    fn hoop(&self) -> Option<Written<HoopFile>> {
         const SAMPLES: usize = 41;
         let barrel = self.analysis.barrel.as_ref()?;
         Some(hoop::document(&self.analysis.bat, barrel, &[], SAMPLES))

@@ -3,7 +3,8 @@
 use std::fmt::Write;
 
 use sweetspot::Profile;
-use sweetspot::base::{marks, number::rounded};
+use sweetspot::base::marks;
+use sweetspot::base::number::rounded;
 use sweetspot::bat::profile::{Interpolation, Stations};
 
 /// Measurements of a bat; lengths in `unit`.

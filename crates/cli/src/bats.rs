@@ -2,10 +2,11 @@
 
 use sweetspot::files::built_in::bat_names;
 use sweetspot::{Bat, Result};
-use sweetspot_report::parts::table::{Column, Table};
-use sweetspot_report::parts::{cell::Quantity::Words, part::Part, terminal, units::Units};
+use sweetspot_report::parts::cell::Quantity::Words;
+use sweetspot_report::parts::{Column, Part, Table, Units, terminal};
 
 use crate::done::Done;
+use crate::help::commands;
 use crate::style;
 
 /// The built-in bats
@@ -13,12 +14,8 @@ use crate::style;
 /// Their names may be used in place of a bat file. The folder meshes of the source has their files, with the origin of
 /// every number.
 #[derive(clap::Args)]
-#[command(after_long_help = EXAMPLES)]
+#[command(after_long_help = commands("bats"))]
 pub struct Args {}
-
-const EXAMPLES: &str = "\
-Examples:
-  sweetspot bats";
 
 const COLUMNS: [Column<(&str, Bat)>; 2] = [
     Column::new("bat", "bat", Words, |(name, _)| (*name).into()),

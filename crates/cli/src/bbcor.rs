@@ -1,22 +1,21 @@
 //! `sweetspot bbcor BAT`: the laboratories' test, computed.
 
-use std::path::PathBuf;
-
 use sweetspot::base::mistakes::Mistakes;
-use sweetspot::collision::hit::{Model, Scene};
-use sweetspot::collision::{bbcor::Protocol, sweep::Trial, wall_choice::WallChoice};
+use sweetspot::collision::bbcor::Protocol;
+use sweetspot::collision::sweep::Trial;
+use sweetspot::collision::wall_choice::WallChoice;
+use sweetspot::collision::{Model, Scene};
 use sweetspot::{Bat, Result};
 use sweetspot_report::csv;
 use sweetspot_report::parts::terminal;
 use sweetspot_report::plot::bbcor as plot;
 use sweetspot_report::report::bbcor as report;
-use sweetspot_report::schema::bbcor::BbcorFile;
 
 use crate::cannon::CannonArgs;
 use crate::common::{BatArgs, Prepared, SolveArgs, examples, on_the_bat};
 use crate::done::Done;
 use crate::hit::verdict;
-use crate::output::{CsvArgs, LINES, OutputArgs};
+use crate::output::{AnswerArgs, LINES, drawing};
 use crate::value::PLACE;
 
 /// BBCOR as laboratories measure it, computed
@@ -27,7 +26,7 @@ use crate::value::PLACE;
 /// Supports, springs and hands of the bat file are removed. A computed value is not a certificate: it is only as good
 /// as the known restitution of the ball and the known wall of a hollow barrel.
 #[derive(clap::Args)]
-#[command(after_long_help = examples(EXAMPLES))]
+#[command(after_long_help = examples("bbcor"), mut_arg("plots", drawing("BBCOR along the bat")))]
 pub struct Args {
     #[command(flatten)]
     bat: BatArgs,
@@ -54,26 +53,11 @@ pub struct Args {
     solve: SolveArgs,
 
     #[command(flatten)]
-    csv: CsvArgs,
-
-    /// Draw BBCOR along the bat into this folder, as SVG and PNG
-    #[arg(long, value_name = "DIR", help_heading = "Output")]
-    plots: Option<PathBuf>,
-
-    #[command(flatten)]
-    output: OutputArgs,
+    output: AnswerArgs,
 }
 
-const EXAMPLES: &str = "\
-Examples:
-  sweetspot bbcor r161
-      a wooden bat, every half inch from 12 in to 1 in from the tip
-
-  sweetspot bbcor r161 --cor 0.53 --json -
-      with a livelier ball, as JSON";
-
 pub fn run(args: &Args) -> Result<Done> {
-    args.csv.beside(&args.output.json)?;
+    args.output.apart(&[])?;
     args.solve.refuse_budget("bbcor")?;
     let bat = args.bat.read(&args.output)?;
     let protocol = protocol(args, &bat)?;
@@ -86,14 +70,17 @@ pub fn run(args: &Args) -> Result<Done> {
     let tested = protocol.test(&bat, &accuracy, &tell)?;
     drop(progress);
     args.solve.say_raised(&tested.sweep.solution, &args.output);
-    args.output.draw(&args.plots, &tested.bat, |sheet| Ok(plot::picture(sheet, &tested)))?;
     let code = verdict(&args.solve, &tested.sweep, &args.output);
     let table = args.output.screen(LINES, |full| {
         let (title, parts) = report::report(&tested, args.output.units(&tested.bat), full);
         terminal::text(&title, &parts)
     });
-    let out = args.output.deliver(table, || BbcorFile::of(&tested))?;
-    let text = args.csv.deliver(out, || csv::rows(&report::COLUMNS, &tested.scan.places))?;
+    let text = args.output.answer(
+        (&tested.bat, table),
+        |sheet| Ok(plot::picture(sheet, &tested)),
+        || report::document(&tested),
+        || csv::rows(&report::COLUMNS, &tested.scan.places),
+    )?;
     Ok(Done::new(text, code).with(warning))
 }
 

@@ -7,14 +7,15 @@ use sweetspot::base::file;
 use sweetspot::{Bat, Error, Request, Result};
 use sweetspot_report::plot::calibrate as pictures_of;
 use sweetspot_report::report::{calibrate, calibrated_bat};
-use sweetspot_report::schema;
 use sweetspot_study::calibrate::calibration::{Calibration, CalibrationPlan, Property};
 use sweetspot_study::calibrate::labels::MOST_MODES;
 use sweetspot_study::calibrate::readings::{BatReadings, Reading, RingDown, SpectralLine};
 use sweetspot_study::files::measured::{self, Beside};
-use sweetspot_study::files::{readings_file::ReadingsForm, written::WrittenFile};
+use sweetspot_study::files::readings_file::ReadingsForm;
+use sweetspot_study::files::written::WrittenFile;
+use sweetspot_study::measured::data::Measured;
+use sweetspot_study::measured::pairing::LEAST;
 use sweetspot_study::measured::study::{ALIKE, Shapes, Study};
-use sweetspot_study::measured::{data::Measured, pairing::LEAST};
 
 use crate::asking::dialogue::Dialogue;
 use crate::asking::draft;
@@ -23,8 +24,7 @@ use crate::beside::BesideArgs;
 use crate::common::{Prepared, about, examples, prepare, read_with_text};
 use crate::done::{Done, FAILED};
 use crate::edits::EditArgs;
-use crate::output::{FullArgs, LINES, apart, draw, printed, put, warn};
-use crate::style;
+use crate::output::{DataArgs, LINES, drawing, printed, put, warn};
 use crate::value::{PLACE, TheoryChoice, choice};
 
 /// The wood of a bat: E, G and density from scale, ruler, pendulum and tap
@@ -34,7 +34,7 @@ use crate::value::{PLACE, TheoryChoice, choice};
 /// assigned to another mode, and it names the measurement that would add most. Without a file of readings it asks for
 /// them. A mismatch is reported, not fitted away: the exit code is then 1.
 #[derive(clap::Args)]
-#[command(after_long_help = examples(EXAMPLES), next_help_heading = "Output")]
+#[command(after_long_help = examples("calibrate"), mut_arg("plots", drawing("the properties before and after, and the misfits,")), next_help_heading = "Output")]
 pub struct Args {
     /// Bat file (JSON), or the name of a built-in bat such as r161
     #[arg(help_heading = "The bat")]
@@ -74,32 +74,9 @@ pub struct Args {
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
 
-    /// Write JSON to this file (- = standard output, and no table then)
-    #[arg(long, value_name = "FILE")]
-    json: Option<PathBuf>,
-
-    /// Write the properties as CSV to this file (- = standard output, and no table then)
-    #[arg(long, value_name = "FILE")]
-    csv: Option<PathBuf>,
-
-    /// Draw the properties before and after, and the misfits, into this folder, as SVG and PNG
-    #[arg(long, value_name = "DIR")]
-    plots: Option<PathBuf>,
-
     #[command(flatten)]
-    said: FullArgs,
+    said: DataArgs,
 }
-
-const EXAMPLES: &str = "\
-Examples:
-  sweetspot calibrate r161 readings.json
-      what the wood is, and how well the readings say it
-
-  sweetspot calibrate r161 readings.json --out found.json --json wood.json
-      the bat of that wood, and the result with its covariance
-
-  sweetspot calibrate r161 readings.json --regions \"42 cm\" --hold G
-      another density and stiffness in the barrel; G/E as the file has it";
 
 /// Unknowns by their names on the command line.
 fn held() -> impl clap::builder::TypedValueParser<Value = Property> {
@@ -175,13 +152,7 @@ fn relabelled(args: &Args, found: &Calibration) -> Option<String> {
 }
 
 pub fn run(args: &Args) -> Result<Done> {
-    let written = [
-        ("--json", &args.json),
-        ("--csv", &args.csv),
-        ("--out", &args.out),
-        ("--readings", &args.readings),
-    ];
-    apart(&written)?;
+    args.said.apart(&[("--out", &args.out), ("--readings", &args.readings)])?;
     let (bat, text) = read_with_text(&args.bat, &EditArgs::default(), args.said.quiet)?;
     let Some(told) = readings(args, &bat)? else { return Ok(Done::new(String::new(), 0)) };
     let MeasuredArgs { mut readings, name, person } = told;
@@ -192,11 +163,11 @@ pub fn run(args: &Args) -> Result<Done> {
         let [wood, data, words] = calibrate::text(&bat, &found);
         [wood, data, words, (0, "", relabelled(args, &found).unwrap_or_default())]
     });
-    draw(&args.plots, args.said.quiet, || Ok(pictures_of::pictures(bat.name(), &found)))?;
-    let file = || calibrated_bat::text((&bat, &text), &found, &name);
-    let out = put(&args.csv, style::table(&table), || Ok(calibrate::csv(&found)))?;
-    let out = put(&args.out, out, file)?;
-    let out = put(&args.json, out, || Ok(schema::text(&calibrate::document(&bat, &found))))?;
+    let drawn = || Ok(pictures_of::pictures(bat.name(), &found));
+    let document = || calibrate::document(&bat, &found);
+    let text_of = || calibrated_bat::text((&bat, &text), &found, &name);
+    let out = args.said.answer(&table, drawn, document, || calibrate::csv(&found))?;
+    let out = put(&args.out, out, text_of)?;
     if let Some(mut person) = person {
         person.done();
     }

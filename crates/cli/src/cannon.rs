@@ -1,7 +1,7 @@
 //! The shot of a laboratory's cannon at a bat at rest.
 
 use sweetspot::base::mistakes::Mistakes;
-use sweetspot::collision::ball::Ball;
+use sweetspot::collision::Ball;
 use sweetspot::collision::bbcor::TEST_SPEED;
 use sweetspot::files::balls::ball;
 use sweetspot::{Error, Result};

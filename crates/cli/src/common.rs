@@ -7,27 +7,28 @@ use sweetspot::base::error::Complaint;
 use sweetspot::base::units::shown_length;
 use sweetspot::files::bat_file::Named;
 use sweetspot::files::built_in;
-use sweetspot::modes::prepared;
 use sweetspot::modes::request::MOST_MODES;
-use sweetspot::modes::solve;
 use sweetspot::modes::theory_choice::{self, Choice};
 use sweetspot::modes::up_to::modes_up_to;
+use sweetspot::modes::{prepared, solve};
 use sweetspot::{Bat, Error, Request, Result, Solution, Solver, Theory};
-use sweetspot_report::parts::terminal::wrapped;
+use sweetspot_report::parts::wrapped;
 
 use crate::done::NOT_REACHED;
 use crate::edits::EditArgs;
+use crate::help;
 use crate::output::{OutputArgs, warn};
 use crate::value::{TOP_FREQUENCY, TheoryChoice, budget, solver, theory, tolerance};
 
-/// The end of a verb's help: example commands, the notation of values, and the built-in bats.
-pub fn examples(commands: &str) -> String {
+/// The end of a verb's help: its example commands, the notation of values, and the built-in bats.
+pub fn examples(verb: &str) -> String {
     format!(
-        "{commands}\n\n\
+        "{}\n\n\
          A bare number is in the unit that stands between < >. One that is absurd in it,\n\
          such as --pitch 90 (m/s), is refused with what it may mean. Others carry their\n\
          unit, as people write it: \"28 in\", \"33 1/2 in\", \"31 oz\", \"90 mph\", \"0.75 ms\".\n\
          Places count from the knob end.\n\n{}",
+        help::commands(verb),
         wrapped(&format!("Built-in bats: {}.", built_in::bat_names().join(", ")), 0).trim_end()
     )
 }

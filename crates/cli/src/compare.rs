@@ -19,7 +19,7 @@ use crate::beside::BesideArgs;
 use crate::common::{Prepared, SolveArgs, as_options, command_line, examples, read};
 use crate::done::Done;
 use crate::edits::{EditArgs, WhatIf, edited, what_if};
-use crate::output::{CsvArgs, LINES, OutputArgs, apart, printed};
+use crate::output::{AnswerArgs, LINES, drawing, printed};
 use crate::scene::{self, SceneArgs};
 use crate::value::{PLACE, SPACING};
 
@@ -35,7 +35,7 @@ use crate::value::{PLACE, SPACING};
 /// damping, and whether the measured shapes are sound; with --full also the MAC of any two, rigid motion in the shapes,
 /// their mass orthogonality, and the error due to the small number of points.
 #[derive(clap::Args)]
-#[command(after_long_help = examples(EXAMPLES))]
+#[command(after_long_help = examples("compare"), mut_arg("plots", drawing("profiles, modes, exit speeds and their differences, energies, forces, hands; of measured modes MAC and shapes")))]
 pub struct Args {
     /// Bat files (JSON) or names of built-in bats, two to six; one with --edit or --measured
     #[arg(required = true, value_name = "BAT")]
@@ -77,15 +77,6 @@ pub struct Args {
     #[arg(long, value_name = "m", default_value = "1 in", value_parser = SPACING)]
     every: f64,
 
-    #[command(flatten)]
-    csv: CsvArgs,
-
-    /// Draw into this folder, as SVG and PNG: profiles, modes, exit speeds and their differences,
-    /// energies (ledger_A and so on), force and compression, the hands' motion; of measured modes the
-    /// MAC, the mass orthogonality, and the shapes on each other
-    #[arg(long, value_name = "DIR", help_heading = "Output")]
-    plots: Option<PathBuf>,
-
     /// Write everything on one page for people into this file (.html), the differences first
     #[arg(long, value_name = "FILE", conflicts_with = "measured", help_heading = "Output")]
     report: Option<PathBuf>,
@@ -97,50 +88,14 @@ pub struct Args {
     solve: SolveArgs,
 
     #[command(flatten)]
-    output: OutputArgs,
+    output: AnswerArgs,
 }
-
-const EXAMPLES: &str = "\
-Examples:
-  sweetspot compare r161 torpedo --units us
-      which hits harder, and where
-
-  sweetspot compare r161 --edit \"knob 2 oz\" \\
-      --edit \"slim: cut 24 in to 30 in, 1 mm\"
-      what a knob weight does, and what a thinner barrel
-
-  sweetspot compare r161 torpedo --report bats.html
-      and on a page of its own, to look at, to print and to send
-
-  sweetspot compare r161 house \\
-      --reference-inertia \"0.19 kg m^2\" --swing-exponent 0.3 --plots compared
-      swung by a batter who swings the heavier one slower, with pictures
-
-  sweetspot modes r161 --json modes.json
-  sweetspot convert modes.json --to uff --out modes.uff
-  sweetspot compare r161 --measured modes.uff
-      as a laboratory's universal file is compared: datasets 15 or 2411, and 55
-
-Measured shapes may be typed into a spreadsheet and saved as CSV, places from
-the knob end downwards, modes side by side, frequencies and damping in lines of
-their own:
-
-  x_in,           mode_1,  mode_2
-  frequency_hz,   178.2,   583.0
-  damping_ratio,  0.004,   0.005
-  0,              1.00,    0.90
-  3,              0.55,    0.12
-  33,             0.41,    0.37
-
-damping_percent will do too, and # begins a remark. Where there are no shapes
-the columns are mode,frequency_hz,damping_ratio, a line for each mode.";
 
 /// Most bats that fit beside each other.
 const MOST: usize = 6;
 
 pub fn run(args: &Args) -> Result<Done> {
-    let json = ("--json", &args.output.json);
-    apart(&[json, ("--csv", &args.csv.csv), ("--report", &args.report)])?;
+    args.output.apart(&[("--report", &args.report)])?;
     args.solve.refuse_budget("compare")?;
     match &args.measured {
         Some(file) => measured_beside(args, file),
@@ -167,7 +122,7 @@ fn measured_beside(args: &Args, file: &Path) -> Result<Done> {
     let study = Study::new(&bat, measured, &request, args.count.is_some(), told)?;
     args.solve.say_raised(&study.solution, &args.output);
     let drawn = |sheet| Ok(plot::measured::pictures(sheet, bat.name(), &study));
-    args.output.draw(&args.plots, &bat, drawn)?;
+    args.output.draw(&args.output.plots, &bat, drawn)?;
     let units = args.output.units(&bat);
     let text = args.output.screen(LINES, |full| report::measured::text(&bat, &study, units, full));
     let name = path.display().to_string();
@@ -190,7 +145,7 @@ fn bats_beside(args: &Args) -> Result<Done> {
         ));
     }
     if let Some(path) = &args.report {
-        page::file::expected_page(path, &[&args.plots])?;
+        page::file::expected_page(path, &[&args.output.plots])?;
     }
     let (setup, model) = args.scene.setup()?;
     let mut warnings = vec![];
@@ -214,14 +169,23 @@ fn bats_beside(args: &Args) -> Result<Done> {
         barrel: setup.barrel_speed(),
     };
     let compared = Comparison::new(entries, terms)?;
-    for_people(args, &compared)?;
     let units = args.output.units(&compared.bats[0].bat);
     let table = args.output.screen(LINES, |full| match full {
         true => comparison::text(&compared, units).into(),
         false => comparison_screen::screen(&compared, units),
     });
-    let text = args.csv.deliver(table, || comparison_data::csv(&compared))?;
-    let text = args.output.deliver(text, || comparison_data::document(&compared, &files))?;
+    let first = &compared.bats[0].bat;
+    let text = args.output.answer(
+        (first, table),
+        |sheet| plot::compared::pictures(sheet, &compared),
+        || comparison_data::document(&compared, &files),
+        || comparison_data::csv(&compared),
+    )?;
+    if let Some(path) = &args.report {
+        let us = args.output.sheet(first).us;
+        let page = page::compared::page(&compared, &command_line(), us)?;
+        file::write(path, page.as_bytes())?;
+    }
     let warning = (!warnings.is_empty()).then(|| warnings.join("; "));
     Ok(Done::new(text, verdict(args, &compared)).with(warning))
 }
@@ -246,18 +210,6 @@ fn bats(args: &Args) -> Result<Vec<(&Path, Bat)>> {
         bats.push((path, bat.with(|parts| parts.name = format!("{}: {name}", first.name()))?));
     }
     Ok(bats)
-}
-
-/// Writes pictures and the page, if they were asked for.
-fn for_people(args: &Args, compared: &Comparison) -> Result<()> {
-    let first = &compared.bats[0].bat;
-    args.output.draw(&args.plots, first, |sheet| plot::compared::pictures(sheet, compared))?;
-    if let Some(path) = &args.report {
-        let us = args.output.sheet(first).us;
-        let page = page::compared::page(compared, &command_line(), us)?;
-        file::write(path, page.as_bytes())?;
-    }
-    Ok(())
 }
 
 /// The exit code, after a warning about bats whose exit speeds are less accurate than asked.

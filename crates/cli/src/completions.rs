@@ -4,6 +4,7 @@ use clap::Command;
 use clap_complete::{Shell, generate};
 
 use crate::done::Done;
+use crate::help::commands;
 use sweetspot::Result;
 
 /// Print the completions for a shell
@@ -11,18 +12,11 @@ use sweetspot::Result;
 /// The Tab key then completes verbs, options and files. Write them to the place where your shell looks for completions,
 /// and open a new shell.
 #[derive(clap::Args)]
-#[command(after_long_help = EXAMPLES)]
+#[command(after_long_help = commands("completions"))]
 pub struct Args {
     /// Which shell
     shell: Shell,
 }
-
-const EXAMPLES: &str = "\
-Examples:
-  sweetspot completions bash > \\
-      ~/.local/share/bash-completion/completions/sweetspot
-  sweetspot completions zsh > ~/.zfunc/_sweetspot
-  sweetspot completions fish > ~/.config/fish/completions/sweetspot.fish";
 
 pub fn run(args: &Args, mut command: Command) -> Result<Done> {
     let mut script = Vec::new();

@@ -18,6 +18,7 @@ use uff58::Stamp;
 use crate::common::{self, Prepared};
 use crate::done::{Done, printable};
 use crate::edits::EditArgs;
+use crate::help::commands;
 use crate::progress::Progress;
 use crate::value::TheoryChoice;
 
@@ -27,7 +28,7 @@ use crate::value::TheoryChoice;
 /// ten modes are then computed. The bat lies along x, with the knob at 0, and deflects along y; rotations are about z.
 /// Shapes have a largest deflection of 1, lengths are in m.
 #[derive(clap::Args)]
-#[command(after_long_help = EXAMPLES)]
+#[command(after_long_help = commands("convert"))]
 pub struct Args {
     /// Modes file (JSON) of sweetspot modes; or a bat, by its file or its name
     modes: PathBuf,
@@ -55,22 +56,6 @@ pub struct Args {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(3..=360))]
     surface: Option<u16>,
 }
-
-const EXAMPLES: &str = "\
-Examples:
-  sweetspot modes r161 --json r161.json
-  sweetspot convert r161.json --to uff
-      r161.uff, for programs of modal tests
-
-  sweetspot convert r161.json --to vtu --surface 48 --out r161.pvd
-      for ParaView: Warp By Vector with mode, then step through the frequencies
-
-  sweetspot convert r161 --to uff
-      the same of a bat that is solved for it
-
-  sweetspot convert r161.json --to csv
-  sweetspot convert r161.json --to npz
-      for spreadsheets and NumPy";
 
 #[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 enum Format {

@@ -3,14 +3,14 @@
 use std::io::Write;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
-use sweetspot::Error;
-use sweetspot::base::error::{Complaint, Excerpt, FilePosition};
-use sweetspot::base::marks;
-use sweetspot_report::schema;
-use sweetspot_report::schema::mistakes::ErrorFile;
 
 use crate::done::printable;
 use crate::style::{broken, columns};
+use sweetspot::Error;
+use sweetspot::base::error::{Complaint, Excerpt, FilePosition};
+use sweetspot::base::marks;
+use sweetspot_report::report::mistakes::ErrorFile;
+use sweetspot_report::schema;
 
 /// Columns of a narrow terminal.
 const WIDTH: usize = 80;

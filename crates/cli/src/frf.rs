@@ -7,9 +7,11 @@ use sweetspot::motion::frf::{Frf, ResponseKind, Sample};
 use sweetspot::motion::peaks::Peak;
 use sweetspot::{Bat, Error, Request, Result, Theory};
 use sweetspot_report::exchange::frf_uff::{self, Measured};
-use sweetspot_report::plot::{self, picture::Picture, sheet::Sheet};
-use sweetspot_report::report::frf::{self as report, ToldResponse};
+use sweetspot_report::plot::{self, Picture, Sheet};
+use sweetspot_report::report::frf as report;
+use sweetspot_report::report::frf::ToldResponse;
 use sweetspot_report::report::frf_set::{self, RowOfSet};
+use sweetspot_report::schema::Written;
 use sweetspot_report::schema::frf::FrfSetFile;
 use sweetspot_study::files::measured::response::{self, Known};
 use sweetspot_study::measured::response::{Laid, MeasuredResponse};
@@ -20,7 +22,7 @@ use crate::common::{BatArgs, Prepared, SolveArgs, about, examples, on_the_bat};
 use crate::done::Done;
 use crate::edits::DAMPING;
 use crate::frf_grid::{Grid, GridArgs};
-use crate::output::{CsvArgs, MANY, OutputArgs, apart, put};
+use crate::output::{AnswerArgs, MANY, drawing, put};
 use crate::value::{PLACE, file_unit, named};
 
 /// The bat's response to a shaker or a tap, over frequency
@@ -32,7 +34,7 @@ use crate::value::{PLACE, file_unit, named};
 /// its peak needs. The peaks of an undamped bat have no bound: give the material a loss_factor, or use --damping
 /// assumed.
 #[derive(clap::Args)]
-#[command(after_long_help = examples(EXAMPLES), mut_arg(DAMPING, |arg| arg
+#[command(after_long_help = examples("frf"), mut_arg("plots", drawing("size and phase, with the peaks,")), mut_arg(DAMPING, |arg| arg
     .value_parser(["material", "assumed", "measured"])
     .help("Damping of the computed modes: material, assumed (a metal without a loss factor has the published one), \
            or measured: that of the measured peaks, mode by mode")))]
@@ -77,9 +79,6 @@ pub struct Args {
     #[command(flatten)]
     places: PlacesArgs,
 
-    #[command(flatten)]
-    csv: CsvArgs,
-
     /// Write a universal file, datasets 151, 164, 2411 and 58, to this file (- = standard output, and no table then).
     /// Its frequencies have six digits, so all are rounded to that first and stay rising; with --linear it has only the
     /// even steps
@@ -90,36 +89,16 @@ pub struct Args {
     #[arg(long, requires = "uff", help_heading = "Output")]
     reproducible: bool,
 
-    /// Draw size and phase, with the peaks, into this folder, as SVG and PNG
-    #[arg(long, value_name = "DIR", help_heading = "Output")]
-    plots: Option<PathBuf>,
-
     #[command(flatten)]
     solve: SolveArgs,
 
     #[command(flatten)]
-    output: OutputArgs,
+    output: AnswerArgs,
 }
-
-const EXAMPLES: &str = "\
-Examples:
-  sweetspot frf r161 --at \"28 in\" --to \"2 in\" --kind mobility
-      struck on the barrel, felt at the handle
-
-  sweetspot frf meshes/r161.json --at \"28 in\" --to-hz \"2 kHz\" --plots frf
-      the peaks up to 2 kHz, drawn
-
-  sweetspot frf dowel --at 0.3 --frequencies \"100,200,300\" --csv -
-      three frequencies as CSV
-
-  sweetspot frf r161 --at \"28 in\" --to \"2 in\" --points 200 --uff tap.uff
-  sweetspot frf r161 --measured tap.uff
-      a laboratory's universal file laid over the computed response";
 
 pub fn run(args: &Args) -> Result<Done> {
     args.solve.refuse_budget("frf")?;
-    let files = [("--json", &args.output.json), ("--csv", &args.csv.csv), ("--uff", &args.uff)];
-    apart(&files)?;
+    args.output.apart(&[("--uff", &args.uff)])?;
     if args.bat.damped_as("measured") && args.measured.is_none() {
         let expected = "--measured FILE beside it, whose peaks tell the damping";
         return Err(Error::value("--damping", "measured", expected));
@@ -308,10 +287,11 @@ fn one(args: &Args, bat: Bat, measured: Option<&MeasuredResponse>) -> Result<Don
     let every = args.grid.counted();
     let most = if every { usize::MAX } else { MANY };
     let table = args.output.screen(most, |full| report::text(&told, full, every));
-    args.output.draw(&args.plots, &bat, |sheet| answered.picture(args, sheet, &bat, "response"))?;
+    args.output
+        .draw(&args.output.plots, &bat, |sheet| answered.picture(args, sheet, &bat, "response"))?;
     let Answered { samples, grid, kind, places: [at, to], .. } = &answered;
     let text = args.output.deliver(table, || document)?;
-    let text = args.csv.deliver(text, || report::csv(*kind, samples))?;
+    let text = args.output.csv.deliver(text, || report::csv(*kind, samples))?;
     let text = put(&args.uff, text, || {
         let (kind, at, to, even) = (*kind, *at, *to, grid.even);
         let measured = Measured { bat: bat.name(), kind, at, to, even };
@@ -346,19 +326,19 @@ fn all(args: &Args, bat: Bat, measured: &[(usize, MeasuredResponse)]) -> Result<
         let told = answered.told(args, &bat, Some(measured));
         rows.extend(RowOfSet::new(*number, &told));
         answers.push(report::document(&told));
-        if args.plots.is_some() {
+        if args.output.plots.is_some() {
             let sheet = args.output.sheet(&bat);
             pictures.extend(answered.picture(args, sheet, &bat, &format!("response_{number}"))?);
         }
     }
     drop(progress);
-    args.output.draw(&args.plots, &bat, |_| Ok(pictures))?;
     let source = &measured[0].1.source;
     let units = args.output.units(&bat);
     let table = args.output.screen(MANY, |full| frf_set::text(&bat, source, &rows, (units, full)));
-    let numbers = rows.iter().map(|row| row.number).collect();
-    let text = args.output.deliver(table, || FrfSetFile::new(numbers, answers))?;
-    let text = args.csv.deliver(text, || frf_set::csv(&rows))?;
+    let functions = rows.iter().map(|row| row.number).collect();
+    let document = || Written::of(FrfSetFile { functions, responses: answers });
+    let drawn = |_| Ok(pictures);
+    let text = args.output.answer((&bat, table), drawn, document, || frf_set::csv(&rows))?;
     Ok(Done::new(text, code).with(warning))
 }
 

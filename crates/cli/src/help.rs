@@ -18,6 +18,16 @@ const BUDGETED: [&str; 3] = ["modes", "ring", "trade"];
 /// A space at which no line breaks.
 const TOGETHER: &str = "\u{a0}";
 
+/// The example commands of all verbs.
+const EXAMPLES: &str = include_str!("examples.txt");
+
+/// The example commands of a verb.
+pub fn commands(verb: &str) -> String {
+    let mut sections = EXAMPLES.split("\n# ").filter_map(|section| section.split_once('\n'));
+    let own = sections.find(|(name, _)| *name == verb).map_or("", |(_, text)| text.trim_end());
+    format!("Examples:\n{own}")
+}
+
 /// The command with every help text broken into lines, and defaults written in the text.
 pub fn fitted(command: Command) -> Command {
     let about = command.get_long_about().or(command.get_about()).map(|text| lines(text, PROSE));

@@ -1,15 +1,13 @@
 //! `sweetspot hit BAT`: the collision along the barrel.
 
-use std::path::PathBuf;
-
 use sweetspot::base::units::{inches, shown_length};
 use sweetspot::collision::figures::Figures;
-use sweetspot::collision::hitter::Hitter;
-use sweetspot::collision::sweep::{RoundsEnd, Sweep, Trial, sweep_telling};
+use sweetspot::collision::sweep::{RoundsEnd, Trial, sweep_telling};
+use sweetspot::collision::{Hitter, Sweep};
 use sweetspot::modes::solve::Ending;
 use sweetspot::{Bat, Error, Result};
 use sweetspot_report::csv;
-use sweetspot_report::parts::terminal::wrapped;
+use sweetspot_report::parts::wrapped;
 use sweetspot_report::plot::profile;
 use sweetspot_report::plot::sets::Hits;
 use sweetspot_report::report::{hit_json, hit_text, sketch, trust};
@@ -18,7 +16,7 @@ use sweetspot_study::verdict::Verdict;
 
 use crate::common::{BatArgs, Prepared, SolveArgs, as_options, examples, on_the_bat};
 use crate::done::Done;
-use crate::output::{CsvArgs, MANY, OutputArgs};
+use crate::output::{AnswerArgs, MANY, OutputArgs, drawing};
 use crate::scene::{self, SceneArgs};
 use crate::value::PLACE;
 
@@ -30,7 +28,7 @@ use crate::value::PLACE;
 /// place, a sketch, BBCOR, the cost of an inch off, and how the sweet spot moves with swing and pitch. Places given by
 /// --points or --at are all shown. --tol is here the error of an exit speed over the closing speed.
 #[derive(clap::Args)]
-#[command(after_long_help = examples(EXAMPLES))]
+#[command(after_long_help = examples("hit"), mut_arg("plots", drawing("the bat, exit speed and energy along it, force, compression and the motion of the hands")))]
 pub struct Args {
     #[command(flatten)]
     bat: BatArgs,
@@ -44,32 +42,9 @@ pub struct Args {
     #[command(flatten)]
     solve: SolveArgs,
 
-    /// Draw into this folder, as SVG and PNG: the bat, exit speed and energies along it (without
-    /// --at); force, compression and the hands' motion, of the hit --at or at the sweet spot
-    #[arg(long, value_name = "DIR", help_heading = "Output")]
-    plots: Option<PathBuf>,
-
     #[command(flatten)]
-    csv: CsvArgs,
-
-    #[command(flatten)]
-    output: OutputArgs,
+    output: AnswerArgs,
 }
-
-const EXAMPLES: &str = "\
-Examples:
-  sweetspot hit r161 --swing-speed \"45 rad/s\" --points 11
-      eleven places from the middle to the tip
-
-  sweetspot hit torpedo --at \"27 in\" --json -
-      one place, every figure of it as JSON
-
-  sweetspot hit r161 --bat-speed \"75 mph\" --pitch \"87 mph\"
-      a faster swing, as broadcasts state it: 6 in from the tip
-
-  sweetspot hit r161 --reference-inertia \"10000 oz in2\" \\
-      --swing-exponent 0.25
-      by a batter who swings a lighter bat at 43 rad/s and heavier ones slower";
 
 /// The places where the ball meets the bat; all positions from the knob end.
 #[derive(clap::Args)]
@@ -118,7 +93,7 @@ impl PlaceArgs {
 }
 
 pub fn run(args: &Args) -> Result<Done> {
-    args.csv.beside(&args.output.json)?;
+    args.output.apart(&[])?;
     let bat = args.bat.read(&args.output)?;
     let (setup, model) = args.scene.setup()?;
     args.solve.refuse_budget("hit")?;
@@ -137,22 +112,22 @@ pub fn run(args: &Args) -> Result<Done> {
     progress.say(1.0, "the sweet spot");
     let hitter = Hitter::new(model, &scene, &bat, &sweep.solution, sweep.effort)?;
     let figures = Figures::new(&bat, &hitter, law)?;
-    args.output.draw(&args.plots, &bat, |sheet| {
+    let drawn = |sheet| {
         let subject =
             profile::MarkedBat { name: bat.name(), bat: &bat, swing_pivot: Some(scene.pivot) };
         let hits = Hits { bat: &bat, model, scene: &scene, sweep: &sweep, spot: &figures.spot };
         let hits = hits.pictures(sheet, args.place.at)?;
         Ok([profile::picture(sheet, &[subject])].into_iter().chain(hits))
-    })?;
-    drop(progress);
+    };
     let table = table(args, &bat, trial, &sweep, &figures);
     let document = || HitFile {
         figures: Some(hit_json::figures(&figures)),
         ..hit_json::hit(&bat, model, &scene, &sweep.impacts, &figures.spot)
     };
     let code = verdict(&args.solve, &sweep, &args.output);
-    let text = args.output.deliver(table, document)?;
-    let text = args.csv.deliver(text, || csv::hits(&sweep.impacts))?;
+    let rows = || csv::hits(&sweep.impacts);
+    let text = args.output.answer((&bat, table), drawn, document, rows)?;
+    drop(progress);
     Ok(Done::new(text, code).with(warning))
 }
 

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use sweetspot::base::mistakes::Mistakes;
-use sweetspot::collision::hit::{Model, Scene};
 use sweetspot::collision::sweep::Trial;
+use sweetspot::collision::{Model, Scene};
 use sweetspot::{Bat, Request, Result};
 use sweetspot_report::exchange::barrel::BarrelGrid;
 use sweetspot_report::exchange::hoop_files;
@@ -15,10 +15,9 @@ use sweetspot_study::trampoline::thickness::wall_sweep as thicknesses;
 use uff58::Stamp;
 
 use crate::cannon::CannonArgs;
-use crate::common::{Prepared, examples, on_the_bat, prepare, read};
+use crate::common::{BatFileArgs, Prepared, examples, on_the_bat, prepare};
 use crate::done::Done;
-use crate::edits::EditArgs;
-use crate::output::{CsvArgs, LINES, OutputArgs, apart, put};
+use crate::output::{AnswerArgs, LINES, drawing, put};
 use crate::value::{PLACE, TheoryChoice, tolerance};
 
 /// How the barrel of a hollow bat rings, and how its wall affects the ball
@@ -29,14 +28,10 @@ use crate::value::{PLACE, TheoryChoice, tolerance};
 /// with the wall, the uncertainty due to the size of the ball's patch, and the force of a compression test of the
 /// barrel. For bats of metal or of composites; wood is refused.
 #[derive(clap::Args)]
-#[command(after_long_help = examples(EXAMPLES))]
+#[command(after_long_help = examples("hoop"), mut_arg("plots", drawing("the modes around and along the barrel, and BBCOR against the wall (--wall-sweep),")))]
 pub struct Args {
-    /// Bat file (JSON), or the name of a built-in bat such as bbcor_made_up
-    #[arg(help_heading = "The bat")]
-    bat: PathBuf,
-
     #[command(flatten)]
-    edits: EditArgs,
+    bat: BatFileArgs,
 
     /// Number of hoop modes in the table and the pictures [default: 10, the table without --full three]
     #[arg(short = 'n', long = "modes", value_name = "N",
@@ -64,9 +59,6 @@ pub struct Args {
           value_parser = clap::value_parser!(u16).range(0..=10_000), help_heading = "Output")]
     shape_points: u16,
 
-    #[command(flatten)]
-    csv: CsvArgs,
-
     /// Write the modes to this universal file, on a cylinder of points
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     uff: Option<PathBuf>,
@@ -84,26 +76,9 @@ pub struct Args {
           value_parser = clap::value_parser!(u16).range(3..=360), help_heading = "Output")]
     around: u16,
 
-    /// Draw into this folder, as SVG and PNG: the modes around and along the barrel; with --wall-sweep
-    /// also BBCOR against the wall's thickness
-    #[arg(long, value_name = "DIR", help_heading = "Output")]
-    plots: Option<PathBuf>,
-
     #[command(flatten)]
-    output: OutputArgs,
+    output: AnswerArgs,
 }
-
-const EXAMPLES: &str = "\
-Examples:
-  sweetspot hoop bbcor_made_up
-      the tones of an aluminium barrel, and what its wall gives the ball
-
-  sweetspot hoop softball_made_up --wall-sweep --ball softball \\
-      --ball-stiffness \"7000 lbf/in\" --speed \"100 mph\" --at \"27 in\"
-      a softball bat, and with other walls
-
-  sweetspot hoop bbcor_made_up --vtu barrel.vtu --plots barrel
-      to look at: in ParaView Warp By Vector with hoop_2_1, and pictures";
 
 /// Number of modes on a screen if no number is given.
 const FEW: usize = 3;
@@ -113,13 +88,8 @@ const MOST_DRAWN: usize = 12;
 const ALONG: usize = 61;
 
 pub fn run(args: &Args) -> Result<Done> {
-    apart(&[
-        ("--json", &args.output.json),
-        ("--csv", &args.csv.csv),
-        ("--uff", &args.uff),
-        ("--vtu", &args.vtu),
-    ])?;
-    let bat = read(&args.bat, &args.edits, args.output.quiet)?;
+    args.output.apart(&[("--uff", &args.uff), ("--vtu", &args.vtu)])?;
+    let bat = args.bat.read(args.output.quiet)?;
     let progress = args.output.progress("the barrel");
     let request = Request { tolerance: args.tol, ..Request::default() };
     let Prepared { bat, request, warning } =
@@ -131,10 +101,10 @@ pub fn run(args: &Args) -> Result<Done> {
     };
     drop(progress);
     let count = modes(args);
-    args.output.draw(&args.plots, &bat, |sheet| {
+    let drawn = |sheet| {
         let modes = plot::picture(sheet, &bat, &barrel, count.min(MOST_DRAWN));
         Ok(modes.into_iter().chain(wall_sweep::picture(sheet, bat.name(), &tried)))
-    })?;
+    };
     let units = args.output.units(&bat);
     let sweep = if args.wall_sweep { report::sweep(&tried, units) } else { String::new() };
     let few = args.count.map_or(FEW, usize::from);
@@ -143,8 +113,9 @@ pub fn run(args: &Args) -> Result<Done> {
         [(2, "modes", modes), (3, "what the wall does", wall), (1, "other walls", sweep.clone())]
     });
     let samples = usize::from(args.shape_points);
-    let text = args.output.deliver(table, || report::document(&bat, &barrel, &tried, samples))?;
-    let text = args.csv.deliver(text, || report::csv(&bat, &barrel))?;
+    let document = || report::document(&bat, &barrel, &tried, samples);
+    let rows = || report::csv(&bat, &barrel);
+    let text = args.output.answer((&bat, table), drawn, document, rows)?;
     let text = exchanged(args, &bat, &barrel, text)?;
     let code =
         args.output.reached(barrel.unmet().map(|unmet| format!("accuracy not reached: {unmet}")));

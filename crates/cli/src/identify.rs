@@ -5,9 +5,8 @@ use std::path::PathBuf;
 use sweetspot::motion::frf::ResponseKind;
 use sweetspot::{Error, Result};
 use sweetspot_report::exchange::{frf_uff, shared_uff};
-use sweetspot_report::plot::{identify as plot, sheet::Sheet};
+use sweetspot_report::plot::{Sheet, identify as plot};
 use sweetspot_report::report::identify::IdentifyReport;
-use sweetspot_report::schema;
 use sweetspot_study::files::measured::places;
 use sweetspot_study::files::measured::response::Known;
 use sweetspot_study::identify::modes::{Identified, TestKnown};
@@ -18,8 +17,7 @@ use uff58::Stamp;
 use crate::common::{examples, read_with_text};
 use crate::done::{Done, FAILED};
 use crate::edits::EditArgs;
-use crate::output::{CsvArgs, FullArgs, LINES, apart, draw, put};
-use crate::style;
+use crate::output::{DataArgs, LINES, drawing, put};
 use crate::value::{
     FREQUENCY, HAMMER, PART_MASS, PLACE, RINGING_TIME, STIFFNESS, choice, file_unit, named,
 };
@@ -32,7 +30,7 @@ use crate::value::{
 /// responses, and their shapes. A response with hammer and accelerometer at one place also gives the modal masses.
 /// compare --measured and calibrate read the file of --out. The exit code is 1 if no mode is found.
 #[derive(clap::Args)]
-#[command(after_long_help = examples(EXAMPLES), next_help_heading = "Output")]
+#[command(after_long_help = examples("identify"), mut_arg("plots", drawing("the stability of the poles and the shapes")), next_help_heading = "Output")]
 pub struct Args {
     /// Universal files of responses; several are used together
     #[arg(required_unless_present = "simulate", help_heading = "The responses")]
@@ -86,32 +84,9 @@ pub struct Args {
     #[arg(long)]
     reproducible: bool,
 
-    /// Write JSON to this file (- = standard output, and no table then)
-    #[arg(long, value_name = "FILE")]
-    json: Option<PathBuf>,
-
     #[command(flatten)]
-    csv: CsvArgs,
-
-    /// Draw the stability of the poles and the shapes into this folder, as SVG and PNG
-    #[arg(long, value_name = "DIR")]
-    plots: Option<PathBuf>,
-
-    #[command(flatten)]
-    said: FullArgs,
+    said: DataArgs,
 }
-
-const EXAMPLES: &str = "\
-Examples:
-  sweetspot identify --simulate r161 --accelerometer \"8 g\" --uff hammer.uff
-      what a hammer test of this bat would find, and its responses
-
-  sweetspot identify hammer.uff --accelerometer \"8 g\" --out modes.uff
-  sweetspot compare r161 --measured modes.uff
-      its modes without the mass of the accelerometer, beside those of the bat
-
-  sweetspot identify hammer.uff --from-hz 100 --to-hz 1500 --plots hammer
-      the modes in a band, drawn";
 
 /// A virtual test of a bat.
 #[derive(clap::Args)]
@@ -250,13 +225,7 @@ impl Args {
 }
 
 pub fn run(args: &Args) -> Result<Done> {
-    let files = [
-        ("--json", &args.json),
-        ("--csv", &args.csv.csv),
-        ("--out", &args.out),
-        ("--uff", &args.uff),
-    ];
-    apart(&files)?;
+    args.said.apart(&[("--out", &args.out), ("--uff", &args.uff)])?;
     args.check()?;
     let (band, mut test) = (args.band()?, args.test()?);
     let stamp = if args.reproducible { Stamp::fixed() } else { Stamp::now() };
@@ -277,11 +246,10 @@ pub fn run(args: &Args) -> Result<Done> {
     let about = simulated.as_ref().map(|(one, bat)| (one, bat.name()));
     let report = IdentifyReport { set: &set, found: &found, simulated: about };
     let table = args.said.screen(LINES, |full| report.text(full));
-    draw(&args.plots, args.said.quiet, || Ok(plot::pictures(&set, &found, Sheet::file(false))))?;
-    let out = args.csv.deliver(style::table(&table), || report.csv())?;
+    let drawn = || Ok(plot::pictures(&set, &found, Sheet::file(false)));
+    let out = args.said.answer(&table, drawn, || report.document(), || report.csv())?;
     let name = about.map_or("", |(_, name)| name);
     let out = put(&args.uff, out, || uff58::write(&frf_uff::responses(name, &set, &stamp)))?;
     let out = put(&args.out, out, || uff58::write(&shared_uff::modes(&set, &found.modes, &stamp)))?;
-    let out = put(&args.json, out, || Ok(schema::text(&report.document())))?;
     Ok(Done::new(out, if found.modes.is_empty() { FAILED } else { 0 }))
 }

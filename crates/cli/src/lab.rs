@@ -17,7 +17,7 @@ use crate::output::printed;
 /// nodes, sweet spot and swing weight follow; tap the bat and hear it; see what changed. This program's engine computes
 /// every number in the page.
 #[derive(clap::Args)]
-#[command(after_long_help = examples(EXAMPLES))]
+#[command(after_long_help = examples("lab"))]
 pub struct Args {
     /// Bat file (JSON), or the name of a built-in bat; without it the page begins with r161
     #[arg(help_heading = "The bat")]
@@ -35,14 +35,6 @@ pub struct Args {
     #[arg(long, help_heading = "Output")]
     quiet: bool,
 }
-
-const EXAMPLES: &str = "\
-Examples:
-  sweetspot lab r161 --open
-      the page with that bat, in the browser
-
-  sweetspot lab mine.json --out mine.html
-      a page to send";
 
 /// The page, which `lab/build` has made; None in a program that was built without it.
 #[cfg(feature = "lab")]

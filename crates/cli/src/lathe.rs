@@ -1,7 +1,5 @@
 //! `sweetspot lathe BAT`: which cut has which effect?
 
-use std::path::PathBuf;
-
 use sweetspot::base::mistakes::Mistakes;
 use sweetspot::base::units::shown_length;
 use sweetspot::{Bat, Error, Request, Result};
@@ -13,7 +11,7 @@ use sweetspot_study::lathe::workpiece::HitTerms;
 
 use crate::common::{BatArgs, Prepared, SolveArgs, as_options, examples, on_the_bat};
 use crate::done::Done;
-use crate::output::{CsvArgs, MANY, OutputArgs, Screen};
+use crate::output::{AnswerArgs, MANY, Screen, drawing};
 use crate::scene::{self, SceneArgs};
 use crate::value::{LITTLE, PLACE, SPACING};
 
@@ -26,7 +24,7 @@ use crate::value::{LITTLE, PLACE, SPACING};
 /// the motion at the hands; and a second table of the same for a finite cut. Frequencies and the rigid body follow from
 /// formulas, all else from differences of whole bats.
 #[derive(clap::Args)]
-#[command(after_long_help = examples(EXAMPLES))]
+#[command(after_long_help = examples("lathe"), mut_arg("plots", drawing("the bat coloured by the effect of a cut, a strip for each output,")))]
 pub struct Args {
     #[command(flatten)]
     bat: BatArgs,
@@ -62,27 +60,8 @@ pub struct Args {
     solve: SolveArgs,
 
     #[command(flatten)]
-    csv: CsvArgs,
-
-    /// Draw into this folder, as SVG and PNG: the bat coloured by the effect of a cut, a strip for each output
-    #[arg(long, value_name = "DIR", help_heading = "Output")]
-    plots: Option<PathBuf>,
-
-    #[command(flatten)]
-    output: OutputArgs,
+    output: AnswerArgs,
 }
-
-const EXAMPLES: &str = "\
-Examples:
-  sweetspot lathe r161
-      where a cut does most to a wooden bat; --full for every inch
-
-  sweetspot lathe r161 --bands \"22 in to 24 in\" --depth \"2 mm\"
-      one stretch, and two millimetres off it
-
-  sweetspot lathe r161 --reference-inertia \"10000 oz in2\" \\
-      --swing-exponent 0.25 --bands \"3 in\" --json -
-      by a batter who swings a lighter bat faster, as JSON";
 
 /// Depth of a cut that is computed in full (m).
 const DEPTH: f64 = 0.5e-3;
@@ -110,7 +89,7 @@ fn band(text: &str) -> std::result::Result<BandArg, String> {
 }
 
 pub fn run(args: &Args) -> Result<Done> {
-    args.csv.beside(&args.output.json)?;
+    args.output.apart(&[])?;
     args.solve.refuse_budget("lathe")?;
     let bat = args.bat.read(&args.output)?;
     let (setup, model) = args.scene.setup()?;
@@ -133,7 +112,6 @@ pub fn run(args: &Args) -> Result<Done> {
     progress.say(0.0, "bats with a cut");
     let map = LatheMap::new(&bat, &request, Some(&hit), terms)?;
     drop(progress);
-    args.output.draw(&args.plots, &bat, |sheet| Ok(plot::picture(sheet, &map)))?;
     let units = args.output.units(map.piece.bat());
     // Outputs, a depth or a stretch imply the tables.
     let asked = args.outputs.is_some()
@@ -151,8 +129,9 @@ pub fn run(args: &Args) -> Result<Done> {
             [(0, "", title), slopes, cuts, below].into()
         }
     });
-    let out = args.output.deliver(table, || report::document(&map, &hit.scene, model))?;
-    let text = args.csv.deliver(out, || report::csv(&map))?;
+    let drawn = |sheet| Ok(plot::picture(sheet, &map));
+    let document = || report::document(&map, &hit.scene, model);
+    let text = args.output.answer((&bat, table), drawn, document, || report::csv(&map))?;
     let unmet = (!map.piece.met && args.solve.enforced())
         .then_some("accuracy not reached: error of every change says how far it is known");
     let code = args.output.reached(unmet.map(str::to_owned));

@@ -1,18 +1,15 @@
 //! `sweetspot licences`: authors and licences of everything in the program.
 
 use crate::done::Done;
+use crate::help::commands;
 use sweetspot::Result;
 
 /// Print the licences of this program and of everything in it
 ///
 /// First its own two, either of which you may choose, then every package and the font of the pictures with their texts.
 #[derive(clap::Args)]
-#[command(after_long_help = EXAMPLES)]
+#[command(after_long_help = commands("licences"))]
 pub struct Args {}
-
-const EXAMPLES: &str = "\
-Examples:
-  sweetspot licences > LICENCES.md";
 
 const OWN: [&str; 2] =
     [include_str!("../../../LICENSE-MIT"), include_str!("../../../LICENSE-APACHE")];

@@ -9,13 +9,14 @@ use sweetspot::base::file;
 use sweetspot::{Error, Result};
 
 use crate::done::Done;
+use crate::help::commands;
 use crate::output::make;
 
 /// Print a manual page, or write all of them
 ///
 /// The text of --help as a manual page, for the pager of your system.
 #[derive(clap::Args)]
-#[command(after_long_help = EXAMPLES)]
+#[command(after_long_help = commands("man"))]
 pub struct Args {
     /// The page of this verb [default: of the program]
     verb: Option<String>,
@@ -24,14 +25,6 @@ pub struct Args {
     #[arg(long, value_name = "DIR", conflicts_with = "verb")]
     out: Option<PathBuf>,
 }
-
-const EXAMPLES: &str = "\
-Examples:
-  sweetspot man modes > modes.1
-      one page; man ./modes.1 shows it
-
-  sweetspot man --out man1
-      all of them; in ~/.local/share/man/man1 the command man finds them";
 
 pub fn run(args: &Args, command: Command) -> Result<Done> {
     // The verb that prints help has no page.

@@ -5,17 +5,15 @@ use std::path::PathBuf;
 use sweetspot::Result;
 use sweetspot::base::units::PSI;
 use sweetspot::bat::material::{BUILT_IN, BuiltIn};
-use sweetspot_report::parts::terminal::wrapped;
-use sweetspot_report::parts::units::Units;
+use sweetspot_report::parts::{Shown, Units, first, lines, numbers, wrapped};
 use sweetspot_report::schema;
 use sweetspot_report::schema::materials::MaterialsFile;
 
 use crate::done::Done;
+use crate::help::commands;
 use crate::output::put;
 use crate::style;
-use crate::tables::{self, Shown};
 use crate::value::unit_system;
-use sweetspot_report::parts::columns::{first, numbers};
 
 /// The built-in materials with their sources
 ///
@@ -24,7 +22,7 @@ use sweetspot_report::parts::columns::{first, numbers};
 /// need to ring as measured. Other numbers go into the bat file as an object with density, youngs_modulus and, if
 /// known, shear_modulus.
 #[derive(clap::Args)]
-#[command(after_long_help = EXAMPLES)]
+#[command(after_long_help = commands("materials"))]
 pub struct Args {
     /// Units of the table: si, us or both
     #[arg(long, value_name = "SYSTEM", default_value = "both", value_parser = unit_system(),
@@ -35,14 +33,6 @@ pub struct Args {
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     json: Option<PathBuf>,
 }
-
-const EXAMPLES: &str = "\
-Examples:
-  sweetspot materials --units us
-  sweetspot materials --json materials.json
-
-In the table ρ is the density, E Young's modulus and G the shear modulus along
-the grain.";
 
 const POUND_PER_CUBIC_INCH: f64 = 0.453_592_37 / (0.0254 * 0.0254 * 0.0254);
 /// A million pound-force per square inch (Pa).
@@ -55,30 +45,31 @@ pub fn run(args: &Args) -> Result<Done> {
 }
 
 /// The columns of a system of units: density, Young's modulus and shear modulus.
-fn columns(us: bool) -> [Shown<BuiltIn>; 3] {
+fn columns(us: bool) -> [Shown<'static, BuiltIn>; 3] {
     fn shear(material: &BuiltIn, unit: f64) -> String {
         material.shear_modulus.map_or("-".to_owned(), |g| format!("{:.3}", g / unit))
     }
     match us {
         false => [
-            (numbers(10, "ρ kg/m³"), |m| format!("{:.1}", m.density)),
-            (numbers(10, "E GPa"), |m| format!("{:.2}", 1e-9 * m.youngs_modulus)),
-            (numbers(10, "G GPa"), |m| shear(m, 1e9)),
+            (numbers(10, "ρ kg/m³"), &|m| format!("{:.1}", m.density)),
+            (numbers(10, "E GPa"), &|m| format!("{:.2}", 1e-9 * m.youngs_modulus)),
+            (numbers(10, "G GPa"), &|m| shear(m, 1e9)),
         ],
         true => [
-            (numbers(10, "ρ lb/in³"), |m| format!("{:.4}", m.density / POUND_PER_CUBIC_INCH)),
-            (numbers(10, "E Mpsi"), |m| format!("{:.3}", m.youngs_modulus / MPSI)),
-            (numbers(10, "G Mpsi"), |m| shear(m, MPSI)),
+            (numbers(10, "ρ lb/in³"), &|m| format!("{:.4}", m.density / POUND_PER_CUBIC_INCH)),
+            (numbers(10, "E Mpsi"), &|m| format!("{:.3}", m.youngs_modulus / MPSI)),
+            (numbers(10, "G Mpsi"), &|m| shear(m, MPSI)),
         ],
     }
 }
 
 /// A line for each material, and below it where the numbers are from and where it breaks.
 fn table(units: Units) -> String {
-    let name: Shown<BuiltIn> = (first(20, "Material"), |m| m.name.to_owned());
+    let name: Shown<BuiltIn> = (first(20, "Material"), &|m| m.name.to_owned());
     let systems = [(Units::Us, false), (Units::Si, true)].into_iter();
     let systems = systems.filter(|(other, _)| units != *other).flat_map(|(_, us)| columns(us));
-    let lines = tables::table([name].into_iter().chain(systems), &BUILT_IN);
+    let columns: Vec<Shown<BuiltIn>> = [name].into_iter().chain(systems).collect();
+    let lines = lines(BUILT_IN.iter(), &columns);
     let mut lines = lines.lines();
     let mut out = format!("{}\n", lines.next().unwrap_or_default());
     for (material, line) in BUILT_IN.iter().zip(lines) {

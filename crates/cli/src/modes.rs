@@ -9,13 +9,12 @@ use sweetspot_report::csv;
 use sweetspot_report::exchange::npz;
 use sweetspot_report::plot::sets;
 use sweetspot_report::report::json::{self, ShapePoints};
-use sweetspot_report::report::proven;
-use sweetspot_report::report::{sketch, text, trust};
+use sweetspot_report::report::{proven, sketch, text, trust};
 
 use crate::common::{BatArgs, SolveArgs, Solved, examples};
 use crate::done::Done;
 use crate::guarantee::{self, GuaranteeArgs};
-use crate::output::{CsvArgs, MANY, OutputArgs, Screen, make};
+use crate::output::{AnswerArgs, MANY, Screen, drawing, make};
 
 /// How the bat rings: frequencies, nodes, shapes
 ///
@@ -24,7 +23,7 @@ use crate::output::{CsvArgs, MANY, OutputArgs, Screen, make};
 /// a sketch of them on the bat, how the answer was computed, and the effects that the model leaves out, with their size
 /// on this bat. The shapes are in the JSON.
 #[derive(clap::Args)]
-#[command(after_long_help = examples(EXAMPLES))]
+#[command(after_long_help = examples("modes"), mut_arg("plots", drawing("the bat and its mode shapes")))]
 pub struct Args {
     #[command(flatten)]
     bat: BatArgs,
@@ -44,40 +43,19 @@ pub struct Args {
     #[arg(long, value_name = "DIR", help_heading = "Output")]
     matrices: Option<PathBuf>,
 
-    /// Draw the bat and its mode shapes into this folder, as SVG and PNG
-    #[arg(long, value_name = "DIR", help_heading = "Output")]
-    plots: Option<PathBuf>,
-
     /// Leave the timing out of the JSON, so that equal input gives equal bytes
     #[arg(long, help_heading = "Output")]
     reproducible: bool,
 
     #[command(flatten)]
-    csv: CsvArgs,
-
-    #[command(flatten)]
-    output: OutputArgs,
+    output: AnswerArgs,
 }
-
-const EXAMPLES: &str = "\
-Examples:
-  sweetspot modes r161 -n 5
-      the first five modes, within 0.01 %
-
-  sweetspot modes r161 -n 3 --tol 1e-10 --json modes.json
-      to ten digits, with the shapes as JSON
-
-  sweetspot modes r161 -n 5 --tol 1e-9 --guarantee --within \"0.1 mm, 2 %\"
-      two numbers that the frequencies cannot leave, and of every bat so near
-
-  sweetspot modes northwestern_aluminium --budget \"2 ms\"
-      the best that two milliseconds give";
 
 /// Number of modes whose nodes are on a screen.
 const FIRST_NODES: usize = 2;
 
 pub fn run(args: &Args) -> Result<Done> {
-    args.csv.beside(&args.output.json)?;
+    args.output.apart(&[])?;
     let progress = args.output.progress("modes");
     let bat = args.bat.read(&args.output)?;
     let (Solved { bat, solution, warning }, proven) =
@@ -86,8 +64,6 @@ pub fn run(args: &Args) -> Result<Done> {
     if let Some(folder) = &args.matrices {
         write_matrices(folder, &bat, &solution)?;
     }
-    let drawn = |sheet| Ok(sets::of_modes(sheet, &bat, &solution, None));
-    args.output.draw(&args.plots, &bat, drawn)?;
     let units = args.output.units(&bat);
     let summary = text::summary(&bat, units);
     let proof = proven.as_ref().map_or(String::new(), proven::text);
@@ -119,7 +95,9 @@ pub fn run(args: &Args) -> Result<Done> {
         Some(proven) => guarantee::verdict(proven, &args.solve, &args.output),
         None => args.solve.verdict(&solution, &args.output),
     };
-    let text = args.csv.deliver(args.output.deliver(table, document)?, || csv::modes(&solution))?;
+    let drawn = |sheet| Ok(sets::of_modes(sheet, &bat, &solution, None));
+    let rows = || csv::modes(&solution);
+    let text = args.output.answer((&bat, table), drawn, document, rows)?;
     Ok(Done::new(text, code).with(warning))
 }
 

@@ -4,12 +4,11 @@ use std::io::{IsTerminal, Write, stderr, stdin};
 use std::path::{Path, PathBuf};
 
 use sweetspot::base::file;
-use sweetspot::collision::hit::Model;
+use sweetspot::collision::Model;
 use sweetspot::collision::setup::Setup;
 use sweetspot::{Bat, Request, Result, solve};
 use sweetspot_report::analysis::{Analysis, Task};
-use sweetspot_report::parts::terminal::wrapped;
-use sweetspot_report::parts::units::Units;
+use sweetspot_report::parts::{Units, wrapped};
 use sweetspot_report::report::sketch::{self, Places, SketchRow};
 use sweetspot_report::report::trust;
 use sweetspot_study::spread::Readings;

@@ -1,15 +1,16 @@
 //! How are results written, and where?
 
 use std::io::{IsTerminal, Write};
+use std::ops::Deref;
 use std::path::{Path, PathBuf};
 
+use clap::Arg;
 use serde::Serialize;
 use sweetspot::base::file;
 use sweetspot::{Bat, Error, Result};
+use sweetspot_report::parts::Units;
 pub use sweetspot_report::parts::terminal::{LINES, MANY, Screen};
-use sweetspot_report::parts::units::Units;
-use sweetspot_report::plot::picture::{self, Picture};
-use sweetspot_report::plot::sheet::Sheet;
+use sweetspot_report::plot::{Picture, Sheet, picture};
 use sweetspot_report::report::sketch::{self, Glyphs, SketchRow};
 use sweetspot_report::schema;
 
@@ -32,24 +33,14 @@ pub struct OutputArgs {
           hide_possible_values = true)]
     units: Units,
 
-    /// Everything, not one screen alone
-    #[arg(long)]
-    pub full: bool,
-
-    /// No warnings and no progress on standard error
-    #[arg(long)]
-    pub quiet: bool,
+    #[command(flatten)]
+    amount: FullArgs,
 }
 
 impl OutputArgs {
     /// The units for a bat: those asked for; for both, the file's first.
     pub fn units(&self, bat: &Bat) -> Units {
         self.units.of(bat)
-    }
-
-    /// The printed text: everything, or a screen of at most `most` lines and a hint where the rest is.
-    pub fn screen<S: Into<Screen>>(&self, most: usize, said: impl Fn(bool) -> S) -> String {
-        screen(self.full, most, said)
     }
 
     /// Writes the JSON if it was asked for; returns the text for standard output.
@@ -80,26 +71,13 @@ impl OutputArgs {
     ) -> Result<()> {
         draw(folder, self.quiet, || pictures(self.sheet(bat)))
     }
+}
 
-    /// The exit code, after a warning if something was not reached.
-    pub fn reached(&self, short: Option<String>) -> u8 {
-        match short {
-            Some(short) => {
-                self.warn(&short);
-                NOT_REACHED
-            }
-            None => 0,
-        }
-    }
+impl Deref for OutputArgs {
+    type Target = FullArgs;
 
-    /// Says something on standard error.
-    pub fn warn(&self, text: &str) {
-        warn(text, self.quiet);
-    }
-
-    /// The progress of `what`, for a person at a terminal.
-    pub fn progress(&self, what: &str) -> Progress {
-        Progress::new(self.quiet, what)
+    fn deref(&self) -> &FullArgs {
+        &self.amount
     }
 }
 
@@ -121,23 +99,116 @@ pub struct CsvArgs {
 }
 
 impl CsvArgs {
-    /// Refuses CSV if the JSON goes to the same place.
-    pub fn beside(&self, json: &Option<PathBuf>) -> Result<()> {
-        apart(&[("--json", json), ("--csv", &self.csv)])
-    }
-
     /// Writes the table if it was asked for; returns the text for standard output.
     pub fn deliver(&self, text: String, table: impl FnOnce() -> String) -> Result<String> {
         put(&self.csv, text, || Ok(table()))
     }
 }
 
-/// Amount of output, for a verb without units.
+/// The output of a verb with a table and pictures.
+#[derive(clap::Args)]
+#[command(next_help_heading = "Output")]
+pub struct AnswerArgs {
+    #[command(flatten)]
+    pub csv: CsvArgs,
+
+    /// Draw into this folder, as SVG and PNG
+    #[arg(long, value_name = "DIR")]
+    pub plots: Option<PathBuf>,
+
+    #[command(flatten)]
+    output: OutputArgs,
+}
+
+impl AnswerArgs {
+    /// Refuses two documents in one place: JSON, CSV, and these options of the verb.
+    ///
+    /// # Errors
+    ///
+    /// As [`apart`].
+    pub fn apart(&self, others: &[(&str, &Option<PathBuf>)]) -> Result<()> {
+        apart(&[&[("--json", &self.json), ("--csv", &self.csv.csv)], others].concat())
+    }
+
+    /// Draws, and writes JSON and CSV, as far as that was asked for; returns the text for standard output.
+    pub fn answer<D: Serialize, P: IntoIterator<Item = Picture>>(
+        &self,
+        (bat, text): (&Bat, String),
+        pictures: impl FnOnce(Sheet) -> Result<P>,
+        document: impl FnOnce() -> D,
+        table: impl FnOnce() -> String,
+    ) -> Result<String> {
+        self.draw(&self.plots, bat, pictures)?;
+        self.csv.deliver(self.deliver(text, document)?, table)
+    }
+}
+
+impl Deref for AnswerArgs {
+    type Target = OutputArgs;
+
+    fn deref(&self) -> &OutputArgs {
+        &self.output
+    }
+}
+
+/// The option `--plots` of a verb that draws this.
+pub fn drawing(what: &'static str) -> impl Fn(Arg) -> Arg {
+    move |arg| arg.help(format!("Draw {what} into this folder, as SVG and PNG"))
+}
+
+/// The output of a verb with a table and pictures, but without a choice of units.
+#[derive(clap::Args)]
+#[command(next_help_heading = "Output")]
+pub struct DataArgs {
+    /// Write JSON to this file (- = standard output, and no table then)
+    #[arg(long, value_name = "FILE")]
+    pub json: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub csv: CsvArgs,
+
+    /// Draw into this folder, as SVG and PNG
+    #[arg(long, value_name = "DIR")]
+    pub plots: Option<PathBuf>,
+
+    #[command(flatten)]
+    amount: FullArgs,
+}
+
+impl DataArgs {
+    /// As [`AnswerArgs::apart`].
+    pub fn apart(&self, others: &[(&str, &Option<PathBuf>)]) -> Result<()> {
+        apart(&[&[("--json", &self.json), ("--csv", &self.csv.csv)], others].concat())
+    }
+
+    /// Draws, and writes JSON and CSV, as far as that was asked for; returns the text for standard output.
+    pub fn answer<D: Serialize, P: IntoIterator<Item = Picture>>(
+        &self,
+        text: &str,
+        pictures: impl FnOnce() -> Result<P>,
+        document: impl FnOnce() -> D,
+        table: impl FnOnce() -> String,
+    ) -> Result<String> {
+        draw(&self.plots, self.quiet, pictures)?;
+        let text = self.csv.deliver(style::table(text), table)?;
+        put(&self.json, text, || Ok(schema::text(&document())))
+    }
+}
+
+impl Deref for DataArgs {
+    type Target = FullArgs;
+
+    fn deref(&self) -> &FullArgs {
+        &self.amount
+    }
+}
+
+/// Amount of output.
 #[derive(clap::Args)]
 pub struct FullArgs {
     /// Everything, not one screen alone
     #[arg(long, help_heading = "Output")]
-    full: bool,
+    pub full: bool,
 
     /// No warnings and no progress on standard error
     #[arg(long, help_heading = "Output")]
@@ -145,16 +216,35 @@ pub struct FullArgs {
 }
 
 impl FullArgs {
-    /// The printed text, as [`OutputArgs::screen`].
+    /// The printed text: everything, or a screen of at most `most` lines and a hint where the rest is.
     pub fn screen<S: Into<Screen>>(&self, most: usize, said: impl Fn(bool) -> S) -> String {
-        screen(self.full, most, said)
+        let all = said(true).into().text();
+        match self.full {
+            true => all,
+            false => said(false).into().fitted(most, &all, "Everything else: --full"),
+        }
     }
-}
 
-/// Everything, or a screen of at most `most` lines and a hint where the rest is.
-fn screen<S: Into<Screen>>(full: bool, most: usize, said: impl Fn(bool) -> S) -> String {
-    let all = said(true).into().text();
-    if full { all } else { said(false).into().fitted(most, &all, "Everything else: --full") }
+    /// The exit code, after a warning if something was not reached.
+    pub fn reached(&self, short: Option<String>) -> u8 {
+        match short {
+            Some(short) => {
+                self.warn(&short);
+                NOT_REACHED
+            }
+            None => 0,
+        }
+    }
+
+    /// Says something on standard error.
+    pub fn warn(&self, text: &str) {
+        warn(text, self.quiet);
+    }
+
+    /// The progress of `what`, for a person at a terminal.
+    pub fn progress(&self, what: &str) -> Progress {
+        Progress::new(self.quiet, what)
+    }
 }
 
 /// The name of a file as text.

@@ -27,11 +27,11 @@ pub struct Progress {
 enum ProgressLook {
     Not,
     Bar(ProgressBar),
-    Lines(Mutex<Line>),
+    Lines(Mutex<LastLine>),
 }
 
 /// The last line, if there was one.
-struct Line {
+struct LastLine {
     at: Instant,
     any: bool,
 }
@@ -64,7 +64,7 @@ impl Progress {
                 let mut last = last.lock().unwrap_or_else(PoisonError::into_inner);
                 if last.at.elapsed() >= LINE || (last.any && share == 1.0) {
                     eprintln!("{:3.0} %  {said}", (100.0 * share).floor());
-                    *last = Line { at: Instant::now(), any: true };
+                    *last = LastLine { at: Instant::now(), any: true };
                 }
             }
         }
@@ -96,7 +96,7 @@ impl Counted {
         // The work may take days, and a reader of a log wants to know too.
         if !quiet && matches!(progress.shown, ProgressLook::Not) {
             progress.shown =
-                ProgressLook::Lines(Mutex::new(Line { at: Instant::now(), any: false }));
+                ProgressLook::Lines(Mutex::new(LastLine { at: Instant::now(), any: false }));
         }
         Self { progress, what, all, before, done: AtomicU64::new(before) }
     }

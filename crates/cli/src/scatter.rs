@@ -6,9 +6,8 @@ use sweetspot::base::error::Complaint;
 use sweetspot::base::{file, threads};
 use sweetspot::{Error, Result};
 use sweetspot_report::many::summary::sorted;
-use sweetspot_report::many::table::Column;
-use sweetspot_report::plot::many;
-use sweetspot_report::plot::picture::Picture;
+use sweetspot_report::many::table::NumberColumn;
+use sweetspot_report::plot::{Picture, many};
 use sweetspot_report::report::{resolved, scatter};
 use sweetspot_report::schema;
 use sweetspot_study::files::scatter_file::{self, ScatterForm};
@@ -18,9 +17,8 @@ use sweetspot_study::scatter::scattered::{OutputSpread, SHARES, Scattered, WRITT
 
 use crate::common::{self, BatFileArgs, examples, note_outside};
 use crate::done::Done;
-use crate::output::{FullArgs, LINES, apart, draw, make, printed, put};
+use crate::output::{DataArgs, LINES, drawing, make, printed};
 use crate::progress::Counted;
-use crate::style;
 
 /// How much bats of one model, and swings of one batter, differ
 ///
@@ -29,7 +27,7 @@ use crate::style;
 /// variation; with --full every percentile with its own error, and every share. The same seed gives the same bytes, on
 /// any number of threads.
 #[derive(clap::Args)]
-#[command(after_long_help = examples(EXAMPLES))]
+#[command(after_long_help = examples("scatter"), mut_arg("plots", drawing("a histogram of every output and the causes of its variation")))]
 pub struct Args {
     #[command(flatten)]
     bat: BatFileArgs,
@@ -58,35 +56,12 @@ pub struct Args {
     #[arg(long, value_name = "NAME", requires = "bats", help_heading = "Output")]
     of: Option<String>,
 
-    /// Write JSON to this file (- = standard output, and no table then)
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    json: Option<PathBuf>,
-
-    /// Write every bat as a line of CSV to this file (- = standard output, and no table then)
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    csv: Option<PathBuf>,
-
-    /// Draw a histogram of every output and the causes of its variation into this folder, as SVG and PNG
-    #[arg(long, value_name = "DIR", help_heading = "Output")]
-    plots: Option<PathBuf>,
-
     #[command(flatten)]
-    said: FullArgs,
+    said: DataArgs,
 }
 
-const EXAMPLES: &str = "\
-Examples:
-  sweetspot scatter r161 --points 64
-      how much bats of one model differ by the wood alone, from few bats
-
-  sweetspot scatter r161 bats.json --points 64
-      how much they differ by what bats.json says
-
-  sweetspot scatter r161 bats.json --points 64 --bats spread --plots spread
-      the bats nearest to the 5th, 50th and 95th percentile, and pictures";
-
 pub fn run(args: &Args) -> Result<Done> {
-    apart(&[("--json", &args.json), ("--csv", &args.csv)])?;
+    args.said.apart(&[])?;
     let said = args.scatter.as_deref().map(ScatterForm::named_by_a_person).transpose()?;
     let said = said.map(|(said, outside)| {
         args.scatter.iter().for_each(|file| note_outside(file, &outside, args.said.quiet));
@@ -113,13 +88,13 @@ pub fn run(args: &Args) -> Result<Done> {
         let why = found.missing.first().cloned().unwrap_or_default();
         return Err(Error::value(said_by(args), why, "bats that can be"));
     }
-    draw(&args.plots, args.said.quiet, || Ok(drawn(&found)))?;
     if let Some(folder) = &args.bats {
         write_bats(folder, &rows, &found, of)?;
     }
     let table = args.said.screen(LINES, |full| scatter::text(&rows, &found, full));
-    let text = put(&args.csv, style::table(&table), || Ok(scatter::csv(&rows, &found)))?;
-    let text = put(&args.json, text, || Ok(schema::text(&scatter::document(&rows.bat, &found))))?;
+    let document = || scatter::document(&rows.bat, &found);
+    let lines = || scatter::csv(&rows, &found);
+    let text = args.said.answer(&table, || Ok(drawn(&found)), document, lines)?;
     Ok(Done::new(text, 0))
 }
 
@@ -168,7 +143,7 @@ fn named(args: &Args, error: Error) -> Error {
 fn drawn(found: &Scattered) -> Vec<Picture> {
     let names: Vec<String> = found.inputs.iter().map(|one| one.name.to_owned()).collect();
     let of_one = |one: &OutputSpread| {
-        let column = Column {
+        let column = NumberColumn {
             name: one.name.clone(),
             unit: one.unit.to_owned(),
             values: one.values.iter().map(|value| value.unwrap_or(f64::NAN)).collect(),

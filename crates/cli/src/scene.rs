@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use sweetspot::Result;
-use sweetspot::collision::hit::Model;
+use sweetspot::collision::Model;
 use sweetspot::collision::setup::Setup;
 use sweetspot::collision::wall_choice::WallChoice;
 use sweetspot::files::balls::{ball, is_built_in};

@@ -10,9 +10,8 @@ use sweetspot_report::many::folder::StudyFolder;
 use sweetspot_report::many::fresh;
 use sweetspot_report::many::source::Study;
 use sweetspot_report::many::summary::{self, answers, names, percentile, sorted};
-use sweetspot_report::many::table::{Column, Table};
-use sweetspot_report::plot::many;
-use sweetspot_report::plot::picture::Picture;
+use sweetspot_report::many::table::{NumberColumn, Table};
+use sweetspot_report::plot::{Picture, many};
 use sweetspot_study::files::study_rows::Rows;
 
 use crate::common::{examples, note_outside};
@@ -28,7 +27,7 @@ use crate::style;
 /// in parts of 4096, or of 64 if walls of hollow barrels are solved. Each part depends only on the study and its
 /// number: a study that is started again continues where it stopped.
 #[derive(clap::Args)]
-#[command(after_long_help = examples(EXAMPLES))]
+#[command(after_long_help = examples("study"))]
 pub struct Args {
     /// Study file (JSON)
     study: PathBuf,
@@ -68,13 +67,6 @@ pub struct Args {
     #[command(flatten)]
     said: FullArgs,
 }
-
-const EXAMPLES: &str = "\
-Examples:
-  sweetspot study lot.json --out lot
-      the bats of lot.json, in parts in the folder lot
-  sweetspot study lot.json --out lot --summary --plots lot/plots
-      what makes the answers vary, with pictures; rows that are there stay";
 
 pub fn run(args: &Args) -> Result<Done> {
     let (study, outside) = Study::named_by_a_person(&args.study)?;
@@ -147,12 +139,12 @@ fn pairs(rows: &Rows, asked: &[String]) -> Result<Vec<[String; 2]>> {
 
 fn drawn(table: &Table, rows: &Rows, pairs: &[[String; 2]]) -> Vec<Picture> {
     let varied = names(rows);
-    let histogram = |column: &Column| {
+    let histogram = |column: &NumberColumn| {
         let values = sorted(column);
         let marks = [0.05, 0.5, 0.95].map(|share| percentile(&values, share).unwrap_or(f64::NAN));
         many::histogram(column, &values, marks)
     };
-    let tornado = |column: &Column| {
+    let tornado = |column: &NumberColumn| {
         let indices = table.shares(rows, &column.name).ok()?;
         Some(many::tornado(&column.name, &varied, &indices))
     };

@@ -10,19 +10,7 @@ use sweetspot_proof::hit_promise::{self, CheckedHit, ReferenceCourse};
 use sweetspot_proof::hoop_promise::CheckedHoop;
 use sweetspot_proof::promise::{BATS, CheckedBat, DIGITS, Summary};
 use sweetspot_proof::proven_promise::ProvenBat;
-use sweetspot_report::parts::columns::{Column, Columns, first, labels, numbers};
-use sweetspot_report::parts::terminal::wrapped;
-
-/// A column, and its text for a row.
-pub type Shown<T> = (Column, fn(&T) -> String);
-
-/// The line of the heads, and a line for every row.
-pub fn table<T>(columns: impl IntoIterator<Item = Shown<T>>, rows: &[T]) -> String {
-    let (layout, shown): (Vec<_>, Vec<_>) = columns.into_iter().unzip();
-    let layout = Columns::new(layout);
-    let line = |row: &T| layout.row(shown.iter().map(|of| of(row)));
-    layout.heads() + &rows.iter().map(line).collect::<String>()
-}
+use sweetspot_report::parts::{Shown, first, labels, lines, numbers, wrapped};
 
 /// A checked hit or hoop mode in one letter: kept and met, kept and out of reach, broken.
 fn kept(holds: bool, met: bool) -> String {
@@ -41,19 +29,19 @@ fn short(value: f64) -> String {
 
 /// Frequencies, nodes and masses on bats with exact frequencies: a line for each bat and tolerance.
 pub fn beams(rows: &[CheckedBat]) -> String {
-    let columns: [Shown<CheckedBat>; 10] = [
-        (first(18, "bat"), |row| row.bat.to_owned()),
-        (numbers(6, "tol"), |row| format!("{:.0e}", row.tolerance)),
-        (labels(8, "elements"), |row| format!("{:>2} x {}", row.degree, row.elements)),
-        (numbers(8, "true"), |row| short(row.truth)),
-        (numbers(8, "stated"), |row| short(row.stated)),
-        (numbers(6, "freq"), |row| ratio(row.frequency_ratio)),
-        (numbers(6, "nodes"), |row| ratio(row.node_ratio)),
-        (numbers(7, "masses"), |row| ratio(row.mass_ratio)),
-        (numbers(6, "30"), |row| format!("{:>2}/{:<2}", row.close, row.visible)),
-        (labels(3, "met"), |row| mark(row).to_string()),
+    let columns: &[Shown<CheckedBat>] = &[
+        (first(18, "bat"), &|row| row.bat.to_owned()),
+        (numbers(6, "tol"), &|row| format!("{:.0e}", row.tolerance)),
+        (labels(8, "elements"), &|row| format!("{:>2} x {}", row.degree, row.elements)),
+        (numbers(8, "true"), &|row| short(row.truth)),
+        (numbers(8, "stated"), &|row| short(row.stated)),
+        (numbers(6, "freq"), &|row| ratio(row.frequency_ratio)),
+        (numbers(6, "nodes"), &|row| ratio(row.node_ratio)),
+        (numbers(7, "masses"), &|row| ratio(row.mass_ratio)),
+        (numbers(6, "30"), &|row| format!("{:>2}/{:<2}", row.close, row.visible)),
+        (labels(3, "met"), &|row| mark(row).to_string()),
     ];
-    let lines = table(columns, rows);
+    let lines = lines(rows, columns);
     let mut out = String::from(
         "                          degree x   worst error     true/stated     within\n",
     );
@@ -75,14 +63,14 @@ struct ToldBat {
 
 /// A line for each bat: the worst ratios of true to stated errors, and the result for every tolerance.
 pub fn beams_in_short(rows: &[CheckedBat]) -> String {
-    let columns: [Shown<ToldBat>; 7] = [
-        (first(19, "bat"), |bat| bat.name.to_owned()),
-        (numbers(6, "modes"), |bat| bat.modes.clone()),
-        (numbers(11, "frequency"), |bat| ratio(bat.summary.frequency_ratio)),
-        (numbers(7, "nodes"), |bat| ratio(bat.summary.node_ratio)),
-        (numbers(8, "masses"), |bat| ratio(bat.summary.mass_ratio)),
-        (numbers(9, "close"), |bat| percent(bat.summary.share_close(), 1)),
-        (labels(11, "1e-2..1e-12"), |bat| bat.marks.clone()),
+    let columns: &[Shown<ToldBat>] = &[
+        (first(19, "bat"), &|bat| bat.name.to_owned()),
+        (numbers(6, "modes"), &|bat| bat.modes.clone()),
+        (numbers(11, "frequency"), &|bat| ratio(bat.summary.frequency_ratio)),
+        (numbers(7, "nodes"), &|bat| ratio(bat.summary.node_ratio)),
+        (numbers(8, "masses"), &|bat| ratio(bat.summary.mass_ratio)),
+        (numbers(9, "close"), &|bat| percent(bat.summary.share_close(), 1)),
+        (labels(11, "1e-2..1e-12"), &|bat| bat.marks.clone()),
     ];
     let told = |(name, _): &(&'static str, _)| {
         let rows: Vec<CheckedBat> = rows.iter().filter(|row| row.bat == *name).cloned().collect();
@@ -99,7 +87,7 @@ pub fn beams_in_short(rows: &[CheckedBat]) -> String {
          {}\
          + met; ~ met by the estimate, not quite by the truth; - out of reach, and said\n\
          so; ! an error beyond three times the stated one\n",
-        table(columns, &bats)
+        lines(&bats, columns)
     )
 }
 
@@ -119,31 +107,31 @@ fn mark(row: &CheckedBat) -> char {
 
 /// Exit speeds on random hits: a line for each hit.
 pub fn hits(rows: &[CheckedHit]) -> String {
-    let columns: [Shown<CheckedHit>; 9] = [
-        (numbers(3, "hit"), |row| row.number.to_string()),
-        (labels(9, "bat"), |row| row.bat.clone()),
-        (labels(13, "what happens"), |row| {
+    let columns: &[Shown<CheckedHit>] = &[
+        (numbers(3, "hit"), &|row| row.number.to_string()),
+        (labels(9, "bat"), &|row| row.bat.clone()),
+        (labels(13, "what happens"), &|row| {
             let named = ReferenceCourse::ALL.into_iter().find(|(course, _)| *course == row.course);
             named.map_or(String::new(), |(_, name)| name.to_owned())
         }),
-        (numbers(7, "tol"), |row| format!("{:.0e}", row.tolerance)),
-        (numbers(9, "true"), |row| short(row.truth)),
-        (numbers(9, "stated"), |row| short(row.stated)),
-        (numbers(10, "known to"), |row| short(row.known_to)),
-        (numbers(7, "ratio"), |row| format!("{:.2}", row.ratio())),
-        (labels(3, "met"), |row| kept(row.holds(), row.met)),
+        (numbers(7, "tol"), &|row| format!("{:.0e}", row.tolerance)),
+        (numbers(9, "true"), &|row| short(row.truth)),
+        (numbers(9, "stated"), &|row| short(row.stated)),
+        (numbers(10, "known to"), &|row| short(row.known_to)),
+        (numbers(7, "ratio"), &|row| format!("{:.2}", row.ratio())),
+        (labels(3, "met"), &|row| kept(row.holds(), row.met)),
     ];
-    table(columns, rows) + "\n"
+    lines(rows, columns) + "\n"
 }
 
 /// A line for every kind of bat and every kind of hit, and one for all.
 pub fn hits_in_short(rows: &[CheckedHit]) -> String {
-    let columns: [Shown<(&str, hit_promise::Summary)>; 5] = [
-        (first(22, "hits"), |(name, _)| (*name).to_owned()),
-        (numbers(6, "n"), |(_, all)| all.hits.to_string()),
-        (numbers(13, "true/stated"), |(_, all)| format!("{:.2}", all.ratio)),
-        (numbers(9, "close"), |(_, all)| percent(all.share_close(), 1)),
-        (labels(3, "met"), |(_, all)| match all.broken {
+    let columns: &[Shown<(&str, hit_promise::Summary)>] = &[
+        (first(22, "hits"), &|(name, _)| (*name).to_owned()),
+        (numbers(6, "n"), &|(_, all)| all.hits.to_string()),
+        (numbers(13, "true/stated"), &|(_, all)| format!("{:.2}", all.ratio)),
+        (numbers(9, "close"), &|(_, all)| percent(all.share_close(), 1)),
+        (labels(3, "met"), &|(_, all)| match all.broken {
             0 => all.met.to_string(),
             broken => format!("{}; {broken} BROKEN", all.met),
         }),
@@ -159,7 +147,7 @@ pub fn hits_in_short(rows: &[CheckedHit]) -> String {
     let courses = courses.map(|(course, name)| some(name, &|row| row.course == course));
     let all: Vec<_> = bats.chain(courses).chain([some("all", &|_| true)]).collect();
     let title = "Errors of exit speeds on random hits, relative to the closing speed:\n\n";
-    title.to_owned() + &table(columns, &all)
+    title.to_owned() + &lines(&all, columns)
 }
 
 /// A line for every barrel and tolerance: the largest errors of its modes and the largest ratio.
@@ -167,20 +155,20 @@ pub fn hoops(rows: &[CheckedHoop]) -> String {
     fn largest(rows: &[CheckedHoop], of: fn(&CheckedHoop) -> f64) -> f64 {
         rows.iter().map(of).fold(0.0, f64::max)
     }
-    let columns: [Shown<&[CheckedHoop]>; 7] = [
-        (first(16, "barrel"), |rows| rows[0].barrel.clone()),
-        (numbers(8, "tol"), |rows| format!("{:.0e}", rows[0].tolerance)),
-        (numbers(10, "true"), |rows| short(largest(rows, |row| row.truth))),
-        (numbers(10, "stated"), |rows| short(largest(rows, |row| row.stated))),
-        (numbers(10, "known to"), |rows| short(rows[0].known_to)),
-        (numbers(13, "true/stated"), |rows| format!("{:.2}", largest(rows, CheckedHoop::ratio))),
-        (labels(3, "met"), |rows| kept(rows.iter().all(CheckedHoop::holds), rows[0].met)),
+    let columns: &[Shown<&[CheckedHoop]>] = &[
+        (first(16, "barrel"), &|rows| rows[0].barrel.clone()),
+        (numbers(8, "tol"), &|rows| format!("{:.0e}", rows[0].tolerance)),
+        (numbers(10, "true"), &|rows| short(largest(rows, |row| row.truth))),
+        (numbers(10, "stated"), &|rows| short(largest(rows, |row| row.stated))),
+        (numbers(10, "known to"), &|rows| short(rows[0].known_to)),
+        (numbers(13, "true/stated"), &|rows| format!("{:.2}", largest(rows, CheckedHoop::ratio))),
+        (labels(3, "met"), &|rows| kept(rows.iter().all(CheckedHoop::holds), rows[0].met)),
     ];
     let same =
         |a: &CheckedHoop, b: &CheckedHoop| a.barrel == b.barrel && a.tolerance == b.tolerance;
     let barrels: Vec<&[CheckedHoop]> = rows.chunk_by(same).collect();
     let title = "Errors of hoop modes, n = 2 and 3, three modes each, relative:\n\n";
-    title.to_owned() + &table(columns, &barrels) + "\n"
+    title.to_owned() + &lines(&barrels, columns) + "\n"
 }
 
 /// Stated errors beside proven frequencies: a line for every kind of bat and every theory, and one for all.
@@ -189,16 +177,16 @@ pub fn proven(rows: &[ProvenBat]) -> String {
     fn sum(bats: &Bats, of: fn(&ProvenBat) -> usize) -> usize {
         bats.1.iter().map(|bat| of(bat)).sum()
     }
-    let columns: [Shown<Bats>; 7] = [
-        (first(16, "bats"), |bats| bats.0.to_owned()),
-        (numbers(5, "n"), |bats| bats.1.len().to_string()),
-        (numbers(14, "proven modes"), |bats| sum(bats, |bat| bat.proven).to_string()),
-        (numbers(8, "held"), |bats| sum(bats, |bat| bat.held).to_string()),
-        (numbers(6, "open"), |bats| {
+    let columns: &[Shown<Bats>] = &[
+        (first(16, "bats"), &|bats| bats.0.to_owned()),
+        (numbers(5, "n"), &|bats| bats.1.len().to_string()),
+        (numbers(14, "proven modes"), &|bats| sum(bats, |bat| bat.proven).to_string()),
+        (numbers(8, "held"), &|bats| sum(bats, |bat| bat.held).to_string()),
+        (numbers(6, "open"), &|bats| {
             sum(bats, |bat| bat.proven - bat.held - bat.broken).to_string()
         }),
-        (numbers(8, "broken"), |bats| sum(bats, |bat| bat.broken).to_string()),
-        (numbers(13, "true/stated"), |bats| {
+        (numbers(8, "broken"), &|bats| sum(bats, |bat| bat.broken).to_string()),
+        (numbers(13, "true/stated"), &|bats| {
             format!("{:.2}", bats.1.iter().map(|bat| bat.at_least).fold(0.0, f64::max))
         }),
     ];
@@ -211,7 +199,7 @@ pub fn proven(rows: &[ProvenBat]) -> String {
     let theories = theories.map(|theory| some(theory.name(), &|bat| bat.theory == theory));
     let all: Vec<Bats> = kinds.chain(theories).chain([some("all", &|_| true)]).collect();
     let title = "Stated errors of frequencies held against proven intervals, on random bats:\n\n";
-    title.to_owned() + &table(columns, &all)
+    title.to_owned() + &lines(&all, columns)
 }
 
 /// Every extreme, and whether all are right or refused with a reason.
@@ -219,22 +207,22 @@ pub fn extremes(tell: Tell) -> (String, bool) {
     fn number(value: f64) -> String {
         if value.is_finite() { short(value) } else { String::new() }
     }
-    let columns: [Shown<(&str, Outcome)>; 5] = [
-        (first(40, "what"), |(what, _)| (*what).to_owned()),
-        (numbers(8, "asked"), |(_, out)| match out.asked {
+    let columns: &[Shown<(&str, Outcome)>] = &[
+        (first(40, "what"), &|(what, _)| (*what).to_owned()),
+        (numbers(8, "asked"), &|(_, out)| match out.asked {
             0.0 => "bits".to_owned(),
             asked => number(asked),
         }),
-        (numbers(9, "found"), |(_, out)| number(out.found)),
-        (numbers(9, "stated"), |(_, out)| number(out.stated)),
-        (labels(7, "verdict"), |(_, out)| judged(&out.verdict).1.to_owned()),
+        (numbers(9, "found"), &|(_, out)| number(out.found)),
+        (numbers(9, "stated"), &|(_, out)| number(out.stated)),
+        (labels(7, "verdict"), &|(_, out)| judged(&out.verdict).1.to_owned()),
     ];
     let run = |(k, extreme): (usize, &Extreme)| {
         tell(k as f64 / EXTREMES.len() as f64, extreme.what);
         (extreme.what, extreme.run())
     };
     let rows: Vec<(&str, Outcome)> = EXTREMES.iter().enumerate().map(run).collect();
-    let lines = table(columns, &rows);
+    let lines = lines(&rows, columns);
     let mut lines = lines.lines();
     let mut out = format!(
         "Right within three times the stated error, or refused with the reason:\n\n{}\n",

@@ -35,7 +35,7 @@ use crate::value::{MOMENT, TOP_FREQUENCY};
 /// speak. The other plane of the grain has other tones: turn the bat a quarter for it, and analyse that recording
 /// separately.
 #[derive(clap::Args)]
-#[command(after_long_help = examples(EXAMPLES), next_help_heading = "Output")]
+#[command(after_long_help = examples("tap"), next_help_heading = "Output")]
 pub struct Args {
     /// Bat file (JSON), or the name of a built-in bat such as r161
     #[arg(help_heading = "The bat")]
@@ -93,17 +93,6 @@ pub struct Args {
     #[command(flatten)]
     said: FullArgs,
 }
-
-const EXAMPLES: &str = "\
-Examples:
-  sweetspot tap r161 taps.m4a
-      the tones, their modes and the wood
-
-  sweetspot tap r161 taps.m4a --out mine.json --json taps.json
-      the bat of that wood, and everything with its intervals
-
-  sweetspot tap r161 one.m4a two.m4a --mode \"1187 = 3\" --highest \"5 kHz\"
-      two recordings of one bat; the tone at 1187 Hz is bending mode 3";
 
 /// The part of the recordings that is used.
 fn part(args: &Args) -> Result<Part> {

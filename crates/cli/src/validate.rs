@@ -16,15 +16,14 @@ use sweetspot_proof::promise::{self, CheckedBat, Summary};
 use sweetspot_proof::proven_promise;
 use sweetspot_proof::published::PublishedCase;
 use sweetspot_proof::validation::{KnownNumber, run as run_case};
-use sweetspot_report::hit_figure;
-use sweetspot_report::parts::terminal::wrapped;
-use sweetspot_report::proof_page;
+use sweetspot_report::parts::{Shown, first, labels, lines, numbers, wrapped};
+use sweetspot_report::{hit_figure, proof_page};
 
 use crate::done::{Done, FAILED};
-use crate::output::{FullArgs, MANY};
+use crate::help::commands;
+use crate::output::{FullArgs, MANY, Screen};
 use crate::progress::Progress;
-use crate::tables::{self, Shown, table};
-use sweetspot_report::parts::columns::{first, labels, numbers};
+use crate::tables;
 
 /// Known answers compared with ours
 ///
@@ -33,7 +32,7 @@ use sweetspot_report::parts::columns::{first, labels, numbers};
 /// frequencies. It prints every miss, and for each kind of number the one closest to its tolerance; with --full every
 /// number. The exit code is 1 if anything is missed.
 #[derive(clap::Args)]
-#[command(after_long_help = EXAMPLES)]
+#[command(after_long_help = commands("validate"))]
 pub struct Args {
     /// One line per case only
     #[arg(long)]
@@ -61,17 +60,6 @@ pub struct Args {
     said: FullArgs,
 }
 
-const EXAMPLES: &str = "\
-Examples:
-  sweetspot validate --summary
-      a line for every case, and the promise about stated errors
-
-  sweetspot validate --case r161_nathan_timoshenko --case torpedo_wolfish
-      every number of two cases
-
-  sweetspot validate --promise
-      true beside stated errors, bat by bat and tolerance by tolerance";
-
 pub fn run(args: &Args) -> Result<Done> {
     let progress = Progress::new(args.said.quiet, "known answers");
     let tell = |share, what: &str| progress.say(share, what);
@@ -82,38 +70,43 @@ pub fn run(args: &Args) -> Result<Done> {
     if let Some(path) = &args.page {
         return page(path, &tell);
     }
-    let (mut out, mut screen) = (String::new(), String::new());
+    // The known answers, every check of the promise, its tables, and what a screen has of all without options.
+    let [mut known, mut every, mut short, mut screen] = [const { String::new() }; 4];
     let mut good = true;
     if !args.promise {
-        let known = known_answers(args, &tell, &mut out)?;
-        screen = misses(&known) + &counts(&known) + &kinds(&known);
-        good = !known.iter().any(KnownNumber::missed);
+        let numbers = known_answers(args, &tell, &mut known)?;
+        screen = misses(&numbers) + &counts(&numbers) + &kinds(&numbers);
+        good = !numbers.iter().any(KnownNumber::missed);
     }
     if args.cases.is_empty() {
         let rows = promise::rows(&tell)?;
         let hits = hit_promise::rows(&tell)?;
         if args.promise {
             let hoops = hoop_promise::rows(&tell, hoop_promise::BARRELS)?;
-            out += &(tables::beams(&rows) + &tables::hits(&hits) + &tables::hoops(&hoops));
+            every = tables::beams(&rows) + &tables::hits(&hits) + &tables::hoops(&hoops);
             good &= hoops.iter().all(CheckedHoop::holds);
         } else {
-            out.push('\n');
+            known.push('\n');
         }
-        out += &(tables::beams_in_short(&rows) + "\n" + &tables::hits_in_short(&hits));
+        short = tables::beams_in_short(&rows) + "\n" + &tables::hits_in_short(&hits);
         screen += &promises(&rows, &hits);
         if args.promise {
             let proven = proven_promise::rows(&tell)?;
-            out += &format!("\n{}", tables::proven(&proven));
+            short += &format!("\n{}", tables::proven(&proven));
             good &= proven.iter().all(|row| row.broken == 0);
         }
         good &= Summary::of(&rows).holds() && hit_promise::Summary::of(&hits).holds();
     }
+    let most = if args.cases.is_empty() { MANY } else { usize::MAX };
     let asked = args.summary || args.promise || !args.cases.is_empty();
-    let text = if asked {
-        out
-    } else {
-        args.said.screen(MANY, |full| if full { &out } else { &screen }.clone())
-    };
+    let text = args.said.screen(most, |full| match full || asked {
+        true => Screen::from([
+            (1, "cases", known.clone()),
+            (3, "every solve, hit and barrel", every.clone()),
+            (2, "the promise", short.clone()),
+        ]),
+        false => Screen::from(screen.clone()),
+    });
     Ok(Done::new(text, if good { 0 } else { FAILED }))
 }
 
@@ -153,17 +146,17 @@ fn known_answers(args: &Args, tell: Tell, out: &mut String) -> Result<Vec<KnownN
         cases.push((*name, case.name, rows));
     }
     if args.summary {
-        let columns: [Shown<KnownCase>; 4] = [
-            (first(33, "case"), |(name, ..)| (*name).to_owned()),
-            (numbers(6, "rows"), |(.., rows)| rows.len().to_string()),
-            (numbers(8, "missed"), |(.., rows)| {
+        let columns: &[Shown<KnownCase>] = &[
+            (first(33, "case"), &|(name, ..)| (*name).to_owned()),
+            (numbers(6, "rows"), &|(.., rows)| rows.len().to_string()),
+            (numbers(8, "missed"), &|(.., rows)| {
                 rows.iter().filter(|row| row.missed()).count().to_string()
             }),
-            (numbers(23, "worst error/tolerance"), |(.., rows)| {
+            (numbers(23, "worst error/tolerance"), &|(.., rows)| {
                 format!("{:.3}", rows.iter().map(KnownNumber::share).fold(0.0, f64::max))
             }),
         ];
-        *out += &table(columns, &cases);
+        *out += &lines(&cases, columns);
     } else {
         for (name, title, rows) in &cases {
             *out += &wrapped(&format!("{title} ({name})"), 2);
@@ -213,17 +206,17 @@ fn kinds(all: &[KnownNumber]) -> String {
     fn worst<'a>(rows: &[&'a KnownNumber]) -> Option<&'a KnownNumber> {
         rows.iter().copied().max_by(|a, b| a.share().total_cmp(&b.share()))
     }
-    let columns: [Shown<(String, Vec<&KnownNumber>)>; 4] = [
-        (first(20, "kind"), |(kind, _)| kind.clone()),
-        (numbers(6, "rows"), |(_, rows)| rows.len().to_string()),
-        (numbers(23, "worst error/tolerance"), |(_, rows)| {
+    let columns: &[Shown<(String, Vec<&KnownNumber>)>] = &[
+        (first(20, "kind"), &|(kind, _)| kind.clone()),
+        (numbers(6, "rows"), &|(_, rows)| rows.len().to_string()),
+        (numbers(23, "worst error/tolerance"), &|(_, rows)| {
             worst(rows).map_or(String::new(), |worst| format!("{:.3}", worst.share()))
         }),
-        (labels(29, "case"), |(_, rows)| {
+        (labels(29, "case"), &|(_, rows)| {
             worst(rows).map_or(String::new(), |worst| worst.case.clone())
         }),
     ];
-    table(columns, &kinds.into_iter().collect::<Vec<_>>())
+    lines(&kinds.into_iter().collect::<Vec<_>>(), columns)
 }
 
 /// The promise about stated errors: one sentence each if it is kept, otherwise bat by bat.

@@ -12,7 +12,7 @@ use sweetspot::base::typed;
 use sweetspot::base::units::{self, Quantity};
 use sweetspot::collision::ball::restitution;
 use sweetspot::{Solver, Theory};
-use sweetspot_report::parts::units::Units;
+use sweetspot_report::parts::Units;
 
 /// The unit of length of a universal file, such as `mm`, with the unit of force that goes with it.
 pub fn file_unit(text: &str) -> std::result::Result<uff58::Units, String> {

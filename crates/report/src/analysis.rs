@@ -1,14 +1,12 @@
 //! All results of a bat and its hits, computed once, for screens, pages and files.
 
-use sweetspot::base::error::Result;
 use sweetspot::base::telling::{Tell, nobody};
-use sweetspot::bat::body::Bat;
 use sweetspot::collision::figures::{Figures, SwingLaw};
 use sweetspot::collision::strength::Strength;
-use sweetspot::collision::sweep::{Accuracy, Sweep, Trial, sweep_telling};
-use sweetspot::collision::{Hitter, Model, Scene};
+use sweetspot::collision::sweep::{Accuracy, Trial, sweep_telling};
+use sweetspot::collision::{Hitter, Model, Scene, Sweep};
 use sweetspot::modes::hoop::rings;
-use sweetspot::modes::solve::{Request, Solution};
+use sweetspot::{Bat, Request, Result, Solution};
 use sweetspot_proof::validation::dowel_proof;
 use sweetspot_study::advise::advice::{Advice, advise};
 use sweetspot_study::spread::{Analysed, Readings, Spread};

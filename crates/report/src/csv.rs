@@ -3,12 +3,11 @@
 
 use csv::Writer;
 
-use crate::parts::cell::Cell;
-use crate::parts::table;
+use crate::parts::{Cell, table};
+use sweetspot::Solution;
+use sweetspot::collision::Impact;
 use sweetspot::collision::columns::{self, Column};
-use sweetspot::collision::hit::Impact;
 use sweetspot::modes::mode::ModeError;
-use sweetspot::modes::solve::Solution;
 
 /// A table that is being written.
 pub struct Csv(Writer<Vec<u8>>);

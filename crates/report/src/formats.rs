@@ -2,29 +2,19 @@
 
 use serde_json::{Map, Value, json};
 
+use crate::many::folder::StudyManifest;
 use crate::page::data::Data;
-use crate::schema::advice::AdviceFile;
-#[cfg(feature = "aim")]
-use crate::schema::aimed::AimedFile;
-use crate::schema::analysis::AnalysisFile;
-use crate::schema::bbcor::BbcorFile;
-use crate::schema::calibrate::CalibrateFile;
-use crate::schema::compare::CompareFile;
+use crate::report::{advice, bbcor, calibrate, comparison_data, hoop, lathe, mistakes, scatter};
+use crate::report::{trade, u_curve, whole};
 use crate::schema::frf::{FrfFile, FrfSetFile};
 use crate::schema::hit::HitFile;
-use crate::schema::hoop::HoopFile;
 use crate::schema::identify::IdentifyFile;
-use crate::schema::lathe::LatheFile;
 use crate::schema::materials::MaterialsFile;
 use crate::schema::measured::MeasuredFile;
-use crate::schema::mistakes::ErrorFile;
 use crate::schema::modes::ModesFile;
 use crate::schema::ring::RingFile;
-use crate::schema::scatter::ScatterResult;
-use crate::schema::study::StudyManifest;
 use crate::schema::tap::TapFile;
-use crate::schema::trade::{TradeFile, UCurveFile};
-use crate::schema::{DRAFT, id, of};
+use crate::schema::{DRAFT, Written, id, of};
 use sweetspot::files::schema::ball::BallFile;
 use sweetspot::files::schema::bat::BatFile;
 use sweetspot::files::schema::document::{Document, format};
@@ -62,32 +52,36 @@ impl FileKind {
         Self::of::<Case>(),
         Self::of::<ModesFile>(),
         Self::of::<HitFile>(),
-        Self::of::<AnalysisFile>(),
-        Self::of::<BbcorFile>(),
-        Self::of::<HoopFile>(),
-        Self::of::<LatheFile>(),
-        Self::of::<CompareFile>(),
-        Self::of::<MeasuredFile>(),
+        Self::written::<whole::AnalysisFile>(),
+        Self::written::<bbcor::BbcorFile>(),
+        Self::written::<hoop::HoopFile>(),
+        Self::written::<lathe::LatheFile>(),
+        Self::written::<comparison_data::CompareFile>(),
+        Self::written::<MeasuredFile>(),
         Self::of::<RingFile>(),
-        Self::of::<FrfFile>(),
-        Self::of::<FrfSetFile>(),
-        Self::of::<AdviceFile>(),
-        Self::of::<CalibrateFile>(),
-        Self::of::<IdentifyFile>(),
+        Self::written::<FrfFile>(),
+        Self::written::<FrfSetFile>(),
+        Self::written::<advice::AdviceFile>(),
+        Self::written::<calibrate::CalibrateFile>(),
+        Self::written::<IdentifyFile>(),
         Self::of::<TapFile>(),
-        Self::of::<ScatterResult>(),
+        Self::written::<scatter::ScatterResult>(),
         Self::of::<StudyManifest>(),
         #[cfg(feature = "aim")]
-        Self::of::<AimedFile>(),
-        Self::of::<TradeFile>(),
-        Self::of::<UCurveFile>(),
-        Self::of::<MaterialsFile>(),
-        Self::of::<ErrorFile>(),
+        Self::written::<crate::report::aimed::AimedFile>(),
+        Self::written::<trade::TradeFile>(),
+        Self::written::<u_curve::UCurveFile>(),
+        Self::written::<MaterialsFile>(),
+        Self::of::<mistakes::ErrorFile>(),
         Self::of::<Data>(),
     ];
 
     const fn of<D: Document>() -> Self {
         Self { name: D::NAME, schema: of::<D> }
+    }
+
+    const fn written<D: Document>() -> Self {
+        Self::of::<Written<D>>()
     }
 
     /// Its name on the command line.

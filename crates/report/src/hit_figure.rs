@@ -2,14 +2,10 @@
 //!
 //! It shows exit speeds along an R161, ours compared with those that others measured and computed. [`svg`] draws it.
 
-use crate::plot::axis::Axis;
-use crate::plot::plane::{Frame, Plane};
-use crate::plot::series::{Series, legend_between};
-use crate::plot::svg::{Mark, Pen, Svg};
-use crate::plot::theme::SERIES;
-use crate::plot::words::{Anchor, LABEL};
-use sweetspot::base::error::Result;
-use sweetspot::modes::solve::{Request, solve};
+use crate::plot::{
+    Anchor, Axis, Frame, LABEL, Mark, Pen, Plane, SERIES, Series, Svg, legend_between,
+};
+use sweetspot::{Request, Result, solve};
 use sweetspot_proof::case::{Case, Known, bundled_case};
 use sweetspot_proof::known_hits::KnownFigure;
 

@@ -8,7 +8,7 @@
 use std::fmt::Write;
 
 use crate::hit_figure;
-use sweetspot::base::error::Result;
+use sweetspot::Result;
 use sweetspot_proof::published::{self, PublishedCase, decimals, number, percent, signed};
 use sweetspot_proof::validation::KnownNumber;
 
@@ -26,6 +26,9 @@ pub fn verdict(answers: &[PublishedCase]) -> String {
     )
 }
 
+/// What does not depend on the answers; each mark `@…` stands for a part that does.
+const PAGE: &str = include_str!("proof_page.md");
+
 /// The page, as Markdown.
 ///
 /// # Errors
@@ -35,74 +38,28 @@ pub fn text(answers: &[PublishedCase]) -> Result<String> {
     let bats = published::bats(answers);
     let (known, exact): (Vec<&PublishedCase>, Vec<&PublishedCase>) =
         answers.iter().partition(|answer| answer.case.published.is_some());
-    let mut out = format!("# Known answers beside ours\n\n**{}**\n\n{START}\n", verdict(answers));
-    verdicts(&known, &bats, &mut out);
-    let _ = writeln!(out, "- Exact answers: {}", exact_verdict(&exact));
-    let _ = write!(out, "\n{MEANING}");
-    contents(&bats, &mut out);
-    let _ = write!(out, "\n## The hit\n\n![{PICTURE}]({})\n\n{HIT}", hit_figure::FILE);
-    let _ = write!(out, "\n## Published bats\n\n{PUBLISHED}");
+    let [mut told, mut list, mut all, mut table] = [const { String::new() }; 4];
+    verdicts(&known, &bats, &mut told);
+    let _ = writeln!(told, "- Exact answers: {}", exact_verdict(&exact));
+    contents(&bats, &mut list);
     for bat in bats {
         let of_bat: Vec<&PublishedCase> = known.iter().copied().filter(|a| named(a, bat)).collect();
-        let table = published::side_by_side(&of_bat)?;
-        let gap = if table.is_empty() { "" } else { "\n" };
-        let _ = write!(out, "\n### {bat}\n{gap}{table}");
-        of_bat.iter().for_each(|answer| details(answer, &mut out));
+        let beside = published::side_by_side(&of_bat)?;
+        let gap = if beside.is_empty() { "" } else { "\n" };
+        let _ = write!(all, "\n### {bat}\n{gap}{beside}");
+        of_bat.iter().for_each(|answer| details(answer, &mut all));
     }
-    exact_table(&exact, &mut out);
-    let _ = write!(out, "\n## How to make this page\n\n{MAKE}");
-    Ok(out)
+    exact_table(&exact, &mut table);
+    let parts = [
+        ("@verdicts\n", &*told),
+        ("@verdict", &verdict(answers)),
+        ("@contents\n", &list),
+        ("@picture", hit_figure::FILE),
+        ("@bats\n", &all),
+        ("@exact\n", &table),
+    ];
+    Ok(parts.iter().fold(PAGE.to_owned(), |page, (mark, part)| page.replace(mark, part)))
 }
-
-const START: &str = "\
-This page sets numbers that others measured or computed beside what `sweetspot` finds for the same
-bat. A number is *missed* if it is further off than its tolerance, and every tolerance has its
-reason below the table. Numbers *for information* are shown with their difference but not counted:
-what was published is not enough to compute them again. In plain words:
-";
-
-const MEANING: &str = "\
-For a bat maker: where shape and wood of the bat are the published ones, the beam with shear gives
-the bending frequencies to one or two per cent and the nodes to a centimetre. Where the difference
-is larger, what was published is not quite the bat that was tapped or computed: a twin of the
-profile, a profile of another bat, a clamp that gives way, a wall that was guessed; the reasons say
-which. The plain beam, without shear, is good for the first mode and more and more too high from the
-second on. We fitted nothing to make a number pass; where the authors fitted E, the reasons say so.
-";
-
-const PICTURE: &str = "Exit speed along an R161, ours beside measured and computed points";
-
-const HIT: &str = "\
-Left: a ball at 1 m/s on a bat at rest; R. Cross's points with error bars of 0.015 m/s, the middle of
-those that were drawn. Right: a ball at 40 m/s meets a bat whose balance point moves at 24 m/s; points
-of A. M. Nathan's Fig. 10, read off to 0.4 m/s. Nothing is fitted: the ball's law, E and G are
-Nathan's, the profile is a near twin of his bat. At rest a rigid bat would be best at its balance
-point; at game speed it is as good as the one that bends only between the nodes of the first modes.
-The empirical loss of the WPI report takes a little speed off everywhere, the sweet spot included,
-and far too little on both sides of it.
-";
-
-const PUBLISHED: &str = "\
-First the numbers side by side, frequencies in Hz and node positions from the knob end; in
-brackets the difference from what was published (measured if there is such a number, else computed
-by the same theory, else by another). Euler-Bernoulli is the plain beam, Timoshenko the beam with
-shear and rotary inertia. Then every number with its tolerance.
-";
-
-const MAKE: &str = "\
-```
-sweetspot validate --page docs/validation.md
-```
-
-writes it and the picture beside it from the cases in `validation/`, one JSON file each, and exits
-with 1 if a number is missed. `sweetspot validate --case NAME` prints one case with more digits.
-";
-
-const EXACT: &str = "\
-Closed forms, solutions with many digits by other methods, and printed tables of such. The fourth
-column is the largest error of the case in units of its tolerance; up to 1 it passes. What confirms
-the truths besides is in the case files.
-";
 
 /// Whether the case is of that bat.
 fn named(answer: &PublishedCase, bat: &str) -> bool {
@@ -137,7 +94,7 @@ fn exact_verdict(exact: &[&PublishedCase]) -> String {
 /// The table of contents.
 fn contents(bats: &[&str], out: &mut String) {
     let line = |title: &str| format!("- [{title}](#{})\n", anchor(title));
-    let _ = write!(out, "\n## Contents\n\n{}{}", line("The hit"), line("Published bats"));
+    let _ = write!(out, "{}{}", line("The hit"), line("Published bats"));
     bats.iter().for_each(|bat| {
         let _ = write!(out, "  {}", line(bat));
     });
@@ -227,7 +184,6 @@ fn tolerance(row: &KnownNumber) -> String {
 
 /// One line for every exact case, and where the truths come from.
 fn exact_table(exact: &[&PublishedCase], out: &mut String) {
-    let _ = write!(out, "\n## Exact answers\n\n{EXACT}\n");
     *out += "| case | what | numbers | worst error | truth |\n|---|---|--:|--:|--:|\n";
     let mut sources: Vec<&str> = Vec::new();
     for answer in exact {

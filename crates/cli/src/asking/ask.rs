@@ -1,7 +1,9 @@
 //! How are the answers of a person with a ruler, calipers and a scale read?
 
+use sweetspot::base::error::Complaint;
+use sweetspot::base::number::rounded;
+use sweetspot::base::typed;
 use sweetspot::base::units::{self, Quantity, inches};
-use sweetspot::base::{error::Complaint, number::rounded, typed};
 use sweetspot::bat::material::{BUILT_IN, BuiltIn};
 use sweetspot_report::parts::note;
 

@@ -3,13 +3,14 @@
 //! A dialogue is a function of its answers. To go back means to drop the last answer and to start again, skipping the
 //! questions with known answers. A draft is a file of the answers.
 
-use std::borrow::Cow;
+use std::collections::HashMap;
 use std::io::{BufRead, Read as _, Write};
 use std::path::Path;
 
+use serde::Deserialize;
 use sweetspot::base::error::Complaint;
 use sweetspot::{Error, Result};
-use sweetspot_report::parts::terminal::wrapped;
+use sweetspot_report::parts::wrapped;
 
 use crate::asking::draft::{Answers, Draft};
 use crate::common::about;
@@ -43,33 +44,34 @@ impl From<Error> for Halt {
 /// The answer to a question, or the reason why there is none.
 pub type Asked<T> = std::result::Result<T, Halt>;
 
+/// The questions of every verb, in their order; `@` stands for a unit.
+const QUESTIONS: &str = include_str!("questions.json");
+
 /// A question.
-#[derive(Clone)]
-pub struct Question<'a> {
+#[derive(Clone, Deserialize)]
+pub struct Question {
     /// The key of its answer in a draft, equal to the name of the option with the same meaning.
-    pub name: &'static str,
+    pub name: String,
     /// The question.
-    pub text: Cow<'a, str>,
+    pub text: String,
     /// The meaning of an empty line.
-    pub usual: Option<&'a str>,
+    pub usual: Option<String>,
     /// The reply to a question mark.
-    pub help: &'a str,
+    pub help: String,
 }
 
-impl<'a> Question<'a> {
-    /// A question, and the meaning of an empty line; [`Self::of`] replaces `@` by a unit.
-    pub const fn new(
-        name: &'static str,
-        text: &'a str,
-        usual: Option<&'a str>,
-        help: &'a str,
-    ) -> Self {
-        Self { name, text: Cow::Borrowed(text), usual, help }
+impl Question {
+    /// The question of that name in the dialogue of a verb.
+    pub fn named(verb: &str, name: &str) -> Self {
+        let mut all: HashMap<String, Vec<Self>> =
+            serde_json::from_str(QUESTIONS).expect("the file of the questions is whole");
+        let own = all.remove(verb).into_iter().flatten().find(|question| question.name == name);
+        own.expect("the file has every question")
     }
 
     /// The question about a value in that unit.
     pub fn of(self, unit: &str) -> Self {
-        Self { text: self.text.replace('@', unit).into(), ..self }
+        Self { text: self.text.replace('@', unit), ..self }
     }
 }
 
@@ -150,9 +152,7 @@ impl<R: BufRead> Dialogue<R> {
         let answers = if count == 1 { "answer" } else { "answers" };
         let text =
             format!("Go on with the draft of '{of}' ({count} {answers} in {draft}), yes or no");
-        let help = "Yes goes on after its last answer. No begins anew: the draft is written over by the \
-                    next answer.";
-        let question = Question::new("go on", &text, None, help);
+        let question = Question { text, ..Question::named("draft", "go on") };
         if self.answered(&question, yes_or_no)?.1 {
             self.given = before.given;
             self.tell(&format!("Going on after the {count} {answers} in {draft}."));
@@ -218,7 +218,8 @@ impl<R: BufRead> Dialogue<R> {
     /// [`Error::Value`] at the end of the answers, after too many wrong ones, or if there is no person to answer.
     pub fn ask<T>(&mut self, question: &Question, read: impl Fn(&str) -> Read<T>) -> Asked<T> {
         if !self.is_there() {
-            let usual = question.usual.ok_or_else(|| missing(&format!("--{}", question.name)))?;
+            let usual = question.usual.as_deref();
+            let usual = usual.ok_or_else(|| missing(&format!("--{}", question.name)))?;
             return Ok(read(usual).map_err(Error::Value)?);
         }
         if let Some(value) = self.known(question, &read) {
@@ -245,7 +246,8 @@ impl<R: BufRead> Dialogue<R> {
                     continue;
                 }
             };
-            let answer = if line.is_empty() { question.usual.unwrap_or("") } else { &line };
+            let answer =
+                if line.is_empty() { question.usual.as_deref().unwrap_or("") } else { &line };
             match (answer, read(answer)) {
                 ("?", _) => self.tell(&format!("  {}", question.help)),
                 ("back", _) if self.given.is_empty() => self.tell("  This is the first question."),
@@ -268,7 +270,7 @@ impl<R: BufRead> Dialogue<R> {
     /// The earlier answer to this question. Answers to other questions in its place are forgotten.
     fn known<T>(&mut self, question: &Question, read: impl Fn(&str) -> Read<T>) -> Option<T> {
         let [name, answer] = self.given.get(self.passed)?;
-        let value = if name == question.name { read(answer).ok() } else { None };
+        let value = if *name == question.name { read(answer).ok() } else { None };
         match value {
             Some(_) => self.passed += 1,
             None => self.given.truncate(self.passed),
@@ -278,7 +280,7 @@ impl<R: BufRead> Dialogue<R> {
 
     /// The next line, without blanks around it, or why it is not a text.
     fn line(&mut self, question: &Question) -> Asked<Read<String>> {
-        let hint = question.usual.filter(|usual| !usual.is_empty());
+        let hint = question.usual.as_deref().filter(|usual| !usual.is_empty());
         let hint = hint.map_or(String::new(), |usual| format!(" [{usual}]"));
         let text: Vec<String> = question.text.split('\n').map(printable).collect();
         let _ = write!(std::io::stderr(), "{}{}: ", text.join("\n"), printable(&hint));
@@ -333,12 +335,14 @@ mod tests {
     use super::*;
     use crate::asking::ask::mass;
 
-    const MASS: Question = Question::new("mass", "Mass", None, "On a scale.");
+    fn weight() -> Question {
+        Question { usual: None, ..Question::named("calibrate", "mass") }
+    }
 
     #[test]
     fn a_wrong_answer_is_asked_again_and_the_end_of_answers_is_an_error() {
         let mut dialogue = Dialogue::new("31\nheavy\n?\nback\n31.5 oz\n".as_bytes());
-        let mass = |dialogue: &mut Dialogue<&[u8]>| dialogue.ask(&MASS, mass);
+        let mass = |dialogue: &mut Dialogue<&[u8]>| dialogue.ask(&weight(), mass);
         assert_eq!(dialogue.hold(mass).unwrap().unwrap().as_deref(), Some("31.5 oz"));
         let two = |dialogue: &mut Dialogue<&[u8]>| mass(dialogue).and_then(|_| mass(dialogue));
         assert!(dialogue.hold(two).is_err());
@@ -350,7 +354,7 @@ mod tests {
             let answers = format!("30 oz\n{word}\n31 oz\n");
             let mut dialogue = Dialogue::new(answers.as_bytes());
             let two = |dialogue: &mut Dialogue<&[u8]>| -> Asked<_> {
-                Ok([dialogue.ask(&MASS, mass)?, dialogue.ask(&MASS, mass)?])
+                Ok([dialogue.ask(&weight(), mass)?, dialogue.ask(&weight(), mass)?])
             };
             assert!(dialogue.hold(two).unwrap().is_none(), "{word}");
         }
@@ -360,12 +364,12 @@ mod tests {
     fn who_goes_back_answers_the_question_before_anew() {
         let mut dialogue = Dialogue::new("30 oz\n31 oz\nback\nback\n32 oz\n33 oz\n".as_bytes());
         let two = |dialogue: &mut Dialogue<&[u8]>| -> Asked<_> {
-            Ok([dialogue.ask(&MASS, mass)?, dialogue.ask(&MASS, mass)?])
+            Ok([dialogue.ask(&weight(), mass)?, dialogue.ask(&weight(), mass)?])
         };
         let three = |dialogue: &mut Dialogue<&[u8]>| {
             let both = two(dialogue)?;
             if dialogue.given.len() == 2 && both[0].as_deref() == Some("30 oz") {
-                dialogue.ask(&MASS, mass)?;
+                dialogue.ask(&weight(), mass)?;
             }
             Ok(both)
         };

@@ -11,7 +11,7 @@ use sweetspot_tap::decode::is_recording;
 
 use crate::asking::ask;
 use crate::asking::dialogue::{Asked, Dialogue, Question, Read, missing};
-use crate::asking::draft::NAME;
+
 use crate::asking::new_options::{Args, called, like, refuse_existing, source, stations};
 use crate::bat_text::{self, Measured};
 use crate::output::printed;
@@ -21,103 +21,30 @@ use crate::recording::first_tone;
 const WELCOME: &str = "A bat file. An empty line takes what stands in [ ]; ? explains a question, \
                        back goes to the one before, quit leaves and keeps the answers.";
 
-const UNKNOWN: Option<&str> = Some("don't know");
-
-// The questions in their order; `@` is the unit of the ruler.
-const CALLED: Question = Question::new(
-    NAME,
-    "Name",
-    Some("My bat"),
-    "What the bat is called in tables and pictures. Where the command names no file, the file is called after it.",
-);
-const UNIT: Question = Question::new(
-    "unit",
-    "Unit of your ruler and calipers, in or cm",
-    Some("in"),
-    "Bare numbers are in it from here on; others are taken with their unit.",
-);
-const LENGTH: Question = Question::new(
-    "length",
-    "Length, @",
-    None,
-    "From the end of the knob to the tip, along the bat.",
-);
-const MASS: Question = Question::new(
-    "mass",
-    "Mass on the scale, with its unit (or: don't know)",
-    None,
-    "As the scale shows it, with all that is on the bat. It sets the density of the material. Without a scale \
-     answer: don't know; then the density is that of the material's list, which for wood may be off by a tenth.",
-);
-const MATERIAL: Question = Question::new(
-    "material",
-    "Material, name or number",
-    None,
-    "What the bat is made of, by name or number. For a wooden bat take one that says: as bats ring.",
-);
-const STATION: Question = Question::new(
-    "station",
-    "  at @",
-    None,
-    "The diameter here, or a place and the diameter there (2.5, 1.1). A place that was measured before is \
-     corrected so. A place and two diameters (2.5, 1.9, 1.1) are a step.",
-);
-const WALL: Question = Question::new(
-    "wall",
-    "Hollow: thickness of its wall, @ (or: no)",
-    None,
-    "Bats of metal or of a composite are tubes: how thick is the wall of the tube, such as 3 mm or 0.12 in? Where it \
-     differs, take the barrel's, and edit \"wall_thickness\" in the file, which has one for every place. A solid \
-     bat: no.",
-);
-const CUP: Question = Question::new(
-    "cup",
-    "Cup in the tip: its depth and its diameter",
-    Some("none"),
-    "How deep the tip is hollowed out and how wide at its rim, such as: 1 in, 1.6 in. The scale has weighed the bat \
-     with it. A tip without a cup: none.",
-);
-const BALANCE: Question = Question::new(
-    "balance",
-    "Balance point from the knob end, @",
-    UNKNOWN,
-    "Where the bat balances on an edge, from the knob end. It is compared with what the diameters say, which shows a \
-     slip of the calipers.",
-);
-const TAP: Question = Question::new(
-    "tap",
-    "Tone when tapped (first bending frequency), Hz, a note or a recording",
-    UNKNOWN,
-    "Hold the bat loosely some 6 in from the knob, tap the barrel and read the lowest strong tone off a tuner or a \
-     telephone, such as 170 Hz or E3 +34 (cents); or name the file of a recording, such as taps.m4a. It sets the stiffness, which differs more from billet to billet than anything else.",
-);
-const TAPE: Question = Question::new(
-    "tape",
-    "Tape on the handle",
-    Some("none"),
-    "How far it reaches from the knob, and its mass, such as: 10 in, 0.7 oz.",
-);
-
 /// The values of the options, and answers to the remaining questions.
 pub fn asked<R: BufRead>(args: &Args, person: &mut Dialogue<R>) -> Asked<Measured> {
+    let question = |name| Question::named("new", name);
     person.say(WELCOME);
     let there = person.is_there();
     if !there && args.like.is_none() && args.stations.is_empty() {
         return Err(missing("--station or --like").into());
     }
-    let name = person.told(&args.name, &CALLED, |name| free(args, name, there))?;
+    let name = person.told(&args.name, &question("name"), |name| free(args, name, there))?;
     // A length given by an option is in inches unless an option gives the unit.
     let unit = args.unit.clone().or(args.length.as_ref().map(|_| "in".to_owned()));
-    let unit = person.told(&unit, &UNIT, ask::unit)?;
+    let unit = person.told(&unit, &question("unit"), ask::unit)?;
     let length = match there || args.length.is_some() {
-        true => Some(person.told(&args.length, &LENGTH.of(unit), |text| ask::length(text, unit))?),
+        true => Some(
+            person
+                .told(&args.length, &question("length").of(unit), |text| ask::length(text, unit))?,
+        ),
         false => None,
     };
-    let mass = person.told(&args.mass, &MASS, ask::mass)?;
+    let mass = person.told(&args.mass, &question("mass"), ask::mass)?;
     if args.material.is_none() {
         ask::materials(unit).iter().for_each(|line| person.say(line));
     }
-    let material = person.told(&args.material, &MATERIAL, ask::material)?;
+    let material = person.told(&args.material, &question("material"), ask::material)?;
     let stations = match (&args.like, args.stations.is_empty()) {
         (Some(name), _) => like(name, length, unit)?,
         (None, false) => stations(&args.stations, length, unit)?,
@@ -125,19 +52,21 @@ pub fn asked<R: BufRead>(args: &Args, person: &mut Dialogue<R>) -> Asked<Measure
     };
     // Wood is solid by default; for a metal a person, if there is one, must say.
     let wood = Material::named(&material).is_some_and(|material| material.scatter().is_some());
-    let question = Question { usual: (wood || !there).then_some("no"), ..WALL.of(unit) };
-    let wall = person.told(&args.wall, &question, |text| ask::wall(text, &stations, unit))?;
+    let usual = (wood || !there).then(|| "no".to_owned());
+    let hollow = Question { usual, ..question("wall").of(unit) };
+    let wall = person.told(&args.wall, &hollow, |text| ask::wall(text, &stations, unit))?;
     let cup = match (&args.cup, &wall) {
         (None, Some(_)) => None,
-        (cup, _) => person.told(cup, &CUP, |text| ask::cup(text, &stations, unit))?,
+        (cup, _) => person.told(cup, &question("cup"), |text| ask::cup(text, &stations, unit))?,
     };
     let length = length.or(stations.last().map(|station| station[0])).unwrap_or_default();
-    let balance = person.ask(&BALANCE.of(unit), |text| ask::balance(text, length, unit))?;
+    let balance =
+        person.ask(&question("balance").of(unit), |text| ask::balance(text, length, unit))?;
     let (source, tap, tape) = (source(args), None, None);
     let so_far =
         Measured { name, source, material, mass, unit, stations, wall, cup, balance, tap, tape };
-    let tap = person.ask(&TAP, |text| tapped(text, &so_far))?;
-    let tape = person.ask(&TAPE, |text| ask::tape(text, length, unit))?;
+    let tap = person.ask(&question("tap"), |text| tapped(text, &so_far))?;
+    let tape = person.ask(&question("tape"), |text| ask::tape(text, length, unit))?;
     Ok(Measured { tap, tape, ..so_far })
 }
 
@@ -169,8 +98,11 @@ fn measured_along<R: BufRead>(
         let next = suggested.iter().copied().find(|place| *place > last).unwrap_or(length);
         let place = if to_the_tip { length } else { next };
         let tip = if place == length { "the tip, " } else { "" };
-        let usual = if stations.is_empty() || to_the_tip { None } else { Some("") };
-        let question = Question { usual, ..STATION.of(&format!("{tip}{place} {unit}")) };
+        let usual = if stations.is_empty() || to_the_tip { None } else { Some(String::new()) };
+        let question = Question {
+            usual,
+            ..Question::named("new", "station").of(&format!("{tip}{place} {unit}"))
+        };
         match person.ask(&question, |text| ask::put(text, place, &stations, length, unit))? {
             Some(more) => stations = more,
             None => to_the_tip = true,

@@ -8,6 +8,7 @@ use sweetspot_proof::bundled::bundled_bat;
 
 use crate::asking::ask;
 use crate::common::about;
+use crate::help::commands;
 
 /// Write a bat file, by asking or from options
 ///
@@ -19,7 +20,7 @@ use crate::common::about;
 /// computes how dense the material must be for the weighed mass, which reveals a slip of the calipers, and gives the
 /// sweet spot.
 #[derive(clap::Args)]
-#[command(after_long_help = EXAMPLES)]
+#[command(after_long_help = commands("new"))]
 pub struct Args {
     /// File to write (- = standard output) [default: named after the bat]
     pub file: Option<PathBuf>,
@@ -71,26 +72,6 @@ pub struct Args {
           value_parser = ["r161", "torpedo"], hide_possible_values = true)]
     pub like: Option<String>,
 }
-
-const EXAMPLES: &str = "\
-Examples:
-  sweetspot new
-      asks for everything and writes a file called after the bat
-
-  sweetspot new mine.json --like r161 --length \"34 in\" --mass \"31.5 oz\" \\
-      --material white-ash-dynamic
-      a longer R161
-
-  sweetspot new metal.json --length \"33 in\" --mass \"30 oz\" --wall \"3 mm\" \\
-      --material aluminium-7075 --station \"0, 0.9\" --station \"12, 0.9\" \\
-      --station \"23, 2.6\" --station \"33, 2.6\"
-      a hollow bat
-
-  sweetspot new fungo.json --length \"35 in\" --mass \"22 oz\" \\
-      --material white-ash-dynamic --station \"0 in, 1.7 in\" \\
-      --station \"1.5 in, 0.9 in\" --station \"14 in, 1.1 in\" \\
-      --station \"35 in, 2.2 in\"
-      from four diameters; sweetspot analyze fungo.json says what it does";
 
 const SOURCE: &str = "measured with ruler, calipers and scale";
 

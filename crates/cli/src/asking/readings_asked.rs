@@ -5,8 +5,10 @@ use std::io::BufRead;
 use serde_json::{Value, json};
 
 use sweetspot::Bat;
+use sweetspot::base::error::Complaint;
+use sweetspot::base::number::rounded;
+use sweetspot::base::typed;
 use sweetspot::base::units::{self, Quantity, inches};
-use sweetspot::base::{error::Complaint, number::rounded, typed};
 use sweetspot_report::schema;
 use sweetspot_study::files::amounts::{deviation, with_deviation};
 
@@ -16,54 +18,20 @@ use crate::asking::dialogue::{Asked, Dialogue, Question, Read};
 const WELCOME: &str = "What was measured of the bat. An empty line takes what stands in [ ]; ? explains a \
                        question, back goes to the one before, quit leaves.";
 
-const UNKNOWN: Option<&str> = Some("don't know");
-
-// The questions in their order; `@` is the unit of the bat file's lengths.
-const MASS: Question = Question::new(
-    "mass",
-    "Mass on the scale, with its unit",
-    UNKNOWN,
-    "As the scale shows it, with all that is on the bat; taken as within 1 g, or as 31 oz ± 0.1 oz says.",
-);
-const BALANCE: Question = Question::new(
-    "balance",
-    "Balance point from the knob end, @",
-    UNKNOWN,
-    "Where the bat balances on an edge, from the knob end; taken as within 1 mm, or as 22.8 in ± 1/32 in says.",
-);
-const SWINGS: Question = Question::new(
-    "swings",
-    "Ten swings, hung 6 in from the knob end, seconds",
-    UNKNOWN,
-    "Hang the bat on a pin or an edge 6 in from the knob end, let it swing a few degrees and time ten swings there and \
-     back; ten of them are taken as within 10 ms.",
-);
-const TONES: Question = Question::new(
-    "tones",
-    "Tones of a tap, Hz, the lowest first",
-    UNKNOWN,
-    "Hold the bat loosely some 6 in from the knob, tap the barrel, and read the peaks off a spectrum on a telephone, \
-     such as: 174.5, 581.3, 1187. They are taken as within 0.5 Hz; which mode each is is found out.",
-);
-const RING: Question = Question::new(
-    "ring",
-    "Cycles of the lowest tone until half the amplitude",
-    UNKNOWN,
-    "How many cycles of the lowest tone pass until it is half as loud (half the amplitude). It tells the loss factor.",
-);
-
 /// The answers as the text of a readings file.
 pub fn asked<R: BufRead>(person: &mut Dialogue<R>, bat: &Bat) -> Asked<String> {
+    let question = |name| Question::named("calibrate", name);
     person.say(WELCOME);
     let unit = if bat.inches() { "in" } else { "cm" };
     let length = if bat.inches() { inches(bat.length()) } else { 100.0 * bat.length() };
-    let mass = person.ask(&MASS, |text| within(text, "oz", Quantity::Mass, ask::mass))?;
+    let mass =
+        person.ask(&question("mass"), |text| within(text, "oz", Quantity::Mass, ask::mass))?;
     let place = |text: &str| ask::balance(text, length, unit);
     let balance = |text: &str| within(text, unit, Quantity::Length, place);
-    let balance = person.ask(&BALANCE.of(unit), balance)?;
-    let swings = person.ask(&SWINGS, |text| number(text, "s", [3.0, 50.0]))?;
-    let tones = person.ask(&TONES, tones)?;
-    let cycles = person.ask(&RING, |text| number(text, "", [1.0, 10_000.0]))?;
+    let balance = person.ask(&question("balance").of(unit), balance)?;
+    let swings = person.ask(&question("swings"), |text| number(text, "s", [3.0, 50.0]))?;
+    let tones = person.ask(&question("tones"), tones)?;
+    let cycles = person.ask(&question("ring"), |text| number(text, "", [1.0, 10_000.0]))?;
     let mut file = json!({ "format": "sweetspot-readings/1" });
     let mut put = |key: &str, value: Option<Value>| {
         if let Some(value) = value {

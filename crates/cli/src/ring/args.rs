@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use sweetspot::base::file;
-use sweetspot::collision::ball::Ball;
+use sweetspot::collision::Ball;
 use sweetspot::collision::hoop_wall::heard;
 use sweetspot::motion::sound::{Sound, WallTones, as_heard};
 use sweetspot::{Bat, Result, Solution};
@@ -15,7 +15,7 @@ use crate::output::OutputArgs;
 use crate::scene::SceneArgs;
 use crate::value::{IMPULSE, PLACE, RINGING_TIME};
 use sweetspot_report::csv::Csv;
-use sweetspot_report::parts::cell::Cell;
+use sweetspot_report::parts::Cell;
 
 /// How the bat moves after a hit, a blow, a push or a release
 ///
@@ -25,7 +25,7 @@ use sweetspot_report::parts::cell::Cell;
 /// --impulse or --force, or with --initial, the deflection at even places and given instants is written as CSV; on a
 /// terminal, without --csv, the largest deflection at each instant is shown.
 #[derive(clap::Args)]
-#[command(after_long_help = examples(EXAMPLES))]
+#[command(after_long_help = examples("ring"))]
 pub struct Args {
     #[command(flatten)]
     pub bat: BatArgs,
@@ -121,22 +121,6 @@ pub struct Args {
     #[command(flatten)]
     pub output: OutputArgs,
 }
-
-const EXAMPLES: &str = "\
-Examples:
-  sweetspot ring r161 --hit \"65 cm\" --watch \"5 in,9 in\" \\
-      --history hands.csv
-      what two hands feel after a hit near the sweet spot, every instant as CSV
-
-  sweetspot ring meshes/r161.json --hit \"60 cm\" --plots sting
-      the same motion and its spectrum, drawn
-
-  sweetspot ring dowel --at \"0.6 m\" --impulse \"1 N s\" --modes 5 \\
-      --times \"0,1 ms,2 ms\"
-      the deflected dowel after a blow, at three instants
-
-  sweetspot ring meshes/r161.json --hit \"60 cm\" --wav sting.wav
-      the crack of a ball hit 10 cm closer to the handle than it should be";
 
 /// Writes the sound of a bat with its wall under such a ball; returns what was assumed and what is missing.
 pub fn write_sound(

@@ -3,10 +3,9 @@
 use std::io::{IsTerminal, stdout};
 
 use sweetspot::base::file;
-use sweetspot::collision::ball::Ball;
-use sweetspot::files::force_file;
+use sweetspot::collision::Ball;
 use sweetspot::files::schema::document::{Format, Generator};
-use sweetspot::files::shape_file;
+use sweetspot::files::{force_file, shape_file};
 use sweetspot::motion::force::ForceHistory;
 use sweetspot::motion::ringing::Ringing;
 use sweetspot::motion::shape::InitialShape;

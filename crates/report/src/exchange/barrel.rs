@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::exchange::solid::Grid;
-use sweetspot::bat::body::Bat;
+use sweetspot::Bat;
 use sweetspot::modes::hoop::{Hoop, HoopMode, Outline};
 
 /// Rings of points on a barrel.

@@ -2,7 +2,7 @@
 
 use crate::csv::Csv;
 use crate::exchange::modes_file::ModeTable;
-use crate::parts::cell::Cell;
+use crate::parts::Cell;
 
 /// A row for each place: `x_m`, both radii, and deflection and rotation of every mode. The header names the columns
 /// with their units. There are no comments. Numbers read back to the same bits.

@@ -1,10 +1,10 @@
 //! A frequency response as a universal file.
 
-use crate::exchange::modes_uff::header;
+use crate::exchange::modes_uff::beginning;
 use sweetspot::motion::frf::{ResponseKind, Sample};
 use sweetspot_study::identify::set::{ResponseSet, SetResponse};
 use uff58::{
-    Abscissa, Axis, Complex, Dataset, Dof, Function, Node, Nodes, Stamp, Units, Values, six_digits,
+    Abscissa, Axis, Complex, Dataset, Dof, Function, Node, Nodes, Stamp, Values, six_digits,
 };
 
 /// The places and the kind of a response.
@@ -35,12 +35,10 @@ pub fn response(measured: &Measured, samples: &[Sample], stamp: &Stamp) -> Vec<D
         nodes.push(Node::new(2, [measured.to, 0.0, 0.0]));
     }
     let function = function(measured, samples, if same { 1 } else { 2 });
-    vec![
-        Dataset::Header(header(measured.bat, "frequency response of a bat", stamp)),
-        Dataset::Units(Units::si()),
-        Dataset::Nodes(Nodes { nodes, legacy: false }),
-        Dataset::Function(Box::new(function)),
-    ]
+    let about = [measured.bat, "frequency response of a bat"];
+    let mut all = beginning(about, Nodes { nodes, legacy: false }, stamp);
+    all.push(Dataset::Function(Box::new(function)));
+    all
 }
 
 /// The datasets of a set of responses: 151, 164 (SI), 2411, and 58 for each and for its coherence, type 6.
@@ -52,11 +50,8 @@ pub fn responses(bat: &str, set: &ResponseSet, stamp: &Stamp) -> Vec<Dataset> {
             nodes.push(Node::new(place.node, [place.x, 0.0, 0.0]));
         }
     }
-    let mut all = vec![
-        Dataset::Header(header(bat, "responses of a virtual test", stamp)),
-        Dataset::Units(Units::si()),
-        Dataset::Nodes(Nodes { nodes, legacy: false }),
-    ];
+    let about = [bat, "responses of a virtual test"];
+    let mut all = beginning(about, Nodes { nodes, legacy: false }, stamp);
     for (number, SetResponse { measured, .. }) in (1..).zip(&set.responses) {
         let [at, to] = [measured.at, measured.to].map(Option::unwrap_or_default);
         let even = Some([measured.values[0].0, measured.values[1].0 - measured.values[0].0]);

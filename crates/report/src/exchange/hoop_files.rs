@@ -1,19 +1,16 @@
 //! Hoop modes as a universal file and as a VTK file.
 
 use crate::exchange::barrel::{BarrelGrid, MovedBarrel};
-use crate::exchange::modes_uff::header;
+use crate::exchange::modes_uff::beginning;
 use crate::exchange::vtu::Contents;
-use uff58::{Analysis, Complex, Dataset, NodalData, Node, Nodes, Stamp, TraceLine, Units};
+use uff58::{Analysis, Complex, Dataset, NodalData, Node, Nodes, Stamp, TraceLine};
 
 /// The datasets of a barrel's hoop modes: 151, 164 (SI), 2411, a line 82 around every ring and one along, and 55
 /// for each mode, its values being translations x, y, z.
 pub fn uff(name: &str, barrel: &BarrelGrid, stamp: &Stamp) -> Vec<Dataset> {
     let nodes = (1..).zip(&barrel.grid.points).map(|(label, at)| Node::new(label, *at)).collect();
-    let mut datasets = vec![
-        Dataset::Header(header(name, "hoop modes of a barrel", stamp)),
-        Dataset::Units(Units::si()),
-        Dataset::Nodes(Nodes { nodes, legacy: false }),
-    ];
+    let about = [name, "hoop modes of a barrel"];
+    let mut datasets = beginning(about, Nodes { nodes, legacy: false }, stamp);
     datasets.extend(lines(barrel).map(Dataset::TraceLine));
     let shapes = (1..).zip(&barrel.modes).map(|(number, mode)| shape(name, number, mode));
     datasets.extend(shapes.map(Dataset::NodalData));

@@ -5,10 +5,9 @@ use std::path::Path;
 use serde::Deserialize;
 use serde_json::value::RawValue;
 
-use sweetspot::base::error::Result;
-use sweetspot::bat::body::Bat;
 use sweetspot::files::document::Document;
 use sweetspot::files::json_node::{Node, Object};
+use sweetspot::{Bat, Result};
 
 /// The modes of a bat, sampled along it.
 #[derive(Debug, Clone, PartialEq)]

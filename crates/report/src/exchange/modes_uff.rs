@@ -10,11 +10,8 @@ use uff58::{Analysis, Complex, Dataset, Header, NodalData, Node, Nodes, Stamp, T
 /// damping is written as viscous and none as hysteretic, so that a reader that adds the two counts it once.
 pub fn modes(table: &ModeTable, legacy: bool, stamp: &Stamp) -> Vec<Dataset> {
     let nodes = (1..).zip(&table.x).map(|(label, x)| Node::new(label, [*x, 0.0, 0.0])).collect();
-    let mut datasets = vec![
-        Dataset::Header(header(table.bat.name(), "bending modes of a bat", stamp)),
-        Dataset::Units(Units::si()),
-        Dataset::Nodes(Nodes { nodes, legacy }),
-    ];
+    let about = [table.bat.name(), "bending modes of a bat"];
+    let mut datasets = beginning(about, Nodes { nodes, legacy }, stamp);
     datasets.extend(axis(table.x.len()).map(Dataset::TraceLine));
     let shapes = table.modes.iter().map(|mode| shape(table.bat.name(), mode));
     datasets.extend(shapes.map(Dataset::NodalData));
@@ -33,10 +30,14 @@ fn axis(count: usize) -> impl Iterator<Item = TraceLine> {
     })
 }
 
-/// The head of a universal file that this program writes.
-pub(crate) fn header(model: &str, description: &str, stamp: &Stamp) -> Header {
+/// The beginning of a universal file that this program writes: 151, 164 (SI), and the nodes.
+pub(crate) fn beginning(
+    [model, description]: [&str; 2],
+    nodes: Nodes,
+    stamp: &Stamp,
+) -> Vec<Dataset> {
     let program = concat!("sweetspot ", env!("CARGO_PKG_VERSION"));
-    Header {
+    let header = Header {
         model: model.into(),
         description: description.into(),
         made_by: program.into(),
@@ -45,7 +46,8 @@ pub(crate) fn header(model: &str, description: &str, stamp: &Stamp) -> Header {
         written: stamp.clone(),
         version: [0; 2],
         written_by: program.into(),
-    }
+    };
+    vec![Dataset::Header(header), Dataset::Units(Units::si()), Dataset::Nodes(nodes)]
 }
 
 fn shape(name: &str, mode: &SampledMode) -> NodalData {

@@ -14,8 +14,8 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
 use crate::exchange::modes_file::ModeTable;
+use sweetspot::Solution;
 use sweetspot::beam::assembly::Pencil;
-use sweetspot::modes::solve::Solution;
 
 /// Arrays under names, not compressed.
 struct Archive {

@@ -2,21 +2,18 @@
 
 use faer::c64;
 
-use crate::exchange::modes_uff::header;
+use crate::exchange::modes_uff::beginning;
 use sweetspot_study::identify::modes::{SharedMode, placed};
 use sweetspot_study::identify::set::ResponseSet;
-use uff58::{Analysis, Dataset, NodalData, Node, Nodes, Stamp, Units};
+use uff58::{Analysis, Dataset, NodalData, Node, Nodes, Stamp};
 
 /// The datasets of identified modes: 151, 164 (SI), 2411, and 55 for each mode: complex, with its pole
 /// `λ = −ζω + iω√(1 − ζ²)`, Modal A `2iωm` and Modal B `−λA`, the deflection in y. A modal mass that is not known is 1
 /// there.
 pub fn modes(set: &ResponseSet, modes: &[SharedMode], stamp: &Stamp) -> Vec<Dataset> {
     let nodes = set.points.iter().map(|place| Node::new(place.node, [place.x, 0.0, 0.0])).collect();
-    let mut datasets = vec![
-        Dataset::Header(header("responses", "modes identified from responses", stamp)),
-        Dataset::Units(Units::si()),
-        Dataset::Nodes(Nodes { nodes, legacy: false }),
-    ];
+    let about = ["responses", "modes identified from responses"];
+    let mut datasets = beginning(about, Nodes { nodes, legacy: false }, stamp);
     let shapes = (1..).zip(modes).map(|(number, mode)| shape(set, number, mode));
     datasets.extend(shapes.map(Dataset::NodalData));
     datasets

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::many::folder::{MANIFEST, manifest_at};
 use crate::many::part;
-use sweetspot::base::error::{Error, Result};
+use sweetspot::{Error, Result};
 
 /// Files of a study in a folder, with its manifest last; empty where there is no study.
 ///

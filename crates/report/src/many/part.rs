@@ -10,8 +10,8 @@ use std::sync::atomic::Ordering::Relaxed;
 use crate::csv::Csv;
 use crate::many::source::Study;
 use crate::many::sums::{self, damaged};
-use crate::parts::cell::Cell;
-use sweetspot::base::error::Result;
+use crate::parts::Cell;
+use sweetspot::Result;
 use sweetspot_study::files::study_rows::Rows;
 use sweetspot_study::many::rows::in_groups;
 

@@ -2,9 +2,8 @@
 
 use std::fmt::Write;
 
-use crate::many::table::{Column, Reason, Table};
-use crate::parts::columns::{Columns, first, labels, numbers};
-use crate::parts::terminal::wrapped;
+use crate::many::table::{NumberColumn, Reason, Table};
+use crate::parts::{first, labels, lines, numbers, wrapped};
 use crate::report::shares::shares_of;
 use sweetspot::base::number::significant;
 use sweetspot_study::files::study_rows::Rows;
@@ -26,21 +25,20 @@ pub fn text(table: &Table, rows: &Rows) -> String {
     if reasons.len() > REASONS {
         let _ = writeln!(out, "  and {} other reasons", reasons.len() - REASONS);
     }
-    let columns = Columns::new([
-        first(24, ""),
-        numbers(12, "5 %"),
-        numbers(12, "half"),
-        numbers(12, "95 %"),
-        labels(8, ""),
-    ]);
-    out += &columns.heads();
-    for column in answers(table, rows) {
-        let values = sorted(column);
-        let at =
-            |share: f64| percentile(&values, share).map_or("-".to_owned(), |v| significant(v, 6));
-        let cells = [column.name.clone(), at(0.05), at(0.5), at(0.95), column.unit.clone()];
-        out += &columns.row(&cells);
-    }
+    let answers: Vec<_> = answers(table, rows).map(|column| (column, sorted(column))).collect();
+    let at = |values: &[f64], share: f64| {
+        percentile(values, share).map_or("-".to_owned(), |value| significant(value, 6))
+    };
+    out += &lines(
+        &answers,
+        &[
+            (first(24, ""), &|(column, _)| column.name.clone()),
+            (numbers(12, "5 %"), &|(_, values)| at(values, 0.05)),
+            (numbers(12, "half"), &|(_, values)| at(values, 0.5)),
+            (numbers(12, "95 %"), &|(_, values)| at(values, 0.95)),
+            (labels(8, ""), &|(column, _)| column.unit.clone()),
+        ],
+    );
     if table.every > 1 {
         let _ = writeln!(out, "Percentiles of one row in {}", table.every);
     }
@@ -82,7 +80,7 @@ pub fn shares(table: &Table, rows: &Rows) -> String {
 }
 
 /// The columns of the answers, without their errors.
-pub fn answers<'a>(table: &'a Table, rows: &'a Rows) -> impl Iterator<Item = &'a Column> {
+pub fn answers<'a>(table: &'a Table, rows: &'a Rows) -> impl Iterator<Item = &'a NumberColumn> {
     rows.study.outputs.iter().filter_map(|name| table.column(name))
 }
 
@@ -94,7 +92,7 @@ pub fn names(rows: &Rows) -> Vec<String> {
 }
 
 /// The numbers of a column, rising.
-pub fn sorted(column: &Column) -> Vec<f64> {
+pub fn sorted(column: &NumberColumn) -> Vec<f64> {
     let mut values: Vec<f64> = column.values.iter().copied().filter(|v| v.is_finite()).collect();
     values.sort_by(f64::total_cmp);
     values

@@ -8,8 +8,9 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
-use sweetspot::base::error::{Complaint, Error, Result};
+use sweetspot::base::error::Complaint;
 use sweetspot::base::file;
+use sweetspot::{Error, Result};
 
 /// How the name of a sum ends.
 pub const END: &str = ".sha256";

@@ -4,9 +4,8 @@ use std::collections::BTreeMap;
 
 use crate::many::folder::StudyFolder;
 use crate::many::part::{number, read};
-use sweetspot::base::error::Result;
-use sweetspot::base::file;
-use sweetspot::base::marks;
+use sweetspot::Result;
+use sweetspot::base::{file, marks};
 use sweetspot_study::files::study_rows::Rows;
 use sweetspot_study::many::indices::Indices;
 
@@ -18,7 +17,7 @@ const FITTED: usize = 8192;
 
 /// A column of numbers.
 #[derive(Debug, Clone)]
-pub struct Column {
+pub struct NumberColumn {
     /// Its name.
     pub name: String,
     /// Its unit, possibly empty.
@@ -31,7 +30,7 @@ pub struct Column {
 #[derive(Debug, Clone)]
 pub struct Table {
     /// Everything that is a number.
-    pub columns: Vec<Column>,
+    pub columns: Vec<NumberColumn>,
     /// The rows whose values are kept.
     pub kept: Vec<u64>,
     /// One of this number of rows was kept.
@@ -65,7 +64,7 @@ impl Table {
         let columns = rows.columns();
         let of = |k: usize| {
             let [name, unit] = columns[k].clone();
-            Column { name, unit, values: vec![] }
+            NumberColumn { name, unit, values: vec![] }
         };
         let numbers = rows.numbers();
         let mut table = Self {
@@ -103,7 +102,7 @@ impl Table {
     }
 
     /// The column of that name.
-    pub fn column(&self, name: &str) -> Option<&Column> {
+    pub fn column(&self, name: &str) -> Option<&NumberColumn> {
         self.columns.iter().find(|column| column.name == name)
     }
 

@@ -2,12 +2,9 @@
 
 use crate::analysis::Analysis;
 use crate::page::shown::{self, speed};
-use crate::parts::units::Units;
-use crate::report::advice;
-use crate::report::hit_text;
-use crate::report::trust;
-use sweetspot::bat::theory::Theory;
-use sweetspot::modes::solve::Request;
+use crate::parts::Units;
+use crate::report::{advice, hit_text, trust};
+use sweetspot::{Request, Theory};
 use sweetspot_proof::enclosure::guarantee::guarantee;
 use sweetspot_proof::promise::{ALWAYS, largest};
 use sweetspot_study::ignored::{ignored, in_hit};

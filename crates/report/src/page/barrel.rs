@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use sweetspot::Bat;
 use sweetspot::base::number::rounded;
-use sweetspot::bat::body::Bat;
 use sweetspot::modes::hoop::HoopMode;
 use sweetspot_study::trampoline::barrel::Barrel;
 

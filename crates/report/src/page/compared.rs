@@ -3,13 +3,11 @@
 use crate::page::figure::Figure;
 use crate::page::html::Page;
 use crate::page::shown;
-use crate::parts::part::{Fold, Part, Section};
-use crate::parts::table::Table;
-use crate::parts::units::Units;
+use crate::parts::{Fold, Part, Section, Table, Units};
 use crate::plot::compared::pictures;
-use crate::report::comparison::{ALONG, FIRST, Row, letter, rows, swing, words};
+use crate::report::comparison::{ALONG, ComparisonRow, FIRST, letter, rows, swing, words};
 use crate::report::edits;
-use sweetspot::base::error::Result;
+use sweetspot::Result;
 use sweetspot_study::comparison::table::Comparison;
 
 /// The page of bats side by side, made by that command; `us` selects which units are shown first.
@@ -40,9 +38,9 @@ pub fn page(comparison: &Comparison, command: &str, us: bool) -> Result<String> 
 
 /// Everything, in order, in one system of units.
 fn sections<'a>(comparison: &Comparison, command: &'a str, units: Units) -> Vec<Section<'a>> {
-    let (differing, same): (Vec<Row>, Vec<Row>) =
+    let (differing, same): (Vec<ComparisonRow>, Vec<ComparisonRow>) =
         ordered(rows(comparison, units)).into_iter().partition(|row| row.differs);
-    let (first, others): (Vec<Row>, Vec<Row>) =
+    let (first, others): (Vec<ComparisonRow>, Vec<ComparisonRow>) =
         differing.into_iter().partition(|row| FIRST.contains(&row.key.as_str()));
     let sentences = words(comparison, units).into_iter().map(|text| shown::sentence(&text));
     let (along, best): (Vec<String>, Vec<String>) =
@@ -101,21 +99,22 @@ fn scene(comparison: &Comparison, units: Units) -> Vec<String> {
 }
 
 /// The most important rows first.
-fn ordered(mut rows: Vec<Row>) -> Vec<Row> {
-    let rank = |row: &Row| FIRST.iter().position(|key| row.key == *key).unwrap_or(FIRST.len());
+fn ordered(mut rows: Vec<ComparisonRow>) -> Vec<ComparisonRow> {
+    let rank =
+        |row: &ComparisonRow| FIRST.iter().position(|key| row.key == *key).unwrap_or(FIRST.len());
     rows.sort_by_key(rank);
     rows
 }
 
 /// Values of all bats, each but the first with its difference below.
-fn table(comparison: &Comparison, caption: &str, rows: Vec<Row>) -> Table {
+fn table(comparison: &Comparison, caption: &str, rows: Vec<ComparisonRow>) -> Table {
     let bats = comparison.bats.len();
     let letters = (0..bats).map(|k| letter(k).to_string());
     let pieces = rows.iter().any(|row| !row.pieces.is_empty());
     let last = pieces.then(|| "two pieces of one wood".to_owned());
     let head: Vec<String> = [String::new()].into_iter().chain(letters).chain(last).collect();
     let mut table = Table { caption: caption.to_owned(), head, ..Table::default() };
-    for Row { label, values, differences, pieces: apart, .. } in rows {
+    for ComparisonRow { label, values, differences, pieces: apart, .. } in rows {
         let others = values[1..].iter().zip(differences).map(|(value, by)| match by.as_str() {
             "" | "none" => value.clone(),
             by => format!("{value}\n{}", by.replace('-', "−")),

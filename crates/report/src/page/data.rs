@@ -7,10 +7,12 @@ use crate::analysis::Analysis;
 use crate::page::barrel::RingingBarrel;
 use crate::page::moment::Moment;
 use crate::page::summary::Summary;
+use sweetspot::Profile;
 use sweetspot::base::number::rounded;
-use sweetspot::bat::profile::{Piece, Profile};
+use sweetspot::bat::profile::Piece;
+use sweetspot::collision::Impact;
 use sweetspot::collision::columns::{self, Column};
-use sweetspot::collision::hit::{Energy, Impact};
+use sweetspot::collision::hit::Energy;
 use sweetspot::files::schema::document::{Document, Format};
 use sweetspot::motion::sound::{ASSUMED_LOSS, Sound};
 

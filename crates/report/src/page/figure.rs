@@ -1,9 +1,8 @@
 //! A picture of a page: in both systems of units, as wide as a page and as narrow as a telephone.
 
 use crate::parts::escape::html as escaped;
-use crate::plot::picture::Picture;
-use crate::plot::sheet::{Paper, Sheet};
-use sweetspot::base::error::Result;
+use crate::plot::{Paper, Picture, Sheet};
+use sweetspot::Result;
 
 /// One picture in all its forms.
 #[derive(Debug, Clone, PartialEq)]

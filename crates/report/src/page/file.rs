@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use crate::page::content::Report;
 use crate::page::markdown;
+use crate::plot::Sheet;
 use crate::plot::sets::of_analysis;
-use crate::plot::sheet::Sheet;
-use sweetspot::base::error::{Error, Result};
 use sweetspot::base::file;
+use sweetspot::{Error, Result};
 
 /// Format of a report.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

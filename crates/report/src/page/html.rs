@@ -8,9 +8,7 @@ use std::fmt::Write;
 use crate::page::figure::Figure;
 use crate::page::players;
 use crate::parts::escape::{html as escaped, script};
-use crate::parts::input::Input;
-use crate::parts::part::Fact;
-use crate::parts::part::{Fold, Part, Section};
+use crate::parts::{Fact, Fold, Input, Part, Section};
 
 const STYLE: &str = include_str!("style.css");
 const SCRIPT: &str = concat!(include_str!("shared.js"), include_str!("script.js"));

@@ -4,12 +4,11 @@ use serde_json::Value;
 
 use crate::analysis::Analysis;
 use crate::page::shown::{self, NONE, length, speed};
-use crate::parts::table::Table;
-use crate::parts::units::Units;
+use crate::parts::{Table, Units};
 use crate::report::resolved::resolved;
 use crate::schema;
 use sweetspot::collision::figures::BarrelSpeed;
-use sweetspot::collision::hit::{Model, Scene};
+use sweetspot::collision::{Model, Scene};
 
 /// Swing, pitch and ball.
 pub fn scene(analysis: &Analysis, units: Units) -> Table {
@@ -36,9 +35,9 @@ pub fn scene(analysis: &Analysis, units: Units) -> Table {
 }
 
 /// A name and a value.
-type Line = (&'static str, String);
+type SceneRow = (&'static str, String);
 
-fn model(analysis: &Analysis) -> Vec<Line> {
+fn model(analysis: &Analysis) -> Vec<SceneRow> {
     let model = analysis.task.model;
     let mut lines = vec![("model of the collision", model.name().to_owned())];
     match model {
@@ -55,7 +54,7 @@ fn model(analysis: &Analysis) -> Vec<Line> {
     lines
 }
 
-fn swing(analysis: &Analysis, units: Units) -> Vec<Line> {
+fn swing(analysis: &Analysis, units: Units) -> Vec<SceneRow> {
     let scene = &analysis.task.scene;
     let mut lines = vec![("swing", format!("{:.2} rad/s", scene.swing))];
     if let Some(law) = analysis.task.law {
@@ -73,7 +72,7 @@ fn swing(analysis: &Analysis, units: Units) -> Vec<Line> {
     lines
 }
 
-fn ball(scene: &Scene, units: Units) -> Vec<Line> {
+fn ball(scene: &Scene, units: Units) -> Vec<SceneRow> {
     let ball = &scene.ball;
     let mut lines = vec![
         ("ball", ball.name.clone()),

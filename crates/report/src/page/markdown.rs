@@ -4,12 +4,8 @@ use std::fmt::Write;
 
 use crate::page::content::Report;
 use crate::parts::escape::{fence, markdown as escaped, markdown_line};
-use crate::parts::input::Input;
-use crate::parts::part::Fact;
-use crate::parts::part::{Part, Section};
-use crate::parts::table::Table;
-use crate::parts::units::Units;
-use crate::plot::picture::Picture;
+use crate::parts::{Fact, Input, Part, Section, Table, Units};
+use crate::plot::Picture;
 
 /// Replaces a section in which everything moves or sounds.
 const MOVES: &str = "What moves and sounds needs the page: write the report as HTML.\n\n";

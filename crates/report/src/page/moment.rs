@@ -8,12 +8,11 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::analysis::Analysis;
-use sweetspot::base::error::Result;
 use sweetspot::base::number::rounded;
-use sweetspot::bat::body::Bat;
 use sweetspot::collision::aftermath::{Aftermath, Instant};
 use sweetspot::collision::history::Moment as Squeezed;
 use sweetspot::collision::{Hitter, Model};
+use sweetspot::{Bat, Result};
 
 /// A hit in time as numbers for drawing, rounded to what a picture shows.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]

@@ -1,6 +1,6 @@
 //! Numbers as a person reads them: in SI or in US units, errors as powers of ten.
 
-use crate::parts::units::Units;
+use crate::parts::Units;
 use sweetspot::base::number::rounded;
 use sweetspot::base::units::{POUND_FORCE, inches, miles_per_hour, ounce_square_inches, ounces};
 

@@ -5,8 +5,7 @@ use serde::Serialize;
 
 use crate::analysis::Analysis;
 use crate::page::shown::{self, length};
-use crate::parts::part::Fact;
-use crate::parts::units::Units;
+use crate::parts::{Fact, Units};
 use crate::report::trust::about;
 use sweetspot::bat::body::STANDARD_PIVOT;
 use sweetspot_study::answers::Answer;

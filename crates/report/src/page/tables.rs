@@ -4,15 +4,14 @@ use std::f64::consts::TAU;
 
 use crate::analysis::Analysis;
 use crate::page::shown::{self, NONE, bare, decimals, length_unit, speed};
-use crate::parts::table::Table;
-use crate::parts::units::Units;
+use crate::parts::{Table, Units};
 use crate::report::hit_text::{self, SpotLine};
+use sweetspot::Bat;
 use sweetspot::base::number;
 use sweetspot::base::units::{inches, ounces};
-use sweetspot::bat::body::Bat;
 use sweetspot::collision::figures::Moved;
-use sweetspot::collision::hit::Outcome;
-use sweetspot::collision::sweet_spot::{Peak, SweetSpot};
+use sweetspot::collision::sweet_spot::Peak;
+use sweetspot::collision::{Outcome, SweetSpot};
 use sweetspot_study::trampoline::barrel::Barrel;
 
 /// Number of modes whose nodes are listed, and of modes whose energies are listed.

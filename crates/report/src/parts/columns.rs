@@ -4,7 +4,8 @@
 pub const WIDE: usize = 80;
 
 /// A column of a table.
-pub struct Column {
+#[derive(Clone)]
+pub struct TextColumn {
     head: String,
     width: usize,
     gap: &'static str,
@@ -12,26 +13,36 @@ pub struct Column {
 }
 
 /// Words, as wide as that, after two spaces.
-pub fn labels(width: usize, head: impl Into<String>) -> Column {
-    Column { gap: "  ", ..first(width, head) }
+pub fn labels(width: usize, head: impl Into<String>) -> TextColumn {
+    TextColumn { gap: "  ", ..first(width, head) }
 }
 
 /// Words at the beginning of the line.
-pub fn first(width: usize, head: impl Into<String>) -> Column {
-    Column { head: head.into(), width, gap: "", left: true }
+pub fn first(width: usize, head: impl Into<String>) -> TextColumn {
+    TextColumn { head: head.into(), width, gap: "", left: true }
 }
 
 /// Numbers, as wide as that with the space before them.
-pub fn numbers(width: usize, head: impl Into<String>) -> Column {
-    Column { left: false, ..first(width, head) }
+pub fn numbers(width: usize, head: impl Into<String>) -> TextColumn {
+    TextColumn { left: false, ..first(width, head) }
+}
+
+/// A column, and its text for a row.
+pub type Shown<'a, T> = (TextColumn, &'a dyn Fn(&T) -> String);
+
+/// The line of the heads, and a line for every row.
+pub fn table<'r, T: 'r>(rows: impl IntoIterator<Item = &'r T>, columns: &[Shown<T>]) -> String {
+    let layout = Columns::new(columns.iter().map(|(column, _)| column.clone()));
+    let line = |row: &T| layout.row(columns.iter().map(|(_, of)| of(row)));
+    layout.heads() + &rows.into_iter().map(line).collect::<String>()
 }
 
 /// The columns of a table, from left to right.
-pub struct Columns(Vec<Column>);
+pub struct Columns(Vec<TextColumn>);
 
 impl Columns {
     /// A table of these columns.
-    pub fn new(columns: impl IntoIterator<Item = Column>) -> Self {
+    pub fn new(columns: impl IntoIterator<Item = TextColumn>) -> Self {
         Self(columns.into_iter().collect())
     }
 
@@ -44,7 +55,7 @@ impl Columns {
     /// 80 columns all that can be spared.
     pub fn row<S: AsRef<str>>(&self, cells: impl IntoIterator<Item = S>) -> String {
         let (mut line, mut end) = (String::new(), 0);
-        for (Column { width, gap, left, .. }, cell) in self.0.iter().zip(cells) {
+        for (TextColumn { width, gap, left, .. }, cell) in self.0.iter().zip(cells) {
             let (from, cell) = (end + gap.len(), cell.as_ref());
             end = from + width;
             let spare = if *left { 0 } else { width.saturating_sub(cell.chars().count()) };

@@ -15,3 +15,11 @@ pub mod input;
 pub mod part;
 pub mod columns;
 pub mod terminal;
+
+pub use cell::{Cell, Quantity};
+pub use columns::{Columns, Shown, WIDE, first, labels, numbers, table as lines};
+pub use input::Input;
+pub use part::{Fact, Fold, Part, Section};
+pub use table::{Column, Table};
+pub use terminal::{LINES, MANY, Piece, Screen, wrapped};
+pub use units::{Units, in_trade};

@@ -1,10 +1,6 @@
 //! BBCOR along a bat, with the limit.
 
-use crate::plot::chart::{Chart, Panel};
-use crate::plot::picture::Picture;
-use crate::plot::place;
-use crate::plot::series::Series;
-use crate::plot::sheet::{Sheet, Unit};
+use crate::plot::{Chart, Panel, Picture, Series, Sheet, Unit, place};
 use sweetspot::collision::bbcor::{LIMIT, Tested};
 
 /// Height of the diagram (px).

@@ -1,10 +1,6 @@
 //! The wood of a bat before and after the measurements, and the readings that do not fit.
 
-use crate::plot::axis::Axis;
-use crate::plot::bars::{self, Bar, BarRow};
-use crate::plot::picture::Picture;
-use crate::plot::svg::Pen;
-use crate::plot::theme::{MUTED, SERIES, TEXT};
+use crate::plot::{Axis, Bar, BarRow, MUTED, Pen, Picture, SERIES, TEXT, bars};
 use crate::report::calibrate::{short, shown};
 use sweetspot_study::calibrate::calibration::{Calibration, Estimated, NINETY_FIVE};
 use sweetspot_study::calibrate::fit::{OUTLIER, Residual};

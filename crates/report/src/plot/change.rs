@@ -1,11 +1,7 @@
 //! How much thicker or thinner a bat has become along it.
 
-use crate::plot::axis::Axis;
-use crate::plot::chart::{Chart, Panel};
-use crate::plot::picture::Picture;
-use crate::plot::series::{Series, heights};
-use crate::plot::sheet::{Sheet, Unit};
-use sweetspot::bat::body::Bat;
+use crate::plot::{Axis, Chart, Panel, Picture, Series, Sheet, Unit, heights};
+use sweetspot::Bat;
 
 /// Height of the diagram (px).
 const DIAGRAM: f64 = 230.0;

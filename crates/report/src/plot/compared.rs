@@ -1,15 +1,12 @@
 //! Several bats in the same pictures, and the differences of their exit speeds.
 
-use crate::plot::axis::Axis;
-use crate::plot::chart::{Chart, Panel};
-use crate::plot::picture::Picture;
-use crate::plot::place;
-use crate::plot::series::{Series, heights};
 use crate::plot::sets::{Hits, of_touches};
-use crate::plot::sheet::Sheet;
-use crate::plot::{exit_speed, ledger, profile, shapes, spot};
+use crate::plot::{
+    Axis, Chart, Panel, Picture, Series, Sheet, exit_speed, heights, ledger, place, profile,
+    shapes, spot,
+};
 use crate::report::comparison::letter;
-use sweetspot::base::error::Result;
+use sweetspot::Result;
 use sweetspot_study::comparison::contender::Contender;
 use sweetspot_study::comparison::table::Comparison;
 

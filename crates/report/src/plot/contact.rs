@@ -2,17 +2,13 @@
 
 use std::borrow::Cow;
 
-use crate::plot::axis::Axis;
-use crate::plot::chart::{Chart, Panel};
-use crate::plot::picture::Picture;
-use crate::plot::place::{along, mark};
-use crate::plot::route::Point;
-use crate::plot::series::{Series, bats, digits};
-use crate::plot::sheet::{Sheet, Unit};
-use crate::plot::svg::{Mark, Pen, Svg};
-use crate::plot::theme::{Ink, SERIES, TEXT, TINT};
+use crate::plot::place::mark;
+use crate::plot::{
+    Axis, Chart, Ink, Mark, Panel, Pen, Picture, Point, SERIES, Series, Sheet, Svg, TEXT, TINT,
+    Unit, along, bats, digits,
+};
+use sweetspot::collision::Hitter;
 use sweetspot::collision::history::Moment;
-use sweetspot::collision::hitter::Hitter;
 
 /// Instants in every piece of the recorded force.
 const PARTS: usize = 6;

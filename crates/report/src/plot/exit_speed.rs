@@ -1,15 +1,11 @@
 //! How fast the ball leaves along the bat, and where the sweet spot is by each definition.
 
-use crate::plot::chart::{Chart, Panel};
-use crate::plot::picture::Picture;
-use crate::plot::place::{self, PlaceRow};
-use crate::plot::series::{Series, heights};
-use crate::plot::sheet::Sheet;
-use crate::plot::svg::Pen;
-use crate::plot::theme::{SERIES, series};
-use sweetspot::bat::body::Bat;
-use sweetspot::collision::hit::Impact;
-use sweetspot::collision::sweet_spot::{Peak, SweetSpot};
+use crate::plot::{
+    Chart, Panel, Pen, Picture, PlaceRow, SERIES, Series, Sheet, heights, place, series,
+};
+use sweetspot::Bat;
+use sweetspot::collision::sweet_spot::Peak;
+use sweetspot::collision::{Impact, SweetSpot};
 
 /// A bat, the name it has in the picture, its hits and its sweet spot.
 #[derive(Debug, Clone, Copy)]

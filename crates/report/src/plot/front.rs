@@ -1,15 +1,10 @@
 //! Error against time, as measured on a bat: the settings that are worth their time.
 
-use crate::plot::axis::Axis;
-use crate::plot::chart::{Chart, Panel};
-use crate::plot::picture::Picture;
-use crate::plot::plane::Plane;
-use crate::plot::series::{Series, short};
-use crate::plot::sheet::Sheet;
-use crate::plot::svg::{MARKS, Mark, Pen, Svg};
-use crate::plot::theme::{SERIES, TEXT};
-use crate::plot::words::{Anchor, SMALL, width};
-use sweetspot::modes::solve::Solver;
+use crate::plot::{
+    Anchor, Axis, Chart, MARKS, Mark, Panel, Pen, Picture, Plane, SERIES, SMALL, Series, Sheet,
+    Svg, TEXT, short, width,
+};
+use sweetspot::Solver;
 use sweetspot_study::trade::front::{Run, front};
 use sweetspot_study::trade::measure::Trade;
 use sweetspot_study::trade::reference::solver_name;

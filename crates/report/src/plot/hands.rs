@@ -1,13 +1,9 @@
 //! The motion that the hands feel: displacement and velocity of the handle after a hit.
 
-use crate::plot::axis::Axis;
-use crate::plot::chart::{Chart, Panel};
-use crate::plot::picture::Picture;
-use crate::plot::place::along;
-use crate::plot::series::{Series, bats, heights, short};
-use crate::plot::sheet::{Paper, Sheet, Unit};
-use crate::plot::svg::Pen;
-use crate::plot::theme::SERIES;
+use crate::plot::{
+    Axis, Chart, Panel, Paper, Pen, Picture, SERIES, Series, Sheet, Unit, along, bats, heights,
+    short,
+};
 use sweetspot::collision::aftermath::{Aftermath, Instant};
 
 /// Instants of a curve, and at most of all.

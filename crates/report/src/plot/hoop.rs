@@ -2,16 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use crate::plot::chart::{Chart, Panel};
-use crate::plot::picture::Picture;
-use crate::plot::place;
-use crate::plot::plane::{Frame, Plane};
-use crate::plot::route::Point;
-use crate::plot::sheet::Sheet;
-use crate::plot::svg::{Pen, Svg};
-use crate::plot::theme::{FRAME, SERIES, TINT};
-use crate::plot::words::{LABEL, SMALL};
-use sweetspot::bat::body::Bat;
+use crate::plot::{
+    Chart, FRAME, Frame, LABEL, Panel, Pen, Picture, Plane, Point, SERIES, SMALL, Sheet, Svg, TINT,
+    place,
+};
+use sweetspot::Bat;
 use sweetspot::modes::hoop::{HoopMode, Outline};
 use sweetspot_study::trampoline::barrel::Barrel;
 

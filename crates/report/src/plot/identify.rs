@@ -1,11 +1,6 @@
 //! The modes common to several responses: stability over the number of poles, and shapes.
 
-use crate::plot::axis::Axis;
-use crate::plot::chart::{Chart, Panel};
-use crate::plot::picture::Picture;
-use crate::plot::series::{Series, short};
-use crate::plot::sheet::{Sheet, Unit};
-use crate::plot::svg::MARKS;
+use crate::plot::{Axis, Chart, MARKS, Panel, Picture, Series, Sheet, Unit, short};
 use sweetspot_study::identify::modes::{Identified, SharedMode, placed};
 use sweetspot_study::identify::set::ResponseSet;
 

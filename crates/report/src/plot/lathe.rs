@@ -1,19 +1,13 @@
 //! The bat coloured by the effect of a cut at each place, with a strip for each output.
 
-use crate::plot::chart::{Chart, Panel};
-use crate::plot::outline::Lying;
-use crate::plot::picture::Picture;
-use crate::plot::place;
-use crate::plot::plane::Frame;
 use crate::plot::profile::widest;
-use crate::plot::series::digits;
-use crate::plot::sheet::Sheet;
-use crate::plot::svg::{Pen, Svg};
-use crate::plot::theme::{FRAME, Ink, SERIES};
-use crate::plot::words::{Anchor, LABEL, SMALL, fitted};
+use crate::plot::{
+    Anchor, Chart, FRAME, Frame, Ink, LABEL, Lying, Panel, Pen, Picture, SERIES, SMALL, Sheet, Svg,
+    digits, fitted, place,
+};
+use sweetspot::Bat;
 use sweetspot::base::number::signed;
 use sweetspot::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
-use sweetspot::bat::body::Bat;
 use sweetspot::bat::profile::Section;
 use sweetspot_study::answers::Answer;
 use sweetspot_study::lathe::found::TurnedBand;

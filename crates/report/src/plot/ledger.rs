@@ -1,14 +1,12 @@
 //! The distribution of the energy of a hit, along the bat.
 
-use crate::plot::chart::{Chart, Panel};
-use crate::plot::picture::Picture;
-use crate::plot::plane::Plane;
-use crate::plot::series::{Series, Tag, digits, room, short, tags};
-use crate::plot::sheet::{Sheet, Unit};
-use crate::plot::svg::{Pen, Svg};
-use crate::plot::theme::{Ink, MUTED, PAPER, SERIES, TEXT};
-use sweetspot::bat::body::Bat;
-use sweetspot::collision::hit::{Energy, Impact};
+use crate::plot::{
+    Chart, Ink, MUTED, PAPER, Panel, Pen, Picture, Plane, SERIES, Series, Sheet, Svg, TEXT, Tag,
+    Unit, digits, room, short, tags,
+};
+use sweetspot::Bat;
+use sweetspot::collision::Impact;
+use sweetspot::collision::hit::Energy;
 
 /// Modes that have a layer each.
 const MODES: usize = 3;

@@ -1,15 +1,10 @@
 //! Many bats: the distribution of an answer, its causes, and the relation between two numbers.
 
-use crate::many::table::Column;
-use crate::plot::axis::Axis;
-use crate::plot::bars::{self, Bar, BarRow};
-use crate::plot::chart::{Chart, Panel};
-use crate::plot::picture::Picture;
-use crate::plot::plane::ticks_up;
-use crate::plot::series::{digits, short};
-use crate::plot::sheet::{Sheet, Unit};
-use crate::plot::svg::{Mark, Pen};
-use crate::plot::theme::{GRID, SERIES};
+use crate::many::table::NumberColumn;
+use crate::plot::{
+    Axis, Bar, BarRow, Chart, GRID, Mark, Panel, Pen, Picture, SERIES, Sheet, Unit, bars, digits,
+    short, ticks_up,
+};
 use sweetspot_study::many::indices::{Indices, Share};
 
 /// Height of a diagram (px).
@@ -22,7 +17,7 @@ const MOST_POINTS: usize = 4000;
 
 /// How many rows have an answer of about that size; picture `histogram_NAME`. None where fewer than eight rows
 /// have one or all are the same.
-pub fn histogram(column: &Column, sorted: &[f64], percentiles: [f64; 3]) -> Option<Picture> {
+pub fn histogram(column: &NumberColumn, sorted: &[f64], percentiles: [f64; 3]) -> Option<Picture> {
     let (low, high) = (*sorted.first()?, *sorted.last()?);
     if sorted.len() < 8 || high - low <= 1e-9 * high.abs().max(low.abs()) {
         return None;
@@ -100,7 +95,7 @@ pub fn tornado(answer: &str, varied: &[String], indices: &Indices) -> Picture {
 
 /// Two columns against each other, a point a row; picture `scatter_A_B`. None where fewer than two rows have
 /// both.
-pub fn scatter(a: &Column, b: &Column) -> Option<Picture> {
+pub fn scatter(a: &NumberColumn, b: &NumberColumn) -> Option<Picture> {
     let both: Vec<[f64; 2]> = a.values.iter().zip(&b.values).map(|(a, b)| [*a, *b]).collect();
     let known: Vec<[f64; 2]> =
         both.into_iter().filter(|at| at.iter().all(|v| v.is_finite())).collect();
@@ -138,7 +133,7 @@ fn correlation(points: &[[f64; 2]]) -> Option<f64> {
     r.is_finite().then_some(r)
 }
 
-fn label(column: &Column) -> String {
+fn label(column: &NumberColumn) -> String {
     match column.unit.is_empty() {
         true => column.name.clone(),
         false => format!("{} ({})", column.name, column.unit),

@@ -1,12 +1,10 @@
 //! The important places of a bat, its materials and its fixtures, as rows.
 
-use crate::plot::place::PlaceRow;
-use crate::plot::series::{digits, short};
-use crate::plot::sheet::Sheet;
+use crate::plot::{PlaceRow, Sheet, digits, short};
 use sweetspot::base::units::ounces;
-use sweetspot::bat::body::{Bat, STANDARD_PIVOT};
+use sweetspot::bat::body::STANDARD_PIVOT;
 use sweetspot::bat::fixtures::{Held, Region};
-use sweetspot::bat::material::Material;
+use sweetspot::{Bat, Material};
 
 /// A bat, the name it has in the picture, and where its swing turns.
 #[derive(Debug, Clone, Copy)]

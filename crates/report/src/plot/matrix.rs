@@ -1,11 +1,9 @@
 //! A table of numbers from 0 to 1 as a map of colours, with the numbers in its cells.
 
-use crate::plot::picture::Picture;
-use crate::plot::plane::head;
-use crate::plot::sheet::Sheet;
-use crate::plot::svg::{Pen, Svg};
-use crate::plot::theme::{FRAME, PAPER, SERIES};
-use crate::plot::words::{Anchor, LABEL, SMALL, TITLE, Type, fitted, width};
+use crate::plot::{
+    Anchor, FRAME, LABEL, PAPER, Pen, Picture, SERIES, SMALL, Sheet, Svg, TITLE, Type, fitted,
+    head, width,
+};
 
 /// Numbers by row and column.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,15 +1,10 @@
 //! Measured modes compared with computed ones: the similarity of the shapes, and the shapes on top of each other.
 
-use crate::plot::axis::Axis;
-use crate::plot::chart::{Chart, Panel};
 use crate::plot::matrix::{self, Matrix};
-use crate::plot::picture::Picture;
-use crate::plot::plane::Frame;
-use crate::plot::series::{Series, digits, heights};
-use crate::plot::sheet::Sheet;
-use crate::plot::svg::{MARKS, Pen, Svg};
-use crate::plot::theme::SERIES;
-use crate::plot::words::{LABEL, SMALL, fitted};
+use crate::plot::{
+    Axis, Chart, Frame, LABEL, MARKS, Panel, Pen, Picture, SERIES, SMALL, Series, Sheet, Svg,
+    digits, fitted, heights,
+};
 use sweetspot_study::measured::study::{Pair, Shapes, Study};
 
 /// Shapes in one picture.

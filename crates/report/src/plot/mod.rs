@@ -66,3 +66,17 @@ pub mod many;
 pub mod calibrate;
 pub mod tap;
 pub mod identify;
+
+pub use axis::Axis;
+pub use bars::{Bar, BarRow};
+pub use chart::{Chart, Panel};
+pub use outline::{Lying, sections};
+pub use picture::Picture;
+pub use place::{PlaceRow, along};
+pub use plane::{Frame, NUMBERS, Plane, head, ticks_up};
+pub use route::Point;
+pub use series::{Series, Tag, bats, digits, heights, legend_between, room, short, tags};
+pub use sheet::{Paper, Sheet, Unit};
+pub use svg::{MARKS, Mark, Pen, Svg};
+pub use theme::{FRAME, GRID, Ink, MUTED, PAPER, SERIES, TEXT, TINT, series};
+pub use words::{Anchor, LABEL, SMALL, TITLE, Type, fitted, width};

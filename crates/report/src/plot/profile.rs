@@ -1,18 +1,12 @@
 //! Bats from the side, their diameter along them, and the places that matter.
 
-use crate::plot::chart::{Chart, Panel};
 use crate::plot::marks::marked;
-use crate::plot::outline::{Lying, sections};
-use crate::plot::picture::Picture;
-use crate::plot::place::PlaceRow;
-use crate::plot::plane::Frame;
-use crate::plot::series::{Series, bats, digits, short};
-use crate::plot::sheet::Sheet;
-use crate::plot::svg::{Pen, Svg};
-use crate::plot::theme::series;
-use crate::plot::words::{Anchor, SMALL};
+use crate::plot::{
+    Anchor, Chart, Frame, Lying, Panel, Pen, Picture, PlaceRow, SMALL, Series, Sheet, Svg, bats,
+    digits, sections, series, short,
+};
+use sweetspot::Bat;
 use sweetspot::base::units::ounces;
-use sweetspot::bat::body::Bat;
 
 pub use crate::plot::marks::MarkedBat;
 

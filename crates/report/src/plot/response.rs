@@ -2,14 +2,9 @@
 
 use faer::c64;
 
-use crate::plot::axis::Axis;
-use crate::plot::chart::{Chart, Panel};
-use crate::plot::picture::Picture;
-use crate::plot::place::along;
-use crate::plot::series::{Series, short};
-use crate::plot::sheet::{Sheet, Unit};
-use crate::plot::svg::{MARKS, Pen};
-use crate::plot::theme::SERIES;
+use crate::plot::{
+    Axis, Chart, MARKS, Panel, Pen, Picture, SERIES, Series, Sheet, Unit, along, short,
+};
 use crate::report::frf::{phase, unit};
 use sweetspot::motion::frf::ResponseKind;
 use sweetspot::motion::peaks::Peak;

@@ -1,15 +1,10 @@
 //! How the bat moves in time: watched places after a hit, their spectrum, the strain along the bat, and
 //! the whole bat after a blow, under a force or from a shape.
 
-use crate::plot::axis::Axis;
-use crate::plot::chart::{Chart, Panel};
-use crate::plot::picture::Picture;
-use crate::plot::place::along;
-use crate::plot::plane::ticks_up;
-use crate::plot::series::{Series, heights, short};
-use crate::plot::sheet::{Sheet, Unit};
-use crate::plot::svg::MARKS;
-use crate::plot::theme::SERIES;
+use crate::plot::{
+    Axis, Chart, MARKS, Panel, Picture, SERIES, Series, Sheet, Unit, along, heights, short,
+    ticks_up,
+};
 use sweetspot::collision::aftermath::{Aftermath, Line, Strained};
 
 /// Heights of a diagram of motion and of a single diagram (px).

@@ -1,16 +1,12 @@
 //! The pictures that belong to a result.
 
 use crate::analysis::Analysis;
-use crate::plot::picture::Picture;
-use crate::plot::sheet::Sheet;
 use crate::plot::{
-    contact, exit_speed, hands, hoop, lathe, ledger, profile, shapes, spot, u_curve,
+    Picture, Sheet, contact, exit_speed, hands, hoop, lathe, ledger, profile, shapes, spot, u_curve,
 };
-use sweetspot::base::error::Result;
-use sweetspot::bat::body::Bat;
 use sweetspot::collision::aftermath::Aftermath;
 use sweetspot::collision::{Hitter, Model, Scene, Sweep, SweetSpot};
-use sweetspot::modes::solve::Solution;
+use sweetspot::{Bat, Result, Solution};
 use sweetspot_study::lathe::map::LatheMap;
 use sweetspot_study::trade::u_curve::Curve;
 

@@ -1,20 +1,11 @@
 //! Bending modes drawn on the bat, with their frequencies and nodes.
 
-use crate::plot::chart::{Chart, Panel};
-use crate::plot::outline::sections;
-use crate::plot::picture::Picture;
-use crate::plot::place;
-use crate::plot::plane::{Frame, Plane};
-use crate::plot::route::Point;
-use crate::plot::series::{bats, digits};
-use crate::plot::sheet::Sheet;
-use crate::plot::svg::{Pen, Svg};
-use crate::plot::theme::{FRAME, MUTED, TINT, series};
-use crate::plot::words::{Anchor, LABEL, SMALL, width};
-use sweetspot::bat::body::Bat;
+use crate::plot::{
+    Anchor, Chart, FRAME, Frame, LABEL, MUTED, Panel, Pen, Picture, Plane, Point, SMALL, Sheet,
+    Svg, TINT, bats, digits, place, sections, series, width,
+};
 use sweetspot::bat::profile::Section;
-use sweetspot::modes::mode::Mode;
-use sweetspot::modes::solve::Solution;
+use sweetspot::{Bat, Mode, Solution};
 
 /// A bat, the name it has in the picture, and its modes.
 #[derive(Debug, Clone, Copy)]

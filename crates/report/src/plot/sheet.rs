@@ -53,42 +53,35 @@ impl Sheet {
         Self::file(bat.inches())
     }
 
+    /// The unit of that name and number per SI unit, in SI or in US units.
+    fn unit(self, si: (&'static str, f64), us: (&'static str, f64)) -> Unit {
+        let (name, per) = if self.us { us } else { si };
+        Unit { name, per }
+    }
+
     /// Lengths along and across a bat.
     pub fn length(self) -> Unit {
-        if self.us {
-            Unit { name: "in", per: inches(1.0) }
-        } else {
-            Unit { name: "cm", per: 100.0 }
-        }
+        self.unit(("cm", 100.0), ("in", inches(1.0)))
     }
 
     /// The unit of small lengths, such as the compression of a ball.
     pub fn small(self) -> Unit {
-        if self.us { self.length() } else { Unit { name: "mm", per: 1e3 } }
+        self.unit(("mm", 1e3), ("in", inches(1.0)))
     }
 
     /// Forces.
     pub fn force(self) -> Unit {
-        if self.us {
-            Unit { name: "lbf", per: 1.0 / POUND_FORCE }
-        } else {
-            Unit { name: "kN", per: 1e-3 }
-        }
+        self.unit(("kN", 1e-3), ("lbf", 1.0 / POUND_FORCE))
     }
 
     /// Speeds.
     pub fn speed(self) -> Unit {
-        if self.us {
-            Unit { name: "mph", per: miles_per_hour(1.0) }
-        } else {
-            Unit { name: "m/s", per: 1.0 }
-        }
+        self.unit(("m/s", 1.0), ("mph", miles_per_hour(1.0)))
     }
 
     /// Energies.
     pub fn energy(self) -> Unit {
-        let (name, per) = if self.us { ("ft·lbf", 1.0 / FOOT_POUND) } else { ("J", 1.0) };
-        Unit { name, per }
+        self.unit(("J", 1.0), ("ft·lbf", 1.0 / FOOT_POUND))
     }
 
     /// Whether it is as narrow as a telephone.

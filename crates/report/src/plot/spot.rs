@@ -1,16 +1,12 @@
 //! Bats drawn large with their sweet spots on them.
 
-use crate::plot::outline::Lying;
-use crate::plot::picture::Picture;
-use crate::plot::place;
-use crate::plot::plane::{Frame, NUMBERS, Plane, head};
 use crate::plot::profile::widest;
-use crate::plot::sheet::{Paper, Sheet};
-use crate::plot::svg::{Mark, Pen, Svg};
-use crate::plot::theme::{PAPER, SERIES, series};
-use crate::plot::words::{Anchor, LABEL, Type, fitted, width};
-use sweetspot::bat::body::Bat;
-use sweetspot::collision::sweet_spot::SweetSpot;
+use crate::plot::{
+    Anchor, Frame, LABEL, Lying, Mark, NUMBERS, PAPER, Paper, Pen, Picture, Plane, SERIES, Sheet,
+    Svg, Type, fitted, head, place, series, width,
+};
+use sweetspot::Bat;
+use sweetspot::collision::SweetSpot;
 
 /// A bat, the name it has in the picture, and its sweet spot.
 #[derive(Debug, Clone, Copy)]

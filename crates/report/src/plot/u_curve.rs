@@ -1,12 +1,6 @@
 //! Error against the number of elements, solver by solver.
 
-use crate::plot::axis::Axis;
-use crate::plot::chart::{Chart, Panel};
-use crate::plot::picture::Picture;
-use crate::plot::series::Series;
-use crate::plot::sheet::Sheet;
-use crate::plot::svg::{MARKS, Pen};
-use crate::plot::theme::SERIES;
+use crate::plot::{Axis, Chart, MARKS, Panel, Pen, Picture, SERIES, Series, Sheet};
 use sweetspot_study::trade::reference::solver_name;
 use sweetspot_study::trade::u_curve::{Curve, SolverFrequency};
 

@@ -1,12 +1,6 @@
 //! BBCOR against the thickness of a barrel's wall.
 
-use crate::plot::axis::Axis;
-use crate::plot::chart::{Chart, Panel};
-use crate::plot::picture::Picture;
-use crate::plot::series::Series;
-use crate::plot::sheet::{Sheet, Unit};
-use crate::plot::svg::{Mark, Pen};
-use crate::plot::theme::SERIES;
+use crate::plot::{Axis, Chart, Mark, Panel, Pen, Picture, SERIES, Series, Sheet, Unit};
 use sweetspot::collision::bbcor::LIMIT;
 use sweetspot_study::trampoline::thickness::WallTried;
 

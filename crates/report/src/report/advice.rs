@@ -1,15 +1,38 @@
 //! The advice: its text.
 
-use crate::parts::part::Part;
-use crate::parts::table::Table;
-use crate::parts::terminal::wrapped;
-use crate::parts::units::Units;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use crate::parts::{Part, Table, Units, wrapped};
 use crate::report::edits;
+use crate::schema::{Written, document};
+use sweetspot::Theory;
 use sweetspot::base::units::{inches, ounce_square_inches, ounces};
-use sweetspot::bat::theory::Theory;
+use sweetspot::files::schema::document::BatName;
 use sweetspot_study::advise::advice::Advice;
 use sweetspot_study::advise::effect::{Effect, Switch};
 use sweetspot_study::advise::model::Model;
+
+/// How each part of the model of a bat changes its modes, and the smallest model that suffices. SI units, named at the
+/// end of each member; shifts of frequencies are relative; a value that does not exist is null. Later versions with the
+/// same number may have more members.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+#[schemars(title = "Advice file of sweetspot, sweetspot-advice/1")]
+pub struct AdviceFile {
+    /// The bat.
+    pub bat: BatName,
+    /// What the model needs.
+    #[serde(flatten)]
+    pub advice: Advice,
+}
+
+document!(AdviceFile, "advice");
+
+/// The document of that advice.
+pub fn document(advice: &Advice) -> Written<AdviceFile> {
+    let bat = BatName::of(&advice.full_model.solved.bat);
+    Written::of(AdviceFile { bat, advice: advice.clone() })
+}
 
 /// Modes side by side in a table of 80 columns.
 const ABREAST: usize = 5;
@@ -17,8 +40,7 @@ const ABREAST: usize = 5;
 /// The title, and everything in order; `full` with nodes, the rigid body, damping and why effects are out of scope.
 pub fn report(advice: &Advice, units: Units, full: bool) -> (String, Vec<Part<'static>>) {
     let whole = &advice.full_model.solved;
-    let edits = edits::listed(&whole.bat, units);
-    let edited = (!edits.is_empty()).then(|| format!("edited: {edits}"));
+    let edited = edits::noted(&whole.bat, units);
     let worst = advice.effects.iter().flat_map(|effect| [&effect.with, &effect.without]);
     let worst = worst.map(|solved| solved.solution.worst()).fold(0.0, f64::max);
     let solved = format!("full model: {}; solved, each within {worst:.0e}", model(&whole.model));
@@ -53,14 +75,14 @@ pub fn report(advice: &Advice, units: Units, full: bool) -> (String, Vec<Part<'s
 }
 
 /// A row of a table: its name, and a cell for each mode.
-type Row = (String, Vec<String>);
+type ModeRow = (String, Vec<String>);
 
-fn row(name: &str, values: &[f64], shown: impl Fn(&f64) -> String) -> Row {
+fn row(name: &str, values: &[f64], shown: impl Fn(&f64) -> String) -> ModeRow {
     (name.to_owned(), values.iter().map(shown).collect())
 }
 
 /// A row for each effect whose modes can be paired.
-fn by_effect(advice: &Advice, cell: impl Fn(&Effect, usize) -> Option<String>) -> Vec<Row> {
+fn by_effect(advice: &Advice, cell: impl Fn(&Effect, usize) -> Option<String>) -> Vec<ModeRow> {
     let paired = advice.effects.iter().filter(|effect| effect.shift_by_mode.is_some());
     let cells = |effect: &Effect| {
         let cells = (0..advice.modes).map(|k| cell(effect, k).unwrap_or_else(|| "-".to_owned()));
@@ -70,7 +92,7 @@ fn by_effect(advice: &Advice, cell: impl Fn(&Effect, usize) -> Option<String>) -
 }
 
 /// A table of those rows for every five modes; a row has at most as many cells as there are modes.
-fn tables(modes: usize, rows: &[Row]) -> Vec<Part<'static>> {
+fn tables(modes: usize, rows: &[ModeRow]) -> Vec<Part<'static>> {
     let block = |from: usize| {
         let block = from..modes.min(from + ABREAST);
         let heads = block.clone().map(|k| format!("mode {}", k + 1));

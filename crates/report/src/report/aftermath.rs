@@ -3,14 +3,11 @@
 use std::fmt::Write;
 
 use crate::csv::Csv;
-use crate::parts::cell::Cell;
-use crate::parts::columns::{Columns, numbers};
-use crate::parts::terminal::wrapped;
-use crate::parts::units::Units;
+use crate::parts::{Cell, Columns, Units, numbers, wrapped};
 use crate::schema::hit::Impact;
 use crate::schema::ring as file;
+use sweetspot::Bat;
 use sweetspot::base::units::{gravities, inches, miles_per_hour};
-use sweetspot::bat::body::Bat;
 use sweetspot::collision::aftermath::{Aftermath, Instant, PeakMotion, Strained, Watched};
 use sweetspot::collision::hit;
 use sweetspot::collision::strength::{Limit, Load, Strength, nearest};

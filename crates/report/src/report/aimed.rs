@@ -1,16 +1,19 @@
 //! The bat that meets a wish: its file, its document, its cut list.
 
+use schemars::JsonSchema;
+use serde::Serialize;
+
 use crate::csv::Csv;
 use crate::report::resolved::{profile, text_in_columns};
-use crate::schema::aimed::AimedFile;
+use crate::schema::{Written, document};
+use sweetspot::Bat;
 use sweetspot::base::number::{rounded, shortest, signed, significant};
 use sweetspot::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
-use sweetspot::bat::body::Bat;
-use sweetspot::files::schema::document::{BatName, Format, Generator};
+use sweetspot::files::schema::document::{BatName, Format};
 use sweetspot::files::schema::resolved::ResolvedBat;
 use sweetspot_study::aim::aimed::{AimedTarget, Outcome};
 use sweetspot_study::aim::conflict::Conflict;
-use sweetspot_study::aim::cuts::cuts;
+use sweetspot_study::aim::cuts::{StationCut, cuts};
 use sweetspot_study::aim::rules::{Rule, Ruled};
 use sweetspot_study::aim::wish::{Band, Goal};
 use sweetspot_study::answers::Answer;
@@ -229,20 +232,40 @@ pub fn cuts_csv(outcome: &Outcome, pass: f64) -> String {
     table.text()
 }
 
+/// The smallest change of a bat that meets a wish, or comes nearest to it. Every value belongs to the new bat as it is
+/// written, with rounded stations. Positions count from the knob end; a value that does not exist is null. Later
+/// versions with the same number may have more members.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+#[schemars(title = "Aimed bat of sweetspot, sweetspot-aimed/1")]
+pub struct AimedFile {
+    /// The bat before the change.
+    pub bat: BatName,
+    /// Whether and how well the wish is met.
+    #[serde(flatten)]
+    pub outcome: Outcome,
+    /// The change at each station: how much to turn off, and where wood is added.
+    pub cuts: Vec<StationCut>,
+    /// Warnings before the bat is turned, for example of a barrel that a rule forbids; left out where there are none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<String>,
+    /// The new bat as a complete bat file.
+    pub new_bat: ResolvedBat,
+}
+
+document!(AimedFile, "aimed");
+
 /// The `sweetspot-aimed/1` document; no pass of the lathe takes more than `pass` off the diameter (m).
-pub fn document(outcome: &Outcome, pass: f64) -> AimedFile {
+pub fn document(outcome: &Outcome, pass: f64) -> Written<AimedFile> {
     let us = outcome.start.inches();
     let mut told = outcome.clone();
     if let Some(conflict) = &mut told.conflict {
         conflict.words = conflict_words(conflict, &outcome.targets, us);
     }
-    AimedFile {
-        format: Format::new(),
-        generator: Generator::this(),
+    Written::of(AimedFile {
         bat: BatName::of(&outcome.start),
         outcome: told,
         cuts: cuts(&outcome.change, pass),
         warnings: warning(outcome, us).into_iter().chain(outcome.rigid_wall.clone()).collect(),
         new_bat: resolved(&outcome.bat, &source(outcome)),
-    }
+    })
 }

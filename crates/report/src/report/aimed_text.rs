@@ -2,8 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::parts::columns::{Columns, first, labels, numbers};
-use crate::parts::terminal::{Piece, wrapped};
+use crate::parts::{Columns, Piece, first, labels, lines, numbers, wrapped};
 use crate::report::aimed::{asked, called, conflict_words, shown, size, warning};
 use sweetspot::base::number::{rounded, shortest, signed, significant};
 use sweetspot::base::units::{inches, ounce_square_inches, ounces};
@@ -211,27 +210,29 @@ fn priced(AimedTarget { band, price, .. }: &AimedTarget, us: bool) -> Option<Str
 }
 
 fn before_and_after(outcome: &Outcome, us: bool, full: bool) -> String {
-    let columns = Columns::new([
-        first(21, "Before and after"),
-        labels(17, "before"),
-        labels(17, "after"),
-        labels(15, "change"),
-    ]);
-    let mut out = columns.heads();
-    let outputs = outcome.outputs.iter().filter(|of| full || FIRST.contains(&of.answer));
-    for Output { answer, start: before, found: after } in outputs {
-        let goal = Goal::Answer(*answer);
-        let said =
-            |value: &Option<f64>| value.map_or("none".to_owned(), |value| shown(goal, value, us));
-        let change = before.zip(*after).map_or(String::new(), |(a, b)| match answer {
+    let goal = |of: &Output| Goal::Answer(of.answer);
+    let said = |of: &Output, value: Option<f64>| {
+        value.map_or("none".to_owned(), |value| shown(goal(of), value, us))
+    };
+    let change = |of: &Output| {
+        of.start.zip(of.found).map_or(String::new(), |(a, b)| match of.answer {
             Answer::Node(_) | Answer::ExitSpeedPlace | Answer::BalancePoint => {
                 let way = if b >= a { "outward" } else { "inward" };
                 format!("{} {way}", across((b - a).abs(), us))
             }
             _ => format!("{} %", signed(100.0 * (b / a - 1.0), 2)),
-        });
-        out += &columns.row([called(goal), said(before), said(after), change]);
-    }
+        })
+    };
+    let outputs = outcome.outputs.iter().filter(|of| full || FIRST.contains(&of.answer));
+    let out = lines(
+        outputs,
+        &[
+            (first(21, "Before and after"), &|of| called(goal(of))),
+            (labels(17, "before"), &|of| said(of, of.start)),
+            (labels(17, "after"), &|of| said(of, of.found)),
+            (labels(15, "change"), &change),
+        ],
+    );
     out + "\n"
 }
 
@@ -240,19 +241,23 @@ fn of_rules(set: &RulesKept, us: bool) -> String {
         &format!("Rules: {} ({}, {}). Computed, not certified.", set.game, set.name, set.date),
         2,
     );
-    let columns =
-        Columns::new([first(24, ""), labels(18, "limit"), labels(18, "this bat"), labels(10, "")]);
-    for Ruled { rule, limit, value, kept } in &set.limits {
-        let said =
-            |value: Option<f64>| value.map_or(String::new(), |value| of_rule(*rule, value, us));
-        let kept = match kept {
-            Some(true) => "kept",
-            Some(false) => "broken",
-            None => "not known",
-        };
-        let name = rule.name().replace('_', " ");
-        out += &columns.row([name, said(*limit), said(*value), kept.to_owned()]);
-    }
+    let said = |ruled: &Ruled, value: Option<f64>| {
+        value.map_or(String::new(), |value| of_rule(ruled.rule, value, us))
+    };
+    out += &lines(
+        &set.limits,
+        &[
+            (first(24, ""), &|ruled| ruled.rule.name().replace('_', " ")),
+            (labels(18, "limit"), &|ruled| said(ruled, ruled.limit)),
+            (labels(18, "this bat"), &|ruled| said(ruled, ruled.value)),
+            (labels(10, ""), &|ruled| {
+                ruled
+                    .kept
+                    .map_or("not known", |kept| if kept { "kept" } else { "broken" })
+                    .to_owned()
+            }),
+        ],
+    );
     for ask in &set.ask {
         out += &wrapped(&format!("  not computed: {ask}"), 4);
     }
@@ -325,30 +330,30 @@ fn cut_list(outcome: &Outcome, (pass, us): (f64, bool), most: usize) -> String {
 /// The rows shown: every second, third or later one where there are too many.
 fn cut_rows(all: &[StationCut], us: bool, most: usize) -> String {
     let adds = all.iter().any(StationCut::adds);
-    let columns = Columns::new([
-        first(12, if adds { "Change at" } else { "Cut at" }),
-        numbers(12, "from"),
-        numbers(12, "to"),
-        numbers(12, if adds { "change" } else { "off" }),
-        labels(26, "after each pass"),
-    ]);
-    let mut out = columns.heads();
-    for cut in all.iter().step_by(all.len().div_ceil(most)) {
-        let passes: Vec<String> =
-            cut.passes_m.iter().map(|off| across(cut.from_m - off, us)).collect();
-        let passes = match passes.len() {
-            0 => "wood added".to_owned(),
-            1 => "one pass".to_owned(),
-            count if count > 3 => format!("{count} passes"),
-            _ => passes.join(", "),
-        };
-        let [from, to, by] = [cut.from_m, cut.to_m, cut.off().abs()].map(|value| across(value, us));
-        let by = match (adds, cut.adds()) {
-            (false, _) => by,
-            (true, true) => format!("+{by}"),
-            (true, false) => format!("-{by}"),
-        };
-        out += &columns.row([place(cut.x_m, us), from, to, by, passes]);
-    }
-    out
+    let by = |cut: &StationCut| match (adds, cut.adds()) {
+        (false, _) => "",
+        (true, true) => "+",
+        (true, false) => "-",
+    };
+    let passes = |cut: &StationCut| match cut.passes_m.len() {
+        0 => "wood added".to_owned(),
+        1 => "one pass".to_owned(),
+        count if count > 3 => format!("{count} passes"),
+        _ => {
+            let passes = cut.passes_m.iter().map(|off| across(cut.from_m - off, us));
+            passes.collect::<Vec<_>>().join(", ")
+        }
+    };
+    lines(
+        all.iter().step_by(all.len().div_ceil(most)),
+        &[
+            (first(12, if adds { "Change at" } else { "Cut at" }), &|cut| place(cut.x_m, us)),
+            (numbers(12, "from"), &|cut| across(cut.from_m, us)),
+            (numbers(12, "to"), &|cut| across(cut.to_m, us)),
+            (numbers(12, if adds { "change" } else { "off" }), &|cut| {
+                format!("{}{}", by(cut), across(cut.off().abs(), us))
+            }),
+            (labels(26, "after each pass"), &passes),
+        ],
+    )
 }

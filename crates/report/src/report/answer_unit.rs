@@ -1,6 +1,6 @@
 //! What is the unit of an answer, and how many digits are shown?
 
-use crate::parts::units::Units;
+use crate::parts::Units;
 use sweetspot::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
 use sweetspot_study::answers::Answer;
 

@@ -1,16 +1,47 @@
 //! BBCOR along a bat: text and columns.
 
+use schemars::JsonSchema;
+use serde::Serialize;
+
 use crate::parts::cell::Quantity::{Error, Length, Ratio, Speed, Words};
-use crate::parts::part::Part;
-use crate::parts::table::{Column, Table};
-use crate::parts::units::Units;
+use crate::parts::{Column, Part, Table, Units};
 use crate::report::edits;
 use crate::report::wall_text::{wall_facts, wall_words};
+use crate::schema::{Written, document};
+use sweetspot::bat::edit::Edit;
 use sweetspot::collision::bbcor::{
     LIMIT, LIMIT_SOURCE, Largest, MEASURES_SOURCE, Place, Scan, Tested,
 };
 use sweetspot_study::ignored;
 use sweetspot_study::spread::of_frequencies;
+
+/// BBCOR along a bat as laboratories measure it, with the bat at rest on a pivot. It is computed and is no certificate.
+/// SI units, named at the end of each member; positions count from the knob end; a value that does not exist is null.
+/// Later versions with the same number may have more members.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[schemars(title = "BBCOR file of sweetspot, sweetspot-bbcor/1")]
+pub struct BbcorFile {
+    /// Name of the bat.
+    pub bat_name: String,
+    /// Changes made to the bat after it was weighed; left out where there are none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub edits: Vec<Edit>,
+    /// Settings and results of the scan.
+    #[serde(flatten)]
+    pub scan: Scan,
+    /// Neglected effects and their consequences.
+    pub ignored: Vec<String>,
+}
+
+document!(BbcorFile, "bbcor");
+
+/// The document of that test.
+pub fn document(tested: &Tested) -> Written<BbcorFile> {
+    let Tested { bat, scene, scan, .. } = tested;
+    let (edits, scan) = (bat.edits().to_vec(), scan.clone());
+    let (bat_name, ignored) = (bat.name().to_owned(), ignored::in_hit(bat, scene));
+    Written::of(BbcorFile { bat_name, edits, scan, ignored })
+}
 
 /// The columns of the scan.
 pub const COLUMNS: [Column<Place>; 9] = [
@@ -49,8 +80,7 @@ pub fn report(tested: &Tested, units: Units, full: bool) -> (String, Vec<Part<'s
         "bat at rest on a pivot {pivot} from the knob end; {} at {speed}, cor {cor}{source}",
         protocol.ball.name
     )];
-    let edits = edits::listed(bat, units);
-    notes.extend((!edits.is_empty()).then(|| format!("edited: {edits}")));
+    notes.extend(edits::noted(bat, units));
     notes.extend(scene.hoop.wall().map(|wall| wall_words(bat, scene, wall)));
     notes.extend(ignored::in_hit(bat, scene).iter().map(|effect| format!("left out: {effect}")));
     let shown = if full { &places[..] } else { around(places, largest.as_ref()) };

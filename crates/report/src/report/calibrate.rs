@@ -2,15 +2,15 @@
 
 use std::fmt::Write;
 
+use schemars::JsonSchema;
+use serde::Serialize;
+
 use crate::csv;
-use crate::parts::columns::{Columns, first, labels, numbers};
-use crate::parts::table::Column;
-use crate::parts::terminal::{Piece, wrapped};
-use crate::parts::units::in_trade;
-use crate::schema::calibrate::CalibrateFile;
+use crate::parts::{Column, Piece, first, in_trade, labels, lines, numbers, wrapped};
+use crate::schema::{Written, document};
+use sweetspot::Bat;
 use sweetspot::base::number::{percent, significant};
-use sweetspot::bat::body::Bat;
-use sweetspot::files::schema::document::{BatName, Format, Generator};
+use sweetspot::files::schema::document::BatName;
 use sweetspot_study::calibrate::calibration::{
     Calibration, Estimated, Property, Verdict, WithoutOutliers,
 };
@@ -32,26 +32,17 @@ pub fn text(bat: &Bat, found: &Calibration) -> [Piece; 3] {
 }
 
 fn parameters(all: &[Estimated]) -> String {
-    let columns = Columns::new([
-        first(14, "property"),
-        numbers(13, "value"),
-        numbers(13, "95 %"),
-        numbers(13, "before"),
-        numbers(8, "learned"),
-        labels(17, "the readings"),
-    ]);
-    let mut out = columns.heads();
-    for one in all {
-        out += &columns.row([
-            short(one.property).to_owned(),
-            shown(one.property, one.value),
-            within(one),
-            shown(one.property, one.prior),
-            percent(one.learned.max(0.0), 0),
-            verdict(one),
-        ]);
-    }
-    out
+    lines(
+        all,
+        &[
+            (first(14, "property"), &|one| short(one.property).to_owned()),
+            (numbers(13, "value"), &|one| shown(one.property, one.value)),
+            (numbers(13, "95 %"), &within),
+            (numbers(13, "before"), &|one| shown(one.property, one.prior)),
+            (numbers(8, "learned"), &|one| percent(one.learned.max(0.0), 0)),
+            (labels(17, "the readings"), &verdict),
+        ],
+    )
 }
 
 /// The 95 % interval about the value, in per cent.
@@ -64,40 +55,34 @@ fn within(one: &Estimated) -> String {
 }
 
 fn data(found: &Calibration, us: bool) -> String {
-    let columns = Columns::new([
-        first(18, "reading"),
-        numbers(10, "measured"),
-        numbers(10, "computed"),
-        numbers(11, "off by"),
-        numbers(10, "left out"),
-        labels(16, ""),
-    ]);
     let mut out = format!(
         "Readings beside the bat of that wood: chi2 {} of {} data\n",
         significant(found.misfit(), 3),
         found.expected
     );
-    out += &columns.heads();
-    for one in &found.data {
-        let sd = |value: f64| format!("{value:+.1} sd");
-        let flag = if one.is_outlier() { "does not fit" } else { "" };
+    let sd = |value: f64| format!("{value:+.1} sd");
+    // The name in the unit of the bat's file, and the number of these units per SI unit.
+    let named = |one: &Residual| {
         let name = one.datum.kind.name();
         let ending = ["_kg_m2", "_kg", "_m"].into_iter().find(|ending| name.ends_with(ending));
-        let (name, per) = ending.filter(|_| us).map_or((name.clone(), 1.0), |ending| {
+        ending.filter(|_| us).map_or((name.clone(), 1.0), |ending| {
             let (unit, per) = in_trade(&ending[1..], us);
             (format!("{}, {unit}", name.trim_end_matches(ending)), per)
-        });
-        out += &columns.row([
-            name,
-            significant(per * one.datum.measured, 5),
-            significant(per * one.computed, 5),
-            sd(one.residual_sd),
-            sd(one.left_out_sd),
-            flag.to_owned(),
-        ]);
-    }
-    let lines = found.labels.lines_hz.iter().zip(&found.labels.taken);
-    for (hz, _) in lines.filter(|(_, label)| label.is_none()) {
+        })
+    };
+    out += &lines(
+        &found.data,
+        &[
+            (first(18, "reading"), &|one| named(one).0),
+            (numbers(10, "measured"), &|one| significant(named(one).1 * one.datum.measured, 5)),
+            (numbers(10, "computed"), &|one| significant(named(one).1 * one.computed, 5)),
+            (numbers(11, "off by"), &|one| sd(one.residual_sd)),
+            (numbers(10, "left out"), &|one| sd(one.left_out_sd)),
+            (labels(16, ""), &|one| if one.is_outlier() { "does not fit" } else { "" }.to_owned()),
+        ],
+    );
+    let labelled = found.labels.lines_hz.iter().zip(&found.labels.taken);
+    for (hz, _) in labelled.filter(|(_, label)| label.is_none()) {
         let hz = significant(*hz, 5);
         let _ = writeln!(out, "{hz} Hz is no bending mode of this bat");
     }
@@ -305,16 +290,33 @@ fn advice(found: &Calibration) -> String {
     }
 }
 
+/// The wood of a bat by the measurements, and how well they determine it. SI units, named at the end of each member;
+/// positions count from the knob end; a value that does not exist is null. Later versions with the same number may have
+/// more members.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+#[schemars(title = "Calibration of sweetspot, sweetspot-calibrate/1")]
+pub struct CalibrateFile {
+    /// The bat.
+    pub bat: BatName,
+    /// The results.
+    #[serde(flatten)]
+    pub found: Calibration,
+    /// The measurement to make next, in words.
+    pub advice: String,
+    /// All results in sentences.
+    pub words: Vec<String>,
+}
+
+document!(CalibrateFile, "calibrate");
+
 /// The `sweetspot-calibrate/1` document.
-pub fn document(bat: &Bat, found: &Calibration) -> CalibrateFile {
-    CalibrateFile {
-        format: Format::new(),
-        generator: Generator::this(),
+pub fn document(bat: &Bat, found: &Calibration) -> Written<CalibrateFile> {
+    Written::of(CalibrateFile {
         bat: BatName::of(bat),
         found: found.clone(),
         advice: advice(found),
         words: words(found),
-    }
+    })
 }
 
 /// The columns of the parameters in files.

@@ -5,12 +5,10 @@ use serde_json::{Map, Value, json};
 use crate::report::calibrate::shown;
 use crate::report::resolved;
 use crate::schema;
-use sweetspot::base::error::Result;
 use sweetspot::base::number::percent;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::material::Material;
 use sweetspot::files::document::Document;
 use sweetspot::files::json_node::Node;
+use sweetspot::{Bat, Material, Result};
 use sweetspot_study::calibrate::calibration::{Calibration, Estimated, Verdict};
 
 /// Members that a calibrated file has anew, or no more: densities and moduli are known now.

@@ -1,13 +1,11 @@
 //! Several bats side by side: tables of 80 columns, and words.
 
-use crate::parts::columns::{Columns, first, numbers};
-use crate::parts::terminal::wrapped;
-use crate::parts::units::Units;
+use crate::parts::{Columns, Units, first, numbers, wrapped};
 use crate::report::edits;
 use crate::report::trust::doubts;
 use sweetspot::base::number::significant;
 use sweetspot::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
-use sweetspot::collision::hit::Scene;
+use sweetspot::collision::Scene;
 use sweetspot_study::comparison::contender::Contender;
 use sweetspot_study::comparison::rows::{
     Compared, ComparedFigure, Difference, From, Unit, energies_compare,
@@ -125,10 +123,10 @@ pub fn bats(comparison: &Comparison, units: Units, full: bool) -> String {
             false => format!(" (in doubt: {})", about.join(", ").replace('_', " ")),
         };
         out += &wrapped(&format!("  {}  {}{more}", letter(k), bat.name()), 5);
-        let edited =
-            (!bat.edits().is_empty()).then(|| format!("edited: {}", edits::listed(bat, units)));
         let left_out = in_hit(bat, scene).into_iter().filter(|_| full);
-        let notes = edited.into_iter().chain(left_out.map(|effect| format!("left out: {effect}")));
+        let notes = edits::noted(bat, units)
+            .into_iter()
+            .chain(left_out.map(|effect| format!("left out: {effect}")));
         notes.for_each(|note| out += &wrapped(&format!("     {note}"), 5));
     }
     out
@@ -213,7 +211,7 @@ fn overview(comparison: &Comparison, units: Units) -> String {
 
 /// A row of figures for people: label, the value of each bat, and the difference of each other bat from the first.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Row {
+pub struct ComparisonRow {
     /// Key of the figure, as in JSON and CSV.
     pub key: String,
     /// The quantity with its unit, complete without the row above it.
@@ -243,7 +241,7 @@ fn alone(figure: &ComparedFigure, unit: &str) -> String {
 }
 
 /// Every row with information, in one system of units.
-pub fn rows(comparison: &Comparison, units: Units) -> Vec<Row> {
+pub fn rows(comparison: &Comparison, units: Units) -> Vec<ComparisonRow> {
     let bats = comparison.bats.len();
     let row = |figure: &ComparedFigure| {
         let (name, factor) = units.of_energy();
@@ -255,7 +253,7 @@ pub fn rows(comparison: &Comparison, units: Units) -> Vec<Row> {
         let differences = || (1..bats).map(|bat| figure.difference(bat));
         let told = |d: Option<Difference>| d.map_or(String::new(), |d| scale.difference(d));
         let value = |v: &Option<Compared>| v.map_or(String::new(), |v| scale.value(v.value));
-        Row {
+        ComparisonRow {
             key: figure.key.clone(),
             label: alone(figure, scale.name),
             values: figure.values.iter().map(value).collect(),

@@ -1,9 +1,9 @@
 //! Several bats side by side on a screen: the important differences, then where along the barrel.
 
-use crate::parts::columns::{Columns, WIDE, first, numbers};
-use crate::parts::terminal::{Screen, wrapped};
-use crate::parts::units::Units;
-use crate::report::comparison::{FIRST, Row, along, bats, figures, hit, letter, rows, swung};
+use crate::parts::{Columns, Screen, Units, WIDE, first, numbers, wrapped};
+use crate::report::comparison::{
+    ComparisonRow, FIRST, along, bats, figures, hit, letter, rows, swung,
+};
 use crate::report::trust::doubts;
 use sweetspot_study::comparison::rows::ComparedFigure;
 use sweetspot_study::comparison::table::Comparison;
@@ -15,19 +15,22 @@ const LEFT: [&str; 4] = ["zone_from", "zone_to", "length", "balance_point"];
 /// of units, that of the file of the first unless another is requested.
 pub fn screen(comparison: &Comparison, units: Units) -> Screen {
     let one = units.first();
-    let mut out = bats(comparison, one, false) + &hit(comparison, units);
+    let head = bats(comparison, one, false) + &hit(comparison, units);
     let (differing, same) = ordered(comparison, one);
-    out += &match (comparison.bats.len(), differing.is_empty()) {
+    let mut out = match (comparison.bats.len(), differing.is_empty()) {
         (_, true) => String::new(),
         (2, _) => {
-            let keyed = |row: &Row| comparison.figures.iter().find(|figure| figure.key == row.key);
+            let keyed = |row: &ComparisonRow| {
+                comparison.figures.iter().find(|figure| figure.key == row.key)
+            };
             let all: Vec<&ComparedFigure> = differing.iter().filter_map(keyed).collect();
             figures(&all, 1, units).trim_start().to_owned()
         }
         _ => table(comparison, &differing),
     };
     if !same.is_empty() {
-        let name = |row: &Row| row.label.split(", ").next().unwrap_or_default().to_owned();
+        let name =
+            |row: &ComparisonRow| row.label.split(", ").next().unwrap_or_default().to_owned();
         let same: Vec<String> = same.iter().map(name).collect();
         out += &wrapped(&format!("No difference beyond the errors: {}", same.join(", ")), 2);
     }
@@ -40,7 +43,11 @@ pub fn screen(comparison: &Comparison, units: Units) -> Screen {
     }
     // Doubts precede anything that can be read off a table.
     let trust = doubted(comparison, one) + &beside_pieces(comparison, one);
-    [(0, "", out), (2, "where along the barrel", words), (1, "trust", trust)].into()
+    // What two bats differ in has room; of several the table goes on below.
+    let last = if comparison.bats.len() == 2 { 0 } else { 3 };
+    let differences = (last, "what differs", out);
+    let along = (2, "where along the barrel", words);
+    [(0, "", head), differences, along, (1, "trust", trust)].into()
 }
 
 /// Figures whose scatter is shown.
@@ -98,7 +105,7 @@ fn beside_pieces(comparison: &Comparison, units: Units) -> String {
 }
 
 /// The important rows, in order: first those that differ between bats, then the others.
-fn ordered(comparison: &Comparison, units: Units) -> (Vec<Row>, Vec<Row>) {
+fn ordered(comparison: &Comparison, units: Units) -> (Vec<ComparisonRow>, Vec<ComparisonRow>) {
     let mut all = rows(comparison, units);
     all.retain(|row| FIRST.contains(&row.key.as_str()) && !LEFT.contains(&row.key.as_str()));
     all.sort_by_key(|row| FIRST.iter().position(|key| row.key == *key));
@@ -106,7 +113,7 @@ fn ordered(comparison: &Comparison, units: Units) -> (Vec<Row>, Vec<Row>) {
 }
 
 /// The values of as many bats as there is room for, at least the first, and the differences of the others.
-fn table(comparison: &Comparison, differing: &[Row]) -> String {
+fn table(comparison: &Comparison, differing: &[ComparisonRow]) -> String {
     const WIDTH: usize = 9;
     let count = comparison.bats.len();
     let shown = if count == 3 { count } else { 1 };
@@ -115,7 +122,7 @@ fn table(comparison: &Comparison, differing: &[Row]) -> String {
     let heads = heads.chain((1..count).map(|k| numbers(WIDTH, format!("{} less A", letter(k)))));
     let heads = [first(label, "What differs, and by how much")].into_iter().chain(heads);
     let columns = Columns::new(heads);
-    let rows = differing.iter().map(|Row { label, values, differences, .. }| {
+    let rows = differing.iter().map(|ComparisonRow { label, values, differences, .. }| {
         columns.row([&format!("  {label}")].into_iter().chain(&values[..shown]).chain(differences))
     });
     columns.heads() + &rows.collect::<String>()

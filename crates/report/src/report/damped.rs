@@ -3,11 +3,11 @@
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
-use crate::parts::columns::{Columns, numbers};
+use crate::parts::{lines, numbers};
 use crate::schema::modes as file;
+use sweetspot::Solution;
 use sweetspot::base::number::significant;
 use sweetspot::modes::damping::DampingMethod;
-use sweetspot::modes::solve::Solution;
 
 /// A row for each mode; empty for a bat without damping.
 pub fn table(solution: &Solution) -> String {
@@ -18,26 +18,21 @@ pub fn table(solution: &Solution) -> String {
     let mut out = String::from(
         "Damping (Q, width: 1/(2 ratio); Q, amplit., as papers on bats have it: 1/ratio)\n",
     );
-    let columns = Columns::new([
-        numbers(6, "mode"),
-        numbers(18, "damped frequency"),
-        numbers(11, "ratio"),
-        numbers(12, "decay"),
-        numbers(12, "Q, width"),
-        numbers(12, "Q, amplit."),
-    ]);
-    out += &columns.heads();
     let q = |value: Option<f64>| value.map_or("none".to_owned(), |q| significant(q, 4));
-    for (mode, damped) in solution.modes.iter().zip(&damping.modes) {
-        out += &columns.row([
-            mode.order.to_string(),
-            format!("{:.2} Hz", damped.swinging() / TAU),
-            significant(damped.ratio, 3),
-            format!("{}/s", significant(damped.decay, 3)),
-            q(damped.q_half_power()),
-            q(damped.q_amplitude()),
-        ]);
-    }
+    let modes: Vec<_> = solution.modes.iter().zip(&damping.modes).collect();
+    out += &lines(
+        &modes,
+        &[
+            (numbers(6, "mode"), &|(mode, _)| mode.order.to_string()),
+            (numbers(18, "damped frequency"), &|(_, one)| {
+                format!("{:.2} Hz", one.swinging() / TAU)
+            }),
+            (numbers(11, "ratio"), &|(_, one)| significant(one.ratio, 3)),
+            (numbers(12, "decay"), &|(_, one)| format!("{}/s", significant(one.decay, 3))),
+            (numbers(12, "Q, width"), &|(_, one)| q(one.q_half_power())),
+            (numbers(12, "Q, amplit."), &|(_, one)| q(one.q_amplitude())),
+        ],
+    );
     if !damping.rigid.is_empty() {
         let rates: Vec<String> = damping.rigid.iter().map(|rate| significant(*rate, 3)).collect();
         let _ = writeln!(out, "  rigid motions decay at {}/s", rates.join("/s and "));

@@ -1,11 +1,10 @@
 //! The changes to a bat after it was weighed, in the notation of the command line.
 
-use crate::parts::units::Units;
+use crate::parts::Units;
 use sweetspot::base::number::significant;
 use sweetspot::base::units::{self, ounces};
-use sweetspot::bat::body::Bat;
 use sweetspot::bat::edit::{Change, Edit};
-use sweetspot::bat::material::Material;
+use sweetspot::{Bat, Material};
 
 /// Significant digits of a length or a mass.
 const DIGITS: usize = 4;
@@ -16,6 +15,11 @@ pub fn listed(bat: &Bat, units: Units) -> String {
     let edits: Vec<String> =
         bat.edits().iter().map(|edit| named(edit, units, bat.inches())).collect();
     edits.join("; ")
+}
+
+/// A note of the edits of a bat; None for a bat without any.
+pub fn noted(bat: &Bat, units: Units) -> Option<String> {
+    (!bat.edits().is_empty()).then(|| format!("edited: {}", listed(bat, units)))
 }
 
 fn named(edit: &Edit, units: Units, inches: bool) -> String {

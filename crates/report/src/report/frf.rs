@@ -3,15 +3,13 @@
 use std::fmt::Write;
 
 use crate::csv::Csv;
-use crate::parts::columns::{Columns, numbers};
-use crate::parts::terminal::wrapped;
-use crate::parts::units::Units;
+use crate::parts::{Units, lines, numbers, wrapped};
 use crate::report::text::edited;
+use crate::schema::Written;
 use crate::schema::frf::{
     FrfFile, Height, MeasuredAnswer, MeasuredValues, PeakBeside, PeakLine, ResponseValues,
 };
-use sweetspot::bat::body::Bat;
-use sweetspot::files::schema::document::{Format, Generator};
+use sweetspot::Bat;
 use sweetspot::motion::frf::{Frf, ResponseKind, Sample};
 use sweetspot::motion::peaks::Peak;
 use sweetspot_study::measured::response::{Laid, MeasuredResponse};
@@ -39,15 +37,13 @@ pub struct ToldResponse<'a> {
 }
 
 /// The `sweetspot-frf/1` document.
-pub fn document(told: &ToldResponse) -> FrfFile {
+pub fn document(told: &ToldResponse) -> Written<FrfFile> {
     let ToldResponse { bat, kind, places: [at, to], frf, samples, peaks, .. } = *told;
     let of = |part: &dyn Fn(&Sample) -> f64| samples.iter().map(part).collect::<Vec<f64>>();
     let value = |s: &Sample| s.receptance * kind.of(s.frequency);
     let (real, imaginary) = (of(&|s| value(s).re), of(&|s| value(s).im));
     let truncation = of(&|s| s.truncation * kind.of(s.frequency).norm());
-    FrfFile {
-        format: Format::new(),
-        generator: Generator::this(),
+    Written::of(FrfFile {
         edits: bat.edits().to_vec(),
         kind: kind.name(),
         at_m: at,
@@ -63,7 +59,7 @@ pub fn document(told: &ToldResponse) -> FrfFile {
         measured: told.measured.map(|(response, laid)| beside(kind, response, laid)),
         damping_ratios_as_measured: frf.damping_ratios().to_vec(),
         frequencies_within: frf.solution.worst(),
-    }
+    })
 }
 
 /// A peak as in a document.
@@ -194,23 +190,20 @@ pub fn text(told: &ToldResponse, full: bool, every: bool) -> String {
 /// The response at the given number of requested frequencies at most, evenly chosen.
 fn answers(told: &ToldResponse, most: usize) -> String {
     let ToldResponse { kind, samples, asked, .. } = *told;
-    let columns = Columns::new([
-        numbers(16, "frequency, Hz"),
-        numbers(19, format!("size, {}", unit(kind))),
-        numbers(15, "phase, deg"),
-    ]);
-    let mut out = columns.heads();
     let asked_for = samples.iter().filter(|sample| asked.contains(&sample.frequency));
-    for sample in asked_for.step_by(asked.len().div_ceil(most).max(1)) {
-        let value = sample.receptance * kind.of(sample.frequency);
-        let phase = phase(value.re, value.im);
-        out += &columns.row([
-            format!("{:.3}", sample.frequency),
-            format!("{:.5e}", value.norm()),
-            format!("{phase:.2}"),
-        ]);
-    }
-    out
+    let value = |sample: &Sample| sample.receptance * kind.of(sample.frequency);
+    lines(
+        asked_for.step_by(asked.len().div_ceil(most).max(1)),
+        &[
+            (numbers(16, "frequency, Hz"), &|sample| format!("{:.3}", sample.frequency)),
+            (numbers(19, format!("size, {}", unit(kind))), &|sample| {
+                format!("{:.5e}", value(sample).norm())
+            }),
+            (numbers(15, "phase, deg"), &|sample| {
+                format!("{:.2}", phase(value(sample).re, value(sample).im))
+            }),
+        ],
+    )
 }
 
 /// The number of peaks not shown; empty where all are.
@@ -256,36 +249,29 @@ fn differences(
     let title = format!("\nMeasured, {}, at {} frequencies", response.source, laid.measured.len());
     let mut out = wrapped(&title, 4);
     out += &damping(bat, frf);
-    let columns = Columns::new([
-        numbers(6, "mode"),
-        numbers(14, "computed, Hz"),
-        numbers(14, "measured, Hz"),
-        numbers(10, "apart, %"),
-        numbers(12, "higher, dB"),
-        numbers(11, "damping, %"),
-        numbers(11, "measured"),
-    ]);
-    out += &columns.heads();
-    let percent = |peak: &Peak| match peak.damping_ratio() {
-        Some(ratio) => format!("{:.3}", 100.0 * ratio),
-        None => "-".to_owned(),
+    let none = || "-".to_owned();
+    let percent = |peak: &Peak| {
+        peak.damping_ratio().map_or_else(none, |ratio| format!("{:.3}", 100.0 * ratio))
     };
-    for (computed, measured) in laid.peaks.iter().take(most) {
-        let none = || "-".to_owned();
-        let of = |text: &dyn Fn(&Peak) -> String| measured.as_ref().map_or_else(none, text);
-        let apart = |m: &Peak| format!("{:+.2}", 100.0 * (computed.frequency / m.frequency - 1.0));
-        let higher = |m: &Peak| level(computed, m).map_or_else(none, |db| format!("{db:+.1}"));
-        let cells = [
-            computed.mode.to_string(),
-            format!("{:.2}", computed.frequency),
-            of(&|m| format!("{:.2}", m.frequency)),
-            of(&apart),
-            of(&higher),
-            percent(computed),
-            of(&percent),
-        ];
-        out += &columns.row(cells);
-    }
+    let hertz = |peak: &Peak| format!("{:.2}", peak.frequency);
+    out += &lines(
+        laid.peaks.iter().take(most),
+        &[
+            (numbers(6, "mode"), &|(peak, _)| peak.mode.to_string()),
+            (numbers(14, "computed, Hz"), &|(peak, _)| hertz(peak)),
+            (numbers(14, "measured, Hz"), &|(_, m)| m.as_ref().map_or_else(none, hertz)),
+            (numbers(10, "apart, %"), &|(peak, m)| {
+                let apart = |m: Peak| 100.0 * (peak.frequency / m.frequency - 1.0);
+                m.map_or_else(none, |m| format!("{:+.2}", apart(m)))
+            }),
+            (numbers(12, "higher, dB"), &|(peak, m)| {
+                let level = m.as_ref().and_then(|m| level(peak, m));
+                level.map_or_else(none, |db| format!("{db:+.1}"))
+            }),
+            (numbers(11, "damping, %"), &|(peak, _)| percent(peak)),
+            (numbers(11, "measured"), &|(_, m)| m.as_ref().map_or_else(none, percent)),
+        ],
+    );
     out += &beyond(laid.peaks.len(), most);
     let Laid { frac, level, apart, .. } = laid;
     let side = if *level < 0.0 { "below" } else { "above" };
@@ -307,22 +293,18 @@ fn listed(kind: ResponseKind, peaks: &[Peak], most: usize) -> String {
     if peaks.is_empty() {
         return String::new();
     }
-    let columns = Columns::new([
-        numbers(16, "peak, Hz"),
-        numbers(19, format!("size, {}", unit(kind))),
-        numbers(15, "damping, %"),
-        numbers(8, "mode"),
-    ]);
-    let mut out = columns.heads();
-    for peak in peaks.iter().take(most) {
-        let ratio = peak.damping_ratio().map(|ratio| format!("{:.3}", 100.0 * ratio));
-        out += &columns.row([
-            format!("{:.3}", peak.frequency),
-            peak.height.map_or("no bound".into(), |height| format!("{height:.5e}")),
-            ratio.unwrap_or_else(|| "-".into()),
-            peak.mode.to_string(),
-        ]);
-    }
+    let ratio = |ratio: f64| format!("{:.3}", 100.0 * ratio);
+    let mut out = lines(
+        peaks.iter().take(most),
+        &[
+            (numbers(16, "peak, Hz"), &|peak| format!("{:.3}", peak.frequency)),
+            (numbers(19, format!("size, {}", unit(kind))), &|peak| {
+                peak.height.map_or("no bound".into(), |height| format!("{height:.5e}"))
+            }),
+            (numbers(15, "damping, %"), &|peak| peak.damping_ratio().map_or("-".into(), ratio)),
+            (numbers(8, "mode"), &|peak| peak.mode.to_string()),
+        ],
+    );
     out += &beyond(peaks.len(), most);
     if peaks.iter().any(|peak| peak.height.is_none()) {
         out += "  no bound: nothing damps the bat; give the material a loss_factor\n";

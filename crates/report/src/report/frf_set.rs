@@ -1,13 +1,10 @@
 //! The measured responses of one file compared with the computed ones: a row each.
 
 use crate::csv;
-use crate::parts::columns::{Columns, numbers};
-use crate::parts::table::Column;
-use crate::parts::terminal::wrapped;
-use crate::parts::units::Units;
+use crate::parts::{Column, Units, lines, numbers, wrapped};
 use crate::report::frf::{FRAC, ToldResponse, damping};
 use crate::report::text::edited;
-use sweetspot::bat::body::Bat;
+use sweetspot::Bat;
 use sweetspot_study::measured::response::{Laid, MeasuredResponse};
 
 /// A measured response compared with the computed one.
@@ -62,36 +59,26 @@ pub fn text(bat: &Bat, source: &str, rows: &[RowOfSet], (units, full): (Units, b
     let title = format!("Measured frequency responses of {source} beside {}", bat.name());
     let mut out = wrapped(&title, 4) + &edited(bat, units);
     out += &rows.first().map_or(String::new(), |row| row.damping.clone());
-    let columns = Columns::new([
-        numbers(4, "no."),
-        numbers(10, "force at"),
-        numbers(10, "answer at"),
-        numbers(7, "FRAC"),
-        numbers(11, "higher, dB"),
-        numbers(10, "apart, dB"),
-        numbers(9, "peaks"),
-        numbers(13, "frequency, %"),
-    ]);
-    out += &columns.heads();
     let mut shown: Vec<&RowOfSet> = rows.iter().collect();
     shown.sort_by(|a, b| a.frac.total_cmp(&b.frac));
     let more = if full { 0 } else { rows.len().saturating_sub(FEW) };
     shown.truncate(rows.len() - more);
     shown.sort_by_key(|row| row.number);
-    for row in shown {
-        let [at, to] = row.places.map(|x| units.length(x));
-        let frequencies = row.frequencies.map(|apart| format!("{:.2}", 100.0 * apart));
-        out += &columns.row([
-            row.number.to_string(),
-            at,
-            to,
-            format!("{:.3}", row.frac),
-            format!("{:+.1}", row.level),
-            format!("{:.1}", row.apart),
-            format!("{} of {}", row.pairs[0], row.pairs[1]),
-            frequencies.unwrap_or_else(|| "-".to_owned()),
-        ]);
-    }
+    out += &lines(
+        shown,
+        &[
+            (numbers(4, "no."), &|row| row.number.to_string()),
+            (numbers(10, "force at"), &|row| units.length(row.places[0])),
+            (numbers(10, "answer at"), &|row| units.length(row.places[1])),
+            (numbers(7, "FRAC"), &|row| format!("{:.3}", row.frac)),
+            (numbers(11, "higher, dB"), &|row| format!("{:+.1}", row.level)),
+            (numbers(10, "apart, dB"), &|row| format!("{:.1}", row.apart)),
+            (numbers(9, "peaks"), &|row| format!("{} of {}", row.pairs[0], row.pairs[1])),
+            (numbers(13, "frequency, %"), &|row| {
+                row.frequencies.map_or("-".to_owned(), |apart| format!("{:.2}", 100.0 * apart))
+            }),
+        ],
+    );
     if more > 0 {
         out += &format!("  and {more} more that are more alike\n");
     }

@@ -1,11 +1,10 @@
 //! The JSON file of a hit, in SI, the unit in every key's name.
 
 use crate::schema::hit as file;
-use sweetspot::bat::body::Bat;
-use sweetspot::collision::columns;
+use sweetspot::Bat;
 use sweetspot::collision::figures::{BarrelSpeed, Figures};
-use sweetspot::collision::hit::{Impact, Model, Scene, Wall};
-use sweetspot::collision::sweet_spot::SweetSpot;
+use sweetspot::collision::hit::Wall;
+use sweetspot::collision::{Impact, Model, Scene, SweetSpot, columns};
 use sweetspot::files::schema::document::{Format, Generator};
 use sweetspot_study::ignored;
 

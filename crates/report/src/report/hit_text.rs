@@ -2,19 +2,16 @@
 
 use std::fmt::Write;
 
-use crate::parts::columns::{Columns, numbers};
-use crate::parts::terminal::wrapped;
-use crate::parts::units::Units;
-use crate::report::curve;
-use crate::report::edits;
+use crate::parts::{Columns, Units, numbers, wrapped};
 use crate::report::wall_text::{wall_facts, wall_words};
+use crate::report::{curve, edits};
+use sweetspot::Bat;
 use sweetspot::base::number::signed;
 use sweetspot::base::units::{gravities, inches, miles_per_hour};
-use sweetspot::bat::body::Bat;
 use sweetspot::collision::columns::{self, Column};
 use sweetspot::collision::figures::{BarrelSpeed, Figures, Moved};
-use sweetspot::collision::sweet_spot::{Peak, SweetSpot};
-use sweetspot::collision::{Impact, Model, Scene, Sweep};
+use sweetspot::collision::sweet_spot::Peak;
+use sweetspot::collision::{Impact, Model, Scene, Sweep, SweetSpot};
 use sweetspot_study::ignored;
 
 /// The meaning of the flags of hits, and their letters in the table.

@@ -1,35 +1,82 @@
 //! How a barrel rings and how its wall affects a ball: the document, the table, sentences and a summary.
 
+use schemars::JsonSchema;
+use serde::Serialize;
+
 use crate::csv::rows;
-use crate::parts::columns::{Columns, first, labels, numbers};
-use crate::parts::table::Column;
-use crate::parts::terminal::wrapped;
-use crate::parts::units::Units;
+use crate::parts::{Column, Units, first, labels, lines, numbers, wrapped};
 use crate::report::hoop_notes::notes;
 use crate::report::text::edited;
-use crate::schema::hoop::{HoopFile, ShapedMode};
+use crate::schema::{Written, document};
+use sweetspot::Bat;
 use sweetspot::base::number::{rounded, significant};
 use sweetspot::base::units::{POUND_FORCE, inches};
-use sweetspot::bat::body::Bat;
-use sweetspot::files::schema::document::{Format, Generator};
-use sweetspot::modes::hoop::HoopMode;
-use sweetspot_study::trampoline::barrel::{Barrel, Rebound};
+use sweetspot::bat::edit::Edit;
+use sweetspot::modes::hoop::{HoopMode, Outline};
+use sweetspot_study::trampoline::barrel::{Barrel, HoopModel, Rebound};
 use sweetspot_study::trampoline::pressed::{BarrelCompression, HarmonicShare, PressedWall};
 use sweetspot_study::trampoline::thickness::{FACTORS, WallTried};
 
 const MM: f64 = 1e-3;
 const MEGA: f64 = 1e6;
 
+/// How the barrel of a hollow bat rings, how its wall deforms under a ball, and how that affects the ball. SI units,
+/// named at the end of each member; positions count from the knob end; a value that does not exist is null. Later
+/// versions with the same number may have more members.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[schemars(title = "Hoop file of sweetspot, sweetspot-hoop/1")]
+pub struct HoopFile {
+    /// Name of the bat.
+    pub bat_name: String,
+    /// Changes made to the bat after it was weighed; left out where there are none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub edits: Vec<Edit>,
+    /// The model of the modes.
+    pub model: HoopModel,
+    /// Every mode found, ordered by harmonic and then by frequency.
+    pub modes: Vec<ShapedMode>,
+    /// The wall under the ball; null where the ball does not meet the stretch that is modelled.
+    pub wall: Option<PressedWall>,
+    /// How fast the ball comes back; null without a wall under it and for a ball without a force law.
+    pub bbcor: Option<Rebound>,
+    /// The predicted result of a barrel compression test; null where there is no wall under the ball.
+    pub compression: Option<BarrelCompression>,
+    /// The bat with thinner and thicker walls and the same outer surface; left out where this was not requested.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub wall_sweep: Vec<WallTried>,
+    /// Assumptions and limits of the model, one sentence each.
+    pub notes: Vec<String>,
+    /// Whether every frequency is as accurate as requested.
+    pub tolerance_met: bool,
+}
+
+document!(HoopFile, "hoop");
+
+/// A mode of the wall, and the motion of the outer surface in it.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[schemars(rename = "HoopMode")]
+pub struct ShapedMode {
+    /// The mode.
+    #[serde(flatten)]
+    pub mode: HoopMode,
+    /// Motion of the outer surface; left out where no samples were requested.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shape: Option<Outline>,
+}
+
 /// The `sweetspot-hoop/1` document, with the given number of samples of the shape of each mode.
-pub fn document(bat: &Bat, barrel: &Barrel, tried: &[WallTried], samples: usize) -> HoopFile {
+pub fn document(
+    bat: &Bat,
+    barrel: &Barrel,
+    tried: &[WallTried],
+    samples: usize,
+) -> Written<HoopFile> {
     let hoop = barrel.hoop();
     let modes = hoop.modes().iter().enumerate().map(|(k, mode)| ShapedMode {
         mode: mode.clone(),
         shape: (samples > 0).then(|| hoop.outline(k, samples)),
     });
-    HoopFile {
-        format: Format::new(),
-        generator: Generator::this(),
+    Written::of(HoopFile {
         bat_name: bat.name().to_owned(),
         edits: bat.edits().to_vec(),
         model: barrel.model.clone(),
@@ -40,7 +87,7 @@ pub fn document(bat: &Bat, barrel: &Barrel, tried: &[WallTried], samples: usize)
         wall_sweep: tried.to_vec(),
         notes: notes(barrel, Units::Si),
         tolerance_met: barrel.met(),
-    }
+    })
 }
 
 /// A mode, and the distance from the tip where it moves most (m).
@@ -79,26 +126,19 @@ pub fn text(bat: &Bat, barrel: &Barrel, most: usize, units: Units) -> [String; 2
 
 /// The lowest modes of two and more waves around.
 fn modes(bat: &Bat, barrel: &Barrel, most: usize, units: Units) -> String {
-    let columns = Columns::new([
-        numbers(5, "n"),
-        numbers(4, "m"),
-        numbers(15, "frequency"),
-        numbers(3, ""),
-        first(17, "relative error"),
-        labels(24, "largest at, from tip"),
-    ]);
-    let mut out = columns.heads();
-    for mode in barrel.hoop().lowest(most) {
-        out += &columns.row([
-            mode.harmonic.to_string(),
-            mode.order.to_string(),
-            format!("{:.2} Hz", mode.frequency_hz),
-            String::new(),
-            format!("within {:.0e}", mode.error),
-            units.inline(units.length((bat.length() - mode.largest_at_m).max(0.0))),
-        ]);
-    }
-    out
+    lines(
+        barrel.hoop().lowest(most),
+        &[
+            (numbers(5, "n"), &|mode| mode.harmonic.to_string()),
+            (numbers(4, "m"), &|mode| mode.order.to_string()),
+            (numbers(15, "frequency"), &|mode| format!("{:.2} Hz", mode.frequency_hz)),
+            (numbers(3, ""), &|_| String::new()),
+            (first(17, "relative error"), &|mode| format!("within {:.0e}", mode.error)),
+            (labels(24, "largest at, from tip"), &|mode| {
+                units.inline(units.length((bat.length() - mode.largest_at_m).max(0.0)))
+            }),
+        ],
+    )
 }
 
 /// The wall under the ball, the rebound, the compression and the remarks, each broken into lines.
@@ -230,29 +270,21 @@ pub fn in_short(barrel: &Barrel, units: Units) -> String {
 
 /// The bat with other walls, a line for each.
 pub fn sweep(tried: &[WallTried], units: Units) -> String {
-    let columns = Columns::new([
-        labels(18, "wall under the ball"),
-        numbers(7, "times"),
-        numbers(11, "n=2, m=1"),
-        numbers(11, "stiffness"),
-        numbers(7, "stiff"),
-        numbers(7, "BBCOR"),
-        labels(15, "range"),
-    ]);
     let mut out = String::from("\nBBCOR against wall thickness, the surface where it is\n");
-    out += &columns.heads();
-    for tried in tried {
-        let [low, high] = tried.range;
-        out += &columns.row([
-            small(units, tried.thickness_m),
-            format!("{:.1}", tried.factor),
-            format!("{:.0} Hz", tried.frequency_hz),
-            format!("{} MN/m", significant(tried.stiffness_n_m / MEGA, 3)),
-            format!("{:.3}", tried.stiff),
-            format!("{:.3}", tried.wall),
-            format!("{low:.3} to {high:.3}"),
-        ]);
-    }
+    out += &lines(
+        tried,
+        &[
+            (labels(18, "wall under the ball"), &|one| small(units, one.thickness_m)),
+            (numbers(7, "times"), &|one| format!("{:.1}", one.factor)),
+            (numbers(11, "n=2, m=1"), &|one| format!("{:.0} Hz", one.frequency_hz)),
+            (numbers(11, "stiffness"), &|one| {
+                format!("{} MN/m", significant(one.stiffness_n_m / MEGA, 3))
+            }),
+            (numbers(7, "stiff"), &|one| format!("{:.3}", one.stiff)),
+            (numbers(7, "BBCOR"), &|one| format!("{:.3}", one.wall)),
+            (labels(15, "range"), &|one| format!("{:.3} to {:.3}", one.range[0], one.range[1])),
+        ],
+    );
     if tried.len() < FACTORS.len() {
         let missing = "Walls of the other thicknesses cannot be made of this bat: its layers or its bore \
                        leave no room for them.";

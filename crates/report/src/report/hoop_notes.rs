@@ -1,9 +1,9 @@
 //! The assumptions about a barrel and the limits of its model, in sentences.
 
-use crate::parts::units::Units;
+use crate::parts::Units;
 use sweetspot::base::number::significant;
 use sweetspot::beam::wall::elastic::ASSUMED_POISSON_RATIO;
-use sweetspot::collision::ball::Ball;
+use sweetspot::collision::Ball;
 use sweetspot::modes::hoop::{Note, Patch};
 use sweetspot_study::trampoline::barrel::Barrel;
 

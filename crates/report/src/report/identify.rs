@@ -1,16 +1,14 @@
 //! Modes that measured responses share: table, JSON, CSV, words.
 
 use crate::csv;
-use crate::parts::columns::{Columns, first, numbers};
-use crate::parts::table::Column;
-use crate::parts::terminal::{Piece, wrapped};
+use crate::parts::{Column, Piece, Shown, first, lines, numbers, wrapped};
+use crate::schema::Written;
 use crate::schema::identify::{
     IdentifyFile, IdentifyMode, IdentifyPlace, IdentifyPlanned, IdentifyPoint, IdentifySaid,
     IdentifySimulated,
 };
+use sweetspot::Mode;
 use sweetspot::base::number::{percent, significant};
-use sweetspot::files::schema::document::{Format, Generator};
-use sweetspot::modes::mode::Mode;
 use sweetspot_study::identify::modes::{Identified, SharedMode, placed};
 use sweetspot_study::identify::set::{Place, ResponseSet};
 use sweetspot_study::identify::simulate::{ASSUMED_LOSS, Simulated, VirtualTest};
@@ -71,57 +69,50 @@ impl IdentifyReport<'_> {
     }
 
     fn table(&self) -> String {
-        let columns = Columns::new([
-            first(20, "frequency"),
-            numbers(20, "damping ratio"),
-            numbers(9, "in phase"),
-            numbers(13, "modal mass"),
-            numbers(14, "stable from"),
-        ]);
-        let row = |mode: &SharedMode| {
-            columns.row([
-                frequency(&mode.frequency),
-                ratio(&mode.damping),
-                format!("{:.3}", mode.collinearity),
-                mode.modal_mass.map_or("-".to_owned(), |m| format!("{} kg", significant(m, 3))),
-                format!("{} of {}", mode.orders[0], mode.orders[1]),
-            ])
-        };
-        match self.found.modes.as_slice() {
-            [] => String::new(),
-            modes => {
-                let weighed = modes.iter().any(|mode| mode.modal_mass.is_some());
-                let scale = "Modal masses are for the largest measured deflection 1.";
-                let scale = if weighed { wrapped(scale, 2) } else { String::new() };
-                columns.heads() + &modes.iter().map(row).collect::<String>() + &scale
-            }
+        if self.found.modes.is_empty() {
+            return String::new();
         }
+        let weighed = self.found.modes.iter().any(|mode| mode.modal_mass.is_some());
+        let scale = "Modal masses are for the largest measured deflection 1.";
+        let scale = if weighed { wrapped(scale, 2) } else { String::new() };
+        let columns: &[Shown<SharedMode>] = &[
+            (first(20, "frequency"), &|mode| frequency(&mode.frequency)),
+            (numbers(20, "damping ratio"), &|mode| ratio(&mode.damping)),
+            (numbers(9, "in phase"), &|mode| format!("{:.3}", mode.collinearity)),
+            (numbers(13, "modal mass"), &|mode| {
+                mode.modal_mass.map_or("-".to_owned(), |m| format!("{} kg", significant(m, 3)))
+            }),
+            (numbers(14, "stable from"), &|mode| {
+                format!("{} of {}", mode.orders[0], mode.orders[1])
+            }),
+        ];
+        lines(&self.found.modes, columns) + &scale
     }
 
     /// The modes of the bat compared with those found in the virtual test.
     fn planned_table(&self, test: &Simulated) -> String {
-        let columns = Columns::new([
-            first(6, "mode"),
-            numbers(14, "the bat alone"),
-            numbers(14, "by the masses"),
-            numbers(26, "found, without them"),
-            numbers(10, "off"),
-            numbers(8, "MAC"),
-        ]);
+        type Planned = (IdentifyPlanned, Option<Within>);
         let signed = |share: f64| format!("{:+.3} %", 100.0 * share).replace("-0.000", "+0.000");
-        let row = |(one, matched): (IdentifyPlanned, Option<(usize, f64)>)| {
-            let found = matched.map(|(k, _)| self.found.modes[k].frequency);
-            columns.row([
-                one.order.to_string(),
-                format!("{} Hz", significant(one.frequency_hz, 6)),
-                signed(one.by_masses),
-                found.map_or("missed".to_owned(), |within| frequency(&within)),
-                found.map_or(String::new(), |within| signed(within.value / one.frequency_hz - 1.0)),
-                one.mac.map_or(String::new(), |mac| format!("{mac:.3}")),
-            ])
-        };
-        let rows = self.planned(test).into_iter().zip(test.matched(self.found)).map(row);
-        columns.heads() + &rows.collect::<String>()
+        let found = |(k, _): (usize, f64)| self.found.modes[k].frequency;
+        let matched = test.matched(self.found).into_iter().map(|one| one.map(found));
+        let rows: Vec<Planned> = self.planned(test).into_iter().zip(matched).collect();
+        let columns: &[Shown<Planned>] = &[
+            (first(6, "mode"), &|(one, _)| one.order.to_string()),
+            (numbers(14, "the bat alone"), &|(one, _)| {
+                format!("{} Hz", significant(one.frequency_hz, 6))
+            }),
+            (numbers(14, "by the masses"), &|(one, _)| signed(one.by_masses)),
+            (numbers(26, "found, without them"), &|(_, found)| {
+                found.as_ref().map_or("missed".to_owned(), frequency)
+            }),
+            (numbers(10, "off"), &|(one, found)| {
+                found.map_or(String::new(), |found| signed(found.value / one.frequency_hz - 1.0))
+            }),
+            (numbers(8, "MAC"), &|(one, _)| {
+                one.mac.map_or(String::new(), |mac| format!("{mac:.3}"))
+            }),
+        ];
+        lines(&rows, columns)
     }
 
     fn planned(&self, test: &Simulated) -> Vec<IdentifyPlanned> {
@@ -250,13 +241,11 @@ impl IdentifyReport<'_> {
     }
 
     /// The `sweetspot-identify/1` document.
-    pub fn document(&self) -> IdentifyFile {
+    pub fn document(&self) -> Written<IdentifyFile> {
         let (set, found) = (self.set, self.found);
         let place = |place: &Place| IdentifyPlace { node: place.node, x_m: place.x };
         let orders = found.orders.iter().map(|poles| poles.iter().map(|pole| pole.hz).collect());
-        IdentifyFile {
-            format: Format::new(),
-            generator: Generator::this(),
+        Written::of(IdentifyFile {
             responses: set.responses.len(),
             roved: roved(set).to_owned(),
             references: set.references.iter().map(place).collect(),
@@ -282,7 +271,7 @@ impl IdentifyReport<'_> {
                 force_db: test.force_db,
             }),
             warnings: self.said(),
-        }
+        })
     }
 
     fn modes(&self) -> Vec<IdentifyMode> {

@@ -6,10 +6,10 @@
 use crate::report::damped;
 use crate::report::resolved::resolved;
 use crate::schema::modes as file;
-use sweetspot::bat::body::{Bat, STANDARD_PIVOT};
+use sweetspot::bat::body::STANDARD_PIVOT;
 use sweetspot::bat::weighed::Weighed;
 use sweetspot::files::schema::document::{Format, Generator};
-use sweetspot::modes::solve::Solution;
+use sweetspot::{Bat, Solution};
 use sweetspot_study::ignored::ignored;
 use sweetspot_study::trade::reference::solver_name;
 

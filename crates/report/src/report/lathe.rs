@@ -1,19 +1,20 @@
 //! The effect of a cut, band by band: sentences, CSV and JSON. The table is in [`crate::report::lathe_table`].
 
+use schemars::JsonSchema;
+use serde::Serialize;
+
 use crate::csv::Csv;
-use crate::parts::cell::Cell;
-use crate::parts::terminal::wrapped;
-use crate::parts::units::Units;
+use crate::parts::{Cell, Units, wrapped};
 use crate::report::hit_json::scene_out;
 use crate::report::lathe_table::{TableUnits, legend, table};
 use crate::report::text::edited;
-use crate::schema::lathe::LatheFile;
+use crate::schema::{Written, document, hit};
 use sweetspot::base::number::significant;
 use sweetspot::bat::body::STANDARD_PIVOT;
-use sweetspot::collision::hit::{Model, Scene};
-use sweetspot::files::schema::document::{Format, Generator};
+use sweetspot::bat::edit::Edit;
+use sweetspot::collision::{Model, Scene};
 use sweetspot_study::answers::Answer;
-use sweetspot_study::lathe::found::{TurnedBand, WholeChange};
+use sweetspot_study::lathe::found::{LatheFound, TurnedBand, WholeChange};
 use sweetspot_study::lathe::gauges::WhyNotSmooth;
 use sweetspot_study::lathe::map::LatheMap;
 use sweetspot_study::lathe::recipe::{RecipeCut, least_wood};
@@ -203,19 +204,43 @@ fn wholes(map: &LatheMap, shown: TableUnits) -> String {
     out
 }
 
+/// How cuts and weights change a bat. SI units, named at the end of each member; positions count from the knob end; a
+/// value that does not exist is null. Changes of bands are per millimetre of diameter removed. Later versions with the
+/// same number may have more members.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[schemars(title = "Lathe file of sweetspot, sweetspot-lathe/1")]
+pub struct LatheFile {
+    /// Name of the bat.
+    pub bat_name: String,
+    /// Changes made to the bat before; left out where there are none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub edits: Vec<Edit>,
+    /// The collision model: how the bending of the bat is treated in hits.
+    #[schemars(extend("enum" = ["rigid", "energy-loss", "pulse", "contact"]))]
+    pub model: String,
+    /// The swing and the ball.
+    pub scene: hit::Scene,
+    /// The beam theory of the modes.
+    #[schemars(extend("enum" = ["euler-bernoulli", "rayleigh", "timoshenko"]))]
+    pub theory: String,
+    /// The results.
+    #[serde(flatten)]
+    pub found: LatheFound,
+}
+
+document!(LatheFile, "lathe");
+
 /// The `sweetspot-lathe/1` document.
-pub fn document(map: &LatheMap, scene: &Scene, model: Model) -> LatheFile {
+pub fn document(map: &LatheMap, scene: &Scene, model: Model) -> Written<LatheFile> {
     let bat = map.piece.bat();
-    LatheFile {
-        format: Format::new(),
-        generator: Generator::this(),
+    Written::of(LatheFile {
         bat_name: bat.name().to_owned(),
         edits: bat.edits().to_vec(),
         model: model.name().to_owned(),
         scene: scene_out(bat, scene),
         theory: map.piece.solution().theory.name().to_owned(),
         found: map.found.clone(),
-    }
+    })
 }
 
 /// A line for each band, SI, per mm of diameter removed.

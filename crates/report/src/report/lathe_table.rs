@@ -1,7 +1,7 @@
 //! The table of a lathe map: a row for each band, a column for each answer.
 
-use crate::parts::columns::{Column, Columns, numbers};
-use crate::parts::units::Units;
+use crate::parts::columns::TextColumn;
+use crate::parts::{Columns, Units, numbers};
 use sweetspot::base::number::{rounded, signed};
 use sweetspot::base::units::{inches, miles_per_hour, ounce_square_inches, ounces};
 use sweetspot_study::answers::Answer;
@@ -92,7 +92,7 @@ struct LatheColumn {
 }
 
 impl LatheColumn {
-    fn column(&self) -> Column {
+    fn column(&self) -> TextColumn {
         numbers(self.width, self.head[0].clone())
     }
 }

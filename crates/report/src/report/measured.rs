@@ -4,14 +4,11 @@ use std::fmt::Write;
 
 use faer::c64;
 
-use crate::parts::columns::{Columns, labels, numbers};
-use crate::parts::terminal::wrapped;
-use crate::parts::units::Units;
+use crate::parts::{Columns, Units, labels, numbers, wrapped};
 use crate::report::text::edited;
-use crate::schema::measured as file;
+use crate::schema::{Written, measured as file};
+use sweetspot::Bat;
 use sweetspot::base::number::{percent, signed};
-use sweetspot::bat::body::Bat;
-use sweetspot::files::schema::document::{Format, Generator};
 use sweetspot_study::measured::pairing::{LEAST, octaves};
 use sweetspot_study::measured::study::{Pair, Shapes, Study};
 use sweetspot_study::measured::words::words;
@@ -240,7 +237,7 @@ fn common(study: &Study, shapes: &Shapes) -> String {
 }
 
 /// The `sweetspot-measured/1` document; `file` is the name of the bat's file.
-pub fn document(bat: &Bat, file: &str, study: &Study) -> file::MeasuredFile {
+pub fn document(bat: &Bat, file: &str, study: &Study) -> Written<file::MeasuredFile> {
     let solution = &study.solution;
     let computed = solution.modes.iter().enumerate().map(|(k, mode)| file::ComputedMode {
         order: mode.order,
@@ -248,9 +245,7 @@ pub fn document(bat: &Bat, file: &str, study: &Study) -> file::MeasuredFile {
         damping_ratio: solution.damping.modes.get(k).map_or(0.0, |damped| damped.ratio),
         error: Some(mode.error.total()),
     });
-    file::MeasuredFile {
-        format: Format::new(),
-        generator: Generator::this(),
+    Written::of(file::MeasuredFile {
         bat: file::ComputedBat {
             name: bat.name().to_owned(),
             file: file.to_owned(),
@@ -267,7 +262,7 @@ pub fn document(bat: &Bat, file: &str, study: &Study) -> file::MeasuredFile {
         unpaired_computed: study.lone_computed.iter().map(|k| k + 1).collect(),
         words: words(study),
         shapes: study.shapes.clone(),
-    }
+    })
 }
 
 fn names(study: &Study, modes: &[usize]) -> Vec<String> {

@@ -33,6 +33,7 @@ pub mod lathe_table;
 pub mod lathe;
 pub mod hoop_notes;
 pub mod hoop;
+pub mod whole;
 pub mod calibrate;
 pub mod tap;
 pub mod identify;

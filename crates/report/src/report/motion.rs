@@ -1,11 +1,8 @@
 //! How a bat moves after a blow, on one screen.
 
-use crate::parts::columns::{Columns, numbers};
-use crate::parts::terminal::wrapped;
-use crate::parts::units::Units;
+use crate::parts::{Columns, Units, numbers, wrapped};
 use sweetspot::base::units::inches;
-use sweetspot::bat::body::Bat;
-use sweetspot::modes::solve::Solution;
+use sweetspot::{Bat, Solution};
 
 /// Deflections (m) at places of a bat, a frame for every instant.
 pub struct Frames<'a> {

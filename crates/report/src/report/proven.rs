@@ -1,7 +1,6 @@
 //! How are proven frequencies written, with both ends rounded outwards?
 
-use crate::parts::columns::{Columns, first, numbers};
-use crate::parts::terminal::wrapped;
+use crate::parts::{first, lines, numbers, wrapped};
 use crate::schema::modes as file;
 use sweetspot_proof::enclosure::guarantee::Guarantee;
 use sweetspot_proof::enclosure::within::{Band, Within};
@@ -82,24 +81,22 @@ pub fn text(proven: &Proven) -> String {
         0 => format!("Proven of the exact beam: none of {asked} modes\n"),
         _ => "Proven of the exact beam, no mode missing between them\n".to_owned(),
     };
-    let columns = Columns::new([
-        numbers(6, "mode"),
-        numbers(3, ""),
-        first(22, "not below, Hz"),
-        first(22, "not above, Hz"),
-        first(12, "width"),
-    ]);
     let mut rows = |title: &str, all: &[[f64; 2]]| {
         if all.is_empty() {
             return;
         }
+        let numbered: Vec<(usize, [f64; 2])> = (1..).zip(all.iter().copied()).collect();
         out += title;
-        out += &columns.heads();
-        for (k, hertz) in all.iter().enumerate() {
-            let [lower, upper] = decimals(*hertz);
-            let width = format!("{:.0e}", hertz[1] / hertz[0] - 1.0);
-            out += &columns.row([(k + 1).to_string(), String::new(), lower, upper, width]);
-        }
+        out += &lines(
+            &numbered,
+            &[
+                (numbers(6, "mode"), &|(k, _)| k.to_string()),
+                (numbers(3, ""), &|_| String::new()),
+                (first(22, "not below, Hz"), &|(_, hertz)| decimals(*hertz)[0].clone()),
+                (first(22, "not above, Hz"), &|(_, hertz)| decimals(*hertz)[1].clone()),
+                (first(12, "width"), &|(_, hertz)| format!("{:.0e}", hertz[1] / hertz[0] - 1.0)),
+            ],
+        );
     };
     let all: Vec<[f64; 2]> = guarantee.modes.iter().map(|mode| mode.hertz).collect();
     rows("", &all);

@@ -5,12 +5,12 @@ use serde_json::{Value, json};
 use crate::schema;
 use sweetspot::base::number::{rounded, shortest};
 use sweetspot::base::units::inches;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::profile::{FormulaPiece, Formulas, Interpolation, Profile, Stations};
+use sweetspot::bat::profile::{FormulaPiece, Formulas, Interpolation, Stations};
 use sweetspot::bat::weighed::Weighed;
 use sweetspot::files::schema::document::Format;
 use sweetspot::files::schema::resolved as file;
 use sweetspot::files::schema::resolved::ResolvedBat;
+use sweetspot::{Bat, Profile};
 
 /// The bat as understood: SI units, defaults filled in, materials adjusted to the scale. Read as a bat file it gives
 /// the same bat.

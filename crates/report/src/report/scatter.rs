@@ -1,15 +1,15 @@
 //! How much bats of one model differ: table, JSON, CSV, the bats.
 
+use schemars::JsonSchema;
+use serde::Serialize;
+
 use crate::csv::Csv;
-use crate::parts::cell::Cell;
-use crate::parts::columns::{Columns, first, numbers};
-use crate::parts::terminal::wrapped;
-use crate::parts::units::in_trade;
+use crate::parts::{Cell, Columns, first, in_trade, lines, numbers, wrapped};
 use crate::report::shares::{LITTLE, shares_of};
-use crate::schema::scatter::ScatterResult;
+use crate::schema::{Written, document};
+use sweetspot::Bat;
 use sweetspot::base::number::{percent, significant};
-use sweetspot::bat::body::Bat;
-use sweetspot::files::schema::document::{BatName, Format, Generator};
+use sweetspot::files::schema::document::BatName;
 use sweetspot_study::many::indices::Indices;
 use sweetspot_study::scatter::rows::ScatterRows;
 use sweetspot_study::scatter::scattered::{
@@ -65,18 +65,24 @@ fn error(one: &Percentile, per: f64) -> String {
 
 /// The middle bat and the ends of the nine tenths about it, a row for every output.
 fn middle(outputs: &[OutputSpread], us: bool) -> String {
-    let columns = [numbers(11, "5 %"), numbers(11, "50 %"), numbers(9, "±"), numbers(11, "95 %")];
-    let columns = Columns::new(std::iter::once(first(36, "")).chain(columns));
-    let mut out = columns.heads();
-    for output in outputs {
-        let (name, per) = named(output, us);
-        let at = |k: usize| output.percentiles.get(k);
-        let value = |k: usize| at(k).map_or("none".into(), |one| significant(per * one.value, 5));
-        let [low, half, high] = WRITTEN.map(value);
-        let within = at(WRITTEN[1]).map_or(String::new(), |one| error(one, per));
-        out += &columns.row([name, low, half, within, high]);
-    }
-    out
+    let at = |output: &OutputSpread, k: usize| output.percentiles.get(k).copied();
+    let value = |output: &OutputSpread, k: usize| {
+        let per = named(output, us).1;
+        at(output, k).map_or("none".into(), |one| significant(per * one.value, 5))
+    };
+    let [low, half, high] = WRITTEN;
+    lines(
+        outputs,
+        &[
+            (first(36, ""), &|output| named(output, us).0),
+            (numbers(11, "5 %"), &|output| value(output, low)),
+            (numbers(11, "50 %"), &|output| value(output, half)),
+            (numbers(9, "±"), &|output| {
+                at(output, half).map_or(String::new(), |one| error(&one, named(output, us).1))
+            }),
+            (numbers(11, "95 %"), &|output| value(output, high)),
+        ],
+    )
 }
 
 fn spread(output: &OutputSpread, us: bool) -> String {
@@ -141,15 +147,26 @@ fn sentence(inputs: &[InputSpread], output: &OutputSpread) -> Option<String> {
     (!parts.is_empty()).then(|| format!("Of the spread of {}, {}.", output.name, parts.join(", ")))
 }
 
+/// How much bats of one model and swings of one batter differ. SI units, named at the end of each member; positions
+/// count from the knob end; a value that does not exist is null. Later versions with the same number may have more
+/// members.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+#[schemars(title = "Result of a scatter of sweetspot, sweetspot-scatter-result/1")]
+pub struct ScatterResult {
+    /// The bat in the middle.
+    pub bat: BatName,
+    /// The results.
+    #[serde(flatten)]
+    pub found: Scattered,
+    /// All results in sentences.
+    pub words: Vec<String>,
+}
+
+document!(ScatterResult, "scatter-result");
+
 /// The `sweetspot-scatter-result/1` document.
-pub fn document(bat: &Bat, found: &Scattered) -> ScatterResult {
-    ScatterResult {
-        format: Format::new(),
-        generator: Generator::this(),
-        bat: BatName::of(bat),
-        found: found.clone(),
-        words: words(found),
-    }
+pub fn document(bat: &Bat, found: &Scattered) -> Written<ScatterResult> {
+    Written::of(ScatterResult { bat: BatName::of(bat), found: found.clone(), words: words(found) })
 }
 
 /// Every row as a line of CSV: its number and scramble, its inputs (factors and amounts), its outputs, and the reason

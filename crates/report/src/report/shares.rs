@@ -1,7 +1,6 @@
 //! The causes of the variation of an answer: a table of shares.
 
-use crate::parts::columns::{Columns, first, labels};
-use crate::parts::terminal::wrapped;
+use crate::parts::{Columns, first, labels, wrapped};
 use sweetspot_study::many::indices::{Indices, Share};
 
 /// Shares below this have no row.

@@ -2,11 +2,10 @@
 
 use std::fmt::Write;
 
-use crate::parts::units::Units;
+use crate::parts::Units;
 use sweetspot::base::units::inches;
-use sweetspot::bat::body::Bat;
-use sweetspot::collision::sweet_spot::SweetSpot;
-use sweetspot::modes::solve::Solution;
+use sweetspot::collision::SweetSpot;
+use sweetspot::{Bat, Solution};
 
 /// Columns left of the drawing, for the labels of its rows.
 pub const GUTTER: usize = 12;

@@ -2,16 +2,11 @@
 
 use std::fmt::Write;
 
-use crate::parts::columns::{Columns, first, numbers};
-use crate::parts::terminal::wrapped;
-use crate::parts::units::Units;
-use crate::report::damped;
-use crate::report::edits;
+use crate::parts::{Units, first, lines, numbers, wrapped};
+use crate::report::{damped, edits};
 use sweetspot::base::units::ounces;
-use sweetspot::bat::body::{Bat, STANDARD_PIVOT};
-use sweetspot::bat::theory::Theory;
-use sweetspot::modes::mode::Mode;
-use sweetspot::modes::solve::Solution;
+use sweetspot::bat::body::STANDARD_PIVOT;
+use sweetspot::{Bat, Mode, Solution, Theory};
 use sweetspot_study::ignored::ignored;
 use sweetspot_study::trade::reference::solver_name;
 
@@ -48,10 +43,7 @@ pub fn summary(bat: &Bat, units: Units) -> String {
 
 /// A line about the edits of a bat; empty for a bat without any.
 pub fn edited(bat: &Bat, units: Units) -> String {
-    match edits::listed(bat, units) {
-        list if list.is_empty() => list,
-        list => wrapped(&format!("  edited: {list}"), 4),
-    }
+    edits::noted(bat, units).map_or(String::new(), |note| wrapped(&format!("  {note}"), 4))
 }
 
 /// So many decimals, or a power of ten where that would be all zeros or very long.
@@ -82,29 +74,23 @@ pub fn modes(bat: &Bat, solution: &Solution, with_nodes: usize, units: Units) ->
     if solution.modes.is_empty() {
         return [out, String::new(), String::new()];
     }
-    let columns = Columns::new([
-        numbers(6, "mode"),
-        numbers(13, "frequency"),
-        numbers(8, "f/f1"),
-        numbers(3, ""),
-        first(17, "relative error"),
-        numbers(9, "modal mass (largest |w| = 1)"),
-    ]);
-    out += &columns.heads();
     let lowest = solution.modes.first().map_or(1.0, |mode| mode.omega);
-    for mode in &solution.modes {
-        out += &columns.row([
-            mode.order.to_string(),
-            format!("{} Hz", as_known(mode.frequency(), mode.error.total())),
-            fixed(mode.omega / lowest, 3),
-            String::new(),
-            format!("within {:.0e}", mode.error.total()),
-            match units.us_first() {
+    out += &lines(
+        &solution.modes,
+        &[
+            (numbers(6, "mode"), &|mode| mode.order.to_string()),
+            (numbers(13, "frequency"), &|mode| {
+                format!("{} Hz", as_known(mode.frequency(), mode.error.total()))
+            }),
+            (numbers(8, "f/f1"), &|mode| fixed(mode.omega / lowest, 3)),
+            (numbers(3, ""), &|_| String::new()),
+            (first(17, "relative error"), &|mode| format!("within {:.0e}", mode.error.total())),
+            (numbers(9, "modal mass (largest |w| = 1)"), &|mode| match units.us_first() {
                 true => format!("{} oz", fixed(ounces(mode.modal_mass), 3)),
                 false => format!("{} g", fixed(1e3 * mode.modal_mass, 1)),
-            },
-        ]);
-    }
+            }),
+        ],
+    );
     [out, damped::table(solution), nodes(bat, solution, with_nodes, units)]
 }
 

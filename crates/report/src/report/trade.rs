@@ -1,13 +1,15 @@
 //! Speed against accuracy: text and columns.
 
+use schemars::JsonSchema;
+use serde::Serialize;
+
 use crate::csv;
-use crate::parts::cell::Cell;
 use crate::parts::cell::Quantity::{Error, Ratio, Time, Words};
-use crate::parts::part::Part;
-use crate::parts::table::{Column, Table};
-use crate::parts::units::Units;
+use crate::parts::{Cell, Column, Part, Table, Units};
 use crate::report::u_curve::heading;
-use sweetspot::bat::body::Bat;
+use crate::schema::{Written, document};
+use sweetspot::Bat;
+use sweetspot::files::schema::document::BatName;
 use sweetspot_study::trade::front::{Run, fastest, front};
 use sweetspot_study::trade::measure::Trade;
 use sweetspot_study::trade::reference::solver_name;
@@ -19,7 +21,7 @@ const COARSEST: f64 = 1e-2;
 const FEW: usize = 11;
 
 /// A run in the table.
-struct Line {
+struct TradeRow {
     run: Run,
     /// Errors below this cannot be distinguished from zero.
     floor: f64,
@@ -28,7 +30,7 @@ struct Line {
 }
 
 /// The columns of the runs.
-const COLUMNS: [Column<Line>; 10] = [
+const COLUMNS: [Column<TradeRow>; 10] = [
     Column::new("degree", "degree", Ratio(0), |line| line.run.choice.degree.into()),
     Column::new("elements", "elements", Ratio(0), |line| line.run.choice.elements.into()),
     Column::new("solver", "solver", Words, |line| solver_name(line.run.choice.solver).into()),
@@ -36,7 +38,7 @@ const COLUMNS: [Column<Line>; 10] = [
         line.run.choice.degrees_of_freedom.into()
     }),
     Column::new("time", "seconds", Time, |line| line.run.seconds.into()),
-    Column::new("error", "", Words, Line::error),
+    Column::new("error", "", Words, TradeRow::error),
     Column::in_files("error", |line| line.run.error.into()),
     Column::in_files("stated_error", |line| line.run.stated_error.into()),
     Column::in_files("on_front", |line| line.run.on_front.into()),
@@ -44,10 +46,10 @@ const COLUMNS: [Column<Line>; 10] = [
 ];
 
 /// The columns of the planner's choices.
-const PLANNER: [Column<Line>; 7] = [
+const PLANNER: [Column<TradeRow>; 7] = [
     Column::new("asked", "", Error, |line| line.run.planned_for.into()),
     Column::new("time", "", Time, |line| line.run.seconds.into()),
-    Column::new("error", "", Words, Line::error),
+    Column::new("error", "", Words, TradeRow::error),
     Column::new("stated", "", Words, |line| format!("{:.1e}", line.run.stated_error).into()),
     Column::new("degree", "", Ratio(0), |line| line.run.choice.degree.into()),
     Column::new("elements", "", Ratio(0), |line| line.run.choice.elements.into()),
@@ -59,7 +61,7 @@ const PLANNER: [Column<Line>; 7] = [
     }),
 ];
 
-impl Line {
+impl TradeRow {
     fn of(run: &Run, trade: &Trade) -> Self {
         let within = run.planned_for.and_then(|tolerance| fastest(&trade.runs, tolerance));
         Self { run: run.clone(), floor: trade.reference.floor, fastest: within.cloned() }
@@ -87,12 +89,13 @@ pub fn report(bat: &Bat, trade: &Trade, full: bool) -> (String, Vec<Part<'static
     let shown = front(&trade.runs).filter(|run| !good || run.error <= COARSEST);
     let shown: Vec<&Run> = shown.collect();
     let step = if full { 1 } else { shown.len().div_ceil(FEW).max(1) };
-    let shown: Vec<Line> =
-        shown.into_iter().step_by(step).map(|run| Line::of(run, trade)).collect();
+    let shown: Vec<TradeRow> =
+        shown.into_iter().step_by(step).map(|run| TradeRow::of(run, trade)).collect();
     let mut parts =
         vec![Part::List(notes), Part::Table(Table::of("Front", &COLUMNS, &shown, Units::Si))];
     if full {
-        let planner: Vec<Line> = trade.planner.iter().map(|run| Line::of(run, trade)).collect();
+        let planner: Vec<TradeRow> =
+            trade.planner.iter().map(|run| TradeRow::of(run, trade)).collect();
         parts.extend([
             Part::Heading(
                 "The planner's choices, beside the fastest run within the same tolerance",
@@ -105,8 +108,28 @@ pub fn report(bat: &Bat, trade: &Trade, full: bool) -> (String, Vec<Part<'static
     (title, parts)
 }
 
+/// Accuracy of the frequencies of a bat against computing time, measured for many meshes and solvers. Errors are
+/// relative, times in s; a value that does not exist is null. Later versions with the same number may have more
+/// members.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[schemars(title = "Trade file of sweetspot, sweetspot-trade/1")]
+pub struct TradeFile {
+    /// The bat.
+    pub bat: BatName,
+    /// The measurements.
+    #[serde(flatten)]
+    pub trade: Trade,
+}
+
+document!(TradeFile, "trade");
+
+/// The document of the measurements of that bat.
+pub fn document(bat: &Bat, trade: Trade) -> Written<TradeFile> {
+    Written::of(TradeFile { bat: BatName::of(bat), trade })
+}
+
 /// Every run as a line of CSV, fastest first.
 pub fn csv(trade: &Trade) -> String {
-    let lines: Vec<Line> = trade.runs.iter().map(|run| Line::of(run, trade)).collect();
+    let lines: Vec<TradeRow> = trade.runs.iter().map(|run| TradeRow::of(run, trade)).collect();
     csv::rows(&COLUMNS, &lines)
 }

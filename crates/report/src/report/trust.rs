@@ -1,19 +1,18 @@
 //! The answers on one screen, each with its uncertainty for this bat, and the reasons.
 
+use schemars::JsonSchema;
+use serde::Serialize;
+
 use crate::analysis::Analysis;
-use crate::parts::columns::{Columns, WIDE, first};
-use crate::parts::terminal::wrapped;
-use crate::parts::units::Units;
+use crate::parts::{Columns, Units, WIDE, first, wrapped};
 use crate::report::answer_unit::{AnswerUnit, decimals};
 use crate::report::text::edited;
-use crate::schema::analysis as file;
 use sweetspot::base::number::{percent, significant};
 use sweetspot::base::units::{inches, ounces};
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::material::{Material, Scatter};
+use sweetspot::bat::material::Scatter;
+use sweetspot::collision::Model;
 use sweetspot::collision::figures::BarrelSpeed;
-use sweetspot::collision::hit::Model;
-use sweetspot::modes::mode::Mode;
+use sweetspot::{Bat, Material, Mode};
 use sweetspot_study::answers::Answer;
 use sweetspot_study::read_to::diameters_read_to;
 use sweetspot_study::spread::{Input, Source, Spread, of_frequencies};
@@ -380,14 +379,39 @@ pub fn of_wood(bat: &Bat) -> String {
 pub const IN_ANALYZE: &str =
     "Trust: what wood, scale and calipers leave open of this: sweetspot analyze\n";
 
+/// What is not known exactly about a bat, and the resulting uncertainty of each answer, to first order, with
+/// independent sources.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct Open {
+    /// The sources of uncertainty and the uncertainty of each answer.
+    #[serde(flatten)]
+    pub spread: Spread,
+    /// Reasons for which the answers are less certain than that; left out where there are none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub doubts: Vec<DoubtFile>,
+}
+
+/// A reason for which the answers are less certain than the computed uncertainty says.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[schemars(rename = "Doubt")]
+pub struct DoubtFile {
+    /// The subject: the density of the material, shear that is neglected because no modulus is known, the dent in the
+    /// wall of a hollow barrel, a wall that is taken as rigid, a fastest place that depends on a later contact, a hit
+    /// for which the law of the ball was not measured, exit speeds that are less accurate than requested.
+    #[schemars(extend("enum" = ["density", "shear", "dent", "rigid_wall", "later_contact", "ball_law", "exit_speeds"]))]
+    pub about: &'static str,
+    /// The doubt in a sentence.
+    pub text: String,
+}
+
 /// The member `open` of the `sweetspot-analysis/1` document.
-pub fn open(analysis: &Analysis) -> file::Open {
-    file::Open { spread: analysis.spread.clone(), doubts: in_file(&analysis.verdict) }
+pub fn open(analysis: &Analysis) -> Open {
+    Open { spread: analysis.spread.clone(), doubts: in_file(&analysis.verdict) }
 }
 
 /// The doubts about a hit, for documents.
-pub fn in_file(verdict: &Verdict) -> Vec<file::Doubt> {
-    let doubt = |doubt: &Doubt| file::Doubt {
+pub fn in_file(verdict: &Verdict) -> Vec<DoubtFile> {
+    let doubt = |doubt: &Doubt| DoubtFile {
         about: doubt.about(),
         text: match doubt {
             Doubt::RigidWall(why) => why.clone(),

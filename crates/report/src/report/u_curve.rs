@@ -1,13 +1,15 @@
 //! The U-curve: text and columns.
 
+use schemars::JsonSchema;
+use serde::Serialize;
+
 use crate::csv::Csv;
 use crate::parts::cell::Quantity::{Ratio, Words};
-use crate::parts::part::Part;
-use crate::parts::table::{Column, Table};
-use crate::parts::units::Units;
+use crate::parts::{Column, Part, Table, Units};
 use crate::report::edits;
-use sweetspot::bat::body::Bat;
-use sweetspot::modes::solve::Solver;
+use crate::schema::{Written, document};
+use sweetspot::files::schema::document::BatName;
+use sweetspot::{Bat, Solver};
 use sweetspot_study::trade::reference::{Choice, Confirmation, Reference, solver_name};
 use sweetspot_study::trade::u_curve::{Curve, End, Losses, Reason, SolverFrequency};
 
@@ -26,8 +28,7 @@ pub fn heading(what: &str, bat: &Bat, reference: &Reference) -> (String, Vec<Str
         discretisation(other),
         agreement.max(f64::EPSILON)
     );
-    let edits = edits::listed(bat, Units::Both);
-    let edited = (!edits.is_empty()).then(|| format!("edited: {edits}"));
+    let edited = edits::noted(bat, Units::Both);
     (format!("{what}: {}", bat.name()), edited.into_iter().chain([truth]).collect())
 }
 
@@ -140,6 +141,32 @@ fn table(curves: &[Curve], mode: usize) -> Table {
         table.row([n.to_string()].into_iter().chain(ways.iter().map(cell)));
     }
     table
+}
+
+/// The error of the frequencies of a bat against the number of cubic elements, for each solver: more elements first
+/// reduce the error and then increase it. Errors are relative, times in s; a value that does not exist is null. Later
+/// versions with the same number may have more members.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[schemars(title = "U-curve file of sweetspot, sweetspot-u-curve/1")]
+pub struct UCurveFile {
+    /// The bat.
+    pub bat: BatName,
+    /// Number of modes.
+    pub modes: usize,
+    /// Degree of the elements' deflection.
+    pub degree: usize,
+    /// The reference of the errors.
+    pub reference: Reference,
+    /// A column for each solver.
+    pub columns: Vec<Curve>,
+}
+
+document!(UCurveFile, "u-curve");
+
+/// The document of those curves of that bat.
+pub fn document(bat: &Bat, reference: Reference, columns: Vec<Curve>) -> Written<UCurveFile> {
+    let (bat, modes) = (BatName::of(bat), reference.omegas.len());
+    Written::of(UCurveFile { bat, modes, degree: 3, reference, columns })
 }
 
 /// A line for every solver, way, number of elements and mode.

@@ -1,11 +1,10 @@
 //! The effect of the wall of a hollow barrel in a hit, in words.
 
-use crate::parts::part::Fact;
-use crate::parts::units::Units;
+use crate::parts::{Fact, Units};
+use sweetspot::Bat;
 use sweetspot::base::number::significant;
 use sweetspot::base::units::inches;
-use sweetspot::bat::body::Bat;
-use sweetspot::collision::hit::Scene;
+use sweetspot::collision::Scene;
 use sweetspot::collision::hoop_wall::HoopWall;
 use sweetspot::collision::wall_figures::WallFigures;
 

@@ -3,9 +3,9 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::schema::{Written, document};
+use sweetspot::Theory;
 use sweetspot::bat::edit::Edit;
-use sweetspot::bat::theory::Theory;
-use sweetspot::files::schema::document::{Document, Format, Generator};
 use sweetspot::motion::frf::ResponseKind;
 
 /// Frequency response of a bat to a harmonic unit force at one place, observed at another; the time dependence is e^(+i
@@ -14,10 +14,6 @@ use sweetspot::motion::frf::ResponseKind;
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[schemars(title = "Frequency response file of sweetspot, sweetspot-frf/1")]
 pub struct FrfFile {
-    /// Name of the format and its version: sweetspot-frf/1.
-    pub format: Format<FrfFile>,
-    /// The program that wrote the file.
-    pub generator: Generator,
     /// Changes made to the bat after it was weighed; left out where there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub edits: Vec<Edit>,
@@ -56,35 +52,20 @@ pub struct FrfFile {
     pub frequencies_within: f64,
 }
 
-impl Document for FrfFile {
-    const NAME: &'static str = "frf";
-}
+document!(FrfFile, "frf");
 
 /// The measured frequency responses of one file, each compared with the computed one. Later versions with the same
 /// number may have more members.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[schemars(title = "Set of frequency responses of sweetspot, sweetspot-frf-set/1")]
 pub struct FrfSetFile {
-    /// Name of the format and its version: sweetspot-frf-set/1.
-    pub format: Format<FrfSetFile>,
-    /// The program that wrote the file.
-    pub generator: Generator,
     /// Number of every response in its file, from 1.
     pub functions: Vec<usize>,
     /// The responses in the same order.
-    pub responses: Vec<FrfFile>,
+    pub responses: Vec<Written<FrfFile>>,
 }
 
-impl Document for FrfSetFile {
-    const NAME: &'static str = "frf-set";
-}
-
-impl FrfSetFile {
-    /// These responses with their numbers.
-    pub fn new(functions: Vec<usize>, responses: Vec<FrfFile>) -> Self {
-        Self { format: Format::new(), generator: Generator::this(), functions, responses }
-    }
-}
+document!(FrfSetFile, "frf-set");
 
 /// Members of a document that a kind of answer counts in its unit, with which their names end.
 macro_rules! by_kind {

@@ -3,11 +3,11 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::schema::document;
 use sweetspot::bat::edit::Edit;
-use sweetspot::collision::figures;
 use sweetspot::collision::hit::{Energy, Separation};
-use sweetspot::collision::{Ball, SweetSpot};
-use sweetspot::files::schema::document::{Document, Format, Generator};
+use sweetspot::collision::{Ball, SweetSpot, figures};
+use sweetspot::files::schema::document::{Format, Generator};
 
 /// Hits along a bat: exit speeds, forces, energies and the sweet spot. SI units, named at the end of each member;
 /// positions count from the knob end; a value that does not exist is null. The bat moves in the + direction; the ball
@@ -39,9 +39,7 @@ pub struct HitFile {
     pub figures: Option<Figures>,
 }
 
-impl Document for HitFile {
-    const NAME: &'static str = "hit";
-}
+document!(HitFile, "hit");
 
 /// A swing meets a pitch.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -3,17 +3,13 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use sweetspot::files::schema::document::{Document, Format, Generator};
+use crate::schema::document;
 
 /// The modes common to the measured frequency responses of one bat. SI units, named at the end of each member; a value
 /// that does not exist is null. Later versions with the same number may have more members.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 #[schemars(title = "Modes of responses of sweetspot, sweetspot-identify/1")]
 pub struct IdentifyFile {
-    /// Name of the format and its version: sweetspot-identify/1.
-    pub format: Format<IdentifyFile>,
-    /// The program that wrote the file.
-    pub generator: Generator,
     /// Number of responses.
     pub responses: usize,
     /// What was moved from response to response: hammer or accelerometer.
@@ -34,9 +30,7 @@ pub struct IdentifyFile {
     pub warnings: Vec<IdentifySaid>,
 }
 
-impl Document for IdentifyFile {
-    const NAME: &'static str = "identify";
-}
+document!(IdentifyFile, "identify");
 
 /// A place on the bat.
 #[derive(Debug, Clone, Serialize, JsonSchema)]

@@ -3,25 +3,19 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::schema::{Written, document};
 use sweetspot::bat::material::BUILT_IN;
-use sweetspot::files::schema::document::{Document, Format, Generator};
 
 /// The materials that a bat file may name, with the sources of their numbers. SI units, named at the end of each
 /// member; an unknown value is null. Later versions with the same number may have more members.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[schemars(title = "Materials file of sweetspot, sweetspot-materials/1")]
 pub struct MaterialsFile {
-    /// Name of the format and its version: sweetspot-materials/1.
-    pub format: Format<MaterialsFile>,
-    /// The program that wrote the file.
-    pub generator: Generator,
     /// The built-in materials.
     pub materials: Vec<Listed>,
 }
 
-impl Document for MaterialsFile {
-    const NAME: &'static str = "materials";
-}
+document!(MaterialsFile, "materials");
 
 /// A built-in material, along the axis where it is wood.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -49,7 +43,7 @@ pub struct Listed {
 
 impl MaterialsFile {
     /// All materials.
-    pub fn built_in() -> Self {
+    pub fn built_in() -> Written<Self> {
         let materials = BUILT_IN.iter().map(|m| Listed {
             name: m.name,
             density_kg_m3: m.density,
@@ -61,6 +55,6 @@ impl MaterialsFile {
             strength_source: m.strength_source,
             source: m.source,
         });
-        Self { format: Format::new(), generator: Generator::this(), materials: materials.collect() }
+        Written::of(Self { materials: materials.collect() })
     }
 }

@@ -3,9 +3,9 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::schema::document;
+use sweetspot::Theory;
 use sweetspot::bat::edit::Edit;
-use sweetspot::bat::theory::Theory;
-use sweetspot::files::schema::document::{Document, Format, Generator};
 use sweetspot_study::measured::study::Shapes;
 
 /// The measured modes of a bat compared with the computed ones: which belong together, how far they differ, and how
@@ -14,10 +14,6 @@ use sweetspot_study::measured::study::Shapes;
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[schemars(title = "Measured modes file of sweetspot, sweetspot-measured/1")]
 pub struct MeasuredFile {
-    /// Name of the format and its version: sweetspot-measured/1.
-    pub format: Format<MeasuredFile>,
-    /// The program that wrote the file.
-    pub generator: Generator,
     /// The bat of the computed modes.
     pub bat: ComputedBat,
     /// The file of the measured modes.
@@ -43,9 +39,7 @@ pub struct MeasuredFile {
     pub shapes: Option<Shapes>,
 }
 
-impl Document for MeasuredFile {
-    const NAME: &'static str = "measured";
-}
+document!(MeasuredFile, "measured");
 
 /// The bat of the computed modes.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]

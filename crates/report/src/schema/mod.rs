@@ -1,7 +1,8 @@
 //! The formats of the files. Each is a type from which its JSON Schema derives (draft 2020-12).
 //!
-//! The written documents, such as [`modes::ModesFile`] and [`hit::HitFile`], are these types themselves. They may grow,
-//! so readers must ignore unknown members. The files that are read, [`BatFile`](sweetspot::files::schema::bat::BatFile)
+//! The written documents, such as [`modes::ModesFile`] and [`hit::HitFile`], are these types themselves; those of one
+//! verb are beside its report, and [`Written`] gives them their beginning. They may grow, so readers must ignore
+//! unknown members. The files that are read, [`BatFile`](sweetspot::files::schema::bat::BatFile)
 //! and [`BallFile`](sweetspot::files::schema::ball::BallFile), admit no unknown members, in the schema as in the
 //! reader. A document whose name ends in a number other than `/1` fits none of these types.
 //!
@@ -13,33 +14,82 @@
 pub mod materials;
 pub mod modes;
 pub mod hit;
-pub mod bbcor;
-pub mod hoop;
 pub mod measured;
 pub mod ring;
-pub mod analysis;
-pub mod compare;
 pub mod frf;
-pub mod advice;
-pub mod trade;
-pub mod calibrate;
 pub mod tap;
 pub mod identify;
-pub mod mistakes;
-pub mod study;
-pub mod lathe;
-#[cfg(feature = "aim")]
-pub mod aimed;
-pub mod scatter;
 
-use schemars::Schema;
+use std::borrow::Cow;
+
 use schemars::generate::SchemaSettings;
 use schemars::transform::{RecursiveTransform, Transform};
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
 use sweetspot::base::marks;
-use sweetspot::files::schema::document::Document;
+use sweetspot::files::schema::document::{Document, Format, Generator, format};
+
+/// Names the documents that a type is.
+macro_rules! document {
+    ($type:ty, $name:literal) => {
+        impl sweetspot::files::schema::document::Document for $type {
+            const NAME: &'static str = $name;
+        }
+    };
+}
+pub(crate) use document;
+
+/// The beginning of a document.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+struct Head<D: Document> {
+    format: Format<D>,
+    /// The program that wrote the file.
+    generator: Generator,
+}
+
+/// A document: the name of its format, the program that wrote it, and what it says.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(bound = "D: Document + Serialize")]
+pub struct Written<D: Document> {
+    #[serde(flatten)]
+    head: Head<D>,
+    /// What it says.
+    #[serde(flatten)]
+    pub body: D,
+}
+
+impl<D: Document> Written<D> {
+    /// The document of this program.
+    pub fn of(body: D) -> Self {
+        Self { head: Head { format: Format::new(), generator: Generator::this() }, body }
+    }
+}
+
+impl<D: Document> Document for Written<D> {
+    const NAME: &'static str = D::NAME;
+}
+
+impl<D: Document> JsonSchema for Written<D> {
+    fn schema_name() -> Cow<'static, str> {
+        D::schema_name()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let mut head = Head::<D>::json_schema(generator).to_value();
+        let about = format!("Name of the format and its version: {}.", format(D::NAME));
+        head["properties"]["format"]["description"] = about.into();
+        let mut whole = D::json_schema(generator).to_value();
+        let members = whole["properties"].as_object_mut().map(std::mem::take);
+        whole["properties"] = head["properties"].take();
+        members.into_iter().flatten().for_each(|(name, of)| whole["properties"][name] = of);
+        let needed = whole["required"].as_array_mut().map(std::mem::take).unwrap_or_default();
+        whole["required"] =
+            head["required"].as_array().into_iter().flatten().cloned().chain(needed).collect();
+        whole.try_into().expect("the schema of a type with members is an object")
+    }
+}
 
 /// The schema of a kind of document.
 pub fn of<D: Document>() -> Value {

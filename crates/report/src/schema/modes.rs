@@ -3,8 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use sweetspot::bat::theory::Theory;
-use sweetspot::files::schema::document::{Document, Format, Generator};
+use crate::schema::document;
+use sweetspot::Theory;
+use sweetspot::files::schema::document::{Format, Generator};
 use sweetspot::files::schema::resolved::ResolvedBat;
 
 /// The bending modes of a bat: frequencies, shapes, nodes and their errors. SI units, named at the end of each member;
@@ -36,9 +37,7 @@ pub struct ModesFile {
     pub timing: Option<Timing>,
 }
 
-impl Document for ModesFile {
-    const NAME: &'static str = "modes";
-}
+document!(ModesFile, "modes");
 
 /// The bat as a rigid body. Moments of inertia are transverse, with the sections' own and
 /// everything attached, as a pendulum measures them.

@@ -3,12 +3,13 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::schema::document;
 use crate::schema::hit::Impact;
+use sweetspot::Theory;
 use sweetspot::bat::edit::Edit;
-use sweetspot::bat::theory::Theory;
 use sweetspot::collision::aftermath::{Strained, Watched};
 use sweetspot::collision::strength::Load;
-use sweetspot::files::schema::document::{Document, Format, Generator};
+use sweetspot::files::schema::document::{Format, Generator};
 
 /// The motion of a bat in time after a hit, after a blow, under a force or from an initial shape. SI units, named at
 /// the end of each member; positions count from the knob end, times from the first contact; a value that does not exist
@@ -23,9 +24,7 @@ pub enum RingFile {
     Motion(Motion),
 }
 
-impl Document for RingFile {
-    const NAME: &'static str = "ring";
-}
+document!(RingFile, "ring");
 
 /// The motion after a hit, relative to the swing.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]

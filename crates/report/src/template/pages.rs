@@ -4,9 +4,9 @@
 //! or half inch, and a mark at both ends to align the next page.
 
 use crate::template::sheet::{Page, Paper};
+use sweetspot::Bat;
 use sweetspot::base::number::rounded;
 use sweetspot::base::units::inches;
-use sweetspot::bat::body::Bat;
 
 /// Distance of the drawing from the edge of the paper (mm).
 const MARGIN: f64 = 12.0;
@@ -23,14 +23,15 @@ pub fn pages(new: &Bat, old: &Bat, paper: Paper) -> Vec<Page> {
     (0..count)
         .map(|k| {
             let from = k as f64 * stretch;
-            let stretch = Stretch { new, old, from, to: (from + stretch).min(length), tick, unit };
+            let stretch =
+                PaperStretch { new, old, from, to: (from + stretch).min(length), tick, unit };
             stretch.page(paper, [k + 1, count])
         })
         .collect()
 }
 
 /// The stretch of a bat on one page (mm).
-struct Stretch<'a> {
+struct PaperStretch<'a> {
     new: &'a Bat,
     old: &'a Bat,
     from: f64,
@@ -39,7 +40,7 @@ struct Stretch<'a> {
     unit: &'static str,
 }
 
-impl Stretch<'_> {
+impl PaperStretch<'_> {
     fn page(&self, paper: Paper, [number, count]: [usize; 2]) -> Page {
         let mut page = Page::new(paper);
         let axis = 0.5 * paper.height;
