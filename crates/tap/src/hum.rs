@@ -6,9 +6,9 @@
 
 use std::f64::consts::TAU;
 
-use crate::complex::power;
 use crate::filter::{Pass, filtered, levels, median};
 use crate::least_squares::solve;
+use crate::transform::power;
 
 /// Mains of the world (Hz), and how far they may be off, relative; a clock of a recorder is a thousandth of that.
 const MAINS: [f64; 2] = [50.0, 60.0];
