@@ -2,13 +2,14 @@
 
 use serde::Deserialize;
 use serde_json::{Value, json};
-use sweetspot::base::error::{Error, Result};
+use sweetspot::base::error::{Complaint, Error, Result};
 use sweetspot_report::parts::note::note;
 use sweetspot_report::report::calibrated_bat;
 use sweetspot_report::report::tap::{TapReport, unreadable};
 use sweetspot_report::schema::tap::TapTone;
 use sweetspot_study::answers::Answer;
-use sweetspot_study::tap::tapped::Tapped;
+use sweetspot_study::calibrate::labels::MOST_MODES;
+use sweetspot_study::tap::tapped::{Tapped, Told};
 use sweetspot_tap::analysis::Analysis;
 use sweetspot_tap::recording::{Recording, loudest};
 
@@ -24,12 +25,22 @@ struct Asked {
     /// How many pieces were lost; silence stands for them.
     #[serde(default)]
     lost: usize,
+    /// Tones whose modes are told: their frequencies (Hz), and their bending modes or null for no mode.
+    #[serde(default)]
+    told: Vec<Told>,
 }
 
 pub fn answer(of: &Question, sound: &[u8]) -> Result<Value> {
-    let recordings = [recording(of, sound)?];
+    let asked = Asked::deserialize(Value::from(of.more.clone()))
+        .map_err(|error| Error::value("the request", error, "sound with its rate"))?;
+    let recordings = [recording(&asked, sound)?];
     let analysis = Analysis::of(&recordings, None);
-    let tapped = Tapped::heard(&of.bat, &analysis, &[])?;
+    let tapped = Tapped::heard(&of.bat, &analysis, &asked.told).map_err(|error| {
+        error.placed(|complaint| match &*complaint.field {
+            "--mode" => Error::Value(Complaint { field: "what you say".to_owned(), ..complaint }),
+            _ => Error::Value(complaint),
+        })
+    })?;
     let (bat, tapped) = (&of.bat, tapped.as_ref());
     let report = TapReport { bat, recordings: &recordings, analysis: &analysis, tapped };
     let document = report.document();
@@ -55,13 +66,12 @@ pub fn answer(of: &Question, sound: &[u8]) -> Result<Value> {
         "wood": report.wood(),
         "words": report.words(None),
         "bat_file": file,
+        "most_modes": MOST_MODES,
     }))
 }
 
 /// The sound behind the request: channel after channel, each sample four bytes, the lowest first.
-fn recording(of: &Question, sound: &[u8]) -> Result<Recording> {
-    let asked = Asked::deserialize(Value::from(of.more.clone()))
-        .map_err(|error| Error::value("the request", error, "sound with its rate"))?;
+fn recording(asked: &Asked, sound: &[u8]) -> Result<Recording> {
     let bytes = sound.len();
     if !(1..=8).contains(&asked.channels) || bytes == 0 || !bytes.is_multiple_of(4 * asked.channels)
     {

@@ -32,8 +32,8 @@ use crate::value::{MOMENT, TOP_FREQUENCY};
 /// breadth from the barrel and record with a plain recorder app, with "enhanced recording" off. Tap the tip five to
 /// eight times, a second apart, with a hard object the size of a knuckle, the label facing up, and let it ring. Move
 /// the phone a hand's breadth between taps: that halves the error of the loss factor. Use a furnished room, and do not
-/// speak. The other plane of the grain has other tones: turn the bat a quarter for it, and analyse that recording
-/// separately.
+/// speak. The other plane of the grain has other tones: turn the bat a quarter for it, record a second file, and name
+/// both.
 #[derive(clap::Args)]
 #[command(after_long_help = examples(EXAMPLES), next_help_heading = "Output")]
 pub struct Args {

@@ -4,7 +4,7 @@ use sweetspot_tap::analysis::Analysis;
 
 use crate::calibrate::calibration::{Calibration, CalibrationPlan, Property, SURE};
 use crate::calibrate::fit::DatumKind;
-use crate::calibrate::labels::STRANGER;
+use crate::calibrate::labels::{MOST_MODES, STRANGER};
 use crate::calibrate::readings::{BatReadings, Priors, RingDown, SpectralLine};
 use crate::calibrate::wood::WoodenBat;
 use crate::tap::heard::{HeardLine, Within, lines};
@@ -162,13 +162,14 @@ fn known(analysis: &Analysis, heard: &[HeardLine], told: &[Told]) -> Result<Vec<
         *line = Some(*mode);
     }
     let modes: Vec<usize> = known.iter().flatten().flatten().copied().collect();
-    match modes.is_sorted_by(|a, b| a < b) {
-        true => Ok(known),
-        false => {
-            let expected = "modes that rise with the frequencies of their tones";
-            Err(Error::value("--mode", format!("the modes {modes:?} of rising tones"), expected))
-        }
+    if let Some(mode) = modes.iter().find(|mode| !(1..=MOST_MODES).contains(*mode)) {
+        return Err(Error::value("--mode", mode, format!("1 to {MOST_MODES}")));
     }
+    if modes.is_sorted_by(|a, b| a < b) {
+        return Ok(known);
+    }
+    let expected = "modes that rise with the frequencies of their tones";
+    Err(Error::value("--mode", format!("the modes {modes:?} of rising tones"), expected))
 }
 
 /// The line nearest to a given frequency.
