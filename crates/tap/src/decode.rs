@@ -84,7 +84,7 @@ pub fn decode(name: &str, bytes: Vec<u8>, part: Part) -> Result<Recording, Unrea
         None => loudest(channels),
     };
     let Some(chosen) = chosen else {
-        let expected = format!("one of its {count}");
+        let expected = format!("one of its channels, 1 to {count}");
         let asked = part.channel.map_or("no sound".to_owned(), |k| format!("channel {k}"));
         return Err(Unreadable::sound(asked, expected));
     };
@@ -204,7 +204,7 @@ fn sound(
         }
     }
     if passed > 0 && channels.iter().all(Vec::is_empty) {
-        let found = format!("{} s of sound", passed as f64 / rate);
+        let found = format!("{:.1} s of sound", passed as f64 / rate);
         return Err(Unreadable::sound(found, "--from within it, and --to after that"));
     }
     if channels.iter().all(Vec::is_empty) {

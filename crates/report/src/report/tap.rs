@@ -131,24 +131,27 @@ impl TapReport<'_> {
         Some(format!("Its material: {}, with the density of the bat file.", all.join(", ")))
     }
 
-    /// The defects of the recordings; where there are several, each warning names its recording.
-    fn warned(&self) -> Vec<TapSaid> {
+    /// What spoils the recordings, named where there are several, and the labels; `tell` is the way to state the mode
+    /// of a tone.
+    fn warned(&self, tell: Option<&str>) -> Vec<TapSaid> {
         let of = |(code, recording): &(Code, Option<usize>)| {
             let name = recording.filter(|_| self.recordings.len() > 1);
             let name = name.map(|k| format!("{}: ", self.recordings[k].name));
             said(code.name(), name.unwrap_or_default() + code.text())
         };
-        self.analysis.warnings.iter().map(of).collect()
+        let mut all: Vec<TapSaid> = self.analysis.warnings.iter().map(of).collect();
+        all.extend(self.tapped.and_then(|tapped| tapped.unsolved.as_deref()).map(unsolved));
+        if self.tapped.is_some_and(Tapped::is_unsure) {
+            let text = format!("Not every label is sure{}.", tell.unwrap_or_default());
+            all.push(said("unsure", text));
+        }
+        all
     }
 
-    /// The conclusions, a sentence or two each; `tell` is the way to state the mode of a tone.
+    /// The conclusions, a sentence or two each; `tell` as for the warnings.
     pub fn words(&self, tell: Option<&str>) -> Vec<String> {
-        let mut all: Vec<String> = self.warned().into_iter().map(|said| said.text).collect();
+        let mut all: Vec<String> = self.warned(tell).into_iter().map(|said| said.text).collect();
         let Some(tapped) = self.tapped else { return all };
-        all.extend(tapped.unsolved.as_deref().map(unsolved));
-        if tapped.is_unsure() {
-            all.push(unsure(tell));
-        }
         if let Some(second) = tapped.second.as_ref().filter(|second| second.margin < 8.0) {
             let labels = second.labels.iter().map(|one| one.map_or("none".to_owned(), named));
             let labels = labels.collect::<Vec<_>>().join(", ");
@@ -167,12 +170,6 @@ impl TapReport<'_> {
     /// The `sweetspot-tap/1` document.
     pub fn document(&self) -> TapFile {
         let Self { bat, recordings, analysis, tapped } = self;
-        let mut warnings = self.warned();
-        let wall = tapped.and_then(|tapped| tapped.unsolved.as_deref());
-        warnings.extend(wall.map(|why| said("wall", unsolved(why))));
-        if tapped.is_some_and(Tapped::is_unsure) {
-            warnings.push(said("unsure", unsure(Some(TELL))));
-        }
         let recording = recordings.iter().zip(&analysis.conditions);
         TapFile {
             format: Format::new(),
@@ -185,7 +182,7 @@ impl TapReport<'_> {
             wood: tapped.and_then(|tapped| tapped.wood.clone()),
             loss_factor_at_most: tapped.and_then(|tapped| tapped.loss),
             fits: tapped.map(Tapped::fits),
-            warnings,
+            warnings: self.warned(Some(TELL)),
             refused: analysis.refused.map(|code| said(code.name(), code.text())),
         }
     }
@@ -245,13 +242,12 @@ const NONE: &str =
     "No tone is a bending mode of this bat, of any wood: the bat file is another bat's.";
 const TELL: &str = ": tell the mode of a tone that you know, such as --mode \"1187 = 3\"";
 
-fn unsure(tell: Option<&str>) -> String {
-    format!("Not every label is sure{}.", tell.unwrap_or_default())
-}
-
-fn unsolved(why: &str) -> String {
-    format!(
-        "The modes of the wall are not known ({why}): its tones are told as bending modes or as none."
+fn unsolved(why: &str) -> TapSaid {
+    said(
+        "wall",
+        format!(
+            "The modes of the wall are not known ({why}): its tones are told as bending modes or as none."
+        ),
     )
 }
 
