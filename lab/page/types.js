@@ -165,7 +165,7 @@
  * @property {number} id
  * @property {object} document       as `sweetspot tap --json` has it
  * @property {string} heard          taps and rate
- * @property {{ frequency: string, note: string, half: string, loss: string, is: string, sure: string,
+ * @property {{ frequency: string, note: string, loss: string, is: string, sure: string,
  *              computed: { frequency: Shown, note: string } | null }[]} tones  the lines of its table
  * @property {string | null} wood    what the bat's material is
  * @property {string[]} words        what spoils it, and what to do

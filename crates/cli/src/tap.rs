@@ -13,7 +13,7 @@ use sweetspot_tap::analysis::Analysis;
 use sweetspot_tap::decode::Part;
 
 use crate::calibrate::label;
-use crate::common::{examples, read_with_text};
+use crate::common::{as_options, examples, read_with_text};
 use crate::done::{Done, FAILED};
 use crate::edits::EditArgs;
 use crate::output::{CsvArgs, FullArgs, LINES, apart, draw, put, warn};
@@ -137,7 +137,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let analysis = Analysis::of(&recordings, args.highest);
     let tapped = match args.only_tones {
         true => None,
-        false => Tapped::heard(&bat, &analysis, &args.mode)?,
+        false => Tapped::heard(&bat, &analysis, &args.mode).map_err(as_options)?,
     };
     let report = TapReport {
         bat: &bat,

@@ -51,21 +51,16 @@ impl<'a> Fitted<'a> {
         place.expect("every response is in a group")
     }
 
-    /// The weights of the residue at pole `p`.
-    fn weights(&self, p: usize) -> Vec<c64> {
-        Responses::residue(p, self.poles().len())
-    }
-
     /// Residue (1/kg) of response `k` at pole `p`.
     pub fn residue(&self, k: usize, p: usize) -> c64 {
         let (g, j) = self.place(k);
-        self.projections[g].value(&self.all[g], j, &self.weights(p))
+        self.projections[g].value(&self.all[g], j, &Responses::residue(p, self.poles().len()))
     }
 
     /// Standard deviation (1/kg) of that residue, real and imaginary part together, at known poles.
     pub fn deviation(&self, k: usize, p: usize) -> f64 {
         let (g, j) = self.place(k);
-        self.projections[g].deviation(&self.all[g], j, &self.weights(p))
+        self.projections[g].deviation(&self.all[g], j, &Responses::residue(p, self.poles().len()))
     }
 
     /// Standard deviation (1/kg) of response `k` at a complex square of the frequency, likewise.

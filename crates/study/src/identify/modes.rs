@@ -249,11 +249,8 @@ fn shape(set: &ResponseSet, residues: &[c64]) -> (Vec<Option<c64>>, Option<f64>)
         };
         (0..residues.len()).filter(own).map(|k| residues[k]).collect()
     };
-    let none = c64::new(0.0, 0.0);
-    let mean = |all: Vec<c64>| match all.len() {
-        0 => None,
-        count => Some(all.iter().fold(none, |sum, v| sum + v) / count as f64),
-    };
+    let mean =
+        |all: Vec<c64>| (!all.is_empty()).then(|| all.iter().sum::<c64>() / all.len() as f64);
     let points = 0..set.points.len();
     let rows: Vec<Vec<Option<c64>>> = (0..set.references.len())
         .map(|reference| points.clone().map(|point| mean(of(reference, point))).collect())
@@ -265,7 +262,7 @@ fn shape(set: &ResponseSet, residues: &[c64]) -> (Vec<Option<c64>>, Option<f64>)
     // Every reference's deflection over that of the main one.
     let share = |row: &Vec<Option<c64>>| {
         let both = || row.iter().zip(main).filter_map(|(a, b)| Some(((*a)?, (*b)?)));
-        let common = both().fold(none, |sum, (a, b)| sum + b.conj() * a);
+        let common: c64 = both().map(|(a, b)| b.conj() * a).sum();
         common / both().map(|(_, b)| b.norm_sqr()).sum::<f64>().max(f64::MIN_POSITIVE)
     };
     let shares: Vec<c64> = rows.iter().map(share).collect();
@@ -273,7 +270,7 @@ fn shape(set: &ResponseSet, residues: &[c64]) -> (Vec<Option<c64>>, Option<f64>)
         let there =
             || rows.iter().zip(&shares).filter_map(|(row, share)| Some((row[point]?, share)));
         let weight: f64 = there().map(|(_, share)| share.norm_sqr()).sum();
-        let sum = there().fold(none, |sum, (value, share)| sum + share.conj() * value);
+        let sum: c64 = there().map(|(value, share)| share.conj() * value).sum();
         (weight > 0.0).then(|| sum / weight)
     };
     scaled(set, points.map(at).collect(), residues)

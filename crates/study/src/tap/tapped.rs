@@ -157,19 +157,19 @@ fn known(analysis: &Analysis, heard: &[HeardLine], told: &[Told]) -> Result<Vec<
     for (hz, mode) in told {
         let line = &mut known[near(analysis, heard, *hz)?];
         if line.is_some() {
-            return Err(Error::value("--mode", format!("{hz} Hz twice"), "each tone once"));
+            return Err(Error::value("`mode`", format!("{hz} Hz twice"), "each tone once"));
         }
         *line = Some(*mode);
     }
     let modes: Vec<usize> = known.iter().flatten().flatten().copied().collect();
     if let Some(mode) = modes.iter().find(|mode| !(1..=MOST_MODES).contains(*mode)) {
-        return Err(Error::value("--mode", mode, format!("1 to {MOST_MODES}")));
+        return Err(Error::value("`mode`", mode, format!("1 to {MOST_MODES}")));
     }
     if modes.is_sorted_by(|a, b| a < b) {
         return Ok(known);
     }
     let expected = "modes that rise with the frequencies of their tones";
-    Err(Error::value("--mode", format!("the modes {modes:?} of rising tones"), expected))
+    Err(Error::value("`mode`", format!("the modes {modes:?} of rising tones"), expected))
 }
 
 /// The line nearest to a given frequency.
@@ -183,7 +183,7 @@ fn near(analysis: &Analysis, heard: &[HeardLine], hz: f64) -> Result<usize> {
         let all: Vec<String> =
             analysis.tones.iter().map(|tone| format!("{:.1}", tone.pole.hz)).collect();
         Error::value(
-            "--mode",
+            "`mode`",
             format!("{hz} Hz"),
             format!("one of the tones: {} Hz", all.join(", ")),
         )
