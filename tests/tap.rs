@@ -195,6 +195,31 @@ fn two_recordings_keep_tones_of_their_own() {
     assert!(!said.iter().any(|text| text.starts_with("one.wav: Hum")), "{said:?}");
 }
 
+/// Tones of two planes of the grain less than 3 % apart, each in a recording of its own, are twins of one mode.
+#[test]
+fn near_planes_are_twins_of_one_mode() {
+    let folder = Folder::new("tap_twins");
+    let modes = folder.json(&["modes", "r161", "-n", "4", "--json", "-"]);
+    let modes = modes["modes"].as_array().unwrap();
+    let one: Vec<f64> = modes.iter().map(|mode| mode["frequency_hz"].as_f64().unwrap()).collect();
+    let two: Vec<f64> = one.iter().map(|hz| 1.015 * hz).collect();
+    folder.write("one.wav", wav::file(&taps(&one)));
+    folder.write("two.wav", wav::file(&taps(&two)));
+    let (found, code) = heard(&folder, &["tap", "r161", "one.wav", "two.wav"]);
+    assert_eq!(code, 0, "{found:#}");
+    let tones = found["tones"].as_array().unwrap();
+    assert_eq!(tones.len(), 8, "{tones:#?}");
+    for (k, pair) in tones.chunks(2).enumerate() {
+        for (tone, hz) in pair.iter().zip([one[k], two[k]]) {
+            assert!((tone["frequency_hz"].as_f64().unwrap() / hz - 1.0).abs() < 2e-4, "{tone:#}");
+            assert_eq!(tone["mode"]["order"], k + 1);
+        }
+        assert_eq!(pair[0]["twin_hz"], pair[1]["frequency_hz"]);
+    }
+    // Taps exactly a second apart are no hum.
+    assert_eq!(found["recordings"][0]["hum_hz"], Value::Null);
+}
+
 const FOIL: &str = r#"{ "format": "sweetspot-bat/1", "name": "Foil", "profile": { "unit": "in",
     "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5], "wall_thickness": [1e-5, 1e-5, 1e-5, 1e-5, 1e-5] },
     "material": { "density": 2700, "youngs_modulus": 70e9, "poisson_ratio": 0.33 } }"#;

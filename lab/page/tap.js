@@ -58,6 +58,8 @@ export class Tapping {
     Object.assign(this, { bench, far, core: null, count: 0, answer: null, of: "", lit: 0, stream: null, context: null });
     /** @type {Sound | null} */
     this.sound = null;
+    /** Tones whose modes a person says, and those of the answer. @type {[number, number | null][]} */
+    this.told = this.heeded = [];
     byId("tap-file").addEventListener("change", ({ target }) => this.file(target.files[0]));
     byId("tap-listen").addEventListener("click", () => this.listen());
     byId("tap-stop").addEventListener("click", () => this.stop());
@@ -77,7 +79,7 @@ export class Tapping {
     this.count += 1;
     this.silence();
     this.end();
-    Object.assign(this, { sound: null, answer: null, lit: 0 });
+    Object.assign(this, { sound: null, answer: null, lit: 0, told: [], heeded: [] });
     write(byId("tap-microphone"), "");
     this.draw();
   }
@@ -108,16 +110,19 @@ export class Tapping {
 
   /** Asks the core about the sound that there is. True if that is answered. */
   async hear() {
-    const { bench, sound } = this, count = this.count += 1, { text } = bench;
+    const { bench, sound, told } = this, count = this.count += 1, { text } = bench;
     this.core ??= this.far();
     byId("tap-stop").hidden = false;
     const { name, rate: rate_hz, channels, lost } = sound, bytes = new Uint8Array(await new Blob(sound.pieces).arrayBuffer());
     if (count !== this.count) return false;
-    const answer = await this.core.ask({ ...bench.question("tap"), name, rate_hz, channels, lost }, "tap", bytes);
+    const answer = await this.core.ask({ ...bench.question("tap"), name, rate_hz, channels, lost, told }, "tap", bytes);
     if (count !== this.count || !answer) return false;
     if (!this.stream) this.end();
-    if (answer.error) this.say(answer.error, true);
-    else Object.assign(this, { answer, of: text });
+    if (answer.error) {
+      this.say(answer.error, true);
+      // What cannot be is taken back.
+      this.told = told === this.heeded ? [] : this.heeded;
+    } else Object.assign(this, { answer, of: text, heeded: told });
     this.draw();
     return !answer.error;
   }
@@ -174,7 +179,12 @@ export class Tapping {
     this.count += 1;
     this.silence();
     this.end();
-    if (!stream || !sound?.pieces.length) { this.say("Stopped."); return; }
+    if (!stream || !sound?.pieces.length) {
+      this.told = this.heeded;
+      this.draw();
+      this.say("Stopped.");
+      return;
+    }
     this.say("All that was heard is being looked at once more.");
     if (await this.hear()) this.say("");
   }
@@ -185,6 +195,25 @@ export class Tapping {
     clearTimeout(this.later);
     if (!this.sound || this.stream || this.of === this.bench.text) return;
     this.later = setTimeout(() => { if (this.bench.changing) this.changed(); else this.hear(); }, QUIET);
+  }
+
+  /** A person says which bending mode a tone is, "none" for no mode, "" for the one that is found. */
+  async tell({ frequency_hz: hz, twin_hz: twin }, mode) {
+    const others = this.told.filter(([other]) => other !== hz && other !== twin);
+    this.told = mode ? [...others, [hz, mode === "none" ? null : Number(mode)]] : others;
+    this.say("The other modes and the wood are being found anew.");
+    if (await this.hear()) this.say("");
+  }
+
+  /** The choice of a tone's mode. */
+  choice(tone) {
+    const { most_modes: most } = this.answer, told = this.told.find(([hz]) => hz === tone.frequency_hz);
+    const option = (value, words) => made("option", { value }, words);
+    const select = made("select", { "aria-label": `Mode of the tone at ${Math.round(tone.frequency_hz)} Hz` },
+      option("", "as found"), option("none", "no mode"), ...Array.from({ length: most }, (_, k) => option(k + 1, `bending ${k + 1}`)));
+    select.value = told ? String(told[1] ?? "none") : "";
+    select.addEventListener("change", () => this.tell(tone, select.value));
+    return select;
   }
 
   /** The bat becomes one of the wood that was heard: a step like any. */
@@ -202,10 +231,11 @@ export class Tapping {
     write(byId("tap-heard"), answer?.heard ?? "");
     const small = (words) => made("small", { class: "same" }, words);
     const cell = (...parts) => made("td", {}, ...parts);
-    const row = ({ frequency, note, loss, is, sure, computed }) => made("tr", {},
+    const said = (k) => own && !this.stream ? [cell(this.choice(answer.document.tones[k]))] : [];
+    const row = ({ frequency, note, loss, is, sure, computed }, k) => made("tr", {},
       made("th", { scope: "row" }, own ? is : "…"), cell(frequency, small(noteSaid(note))),
-      cell(...own && computed ? [computed.frequency.text, small(noteSaid(computed.note))] : []), cell(own ? sure : ""), cell(loss));
-    const rows = (answer?.tones ?? []).map(row), head = ["Mode", "Heard", "Computed", "Sure", "Loss factor"];
+      cell(...own && computed ? [computed.frequency.text, small(noteSaid(computed.note))] : []), cell(own ? sure : ""), cell(loss), ...said(k));
+    const rows = (answer?.tones ?? []).map(row), head = ["Mode", "Heard", "Computed", "Sure", "Loss factor", ...own && !this.stream ? ["You say"] : []];
     byId("tap-tones").replaceChildren(...rows.length ? [headOf(head), made("tbody", {}, ...rows)] : []);
     write(byId("tap-wood"), own ? answer.wood ?? "" : "");
     const words = own ? [...answer.document.refused ? [answer.document.refused.text] : [], ...answer.words] : [];

@@ -159,16 +159,18 @@
 
 /**
  * `tap` asks also `name`, `rate_hz`, `channels` and how many pieces were `lost` of a sound whose samples stand behind the
- * request after a byte 0: channel after channel, four bytes each, the lowest first. The loudest channel is heard.
+ * request after a byte 0: channel after channel, four bytes each, the lowest first. The loudest channel is heard. Modes
+ * that a person says are in `told`: pairs of a tone's frequency (Hz) and its bending mode, or null for no mode.
  * @typedef {object} Tapped
  * @property {number} id
  * @property {object} document       as `sweetspot tap --json` has it
  * @property {string} heard          taps and rate
- * @property {{ frequency: string, note: string, half: string, loss: string, is: string, sure: string,
+ * @property {{ frequency: string, note: string, loss: string, is: string, sure: string,
  *              computed: { frequency: Shown, note: string } | null }[]} tones  the lines of its table
  * @property {string | null} wood    what the bat's material is
  * @property {string[]} words        what spoils it, and what to do
  * @property {string | null} bat_file  the text of the bat of that wood
+ * @property {number} most_modes     the highest bending mode that can be said
  */
 
 /**

@@ -8,7 +8,8 @@ use sweetspot_report::report::calibrated_bat;
 use sweetspot_report::report::tap::{TapReport, unreadable};
 use sweetspot_report::schema::tap::TapTone;
 use sweetspot_study::answers::Answer;
-use sweetspot_study::tap::tapped::Tapped;
+use sweetspot_study::calibrate::labels::MOST_MODES;
+use sweetspot_study::tap::tapped::{Tapped, Told};
 use sweetspot_tap::analysis::Analysis;
 use sweetspot_tap::recording::{Recording, loudest};
 
@@ -16,56 +17,55 @@ use crate::asked::Question;
 use crate::shown;
 
 /// What the page asks of sound that the browser decoded.
-#[derive(Deserialize)]
+#[derive(Default, Deserialize)]
+#[serde(default)]
 struct Asked {
     name: String,
     rate_hz: f64,
     channels: usize,
     /// How many pieces were lost; silence stands for them.
-    #[serde(default)]
     lost: usize,
+    /// Tones whose modes are told: their frequencies (Hz), and their bending modes or null for no mode.
+    told: Vec<Told>,
 }
 
 pub fn answer(of: &Question, sound: &[u8]) -> Result<Value> {
-    let recordings = [recording(of, sound)?];
+    let asked = Asked::deserialize(Value::from(of.more.clone()))
+        .map_err(|error| Error::value("the request", error, "sound with its rate"))?;
+    let recordings = [recording(&asked, sound)?];
     let analysis = Analysis::of(&recordings, None);
-    let tapped = Tapped::heard(&of.bat, &analysis, &[])?;
+    let tapped = Tapped::heard(&of.bat, &analysis, &asked.told)
+        .map_err(|error| error.placed(|one| Error::Value(one.naming(str::to_owned))))?;
     let (bat, tapped) = (&of.bat, tapped.as_ref());
     let report = TapReport { bat, recordings: &recordings, analysis: &analysis, tapped };
     let document = report.document();
     let tone = |(k, tone): (usize, &TapTone)| {
-        let [frequency, half, loss, is, sure] = report.cells(k);
+        let [frequency, _, loss, is, sure] = report.cells(k);
         let computed = tone.computed_hz.map(|hz| {
             let told = shown::answer(Answer::Frequency(1), of.units, hz);
             json!({ "frequency": told, "note": note(hz) })
         });
-        json!({
-            "frequency": frequency, "note": note(tone.frequency_hz), "half": half, "loss": loss,
-            "is": is, "sure": sure, "computed": computed,
-        })
+        json!({ "frequency": frequency, "note": note(tone.frequency_hz), "loss": loss, "is": is,
+                "sure": sure, "computed": computed })
     };
-    let tones: Vec<Value> = document.tones.iter().enumerate().map(tone).collect();
     let wood = tapped.and_then(|tapped| tapped.wood.as_ref());
-    let name = &recordings[0].name;
-    let file = wood.map(|wood| calibrated_bat::text((bat, &of.text), wood, name)).transpose()?;
+    let file = wood.map(|wood| calibrated_bat::text((bat, &of.text), wood, &asked.name));
     Ok(json!({
         "document": document,
         "heard": report.heard(0),
-        "tones": tones,
+        "tones": document.tones.iter().enumerate().map(tone).collect::<Vec<_>>(),
         "wood": report.wood(),
         "words": report.words(None),
-        "bat_file": file,
+        "bat_file": file.transpose()?,
+        "most_modes": MOST_MODES,
     }))
 }
 
 /// The sound behind the request: channel after channel, each sample four bytes, the lowest first.
-fn recording(of: &Question, sound: &[u8]) -> Result<Recording> {
-    let asked = Asked::deserialize(Value::from(of.more.clone()))
-        .map_err(|error| Error::value("the request", error, "sound with its rate"))?;
-    let bytes = sound.len();
-    if !(1..=8).contains(&asked.channels) || bytes == 0 || !bytes.is_multiple_of(4 * asked.channels)
-    {
-        let found = format!("{bytes} bytes of {} channels", asked.channels);
+fn recording(asked: &Asked, sound: &[u8]) -> Result<Recording> {
+    let (bytes, channels) = (sound.len(), asked.channels);
+    if !(1..=8).contains(&channels) || bytes == 0 || !bytes.is_multiple_of(4 * channels) {
+        let found = format!("{bytes} bytes of {channels} channels");
         return Err(Error::value("the sound", found, "samples of 1 to 8 channels"));
     }
     let (samples, _) = sound.as_chunks::<4>();

@@ -298,3 +298,32 @@ fn taps_are_heard() {
         assert!(error.contains(said), "{error}");
     }
 }
+
+/// Modes that a person says are those of the tones; modes that fall while their tones rise are refused in words.
+#[test]
+fn the_mode_of_a_tone_can_be_said() {
+    let file_of = include_bytes!("../../tests/golden/taps.wav");
+    let sound: Vec<u8> = file_of[44..]
+        .chunks_exact(2)
+        .flat_map(|b| (f32::from(i16::from_le_bytes([b[0], b[1]])) / 32768.0).to_le_bytes())
+        .collect();
+    let rate = u32::from_le_bytes(file_of[24..28].try_into().unwrap());
+    let heard = |told: Value| -> Value {
+        let request = json!({ "id": 7, "ask": "tap", "bat": file("r161"), "name": "taps.wav",
+                              "rate_hz": rate, "channels": 1, "told": told });
+        serde_json::from_str(&answered(&request.to_string(), &sound)).unwrap()
+    };
+    let free = heard(json!([]));
+    let tones = free["document"]["tones"].as_array().unwrap();
+    let hz: Vec<f64> = tones.iter().map(|tone| number(&tone["frequency_hz"])).collect();
+    let said = heard(json!([[hz[1], null], [hz[2], 3]]));
+    let said = said["document"]["tones"].as_array().unwrap();
+    assert_eq!((&said[1]["mode"], &said[2]["sure"]), (&Value::Null, &json!(1.0)));
+    assert_eq!(said[0]["mode"], tones[0]["mode"]);
+    for (told, words) in
+        [(json!([[hz[0], 2], [hz[1], 1]]), "rise"), (json!([[hz[0], 99]]), "1 to 20")]
+    {
+        let error = heard(told)["error"].as_str().unwrap_or_default().to_owned();
+        assert!(error.starts_with("mode: ") && error.contains(words), "{error}");
+    }
+}

@@ -113,6 +113,30 @@ def dropped_and_taken(browser, page, sweetspot, path):
     quiet(browser, "dropped")
 
 
+def said(browser, page, sweetspot, path):
+    """A mode that a person says is that of `--mode`; one that cannot be is taken back and spoken of."""
+    opened(browser, page)
+    dropped(browser, path)
+    check(waited(browser, DONE, 90), f"a dropped recording has no answer: {browser.run(STATE)}")
+    third = browser.run(f"{ANSWER}.document.tones[2].frequency_hz")
+
+    def choose(row, value):
+        browser.run(f"(() => {{ const select = document.querySelectorAll('#tap-tones select')[{row}]; select.value = '{value}'; "
+                    "select.dispatchEvent(new Event('change')); })()")
+
+    choose(2, "none")
+    check(waited(browser, f"{DONE} && {ANSWER}.document.tones[2].mode === null", 90), f"no mode is not heeded: {browser.run(STATE)}")
+    alike(browser.run(f"{ANSWER}.document"), told(sweetspot, "tap", "r161", path, "--mode", f"{third} = none"), (1e-7, 1e-4, 1e-5), "said")
+    check(browser.run("document.querySelectorAll('#tap-tones select')[2].value") == "none", "what was said is not shown")
+    choose(2, "3")
+    check(waited(browser, f"{DONE} && {ANSWER}.document.tones[2].sure === 1", 90), f"mode 3 is not heeded: {browser.run(STATE)}")
+    choose(3, "1")
+    check(waited(browser, f"{DONE} && /rise with the frequencies/.test({STATE})", 90), f"modes that fall are {browser.run(STATE)!r}")
+    values = browser.run("[...document.querySelectorAll('#tap-tones select')].map(select => select.value)")
+    check(values == ["", "", "3", "", ""], f"what cannot be is not taken back: {values}")
+    quiet(browser, "said")
+
+
 def chosen_and_stopped(browser, page, folder, path):
     """A chosen file is heard; it can be stopped; what is no sound, and silence, are spoken of."""
     opened(browser, page)
@@ -178,6 +202,7 @@ def main():
         flags = ["--use-fake-device-for-media-stream", "--use-fake-ui-for-media-stream", f"--use-file-for-fake-audio-capture={path}"]
         with chromium.Browser(limit=1800, flags=flags) as browser:
             for name, part in {"dropped": lambda: dropped_and_taken(browser, page, sweetspot, path),
+                               "said": lambda: said(browser, page, sweetspot, path),
                                "chosen": lambda: chosen_and_stopped(browser, page, folder, path),
                                "microphone": lambda: microphone(browser, page, sweetspot, path)}.items():
                 began = time.monotonic()

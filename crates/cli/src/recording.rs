@@ -5,11 +5,11 @@ use std::path::Path;
 use sweetspot::base::error::Complaint;
 use sweetspot::base::number::rounded;
 use sweetspot::{Bat, Error, Result};
-use sweetspot_report::report::tap::{said, unreadable};
+use sweetspot_report::report::tap::unreadable;
 use sweetspot_study::calibrate::readings::BatReadings;
 use sweetspot_study::tap::hoops::BatMode;
 use sweetspot_study::tap::tapped::{Tapped, ToneLabel};
-use sweetspot_tap::analysis::Analysis;
+use sweetspot_tap::analysis::{Analysis, Code};
 use sweetspot_tap::decode::{self, Part};
 use sweetspot_tap::recording::Recording;
 
@@ -36,7 +36,7 @@ pub fn readings(path: &Path, bat: &Bat, quiet: bool) -> Result<BatReadings> {
             "taps of this bat: sweetspot tap says more",
         ));
     }
-    analysis.warnings.iter().for_each(|(code, _)| warn(&format!("note: {}", said(*code)), quiet));
+    analysis.warnings.iter().for_each(|(code, _)| warn(&format!("note: {}", code.text()), quiet));
     let tapped = Tapped::of(bat, &analysis, &[])?;
     let wood = tapped.wood.ok_or_else(|| {
         Error::value(printed(path), "no tone that is a bending mode", "taps of this bat")
@@ -61,10 +61,10 @@ pub fn first_tone(path: &Path, text: &str) -> std::result::Result<String, Compla
     let analysis = Analysis::of(&[read(path, Part::default()).map_err(wrong)?], None);
     let tapped = Tapped::heard(&bat, &analysis, &[]).map_err(wrong)?;
     let labels = tapped.map_or(vec![], |tapped| tapped.labels);
-    let is_first = |label: &ToneLabel| label.mode == Some(BatMode::Bending(1));
+    let is_first = |label: &ToneLabel| label.mode == Some(BatMode::Bending { order: 1 });
     let tone = analysis.tones.iter().zip(&labels).find(|(_, label)| is_first(label));
     let Some((tone, _)) = tone else {
-        let found = analysis.refused.map_or("taps without the lowest tone of this bat", said);
+        let found = analysis.refused.map_or("taps without the lowest tone of this bat", Code::text);
         return Err(Complaint::new("", found, "taps of this bat, or its tone in Hz"));
     };
     Ok(format!("{} Hz", rounded(tone.pole.hz, 2)))

@@ -13,7 +13,7 @@ use sweetspot_tap::analysis::Analysis;
 use sweetspot_tap::decode::Part;
 
 use crate::calibrate::label;
-use crate::common::{examples, read_with_text};
+use crate::common::{as_options, examples, read_with_text};
 use crate::done::{Done, FAILED};
 use crate::edits::EditArgs;
 use crate::output::{CsvArgs, FullArgs, LINES, apart, draw, put, warn};
@@ -32,8 +32,8 @@ use crate::value::{MOMENT, TOP_FREQUENCY};
 /// breadth from the barrel and record with a plain recorder app, with "enhanced recording" off. Tap the tip five to
 /// eight times, a second apart, with a hard object the size of a knuckle, the label facing up, and let it ring. Move
 /// the phone a hand's breadth between taps: that halves the error of the loss factor. Use a furnished room, and do not
-/// speak. The other plane of the grain has other tones: turn the bat a quarter for it, and analyse that recording
-/// separately.
+/// speak. The other plane of the grain has other tones: turn the bat a quarter for it, record a second file, and name
+/// both.
 #[derive(clap::Args)]
 #[command(after_long_help = examples("tap"), next_help_heading = "Output")]
 pub struct Args {
@@ -126,7 +126,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let analysis = Analysis::of(&recordings, args.highest);
     let tapped = match args.only_tones {
         true => None,
-        false => Tapped::heard(&bat, &analysis, &args.mode)?,
+        false => Tapped::heard(&bat, &analysis, &args.mode).map_err(as_options)?,
     };
     let report = TapReport {
         bat: &bat,

@@ -36,49 +36,77 @@ pub struct Tap {
     pub rings: [usize; 2],
 }
 
-/// What a warning or a refusal is of.
+/// What a warning or a refusal is of; [`Code::text`] says what each means.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Code {
-    /// The recording is too loud.
     Clipped,
-    /// The recorder turns its gain.
     AutomaticGain,
-    /// There is one tap only.
     OneTap,
-    /// The room is heard.
     Room,
-    /// Parts of the file cannot be decoded.
     SpoiltFile,
-    /// The sample rate is low.
     LowRate,
-    /// Taps bounced.
     Bounces,
-    /// Hum was taken off.
     Hum,
-    /// There are few tones.
     FewTones,
-    /// No tap was found.
     NoTap,
-    /// No tone was found.
     NoTone,
 }
 
 impl Code {
+    /// Its name in files, and what it means and what to do.
+    fn told(self) -> [&'static str; 2] {
+        match self {
+            Self::Clipped => [
+                "clipped",
+                "The recording is too loud and clipped: frequencies hold, loss factors do not and are left out. Record \
+                 again with less gain, or tap more softly.",
+            ],
+            Self::AutomaticGain => [
+                "automatic_gain",
+                "The recorder turns its gain while a tap rings: frequencies hold, loss factors do not and are left out. \
+                 Turn \"enhanced recording\" or automatic gain off.",
+            ],
+            Self::OneTap => [
+                "one_tap",
+                "There is one tap alone: only several tell how far each is off, and which sound is no tap.",
+            ],
+            Self::Room => [
+                "room",
+                "The room is heard in how the tones die: bring the phone within a hand's breadth of the barrel.",
+            ],
+            Self::SpoiltFile => {
+                ["spoilt_file", "Parts of the file are spoilt: silence stands for them."]
+            }
+            Self::LowRate => {
+                ["low_rate", "The recording has few samples a second: high tones are not in it."]
+            }
+            Self::Bounces => {
+                ["bounces", "Taps bounced: what rings after the last bounce was taken."]
+            }
+            Self::Hum => ["hum", "Hum of the mains was left out."],
+            Self::FewTones => {
+                ["few_tones", "Only two tones were found: labels and wood rest on little."]
+            }
+            Self::NoTap => [
+                "no_tap",
+                "No tap was found in it: record five to eight single taps, a second apart.",
+            ],
+            Self::NoTone => [
+                "no_tone",
+                "Fewer than two tones were found that the taps share: tap with something hard, the phone within a \
+                 hand's breadth of the barrel, the bat hung or held at a node.",
+            ],
+        }
+    }
+
     /// Its name in files.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Clipped => "clipped",
-            Self::AutomaticGain => "automatic_gain",
-            Self::OneTap => "one_tap",
-            Self::Room => "room",
-            Self::SpoiltFile => "spoilt_file",
-            Self::LowRate => "low_rate",
-            Self::Bounces => "bounces",
-            Self::Hum => "hum",
-            Self::FewTones => "few_tones",
-            Self::NoTap => "no_tap",
-            Self::NoTone => "no_tone",
-        }
+        self.told()[0]
+    }
+
+    /// What it means, and what to do.
+    pub fn text(self) -> &'static str {
+        self.told()[1]
     }
 }
 
@@ -114,51 +142,35 @@ impl Analysis {
     /// Listens to recordings of one bat, up to that frequency (Hz) if one is given.
     pub fn of(recordings: &[Recording], highest: Option<f64>) -> Self {
         let heard: Vec<Heard> = recordings.iter().map(Heard::of).collect();
-        let mut taps = vec![];
-        let mut ringing = vec![];
-        let mut sought: Vec<f64> = vec![];
-        for (k, (heard, recording)) in heard.iter().zip(recordings).enumerate() {
-            for (tap, [from, to]) in heard.taps.iter().zip(&heard.rings) {
-                let at = recording.from + tap.at as f64 / recording.rate;
-                taps.push(Tap {
-                    recording: k,
-                    at,
-                    bounces: tap.bounces,
-                    used: true,
-                    rings: [*from, *to],
-                });
-                let samples = &heard.samples[*from..*to];
-                ringing.push(Ringing { recording: k, samples, rate: recording.rate });
+        let (mut taps, mut ringing, mut sought) = (vec![], vec![], vec![]);
+        for (k, (heard, one)) in heard.iter().zip(recordings).enumerate() {
+            for (tap, rings) in heard.taps.iter().zip(&heard.rings) {
+                let (at, rings) = (one.from + tap.at as f64 / one.rate, *rings);
+                taps.push(Tap { recording: k, at, bounces: tap.bounces, used: true, rings });
+                let samples = &heard.samples[rings[0]..rings[1]];
+                ringing.push(Ringing { recording: k, samples, rate: one.rate });
             }
-            let most = (HIGHEST * recording.rate).min(highest.unwrap_or(f64::INFINITY));
-            let found = peaks(&heard.samples, recording.rate, &heard.rings, most);
-            sought.extend(found.iter().map(|peak| peak.hz));
+            let most = (HIGHEST * one.rate).min(highest.unwrap_or(f64::INFINITY));
+            let found = peaks(&heard.samples, one.rate, &heard.rings, most);
+            sought.push(found.iter().map(|peak| peak.hz).collect::<Vec<f64>>());
         }
-        sought.sort_by(f64::total_cmp);
-        let conditions: Vec<Condition> =
-            heard.iter().map(|heard| heard.condition.clone()).collect();
-        let none = |refused| Self {
-            conditions: conditions.clone(),
-            taps: taps.clone(),
-            tones: vec![],
-            has_loss: false,
-            warnings: warnings(recordings, &conditions, &taps, &[], 0.0)
-                .into_iter()
-                .filter(|(code, _)| SPOILT.contains(code))
-                .collect(),
-            refused: Some(refused),
-        };
-        if taps.is_empty() {
-            return none(Code::NoTap);
-        }
+        let conditions = heard.iter().map(|heard| heard.condition.clone()).collect::<Vec<_>>();
         let found = tones(&ringing, &sought);
-        if found.tones.len() < 2 {
-            return none(Code::NoTone);
+        let refused = match () {
+            _ if taps.is_empty() => Some(Code::NoTap),
+            _ if found.tones.len() < 2 => Some(Code::NoTone),
+            _ => None,
+        };
+        let is_spoilt = |(code, _): &(Code, Option<usize>)| SPOILT.contains(code);
+        if refused.is_some() {
+            let mut warnings = warnings(recordings, &conditions, &taps, &[], 0.0);
+            warnings.retain(is_spoilt);
+            return Self { conditions, taps, tones: vec![], has_loss: false, warnings, refused };
         }
         taps.iter_mut().zip(&found.used).for_each(|(tap, used)| tap.used = *used);
         let warnings = warnings(recordings, &conditions, &taps, &found.tones, found.room);
-        let has_loss = !warnings.iter().any(|(code, _)| SPOILT.contains(code));
-        Self { conditions, taps, tones: found.tones, has_loss, warnings, refused: None }
+        let has_loss = !warnings.iter().any(is_spoilt);
+        Self { conditions, taps, tones: found.tones, has_loss, warnings, refused }
     }
 }
 
@@ -241,4 +253,46 @@ fn warnings(
         [(Code::OneTap, used == 1), (Code::Room, room > ROOM), (Code::FewTones, tones.len() < 3)];
     all.extend(together.into_iter().filter(|(_, is)| *is).map(|(code, _)| (code, None)));
     all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::{PI, TAU};
+
+    /// A recording of five taps with tones of a loss factor of 0.01.
+    fn recording(tones: &[f64], rate: f64) -> Recording {
+        let tap = |n: usize| {
+            let (t, k) = ((n % 8400) as f64 / rate, n / 8400);
+            let one = |(j, hz): (usize, &f64)| {
+                let phase = (7 * k + 3 * j) as f64;
+                (1.0 + 0.3 * phase.cos())
+                    * (-PI * hz * 0.01 * t).exp()
+                    * (TAU * hz * t + phase).sin()
+            };
+            let noise = 1e-4 * ((n * n % 7919) as f64 / 7919.0 - 0.5);
+            noise + tones.iter().enumerate().map(one).sum::<f64>()
+        };
+        let sound = (0..42_000).map(tap);
+        Recording::of("x", std::iter::repeat_n(0.0, 4000).chain(sound).collect(), rate).unwrap()
+    }
+
+    /// The tones of two planes of the grain, each in a recording of its own, are told apart from 0.6 of their
+    /// half-power widths on.
+    #[test]
+    fn two_planes_of_the_grain_have_tones_of_their_own() {
+        let one = [175.0, 581.0, 1187.0, 1858.0];
+        for apart in [1.006, 1.01, 1.015, 1.02, 1.028] {
+            let two = one.map(|hz| apart * hz);
+            let both = [&one[..], &two].map(|tones| recording(tones, 8000.0));
+            let found = Analysis::of(&both, None).tones;
+            let all: Vec<f64> = found.iter().map(|tone| tone.pole.hz).collect();
+            assert_eq!(all.len(), 8, "{apart}: {all:?}");
+            for hz in one.iter().chain(&two) {
+                let near = found.iter().find(|tone| (tone.pole.hz / hz - 1.0).abs() < 1e-3);
+                let near = near.unwrap_or_else(|| panic!("{apart}: {hz} in {all:?}"));
+                assert!(near.taps == 5 && near.twin.is_some(), "{near:?}");
+            }
+        }
+    }
 }

@@ -10,7 +10,7 @@ use symphonia::core::formats::{FormatOptions, FormatReader, TrackType};
 use symphonia::core::io::MediaSourceStream;
 use symphonia::core::meta::MetadataOptions;
 
-use crate::recording::{LARGEST, LONGEST, RATES, Recording, Unreadable, loudest};
+use crate::recording::{LARGEST, Recording, Unreadable, is_rate, is_short, loudest};
 
 const READ: &str = "a recording as m4a (AAC, ALAC), wav, mp3, flac or ogg (Vorbis)";
 const MOST_CHANNELS: usize = 8;
@@ -55,7 +55,7 @@ pub fn read(path: &Path, part: Part) -> Result<Recording, Unreadable> {
 /// # Errors
 ///
 /// [`Unreadable::Sound`] for contents that are no sound that is read here: voice notes (Opus, AMR), HE-AAC, files that
-/// are spoilt, empty, or longer than [`LONGEST`].
+/// are spoilt, empty, or longer than [`LONGEST`](crate::recording::LONGEST).
 pub fn decode(name: &str, bytes: Vec<u8>, part: Part) -> Result<Recording, Unreadable> {
     if bytes.len() as u64 > LARGEST {
         let expected = format!("at most {} MB: a minute of taps is enough", LARGEST / 1_000_000);
@@ -84,7 +84,7 @@ pub fn decode(name: &str, bytes: Vec<u8>, part: Part) -> Result<Recording, Unrea
         None => loudest(channels),
     };
     let Some(chosen) = chosen else {
-        let expected = format!("one of its {count}");
+        let expected = format!("one of its channels, 1 to {count}");
         let asked = part.channel.map_or("no sound".to_owned(), |k| format!("channel {k}"));
         return Err(Unreadable::sound(asked, expected));
     };
@@ -204,7 +204,7 @@ fn sound(
         }
     }
     if passed > 0 && channels.iter().all(Vec::is_empty) {
-        let found = format!("{} s of sound", passed as f64 / rate);
+        let found = format!("{:.1} s of sound", passed as f64 / rate);
         return Err(Unreadable::sound(found, "--from within it, and --to after that"));
     }
     if channels.iter().all(Vec::is_empty) {
@@ -215,22 +215,18 @@ fn sound(
 
 /// Refuses numbers of channels and rates beyond those that are listened to.
 fn is_taken(channels: usize, rate: f64) -> Result<(), Unreadable> {
-    if (1..=MOST_CHANNELS).contains(&channels) && (RATES[0]..=RATES[1]).contains(&rate) {
-        return Ok(());
+    if !(1..=MOST_CHANNELS).contains(&channels) {
+        let expected = format!("1 to {MOST_CHANNELS}");
+        return Err(Unreadable::sound(format!("{channels} channels"), expected));
     }
-    let found = format!("{channels} channels of {rate} samples a second");
-    let expected = format!("1 to {MOST_CHANNELS} of {} to {}", RATES[0], RATES[1]);
-    Err(Unreadable::sound(found, expected))
+    is_rate(rate)
 }
 
 /// Refuses sound that is too long, or too much to hold.
 fn at_most(channels: &[Vec<f32>], rate: f64) -> Result<(), Unreadable> {
-    if channels[0].len() as f64 > LONGEST * rate {
-        let expected = format!("at most {LONGEST} s: take a part of it with --from and --to");
-        return Err(Unreadable::sound(format!("more than {LONGEST} s of sound"), expected));
-    }
+    is_short(channels[0].len(), rate)?;
     if channels.iter().map(Vec::len).sum::<usize>() > MOST_SAMPLES {
-        let expected = "fewer: take a part of it with --from and --to, or record at 48 kHz";
+        let expected = "fewer: take a part of it, as with --from and --to, or record at 48 kHz";
         return Err(Unreadable::sound(format!("more than {MOST_SAMPLES} samples"), expected));
     }
     Ok(())

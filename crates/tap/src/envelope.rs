@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::complex::Complex;
+use faer::c64;
 
 /// Levels (dB) of the tone of that frequency (Hz) at that number of moments of some samples, by windows of cos² of
 /// that length (s) which lie inside of it; with the moment of each window's middle (s).
@@ -13,12 +13,12 @@ pub fn envelope(samples: &[f64], rate: f64, hz: f64, window: f64, moments: usize
         let from = room * k / (moments.max(2) - 1);
         let one = |(n, x): (usize, &f64)| {
             let shape = (PI * (n as f64 + 0.5) / length as f64).sin().powi(2);
-            Complex::turn(-TAU * hz * n as f64 / rate) * (x * shape)
+            c64::cis(-TAU * hz * n as f64 / rate) * (x * shape)
         };
         let part = samples[from..from + length].iter().enumerate().map(one);
-        let sum = part.fold(Complex::default(), |a, b| a + b);
+        let sum: c64 = part.sum();
         // A tone of size 1 is half of its window's sum.
-        let size = sum.square().sqrt() * 4.0 / length as f64;
+        let size = sum.norm() * 4.0 / length as f64;
         [(from as f64 + 0.5 * length as f64) / rate, 20.0 * (size + 1e-12).log10()]
     };
     (0..moments).map(moment).collect()

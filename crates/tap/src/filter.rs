@@ -55,23 +55,28 @@ pub fn levels(samples: &[f64], frame: usize) -> Vec<f64> {
     samples.chunks(frame.max(1)).map(level).collect()
 }
 
-/// The value below which that share of all lies; 0 of none.
-pub fn quantile(values: &[f64], share: f64) -> f64 {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let place = share * sorted.len().saturating_sub(1) as f64;
-    sorted.get(place.round() as usize).copied().unwrap_or(0.0)
+/// The largest value; −∞ of none.
+pub fn most(values: &[f64]) -> f64 {
+    values.iter().copied().fold(f64::NEG_INFINITY, f64::max)
 }
 
-/// The middle one; the mean of the middle two of an even number.
-pub fn median(values: &[f64]) -> f64 {
-    let below = quantile(values, 0.5 - 1e-9);
+fn sorted(values: &[f64]) -> Vec<f64> {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
-    match sorted.len() {
-        0 => 0.0,
-        n if n % 2 == 0 => 0.5 * (sorted[n / 2 - 1] + sorted[n / 2]),
-        _ => below,
+    sorted
+}
+
+/// The value below which that share of all lies; 0 of none.
+pub fn quantile(values: &[f64], share: f64) -> f64 {
+    let place = share * values.len().saturating_sub(1) as f64;
+    sorted(values).get(place.round() as usize).copied().unwrap_or(0.0)
+}
+
+/// The middle one; the mean of the middle two of an even number; 0 of none.
+pub fn median(values: &[f64]) -> f64 {
+    match sorted(values)[..] {
+        [] => 0.0,
+        ref all => 0.5 * (all[(all.len() - 1) / 2] + all[all.len() / 2]),
     }
 }
 

@@ -17,8 +17,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::complex::Complex;
-use crate::least_squares::{beside, inverse, solve};
+use faer::c64;
+
+use crate::least_squares::{Basis, inverse, real_dot, solve};
 
 /// A damped tone.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,6 +40,11 @@ impl Pole {
     pub fn loss(self) -> f64 {
         self.decay / (PI * self.hz)
     }
+
+    /// The pole after a step: of its frequency in units of δ/π, and of the logarithm of its decay.
+    fn stepped(self, step: &[f64]) -> Self {
+        Self { hz: self.hz + step[0] * self.decay / PI, decay: self.decay * step[1].exp() }
+    }
 }
 
 /// A band of one tap's transform.
@@ -49,7 +55,7 @@ pub struct Band {
     rate: f64,
     samples: usize,
     /// Frequencies (Hz), and the transform there.
-    lines: Vec<(f64, Complex)>,
+    lines: Vec<(f64, c64)>,
     weight: f64,
 }
 
@@ -77,55 +83,52 @@ impl Band {
         }
         // Goertzel's sums, turned by (N − 1) samples, which is one sample back.
         let line = |(k, turn): (usize, &f64)| {
-            let sum = Complex::new(one[k], 0.0) - Complex::turn(-turn) * two[k];
-            ((first + k) as f64 * step, sum * Complex::turn(*turn))
+            let sum = c64::from(one[k]) - c64::cis(-turn) * two[k];
+            ((first + k) as f64 * step, sum * c64::cis(*turn))
         };
         let lines = turns.iter().enumerate().map(line).collect();
         Some(Self { tap, rate, samples: samples.len(), lines, weight: 1.0 })
     }
 
     /// The lines.
-    pub fn lines(&self) -> &[(f64, Complex)] {
+    pub fn lines(&self) -> &[(f64, c64)] {
         &self.lines
     }
 
-    fn transform(&self, hz: f64, pole: Pole, nu: f64) -> Complex {
-        let exponent = Complex::new(-pole.decay, TAU * (hz - nu)) * (1.0 / self.rate);
-        let whole = Complex::ONE - (exponent * self.samples as f64).exp();
-        whole / (Complex::ONE - exponent.exp())
+    fn transform(&self, hz: f64, pole: Pole, nu: f64) -> c64 {
+        let exponent = c64::new(-pole.decay, TAU * (hz - nu)) / self.rate;
+        (1.0 - (exponent * self.samples as f64).exp()) / (1.0 - exponent.exp())
     }
 
-    fn columns(&self, poles: &[Pole]) -> Vec<Vec<f64>> {
-        let rows = 2 * self.lines.len();
-        let mut all = Vec::with_capacity(2 * poles.len() + 4);
-        for pole in poles {
-            let (mut real, mut imaginary) = (Vec::with_capacity(rows), Vec::with_capacity(rows));
-            for (nu, _) in &self.lines {
+    /// The parts of these poles in every line, by the real and the imaginary part of an amplitude, then the ground.
+    fn columns(&self, poles: &[Pole]) -> Vec<Vec<c64>> {
+        let own = |pole: &Pole| {
+            let both = |(nu, _): &(f64, c64)| {
                 let own = self.transform(pole.hz, *pole, *nu);
                 let mirror = self.transform(-pole.hz, *pole, *nu);
-                let (sum, difference) = (own + mirror, own - mirror);
-                real.extend([sum.re, sum.im]);
-                imaginary.extend([-difference.im, difference.re]);
-            }
-            all.extend([real, imaginary]);
-        }
+                (own + mirror, c64::I * (own - mirror))
+            };
+            let (real, imaginary) = self.lines.iter().map(both).unzip();
+            [real, imaginary]
+        };
         let (first, last) = (self.lines[0].0, self.lines[self.lines.len() - 1].0);
         let slope = |nu: f64| (2.0 * nu - first - last) / (last - first);
-        for part in [[1.0, 0.0], [0.0, 1.0]] {
-            all.push(self.lines.iter().flat_map(|_| part).collect());
-            all.push(self.lines.iter().flat_map(|(nu, _)| part.map(|p| p * slope(*nu))).collect());
-        }
-        all
+        let ground = [c64::ONE, c64::I].into_iter().flat_map(|unit| {
+            let slope = self.lines.iter().map(|(nu, _)| unit * slope(*nu));
+            [vec![unit; self.lines.len()], slope.collect()]
+        });
+        poles.iter().flat_map(own).chain(ground).collect()
     }
 
     /// What is left beside these poles and the ground.
-    fn left(&self, poles: &[Pole]) -> Vec<f64> {
-        let target = self.lines.iter().flat_map(|(_, x)| [x.re, x.im]).collect();
-        beside(self.columns(poles), target)
+    fn left(&self, poles: &[Pole]) -> Vec<c64> {
+        let mut target: Vec<c64> = self.lines.iter().map(|(_, x)| *x).collect();
+        Basis::of(self.columns(poles), real_dot).take_off(&mut target);
+        target
     }
 
     fn square(&self, poles: &[Pole]) -> f64 {
-        self.left(poles).iter().map(|x| x * x).sum()
+        square(&self.left(poles))
     }
 
     /// The share of the band's power above the ground that these poles leave.
@@ -135,9 +138,9 @@ impl Band {
 
     /// The logarithm of the first pole's amplitude where the band begins, beside the others.
     pub fn amplitude(&self, poles: &[Pole]) -> f64 {
-        let alone = self.left(&poles[1..]).iter().map(|x| x * x).sum::<f64>();
-        let of_one = self.columns(&poles[..1]).swap_remove(0).iter().map(|x| x * x).sum::<f64>();
-        0.5 * ((alone - self.square(poles)).max(1e-300) / of_one.max(1e-300)).ln()
+        let own = self.square(&poles[1..]) - self.square(poles);
+        let of_one = square(&self.columns(&poles[..1])[0]);
+        0.5 * (own.max(1e-300) / of_one.max(1e-300)).ln()
     }
 
     /// Degrees of freedom beside that number of poles.
@@ -163,51 +166,92 @@ pub struct Fit {
     pub square: f64,
 }
 
-const MOST_STEPS: usize = 25;
+/// The sum of squares.
+fn square(values: &[c64]) -> f64 {
+    real_dot(values, values)
+}
+
+const MOST_STEPS: usize = 30;
 const SETTLED: f64 = 1e-6;
 
-/// The poles that fit all bands best, begun at these; `beside` are poles of other tones, which stay. None where they
-/// run away: below a tenth or beyond ten times the decay they began with, or a frequency that leaves its band.
-pub fn fit(bands: &[Band], start: &[Pole], beside: &[Pole]) -> Option<Fit> {
-    let residual = |poles: &[Pole]| {
-        let all: Vec<Pole> = poles.iter().chain(beside).copied().collect();
-        let part = |band: &Band| {
-            let weight = band.weight;
-            band.left(&all).into_iter().map(move |x| x * weight).collect::<Vec<f64>>()
-        };
-        bands.iter().flat_map(part).collect::<Vec<f64>>()
-    };
-    let sum = |r: &[f64]| r.iter().map(|x| x * x).sum::<f64>();
+/// Poles where a sum of squares is least, what was computed at them, the sum, and the normal matrix.
+pub(crate) type Descended<A> = (Vec<Pole>, A, f64, Vec<Vec<f64>>);
+
+/// The least sum of squares from these poles on, by Gauss-Newton with damped steps. `at` computes it, `normal` the
+/// normal matrix and the downhill direction by frequencies in units of δ/π and logarithms of decays. `ends` says
+/// whether a step that lowered the sum by so much was the last, and None where the poles run away.
+pub(crate) fn descended<A>(
+    start: &[Pole],
+    at: impl Fn(&[Pole]) -> (A, f64),
+    normal: impl Fn(&[Pole], &A) -> (Vec<Vec<f64>>, Vec<f64>),
+    ends: impl Fn(&[Pole], f64) -> Option<bool>,
+) -> Option<Descended<A>> {
     let mut poles = start.to_vec();
-    let mut here = residual(&poles);
-    let (mut damped, mut normal) = (1e-3, vec![]);
+    let (mut here, mut square) = at(&poles);
+    let (mut damped, mut matrix) = (1e-3, vec![]);
     for _ in 0..MOST_STEPS {
-        let slopes = slopes(&poles, &here, &residual);
-        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-        normal = slopes.iter().map(|a| slopes.iter().map(|b| dot(a, b)).collect()).collect();
-        let downhill: Vec<f64> = slopes.iter().map(|a| -dot(a, &here)).collect();
+        let (curved, downhill) = normal(&poles, &here);
+        matrix = curved;
         let mut largest;
         let moved = loop {
-            let step = solve(with(&normal, &downhill, damped))?;
+            let step = solve(with(&matrix, &downhill, damped))?;
             largest = step.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-            let shrink = (1.0 / largest).min(1.0);
-            let next = stepped(&poles, &step, shrink);
-            let there = residual(&next);
-            if sum(&there) <= sum(&here) {
+            let step: Vec<f64> = step.iter().map(|x| (1.0 / largest).min(1.0) * x).collect();
+            let next = poles.iter().zip(step.chunks(2)).map(|(pole, step)| pole.stepped(step));
+            let next: Vec<Pole> = next.collect();
+            let (there, lower) = at(&next);
+            if lower <= square {
                 damped = (damped * 0.1).max(1e-9);
-                break Some((next, there));
+                break Some((next, there, lower));
             }
             damped *= 10.0;
             if damped > 1e6 || largest < SETTLED {
                 break None;
             }
         };
-        let Some((next, there)) = moved else { break };
-        (poles, here) = (next, there);
-        if largest < SETTLED {
+        let Some((next, there, lower)) = moved else { break };
+        let fell = square - lower;
+        (poles, here, square) = (next, there, lower);
+        if ends(&poles, fell)? || largest < SETTLED {
             break;
         }
     }
+    Some((poles, here, square, matrix))
+}
+
+fn with(normal: &[Vec<f64>], right: &[f64], damped: f64) -> Vec<Vec<f64>> {
+    let row = |(i, row): (usize, &Vec<f64>)| {
+        let mut row = row.clone();
+        row[i] += damped * row[i] + 1e-300;
+        row.push(right[i]);
+        row
+    };
+    normal.iter().enumerate().map(row).collect()
+}
+
+/// The poles that fit all bands best, begun at these; `beside` are poles of other tones, which stay. None where they
+/// run away: below a tenth or beyond ten times the decay they began with, or a frequency that leaves its band.
+pub fn fit(bands: &[Band], start: &[Pole], beside: &[Pole]) -> Option<Fit> {
+    let residual = |poles: &[Pole]| {
+        let all = [poles, beside].concat();
+        let part = |band: &Band| {
+            let weight = band.weight;
+            band.left(&all).into_iter().map(move |x| x * weight)
+        };
+        bands.iter().flat_map(part).collect::<Vec<c64>>()
+    };
+    let at = |poles: &[Pole]| {
+        let here = residual(poles);
+        let square = square(&here);
+        (here, square)
+    };
+    let normal = |poles: &[Pole], here: &Vec<c64>| {
+        let slopes = slopes(poles, here, &residual);
+        let row = |a: &Vec<c64>| slopes.iter().map(|b| real_dot(a, b)).collect();
+        let downhill = slopes.iter().map(|a| -real_dot(a, here)).collect();
+        (slopes.iter().map(row).collect(), downhill)
+    };
+    let (poles, _, square, normal) = descended(start, at, normal, |_, _| Some(false))?;
     let runs = |(pole, begun): (&Pole, &Pole)| {
         let ratio = pole.decay / begun.decay;
         let away = (pole.hz - begun.hz).abs() > 3.0 * begun.decay.max(pole.decay) + 0.02 * begun.hz;
@@ -216,7 +260,6 @@ pub fn fit(bands: &[Band], start: &[Pole], beside: &[Pole]) -> Option<Fit> {
     if poles.iter().zip(start).any(runs) {
         return None;
     }
-    let square = sum(&here);
     let count = poles.len() + beside.len();
     let freedom: f64 = bands.iter().map(|band| band.freedom(count)).sum();
     let spread = square / (freedom - 2.0 * poles.len() as f64).max(1.0);
@@ -228,35 +271,18 @@ pub fn fit(bands: &[Band], start: &[Pole], beside: &[Pole]) -> Option<Fit> {
     Some(Fit { deviations: deviations.collect(), poles, square })
 }
 
-/// The poles after a step: frequencies in units of δ/π, decays by their logarithms.
-fn stepped(poles: &[Pole], step: &[f64], share: f64) -> Vec<Pole> {
-    let one = |(pole, step): (&Pole, &[f64])| Pole {
-        hz: pole.hz + share * step[0] * pole.decay / PI,
-        decay: pole.decay * (share * step[1]).exp(),
-    };
-    poles.iter().zip(step.chunks(2)).map(one).collect()
-}
-
-fn slopes(poles: &[Pole], here: &[f64], residual: &impl Fn(&[Pole]) -> Vec<f64>) -> Vec<Vec<f64>> {
+/// Derivatives of what is left by the steps of every pole.
+fn slopes(poles: &[Pole], here: &[c64], residual: &impl Fn(&[Pole]) -> Vec<c64>) -> Vec<Vec<c64>> {
     /// Of a derivative by differences: far above round-off, far below what bends.
     const STEP: f64 = 1e-5;
     let along = |k: usize| {
-        let mut step = vec![0.0; 2 * poles.len()];
-        step[k] = STEP;
-        let there = residual(&stepped(poles, &step, 1.0));
-        there.iter().zip(here).map(|(a, b)| (a - b) / STEP).collect()
+        let mut step = [0.0; 2];
+        step[k % 2] = STEP;
+        let mut moved = poles.to_vec();
+        moved[k / 2] = moved[k / 2].stepped(&step);
+        residual(&moved).iter().zip(here).map(|(a, b)| (a - b) / STEP).collect()
     };
     (0..2 * poles.len()).map(along).collect()
-}
-
-pub(crate) fn with(normal: &[Vec<f64>], right: &[f64], damped: f64) -> Vec<Vec<f64>> {
-    let row = |(i, row): (usize, &Vec<f64>)| {
-        let mut row = row.clone();
-        row[i] += damped * row[i] + 1e-300;
-        row.push(right[i]);
-        row
-    };
-    normal.iter().enumerate().map(row).collect()
 }
 
 #[cfg(test)]

@@ -6,9 +6,9 @@
 
 use std::f64::consts::TAU;
 
-use crate::complex::power;
-use crate::filter::{Pass, filtered, levels, median};
+use crate::filter::{Pass, filtered, levels, median, most};
 use crate::least_squares::solve;
+use crate::transform::power;
 
 /// Mains of the world (Hz), and how far they may be off, relative; a clock of a recorder is a thousandth of that.
 const MAINS: [f64; 2] = [50.0, 60.0];
@@ -19,6 +19,9 @@ const REMOVED: usize = 20;
 /// So many harmonics of hum, each by that factor, stand out of the periodogram around them.
 const FEWEST: usize = 4;
 const STANDS_OUT: f64 = 20.0;
+/// Within these distances of them (Hz) there is no line that is larger over that factor.
+const APART: [f64; 2] = [0.6, 12.0];
+const ALONE: f64 = 2.0;
 /// Shorter recordings do not tell hum from tones (s).
 const SHORTEST: f64 = 0.7;
 
@@ -44,12 +47,17 @@ pub fn hum(samples: &[f64], rate: f64) -> Option<f64> {
     // Each harmonic over what is around it: neither a tap's tone nor one loud harmonic decides.
     let ratios = |f0: f64| {
         (1..=SUMMED).map(move |h| h as f64 * f0).map(|hz| {
-            let around: Vec<f64> = [4.8, 6.0, 7.2, 8.4, 9.6, 10.8, 12.0]
-                .iter()
-                .flat_map(|d| [at(hz - d), at(hz + d)])
-                .collect();
+            let away = [4.8, 6.0, 7.2, 8.4, 9.6, 10.8, 12.0];
+            let around: Vec<f64> = away.iter().flat_map(|d| [at(hz - d), at(hz + d)]).collect();
             at(hz) / median(&around).max(1e-300)
         })
+    };
+    // Taps at even times have lines too, but at all multiples of their rate.
+    let is_alone = |hz: f64| {
+        let line = |hz: f64| ((hz / step) as usize).min(spectrum.len());
+        let [below, above] = [[hz - APART[1], hz - APART[0]], [hz + APART[0], hz + APART[1]]];
+        let around = [below, above].map(|[from, to]| most(&spectrum[line(from)..line(to)]));
+        at(hz) > ALONE * most(&around)
     };
     let (mut best, mut most) = (0.0, f64::NEG_INFINITY);
     for mains in MAINS {
@@ -67,11 +75,12 @@ pub fn hum(samples: &[f64], rate: f64) -> Option<f64> {
         .filter(|(_, ratio)| *ratio > STANDS_OUT)
         .map(|(k, _)| k + 1)
         .collect();
+    let alone = heard.iter().filter(|h| is_alone(**h as f64 * best)).count();
     // The h-th harmonic tells f₀ h times as exactly.
     let weight: f64 = heard.iter().map(|h| (h * h) as f64).sum();
     let sum: f64 =
         heard.iter().map(|h| *h as f64 * top(&spectrum, *h as f64 * best / step) * step).sum();
-    (heard.len() >= FEWEST).then(|| sum / weight)
+    (alone >= FEWEST).then(|| sum / weight)
 }
 
 /// The place of the line near there, by the parabola through the logarithms of three values.
@@ -136,6 +145,27 @@ mod tests {
             (state >> 33) as f64 / (1_u64 << 31) as f64 - 0.5
         };
         (0..count).map(|_| next()).collect()
+    }
+
+    /// Taps at exactly even times have lines at all multiples of their rate, some of them at those of the mains.
+    #[test]
+    fn evenly_spaced_taps_are_no_hum_and_hide_none() {
+        let (rate, noise) = (8000.0, noise(48_000));
+        for apart in [0.5, 0.7, 0.9, 1.0, 1.1, 1.2] {
+            let spacing = (apart * rate) as usize;
+            let sound = |hum: f64| {
+                let sample = |(n, noise): (usize, &f64)| {
+                    let (t, wave) = ((n % spacing) as f64 / rate, TAU * 50.01 * n as f64 / rate);
+                    let tone = |hz: f64| (-12e-3 * hz * t).exp() * (TAU * hz * t).sin();
+                    let hums: f64 = (1..12).map(|h| (f64::from(h) * wave).cos()).sum();
+                    tone(174.5) + tone(581.0) + tone(1187.0) + 3e-4 * noise + hum * hums
+                };
+                noise.iter().enumerate().map(sample).collect::<Vec<f64>>()
+            };
+            assert_eq!(hum(&sound(0.0), rate), None, "{apart} s");
+            let f0 = hum(&sound(0.05), rate).unwrap();
+            assert!((f0 - 50.01).abs() < 0.02, "{apart} s: {f0}");
+        }
     }
 
     #[test]

@@ -1,4 +1,8 @@
-//! Least squares of a few unknowns.
+//! Least squares of a few unknowns, and of columns of complex numbers.
+
+use std::ops::{AddAssign, Mul};
+
+use faer::c64;
 
 /// The solution of a symmetric, positive system whose last column is the right side; None where it is singular.
 pub fn solve(mut rows: Vec<Vec<f64>>) -> Option<Vec<f64>> {
@@ -32,28 +36,65 @@ pub fn inverse(matrix: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
     (0..matrix.len()).map(column).collect()
 }
 
-/// What is left of `target` beside everything that the columns span (Gram and Schmidt, twice for round-off).
-pub fn beside(mut columns: Vec<Vec<f64>>, mut target: Vec<f64>) -> Vec<f64> {
-    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-    for k in 0..columns.len() {
-        let (done, rest) = columns.split_at_mut(k);
-        let own = &mut rest[0];
-        let before = dot(own, own).sqrt();
-        for _ in 0..2 {
-            for other in done.iter() {
-                let share = dot(own, other);
-                own.iter_mut().zip(other).for_each(|(a, b)| *a -= share * b);
-            }
+/// The inner product `aᴴ b`, by which coefficients are complex.
+pub fn dot(a: &[c64], b: &[c64]) -> c64 {
+    a.iter().zip(b).map(|(a, b)| a.conj() * b).sum()
+}
+
+/// The real part of the inner product, by which coefficients are real.
+pub fn real_dot(a: &[c64], b: &[c64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a.re * b.re + a.im * b.im).sum()
+}
+
+/// Takes a share of a column off another one.
+pub fn take<S: Copy>(from: &mut [c64], share: S, column: &[c64])
+where
+    c64: Mul<S, Output = c64>,
+{
+    from.iter_mut().zip(column).for_each(|(a, b)| *a -= *b * share);
+}
+
+/// Columns Q with `Qᴴ Q = 1` that span given ones, `Q R`, by Gram and Schmidt, twice for round-off.
+pub struct Basis<S> {
+    columns: Vec<Vec<c64>>,
+    /// The columns of R down to the diagonal.
+    pub triangle: Vec<Vec<S>>,
+    dot: fn(&[c64], &[c64]) -> S,
+}
+
+impl<S: Copy + Default + AddAssign + From<f64>> Basis<S>
+where
+    c64: Mul<S, Output = c64>,
+{
+    /// The basis of these columns, by [`dot`] or [`real_dot`].
+    pub fn of(columns: impl IntoIterator<Item = Vec<c64>>, dot: fn(&[c64], &[c64]) -> S) -> Self {
+        /// A column of which less is left is one of those before.
+        const LEAST: f64 = 1e-12;
+        let mut basis = Self { columns: vec![], triangle: vec![], dot };
+        for mut column in columns {
+            let before = real_dot(&column, &column).sqrt();
+            let mut shares = basis.take_off(&mut column);
+            let again = basis.take_off(&mut column);
+            shares.iter_mut().zip(again).for_each(|(sum, share)| *sum += share);
+            let size = real_dot(&column, &column).sqrt();
+            let scale = if size > LEAST * before { 1.0 / size } else { 0.0 };
+            column.iter_mut().for_each(|a| *a *= scale);
+            shares.push(size.max(LEAST * before).into());
+            basis.columns.push(column);
+            basis.triangle.push(shares);
         }
-        let size = dot(own, own).sqrt();
-        let scale = if size > 1e-12 * before { 1.0 / size } else { 0.0 };
-        own.iter_mut().for_each(|a| *a *= scale);
-        for _ in 0..2 {
-            let share = dot(&target, own);
-            target.iter_mut().zip(own.iter()).for_each(|(a, b)| *a -= share * b);
-        }
+        basis
     }
-    target
+
+    /// Takes what the columns span off a target; the shares of Q in it.
+    pub fn take_off(&self, target: &mut [c64]) -> Vec<S> {
+        let mut share = |column: &Vec<c64>| {
+            let share = (self.dot)(column, target);
+            take(target, share, column);
+            share
+        };
+        self.columns.iter().map(&mut share).collect()
+    }
 }
 
 #[cfg(test)]
@@ -69,10 +110,16 @@ mod tests {
         );
         let inverse = inverse(&matrix).unwrap();
         assert!((inverse[0][0] - 3.0 / 11.0).abs() < 1e-15);
-        let left = beside(vec![vec![1.0, 1.0, 1.0], vec![0.0, 1.0, 2.0]], vec![1.0, 0.0, 0.0]);
-        for (left, exact) in left.iter().zip([1.0 / 6.0, -1.0 / 3.0, 1.0 / 6.0]) {
-            assert!((left - exact).abs() < 1e-15);
-        }
         assert_eq!(solve(vec![vec![0.0, 1.0]]), None);
+        let column = |values: [f64; 3]| values.map(|x| c64::new(x, -x)).to_vec();
+        let columns = [column([1.0, 1.0, 1.0]), column([0.0, 1.0, 2.0])];
+        let (mut real, mut complex) = (column([1.0, 0.0, 0.0]), column([1.0, 0.0, 0.0]));
+        Basis::of(columns.clone(), real_dot).take_off(&mut real);
+        Basis::of(columns, dot).take_off(&mut complex);
+        for left in [real, complex] {
+            for (left, exact) in left.iter().zip(column([1.0 / 6.0, -1.0 / 3.0, 1.0 / 6.0])) {
+                assert!((left - exact).norm() < 1e-15);
+            }
+        }
     }
 }

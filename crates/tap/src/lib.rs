@@ -2,7 +2,7 @@
 //!
 //! | file | question |
 //! |---|---|
-//! | [`complex`], [`filter`], [`least_squares`] | what is it computed with |
+//! | [`transform`], [`filter`], [`least_squares`] | what is it computed with |
 //! | [`recording`] | what was recorded |
 //! | [`hum`] | is there hum, and what is left without it |
 //! | [`onsets`] | when does a tap begin, when does it ring alone |
@@ -15,7 +15,7 @@
 
 #![forbid(unsafe_code)]
 
-pub mod complex;
+pub mod transform;
 pub mod filter;
 pub mod least_squares;
 pub mod hum;

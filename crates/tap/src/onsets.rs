@@ -8,7 +8,7 @@
 //!
 //! J. Makhoul, Linear prediction: a tutorial review, Proc. IEEE 63 (1975) 561, equations 38 to 40.
 
-use crate::filter::{Pass, filtered, levels, quantile};
+use crate::filter::{Pass, filtered, levels, most, quantile};
 
 /// Frame (s).
 const FRAME: f64 = 2e-3;
@@ -55,14 +55,11 @@ pub fn onsets(samples: &[f64], rate: f64) -> Vec<Onset> {
     let frame = (FRAME * rate).round() as usize;
     let loud = levels(&band, frame);
     let quiet = quantile(&loud, 0.15);
-    let loudest = loud.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let loudest = most(&loud);
     let mut found: Vec<usize> = vec![];
     for k in 1..loud.len() {
-        let before = loud[k.saturating_sub(3)..k].iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let rises = loud[k] > before + RISE
-            && loud[k] > quiet + ABOVE_QUIET
-            && loud[k] > loudest - BELOW_LOUDEST;
-        if !rises {
+        let least = (before(&loud, k) + RISE).max(quiet + ABOVE_QUIET).max(loudest - BELOW_LOUDEST);
+        if loud[k] <= least {
             continue;
         }
         let at = begins(&band, (k * frame).saturating_sub(frame / 2), (LOOK * rate) as usize);
@@ -77,11 +74,15 @@ pub fn onsets(samples: &[f64], rate: f64) -> Vec<Onset> {
             let place = |t: f64| ((at as f64 + t * rate) as usize).min(end) / frame;
             &loud[place(from).min(loud.len() - 1)..=place(to).min(loud.len() - 1)]
         };
-        let most = part(0.0, 0.03).iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        quantile(part(0.1, FALLEN), 0.1) < most - FALL
+        quantile(part(0.1, FALLEN), 0.1) < most(part(0.0, 0.03)) - FALL
     };
     let taps: Vec<usize> = (0..found.len()).filter(falls).map(|k| found[k]).collect();
     taps.iter().map(|at| with_bounces(samples, rate, *at)).collect()
+}
+
+/// The loudest of the three frames before one.
+fn before(levels: &[f64], frame: usize) -> f64 {
+    most(&levels[frame.saturating_sub(3)..frame])
 }
 
 /// The first sample from there on above a share of the largest among the next ones.
@@ -100,12 +101,12 @@ fn with_bounces(samples: &[f64], rate: f64, at: usize) -> Onset {
     let loud = levels(struck, frame);
     let first = (BOUNCES[0] / FRAME).round() as usize;
     let usual = quantile(loud.get(first..).unwrap_or(&[]), 0.5);
-    let most = loud.iter().take(3).copied().fold(f64::NEG_INFINITY, f64::max);
+    let struck_at = most(&loud[..loud.len().min(3)]);
     let mut onset = Onset { at, rings: at, bounces: 0 };
     let mut k = first;
     while k < loud.len() {
-        let before = loud[k.saturating_sub(3)..k].iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        if loud[k] > before + BOUNCE && loud[k] > usual + BOUNCE_ABOVE && loud[k] > most - FAINT {
+        let least = (before(&loud, k) + BOUNCE).max(usual + BOUNCE_ABOVE).max(struck_at - FAINT);
+        if loud[k] > least {
             onset.rings = at + begins(struck, k * frame - frame / 2, 2 * frame);
             onset.bounces += 1;
             k += 4;

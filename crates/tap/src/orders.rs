@@ -141,7 +141,7 @@ fn candidates(
 /// The frequencies at which most is left, each the largest within its surroundings.
 fn most_left(of: &Responses, at: &Projection) -> Vec<f64> {
     let lines = of.hz.len();
-    let power = |l: usize| at.left.iter().map(|left| left[l].square()).sum::<f64>();
+    let power = |l: usize| at.left.iter().map(|left| left[l].norm_sqr()).sum::<f64>();
     let powers: Vec<f64> = (0..lines).map(power).collect();
     let smooth = |l: usize| {
         let part = &powers[l.saturating_sub(1)..(l + 2).min(lines)];
@@ -162,7 +162,7 @@ fn most_left(of: &Responses, at: &Projection) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::complex::Complex;
+    use faer::c64;
     use std::f64::consts::TAU;
 
     /// Accelerances per force on lines 0.5 Hz apart from 50 to 1200 Hz, with noise of that size.
@@ -182,11 +182,11 @@ mod tests {
         };
         let mut at = |residues: &Vec<f64>, f: f64| {
             let size = noise * (-uniform().ln()).sqrt();
-            let start = Complex::new(0.7, 0.0) + Complex::turn(TAU * uniform()) * size;
+            let start = c64::from(0.7) + c64::cis(TAU * uniform()) * size;
             poles.iter().zip(residues).fold(start, |sum, (pole, a)| {
                 let by = if damping == Damping::Material { pole.hz } else { f };
-                let below = Complex::new(pole.hz.powi(2) - f * f, pole.loss() * pole.hz * by);
-                sum - Complex::new(a * f * f, 0.0) / below
+                let below = c64::new(pole.hz.powi(2) - f * f, pole.loss() * pole.hz * by);
+                sum - c64::new(a * f * f, 0.0) / below
             })
         };
         let values = residues.iter().map(|a| hz.iter().map(|f| at(a, *f)).collect()).collect();

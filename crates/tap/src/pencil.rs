@@ -11,8 +11,10 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::complex::Complex;
+use faer::c64;
+
 use crate::fit::{Band, Pole};
+use crate::least_squares::{dot, take};
 
 /// Values of a row at most, so that the work stays small.
 const LONGEST: usize = 48;
@@ -33,14 +35,14 @@ pub fn two_poles(bands: &[Band]) -> Option<[Pole; 2]> {
             / (step(&bands[0]) * bands[0].lines().len() as f64);
         (ratio - 1.0).abs() < 0.03
     };
-    let mut gram = vec![vec![Complex::default(); row]; row];
+    let mut gram = vec![vec![c64::ZERO; row]; row];
     for band in bands.iter().filter(same) {
         let values = back(band);
-        let size = values.iter().map(|y| y.square()).sum::<f64>().max(1e-300);
+        let size = values.iter().map(|y| y.norm_sqr()).sum::<f64>().max(1e-300);
         for window in values.windows(row) {
             for (i, a) in window.iter().enumerate() {
                 for (j, b) in window.iter().enumerate() {
-                    gram[i][j] = gram[i][j] + *a * b.conj() * (1.0 / size);
+                    gram[i][j] += a * b.conj() / size;
                 }
             }
         }
@@ -60,7 +62,7 @@ pub fn two_poles(bands: &[Band]) -> Option<[Pole; 2]> {
 }
 
 /// The band's lines transformed back about its middle, tapered so that its ends do not ring.
-fn back(band: &Band) -> Vec<Complex> {
+fn back(band: &Band) -> Vec<c64> {
     let lines = band.lines();
     let (count, middle) = (lines.len(), (lines.len() / 2) as f64);
     let taper = |k: usize| {
@@ -68,9 +70,8 @@ fn back(band: &Band) -> Vec<Complex> {
         (0.5 * PI * edge.min(1.0)).sin()
     };
     let value = |m: usize| {
-        let turn = |k: usize| Complex::turn(TAU * (k as f64 - middle) * m as f64 / count as f64);
-        let one = |(k, (_, x)): (usize, &(f64, Complex))| *x * turn(k) * taper(k);
-        lines.iter().enumerate().map(one).fold(Complex::default(), |a, b| a + b)
+        let turn = |k: usize| c64::cis(TAU * (k as f64 - middle) * m as f64 / count as f64);
+        lines.iter().enumerate().map(|(k, (_, x))| x * turn(k) * taper(k)).sum()
     };
     // The first values and the last are those of the cut, not of the tone.
     let edge = 1 + count / 16;
@@ -78,48 +79,39 @@ fn back(band: &Band) -> Vec<Complex> {
 }
 
 /// The two strongest vectors of a Hermitian matrix, by repeated multiplication.
-fn strongest(matrix: &[Vec<Complex>]) -> [Vec<Complex>; 2] {
-    let count = matrix.len();
-    let dot = |a: &[Complex], b: &[Complex]| {
-        a.iter().zip(b).map(|(a, b)| a.conj() * *b).fold(Complex::default(), |a, b| a + b)
-    };
-    let unit = |vector: &mut Vec<Complex>| {
+fn strongest(matrix: &[Vec<c64>]) -> [Vec<c64>; 2] {
+    let unit = |vector: &mut Vec<c64>| {
         let scale = 1.0 / dot(vector, vector).re.sqrt().max(1e-300);
-        vector.iter_mut().for_each(|x| *x = *x * scale);
+        vector.iter_mut().for_each(|x| *x *= scale);
     };
     let mut pair = [0, 1].map(|k| {
-        (0..count).map(|i| Complex::turn((k * i * i) as f64 + 0.3 * i as f64)).collect::<Vec<_>>()
+        (0..matrix.len()).map(|i| c64::cis((k * i * i) as f64 + 0.3 * i as f64)).collect::<Vec<_>>()
     });
     for _ in 0..TURNS {
-        for vector in &mut pair {
-            let times = |row: &Vec<Complex>| {
-                row.iter()
-                    .zip(&*vector)
-                    .map(|(a, b)| *a * *b)
-                    .fold(Complex::default(), |a, b| a + b)
-            };
-            *vector = matrix.iter().map(times).collect();
-        }
+        let times = |vector: &Vec<c64>| {
+            let row = |row: &Vec<c64>| row.iter().zip(vector).map(|(a, b)| a * b).sum();
+            matrix.iter().map(row).collect::<Vec<c64>>()
+        };
         let [first, second] = &mut pair;
+        (*first, *second) = (times(first), times(second));
         unit(first);
         let share = dot(first, second);
-        second.iter_mut().zip(&*first).for_each(|(b, a)| *b = *b - *a * share);
+        take(second, share, first);
         unit(second);
     }
     pair
 }
 
 /// The eigenvalues of Z in `V₁ Z = V₂`, by least squares.
-fn shifted(vectors: &[Vec<Complex>; 2]) -> Option<[Complex; 2]> {
+fn shifted(vectors: &[Vec<c64>; 2]) -> Option<[c64; 2]> {
     let last = vectors[0].len() - 1;
-    let product = |i: usize, j: usize, shift: usize| {
-        let (a, b) = (&vectors[i][..last], &vectors[j][shift..last + shift]);
-        a.iter().zip(b).map(|(a, b)| a.conj() * *b).fold(Complex::default(), |a, b| a + b)
+    let products = |shift: usize| {
+        [(0, 0), (0, 1), (1, 0), (1, 1)]
+            .map(|(i, j)| dot(&vectors[i][..last], &vectors[j][shift..last + shift]))
     };
-    let [a, b, c, d] = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(i, j)| product(i, j, 0));
-    let [e, f, g, h] = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(i, j)| product(i, j, 1));
+    let ([a, b, c, d], [e, f, g, h]) = (products(0), products(1));
     let whole = a * d - b * c;
-    if whole.square() < 1e-20 {
+    if whole.norm_sqr() < 1e-20 {
         return None;
     }
     let z = [d * e - b * g, d * f - b * h, a * g - c * e, a * h - c * f].map(|x| x / whole);

@@ -32,7 +32,7 @@ impl Unreadable {
 }
 
 /// A recording of taps.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Recording {
     /// The file's name.
     pub name: String,
@@ -58,6 +58,27 @@ pub fn loudest(channels: Vec<Vec<f32>>) -> Option<Vec<f32>> {
     channels.into_iter().max_by(|a, b| power(a).total_cmp(&power(b)))
 }
 
+/// Refuses rates that are not listened to.
+pub(crate) fn is_rate(rate: f64) -> Result<(), Unreadable> {
+    if (RATES[0]..=RATES[1]).contains(&rate) {
+        return Ok(());
+    }
+    let expected = format!("{} to {} samples a second", RATES[0], RATES[1]);
+    Err(Unreadable::sound(format!("a rate of {rate} 1/s"), expected))
+}
+
+/// Refuses a number of samples that is too long to listen to.
+pub(crate) fn is_short(samples: usize, rate: f64) -> Result<(), Unreadable> {
+    if samples as f64 <= LONGEST * rate {
+        return Ok(());
+    }
+    let found = format!("more than {LONGEST} s of sound");
+    Err(Unreadable::sound(
+        found,
+        format!("at most {LONGEST} s: take a part of it, as with --from and --to"),
+    ))
+}
+
 impl Recording {
     /// Bare samples at that rate (1/s).
     ///
@@ -66,29 +87,12 @@ impl Recording {
     /// [`Unreadable::Sound`] for samples that are no numbers, for more than [`LONGEST`] and for a rate beyond
     /// [`RATES`].
     pub fn of(name: &str, samples: Vec<f64>, rate: f64) -> Result<Self, Unreadable> {
-        if !(RATES[0]..=RATES[1]).contains(&rate) {
-            let expected = format!("{} to {} samples a second", RATES[0], RATES[1]);
-            return Err(Unreadable::sound(format!("a rate of {rate} 1/s"), expected));
-        }
+        is_rate(rate)?;
         if let Some(k) = samples.iter().position(|x| !x.is_finite()) {
             return Err(Unreadable::sound(format!("sample {k} is {}", samples[k]), "numbers"));
         }
-        let seconds = samples.len() as f64 / rate;
-        if seconds > LONGEST {
-            let expected = format!("at most {LONGEST} s: take a part of it");
-            return Err(Unreadable::sound(format!("{seconds:.0} s of sound"), expected));
-        }
-        let (container, codec, channels, from) = (None, None, 1, 0.0);
-        Ok(Self {
-            name: name.to_owned(),
-            container,
-            codec,
-            rate,
-            channels,
-            from,
-            spoilt: 0,
-            samples,
-        })
+        is_short(samples.len(), rate)?;
+        Ok(Self { name: name.to_owned(), rate, channels: 1, samples, ..Self::default() })
     }
 
     /// How long it is (s).
@@ -120,7 +124,7 @@ mod tests {
         let told = |samples: Vec<f64>, rate| Recording::of("x", samples, rate).unwrap_err();
         assert!(told(vec![0.0, f64::NAN], 8000.0).to_string().contains("sample 1 is NaN"));
         assert!(told(vec![0.0], 0.0).to_string().contains("a rate of 0"));
-        assert!(told(vec![0.0; 4000 * 121], 4000.0).to_string().contains("121 s"));
+        assert!(told(vec![0.0; 4000 * 121], 4000.0).to_string().contains("more than 120 s"));
     }
 
     /// Of a sine, `arccos(0.9)/arccos(0.5)` of what is above half is above 0.9; of a cut one more.

@@ -6,8 +6,8 @@
 
 use std::f64::consts::PI;
 
-use crate::complex::power;
-use crate::filter::{median, quantile};
+use crate::filter::{median, most, quantile};
+use crate::transform::power;
 
 /// Lengths of windows (s), and which frequencies each is for (Hz).
 const SCALES: [(f64, [f64; 2]); 3] =
@@ -28,8 +28,6 @@ const RANGE: f64 = 55.0;
 pub struct Peak {
     /// Frequency (Hz).
     pub hz: f64,
-    /// Level over that of the ground (dB).
-    pub above: f64,
     /// Level (dB).
     pub level: f64,
 }
@@ -58,8 +56,8 @@ pub fn peaks(samples: &[f64], rate: f64, rings: &[[usize; 2]], highest: f64) -> 
             }
         }
     }
-    let most = all.iter().fold(f64::NEG_INFINITY, |most, peak| most.max(peak.level));
-    all.retain(|peak| peak.level > most - RANGE);
+    let highest = most(&all.iter().map(|peak| peak.level).collect::<Vec<_>>());
+    all.retain(|peak| peak.level > highest - RANGE);
     all.sort_by(|a, b| a.hz.total_cmp(&b.hz));
     all
 }
@@ -97,17 +95,17 @@ impl Spectrum {
             let (hz, level) = (k as f64 * self.step, self.levels[k]);
             let near = &self.levels
                 [at(hz * (1.0 - LARGEST)).min(k - 1)..=at(hz * (1.0 + LARGEST)).max(k + 1)];
-            if near.iter().any(|other| *other > level) {
+            if most(near) > level {
                 continue;
             }
             let wide = (AROUND * hz).max(8.0 * self.step);
             let around = &self.levels[at((hz - wide).max(0.0))..=at(hz + wide)];
-            let above = level - self.ground[k];
-            if above > ABOVE_GROUND && level - quantile(around, 0.3) > ABOVE_AROUND {
+            let least = (self.ground[k] + ABOVE_GROUND).max(quantile(around, 0.3) + ABOVE_AROUND);
+            if level > least {
                 let (a, b) = (self.levels[k - 1], self.levels[k + 1]);
                 let bent = a + b - 2.0 * level;
                 let part = if bent < 0.0 { (0.5 * (a - b) / bent).clamp(-0.5, 0.5) } else { 0.0 };
-                found.push(Peak { hz: (k as f64 + part) * self.step, above, level });
+                found.push(Peak { hz: (k as f64 + part) * self.step, level });
             }
         }
         found
@@ -140,9 +138,7 @@ fn quiet_frames(count: usize, rings: &[[usize; 2]], length: usize) -> Vec<[usize
     }
     if all.is_empty() {
         // Only the ends of taps: shorter windows, of less power than the ground has.
-        all.extend(
-            rings.iter().map(|[from, to]| [from.max(&to.saturating_sub(length)).to_owned(), *to]),
-        );
+        all.extend(rings.iter().map(|[from, to]| [to.saturating_sub(length).max(*from), *to]));
     }
     all
 }

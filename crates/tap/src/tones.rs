@@ -16,9 +16,10 @@
 //! billiards in the concert hall, Appl. Acoust. 38 (1993) 235): ringing is taken from the end of the blow on, since a
 //! high tone that is heard 4 ms late has more of the room than of the bat.
 
+use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-use crate::filter::{median, quantile};
+use crate::filter::{median, most, quantile};
 use crate::fit::{Band, Fit, Pole, fit};
 use crate::pencil::two_poles;
 
@@ -96,9 +97,10 @@ pub struct Tones {
 #[derive(Debug, Clone)]
 struct Found {
     whole: Fit,
+    /// What is left of every tap.
     misfits: Vec<(usize, f64)>,
-    /// Frequencies and logarithms of decays of single taps, by pole.
-    singles: Vec<Vec<[f64; 2]>>,
+    /// Logarithms of frequencies and loss factors in single taps, by pole.
+    singles: Vec<Vec<(usize, [f64; 2])>>,
     level: f64,
 }
 
@@ -110,37 +112,32 @@ enum Window {
     Late,
 }
 
-/// The tones of these taps, sought at these frequencies (Hz).
-pub fn tones(taps: &[Ringing], peaks: &[f64]) -> Tones {
-    let mut used = vec![true; taps.len()];
+/// The tones of these taps, sought at these frequencies (Hz) of every recording.
+pub fn tones(taps: &[Ringing], peaks: &[Vec<f64>]) -> Tones {
     // What is no tap has none of the tones: first those are sought that some taps share.
-    let rough = heard(taps, &used, peaks, SOME);
-    for (tap, used) in used.iter_mut().enumerate() {
-        *used = !is_none(taps, &rough, tap);
-    }
-    let found = if used.contains(&true) { heard(taps, &used, peaks, HEARD) } else { vec![] };
-    let mut differences: Vec<[Option<[f64; 2]>; 2]> = vec![];
+    let rough = heard(taps, peaks, SOME);
+    let used: Vec<bool> = (0..taps.len()).map(|tap| !is_none(taps, &rough, tap)).collect();
+    let kept = taps.iter().zip(&used).filter(|(_, used)| **used);
+    let taps: Vec<Ringing> = kept.map(|(tap, _)| *tap).collect();
+    let found = heard(&taps, peaks, HEARD);
     let poles: Vec<Vec<Pole>> = found.iter().map(|one| one.whole.poles.clone()).collect();
-    for (k, one) in found.iter().enumerate() {
-        let others = others(&poles, k);
-        differences.push(early_and_late(taps, &used, &one.whole.poles, &others));
-    }
+    let differences = |k: usize| early_and_late(&taps, &poles[k], &others(&poles, k));
+    let differences: Vec<[Option<[f64; 2]>; 2]> = (0..found.len()).map(differences).collect();
     let all = differences.iter().flatten().flatten();
     let room = median(&all.map(|difference| circular(*difference)).collect::<Vec<_>>());
-    let most = found.iter().map(|one| one.level).fold(f64::NEG_INFINITY, f64::max);
+    let loudest = most(&found.iter().map(|one| one.level).collect::<Vec<_>>());
     let mut tones = vec![];
     for (one, differences) in found.iter().zip(&differences) {
         for (p, pole) in one.whole.poles.iter().enumerate() {
             let away = |hz: &f64| (hz / pole.hz - 1.0).abs();
             let all = poles.iter().flatten().map(|other| other.hz).filter(|hz| *hz != pole.hz);
             let twin = all.min_by(|a, b| away(a).total_cmp(&away(b)));
-            let twin = twin.filter(|hz| away(hz) < PLANES);
             tones.push(Tone {
                 pole: *pole,
                 deviations: deviations(one, p, differences[p], room),
                 taps: one.singles[p].len(),
-                level: one.level - most,
-                twin,
+                level: one.level - loudest,
+                twin: twin.filter(|hz| away(hz) < PLANES),
             });
         }
     }
@@ -169,31 +166,24 @@ fn is_none(taps: &[Ringing], found: &[Found], tap: usize) -> bool {
     own > NO_TAP && own > WORSE * quantile(&all, 0.25)
 }
 
-fn heard(taps: &[Ringing], used: &[bool], peaks: &[f64], least: f64) -> Vec<Found> {
-    // First each alone, then beside the others in its band.
-    let alone: Vec<Option<Pole>> = peaks.iter().map(|hz| begun(taps, used, *hz)).collect();
-    let first: Vec<Pole> = apart(alone.into_iter().flatten().collect());
-    let poles: Vec<Vec<Pole>> = first.iter().map(|pole| vec![*pole]).collect();
-    let found: Vec<Vec<Pole>> = first
-        .iter()
-        .enumerate()
-        .filter_map(|(k, pole)| {
-            let one = tone((taps, used, least), &[*pole], &others(&poles, k))?;
-            // Of two tones in one band each peak finds both: each goes on with its own.
-            let mut poles = one.whole.poles;
-            let away = |other: &Pole| (other.hz - pole.hz).abs();
-            poles.sort_by(|a, b| away(a).total_cmp(&away(b)));
-            Some(poles)
-        })
-        .collect();
-    let again =
-        (0..found.len()).map(|k| tone((taps, used, least), &found[k][..1], &others(&found, k)));
+/// The tones of these taps: of every recording alone, since two planes of the grain have tones of their own, then of
+/// all taps together.
+fn heard(taps: &[Ringing], peaks: &[Vec<f64>], least: f64) -> Vec<Found> {
+    let mut found: Vec<Vec<Pole>> = vec![];
+    for (recording, peaks) in peaks.iter().enumerate() {
+        let own = taps.iter().filter(|tap| tap.recording == recording);
+        let own = alone(&own.copied().collect::<Vec<_>>(), peaks, least);
+        let before = found.len();
+        let is_new = |poles: &Vec<Pole>| !found[..before].iter().any(|o| is_same(&o[0], &poles[0]));
+        let new: Vec<Vec<Pole>> = own.into_iter().filter(is_new).collect();
+        found.extend(new);
+    }
     let mut kept: Vec<Found> = vec![];
-    for one in again.flatten() {
+    for k in 0..found.len() {
+        let Some(one) = tone(taps, least, found[k][0], &others(&found, k)) else { continue };
         let near = |other: &Found| {
-            let pairs =
-                one.whole.poles.iter().flat_map(|a| other.whole.poles.iter().map(move |b| (a, b)));
-            pairs.into_iter().any(|(a, b)| is_same(a, b))
+            let own = |a: &Pole| other.whole.poles.iter().any(|b| is_same(a, b));
+            one.whole.poles.iter().any(own)
         };
         match kept.iter().position(near) {
             Some(k) if kept[k].level < one.level => kept[k] = one,
@@ -204,34 +194,38 @@ fn heard(taps: &[Ringing], used: &[bool], peaks: &[f64], least: f64) -> Vec<Foun
     kept
 }
 
+/// The tones of taps of one recording, its own pole first: each peak alone, then beside the others in its band.
+fn alone(taps: &[Ringing], peaks: &[f64], least: f64) -> Vec<Vec<Pole>> {
+    let mut first: Vec<Vec<Pole>> = vec![];
+    for pole in peaks.iter().filter_map(|hz| begun(taps, *hz)) {
+        if !first.iter().any(|other| is_same(&other[0], &pole)) {
+            first.push(vec![pole]);
+        }
+    }
+    let beside = |k: usize| {
+        let pole = first[k][0];
+        let mut poles = tone(taps, least, pole, &others(&first, k))?.whole.poles;
+        // Of two tones in one band each peak finds both: each goes on with its own.
+        let away = |other: &Pole| (other.hz - pole.hz).abs();
+        poles.sort_by(|a, b| away(a).total_cmp(&away(b)));
+        Some(poles)
+    };
+    (0..first.len()).filter_map(beside).collect()
+}
+
 /// Whether two poles cannot be told apart.
 fn is_same(a: &Pole, b: &Pole) -> bool {
     (a.hz - b.hz).abs() < TWIN_APART * a.decay.max(b.decay) / PI
 }
 
-fn apart(poles: Vec<Pole>) -> Vec<Pole> {
-    let mut kept: Vec<Pole> = vec![];
-    for pole in poles {
-        if !kept.iter().any(|other| is_same(other, &pole)) {
-            kept.push(pole);
-        }
-    }
-    kept
-}
-
 /// A pole that begins the fit at that frequency: the best of several decays.
-fn begun(taps: &[Ringing], used: &[bool], hz: f64) -> Option<Pole> {
-    let start = Pole::of(hz, 0.007);
-    let bands = bands(taps, used, start, Window::Whole);
-    let mut best: Option<(f64, Pole)> = None;
-    for loss in [0.0015, 0.003, 0.006, 0.012, 0.024, 0.045] {
-        let pole = Pole::of(hz, loss);
-        let left = median(&bands.iter().map(|band| band.misfit(&[pole])).collect::<Vec<_>>());
-        if best.is_none_or(|(least, _)| left < least) {
-            best = Some((left, pole));
-        }
-    }
-    let found = fit(&bands, &[best?.1], &[])?.poles[0];
+fn begun(taps: &[Ringing], hz: f64) -> Option<Pole> {
+    let bands = bands(taps, Pole::of(hz, 0.007), Window::Whole);
+    let left =
+        |pole: &Pole| median(&bands.iter().map(|band| band.misfit(&[*pole])).collect::<Vec<_>>());
+    let starts = [0.0015, 0.003, 0.006, 0.012, 0.024, 0.045].map(|loss| Pole::of(hz, loss));
+    let start = starts.iter().map(|pole| (left(pole), pole)).min_by(|a, b| a.0.total_cmp(&b.0))?.1;
+    let found = fit(&bands, &[*start], &[])?.poles[0];
     is_tone(&found).then_some(found)
 }
 
@@ -244,7 +238,7 @@ fn half(pole: Pole) -> f64 {
     (0.16 * pole.hz).min(30.0 * pole.decay).max(24.0)
 }
 
-fn bands(taps: &[Ringing], used: &[bool], pole: Pole, window: Window) -> Vec<Band> {
+fn bands(taps: &[Ringing], pole: Pole, window: Window) -> Vec<Band> {
     let of = |(k, tap): (usize, &Ringing)| {
         let decay = 1.0 / pole.decay;
         let room = tap.samples.len() as f64 / tap.rate;
@@ -257,34 +251,27 @@ fn bands(taps: &[Ringing], used: &[bool], pole: Pole, window: Window) -> Vec<Ban
         let part = &tap.samples[place(from)..place(to)];
         Band::new(k, part, tap.rate, pole.hz, half(pole))
     };
-    taps.iter().enumerate().filter(|(k, _)| used[*k]).filter_map(of).collect()
+    taps.iter().enumerate().filter_map(of).collect()
 }
 
 /// The poles of other tones that are in a band or near it.
 fn near(others: &[Pole], pole: Pole) -> Vec<Pole> {
     let wide = BESIDE * half(pole);
-    others
-        .iter()
-        .filter(|other| (other.hz - pole.hz).abs() < wide && !is_same(other, &pole))
-        .copied()
-        .collect()
+    let near = |other: &&Pole| (other.hz - pole.hz).abs() < wide && !is_same(other, &pole);
+    others.iter().filter(near).copied().collect()
 }
 
 /// A tone fitted to all taps, begun at one pole; twins where they are far better. None where there is no tone.
-fn tone(
-    (taps, used, least): (&[Ringing], &[bool], f64),
-    start: &[Pole],
-    others: &[Pole],
-) -> Option<Found> {
-    let beside = near(others, start[0]);
-    let mut bands = bands(taps, used, start[0], Window::Whole);
+fn tone(taps: &[Ringing], least: f64, start: Pole, others: &[Pole]) -> Option<Found> {
+    let beside = near(others, start);
+    let mut bands = bands(taps, start, Window::Whole);
     let share = |bands: &[Band], poles: &[Pole]| -> Vec<(usize, f64)> {
-        let all: Vec<Pole> = poles.iter().chain(&beside).copied().collect();
+        let all = [poles, &beside].concat();
         // What the others make of it is no part of the tone.
         let left = |band: &Band| band.misfit(&all) / band.misfit(&beside).max(1e-300);
         bands.iter().map(|band| (band.tap, left(band))).collect()
     };
-    let first = fit(&bands, start, &beside)?;
+    let first = fit(&bands, &[start], &beside)?;
     let of_all = share(&bands, &first.poles);
     bands.retain(|band| of_all.iter().any(|(tap, misfit)| *tap == band.tap && *misfit < LOST));
     if bands.is_empty() {
@@ -295,27 +282,23 @@ fn tone(
     if let Some(twins) = twins(&bands, &whole, &beside) {
         whole = twins;
     }
-    let misfits = share(&bands, &whole.poles);
-    if !whole.poles.iter().all(is_tone)
-        || median(&misfits.iter().map(|m| m.1).collect::<Vec<_>>()) > MISFIT
-    {
+    let left: Vec<f64> = share(&bands, &whole.poles).into_iter().map(|(_, left)| left).collect();
+    if !whole.poles.iter().all(is_tone) || median(&left) > MISFIT {
         return None;
     }
     let mut singles = vec![vec![]; whole.poles.len()];
-    let mut within = singles.iter().map(|_: &Vec<[f64; 2]>| vec![]).collect::<Vec<Vec<usize>>>();
     for band in &bands {
         let Some(one) = fit(std::slice::from_ref(band), &whole.poles, &beside) else { continue };
-        for (p, (pole, joint)) in one.poles.iter().zip(&whole.poles).enumerate() {
+        for ((pole, joint), singles) in one.poles.iter().zip(&whole.poles).zip(&mut singles) {
             if (pole.hz / joint.hz).ln().abs() < SPREAD {
-                singles[p].push([pole.hz.ln(), pole.loss().ln()]);
-                within[p].push(band.tap);
+                singles.push((band.tap, [pole.hz.ln(), pole.loss().ln()]));
             }
         }
     }
-    let is_close = |all: &Vec<[f64; 2]>| robust(all, 0) < SPREAD;
-    if !singles.iter().all(is_close)
-        || !within.iter().all(|heard| is_enough((taps, used, least), heard))
-    {
+    let is_shared = |all: &Vec<(usize, [f64; 2])>| {
+        robust(all, 0) < SPREAD && is_enough(taps, least, |tap| all.iter().any(|one| one.0 == tap))
+    };
+    if !singles.iter().all(is_shared) {
         return None;
     }
     let level = level(&bands, &whole.poles, &beside);
@@ -323,47 +306,46 @@ fn tone(
 }
 
 /// Whether a tone is in enough taps of one of the recordings: two planes of the grain have tones of their own.
-fn is_enough((taps, used, least): (&[Ringing], &[bool], f64), heard: &[usize]) -> bool {
-    let mut count = std::collections::BTreeMap::<usize, [f64; 2]>::new();
-    for (k, tap) in taps.iter().enumerate().filter(|(k, _)| used[*k]) {
+fn is_enough(taps: &[Ringing], least: f64, is_heard: impl Fn(usize) -> bool) -> bool {
+    let mut count = BTreeMap::<usize, [f64; 2]>::new();
+    for (k, tap) in taps.iter().enumerate() {
         let [all, own] = count.entry(tap.recording).or_default();
         *all += 1.0;
-        *own += f64::from(heard.contains(&k));
+        *own += f64::from(is_heard(k));
     }
     count.values().any(|[all, own]| *own >= least * all)
 }
 
 fn weigh(bands: &mut [Band], poles: &[Pole], beside: &[Pole]) {
-    let all: Vec<Pole> = poles.iter().chain(beside).copied().collect();
+    let all = [poles, beside].concat();
     bands.iter_mut().for_each(|band| band.weigh(&all));
 }
 
 /// Two poles in place of one, where they fit far better.
 fn twins(bands: &[Band], one: &Fit, beside: &[Pole]) -> Option<Fit> {
-    let [a, b] = two_poles(bands)?;
+    let start = two_poles(bands)?;
     let single = one.poles[0];
     let close = |pole: &Pole| (pole.hz / single.hz - 1.0).abs() < 0.06;
-    if !close(&a) || !close(&b) {
+    if !start.iter().all(close) {
         return None;
     }
-    let two = fit(bands, &[a, b], beside)?;
+    let two = fit(bands, &start, beside)?;
     let [a, b] = [two.poles[0], two.poles[1]];
     let ratio = (a.decay / b.decay).max(b.decay / a.decay);
-    let apart = (a.hz - b.hz).abs() > TWIN_APART * a.decay.max(b.decay) / PI;
-    (two.square < TWIN * one.square && ratio < TWIN_DECAYS && apart && close(&a) && close(&b))
-        .then_some(two)
+    let far_better = two.square < TWIN * one.square && ratio < TWIN_DECAYS;
+    (far_better && !is_same(&a, &b) && two.poles.iter().all(close)).then_some(two)
 }
 
 /// Median level of the tone at the onset (dB): its power in the band over that of a tone of size 1.
 fn level(bands: &[Band], poles: &[Pole], beside: &[Pole]) -> f64 {
-    let all: Vec<Pole> = poles.iter().chain(beside).copied().collect();
+    let all = [poles, beside].concat();
     let of = |band: &Band| band.amplitude(&all) + poles[0].decay * BEGINS;
     20.0 / 10.0_f64.ln() * median(&bands.iter().map(of).collect::<Vec<_>>())
 }
 
 /// Standard deviation over taps by the middle half, of frequency (0) or loss factor (1).
-fn robust(all: &[[f64; 2]], part: usize) -> f64 {
-    let values: Vec<f64> = all.iter().map(|one| one[part]).collect();
+fn robust(all: &[(usize, [f64; 2])], part: usize) -> f64 {
+    let values: Vec<f64> = all.iter().map(|(_, one)| one[part]).collect();
     let middle = median(&values);
     let away: Vec<f64> = values.iter().map(|value| (value - middle).abs()).collect();
     match away.len() {
@@ -378,15 +360,10 @@ fn robust(all: &[[f64; 2]], part: usize) -> f64 {
 }
 
 /// By how much the fits to early and late windows differ, pole by pole: of f in δ/π, and of ln η.
-fn early_and_late(
-    taps: &[Ringing],
-    used: &[bool],
-    poles: &[Pole],
-    others: &[Pole],
-) -> [Option<[f64; 2]>; 2] {
+fn early_and_late(taps: &[Ringing], poles: &[Pole], others: &[Pole]) -> [Option<[f64; 2]>; 2] {
     let beside = near(others, poles[0]);
     let of = |window| {
-        let mut bands = bands(taps, used, poles[0], window);
+        let mut bands = bands(taps, poles[0], window);
         weigh(&mut bands, poles, &beside);
         fit(&bands, poles, &beside)
     };
@@ -395,18 +372,18 @@ fn early_and_late(
         let (a, b) = (early.poles.get(p)?, late.poles.get(p)?);
         Some([(a.hz - b.hz) * PI / poles[p].decay, (a.decay / b.decay).ln()])
     };
-    [difference(0), difference(1)]
+    [0, 1].map(difference)
 }
 
 /// Standard deviations of a pole's frequency (relative) and of the logarithm of its loss factor.
 fn deviations(one: &Found, p: usize, difference: Option<[f64; 2]>, room: f64) -> [f64; 2] {
-    let pole = one.whole.poles[p];
+    let singles = &one.singles[p];
     // Of f told in δ/π half of what is that of ln η is.
-    let units = [0.5 * pole.decay / PI / pole.hz, 1.0];
-    let both = |parts: [f64; 2]| (0.5 * (parts[0].powi(2) + parts[1].powi(2))).sqrt();
-    let count = one.singles[p].len() as f64;
+    let units = [0.5 * one.whole.poles[p].loss(), 1.0];
+    let count = singles.len() as f64;
     let factor = if count > 1.5 { 1.0 + 1.0 / (count - 1.0) } else { 2.0 };
-    let spread = both([0, 1].map(|part| robust(&one.singles[p], part) / units[part]));
+    let [f, loss] = [0, 1].map(|part| robust(singles, part) / units[part]);
+    let spread = (0.5 * (f.powi(2) + loss.powi(2))).sqrt();
     let own = difference.map_or(room, circular);
     let shared = (factor * spread / count.sqrt()).max(SEEN * 0.5 * (own + room));
     [0, 1]

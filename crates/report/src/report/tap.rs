@@ -9,9 +9,7 @@ use crate::parts::columns::{Columns, first, labels, numbers};
 use crate::parts::table::Column;
 use crate::parts::terminal::{Piece, wrapped};
 use crate::report::calibrate::{short, shown};
-use crate::schema::tap::{
-    TapFile, TapMode, TapMoment, TapRecording, TapSaid, TapSecond, TapTone, TapWithin,
-};
+use crate::schema::tap::{TapFile, TapMoment, TapRecording, TapSaid, TapTone};
 use sweetspot::base::error::Error;
 use sweetspot::base::number::{percent, significant};
 use sweetspot::bat::body::Bat;
@@ -48,7 +46,7 @@ impl TapReport<'_> {
         let heard = (0..self.recordings.len()).map(|k| wrapped(&self.heard(k), 2));
         let mut out: String = heard.collect();
         match &self.analysis.refused {
-            Some(refused) => out += &wrapped(said(*refused), 0),
+            Some(refused) => out += &wrapped(refused.text(), 0),
             None => out += &self.table(),
         }
         let wood = self.wood().map_or(String::new(), |wood| wrapped(&wood, 2));
@@ -125,46 +123,39 @@ impl TapReport<'_> {
             |one: &&Estimated| !matches!(one.verdict, Verdict::Held | Verdict::NotDetermined);
         let value = |one: &Estimated| {
             let by = 0.5 * (one.interval95[1] - one.interval95[0]) / one.value;
-            format!(
-                "{} {} ± {}",
-                short(one.property),
-                shown(one.property, one.value),
-                percent(by, 1)
-            )
+            let (name, value) = (short(one.property), shown(one.property, one.value));
+            format!("{name} {value} ± {}", percent(by, 1))
         };
         let mut all: Vec<String> = found.parameters.iter().filter(open).map(value).collect();
-        all.extend(
-            tapped
-                .loss
-                .as_ref()
-                .map(|loss_factor| format!("loss factor at most {}", loss(loss_factor))),
-        );
+        all.extend(tapped.loss.map(|factor| format!("loss factor at most {}", loss(&factor))));
         Some(format!("Its material: {}, with the density of the bat file.", all.join(", ")))
     }
 
-    /// The defects of the recordings; where there are several, each warning names its recording.
-    fn warned(&self) -> Vec<TapSaid> {
+    /// What spoils the recordings, named where there are several, and the labels; `tell` is the way to state the mode
+    /// of a tone.
+    fn warned(&self, tell: Option<&str>) -> Vec<TapSaid> {
         let of = |(code, recording): &(Code, Option<usize>)| {
             let name = recording.filter(|_| self.recordings.len() > 1);
             let name = name.map(|k| format!("{}: ", self.recordings[k].name));
-            let TapSaid { code, text } = coded(*code);
-            TapSaid { code, text: name.unwrap_or_default() + &text }
+            said(code.name(), name.unwrap_or_default() + code.text())
         };
-        self.analysis.warnings.iter().map(of).collect()
+        let mut all: Vec<TapSaid> = self.analysis.warnings.iter().map(of).collect();
+        all.extend(self.tapped.and_then(|tapped| tapped.unsolved.as_deref()).map(unsolved));
+        if self.tapped.is_some_and(Tapped::is_unsure) {
+            let text = format!("Not every label is sure{}.", tell.unwrap_or_default());
+            all.push(said("unsure", text));
+        }
+        all
     }
 
-    /// The conclusions, a sentence or two each; `tell` is the way to state the mode of a tone.
+    /// The conclusions, a sentence or two each; `tell` as for the warnings.
     pub fn words(&self, tell: Option<&str>) -> Vec<String> {
-        let mut all: Vec<String> = self.warned().into_iter().map(|said| said.text).collect();
+        let mut all: Vec<String> = self.warned(tell).into_iter().map(|said| said.text).collect();
         let Some(tapped) = self.tapped else { return all };
-        all.extend(tapped.unsolved.as_deref().map(unsolved));
-        if tapped.is_unsure() {
-            all.push(unsure(tell));
-        }
-        if let Some((labels, margin)) = tapped.second.as_ref().filter(|(_, margin)| *margin < 8.0) {
-            let labels = labels.iter().map(|one| one.map_or("none".to_owned(), named));
+        if let Some(second) = tapped.second.as_ref().filter(|second| second.margin < 8.0) {
+            let labels = second.labels.iter().map(|one| one.map_or("none".to_owned(), named));
             let labels = labels.collect::<Vec<_>>().join(", ");
-            let margin = significant(*margin, 2);
+            let margin = significant(second.margin, 2);
             all.push(format!("The next best labels are {labels}: chi2 is {margin} larger."));
         }
         if !tapped.fits() {
@@ -179,13 +170,6 @@ impl TapReport<'_> {
     /// The `sweetspot-tap/1` document.
     pub fn document(&self) -> TapFile {
         let Self { bat, recordings, analysis, tapped } = self;
-        let mut warnings = self.warned();
-        let wall = tapped.and_then(|tapped| tapped.unsolved.as_deref());
-        warnings.extend(wall.map(|why| TapSaid { code: "wall".to_owned(), text: unsolved(why) }));
-        if tapped.is_some_and(Tapped::is_unsure) {
-            warnings.push(TapSaid { code: "unsure".to_owned(), text: unsure(Some(TELL)) });
-        }
-        let second = tapped.and_then(|tapped| tapped.second.as_ref());
         let recording = recordings.iter().zip(&analysis.conditions);
         TapFile {
             format: Format::new(),
@@ -194,18 +178,12 @@ impl TapReport<'_> {
             recordings: recording.map(|(one, seen)| of_recording(one, seen)).collect(),
             taps: analysis.taps.iter().map(|tap| of_tap(tap, analysis.refused.is_some())).collect(),
             tones: (0..analysis.tones.len()).map(|k| self.tone(k)).collect(),
-            second: second.map(|(labels, margin)| TapSecond {
-                labels: labels.iter().map(|one| one.map(of_mode)).collect(),
-                margin: *margin,
-            }),
+            second: tapped.and_then(|tapped| tapped.second.clone()),
             wood: tapped.and_then(|tapped| tapped.wood.clone()),
-            loss_factor_at_most: tapped.and_then(|tapped| {
-                let Within { value, interval95 } = tapped.loss?;
-                Some(TapWithin { value, interval95 })
-            }),
+            loss_factor_at_most: tapped.and_then(|tapped| tapped.loss),
             fits: tapped.map(Tapped::fits),
-            warnings,
-            refused: analysis.refused.map(coded),
+            warnings: self.warned(Some(TELL)),
+            refused: analysis.refused.map(|code| said(code.name(), code.text())),
         }
     }
 
@@ -223,7 +201,7 @@ impl TapReport<'_> {
             taps: tone.taps,
             level_db: tone.level,
             twin_hz: tone.twin,
-            mode: label.mode.map(of_mode),
+            mode: label.mode,
             computed_hz: label.computed,
             sure: label.mode.map(|_| label.sure),
         }
@@ -264,13 +242,12 @@ const NONE: &str =
     "No tone is a bending mode of this bat, of any wood: the bat file is another bat's.";
 const TELL: &str = ": tell the mode of a tone that you know, such as --mode \"1187 = 3\"";
 
-fn unsure(tell: Option<&str>) -> String {
-    format!("Not every label is sure{}.", tell.unwrap_or_default())
-}
-
-fn unsolved(why: &str) -> String {
-    format!(
-        "The modes of the wall are not known ({why}): its tones are told as bending modes or as none."
+fn unsolved(why: &str) -> TapSaid {
+    said(
+        "wall",
+        format!(
+            "The modes of the wall are not known ({why}): its tones are told as bending modes or as none."
+        ),
     )
 }
 
@@ -284,16 +261,13 @@ const COLUMNS: [Column<TapTone>; 11] = [
     Column::in_files("loss_factor_high95", |one| one.loss_factor_interval95.map(|i| i[1]).into()),
     Column::in_files("half_s", |one| one.half_s.into()),
     Column::in_files("taps", |one| one.taps.into()),
-    Column::in_files("mode", |one| one.mode.as_ref().map_or(String::new(), mode_in_file).into()),
+    Column::in_files("mode", |one| one.mode.map_or(String::new(), mode_in_file).into()),
     Column::in_files("computed_hz", |one| one.computed_hz.into()),
     Column::in_files("sure", |one| one.sure.into()),
 ];
 
-fn mode_in_file(mode: &TapMode) -> String {
-    match mode {
-        TapMode::Bending { order } => format!("bending {order}"),
-        TapMode::Hoop { harmonic, order } => format!("hoop {harmonic} {order}"),
-    }
+fn mode_in_file(mode: BatMode) -> String {
+    named(mode).replace(['(', ',', ')'], "")
 }
 
 fn plural(word: &str, count: usize) -> String {
@@ -303,8 +277,8 @@ fn plural(word: &str, count: usize) -> String {
 /// The name of a mode.
 pub fn named(mode: BatMode) -> String {
     match mode {
-        BatMode::Bending(order) => format!("bending {order}"),
-        BatMode::Hoop(harmonic, order) => format!("hoop ({harmonic}, {order})"),
+        BatMode::Bending { order } => format!("bending {order}"),
+        BatMode::Hoop { harmonic, order } => format!("hoop ({harmonic}, {order})"),
     }
 }
 
@@ -326,13 +300,6 @@ fn loss(loss: &Within) -> String {
     }
 }
 
-fn of_mode(mode: BatMode) -> TapMode {
-    match mode {
-        BatMode::Bending(order) => TapMode::Bending { order },
-        BatMode::Hoop(harmonic, order) => TapMode::Hoop { harmonic, order },
-    }
-}
-
 fn of_recording(one: &Recording, seen: &Condition) -> TapRecording {
     TapRecording {
         file: one.name.clone(),
@@ -349,23 +316,22 @@ fn of_recording(one: &Recording, seen: &Condition) -> TapRecording {
 }
 
 fn of_tap(tap: &Tap, refused: bool) -> TapMoment {
-    let used = tap.used && !refused;
-    let why_not = match (used, refused) {
-        (true, _) => None,
-        (false, true) => Some("no tones that taps share"),
+    let why_not = match (refused, tap.used) {
+        (true, _) => Some("no tones that taps share"),
         (false, false) => Some("has none of the tones that the others share"),
+        (false, true) => None,
     };
     TapMoment {
         recording: tap.recording,
         at_s: tap.at,
-        used,
+        used: why_not.is_none(),
         bounces: tap.bounces,
         why_not: why_not.map(str::to_owned),
     }
 }
 
-fn coded(code: Code) -> TapSaid {
-    TapSaid { code: code.name().to_owned(), text: said(code).to_owned() }
+fn said(code: &str, text: impl Into<String>) -> TapSaid {
+    TapSaid { code: code.to_owned(), text: text.into() }
 }
 
 /// The error for a recording that cannot be read, with the name that is shown.
@@ -374,35 +340,5 @@ pub fn unreadable(shown: &str, error: Unreadable) -> Error {
         Unreadable::File(source) => Error::Read { path: shown.into(), source },
         Unreadable::Sound { found, expected } => Error::value(shown, found, expected),
         other => Error::value(shown, other, "a recording"),
-    }
-}
-
-/// The meaning of a warning or a refusal, and what to do.
-pub fn said(code: Code) -> &'static str {
-    match code {
-        Code::Clipped => {
-            "The recording is too loud and clipped: frequencies hold, loss factors do not and are left out. \
-             Record again with less gain, or tap more softly."
-        }
-        Code::AutomaticGain => {
-            "The recorder turns its gain while a tap rings: frequencies hold, loss factors do not and are left out. \
-             Turn \"enhanced recording\" or automatic gain off."
-        }
-        Code::OneTap => {
-            "There is one tap alone: only several tell how far each is off, and which sound is no tap."
-        }
-        Code::Room => {
-            "The room is heard in how the tones die: bring the phone within a hand's breadth of the barrel."
-        }
-        Code::SpoiltFile => "Parts of the file are spoilt: silence stands for them.",
-        Code::LowRate => "The recording has few samples a second: high tones are not in it.",
-        Code::Bounces => "Taps bounced: what rings after the last bounce was taken.",
-        Code::Hum => "Hum of the mains was left out.",
-        Code::FewTones => "Only two tones were found: labels and wood rest on little.",
-        Code::NoTap => "No tap was found in it: record five to eight single taps, a second apart.",
-        Code::NoTone => {
-            "Fewer than two tones were found that the taps share: tap with something hard, the phone within a hand's breadth of \
-             the barrel, the bat hung or held at a node."
-        }
     }
 }

@@ -5,6 +5,8 @@ use serde::Serialize;
 
 use sweetspot::files::schema::document::{BatName, Document, Format, Generator};
 use sweetspot_study::calibrate::calibration::Calibration;
+use sweetspot_study::tap::heard::Within;
+use sweetspot_study::tap::hoops::{BatMode, NextLabels};
 
 /// Results of recordings of taps on a bat: taps, tones, the mode of each tone, and the wood. SI units, named at the end
 /// of each member; a value that does not exist is null. Later versions with the same number may have more members.
@@ -24,13 +26,13 @@ pub struct TapFile {
     /// The tones, rising.
     pub tones: Vec<TapTone>,
     /// The second best labels; null where no others come near or none were sought.
-    pub second: Option<TapSecond>,
+    pub second: Option<NextLabels>,
     /// The wood by these tones, with the density of the bat file and the stiffness at the lowest tone; null where no
     /// tone is a bending mode.
     pub wood: Option<Calibration>,
     /// Upper limit of the loss factor of the wood: that of the bending tone with the least damping. Null where the loss
     /// factors are not reliable.
-    pub loss_factor_at_most: Option<TapWithin>,
+    pub loss_factor_at_most: Option<Within>,
     /// Whether the tones fit the bat; null where no labels were sought.
     pub fits: Option<bool>,
     /// Warnings about the recordings.
@@ -83,24 +85,6 @@ pub struct TapMoment {
     pub why_not: Option<String>,
 }
 
-/// A mode of the bat.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-#[serde(tag = "kind", rename_all = "snake_case")]
-pub enum TapMode {
-    /// A bending mode.
-    Bending {
-        /// Its number, from 1.
-        order: usize,
-    },
-    /// A mode of a hollow barrel's wall.
-    Hoop {
-        /// Waves around the barrel.
-        harmonic: usize,
-        /// Its number within its harmonic, from 1.
-        order: usize,
-    },
-}
-
 /// A tone that six taps in ten share, or more.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct TapTone {
@@ -123,29 +107,11 @@ pub struct TapTone {
     /// The other tone of a pair, of the other plane of the grain (Hz).
     pub twin_hz: Option<f64>,
     /// Which mode it is; null where it is no mode of this bat.
-    pub mode: Option<TapMode>,
+    pub mode: Option<BatMode>,
     /// The frequency of the bat with the wood that was found (Hz).
     pub computed_hz: Option<f64>,
     /// The chance that the mode is right, 0 to 1; null without one.
     pub sure: Option<f64>,
-}
-
-/// Labels that come next.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct TapSecond {
-    /// The mode of each line, in the order of the tones, twins as one.
-    pub labels: Vec<Option<TapMode>>,
-    /// The increase of chi2 with these labels.
-    pub margin: f64,
-}
-
-/// A value with its interval.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct TapWithin {
-    /// The value.
-    pub value: f64,
-    /// Interval of 95 % confidence.
-    pub interval95: [f64; 2],
 }
 
 /// A warning about a recording.

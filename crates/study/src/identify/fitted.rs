@@ -1,6 +1,6 @@
 //! Poles with the residues of every response of a set.
 
-use sweetspot_tap::complex::Complex;
+use faer::c64;
 use sweetspot_tap::fit::Pole;
 use sweetspot_tap::orders::Orders;
 use sweetspot_tap::resonances::{Projection, Responses};
@@ -52,26 +52,28 @@ impl<'a> Fitted<'a> {
     }
 
     /// Residue (1/kg) of response `k` at pole `p`.
-    pub fn residue(&self, k: usize, p: usize) -> Complex {
+    pub fn residue(&self, k: usize, p: usize) -> c64 {
         let (g, j) = self.place(k);
-        self.projections[g].residue_of(&self.all[g], j, p)
+        self.projections[g].value(&self.all[g], j, &Responses::residue(p, self.poles().len()))
     }
 
     /// Standard deviation (1/kg) of that residue, real and imaginary part together, at known poles.
     pub fn deviation(&self, k: usize, p: usize) -> f64 {
         let (g, j) = self.place(k);
-        self.projections[g].deviation_of(&self.all[g], j, p)
+        self.projections[g].deviation(&self.all[g], j, &Responses::residue(p, self.poles().len()))
     }
 
     /// Standard deviation (1/kg) of response `k` at a complex square of the frequency, likewise.
-    pub fn deviation_at(&self, k: usize, z: Complex) -> f64 {
+    pub fn deviation_at(&self, k: usize, z: c64) -> f64 {
         let (g, j) = self.place(k);
-        self.projections[g].deviation_at(&self.all[g], j, self.poles(), z)
+        let weights = self.all[g].at(self.poles(), None, z);
+        self.projections[g].deviation(&self.all[g], j, &weights)
     }
 
     /// Response `k` (1/kg) at a complex square of the frequency, without the pole `without`.
-    pub fn at(&self, k: usize, without: Option<usize>, z: Complex) -> Complex {
+    pub fn at(&self, k: usize, without: Option<usize>, z: c64) -> c64 {
         let (g, j) = self.place(k);
-        self.projections[g].at(&self.all[g], j, (self.poles(), without), z)
+        let weights = self.all[g].at(self.poles(), without, z);
+        self.projections[g].value(&self.all[g], j, &weights)
     }
 }

@@ -14,7 +14,7 @@
 //!
 //! D. J. Ewins, Modal Testing (2nd ed. 2000): structural modification by a mass at one point.
 
-use sweetspot_tap::complex::Complex;
+use faer::c64;
 use sweetspot_tap::fit::Pole;
 use sweetspot_tap::resonances::{at, square};
 
@@ -38,7 +38,7 @@ pub(super) struct Unloaded {
     /// Its pole.
     pub pole: Pole,
     /// Residue (1/kg) of every response.
-    pub residues: Vec<Complex>,
+    pub residues: Vec<c64>,
     /// Contribution of the removal to the standard deviations of the frequency (relative) and of the loss factor (of
     /// its logarithm).
     pub deviations: [f64; 2],
@@ -84,47 +84,47 @@ impl Masses {
         let start = square(of.poles()[p]);
         let count = of.set.responses.len();
         let own = of.residue(self.drive, p);
-        let residues: Vec<Complex> = (0..count).map(|k| of.residue(k, p)).collect();
+        let residues: Vec<c64> = (0..count).map(|k| of.residue(k, p)).collect();
         let too_much = || self.too_much(of.poles()[p].hz);
         let (z, residues, part) = if self.alone {
             let z = self.root(of, p).ok_or_else(too_much)?;
             // Residues from the slope of 1 − m H′ where it is 0.
-            let step = 1e-4 * (start - z).square().sqrt() + 1e-9 * z.re;
-            let near = |by: f64| of.at(self.drive, None, z + Complex::new(by, 0.0));
+            let step = 1e-4 * (start - z).norm() + 1e-9 * z.re;
+            let near = |by: f64| of.at(self.drive, None, z + by);
             let slope = (near(step) - near(-step)) * (0.5 / step);
             let residue = |k: usize| of.at(k, None, z) / (slope * z * self.mass) * -1.0;
-            let part = of.deviation_at(self.drive, z) / (slope * z).square().sqrt();
+            let part = of.deviation_at(self.drive, z) / (slope * z).norm();
             (z, (0..count).map(residue).collect(), part)
         } else {
             let sum =
                 if of.set.hammer_roves { self.at_references(of, p) } else { moved(&residues, own) };
-            let z = self.freed(start, Complex::ONE, sum).ok_or_else(too_much)?;
-            (z, residues, self.mass * self.unsure(of, p) * (z / start).square().sqrt())
+            let z = self.freed(start, c64::ONE, sum).ok_or_else(too_much)?;
+            (z, residues, self.mass * self.unsure(of, p) * (z / start).norm())
         };
         let pole = at(z);
         let lowered = of.poles()[p].hz / pole.hz - 1.0;
         let deviations = self.deviations(of, p, lowered, part);
-        let sound = pole.hz.is_finite() && residues.iter().all(|a| a.square().is_finite());
+        let sound = pole.hz.is_finite() && residues.iter().all(|a| a.norm_sqr().is_finite());
         let falls = lowered > 2.0 * NINETY_FIVE * deviations[0] + STILL;
         if falls || !sound { Err(too_much()) } else { Ok(Unloaded { pole, residues, deviations }) }
     }
 
     /// `z′ rest/(rest − m a)`; None where the masses are more than is carried.
-    fn freed(&self, start: Complex, rest: Complex, a: Complex) -> Option<Complex> {
-        let left = Complex::ONE - a * self.mass / rest;
+    fn freed(&self, start: c64, rest: c64, a: c64) -> Option<c64> {
+        let left = c64::ONE - a * self.mass / rest;
         (left.re >= CARRIED).then(|| start / left)
     }
 
     /// The complex square of the frequency where `m H′ = 1`, by a fixed point; `None` if there is none.
-    fn root(&self, of: &Fitted, p: usize) -> Option<Complex> {
+    fn root(&self, of: &Fitted, p: usize) -> Option<c64> {
         let (start, own) = (square(of.poles()[p]), of.residue(self.drive, p));
         let mut z = start;
         for _ in 0..TURNS {
-            let rest = Complex::ONE - of.at(self.drive, Some(p), z) * self.mass;
+            let rest = c64::ONE - of.at(self.drive, Some(p), z) * self.mass;
             let next = self.freed(start, rest, own)?;
-            let by = (next - z).square().sqrt();
+            let by = (next - z).norm();
             z = next;
-            if by <= SETTLED * z.square().sqrt() {
+            if by <= SETTLED * z.norm() {
                 return Some(z);
             }
         }
@@ -158,10 +158,10 @@ impl Masses {
             return drives.map(|k| of.deviation(k, p).powi(2)).sum::<f64>().sqrt();
         }
         // Of a sum of squares over the drive point's: twice the error of each, weighed by its size.
-        let own = of.residue(self.drive, p).square().max(f64::MIN_POSITIVE);
+        let own = of.residue(self.drive, p).norm_sqr().max(f64::MIN_POSITIVE);
         let each = 0..of.set.responses.len();
-        let squares: f64 = each.clone().map(|k| of.residue(k, p).square()).sum();
-        let noise = each.map(|k| of.residue(k, p).square() * of.deviation(k, p).powi(2));
+        let squares: f64 = each.clone().map(|k| of.residue(k, p).norm_sqr()).sum();
+        let noise = each.map(|k| of.residue(k, p).norm_sqr() * of.deviation(k, p).powi(2));
         let noise = 2.0 * (noise.sum::<f64>() / own).sqrt();
         noise.hypot(of.deviation(self.drive, p) * squares / own)
     }
@@ -174,13 +174,13 @@ impl Masses {
     }
 
     /// `Σ φ_k²/m_n` over several accelerometers that stayed.
-    fn at_references(&self, of: &Fitted, p: usize) -> Complex {
+    fn at_references(&self, of: &Fitted, p: usize) -> c64 {
         let drives = (0..of.set.references.len()).filter_map(|reference| of.set.drive(reference));
-        drives.fold(Complex::default(), |sum, k| sum + of.residue(k, p))
+        drives.map(|k| of.residue(k, p)).sum()
     }
 }
 
 /// `Σ φ_j²/m_n` over accelerometers in a row, `φ_j²/m_n = A_jk²/A_kk`.
-fn moved(residues: &[Complex], own: Complex) -> Complex {
-    residues.iter().fold(Complex::default(), |sum, a| sum + *a * *a / own)
+fn moved(residues: &[c64], own: c64) -> c64 {
+    residues.iter().map(|a| a * a / own).sum()
 }

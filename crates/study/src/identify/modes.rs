@@ -6,7 +6,6 @@
 use std::f64::consts::TAU;
 
 use faer::c64;
-use sweetspot_tap::complex::Complex;
 use sweetspot_tap::fit::Pole;
 use sweetspot_tap::orders::Orders;
 use sweetspot_tap::resonances::{Damping, LOSSES, Responses, at, square};
@@ -93,7 +92,7 @@ impl Identified {
         };
         let band = [ends(f64::min, |hz| hz[0]), ends(f64::max, |hz| hz[hz.len() - 1])];
         let first = &all[0];
-        let power = |l: usize| [first.hz[l], first.values.iter().map(|v| v[l].square()).sum()];
+        let power = |l: usize| [first.hz[l], first.values.iter().map(|v| v[l].norm_sqr()).sum()];
         let sum = (0..first.hz.len()).map(power).collect();
         let grids = all.len();
         let Some(found) = found else {
@@ -152,22 +151,20 @@ fn groups(set: &ResponseSet) -> (Vec<Group>, usize) {
 }
 
 /// A response as acceleration per force.
-fn accelerance(set: &ResponseSet, k: usize) -> Vec<Complex> {
+fn accelerance(set: &ResponseSet, k: usize) -> Vec<c64> {
     let one = &set.responses[k].measured;
-    let turned = |(f, value): &(f64, c64)| {
-        let value = value * ResponseKind::Accelerance.of(*f) / one.kind.of(*f);
-        Complex::new(value.re, value.im)
-    };
+    let turned =
+        |(f, value): &(f64, c64)| value * ResponseKind::Accelerance.of(*f) / one.kind.of(*f);
     one.values.iter().map(turned).collect()
 }
 
 /// Noise of lines, the mean of `|H| √(1/γ² − 1)` over the responses; `None` if the coherence gives no information.
-fn by_coherence(set: &ResponseSet, which: &[usize], values: &[Vec<Complex>]) -> Option<Vec<f64>> {
+fn by_coherence(set: &ResponseSet, which: &[usize], values: &[Vec<c64>]) -> Option<Vec<f64>> {
     let lines = values[0].len();
     let mut noise = vec![0.0; lines];
     for (k, values) in which.iter().zip(values) {
         let coherence = set.responses[*k].measured.coherence.as_ref()?;
-        let own = |l: usize| values[l].square() * (1.0 / coherence[l].clamp(1e-3, 1.0) - 1.0);
+        let own = |l: usize| values[l].norm_sqr() * (1.0 / coherence[l].clamp(1e-3, 1.0) - 1.0);
         let mean = (0..lines).map(own).sum::<f64>() / lines as f64;
         (0..lines).for_each(|l| noise[l] += own(l) / mean.max(1e-300));
     }
@@ -233,7 +230,7 @@ impl Fitted<'_> {
 fn without_window(pole: Pole, window: Option<f64>) -> Result<Pole> {
     let Some(tau) = window else { return Ok(pole) };
     let own = square(pole).sqrt();
-    let moved = own - Complex::new(0.0, 1.0 / (TAU * tau));
+    let moved = own - c64::new(0.0, 1.0 / (TAU * tau));
     if moved.im > 0.0 {
         return Ok(at(moved * moved));
     }
@@ -244,19 +241,15 @@ fn without_window(pole: Pole, window: Option<f64>) -> Result<Pole> {
 }
 
 /// The shape that explains the residues of every response best, and its modal mass.
-fn shape(set: &ResponseSet, residues: &[Complex]) -> (Vec<Option<c64>>, Option<f64>) {
-    let value = |k: usize| c64::new(residues[k].re, residues[k].im);
+fn shape(set: &ResponseSet, residues: &[c64]) -> (Vec<Option<c64>>, Option<f64>) {
     let of = |reference: usize, point: usize| -> Vec<c64> {
         let own = |k: &usize| {
             (set.responses[*k].reference, set.responses[*k].point) == (reference, point)
         };
-        (0..residues.len()).filter(own).map(value).collect()
+        (0..residues.len()).filter(own).map(|k| residues[k]).collect()
     };
-    let none = c64::new(0.0, 0.0);
-    let mean = |all: Vec<c64>| match all.len() {
-        0 => None,
-        count => Some(all.iter().fold(none, |sum, v| sum + v) / count as f64),
-    };
+    let mean =
+        |all: Vec<c64>| (!all.is_empty()).then(|| all.iter().sum::<c64>() / all.len() as f64);
     let points = 0..set.points.len();
     let rows: Vec<Vec<Option<c64>>> = (0..set.references.len())
         .map(|reference| points.clone().map(|point| mean(of(reference, point))).collect())
@@ -268,7 +261,7 @@ fn shape(set: &ResponseSet, residues: &[Complex]) -> (Vec<Option<c64>>, Option<f
     // Every reference's deflection over that of the main one.
     let share = |row: &Vec<Option<c64>>| {
         let both = || row.iter().zip(main).filter_map(|(a, b)| Some(((*a)?, (*b)?)));
-        let common = both().fold(none, |sum, (a, b)| sum + b.conj() * a);
+        let common: c64 = both().map(|(a, b)| b.conj() * a).sum();
         common / both().map(|(_, b)| b.norm_sqr()).sum::<f64>().max(f64::MIN_POSITIVE)
     };
     let shares: Vec<c64> = rows.iter().map(share).collect();
@@ -276,17 +269,17 @@ fn shape(set: &ResponseSet, residues: &[Complex]) -> (Vec<Option<c64>>, Option<f
         let there =
             || rows.iter().zip(&shares).filter_map(|(row, share)| Some((row[point]?, share)));
         let weight: f64 = there().map(|(_, share)| share.norm_sqr()).sum();
-        let sum = there().fold(none, |sum, (value, share)| sum + share.conj() * value);
+        let sum: c64 = there().map(|(value, share)| share.conj() * value).sum();
         (weight > 0.0).then(|| sum / weight)
     };
-    scaled(set, points.map(at).collect(), value)
+    scaled(set, points.map(at).collect(), residues)
 }
 
 /// A shape turned to be as nearly real as possible, with a largest deflection of 1, and its modal mass.
 fn scaled(
     set: &ResponseSet,
     shape: Vec<Option<c64>>,
-    residue: impl Fn(usize) -> c64,
+    residues: &[c64],
 ) -> (Vec<Option<c64>>, Option<f64>) {
     let sum = shape.iter().flatten().fold(c64::new(0.0, 0.0), |sum, v| sum + v * v);
     let turn = c64::from_polar(1.0, -0.5 * sum.arg());
@@ -298,7 +291,7 @@ fn scaled(
     let mass = |reference: usize| {
         let drive = set.drive(reference)?;
         let phi = shape[set.responses[drive].point]?;
-        let residue = residue(drive);
+        let residue = residues[drive];
         // A drive point near a node gives no mass.
         (phi.norm() > 0.05 && residue.norm() > 0.0).then(|| (phi.norm(), (phi * phi / residue).re))
     };

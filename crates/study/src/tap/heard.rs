@@ -15,6 +15,8 @@
 
 use std::f64::consts::PI;
 
+use schemars::JsonSchema;
+use serde::Serialize;
 use sweetspot_tap::analysis::Analysis;
 use sweetspot_tap::tones::Tone;
 
@@ -34,12 +36,12 @@ pub struct HeardLine {
     pub level: f64,
 }
 
-/// A value with the interval that holds it in 95 of 100 cases.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// A value with its interval.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct Within {
     /// The value.
     pub value: f64,
-    /// The interval.
+    /// Interval of 95 % confidence.
     pub interval95: [f64; 2],
 }
 
@@ -61,17 +63,13 @@ impl Within {
 /// The lines of all tones, rising; for wood, which has two planes of the grain, twins are merged.
 pub fn lines(analysis: &Analysis, wood: bool) -> Vec<HeardLine> {
     let tones = &analysis.tones;
-    let losses = tones.iter().map(|tone| tone.pole.loss());
-    let loss = if analysis.has_loss { losses.fold(f64::INFINITY, f64::min) } else { 0.0 };
-    let loss = if loss.is_finite() { loss } else { 0.0 };
+    let losses = tones.iter().filter(|_| analysis.has_loss).map(|tone| tone.pole.loss());
+    let loss = losses.reduce(f64::min).unwrap_or(0.0);
     let mut all: Vec<HeardLine> = vec![];
     for (k, tone) in tones.iter().enumerate() {
         // Twins follow each other; of a pair the second joins the first.
-        let before = all.last_mut().filter(|line| {
-            wood && tone
-                .twin
-                .is_some_and(|twin| line.tones.iter().any(|t| tones[*t].pole.hz == twin))
-        });
+        let is_twin = |t: &usize| Some(tones[*t].pole.hz) == tone.twin;
+        let before = all.last_mut().filter(|line| wood && line.tones.iter().any(is_twin));
         let stiffer = (tone.pole.hz / tones[0].pole.hz).powf(loss / PI);
         let frequency =
             Reading { value: tone.pole.hz / stiffer, deviation: tone.deviations[0] * tone.pole.hz };

@@ -7,6 +7,9 @@
 
 use std::collections::BTreeMap;
 
+use schemars::JsonSchema;
+use serde::Serialize;
+
 use crate::calibrate::calibration::Property;
 use crate::calibrate::labels::{Candidate, LabelChoice, Labels, Lines, contradict, gap};
 use crate::calibrate::readings::{BatReadings, Priors, SpectralLine};
@@ -31,13 +34,31 @@ const TOLERANCE: f64 = 1e-3;
 /// Number of computed bending modes.
 const BENDING: usize = 12;
 
-/// A mode of a bat.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// A mode of the bat.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "snake_case")]
 pub enum BatMode {
-    /// A bending mode, from 1.
-    Bending(usize),
-    /// A mode of the wall: waves around the barrel, and its index among those.
-    Hoop(usize, usize),
+    /// A bending mode.
+    Bending {
+        /// Its number, from 1.
+        order: usize,
+    },
+    /// A mode of a hollow barrel's wall.
+    Hoop {
+        /// Waves around the barrel.
+        harmonic: usize,
+        /// Its number within its harmonic, from 1.
+        order: usize,
+    },
+}
+
+/// Labels that come next.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct NextLabels {
+    /// The mode of each line, in the order of the tones, twins as one.
+    pub labels: Vec<Option<BatMode>>,
+    /// The increase of chi2 with these labels.
+    pub margin: f64,
 }
 
 /// The given label of a line: none, that it is no mode, or its bending mode.
@@ -46,25 +67,12 @@ pub type Known = Option<Option<usize>>;
 /// Labels of lines, the best and the next that contradict them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WallLabels {
-    /// The best.
-    pub best: Vec<Option<BatMode>>,
-    /// Frequencies of the best (Hz).
-    pub computed: Vec<Option<f64>>,
-    /// χ² of every line of the best.
-    pub chi2: Vec<f64>,
+    /// The mode of every line, its frequency (Hz) and its χ².
+    pub best: Vec<Option<(BatMode, f64, f64)>>,
+    /// Additional cost of every line as the next free mode nearby, at most that of the next labels.
+    pub margins: Vec<f64>,
     /// The second best.
-    pub second: Option<Vec<Option<BatMode>>>,
-    /// Their additional cost.
-    pub margin: Option<f64>,
-    /// Additional cost of every line as the next free mode nearby.
-    pub apart: Vec<f64>,
-}
-
-impl WallLabels {
-    /// Additional cost of another label for that line.
-    pub fn margin_of(&self, line: usize) -> Option<f64> {
-        Some(self.margin.unwrap_or(f64::INFINITY).min(self.apart[line]))
-    }
+    pub second: Option<NextLabels>,
 }
 
 /// The modes of the wall of a hollow bat; `None` for a bat without such a wall, as of wood. A wall that cannot be
@@ -92,9 +100,11 @@ pub fn labels(
 ) -> Result<WallLabels> {
     let bending = wood.shown(&[0.0; UNKNOWNS], BENDING)?.frequencies;
     let bending = bending.iter().enumerate();
-    let bending = bending.map(|(k, f)| (BatMode::Bending(k + 1), f.value.ln()));
-    let hoops =
-        wall.iter().map(|mode| (BatMode::Hoop(mode.harmonic, mode.order), mode.frequency_hz.ln()));
+    let bending = bending.map(|(k, f)| (BatMode::Bending { order: k + 1 }, f.value.ln()));
+    let hoops = wall.iter().map(|mode| {
+        let (harmonic, order) = (mode.harmonic, mode.order);
+        (BatMode::Hoop { harmonic, order }, mode.frequency_hz.ln())
+    });
     let all: Vec<(BatMode, f64)> = bending.chain(hoops).collect();
     // A line given as no mode stays without one.
     let asked: Vec<usize> = (0..heard.len()).filter(|k| known[*k] != Some(None)).collect();
@@ -109,17 +119,20 @@ pub fn labels(
     for stiff in steps(0.5 * METAL) {
         for thick in steps(WALL) {
             let log = |(mode, log): &(BatMode, f64)| match mode {
-                BatMode::Bending(_) => log + stiff,
-                BatMode::Hoop(..) => log + stiff + thick,
+                BatMode::Bending { .. } => log + stiff,
+                BatMode::Hoop { .. } => log + stiff + thick,
             };
             let logs: Vec<f64> = all.iter().map(log).collect();
             let mut order: Vec<usize> = (0..all.len()).collect();
             order.sort_by(|a, b| logs[*a].total_cmp(&logs[*b]));
             let candidate = |k: &usize| match all[*k].0 {
-                BatMode::Bending(mode) => Candidate { log: logs[*k], gap: gap(mode), more: 0.0 },
-                BatMode::Hoop(..) => Candidate { log: logs[*k], gap: 0.0, more: HOOP },
+                BatMode::Bending { order } => {
+                    Candidate { log: logs[*k], gap: gap(order), more: 0.0 }
+                }
+                BatMode::Hoop { .. } => Candidate { log: logs[*k], gap: 0.0, more: HOOP },
             };
-            let place = |mode| order.iter().position(|k| all[*k].0 == BatMode::Bending(mode));
+            let place =
+                |mode| order.iter().position(|k| all[*k].0 == BatMode::Bending { order: mode });
             let told = |k: &usize| Some(place(known[*k]??)? + 1);
             let told: Labels = asked.iter().map(told).collect();
             let search = Lines::of(&readings, LabelChoice::Stays(&told));
@@ -146,31 +159,32 @@ fn chosen(
     let mut found: Vec<(Labels, (f64, Vec<f64>))> = found.into_iter().collect();
     found.sort_by(|a, b| a.1.0.total_cmp(&b.1.0));
     let (best, (price, logs)) = found[0].clone();
-    let named = |labels: &Labels| labels.iter().map(|one| one.map(|k| all[k - 1].0)).collect();
     let second = found.iter().find(|(labels, _)| contradict(labels, &best));
-    let log = |label: &Option<usize>| label.map(|k| logs[k - 1]);
-    let away = |log: f64, line: &HeardLine| {
+    let second = second.map(|(labels, (other, _))| NextLabels {
+        labels: labels.iter().map(|one| one.map(|k| all[k - 1].0)).collect(),
+        margin: other - price,
+    });
+    let chi2 = |k: usize, line: &HeardLine| {
         let by = (line.frequency.deviation / line.frequency.value).hypot(BatReadings::MODEL);
-        ((line.frequency.value.ln() - log) / by).powi(2)
+        ((line.frequency.value.ln() - logs[k]) / by).powi(2)
     };
-    let chi2 =
-        |(label, line): (&Option<usize>, &HeardLine)| log(label).map_or(0.0, |log| away(log, line));
     // A bending mode and one of the wall may be so close that one tone may be either.
     let cost = |k: usize, line: &HeardLine| {
-        away(logs[k], line) + if matches!(all[k].0, BatMode::Hoop(..)) { HOOP } else { 0.0 }
+        chi2(k, line) + if matches!(all[k].0, BatMode::Hoop { .. }) { HOOP } else { 0.0 }
     };
-    let apart = |(label, line): (&Option<usize>, &HeardLine)| {
+    let ahead = second.as_ref().map_or(f64::INFINITY, |second| second.margin);
+    let margin = |(label, line): (&Option<usize>, &HeardLine)| {
         let free = (0..all.len()).filter(|k| !best.contains(&Some(k + 1)));
         let next = free.map(|k| cost(k, line)).fold(f64::INFINITY, f64::min);
-        label.map_or(f64::INFINITY, |own| next - cost(own - 1, line))
+        label.map_or(f64::INFINITY, |own| next - cost(own - 1, line)).min(ahead)
+    };
+    let named = |(label, line): (&Option<usize>, &HeardLine)| {
+        label.map(|k| (all[k - 1].0, logs[k - 1].exp(), chi2(k - 1, line)))
     };
     WallLabels {
-        apart: best.iter().zip(heard).map(apart).collect(),
-        chi2: best.iter().zip(heard).map(chi2).collect(),
-        computed: best.iter().map(|label| log(label).map(f64::exp)).collect(),
-        best: named(&best),
-        second: second.map(|(labels, _)| named(labels)),
-        margin: second.map(|(_, (other, _))| other - price),
+        best: best.iter().zip(heard).map(named).collect(),
+        margins: best.iter().zip(heard).map(margin).collect(),
+        second,
     }
 }
 

@@ -3,11 +3,12 @@
 use sweetspot_tap::analysis::Analysis;
 
 use crate::calibrate::calibration::{Calibration, CalibrationPlan, Property, SURE};
-use crate::calibrate::labels::STRANGER;
+use crate::calibrate::fit::DatumKind;
+use crate::calibrate::labels::{MOST_MODES, STRANGER};
 use crate::calibrate::readings::{BatReadings, Priors, RingDown, SpectralLine};
 use crate::calibrate::wood::WoodenBat;
 use crate::tap::heard::{HeardLine, Within, lines};
-use crate::tap::hoops::{self, BatMode, Known, metal};
+use crate::tap::hoops::{self, BatMode, Known, NextLabels, metal};
 use sweetspot::base::error::{Error, Result};
 use sweetspot::bat::body::{Bat, STANDARD_PIVOT};
 
@@ -35,8 +36,8 @@ pub type Told = (f64, Option<usize>);
 pub struct Tapped {
     /// The label of each tone.
     pub labels: Vec<ToneLabel>,
-    /// The second best labels, and their additional cost.
-    pub second: Option<(Vec<Option<BatMode>>, f64)>,
+    /// The second best labels.
+    pub second: Option<NextLabels>,
     /// The wood; None where no tone is a bending mode of the bat.
     pub wood: Option<Calibration>,
     /// An upper limit of the loss factor of the wood: that of the least damped tone.
@@ -69,16 +70,16 @@ impl Tapped {
         let heard = lines(analysis, wall.is_none());
         let known = known(analysis, &heard, told)?;
         let wall = wall.map(|wall| hoops::labels(&wood, &wall, &heard, &known)).transpose()?;
-        let kinds = wall.as_ref().map_or(vec![None; heard.len()], |wall| wall.best.clone());
+        let on_wall = |k: usize| wall.as_ref()?.best[k];
         // Bending modes as given; for a hollow bat as found; else to be sought.
-        let bending = |k: usize| match (known[k], kinds[k]) {
+        let bending = |k: usize| match (known[k], on_wall(k)) {
             (Some(told), _) => told,
-            (None, Some(BatMode::Bending(mode))) => Some(mode),
+            (None, Some((BatMode::Bending { order }, ..))) => Some(order),
             _ => None,
         };
         let is_line = |k: &usize| match known[*k] {
             Some(told) => told.is_some(),
-            None => wall.is_none() || matches!(kinds[*k], Some(BatMode::Bending(_))),
+            None => wall.is_none() || bending(*k).is_some(),
         };
         let lines = (0..heard.len()).filter(is_line);
         let taken = loudest(lines.collect(), |k| known[k].is_some(), |k| heard[k].level);
@@ -91,25 +92,24 @@ impl Tapped {
         let readings = BatReadings { lines, priors, ..BatReadings::default() };
         let plan = CalibrationPlan { split: None, held };
         let found = calibrated(bat, readings, &plan)?;
-        let mut labels = vec![ToneLabel::default(); heard.len()];
-        for (k, label) in labels.iter_mut().enumerate() {
-            if let (None, Some(wall), Some(mode)) = (known[k], &wall, kinds[k]) {
-                *label = ToneLabel {
-                    mode: Some(mode),
-                    computed: wall.computed[k],
-                    sure: sure(wall.margin_of(k), wall.chi2[k]),
-                };
+        let margin = |k: usize| match &wall {
+            Some(wall) => Some(wall.margins[k]),
+            None => found.as_ref().and_then(|found| found.labels.margin),
+        };
+        let of_wall = |k: usize| match (known[k], on_wall(k)) {
+            (None, Some((mode, hz, chi2))) => {
+                ToneLabel { mode: Some(mode), computed: Some(hz), sure: sure(margin(k), chi2) }
             }
-        }
+            _ => ToneLabel::default(),
+        };
+        let mut labels: Vec<ToneLabel> = (0..heard.len()).map(of_wall).collect();
         if let Some(found) = &found {
-            let margin =
-                |k: usize| wall.as_ref().map_or(found.labels.margin, |wall| wall.margin_of(k));
             for (k, mode) in taken.iter().zip(&found.labels.taken) {
                 labels[*k] = of_wood(found, *mode, margin(*k), known[*k] == Some(*mode));
             }
         }
         let second = match wall {
-            Some(wall) => wall.second.zip(wall.margin),
+            Some(wall) => wall.second,
             None => found.as_ref().and_then(|found| second_of(found, &taken, heard.len())),
         };
         let loss = least_loss(analysis, &heard, &labels);
@@ -127,7 +127,7 @@ impl Tapped {
     /// tones are modes of it.
     pub fn fits(&self) -> bool {
         let known = self.labels.iter().filter(|label| label.mode.is_some()).count();
-        let near = self.second.as_ref().is_some_and(|(_, margin)| *margin < SURE);
+        let near = self.second.as_ref().is_some_and(|second| second.margin < SURE);
         self.wood.as_ref().is_some_and(|wood| wood.fits) && !near && 2 * known >= self.labels.len()
     }
 
@@ -157,18 +157,19 @@ fn known(analysis: &Analysis, heard: &[HeardLine], told: &[Told]) -> Result<Vec<
     for (hz, mode) in told {
         let line = &mut known[near(analysis, heard, *hz)?];
         if line.is_some() {
-            return Err(Error::value("--mode", format!("{hz} Hz twice"), "each tone once"));
+            return Err(Error::value("`mode`", format!("{hz} Hz twice"), "each tone once"));
         }
         *line = Some(*mode);
     }
     let modes: Vec<usize> = known.iter().flatten().flatten().copied().collect();
-    match modes.is_sorted_by(|a, b| a < b) {
-        true => Ok(known),
-        false => {
-            let expected = "modes that rise with the frequencies of their tones";
-            Err(Error::value("--mode", format!("the modes {modes:?} of rising tones"), expected))
-        }
+    if let Some(mode) = modes.iter().find(|mode| !(1..=MOST_MODES).contains(*mode)) {
+        return Err(Error::value("`mode`", mode, format!("1 to {MOST_MODES}")));
     }
+    if modes.is_sorted_by(|a, b| a < b) {
+        return Ok(known);
+    }
+    let expected = "modes that rise with the frequencies of their tones";
+    Err(Error::value("`mode`", format!("the modes {modes:?} of rising tones"), expected))
 }
 
 /// The line nearest to a given frequency.
@@ -182,7 +183,7 @@ fn near(analysis: &Analysis, heard: &[HeardLine], hz: f64) -> Result<usize> {
         let all: Vec<String> =
             analysis.tones.iter().map(|tone| format!("{:.1}", tone.pole.hz)).collect();
         Error::value(
-            "--mode",
+            "`mode`",
             format!("{hz} Hz"),
             format!("one of the tones: {} Hz", all.join(", ")),
         )
@@ -214,25 +215,20 @@ fn sure(margin: Option<f64>, chi2: f64) -> f64 {
 
 fn of_wood(found: &Calibration, mode: Option<usize>, margin: Option<f64>, told: bool) -> ToneLabel {
     let Some(order) = mode else { return ToneLabel::default() };
-    let datum = found
-        .data
-        .iter()
-        .find(|one| one.datum.kind == crate::calibrate::fit::DatumKind::Frequency(order));
+    let datum = found.data.iter().find(|one| one.datum.kind == DatumKind::Frequency(order));
     let chi2 = datum.map_or(0.0, |one| one.residual_sd.powi(2));
     let sure = if told { 1.0 } else { sure(margin, chi2) };
     let computed = datum.map(|one| one.computed);
-    ToneLabel { mode: Some(BatMode::Bending(order)), computed, sure }
+    ToneLabel { mode: Some(BatMode::Bending { order }), computed, sure }
 }
 
-type Second = (Vec<Option<BatMode>>, f64);
-
-fn second_of(found: &Calibration, taken: &[usize], lines: usize) -> Option<Second> {
-    let (labels, margin) = found.labels.second.as_ref().zip(found.labels.margin)?;
-    let mut all = vec![None; lines];
-    for (k, mode) in taken.iter().zip(labels) {
-        all[*k] = mode.map(BatMode::Bending);
+fn second_of(found: &Calibration, taken: &[usize], lines: usize) -> Option<NextLabels> {
+    let (second, margin) = found.labels.second.as_ref().zip(found.labels.margin)?;
+    let mut labels = vec![None; lines];
+    for (k, mode) in taken.iter().zip(second) {
+        labels[*k] = mode.map(|order| BatMode::Bending { order });
     }
-    Some((all, margin))
+    Some(NextLabels { labels, margin })
 }
 
 /// Converts labels of lines to labels of their tones, with the frequencies as recorded.
@@ -253,7 +249,7 @@ fn least_loss(
     labels: &[ToneLabel],
 ) -> Option<(Within, usize)> {
     let of = |(line, label): (&HeardLine, &ToneLabel)| {
-        let Some(BatMode::Bending(order)) = label.mode else { return vec![] };
+        let Some(BatMode::Bending { order }) = label.mode else { return vec![] };
         let tones = line.tones.iter().map(|k| (Within::loss(&analysis.tones[*k]), order));
         tones.collect()
     };
