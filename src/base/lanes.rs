@@ -77,6 +77,15 @@ macro_rules! lanes {
     }};
 }
 
+impl Lanes {
+    /// The sum over the lanes, halves first.
+    #[inline(always)]
+    pub(crate) fn sum(self) -> f64 {
+        let [a, b, c, d, e, f, g, h] = self.0;
+        ((a + e) + (c + g)) + ((b + f) + (d + h))
+    }
+}
+
 /// Operations of two numbers in every lane.
 macro_rules! operations {
     ($($name:ident $function:ident $sign:tt;)*) => {$(
