@@ -80,7 +80,6 @@ fn inwards<R: Real>(view: &View<R>, side: usize, tau: R, count: &mut R) -> Optio
     let (mut form, mut next) = (Form::new(2), Form::default());
     for form in [&mut form, &mut next] {
         form.values.reserve((view.strains + 4) * (view.strains + 4));
-        form.column.reserve(view.strains + 4);
     }
     for Run { cells, stop } in view.runs(side).rev() {
         if let (Some(fixed), Some(what)) = (view.fixed, stop) {
@@ -295,9 +294,7 @@ impl<R: Real> Form<R> {
             }
             let Self { values, column, .. } = self;
             column.clear();
-            for i in first..size {
-                column.push(values[i * size + first]);
-            }
+            column.extend((first..size).map(|i| values[i * size + first]));
             negative += half - half.copysign(column[0]);
             let scale = one / column[0];
             for (i, value) in column.iter().enumerate().skip(1) {

@@ -156,7 +156,6 @@ impl<R: Real> Lanczos<R> {
         self.small.solve(&self.alpha, &self.beta).ok_or(failed)?;
         let found = count.min(steps);
         self.residuals.clear();
-        self.residuals.reserve(found);
         for k in 0..found {
             let residual = rest * self.small.weight(k, steps - 1).abs();
             self.residuals.push(residual / self.small.value(k));

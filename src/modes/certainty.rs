@@ -91,8 +91,8 @@ struct SpanWalk<'a> {
 impl Doubt {
     /// The certain nodes of a shape in which other modes may have these shares.
     pub fn tell(&self, shape: &Shape, nodes: &[f64], shares: Shares) -> CertainNodes {
-        let mut told = CertainNodes::default();
-        told.nodes.reserve(nodes.len());
+        let told =
+            CertainNodes { nodes: Vec::with_capacity(nodes.len()), ..CertainNodes::default() };
         let mut way = SpanWalk { doubt: self, shape, shares, nodes, told };
         let [clamps, _] = &self.held;
         let mut borders: Vec<f64> = clamps.clone();

@@ -171,8 +171,7 @@ where
             side_by_side(own, strains, lanes.clone());
             side_by_side(image, &mut motions.image, lanes);
         }
-        let known = Known { value: None, others: &[] };
-        look(&statics.view(), rigid, motions, strains, known, depth);
+        look(&statics.view(), rigid, motions, strains, Known { value: None, others: &[] }, depth);
     }
 }
 
