@@ -32,15 +32,28 @@ pub(crate) fn widest<W: WithSimd>(work: W) -> W::Output {
     arch.dispatch(work)
 }
 
+/// A closure that uses this up can be called once only. Its call is then its own code. Any other closure is called
+/// through a function that the compiler does not always inline, and whatever is not inlined has no wide vectors.
+pub(crate) struct Once;
+
+impl Once {
+    #[inline(always)]
+    pub(crate) fn use_up(self) {}
+}
+
 /// Evaluates an expression with the widest vectors that this machine has. Functions that it calls are inlined into the
 /// surrounding closure, and the closure into the code for each kind of vectors.
 macro_rules! vectorized {
-    ($work:expr) => {
+    ($work:expr) => {{
+        let once = $crate::base::lanes::Once;
         $crate::base::lanes::widest(
             #[inline(always)]
-            || $work,
+            || {
+                once.use_up();
+                $work
+            },
         )
-    };
+    }};
 }
 
 pub(crate) use vectorized;
@@ -62,6 +75,15 @@ macro_rules! lanes {
         }
         Lanes(lanes)
     }};
+}
+
+impl Lanes {
+    /// The sum over the lanes, halves first.
+    #[inline(always)]
+    pub(crate) fn sum(self) -> f64 {
+        let [a, b, c, d, e, f, g, h] = self.0;
+        ((a + e) + (c + g)) + ((b + f) + (d + h))
+    }
 }
 
 /// Operations of two numbers in every lane.

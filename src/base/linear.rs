@@ -3,38 +3,71 @@
 use crate::base::real::Real;
 
 /// `xᵀy` in eight partial sums per block, so that the error does not grow with the length.
+#[inline(always)]
+pub fn dot<R: Real>(x: &[R], y: &[R]) -> R {
+    let [product] = dots(x, y);
+    product
+}
+
+/// `xᵀy` of `Q` vectors x that follow one after the other, each as [`dot`]; y is read once for all.
 ///
 /// Written as plain loops: where the length is known at the call, the compiler unrolls them and only the products
 /// remain.
 #[inline(always)]
-pub fn dot<R: Real>(x: &[R], y: &[R]) -> R {
+pub fn dots<R: Real, const Q: usize>(x: &[R], y: &[R]) -> [R; Q] {
     const BLOCK: usize = 1024;
-    debug_assert_eq!(x.len(), y.len());
-    let (mut total, mut from) = (R::default(), 0);
-    while from < x.len() {
-        let end = x.len().min(from + BLOCK);
-        total += short_dot(&x[from..end], &y[from..end]);
+    debug_assert_eq!(x.len(), Q * y.len());
+    let (length, mut totals, mut from) = (y.len(), [R::default(); Q], 0);
+    while from < length {
+        let end = length.min(from + BLOCK);
+        let mut blocks = [&y[from..end]; Q];
+        for q in 0..Q {
+            blocks[q] = &x[q * length + from..q * length + end];
+        }
+        let products = short_dots(blocks, &y[from..end]);
+        for q in 0..Q {
+            totals[q] += products[q];
+        }
         from = end;
     }
-    total
+    totals
 }
 
 #[inline(always)]
-fn short_dot<R: Real>(x: &[R], y: &[R]) -> R {
+fn short_dots<R: Real, const Q: usize>(x: [&[R]; Q], y: &[R]) -> [R; Q] {
     const SUMS: usize = 8;
-    let (mut sums, mut rest, mut from) = ([R::default(); SUMS], R::default(), 0);
-    while from + SUMS <= x.len() {
-        let (x, y) = (&x[from..from + SUMS], &y[from..from + SUMS]);
-        for k in 0..SUMS {
-            sums[k] += x[k] * y[k];
+    let whole = y.len() / SUMS * SUMS;
+    let mut sums = [[R::default(); SUMS]; Q];
+    // Plain numbers fill a vector with the partial sums. If each is a vector already, the registers hold those of one
+    // place in eight.
+    let (outer, inner) = if R::LANES == 1 { (1, SUMS) } else { (SUMS, 1) };
+    for first in 0..outer {
+        let mut own = [[R::default(); SUMS]; Q];
+        let mut from = first;
+        while from < whole {
+            for q in 0..Q {
+                let (x, y) = (&x[q][from..from + inner], &y[from..from + inner]);
+                for k in 0..inner {
+                    own[q][k] += x[k] * y[k];
+                }
+            }
+            from += SUMS;
         }
-        from += SUMS;
+        for q in 0..Q {
+            for k in 0..inner {
+                sums[q][first + k] = own[q][k];
+            }
+        }
     }
-    for k in from..x.len() {
-        rest += x[k] * y[k];
+    let mut products = [R::default(); Q];
+    for q in 0..Q {
+        for k in whole..y.len() {
+            products[q] += x[q][k] * y[k];
+        }
+        let [a, b, c, d, e, f, g, h] = sums[q];
+        products[q] += ((a + b) + (c + d)) + ((e + f) + (g + h));
     }
-    let [a, b, c, d, e, f, g, h] = sums;
-    rest + (((a + b) + (c + d)) + ((e + f) + (g + h)))
+    products
 }
 
 /// `a d − b c` of `[[a, b], [c, d]]`.
@@ -89,6 +122,8 @@ mod tests {
             let y: Vec<f64> = (0..length).map(|k| ((5 * k) % 23) as f64 - 11.0).collect();
             let exact: f64 = x.iter().zip(&y).map(|(x, y)| x * y).sum();
             assert_eq!(dot(&x, &y), exact, "{length}");
+            let three = [&x[..], &y[..], &x[..]].concat();
+            assert_eq!(dots(&three, &y), [exact, dot(&y, &y), exact], "{length}");
         }
     }
 

@@ -60,8 +60,8 @@ pub fn slower(view: &View<f64>, omega: f64) -> Option<usize> {
 pub fn slower_each<R: Real>(view: &View<R>, omega: R) -> Option<R> {
     let tau = omega * omega / view.energy_unit;
     let mut count = R::default();
-    let [knob, tip] = [0, 1].map(|side| inwards(view, side, tau, &mut count));
-    let (mut knob, tip) = (knob?, tip?);
+    let mut knob = inwards(view, 0, tau, &mut count)?;
+    let tip = inwards(view, 1, tau, &mut count)?;
     // On the knob side, a rotation counted outwards has the other sign.
     let last = knob.size - 1;
     for i in 0..=last {
@@ -78,6 +78,9 @@ pub fn slower_each<R: Real>(view: &View<R>, omega: R) -> Option<R> {
 #[inline(always)]
 fn inwards<R: Real>(view: &View<R>, side: usize, tau: R, count: &mut R) -> Option<Form<R>> {
     let (mut form, mut next) = (Form::new(2), Form::default());
+    for form in [&mut form, &mut next] {
+        form.values.reserve((view.strains + 4) * (view.strains + 4));
+    }
     for Run { cells, stop } in view.runs(side).rev() {
         if let (Some(fixed), Some(what)) = (view.fixed, stop) {
             form.meet(&fixed.placed, what, tau);
@@ -198,9 +201,11 @@ impl<R: Real> Form<R> {
         (outer[strains], outer[strains + 1]) = ([one, zero], [cell.length, one]);
         let ends = [carried, carried + 1];
         for i in 0..width {
-            let row: [R; 2] = std::array::from_fn(|e| {
-                outer[i][0] * self[(ends[0], ends[e])] + outer[i][1] * self[(ends[1], ends[e])]
-            });
+            let mut row = [zero; 2];
+            for e in 0..2 {
+                row[e] =
+                    outer[i][0] * self[(ends[0], ends[e])] + outer[i][1] * self[(ends[1], ends[e])];
+            }
             for j in 0..=i {
                 form[(place(i), place(j))] += row[0] * outer[j][0] + row[1] * outer[j][1];
             }
@@ -262,7 +267,10 @@ impl<R: Real> Form<R> {
         let [one, half] = [1.0, 0.5].map(R::splat);
         while first < end {
             let least = R::splat(f64::MIN_POSITIVE);
-            let largest = (first..end).fold(least, |m: R, i| m.max(self[(i, first)].abs()));
+            let mut largest = least;
+            for i in first..end {
+                largest = largest.max(self[(i, first)].abs());
+            }
             if !(small * largest).within(self[(first, first)].abs()) {
                 if R::LANES == 1 {
                     self.mirror(first);
@@ -292,7 +300,9 @@ impl<R: Real> Form<R> {
             for (i, value) in column.iter().enumerate().skip(1) {
                 let part = *value * scale;
                 let row = &mut values[(first + i) * size + first..][..=i];
-                row[1..].iter_mut().zip(&column[1..]).for_each(|(v, c)| *v -= part * *c);
+                for (v, c) in row[1..].iter_mut().zip(&column[1..]) {
+                    *v -= part * *c;
+                }
             }
             first += 1;
         }

@@ -136,15 +136,15 @@ impl<R: Real> Motion<R> {
         }
         rule.values(&room.strains[..view.terms - 2], &mut room.values);
         let stiffness = &view.bending_stiffness[samples.clone()];
-        let softness = view.softness[0].get(samples.clone());
+        let softness = &view.softness[0][samples.clone()];
         let changes = &mut self.changes[samples];
         for (j, (point, stiffness)) in rule.points.iter().zip(stiffness).enumerate() {
             let mut bending = m + v * R::splat(1.0 - point.s) + room.twice[j] * square;
             if turns {
                 bending += room.once[j] * h;
             }
-            let soft = softness.map(|softness| softness[j]);
-            let [change, square] = difference(room.values[j], lambda * bending, *stiffness, soft);
+            let section = [*stiffness, softness[j]];
+            let [change, square] = difference(room.values[j], lambda * bending, section, view.over);
             changes[j] = change;
             energy += square * (S::splat(point.weight) * h);
         }
@@ -191,13 +191,13 @@ impl<R: Real> Motion<R> {
         let (rule, h, samples) = (view.rule, at.cell.length, at.samples.clone());
         rule.values(&room.strains[view.terms - 2..view.strains], &mut room.values);
         let stiffness = &view.shear_stiffness[samples.clone()];
-        let softness = view.softness[1].get(samples.clone());
+        let softness = &view.softness[1][samples.clone()];
         let slips = &mut self.slips[samples];
         let mut energy = R::default();
         for (j, (point, stiffness)) in rule.points.iter().zip(stiffness).enumerate() {
             let across = lambda * (shear + room.once[j] * h);
-            let soft = softness.map(|softness| softness[j]);
-            let [slip, square] = difference(room.values[j], across, *stiffness, soft);
+            let section = [*stiffness, softness[j]];
+            let [slip, square] = difference(room.values[j], across, section, view.over);
             slips[j] = slip;
             energy += square * (S::splat(point.weight) * h);
         }
@@ -205,21 +205,21 @@ impl<R: Real> Motion<R> {
     }
 }
 
-/// A strain less that of a stress, and the energy of this difference. 1/stiffness is a separate number where the points
-/// represent polynomials over stations.
+/// A strain less that of a stress, and the energy of this difference. The softness is 1/stiffness, except where the
+/// points represent polynomials `over` stations.
 #[inline(always)]
 fn difference<S: Real, R: Over<S>>(
     strain: R,
     stress: R,
-    stiffness: S,
-    softness: Option<S>,
+    [stiffness, softness]: [S; 2],
+    over: bool,
 ) -> [R; 2] {
     let defect = strain * stiffness - stress;
-    let soft = softness.unwrap_or(S::splat(1.0) / stiffness);
-    let change = match softness {
-        Some(softness) => strain - stress * softness,
-        None => defect * soft,
-    };
-    let beyond = softness.map(|softness| strain * stress * (stiffness * softness - S::splat(1.0)));
-    [change, defect * change + beyond.unwrap_or_default()]
+    if over {
+        let change = strain - stress * softness;
+        let beyond = strain * stress * (stiffness * softness - S::splat(1.0));
+        return [change, defect * change + beyond];
+    }
+    let change = defect * softness;
+    [change, defect * change]
 }

@@ -18,7 +18,7 @@
 //! `2N − 2` with it.
 
 use crate::base::real::{Over, Real};
-use crate::beam::rule::Rule;
+use crate::beam::rule::{MOST_POINTS, Rule};
 
 /// Coefficients of `P_0 … P_{N−1}`, or as many other numbers.
 pub type Vector<R, const N: usize> = [R; N];
@@ -104,7 +104,9 @@ pub fn integrated<S: Real, R: Over<S>>(
     turn[n - 1] = zero;
     let mut slope = [zero; MOST_TERMS];
     slope[..n].copy_from_slice(turn);
-    slope.iter_mut().zip(sheared).for_each(|(slope, g)| *slope += *g);
+    for (slope, g) in slope.iter_mut().zip(sheared) {
+        *slope += *g;
+    }
     shape[0] = w + (slope[0] - R::splat(ODD[1]) * slope[1]) * half;
     for k in 1..n {
         shape[k] = integral(slope[k - 1], k, if k + 1 < n { slope[k + 1] } else { zero });
@@ -143,36 +145,46 @@ pub fn turning_on_strains<R: Real>(h: R, load: &[R], on: &mut [R]) {
     on[w - 1] = load[0];
 }
 
-/// Adds `Σ value P_k P_l` at one point, for `k, l` below a count.
+/// `∫ value P_k P_l dx` of numbers at the points, for `k, l` below a count; row by row, so that a row's sums stay in
+/// registers.
 #[inline(always)]
-fn add_square<R: Real, const N: usize>(
-    matrix: &mut Matrix<R, N>,
-    value: R,
-    p: &[f64; N],
+fn squares<R: Real, const N: usize>(
+    length: R,
+    rule: &Rule,
+    values: &[R],
     count: usize,
-) {
-    for k in 0..count {
-        let part = value * R::splat(p[k]);
-        for l in 0..count {
-            matrix[k][l] += part * R::splat(p[l]);
-        }
+) -> Matrix<R, N> {
+    let (mut matrix, mut shares) = ([[R::default(); N]; N], [R::default(); MOST_POINTS]);
+    for ((share, value), point) in shares.iter_mut().zip(values).zip(&rule.points) {
+        *share = R::splat(point.weight) * length * *value;
     }
+    for k in 0..count {
+        let mut row = [R::default(); N];
+        for (i, share) in shares[..values.len()].iter().enumerate() {
+            let p = rule.at::<N>(i);
+            let part = *share * R::splat(p[k]);
+            for l in 0..count {
+                row[l] += part * R::splat(p[l]);
+            }
+        }
+        matrix[k] = row;
+    }
+    matrix
 }
 
 impl<R: Real, const N: usize, const W: usize> Element<R, N, W> {
     /// The energies, from the sections at the points of the rule.
     #[inline(always)]
     pub fn new(length: R, middle: R, rule: &Rule, samples: Samples<R>) -> Self {
-        let zero = [[R::default(); N]; N];
-        let (mut stiffness, mut mass) = (zero, zero);
-        let sections = samples.bending.iter().zip(samples.mass);
-        for (i, ((bending, line), point)) in sections.zip(&rule.points).enumerate() {
-            let p = rule.at::<N>(i);
-            let share = R::splat(point.weight) * length;
-            add_square(&mut mass, share * *line, p, N);
-            add_square(&mut stiffness, share * *bending, p, N - 2);
-        }
-        let beyond = (!samples.turning.is_empty()).then(|| Beyond::new(length, rule, samples));
+        let stiffness = squares(length, rule, samples.bending, N - 2);
+        let mass = squares(length, rule, samples.mass, N);
+        let beyond = match samples.turning {
+            [] => None,
+            turning => {
+                let turning = squares(length, rule, turning, N - 1);
+                Some(Beyond { turning, shear: squares(length, rule, samples.shear, N - 2) })
+            }
+        };
         Self { length, middle, stiffness, mass, beyond }
     }
 
@@ -278,20 +290,6 @@ fn invert_factor<R: Real, const N: usize, const W: usize>(
 }
 
 impl<R: Real, const N: usize> Beyond<R, N> {
-    #[inline(always)]
-    fn new(length: R, rule: &Rule, samples: Samples<R>) -> Self {
-        let mut beyond = Self { turning: [[R::default(); N]; N], shear: [[R::default(); N]; N] };
-        for (i, (value, point)) in samples.turning.iter().zip(&rule.points).enumerate() {
-            let share = R::splat(point.weight) * length;
-            add_square(&mut beyond.turning, share * *value, rule.at::<N>(i), N - 1);
-        }
-        for (i, (value, point)) in samples.shear.iter().zip(&rule.points).enumerate() {
-            let share = R::splat(point.weight) * length;
-            add_square(&mut beyond.shear, share * *value, rule.at::<N>(i), N - 2);
-        }
-        beyond
-    }
-
     /// Adds the rotary inertia to the mass matrix of `(strains, w, θ)`.
     #[inline(always)]
     fn add<const W: usize>(&self, h: R, columns: &mut Matrix<R, W>) {

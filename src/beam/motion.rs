@@ -228,7 +228,11 @@ impl<R: Real> Motion<R> {
         if view.theory.shears() {
             self.turns[at.terms.clone()].copy_from_slice(turn);
         }
-        shape.iter().fold(R::default(), |sum, w| sum + *w)
+        let mut end = R::default();
+        for w in shape.iter() {
+            end += *w;
+        }
+        end
     }
 
     /// Number of sign changes of the deflection at the points and the ends, from knob to tip; the number of its zeros
@@ -270,7 +274,9 @@ fn keep<S: Real, R: Over<S>>(values: &[R], line: &[S], kept: &mut [R], loads: &m
 #[inline(always)]
 fn inner<S: Real, R: Over<S>>(q: &[R], a: &[S]) -> R {
     let mut sum = R::default();
-    q.iter().zip(a).for_each(|(q, a)| sum += *q * *a);
+    for (q, a) in q.iter().zip(a) {
+        sum += *q * *a;
+    }
     sum
 }
 

@@ -15,6 +15,8 @@ pub const DEGREES: std::ops::RangeInclusive<usize> = 3..=12;
 pub struct Rule {
     /// The points, from left to right.
     pub points: Vec<GaussPoint>,
+    /// Their places as ξ, from −1 to 1.
+    pub xi: Vec<f64>,
     /// `P_0 … P_{N−1}` at the points, point by point; `N` is the degree plus 1.
     legendre: Vec<f64>,
     /// `P_0 … P_{N−1}` at the points, polynomial by polynomial.
@@ -158,6 +160,7 @@ impl Rule {
             (0..count).map(weight).collect()
         });
         Self {
+            xi: places.iter().map(|(s, _)| 2.0 * s - 1.0).collect(),
             points: places.into_iter().map(GaussPoint::new).collect(),
             legendre,
             by_term,

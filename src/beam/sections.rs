@@ -48,15 +48,14 @@ pub fn over<const Q: usize>(
         let cubics = if [from, to] == [0.0, 1.0] { *cubics } else { cubics.part(from, to) };
         for point in &POINTS[points(&cubics, moments.count, [begin, end])] {
             let share_of = point.weight * share;
-            let values = of(layup, point.section(&cubics)).map(|value| value * share_of);
-            moments.add(2.0 * (begin + share * point.s) - 1.0, values);
+            let values = of(layup, point.section(&cubics));
+            moments.add(2.0 * (begin + share * point.s) - 1.0, share_of, values);
         }
     }
     moments.flush();
     let mut values = [[0.0; MOST_POINTS]; Q];
     for (values, sums) in values.iter_mut().zip(&moments.sums) {
-        let own = sums.map(|sum| (0..WIDTH).map(|lane| sum.lane(lane)).sum::<f64>());
-        rule.combine(&rule.from_moments, &own[..moments.count], values);
+        rule.combine(&rule.from_moments, &sums[..moments.count], values);
     }
     values
 }
@@ -91,7 +90,7 @@ fn points(cubics: &Cubics, count: usize, [begin, end]: [f64; 2]) -> usize {
 /// Sums `Σ f P_k` over points, a vector of points at a time.
 struct Moments<const Q: usize> {
     count: usize,
-    sums: [[Lanes; MOST_POINTS]; Q],
+    sums: [[f64; MOST_POINTS]; Q],
     /// Points that are not in the sums yet, and their number.
     xi: Lanes,
     values: [Lanes; Q],
@@ -102,14 +101,14 @@ impl<const Q: usize> Moments<Q> {
     #[inline(always)]
     fn new(count: usize) -> Self {
         let zero = Lanes::default();
-        Self { count, sums: [[zero; MOST_POINTS]; Q], xi: zero, values: [zero; Q], waiting: 0 }
+        Self { count, sums: [[0.0; MOST_POINTS]; Q], xi: zero, values: [zero; Q], waiting: 0 }
     }
 
     #[inline(always)]
-    fn add(&mut self, xi: f64, values: [f64; Q]) {
+    fn add(&mut self, xi: f64, share: f64, values: [f64; Q]) {
         self.xi.set_lane(self.waiting, xi);
-        for (lanes, value) in self.values.iter_mut().zip(values) {
-            lanes.set_lane(self.waiting, value);
+        for q in 0..Q {
+            self.values[q].set_lane(self.waiting, values[q] * share);
         }
         self.waiting += 1;
         if self.waiting == WIDTH {
@@ -123,7 +122,7 @@ impl<const Q: usize> Moments<Q> {
         let (mut before, mut now) = (Lanes::default(), Lanes::splat(1.0));
         for (k, [next, last]) in RECURRENCE.iter().enumerate().take(self.count) {
             for (sums, value) in self.sums.iter_mut().zip(&self.values) {
-                sums[k] += *value * now;
+                sums[k] += (*value * now).sum();
             }
             let after = Lanes::splat(*next) * self.xi * now - Lanes::splat(*last) * before;
             (before, now) = (now, after);

@@ -61,9 +61,10 @@ pub struct Statics<R, const N: usize, const W: usize> {
     pub turning_per_length: Vec<R>,
     /// κGA (N) at the same points, of a theory with shear.
     pub shear_stiffness: Vec<R>,
-    /// 1/EI (1/(N m²)) and 1/κGA (1/N) at the same points, if elements reach over stations: there each of these is a
-    /// separate polynomial.
+    /// 1/EI (1/(N m²)) and 1/κGA (1/N) at the same points, as far as the theory needs them.
     pub softness: [Vec<R>; 2],
+    /// Whether elements reach over stations: there the softness is a polynomial of its own.
+    pub over: bool,
     /// Mass (kg), summed from the elements and the fixtures.
     pub mass: R,
     /// The theory's inertia about the balance point (kg m²), summed likewise.
@@ -95,6 +96,7 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
             turning_per_length: vec![],
             shear_stiffness: vec![],
             softness: [vec![], vec![]],
+            over: false,
             mass: zero,
             inertia: zero,
             balance: zero,
@@ -112,7 +114,8 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
         debug_assert!(bats.len() == R::LANES && meshes.len() == R::LANES);
         let over = meshes[0].over_stations();
         self.rule = Rule::of(bats[0], over, N - 1);
-        self.make_room(meshes[0].len(), over);
+        self.over = over;
+        self.make_room(meshes[0].len());
         if over {
             self.sample_over_stations(bats, meshes);
         } else if self.theory.turns() {
@@ -130,7 +133,7 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
 
     /// Allocates the values at the points of that number of elements, as far as the theory needs them.
     #[inline(always)]
-    fn make_room(&mut self, count: usize, over: bool) {
+    fn make_room(&mut self, count: usize) {
         let (samples, theory) = (count * self.rule.count(), self.theory);
         let [bending_softness, shear_softness] = &mut self.softness;
         for (values, asked) in [
@@ -138,8 +141,8 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
             (&mut self.mass_per_length, true),
             (&mut self.turning_per_length, theory.turns()),
             (&mut self.shear_stiffness, theory.shears()),
-            (bending_softness, over),
-            (shear_softness, over && theory.shears()),
+            (bending_softness, true),
+            (shear_softness, theory.shears()),
         ] {
             values.clear();
             values.resize(if asked { samples } else { 0 }, R::default());
@@ -159,6 +162,7 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
             let range = k * points..(k + 1) * points;
             let bending = &mut self.bending_stiffness[range.clone()];
             let line = &mut self.mass_per_length[range.clone()];
+            let soft = &mut self.softness[0][range.clone()];
             let (mut length, mut start) = (zero, zero);
             for (lane, (bat, mesh)) in bats.iter().zip(meshes).enumerate() {
                 let e = &mesh.elements[k];
@@ -170,6 +174,7 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
                 sections::bending_and_mass(bat, e, self.rule, |i, [stiffness, mass]| {
                     bending[i].set_lane(lane, stiffness);
                     line[i].set_lane(lane, mass);
+                    soft[i].set_lane(lane, 1.0 / stiffness);
                 });
             }
             let [here, moment] = self.rule.integrals(line);
@@ -250,6 +255,7 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
                     self.turning_per_length[place].set_lane(lane, worth.turning);
                     if shears {
                         self.shear_stiffness[place].set_lane(lane, worth.shear);
+                        self.softness[1][place].set_lane(lane, 1.0 / worth.shear);
                     }
                 });
             }
@@ -353,28 +359,22 @@ impl<R: Real, const N: usize, const W: usize> Statics<R, N, W> {
     /// strains and the root at rest.
     pub fn apply(&self, q: &[R], y: &mut [R], loads: &mut Loads<R, W>) -> Rigid<R> {
         let (body, fixed) = (self.body(), self.fixed.as_deref());
-        apply(&body, fixed, q, Some(y), loads)
-    }
-
-    /// The rigid motion alone that [`Self::apply`] removes from a bare bat: half the work.
-    pub fn rigid(&self, q: &[R], loads: &mut Loads<R, W>) -> Rigid<R> {
-        debug_assert!(self.fixed.is_none());
-        apply(&self.body(), None, q, None, loads)
+        apply(&body, fixed, q, y, loads)
     }
 }
 
-/// The compliance of a bat times the strains `q`, written to `y` if that is given.
+/// The compliance of a bat times the strains `q`, written to `y`.
 fn apply<R: Real, const W: usize>(
     body: &Body<'_, R, W>,
     fixed: Option<&Fixed<R>>,
     q: &[R],
-    y: Option<&mut [R]>,
+    y: &mut [R],
     loads: &mut Loads<R, W>,
 ) -> Rigid<R> {
-    vectorized!(match (fixed, y) {
-        (Some(fixed), Some(y)) => fixed.compliance(body, q, y, loads),
-        (_, y) if body.cells.len() > LONG => body.compliance::<true>(q, y, loads),
-        (_, y) => body.compliance::<false>(q, y, loads),
+    vectorized!(match fixed {
+        Some(fixed) => fixed.compliance(body, q, y, loads),
+        None if body.cells.len() > LONG => body.compliance::<true>(q, y, loads),
+        None => body.compliance::<false>(q, y, loads),
     })
 }
 
@@ -383,11 +383,10 @@ impl<R: Real, const W: usize> Body<'_, R, W> {
     fn compliance<const KEEP: bool>(
         &self,
         q: &[R],
-        y: Option<&mut [R]>,
+        y: &mut [R],
         loads: &mut Loads<R, W>,
     ) -> Rigid<R> {
         let rigid = self.balanced::<KEEP>(q, loads);
-        let Some(y) = y else { return rigid };
         let (knob, tip) = self.cells.split_at(self.split);
         let (knob_loads, tip_loads) = loads.cells.split_at(self.split);
         let (knob_y, tip_y) = y.split_at_mut((W - 2) * self.split);

@@ -29,8 +29,10 @@ pub struct View<'a, S> {
     pub turning_per_length: &'a [S],
     /// κGA (N) likewise; empty without shear.
     pub shear_stiffness: &'a [S],
-    /// 1/EI (1/(N m²)) and 1/κGA (1/N) likewise; empty where no element reaches over stations.
+    /// 1/EI (1/(N m²)) and 1/κGA (1/N) likewise.
     pub softness: [&'a [S]; 2],
+    /// Whether elements reach over stations.
+    pub over: bool,
     /// Length of the bat (m).
     pub length: S,
     /// The fixtures, if any.
@@ -132,6 +134,7 @@ impl<S: Real, const N: usize, const W: usize> Statics<S, N, W> {
             turning_per_length: &self.turning_per_length,
             shear_stiffness: &self.shear_stiffness,
             softness: [&self.softness[0], &self.softness[1]],
+            over: self.over,
             length: self.length,
             fixed: self.fixed.as_deref(),
         }

@@ -5,7 +5,7 @@
 //! Lanczos' spurious copies appear.
 
 use crate::base::error::{Error, Result};
-use crate::base::linear::dot;
+use crate::base::linear::{dot, dots};
 use crate::base::real::Real;
 use crate::eigen::tridiagonal::Tridiagonal;
 
@@ -80,7 +80,7 @@ impl<R: Real> Lanczos<R> {
         let (count, Space { known, allow }) = (wanted.count, space);
         let before = known.len() / dimension;
         let most = (dimension - before).min(3 * (count + wanted.clustered) + 60);
-        self.begin(dimension, known, dimension * most.min(count + wanted.earliest));
+        self.begin(dimension, known, most.min(count + wanted.earliest));
         start(&mut self.next);
         let size = match before {
             0 => dot(&self.next, &self.next).sqrt(),
@@ -113,16 +113,24 @@ impl<R: Real> Lanczos<R> {
         }
     }
 
-    /// Resets the basis to the known vectors, with room for the given number of further values.
+    /// Component of eigenvector `pair` along the basis vector of a step.
+    #[inline(always)]
+    pub fn weight(&self, pair: usize, step: usize) -> R {
+        self.small.weight(pair, step)
+    }
+
+    /// Resets the basis to the known vectors, with room for the given number of steps.
     #[inline(always)]
     fn begin(&mut self, dimension: usize, known: &[R], room: usize) {
         self.next.clear();
         self.next.resize(dimension, R::default());
         self.basis.clear();
         self.basis.extend_from_slice(known);
-        self.basis.reserve_exact(room);
-        self.alpha.clear();
-        self.beta.clear();
+        self.basis.reserve_exact(dimension * room);
+        for values in [&mut self.alpha, &mut self.beta, &mut self.parts] {
+            values.clear();
+            values.reserve(room);
+        }
         self.steps = 0;
     }
 
@@ -184,8 +192,18 @@ impl<R: Real> Lanczos<R> {
         let mut lost = R::splat(1.0);
         for _ in 0..3 {
             parts.clear();
-            let part = |b| lost.if_zero(R::default(), dot(b, next));
-            parts.extend(basis.chunks_exact(next.len()).map(part));
+            let fours = basis.chunks_exact(4 * next.len());
+            let ones = fours.remainder().chunks_exact(next.len());
+            for four in fours {
+                let products: [R; 4] = dots(four, next);
+                parts.extend_from_slice(&products);
+            }
+            for one in ones {
+                parts.push(dot(one, next));
+            }
+            for part in parts.iter_mut() {
+                *part = lost.if_zero(R::default(), *part);
+            }
             subtract_all(parts, basis, next);
             let rest = dot(next, next).sqrt();
             let now = R::default().max(R::splat(0.7) * size - rest);
@@ -256,7 +274,9 @@ pub fn largest(
 
 #[inline(always)]
 fn subtract<R: Real>(part: R, from: &[R], vector: &mut [R]) {
-    vector.iter_mut().zip(from).for_each(|(v, b)| *v -= part * *b);
+    for (v, b) in vector.iter_mut().zip(from) {
+        *v -= part * *b;
+    }
 }
 
 /// Length of the stretch of every basis vector that is processed together: with a thousand vectors half a megabyte, the

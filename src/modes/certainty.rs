@@ -91,7 +91,9 @@ struct SpanWalk<'a> {
 impl Doubt {
     /// The certain nodes of a shape in which other modes may have these shares.
     pub fn tell(&self, shape: &Shape, nodes: &[f64], shares: Shares) -> CertainNodes {
-        let mut way = SpanWalk { doubt: self, shape, shares, nodes, told: CertainNodes::default() };
+        let told =
+            CertainNodes { nodes: Vec::with_capacity(nodes.len()), ..CertainNodes::default() };
+        let mut way = SpanWalk { doubt: self, shape, shares, nodes, told };
         let [clamps, _] = &self.held;
         let mut borders: Vec<f64> = clamps.clone();
         borders.sort_by(f64::total_cmp);
@@ -115,7 +117,11 @@ impl Doubt {
     /// The part of it due to mesh and round-off.
     fn own(&self, place: usize) -> f64 {
         let around = &self.places[place.saturating_sub(1)..(place + 2).min(self.places.len())];
-        let change = around.iter().map(|place| place[2].abs()).fold(0.0, f64::max);
+        self.due_to(around.iter().map(|place| place[2].abs()).fold(0.0, f64::max))
+    }
+
+    /// The error of the deflection where its change is the greatest of the places around.
+    fn due_to(&self, change: f64) -> f64 {
         (CERTAIN * (change + self.rounding)).max(self.rest) / CERTAIN
     }
 }
@@ -128,8 +134,11 @@ impl SpanWalk<'_> {
         let beside = |x: f64, all: &[f64], share: f64| {
             all.iter().any(|held| (x - held).abs() <= share * length)
         };
-        let largest =
-            self.doubt.places[places.clone()].iter().map(|p| p[1].abs()).fold(0.0, f64::max);
+        let [mut largest, mut changed] = [0.0_f64; 2];
+        for [_, w, change] in &self.doubt.places[places.clone()] {
+            largest = if w.abs() > largest { w.abs() } else { largest };
+            changed = if change.abs() > changed { change.abs() } else { changed };
+        }
         if places.is_empty() || (!clamps.is_empty() && largest <= RESTING) {
             return;
         }
@@ -138,12 +147,17 @@ impl SpanWalk<'_> {
         let (mut last, mut doubtful) = (end(places.start), vec![]);
         let mut before = self.nodes.partition_point(|node| *node < last.x);
         let past = end(places.end - 1);
+        // Enough anywhere on a part whose neighbours' changes are its own.
+        let (free, enough) =
+            (clamps.is_empty() && pins.is_empty(), self.doubt.due_to(changed) + most);
+        let plain = free && self.doubt.dips.is_empty();
         for number in places {
             let [x, w, _] = self.doubt.places[number];
             if beside(x, clamps, BESIDE_CLAMP) || beside(x, pins, 1e-12) {
                 continue;
             }
-            let certain = w.abs() > CERTAIN * (self.doubt.own(number) + most)
+            let certain = free && w.abs() > CERTAIN * enough
+                || w.abs() > CERTAIN * (self.doubt.own(number) + most)
                 || w.abs() > CERTAIN * self.doubt.error(number, self.shares);
             if !certain {
                 doubtful.push(number);
@@ -152,7 +166,9 @@ impl SpanWalk<'_> {
             let next = Side { number: Some(number), x, sign: w.signum() };
             let nodes = self.nodes[before..].iter().take_while(|node| **node <= x).count();
             before += nodes;
-            if nodes > 0 || !doubtful.is_empty() || !self.doubt.dips.is_empty() {
+            if plain && nodes == 1 && doubtful.is_empty() {
+                self.told.nodes.push(self.nodes[before - 1]);
+            } else if nodes > 0 || !doubtful.is_empty() || !self.doubt.dips.is_empty() {
                 self.between(last, next, &doubtful);
             }
             doubtful.clear();

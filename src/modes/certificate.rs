@@ -182,19 +182,21 @@ pub fn add_neighbours(modes: &mut [Mode], beyond: Option<f64>, left: &[f64], fac
     let mut errors: Vec<f64> = all.iter().map(|known| known.error).collect();
     share(&omegas, &mut errors);
     let doubts: Vec<Doubt> = modes.iter_mut().map(|mode| std::mem::take(&mut mode.doubt)).collect();
+    let mut parts: Vec<SharedMotion> = Vec::with_capacity(all.len() + 1);
+    let mut of: Vec<(usize, f64)> = Vec::with_capacity(all.len() + 1);
     for k in 0..modes.len() {
         // The residual with a factored `K` is its round-off, in the fastest modes.
         let residual = if factored { 0.0 } else { modes[k].error.residual };
         let below = (k > 0).then(|| part(&all, k, k - 1, residual));
         let above = (k + 1 < all.len()).then(|| part(&all, k, k + 1, residual));
-        let both: Vec<SharedMotion> =
-            [below.or(above), above.or(below)].into_iter().flatten().collect();
+        let both = [below.or(above), above.or(below)].into_iter().flatten();
         let far = (0..all.len()).filter(|j| j.abs_diff(k) > 1).map(|j| {
             let part = part(&all, k, j, 0.0);
             let unseen = (1.0 - part.gap).max(0.0);
             SharedMotion { turn: part.turn * unseen, share: part.share * unseen, ..part }
         });
-        let parts: Vec<SharedMotion> = both.iter().copied().chain(far).collect();
+        parts.clear();
+        parts.extend(both.clone().chain(far));
         let alone = if parts.is_empty() { 4.0 * all[k].error + residual } else { 0.0 };
         let mixed = alone + parts.iter().map(|part| part.share).sum::<f64>();
         let lost = parts.iter().map(|part| part.turn.powi(2)).sum::<f64>().min(1.0);
@@ -204,10 +206,11 @@ pub fn add_neighbours(modes: &mut [Mode], beyond: Option<f64>, left: &[f64], fac
         let nodes = modes[k].shape.slopes(&modes[k].nodes);
         let shift = |part: &SharedMotion| part.share * modes[part.other].shape.shift(&nodes);
         let moved: f64 = near.map(shift).sum();
-        let of: Vec<(usize, f64)> = parts.iter().map(|part| (part.other, part.share)).collect();
+        of.clear();
+        of.extend(parts.iter().map(|part| (part.other, part.share)));
         let shares = Shares { of: &of, motions: &doubts };
         let told = doubts[k].tell(&modes[k].shape, &modes[k].nodes, shares);
-        let nearest = both.iter().map(|part| part.gap).fold(1.0, f64::min);
+        let nearest = both.map(|part| part.gap).fold(1.0, f64::min);
         let mode = &mut modes[k];
         let length = mode.shape.length();
         // A frequency is never farther from a mode's than the residual, however close others are.

@@ -34,6 +34,8 @@ pub struct Eigenpairs<R, const N: usize, const W: usize> {
     strains: Vec<Lanes>,
     loads: Loads<R, W>,
     image: Vec<R>,
+    /// The rigid motion that every step of the last iteration removes, each with the loads of its point masses.
+    removed: Vec<[R; 2]>,
 }
 
 impl<R: Real, const N: usize, const W: usize> Eigenpairs<R, N, W>
@@ -52,6 +54,7 @@ where
             strains: vec![],
             loads: Loads::default(),
             image: vec![],
+            removed: vec![],
         }
     }
 
@@ -99,53 +102,65 @@ where
         known: &[R],
         start: &mut dyn FnMut(&Statics<R, N, W>, &mut [R]),
     ) -> Result<()> {
-        let Self { statics, lanczos, loads, .. } = self;
+        let Self { statics, lanczos, loads, removed, .. } = self;
+        removed.clear();
         // Removes what the contacts do not allow: a step divides by a small number and would amplify it.
         let allow =
             &mut |next: &mut [R]| statics.fixed.iter().for_each(|fixed| fixed.project(next));
         let apply = &mut |q: &[R], y: &mut [R]| {
-            statics.apply(q, y, loads);
+            let Rigid { push, turn } = statics.apply(q, y, loads);
+            removed.push([push, turn]);
+            removed.extend_from_slice(&loads.points);
         };
         let start = &mut |next: &mut [R]| start(statics, next);
         iterate(lanczos, statics.dimension(), wanted, Space { known, allow }, start, apply)
     }
 
     /// Evaluates the modes that were found, from index `first` on, to the given depth: [`Self::TOGETHER`] of them or as
-    /// many as there are. Frequencies follow from the eigenvalues.
+    /// many as there are. Frequencies follow from the eigenvalues, rigid motions and loads from those of the steps.
     pub fn look(&mut self, first: usize, depth: Depth) {
-        let vectors = std::mem::take(&mut self.lanczos.vectors);
-        let last = self.lanczos.values.len() - 1;
+        let Self { statics, motions, lanczos, strains, removed, .. } = self;
+        let (dimension, last) = (statics.dimension(), lanczos.values.len() - 1);
+        strains.resize(dimension, Lanes::default());
+        motions.image.clear();
+        let each = removed.len() / lanczos.steps;
         let mut values = Lanes::default();
-        for lane in 0..WIDTH {
-            let k = (first + lane / R::LANES).min(last);
-            values.set_lane(lane, self.lanczos.values[k].lane(lane % R::LANES));
+        motions.forces.resize(each, [Lanes::default(); 2]);
+        for k in 0..Self::TOGETHER {
+            let (pair, lanes) = ((first + k).min(last), k * R::LANES..(k + 1) * R::LANES);
+            for (place, sums) in motions.forces.iter_mut().enumerate() {
+                let mut own = [R::default(); 2];
+                for (step, parts) in removed.chunks_exact(each).enumerate() {
+                    let weight = lanczos.weight(pair, step);
+                    own[0] += weight * parts[place][0];
+                    own[1] += weight * parts[place][1];
+                }
+                side_by_side(&own, sums, lanes.clone());
+            }
+            let value = std::slice::from_mut(&mut values);
+            side_by_side(&lanczos.values[pair..=pair], value, lanes.clone());
+            side_by_side(&lanczos.vectors[pair * dimension..][..dimension], strains, lanes);
         }
-        self.look_closely(&vectors, first, Some(values), depth);
-        self.lanczos.vectors = vectors;
+        let [push, turn] = motions.forces.remove(0);
+        let known = Known { value: Some(values), others: &[] };
+        look(&statics.view(), Rigid { push, turn }, motions, strains, known, depth);
     }
 
-    /// Evaluates the modes with these scaled strains, which follow one after the other, from index `first` on.
-    /// Frequencies follow from both energies.
+    /// Evaluates the modes with these scaled strains, which follow one after the other, from index `first` on; the last
+    /// mode fills unused lanes. Frequencies follow from both energies.
     pub fn look_at(&mut self, vectors: &[R], first: usize, depth: Depth) {
-        self.look_closely(vectors, first, None, depth);
-    }
-
-    /// Arranges strains side by side and computes the effect of their inertia; the last mode fills unused lanes.
-    fn look_closely(&mut self, vectors: &[R], first: usize, value: Option<Lanes>, depth: Depth) {
         let Self { statics, motions, strains, loads, image, .. } = self;
         let dimension = statics.dimension();
         let last = vectors.len() / dimension - 1;
         strains.resize(dimension, Lanes::default());
         image.resize(dimension, R::default());
-        let images = if value.is_some() { 0 } else { dimension };
-        motions.image.resize(images, Lanes::default());
-        let mut rigid = Rigid::<Lanes>::default();
+        motions.image.resize(dimension, Lanes::default());
+        let (mut rigid, mut taken) = (Rigid::<Lanes>::default(), Rigid::default());
         for k in 0..Self::TOGETHER {
             let own = &vectors[(first + k).min(last) * dimension..][..dimension];
-            let taken = match value {
-                Some(_) if statics.fixed.is_none() => statics.rigid(own, loads),
-                _ => statics.apply(own, image, loads),
-            };
+            if first + k <= last {
+                taken = statics.apply(own, image, loads);
+            }
             let lanes = k * R::LANES..(k + 1) * R::LANES;
             motions.forces.resize(loads.points.len(), [Lanes::default(); 2]);
             for (force, load) in motions.forces.iter_mut().zip(&loads.points) {
@@ -156,7 +171,7 @@ where
             side_by_side(own, strains, lanes.clone());
             side_by_side(image, &mut motions.image, lanes);
         }
-        look(&statics.view(), rigid, motions, strains, Known { value, others: &[] }, depth);
+        look(&statics.view(), rigid, motions, strains, Known { value: None, others: &[] }, depth);
     }
 }
 

@@ -2,11 +2,12 @@
 
 use crate::base::real::{Over, Real};
 use crate::beam::motion::Motion;
+use crate::beam::rule::MOST_POINTS;
 use crate::beam::view::View;
 use crate::modes::shape::Shape;
 
 /// A motion from knob to tip in one lane, at the points of its elements.
-pub struct Track {
+pub struct Track<'a> {
     /// Deflections (m).
     pub samples: Vec<f64>,
     /// Their changes (m), as [`Motion::changes`].
@@ -14,10 +15,14 @@ pub struct Track {
     /// Deflection and change at the knob end and at the tip.
     pub ends: [[f64; 2]; 2],
     /// Points of an element as ξ.
-    xi: Vec<f64>,
+    xi: &'a [f64],
 }
 
-impl Track {
+/// Room for the places of one element: ξ and deflection at both ends and at the points.
+type Places = [(f64, f64); MOST_POINTS + 2];
+const NO_PLACES: Places = [(0.0, 0.0); MOST_POINTS + 2];
+
+impl Track<'_> {
     /// The motion in that lane.
     pub fn new<S: Real, R: Over<S>>(view: &View<S>, motion: &Motion<R>, lane: usize) -> Self {
         let points = view.rule.count();
@@ -26,7 +31,6 @@ impl Track {
             let (knob, tip) = values.split_at(split);
             knob.iter().rev().chain(tip).map(|v| v.lane(lane)).collect()
         };
-        let xi = view.rule.points.iter().map(|p| 2.0 * p.s - 1.0).collect();
         let samples = along(&motion.deflections);
         let changes = along(&motion.changes);
         let mut ends = motion.ends.map(|end| end.map(|v| v.lane(lane)));
@@ -34,7 +38,7 @@ impl Track {
             // The root is the knob end itself.
             ends[0][1] = changes[0];
         }
-        Self { samples, changes, ends, xi }
+        Self { samples, changes, ends, xi: &view.rule.xi }
     }
 
     /// Place (m), deflection and change at the knob end, at the points of elements with those middles and lengths, and
@@ -65,14 +69,19 @@ impl Track {
 impl Shape {
     /// Deflection at the left end, the points and the right end of element `k`, from its values at
     /// the points.
-    fn places(&self, k: usize, track: &Track, places: &mut Vec<(f64, f64)>) {
+    fn places<'r>(&self, k: usize, track: &Track, room: &'r mut Places) -> &'r mut [(f64, f64)] {
         let points = track.xi.len();
         let [left, right] = self.ends(k);
         let inner = track.samples[k * points..(k + 1) * points].iter();
-        places.clear();
-        places.push((-1.0, left));
-        places.extend(track.xi.iter().copied().zip(inner.copied()));
-        places.push((1.0, right));
+        let places = &mut room[..points + 2];
+        places[0] = (-1.0, left);
+        for (place, inner) in
+            places[1..].iter_mut().zip(track.xi.iter().copied().zip(inner.copied()))
+        {
+            *place = inner;
+        }
+        places[points + 1] = (1.0, right);
+        places
     }
 
     /// Deflection at the left and the right end of element `k`.
@@ -110,7 +119,7 @@ impl Shape {
                 (most, change) = (w.abs(), changed / w);
             }
         }
-        let (widest, mut places) = (track.widest(), Vec::with_capacity(points + 2));
+        let (widest, mut room) = (track.widest(), NO_PLACES);
         for k in 0..self.stretches.len() {
             let [lowest, greatest] = self.between(k, track);
             // The slope is zero at a peak, so it exceeds the places beside it by at most this.
@@ -118,14 +127,14 @@ impl Shape {
             if greatest.max(-lowest) + higher <= most {
                 continue;
             }
-            self.places(k, track, &mut places);
+            let places = self.places(k, track, &mut room);
             let size = |j: usize| places.get(j).map_or(0.0, |(_, w)| w.abs());
             for j in 0..places.len() {
                 let highest_here = size(j) >= size(j.wrapping_sub(1)) && size(j) >= size(j + 1);
                 if size(j) + higher <= most || !highest_here {
                     continue;
                 }
-                let peak = self.extreme(k, &places, j).1.abs().max(size(j));
+                let peak = self.extreme(k, places, j).1.abs().max(size(j));
                 if peak > most {
                     let near = k * points + j.saturating_sub(1).min(points - 1);
                     (most, change) = (peak, track.changes[near] / track.samples[near]);
@@ -173,8 +182,8 @@ impl Shape {
     /// Also returns the places (m) where the deflection has an extremum near zero without crossing, and the deflection
     /// there.
     pub(super) fn zeros(&self, track: &Track, rest: f64) -> (Vec<f64>, Vec<[f64; 2]>) {
-        let (mut zeros, mut dips) = (Vec::new(), Vec::new());
-        let mut places = Vec::with_capacity(track.xi.len() + 2);
+        let (mut zeros, mut dips) = (Vec::with_capacity(16), Vec::new());
+        let mut room = NO_PLACES;
         // The last sign of the deflection, and its value at the end of the last element.
         let (mut before, mut border) = (0.0, None);
         let widest = track.widest();
@@ -190,7 +199,7 @@ impl Shape {
                 (before, border) = (sign, Some(self.ends(k)[1]));
                 continue;
             }
-            self.places(k, track, &mut places);
+            let places = self.places(k, track, &mut room);
             places[0].1 = border.unwrap_or(places[0].1);
             border = places.last().map(|place| place.1);
             places.iter_mut().filter(|place| place.1.abs() <= rest).for_each(|at| at.1 = 0.0);
@@ -218,7 +227,7 @@ impl Shape {
                     };
                     add(self.zero(k, left, right, a, b));
                 } else if 8.0 * a.abs().min(b.abs()) <= bend * (right - left).powi(2)
-                    && let Some((xi, w)) = self.dip(k, &places, j)
+                    && let Some((xi, w)) = self.dip(k, places, j)
                 {
                     if w * first < 0.0 {
                         add(self.zero(k, left, xi, a, w));
@@ -360,12 +369,12 @@ mod tests {
     const PLACES: [f64; 6] = [-0.93, -0.66, -0.24, 0.24, 0.66, 0.93];
 
     /// A shape's values at the points of its elements, taken as exact.
-    fn track(shape: &Shape) -> Track {
+    fn track(shape: &Shape) -> Track<'static> {
         let samples = |k: usize| PLACES.map(|xi| shape.derivatives(k, xi)[0]);
         let samples: Vec<f64> = (0..shape.stretches.len()).flat_map(samples).collect();
         let last = shape.stretches.len() - 1;
         let ends = [(0, -1.0), (last, 1.0)].map(|(k, xi)| [shape.derivatives(k, xi)[0], 0.0]);
-        Track { changes: vec![0.0; samples.len()], samples, ends, xi: PLACES.to_vec() }
+        Track { changes: vec![0.0; samples.len()], samples, ends, xi: &PLACES }
     }
 
     fn zeros(shape: &Shape) -> Vec<f64> {

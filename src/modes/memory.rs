@@ -49,11 +49,11 @@ impl Work {
     /// Numbers stored for every element.
     fn numbers_per_element(&self) -> f64 {
         let (terms, strains, width) = (self.degree + 1, self.strains(), self.strains() + 2);
-        // EI, ρA, ρI and κGA; deflection, rotation and their changes, and the differences of the shear strain.
+        // EI, 1/EI, ρA, ρI, κGA and 1/κGA; deflection, rotation and their changes, and the differences of the shear strain.
         let [sections, motions] = match (self.theory.turns(), self.theory.shears()) {
-            (_, true) => [4, 5],
-            (true, _) => [3, 4],
-            _ => [2, 2],
+            (_, true) => [6, 5],
+            (true, _) => [4, 4],
+            _ => [3, 2],
         };
         let statics = 2 * width * width + 2 * width + 2 + sections * self.points + width;
         let shape = if self.theory.shears() { 2 * terms } else { terms };

@@ -277,8 +277,9 @@ struct Layout {
     taper: f64,
     /// Number of elements.
     count: usize,
-    /// Number of elements of each stretch, if they reach over stations.
-    over: Option<Vec<usize>>,
+    /// How many times as short as waves and tapers require elements are that reach over stations; `None` if they end
+    /// there.
+    over: Option<f64>,
     /// The wanted error.
     tolerance: f64,
     /// Whether there are many pieces.
@@ -298,21 +299,29 @@ impl Layout {
 
     /// Elements that reach over stations and are at most this long.
     fn over(&self, survey: &Survey, stations: &Stations) -> Self {
-        let mut over = Self { over: Some(vec![]), ..*self };
-        over.divided(survey, stations, 1.0);
+        let mut over = Self { over: Some(1.0), ..*self };
+        over.divide_stretches(survey, stations, 1.0);
         over
     }
 
-    /// The number of elements on each stretch, `shorter` times as short as waves and tapers require.
-    fn divided(&mut self, survey: &Survey, stations: &Stations, shorter: f64) {
-        let counts = stations.stretches.iter().map(|stretch| {
+    /// Makes elements over stations `shorter` times as short as waves and tapers require.
+    fn divide_stretches(&mut self, survey: &Survey, stations: &Stations, shorter: f64) {
+        self.over = Some(shorter);
+        self.count = self.on_stretches(survey, stations, shorter).sum();
+    }
+
+    /// The number of elements on each stretch.
+    fn on_stretches(
+        &self,
+        survey: &Survey,
+        stations: &Stations,
+        shorter: f64,
+    ) -> impl Iterator<Item = usize> {
+        stations.stretches.iter().map(move |stretch| {
             let length: f64 = stretch.clone().map(|k| self.length(survey.piece(k))).sum();
             // If there are too many for this to be worth it, more make no difference.
             whole((shorter * length).min(1e6))
-        });
-        let counts: Vec<usize> = counts.collect();
-        self.count = counts.iter().sum();
-        self.over = Some(counts);
+        })
     }
 
     /// Shortens elements over stations until the error due to kinks is within the tolerance too.
@@ -329,7 +338,7 @@ impl Layout {
             let order = f64::from(stations.order());
             shorter *= (SURE * missed / self.tolerance).powf(1.0 / order);
         }
-        self.divided(survey, stations, shorter);
+        self.divide_stretches(survey, stations, shorter);
     }
 
     /// Relative cost of a solve.
@@ -370,11 +379,13 @@ impl Layout {
 
     /// The borders of the elements: equal shares of every stretch, or of every piece.
     fn borders(&self, survey: &Survey, stations: Option<&Stations>) -> Vec<(usize, f64)> {
-        let mut borders = vec![(0, 0.0)];
-        match (&self.over, stations) {
-            (Some(counts), Some(stations)) => {
+        let mut borders = Vec::with_capacity(self.count + 1);
+        borders.push((0, 0.0));
+        match (self.over, stations) {
+            (Some(shorter), Some(stations)) => {
+                let counts = self.on_stretches(survey, stations, shorter);
                 for (stretch, count) in stations.stretches.iter().zip(counts) {
-                    self.divide(survey, stretch.clone(), Some(*count), &mut borders);
+                    self.divide(survey, stretch.clone(), Some(count), &mut borders);
                 }
             }
             _ => (0..survey.pieces().count())

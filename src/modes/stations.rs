@@ -67,7 +67,7 @@ impl Stations {
         let widest = bat.profile().widest();
         let held = bat.fixtures().borders();
         let same = SAME_PLACE * bat.length();
-        let (mut stretches, mut kinks, mut first) = (vec![], vec![], 0);
+        let (mut stretches, mut kinks, mut first) = (vec![], Vec::with_capacity(pieces.len()), 0);
         let phase = |k: usize| survey.root_omega * survey.piece(k).last().map_or(0.0, |s| s.phase);
         let whole: f64 = (0..pieces.len()).map(phase).sum();
         let free = bat.fixtures().none_moving();
@@ -106,7 +106,9 @@ impl Stations {
             // The mean of (1 − ξ²)^{m + ½}.
             let mean = if kink.order > 3 { 5.0 * PI / 32.0 } else { 3.0 * PI / 16.0 };
             let near = half.min(NEAR * 0.5 * length);
-            kink.weight * kink.energy * mean * half * near.powi(kink.order - 1)
+            let square = near * near;
+            let power = if kink.order > 3 { square * square } else { square };
+            kink.weight * kink.energy * mean * half * power
         };
         self.kinks.iter().map(of).sum()
     }

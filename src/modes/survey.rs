@@ -213,7 +213,8 @@ fn taper(cubics: &Cubics, s: f64, radius: f64) -> [f64; 2] {
         return [r1; 2];
     }
     let smooth = r1.max((0.5 * r2).sqrt());
-    [smooth.max((0.3 * r3).cbrt()), smooth]
+    let third = 0.3 * r3;
+    [if third > smooth * smooth * smooth { third.cbrt() } else { smooth }, smooth]
 }
 
 fn between(

@@ -297,7 +297,7 @@ where
         // Otherwise [`Self::count`] tells whether a mode is missing.
         let by_nodes = statics.fixed.is_none() && !statics.theory.turns();
         let crossings = motions.crossings(statics.split);
-        let (elements, over) = (statics.cells.len(), !statics.softness[0].is_empty());
+        let (elements, over) = (statics.cells.len(), statics.over);
         for lane in 0..WIDTH.min(R::LANES * (modes - first)) {
             let (k, bat) = (first + lane / R::LANES, lane % R::LANES);
             let place = bat * modes + k;
