@@ -70,12 +70,13 @@ pub fn run(args: &Args) -> Result<Done> {
     if let Some(path) = &args.page {
         return page(path, &tell);
     }
-    // The known answers, every check of the promise, its tables, and what a screen has of all without options.
-    let [mut known, mut every, mut short, mut screen] = [const { String::new() }; 4];
+    // The known answers and their sum, every check of the promise, its tables, and what a screen has of all without options.
+    let [mut known, mut sum, mut every, mut short, mut screen] = [const { String::new() }; 5];
     let mut good = true;
     if !args.promise {
         let numbers = known_answers(args, &tell, &mut known)?;
-        screen = misses(&numbers) + &counts(&numbers) + &kinds(&numbers);
+        sum = counts(&numbers);
+        screen = misses(&numbers) + &sum + &kinds(&numbers);
         good = !numbers.iter().any(KnownNumber::missed);
     }
     if args.cases.is_empty() {
@@ -86,7 +87,7 @@ pub fn run(args: &Args) -> Result<Done> {
             every = tables::beams(&rows) + &tables::hits(&hits) + &tables::hoops(&hoops);
             good &= hoops.iter().all(CheckedHoop::holds);
         } else {
-            known.push('\n');
+            sum.push('\n');
         }
         short = tables::beams_in_short(&rows) + "\n" + &tables::hits_in_short(&hits);
         screen += &promises(&rows, &hits);
@@ -102,6 +103,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let text = args.said.screen(most, |full| match full || asked {
         true => Screen::from([
             (1, "cases", known.clone()),
+            (0, "", sum.clone()),
             (3, "every solve, hit and barrel", every.clone()),
             (2, "the promise", short.clone()),
         ]),
@@ -166,7 +168,6 @@ fn known_answers(args: &Args, tell: Tell, out: &mut String) -> Result<Vec<KnownN
         }
     }
     let all: Vec<KnownNumber> = cases.into_iter().flat_map(|(.., rows)| rows).collect();
-    *out += &counts(&all);
     Ok(all)
 }
 

@@ -43,11 +43,11 @@ pub fn screen(comparison: &Comparison, units: Units) -> Screen {
     }
     // Doubts precede anything that can be read off a table.
     let trust = doubted(comparison, one) + &beside_pieces(comparison, one);
-    // What two bats differ in has room; of several the table goes on below.
-    let last = if comparison.bats.len() == 2 { 0 } else { 3 };
+    // What two bats differ in has room; the heads of several tell their doubts in a word.
+    let last = u8::from(comparison.bats.len() > 2);
     let differences = (last, "what differs", out);
-    let along = (2, "where along the barrel", words);
-    [(0, "", head), differences, along, (1, "trust", trust)].into()
+    let along = (last + 2, "where along the barrel", words);
+    [(0, "", head), differences, along, (last + 1, "trust", trust)].into()
 }
 
 /// Figures whose scatter is shown.
