@@ -253,6 +253,16 @@ impl<R: Real> Form<R> {
         }
     }
 
+    /// The largest entry of a column from its diagonal to a row, and more than 0.
+    #[inline(always)]
+    fn largest(&self, first: usize, end: usize) -> R {
+        let mut largest = R::splat(f64::MIN_POSITIVE);
+        for i in first..end {
+            largest = largest.max(self[(i, first)].abs());
+        }
+        largest
+    }
+
     /// Eliminates all unknowns but the last `kept`; returns the number of negative pivots.
     #[inline(always)]
     fn eliminate(&mut self, kept: usize) -> Option<R> {
@@ -266,11 +276,7 @@ impl<R: Real> Form<R> {
         let (size, end) = (self.size, self.size - kept);
         let [one, half] = [1.0, 0.5].map(R::splat);
         while first < end {
-            let least = R::splat(f64::MIN_POSITIVE);
-            let mut largest = least;
-            for i in first..end {
-                largest = largest.max(self[(i, first)].abs());
-            }
+            let largest = self.largest(first, end);
             if !(small * largest).within(self[(first, first)].abs()) {
                 if R::LANES == 1 {
                     self.mirror(first);
