@@ -41,9 +41,6 @@ pub fn readings(path: &Path, bat: &Bat, quiet: bool) -> Result<BatReadings> {
     let wood = tapped.wood.ok_or_else(|| {
         Error::value(printed(path), "no tone that is a bending mode", "taps of this bat")
     })?;
-    let stiffer = "the tones are counted at the stiffness of the lowest one: a loss factor makes wood stiffer with \
-                   frequency";
-    warn(&format!("note: {stiffer}"), quiet);
     Ok(wood.readings)
 }
 
