@@ -361,3 +361,40 @@ fn a_hit_that_takes_too_much_work_stops_and_says_so() {
         assert!(off <= rough.error + fine.error, "{}: {off} {}", impact.x, rough.error);
     }
 }
+
+/// Where springs or clamps hold a bat, the errors of its slow modes may hide what all further ones do to a hit: the
+/// stated error has it.
+#[test]
+fn exit_speeds_of_held_bats_are_within_their_stated_errors() {
+    let text =
+        std::fs::read_to_string(concat!(env!("SWEETSPOT_TOP"), "/meshes/r161.json")).unwrap();
+    for holding in [
+        r#""grip": { "from": 0, "to": 0.15, "stiffness": 3e5, "damping": 0 }"#,
+        r#""grip": { "from": 0, "to": 0.15, "stiffness": 3e4, "damping": 300 }"#,
+        r#""supports": [{ "x": 0, "type": "clamped" }]"#,
+        r#""attachments": [{ "x": 0.1, "stiffness": 1e6 }]"#,
+    ] {
+        let file = text.trim_end().strip_suffix('}').unwrap();
+        let file = format!("{file}, {holding} }}");
+        let bat = Bat::from_text("held.json", &file, "".as_ref()).unwrap();
+        let scene = Scene { swing: 0.0, ball_speed: 37.0, cor: 0.5, ..Scene::default() };
+        let at = |exit_speed: f64, x: &[f64]| {
+            let accuracy = Accuracy { exit_speed, ..Accuracy::default() };
+            sweep(&bat, Model::Contact, &scene, &accuracy, x).unwrap().impacts
+        };
+        let places = [0.5, 0.6, 0.7, 0.798];
+        let right = at(1e-7, &places);
+        for tolerance in [1e-2, 1e-3, 1e-4] {
+            for (impact, right) in at(tolerance, &places).iter().zip(&right) {
+                let [found, right] = [impact, right].map(|i| i.outcome.as_ref().unwrap());
+                let off = (found.exit_speed - right.exit_speed).abs() / 37.0;
+                assert!(
+                    off <= 3.0 * (found.error + right.error),
+                    "{holding} {tolerance:e} {}: {off:e} {:e}",
+                    impact.x,
+                    found.error
+                );
+            }
+        }
+    }
+}

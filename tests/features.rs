@@ -228,3 +228,34 @@ fn a_point_at_an_end_takes_few_elements() {
         assert!(solution.met() && solution.mesh.len() < 60, "{outer}: {}", solution.mesh.len());
     }
 }
+
+/// A step of half a millimetre in straight lines: refinement from coarse elements stalls there, and elements for a better
+/// answer do not.
+#[test]
+fn a_short_step_is_solved_to_every_tolerance() {
+    let stations = Stations {
+        x: vec![0.0, 0.2, 0.2005, 0.84],
+        outer: vec![0.015, 0.013, 0.017, 0.032],
+        inner: vec![0.0; 4],
+        interpolation: Interpolation::Linear,
+    };
+    let material = Material::new(DENSITY, MODULUS).unwrap();
+    let bat = Bat::builder(Profile::new(stations).unwrap(), material).build().unwrap();
+    let solved = |tolerance: f64| {
+        let theory = Theory::EulerBernoulli;
+        solve(&bat, &Request { modes: 2, tolerance, theory, ..Request::default() }).unwrap()
+    };
+    let right = solved(1e-11);
+    for tolerance in [1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5] {
+        let found = solved(tolerance);
+        assert!(found.met(), "{tolerance:e}: {:e}", found.worst());
+        for (mode, right) in found.modes.iter().zip(&right.modes) {
+            let off = (mode.frequency() / right.frequency() - 1.0).abs();
+            assert!(
+                off <= 3.0 * mode.error.total(),
+                "{tolerance:e} {off:e} {:e}",
+                mode.error.total()
+            );
+        }
+    }
+}

@@ -343,3 +343,30 @@ fn known_answers_have_a_screen_and_full_has_every_one() {
     let counts = |text: &str| text.lines().find(|line| line.contains(" rows, ")).map(str::to_owned);
     assert_eq!(counts(&screen), counts(&full));
 }
+
+/// A note of another octave or mode, or a slipped decimal: the stiffness that it asks for is doubted, and nothing else is
+/// known better for it.
+#[test]
+fn a_note_that_no_wood_of_its_kind_has_is_doubted() {
+    let folder = Folder::new("wrong-note");
+    let text =
+        std::fs::read_to_string(concat!(env!("SWEETSPOT_TOP"), "/meshes/r161.json")).unwrap();
+    let mass = |hertz: &str| {
+        let weighed = format!(r#"{{ "weighed": {{ "first_bending_hz": {hertz} }},"#);
+        folder.write("noted.json", text.replacen('{', &weighed, 1));
+        let screen = plain(&folder.text(&["analyze", "noted.json", "--quiet", "--json", "a.json"]));
+        let analysis: Value = serde_json::from_str(&folder.read("a.json")).unwrap();
+        let [value, deviation] = answer(&analysis, "mass_kg");
+        (deviation / value, screen)
+    };
+    let (usual, screen) = mass("174.5");
+    assert!(!screen.contains("Young's modulus must be"), "{screen}");
+    for hertz in ["80", "349", "581.3"] {
+        let (share, screen) = mass(hertz);
+        assert!(
+            screen.contains("Young's modulus must be") && !screen.contains(EXACT),
+            "{hertz}: {screen}"
+        );
+        assert!((share / usual - 1.0).abs() < 0.05 || hertz == "581.3", "{hertz}: {share} {usual}");
+    }
+}

@@ -731,3 +731,12 @@ fn best_places_change_as_whole_bats_do_or_it_is_said_that_they_jump() {
     }
     assert!(compared >= 10, "{compared}");
 }
+
+/// Outputs without a column are named as such, not left out without a word.
+#[test]
+fn outputs_without_a_column_are_in_the_files() {
+    let folder = Folder::new("lathe-columns");
+    let args = ["lathe", "r161", "--bands", "60 cm to 65 cm", "--outputs", "f3_hz", "--quiet"];
+    let screen = folder.text(&args);
+    assert!(screen.contains("--json and --csv have them"), "{screen}");
+}

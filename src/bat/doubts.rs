@@ -1,10 +1,11 @@
 //! What is unknown or unusual about a bat, and which measured value does not fit it?
 
+use crate::base::number::significant;
 use crate::base::units::{ounce_square_inches, shown_length};
 use crate::bat::body::{Bat, STANDARD_PIVOT};
 use crate::bat::inertia::Inertia;
 use crate::bat::layup::Layup;
-use crate::bat::material::{Material, UNTOLD_DENSITY};
+use crate::bat::material::{Material, UNTOLD_DENSITY, UNTOLD_MODULUS};
 use crate::bat::profile::Piece;
 
 impl Bat {
@@ -119,6 +120,24 @@ impl Bat {
         };
         Some(format!(
             "to weigh so much it must have {needed} kg/m³, far from the {has} kg/m³{of}: {hint}"
+        ))
+    }
+
+    /// A warning about a tap that asks for a stiffness far from the file's: wood is within half and twice its kind's, a
+    /// metal within a fifth of its own.
+    pub fn stiffness_off(&self) -> Option<String> {
+        let before = self.unedited();
+        let (material, factor) = (before.material(), before.factors()[1]);
+        let own = material.youngs_modulus / factor;
+        let usual = if material.is_metal() { 0.8..1.25 } else { 0.5..2.0 };
+        // A material without a modulus in the file gets the tapped one.
+        if usual.contains(&factor) || (own / UNTOLD_MODULUS - 1.0).abs() < 1e-9 {
+            return None;
+        }
+        let [needed, has] = [material.youngs_modulus, own].map(|e| significant(1e-9 * e, 3));
+        Some(format!(
+            "to sound so its Young's modulus must be {needed} GPa, far from the file's {has} GPa: is the note that of \
+             another mode or octave, or a diameter, the wall or the mass off?"
         ))
     }
 

@@ -86,6 +86,9 @@ pub struct PoissonRatios {
 /// solid.
 pub(crate) const UNTOLD_DENSITY: f64 = 1.0;
 
+/// Young's modulus (Pa), one of wood, of a material whose file leaves it to the tap.
+pub(crate) const UNTOLD_MODULUS: f64 = 1e10;
+
 impl Material {
     /// A material known by density (kg/m³) and Young's modulus (Pa) alone.
     ///
@@ -203,8 +206,9 @@ pub struct Scatter {
     pub density: f64,
 }
 
-/// Densities (kg/m³) and Young's moduli (Pa) along the grain by which a material is taken for wood.
-const WOOD: [[f64; 2]; 2] = [[300.0, 1100.0], [5e9, 25e9]];
+/// Densities (kg/m³) and Young's moduli (Pa) along the grain by which a material is taken for wood. No other material of
+/// bats is as light: a stiffness that no wood has is a mistake, which does not make its density better known.
+const WOOD: [[f64; 2]; 2] = [[300.0, 1100.0], [1e9, 60e9]];
 
 impl Material {
     /// The published scatter from piece to piece of small clear pieces of one species of wood: 22 % of Young's modulus

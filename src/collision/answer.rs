@@ -20,6 +20,9 @@ pub const LATER: [&str; 2] = ["late_contact", "second_contact"];
 const LONGEST_MEASURED: f64 = 2e-3;
 const LEAST_MEASURED: f64 = 0.44;
 
+/// Share of the energy, over the accuracy of the steps, in a flexibility that is not worth another meeting.
+const SLIGHT: f64 = 1e-3;
+
 /// The prediction of a model.
 pub(super) struct HitAnswer {
     /// `J` (N s).
@@ -274,6 +277,15 @@ impl Hitter<'_> {
                 });
                 [left_out, steps, wall]
             });
+        // A held bat: what the errors of its slow modes may hide of all further ones.
+        let other = ladder.beyond.and_then(|all| self.struck.otherwise(x, &ladder.modes, all));
+        if let Some((other, flexibility)) = other {
+            // The share of the energy that bends it.
+            let share = flexibility * met.peak_force.powi(2) / (mass * closing * closing);
+            if share > SLIGHT * self.effort.accuracy {
+                answer.error += count_first(both(&self.with_wall(x, other), accuracy));
+            }
+        }
         let [magnified, round_off] = answered.magnified(ball * closing);
         answer.steps += round_off;
         // Possible effect of touches after those that were followed, with a ball deader than any law.

@@ -91,6 +91,32 @@ impl<'a> Struck<'a> {
         felt
     }
 
+    /// The other end of what a held bat may be where the errors of its slow modes hide all further ones: from
+    /// [`Self::with_modes`] and [`Self::flexibility`] at `x` (m), with the flexibility (m/N) by which it differs from
+    /// [`Self::completed`]. A flexibility that is hidden is added; where it is known, but not how slow the further modes
+    /// are, all of it goes to the slowest that they can be.
+    pub fn otherwise(
+        &self,
+        x: f64,
+        modes: &DrivingPoint,
+        all: [f64; 2],
+    ) -> Option<(DrivingPoint, f64)> {
+        let last = modes.gains.len().checked_sub(1).filter(|_| self.flexible.rigid.len() < 2)?;
+        let [unsure, unsure_slow] = self.taken(&self.doubt(x)[..last]);
+        let [here, there] = self.taken(&modes.gains[..last]);
+        let whole = (all[0] - here).max(0.0) + unsure;
+        let mut other = self.completed(x, modes.clone(), all);
+        let square = self.solution.modes[last].omega.powi(2);
+        if all[0] - here > KNOWN * unsure && all[1] - there <= KNOWN * unsure_slow {
+            other.gains[last] = other.gains[last].max(whole * square);
+            let moved = std::mem::take(&mut other.rest);
+            return Some((other, moved));
+        }
+        let more = (whole - other.gains[last] / square - other.rest).max(0.0);
+        other.rest += more;
+        Some((other, more))
+    }
+
     /// `Σ c/ω²` (m/N) and `Σ c/ω⁴` (m s²/N) of the modes with those gains.
     pub fn taken(&self, gains: &[f64]) -> [f64; 2] {
         taken(gains, |k| self.solution.modes[k].omega.powi(2))
@@ -108,6 +134,9 @@ impl<'a> Struck<'a> {
     }
 }
 
+/// What the modes leave is known if it is this many times its error.
+const KNOWN: f64 = 10.0;
+
 /// Lets the last of the modes represent all further ones, as described at [`Struck::felt`], and returns the flexibility
 /// (m/N) that is still missing. `all` are C (m/N) and D (m s²/N) of every mode, `unsure` their errors. Without a mode
 /// the result is the whole flexibility.
@@ -117,8 +146,6 @@ fn complete(
     [soft, slow]: [f64; 2],
     [unsure, unsure_slow]: [f64; 2],
 ) -> f64 {
-    /// The remainder is known if it is this many times its error.
-    const KNOWN: f64 = 10.0;
     let Some((last, before)) = gains.split_last_mut() else { return soft };
     let [here, there] = taken(before, &square);
     let (rest, left) = (soft - here, slow - there);

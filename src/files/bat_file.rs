@@ -9,7 +9,7 @@ use crate::base::mistakes::{self, Mistakes};
 use crate::base::units::{self, Quantity};
 use crate::bat::body::Bat;
 use crate::bat::formula::Formula;
-use crate::bat::material::{Material, UNTOLD_DENSITY};
+use crate::bat::material::{Material, UNTOLD_DENSITY, UNTOLD_MODULUS};
 use crate::bat::profile::{FormulaPiece, Interpolation, Profile};
 use crate::bat::weighed::Weighed;
 use crate::files::document::Document;
@@ -203,7 +203,8 @@ fn from_document(document: &Document, folder: &Folder) -> Result<Bat> {
     let weighed = weighed.unwrap_or_default();
     mistakes.end(())?;
     let (profile, inches) = profile.expect("a profile that could not be read was noted");
-    let name = name.unwrap_or_else(|| "unnamed bat".to_owned());
+    // A name is one line, so that it cannot look like others of a report.
+    let name = name.map_or("unnamed bat".to_owned(), |name| name.replace(['\n', '\r'], " "));
     let bat = Bat::builder(profile, material).name(name).source(source.unwrap_or_default());
     let bat = bat.inches(inches).fixtures(fixtures).weighed(weighed).build();
     bat.and_then(|bat| bat.edited(&edits)).map_err(placed)
@@ -226,8 +227,8 @@ fn material(root: &Object, weighed: Option<&Weighed>) -> Result<Material> {
         (Some(Some(_)), true) => {
             Err("\"youngs_modulus\": the tapped frequency is one factor for all regions")
         }
-        // The tap will set it; start with a value for wood.
-        (Some(Some(_)), false) | (None, _) => Ok(1e10),
+        // The tap will set it.
+        (Some(Some(_)), false) | (None, _) => Ok(UNTOLD_MODULUS),
     };
     part_file::material(root.require("material", "a material")?, without_density, without_modulus)
 }

@@ -51,7 +51,27 @@ pub(crate) fn refine(bat: &Bat, request: &Request) -> Result<Solution> {
         return Err(Error::TooFewElements { wanted: request.modes, least, found });
     }
     request.check_memory(request.memory(bat, &plan), plan.mesh.len())?;
-    damped(bat, request, refined(bat, request, plan, timing)?)
+    let found = refined(bat, request, plan, timing)?;
+    damped(bat, request, by_other_elements(bat, request, found))
+}
+
+/// A solution that refinement did not bring within its tolerance, as a coarse mesh beside a sharp step may not: that of
+/// the elements for a smaller tolerance, if it is.
+fn by_other_elements(bat: &Bat, request: &Request, found: Solution) -> Solution {
+    /// What the tolerance is divided by.
+    const FINER: f64 = 30.0;
+    if found.met() || request.elements.is_some() || found.round_off() > request.tolerance {
+        return found;
+    }
+    let plan =
+        Plan::cheapest(bat, &wanted(&Request { tolerance: request.tolerance / FINER, ..*request }));
+    if plan.unknowns() < request.modes || request.too_large(bat, &plan).is_some() {
+        return found;
+    }
+    match refined(bat, request, plan, found.timing) {
+        Ok(other) if other.met() => other,
+        _ => found,
+    }
 }
 
 /// The error for a bat of which not even one mode can be found, because its thinnest part is so much softer than the

@@ -58,7 +58,7 @@ impl Verdict {
         best: Option<&Impact>,
         wall: Option<WallFigures>,
     ) -> Self {
-        let density = bat.density_off().map(Doubt::Density);
+        let density = bat.density_off().or_else(|| bat.stiffness_off()).map(Doubt::Density);
         let said = ignored(bat, &hits.solution).into_iter().filter(|_| !bat.knows_shear());
         let shear = said.filter_map(|text| Some(text.strip_prefix(SHEAR)?.to_owned())).next();
         let shear = shear.map(Doubt::Shear);

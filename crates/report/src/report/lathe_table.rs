@@ -179,6 +179,9 @@ pub fn table(
     value: fn(&TurnedBand, Answer, f64) -> Option<f64>,
 ) -> String {
     let shown = shown(map, units);
+    if shown.is_empty() {
+        return "None of these outputs has a column here: --json and --csv have them.\n".to_owned();
+    }
     let place = numbers(6, "from");
     let columns = Columns::new([place].into_iter().chain(shown.iter().map(LatheColumn::column)));
     let mut out = columns.heads();
