@@ -58,20 +58,20 @@ pub(crate) fn refine(bat: &Bat, request: &Request) -> Result<Solution> {
 /// A solution that refinement did not bring within its tolerance, as a coarse mesh beside a sharp step may not: that of
 /// the elements for a smaller tolerance, if it is.
 fn by_other_elements(bat: &Bat, request: &Request, found: Solution) -> Solution {
-    /// What the tolerance is divided by.
-    const FINER: f64 = 30.0;
+    /// What the tolerance is divided by, in turn.
+    const FINER: [f64; 3] = [30.0, 300.0, 3000.0];
     if found.met() || request.elements.is_some() || found.round_off() > request.tolerance {
         return found;
     }
-    let plan =
-        Plan::cheapest(bat, &wanted(&Request { tolerance: request.tolerance / FINER, ..*request }));
-    if plan.unknowns() < request.modes || request.too_large(bat, &plan).is_some() {
-        return found;
-    }
-    match refined(bat, request, plan, found.timing) {
-        Ok(other) if other.met() => other,
-        _ => found,
-    }
+    let other = |finer: f64| {
+        let finer = Request { tolerance: request.tolerance / finer, ..*request };
+        let plan = Plan::cheapest(bat, &wanted(&finer));
+        if plan.unknowns() < request.modes || request.too_large(bat, &plan).is_some() {
+            return None;
+        }
+        refined(bat, request, plan, found.timing).ok().filter(Solution::met)
+    };
+    FINER.into_iter().find_map(other).unwrap_or(found)
 }
 
 /// The error for a bat of which not even one mode can be found, because its thinnest part is so much softer than the
