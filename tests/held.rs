@@ -484,3 +484,29 @@ fn springs_too_near_each_other_to_hold_the_bat_against_turning_are_refused() {
         assert_eq!(refusal(two(apart)), "");
     }
 }
+
+/// A pinned end stands still and is no node, at any tolerance and at either end.
+#[test]
+fn a_pinned_end_is_no_node() {
+    for (k, end) in [(0, 0.0), (1, 0.6727), (2, 0.0), (3, 0.6727)] {
+        let tip = [0.032, 0.0275, 0.024, 0.03][k];
+        let text = format!(
+            r#"{{ "format": "sweetspot-bat/1", "material": "white-ash-dynamic", "profile": {{ "interpolation": "linear",
+                "x": [0, 0.2691, 0.6727], "radius": [0.015, 0.014, {tip}] }},
+                "supports": [{{ "x": {end}, "type": "pinned" }}] }}"#
+        );
+        let bat = sweetspot::Bat::from_text("pinned.json", &text, "".as_ref()).unwrap();
+        for tolerance in [1e-3, 1e-4, 1e-5] {
+            let request =
+                sweetspot::Request { modes: 6, tolerance, ..sweetspot::Request::default() };
+            for mode in sweetspot::solve(&bat, &request).unwrap().modes {
+                assert!(
+                    mode.nodes.iter().all(|x| (x - end).abs() > 1e-3),
+                    "{end} {:?}",
+                    mode.nodes
+                );
+                assert_eq!(mode.nodes.len(), mode.order, "{end} {tolerance:e}");
+            }
+        }
+    }
+}

@@ -102,7 +102,12 @@ impl Mode {
         if let Some(fixed) = view.fixed {
             // At a clamp the deflection has a multiple zero.
             let near = BESIDE_CLAMP * shape.length();
-            nodes.retain(|x| fixed.placed.clamps.iter().all(|clamp| (x - clamp).abs() > near));
+            // A pinned end stands still and is no node: round-off may put one beside it.
+            let ends = [0.0, shape.length()];
+            let at_end = |pin: &&f64| ends.iter().any(|end| (*pin - end).abs() <= near);
+            let pins = fixed.placed.pins.iter().filter(at_end);
+            let still: Vec<f64> = fixed.placed.clamps.iter().chain(pins).copied().collect();
+            nodes.retain(|x| still.iter().all(|place| (x - place).abs() > near));
             shape.leave_still(&mut nodes, &fixed.placed.clamps, &track, RESTING * largest);
         }
         let [node_error, flattest] = shape.node_error(&nodes, &track);
