@@ -17,7 +17,7 @@ import time
 
 # Of WebDriver: keys that are no letters.
 KEYS = {"Escape": "\ue00c", "ArrowLeft": "\ue012", "ArrowUp": "\ue013", "ArrowRight": "\ue014", "ArrowDown": "\ue015",
-        "PageUp": "\ue00e", "PageDown": "\ue00f", "End": "\ue010", "Home": "\ue011", "Enter": "\ue007"}
+        "PageUp": "\ue00e", "PageDown": "\ue00f", "End": "\ue010", "Home": "\ue011", "Enter": "\ue007", "Delete": "\ue017"}
 SHIFT = "\ue008"
 ERRORS = """if (!window.complaints) { window.complaints = [];
   addEventListener('error', (event) => complaints.push(String(event.message)));
