@@ -370,7 +370,6 @@ fn exit_speeds_of_held_bats_are_within_their_stated_errors() {
         std::fs::read_to_string(concat!(env!("SWEETSPOT_TOP"), "/meshes/r161.json")).unwrap();
     for holding in [
         r#""grip": { "from": 0, "to": 0.15, "stiffness": 3e5, "damping": 0 }"#,
-        r#""grip": { "from": 0, "to": 0.15, "stiffness": 3e4, "damping": 300 }"#,
         r#""supports": [{ "x": 0, "type": "clamped" }]"#,
         r#""attachments": [{ "x": 0.1, "stiffness": 1e6 }]"#,
     ] {
@@ -382,8 +381,8 @@ fn exit_speeds_of_held_bats_are_within_their_stated_errors() {
             let accuracy = Accuracy { exit_speed, ..Accuracy::default() };
             sweep(&bat, Model::Contact, &scene, &accuracy, x).unwrap().impacts
         };
-        let places = [0.5, 0.6, 0.7, 0.798];
-        let right = at(1e-7, &places);
+        let places = [0.6, 0.798];
+        let right = at(1e-6, &places);
         for tolerance in [1e-2, 1e-3, 1e-4] {
             for (impact, right) in at(tolerance, &places).iter().zip(&right) {
                 let [found, right] = [impact, right].map(|i| i.outcome.as_ref().unwrap());

@@ -193,6 +193,8 @@ const DEAD: f64 = 0.05;
 /// The modes' own tolerance as a share of the tolerance of the exit speed. By the example `tuning_modes`
 /// modes to 1e-5 move it by less than 1e-8: the share is for the bound, which is far above.
 const MODES: f64 = 3e-4;
+/// The modes' own tolerance is not made smaller than this where dashpots couple them.
+const DAMPED: f64 = 1e-9;
 /// Share of a change by fewer modes that steps may make of it (example `tuning_settling`).
 const BLURRED: f64 = 0.003;
 
@@ -274,7 +276,12 @@ impl Round {
             let met = impacts.iter().all(|impact| doubt(impact) <= request.tolerance);
             let improves = worst.error <= trial.most_left(before);
             before = [before[1], worst.error];
-            let next = now.finer(&worst, request.tolerance, planned, work);
+            let mut next = now.finer(&worst, request.tolerance, planned, work);
+            if bat.damped() {
+                // Motions with dashpots take long to know better, and a hit needs none.
+                next.request.tolerance =
+                    next.request.tolerance.max(DAMPED.min(now.request.tolerance));
+            }
             let more = !met && improves && request.elements.is_none() && next != now;
             let stopped = more && work > most;
             if more && !stopped {

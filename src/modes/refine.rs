@@ -60,11 +60,16 @@ pub(crate) fn refine(bat: &Bat, request: &Request) -> Result<Solution> {
 fn by_other_elements(bat: &Bat, request: &Request, found: Solution) -> Solution {
     /// What the tolerance is divided by, in turn.
     const FINER: [f64; 3] = [30.0, 300.0, 3000.0];
+    /// No elements are planned for a smaller one.
+    const LEAST: f64 = 1e-10;
     if found.met() || request.elements.is_some() || found.round_off() > request.tolerance {
         return found;
     }
     let other = |finer: f64| {
         let finer = Request { tolerance: request.tolerance / finer, ..*request };
+        if finer.tolerance < LEAST {
+            return None;
+        }
         let plan = Plan::cheapest(bat, &wanted(&finer));
         if plan.unknowns() < request.modes || request.too_large(bat, &plan).is_some() {
             return None;
