@@ -203,8 +203,7 @@ fn from_document(document: &Document, folder: &Folder) -> Result<Bat> {
     let weighed = weighed.unwrap_or_default();
     mistakes.end(())?;
     let (profile, inches) = profile.expect("a profile that could not be read was noted");
-    // A name is one line, so that it cannot look like others of a report.
-    let name = name.map_or("unnamed bat".to_owned(), |name| name.replace(['\n', '\r'], " "));
+    let name = name.unwrap_or_else(|| "unnamed bat".to_owned());
     let bat = Bat::builder(profile, material).name(name).source(source.unwrap_or_default());
     let bat = bat.inches(inches).fixtures(fixtures).weighed(weighed).build();
     bat.and_then(|bat| bat.edited(&edits)).map_err(placed)

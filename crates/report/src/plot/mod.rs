@@ -3,7 +3,7 @@
 //! A picture is a function of plain results, and [`picture::write`] makes files of pictures. Those of one command are
 //! gathered in [`sets`]. Pictures for several subjects show the bats on top of each other, each with its colour, dash
 //! and mark. A [`sheet`] defines the units and the width of a picture. All are drawn from the same parts, which can
-//! also be used for others: a [`plane::Plane`] has two axes ([`axis`]) and takes [`series`], [`place`] has the axes and
+//! also be used for others: a [`plane::Plane`] has two axes ([`axis`]) and takes [`mod@series`], [`place`] has the axes and
 //! rows of positions, [`matrix`] draws a table as a map of colours. Positions can be read from the knob end at the
 //! bottom and from the tip at the top.
 //!
