@@ -344,8 +344,8 @@ fn known_answers_have_a_screen_and_full_has_every_one() {
     assert_eq!(counts(&screen), counts(&full));
 }
 
-/// A note of another octave or mode, or a slipped decimal: the stiffness that it asks for is doubted, and nothing else is
-/// known better for it.
+/// A note of another octave or mode, or a slipped decimal: the stiffness that it asks for is doubted. One that wood might
+/// almost have (3.8 GPa) leaves the density as uncertain as before; beyond 60 GPa the density's scatter is not known.
 #[test]
 fn a_note_that_no_wood_of_its_kind_has_is_doubted() {
     let folder = Folder::new("wrong-note");

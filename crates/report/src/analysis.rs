@@ -62,7 +62,7 @@ pub struct Analysis {
     pub strength: Vec<Strength>,
     /// Accuracy of the solver on a dowel with known frequencies.
     pub proof: Proof,
-    /// The uncertainty due to calipers, scale and wood; not computed for a bat with so many pieces that it would be
+    /// The uncertainty due to calipers, scale and wood; not computed for a bat whose many pieces would make it
     /// slow.
     pub spread: Spread,
     /// The reliability of the answers, from everything known about them.
