@@ -13,6 +13,7 @@
 //! | [`number`] | how is a number written |
 //! | [`real`], [`lanes`] | one number or several side by side |
 //! | [`linear`], [`golden`] | products of vectors, two equations; the golden section |
+//! | `search` | where is a value greatest, where does it become too low |
 //! | [`quadrature`], [`interval`] | how is an integral taken; which values can an expression take |
 //! | [`xml`] | how is a text written into XML |
 
@@ -40,6 +41,7 @@ pub mod lanes;
 pub mod linear;
 #[doc(hidden)]
 pub mod golden;
+pub(crate) mod search;
 #[doc(hidden)]
 pub mod quadrature;
 #[doc(hidden)]

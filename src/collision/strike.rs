@@ -2,6 +2,7 @@
 
 use crate::collision::answer::HitAnswer;
 use crate::collision::contact::table::Piece;
+use crate::collision::contact::touch::DrivingPoint;
 use crate::collision::history::{Moment, history};
 use crate::collision::hit::{Energy, Impact, Model, Outcome, Scene};
 use crate::collision::hitter::{Blow, Hitter, resolved};
@@ -37,30 +38,56 @@ impl Hitter<'_> {
     /// The hit at `x` (m) as a search for places sees it. None where ball and bat do not meet, and
     /// where the bat ends in a point: there a ball is met by ever less of it.
     pub fn glance(&self, x: f64) -> Option<Glance> {
+        self.glances(&[x]).pop()?
+    }
+
+    /// The hits at some places (m) as [`Self::glance`] sees each, met side by side.
+    pub fn glances(&self, places: &[f64]) -> Vec<Option<Glance>> {
         /// Of the largest radius.
         const POINTED: f64 = 0.25;
         let outer = &self.profile.stations.outer;
         let largest = outer.iter().fold(0.0_f64, |largest, r| largest.max(*r));
         let touches = matches!(self.model, Model::Pulse(_) | Model::Contact);
-        if touches && self.profile.at(x).outer < POINTED * largest {
-            return None;
+        let blunt = |x: &f64| !touches || self.profile.at(*x).outer >= POINTED * largest;
+        if self.model != Model::Contact {
+            let seen = |x: &f64| {
+                let answer = self.answer(*x).filter(|_| blunt(x))?;
+                let in_modes = &answer.in_modes;
+                Some(self.seen(*x, [answer.impulse; 2], [false; 2], in_modes))
+            };
+            return places.iter().map(seen).collect();
         }
-        let (impulse, first, [late, again], in_modes) = match self.model {
-            Model::Contact => {
-                let closing = self.closing(x)?;
-                let felt = &self.felt(x);
-                let blow = Blow { x, felt, others: &Vec::new, closing, compared: true };
-                let (met, _) = self.meet_alone(&blow, SMOOTH)?;
-                let later = [met.late, met.again()];
-                (met.impulse, met.first_impulse, later, met.in_modes)
-            }
-            _ => {
-                let answer = self.answer(x)?;
-                (answer.impulse, answer.impulse, [false; 2], answer.in_modes)
-            }
+        let approach = |x: &f64| {
+            let closing = self.closing(*x).filter(|_| blunt(x))?;
+            Some((*x, closing, self.felt(*x)))
         };
+        let approaches: Vec<_> = places.iter().map(approach).collect();
+        let mut blows = vec![];
+        for (x, closing, felt) in approaches.iter().flatten() {
+            let (x, closing) = (*x, *closing);
+            blows.push(Blow { x, felt, others: &Vec::new, closing, compared: true });
+        }
+        let mut met = self.meet_all(&blows, SMOOTH).into_iter();
+        let seen = |approach: &Option<(f64, f64, DrivingPoint)>| {
+            let (x, ..) = approach.as_ref()?;
+            let (met, _) = met.next()??;
+            let impulses = [met.impulse, met.first_impulse];
+            Some(self.seen(*x, impulses, [met.late, met.again()], &met.in_modes))
+        };
+        approaches.iter().map(seen).collect()
+    }
+
+    /// What is seen of a hit at `x` (m): from its impulses (N s) in all and at the first separation, whether the bat
+    /// catches up with the ball as it leaves and after, and the energies of the modes (J).
+    fn seen(
+        &self,
+        x: f64,
+        impulses: [f64; 2],
+        [late, again]: [bool; 2],
+        in_modes: &[f64],
+    ) -> Glance {
         let in_modes = &in_modes[in_modes.len() - self.modes_used()..];
-        let mut velocity = (impulse * self.recoil_between(x, self.scene.hands)).powi(2);
+        let mut velocity = (impulses[0] * self.recoil_between(x, self.scene.hands)).powi(2);
         let mut acceleration = 0.0;
         for ((energy, [omega, _]), gain) in
             in_modes.iter().zip(&self.modes).zip(self.struck.gains(self.scene.hands))
@@ -70,15 +97,15 @@ impl Hitter<'_> {
             acceleration += energy * gain * omega * omega;
         }
         let exit = |impulse: f64| impulse / self.scene.ball.mass_kg - self.scene.ball_speed;
-        Some(Glance {
+        Glance {
             x,
-            exit_speed: exit(impulse),
-            first_exit: exit(first),
+            exit_speed: exit(impulses[0]),
+            first_exit: exit(impulses[1]),
             late,
             later: late || again,
             vibration: (self.modes_used() > 0).then(|| in_modes.iter().sum()),
             hands: [velocity.sqrt(), acceleration.sqrt()],
-        })
+        }
     }
 
     /// The hit at `x` (m from the knob end).

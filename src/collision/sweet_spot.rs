@@ -2,8 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::base::golden;
+use crate::base::search::{boundary, highest};
 use crate::base::threads;
+use crate::collision::contact::abreast::meet::ABREAST;
 use crate::collision::hit::MOST_WORK;
 use crate::collision::hitter::Hitter;
 use crate::collision::strike::Glance;
@@ -152,20 +153,31 @@ impl<'a> HitsAlong<'a> {
 
     /// Makes a pass along a stretch (m) in `steps` steps, and locates places to `share` of it. Fewer steps are enough
     /// if the best places are known to be near others, and a larger share if only their distance from others is
-    /// reported. The steps are finer where the bat catches up with the ball late or again.
+    /// reported. The steps are finer where the bat catches up with the ball late or again and a best place may be.
     pub fn by(ends: [f64; 2], (steps, share): (usize, f64), hitter: &'a Hitter<'a>) -> Self {
         let length = ends[1] - ends[0];
         let parts = steps * BETWEEN_LATER;
         let place = |part: usize| ends[0] + length * part as f64 / parts as f64;
-        let look = |parts: &[usize]| threads::map(parts.len(), |k| hitter.glance(place(parts[k])));
+        // Some at a time, so that they are met side by side.
+        let look = |parts: &[usize]| {
+            let groups: Vec<_> = parts.chunks(ABREAST).collect();
+            let group = |k: usize| {
+                let places: Vec<f64> = groups[k].iter().map(|part| place(*part)).collect();
+                hitter.glances(&places)
+            };
+            threads::map(groups.len(), group).concat()
+        };
         let first: Vec<usize> = (0..=steps).map(|k| k * BETWEEN_LATER).collect();
         let before = hitter.work();
         let mut seen: Vec<(usize, Option<Glance>)> =
             first.iter().copied().zip(look(&first)).collect();
         let work = hitter.work() - before;
         let later = |glance: &Option<Glance>| glance.is_some_and(|glance| glance.later);
-        let unsettled = seen.windows(2).filter(|pair| later(&pair[0].1) || later(&pair[1].1));
-        let unsettled: Vec<usize> = unsettled.map(|pair| pair[0].0).collect();
+        let open = |k: &usize| later(&seen[*k].1) || later(&seen[k + 1].1);
+        let unsettled = (0..steps).filter(open).collect();
+        let glances: Vec<_> = seen.iter().map(|(_, glance)| *glance).collect();
+        let promising = promising(hitter, &glances, unsettled).into_iter();
+        let unsettled: Vec<usize> = promising.map(|k| first[k]).collect();
         let affordable = |apart: &usize| {
             let looks = unsettled.len() * (BETWEEN_LATER / apart - 1);
             looks as u64 * work <= MOST_WORK * first.len() as u64
@@ -253,10 +265,10 @@ impl<'a> HitsAlong<'a> {
         if seen == f64::NEG_INFINITY {
             return None;
         }
-        let at = |x: f64| of(&self.hitter.glance(x));
-        let low = self.place(best.saturating_sub(1));
-        let high = self.place((best + 1).min(self.last()));
-        let mut here = (Peak { x: self.place(best), value: seen }, [low, high]);
+        let at = |places: &[f64]| self.hitter.glances(places).iter().map(of).collect::<Vec<_>>();
+        let around = |k: usize| [k.saturating_sub(1), (k + 1).min(self.last())];
+        let mut here =
+            (Peak { x: self.place(best), value: seen }, around(best).map(|k| self.place(k)));
         let seen = self.values(&value);
         let mut closer: Vec<(usize, f64)> = (0..self.last())
             .filter(|k| k + 1 < best || *k > best)
@@ -271,23 +283,22 @@ impl<'a> HitsAlong<'a> {
         later.sort_by(|a, b| b.1.total_cmp(&a.1));
         later.truncate(CLOSER_LATER);
         settled.append(&mut later);
-        for (k, highest) in settled {
-            if highest <= here.0.value {
-                continue;
-            }
-            let step = (self.place(k + 1) - self.place(k)) / BETWEEN as f64;
-            for part in 1..BETWEEN {
-                let x = self.place(k) + step * part as f64;
-                let found = Peak { x, value: at(x) };
-                if found.value > here.0.value {
-                    here = (found, [x - step, x + step]);
-                }
+        let step = |k: usize| (self.place(k + 1) - self.place(k)) / BETWEEN as f64;
+        let parts = |(k, _): &(usize, f64)| {
+            let (k, from, step) = (*k, self.place(*k), step(*k));
+            (1..BETWEEN).map(move |part| (k, from + step * part as f64))
+        };
+        let closer: Vec<(usize, f64)> = settled.iter().flat_map(parts).collect();
+        let places: Vec<f64> = closer.iter().map(|(_, x)| *x).collect();
+        for ((k, x), value) in closer.into_iter().zip(at(&places)) {
+            if value > here.0.value {
+                here = (Peak { x, value }, [x - step(k), x + step(k)]);
             }
         }
         let (here, between) = here;
-        let found = brent(between, here, self.width, at);
-        // The ends of the interval may be the best places, and the search only approaches them.
-        Some(if found.value > here.value { found } else { here })
+        let known = self.places.iter().zip(&seen).map(|(x, value)| [*x, *value]).collect();
+        let [x, value] = highest(between, [here.x, here.value], known, self.width, at);
+        Some(Peak { x, value })
     }
 
     /// Whether a value above `level` was found, or may hide between two places, farther from `x` than two steps.
@@ -305,9 +316,13 @@ impl<'a> HitsAlong<'a> {
         let [from, to] = self.ends;
         let edge = |end: f64, bad: Option<usize>| {
             let Some(k) = bad else { return end };
-            let bad = [self.place(k), above(&self.seen[k])];
-            let at = |x: f64| above(&self.hitter.glance(x));
-            boundary([peak.x, peak.value - floor], bad, self.width, at)
+            let at =
+                |places: &[f64]| self.hitter.glances(places).iter().map(above).collect::<Vec<_>>();
+            let known = self.places.iter().zip(&self.seen);
+            let known = known.map(|(x, glance)| [*x, above(glance)]).collect();
+            let [bad, x] = [self.place(k), peak.x];
+            let good = if bad < x { self.place(k + 1).min(x) } else { self.place(k - 1).max(x) };
+            boundary([good, bad], known, self.width, at)
         };
         // NaN counts as too low.
         let poor = |k: &usize| above(&self.seen[*k]).is_nan() || above(&self.seen[*k]) < 0.0;
@@ -315,6 +330,35 @@ impl<'a> HitsAlong<'a> {
         let beyond = (0..=self.last()).filter(|k| self.place(*k) > peak.x).find(poor);
         [edge(from, below), edge(to, beyond)]
     }
+}
+
+/// Those of the steps where touches come and go, by their first place, in which the best place of some value may be: the
+/// better value at both ends, and as much more as such values differ from each other, reaches the best one of all.
+fn promising(hitter: &Hitter, seen: &[Option<Glance>], unsettled: Vec<usize>) -> Vec<usize> {
+    let values = |glance: &Option<Glance>| match glance {
+        None => [f64::NEG_INFINITY; 8],
+        Some(glance) => {
+            let Glance { exit_speed, first_exit, vibration, hands, .. } = *glance;
+            let first_exit = if glance.late { f64::NEG_INFINITY } else { first_exit };
+            let vibration = vibration.map_or(f64::NEG_INFINITY, |vibration| -vibration);
+            let [efficiency, free, pivoted] = hitter.figures(glance.x, exit_speed);
+            [exit_speed, first_exit, vibration, -hands[0], -hands[1], efficiency, free, pivoted]
+        }
+    };
+    let values: Vec<[f64; 8]> = seen.iter().map(values).collect();
+    let ends = |by: fn(f64, f64) -> f64, from: f64, of: usize| {
+        let both = unsettled.iter().flat_map(|k| [values[*k][of], values[k + 1][of]]);
+        both.filter(|value| value.is_finite()).fold(from, by)
+    };
+    let reach: [f64; 8] = std::array::from_fn(|of| {
+        let best = values.iter().fold(f64::NEG_INFINITY, |best, value| best.max(value[of]));
+        best - (ends(f64::max, f64::MIN, of) - ends(f64::min, f64::MAX, of))
+    });
+    let reaches = |k: &usize| {
+        let [here, next] = [values[*k], values[k + 1]];
+        (0..8).any(|of| here[of].max(next[of]) >= reach[of])
+    };
+    unsettled.iter().copied().filter(reaches).collect()
 }
 
 /// Upper bound of the values between place k and the next: the higher of both plus the larger second difference there,
@@ -332,138 +376,4 @@ fn highest_between(places: &[f64], seen: &[f64], k: usize) -> f64 {
     let bent = [bent(k), bent(k + 1)].map(|by| if by.is_nan() { f64::INFINITY } else { by });
     let [here, next] = [seen[k], seen[k + 1]];
     if here.max(next) == f64::NEG_INFINITY { here } else { here.max(next) + bent[0].max(bent[1]) }
-}
-
-/// The greatest value on an interval with one maximum, located to that width: parabolas through the best three places,
-/// and golden sections if these do not converge.
-///
-/// # Source
-///
-/// R. P. Brent, Algorithms for Minimization without Derivatives (1973), chapter 5.
-fn brent(
-    [mut low, mut high]: [f64; 2],
-    start: Peak,
-    width: f64,
-    value: impl Fn(f64) -> f64,
-) -> Peak {
-    const MOST: usize = 60;
-    let (mut best, mut second, mut third) = (start, start, start);
-    let (mut step, mut before): (f64, f64) = (0.0, 0.0);
-    for _ in 0..MOST {
-        let middle = 0.5 * (low + high);
-        if (best.x - middle).abs() + 0.5 * (high - low) <= 2.0 * width {
-            break;
-        }
-        let (r, q) = (
-            (best.x - second.x) * (best.value - third.value),
-            (best.x - third.x) * (best.value - second.value),
-        );
-        let over = 2.0 * (q - r);
-        let by = ((best.x - second.x) * r - (best.x - third.x) * q) / over;
-        let inside = best.x + by > low + width && best.x + by < high - width;
-        // A parabola with NaN fails this test.
-        if inside && by.abs() < 0.5 * before.abs() {
-            (before, step) = (step, by);
-        } else {
-            before = if best.x < middle { high - best.x } else { low - best.x };
-            step = (1.0 - golden::SECTION) * before;
-        }
-        let x = best.x + if step.abs() < width { width.copysign(step) } else { step };
-        let found = Peak { x, value: value(x) };
-        if found.value >= best.value {
-            if x > best.x {
-                low = best.x
-            } else {
-                high = best.x
-            }
-            (third, second, best) = (second, best, found);
-        } else {
-            if x > best.x {
-                high = x
-            } else {
-                low = x
-            }
-            if found.value >= second.value || second.x == best.x {
-                (third, second) = (second, found);
-            } else if found.value >= third.value || third.x == best.x || third.x == second.x {
-                third = found;
-            }
-        }
-    }
-    best
-}
-
-/// The last place that is not below zero, between one that is not (place and value) and one that is below or has no
-/// value, located to that width.
-///
-/// # Source
-///
-/// The Illinois variant of false position: M. Dowell, P. Jarratt, BIT 11, 168 (1971).
-fn boundary(
-    [mut good, mut over]: [f64; 2],
-    [mut bad, mut under]: [f64; 2],
-    width: f64,
-    value: impl Fn(f64) -> f64,
-) -> f64 {
-    const MOST: usize = 60;
-    let mut side = 0;
-    for _ in 0..MOST {
-        if (bad - good).abs() <= width {
-            break;
-        }
-        let share = over / (over - under);
-        // Without a value, halve.
-        let share = if share > 0.0 && share < 1.0 { share } else { 0.5 };
-        // Aims beyond the edge by less than the width, so that the interval closes from both sides.
-        let aimed = good + share * (bad - good);
-        let least = 0.5 * width / (bad - good).abs();
-        let x = match aimed {
-            _ if share < least => good + least * (bad - good),
-            _ if share > 1.0 - least => bad - least * (bad - good),
-            aimed => aimed,
-        };
-        let found = value(x);
-        if found >= 0.0 {
-            (good, over) = (x, found);
-            under *= if side == 1 { 0.5 } else { 1.0 };
-            side = 1;
-        } else {
-            (bad, under) = (x, found);
-            over *= if side == -1 { 0.5 } else { 1.0 };
-            side = -1;
-        }
-    }
-    good
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// `1 − |x − a|^p` has its greatest value at a, smooth or as a kink. A search that starts near it finds it and
-    /// evaluates nothing outside the interval.
-    #[test]
-    fn the_greatest_value_is_found_to_the_width() {
-        for (power, a) in [(2.0, 0.61), (1.0, 0.61), (4.0, 0.61), (2.0, 0.5), (1.0, 0.7)] {
-            let value = |x: f64| {
-                assert!((0.5..=0.7).contains(&x));
-                1.0 - (x - a).abs().powf(power)
-            };
-            let start = Peak { x: 0.6, value: value(0.6) };
-            let found = brent([0.5, 0.7], start, 1e-6, value);
-            let flat = f64::EPSILON.powf(1.0 / power);
-            assert!((found.x - a).abs() < 3e-6 + 2.0 * flat, "{power} {a} {found:?}");
-        }
-    }
-
-    #[test]
-    fn a_boundary_is_found_to_the_width_where_one_side_has_no_value_too() {
-        let value = |x: f64| 0.3 - x * x;
-        let exact = 0.3_f64.sqrt();
-        let found = boundary([0.0, 0.3], [1.0, -0.7], 1e-9, value);
-        assert!(found <= exact && exact - found < 1e-9);
-        let none_beyond = |x: f64| if x < 0.4 { 1.0 } else { f64::NAN };
-        let found = boundary([0.0, 1.0], [1.0, f64::NAN], 1e-9, none_beyond);
-        assert!(found < 0.4 && 0.4 - found < 1e-9);
-    }
 }
