@@ -15,7 +15,7 @@ use crate::beam::walk::{Stop, What};
 pub struct Placed<S> {
     /// Masses, on the bat itself or on springs.
     pub points: Vec<PointMass<S>>,
-    /// Joints that give way to bending.
+    /// Joints that are flexible in bending.
     pub joints: Vec<Spring<S>>,
     /// Contacts that hold a deflection or a rotation.
     pub contacts: Vec<Contact<S>>,

@@ -36,7 +36,7 @@ pub struct Damped {
     pub ratio: f64,
     /// The part of ζ due to the materials.
     pub of_materials: f64,
-    /// `−Re s` (1/s): the amplitude goes as `e^{−decay t}`; for two real s, the slower one.
+    /// `−Re s` (1/s): the amplitude is proportional to `e^{−decay t}`; for two real s, the slower one.
     pub decay: f64,
     /// Possible error of s relative to |s|, due to the mesh, to the small number of strains, and to treating modes one
     /// by one if that was done.

@@ -228,7 +228,7 @@ impl Plan {
             return Self { mesh: self.mesh.clone(), degree: self.degree + 1, reason };
         }
         let share = 0.5 * tolerance / count;
-        // The error of a kink inside an element goes at best as the fifth power of its length.
+        // The error due to a kink inside an element is at best proportional to the fifth power of its length.
         let over = self.mesh.over_stations();
         let order = if over { 4.0 } else { 2.0 * (self.degree - 1) as f64 };
         let parts = |k: usize| {

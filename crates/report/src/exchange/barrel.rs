@@ -9,7 +9,7 @@ use sweetspot::modes::hoop::{Hoop, HoopMode, Outline};
 /// Rings of points on a barrel.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BarrelGrid {
-    /// The points, ring by ring from the handle to the tip; of a ring the first lies in the direction of +y.
+    /// The points, ring by ring from the handle to the tip; the first point of a ring lies in the direction of +y.
     pub grid: Grid,
     /// Places of the rings (m).
     pub x: Vec<f64>,

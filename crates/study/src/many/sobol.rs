@@ -23,7 +23,7 @@ static JOE_KUO: LazyLock<Vec<Vec<u64>>> = LazyLock::new(|| {
     rows.map(|row| row.split(' ').map(|n| n.parse().expect("a number")).collect()).collect()
 });
 
-/// So many coordinates a point may have.
+/// Most coordinates of a point.
 pub const MOST_COORDINATES: usize = 64;
 
 /// Sobol's sequence in a cube.
