@@ -1,8 +1,8 @@
 //! The program's answers in a page, without a server.
 //!
-//! A page writes a request into [`room`], calls [`answer`] and reads that number of bytes at [`answer_at`]. Both are
-//! JSON, as `lab/page/types.js` describes; the bytes of a photograph or of sound follow the request after a byte 0. The
-//! module imports nothing, so it can only compute.
+//! A page writes a request into [`room`], calls [`answer`] and reads that many bytes at [`answer_at`]. Both are JSON,
+//! see `lab/page/types.js`; a photograph or sound follows the request after a byte 0. The module imports nothing, so it
+//! can only compute.
 //!
 //! | file | question |
 //! |---|---|
@@ -57,8 +57,8 @@ pub extern "C" fn room(bytes: usize) -> *mut u8 {
     })
 }
 
-/// Answers the request and returns the number of bytes of the answer. A request of no bytes is answered by the message
-/// of the last panic.
+/// Answers the request and returns the answer's number of bytes. An empty request is answered by the last panic's
+/// message.
 #[allow(unsafe_code)]
 #[unsafe(no_mangle)]
 pub extern "C" fn answer() -> usize {

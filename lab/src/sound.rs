@@ -28,8 +28,7 @@ const HANDS: Grip = Grip { from: 0.0, to: 0.1524, stiffness: 3e4, damping: 300.0
 type Tones = Rc<dyn Fn(f64) -> Vec<WallTone>>;
 
 thread_local! {
-    /// The wall of the last sound, with the bat's text: a bat is tapped often, and its hoop modes take a second to
-    /// compute.
+    /// The wall of the last sound, with the bat's text: a bat is tapped often, and its hoop modes take a second.
     static WALL: RefCell<Option<(String, Tones)>> = const { RefCell::new(None) };
 }
 

@@ -381,8 +381,7 @@ pub(super) struct Blow<'a> {
     pub compared: bool,
 }
 
-/// The error for a bat (kg) that a ball (kg) carries along; the bat's first mode turns through that phase (rad)
-/// meanwhile.
+/// The error for a bat (kg) that a ball (kg) carries along; its first mode turns through that phase (rad) meanwhile.
 fn carried(bat: f64, ball: f64, turned: f64) -> Error {
     let found = format!(
         "a bat of {bat:.2e} kg, whose first mode goes through {turned:.0e} rad while the ball is pressed"

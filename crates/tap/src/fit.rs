@@ -8,8 +8,8 @@
 //! ```
 //!
 //! exactly, for N samples at the rate r. Frequencies f and decays δ belong to the object, amplitudes a and ground c to
-//! a tap. Amplitudes and ground are linear and are eliminated (variable projection); frequencies and decays follow by
-//! Gauss-Newton with damped steps.
+//! a tap. Amplitudes and ground are linear and eliminated (variable projection); the others follow by damped
+//! Gauss-Newton.
 //!
 //! # Source
 //!
@@ -101,8 +101,7 @@ impl Band {
         (1.0 - (exponent * self.samples as f64).exp()) / (1.0 - exponent.exp())
     }
 
-    /// Columns of these poles in every line, for the real and the imaginary part of each amplitude, then those of the
-    /// ground.
+    /// Columns of these poles in every line, for real and imaginary part of each amplitude, then those of the ground.
     fn columns(&self, poles: &[Pole]) -> Vec<Vec<c64>> {
         let own = |pole: &Pole| {
             let both = |(nu, _): &(f64, c64)| {
@@ -232,8 +231,7 @@ fn with(normal: &[Vec<f64>], right: &[f64], damped: f64) -> Vec<Vec<f64>> {
 }
 
 /// The poles that fit all bands best, from these starting values; `beside` are poles of other tones, which are kept.
-/// `None` if the poles diverge: a decay below a tenth or above ten times its starting value, or a frequency that leaves
-/// its band.
+/// `None` if the poles diverge: a decay below a tenth or above ten times its start, or a frequency outside its band.
 pub fn fit(bands: &[Band], start: &[Pole], beside: &[Pole]) -> Option<Fit> {
     let residual = |poles: &[Pole]| {
         let all = [poles, beside].concat();

@@ -1,8 +1,8 @@
 //! Hum of the mains: one frequency near 50 or 60 Hz and its harmonics, found and removed.
 //!
 //! The hum is `Σ_h a_h cos(2π h f₀ t) + b_h sin(2π h f₀ t)`. f₀ maximises the logarithm of the periodogram over its
-//! surroundings, summed over 15 harmonics. The amplitudes of 20 harmonics follow by least squares over the quieter half
-//! of the recording.
+//! surroundings, summed over 15 harmonics. The amplitudes of 20 harmonics are fitted to the quieter half of the
+//! recording.
 
 use std::f64::consts::TAU;
 

@@ -2,8 +2,7 @@
 //!
 //! A tap is a rise of the level in the band from 400 Hz to 12 kHz, in frames of 2 ms. It begins with the first sample
 //! above a quarter of the largest one in the next 30 ms, because codecs smear it up to 20 ms ahead. Ringing begins
-//! after the last bounce. Bounces are found in the residual of a linear prediction: ringing is predicted by the samples
-//! before, a blow is not.
+//! after the last bounce. Bounces are found in the residual of linear prediction: it predicts ringing, but not a blow.
 //!
 //! # Source
 //!
@@ -26,8 +25,7 @@ const APART: f64 = 0.15;
 /// Least fall of a tap, and the time in which it falls (dB, s).
 const FALL: f64 = 12.0;
 const FALLEN: f64 = 0.6;
-/// Least rise of a bounce, its least level above the usual one (dB), and the times after a tap between which bounces
-/// are sought (s).
+/// Least rise of a bounce, its least level above the usual (dB), and the times after a tap to search for it (s).
 const BOUNCE: f64 = 4.0;
 const BOUNCE_ABOVE: f64 = 4.5;
 const BOUNCES: [f64; 2] = [0.01, 0.14];

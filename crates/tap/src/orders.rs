@@ -2,8 +2,7 @@
 //!
 //! One pole is added at a time: the one that lowers the weighted sum of squares most. It is sought where the residual
 //! is largest and on the flanks of the poles found so far; then all poles are fitted together. The search ends when the
-//! next pole would lower the sum by no more than noise does. The results for every number of poles show which poles are
-//! stable.
+//! next pole would lower the sum by no more than noise does. The results for every number show which are stable.
 
 use crate::fit::Pole;
 use crate::resonances::{Damping, Projection, Responses, Shared, shared};
@@ -221,8 +220,7 @@ mod tests {
             }
             assert!(found.weights.iter().all(|weight| *weight > 1.0), "{found:?}");
         }
-        // A pole that moves by 0.002 % between two groups of responses, as with another mass on the body, counts as
-        // one.
+        // A pole that moves by 0.002 % between two groups of responses, as with another mass on the body, is one pole.
         let mut moved = truth;
         moved.iter_mut().for_each(|pole| *pole = Pole::of(1.00002 * pole.hz, pole.loss()));
         let two = [(&truth, 7), (&moved, 8)];

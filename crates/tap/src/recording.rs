@@ -84,8 +84,7 @@ impl Recording {
     ///
     /// # Errors
     ///
-    /// [`Unreadable::Sound`] for samples that are not numbers, for more than [`LONGEST`] and for a rate beyond
-    /// [`RATES`].
+    /// [`Unreadable::Sound`] for samples that are not numbers, more than [`LONGEST`] or a rate beyond [`RATES`].
     pub fn of(name: &str, samples: Vec<f64>, rate: f64) -> Result<Self, Unreadable> {
         is_rate(rate)?;
         if let Some(k) = samples.iter().position(|x| !x.is_finite()) {

@@ -115,8 +115,7 @@ impl Responses {
         (0..BEYOND + poles).map(|k| c64::from(f64::from(k == BEYOND + p))).collect()
     }
 
-    /// Weights of the continuation of a response to a complex square `z` of the frequency (Hz²), without the pole
-    /// `without`.
+    /// Weights that continue a response to a complex square `z` of the frequency (Hz²), without the pole `without`.
     pub fn at(&self, poles: &[Pole], without: Option<usize>, z: c64) -> Vec<c64> {
         let beyond = std::iter::successors(Some(c64::ONE), |p| Some(p * z / self.top().powi(2)));
         let within = poles.iter().enumerate().map(|(p, pole)| match Some(p) == without {
@@ -385,8 +384,7 @@ mod tests {
                     assert!((residue.re - residues[p]).abs() < 1e-6 && residue.im.abs() < 1e-6);
                 }
             }
-            // The continuation to complex frequencies agrees with the values on the lines at real ones; for dashpots
-            // approximately.
+            // Continued to complex frequencies it agrees with the values at real ones; for dashpots approximately.
             let (f, within) =
                 (all[0].hz[900], if damping == Damping::Material { 1e-9 } else { 0.1 });
             let on = at.value(&all[0], 1, &all[0].at(&found.poles, None, (f * f).into()));

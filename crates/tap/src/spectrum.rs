@@ -2,8 +2,7 @@
 //!
 //! Low tones ring for long and lie close to each other; high ones end soon. There are therefore three spectra, with
 //! windows that rise in a twentieth of their length and fall over the rest. The ground is that of the quietest quarter
-//! of windows before and between taps, smoothed over frequency, so that a tone that still rings does not count as
-//! ground.
+//! of windows before and between taps, smoothed over frequency, so that a tone still ringing is not taken for ground.
 
 use std::f64::consts::PI;
 

@@ -23,8 +23,8 @@ use crate::filter::{median, most, quantile};
 use crate::fit::{Band, Fit, Pole, fit};
 use crate::pencil::two_poles;
 
-/// Beginning of the fitted ringing after the onset (s), when the blow is over; its end, in decay times; and its longest
-/// duration (s).
+/// Beginning of the fitted ringing after the onset (s), after the blow; its end, in decay times; its longest duration
+/// (s).
 const BEGINS: f64 = 0.8e-3;
 const DECAYS: f64 = 3.0;
 const LONGEST: f64 = 1.2;
@@ -40,8 +40,7 @@ const MISFIT: f64 = 0.30;
 /// Least share of the taps in which a tone occurs, for all tones and in the first pass.
 const HEARD: f64 = 0.6;
 const SOME: f64 = 0.25;
-/// A tap with at least this residual in the band does not contain the tone. Below it, the largest relative spread of
-/// the taps.
+/// A tap with at least this residual in the band does not contain the tone. Below, the largest spread of the taps.
 const LOST: f64 = 0.8;
 const SPREAD: f64 = 0.012;
 /// Two poles replace one if the sum of squares falls to this share, their decays differ by at most this factor, and
@@ -51,8 +50,7 @@ const TWIN_DECAYS: f64 = 2.5;
 const TWIN_APART: f64 = 0.3;
 /// Largest relative distance of twins of the two planes of the grain; tones farther apart are different ones.
 const PLANES: f64 = 0.03;
-/// A tap is not one if its five strongest tones have at least this residual, and this many times that of the other
-/// taps.
+/// A tap is discarded if its five strongest tones have at least this residual, and this many times the others'.
 const NO_TAP: f64 = 0.3;
 const WORSE: f64 = 4.0;
 /// Share of D, fitted to 60 recordings of `search/taps.py --seed 101`, and least errors of f and of ln η.
@@ -169,8 +167,7 @@ fn is_none(taps: &[Ringing], found: &[Found], tap: usize) -> bool {
     own > NO_TAP && own > WORSE * quantile(&all, 0.25)
 }
 
-/// The tones of these taps: of every recording separately, since each plane of the grain has its own tones, then of all
-/// taps together.
+/// The tones of these taps: of every recording (each plane of the grain has its own tones), then of all taps together.
 fn heard(taps: &[Ringing], peaks: &[Vec<f64>], least: f64) -> Vec<Found> {
     let mut found: Vec<Vec<Pole>> = vec![];
     for (recording, peaks) in peaks.iter().enumerate() {
@@ -357,8 +354,7 @@ fn robust(all: &[(usize, [f64; 2])], part: usize) -> f64 {
             let squares: f64 = away.iter().map(|x| x * x).sum();
             (squares / (away.len() - 1) as f64).sqrt()
         }
-        // For a normal distribution the median deviation is 0.6745 of it; at least the value that the 85th percentile
-        // gives.
+        // For a normal distribution the median deviation is 0.6745 of it; at least what the 85th percentile gives.
         _ => (1.4826 * median(&away)).max(quantile(&away, 0.85) / 1.44),
     }
 }

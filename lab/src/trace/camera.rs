@@ -8,8 +8,7 @@ use sweetspot::base::error::{Error, Result};
 
 use crate::trace::edges::Edges;
 
-/// Measurements of the bat itself (m): its length, its largest diameter by calipers, and its distance from the lens if
-/// that is known.
+/// Measurements (m): the bat's length, its largest diameter by calipers and, if known, its distance from the lens.
 #[derive(Debug, Clone, Copy)]
 pub struct Told {
     pub length: f64,
@@ -64,8 +63,7 @@ impl Outline {
 
     /// The outline without the blur of perspective. A circle of radius `r` about the axis appears as an ellipse that
     /// extends `κ r` to both sides along the axis, and the outline is the largest of all ellipses at each place. The
-    /// largest circles that fit below it are `r² = min (A² + (s/κ)²)`, over places at the distance `s` with the half
-    /// width `A`.
+    /// largest circles below it are `r² = min (A² + (s/κ)²)`, over places at the distance `s` with the half width `A`.
     pub fn sharpened(&self, camera: &Camera) -> Self {
         let count = self.half.len();
         let widest = self.half.iter().copied().fold(0.0, f64::max);
@@ -137,8 +135,7 @@ impl Camera {
 
     /// The camera for that nearness (1/m).
     fn at(nearness: f64, outline: &Outline, told: Told) -> Self {
-        /// The widest part is a mean over this length to each side (m), as calipers measure it, and at least this far
-        /// from the tip (m).
+        /// The widest part is a mean over this length to each side (m), as by calipers, and this far from the tip (m).
         const CALIPERS: f64 = 5e-3;
         const TIP: f64 = 0.02;
         let radius = 0.5 * told.diameter;

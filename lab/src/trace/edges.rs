@@ -34,8 +34,7 @@ impl Edges {
         self.across[0].len()
     }
 
-    /// The straight middle line: its height at the origin, its slope, and the largest deviation of the middle from it
-    /// (px).
+    /// The straight middle line: its height at the origin, its slope, and the middle's largest deviation from it (px).
     pub fn middle(&self) -> [f64; 3] {
         let n = self.columns() as f64;
         let all = || {
@@ -60,8 +59,7 @@ struct Columns<'a> {
     wide: usize,
 }
 
-/// The change of colour by columns, and the excess of object over ground on the inner side compared with the outer
-/// side.
+/// The change of colour by columns, and the excess of object over ground on the inner over the outer side.
 struct Change {
     slope: Vec<f32>,
     score: [Vec<f32>; 2],

@@ -29,8 +29,7 @@ pub trait ForceLaw: Copy + Send + Sync {
     /// power, the largest exponent that it approaches.
     fn exponent(&self, top: Option<Top>) -> f64;
 
-    /// Stiffness, loading exponent and unloading exponent of a power law; hits with such a law are computed side by
-    /// side.
+    /// Stiffness, loading and unloading exponent of a power law; hits with such a law are computed side by side.
     #[inline(always)]
     fn powers(&self) -> Option<[f64; 3]> {
         None

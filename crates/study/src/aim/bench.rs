@@ -135,8 +135,7 @@ impl Bench {
 
     /// The value of a free choice, in SI.
     pub fn extra(&self, p: &[f64], k: usize) -> f64 {
-        /// A choice closer to its start than this share of a unit counts as unchanged; the program is no more accurate
-        /// than that.
+        /// A choice closer to its start than this share of a unit counts as unchanged: the program's own accuracy.
         const NEAR: f64 = 1e-6;
         let (extra, by) = (&self.extras[k], p[self.splines.len() + k]);
         let by = if by.abs() < NEAR { 0.0 } else { by };

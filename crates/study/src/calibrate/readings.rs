@@ -88,8 +88,7 @@ pub struct Priors {
 
 impl Default for Priors {
     /// Wood of one species: E 22 %, density 10 % (the scatter of [`sweetspot::Material::scatter`]), correlated by 0.6;
-    /// G/E 35 %, which covers 0.058 to 0.111 of species; handle and barrel of one billet 0.95 and 8 %, which is our
-    /// choice.
+    /// G/E 35 %, which covers 0.058 to 0.111 of species; handle and barrel of one billet 0.95 and 8 %, our choice.
     fn default() -> Self {
         Self {
             youngs_modulus: 0.22,

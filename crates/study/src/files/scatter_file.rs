@@ -63,8 +63,7 @@ written! {
         scene = later::<BTreeMap<String, Said>>();
         /// The outputs for every bat, by name; exit_speed_m_s@impact is the speed at the impact point.
         outputs = later::<Vec<String>>().saying("minItems", 1).like(["f1_hz", AT_IMPACT].to_vec());
-        /// Wanted accuracy of frequencies, relative, and of exit speeds, relative to the closing speed. By default
-        /// 1e-4.
+        /// Wanted accuracy of frequencies, relative, and of exit speeds, relative to the closing speed. Default 1e-4.
         tol = share();
         /// Triples of two differences and the correlation of their normal numbers; the later one is reported with the
         /// earlier one known.

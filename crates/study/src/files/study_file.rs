@@ -132,8 +132,7 @@ written! {
             .saying("minItems", 1)
             .like(json!(["f1_hz", "exit_speed_max.value", "exit_speed_m_s@0.70"])),
             needed "\"outputs\": a list of names, such as \"f1_hz\"";
-        /// Wanted accuracy of frequencies, relative, and of exit speeds, relative to the closing speed. By default
-        /// 1e-4.
+        /// Wanted accuracy of frequencies, relative, and of exit speeds, relative to the closing speed. Default 1e-4.
         tol = number()
             .within((Excluded(0.0), Excluded(1.0)), "a number between 0 and 1, such as 1e-4");
     }

@@ -19,8 +19,7 @@ use crate::collision::contact::touch::Touch;
 
 /// Most steps of the usual length to the largest compression or back, at the accuracy 1e-3.
 const MOST: usize = 48;
-/// Most runs of steps from one change to the next at a place, and most steps; a place that needs more is computed
-/// alone.
+/// Most runs of steps from one change to the next at a place, and most steps; places that need more are done alone.
 const RUNS: f64 = 400.0;
 const STEPS: f64 = 4000.0;
 /// Allowed error of a return to the largest compression, as a share of it and over the accuracy.
