@@ -232,7 +232,8 @@ class Bat:
         """Analyses a recording of taps on this bat: the tones, the mode of each, and the wood.
 
         ``recording`` is a file (m4a, wav, mp3, flac, ogg), or the samples of one channel, full scale 1, with their
-        ``rate`` (1/s). A recording that cannot be read raises; if it has no tap or no tone, ``document["refused"]`` says why.
+        ``rate`` (1/s). A recording that cannot be read raises; if it has no tap or no tone, ``document["refused"]``
+        says why.
         """
         if isinstance(recording, (str, os.PathLike)):
             document, pictures = self._core.tap_file(Path(recording))
