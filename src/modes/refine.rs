@@ -93,8 +93,8 @@ fn beyond_numbers(bat: &Bat, error: Error) -> Error {
     }
     let thin = if thin > 0.0 { format!("{thin:.1e} m thin") } else { "a point".to_owned() };
     let found = format!(
-        "a bat that is {thin} at its thinnest and {thick:.1e} m elsewhere: what the one gives way and the \
-         other does not hold in one number"
+        "a bat that is {thin} at its thinnest and {thick:.1e} m elsewhere: the compliances of both do not \
+         fit in one number"
     );
     let expected = "a point that is cut off, or one of a shape nearer to a cone";
     Error::value("profile", found, expected)

@@ -107,7 +107,7 @@ impl Analysis {
         let strength = strength(&bat, &task, &hits, &figures);
         let [truth, stated] = dowel_proof(&task.proof)?;
         let proof = Proof { modes: task.proof.modes, truth, stated };
-        tell(0.7, "what calipers, scale and wood leave open");
+        tell(0.7, "the uncertainty due to wood, scale and calipers");
         let spot = &figures.spot;
         let analysed = Analysed {
             bat: &bat,

@@ -206,7 +206,7 @@ impl Spread {
 
     /// The answers without uncertainties, for a bat that would take long to recompute.
     pub fn uncounted(analysed: &Analysed) -> Self {
-        let left_out = vec!["all of it, as so many pieces would take long".to_owned()];
+        let left_out = vec!["all of it, because so many pieces take long".to_owned()];
         Self { sources: vec![], estimates: estimates(&analysed.answers(), &[]), left_out }
     }
 

@@ -58,34 +58,34 @@ impl Code {
         match self {
             Self::Clipped => [
                 "clipped",
-                "The recording is too loud and clipped: frequencies hold, loss factors do not and are left out. Record \
-                 again with less gain, or tap more softly.",
+                "The recording is too loud and clipped: its frequencies are right, its loss factors are wrong and \
+                 left out. Record again with less gain, or tap more softly.",
             ],
             Self::AutomaticGain => [
                 "automatic_gain",
-                "The recorder turns its gain while a tap rings: frequencies hold, loss factors do not and are left out. \
-                 Turn \"enhanced recording\" or automatic gain off.",
+                "The recorder changes its gain while a tap rings: frequencies are right, loss factors are wrong and \
+                 left out. Turn \"enhanced recording\" or automatic gain off.",
             ],
             Self::OneTap => [
                 "one_tap",
-                "There is one tap alone: only several tell how far each is off, and which sound is no tap.",
+                "There is only one tap: only several show how accurate each is, and which sound is not a tap.",
             ],
             Self::Room => [
                 "room",
-                "The room is heard in how the tones die: bring the phone within a hand's breadth of the barrel.",
+                "The room affects the decay of the tones: bring the phone within a hand's breadth of the barrel.",
             ],
             Self::SpoiltFile => {
-                ["spoilt_file", "Parts of the file are spoilt: silence stands for them."]
+                ["spoilt_file", "Parts of the file are damaged and were replaced by silence."]
             }
             Self::LowRate => {
                 ["low_rate", "The recording has few samples a second: high tones are not in it."]
             }
             Self::Bounces => {
-                ["bounces", "Taps bounced: what rings after the last bounce was taken."]
+                ["bounces", "Taps bounced: the ringing after the last bounce was used."]
             }
-            Self::Hum => ["hum", "Hum of the mains was left out."],
+            Self::Hum => ["hum", "Hum of the mains was removed."],
             Self::FewTones => {
-                ["few_tones", "Only two tones were found: labels and wood rest on little."]
+                ["few_tones", "Only two tones were found: labels and wood are uncertain."]
             }
             Self::NoTap => [
                 "no_tap",

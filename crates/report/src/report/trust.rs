@@ -377,7 +377,7 @@ pub fn of_wood(bat: &Bat) -> String {
 
 /// Where the uncertainty of a hit is shown.
 pub const IN_ANALYZE: &str =
-    "Trust: what wood, scale and calipers leave open of this: sweetspot analyze\n";
+    "Trust: its uncertainty due to wood, scale and calipers: sweetspot analyze\n";
 
 /// What is not known exactly about a bat, and the resulting uncertainty of each answer, to first order, with
 /// independent sources.
