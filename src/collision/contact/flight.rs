@@ -29,7 +29,7 @@ pub enum Landing {
     Parts,
     /// The ball is gone for good.
     Gone,
-    /// The flight has not ended within [`MOST_LOOKS`] steps.
+    /// The flight has not ended within the largest number of steps.
     Open,
 }
 
