@@ -93,8 +93,8 @@ impl<'a> Struck<'a> {
 
     /// The other extreme for a held bat whose slow modes have errors that hide all further modes: from
     /// [`Self::with_modes`] and [`Self::flexibility`] at `x` (m), with the flexibility (m/N) by which it differs from
-    /// [`Self::completed`]. A hidden flexibility is added. If it is known, but not how slow the further modes are, all
-    /// of it goes to the slowest that they can be.
+    /// [`Self::completed`]. A hidden flexibility is added. If it is known, but not the frequencies of the further
+    /// modes, all of it is assigned to the lowest possible one.
     pub fn otherwise(
         &self,
         x: f64,

@@ -70,7 +70,7 @@ impl Bat {
     }
 
     /// Reads a bat file that a person has named. Its `csv` may be anywhere; if it is outside the bat file's folder, the
-    /// person is to be told.
+    /// caller must inform the person.
     ///
     /// # Errors
     ///

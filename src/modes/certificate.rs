@@ -58,7 +58,7 @@ pub fn lost(residual: f64, left: f64, ratio: f64, apart: bool) -> f64 {
 /// Turns a relative round-off of a frequency into that of the shape, the nodes and the modal mass.
 ///
 /// The round-off of the shape is a share of its largest deflection. Where the shape is flat, between stiff springs or
-/// in a thick part beside a thin one, the slope gives the shift of a node.
+/// in a thick part next to a thin one, the slope gives the shift of a node.
 fn blur(mode: &mut Mode, sums: f64) {
     let usual = 10.0 * mode.shape.length() / mode.nodes.len().max(1) as f64;
     mode.error.nodes += sums * usual.max(LOCAL * mode.doubt.flattest);

@@ -120,7 +120,7 @@ pub enum DampingMethod {
     Materials,
     /// There are dashpots, but each mode may be treated alone: the complex modes differ by this much.
     Modal(f64),
-    /// Complex modes; modes treated alone would be off by this much.
+    /// Complex modes; modes treated one by one would have this error.
     Complex(f64),
 }
 

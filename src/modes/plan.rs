@@ -12,7 +12,7 @@
 //!
 //! For `p = 3` this is the known `(kh)⁴/1440`.
 //!
-//! A taper bends the curvature too. Under a constant moment it goes as `1/EI ∝ r⁻⁴`. On an element over which `ln r`
+//! A taper bends the curvature too. Under a constant moment it is `∝ 1/EI ∝ r⁻⁴`. On an element over which `ln r`
 //! changes by `t`, its series gives, with `m = p − 1`,
 //!
 //! ```text

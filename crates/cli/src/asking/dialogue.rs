@@ -27,7 +27,7 @@ pub type Read<T> = std::result::Result<T, Complaint>;
 
 /// Why a question has no answer.
 pub enum Halt {
-    /// The person wants to answer the question before it anew.
+    /// The person wants to answer the previous question again.
     Back,
     /// The person wants to leave; the answers are kept.
     Left,

@@ -108,7 +108,7 @@ mod tests {
         };
         let change = (length(1e-4) - length(-1e-4)) / 2e-4;
         assert!(change.abs() < 1e-3, "{change}");
-        // Pressed in by 1, a circle that did not go round would be 2π shorter.
+        // Reduced in radius by 1, a circle without motion around would be 2π shorter.
         assert!((moved(0, &outline, 4)[0][1] - 1.0).abs() < 1e-15);
     }
 }

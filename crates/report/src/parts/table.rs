@@ -117,7 +117,7 @@ impl Table {
         self.head.iter().enumerate().map(named).collect()
     }
 
-    /// For a page: it scrolls by itself where it is too wide, by keyboard too. Nothing without rows.
+    /// For a page: the table scrolls separately if it is too wide, also by keyboard. Empty without rows.
     pub fn html(&self) -> String {
         if self.rows.is_empty() {
             return String::new();

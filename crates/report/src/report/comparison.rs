@@ -146,7 +146,7 @@ pub fn hit(comparison: &Comparison, units: Units) -> String {
     wrapped(&scene, 5) + &wrapped(&swing(comparison, units), 5)
 }
 
-/// How the swings of the bats go together.
+/// The law that relates the swings of the bats.
 pub fn swing(comparison: &Comparison, units: Units) -> String {
     let first = &comparison.bats[0];
     match (first.law, comparison.terms.barrel) {

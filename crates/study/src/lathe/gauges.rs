@@ -34,7 +34,7 @@ pub enum WhyNotSmooth {
     Rivals,
     /// The value has a corner at its best place: no derivative.
     Corner,
-    /// The finite cut does not go where the derivative points.
+    /// The change by the finite cut does not agree with the derivative.
     Cut,
 }
 
