@@ -98,7 +98,7 @@ fn side_by_side<T>(batches: usize, jobs: &[&dyn Fn() -> T]) -> Vec<Duration> {
     best
 }
 
-/// A bat, how it is theorised and swung.
+/// A bat with its beam theory and its swing.
 struct Hit {
     name: &'static str,
     bat: Bat,
@@ -148,10 +148,10 @@ impl Hit {
     }
 }
 
-/// One way to the impulses along a barrel.
+/// One method for the impulses along a barrel.
 type Way<'a> = (String, Box<dyn Fn() -> Vec<f64> + 'a>);
 
-/// Whether the ball was pressed anew, or met again.
+/// Whether the ball was compressed twice, or hit again.
 fn again(met: &Encounter) -> bool {
     met.late || met.reloads > 0 || met.again()
 }

@@ -47,7 +47,7 @@ fn hoops(criterion: &mut Criterion) {
     let mut few = bat.clone();
     criterion.bench_function("the wall of a hit within 1e-4", |bencher| {
         bencher.iter(|| {
-            // Another wall each time: one that is known is not solved again.
+            // Another wall each time, because a known wall is not solved again.
             few = few
                 .with(|parts| {
                     parts.material.poisson_ratio = parts.material.poisson_ratio.map(|nu| nu - 1e-9)

@@ -1,4 +1,4 @@
-//! How fast the modes come, side by side with the dense and the shift-invert path in the same run.
+//! The time for the modes, compared with the dense and the shift-invert method in the same run.
 //!
 //! `cargo bench --bench modes` prints the tables, then Criterion's own statistics.
 
@@ -91,7 +91,7 @@ fn theories() {
     }
 }
 
-/// A digit's price: five modes of the cone r 12.5 to 33 mm, each solver at the same accuracy.
+/// The cost of a digit: five modes of the cone r 12.5 to 33 mm, each solver at the same accuracy.
 fn prices() {
     let cone = bundled_bat("meshes/cone.json").unwrap();
     let exact = solve(&cone, &Request { modes: 5, tolerance: 1e-13, ..Request::plain() }).unwrap();

@@ -21,7 +21,7 @@ use sweetspot_proof::bundled::bundled_bat;
 const BATS: usize = 10_000;
 const TURNS: usize = 15;
 
-/// Even numbers between two.
+/// Evenly distributed numbers between two bounds.
 fn uniform() -> impl FnMut(f64, f64) -> f64 {
     let mut state = 0x9e37_79b9_7f4a_7c15_u64;
     move |from: f64, to: f64| {

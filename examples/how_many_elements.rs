@@ -1,4 +1,4 @@
-//! How many elements of which degree does a tolerance need on my bat?
+//! How many elements, and of which degree, does a tolerance need on my bat?
 //!
 //!     cargo run --release --example how_many_elements [-- BAT.json]
 //!
@@ -11,7 +11,7 @@ use sweetspot::{Bat, Request, Result, Solution, solve};
 
 /// Five modes, the number that a bat maker needs.
 const MODES: usize = 5;
-/// A stated error may be that many times too small, never more.
+/// A stated error may be too small by this factor, but not more.
 const PROMISE: f64 = 3.0;
 
 /// The largest relative difference of a frequency from the reference's.

@@ -1,8 +1,8 @@
 //! How does a damped string move when it is struck at a quarter of its length?
 //!
-//! The worked example of the WPI report, chapter 3 (Eqs 3-1 to 3-8), on the code that rings bats:
-//! a string of length `l`, tension `T`, line mass `ρ`, with damping `c` per length, at rest until
-//! an impulse `J` at `a = l/4`.
+//! The worked example of the WPI report, chapter 3 (Eqs 3-1 to 3-8), with the code that computes the vibration of bats:
+//! a string of length `l`, tension `T`, line mass `ρ`, with damping `c` per length, at rest until an impulse `J` at `a
+//! = l/4`.
 //!
 //! ```text
 //! ρ ÿ + c ẏ = T y″                       φ_n = sin(nπx/l),  m_n = ρl/2
@@ -10,8 +10,8 @@
 //! ```
 //!
 //! The report prints `ζ = (c/2) m ω` and later `c/2`; `c/(2 m ω_n)` is the right one. The sum has a
-//! closed form, two damped fronts that run to both ends and come back upside down, and the program
-//! checks itself against it.
+//! closed form, two damped fronts that run to both ends and are reflected with the opposite sign, and the program
+//! compares its results with it.
 
 #[path = "wpi_report/sums.rs"]
 mod sums;
@@ -41,7 +41,7 @@ impl DampedString {
         (self.tension / self.line_mass).sqrt()
     }
 
-    /// Mode `n` from 1 in time; `c l/2` is its modal damping as `ρ l/2` is its modal mass.
+    /// The motion of mode `n`, counted from 1. Its modal damping is `c l/2`, just as its modal mass is `ρ l/2`.
     pub fn mode(&self, n: usize) -> Oscillator {
         let omega = n as f64 * PI / self.length * self.wave_speed();
         let damping_ratio = self.damping / (2.0 * self.line_mass * omega);
@@ -101,7 +101,7 @@ fn bessel_i0(x: f64) -> f64 {
     sum
 }
 
-/// A guitar's low string, damped so that its first mode loses nearly a half in a period.
+/// The low string of a guitar, damped so that its first mode loses nearly half of its amplitude in a period.
 pub fn example() -> DampedString {
     let (length, tension, line_mass) = (0.65, 80.0, 6.8e-3);
     let undamped = DampedString { length, tension, line_mass, damping: 0.0 };

@@ -85,8 +85,9 @@
 //! ```
 //!
 //! A hit near the nodes of the first modes excites the least vibration. Towards the tip the barrel moves faster, but
-//! less mass stands behind the ball. The exit speed is highest where these three effects balance. `examples/` answers
-//! longer questions, `docs/theory.md` has all equations, and the `sweetspot` program does all of this from a bat file.
+//! the bat's effective mass is smaller. The exit speed is highest where these three effects balance. `examples/`
+//! answers longer questions, `docs/theory.md` has all equations, and the `sweetspot` program does all of this from a
+//! bat file.
 //!
 //! # The chapters, in the order of the flow
 //!
@@ -117,14 +118,14 @@
 //!
 //! - Quantities inside the library are in SI. A bare number in a file is SI, a string carries its unit, and a key that
 //!   is written out names its unit (`frequency_hz`).
-//! - `x` runs from the knob end to the tip. An angle is positive where the tip goes ahead.
+//! - `x` runs from the knob end to the tip. A rotation is positive where the tip moves ahead.
 //! - Modes are scaled to a largest |φ| of 1, positive at the barrel end ([`Mode`]), and `modal_mass` belongs to that
-//!   scale. The batch and the solver scale their inner vectors otherwise, as they say.
+//!   scale. The batch and the solver scale their internal vectors differently; their comments say how.
 //! - Orders count bending modes only, from 1. The number of rigid modes is given beside them.
 //! - The bat swings in the direction +. The ball comes in − and leaves in +. A ball speed that a user gives is positive
 //!   towards the bat. A pivot beyond the knob is positive.
-//! - Inertias are those of the body and include the sections' `∫ρI dx`. A theory without rotary inertia recoils as a
-//!   line of mass and reports that (`sweetspot_study::ignored`).
+//! - Inertias are those of the body and include the sections' `∫ρI dx`. In a theory without rotary inertia the bat
+//!   recoils as a line of mass, and the answer reports that (`sweetspot_study::ignored`).
 //! - A missing value is `None`, and null in a file. No result is NaN or infinite.
 //!
 //! # Symbols
@@ -170,7 +171,7 @@
 //!
 //! # What is left out
 //!
-//! Sections of the beam stay round and plane. The hoop modes of a hollow barrel are no modes of the beam: hits count
+//! Sections of the beam stay round and plane. The hoop modes of a hollow barrel are not modes of the beam: hits count
 //! them separately ([`collision::hoop_wall`]). Wood that differs across the grain is not modelled. Every solution
 //! estimates and reports what its theory leaves out on this bat (`sweetspot_study::ignored`), and
 //! `sweetspot_study::advise` measures what each part of a model does. A hit counts dashpots mode by mode
@@ -179,9 +180,9 @@
 //! # Features
 //!
 //! `parallel`: work on all processors. `schema`: JSON schemas of bat and ball files. `descriptors`: writing to an
-//! open descriptor where it stands (Linux). `arpack`: the solver ARPACK as an outside referee; it needs a C compiler
-//! and the library. With none of them there is the physics and the readers of bats, balls and scenes, which also run
-//! in a browser (`wasm32-unknown-unknown`).
+//! open descriptor at its current position (Linux). `arpack`: the solver ARPACK as an outside referee; it needs a C
+//! compiler and the library. Without features the crate has the physics and the readers of bats, balls and scenes,
+//! which also run in a browser (`wasm32-unknown-unknown`).
 
 #![warn(missing_docs)]
 // Only `eigen::arpack`, which calls C, may ask for an exception.

@@ -25,7 +25,7 @@ fn the_frequency_error_of_a_dowel_is_the_one_theory_predicts() {
         for mode in &solve(&dowel(), &on(elements, 10)).unwrap().modes {
             let step = beta(mode.order) / elements as f64;
             let predicted = step.powi(4) / 1440.0;
-            // Below, the ratio is lost in the round-off of both frequencies.
+            // Below it, round-off of both frequencies dominates the ratio.
             if step > 0.5 || predicted < 1e-11 {
                 continue;
             }
@@ -125,7 +125,7 @@ fn the_true_error_is_within_three_times_the_stated_one() {
         for mode in &solution.modes {
             let truth = (mode.frequency() / dowel_frequency(mode.order) - 1.0).abs();
             let stated = mode.error.total();
-            // Our own "exact" frequency is good to about 1e-15.
+            // Our own "exact" frequency is accurate to about 1e-15.
             assert!(truth <= 3.0 * stated + 1e-15, "{tolerance:e}: {truth:e} {stated:e}");
             assert!(stated <= tolerance, "{tolerance:e}: {stated:e}");
             if truth > 1e-13 {
@@ -228,7 +228,7 @@ fn a_budget_gives_the_best_answer_that_fits() {
     }
 }
 
-/// What the planner may choose from, all degrees reach a tolerance, each on its own mesh.
+/// All degrees that the planner can choose reach a tolerance, each on its own mesh.
 #[test]
 fn every_degree_keeps_the_promise() {
     let truth = Truth::of_cases(&["cone_1_2p64_60"]).unwrap();
@@ -246,8 +246,8 @@ fn every_degree_keeps_the_promise() {
     }
 }
 
-/// The highest of the wanted modes may be one of a pair, its twin not asked for: pairs of the
-/// dumbbell are down to 5e-5 apart. Reference are 20 modes to ten or eleven digits.
+/// The highest requested mode may be one of a pair whose other mode is not requested: pairs of the dumbbell are down to
+/// 5e-5 apart. The reference is 20 modes to ten or eleven digits.
 #[test]
 fn a_mode_is_the_same_within_its_errors_however_many_are_asked_for() {
     for name in ["dumbbell", "r161", "torpedo", "house", "northwestern_aluminium", "cone"] {
@@ -277,7 +277,7 @@ fn a_mode_is_the_same_within_its_errors_however_many_are_asked_for() {
                     own.total() + other.total(),
                 );
                 within("mass", mass, own.modal_mass + other.modal_mass);
-                // Every node is listed, or lies where it is said that nodes cannot be told.
+                // Every node is listed, or is in a stretch in which, by the answer, nodes cannot be located.
                 let known = own.nodes + other.nodes;
                 let untold = |x: f64, of: &Mode| {
                     of.untold.iter().any(|[a, b]| *a - known <= x && x <= *b + known)

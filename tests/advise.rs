@@ -1,4 +1,4 @@
-//! The advisor: effects against exact ones, their signs, and a smallest model that really will do.
+//! The advisor: effects compared with exact ones, their signs, and a smallest model that is indeed sufficient.
 
 use crate::common;
 
@@ -79,7 +79,7 @@ fn what_a_bat_does_not_have_has_no_row() {
     let theory = [Switch::RotaryInertia, Switch::Shear, Switch::Theory];
     let r161 = bundled_bat("meshes/r161.json").unwrap();
     assert_eq!(switches(&advise(&r161, 3, 1e-2).unwrap()), theory);
-    // Springs without stiffness and weights without mass are none.
+    // Springs without stiffness and weights without mass are ignored.
     let nothing = json!({ "attachments": [{ "x": 0.5, "mass": 0, "stiffness": 0 }],
         "grip": { "from": 0, "to": 0.1, "damping": 300 } });
     let advice = advise(&dowel("timo_dowel", nothing), 3, 1e-2).unwrap();
@@ -88,7 +88,7 @@ fn what_a_bat_does_not_have_has_no_row() {
     let weight = json!({ "attachments": [{ "x": 0.5, "mass": 0.1 }] });
     let advice = advise(&dowel("timo_dowel", weight), 3, 1e-2).unwrap();
     assert_eq!(switches(&advice)[3..], [Switch::Part(ModelPart::Weights)]);
-    // Shear that is not known is estimated and in no model.
+    // Unknown shear is estimated, and no model includes it.
     let unknown = advise(&bundled_bat("meshes/dowel.json").unwrap(), 3, 1e-2).unwrap();
     assert_eq!(switches(&unknown), [Switch::RotaryInertia, Switch::TypicalShear]);
     assert_eq!(unknown.full_model.solved.model.theory, Theory::Rayleigh);
@@ -96,7 +96,7 @@ fn what_a_bat_does_not_have_has_no_row() {
     assert_eq!(advice.unknown_shear(), None);
 }
 
-/// Everything at once: every kind has a row, in one order, and those attached together one more.
+/// Everything at once: every kind has a row, in a fixed order, and the attached parts together have one more.
 #[test]
 fn everything_on_a_bat_has_its_row_and_its_sign() {
     let region = json!({ "from": 0.5, "to": 0.7, "material": { "density": 800,
@@ -147,8 +147,8 @@ fn everything_on_a_bat_has_its_row_and_its_sign() {
         let shifts = row(&advice, switch).shift_by_mode.as_ref().unwrap();
         assert!(shifts.iter().all(|shift| *shift < 0.0), "{switch:?}");
     }
-    // Without its clamp the bat turns on spring and bed: other modes altogether? No: as few rigid
-    // motions are free, and the clamp only stiffens.
+    // Without its clamp the bat rotates on spring and bed. The modes are still the same ones: the number of rigid
+    // motions does not change, and the clamp only stiffens.
     let clamp = row(&advice, Switch::Part(ModelPart::Supports));
     assert_eq!(clamp.without.solution.rigid_modes, 0);
     assert!(clamp.shift_by_mode.as_ref().unwrap().iter().all(|shift| *shift > 0.0));
@@ -186,7 +186,7 @@ fn one_mass_and_one_spring_move_a_frequency_at_most_to_its_neighbour() {
     }
 }
 
-/// Hands, a support and a slow absorber make other modes: both lists are given, and no shift.
+/// With hands, a support and a slow absorber the modes are different ones: both lists are given, but no shift.
 #[test]
 fn modes_of_a_bat_held_otherwise_are_not_paired() {
     let (grip, exact) = case("grip_bed");
@@ -218,7 +218,7 @@ fn modes_of_a_bat_held_otherwise_are_not_paired() {
     }
 }
 
-/// Solved anew and apart from the advisor; no model with fewer switches is within the tolerance.
+/// Solved separately from the advisor; no model with fewer switches is within the tolerance.
 #[test]
 fn the_smallest_model_is_within_the_tolerance_and_no_smaller_one_is() {
     let r161 = bundled_bat("meshes/r161.json").unwrap();
@@ -249,8 +249,8 @@ fn the_smallest_model_is_within_the_tolerance_and_no_smaller_one_is() {
     assert_eq!(chosen, [full, turning, plain, plain, full, full, full, plain]);
 }
 
-/// A weight too small to matter goes, one that matters stays; and the tolerance is kept by the
-/// model as a whole, not by each part alone.
+/// A weight without a relevant effect is omitted, another one is kept; and the model as a whole is within the
+/// tolerance, not only each part.
 #[test]
 fn parts_that_do_not_matter_go_and_those_that_do_stay() {
     let tape = json!({ "attachments": [{ "x": 0.1, "mass": 1e-4 }] });
@@ -261,8 +261,8 @@ fn parts_that_do_not_matter_go_and_those_that_do_stay() {
     let advice = advise(&dowel("timo_dowel", doughnut), 3, 1e-3).unwrap();
     assert_eq!(advice.smallest_model.left_out, ["joints"]);
     assert_eq!(advice.smallest_model.solved.model.parts, [ModelPart::Weights]);
-    // Rotary inertia lowers mode 3 by 1.5 % and the weight by about as much; both are too much for
-    // 2 % though each is not.
+    // Rotary inertia lowers mode 3 by 1.5 % and the weight by about as much; both together exceed 2 %, each alone does
+    // not.
     let weight = json!({ "attachments": [{ "x": 0.8, "mass": 0.012 }] });
     let bat = dowel("rayleigh_dowel", weight);
     let advice = advise(&bat, 3, 0.02).unwrap();
@@ -287,14 +287,14 @@ fn without_its_regions_a_bat_is_of_its_own_material() {
         let [shift, _] = effect.shift(k).unwrap();
         assert!((exact[k] / mode.frequency() - 1.0 - shift).abs() < 1e-9);
     }
-    // A core whose shear is not known keeps it out of the whole, not of what is left.
+    // With a core of unknown shear, the whole model has no shear; the models without the core have it.
     let unknown = json!({ "regions": [{ "from": 0.4, "to": 0.5,
         "material": { "density": 700, "youngs_modulus": 14e9 } }] });
     let advice = advise(&dowel("timo_dowel", unknown), 3, 0.9).unwrap();
     assert_eq!(advice.full_model.solved.model.theory, Theory::Rayleigh);
     let effect = row(&advice, Switch::Part(ModelPart::Materials));
     assert_eq!(effect.without.model.theory, Theory::Rayleigh);
-    // And the other way: the bat's own is not known, that of all its regions is.
+    // The reverse: the shear modulus of the bat is unknown, those of all its regions are known.
     let known = json!({ "material": { "density": 700, "youngs_modulus": 14e9 },
         "regions": [{ "from": 0, "to": 0.8382, "material": {
             "density": 700, "youngs_modulus": 14e9, "shear_modulus": 1e9 } }] });

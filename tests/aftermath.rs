@@ -50,7 +50,7 @@ fn the_bat_goes_on_as_the_hit_left_it() {
         let (from, to) = (1.0, 21.0);
         let ends = after.at(&[from, to]);
         let [start, end] = [&ends[0], &ends[1]].map(|now| after.motion(hands, now)[0]);
-        // The ringing adds some mm to some tens of metres.
+        // The vibration adds some millimetres to some tens of metres.
         assert!(((end - start) / (to - from) - drift).abs() < 2e-3, "{x} {drift}");
     }
 }
@@ -90,8 +90,8 @@ fn the_handle_hears_of_the_hit_after_half_a_millisecond() {
     assert!(begins > 0.4e-3 && begins < 0.65e-3, "{begins}");
 }
 
-/// A slow push bends the bat statically: with the inertia forces in equilibrium with it, the bending moment under a
-/// force F at a of a uniform free bar is known in closed form, and `ε = r M/EI`.
+/// A slow push bends the bat statically. With the inertia forces in equilibrium with the push, the bending moment under
+/// a force F at a of a uniform free bar is known in closed form, and `ε = r M/EI`.
 #[test]
 fn a_slow_push_strains_as_statics_says() {
     use sweetspot::collision::contact::table::Piece;

@@ -98,7 +98,7 @@ fn along(old: &Bat, new: &Bat) -> [f64; 4] {
     let at = |bat: &Bat, x: f64| 2.0 * bat.profile().at(x.clamp(0.0, bat.length())).outer;
     let mut found = [f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::NEG_INFINITY];
     for x in places {
-        // Near a step the two may be read on its two sides.
+        // Near a step the two may be read on different sides of it.
         let steps = [old, new].map(|bat| (at(bat, x - 1e-12) - at(bat, x + 1e-12)).abs() > 1e-6);
         let (more, across) = (at(new, x) - at(old, x), at(new, x));
         if !steps.contains(&true) {
@@ -558,7 +558,7 @@ fn a_barrel_that_rules_forbid_is_warned_of() {
     assert!(text.contains("wood added"), "{text}");
 }
 
-/// A drop is the trade's: three ounces fewer than inches make a lighter bat, and tables have its sign.
+/// A drop is written as in the trade: three ounces fewer than inches is −3, a lighter bat, and tables have this sign.
 #[test]
 fn a_drop_of_three_is_lighter() {
     let folder = Folder::new("aim-drop");

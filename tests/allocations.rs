@@ -22,7 +22,7 @@ fn ten_times_the_bats_take_no_more_allocations() {
             let job = || each(bats, &request, way, |_, found| assert!(found.is_ok()));
             allocation_counter::measure(job).count_total
         };
-        // The first batch makes the quadrature rules, once for all.
+        // The first batch computes the quadrature rules, which are then kept.
         count(&bats[..32]);
         let (few, many) = (count(&bats[..32]), count(&bats));
         assert_eq!(few, many, "{way:?}");

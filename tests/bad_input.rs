@@ -214,7 +214,7 @@ fn mistakes_that_fill_no_line_of_the_table_are_answered() {
     }
     folder.write("bat.json", BAT.replace(PROFILE, r#"{ "csv": "table.csv" }"#));
     folder.write("table.csv", b"x,radius\n0,1\n1,\xff\n");
-    // A table that is no UTF-8 is that of a western spreadsheet.
+    // A table that is not UTF-8 is read in the code page of western spreadsheets.
     let said = in_lines(&folder.run(&["modes", "bat.json"]).stderr);
     let found = said.contains("table.csv:3:3: radius: found \"ÿ\"") && said.contains("finite");
     assert!(found, "{said}");
@@ -330,7 +330,7 @@ fn what_is_on_a_bat_is_in_its_mass_balance_and_inertia() {
         folder.write("bat.json", text);
         let run = ["modes", "bat.json", "--modes", "0", "--json", "-"];
         let (document, told) = accepted(&folder, &run);
-        // A scale that differs much from the mass by the densities of the file causes a remark, and nothing else does.
+        // A remark is caused only by a weighed mass that differs much from the mass by the densities in the file.
         let told_of =
             ["\"mass\": \"1 kg\", \"balance_point\"", "\"weighed\": { \"mass\": 1 }, \"regions\""];
         let far = text.contains("\"density\": 700") && told_of.iter().any(|of| text.contains(of));
@@ -369,7 +369,7 @@ fn what_is_on_a_bat_is_in_its_mass_balance_and_inertia() {
         let hung = format!(r#""absorbers": [{{ "x": 0.75, "mass": 0.1, {spring} }}]"#);
         is(with(&hung), [heavier[0], heavier[1], heavier[2] - 1e-4]);
     }
-    // A scale weighs both; the inertia of the wood goes with its mass.
+    // A scale weighs both; the inertia of the wood is proportional to its mass.
     let weighed = r#""weighed": { "mass": "1 kg", "balance_point": 0.435, "first_bending_hz": 300 },
         "attachments": [{ "x": 0.75, "mass": 0.1 }]"#;
     is(with(weighed), [1.0, 0.4 + m * d, inertia * 0.9 / mass + 0.9 * m * d * d]);
@@ -410,7 +410,7 @@ fn unusual_but_right_options_are_taken() {
     let (coarse, told) = accepted(&folder, &two);
     let coarse = frequencies(&coarse["modes"]);
     assert_eq!((coarse.len(), told.as_str()), (2, ""));
-    // Fewer ways to bend are stiffer ones.
+    // A theory with fewer ways to deform is stiffer.
     assert!(coarse.iter().zip(frequencies(&fine)).all(|(coarse, fine)| *coarse > fine));
     let hit = |more: &[&str]| {
         let args = [&["hit", "bat.json", "--json", "-"][..], more].concat();
@@ -441,8 +441,8 @@ fn unusual_but_right_options_are_taken() {
         assert!((swing.as_f64().unwrap() * radius / 31.0 - 1.0).abs() < 1e-14, "{more:?}");
     }
     assert_eq!(hit(&["--cor", "1"])["scene"]["cor"], 1.0);
-    // A ball that gives nothing back stays on the bat and may be met again and again: what is not known
-    // to the tolerance then is said. Of many places less would be known: the work is bounded.
+    // A ball without restitution stays on the bat and may be hit again and again: values that do not reach the
+    // tolerance are named. For many places even fewer would reach it, because the work is bounded.
     let dead = ["hit", "bat.json", "--json", "-", "--cor", "0", "--points", "9"];
     let dead = folder.run(&dead);
     let told = String::from_utf8(dead.stderr).unwrap();
@@ -469,7 +469,7 @@ fn unusual_but_right_options_are_taken() {
     assert_eq!(hit(&["--ball", "ball.json", "--model", "rigid"])["scene"]["ball"]["cor"], 0.0);
 }
 
-/// A run that falls short of what was asked: exit code 3, one line that says why, and an answer.
+/// A run that does not reach the requested accuracy: exit code 3, one line with the reason, and an answer.
 fn falls_short(folder: &Folder, args: &[&str], says: &[&str]) -> Value {
     let output = folder.run(&[args, &["--json", "-"]].concat());
     let told = but_shear(&String::from_utf8(output.stderr).unwrap());
@@ -501,7 +501,7 @@ fn an_answer_that_falls_short_is_given_with_the_reason() {
     rising(&falls_short(&folder, &many, &says), 400);
 }
 
-/// By default, where shear would matter and is not known, and only there.
+/// By default, if shear has an effect and is unknown, and only then.
 #[test]
 fn a_missing_shear_modulus_is_told() {
     let folder = Folder::new("shear");

@@ -1,4 +1,4 @@
-//! A ball's law of one's own: a type with [`ForceLaw`], and one line in the ball that has it.
+//! A user's own law of a ball: a type with [`ForceLaw`], and one line in the ball that uses it.
 
 use std::f64::consts::PI;
 
@@ -76,8 +76,8 @@ fn a_ball_with_a_law_of_its_own_is_hit_like_any_other() {
     }
 }
 
-/// A ball that is stiffer the faster it is met: at each place it is hit as a ball is that always has the stiffness
-/// which that place's speed gives it, `v² = μ u²/m` on a rigid wall.
+/// A ball whose stiffness increases with the speed: at each place the hit equals that of a ball with the fixed
+/// stiffness that belongs to the speed there, `v² = μ u²/m` on a rigid wall.
 #[test]
 fn a_law_may_depend_on_the_speed_of_the_hit() {
     const BY_SPEED: fn(f64) -> f64 = |speed| 1e6 + 5e4 * speed;

@@ -264,7 +264,7 @@ fn broken_bats_are_refused_by_both() {
     broken(&formulas, "/weighed", "mass", Value::Null);
     broken(&formulas, "/weighed", "first_bending_hz", Value::Null);
     broken(&formulas, "/profile/pieces/0", "formula", Value::Null);
-    // One too many.
+    // An additional member.
     let column = json!([1, 2, 3]);
     for (path, key) in
         [("/profile", "radius"), ("/profile", "inner_radius"), ("/profile", "inner_diameter")]
@@ -280,7 +280,7 @@ fn broken_bats_are_refused_by_both() {
     broken(&formulas, "/profile", "interpolation", json!("linear"));
     broken(&formulas, "", "regions", json!([]));
     broken(&formulas, "/material", "shear_modulus", json!(1e9));
-    // Another version, another word, a number without its unit.
+    // Another version, another word, a number without a unit.
     broken(&full, "", "format", json!("sweetspot-bat/2"));
     broken(&full, "", "format", json!("sweetspot-modes/1"));
     broken(&full, "", "material", json!("oak"));
@@ -402,7 +402,7 @@ fn every_bound_of_the_schema_is_the_readers() {
     let (schema, validator) = (of::<BatFile>(), validator());
     let mut tried = 0;
     let mut agree = |bat: &Value, path: &str, value: f64, right: bool| {
-        // A member that the bat has not, in place of the other one.
+        // A member that the bat does not have, in place of the other one.
         let mut changed = bat.clone();
         let (parent, key) = path.rsplit_once('/').unwrap();
         let parent = changed.pointer_mut(parent).unwrap();

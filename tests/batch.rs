@@ -1,4 +1,4 @@
-//! Many bats at once are the same bats.
+//! Many bats solved at once have the same results as each alone.
 
 use crate::common;
 
@@ -121,7 +121,7 @@ fn varied(count: usize, weight: f64) -> Vec<Bat> {
 }
 
 /// By every theory, bare and weighted, with elements over stations and between them: both ways give the same bits, the
-/// company of a bat has no effect, and all results equal those of the bat alone.
+/// other bats of a batch have no effect, and all results equal those of the bat alone.
 #[test]
 fn real_bats_are_the_same_by_every_theory_whoever_is_beside_them() {
     for theory in Theory::ALL {
@@ -208,7 +208,7 @@ fn legendre(n: usize, x: f64) -> Vec<[f64; 3]> {
 
 /// `∫ρA φ_i φ_j dx` and `∫EI φ_i″ φ_j″ dx` of the returned shapes, element by element.
 fn forms(bat: &Bat, found: &Answer, modes: [usize; 2]) -> [f64; 2] {
-    // Exact to the degree 39: on a bat of cubic radii a deflection of degree 10 asks for 28.
+    // Exact to the degree 39: on a bat of cubic radii a deflection of degree 10 needs 28.
     let points = gauss(20);
     let terms = found.degree + 1;
     let elements = found.nodes.len() - 1;

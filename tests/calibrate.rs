@@ -159,7 +159,7 @@ fn c3_mislabelled_lines_are_found_and_relabelled() {
     assert!(identified.told_chi2.unwrap() > 10_000.0, "{:?}", identified.told_chi2);
     assert_eq!(identified.taken, [Some(1), Some(3), Some(4)]);
     near(identified.chi2, 3.7, 0.05);
-    // No wood of this profile has f4 and f5 as far apart as 1187 and 1854.8 Hz, nor f3 and f5 as near.
+    // With this profile no wood has f4 and f5 as far apart as 1187 and 1854.8 Hz, or f3 and f5 as close.
     let (second, chi2) = (identified.second.as_ref().unwrap(), identified.second_chi2.unwrap());
     assert!(second != &identified.taken && chi2 > 53.0, "{second:?} {chi2}");
 }
@@ -179,7 +179,7 @@ fn c4_shares_of_energy_are_the_derivatives_of_the_frequencies() {
     }
 }
 
-/// Standard deviations in per cent that readings leave of E, G, both densities and the ratio of E.
+/// Standard deviations in per cent of E, G, both densities and the ratio of E after the readings.
 #[test]
 fn what_is_determined_is_what_the_readings_can_say() {
     let all = sound();
@@ -365,7 +365,7 @@ fn a_hum_is_a_stranger_and_readings_of_another_bat_do_not_fit() {
     near(found["parameters"][0]["value"].as_f64().unwrap() / 1e9, 18.14, 0.1);
     assert_eq!(found["labels"]["taken"], serde_json::json!([1, 2, 3, null]));
     assert!(found["labels"]["second"].is_array(), "{found}");
-    // No wood has these: most of them are left out, which is no success.
+    // No wood has these frequencies: most of them are left out, and the run is not a success.
     let (found, code) =
         calibrated(r#"{ "hz": 174.51 }, { "hz": 260 }, { "hz": 330 }, { "hz": 395 }"#);
     assert_eq!(code, Some(1), "{found}");
@@ -393,7 +393,8 @@ fn a_wrong_label_is_named_with_the_one_that_fits() {
     assert_eq!(output.status.code(), Some(2));
 }
 
-/// One tone of a short thick bar of rosewood (957 Hz): G is unknown, and E depends on it, further up than down.
+/// One tone of a short thick bar of rosewood (957 Hz): G is unknown and E depends on it, with a larger uncertainty
+/// upwards than downwards.
 #[test]
 fn what_no_tone_tells_widens_what_is_told() {
     let text = r#"{ "format": "sweetspot-bat/1", "material": { "density": 1082, "youngs_modulus": "20 GPa" },

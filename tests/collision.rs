@@ -1,4 +1,4 @@
-//! The hit on whole bats: the rigid limit, the ledger, and the WPI report's own dowel.
+//! The hit on whole bats: the rigid limit, the energy ledger, and the dowel of the WPI report.
 
 use sweetspot::collision::ball::Ball;
 use sweetspot::collision::energy_loss::EnergyLoss;

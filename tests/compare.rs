@@ -1,4 +1,4 @@
-//! Bats side by side: differences that are known, and errors that hold.
+//! Comparison of bats: known differences, and correct stated errors.
 
 use crate::common;
 
@@ -52,7 +52,7 @@ fn a_bat_differs_from_itself_in_nothing() {
     assert!(twice.stretches(1).iter().all(|stretch| stretch.harder.is_none()));
 }
 
-/// With the same E/ρ the frequencies are the same, and mass and inertia go as ρ.
+/// With the same E/ρ the frequencies are the same, and mass and inertia are proportional to ρ.
 #[test]
 fn a_denser_bat_is_heavier_by_as_much_and_rings_the_same() {
     let light = cone(0.0125, 0.033);
@@ -91,7 +91,7 @@ fn a_longer_bat_is_compared_from_both_ends() {
     assert!((ratio("mass") / k.powi(3) - 1.0).abs() < 1e-12);
     let length = row(&both, "length").difference(1).unwrap();
     assert!((length.by - 0.04).abs() < 1e-15 && length.beyond_errors);
-    // From the knob end only where both have a place.
+    // From the knob end, only places that both bats have.
     let [first, last] = [both.from_knob[0], both.from_knob[both.from_knob.len() - 1]];
     assert!(first >= k * 0.8 - 0.4 * 0.8 && last <= 0.8);
     assert!(both.by_knob.iter().all(|row| row.values.iter().all(Option::is_some)));
@@ -329,7 +329,8 @@ fn differences_stand_beside_what_two_pieces_of_one_wood_differ_by() {
     assert!(page.contains("two pieces of one wood") && !page.contains("more than the errors"));
 }
 
-/// A relative change of the density by 10 % is one of the mass, and the difference of two pieces is √2 as large.
+/// A relative change of the density by 10 % is the same change of the mass, and the difference of two pieces is √2
+/// times as large.
 #[test]
 fn two_pieces_of_one_model_differ_in_mass_by_the_root_of_two_times_the_scatter() {
     let ash = sweetspot::Bat::from_text(
@@ -342,7 +343,7 @@ fn two_pieces_of_one_model_differ_in_mass_by_the_root_of_two_times_the_scatter()
     let two = compare(&[ash.clone(), ash.clone()], 1e-4);
     let mass = two.figure("mass", 1).unwrap().between_pieces.unwrap();
     let expected = 2.0_f64.sqrt() * 0.1 * ash.inertia().mass;
-    // Central differences over a step of 5 % of the logarithm: right to its square over 6.
+    // Central differences over a step of 5 % of the logarithm: accurate to its square over 6.
     assert!((mass / expected - 1.0).abs() < 5e-4, "{mass} {expected}");
     assert!(two.figure("best_exit_speed", 1).unwrap().between_pieces.unwrap() > 0.5);
     assert_eq!(two.figure("length", 1).unwrap().between_pieces, None);

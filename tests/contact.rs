@@ -105,8 +105,8 @@ fn energy_and_both_momenta_are_kept_everywhere() {
     }
 }
 
-/// Without modes the ball leaves as from a stiff bat; on one that is a million times as stiff it
-/// does too, but for the bending that is left.
+/// Without modes the ball leaves as from a stiff bat. The same holds on a bat that is a million times as stiff, except
+/// for the remaining bending.
 #[test]
 fn stiff_bats_are_rigid() {
     let bat = bundled_bat("meshes/cone.json").unwrap();
@@ -132,8 +132,8 @@ fn stiff_bats_are_rigid() {
     }
 }
 
-/// Who looks at it from a train sees the same blow, and a turn of the swing about another point
-/// with the same speed there too.
+/// The hit is the same in a moving frame of reference, and for a swing about another point with the same speed at the
+/// impact point.
 #[test]
 fn only_the_closing_speed_counts() {
     let bat = bundled_bat("meshes/r161.json").unwrap();
@@ -154,8 +154,8 @@ fn only_the_closing_speed_counts() {
     }
 }
 
-/// The largest exit speeds of 15 modes and nothing else by Taylor series, once the ball is gone for
-/// good (`search/hits/hits.py --peaks`): the place over the length, and the speed there (m/s).
+/// The largest exit speeds with 15 modes alone, by Taylor series, after the last contact (`search/hits/hits.py
+/// --peaks`): the place over the length, and the speed there (m/s).
 #[test]
 fn the_sweet_spots_are_those_of_an_independent_calculation() {
     for (file, known) in [
@@ -204,7 +204,7 @@ fn the_pulse_has_its_known_sweet_spots() {
     }
 }
 
-/// A mode that is at rest where the ball hits takes nothing, however many times it is there.
+/// A mode with a node at the impact point takes no energy, even if it is given several times.
 #[test]
 fn a_mode_at_its_node_adds_nothing() {
     let bat = bundled_bat("meshes/dowel.json").unwrap();
@@ -291,9 +291,10 @@ fn the_flexibility_under_the_ball_is_that_of_statics() {
     }
 }
 
-/// Balls that leave before the bat's slower modes have moved: as many modes are taken as are quick beside the
-/// contact, and what is stated holds. Exit speeds by an independent integration (DOP853, double and long double, 40
-/// modes and more): two are off by 1.6e-3 of the closing speed with ten modes, the third was given up.
+/// Balls that leave before the slower modes of the bat have moved: enough modes are used to include those that are fast
+/// compared with the contact, and the stated errors are correct. Exit speeds by an independent integration (DOP853,
+/// double and long double, 40 modes and more): with ten modes two are wrong by 1.6e-3 of the closing speed, and the
+/// third is not computed.
 #[test]
 fn a_stiff_ball_meets_as_many_modes_as_are_quick_beside_its_contact() {
     let heavy = r#"{ "format": "sweetspot-bat/1", "name": "heavy", "material": { "density": 2700,
@@ -325,9 +326,9 @@ fn a_stiff_ball_meets_as_many_modes_as_are_quick_beside_its_contact() {
     }
 }
 
-/// A ball that the bat's vibration hits again everywhere would take seconds: the work is bounded, which is said of the
-/// exit speeds and of the places tried, and what is stated holds against hits that were given all the work they need.
-/// A usual ball is nowhere near the bound.
+/// A ball that the vibration of the bat hits again at every place would take seconds, so the work is bounded. The
+/// output says so for the exit speeds and for the places tried, and the stated errors are correct compared with hits
+/// without the bound. A usual ball is far from the bound.
 #[test]
 fn a_hit_that_takes_too_much_work_stops_and_says_so() {
     let bat = bundled_bat("meshes/r161.json").unwrap();
@@ -362,8 +363,8 @@ fn a_hit_that_takes_too_much_work_stops_and_says_so() {
     }
 }
 
-/// Where springs or clamps hold a bat, the errors of its slow modes may hide what all further ones do to a hit: the
-/// stated error has it.
+/// On a bat held by springs or clamps, the errors of the slow modes may hide the effect of all further modes on a hit;
+/// the stated error includes this effect.
 #[test]
 fn exit_speeds_of_held_bats_are_within_their_stated_errors() {
     let text =

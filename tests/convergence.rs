@@ -1,9 +1,9 @@
-//! Elements of degree p gain `2(p − 1)` powers of their number, station or not.
+//! The error of elements of degree p falls as the power `2(p − 1)` of their number, also over stations.
 
 use sweetspot::{Request, solve};
 use sweetspot_proof::validation::Truth;
 
-/// Errors above are before the asymptote; within 30 times the round-off they are not the mesh's.
+/// Larger errors are not asymptotic yet; those below 30 times the round-off are not due to the mesh.
 const LARGEST: f64 = 1e-5;
 
 /// A mode with errors within the range on several meshes. The errors of the lowest modes fall from 1e-5 to round-off
@@ -38,7 +38,7 @@ fn errors(truth: &Truth, degree: usize, counts: &[usize], modes: &[usize]) -> Ve
     errors
 }
 
-/// The order that a line of least squares through the points has.
+/// The order by a straight line of least squares through the points.
 fn order(points: &[[f64; 2]]) -> f64 {
     let mean = |i: usize| points.iter().map(|p| p[i]).sum::<f64>() / points.len() as f64;
     let (x, y) = (mean(0), mean(1));
@@ -97,7 +97,7 @@ fn high_degrees_gain_as_much_on_few_elements_of_a_dowel() {
     }
 }
 
-/// On a tapered bat round-off comes before the asymptote, the sooner the higher the degree.
+/// On a tapered bat round-off is reached before the asymptote, the earlier the higher the degree.
 #[test]
 fn high_degrees_gain_nearly_as_much_on_few_elements_of_a_cone() {
     for (degree, within) in [(6, 0.08), (7, 0.15), (8, 0.23)] {

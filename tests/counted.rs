@@ -1,4 +1,4 @@
-//! How many motions are slower than a frequency, where the frequencies have closed forms.
+//! The number of motions below a frequency, for bats whose frequencies have closed forms.
 
 use crate::common;
 
@@ -88,8 +88,8 @@ fn a_heavy_end_counts_as_a_clamp_and_two_rigid_motions() {
     assert_steps(&bat, 2, |n| omega(ClampedFree, n));
 }
 
-/// Springs that are stiff beyond measure are supports; a joint without a spring to speak of in the
-/// middle of a pinned dowel leaves the odd modes' halves, each pinned at both ends.
+/// Extremely stiff springs are supports; an extremely soft joint in the middle of a pinned dowel leaves the halves of
+/// the odd modes, each pinned at both ends.
 #[test]
 fn springs_and_joints_count_as_their_limits() {
     let spring = |x| Attachment { x, stiffness: 1e15, ..Attachment::default() };

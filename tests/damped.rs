@@ -348,7 +348,7 @@ fn the_elastic_response_at_0_hz_is_the_static_deflection() {
         close(frf.static_compliance());
         close(frf.strained(0.0).re);
         assert_eq!(frf.strained(0.0).im, 0.0);
-        // And the modes' own shares approach it, from below where a point answers itself.
+        // The sum of the modes approaches it, from below if the response is at the forced point.
         let share: f64 = solve(bat, &request(60, theory))
             .unwrap()
             .modes
@@ -458,7 +458,7 @@ fn loss_factors_are_weighted_with_strain_energies() {
     let joined = dowel(Fixtures { joints: vec![joint], ..Fixtures::default() }, 0.03);
     let held = ratios(&joined, Theory::Timoshenko);
     assert!(held.iter().all(|ratio| *ratio < 0.015) && held.iter().any(|ratio| *ratio < 0.012));
-    // Half of the dowel loses, with half of every mode's energy.
+    // Half of the dowel has losses, and half of the energy of every mode.
     let lossy =
         Material { loss_factor: 0.08, ..dowel(Fixtures::default(), 0.0).material().clone() };
     let half = Region { from: 0.0, to: 0.5 * LENGTH, layup: Layup::of(lossy.clone()) };
@@ -466,7 +466,7 @@ fn loss_factors_are_weighted_with_strain_energies() {
     for theory in Theory::ALL {
         all(ratios(&dowel(half.clone(), 0.0), theory), 0.02);
     }
-    // A core that loses: its share of EI, the same of every mode of a beam that does not shear.
+    // A core with losses: its share of EI, the same for every mode of a beam without shear.
     let stations = Stations {
         x: vec![0.0, LENGTH],
         outer: vec![RADIUS; 2],
@@ -531,7 +531,7 @@ fn a_loss_in_shear_meets_the_strain_energy_of_shear_alone() {
     }
 }
 
-/// Dashpots too weak to matter leave the modes unchanged, and the answer says so.
+/// Negligible dashpots leave the modes unchanged, and the answer says so.
 #[test]
 fn complex_modes_are_used_where_they_matter() {
     let kind = |damping: f64, tolerance: f64| {

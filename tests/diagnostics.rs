@@ -273,11 +273,11 @@ fn nothing_is_told_that_follows_from_another_mistake() {
                 .replace("\"profile\"", "\"weighed\": { \"mass\": \"31\" }, \"profile\""),
             "weighed.mass",
         ),
-        // A misspelt key is missing no more.
+        // A misspelt key is not reported as missing too.
         (GOOD.replace("\"material\"", "\"materail\""), "materail"),
         (GOOD.replace("\"density\"", "\"densty\""), "material.densty"),
         (GOOD.replace("\"x\"", "\"X\""), "profile.X"),
-        // A modulus that could not be read makes no shear modulus.
+        // No shear modulus follows from a modulus that could not be read.
         (GOOD.replace("14e9", "\"14\", \"poisson_ratio\": 0.3"), "material.youngs_modulus"),
     ] {
         let (each, summary) = diagnostics(&of_bat(&folder, &text));
@@ -399,7 +399,7 @@ fn colour_is_for_terminals_or_where_it_is_asked_for() {
     assert!(!plain.contains('\u{1b}'), "{plain:?}");
     let coloured = said(&[("CLICOLOR_FORCE", "1"), ("NO_COLOR", "")]);
     assert!(coloured.contains("\u{1b}["), "{coloured:?}");
-    // The words are the same.
+    // The messages are the same.
     let mut stripped = coloured.clone();
     while let Some(start) = stripped.find("\u{1b}[") {
         let end = start + stripped[start..].find('m').unwrap() + 1;

@@ -1,4 +1,4 @@
-//! The closed forms of a uniform beam, held to the beam equation and to each other.
+//! The closed forms of a uniform beam, compared with the beam equation and with each other.
 
 use sweetspot::beam::dowel::Ends::{self, *};
 use sweetspot::beam::dowel::UniformMode;
@@ -108,7 +108,7 @@ fn largest_is_the_largest_of_many_samples() {
             let mode = UniformMode::new(ends, n);
             let sampled =
                 (0..=10_000).map(|i| mode.deflection(i as f64 / 1e4).abs()).fold(0.0, f64::max);
-            // Half a sample away from the top a wave has lost (b h/2)²/2 of itself.
+            // Half a sample away from its maximum a wave is lower by the share (b h/2)²/2.
             let miss = (mode.beta_l * 0.5e-4).powi(2);
             assert!((mode.largest() - sampled).abs() < miss, "{ends:?} {n}");
         }

@@ -1,4 +1,5 @@
-//! Far beyond any bat every answer is right within its stated error, or refused with the reason.
+//! Even for inputs far outside the range of bats, every answer is correct within its stated error or is refused with
+//! the reason.
 
 use std::collections::HashSet;
 

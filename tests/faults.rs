@@ -206,7 +206,7 @@ fn a_file_in_a_locked_folder_is_overwritten_and_a_new_one_refused() {
     let limit = |size: u32| format!("ulimit -f {size}; {}", line("out"));
     succeeded(&done);
     let whole = folder.read("locked/out");
-    // One that cannot be written whole is put back.
+    // A file that cannot be written completely is restored.
     let long = limit(64).replace("modes bat.json", "modes bat.json --shape-points 5000");
     let told = refused(&bash_of_a_user(&folder, &long));
     fs::set_permissions(&locked, Permissions::from_mode(0o755)).unwrap();
@@ -255,7 +255,7 @@ fn a_limit_on_the_size_of_files_is_an_error_that_leaves_nothing() {
 #[test]
 fn every_signal_that_ends_a_program_leaves_no_part_and_its_number() {
     let folder = folder("signals");
-    // Nobody reads the pipe, so the run waits there for ever.
+    // Nobody reads the pipe, so the run waits forever.
     let made = Command::new("mkfifo").arg(folder.0.join("pipe")).status().unwrap();
     assert!(made.success());
     let before = folder.names();
@@ -420,7 +420,7 @@ fn columns_outside_of_the_folder_are_read_of_a_named_bat_alone_and_said() {
     }
 }
 
-/// A line that no message and no cell may have.
+/// A line that no message and no cell may contain.
 const SECRET: &str = "root:hunter2,17:the secret";
 
 /// A folder with a private file, a pipe, and files that name them in every way.
@@ -483,7 +483,7 @@ fn what_a_file_names_is_read_only_if_it_begins_as_it_should_and_no_word_of_it_is
                 "modes" => "modes in/file.json",
                 verb => &format!("{verb} r161 in/file.json"),
             };
-            // A pipe that is opened is waited on for ever.
+            // Opening a pipe would wait forever.
             let output = bash(&folder, &format!("timeout 20 $S {line} < in/secret.csv"));
             let told = refused(&output);
             let said = told.clone() + &String::from_utf8_lossy(&output.stdout);

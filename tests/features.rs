@@ -218,7 +218,7 @@ fn a_thin_tapered_wall_takes_as_many_elements_as_a_thick_one() {
     }
 }
 
-/// A bat that comes to a point is planned and solved with few elements, however it does so.
+/// A bat with a pointed end is planned and solved with few elements, whatever the form of the point.
 #[test]
 fn a_point_at_an_end_takes_few_elements() {
     for outer in ["0.033*x/0.84", "0.03*sqrt(x)", "0.03*sqrt(1-(x/0.84)^2)", "0.03*(x/0.84)^0.3"] {
@@ -229,8 +229,8 @@ fn a_point_at_an_end_takes_few_elements() {
     }
 }
 
-/// A step of half a millimetre in straight lines: refinement from coarse elements stalls there, and elements for a better
-/// answer do not.
+/// A step of half a millimetre in straight lines: refinement from coarse elements stalls there, whereas elements
+/// planned for a better accuracy do not.
 #[test]
 fn a_short_step_is_solved_to_every_tolerance() {
     let stations = Stations {

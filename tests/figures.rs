@@ -66,7 +66,7 @@ fn sweet_spots_are_the_best_of_their_kind() {
 }
 
 /// With the exponent ½ every bat has the same energy of rotation, with 0 the same
-/// angular speed; a bat as heavy to swing as the reference is swung as fast by every law.
+/// angular speed; a bat with the swing weight of the reference is swung as fast as it by every law.
 #[test]
 fn swing_laws_keep_what_they_say() {
     let (bat, solution) = r161();

@@ -78,8 +78,8 @@ fn parts_evenly(moment: &Moment) {
         let bend = three[0] - 2.0 * three[1] + three[2];
         assert!(bend.abs() < 1.0, "{three:?}");
     }
-    // Seen from the bat as a whole its bending moves neither its mass nor turns it: it is at rest
-    // before the touch, and bends to both sides after it.
+    // In the frame of the bat as a whole, bending neither moves nor rotates its mass: it is at rest before the contact,
+    // and bends to both sides after it.
     assert!(bending_10_um[0].iter().all(|w| *w == 0));
     let all = || bending_10_um[last].iter();
     assert!(all().any(|w| *w > 0) && all().any(|w| *w < 0));

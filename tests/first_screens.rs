@@ -1,4 +1,4 @@
-//! No first screen is more certain than the last.
+//! No first screen is more certain than the full output.
 
 use crate::common;
 
@@ -60,7 +60,7 @@ fn no_first_screen_is_more_certain_than_full_or_hit() {
         }
         let wall = &analysis["hit"]["figures"]["wall"];
         if wall.is_object() {
-            // v = (e_A (v_bat + v_ball) + v_bat), BBCOR = e_A (1 + r) + r: a range of BBCOR is one of the speed.
+            // v = e_A (v_bat + v_ball) + v_bat, BBCOR = e_A (1 + r) + r: a range of BBCOR gives a range of the speed.
             let best = &analysis["hit"]["sweet_spot"]["exit_speed_max"];
             let impacts = analysis["hit"]["impacts"].as_array().unwrap();
             let x = best["x_m"].as_f64().unwrap();
@@ -280,7 +280,7 @@ fn a_screen_is_a_screen_and_full_has_the_rest() {
     let of_bats = ["r161", "bbcor_made_up"]
         .into_iter()
         .flat_map(|bat| OF_BATS.map(|command| command.replace("BAT", bat)));
-    // What is omitted is looked at on one bat of each kind.
+    // The omitted parts are checked on one bat of each kind.
     let commands = of_bats.map(|command| (command, true));
     let commands = commands.chain(OF_OTHERS.map(|command| (command.to_owned(), false)));
     let faults = commands.filter_map(|(command, full)| over(&folder, &command, full));
@@ -344,8 +344,9 @@ fn known_answers_have_a_screen_and_full_has_every_one() {
     assert_eq!(counts(&screen), counts(&full));
 }
 
-/// A note of another octave or mode, or a slipped decimal: the stiffness that it asks for is doubted. One that wood might
-/// almost have (3.8 GPa) leaves the density as uncertain as before; beyond 60 GPa the density's scatter is not known.
+/// A note of another octave or mode, or a misplaced decimal point: a doubt about the resulting stiffness is reported. A
+/// stiffness that wood might almost have (3.8 GPa) leaves the density as uncertain as before; above 60 GPa the scatter
+/// of the density is unknown.
 #[test]
 fn a_note_that_no_wood_of_its_kind_has_is_doubted() {
     let folder = Folder::new("wrong-note");

@@ -66,7 +66,7 @@ fn a_straight_line_is_the_cone_of_stations() {
 fn a_cone_may_come_to_a_point() {
     let formula = one(&format!("0.033*x/{LENGTH}"));
     assert_same(&formula, &cone(0.0, 0.033), 1e-12, 1e-13);
-    // The formula's own round-off at the tip is no radius.
+    // Round-off of the formula at the tip is not a radius.
     let turned = one(&format!("0.033 - 0.033/{LENGTH}*x"));
     assert_same(&turned, &cone(0.033, 0.0), 1e-12, 1e-13);
     let pointed = one("0.03*(0.1 + 0.2 - 0.3 + x)");
@@ -243,7 +243,7 @@ fn a_weighed_mass_sets_the_density_of_a_formula() {
     assert!((weighed.inertia().mass / 0.9 - 1.0).abs() < 1e-13);
 }
 
-/// A wave needs for ever to the point of a tip that thins as the square of the distance: no mode.
+/// A wave never reaches the point of a tip whose radius falls as the square of the distance, so there is no mode.
 #[test]
 fn a_tip_from_which_no_wave_comes_back_is_refused() {
     let said = |profile: Value| {

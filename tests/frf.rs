@@ -92,7 +92,7 @@ fn a_response_written_here_and_read_back_lies_on_itself() {
         }
         assert!(folder.read_names(&plots).contains(&"response.svg".to_owned()));
     }
-    // In another kind it is the same response.
+    // The same response in another kind.
     let other = ["frf", "bat.json", "--measured", "mobility.uff", "--kind", "receptance"];
     let text = folder.text(&other);
     assert!(text.contains("FRAC 1.000") && text.contains("and 0.0 dB from it"), "{text}");

@@ -1,4 +1,4 @@
-//! The formats as they were written once: a member that is renamed, moved or of another type fails.
+//! The formats as first written: the test fails if a member is renamed, moved or of another type.
 //!
 //! Made in `tests/golden` by the commands of [`WRITTEN`], the first two from a bat and a ball that have
 //! every member there is; of the others, lists are kept as far as their second item. Numbers are
@@ -9,11 +9,11 @@ use crate::common;
 use common::documents::{Numbers, WRITTEN, error, folder, manifest, page, written};
 use serde_json::Value;
 
-/// Where the numbers are the program's own affair, and where a flat maximum is found roughly.
+/// Members whose numbers are internal to the program, and those of flat maxima, which are found only roughly.
 const OWN: [&str; 5] = ["/error", "/model/", "/timing", "/generator", "/target"];
 const ROUGH: [&str; 2] = ["/sweet_spot", "/figures"];
 
-/// What differs from the golden document.
+/// The differences from the golden document.
 fn differences(path: &str, (golden, now): (&Value, &Value), like: Numbers, all: &mut Vec<String>) {
     let own = like == Numbers::Times || OWN.iter().any(|part| path.contains(part));
     match (golden, now) {
@@ -47,13 +47,13 @@ fn differences(path: &str, (golden, now): (&Value, &Value), like: Numbers, all: 
         (Value::String(a), Value::String(b)) if a == b || own => {}
         (Value::Bool(_), Value::Bool(_)) if golden == now || own => {}
         (Value::Null, Value::Null) => {}
-        // What a schema allows to be null is there or not, as the time allowed.
+        // Members that the schema allows to be null may be missing, depending on the time.
         (Value::Null, _) | (_, Value::Null) if like == Numbers::Times => {}
         _ => all.push(format!("{path}: {now}, was {golden}")),
     }
 }
 
-/// Lists as far as their second item.
+/// Lists, up to their second item.
 fn cut(value: &mut Value) {
     match value {
         Value::Object(members) => members.values_mut().for_each(cut),

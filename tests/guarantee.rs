@@ -1,5 +1,5 @@
-//! What is proven of frequencies holds: against known answers, against lies told to it, and its arithmetic against
-//! arithmetic of twice the digits.
+//! Proven statements about frequencies are correct: compared with known answers, for deliberately wrong trials, and in
+//! an arithmetic checked by one of twice the digits.
 
 mod common;
 #[path = "guarantee/twofold.rs"]
@@ -50,9 +50,9 @@ fn every_known_frequency_is_between_its_bounds() {
                 continue;
             }
         };
-        // Two equal halves ring alike: what is exactly double is not told apart, and nothing is said. Where
-        // the first frequency is some 1e-4 of the next, or 1e-3 of the ninth, intervals are wider than what is left of
-        // the norm.
+        // Two equal halves have equal frequencies: an exactly double frequency is not separated, and nothing is stated.
+        // If the first frequency is some 1e-4 of the next, or 1e-3 of the ninth, the intervals are wider than the rest
+        // of the norm.
         let modes = match *name {
             "clamped in middle" => 0,
             "1e6 kg at the tip" => 1,
@@ -75,7 +75,7 @@ fn every_known_frequency_is_between_its_bounds() {
         }
     }
     assert!(held > 300, "{held}");
-    // What is not carried says why.
+    // Bats that cannot be proven are refused with the reason.
     let reasons = ["supports", "profile"];
     for (name, said) in &refused {
         assert!(reasons.iter().any(|reason| said.contains(reason)), "{name}: {said}");
@@ -130,7 +130,7 @@ fn what_is_proven_is_the_decimals_of_the_file() {
             / (4.0 * std::f64::consts::PI);
         for found in &all {
             let [lower, upper] = found.modes[k].hertz;
-            // The formula in plain numbers is right to some units in the last place.
+            // The formula in plain numbers is accurate to some units in the last place.
             assert!(lower <= known * (1.0 + 2e-15) && known * (1.0 - 2e-15) <= upper);
         }
     }
@@ -190,7 +190,7 @@ fn what_is_not_carried_is_refused_with_its_reason() {
     for (name, reason) in reasons {
         assert!(refused(name).contains(reason), "{name}: {}", refused(name));
     }
-    // In a layer on a hollow wall the hole ratio is no polynomial; without shear it is not needed.
+    // In a layer on a hollow wall the hole ratio is not a polynomial; without shear it is not needed.
     let layered = r#"{ "format": "sweetspot-bat/1", "material": "aluminium-7075",
         "profile": { "x": [0, 0.84], "diameter": [0.05, 0.06], "wall_thickness": [0.004, 0.004] },
         "regions": [ { "from": 0, "to": 0.84, "layers": [
@@ -200,7 +200,7 @@ fn what_is_not_carried_is_refused_with_its_reason() {
     let said = by(Theory::Timoshenko).unwrap_err().to_string();
     assert!(said.contains("layers around a hollow wall"), "{said}");
     assert!(by(Theory::Rayleigh).unwrap().1.met);
-    // A bat on one pin may turn about it, one on one spring too.
+    // A bat on one pin can rotate about it, and so can one on one spring.
     let pin = Support { x: 0.1, kind: Held::Pinned };
     let spring = Attachment { x: 0.1, stiffness: 1e4, ..Attachment::default() };
     let held = [
@@ -214,8 +214,8 @@ fn what_is_not_carried_is_refused_with_its_reason() {
     }
 }
 
-/// Every support and every spring counts: a bat that is held more rings no slower, and stiff springs hold nearly as
-/// supports do.
+/// Every support and every spring has its effect: additional ones lower no frequency, and stiff springs act nearly as
+/// supports.
 #[test]
 fn a_held_bat_is_proven_between_freer_and_stiffer_ones() {
     let of = |fixtures: Fixtures, theory: Theory| -> Vec<[f64; 2]> {
@@ -248,7 +248,7 @@ fn a_held_bat_is_proven_between_freer_and_stiffer_ones() {
     }
 }
 
-/// The minimum-maximum principle holds of held bats too.
+/// The minimum-maximum principle holds for held bats too.
 #[test]
 fn a_band_of_a_held_bat_holds_its_frequencies() {
     let clamp = Support { x: 0.0, kind: Held::Clamped };
@@ -263,8 +263,8 @@ fn a_band_of_a_held_bat_holds_its_frequencies() {
     }
 }
 
-/// Tape rotates with its surface, and the fastest bat of a band is drawn thick. A band of a taped bat with rotating
-/// sections would therefore promise too much.
+/// Tape rotates with its surface, and the fastest bat of a band has the largest radii. A band of a taped bat with
+/// rotating sections would therefore claim too much.
 #[test]
 fn a_band_of_a_taped_bat_is_refused_where_sections_turn() {
     let tape = Tape { from: 0.02, to: 0.3, mass: 0.05 };
@@ -277,7 +277,7 @@ fn a_band_of_a_taped_bat_is_refused_where_sections_turn() {
         let said = of(theory).unwrap_err().to_string();
         assert!(said.contains("tape"), "{said}");
     }
-    // A mass alone fits no radius.
+    // A mass alone determines no radius.
     let found = of(Theory::EulerBernoulli).unwrap();
     let own = proven(&taped, 2, 1e-9, Theory::EulerBernoulli);
     for (mode, [lower, upper]) in own.modes.iter().zip(&found.hertz) {
@@ -285,7 +285,7 @@ fn a_band_of_a_taped_bat_is_refused_where_sections_turn() {
     }
 }
 
-/// The same ends, below the answer of `analyze` and in its documents; refused where `modes` refuses.
+/// The same bounds, below the answer of `analyze` and in its documents; refused where `modes` refuses them.
 #[test]
 fn analyze_says_what_modes_proves() {
     let folder = Folder::new("guarantee-analyze");

@@ -13,12 +13,12 @@ use sweetspot::bat::theory::Theory;
 use sweetspot::modes::mode::Mode;
 use sweetspot::{Bat, Profile, Request, solve};
 
-/// A cone with that on it.
+/// A cone with these attached parts.
 fn with(fixtures: Fixtures) -> Bat {
     asked_with(fixtures).unwrap()
 }
 
-/// A cone with that on it, or why it cannot be.
+/// A cone with these attached parts, or the reason why it is impossible.
 fn asked_with(fixtures: Fixtures) -> sweetspot::Result<Bat> {
     let cone = cone(0.0125, 0.033);
     let mut material = cone.material().clone();
@@ -46,7 +46,7 @@ fn pins(list: &[f64]) -> Vec<Support> {
     list.iter().map(|x| Support { x: *x, kind: Held::Pinned }).collect()
 }
 
-/// The program knows no more of a ton inside a bat in soft hands; of most others it does.
+/// For a ton inside a bat in soft hands the program cannot reach a better accuracy; for most others it can.
 const TOLERANCE: f64 = 1e-9;
 
 /// The frequencies (Hz) of all motions, the free rigid ones as zeros.
@@ -54,7 +54,7 @@ fn spectrum(fixtures: Fixtures, theory: Theory) -> Vec<f64> {
     known_spectrum(fixtures, theory).unwrap_or_else(|why| panic!("{why}"))
 }
 
-/// The same, or why they are not known to the tolerance.
+/// The same, or the reason why they do not reach the tolerance.
 fn known_spectrum(fixtures: Fixtures, theory: Theory) -> Result<Vec<f64>, String> {
     let request = Request { modes: 12, tolerance: TOLERANCE, theory, ..Request::default() };
     let bat = asked_with(fixtures).map_err(|why| why.to_string())?;
@@ -112,7 +112,7 @@ fn one_thing_more_moves_a_frequency_at_most_to_its_neighbour() {
     }
 }
 
-/// A spring of stiffness k is a pin but for a displacement of force over k.
+/// A spring of stiffness k is a pin with an additional displacement of force over k.
 #[test]
 fn a_stiff_spring_tends_to_a_support() {
     let pinned = Fixtures { supports: pins(&[0.2, 0.7]), ..Fixtures::default() };
@@ -154,7 +154,7 @@ fn masses_add_up() {
     }
 }
 
-/// Everything at once, from the other end: the same bat.
+/// A bat with everything, turned end for end, is the same bat.
 #[test]
 fn a_bat_with_everything_turned_end_for_end_is_the_same() {
     let turned = |x: f64| LENGTH - x;
@@ -226,7 +226,7 @@ fn tape_is_the_limit_of_many_small_weights() {
     }
 }
 
-/// The rigid motions that stay, and their names.
+/// The remaining rigid motions, and their names.
 #[test]
 fn rigid_motions_are_found_and_named() {
     let none = Fixtures::default();
@@ -249,7 +249,7 @@ fn rigid_motions_are_found_and_named() {
         assert!(solution.met());
         assert_eq!((solution.rigid_modes, bat.fixtures().rigid_modes()), (rigid, rigid));
         assert!(bat.fixtures().freedom().contains(words), "{}", bat.fixtures().freedom());
-        // A spring of 1e-9 N/m holds: slow is not rigid.
+        // A spring of 1e-9 N/m holds the bat: a slow motion is not a rigid one.
         assert!(solution.modes.iter().all(|mode| mode.omega > 0.0));
     }
 }
@@ -444,7 +444,7 @@ fn refusal(fixtures: Fixtures) -> String {
     asked_with(fixtures).map_or_else(|why| why.to_string(), |_| String::new())
 }
 
-/// Alike they ring against each other with the bat at rest: no node, no modal mass.
+/// Equal absorbers vibrate against each other with the bat at rest: no node, no modal mass.
 #[test]
 fn absorbers_alike_at_one_place_are_refused_and_elsewhere_or_otherwise_tuned_are_not() {
     for step in [0.0, 1e-12, 1e-10] {
@@ -485,7 +485,7 @@ fn springs_too_near_each_other_to_hold_the_bat_against_turning_are_refused() {
     }
 }
 
-/// A pinned end stands still and is no node, at any tolerance and at either end.
+/// A pinned end does not move but is not listed as a node, at any tolerance and at either end.
 #[test]
 fn a_pinned_end_is_no_node() {
     for (k, end) in [(0, 0.0), (1, 0.6727), (2, 0.0), (3, 0.6727)] {

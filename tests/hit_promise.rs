@@ -19,7 +19,7 @@ fn true_errors_of_exit_speeds_are_within_three_times_the_stated_ones() {
 
 #[test]
 fn tolerances_are_met_or_missed_in_words() {
-    // Where frequencies grow only as n because of shear, a hit to 1e-7 needs more modes than are used.
+    // With shear, frequencies grow only in proportion to n, and a hit to 1e-7 needs more modes than are used.
     let usual = Summary::of(ROWS.iter().filter(|row| row.tolerance >= 1e-5));
     assert!(20 * usual.met >= 19 * usual.hits, "{usual:?}");
     for row in ROWS.iter().filter(|row| row.met) {

@@ -25,7 +25,7 @@ use sweetspot_proof::bundled::bundled_bat;
 
 /// No geometric steps.
 const EVEN: Grading = Grading { knob: 0, tip: 0, kink: 0, least_kink: 0.0, corner: 0, soft: 0 };
-/// So many steps towards free ends.
+/// The number of steps towards free ends.
 const fn ends(steps: usize) -> Grading {
     Grading { knob: steps, tip: steps, ..EVEN }
 }
@@ -107,7 +107,7 @@ fn free_tubes_ring_as_published() {
     }
 }
 
-/// Inextensional theory in closed form, eight exponentials: right to the first order in h/R.
+/// Inextensional theory in closed form, eight exponentials: accurate to the first order in h/R.
 #[test]
 fn a_thin_free_tube_is_near_the_exact_shell_of_sanders_and_koiter() {
     let thin = tube(0.25, 0.030, 0.0003, aluminium());
@@ -345,7 +345,7 @@ fn as_many_modes_are_found_as_are_below_a_frequency() {
     }
 }
 
-/// With columns that begin where the pressure does.
+/// With columns that begin where the pressure begins.
 #[test]
 fn the_wall_gives_way_under_a_ball_as_published() {
     let patch = Patch::under(0.6858, 0.0366, 0.0333, 0.008);

@@ -59,7 +59,7 @@ impl Shape {
         self.cut(plugged, &[])
     }
 
-    /// The bat, its barrel in pieces that end there too (m).
+    /// The bat, with further pieces of its barrel that end at these places (m).
     fn cut(&self, plugged: bool, cuts: &[f64]) -> Bat {
         let Self { handle, grows, taper: [from, over], length, walls: [thick, wall] } = self;
         let (end, more) = (from + over, wall - thick);
@@ -72,7 +72,7 @@ impl Shape {
             .windows(2)
             .enumerate()
             .map(|(k, ends)| {
-                // A formula goes on beyond a border; another one, of the same values, does not.
+                // The same formula continues beyond a border; another formula with the same values does not.
                 format!(
                     r#"{{ "from": {}, "to": {}, "formula": "{barrel} + {k}*0*x", "inner_formula": "{barrel} - {wall}" }}"#,
                     ends[0], ends[1]
@@ -103,7 +103,7 @@ fn baseball() -> Ball {
     Ball { mass_kg: 0.145, ..Ball::baseball() }
 }
 
-/// That accuracy of exit speeds, with shear.
+/// A request for that accuracy of exit speeds, with shear.
 fn accuracy_of(exit_speed: f64) -> Accuracy {
     Accuracy { exit_speed, theory: Theory::Timoshenko, ..Accuracy::default() }
 }

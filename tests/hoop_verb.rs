@@ -38,7 +38,8 @@ fn refused(folder: &Folder, args: &[&str]) -> String {
 
 /// A short free tube of a soft metal, Poisson's ratio 0.45, whose edge rings: frequencies (Hz) of n = 2 by Ritz's
 /// method, polynomials of degree 50 along and 16 across the whole tube (search/hoops.py), bounds from above and known
-/// to 5e-9. An even degree across gains nothing there, so that the difference from the odd one before says nothing.
+/// to 5e-9. An even degree across improves nothing there, so the difference from the odd degree before says nothing
+/// about the error.
 #[test]
 fn the_edge_of_a_tube_of_a_soft_metal_is_within_its_stated_error() {
     let folder = Folder::new("hoop-edge");
@@ -121,7 +122,7 @@ fn walls_of_other_thickness_give_way_as_another_program_found() {
         );
         assert!((found.wall.as_ref().unwrap().thickness_m - wall).abs() < 1e-12);
         let first = found.first_hz.unwrap();
-        // A table's digits, and the frequency as well as a hit needs it.
+        // The digits of a table, and the frequency as accurately as a hit needs it.
         assert!((first - frequency).abs() < 0.5 + 3e-4 * frequency, "{wall}: {first} Hz");
         assert!((pressed / stiffness - 1.0).abs() < 0.01, "{wall}: {pressed} MN/m");
         assert!((rebound - stiff).abs() < 0.003, "{wall}: {rebound} stiff");
@@ -217,7 +218,7 @@ fn the_document_says_how_its_numbers_hang_together() {
     assert!(text.contains(&first), "{first}\n{text}");
 }
 
-/// The composite loses a hundredth of its energy, its plug nothing: each mode has half of that as damping ratio, except
+/// The composite loses a hundredth of its energy, the plug nothing: each mode has half of that as damping ratio, except
 /// for the share of the plug. Its moduli are given, and nothing is assumed.
 #[test]
 fn a_composite_wall_rings_by_its_own_moduli_and_is_damped() {
@@ -264,7 +265,8 @@ fn a_ball_without_a_force_law_leaves_out_the_rebound_alone() {
     assert!(flat.contains("--ball-stiffness gives it one"), "{text}");
     let more = ["--ball-stiffness", "7000 lbf/in", "--speed", "100 mph", "--at", "27 in"];
     let with = folder.json(&[&args[..], &more].concat());
-    // By the other program 0.447 stiff and 0.553 with the wall, for a ball of 190 g that is as stiff.
+    // By the other program 0.447 with a stiff wall and 0.553 with this one, for a ball of 190 g with the same
+    // stiffness.
     for (key, expected) in [("stiff", 0.447), ("wall", 0.553)] {
         let found = with["bbcor"][key].as_f64().unwrap();
         assert!((found - expected).abs() < 0.006, "{key}: {found}");
@@ -317,7 +319,7 @@ fn what_is_no_hollow_bat_of_metal_is_refused_with_the_reason() {
     assert!(
         notes("taped.json").contains("tape and weights") && !notes("tube.json").contains("tape")
     );
-    // Beside the knob the patch is not on the wall that is modelled.
+    // Near the knob the patch is not on the modelled wall.
     let handle = folder.json(&["hoop", "bbcor_made_up", "--at", "0.5 in", "--json", "-"]);
     assert_eq!([&handle["wall"], &handle["bbcor"], &handle["compression"]], [&Value::Null; 3]);
     assert!(
@@ -325,7 +327,7 @@ fn what_is_no_hollow_bat_of_metal_is_refused_with_the_reason() {
         "{}",
         handle["notes"]
     );
-    // A ring shorter than the patch: the ball meets it, and it is the patch that does not fit.
+    // A ring shorter than the patch: the ball hits it, and the message is about the patch, which does not fit.
     folder.write(
         "ring.json",
         format!(
@@ -340,7 +342,7 @@ fn what_is_no_hollow_bat_of_metal_is_refused_with_the_reason() {
         said.contains("presses on 0.0171 m to either side") && !said.contains("does not meet"),
         "{said}"
     );
-    // A wall of 1.8 mm is dented by more than half of itself.
+    // A wall of 1.8 mm is dented by more than half of its thickness.
     let thin = folder.json(&["hoop", "bbcor_made_up", "--wall-sweep", "--json", "-"]);
     let thinnest = &thin["wall_sweep"][0];
     let [dent, wall] = ["dent_m", "thickness_m"].map(|key| thinnest[key].as_f64().unwrap());
@@ -434,7 +436,7 @@ fn an_analysis_of_a_hollow_bat_has_its_barrel_and_that_of_a_solid_one_has_none()
     assert_eq!(document["hoop"]["format"], "sweetspot-hoop/1");
     let without = folder.json(&["analyze", solid, "--quiet", "--json", "-"]);
     assert!(without.get("hoop").is_none());
-    // How large the ball's patch is stays open, of hollow bats alone.
+    // The size of the ball's patch is an open question for hollow bats only.
     let open = |document: &Value| document["open"]["sources"].to_string();
     assert!(open(&document).contains("patch"), "{}", open(&document));
     // The doubt about the dent is in the document too.

@@ -22,7 +22,7 @@ fn numbers(modes: &Value, name: &str) -> Vec<f64> {
     modes.as_array().unwrap().iter().map(|mode| mode[name].as_f64().unwrap()).collect()
 }
 
-/// How far the frequencies of two lists are apart, relative, at most.
+/// The largest relative difference between the frequencies of two lists.
 fn apart(a: &[f64], b: &[f64]) -> f64 {
     assert_eq!(a.len(), b.len(), "{a:?} {b:?}");
     a.iter().zip(b).map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max)
@@ -91,7 +91,7 @@ fn an_exponential_window_is_taken_off() {
 }
 
 /// The modes do not depend on the kind and unit of the responses, on coherence, on the order of functions, on grids, or on
-/// who roved, beyond the noise.
+/// whether hammer or sensor was moved, beyond the noise.
 #[test]
 fn modes_do_not_depend_on_how_they_were_measured() {
     let (folder, _) = tested("identify_same", &["--points", "9", "--accelerometer", "1e-6"]);

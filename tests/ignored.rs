@@ -35,7 +35,7 @@ fn the_first_order_shifts_of_a_dowel_are_their_closed_forms() {
             let rotary = of(slenderness * sigma * beta * (sigma * beta + 6.0));
             let shear = of(slenderness * ratio / 0.9 * sigma * beta * (sigma * beta - 2.0));
             let found = shift(&bat, mode);
-            // The shear force, summed over 400 stretches, is off by a third of this.
+            // The error of the shear force, summed over 400 stretches, is a third of this.
             let within = (beta / 400.0).powi(2);
             assert!((found.rotary_inertia / rotary - 1.0).abs() < within, "{ratio} {found:?}");
             assert!((found.shear.unwrap() / shear - 1.0).abs() < within, "{ratio} {found:?}");

@@ -1,5 +1,5 @@
-//! A ball that is caught again, against small steps of a Runge-Kutta method that shares nothing with
-//! the contact: neither its steps nor its events nor how it finds the next touch.
+//! A ball that is hit again, compared with small steps of a Runge-Kutta method that has nothing in common with the
+//! contact: neither the steps, nor the events, nor the search for the next touch.
 
 use sweetspot::beam::dowel::{Ends, beta_l};
 use sweetspot::collision::ball::Ball;
@@ -39,7 +39,7 @@ struct Reference<'a> {
     law: PowerLaw,
 }
 
-/// What it finds.
+/// Its results.
 #[derive(Debug, Default)]
 struct Found {
     impulse: f64,
@@ -163,7 +163,7 @@ fn a_ball_that_is_caught_again_is_followed_to_the_end() {
 }
 
 /// Exit speeds half a thousandth of the length apart, on the WPI report's dowel and on a bat: where
-/// ball and bat part once and for all, the curve has no jump.
+/// ball and bat separate for good, the curve has no jump.
 #[test]
 fn the_curve_has_no_jump_where_ball_and_bat_part_once() {
     for file in ["meshes/dowel.json", "meshes/r161.json"] {
@@ -192,8 +192,8 @@ fn the_curve_has_no_jump_where_ball_and_bat_part_once() {
     }
 }
 
-/// The exit speed counts every touch; the first departure is told beside it, and a hit with one touch
-/// has one speed.
+/// The exit speed includes every touch; the speed at the first separation is given in addition, and a hit with one
+/// touch has only one speed.
 #[test]
 fn the_first_separation_stands_beside_the_last() {
     let bat = bundled_bat("meshes/dowel.json").unwrap();
@@ -218,7 +218,7 @@ fn the_first_separation_stands_beside_the_last() {
     assert!(again > 5, "{again}");
 }
 
-/// A ball that gives next to nothing back, against Runge-Kutta steps short enough for its steep force.
+/// A ball with almost no restitution, compared with Runge-Kutta steps short enough for its steep force.
 #[test]
 fn a_dead_ball_is_a_ball_like_any_other() {
     let ball = 0.145;
@@ -262,8 +262,8 @@ fn every_restitution_from_0_to_1_is_resolved() {
     }
 }
 
-/// Errors known from beside hold for a ball that is pressed once; one that is pressed anew or met again
-/// may lie beside hits that are nothing like it.
+/// Errors inferred from neighbouring places hold for a ball that is compressed once; the neighbours of one that is
+/// compressed twice or hit again may be entirely different hits.
 #[test]
 fn a_hit_that_magnifies_what_is_small_is_estimated_by_itself() {
     let bat = bundled_bat("meshes/r161.json").unwrap();
@@ -285,7 +285,7 @@ fn a_hit_that_magnifies_what_is_small_is_estimated_by_itself() {
     assert!(seen[0] > 5 && seen[1] > 5, "{seen:?}");
 }
 
-/// A ball (145 g) as hard as that, that returns that share of its speed.
+/// A ball (145 g) with that stiffness and that restitution.
 fn ball(stiffness: f64, exponent: f64, cor: f64) -> Ball {
     let (stiffness, exponent) = (Some(stiffness), Some(exponent));
     Ball { mass_kg: 0.145, stiffness, exponent, cor, ..Ball::baseball() }
@@ -348,7 +348,8 @@ fn the_first_separation_states_its_error() {
     assert!(again > 2, "{again}");
 }
 
-/// A nearly dead ball stays on the bat and is slapped by its vibration; a usual one is not, and its law was measured.
+/// A nearly dead ball stays on the bat and is hit by its vibration, with a law that was never measured; a usual ball is
+/// not, and its law was measured.
 #[test]
 fn hits_beyond_the_ball_s_law_are_flagged() {
     let bat = bundled_bat("meshes/r161.json").unwrap();

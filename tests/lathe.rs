@@ -49,7 +49,7 @@ fn with_wall(bat: &Bat, tolerance: f64) -> Scene {
     Scene { hoop: HoopInHit::Counted(wall), ..scene }
 }
 
-/// A millimetre of diameter off an inch from there.
+/// A cut of one millimetre of diameter over one inch from there.
 fn inch_from(x: f64) -> DiameterChange {
     DiameterChange::band([x, x + INCH], -MM)
 }
@@ -308,7 +308,7 @@ fn radii_that_grow_together_change_frequencies_as_the_energies_say() {
             }
         }
     }
-    // The R161's, as another solver found them.
+    // Those of the R161, by another solver.
     let rayleigh = [0.98940822, 0.98018835, 0.96756207, 0.95029094];
     let timoshenko_s = [0.97331628, 0.89604036, 0.79913908, 0.71053011];
     for (theory, expected) in [(Theory::Rayleigh, rayleigh), (Theory::Timoshenko, timoshenko_s)] {
@@ -340,7 +340,8 @@ fn shares(bat: &Bat, solution: &Solution, k: usize) -> [f64; 2] {
         }
     }
     let rotary = if solution.theory.turns() { mode.omega * mode.omega * rotary } else { 0.0 };
-    // The compliance of a joint is no bending of sections, and an attached mass no motion of sections.
+    // The compliance of a joint is not bending of sections, and the motion of an attached mass is not motion of
+    // sections.
     let joint = |joint: &Joint| {
         let [before, after] = [-1e-12, 1e-12].map(|by| mode.shape.rotation(joint.x + by));
         joint.rotational_stiffness * (after - before).powi(2)
@@ -383,7 +384,7 @@ fn the_formula_holds_for_hollow_cored_and_held_bats() {
                 continue;
             }
             let request = Request { theory, ..timoshenko(1e-6) };
-            // A node asks for differences of whole bats.
+            // A node needs differences of whole bats.
             let answers =
                 [1, 2, 3, 4, 5].map(Answer::Frequency).into_iter().chain([Answer::Node(2)]);
             let answers: Vec<Answer> = answers.collect();
@@ -409,7 +410,7 @@ fn the_formula_holds_for_hollow_cored_and_held_bats() {
     }
 }
 
-/// L8: a bat turned end for end has its map in the mirror.
+/// L8: the map of a bat turned end for end is the mirror image.
 #[test]
 fn a_bat_turned_end_for_end_mirrors_its_map() {
     let bat = mesh("r161");
@@ -464,7 +465,8 @@ fn a_pointed_bat_has_a_map() {
     assert!(piece.cut(&DiameterChange::band([0.82, 0.84], -MM), &[0.0]).is_err());
 }
 
-/// Nothing can be turned off under a sleeve, and hands on a pin feel nothing; the map of the rest exists in both cases.
+/// Under a sleeve nothing can be turned off, and hands on a pin have no acceleration; the map of the other columns
+/// exists in both cases.
 #[test]
 fn what_cannot_be_turned_or_felt_has_no_value() {
     let folder = Folder::new("lathe-sleeve");
@@ -551,7 +553,7 @@ fn the_verb_writes_what_it_finds() {
     assert!(band["error"]["exit_speed_max.value"].as_f64().unwrap() > 0.0);
     assert_eq!(band["finite"]["cut_mm"], 0.5);
     let finite = band["finite"]["f1_hz"].as_f64().unwrap();
-    // A second order is there, and it is small.
+    // A term of second order exists, and it is small.
     assert!((finite - f1).abs() < 1e-3 && finite != f1, "{finite} {f1}");
     let csv = folder.read("map.csv");
     let (heads, row) = csv.split_once('\n').unwrap();
@@ -564,8 +566,8 @@ fn the_verb_writes_what_it_finds() {
     assert!((per_g.as_f64().unwrap() - 1e-3).abs() < 1e-18);
 }
 
-/// The sweet spot's own place has an error as the speeds have: a map by rougher speeds is off from one by finer ones
-/// by no more.
+/// The place of the sweet spot has a stated error as the speeds have: maps from less and more accurate speeds differ by
+/// no more than that.
 #[test]
 fn the_sweet_spot_s_place_has_an_error_that_holds() {
     let bat = mesh("r161");
@@ -722,7 +724,7 @@ fn best_places_change_as_whole_bats_do_or_it_is_said_that_they_jump() {
             if scene.hoop.wall().is_none() {
                 assert!((finite - truth).abs() <= near, "{name}: {finite} {truth}");
             } else if k == 0 {
-                // A wall of another shape has other elements, and is known to 2e-4 of the closing speed.
+                // A wall of another shape has other elements, and its effect is accurate to 2e-4 of the closing speed.
                 let known = 2e-4 * (scene.swing * 0.7 + scene.ball_speed) / 5e-4;
                 assert!((finite - truth).abs() <= known, "{name}: {finite} {truth}");
             }

@@ -1,4 +1,4 @@
-//! The library answers as the program does: by default the same theory, the same tap, the same bits.
+//! The library gives the answers of the program: by default the same theory, the same tap, the same bits.
 
 use std::fs;
 use std::path::Path;
@@ -109,7 +109,7 @@ fn hits_answer_as_the_program_to_the_bit_one_by_one_and_side_by_side() {
         let args: Vec<&str> = ["hit", name].into_iter().chain(args.split(' ')).collect();
         let said = printed(&folder, &args);
         assert_eq!(ours, numbers(&said["impacts"], "exit_speed_m_s"), "{name}");
-        // The solution knows how stiff its bat is.
+        // The solution has the stiffness of its bat.
         let hitter = Hitter::new(Model::Contact, &scene, bat, &hits.solution, hits.effort).unwrap();
         assert_eq!(hitter.strike(0.7).outcome.unwrap().exit_speed, ours[1], "{name}");
         // Plans are shared between bats, and the answers agree to the requested accuracy.
@@ -194,7 +194,7 @@ fn the_numbers_of_the_library_page_are_those_of_the_program() {
     assert!(page.contains(&line), "docs/library.md does not say {line}");
 }
 
-/// A hit in one call is the program's: the same theory, the wall of a hollow barrel, the same best place.
+/// A hit in one call equals that of the program: the same theory, the wall of a hollow barrel, the same best place.
 #[test]
 fn a_hit_in_one_call_is_that_of_the_program() {
     let folder = Folder::new("library-hit");

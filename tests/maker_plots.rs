@@ -33,7 +33,7 @@ fn a_change_of_the_diameter_is_whole_in_every_form() {
             let picture = change::picture(sheet, &old, &new);
             check(&picture, name);
             assert_eq!(picture.drawing.width, sheet.width());
-            // A tenth of a millimetre at most is off, where x is 0.6 m.
+            // At most a tenth of a millimetre is removed, at x = 0.6 m.
             let off = if us { "3.94 mil at most off" } else { "0.10 mm at most off" };
             assert!(picture.svg.contains(off), "{}", &picture.svg[..800]);
         }
@@ -101,7 +101,7 @@ fn spreads_of_many_bats_are_drawn_whole() {
     // The largest share comes first.
     let document = Document::parse(&all[1].svg).unwrap();
     let words: Vec<&str> = texts(&document).into_iter().map(|(words, _)| words).collect();
-    // A polynomial follows this one, but for round-off.
+    // A polynomial reproduces this one, except for round-off.
     assert!(words.iter().any(|word| word.ends_with("; 0.00 not followed")), "{words:?}");
     let place = |name: &str| words.iter().position(|word| *word == name).unwrap();
     assert!(place(&names[0]) < place(&names[1]) && place(&names[1]) < place(&names[2]));

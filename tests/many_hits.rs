@@ -1,4 +1,4 @@
-//! Many bats that are hit at once are the same bats.
+//! Many bats hit at once have the same results as each alone.
 
 use sweetspot::bat::fixtures::Attachment;
 use sweetspot::collision::batch::{Blow, each};
@@ -91,7 +91,7 @@ fn a_bat_is_hit_as_it_is_hit_alone_whoever_is_beside_it() {
     }
 }
 
-/// Bats that share no plan are hit as if there were no others.
+/// Bats without a common plan are hit as if there were no others.
 #[test]
 fn a_bat_of_another_kind_is_hit_on_its_own() {
     let kinds =
@@ -109,7 +109,7 @@ fn a_bat_of_another_kind_is_hit_on_its_own() {
     }
 }
 
-/// Every number of a solution is within its stated error of a far better one.
+/// Every number of a solution agrees with a far more accurate one within its stated error.
 #[test]
 fn solutions_of_many_are_as_good_as_they_say() {
     for (name, weight) in BATS {
@@ -132,7 +132,7 @@ fn solutions_of_many_are_as_good_as_they_say() {
                         let what = format!("{name} {weight} {theory:?} {tolerance} {}", one.order);
                         let (own, its) = (one.error, fine.error);
                         let within = |off: f64, stated: f64| {
-                            // The promise for every estimate.
+                            // The factor by which every estimate may be exceeded.
                             assert!(off.abs() <= 3.0 * stated, "{what}: {off:e} beside {stated:e}");
                         };
                         within(one.omega / fine.omega - 1.0, own.total() + its.total());

@@ -112,7 +112,7 @@ fn a_phase_of_the_whole_shape_changes_nothing_and_a_part_out_of_phase_is_measure
         let sign = if pair.scale.unwrap().re < 0.0 { -1.0 } else { 1.0 };
         assert!((pair.scale.unwrap().arg() - (sign * phase).arg()).abs() < 1e-9);
     }
-    // A tenth of another shape, a quarter period later.
+    // A tenth of another shape, delayed by a quarter period.
     let other = exact(Ends::FreeFree, 5, &x);
     let whirling = free(3, &x, |_, k, v| (v + c64::new(0.0, 0.1) * other[k]) * phase);
     let study = study(&dowel(), whirling, ToldPoints::default());
@@ -120,7 +120,7 @@ fn a_phase_of_the_whole_shape_changes_nothing_and_a_part_out_of_phase_is_measure
     for (n, share) in shapes.out_of_phase.iter().enumerate() {
         let size = |v: &[c64]| v.iter().map(|v| v.norm_sqr()).sum::<f64>();
         let (own, late) = (size(&exact(Ends::FreeFree, n + 1, &x)), 0.01 * size(&other));
-        // Both shapes have a little in common at the points, which is in phase with neither.
+        // At the points the two shapes are slightly similar, and the sum is in phase with neither.
         assert!((share / (late / (own + late)) - 1.0).abs() < 0.1, "{share}");
     }
 }
@@ -190,7 +190,7 @@ fn slow_straight_motions_are_rigid_and_crooked_ones_are_told() {
     assert!(said.contains("crooked by 25 %") && !said.contains("bounce"), "{said}");
 }
 
-/// A clamped dowel knows which end is which.
+/// The ends of a clamped dowel can be distinguished.
 #[test]
 fn the_end_that_comes_first_is_found_and_so_is_the_origin() {
     let fixtures =
@@ -257,7 +257,7 @@ fn a_mode_that_was_missed_and_one_measured_twice_stay_alone() {
     let names: Vec<&str> = study.lone_measured.iter().map(|k| study.name(*k)).collect();
     assert_eq!(names, ["m1 again"]);
     assert_eq!(study.lone_computed, [1]);
-    // It is similar to mode 1, which has its partner, and their similarity is no fault.
+    // It is similar to mode 1, which has its partner, and this similarity is not a fault.
     let text = measured::text(&dowel(), &study, Units::Si, true);
     assert!(text.contains("like mode 1, but m1 is more so"), "{text}");
     let said = words(&study).join(" ");

@@ -1,4 +1,4 @@
-//! Outputs are complete or absent, the same every time, and as the contract says.
+//! Outputs are complete or absent, the same every time, and as documented.
 
 use crate::common;
 
@@ -20,7 +20,7 @@ fn mesh(name: &str) -> String {
     format!("{}/meshes/{name}.json", env!("SWEETSPOT_TOP"))
 }
 
-/// Exit code and standard error of a failed run, that for people.
+/// Exit code of a failed run, and its standard error in the form for people.
 fn failure(output: &Output) -> String {
     let told = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(2), "{told}");
@@ -112,7 +112,7 @@ fn a_file_that_cannot_be_written_leaves_nothing() {
     let names = |sub: &str| fs::read_dir(folder.0.join(sub)).unwrap().count();
     assert_eq!((names("locked"), names("folder")), (1, 0));
     assert_eq!(folder.names(), before);
-    // An answer to a wrong bat replaces no right one.
+    // A run for an invalid bat does not replace an existing answer.
     folder.write("bad.json", "{");
     folder.write("out.json", "old");
     failure(&folder.run(&["modes", "bad.json", "--json", "out.json"]));
@@ -129,7 +129,7 @@ fn files_are_whole_and_standard_output_is_either_json_or_a_table() {
         assert!(!table.starts_with('{') && table.lines().count() > 10, "{table}");
         let json = folder.json(&[&args[..], &["--json", "-"]].concat());
         assert_eq!(json["format"], format!("sweetspot-{verb}/1"));
-        // With a file the table stays, and the file is the same document.
+        // With a file the table is still printed, and the file is the same document.
         let again = folder.text(&[&args[..], &["--json", "out.json"]].concat());
         let mut file: Value = read(&folder, "out.json");
         assert_eq!(again, table, "{verb}");

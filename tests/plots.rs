@@ -412,7 +412,7 @@ fn a_png_is_twice_as_large_and_its_paper_white() {
         let blank = image.pixels()[0];
         let drawn = image.pixels().iter().filter(|pixel| **pixel != blank).count();
         assert!(drawn > image.pixels().len() / 100, "{}: {drawn}", picture.name);
-        // The paper is white and no pixel lets another through.
+        // The background is white and every pixel is opaque.
         assert_eq!([blank.red(), blank.green(), blank.blue(), blank.alpha()], [255; 4]);
         assert!(image.pixels().iter().all(|pixel| pixel.alpha() == 255), "{}", picture.name);
         // The title is drawn: there is ink at its place.
@@ -467,7 +467,7 @@ fn a_png_shows_what_others_draw_from_the_svg() {
         let ours = Pixmap::decode_png(&png(&picture.drawing, 2.0)).unwrap();
         let theirs = by_others(&picture);
         assert_eq!([ours.width(), ours.height()], [theirs.width(), theirs.height()]);
-        // They draw the title thin, as in the font, and we do not; it is above this row.
+        // The other program draws the title in the thin weight of the font, and we do not; it is above this row.
         let off = difference(&ours, &theirs, 72);
         // Letters may be displaced by a sixteenth of a pixel, the resolution of edges.
         assert!(off < 12.0, "{}: {off}", picture.name);

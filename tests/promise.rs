@@ -12,14 +12,14 @@ fn true_errors_are_within_three_times_the_stated_ones() {
     assert_eq!(ROWS.len(), BATS.len() * DIGITS.count());
     for row in ROWS.iter() {
         assert!(row.holds(), "{row:?}");
-        // Only round-off may keep a tolerance from being met, and then not by much.
+        // Only round-off may prevent a tolerance from being met, and then by a small factor.
         assert!(row.met || row.tolerance < 1e-10, "{row:?}");
         assert!(row.truth < 3.0 * row.tolerance, "{row:?}");
     }
     let all = Summary::of(&ROWS);
     assert!(all.holds(), "{all:?}");
     assert!(all.visible > 5000, "{all:?}");
-    // The estimate is one, not a bound from far above.
+    // The stated error is an estimate, not a bound far above the true error.
     assert!(all.share_close() > 0.95, "{all:?}");
 }
 

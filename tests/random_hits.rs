@@ -1,5 +1,5 @@
-//! Ten thousand random impacts satisfy the conservation of energy, and the ball never gets more than there was. Their
-//! exit speeds are compared with a reference in `tests/hit_promise.rs`.
+//! Ten thousand random impacts satisfy the conservation of energy, and the ball never gains more energy than there was.
+//! Their exit speeds are compared with a reference in `tests/hit_promise.rs`.
 
 use sweetspot::bat::theory::Theory;
 use sweetspot::beam::dowel::{Ends, beta_l};
@@ -115,13 +115,13 @@ fn ten_thousand_impacts_keep_their_energy() {
         };
         let ratio = if random.whether(0.25) { random.within(0.0, 0.02) } else { 0.0 };
         modes.iter_mut().for_each(|mode| mode[1] = ratio);
-        // So stiff that at 45 m/s a wall compresses it by 4 to 30 mm.
+        // A stiffness with which a wall at 45 m/s compresses the ball by 4 to 30 mm.
         let (exponent, deep) = (random.within(1.2, 2.0), random.scaled(0.004, 0.03));
         let stiffness =
             0.5 * (1.0 + exponent) * ball * 45.0_f64.powi(2) / deep.powf(1.0 + exponent);
         let law = PowerLaw::new(stiffness, exponent, random.scaled(0.02, 1.0));
         let speed = random.scaled(1.0, 80.0);
-        // Steps as long as a hit along a bat has.
+        // Steps of the length used for hits along a bat.
         let reduced = 1.0 / (1.0 / ball + 1.0 / mass);
         let touching = law.compression(0.5 * reduced * speed * speed) / speed;
         let collider = Collider::new(&modes, 0.28 * touching);

@@ -15,7 +15,7 @@ const LOGNORMAL: &str = r#"{ "format": "sweetspot-scatter/1",
     "density": { "lognormal": "4 %" }, "youngs_modulus": { "lognormal": "10 %" },
     "outputs": ["f1_hz", "f2_hz", "mass_kg"], "tol": 1e-6 }"#;
 
-/// Everything that may differ.
+/// Every quantity that can vary.
 const ALL: &str = r#"{ "format": "sweetspot-scatter/1",
     "correlation": [["density", "youngs_modulus", 0.6]],
     "scene": { "swing_speed": "50 rad/s", "pitch": "90 mph" },

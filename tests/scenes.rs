@@ -57,15 +57,15 @@ fn a_stiff_bat_on_a_pin_is_the_test_rig() {
     }
 }
 
-/// Nobody at the barrel knows how the handle is held before the wave has been there and back: on
-/// the barrel exit speeds of free, pinned and gripped bats are nearly the same (Nathan, Am. J. Phys.
-/// 68, 979, section V), and energies close for all.
+/// A hit at the barrel does not depend on how the handle is held until a wave has travelled there and back: on the
+/// barrel the exit speeds of free, pinned and gripped bats are nearly the same (Nathan, Am. J. Phys. 68, 979, section
+/// V), and energies close for all.
 #[test]
 fn the_ball_leaves_before_it_feels_the_hands() {
     let free = bundled_bat("meshes/r161.json").unwrap();
     let grip = Grip { from: 0.02, to: 0.18, stiffness: 1e5, damping: 30.0 };
     let gripped = held(Fixtures { grip: Some(grip), ..Fixtures::default() });
-    // So soft that the bat rotates in it at 1 Hz.
+    // A grip so soft that the bat rotates in it at 1 Hz.
     let grip = Grip { from: 0.0, to: 0.1778, stiffness: 3e4, damping: 100.0 };
     let loose = held(Fixtures { grip: Some(grip), ..Fixtures::default() });
     let clamp = Support { x: 0.0, kind: Held::Clamped };

@@ -35,7 +35,7 @@ const FULL: &str = include_str!("golden/bat-1.json");
 
 /// The value of a member in other kinds of bats.
 const OTHERS: [(&str, &str); 4] = [
-    // Held by no dashpot, with one loss factor.
+    // Without dashpots, with a single loss factor.
     (
         "lossy",
         r#"{ "format": "sweetspot-bat/1", "profile": { "x": [0, 0.8], "radius": [0.02, 0.03] },
@@ -351,8 +351,8 @@ fn each_object(
     }
 }
 
-/// A nearly dead ball, whose best place depends on a later contact; a dented wall; a bat of implausible density: each
-/// doubt is one that the format has.
+/// A nearly dead ball, whose best place depends on a later contact; a dented wall; a bat of implausible density: the
+/// format has a member for each of these doubts.
 #[test]
 fn doubts_are_those_of_the_format() {
     let folder = Folder::new("schema-doubts");

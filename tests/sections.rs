@@ -176,8 +176,7 @@ fn a_bore_filled_with_its_own_wood_is_solid_and_with_nothing_to_speak_of_empty()
         let empty = frequencies(&bored(None), theory);
         assert!(apart(&frequencies(&bored(Some(wood())), theory), &solid) < 1e-13, "{theory:?}");
         assert!(apart(&frequencies(&bored(Some(air.clone())), theory), &empty) < 1e-13);
-        // Cork weighs and hardly holds: by the ratio of the moduli at most can it raise a
-        // frequency.
+        // Cork has mass and hardly any stiffness: it raises a frequency at most by the ratio of the moduli.
         let corked = frequencies(&bored(Some(cork.clone())), theory);
         let stiffer = 2e7 / MODULUS + 8e6 / 0.9e9;
         assert!(corked.iter().zip(&empty).all(|(c, e)| c / e < 1.0 + stiffer), "{theory:?}");
@@ -419,7 +418,7 @@ fn a_tap_finds_the_stiffness_of_a_held_bat() {
             more["weighed"] = json!({ "first_bending_hz": tapped });
             let bat = tuned(of(shaped(none()), more), theory, tolerance).unwrap();
             let found = bat.material().youngs_modulus;
-            // Where half of the bending is in a joint the stiffness is at least twice as sensitive.
+            // If half of the bending is in a joint, the stiffness is at least twice as sensitive.
             assert!((found / 1.6e10 - 1.0).abs() < 8.0 * tolerance, "{what} {found:e}");
         }
     }

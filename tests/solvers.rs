@@ -1,4 +1,4 @@
-//! The solvers that factor K + σM, held to closed forms, to the dense solver and to themselves.
+//! The solvers that factor K + σM, compared with closed forms, with the dense solver and with each other.
 
 use crate::common;
 

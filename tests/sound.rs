@@ -51,7 +51,7 @@ fn a_struck_bat_sounds_at_its_own_frequencies() {
         ["ring", &bat, "--at", "0.84 m", "--impulse", "1 N s", "--csv", "blow.csv", "--quiet"];
     folder.text(&[&blow[..], &["--wav", "blow.wav"]].concat());
     folder.text(&["ring", &bat, "--hit", "60 cm", "--wav", "hit.wav", "--quiet"]);
-    // The outer half is loudest where it begins; on the handle a blow is louder still, and is not cut off.
+    // The outer half is loudest where it begins; a blow on the handle is even louder, and is not clipped.
     let blow = ["ring", &bat, "--impulse", "1 N s", "--csv", "blow.csv", "--quiet"];
     folder.text(&[&blow[..], &["--at", "0.42 m", "--wav", "loud.wav"]].concat());
     folder.text(&[&blow[..], &["--at", "0.25 m", "--wav", "louder.wav"]].concat());

@@ -16,7 +16,8 @@ fn damped(first: f64) -> DampedString {
     string
 }
 
-/// A first mode that swings, one that is critical, one that creeps while the higher ones swing.
+/// A first mode that oscillates, one that is critically damped, and one that is overdamped while the higher ones
+/// oscillate.
 #[test]
 fn the_sum_of_modes_is_the_pair_of_damped_fronts() {
     for ratio in [0.0, 0.1, 0.7, 1.0, 1.5] {
@@ -28,7 +29,8 @@ fn the_sum_of_modes_is_the_pair_of_damped_fronts() {
             let blow = Blow { at: string.length / 4.0, impulse: 1.0 };
             let sum = string.by_modes(4000, blow, x, t, true);
             let error = (sum - string.by_fronts(blow, x, t)) / unit;
-            // The fade leaves exp(−36 (n/N)⁸) ripples of wavelength l/N, dead 0.04 l from a front.
+            // The fading factor exp(−36 (n/N)⁸) leaves ripples of wavelength l/N, which vanish within 0.04 l of a
+            // front.
             assert!(error.abs() < 1e-9, "{ratio} {x} {t}: {error:e}");
         }
     }

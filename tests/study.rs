@@ -133,7 +133,7 @@ fn a_hit_is_the_one_that_hit_computes() {
         assert!((speeds[k] - known).abs() <= 3.0 * errors[k] + 1e-4, "{} {known}", speeds[k]);
         assert!(best[k] >= speeds[k]);
     }
-    // A livelier ball leaves faster.
+    // A ball of higher restitution leaves faster.
     assert!(best[1] > best[0] && best[3] > best[2] && best[2] > best[0]);
 }
 
@@ -327,7 +327,7 @@ fn what_varies_without_effect_is_warned_of() {
             true,
         ),
         (DOWEL, "", r#""bat.material.density": { "values": [700] }"#, "f1_hz", false),
-        // Without the exponent the inertia is of no effect, with it of one.
+        // Without the exponent the inertia has no effect; with it, it has one.
         (
             DOWEL,
             "",
@@ -403,7 +403,7 @@ fn a_table_that_a_value_names_is_a_file_of_the_study() {
     assert!(told.contains("differs in p.csv"), "{told}");
     folder.write("deep/p.csv", "");
     assert!(refused(&folder, "deep/study.json").contains("p.csv:1:"));
-    // Stations that go back are a bat that cannot exist: a row.
+    // Stations in decreasing order are an impossible bat, which still has its row.
     folder.write("deep/p.csv", "x,diameter\n0,1.7\n-33,1.7\n");
     let said = folder.text(&["study", "deep/study.json", "--out", "back"]);
     assert!(
@@ -795,7 +795,7 @@ fn a_part_without_a_sum_is_checked_by_its_rows() {
         for other in ["maybe", "NaN", "inf", "1e999", "+1", "", "text"] {
             let mut changed = cells.clone();
             changed[k] = other;
-            // An error may be unknown.
+            // An error can be unknown.
             let is_error =
                 part.lines().next().unwrap().split(',').nth(k).unwrap().ends_with("_error");
             if cells[k] == other || (other.is_empty() && is_error) {

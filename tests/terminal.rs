@@ -159,7 +159,7 @@ fn a_long_wait_shows_a_bar_with_the_time_left_and_takes_it_away() {
     assert!(!line.contains(" left ") && !table.contains(" left  "), "{line}");
     let quiet = self::seen(&folder, &format!("{trade} --quiet"), &[]).unwrap();
     assert!(!quiet.contains("\u{1b}[2K"), "{quiet}");
-    // Nobody waits at a pipe.
+    // At a pipe nobody waits.
     let output = folder.run(&["trade", &mesh("r161"), "-n", "3", "--budget", "1 s"]);
     assert!(output.stderr.is_empty(), "{output:?}");
 }

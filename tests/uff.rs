@@ -548,7 +548,7 @@ fn factors_of_units_are_above_zero() {
     assert!(said(&text).contains("beyond the largest"), "{}", said(&text));
 }
 
-/// Good files to be spoilt.
+/// Valid files to be damaged.
 fn samples() -> Vec<Vec<u8>> {
     let folder = Path::new(env!("SWEETSPOT_TOP")).join("tests/foreign");
     let names = ["nodes", "shapes", "functions", "singles", "binary", "feet"];

@@ -18,7 +18,7 @@ fn every_known_answer_is_reproduced_and_the_page_says_so() {
         for row in table {
             let (expected, found) = (row.expected, row.found);
             assert!(!row.missed(), "{name}: {} expected {expected}, found {found}", row.quantity);
-            // Values for information only exist at least.
+            // Values for information only must at least exist.
             assert!(found.is_finite(), "{name}: {}", row.quantity);
         }
         rows += table.iter().filter(|row| !row.information).count();
@@ -32,7 +32,7 @@ fn every_known_answer_is_reproduced_and_the_page_says_so() {
     assert_eq!(stale, None, "docs/validation.md is stale; {again}");
 }
 
-/// The committed picture is today's, but for a pixel where a number was just about to round.
+/// The committed picture equals the present one, except for a pixel where a number is close to a rounding boundary.
 #[test]
 fn the_picture_of_the_page_is_todays() {
     let path = Path::new(env!("SWEETSPOT_TOP")).join("docs").join(hit_figure::FILE);

@@ -45,8 +45,8 @@ fn half_unit(text: &str) -> f64 {
     0.5 * 10_f64.powi(exponent.parse::<i32>().unwrap() - decimals as i32)
 }
 
-/// Holds `column` of ours, every `step`-th row, to the reference's: to the rounding of its digits
-/// plus `tolerance`. An empty cell asks for no value.
+/// Compares our `column`, every `step`-th row, with that of the reference, to the rounding of its digits plus
+/// `tolerance`. An empty cell requires that there is no value.
 fn hold(ours: &Table, column: &str, step: usize, tolerance: f64) {
     hold_rows(ours, column, step, |_| tolerance);
 }

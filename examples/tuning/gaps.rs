@@ -2,8 +2,8 @@
 //!
 //!     cargo run --release --example tuning_gaps
 //!
-//! The smallest `n (1 − λ_n/λ_{n+1})` of the first modes. A value far below these is no gap between modes of a bat but
-//! a twin of the last mode, which must be included.
+//! The smallest `n (1 − λ_n/λ_{n+1})` of the first modes. A value far below these is not a gap between modes of a bat:
+//! the next mode is a twin of the last and must be included.
 
 use sweetspot::{Bat, Request, Result, Theory, solve};
 

@@ -1,6 +1,6 @@
-//! How many modes, and how accurate ones, does a hit need? The table from which `enough` and `MODES` of a sweep and
-//! `FALLS` of the stated errors are chosen: the error of the exit speed relative to the closing speed with n modes, the
-//! power of n with which it falls, and the error with modes of a given tolerance.
+//! How many modes does a hit need, and how accurate must they be? The basis of `enough` and `MODES` of a sweep and of
+//! `FALLS` of the stated errors: the error of the exit speed relative to the closing speed with n modes, the power of n
+//! with which it falls, and the error with modes of a given tolerance.
 
 use sweetspot::bat::theory::Theory;
 use sweetspot::collision::{Effort, Hitter, Model, Scene};
@@ -12,7 +12,7 @@ const COUNTS: [usize; 5] = [10, 14, 20, 28, 40];
 const MANY: usize = 80;
 const PLACES: usize = 16;
 
-/// Exit speeds over the closing speed along the outer half of a bat, where ball and bat touch once.
+/// Exit speeds relative to the closing speed along the outer half of a bat, where ball and bat touch only once.
 fn speeds(bat: &Bat, solution: &Solution) -> Result<Vec<Option<f64>>> {
     let scene = Scene { swing: 50.0, ball_speed: 90.0 * 0.447_04, ..Scene::default() };
     let effort = Effort { accuracy: 1e-10, completed: true, unsettled: false };
@@ -25,7 +25,7 @@ fn speeds(bat: &Bat, solution: &Solution) -> Result<Vec<Option<f64>>> {
     Ok((0..PLACES).map(speed).collect())
 }
 
-/// The largest difference where both know the speed.
+/// The largest difference where both have a speed.
 fn apart(a: &[Option<f64>], b: &[Option<f64>]) -> f64 {
     let known = a.iter().zip(b).filter_map(|(a, b)| Some((*a)? - (*b)?));
     known.map(f64::abs).fold(0.0, f64::max)

@@ -1,4 +1,4 @@
-//! What is the cost of elements that reach over stations? The basis of the formula of `modes::stations` and of `SURE`,
+//! What is the cost of elements that extend over stations? The basis of the formula of `modes::stations` and of `SURE`,
 //! `OVER`, `SAMPLING` of `modes::plan`.
 //!
 //!     cargo run --release --example tuning_over_stations [BAT.json ...]

@@ -1,5 +1,5 @@
-//! How far is the first plan from the wanted accuracy, and what does a higher degree gain? The basis of `AIM`, `LITTLE`
-//! and the residual of `modes::plan`, `modes::request`.
+//! How far is the first plan from the wanted accuracy, and how much does a higher degree improve it? The basis of
+//! `AIM`, `LITTLE` and the residual of `modes::plan`, `modes::request`.
 //!
 //!     cargo run --release --example tuning_plans
 //!
@@ -15,7 +15,7 @@ use sweetspot::modes::solution::{Solution, Timing};
 use sweetspot::modes::task::Task;
 use sweetspot::{Bat, Request, Result, Theory};
 
-/// The solution on that plan, and the shortest time of some (s).
+/// The solution on that plan, and the shortest of several times (s).
 fn on(bat: &Bat, plan: &Plan, request: &Request, residual: f64) -> Result<(Solution, f64)> {
     let task = Task { bat, plan, request, residual };
     let mut shortest = f64::INFINITY;

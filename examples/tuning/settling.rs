@@ -1,12 +1,12 @@
-//! Does an exit speed get better with every round of finer steps? The table from which `IDLE`,
-//! `IDLE_DEAD` and `DEAD` of a sweep and `BLURRED` of its rounds are chosen.
+//! Does every round of finer steps improve an exit speed? The basis of `IDLE`, `IDLE_DEAD` and `DEAD` of a sweep and of
+//! `BLURRED` of its rounds.
 //!
 //!     cargo run --release --example tuning_settling
 //!
-//! For balls of falling restitution the worst error stated along three bats as the steps become ten times
-//! finer, over the one of the round before: what settles falls to a tenth or less in two rounds, what
-//! magnifies round-off stays where it is. Then by how much finer steps changed the error stated of modes
-//! left out, by the share that the steps' error was of it: answers that are compared differ by both.
+//! First, for balls of decreasing restitution, the largest stated error along three bats with steps ten times finer,
+//! relative to that of the round before. A speed that converges falls to a tenth or less in two rounds; one that
+//! magnifies round-off does not fall. Then the change of the stated error due to missing modes with finer steps, by the
+//! ratio of the error of the steps to it: the compared answers differ by both.
 
 use std::time::Instant;
 
@@ -19,7 +19,7 @@ const ACCURACIES: [f64; 6] = [1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
 const PLACES: usize = 16;
 const SHARES: [f64; 7] = [1.0, 0.1, 0.03, 0.01, 0.003, 0.001, 0.0];
 
-/// The worst error of one kind.
+/// The largest error of one kind.
 fn worst(outcomes: &[Option<Outcome>], of: fn(&Outcome) -> f64) -> f64 {
     outcomes.iter().flatten().map(of).fold(0.0, f64::max)
 }

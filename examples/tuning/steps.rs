@@ -1,6 +1,5 @@
-//! How long may the steps of a contact be? The table from which `Tuning` is chosen, and the longest usual
-//! step, `LONGEST` of a hitter: the steps that hits along three bats take, and how far their impulses are
-//! off, over the accuracy that was asked for.
+//! How long may the steps of a contact be? The basis of `Tuning` and of the longest usual step, `LONGEST` of a hitter:
+//! the number of steps of hits along three bats, and the errors of their impulses relative to the wanted accuracy.
 
 use sweetspot::collision::contact::collider::Collider;
 use sweetspot::collision::contact::force_law::ForceLaw;
@@ -11,18 +10,18 @@ use sweetspot::{Bat, Request, Result, solve};
 
 const BATS: [&str; 3] = ["meshes/r161.json", "meshes/dowel.json", "meshes/torpedo.json"];
 const ACCURACIES: [f64; 3] = [1e-3, 1e-5, 1e-7];
-/// Longest usual step, as a share of the time for which the ball is pressed.
+/// Longest usual step, as a share of the duration of the contact.
 const LONGEST: f64 = 0.28;
 const BALL: f64 = 0.145;
 
-/// A bat and a ball: modes, and what the ball feels at every place.
+/// A bat and a ball: the modes, and the modal data of every place.
 struct Hits {
     modes: Vec<[f64; 2]>,
     places: Vec<DrivingPoint>,
     law: PowerLaw,
     speed: f64,
     pressed: f64,
-    /// Impulses by fine steps; None where the ball is pressed anew or met again.
+    /// Impulses by fine steps; `None` if the ball is compressed twice or hit again.
     exact: Vec<Option<f64>>,
 }
 
@@ -44,7 +43,7 @@ impl Hits {
         Ok(Self { modes, places, law, speed, pressed, exact })
     }
 
-    /// Mean number of steps, and the largest error over the accuracy.
+    /// Mean number of steps, and the largest error relative to the wanted accuracy.
     fn tried(&self, tuning: Tuning, longest: f64, accuracy: f64) -> [f64; 2] {
         let collider = Collider::new(&self.modes, longest * self.pressed).tuned(tuning);
         let (mut steps, mut worst) = (0, 0.0_f64);

@@ -13,7 +13,7 @@ pub const OMEGAS: [f64; 3] = [40.0, 50.0, 60.0];
 const SLUG: f64 = 14.593_902_937_206_365;
 /// 5 oz in slug; the report's list says 30 oz, its script 0.009712797.
 const BALL_MASS: f64 = 5.0 / 16.0 * 0.453_592_37 / SLUG;
-/// Slug and inch do not go together: the joules in one slug in²/s².
+/// The joules in one slug in²/s², a unit that mixes slugs with inches.
 const JOULE: f64 = SLUG * 0.0254 * 0.0254;
 const LENGTH: f64 = 33.0;
 /// Distance of the swing's centre beyond the knob.
@@ -99,8 +99,8 @@ const SUMMARY: &str = "omega,modes,X_peak_rigid,v_peak_rigid,X_peak_vib,v_peak_v
     velocity_drop_at_rigid_peak,mean_velocity_drop,drop_of_mean_velocity,drop_of_mean_energy,\
     min_drop,max_drop,no_real_J_up_to";
 
-/// All that "shift" and "drop" of figure 18 can mean. Means are over `X ≥ 0.135`, the part that the
-/// script does not set to zero, on its 10 001 points.
+/// All possible meanings of "shift" and "drop" of figure 18. Means are over `X ≥ 0.135`, the part that the script does
+/// not set to zero, on its 10 001 points.
 pub fn summary() -> Table {
     let x = grid(10_000);
     let losses = vibrations(&x, &COUNTS);
@@ -151,7 +151,7 @@ fn highest(values: &[f64]) -> usize {
     (first..values.len()).fold(first, above)
 }
 
-/// Golden-section search for the maximum. A maximum is flat, so its place is good to `√ε` only.
+/// Golden-section search for the maximum. A maximum is flat, so its place is accurate only to `√ε`.
 fn peak(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
     while high - low > 1e-9 {

@@ -5,8 +5,7 @@ use sweetspot::motion::oscillator::Oscillator;
 /// `q_n(t) = J φ_n(a) h_n(t)`: each mode's displacement after an impulse `J` (N s) at `a`.
 ///
 /// `shape_at_a` holds `φ_n(a)`. With the shapes at `x` this is the response `w(x, t)`; its velocity
-/// at `t = 0` is a series that does not converge, for a force that lasts no time has no finite
-/// power.
+/// at `t = 0` is a series that does not converge, because a force of zero duration has no finite power.
 pub fn struck(modes: &[Oscillator], shape_at_a: &[f64], impulse: f64, t: f64) -> Vec<f64> {
     modes.iter().zip(shape_at_a).map(|(m, phi)| impulse * phi * m.impulse_response(t)).collect()
 }

@@ -1,4 +1,4 @@
-//! Columns of numbers with names, as a figure is drawn from them.
+//! Columns of numbers with names, from which a figure is drawn.
 
 /// One figure or table of the report.
 pub struct Table {

@@ -1,4 +1,4 @@
-//! Figures 4 to 15 of the WPI report: the free–free dowel, left alone or struck at 0.7 L.
+//! Figures 4 to 15 of the WPI report: the free–free dowel, released from a shape or struck at 0.7 L.
 //!
 //! Lengths are in units of `L`, `ρA = EI = 1`; so `ω_n = b_n²`, and a displacement after an impulse
 //! `J` is `w √(EI ρA)/(J L)`. Shapes are the report's `W_n`, computed without cancellation.

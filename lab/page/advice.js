@@ -1,15 +1,15 @@
-// What takes the core longer: where a cut does what, and the least change that meets a wish.
+// Questions that take the core longer: the effect of a cut along the bat, and the least change that meets a wish.
 
 import { button, byId, made, put, write } from "./svg.js";
 import { say } from "./units.js";
 
-/** Wishes as `sweetspot aim` takes them, and what stands on their buttons. */
+/** Wishes in the notation of `sweetspot aim`, and the labels of their buttons. */
 const WISHES = [
   { id: "lighter", words: "1 oz lighter, same pop", targets: ["1 oz lighter", "keep pop"] },
   { id: "outward", words: "Sweet spot 1 cm out", targets: ["sweet spot 1 cm outward"] },
   { id: "drop", words: "Drop 3", targets: ["drop 3"] },
 ];
-/** Quiet ms before the map is asked for. */
+/** Quiet time (ms) before the map is requested. */
 const QUIET = 700;
 
 export class Lathe {
@@ -21,7 +21,7 @@ export class Lathe {
     bench.on("shown", () => this.gone());
   }
 
-  /** Colours the bat from now on, or no more. */
+  /** Turns the colours of the bat on or off. */
   turn(on) {
     this.on = on;
     put(byId("lathe-on"), { "aria-pressed": String(on) });
@@ -30,7 +30,7 @@ export class Lathe {
     else this.ask();
   }
 
-  /** The bat has changed: what a cut does is not known any more, and asked again when it rests. */
+  /** The bat has changed: the effect of a cut is unknown, and is requested again when the bat rests. */
   gone() {
     this.answer = this.picture.lathe = null;
     write(byId("lathe-words"), this.idle);
@@ -43,14 +43,14 @@ export class Lathe {
 
   async ask() {
     const { bench } = this, { number } = bench, say = (words) => write(byId("lathe-words"), words);
-    // While the bat is in hand nothing is asked, and tried again soon.
+    // Nothing is requested while the bat is being changed; this tries again soon.
     if (bench.changing) this.later = setTimeout(() => this.ask(), QUIET);
     if (!bench.body || bench.changing) return;
     say("What a cut does is being computed…");
     const answer = await bench.slow.ask(bench.question("lathe"));
     if (!answer || number !== bench.number || !this.on) return;
     if (answer.error) { say(answer.error); return; }
-    // Of some bats a cut's effect on the hit is not known.
+    // For some bats the effect of a cut on the hit is not known.
     const effects = answer.effects.filter(({ changes }) => changes.some((change) => change !== null));
     this.answer = { ...answer, effects };
     const select = byId("lathe-of"), wanted = select.value;
@@ -61,7 +61,7 @@ export class Lathe {
     this.chosen();
   }
 
-  /** Colours the bat by the effect that is chosen. */
+  /** Colours the bat by the chosen effect. */
   chosen() {
     const { answer, picture } = this, what = byId("lathe-of").value;
     const effect = answer?.effects.find((one) => one.what === what);
@@ -70,7 +70,7 @@ export class Lathe {
     picture.draw();
   }
 
-  /** The colours in words: where a cut does most, and how much. */
+  /** The colours in words: where a cut has the largest effect, and how large it is. */
   tell(what, changes) {
     const { bands, depth } = this.answer, off = /^\d/.test(depth) ? depth : `1 ${depth}`;
     const ways = what === "sweet spot" ? ["outwards", "inwards"] : ["up", "down"];
@@ -94,7 +94,7 @@ export class Wishes {
     bench.on("shown", () => { byId("wish-text").hidden = true; });
   }
 
-  /** Ends the wish under way. */
+  /** Ends the present wish. */
   drop() { this.bench.slow.drop((kind) => kind === "aim"); }
 
   async ask(words, targets) {
@@ -105,7 +105,7 @@ export class Wishes {
     byId("wish-stop").hidden = false;
     const only = byId("remove-only").checked;
     const answer = await bench.slow.ask({ ...bench.question("aim"), targets, remove_only: only });
-    // A wish that another one took the place of says nothing more.
+    // The answer to a wish that was replaced by a newer one is ignored.
     if (count !== this.count) return;
     byId("wish-stop").hidden = true;
     const changed = "The bat was changed meanwhile, so the wish was dropped.";

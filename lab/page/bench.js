@@ -1,26 +1,26 @@
-// The one state of the page: the bat that is shown, its scene, every step there was, and the core's answers to it.
+// The one state of the page: the bat that is shown, its scene, all steps so far, and the core's answers to it.
 
 import { History } from "./history.js";
 import { fileText } from "./stations.js";
 import { inUs, say } from "./units.js";
 
-/** Quiet ms before the certified answer is asked for, and before the slow one. */
+/** Quiet time (ms) before the certified answer is requested, and before the slow one. */
 const CERTIFIED_AFTER = 60, SLOW_AFTER = 500;
-/** A certified answer that took less (ms) is asked for in every frame. */
+/** If a certified answer took less than this (ms), it is requested in every frame. */
 const QUICK = 10;
-/** Answers that are kept. */
+/** Number of answers that are kept. */
 const KEPT = 40;
-/** Mistakes that are listed, and letters of one. */
+/** Most mistakes that are listed, and most letters of one. */
 const LISTED = 5, LETTERS = 400;
-/** Bats that can be pinned. */
+/** Most pinned bats. */
 export const PINS = 4;
 
 /**
- * What `open` said of a text, and what is edited of it.
+ * The answer of `open` to a text, with the data that the page edits.
  * @typedef {{ bat: any, differs: string | null, parts: string[], warnings: string[], deviation_m?: number }} Known
  */
 
-/** What is wrong with a bat, each mistake on its own line. */
+/** The mistakes in a bat, one per line. */
 function wrong({ error, mistakes = [] }) {
   const short = (text) => text.length > LETTERS ? `${text.slice(0, LETTERS)}…` : text;
   if (mistakes.length === 0) return short(error);
@@ -32,9 +32,9 @@ function wrong({ error, mistakes = [] }) {
 export class Bench extends EventTarget {
   /**
    * @param {import("./solve.js").Near} near
-   * @param {import("./solve.js").Far} quick  previews, and whatever a hand waits for
-   * @param {import("./solve.js").Far} sure  certified answers: nobody waits behind them
-   * @param {import("./solve.js").Far} slow  what takes a second or more, ended when the bat changes
+   * @param {import("./solve.js").Far} quick  previews, and all answers that the user waits for
+   * @param {import("./solve.js").Far} sure  certified answers, which delay no others
+   * @param {import("./solve.js").Far} slow  answers that take a second or more; ended when the bat changes
    */
   constructor(near, quick, sure, slow) {
     super();
@@ -45,7 +45,7 @@ export class Bench extends EventTarget {
     this.kept = new Map();
     /** @type {{ text: string, scene: object }[]} */
     this.pins = [];
-    /** What differences count from: "opened", "before", or the number of a pin. */
+    /** The reference of differences: "opened", "before", or the number of a pin. */
     this.against = "opened";
     Object.assign(this, { body: null, hit: null, analyzed: null, trouble: null, changing: false });
   }
@@ -54,10 +54,10 @@ export class Bench extends EventTarget {
   on(what, then) { this.addEventListener(what, (event) => then(event.detail)); }
 
   get units() { return inUs() ? "us" : "si"; }
-  /** The file that is edited: a table of stations. */
+  /** The edited file: a table of stations. */
   get file() { return this.known.get(this.text)?.bat ?? null; }
   get opened() { return this.known.get(this.text) ?? null; }
-  /** Whether what is drawn belongs to the bat shown, and was computed as accurately as asked. */
+  /** Whether the drawing belongs to the bat shown and has the requested accuracy. */
   get certified() { return this.hit !== null && this.hit.number === this.number && this.hit.answer.certified; }
 
   /** Whether the bat shown has no answer. */
@@ -69,7 +69,7 @@ export class Bench extends EventTarget {
     return { ask, bat: text, units: this.units, ...scene, diameter_deviation_m };
   }
 
-  /** What is said of a bat whose diameters were traced. */
+  /** The note about a bat with traced diameters. */
   get traced() {
     const { deviation_m } = this.opened ?? {};
     return deviation_m ? [`Its diameters were traced, within ± ${say("diameter", deviation_m)} in two cases of three: the ± count that.`] : [];
@@ -83,13 +83,13 @@ export class Bench extends EventTarget {
 
   keyOf(ask, text = this.text) { return JSON.stringify([ask, text, this.scene, this.units]); }
 
-  /** The rigid figures of a bat to compare with, at once. */
+  /** The rigid figures of a bat for comparison, at once. */
   bodyOf(text) {
     const key = this.keyOf("body", text);
     return this.kept.get(key) ?? this.keep(key, this.near.ask(this.question("body", text)));
   }
 
-  /** The certified answer to any bat, if it is there; else it is asked for in the slow worker, and `then` told. */
+  /** The certified answer for a bat if it exists; otherwise the slow worker is asked and then calls `then`. */
   hitOf(text) {
     const key = this.keyOf("sure", text), there = this.kept.get(key);
     if (there || this.asking?.has(key)) return there ?? null;
@@ -101,7 +101,7 @@ export class Bench extends EventTarget {
     return null;
   }
 
-  /** The bat that differences count from; null where it is the one shown. */
+  /** The reference bat of differences; null if it is the one shown. */
   get reference() {
     const { history, against } = this;
     const text = against === "opened" ? history?.opened
@@ -110,15 +110,15 @@ export class Bench extends EventTarget {
   }
 
   /**
-   * Opens the text of a bat file or a table, in a scene of its own if it has one, its diameters known to a deviation if
-   * they were traced; what is wrong is returned in words.
+   * Opens the text of a bat file or a table, in its own scene if it has one, and with the deviation of its diameters
+   * if they were traced. Returns the mistakes in words.
    * @returns {Promise<string | null>}
    */
   async open(text, scene, deviation_m) {
     const answer = await this.quick.ask({ ask: "open", bat: text, units: this.units });
     if (!answer) return "Another bat was opened meanwhile.";
     if (answer.error) return wrong(answer);
-    // A bat file stays as it was written; a table of stations becomes one.
+    // A bat file stays as written; a table of stations becomes a bat file.
     const own = text.trimStart().startsWith("{") ? text : answer.bat_file;
     const before = this.scene;
     if (scene) this.scene = scene;
@@ -137,7 +137,7 @@ export class Bench extends EventTarget {
     return null;
   }
 
-  /** Shows a text that is known. Rigid figures come at once, the rest as it is answered. */
+  /** Shows a known text. Rigid figures appear at once, the rest as the answers arrive. */
   show(text) {
     const body = this.near.ask(this.question("body", text));
     if (body.error) {
@@ -149,11 +149,11 @@ export class Bench extends EventTarget {
     return true;
   }
 
-  /** Everything about the shown bat is asked anew. */
+  /** Requests everything about the shown bat again. */
   changed() {
     this.number += 1;
     Object.assign(this, { analyzed: null, lathe: null, trouble: null });
-    // What was asked of the bat before is of no use; the bats to compare with stay. A wall takes a second.
+    // Questions about the previous bat are dropped, except those about bats for comparison. A wall takes a second.
     this.slow.drop((kind) => kind !== "sure");
     if (this.body.hollow) this.sure.drop((kind) => kind === "sure");
     this.tell("slow", false);
@@ -175,7 +175,7 @@ export class Bench extends EventTarget {
       this.lastTook = answer.took;
       if (!this.changing) this.keep(key, answer);
     }
-    // An answer to an earlier bat is a preview of this one at best, and never overwrites a later answer.
+    // An answer to an earlier bat is at best a preview of this one, and never overwrites a later answer.
     if (answer.error) { if (number === this.number) this.fail(answer.error); }
     else if (number >= (this.hit?.number ?? 0)) this.take(answer, number);
   }
@@ -186,7 +186,7 @@ export class Bench extends EventTarget {
     this.tell("figures");
   }
 
-  /** What takes a second or more: how far the bat in hand may be off. */
+  /** The slow answer: the uncertainty of the bat in hand. */
   async askSlow() {
     if (this.changing || this.hopeless) return;
     const { number } = this, key = this.keyOf("analyze");
@@ -203,14 +203,14 @@ export class Bench extends EventTarget {
     else { this.analyzed = answer; this.tell("figures"); }
   }
 
-  /** A bat that the core made of this one, as a step like any other. */
+  /** A bat that the core made from this one, as an ordinary step. */
   async adopt(text) {
     const { number } = this, answer = await this.quick.ask({ ask: "open", bat: text, units: this.units });
     if (!answer || answer.error || number !== this.number) return false;
     return this.once(answer.bat);
   }
 
-  /** There is no answer to the bat shown: nothing of another one may stand in its place. */
+  /** The bat shown has no answer; no answer of another bat may take its place. */
   fail(words) {
     Object.assign(this, { hit: null, failed: this.number });
     this.sure.drop((kind) => kind === "sure");
@@ -223,19 +223,19 @@ export class Bench extends EventTarget {
     this.tell("trouble", words);
   }
 
-  /** Shows the file with other stations or edits; `commit` makes a step of it. False where the core refuses it. */
+  /** Shows the file with other stations or edits; `commit` makes a step of it. False if the core refuses it. */
   edit(file) {
     const text = fileText(file), { opened, text: old } = this;
     if (text === old) return true;
     this.known.set(text, { ...opened, bat: file, differs: null });
     const fits = this.show(text), gone = fits ? old : text;
-    // What a drag only passes through is not kept.
+    // A state that a drag only passes through is not kept.
     const held = this.history.steps.includes(gone) || this.pins.some((pin) => pin.text === gone);
     if (!held) this.known.delete(gone);
     return fits;
   }
 
-  /** What is shown becomes a step of undo. */
+  /** The state shown becomes a step of undo. */
   commit() {
     const { differs } = this.known.get(this.history.now);
     if (this.history.push(this.text)) {
@@ -247,7 +247,7 @@ export class Bench extends EventTarget {
     this.slowLater = setTimeout(() => this.askSlow(), SLOW_AFTER);
   }
 
-  /** One change that is a step by itself. */
+  /** A single change as a step. */
   once(file) {
     const fits = this.edit(file);
     if (fits) this.commit();
@@ -275,7 +275,7 @@ export class Bench extends EventTarget {
   }
 
   /**
-   * Pins the bats that came with another one; differences count from the first. What is wrong is returned in words.
+   * Pins the bats that came with another one; differences refer to the first. Returns the mistakes in words.
    * @param {string[]} [texts]
    * @returns {Promise<string | null>}
    */

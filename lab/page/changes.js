@@ -1,19 +1,18 @@
-// Changes that are not of the shape: weights, cups, corks, another wood. Each is an edit of the bat file, and can be
-// taken off.
+// Changes other than the shape: weights, cups, corks, another wood. Each is an edit of the bat file and can be removed.
 
 import { button, byId, made, write } from "./svg.js";
 import { inUs, whenUnits } from "./units.js";
 
 /**
- * A kind of edit: its fields with what stands in them at first for a bat of that length (in), and the edit as the bat
- * file has it.
+ * A kind of edit: its fields with their initial values for a bat of that length (in), and the edit as it is in the bat
+ * file.
  * @typedef {{ words: string, fields: (length: number) => [string, string][], edit: (values: string[]) => object }} Kind
  */
 
-/** Round numbers of the order of cork's, as the built-in corked bat has them. */
+/** Round numbers of the order of cork's, as in the built-in corked bat. */
 export const CORK = { density: 200, youngs_modulus: "20 MPa", shear_modulus: "8 MPa" };
 
-/** Inches as they are typed in the units that are shown. */
+/** A length in inches as text in the units shown. */
 const typed = (inches) => inUs() ? `${Number(inches.toFixed(1))} in` : `${(2.54 * inches).toFixed(1)} cm`;
 /** The last six inches of a bat, which are bored most often, to a tenth. */
 const last = (length) => [["from", typed(length - 6)], ["to", typed(Math.floor(10 * length) / 10)], ["wide", typed(1)]];

@@ -1,5 +1,5 @@
-// Draws the exit speed along the barrel and what is left in vibration, above the same places, with a line that reads
-// off.
+// Draws the exit speed along the barrel and the energy left in vibration, above the same places, with a line for
+// reading values.
 
 import { byId, drawn, made, pathOf, put, ticks, write, framed } from "./svg.js";
 import { inUs, say, shownAs } from "./units.js";
@@ -29,7 +29,7 @@ export class Chart {
     }
     const before = bench.reference && bench.hitOf(bench.reference);
     const curves = [hit.curve, ...(before ? [before.curve] : [])];
-    // While the bat changes the axes only grow.
+    // The axes only grow while the bat changes.
     const wanted = this.rangesOf(curves), held = bench.changing && this.ranges?.units === inUs() ? this.ranges : null;
     const joined = (name) => held ? [Math.min(held[name][0], wanted[name][0]), Math.max(held[name][1], wanted[name][1])]
       : wanted[name];
@@ -131,14 +131,14 @@ export class Chart {
     this.draw();
   }
 
-  /** Nothing can be read off. */
+  /** Removes the reading line. */
   unread() {
     byId("reading").replaceChildren();
     put(this.svg, { "aria-label": "Exit speed along the barrel" });
     put(this.slider, { "aria-valuetext": "nothing to read off" });
   }
 
-  /** The line that reads off, and what it reads. */
+  /** The reading line and its values. */
   hair(hit, bottom) {
     const { svg } = this, [from, to] = this.ranges.place;
     if (this.share === null) {

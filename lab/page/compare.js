@@ -1,10 +1,10 @@
-// The built-in bats to choose from, and up to four pinned bats beside the one that is shown.
+// The built-in bats to choose from, and up to four pinned bats compared with the one shown.
 
 import { PINS } from "./bench.js";
 import { button, byId, headOf, made, write } from "./svg.js";
 import { signed } from "./units.js";
 
-/** What the table of pinned bats shows. */
+/** The rows of the table of pinned bats. */
 const COLUMNS = [
   ["Sweet spot", "place", ({ hit }) => hit?.best && { value: hit.best.place.x_m, text: hit.best.place.text }],
   ["Fastest ball", "speed", ({ hit }) => hit?.best?.speed],
@@ -59,7 +59,7 @@ export class Compare {
     byId("pins").replaceChildren(caption, headOf(["", ...COLUMNS.map(([name]) => name), ""]), made("tbody", {}, first, ...rows));
   }
 
-  /** A pinned bat is shown as one step more, so that Undo leads back. */
+  /** Shows a pinned bat as one more step, so that Undo leads back. */
   open(text) {
     const { bench } = this;
     if (bench.show(text)) bench.commit();

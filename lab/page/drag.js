@@ -1,13 +1,13 @@
-// Moves what a hand takes hold of, by pointer or by keys: one gesture is one step, Escape puts the bat back as it was.
+// Moves parts of the picture by pointer or by keys: one gesture is one step, and Escape restores the bat.
 
 import { BandGesture, LengthGesture, StationGesture } from "./gestures.js";
 import { lengthLimits, limits, movable } from "./stations.js";
 import { byId, framed, put } from "./svg.js";
 import { inUs } from "./units.js";
 
-/** How near (px) a pointer must be to the outline, fine and coarse. */
+/** Largest distance (px) of a pointer from the outline, fine and coarse. */
 const NEAR = { mouse: 16, pen: 20, touch: 30 };
-/** Reaches (mm) that `[` and `]` go through. */
+/** Reaches (mm) that `[` and `]` select. */
 const REACHES = [0, 10, 20, 30, 40, 60, 80, 120, 160, 200];
 
 export class Drag {
@@ -27,13 +27,13 @@ export class Drag {
     svg.addEventListener("pointercancel", (event) => event.pointerId === this.pointer && this.back());
     svg.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
     svg.addEventListener("keydown", (event) => this.key(event));
-    // Not on the picture itself: browsers let what hears of the focus have it.
+    // Not on the picture itself: browsers give the focus to elements that listen for it.
     svg.parentElement.addEventListener("focusin", (event) => this.focused(event));
     svg.parentElement.addEventListener("focusout", () => this.pointer === null && this.finish());
     addEventListener("keydown", (event) => {
       if (event.key === "Escape" && this.gesture) { event.preventDefault(); this.back(); }
     });
-    // A finger on a handle draws; one beside it scrolls the page.
+    // A finger on a handle draws; a finger beside it scrolls the page.
     svg.addEventListener("touchstart", (event) => this.pointer !== null && event.preventDefault(), { passive: false });
   }
 
@@ -44,7 +44,7 @@ export class Drag {
     return [right * frame.width, down * frame.height];
   }
 
-  /** The station nearest to a point on one of the two edges; −1 where none is near. */
+  /** The station nearest to a point on one of the two edges; −1 if none is near. */
   nearest([x, y], kind) {
     const { picture } = this, { stations, frame } = picture, near = NEAR[kind] ?? NEAR.mouse;
     if (!stations) return -1;
@@ -59,7 +59,7 @@ export class Drag {
     return best;
   }
 
-  /** The next pull over the bat turns a band off it, or no more. */
+  /** Whether the next pull over the bat turns a band off it. */
   setBand(on) {
     this.band = on;
     put(byId("band"), { "aria-pressed": String(on) });
@@ -69,7 +69,7 @@ export class Drag {
   down(event) {
     if (this.pointer !== null || event.button !== 0 || !this.bench.body) return;
     this.finish();
-    // What is typed is of the station that was picked until now.
+    // A value being typed belongs to the station that was picked until now.
     if (event.target.closest(".handle") || this.nearest(this.at(event), event.pointerType) >= 0) document.activeElement?.blur();
     const point = this.at(event), { picture, bench } = this, lower = point[1] > picture.frame.middle;
     const place = picture.placeAt(point[0]) / 1000, { outline, length } = bench.body;
@@ -91,7 +91,7 @@ export class Drag {
     picture.handles.children[k].focus({ preventScroll: true });
   }
 
-  /** A pointer takes hold of something. */
+  /** A pointer begins a gesture. */
   take(event, point, gesture) {
     const { picture, bench } = this;
     event.preventDefault();
@@ -113,7 +113,7 @@ export class Drag {
   show() {
     const { gesture, bench } = this;
     if (!gesture) return;
-    // A gesture that has come back to where it began leaves the bat as it was.
+    // A gesture that returns to its beginning leaves the bat unchanged.
     if (gesture.still(this.step)) bench.text === bench.history.now || bench.show(bench.history.now);
     else bench.edit(gesture.after(this.step, this.picture.reach));
   }
@@ -123,7 +123,7 @@ export class Drag {
     this.finish();
   }
 
-  /** Ends the gesture: what is shown becomes a step. */
+  /** Ends the gesture: the state shown becomes a step. */
   finish() {
     const { gesture, bench, picture } = this;
     if (!gesture) return;
@@ -141,7 +141,7 @@ export class Drag {
     this.picture.svg.classList.remove("held");
   }
 
-  /** Puts the bat back as it was before the gesture. */
+  /** Restores the bat from before the gesture. */
   back() {
     if (!this.gesture) return;
     this.let();
@@ -160,7 +160,7 @@ export class Drag {
     if (k >= 0 && k !== this.picture.picked) this.pick(k);
   }
 
-  /** Another reach, while a station is held or not. */
+  /** Changes the reach. */
   setReach(mm) {
     this.picture.reach = mm;
     this.picture.drawReach();
@@ -174,7 +174,7 @@ export class Drag {
     if (next !== undefined) this.setReach(next);
   }
 
-  /** The wheel changes the reach only while a station is held: else it scrolls the page. */
+  /** The wheel changes the reach only while a station is held; otherwise it scrolls the page. */
   wheel(event) {
     if (this.pointer === null) return;
     event.preventDefault();
@@ -192,7 +192,7 @@ export class Drag {
     this.pressed(event);
   }
 
-  /** A key did something; presses in a row are one gesture. */
+  /** A key had an effect; presses in a row are one gesture. */
   pressed(event) {
     this.bench.changing = true;
     this.draw();

@@ -1,10 +1,10 @@
-// The bat's figures in words: each with its difference from the bat before, and how far the bat in hand may be off.
+// The bat's figures in words, each with its difference from the reference bat and its uncertainty.
 
 import { byId, made, put, write } from "./svg.js";
 import { noteSaid, signed } from "./units.js";
 
 /**
- * A figure of the list: where it stands in the core's answers, and the line of `analyze` with its ±.
+ * A figure of the list: its place in the core's answers, and the line of `analyze` with its ±.
  * @typedef {object} Figure
  * @property {string} id
  * @property {string} name
@@ -66,14 +66,14 @@ export class Figures {
       write(row.value, found?.text ?? "–");
       write(row.name, figure.hit && hit?.answer.rough_wall ? `${figure.name}, wall by estimate` : figure.name);
       write(row.more, found ? figure.more?.(shown) ?? "" : "");
-      // A wall by estimate is not compared with one that was solved.
+      // A wall by estimate is not compared with a solved one.
       const alike = !figure.hit || hit?.answer.rough_wall === before?.hit?.rough_wall;
       const old = alike && before && figure.find(before);
       write(row.change, found && old ? signed(figure.kind, found.value - old.value) : "");
       row.row.classList.toggle("same", row.change.textContent === "same");
       const line = figure.line && analyzed?.answers.find(({ what }) => what === figure.line);
       write(row.open, line?.open ? line.open.startsWith("±") ? line.open : `± ${line.open}` : "");
-      // What comes from the hit is a preview until it is certified; the rigid figures are always exact.
+      // Figures of the hit are a preview until they are certified; the rigid figures are always exact.
       const rigid = figure.find({ body, hit: null }) !== null;
       row.row.classList.toggle("preview", !rigid && !certified);
     }
@@ -81,7 +81,7 @@ export class Figures {
     this.against();
   }
 
-  /** The figures of the bat that differences count from. */
+  /** The figures of the reference bat of differences. */
   before() {
     const { bench } = this, text = bench.reference;
     if (!text) return null;
@@ -99,7 +99,7 @@ export class Figures {
         : hit?.number === bench.number ? "being computed to its full accuracy"
           : hit ? "of the bat a moment ago" : "being computed"));
     if (!certified || bench.changing) return;
-    // Said at most once a second, and only what is certified.
+    // Announced at most once a second, and only if certified.
     clearTimeout(this.telling);
     this.telling = setTimeout(() => {
       this.told = performance.now();
@@ -109,7 +109,7 @@ export class Figures {
     }, Math.max(300, 1000 - (performance.now() - this.told)));
   }
 
-  /** The choice of the bat that differences count from. */
+  /** The choice of the reference bat of differences. */
   against() {
     const { bench } = this, select = byId("against");
     const wanted = [["opened", "the bat as opened"], ["before", "the step before"],

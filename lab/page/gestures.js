@@ -1,15 +1,15 @@
-// What a hand changes in one go: a station with its neighbours, the length, a band that is turned off as on a lathe.
+// The gestures: a station with its neighbours, the length, a band that is turned off as on a lathe.
 
 import { lengthLimits, moved, snapped, stationsOf, withDiameters, withPlace } from "./stations.js";
 
-/** A fine pointer moves a size by so much (mm) a pixel, a coarse one a diameter by so much at most: fingers are blunt. */
+/** Change of a size per pixel (mm) by a fine pointer; largest change of a diameter per pixel by a finger. */
 const FINE = 0.1, COARSE = 0.4;
-/** Further (px) from its station than this a pointer moves it finely, as with Shift. */
+/** A pointer farther than this (px) from its station moves it finely, as with Shift. */
 const FAR = 90;
 /** The shortest band (mm), and the deepest cut (mm) off a diameter. */
 const SHORTEST = 10, DEEPEST = 20;
 
-/** Where a pointer is: its place, how far it came since the last one (px), and whether Shift is held. */
+/** The state of a pointer: its place, its movement since the last one (px), and whether Shift is held. */
 /** @typedef {{ x: number, right: number, down: number, shift: boolean, frame: import("./picture.js").Frame }} Moved */
 
 const perPixel = (frame, fine) => fine ? FINE : Math.min(2 / frame.across, COARSE);
@@ -26,10 +26,10 @@ export class StationGesture {
     this.by += perPixel(to.frame, fine) * to.down * (this.lower ? 1 : -1);
   }
 
-  /** Whether it has come back to where it began. */
+  /** Whether it has returned to its beginning. */
   still(step) { return Math.abs(this.by) < step / 2; }
 
-  /** The file with what has changed, snapped. */
+  /** The file with the change, snapped. */
   after(step, reach) {
     const wanted = snapped(this.stations.diameter[this.k] + this.by, step);
     return withDiameters(this.file, moved(this.stations, this.k, wanted, reach));
@@ -52,7 +52,7 @@ export class LengthGesture {
   }
 }
 
-/** A band from where the pointer came down to where it is, as deep as it was pulled towards the axis. */
+/** A band from where the pointer was pressed to where it is, as deep as it was pulled towards the axis. */
 export class BandGesture {
   constructor(file, place, lower) {
     Object.assign(this, { file, lower, first: place, last: place, by: 0 });

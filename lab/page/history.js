@@ -1,6 +1,6 @@
-// Keeps every bat there was, so that each step can be undone and done again without end.
+// Keeps all bats so far, so that every step can be undone and redone without limit.
 
-/** Steps of undo: whole bat files as text, and which of them is shown. */
+/** Steps of undo: whole bat files as text, and the index of the one shown. */
 export class History {
   /** @param {string} first */
   constructor(first) {
@@ -12,13 +12,13 @@ export class History {
   }
 
   get now() { return this.steps[this.place]; }
-  /** The bat as it was opened: what is compared with unless told otherwise. */
+  /** The bat as it was opened: the default for comparisons. */
   get opened() { return this.steps[this.openings.findLast((place) => place <= this.place)]; }
   get before() { return this.place > 0 ? this.steps[this.place - 1] : null; }
   get canUndo() { return this.place > 0; }
   get canRedo() { return this.place < this.steps.length - 1; }
 
-  /** One step more; what was undone before is gone. A step that changes nothing is none. */
+  /** Adds a step and drops the undone ones. A step without a change is ignored. */
   push(text) {
     if (text === this.now) return false;
     this.steps.length = this.place + 1;
@@ -31,7 +31,7 @@ export class History {
   undo() { if (this.canUndo) this.place -= 1; return this.now; }
   redo() { if (this.canRedo) this.place += 1; return this.now; }
 
-  /** Another bat: one step like any, and the one that differences now count from. */
+  /** Another bat: an ordinary step, and the new reference of differences. */
   open(text) {
     this.push(text);
     if (!this.openings.includes(this.place)) this.openings.push(this.place);

@@ -17,14 +17,14 @@ function save(name, parts, type) {
   setTimeout(() => URL.revokeObjectURL(address), 10000);
 }
 
-/** A name of a file made of a bat's name. */
+/** A file name made from a bat's name. */
 export const fileName = (name) =>
   name.toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "").slice(0, 40) || "bat";
 
-/** A picture of the page as a file of its own, with the colours that it has now. */
+/** A picture of the page as a separate file, with its present colours. */
 function standing(svg) {
   const copy = svg.cloneNode(true), all = (one) => [one, ...one.querySelectorAll("*")], to = all(copy);
-  // What the hand takes hold of is no part of the bat.
+  // The handles are not part of the bat.
   const inHand = [...copy.querySelectorAll(".handles, .reach, .blow")];
   const kept = ["fill", "fill-opacity", "stroke", "stroke-width", "stroke-dasharray", "opacity", "font-family",
     "font-size", "font-weight", "text-anchor"];
@@ -87,7 +87,7 @@ export class Keep {
     byId("file").value = "";
   }
 
-  /** Opens what was pasted: a link, a bat file or a table. True if it could be. */
+  /** Opens pasted text: a link, a bat file or a table. True if that succeeds. */
   async take(text, link = /#\d+\.[-\w]*\s*$/.test(text) && !text.trimStart().startsWith("{")) {
     try {
       const { bat, scene, compare, deviation_m } = link ? await unpacked(text) : { bat: text };
@@ -113,14 +113,14 @@ export class Keep {
     if (!(await this.take(link, true))) this.from = from;
   }
 
-  /** What the browser keeps of the last time, or null. */
+  /** The state that the browser keeps from the last visit, or null. */
   kept() {
     try {
       return JSON.parse(localStorage.getItem(SHELF) ?? "null");
     } catch { return null; }
   }
 
-  /** What is shown, and how. */
+  /** The state of the page. */
   get shown() {
     const { text, scene, units, reference, pins, opened } = this.bench;
     const compare = [...new Set([reference, ...pins.map((pin) => pin.text)])].filter((one) => one && one !== text);
@@ -135,7 +135,7 @@ export class Keep {
     } catch { this.lost = bench.history.canUndo; }
   }
 
-  /** The bat's files; what is asked for the command alone takes nobody's place. */
+  /** The bat's files; a request for the command alone replaces no other request. */
   async asked(kind) {
     return this.bench.quick.ask({ ...this.bench.question("files"), name: `${this.name}.json` }, kind);
   }
@@ -172,7 +172,7 @@ export class Keep {
     canvas.toBlob((blob) => save(`${this.name}.png`, [blob], "image/png"));
   }
 
-  /** The page as it was opened, with this bat as its first: one file that needs nothing else. */
+  /** The page as it was opened, with this bat as its first: one self-contained file. */
   async whole() {
     const text = JSON.stringify(this.shown).replaceAll("<", "\\u003c"), page = await this.page.text();
     const from = page.indexOf(">", page.indexOf('id="bat"')) + 1, to = page.indexOf("<", from);
@@ -180,10 +180,10 @@ export class Keep {
     this.say("Written: send this file, and whoever opens it has the bat and the lab.");
   }
 
-  /** The fragment of what is shown. */
+  /** The fragment of the state shown. */
   sent() { return fragment(this.shown); }
 
-  /** A link where the page has an address, else the fragment to paste into any copy's "Open". */
+  /** A link if the page has an address, otherwise the fragment to paste into "Open" of any copy. */
   async copied() {
     const { about } = this, mark = await this.sent();
     const home = location.protocol.startsWith("http") ? location.href.split("#")[0] : about.address;

@@ -1,4 +1,4 @@
-// Five lessons: each a list of steps on the page itself, three sentences and a question, which a test can run too.
+// Five lessons: each a list of steps on the page itself, three sentences and a question, which a test also runs.
 
 import { CORK } from "./changes.js";
 import { button, byId, made, write } from "./svg.js";
@@ -15,16 +15,16 @@ const pinned = (bench, text) => bench.hitOf(text)?.modes[0].frequency;
 const before = (bench) => bench.hitOf(bench.history.opened);
 
 /**
- * What a step does: opens a built-in bat, strikes a place, adds an edit, pins, or does nothing but show.
+ * The action of a step: it opens a built-in bat, strikes a place, adds an edit, pins, or only shows.
  * @typedef {{ open: string } | { strike: (bench: any) => number } | { add: object } | { pin: true } | {}} Act
- * @typedef {{ say: string, see: string, act: Act }} Step  `see` is the element that the step speaks of
+ * @typedef {{ say: string, see: string, act: Act }} Step  `see` is the element that the step is about
  * @typedef {object} Lesson
  * @property {string} id
  * @property {string} title
  * @property {Step[]} steps
  * @property {string} question
  * @property {(bench: any, pin?: string) => string} answer  with the page's own numbers; `pin`: the bat it pinned
- * @property {(bench: any, heard: any, pin?: string) => boolean} holds  whether the page's numbers bear the answer out
+ * @property {(bench: any, heard: any, pin?: string) => boolean} holds  whether the page's numbers confirm the answer
  */
 
 /** @type {Lesson[]} */
@@ -87,7 +87,7 @@ export const LESSONS = [
     answer: (bench) => `${ratio(bench).toFixed(3)}, less than ${THIN.toFixed(3)}: a rod as thick as a bat also turns ` +
       "as it bends, which slows the higher note more. " +
       `The node is at ${(100 * modeOf(bench, 0).nodes[0].x_m / bench.body.length.value).toFixed(1)} %.`,
-    // Turning lowers f² by 1 + (r / L)² of some 49 and 109: 0.5 % of the ratio, for this rod.
+    // The turning of sections divides f² by 1 + (r / L)² times about 49 and 109: 0.5 % of the ratio, for this rod.
     holds: (bench) => ratio(bench) < THIN && ratio(bench) > 0.99 * THIN
       && Math.abs(modeOf(bench, 0).nodes[0].x_m / bench.body.length.value - NODE) < 2e-3,
   },
@@ -163,7 +163,7 @@ export class Lessons {
     this.mark(null);
   }
 
-  /** Shows a step, and does it after those under way; after the last one stand the question and its answer. */
+  /** Shows a step and does it after the running ones; the question and its answer follow the last step. */
   go(k) {
     const { lesson } = this, count = lesson.steps.length, back = k < this.step;
     this.step = Math.min(Math.max(k, 0), count + 1);
@@ -179,7 +179,7 @@ export class Lessons {
     return this.doing;
   }
 
-  /** Does a step; one that was gone back to begins with the first, so that nothing is done twice. */
+  /** Does a step. Going back begins again with the first step, so that nothing is done twice. */
   async arrive(at, back) {
     const { lesson, bench } = this, count = lesson.steps.length;
     const here = () => this.lesson === lesson && this.step === at;
@@ -196,7 +196,7 @@ export class Lessons {
     if (here()) write(byId("lesson-words"), answer);
   }
 
-  /** Outlines what the step speaks of, and brings it into view. */
+  /** Outlines the element of the step and scrolls it into view. */
   mark(element) {
     document.querySelector(".spoken-of")?.classList.remove("spoken-of");
     if (!element) return;
@@ -205,7 +205,7 @@ export class Lessons {
     element.scrollIntoView({ block: "nearest", behavior: calm ? "auto" : "smooth" });
   }
 
-  /** Does what a step says; the promise is kept when the page has done it. */
+  /** Does the action of a step; the promise resolves when the page has done it. */
   async run(lesson, k, aloud) {
     const { bench, bats, voice } = this, { act } = lesson.steps[k];
     if (act.open) await bench.open(bats[act.open]);
@@ -220,14 +220,14 @@ export class Lessons {
     }
   }
 
-  /** Waits for the answer to a bat to compare with, some seconds at most. */
+  /** Waits for the answer about a bat for comparison, at most some seconds. */
   async known(text) {
     for (let k = 0; text && text !== this.bench.text && !this.bench.hitOf(text) && k < 200; k += 1) {
       await new Promise((then) => setTimeout(then, 30));
     }
   }
 
-  /** Waits for the certified answer, while there may be one and the lesson goes on. */
+  /** Waits for the certified answer while one is possible and the lesson continues. */
   async settled() {
     const { bench } = this, unmet = () => bench.hit?.number === bench.number && bench.hit.answer.unmet;
     while (this.lesson && !bench.certified && !bench.hopeless && !unmet()) {

@@ -1,8 +1,8 @@
-// Puts a bat into a link's fragment and takes it out again: "#1." and the deflated JSON in letters of addresses.
+// Packs a bat into a link's fragment and unpacks it: "#1." and the deflated JSON in URL-safe letters.
 
-/** What stands before the bat: the version of the form. */
+/** The prefix: the version of the format. */
 const VERSION = "1.";
-/** More than this is not unpacked: a small link can hold a very large file. */
+/** Most bytes that are unpacked: a small link can contain a very large file. */
 const MOST = 1 << 20;
 
 const toLetters = (bytes) => btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(""))
@@ -10,7 +10,7 @@ const toLetters = (bytes) => btoa(Array.from(bytes, (byte) => String.fromCharCod
 const fromLetters = (text) =>
   Uint8Array.from(atob(text.replaceAll("-", "+").replaceAll("_", "/")), (letter) => letter.charCodeAt(0));
 
-/** Everything that a stream gives, `most` bytes at most. */
+/** The contents of a stream, at most `most` bytes. */
 export async function drained(stream, most) {
   const parts = [], reader = stream.getReader();
   let size = 0;
@@ -26,12 +26,12 @@ export async function drained(stream, most) {
 }
 
 /**
- * What a link holds: the texts of bat files, the first of `compare` being the one that differences count from.
+ * The contents of a link: the texts of bat files; the first of `compare` is the reference of differences.
  * @typedef {{ bat: string, scene: object, compare: string[], deviation_m?: number }} Sent
  */
 
 /**
- * The fragment of a bat, its scene and the bats beside it. The source of the numbers is left out: it is longer than the
+ * The fragment of a bat, its scene and the compared bats. The source of the numbers is omitted: it is longer than the
  * bat.
  * @param {Sent} sent
  */
@@ -44,7 +44,7 @@ export async function fragment({ bat, scene, compare, deviation_m }) {
 }
 
 /**
- * What a fragment holds, or an address that ends in one.
+ * The contents of a fragment, or of an address that ends in one.
  * @param {string} text
  * @returns {Promise<Sent>}
  */

@@ -1,4 +1,4 @@
-// Puts the page together: unpacks the core, makes the parts, opens the first bat.
+// Puts the page together: unpacks the core, creates the parts, opens the first bat.
 
 import { Lathe, Wishes } from "./advice.js";
 import { Bench } from "./bench.js";
@@ -20,18 +20,18 @@ import { Tapping } from "./tap.js";
 import { Tracing } from "./trace.js";
 import { inUs, setUs, whenUnits } from "./units.js";
 
-/** The bat that the page begins with, unless it was given another. */
+/** The first bat of the page by default. */
 const FIRST = "r161";
-/** ms that a quick answer and a slow one may take. */
+/** Time limits (ms) of a quick answer and of a slow one. */
 const LIMITS = [2000, 30000];
 
-/** What the build has put into the page. */
+/** The data that the build has put into the page. */
 function data(name, otherwise) {
   const element = byId(name);
   return element ? JSON.parse(element.textContent) : otherwise;
 }
 
-/** Buttons and keys that are about the whole page. */
+/** Buttons and keys of the whole page. */
 function controls(bench, drag) {
   byId("undo").addEventListener("click", () => { drag.finish(); bench.step(-1); });
   byId("redo").addEventListener("click", () => { drag.finish(); bench.step(1); });
@@ -51,7 +51,7 @@ function controls(bench, drag) {
   }
   whenUnits(() => {
     byId(inUs() ? "units-1" : "units-0").checked = true;
-    // Who counts in inches counts in their parts.
+    // In inches the steps are fractions of an inch.
     byId("step").value = inUs() ? "0.396875" : "0.1";
     drag.step = Number(byId("step").value);
     if (!bench.text) return;
@@ -60,7 +60,7 @@ function controls(bench, drag) {
   });
 }
 
-/** What stands on the page of the bat itself. */
+/** The texts about the bat itself. */
 function words(bench, drag) {
   const reach = () => {
     byId("reach").value = String(drag.picture.reach);
@@ -105,7 +105,7 @@ async function first(bench, keep, bats) {
   const written = data("bat", null), given = typeof written === "string" ? { bat: written } : written;
   const kept = keep.kept();
   keep.from = keep.link ?? (given ? JSON.stringify(given) : null);
-  // What was made of this very link or file goes on; a page without one goes on from the last time.
+  // The work on this link or file continues; a page without one continues the last visit.
   const own = Boolean(kept?.bat) && (keep.from === null || kept.from === keep.from);
   if (((own ? kept : given)?.units ?? kept?.units) === "us") setUs(true);
   const problems = [], open = async ({ bat, scene, deviation_m, compare }) => {
@@ -155,7 +155,7 @@ async function begin() {
   bench.on("scene", () => scene.set());
   const lessons = new Lessons(bench, bats, voice);
   controls(bench, drag);
-  // For trials of the page: what it holds, and the parts that answer.
+  // For tests of the page: its state, and the parts that answer.
   window.lab = { bench, drag, picture, voice, keep, lessons, tracing, tapping, played };
   await first(bench, keep, bats);
   addEventListener("beforeunload", (event) => { if (keep.lost) event.preventDefault(); });

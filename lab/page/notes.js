@@ -1,4 +1,4 @@
-// The bat's notes in a table, and where it is struck to hear them.
+// The bat's notes in a table, and the place where it is struck.
 
 import { byId, drawn, headOf, made, write } from "./svg.js";
 import { inUs, noteSaid, say, signed } from "./units.js";
@@ -30,7 +30,7 @@ export class Notes {
     if (!bench.body) return;
     this.words();
     if (!hit) {
-      // Of a bat without an answer nothing is known; the notes of the bat before stay while one is computed.
+      // A bat without an answer has no notes; while one is computed, the previous notes stay.
       if (bench.hopeless) { byId("modes").replaceChildren(); write(byId("barrel-words"), ""); }
       return;
     }
@@ -50,7 +50,7 @@ export class Notes {
       ?? (bench.body.hollow ? "How the wall of the barrel rings is being computed; it takes some seconds." : ""));
   }
 
-  /** Marks the place on the picture, and says what was heard. */
+  /** Marks the place in the picture and describes the sound. */
   struck({ place_m, answer }) {
     const { picture, bench } = this, { frame } = picture;
     byId("strike-place").value = String(Math.round(1000 * place_m / bench.body.length.value));

@@ -1,4 +1,4 @@
-// Draws the bat: diameters larger than lengths, what is known along it, the bat before as a ghost, and its true shape.
+// Draws the bat: diameters enlarged, the results along it, the reference bat as a ghost, and the true shape.
 
 import { stationsOf, movable } from "./stations.js";
 import { drawn, framed, put, pathOf, ticks, write } from "./svg.js";
@@ -6,11 +6,11 @@ import { inUs } from "./units.js";
 
 /** Room (px) around the bat. */
 const ABOVE = 62, BELOW = 56, SIDE = 16;
-/** How much larger diameters are drawn than lengths, from narrow pictures to wide ones. */
+/** Enlargement of diameters relative to lengths, from narrow pictures to wide ones. */
 const LARGER = { narrow: 4, wide: 3 };
 
 /**
- * Where things are on the picture (px), frozen while a pointer is down.
+ * Coordinates of the picture (px), frozen while a pointer is down.
  * @typedef {{ width: number, height: number, along: number, across: number, middle: number, length: number }} Frame
  */
 
@@ -22,7 +22,7 @@ export class Picture {
     this.axis = layer("axis");
     this.small = layer("small");
     this.below = layer("below");
-    // The bat before lies over the wood and under the edge: it is seen only where it differs.
+    // The reference bat lies over the wood and under the edge, so it is visible only where it differs.
     this.wood = drawn(svg, "path", { class: "wood", id: "outline" });
     this.bore = drawn(svg, "path", { class: "bore" });
     this.ghost = drawn(svg, "path", { class: "before" });
@@ -35,7 +35,7 @@ export class Picture {
     new ResizeObserver(framed(() => this.draw())).observe(svg.parentElement);
   }
 
-  /** The frame that fits the bat into the width there is. */
+  /** The frame that fits the bat into the available width. */
   fit() {
     const { body, reference } = this.bench, width = Math.max(this.svg.parentElement.clientWidth, 240);
     const before = reference ? this.bench.bodyOf(reference).length?.value ?? 0 : 0;
@@ -76,7 +76,7 @@ export class Picture {
     this.drawFound();
   }
 
-  /** The bore, where there is one. */
+  /** The bore, if there is one. */
   boreOf({ x_m: places, inner_m: inner }) {
     const { middle } = this.frame, runs = [];
     places.forEach((x, k) => {
@@ -102,7 +102,7 @@ export class Picture {
     write(name, inUs() ? "in from the knob" : "cm from the knob");
   }
 
-  /** The bat as it is, in true proportion, over the handle where there is room. */
+  /** The bat in true proportion, over the handle if there is room. */
   drawSmall(body) {
     const { small, frame } = this, size = Math.min(0.3 * frame.width, 340) / frame.length;
     const radius = 1000 * Math.max(...body.outline.radius_m) * size, middle = 10 + radius;
@@ -147,7 +147,7 @@ export class Picture {
       "aria-valuenow": Number(tip.toFixed(1)), "aria-valuetext": us ? `${(tip / 25.4).toFixed(2)} in` : `${(tip / 10).toFixed(2)} cm` });
   }
 
-  /** What a screen reader says of a handle. */
+  /** The text of a handle for screen readers. */
   describe(handle, k) {
     const { x, diameter } = this.stations, us = inUs();
     const size = us ? `${(diameter[k] / 25.4).toFixed(3)} in` : `${diameter[k].toFixed(1)} mm`;
@@ -157,7 +157,7 @@ export class Picture {
       "aria-valuetext": `${size} at ${place} from the knob` });
   }
 
-  /** How far neighbours follow, as a bow over the station that is picked; or the band that is marked. */
+  /** The reach of neighbours as an arc over the picked station, or the marked band. */
   drawReach() {
     this.reachBow ??= drawn(this.svg, "path", { class: "reach" });
     const { stations, picked, reach, band } = this;
@@ -173,7 +173,7 @@ export class Picture {
     put(this.reachBow, { d: reach > 0 ? `M${a} ${y + 5}V${y}H${b}V${y + 5}` : "" });
   }
 
-  /** The sweet spot, its zone and the nodes, on the bat; and what a cut does, as colour. */
+  /** The sweet spot, its zone and the nodes on the bat, and the effect of a cut as colour. */
   drawFound() {
     const { above, below, bench, frame } = this, { hit } = bench;
     above.replaceChildren();

@@ -5,13 +5,13 @@ import { inUs, say, whenUnits } from "./units.js";
 
 /** The program's own scene: rad/s, and mph at the plate. */
 const SWING = 43, PITCH = 83, MPH = 0.44704;
-/** Beyond the knob the swing turns (m); a bat's speed is told so far from its tip (m). */
+/** Distances (m): of the swing's centre beyond the knob, and from the tip of the point whose speed is given. */
 const PIVOT = 0.0635, TOLD_AT = 0.1524;
-/** Factors to SI of the units that links tell speeds and lengths in. */
+/** Factors to SI of the units of speeds and lengths in links. */
 const UNITS = { "rad/s": 1, "deg/s": Math.PI / 180, rpm: Math.PI / 30, "m/s": 1, mph: MPH, "km/h": 1 / 3.6,
   "ft/s": 0.3048, m: 1, cm: 0.01, mm: 0.001, in: 0.0254, ft: 0.3048 };
 
-/** A number of a scene in SI: strings carry their unit; NaN where it is none of these. */
+/** A number of a scene in SI: strings carry their unit; NaN for anything else. */
 function inSi(told, otherwise) {
   if (told === undefined || typeof told === "number") return told ?? otherwise;
   const [, value, unit] = /^\s*([-+.\de]+)\s*(\S+)\s*$/i.exec(told) ?? [];
@@ -27,9 +27,9 @@ export class SceneOfHit {
     }
     byId("scene-back").addEventListener("click", () => { bench.setScene({}); this.set(); });
     bench.on("shown", () => this.words());
-    // The swing that is known is that of the bat as it was opened, unless it was opened with its own scene.
+    // The known swing is that of the bat as it was opened, unless it was opened with its own scene.
     bench.on("opened", (scene) => { if (!scene && byId("batter").value !== "0") this.changed("batter"); });
-    // Undo may lead to another one.
+    // Undo may lead to another scene.
     bench.on("history", () => {
       const { scene, history } = bench;
       if (!scene.swing_exponent || scene.reference_inertia !== this.own) return;
@@ -38,7 +38,7 @@ export class SceneOfHit {
     whenUnits(() => this.words());
   }
 
-  /** The length (m) from where the swing turns to a place so far (m) from the tip. */
+  /** Distance (m) from the centre of the swing to a place that far (m) from the tip. */
   arm(from_tip) {
     const { body, scene } = this.bench;
     return body ? body.length.value - from_tip + inSi(scene.pivot, PIVOT) : NaN;
@@ -62,7 +62,7 @@ export class SceneOfHit {
     this.words();
   }
 
-  /** What one of the controls says, without what is as at the start; all else of the scene stays. */
+  /** Sets the value of one control, or removes it if it is the default; the rest of the scene stays. */
   changed(name) {
     const { bench } = this, scene = { ...bench.scene }, { value } = byId(name);
     const gone = { swing: ["swing_speed", "bat_speed", "bat_speed_at"], pitch: ["pitch"], ball: ["ball"],
@@ -72,7 +72,7 @@ export class SceneOfHit {
     if (name === "pitch" && Number(value) !== PITCH) scene.pitch = `${value} mph`;
     if (name === "ball" && value !== "baseball") scene.ball = value;
     if (name === "batter" && Number(value)) {
-      // A batter is known by the turning of the bat, not by its speed at a place.
+      // A batter is characterised by the rotation of the bat, not by its speed at a place.
       if (scene.bat_speed !== undefined) scene.swing_speed = this.speeds().swing;
       for (const one of ["bat_speed", "bat_speed_at"]) delete scene[one];
       scene.reference_inertia = this.own = bench.bodyOf(bench.history.opened).swing_weight.value;

@@ -1,21 +1,21 @@
-// Asks the core: at once on the main thread, or in a worker with one question under way and the newest waiting.
+// Asks the core: at once on the main thread, or in a worker with one question in progress and the newest waiting.
 
-/** ms that a worker may take to start, how often it is started in vain, and after how many failures in a row it is not
+/** Time limit (ms) of a worker's start, most failed starts, and number of failures in a row after which it is not
  * started again. */
 const START = 30000, STARTS = 2, FAILURES = 5;
 
-/** An answer of the core; one that ended without words gets some. */
+/** An answer of the core; a failure without a message gets one. */
 function read(text) {
   const answer = JSON.parse(text);
   return answer.panic ? { ...answer, error: answer.error || "The core stopped." } : answer;
 }
 
-/** The core of the main thread: for what is done within a frame. Another one stands ready, should it fail. */
+/** The core of the main thread, for answers within a frame. A spare one is ready in case it fails. */
 export class Near {
   /** @param {WebAssembly.Module} module */
   static async of(module) {
     const near = new Near();
-    // Browsers start a large module on the main thread only when they are not waited for.
+    // Browsers compile a large module on the main thread only asynchronously.
     near.fresh = async () => (await WebAssembly.instantiate(module, {})).exports;
     [near.core, near.spare] = [await near.fresh(), await near.fresh()];
     return near;
@@ -31,7 +31,7 @@ export class Near {
     try {
       length = core.answer();
     } catch {
-      // What went wrong is the answer to an empty question; this core is not used again.
+      // The answer to an empty question is the message of the failure; this core is not used again.
       core.room(0);
       length = core.answer();
       [this.core, this.spare] = [this.spare, null];
@@ -46,8 +46,8 @@ export class Near {
  * @property {number} id
  * @property {string} kind
  * @property {object} question
- * @property {Uint8Array} [bytes] of a picture, behind the question
- * @property {(answer: object | null) => void} then called with null where a newer question took its place
+ * @property {Uint8Array} [bytes] of a picture, after the question
+ * @property {(answer: object | null) => void} then called with null if a newer question replaced this one
  */
 
 /** A worker that answers one question at a time. Of every kind the newest waits, and older ones are dropped. */
@@ -61,7 +61,7 @@ export class Far {
     Object.assign(this, { module, program, limit, count: 0, under: null, ready: false, starts: 0, failures: 0, dead: null });
     /** @type {Map<string, Waiting>} */
     this.waiting = new Map();
-    /** For trials: an answer is held back so long (ms). */
+    /** For tests: delay of an answer (ms). */
     this.delay = 0;
     this.begin();
   }
@@ -95,14 +95,14 @@ export class Far {
     worker.postMessage({ module: this.module });
   }
 
-  /** The worker did not start: it is started anew, or else whatever is asked is answered by these words. */
+  /** The worker did not start: it is started again, or every question is answered with this message. */
   stuck() {
     clearTimeout(this.clock);
     if (this.starts < STARTS) this.anew();
     else this.die("The core does not start in this browser; load the page again.");
   }
 
-  /** Whatever is asked from now on is answered by these words. */
+  /** Answers every question from now on with this message. */
   die(words) {
     this.close();
     this.dead = words;
@@ -116,7 +116,7 @@ export class Far {
     this.worker.terminate();
   }
 
-  /** The question under way failed by a mistake of ours; after some in a row the page gives up. */
+  /** The present question failed by an internal error; after several in a row the page gives up. */
   failed(words) {
     this.failures += 1;
     if (this.failures < FAILURES) { this.end(words, { panic: true }); return; }
@@ -127,7 +127,7 @@ export class Far {
   }
 
   /**
-   * Asks, and gives the answer; null if a newer question of its kind came first.
+   * Asks and returns the answer; null if a newer question of its kind replaced it.
    * @returns {Promise<any>}
    */
   ask(question, kind = question.ask, bytes) {
@@ -163,13 +163,13 @@ export class Far {
     this.next();
   }
 
-  /** A new worker from the compiled module; what waits is asked there. */
+  /** A new worker from the compiled module, which takes the waiting questions. */
   anew() {
     this.worker.terminate();
     this.begin();
   }
 
-  /** Ends the question under way with these words; what waits goes on in a new worker. */
+  /** Ends the present question with this message; the waiting ones continue in a new worker. */
   end(words, more = {}) {
     clearTimeout(this.clock);
     const { under } = this;
@@ -178,7 +178,7 @@ export class Far {
     under?.then(words ? { id: under.id, error: words, ...more } : null);
   }
 
-  /** Drops what is asked of such kinds. */
+  /** Drops the questions of such kinds. */
   drop(such) {
     for (const { kind, then } of [...this.waiting.values()].filter((one) => such(one.kind))) {
       this.waiting.delete(kind);

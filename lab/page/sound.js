@@ -1,12 +1,12 @@
-// Lets the bat be heard where it is struck: the core's tones, as loud as that place makes them.
+// Plays the bat's sound at the struck place: the core's tones, with the loudness of that place.
 
 import { byId, write } from "./svg.js";
 
 /* global shared */
 
-/** The loudest sample: 1 dB below what a loudspeaker takes. */
+/** The loudest sample: 1 dB below full scale. */
 const FULL = 0.89;
-/** Seconds of rising at the beginning and of falling at the end, against clicks. */
+/** Duration of the rise at the beginning and of the fall at the end (s), against clicks. */
 const RISE = 0.002, FALL = 0.02;
 
 /**
@@ -15,7 +15,7 @@ const RISE = 0.002, FALL = 0.02;
  * @param {number} rate samples a second
  */
 export function played({ tones, loudest_m_s2: loudest }, rate) {
-  // A tone that so few samples cannot hold would be heard as another one.
+  // A tone above half the sample rate would be heard as another one.
   const wave = shared.samples(tones.filter((tone) => 2 * tone.frequency_hz < rate), rate), end = wave.length;
   const rise = (share) => 0.5 - 0.5 * Math.cos(Math.PI * Math.min(share, 1));
   for (let k = 0; k < end; k += 1) {
@@ -35,7 +35,7 @@ export class Voice {
 
   chosen(name) { return document.querySelector(`input[name="${name}"]:checked`).value; }
 
-  /** Strikes the bat at a place (m). Called within the gesture: before one, browsers give no sound. */
+  /** Strikes the bat at a place (m). Called within a gesture, because browsers play no sound before one. */
   async strike(place_m) {
     this.context ??= new AudioContext();
     this.context.resume();

@@ -1,17 +1,17 @@
-// Reads the stations of a bat file, moves one of them with its neighbours, and writes the file with what changed.
+// Reads the stations of a bat file, moves one of them with its neighbours, and writes the file with the change.
 
 /** Diameters (mm) beyond which a station is shown but cannot be moved. */
 export const SMALLEST = 8, LARGEST = 100;
-/** The least wall (mm) around a bore, and the least way (mm) between two stations. */
+/** The least wall (mm) around a bore, and the least distance (mm) between two stations. */
 const WALL = 0.5, APART = 1;
-/** The longest bat (mm) that is made here. */
+/** The longest bat (mm) of the page. */
 const LONGEST = 1500;
 const MM = { mm: 1, in: 25.4 };
 /** Decimals that are a micrometre or less. */
 const DECIMALS = { mm: 3, in: 5 };
 
 /**
- * What the page edits of a bat file (`BatFile` of types.js), in mm.
+ * The editable data of a bat file (`BatFile` of types.js), in mm.
  * @typedef {object} Stations
  * @property {number[]} x From the knob end, not falling.
  * @property {number[]} diameter Outer.
@@ -31,13 +31,13 @@ const wallAt = ({ diameter, inner }, k) => inner && inner[k] > 0 ? (diameter[k] 
 /** Whether a station can be moved. */
 export const movable = ({ diameter }, k) => diameter[k] >= SMALLEST && diameter[k] <= LARGEST;
 
-/** The least and largest diameter (mm) of a station: the wall of a hollow bat goes with it, so its bore must stay. */
+/** The least and largest diameter (mm) of a station: the wall of a hollow bat moves with it, so its bore must stay. */
 export function limits(stations, k) {
   const wall = wallAt(stations, k);
   return [wall === null ? SMALLEST : Math.max(SMALLEST, 2 * wall + 1), LARGEST];
 }
 
-/** How much a neighbour follows: 1 at the station itself, falling smoothly to 0 at the reach. */
+/** Share by which a neighbour follows: 1 at the station itself, falling smoothly to 0 at the reach. */
 export const bump = (distance, reach) => distance === 0 ? 1 : distance < reach ? (1 - (distance / reach) ** 2) ** 2 : 0;
 
 /** The first and last station of the stretch around one: it ends where the profile steps. */
@@ -50,7 +50,7 @@ function stretch(x, k) {
 
 /**
  * Diameters (mm) after station `k` is given one and its neighbours follow within the reach (mm). A neighbour that
- * cannot be moved stays where it is.
+ * cannot be moved stays in place.
  * @param {Stations} stations
  */
 export function moved(stations, k, diameter, reach) {
@@ -76,7 +76,7 @@ const written = (mm, unit) => Number((mm / MM[unit]).toFixed(DECIMALS[unit]));
 
 const withProfile = (bat, columns) => ({ ...bat, profile: { ...bat.profile, ...columns } });
 
-/** The bat file with these diameters (mm), the wall of a hollow one going along; what stays is not written anew. */
+/** The bat file with these diameters (mm) and the same wall; unchanged numbers keep their text. */
 export function withDiameters(bat, diameters) {
   const old = stationsOf(bat), { unit, diameter, inner_diameter: inner } = bat.profile;
   const same = (k) => Math.abs(diameters[k] - old.diameter[k]) < 1e-9;
@@ -87,7 +87,7 @@ export function withDiameters(bat, diameters) {
   return withProfile(bat, { diameter: outer, inner_diameter: bore });
 }
 
-/** The bat file with one bore (mm) changed; null where too little wall would be left. */
+/** The bat file with one bore (mm) changed; null if too little wall would be left. */
 export function withBore(bat, k, mm) {
   const { diameter, inner } = stationsOf(bat);
   if (!inner || mm < 0 || (mm > 0 && mm > diameter[k] - 2 * WALL)) return null;
@@ -121,7 +121,7 @@ export function without(bat, k) {
   return eachColumn(bat, (column) => column.toSpliced(k, 1));
 }
 
-/** The bat file with a station more, halfway to the next one; null after the last and where there is no room. */
+/** The bat file with one more station, halfway to the next one; null after the last one and if there is no room. */
 export function withMore(bat, k) {
   const { x } = stationsOf(bat), { unit } = bat.profile;
   if (k >= x.length - 1 || x[k + 1] - x[k] < 2 * APART) return null;

@@ -1,11 +1,11 @@
-// Small helpers for elements of the page and of its pictures; words always go in as text, never as markup.
+// Small helpers for elements of the page and of its pictures; words are always inserted as text, never as markup.
 
 /* global shared */
 
 /** The element of the page with that id. */
 export const byId = (id) => document.getElementById(id);
 
-/** Gives an element these attributes; one that is null is taken off, and one that stays is not touched. */
+/** Gives an element these attributes; one that is null is removed, and an unchanged one is not touched. */
 export function put(element, attributes) {
   for (const [name, value] of Object.entries(attributes)) {
     const text = value === null ? null : typeof value === "number" ? String(Number(value.toFixed(2))) : String(value);
@@ -26,7 +26,7 @@ export function made(name, attributes = {}, ...children) {
   return element;
 }
 
-/** A new button with these words, and what it does. */
+/** A new button with this label and action. */
 export function button(words, attributes, act) {
   const element = made("button", { type: "button", ...attributes }, words);
   element.addEventListener("click", act);
@@ -37,7 +37,7 @@ export function button(words, attributes, act) {
 export const headOf = (names) =>
   made("thead", {}, made("tr", {}, ...names.map((name) => made("th", { scope: "col" }, name))));
 
-/** Writes words into an element, if they are other words. */
+/** Writes words into an element, if they differ from its words. */
 export function write(element, words) {
   if (element.textContent !== words) element.textContent = words;
 }
@@ -53,7 +53,7 @@ export function pathOf(points) {
   return path;
 }
 
-/** Round numbers from one to another, some `about` of them. */
+/** Round numbers from one to another, approximately `about` of them. */
 export function ticks(from, to, about) {
   const rough = (to - from) / about, power = 10 ** Math.floor(Math.log10(rough));
   const step = [1, 2, 5, 10].find((times) => times * power >= rough) * power;
@@ -62,7 +62,7 @@ export function ticks(from, to, about) {
   return Array.from({ length: Math.max(count, 0) }, (_, k) => Number(((first + k) * step).toPrecision(12)));
 }
 
-/** Calls once a frame at most, with whatever is newest then. */
+/** Calls at most once per frame, with the newest value. */
 export function framed(then) {
   let asked = false;
   return () => {

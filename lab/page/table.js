@@ -1,10 +1,10 @@
-// The stations as numbers to type: the one that is picked below the picture, and all of them in a table.
+// The stations as numbers to type: the picked one below the picture, and all of them in a table.
 
 import { movable, stationsOf, withBore, withDiameters, withMore, without, withPlace, limits } from "./stations.js";
 import { button, byId, headOf, made, write } from "./svg.js";
 import { inUs, lengthTyped, sixtyFourths } from "./units.js";
 
-/** A diameter (mm) as it stands in a field. */
+/** A diameter (mm) as the text of a field. */
 const diameterText = (mm) => inUs() ? (mm / 25.4).toFixed(3) : Number(mm.toFixed(2)).toString();
 const placeText = (mm) => inUs() ? Number((mm / 25.4).toFixed(3)).toString() : Number((mm / 10).toFixed(2)).toString();
 const unitOf = (what) => inUs() ? "in" : what === "place" ? "cm" : "mm";
@@ -31,7 +31,7 @@ export class Table {
     else this.drag.other(by);
   }
 
-  /** What is wrong with something that was typed is said beside it. */
+  /** Shows a mistake in typed text beside it. */
   wrong(words, field) {
     const trouble = byId("table-trouble");
     trouble.hidden = true;
@@ -40,7 +40,7 @@ export class Table {
     write(trouble, words);
   }
 
-  /** Does what was typed; says what is wrong with it. */
+  /** Applies a typed value, or shows its mistake. */
   typed(k, what, field) {
     const { bench } = this, { file } = bench;
     if (k < 0 || !file) return;

@@ -1,15 +1,15 @@
-// Hears the bat that is tapped: a recording that the browser decodes, or its microphone; the core says what that is.
+// Analyses taps on a bat: a recording that the browser decodes, or its microphone; the core gives the results.
 
 import { byId, drawn, headOf, made, pathOf, put, write } from "./svg.js";
 import { noteSaid } from "./units.js";
 
-/** The longest sound of the microphone (s), and what a recording may have (bytes). */
+/** The longest sound of the microphone (s), and the largest recording (bytes). */
 const LONGEST = 60, LARGEST_FILE = 50e6;
-/** ms after which the microphone's sound is listened to again, and quiet ms after a change of the bat. */
+/** Time (ms) between two analyses of the microphone's sound, and quiet time (ms) after a change of the bat. */
 const AGAIN = 2000, QUIET = 700;
-/** Samples of a piece of the microphone's sound; samples a second of a file that does not say its own here. */
+/** Samples of a piece of the microphone's sound; sample rate of a file whose own is not read here. */
 const PIECE = 16384, RATE = 48000;
-/** What a browser does to speech, and spoils taps by. */
+/** A browser's processing of speech, which spoils taps. */
 const SPOILS = { echoCancellation: "echo cancellation", noiseSuppression: "noise suppression", autoGainControl: "gain control" };
 const INSTEAD = "record with a recorder app and choose the file here";
 const SOUND = /\.(m4a|mp4|mov|aac|wave?|mp3|flac|og[ga]|opus|webm|amr|3gp)$/i;
@@ -17,7 +17,7 @@ const SOUND = /\.(m4a|mp4|mov|aac|wave?|mp3|flac|og[ga]|opus|webm|amr|3gp)$/i;
 /** Whether a file is a recording. */
 export const isSound = ({ name, type }) => type.startsWith("audio/") || SOUND.test(name);
 
-/** The rate at which a browser shall decode a file: its own where that is easily read, so that nothing is resampled. */
+/** The rate at which the browser decodes a file: its own if it is easily read, so that nothing is resampled. */
 function rateOf(bytes) {
   const view = new DataView(bytes), word = (at) => at + 4 <= bytes.byteLength ? view.getUint32(at) : 0;
   if (word(0) === 0x664c6143) return word(18) >>> 12 || RATE;
@@ -38,7 +38,7 @@ async function decoded(bytes) {
   return { rate: buffer.sampleRate, channels: buffer.numberOfChannels, pieces, lost: 0 };
 }
 
-/** What the browser says that it does to the sound. */
+/** The processing of the sound that the browser reports. */
 function given(settings) {
   const such = (is) => Object.keys(SPOILS).filter((name) => is(settings[name])).map((name) => SPOILS[name]).join(" and ");
   const on = such((value) => value !== undefined && value !== false), unsaid = such((value) => value === undefined);
@@ -48,7 +48,7 @@ function given(settings) {
 }
 
 /**
- * Sound: of the microphone pieces of one channel, of a file its channels.
+ * Sound: pieces of one channel from the microphone, or the channels of a file.
  * @typedef {{ name: string, rate: number, channels: number, pieces: Float32Array[], lost: number }} Sound
  */
 
@@ -58,7 +58,7 @@ export class Tapping {
     Object.assign(this, { bench, far, core: null, count: 0, answer: null, of: "", lit: 0, stream: null, context: null });
     /** @type {Sound | null} */
     this.sound = null;
-    /** Tones whose modes a person says, and those of the answer. @type {[number, number | null][]} */
+    /** Tones with modes given by the user, and those of the answer. @type {[number, number | null][]} */
     this.told = this.heeded = [];
     byId("tap-file").addEventListener("change", ({ target }) => this.file(target.files[0]));
     byId("tap-listen").addEventListener("click", () => this.listen());
@@ -74,7 +74,7 @@ export class Tapping {
     byId("tap-state").classList.toggle("missing", wrong);
   }
 
-  /** Nothing is heard any more, and what was heard is forgotten. */
+  /** Stops listening and forgets the sound. */
   clear() {
     this.count += 1;
     this.silence();
@@ -84,7 +84,7 @@ export class Tapping {
     this.draw();
   }
 
-  /** The core that listens has all of the sound in its memory, so it is ended when it has answered. */
+  /** The core has the whole sound in its memory, so it is ended when it has answered. */
   end() {
     this.core?.close();
     this.core = null;
@@ -108,7 +108,7 @@ export class Tapping {
     if (await this.hear()) this.say("");
   }
 
-  /** Asks the core about the sound that there is. True if that is answered. */
+  /** Asks the core about the present sound. True if it answers. */
   async hear() {
     const { bench, sound, told } = this, count = this.count += 1, { text } = bench;
     this.core ??= this.far();
@@ -120,14 +120,14 @@ export class Tapping {
     if (!this.stream) this.end();
     if (answer.error) {
       this.say(answer.error, true);
-      // What cannot be is taken back.
+      // An impossible label is removed again.
       this.told = told === this.heeded ? [] : this.heeded;
     } else Object.assign(this, { answer, of: text, heeded: told });
     this.draw();
     return !answer.error;
   }
 
-  /** Listens to the microphone until it is stopped, and says every few seconds what was heard. */
+  /** Records the microphone until it is stopped, and shows the results every few seconds. */
   async listen() {
     this.clear();
     const { count } = this, none = (why) => this.say(`${why}; ${INSTEAD}.`, true);
@@ -144,7 +144,7 @@ export class Tapping {
     if (count !== this.count) { this.silence(); return; }
     write(byId("tap-microphone"), given(stream.getAudioTracks()[0].getSettings()));
     const context = this.context = new AudioContext(), ear = context.createScriptProcessor(PIECE, 1, 1);
-    // Of several microphones one, not their sum.
+    // One of several microphones, not their sum.
     ear.channelInterpretation = "discrete";
     const sound = this.sound = { name: "microphone", rate: context.sampleRate, channels: 1, pieces: [], lost: 0 };
     let due = null;
@@ -166,14 +166,14 @@ export class Tapping {
     }
   }
 
-  /** The microphone is let go. */
+  /** Releases the microphone. */
   silence() {
     this.stream?.getTracks().forEach((track) => track.stop());
     this.context?.close();
     Object.assign(this, { stream: null, context: null });
   }
 
-  /** Ends listening, and says what all of it was; or ends the answer under way. */
+  /** Ends the recording and analyses all of it, or ends the present question. */
   async stop() {
     const { stream, sound } = this;
     this.count += 1;
@@ -189,7 +189,7 @@ export class Tapping {
     if (await this.hear()) this.say("");
   }
 
-  /** Another bat has other modes: its tones are labelled anew when it rests. */
+  /** Another bat has other modes, so the tones are labelled again when it rests. */
   changed() {
     this.draw();
     clearTimeout(this.later);
@@ -197,7 +197,7 @@ export class Tapping {
     this.later = setTimeout(() => { if (this.bench.changing) this.changed(); else this.hear(); }, QUIET);
   }
 
-  /** A person says which bending mode a tone is, "none" for no mode, "" for the one that is found. */
+  /** The user gives the bending mode of a tone: "none" for no mode, "" for the one that was found. */
   async tell({ frequency_hz: hz, twin_hz: twin }, mode) {
     const others = this.told.filter(([other]) => other !== hz && other !== twin);
     this.told = mode ? [...others, [hz, mode === "none" ? null : Number(mode)]] : others;
@@ -216,7 +216,7 @@ export class Tapping {
     return select;
   }
 
-  /** The bat becomes one of the wood that was heard: a step like any. */
+  /** Gives the bat the wood of the recording, as an ordinary step. */
   async take() {
     const { bench, answer, of } = this;
     if (of !== bench.text) return;
@@ -224,7 +224,7 @@ export class Tapping {
     this.say(done ? "The bat is of this wood now. Undo takes it back." : bench.trouble ?? "The bat was changed meanwhile.", !done);
   }
 
-  /** What was heard: taps on the bat, tones beside those of the bat, the wood. */
+  /** The results: taps on the bat, tones beside those of the bat, the wood. */
   draw() {
     const { answer, bench, of } = this, own = answer !== null && of === bench.text;
     this.lights();
@@ -243,7 +243,7 @@ export class Tapping {
     byId("tap-take").hidden = !(own && answer.bat_file && !this.stream);
   }
 
-  /** The bat in true proportion, and a light at its tip for every tap; those that came last flash. */
+  /** The bat in true proportion, with a light at its tip for every tap; the newest ones flash. */
   lights() {
     const svg = byId("tap-bat"), { answer, bench } = this, taps = answer?.document.taps ?? [];
     svg.replaceChildren();

@@ -1,20 +1,21 @@
-// Makes a bat of photographs: shows the edges that the core finds, lets a hand set them, and opens the mean of all.
+// Makes a bat from photographs: shows the edges that the core finds, lets the user move them, and opens the mean of
+// all.
 
 import { Far } from "./solve.js";
 import { button, byId, drawn, made, put, write } from "./svg.js";
 import { inUs, lengthTyped, massTyped } from "./units.js";
 
-/** The longest side (px) that is looked at, and the largest file (bytes). */
+/** The longest side (px) that is used, and the largest file (bytes). */
 const LONGEST = 4096, LARGEST_FILE = 60 << 20;
-/** The wood that is assumed. */
+/** The assumed wood. */
 const USUAL_WOOD = "white-ash-dynamic";
-/** How near (screen px) a pointer takes hold of a point that was set. */
+/** Largest distance (screen px) at which a pointer picks a set point. */
 const NEAR = 12;
-/** What arrow keys do to the cross (px of the picture), and how many times as much with Shift. */
+/** Step of the cross by arrow keys (px of the picture), and the factor on it with Shift. */
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }, FAST = 20;
 
 /**
- * A photograph: its pixels, the points set by hand, and what the core said of it.
+ * A photograph: its pixels, the points set by hand, and the core's answer.
  * @typedef {{ name: string, width: number, height: number, bytes: Uint8Array, pins: number[][], answer: any }} Taken
  */
 
@@ -57,14 +58,14 @@ export class Tracing {
     this.dialog.showModal();
   }
 
-  /** The core that traces has large pictures in its memory, so it is ended when none is traced. */
+  /** The core has large pictures in its memory, so it is ended when no picture is traced. */
   end() {
     this.core?.close();
     this.core = null;
     byId("trace-stop").hidden = true;
   }
 
-  /** One photograph more. */
+  /** Adds a photograph. */
   async add(file) {
     byId("trace-file").value = "";
     if (!file) return;
@@ -95,7 +96,7 @@ export class Tracing {
     this.trace();
   }
 
-  /** What was told of the bat, or null with what is missing in words. */
+  /** The given measurements of the bat, or null with a message about what is missing. */
   told() {
     const metres = (name, unit) => {
       const { value } = byId(`trace-${name}`), mm = lengthTyped(value, unit);
@@ -111,7 +112,7 @@ export class Tracing {
     return null;
   }
 
-  /** Traces all pictures anew: the mean of all is the bat. */
+  /** Traces all pictures again; the bat is the mean of all. */
   async trace() {
     const { taken } = this, count = this.count += 1, told = this.told();
     this.best = null;
@@ -147,7 +148,7 @@ export class Tracing {
     this.draw();
   }
 
-  /** Opens the bat that was traced. */
+  /** Opens the traced bat. */
   async use() {
     const { best } = this, wrong = await this.bench.open(best.bat_file, undefined, best.diameter_deviation_m);
     if (wrong) { this.say(wrong, true); return; }
@@ -155,7 +156,7 @@ export class Tracing {
     if (inUs()) this.bench.say("The bat's file counts in millimetres, as the photograph was traced.");
   }
 
-  /** Shows the picture that is looked at. */
+  /** Shows the selected picture. */
   show() {
     const one = this.taken[this.at], canvas = byId("trace-picture");
     put(canvas, { width: one?.width ?? 1, height: one?.height ?? 1 });
@@ -171,7 +172,7 @@ export class Tracing {
     for (const one of [byId("trace-picture"), this.svg]) one.style.width = `${100 * zoom}%`;
   }
 
-  /** The edges, the points that were set, and what is said of them. */
+  /** The edges, the set points, and the texts about them. */
   draw() {
     const { svg, taken, at } = this, one = taken[at], answer = one?.answer;
     svg.replaceChildren();
@@ -193,7 +194,7 @@ export class Tracing {
     byId("trace-words").replaceChildren(...(answer?.words ?? []).map((text) => made("li", {}, text)));
   }
 
-  /** How many pixels of the picture one of the screen is. */
+  /** Number of pixels of the picture per pixel of the screen. */
   scale() {
     return this.taken[this.at].width / this.svg.getBoundingClientRect().width;
   }
@@ -204,12 +205,12 @@ export class Tracing {
     return [(event.clientX - box.left) * scale, (event.clientY - box.top) * scale];
   }
 
-  /** Which of the points that were set is near a place, or −1. */
+  /** Index of the set point near a place, or −1. */
   near([x, y]) {
     return this.taken[this.at].pins.findIndex(([a, b]) => Math.hypot(a - x, b - y) < NEAR * this.scale());
   }
 
-  /** Traces by other points that were set. */
+  /** Traces with other set points. */
   set(pins) {
     this.taken[this.at].pins = pins;
     this.trace();
@@ -229,7 +230,7 @@ export class Tracing {
     else if (event.key === "Delete" && near >= 0) this.set(one.pins.toSpliced(near, 1));
   }
 
-  /** Takes hold of a point that was set, or sets one: the nearer edge goes through it. */
+  /** Picks a set point, or sets one; the nearer edge then passes through it. */
   down(event) {
     const one = this.taken[this.at];
     if (!one?.answer || event.button !== 0) return;

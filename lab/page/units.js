@@ -1,4 +1,4 @@
-// Says differences and lengths in the chosen units, reads typed lengths, and names the nearest note.
+// Shows differences and lengths in the chosen units, reads typed lengths, and names the nearest note.
 
 const INCH = 25.4;
 /** A factor from SI, the decimals, and the unit's name, for each kind of number that the page itself writes. */
@@ -17,10 +17,10 @@ let us = false;
 /** @type {(() => void)[]} */
 const followers = [];
 
-/** Whether inches and miles an hour are shown. */
+/** Whether inches and miles per hour are shown. */
 export const inUs = () => us;
 
-/** Shows inches and miles an hour, or not. */
+/** Sets whether inches and miles per hour are shown. */
 export function setUs(on) {
   us = on;
   followers.forEach((then) => then());
@@ -32,21 +32,21 @@ export const whenUnits = (then) => followers.push(then);
 /** Factor from SI, decimals and name of a kind of number, as shown now. */
 export const shownAs = (kind) => KINDS[kind][us ? "us" : "si"];
 
-/** A number with its unit; a dash where there is none. */
+/** A number with its unit; a dash if there is none. */
 export function say(kind, value) {
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";
   const [factor, decimals, unit] = shownAs(kind);
   return `${(value * factor).toFixed(decimals).replace("-", "−")} ${unit}`.trim();
 }
 
-/** A difference with its sign and unit; "same" where nothing of it would be seen. */
+/** A difference with its sign and unit; "same" if it rounds to zero. */
 export function signed(kind, value) {
   if (!Number.isFinite(value)) return "";
   const [factor, decimals, unit] = shownAs(kind), text = Math.abs(value * factor).toFixed(decimals);
   return Number(text) === 0 ? "same" : `${value < 0 ? "−" : "+"}${text} ${unit}`.trim();
 }
 
-/** A note of the core, such as "F3 -12", as it is said: how many hundredths of a half tone off it is. */
+/** A note of the core, such as "F3 -12", in words: the number of hundredths of a half tone off the note. */
 export function noteSaid(note) {
   const [, name, sign, cents] = /^(\S+) ([+-])(\d+)$/.exec(note) ?? [];
   return name === undefined ? note : Number(cents) === 0 ? name : `${name} ${sign === "-" ? "−" : "+"}${cents} cents`;
@@ -57,7 +57,7 @@ const PARTS = { "½": "1/2", "¼": "1/4", "¾": "3/4", "⅛": "1/8", "⅜": "3/8
 
 /**
  * A typed length in mm; a bare number is in `unit`. Fractions are read as people write them: 2 1/2 in, 2-1/2", 2½″.
- * What cannot be read, or may be read in two ways ("1,234 in"), is null.
+ * Null for a text that cannot be read, or that has two readings ("1,234 in").
  * @param {string} typed
  * @param {"mm" | "cm" | "m" | "in"} unit
  * @returns {number | null}
@@ -73,7 +73,7 @@ export function lengthTyped(typed, unit) {
   return Number.isFinite(value) ? value * factor : null;
 }
 
-/** A typed mass in kg; a bare number is in `unit`. Null where it cannot be read. */
+/** A typed mass in kg; a bare number is in `unit`. Null if it cannot be read. */
 export function massTyped(typed, unit) {
   const [, value, name] = /^(\d+(?:[.,]\d+)?)\s*([a-z]*)$/.exec(typed.trim().toLowerCase()) ?? [];
   const factor = { g: 1e-3, kg: 1, oz: 0.028349523125, lb: 0.45359237 }[name || unit];

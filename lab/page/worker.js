@@ -1,8 +1,8 @@
-// The core in a worker: takes its compiled module once, then answers one question after another.
+// The core in a worker: it receives its compiled module once, then answers one question after another.
 "use strict";
 let core = null;
 
-/** Writes the question into the core's memory, a picture behind it after a byte 0, and reads the answer from there. */
+/** Writes the question into the core's memory, followed by a byte 0 and a picture, and reads the answer from there. */
 function answered(text, picture) {
   const bytes = new TextEncoder().encode(text), more = picture ? 1 + picture.length : 0;
   const at = core.room(bytes.length + more), all = new Uint8Array(core.memory.buffer, at, bytes.length + more);
@@ -12,7 +12,7 @@ function answered(text, picture) {
   try {
     length = core.answer();
   } catch {
-    // What went wrong is the answer to an empty question.
+    // The answer to an empty question is the message of the failure.
     try {
       core.room(0);
       length = core.answer();
@@ -20,7 +20,7 @@ function answered(text, picture) {
       return JSON.stringify({ id: 0, error: "", panic: true });
     }
   }
-  // The memory may have grown meanwhile, and the old view of it be gone.
+  // The memory may have grown meanwhile, which invalidates the old view.
   return new TextDecoder().decode(new Uint8Array(core.memory.buffer, core.answer_at(), length));
 }
 

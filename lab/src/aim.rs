@@ -15,7 +15,7 @@ use sweetspot_study::lathe::workpiece::HitTerms;
 use crate::asked::{Question, request};
 use crate::hit::Solved;
 
-/// What a pass of the lathe takes off the diameter at most (m), as `sweetspot aim` has it.
+/// The most that a pass of the lathe takes off the diameter (m), as in `sweetspot aim`.
 const PASS: f64 = 1e-3;
 
 pub fn answer(of: &Question) -> Result<Value> {
@@ -24,7 +24,7 @@ pub fn answer(of: &Question) -> Result<Value> {
     let hit = HitTerms { scene, model, exactly: false };
     let terms = Terms { request: asked, hit, law };
     let outcome = Outcome::of(&bat, &wish, &terms)?;
-    // What is told is of the file as it is read again.
+    // The answer describes the file as it is read again.
     let text = aimed::bat_text(&outcome);
     let written = Bat::from_text("the new bat", &text, Path::new(""))?;
     let outcome =
@@ -34,7 +34,7 @@ pub fn answer(of: &Question) -> Result<Value> {
     Ok(json!({ "met": outcome.met, "bat_file": text, "text": told }))
 }
 
-/// The wishes, as `sweetspot aim --target` takes them.
+/// The wishes, in the notation of `sweetspot aim --target`.
 fn wish(of: &Question) -> Result<Wish> {
     let targets = of.more.get("targets").and_then(Value::as_array);
     let expected = "a list of texts, such as [\"swing weight -3 %\"]";

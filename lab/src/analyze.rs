@@ -1,4 +1,4 @@
-//! How far may the bat in hand be off, and what does the wall of its barrel do?
+//! What is the uncertainty of the bat in hand, and what is the effect of its barrel's wall?
 
 use serde_json::{Value, json};
 use sweetspot::base::error::Result;
@@ -14,7 +14,7 @@ use crate::asked::{Question, request};
 use crate::hit::Solved;
 use crate::shown;
 
-/// The lines of the program's table: a sweet spot first, then what the bat weighs and how it rings.
+/// The lines of the program's table: the sweet spot first, then weight and frequencies.
 const LINES: [(&str, Answer); 9] = [
     ("sweet spot", Answer::ExitSpeedPlace),
     ("fastest ball", Answer::ExitSpeed),
@@ -41,7 +41,7 @@ pub fn answer(of: &Question) -> Result<Value> {
         let value = shown::answer(*answer, of.units, estimate.value);
         Some(json!({ "what": what, "value": value, "open": open, "by": by }))
     };
-    // Around a later contact speeds come and go within a millimetre: no zone is told.
+    // Near a later contact the exit speed changes within a millimetre, so no zone is given.
     let later = analysis.verdict.doubts.contains(&Doubt::LaterContact);
     let told = LINES.iter().filter(|(_, answer)| !(later && matches!(answer, Answer::Zone(_))));
     let answers: Vec<Value> = told.filter_map(line).collect();
@@ -57,9 +57,9 @@ pub fn answer(of: &Question) -> Result<Value> {
     }))
 }
 
-/// The lowest hoop modes, and what the wall does, in sentences.
+/// The lowest hoop modes, and the effect of the wall in sentences.
 fn barrel(of: &Question, barrel: &Barrel) -> Value {
-    /// Modes that are told.
+    /// Number of modes in the answer.
     const FEW: usize = 5;
     let modes = barrel.hoop().lowest(FEW).into_iter().map(|mode| {
         let frequency = mode.frequency_hz;

@@ -1,4 +1,4 @@
-//! What is asked, of which bat, in which scene.
+//! The question: its kind, its bat and its scene.
 
 use std::path::Path;
 
@@ -27,7 +27,7 @@ struct Asked {
     scene: Map<String, Value>,
     #[serde(default)]
     units: String,
-    /// What this question asks besides.
+    /// Members of this kind of question.
     #[serde(flatten)]
     more: Map<String, Value>,
 }
@@ -35,30 +35,30 @@ struct Asked {
 /// A question about a bat that could be read.
 #[derive(Clone)]
 pub struct Question {
-    /// The bat as it was asked about.
+    /// The bat of the question.
     pub bat: Bat,
     /// The text of its file.
     pub text: String,
     /// Swing, pitch and ball.
     pub setup: Setup,
-    /// The scene as it was asked.
+    /// The scene as written in the question.
     pub scene: Map<String, Value>,
     /// The units of all texts.
     pub units: Units,
-    /// What this question asks besides.
+    /// Members of this kind of question.
     pub more: Map<String, Value>,
 }
 
-/// What messages call the bat's file.
+/// Name of the bat's file in messages.
 pub const BAT: &str = "bat.json";
 
-/// What hits and modes are asked for, as the program asks by default.
+/// The request for hits and modes: the program's default.
 pub fn request() -> Request {
     Request::default()
 }
 
-/// The answer to a request, both in JSON. What is wrong with it is said in the answer. `bytes` is what stands behind
-/// the request: a photograph, sound, or nothing.
+/// The answer to a request, both in JSON. The answer also reports what is wrong with the request. `bytes` is the data
+/// after the request: a photograph, sound, or nothing.
 pub fn answered(text: &str, bytes: &[u8]) -> String {
     let asked: Asked = match serde_json::from_str(text) {
         Ok(asked) => asked,
@@ -74,12 +74,12 @@ pub fn answered(text: &str, bytes: &[u8]) -> String {
     }
 }
 
-/// The answer that tells of a panic.
+/// The answer that reports a panic.
 pub fn panicked(words: &str) -> String {
     json!({ "id": 0, "error": words, "panic": true }).to_string()
 }
 
-/// One question, one function.
+/// Calls the function of the question.
 fn answer(asked: Asked, bytes: &[u8]) -> Result<Value> {
     type Answering = fn(&Question) -> Result<Value>;
     const QUESTIONS: [(&str, Answering); 8] = [
@@ -92,7 +92,7 @@ fn answer(asked: Asked, bytes: &[u8]) -> Result<Value> {
         ("sound", sound::answer),
         ("files", files::answer),
     ];
-    // For trials of what a page does after a mistake of ours; a published core has no such question.
+    // For tests of the page after an internal error; a released core does not have this question.
     debug_assert!(asked.ask != "panic", "asked to panic");
     let units = units(&asked.units)?;
     if asked.ask == "open" {
@@ -139,12 +139,12 @@ fn setup(scene: &Map<String, Value>) -> Result<Setup> {
 }
 
 impl Question {
-    /// A text that this question asks besides.
+    /// A text member of this kind of question.
     pub fn said(&self, name: &str) -> Option<&str> {
         self.more.get(name)?.as_str()
     }
 
-    /// How far diameters may be off (m) that were traced: less well known than calipers know them.
+    /// Error of traced diameters (m), which is larger than that of calipers.
     pub fn traced(&self) -> Option<f64> {
         let told = self.more.get("diameter_deviation_m")?.as_f64()?;
         (told >= 0.0).then_some(told.min(0.01))
@@ -156,7 +156,7 @@ impl Question {
     }
 }
 
-/// What is wrong, in one sentence and each mistake with its place in the bat's text.
+/// The mistakes: one sentence, and each mistake with its place in the bat's text.
 fn failed(id: u64, error: &Error) -> String {
     let all = match error {
         Error::Several { shown, .. } => &shown[..],

@@ -1,4 +1,4 @@
-//! What does the rigid bat weigh, and how does it look?
+//! What are mass and outline of the rigid bat?
 
 use serde_json::{Value, json};
 use sweetspot::base::error::Result;
@@ -37,8 +37,8 @@ pub fn answer(of: &Question) -> Result<Value> {
     }))
 }
 
-/// Whether the page can edit the bat's profile as it stands: stations, and a density that does not follow from a
-/// weighed mass, which wood that comes off would change.
+/// Whether the page can edit the profile of the bat: it needs stations, and a density that does not follow from a
+/// weighed mass, because removed wood would change that density.
 pub fn has_stations(bat: &Bat) -> bool {
     let profile = bat.unedited().profile();
     let smooth = profile.stations.interpolation != Interpolation::Constant;

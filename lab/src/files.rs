@@ -1,4 +1,4 @@
-//! How does a bat go out: its file, a table, a template, the command that gives the same numbers?
+//! How is a bat exported: its file, a table, a template, the command with the same numbers?
 
 use serde_json::{Value, json};
 use sweetspot::base::error::Result;

@@ -1,4 +1,4 @@
-//! How does it ring, how fast does the ball leave, place by place?
+//! How does the bat ring, and how fast does the ball leave, place by place?
 
 use serde_json::{Value, json};
 use sweetspot::base::error::Result;
@@ -24,7 +24,7 @@ use sweetspot_study::verdict::Verdict;
 use crate::asked::{Question, request};
 use crate::shown;
 
-/// A bat that was prepared and solved, and how it is hit.
+/// A prepared and solved bat, with its scene.
 pub struct Solved {
     pub bat: Bat,
     pub request: Request,
@@ -35,7 +35,7 @@ pub struct Solved {
 }
 
 impl Solved {
-    /// The bat of the question with its modes; with the wall of a hollow barrel, or as if that were stiff.
+    /// The bat of the question with its modes; with the wall of a hollow barrel, or with a rigid wall.
     pub fn new(of: &Question, asked: Request, with_wall: bool) -> Result<Self> {
         let prepared = prepare(&of.bat, &asked)?;
         let (bat, request) = (prepared.bat.into_owned(), prepared.request);
@@ -47,7 +47,7 @@ impl Solved {
         Ok(Self { bat, request, solution, scene, law, model: of.model()? })
     }
 
-    /// The hits along the outer half, at as many places as `sweetspot hit` takes.
+    /// The hits along the outer half, at the number of places of `sweetspot hit`.
     fn sweep(&self) -> Result<Sweep> {
         let half = 0.5 * self.bat.length();
         let places = (0..POINTS).map(|k| half + half * k as f64 / (POINTS - 1) as f64);
@@ -57,10 +57,10 @@ impl Solved {
     }
 }
 
-/// Modes that are told.
+/// Number of modes in the answer.
 const TOLD: usize = 3;
 
-/// What both answers have of the modes.
+/// The modes in both answers.
 fn modes(of: &Question, solved: &Solved) -> Value {
     let Solved { bat, solution, .. } = solved;
     let first = solution.modes.iter().take(TOLD);
@@ -68,7 +68,7 @@ fn modes(of: &Question, solved: &Solved) -> Value {
     json!({ "modes": told })
 }
 
-/// The best place with its zone, and what stays in vibration there.
+/// The best place with its zone, and the energy left in vibration there.
 fn best(
     of: &Question,
     solved: &Solved,
@@ -89,7 +89,7 @@ fn best(
     })
 }
 
-/// Members of the second into the first.
+/// Adds the members of the second to the first.
 fn with(mut answer: Value, more: Value) -> Value {
     if let (Some(answer), Value::Object(more)) = (answer.as_object_mut(), more) {
         answer.extend(more);
@@ -97,7 +97,7 @@ fn with(mut answer: Value, more: Value) -> Value {
     answer
 }
 
-/// What an answer is without a place where ball and bat meet.
+/// The answer if ball and bat meet nowhere.
 fn no_hit() -> Value {
     json!({ "best": null, "zone": null, "vibration": null })
 }
@@ -106,10 +106,10 @@ fn no_hit() -> Value {
 pub fn live(of: &Question) -> Result<Value> {
     /// Relative accuracy of the frequencies.
     const ROUGH: f64 = 1e-3;
-    /// Steps along the outer half, and the share of it to which the best place is found.
+    /// Number of steps along the outer half, and the share of it to which the best place is located.
     const STEPS: (usize, f64) = (20, 1e-4);
     let mut solved = Solved::new(of, Request { tolerance: ROUGH, ..request() }, false)?;
-    // A wall that is not told gives way as a spring does.
+    // A wall without given figures deflects like a spring.
     let told =
         rings(&solved.bat) && solved.scene.wall.is_none() && of.setup.wall != WallChoice::Off;
     if let Some(stiffness) = rough_stiffness(&solved.bat).filter(|_| told) {
@@ -137,7 +137,7 @@ pub fn live(of: &Question) -> Result<Value> {
     Ok(with(with(answer, modes(of, &solved)), hit))
 }
 
-/// What `sweetspot hit` answers, with the wall of a hollow barrel.
+/// The answer of `sweetspot hit`, with the wall of a hollow barrel.
 pub fn sure(of: &Question) -> Result<Value> {
     let solved = Solved::new(of, request(), true)?;
     let Solved { bat, solution, scene, model, .. } = &solved;

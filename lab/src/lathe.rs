@@ -1,4 +1,4 @@
-//! What does a cut do, band by band along the bat?
+//! What is the effect of a cut, band by band along the bat?
 
 use serde_json::{Value, json};
 use sweetspot::base::error::{Error, Result};
@@ -13,7 +13,7 @@ use crate::asked::{Question, request};
 use crate::hit::Solved;
 use crate::shown::shown;
 
-/// What is told of each band.
+/// The effects in the answer for each band.
 const EFFECTS: [(&str, Answer); 4] = [
     ("sweet spot", Answer::ExitSpeedPlace),
     ("fastest ball", Answer::ExitSpeed),

@@ -1,22 +1,23 @@
 //! The program's answers in a page, without a server.
 //!
-//! A page writes a request into [`room`], calls [`answer`] and reads as many bytes at [`answer_at`]. Both are JSON, as
-//! `lab/page/types.js` says; bytes of a photograph or of sound stand behind the request, after a byte 0. The module imports nothing, so that it can do nothing but compute.
+//! A page writes a request into [`room`], calls [`answer`] and reads that many bytes at [`answer_at`]. Both are JSON,
+//! see `lab/page/types.js`; a photograph or sound follows the request after a byte 0. The module imports nothing, so it
+//! can only compute.
 //!
 //! | file | question |
 //! |---|---|
-//! | `shown` | what is said of a number |
-//! | `asked` | what is asked, of which bat, in which scene |
-//! | `body` | what does the rigid bat weigh, and how does it look |
-//! | `hit` | how does it ring, how fast does the ball leave |
-//! | `analyze` | how far may the bat in hand be off |
-//! | `lathe`, `aim` | what does a cut do; which cuts meet a wish |
-//! | `sound` | how does it sound |
-//! | `tap` | what does a recording of taps say |
-//! | `trace` | what shape has the bat on a photograph |
-//! | `open`, `files` | how does a bat come in and go out |
+//! | `shown` | how is a number shown |
+//! | `asked` | which question, about which bat, in which scene |
+//! | `body` | what are mass and outline of the rigid bat |
+//! | `hit` | how does the bat ring, how fast does the ball leave |
+//! | `analyze` | what is the uncertainty of the bat in hand |
+//! | `lathe`, `aim` | what is the effect of a cut; which cuts meet a wish |
+//! | `sound` | how does the bat sound |
+//! | `tap` | which tones and modes are in a recording of taps |
+//! | `trace` | what is the shape of the bat in a photograph |
+//! | `open`, `files` | how is a bat imported and exported |
 
-// The names that the page calls are all that is unsafe.
+// Only the exported functions are unsafe.
 #![deny(unsafe_code)]
 
 mod shown;
@@ -42,7 +43,7 @@ thread_local! {
     static ASKED: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
     static ANSWER: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
 }
-/// The words of the last panic: after it no other part of the instance is to be trusted.
+/// The message of the last panic, after which no other part of the instance can be relied on.
 static LAST_WORDS: Mutex<String> = Mutex::new(String::new());
 
 /// Room for a request of that many bytes.
@@ -56,8 +57,8 @@ pub extern "C" fn room(bytes: usize) -> *mut u8 {
     })
 }
 
-/// Answers the request, and says how many bytes the answer has. A request of no bytes is answered by the words of the
-/// last panic.
+/// Answers the request and returns the answer's number of bytes. An empty request is answered by the last panic's
+/// message.
 #[allow(unsafe_code)]
 #[unsafe(no_mangle)]
 pub extern "C" fn answer() -> usize {

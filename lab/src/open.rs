@@ -1,4 +1,4 @@
-//! How does a bat come in: a bat file or a table, as the stations that the page edits?
+//! How is a bat imported: a bat file or a table, as the stations that the page edits?
 
 use std::path::Path;
 
@@ -21,16 +21,16 @@ use sweetspot_report::report::resolved::{resolved, text_in_columns};
 use crate::asked::{BAT, request};
 use crate::body::has_stations;
 
-/// The wood of a table that says nothing of it.
+/// The wood of a table that names none.
 const WOOD: &str = "white-ash-dynamic";
-/// Stations of a formula are at most so far apart (m).
+/// Largest distance of the stations of a formula (m).
 const APART: f64 = 0.015;
 
 pub fn answer(text: &str, units: Units) -> Result<Value> {
     let table = !text.trim_start().starts_with('{');
     let bat = if table { of_table(text)? } else { Bat::from_text(BAT, text, Path::new(""))? };
     let stations = in_stations(bat.unedited().profile());
-    // As stiff as it was tapped, as heavy as it was weighed.
+    // With the moduli of the tap and the weighed mass.
     let prepared = prepare(&bat, &request())?;
     let settled = ResolvedBat { weighed: None, ..resolved(&prepared.bat) };
     let text = text_in_columns(&settled, &stations, bat.inches());
@@ -55,7 +55,7 @@ fn of_table(text: &str) -> Result<Bat> {
     Bat::builder(profile, wood).name("a bat from a table").inches(inches).build()
 }
 
-/// The stations of a profile: its own, or such as follow a formula closely.
+/// The stations of a profile: its own, or stations that follow a formula closely.
 pub fn in_stations(profile: &Profile) -> Stations {
     if profile.formulas.is_none() {
         return profile.stations.clone();
@@ -66,7 +66,7 @@ pub fn in_stations(profile: &Profile) -> Stations {
         for k in 0..=parts {
             let s = k as f64 / parts as f64;
             let section = piece.at(s);
-            // Where pieces meet without a step one station is enough.
+            // One station is enough where pieces meet without a step.
             let met = outer.last().zip(inner.last()).is_some_and(|(r, ri): (&f64, &f64)| {
                 k == 0 && (r - section.outer).abs() + (ri - section.inner).abs() < 1e-9
             });
@@ -104,12 +104,12 @@ fn differs(old: &Bat, new: &Bat) -> Result<String> {
     ))
 }
 
-/// What stays on the bat whatever is dragged.
+/// The parts of the bat that editing does not change.
 fn parts(bat: &Bat, units: Units) -> Vec<String> {
     [fixtures(bat, units), edits(bat, units)].concat()
 }
 
-/// What is fixed to the bat and what holds it, before its edits.
+/// The fixtures and supports of the bat before its edits.
 pub fn fixtures(bat: &Bat, units: Units) -> Vec<String> {
     let fixtures = bat.unedited().fixtures();
     let place = |x: f64| AnswerUnit::Length.shown(units, x);

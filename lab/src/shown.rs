@@ -1,4 +1,4 @@
-//! What is said of a number: its text is the program's.
+//! How is a number shown? Its text is that of the program.
 
 use serde_json::{Value, json};
 use sweetspot::base::units::{inches, ounces};

@@ -1,4 +1,4 @@
-//! How does it sound, tapped or hit at a place?
+//! How does the bat sound when it is tapped or hit at a place?
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -19,16 +19,16 @@ use sweetspot_study::ignored::damping_in_sound;
 use crate::asked::{Question, request};
 use crate::hit::Solved;
 
-/// How long a finger pushes (s): only the first mode speaks.
+/// Duration of a push by a finger (s), which excites only the first mode.
 const FINGER: f64 = 3e-3;
-/// Hands as `docs/bat-files.md` has them: from the knob over 6 in.
+/// Hands as in `docs/bat-files.md`: over the first 6 in from the knob.
 const HANDS: Grip = Grip { from: 0.0, to: 0.1524, stiffness: 3e4, damping: 300.0 };
 
 /// Tones of a wall by place.
 type Tones = Rc<dyn Fn(f64) -> Vec<WallTone>>;
 
 thread_local! {
-    /// The wall that was heard last, with the bat's text: a bat is tapped often, and its hoop modes take a second.
+    /// The wall of the last sound, with the bat's text: a bat is tapped often, and its hoop modes take a second.
     static WALL: RefCell<Option<(String, Tones)>> = const { RefCell::new(None) };
 }
 

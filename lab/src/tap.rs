@@ -1,4 +1,4 @@
-//! Which tones does a recording of taps have, which modes are they, and what is the wood?
+//! Which tones does a recording of taps have, which modes are they, and which wood follows?
 
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -16,16 +16,16 @@ use sweetspot_tap::recording::{Recording, loudest};
 use crate::asked::Question;
 use crate::shown;
 
-/// What the page asks of sound that the browser decoded.
+/// The page's question about sound that the browser has decoded.
 #[derive(Default, Deserialize)]
 #[serde(default)]
 struct Asked {
     name: String,
     rate_hz: f64,
     channels: usize,
-    /// How many pieces were lost; silence stands for them.
+    /// Number of lost pieces, which are replaced by silence.
     lost: usize,
-    /// Tones whose modes are told: their frequencies (Hz), and their bending modes or null for no mode.
+    /// Tones with given modes: the frequency (Hz), and the bending mode or null for no mode.
     told: Vec<Told>,
 }
 
@@ -61,7 +61,7 @@ pub fn answer(of: &Question, sound: &[u8]) -> Result<Value> {
     }))
 }
 
-/// The sound behind the request: channel after channel, each sample four bytes, the lowest first.
+/// The sound after the request: channel after channel, four bytes per sample, the lowest first.
 fn recording(asked: &Asked, sound: &[u8]) -> Result<Recording> {
     let (bytes, channels) = (sound.len(), asked.channels);
     if !(1..=8).contains(&channels) || bytes == 0 || !bytes.is_multiple_of(4 * channels) {

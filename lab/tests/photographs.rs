@@ -1,41 +1,41 @@
 //! Photographs of bats whose shape is known: rendered through a pinhole, with blur, noise, light and shadow, tilt and
-//! a lens that distorts. What is traced is compared with the shape that was rendered.
+//! a lens that distorts. The traced shape is compared with the rendered one.
 
 use serde_json::{Value, json};
 use sweetspot::{Bat, Request, solve};
 use sweetspot_lab::answered;
 
-/// What the core says of a picture.
+/// The core's answer for a picture.
 fn answer(asked: &Value, bytes: &[u8]) -> Result<Value, String> {
     let told: Value = serde_json::from_str(&answered(&asked.to_string(), bytes)).unwrap();
     told["error"].as_str().map_or(Ok(told.clone()), |error| Err(error.to_owned()))
 }
 
-/// A bat's outline, and how it is photographed.
+/// The outline of a bat, and the conditions of its photograph.
 #[derive(Clone)]
 struct Photograph {
     bat: &'static str,
-    /// The picture's width, and that of its blur (px).
+    /// The width of the picture, and of its blur (px).
     width: usize,
     blur: f64,
-    /// From where (m), how far the bat is off level (°), how far it is turned in the picture (°).
+    /// The distance of the camera (m), the inclination of the bat (°), and its rotation in the picture (°).
     distance: f64,
     tilt: f64,
     turn: f64,
-    /// Standard deviation of each byte, and how dark the shadow beside the bat is.
+    /// Standard deviation of each byte, and the darkness of the shadow beside the bat.
     noise: f64,
     shadow: f64,
-    /// How much larger the lens draws at the picture's edge.
+    /// The excess magnification of the lens at the edge of the picture.
     lens: f64,
-    /// The tip is rounded over so much (m).
+    /// The length of the rounding of the tip (m).
     round: f64,
     /// Whether the knob is on the right.
     flipped: bool,
     ground: [f64; 3],
     wood: [f64; 3],
-    /// Where the bat lies, from the middle (m).
+    /// The position of the bat, from the middle (m).
     aside: f64,
-    /// Whether the distance is told.
+    /// Whether the distance is given to the core.
     told: bool,
 }
 
@@ -61,7 +61,7 @@ const PLAIN: Photograph = Photograph {
 struct Dice(u64);
 
 impl Dice {
-    /// About normal, of deviation 1.
+    /// Approximately normal, with deviation 1.
     fn normal(&mut self) -> f64 {
         let mut sum = 0.0;
         for _ in 0..4 {
@@ -75,7 +75,7 @@ impl Dice {
     }
 }
 
-/// The share of a pixel that lies so far (px) inside of an edge that is blurred.
+/// The covered share of a pixel at that distance (px) inside a blurred edge.
 fn covered(inside: f64, blur: f64) -> f64 {
     1.0 / (1.0 + (-1.702 * inside / blur).exp())
 }
@@ -107,8 +107,8 @@ impl Photograph {
         let focal = self.width as f64 / 0.95 * self.distance;
         let (sin, cos) = self.tilt.to_radians().sin_cos();
         let (turn_sin, turn_cos) = self.turn.to_radians().sin_cos();
-        // How far (m) the ray through a place of the picture (px from its middle) goes inside of the bat at most, and
-        // how far from its axis it passes in parts of the radius.
+        // For the ray through a place of the picture (px from its middle): the greatest depth inside the bat (m), and
+        // its distance from the axis as a share of the radius.
         let inside = |x: f64, y: f64| -> (f64, f64) {
             let reach = 0.5 * self.width as f64;
             let lens = 1.0 / (1.0 + self.lens * (x * x + y * y) / (reach * reach));
@@ -181,7 +181,7 @@ impl Photograph {
         answer(&self.asked(others), &self.taken())
     }
 
-    /// What is traced beside the truth: the root of the mean square (mm), the share of places within three of the
+    /// The traced shape compared with the true one: the root of the mean square (mm), the share of places within three
     /// stated deviations, and the change of the first frequency.
     fn judged(&self, traced: &Value) -> [f64; 3] {
         let (length, radii) = self.radii();
@@ -191,12 +191,12 @@ impl Photograph {
         let at = |x: f64| 2.0 * bat.profile().at(x).outer;
         let places: Vec<f64> =
             (1..).map(|k| 0.005 * f64::from(k)).take_while(|x| *x < length - 0.015).collect();
-        // Not at the knob's step, where a place that is off by a little is everything.
+        // Not at the step of the knob, where a small error of the place is a large one of the radius.
         let body = places.iter().filter(|x| **x > 0.03);
         let squares: Vec<f64> = body.map(|x| (at(*x) - true_at(*x)).powi(2)).collect();
         let rms = (squares.iter().sum::<f64>() / squares.len() as f64).sqrt();
         let deviation = traced["diameter_deviation_m"].as_f64().unwrap();
-        // Places are known to 0.7 mm.
+        // Places are accurate to 0.7 mm.
         let beside = |x: f64| (-4..=4).map(move |k| (x + 5e-4 * f64::from(k)).clamp(0.0, length));
         let off = |x: &f64| {
             beside(*x).map(|near| (at(*x) - true_at(near)).abs()).fold(f64::INFINITY, f64::min)
@@ -214,7 +214,7 @@ impl Photograph {
 fn diameters_of_rendered_photographs_are_within_their_stated_uncertainty() {
     let noisy = Photograph { noise: 6.0, ..PLAIN };
     let near = Photograph { distance: 1.2, ..PLAIN };
-    // A picture, and the rms (mm) that it is allowed.
+    // A picture, and the allowed rms error (mm).
     let all = [
         ("plain", PLAIN, 0.15),
         ("noise", noisy.clone(), 0.15),
@@ -271,7 +271,7 @@ fn diameters_of_rendered_photographs_are_within_their_stated_uncertainty() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// The mean of two pictures, the bat turned end for end on ground that is not level.
+/// The mean of two pictures between which the bat was turned end for end, on ground that is not level.
 #[test]
 fn two_pictures_end_for_end_are_free_of_tilt() {
     let near = Photograph { distance: 1.2, tilt: 5.0, told: true, width: 3000, ..PLAIN };
@@ -290,7 +290,7 @@ fn number(traced: &Value) -> f64 {
     traced["diameter_deviation_m"].as_f64().unwrap()
 }
 
-/// A hand sets an edge where the picture is spoilt.
+/// An edge is set by hand where the picture is damaged.
 #[test]
 fn a_pin_holds_the_edge() {
     let photograph = Photograph { width: 2000, ..PLAIN };
@@ -349,7 +349,7 @@ fn what_cannot_be_traced_is_said() {
         let told = said(photograph, change).expect_err(expected);
         assert!(told.contains(expected), "{told:?} does not say {expected:?}");
     }
-    // Weak contrast is told, or refused.
+    // Weak contrast is reported, or refused.
     let weak = Photograph { noise: 6.0, wood: [136.0, 138.0, 142.0], width: 2000, ..PLAIN };
     match said(&weak, &|_| {}) {
         Ok(traced) => assert!(
@@ -359,11 +359,11 @@ fn what_cannot_be_traced_is_said() {
         ),
         Err(told) => assert!(told.contains("picture"), "{told}"),
     }
-    // A length that does not fit to the diameter.
+    // A length that does not fit the diameter.
     let mut asked = small.asked(&[]);
     asked["length_m"] = json!(1.0);
     let told = answer(&asked, &small.taken()).unwrap_err();
     assert!(told.contains("mm long by its diameter"), "{told}");
-    // Bytes that are no picture.
+    // Bytes that are not a picture.
     assert!(answer(&asked, &[0; 8]).unwrap_err().contains("four bytes"));
 }

@@ -1,4 +1,4 @@
-//! The core's answers are the library's, and whatever is asked is answered in words.
+//! The core gives the answers of the library, and answers every request, also wrong ones, in words.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use sweetspot::collision::{Hitter, Model, Scene, SweetSpot};
 use sweetspot::{Bat, Request, solve};
 use sweetspot_lab::answered;
 
-/// A built-in bat's file.
+/// The file of a built-in bat.
 fn file(name: &str) -> &'static str {
     sweetspot::files::built_in::bat_text(name).unwrap()
 }
@@ -68,7 +68,7 @@ fn the_sure_answer_is_the_librarys() {
     assert_eq!(answer["best"]["speed"]["text"], format!("{:.2} m/s", best.value));
 }
 
-/// The preview is of the same bat: within the accuracy that it is asked with.
+/// The preview agrees with the full answer within the accuracy of the request.
 #[test]
 fn the_preview_is_near_the_sure_answer() {
     for bat in sweetspot::files::built_in::bat_names() {
@@ -80,7 +80,8 @@ fn the_preview_is_near_the_sure_answer() {
         let live_wall = live["rough_wall"] == true;
         assert_eq!(sure["rough_wall"], false);
         for (live, sure) in of(&live).into_iter().zip(of(&sure)) {
-            // The wall of a hollow barrel is a spring in the preview, by an estimate; that of one bat is dented too deep.
+            // The preview treats the wall of a hollow barrel as a spring with an estimated stiffness; the wall of one
+            // bat is dented too deep.
             let most = if live_wall { 5e-2 } else { 2e-3 };
             let off = (live / sure - 1.0).abs();
             assert!(off < most || bat == "northwestern_aluminium", "{bat}: {live} {sure}");
@@ -92,7 +93,7 @@ fn the_preview_is_near_the_sure_answer() {
     }
 }
 
-/// What comes in as a formula, a weighed bat or a table goes on as stations; what differs is said.
+/// A formula, a weighed bat or a table is turned into stations, and differences are stated.
 #[test]
 fn every_bat_opens_as_stations_that_are_the_same_bat() {
     for name in sweetspot::files::built_in::bat_names() {
@@ -101,13 +102,13 @@ fn every_bat_opens_as_stations_that_are_the_same_bat() {
         let text = answer["bat_file"].as_str().unwrap();
         let opened = Bat::from_text("opened", text, Path::new("")).unwrap();
         let [old, new] = [&bat, &opened].map(|bat| bat.inertia().about(STANDARD_PIVOT));
-        // What is said to three decimals of a per cent. Nobody is told of a rounding to 1e-9 in: of two diameters half of
-        // that each, over a wall of 0.1 in.
+        // Differences are stated to three decimals of a per cent. A rounding to 1e-9 in is not reported: half of that
+        // for each of two diameters, over a wall of 0.1 in.
         let most = if answer["differs"].is_null() { 1e-8 } else { 1e-3 };
         assert!((new / old - 1.0).abs() < most, "{name}: {old} {new} {}", answer["differs"]);
         assert_eq!(opened.inches(), bat.inches(), "{name}");
         assert_eq!(serde_json::from_str::<Value>(text).unwrap(), answer["bat"], "{name}");
-        // Opened once more nothing happens.
+        // Opening it again changes nothing.
         let again = asked("open", text, json!({}));
         assert_eq!(again["bat"]["profile"], answer["bat"]["profile"], "{name}");
         assert!(again["differs"].is_null(), "{name}: {}", again["differs"]);
@@ -160,7 +161,7 @@ fn mistakes_are_said_with_line_and_column() {
     }
 }
 
-/// Whatever comes as a request is answered, and an answer has no NaN: JSON would have a null for it.
+/// Every request is answered, and no answer contains a NaN, which would be null in JSON.
 #[test]
 fn hostile_requests_are_answered_in_words() {
     let bat = |change: (&str, &str)| file("r161").replace(change.0, change.1);
@@ -192,7 +193,7 @@ fn hostile_requests_are_answered_in_words() {
     assert_eq!(asked("body", &named, json!({}))["name"], "<img src=x onerror=alert(1)>");
 }
 
-/// A tap on a node of a mode leaves that mode silent.
+/// A tap on a node of a mode does not excite that mode.
 #[test]
 fn a_tap_on_a_node_is_silent_in_its_mode() {
     let node = {
@@ -206,7 +207,7 @@ fn a_tap_on_a_node_is_silent_in_its_mode() {
     assert!(amplitude(node) < 1e-3 * amplitude(0.84), "{} {}", amplitude(node), amplitude(0.84));
     let hollow = asked("sound", file("bbcor_made_up"), json!({ "x_m": 0.7, "blow": "ball" }));
     assert!(hollow["tones"].as_array().unwrap().len() > 10);
-    // The wood loses what is assumed, and hands take more: of all tones, for each cycle.
+    // The wood has the assumed losses, and hands increase the loss in each cycle of every tone.
     let [free, held] = ["free", "hands"].map(|held| {
         let sound = asked("sound", file("r161"), json!({ "x_m": 0.84, "held": held }));
         assert!(sound["assumed"].as_str().unwrap().contains("0.01"), "{sound}");
@@ -238,7 +239,7 @@ fn a_cut_does_what_its_band_says() {
         answer["effects"].as_array().unwrap().iter().find(|e| e["what"] == "swing weight");
     let changes = weights.unwrap()["changes"].as_array().unwrap();
     assert_eq!((bands.len(), &answer["depth"]), (changes.len(), &json!("mm")));
-    // A tenth of a millimetre off the diameter of one band, by the bat itself.
+    // A tenth of a millimetre less diameter in one band, solved for the changed bat.
     let k = 14;
     let [from, to] = ["from_m", "to_m"].map(|end| number(&bands[k][end]));
     let bat = Bat::builtin("r161").unwrap();
@@ -265,7 +266,8 @@ fn taps(tones: &[f64], rate: f64) -> Vec<u8> {
     quiet.chain(loud).flat_map(|x| (x as f32).to_le_bytes()).collect()
 }
 
-/// Sound behind a request is heard as the library hears it; the bat file of its wood rings like the sound.
+/// Sound after a request gives the results of the library; the written bat file with its wood has the frequencies of
+/// the sound.
 #[test]
 fn taps_are_heard() {
     let bat = Bat::builtin("r161").unwrap();
@@ -299,7 +301,7 @@ fn taps_are_heard() {
     }
 }
 
-/// Modes that a person says are those of the tones; modes that fall while their tones rise are refused in words.
+/// Modes given by the user are assigned to the tones; modes that fall while their tones rise are refused in words.
 #[test]
 fn the_mode_of_a_tone_can_be_said() {
     let file_of = include_bytes!("../../tests/golden/taps.wav");

@@ -1,7 +1,7 @@
 //! The part of the Python package that is written in Rust.
 //!
-//! What goes in and out are texts: bat files, scenes and the documents that the command line writes. The
-//! package around it makes NumPy arrays of them.
+//! Inputs and outputs are texts: bat files, scenes and the documents that the command line writes. The Python package
+//! around it converts them to NumPy arrays.
 
 use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
@@ -47,7 +47,7 @@ use sweetspot_tap::analysis::Analysis;
 use sweetspot_tap::decode::{self, Part};
 use sweetspot_tap::recording::Recording;
 
-/// The package's exception about an error, with its `sweetspot-error/1` document.
+/// The package's exception for an error, with its `sweetspot-error/1` document.
 fn raised(py: Python<'_>, error: &Error) -> PyErr {
     let document = schema::text(&mistakes::document(error));
     let made = py
@@ -57,7 +57,7 @@ fn raised(py: Python<'_>, error: &Error) -> PyErr {
     made.map_or_else(|failed| failed, PyErr::from_value)
 }
 
-/// What `work` gives, without the interpreter's lock, or the exception about its error.
+/// The result of `work`, run without the interpreter's lock, or the exception for its error.
 fn free<T: Send>(
     py: Python<'_>,
     work: impl FnOnce() -> sweetspot::Result<T> + Send,
@@ -65,8 +65,8 @@ fn free<T: Send>(
     py.detach(work).map_err(|error| raised(py, &error))
 }
 
-/// What `work` gives. A signal for which Python raises something is heard at once: `work` sees that it is of no
-/// use any more, and ends beside.
+/// The result of `work`. If Python raises an exception for a signal, this returns at once; `work` is told to stop and
+/// ends in the background.
 fn heard<T: Send + 'static>(
     py: Python<'_>,
     work: impl FnOnce(&AtomicBool) -> T + Send + 'static,
@@ -79,7 +79,7 @@ fn heard<T: Send + 'static>(
         let (stop, work) = (Arc::clone(&stop), Arc::clone(&work));
         move || {
             let work = work.lock().unwrap_or_else(PoisonError::into_inner).take();
-            // Nobody listens any more where that was of no use.
+            // After a signal there is no receiver.
             let _ = send.send(work.map(|work| work(&stop)));
         }
     });
@@ -112,7 +112,7 @@ fn heard<T: Send + 'static>(
 #[pyclass(frozen, module = "sweetspot._core")]
 struct Bat(sweetspot::Bat);
 
-/// How modes are asked for.
+/// The request for modes.
 struct Asked {
     modes: usize,
     tolerance: f64,
@@ -135,7 +135,7 @@ impl Asked {
         Ok(Self { modes, tolerance, theory: theory.transpose()? })
     }
 
-    /// The bat as it is tuned to its tap, and what is asked of it.
+    /// The bat with its moduli fitted to the tap, and its request.
     fn prepared(&self, bat: &sweetspot::Bat) -> sweetspot::Result<(sweetspot::Bat, Request)> {
         let theory = self.theory.unwrap_or_default();
         let (modes, tolerance) = (self.modes, self.tolerance);
@@ -242,7 +242,7 @@ impl Bat {
         })
     }
 
-    /// What a recording of this bat's taps says.
+    /// The analysis of a recording of this bat's taps.
     fn tap_file(&self, py: Python<'_>, path: PathBuf) -> PyResult<(String, Vec<(String, String)>)> {
         free(py, || {
             let shown = written_out(&path.display().to_string());
@@ -251,7 +251,7 @@ impl Bat {
         })
     }
 
-    /// What samples say, eight bytes each, the lowest first, so many a second.
+    /// The analysis of samples, eight bytes each, the lowest first, at that rate.
     fn tap_samples(
         &self,
         py: Python<'_>,
@@ -289,14 +289,14 @@ impl Bat {
     }
 }
 
-/// The text of a bat file that is built in.
+/// The text of a built-in bat file.
 #[pyfunction]
 fn built_in(py: Python<'_>, name: &str) -> PyResult<Option<&'static str>> {
     let found = bats::named(Path::new(name)).map_err(|error| raised(py, &error))?;
     Ok(found.map(|(_, text)| text))
 }
 
-/// The names of the bats that are built in.
+/// The names of the built-in bats.
 #[pyfunction]
 fn built_in_names() -> Vec<&'static str> {
     bats::bat_names()
@@ -313,7 +313,7 @@ impl Study {
         free(py, || Source::read(&path)).map(Arc::new).map(Self)
     }
 
-    /// A study that a person has named, and the files outside of its folder that it names, as they are shown.
+    /// A study that a person has named, and the files outside its folder that it names, as shown in messages.
     #[staticmethod]
     fn named_by_a_person(py: Python<'_>, path: PathBuf) -> PyResult<(Self, Vec<String>)> {
         let (study, outside) = free(py, || Source::named_by_a_person(&path))?;
@@ -338,7 +338,7 @@ impl Study {
         self.0.rows.numbers().into_iter().map(|k| columns[k][0].clone()).collect()
     }
 
-    /// What is strange but no mistake, a sentence each: of the bats, and of what varies without effect.
+    /// Warnings, one sentence each: about the bats, and about inputs without effect.
     fn warnings(&self, py: Python<'_>) -> PyResult<Vec<String>> {
         free(py, || Ok(self.0.rows.warnings()))
     }
@@ -354,7 +354,7 @@ impl Study {
         free(py, || Source::arrived(text)).map(Arc::new).map(Self)
     }
 
-    /// How many rows there are, and how many of them in a part.
+    /// Number of rows, and number of rows in a part.
     fn size(&self) -> (u64, u64) {
         let division = Division::of(&self.0.rows);
         (division.rows, division.rows_per_part)
@@ -382,12 +382,13 @@ impl Study {
         Ok(texts.iter().map(|text| PyBytes::new(py, text.as_bytes()).unbind()).collect())
     }
 
-    /// Opens the folder of the study, or refuses one of another: rows of a part there.
+    /// Opens the folder of the study, or refuses the folder of another study. Returns the number of rows in a part
+    /// there.
     fn open(&self, py: Python<'_>, out: PathBuf) -> PyResult<u64> {
         free(py, || StudyFolder::open(&out, &self.0).map(|folder| folder.division().rows_per_part))
     }
 
-    /// Part k in an opened folder, if it is there and right.
+    /// Part k in an opened folder, if it exists and is correct.
     fn kept(
         &self,
         py: Python<'_>,
@@ -407,7 +408,7 @@ impl Study {
     }
 }
 
-/// Whether a file fits the sum beside it; false where there is none.
+/// Whether a file matches the sum beside it; false if there is none.
 #[pyfunction]
 fn fits_its_sum(py: Python<'_>, path: PathBuf) -> PyResult<bool> {
     free(py, || sums::fits(&path, &file::read_plain(&path)?))

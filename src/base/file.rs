@@ -106,7 +106,7 @@ pub fn write(path: &Path, contents: &[u8]) -> Result<()> {
     if let Some(descriptor) = Descriptor::at(&target) {
         return unless_closed(descriptor.write(contents)).map_err(failed);
     }
-    // Uses the name as given: what the system forbids of links is forbidden here too.
+    // Uses the name as given: the system's restrictions on links apply here too.
     let old = match fs::metadata(path) {
         Err(error) if error.kind() == ErrorKind::NotFound => None,
         old => Some(old.map_err(failed)?),
@@ -148,7 +148,7 @@ fn refuse_kept(path: &Path) -> Result<()> {
     Ok(())
 }
 
-/// A closed pipe is no error: its reader has read enough.
+/// A closed pipe is not an error: its reader has read enough.
 fn unless_closed(written: io::Result<()>) -> io::Result<()> {
     match written {
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
@@ -251,7 +251,7 @@ fn replace(path: &Path, target: &Path, old: &Metadata, contents: &[u8]) -> io::R
     if names(old) == 1 {
         use ErrorKind::{CrossesDevices, PermissionDenied, ReadOnlyFilesystem, ResourceBusy};
         match write_beside(target, Some(old), contents) {
-            // The folder takes no new file, or not with that owner, or the file cannot be replaced.
+            // No file can be created in the folder, or not with that owner, or the file cannot be replaced.
             Err(error)
                 if matches!(
                     error.kind(),
@@ -263,7 +263,7 @@ fn replace(path: &Path, target: &Path, old: &Metadata, contents: &[u8]) -> io::R
     overwrite(path, contents)
 }
 
-/// Overwrites a file, and puts back what it held if that fails.
+/// Overwrites a file, and restores the old contents if that fails.
 fn overwrite(path: &Path, contents: &[u8]) -> io::Result<()> {
     // Holds the list's lock, so that a thread that stops the program waits for the end of the write.
     let _parts = parts();
@@ -302,7 +302,7 @@ pub fn beside(
         .and_then(|()| file.sync_all())
         .and_then(|()| put(&part));
     if written.is_err() {
-        // The temporary file is of no use; if it is already gone, that is no further error.
+        // The temporary file is of no use; it may already be gone, which is not a further error.
         let _ = fs::remove_file(&part);
     }
     parts().retain(|other| *other != part);

@@ -32,8 +32,8 @@ pub(crate) fn widest<W: WithSimd>(work: W) -> W::Output {
     arch.dispatch(work)
 }
 
-/// A closure that uses this up can be called once only. Its call is then its own code. Any other closure is called
-/// through a function that the compiler does not always inline, and whatever is not inlined has no wide vectors.
+/// A closure that consumes this can be called only once, so the compiler inlines its call. Any other closure is called
+/// through a function that is not always inlined, and code that is not inlined does not use the wide vectors.
 pub(crate) struct Once;
 
 impl Once {

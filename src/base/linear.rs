@@ -38,8 +38,8 @@ fn short_dots<R: Real, const Q: usize>(x: [&[R]; Q], y: &[R]) -> [R; Q] {
     const SUMS: usize = 8;
     let whole = y.len() / SUMS * SUMS;
     let mut sums = [[R::default(); SUMS]; Q];
-    // Plain numbers fill a vector with the partial sums. If each is a vector already, the registers hold those of one
-    // place in eight.
+    // Plain numbers: the partial sums fill one vector. Where each number is a vector itself, the registers hold one of
+    // the eight partial sums at a time.
     let (outer, inner) = if R::LANES == 1 { (1, SUMS) } else { (SUMS, 1) };
     for first in 0..outer {
         let mut own = [[R::default(); SUMS]; Q];

@@ -1,7 +1,7 @@
 //! Which characters act on the program that shows them, and how are they written out?
 //!
-//! A name may come from a stranger's file. Control characters act on a terminal, marks of direction make a line read as
-//! another one, and a spreadsheet computes a text that begins like a formula.
+//! A name may come from a stranger's file. Control characters act on a terminal, direction marks change the order in
+//! which a line is read, and a spreadsheet evaluates a text that begins like a formula.
 
 /// Marks that reverse the direction of the text after them and could disguise a name or a number.
 pub fn is_bidi(c: char) -> bool {

@@ -1,7 +1,7 @@
 //! How do we integrate, and add up without losing digits?
 //!
-//! [`gauss`] gives Gauss–Legendre points on [0, 1], [`converged`] integrates what is not a polynomial,
-//! and a [`RunningSum`] carries its rounding errors along.
+//! [`gauss`] gives Gauss–Legendre points on [0, 1], [`converged`] integrates functions that are not polynomials, and a
+//! [`RunningSum`] adds up its rounding errors too.
 
 use std::f64::consts::PI;
 use std::sync::LazyLock;

@@ -1,7 +1,7 @@
 //! How is work shared among the processors?
 //!
 //! `map` and `map_each` use rayon's pool, or do all the work themselves if no thread may be started or there is no
-//! pool. `made` makes a value that many jobs ask for and one of them makes.
+//! pool. `made` computes a value that many jobs need, once.
 
 use std::cell::Cell;
 use std::sync::OnceLock;
@@ -16,8 +16,8 @@ pub const MOST: u16 = 1024;
 
 /// The value in the cell; `make` makes it if the cell is empty.
 ///
-/// The thread that makes it works alone. A thread of the pool that waits for others takes up other work meanwhile, and
-/// if that asks for the same cell, the thread waits for itself.
+/// The thread that makes the value shares no work. A thread of the pool takes up other jobs while it waits; if one of
+/// them needed the same cell, the thread would wait for itself.
 pub(crate) fn made<T>(cell: &OnceLock<T>, make: impl FnOnce() -> T) -> &T {
     struct Before(bool);
     impl Drop for Before {
@@ -122,8 +122,8 @@ mod tests {
         assert_eq!(sums, (1..1001).collect::<Vec<_>>());
     }
 
-    /// Many jobs ask for a value that one of them makes with many jobs. If that one waited in the pool, it would take
-    /// up another that asks, and both would wait for ever.
+    /// Many jobs need a value that one of them makes with many jobs. If that job waited in the pool, it would take up
+    /// another one that needs the value, and both would wait for ever.
     #[cfg(feature = "parallel")]
     #[test]
     fn what_is_made_once_is_made_by_one_that_waits_for_nobody() {

@@ -1,7 +1,7 @@
 //! Which numbers and units has a person typed?
 //!
 //! [`plain`] replaces typographic marks by letters, [`terms`] finds each number with its unit, and [`mixed`] gives the
-//! value of the number. [`crate::base::units`] knows the units.
+//! value of the number. [`crate::base::units`] has the units.
 
 /// A text prepared for parsing: quotes and primes become `in` and `ft`, printed fractions and signs become typed ones.
 pub fn plain(text: &str) -> String {

@@ -213,7 +213,8 @@ pub fn parse(text: &str, quantity: Quantity) -> Result<f64, Complaint> {
     parse_beside(text, quantity, quantity.facts().2)
 }
 
-/// The value of a text with its unit, in SI. Plain numbers next to this text are in `bare`; a complaint names it.
+/// The value of a text with its unit, in SI. Numbers without a unit beside this text are in the unit `bare`, which a
+/// complaint names.
 ///
 /// # Errors
 ///

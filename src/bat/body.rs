@@ -99,7 +99,7 @@ impl Builder {
         self
     }
 
-    /// What is on it and what holds it.
+    /// Sets the fixtures on the bat and its supports.
     pub fn fixtures(mut self, fixtures: Fixtures) -> Self {
         self.parts.fixtures = fixtures;
         self
@@ -173,7 +173,7 @@ impl Bat {
     ) -> Result<Self> {
         let mut parts = self.parts.clone();
         change(&mut parts)?;
-        // Another wood was not weighed and tapped.
+        // The new wood was not weighed or tapped.
         let (weighed, factors) = match edit.change {
             Change::Wood(_) => (Weighed::default(), [1.0; 2]),
             _ => (self.weighed, self.factors),
@@ -189,7 +189,7 @@ impl Bat {
         &self.edits
     }
 
-    /// The bat as it was weighed, before its edits; the bat itself where it has none.
+    /// The bat as it was weighed, before its edits; the bat itself if it has no edits.
     pub fn unedited(&self) -> &Self {
         self.unedited.as_deref().unwrap_or(self)
     }
@@ -225,12 +225,12 @@ impl Bat {
         &self.parts.profile
     }
 
-    /// What the pieces of the profile are made of; the first is the bat's own material.
+    /// Layups of the pieces of the profile; the first is the bat's own material.
     pub fn layups(&self) -> &[Layup] {
         &self.layups
     }
 
-    /// What is on it and what holds it.
+    /// Fixtures on the bat, and its supports.
     pub fn fixtures(&self) -> &Fixtures {
         &self.parts.fixtures
     }

@@ -138,8 +138,8 @@ pub struct ScaleDiameter {
     pub to: f64,
     /// Factor on the diameter, such as 1.02.
     pub by: f64,
-    /// Length over which the factor comes in and goes out smoothly, inside the stretch (m). By default 1 in, or half of
-    /// a shorter stretch. At an end of the bat the factor applies in full.
+    /// Length over which the factor begins and ends smoothly, inside the stretch (m). By default 1 in, or half of a
+    /// shorter stretch. At an end of the bat the factor applies in full.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub blend: Option<f64>,
 }

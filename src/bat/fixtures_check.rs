@@ -6,7 +6,7 @@ use crate::bat::fixtures::{Attachment, Fixtures, Held, Region};
 use crate::bat::part::{Part, SOFTEST};
 use crate::bat::profile::SAME_PLACE;
 
-/// Frequencies closer than this, relative, are not told apart.
+/// Frequencies closer than this, relative, count as equal.
 const LEAST_GAP: f64 = 1e-9;
 
 impl Fixtures {

@@ -60,7 +60,7 @@ pub(crate) fn read(text: &str) -> Result<Node, (Complaint, Range<usize>)> {
     }
 }
 
-/// The text that is left, its place, and how deep in brackets and powers it stands.
+/// The remaining text, its place, and its depth in brackets and powers.
 type Input<'a> = Stateful<LocatingSlice<&'a str>, usize>;
 
 /// A mistake at a byte of the text.

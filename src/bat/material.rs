@@ -207,7 +207,7 @@ pub struct Scatter {
 }
 
 /// Densities (kg/m³) and Young's moduli (Pa) along the grain by which a material is taken for wood. No other material of
-/// bats is as light: a stiffness that no wood has is a mistake, which does not make its density better known.
+/// bats is as light. The range of moduli is wide, because a mistaken stiffness does not make the density better known.
 const WOOD: [[f64; 2]; 2] = [[300.0, 1100.0], [1e9, 60e9]];
 
 impl Material {

@@ -272,7 +272,7 @@ impl Cubics {
         Section { outer: bernstein(&self.outer, s), inner }
     }
 
-    /// Where between its ends, in (0, 1), the wall is gone, two cubics having crossed.
+    /// Where between its ends, in (0, 1), the wall vanishes because its two cubics cross.
     pub(crate) fn no_wall_at(&self) -> Option<f64> {
         let wall: [f64; 4] = std::array::from_fn(|i| self.outer[i] - self.inner[i]);
         if wall[1] > 0.0 && wall[2] > 0.0 {

@@ -14,7 +14,7 @@ pub enum Interpolation {
     Pchip,
     /// A straight line from station to station.
     Linear,
-    /// The value of a station holds until the next; the last station only closes the bat.
+    /// The value of a station holds until the next; the last station only marks the end of the bat.
     Constant,
 }
 

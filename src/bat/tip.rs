@@ -1,6 +1,6 @@
 //! Does a pointed end reflect waves?
 //!
-//! Let the radius fall to 0 as `c tⁿ`, with `t` the distance from the tip. The wave number goes as
+//! Let the radius fall to 0 as `c tⁿ`, with `t` the distance from the tip. The wave number is proportional to
 //! `(ρA/EI)^¼ ∝ t^{−n/2}`, and the time that a wave needs to reach the tip as `∫ t^{−n/2} dt`: for n of 2 and more it
 //! never arrives. With n = 2 the beam's equation near the tip, `(t⁸ w″)″ = λ t⁴ w` in scaled units, has the solutions
 //! `w = t^{−5/2 ± iτ}` with `λ = (τ² + 25/4)(τ² + 49/4)`. Every frequency above that of `λ = 1225/16` is then possible

@@ -189,7 +189,7 @@ impl Bat {
         self.with(|parts| parts.profile = profile)
     }
 
-    /// The bat with borders between pieces of its profile at these places (m), and else the same.
+    /// The bat with added borders between pieces of its profile at these places (m); its shape is unchanged.
     ///
     /// # Errors
     ///

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// What a scale and a tap said, where they were asked.
+/// Values that were measured on the bat, as far as they are known.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Weighed {

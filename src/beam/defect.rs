@@ -1,4 +1,4 @@
-//! How far is a motion from being a mode? Its own defect tells.
+//! How far is a motion from being a mode? Its defect measures that.
 //!
 //! A mode of the exact beam equals the deflection due to its own inertia. The inertia of a computed mode causes bending
 //! moments that statics gives exactly: `M″ = ω²ρA w` from the free ends (`M′ = −Q − ω²ρI θ` with rotary inertia). These

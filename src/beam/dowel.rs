@@ -64,7 +64,7 @@ pub fn beta_l(ends: Ends, n: usize) -> f64 {
     asymptote + delta
 }
 
-/// +1 for odd `n`, −1 for even: what reflection about the middle does to mode `n`.
+/// Symmetry of mode `n` about the middle: +1 for odd `n`, −1 for even `n`.
 fn parity(n: usize) -> f64 {
     if n % 2 == 1 { 1.0 } else { -1.0 }
 }

@@ -19,8 +19,8 @@ use crate::beam::footing::{Crossing, Footing, Meeting, Rest, product};
 pub use crate::beam::bed::Under;
 pub use crate::beam::footing::{Given, Span};
 
-/// Stiffness of a support, so large that its deflection shows in no number: 2²⁶⁶, a power of two so that scaling a bat
-/// by powers of two changes no digit.
+/// Stiffness of a support, so large that its deflection changes no digit: 2²⁶⁶, a power of two so that scaling a bat by
+/// powers of two changes no digit.
 const RIGID: f64 = f64::from_bits((1023 + 266) << 52);
 
 /// How the contacts hold the bat.

@@ -251,8 +251,8 @@ impl<R: Real> Motion<R> {
         count
     }
 
-    /// Raises the number of every element, knob to tip, to its part of the defect in any lane; `split` elements are on
-    /// the knob side.
+    /// Raises the value of every element, knob to tip, to its largest part of the defect in any lane; `split` elements
+    /// are on the knob side.
     pub fn add_defects(&self, split: usize, most: &mut [f64]) {
         let (knob, tip) = self.defects.split_at(split);
         for (most, defect) in most.iter_mut().zip(knob.iter().rev().chain(tip)) {

@@ -15,7 +15,7 @@ use crate::beam::walk::{Stop, What};
 pub struct Placed<S> {
     /// Masses, on the bat itself or on springs.
     pub points: Vec<PointMass<S>>,
-    /// Joints that give way to bending.
+    /// Joints that are flexible in bending.
     pub joints: Vec<Spring<S>>,
     /// Contacts that hold a deflection or a rotation.
     pub contacts: Vec<Contact<S>>,
@@ -77,7 +77,7 @@ impl<S: Real> Placed<S> {
 
     /// Adds a stop at node `node`; returns its side, 1 for the tip's.
     fn stop(&mut self, split: usize, node: usize, what: What) -> usize {
-        // A joint at the root gives way on the tip side; all other fixtures there belong to the knob side.
+        // A joint at the root belongs to the tip side; all other fixtures there belong to the knob side.
         let tip_side = node > split || (node == split && matches!(what, What::Joint(_)));
         let after = if tip_side { node - split } else { split - node };
         self.stops[usize::from(tip_side)].push(Stop { after, what });

@@ -227,7 +227,7 @@ impl Rule {
     #[inline(always)]
     pub fn combine<R: Real>(&self, rows: &[f64], parts: &[R], sums: &mut [R; MOST_POINTS]) {
         let stride = self.stride();
-        // Four points at a time stay in registers while the parts go by.
+        // Four points at a time stay in registers during the pass over the parts.
         for first in (0..stride).step_by(BLOCK) {
             let mut sum = [R::default(); BLOCK];
             for (row, part) in rows.chunks_exact(stride).zip(parts) {

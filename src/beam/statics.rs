@@ -16,9 +16,9 @@
 //! is symmetric. Its eigenvalues are exactly the 1/ω² of the free bat's bending modes: the two rigid motions have no
 //! strain.
 //!
-//! The sums run outwards from a root where the bat is stiff, and the loads inwards to it. A thin end has the least
-//! certain strains, and then moves only itself. With the root in the point of a cone, 4000 elements lost half the
-//! digits.
+//! The sums run outwards from a root where the bat is stiff, and the loads inwards to it. The strains of a thin end are
+//! the least certain ones, and with this root they move only that end. With the root in the point of a cone, 4000
+//! elements lost half the digits.
 
 use crate::base::lanes::vectorized;
 use crate::base::quadrature::RunningSum;

@@ -1,4 +1,5 @@
-//! Hits at places that lie close along a bat, not all of which need be compared with rougher ones.
+//! Hits at many places along a bat. Where the places are close together, only some are compared with less accurate
+//! answers.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -8,14 +9,14 @@ use crate::collision::contact::abreast::meet::ABREAST;
 use crate::collision::hit::{Impact, greater};
 use crate::collision::hitter::Hitter;
 
-/// The hits at all places (m). Where they lie close, one in a few is compared with rougher ones, and
-/// those between two take the larger error of both.
+/// The hits at all places (m). Where they lie close together, one in a few is compared with less accurate answers. The
+/// hits between two of these take the larger error of both.
 pub fn strikes(hitter: &Hitter, length: f64, places: &[f64], tell: Tell) -> Vec<Impact> {
     const MOST: usize = 8;
-    /// Trial between two words of how many there are.
+    /// Number of hits between two messages of progress.
     const OFTEN: usize = 64;
-    /// Share of the half-wave of the first mode left out: between two places so far apart its square is
-    /// nowhere twice as large as at the larger of both.
+    /// Share of the half-wave of the first omitted mode. Between two places this far apart, the square of the mode is
+    /// nowhere twice as large as at the place where it is larger.
     const CLOSE: f64 = 0.5;
     let most = CLOSE * length / (hitter.modes_used() + 1) as f64;
     let close = |few: &usize| {
@@ -23,7 +24,7 @@ pub fn strikes(hitter: &Hitter, length: f64, places: &[f64], tell: Tell) -> Vec<
             && places.windows(few + 1).all(|span| span.iter().all(|x| (x - span[0]).abs() <= most))
     };
     let struck = AtomicUsize::new(0);
-    // Some at a time, so that they are met side by side.
+    // In groups, whose hits are computed side by side.
     let strike = |asked: &[(f64, Option<[f64; 3]>)]| -> Vec<Impact> {
         let groups: Vec<_> = asked.chunks(ABREAST).collect();
         let hits = threads::map(groups.len(), |k| {

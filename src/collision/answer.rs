@@ -15,12 +15,12 @@ use crate::modes::mode::Mode;
 /// Flags of a hit in which the bat caught up with the ball late, or again.
 pub const LATER: [&str; 2] = ["late_contact", "second_contact"];
 
-/// Beyond these limits the ball's law was not measured. The longest contact (s) is that at 1 m/s of A. M. Nathan, Am.
+/// The limits within which the ball's law was measured. The longest contact (s) is that at 1 m/s of A. M. Nathan, Am.
 /// J. Phys. 68, 979 (2000); the least restitution is that of the common softball.
 const LONGEST_MEASURED: f64 = 2e-3;
 const LEAST_MEASURED: f64 = 0.44;
 
-/// Share of the energy, over the accuracy of the steps, in a flexibility that is not worth another meeting.
+/// Share of the energy, over the accuracy of the steps, below which the effect of a flexibility is not computed.
 const SLIGHT: f64 = 1e-3;
 
 /// The prediction of a model.
@@ -75,8 +75,8 @@ impl Hitter<'_> {
         self.answers(&[(x, None)]).pop()?
     }
 
-    /// What the model says of hits at some places (m), where it says anything; the errors of a contact by truncation,
-    /// by steps and by the wall may be known.
+    /// The model's predictions for hits at some places (m); `None` where there is none. The errors of a contact due to
+    /// truncation, steps and wall may be given.
     pub(super) fn answers(&self, places: &[(f64, Option<[f64; 3]>)]) -> Vec<Option<HitAnswer>> {
         let approach = |(x, known): &(f64, Option<[f64; 3]>)| {
             let closing = self.closing(*x).filter(|_| self.has_section(*x))?;
@@ -136,7 +136,7 @@ impl Hitter<'_> {
         let lost = (1.0 - restitution * restitution) * left;
         let mut answer = HitAnswer::new(impulse, restitution, lost);
         answer.in_modes = in_modes;
-        // All further modes, and the mesh.
+        // The effect of all further modes and of the mesh.
         let slow = self.struck.flexibility(x)[1] - self.struck.taken(&felt.gains)[1];
         let last = self.modes.last().map_or(0.0, |mode| mode[0]);
         let error = |more: f64| {
@@ -150,7 +150,7 @@ impl Hitter<'_> {
         Some(answer)
     }
 
-    /// What a contact says at some places.
+    /// The predictions of the contact model at some places.
     fn touched(&self, approaches: &[Option<Approach>]) -> Vec<Option<HitAnswer>> {
         let count = self.modes_used();
         let few = if self.effort.completed { fewer(count) } else { vec![] };
@@ -160,7 +160,7 @@ impl Hitter<'_> {
             .map(|approach| (approach, self.ladder(approach.x)))
             .collect();
         let felt: Vec<DrivingPoint> = places.iter().map(|(_, ladder)| ladder.of(count)).collect();
-        // One at least, so that it is known how the impulse goes with the closing speed.
+        // At least one, because the change of the impulse with the closing speed is needed.
         let beside = if few.is_empty() { &[count][..] } else { &few };
         let others = |k: usize| beside.iter().map(|few| places[k].1.of(*few)).collect();
         let others: Vec<_> = (0..places.len()).map(|k| move || others(k)).collect();
@@ -189,7 +189,7 @@ impl Hitter<'_> {
         approaches.iter().map(|approach| approach.as_ref().and_then(|_| told.next()?)).collect()
     }
 
-    /// The same contacts with other steps, for comparison, where a small change may be magnified.
+    /// The same contacts with other steps, for comparison, if a small change may be magnified.
     fn by_other_steps(
         &self,
         blows: &[Blow],
@@ -231,7 +231,7 @@ impl Hitter<'_> {
             let first = apart(other.first_impulse, met.first_impulse);
             [apart(other.impulse, met.impulse), first]
         };
-        // An answer that does not end gives no information.
+        // A contact that does not end gives no information.
         let both = |felt: &DrivingPoint, accuracy: f64| {
             let other = self.meet(x, felt, closing, accuracy);
             other.map_or([1.0; 2], |(other, _)| apart(&other))
@@ -267,9 +267,10 @@ impl Hitter<'_> {
                     None => both(felt, accuracy),
                 };
                 let steps = answered.steps(left_out, |accuracy| count_first(by_steps(accuracy)));
-                // A softer wall: by all that may be missing, and by the delay of modes that follow the force at once,
-                // `y = C F − D F″ + …`, where `F″` of a half sine is `(π/T)² F`. On a stiff bat T is 2.86 to 3.14 times
-                // the time in which the ball would be compressed at its first speed; a wall makes it longer.
+                // A softer wall: it has all the flexibility that may be missing, and that of the delay of modes that
+                // follow the force at once, `y = C F − D F″ + …`, where `F″` of a half sine is `(π/T)² F`. On a stiff
+                // bat T is 2.86 to 3.14 times the time in which the ball would be compressed at its first speed; a wall
+                // makes it longer.
                 let wall = self.under(x).map_or(0.0, |under| {
                     let late = under.late * (std::f64::consts::PI / (2.86 * self.pressed)).powi(2);
                     let rest = felt.rest + under.unsure + late;
@@ -277,10 +278,10 @@ impl Hitter<'_> {
                 });
                 [left_out, steps, wall]
             });
-        // A held bat: what the errors of its slow modes may hide of all further ones.
+        // A held bat: the errors of its slow modes may hide the effect of all further ones.
         let other = ladder.beyond.and_then(|all| self.struck.otherwise(x, &ladder.modes, all));
         if let Some((other, flexibility)) = other {
-            // The share of the energy that bends it.
+            // The share of the energy in that flexibility.
             let share = flexibility * met.peak_force.powi(2) / (mass * closing * closing);
             if share > SLIGHT * self.effort.accuracy {
                 answer.error += count_first(both(&self.with_wall(x, other), accuracy));
@@ -288,11 +289,11 @@ impl Hitter<'_> {
         }
         let [magnified, round_off] = answered.magnified(ball * closing);
         answer.steps += round_off;
-        // Possible effect of touches after those that were followed, with a ball deader than any law.
+        // Possible effect of further touches, and of a restitution below the least one of the law.
         answer.error +=
             met.open / (ball * closing) + (LEAST_RESTITUTION - cor).max(0.0) * mass / ball;
         answer.error += self.wall_error + answer.truncation + answer.steps + answer.wall;
-        // Duration of one push of the force (s): at most a half sine's on a stiff bat.
+        // Duration of one push of the force (s): at most that of a half sine on a stiff bat.
         let push = met.time / (met.touches + met.reloads) as f64;
         let push = push.min(std::f64::consts::PI * self.pressed);
         for (doubt, [omega, _]) in self.struck.doubt(x).iter().zip(&self.modes) {
@@ -312,7 +313,7 @@ impl Hitter<'_> {
         answer.flags = flags.into_iter().filter_map(|(is, name)| is.then_some(name)).collect();
         answer.contact_time = Some(met.time);
         let exit_speed = met.first_impulse / ball - self.scene.ball_speed;
-        // A ball that leaves only once has then left.
+        // A ball that leaves only once does so at the end.
         let own = first_error.get() + self.wall_error;
         let error = match met.again() {
             false => answer.error,
@@ -331,19 +332,19 @@ impl Hitter<'_> {
     }
 }
 
-/// A ball that nears a place.
+/// A ball that approaches a place.
 struct Approach {
     /// The place (m), the closing speed (m/s), μ (kg) and e₀.
     x: f64,
     closing: f64,
     mass: f64,
     cor: f64,
-    /// Errors that are known.
+    /// Errors that are given.
     known: Option<[f64; 3]>,
 }
 
-/// A contact by steps of that accuracy, and the same by other steps where these were tried; None where they came to no
-/// end.
+/// A contact with steps of that accuracy, and the same with other steps if these were tried; `None` if they did not
+/// come to an end.
 struct Contact<'a> {
     felt: &'a DrivingPoint,
     met: &'a Encounter,

@@ -1,7 +1,7 @@
-//! How fast does a ball leave many bats, as fast as the machine can tell?
+//! How fast does a ball leave many bats, computed as fast as possible?
 //!
-//! [`each`] gives of every bat what [`sweep`](fn@crate::collision::sweep::sweep) gives; the modes that a bat is
-//! struck with first are found in the lanes of [`crate::modes::batch`].
+//! [`each`] gives for every bat what [`sweep`](fn@crate::collision::sweep::sweep) gives. The modes of the first round
+//! are computed in the lanes of [`crate::modes::batch`].
 
 use std::borrow::Cow;
 
@@ -16,20 +16,20 @@ use crate::modes::solve::Request;
 /// A bat that is to be hit.
 #[derive(Debug, Clone, Copy)]
 pub struct Blow<'a> {
-    /// What is hit.
+    /// The bat.
     pub bat: &'a Bat,
-    /// Who hits it, and by which model.
+    /// Collision model, swing, pitch and ball.
     pub trial: Trial<'a>,
-    /// How accurate the exit speeds are to be.
+    /// Wanted accuracy of the exit speeds.
     pub accuracy: Accuracy,
-    /// Where it is hit (m from the knob end).
+    /// Impact points (m from the knob end).
     pub places: &'a [f64],
 }
 
-/// Strikes every bat and shows what came of it to `visit`, with its place among the bats; those whose exit
-/// speeds ask for the same modes come one after the other.
+/// Strikes every bat and passes the result to `visit` with the bat's index. Bats whose exit speeds need the same modes
+/// are solved one after the other.
 ///
-/// A bat's hits depend on itself, its blow and `model`, a bat like the others, and not on its neighbours in the batch.
+/// The hits on a bat depend on the bat, its blow and `model` (a similar bat), not on the other bats of the batch.
 ///
 /// ```
 /// use sweetspot::collision::batch::{Blow, each};

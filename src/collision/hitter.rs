@@ -1,8 +1,8 @@
-//! A bat that is hit, at any place, by one of the models.
+//! A bat that can be hit at any place, by one of the models.
 //!
-//! A free bat moves as it was swung; a hit on it is told as the ground sees it. A held one (a test
-//! rig's pin, hands) is told as its hands see it: the bat at rest, the ball at the closing speed. The
-//! impulse is the same for both.
+//! The result of a hit on a free bat is relative to the ground; the bat moves as it was swung. The result for a held
+//! bat (on a test rig's pin, or in hands) is relative to its hands: the bat is at rest and the ball comes at the
+//! closing speed. The impulse is the same in both cases.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -23,50 +23,50 @@ use crate::collision::struck::{Struck, recoil_between, without_springs};
 use crate::modes::compliance::RigidMotion;
 use crate::modes::solve::Solution;
 
-/// A bat about to be hit: all that is the same for every impact point.
+/// A bat in a scene: everything that does not depend on the impact point.
 pub struct Hitter<'a> {
     pub(super) model: Model,
-    /// How it is hit.
+    /// Swing, pitch and ball.
     pub scene: &'a Scene,
     pub(super) solution: &'a Solution,
-    /// Its radii along it.
+    /// Radii along the bat.
     pub profile: &'a Profile,
     pub(super) bat: RigidBat,
     pub(super) motion: RigidVelocity,
     pub(super) held: bool,
-    /// How a held bat moves that does not bend: springs and hands are too slow for a hit.
+    /// Rigid motions of a held bat that does not bend; springs and hands are too slow for a hit.
     pub(super) stiff: Vec<RigidMotion>,
-    /// The body's inertia about the standard pivot, for the pivoted BBCOR (kg m²).
+    /// Moment of inertia about the standard pivot, for the pivoted BBCOR (kg m²).
     pivot_inertia: f64,
     pub(super) struck: Arc<Struck<'a>>,
     pub(super) effort: Effort,
     /// ω (rad/s) and damping ratio of every mode.
     pub(super) modes: Vec<[f64; 2]>,
-    /// How long a ball is pressed by a stiff bat, more or less (s); not a number without a force law.
+    /// Approximate duration of the compression on a stiff bat (s); NaN without a force law.
     pub(super) pressed: f64,
     pub(super) collider: Option<Collider>,
-    /// The wall as the ball feels it, and what that leaves out, relative to the closing speed.
+    /// The wall's response to the ball, and the error of that, relative to the closing speed.
     wall: Option<Wall>,
     pub(super) wall_error: f64,
-    /// The wall by its own hoop modes.
+    /// The wall with its own hoop modes.
     pub(super) hoop: Option<Arc<HoopWall>>,
-    /// ω (rad/s) and damping ratio of the modes of either, which a contact takes first.
+    /// ω (rad/s) and damping ratio of the wall's modes, which are the first modes of a contact.
     pub(super) wall_modes: Vec<[f64; 2]>,
     /// Steps times modes of all contacts so far.
     work: AtomicU64,
 }
 
-/// A bat lighter than this share of the ball's mass, whose first mode goes through less than that phase (rad) while
-/// the ball is pressed, is not hit: the ball carries it along, and each place takes seconds to compute.
+/// A hit is refused on a bat that is lighter than this share of the ball's mass and whose first mode turns through less
+/// than this phase (rad) during the compression: the ball carries the bat along, and each place takes seconds to
+/// compute.
 const CARRIED: [f64; 2] = [0.1, 0.1];
-/// Longest usual step of a contact, as a share of the time for which the ball is pressed: about a
-/// quarter of the way to the deepest compression. By the example `tuning_steps` half of it takes half as many
-/// steps again at rough accuracies, and twice as much saves hardly any at good ones.
+/// Longest usual step of a contact, as a share of the duration of the compression: about a quarter of the way to the
+/// largest compression. According to the example `tuning_steps`, half of it costs half as many steps more at rough
+/// accuracies, and twice as much saves hardly any at good ones.
 const LONGEST: f64 = 0.28;
 
 impl<'a> Hitter<'a> {
-    /// A bat in that scene. A free one recoils as its theory says: without rotary inertia, as a line
-    /// of mass.
+    /// A bat in that scene. A free bat recoils according to its theory: without rotary inertia, as a line of mass.
     ///
     /// # Errors
     ///
@@ -120,7 +120,7 @@ impl<'a> Hitter<'a> {
         let mass = 1.0 / (1.0 / scene.ball.mass_kg + 1.0 / rigid.mass);
         let energy = 0.5 * mass * speed * speed;
         let law = scene.force_law(scene.cor, energy);
-        // How long the ball is pressed, more or less; not a number without a law or a speed.
+        // Approximate duration of the compression; NaN without a law or a speed.
         let pressed = law.as_ref().map_or(f64::NAN, |law| law.pressed_by(energy) / speed);
         let turned = modes.first().map_or(f64::INFINITY, |[omega, _]| omega * pressed);
         let share = rigid.mass / scene.ball.mass_kg;
@@ -178,17 +178,17 @@ impl<'a> Hitter<'a> {
         }
     }
 
-    /// How many of the modes are slow compared with the contact: less than two thirds as quick as the last one must be.
+    /// Number of modes that are slow compared with the contact: less than two thirds as quick as the last one must be.
     pub(super) fn slow_modes(&self) -> usize {
         self.modes.iter().take_while(|[omega, _]| omega * self.pressed < SLOW * QUICK).count()
     }
 
-    /// About how many modes make the last one quick compared with the contact; None where it is.
+    /// Approximate number of modes for which the last one is quick compared with the contact; `None` if it is already.
     pub(super) fn modes_for_contact(&self) -> Option<usize> {
-        /// More than that times as many are not taken at once.
+        /// Largest factor on the number of modes in one round.
         const AT_ONCE: f64 = 4.0;
         let [last, _] = *self.modes.last()?;
-        // Frequencies rise as the square of the number, and slower with shear: then once more.
+        // Frequencies rise as the square of the number, or more slowly with shear; another round then follows.
         let more = (QUICK / (last * self.pressed)).sqrt();
         let count = self.modes.len() as f64 * more.clamp(1.2, AT_ONCE);
         (self.collider.is_some() && more > 1.0).then_some(count.ceil() as usize)
@@ -210,8 +210,8 @@ impl<'a> Hitter<'a> {
         if self.held { recoil_between(&self.stiff, x, x) } else { 1.0 / self.bat.recoil_mass(x) }
     }
 
-    /// The rigid motions of a held bat in this model. Where modes are counted, those in springs and
-    /// hands are among them.
+    /// The rigid motions of a held bat in this model. If modes are counted, the motions in springs and hands are among
+    /// the modes.
     pub(super) fn motions(&self) -> &[RigidMotion] {
         if self.model == Model::Rigid { &self.stiff } else { self.struck.rigid() }
     }
@@ -225,7 +225,7 @@ impl<'a> Hitter<'a> {
         1.0 / self.bat.mass + x * there / self.bat.inertia
     }
 
-    /// The closing speed (m/s); None where the bat runs away from the ball.
+    /// The closing speed (m/s); `None` if the bat moves away from the ball.
     pub(super) fn closing(&self, x: f64) -> Option<f64> {
         let closing = self.bat.speed_at(x, self.motion) + self.scene.ball_speed;
         (closing > 0.0).then_some(closing)
@@ -237,30 +237,30 @@ impl<'a> Hitter<'a> {
         [mass, self.scene.restitution(0.5 * mass * closing * closing)]
     }
 
-    /// The exit speed (m/s) of a stiff bat; None where the bat runs away from the ball.
+    /// The exit speed (m/s) of a stiff bat; `None` if the bat moves away from the ball.
     pub(super) fn rigid_exit(&self, x: f64) -> Option<f64> {
         let closing = self.closing(x)?;
         let [mass, cor] = self.blow(x, closing);
         Some(mass * (1.0 + cor) * closing / self.scene.ball.mass_kg - self.scene.ball_speed)
     }
 
-    /// Whether there is something to hit at `x`: a point deflects without end.
+    /// Whether the bat can be hit at `x`: a point would deflect without limit.
     pub(super) fn has_section(&self, x: f64) -> bool {
         matches!(self.model, Model::Rigid | Model::EnergyLoss(_)) || self.profile.at(x).outer > 0.0
     }
 
-    /// The bat as the ball feels it at `x` (m), with as many modes as the effort takes.
+    /// The bat's response at `x` (m), with as many modes as the effort takes.
     pub(super) fn felt(&self, x: f64) -> DrivingPoint {
         let beyond = self.effort.completed.then(|| self.struck.flexibility(x));
         self.with_wall(x, self.bent(x, self.by_modes(x), beyond))
     }
 
-    /// The bat as the ball feels it at `x` (m) by the modes and nothing else.
+    /// The bat's response at `x` (m) by its modes alone.
     pub(super) fn by_modes(&self, x: f64) -> DrivingPoint {
         self.struck.with_modes(x, self.scene.ball.mass_kg, self.modes_used())
     }
 
-    /// A bat that is felt so at `x` (m), with its wall.
+    /// That response at `x` (m) with the wall added.
     pub(super) fn with_wall(&self, x: f64, mut felt: DrivingPoint) -> DrivingPoint {
         match self.wall {
             Some(wall) if wall.mass > 0.0 => felt.gains.insert(0, 1.0 / wall.mass),
@@ -273,8 +273,8 @@ impl<'a> Hitter<'a> {
         }
     }
 
-    /// The bat as the ball feels it at `x` (m) where its wall is stiff: by those modes, and by all
-    /// beyond them where the flexibility of all there are is given.
+    /// The bat's response at `x` (m) without its wall: that of these modes, and of all modes beyond if their
+    /// flexibility is given.
     pub(super) fn bent(
         &self,
         x: f64,
@@ -298,7 +298,7 @@ impl<'a> Hitter<'a> {
         self.scene.force_law(cor, 0.5 * mass * closing * closing).ok()
     }
 
-    /// The meeting and the accuracy of its steps, which may have to be better than asked.
+    /// The encounter and the accuracy of its steps, which may have to be better than requested.
     pub(super) fn meet(
         &self,
         x: f64,
@@ -310,8 +310,8 @@ impl<'a> Hitter<'a> {
             .pop()?
     }
 
-    /// The meetings at some places, each with the accuracy of its steps; side by side, which changes no bit of them.
-    /// Those that magnify small changes are compared in any case.
+    /// The encounters at several places, each with the accuracy of its steps; they are computed side by side if
+    /// possible, with equal bits. Encounters that magnify small changes are always compared with other bats.
     pub(super) fn meet_all(&self, blows: &[Blow], accuracy: f64) -> Vec<Option<(Encounter, f64)>> {
         let mut all = self.meet_each(blows, accuracy);
         let delicate = |k: &usize| match &all[*k] {
@@ -325,13 +325,13 @@ impl<'a> Hitter<'a> {
         all
     }
 
-    /// The meetings at some places; those that cannot go side by side are met alone.
+    /// The encounters at several places; those that cannot be computed side by side are computed alone.
     fn meet_each(&self, blows: &[Blow], accuracy: f64) -> Vec<Option<(Encounter, f64)>> {
         let abreast = self.meet_abreast(blows, accuracy).into_iter().zip(blows);
         abreast.map(|(met, blow)| met.or_else(|| self.meet_alone(blow, accuracy))).collect()
     }
 
-    /// The meetings that go side by side.
+    /// The encounters that can be computed side by side.
     fn meet_abreast(&self, blows: &[Blow], accuracy: f64) -> Vec<Option<(Encounter, f64)>> {
         let mut all = vec![None; blows.len()];
         let Some(collider) = &self.collider else { return all };
@@ -355,7 +355,7 @@ impl<'a> Hitter<'a> {
         all
     }
 
-    /// The meeting at a place by itself, with steps that are as short as it needs.
+    /// The encounter at a place alone, with steps as short as it needs.
     pub(super) fn meet_alone(&self, blow: &Blow, accuracy: f64) -> Option<(Encounter, f64)> {
         let Blow { x, felt, closing, .. } = *blow;
         let (collider, law) = (self.collider.as_ref()?, self.law_at(x, closing)?);
@@ -381,7 +381,7 @@ pub(super) struct Blow<'a> {
     pub compared: bool,
 }
 
-/// The error about a bat (kg) that a ball (kg) carries along, whose first mode goes through that phase (rad) meanwhile.
+/// The error for a bat (kg) that a ball (kg) carries along; its first mode turns through that phase (rad) meanwhile.
 fn carried(bat: f64, ball: f64, turned: f64) -> Error {
     let found = format!(
         "a bat of {bat:.2e} kg, whose first mode goes through {turned:.0e} rad while the ball is pressed"
@@ -394,8 +394,7 @@ fn carried(bat: f64, ball: f64, turned: f64) -> Error {
     Error::value("hit", found, expected)
 }
 
-/// The modes as a contact takes them, those of the wall first, for a ball that is pressed for about that
-/// time (s).
+/// The modes of a contact, those of the wall first, for a compression of about that duration (s).
 fn collider(modes: &[[f64; 2]], wall: &[[f64; 2]], pressed: f64) -> Result<Collider> {
     if let Some(k) = modes.iter().position(|[_, ratio]| *ratio >= 1.0) {
         let found = format!("mode {} with a damping ratio of {:.2}", k + 1, modes[k][1]);
@@ -408,8 +407,8 @@ fn collider(modes: &[[f64; 2]], wall: &[[f64; 2]], pressed: f64) -> Result<Colli
     Ok(Collider::new(&all, longest))
 }
 
-/// The meeting by steps of that accuracy, or by better ones where these do not hold; None where no number of steps
-/// within reason comes to an end, as where a bat is so light that the ball carries it along.
+/// The encounter with steps of that accuracy, or of a better one if these fail. `None` if no reasonable number of steps
+/// comes to an end, as for a bat so light that the ball carries it along.
 pub(super) fn resolved<T>(
     accuracy: f64,
     meet: impl Fn(f64) -> (Encounter, T),
@@ -429,11 +428,11 @@ fn swinging(wall: Option<Wall>) -> Option<[f64; 2]> {
     Some([(wall.stiffness / wall.mass).sqrt(), 0.0])
 }
 
-/// The wall as a ball feels it that is pressed for about that time τ (s), and the error of that,
-/// relative to the closing speed: one so light that it swings many times meanwhile follows the force
-/// as a spring does, but for about `1/(ωτ)²`.
+/// The wall's response to a ball that is compressed for about the time τ (s), and its error, relative to the closing
+/// speed. A wall so light that it vibrates many times meanwhile follows the force like a spring, except for about
+/// `1/(ωτ)²`.
 fn felt_wall(wall: Option<Wall>, time: f64, accuracy: f64) -> (Option<Wall>, f64) {
-    /// Of the steps' accuracy.
+    /// Share of the steps' accuracy.
     const SHARE: f64 = 0.05;
     let Some([omega, _]) = swinging(wall) else { return (wall, 0.0) };
     let error = (omega * time).powi(-2);

@@ -206,11 +206,11 @@ impl Setup {
         let Some(stiffness) = self.wall_stiffness else { return Ok(None) };
         if self.model != Model::Contact {
             let found = format!("it with `model` {}", self.model.name());
-            let expected = "`model` contact: only there a wall gives way";
+            let expected = "`model` contact: only there a wall is compliant";
             return Err(Error::value("`wall_stiffness`", found, expected));
         }
         if self.wall == WallChoice::Off {
-            let expected = "one of both: a stiffness is that of a wall that gives way";
+            let expected = "only one of them: a stiffness is that of a compliant wall";
             return Err(Error::value("`wall_stiffness`", "it with `wall` off", expected));
         }
         let mass = self.wall_mass.unwrap_or(0.0);

@@ -141,8 +141,8 @@ fn largest_strains(
 }
 
 /// The swing (rad/s) at which a hit at `x` (m) reaches the limit, with the rest of the scene unchanged. Each hit is
-/// computed anew, since the ball's force is not proportional to the swing. 0 if the pitch alone is enough; `None` if no
-/// swing up to 200 rad/s reaches it.
+/// computed again, since the ball's force is not proportional to the swing. 0 if the pitch alone is enough; `None` if
+/// no swing up to 200 rad/s reaches it.
 ///
 /// # Source
 ///

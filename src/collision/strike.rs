@@ -8,7 +8,7 @@ use crate::collision::hit::{Energy, Impact, Model, Outcome, Scene};
 use crate::collision::hitter::{Blow, Hitter, resolved};
 use crate::collision::struck::recoil_between;
 
-/// A hit without its ledger and its error.
+/// A hit without its energies and its error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Glance {
     /// Distance of the impact point from the knob end (m).
@@ -19,31 +19,31 @@ pub struct Glance {
     pub first_exit: f64,
     /// Whether the bat caught up with the ball as it was leaving.
     pub late: bool,
-    /// Whether it caught up with it then or after it had left.
+    /// Whether the bat caught up with the ball then or after it had left.
     pub later: bool,
-    /// Energy left in vibration (J); None for a model without.
+    /// Energy left in vibration (J); `None` for a model without vibration.
     pub vibration: Option<f64>,
-    /// What the hands feel once the ball has gone: velocity (m/s) and acceleration (m/s²) of the bat
-    /// there against the swing's, in the mean square over a long undamped ringing.
+    /// Motion of the hands after the ball has gone: velocity (m/s) and acceleration (m/s²) of the bat there relative to
+    /// the swing, as root mean squares over a long undamped vibration.
     pub hands: [f64; 2],
 }
 
-/// Accuracy of the steps where a place is sought: exit speeds then differ smoothly.
+/// Accuracy of the steps in a search for places, for which exit speeds vary smoothly.
 pub(super) const SMOOTH: f64 = 1e-6;
 
-/// The flag of a contact whose steps come to no end, or whose energies do not close.
+/// The flag of a contact whose steps do not come to an end, or whose energies do not balance.
 pub const UNRESOLVED: &str = "unresolved";
 
 impl Hitter<'_> {
-    /// The hit at `x` (m) as a search for places sees it. None where ball and bat do not meet, and
-    /// where the bat ends in a point: there a ball is met by ever less of it.
+    /// The hit at `x` (m) for a search for places. `None` if ball and bat do not meet, and near a pointed end, where
+    /// ever less of the bat meets the ball.
     pub fn glance(&self, x: f64) -> Option<Glance> {
         self.glances(&[x]).pop()?
     }
 
-    /// The hits at some places (m) as [`Self::glance`] sees each, met side by side.
+    /// The hits of [`Self::glance`] at some places (m), computed side by side.
     pub fn glances(&self, places: &[f64]) -> Vec<Option<Glance>> {
-        /// Of the largest radius.
+        /// Share of the largest radius.
         const POINTED: f64 = 0.25;
         let outer = &self.profile.stations.outer;
         let largest = outer.iter().fold(0.0_f64, |largest, r| largest.max(*r));
@@ -92,7 +92,7 @@ impl Hitter<'_> {
         for ((energy, [omega, _]), gain) in
             in_modes.iter().zip(&self.modes).zip(self.struck.gains(self.scene.hands))
         {
-            // Half of the amplitude's square, which is 2 E φ²/m.
+            // The mean square is half the squared amplitude, which is 2 E φ²/m.
             velocity += energy * gain;
             acceleration += energy * gain * omega * omega;
         }
@@ -113,8 +113,8 @@ impl Hitter<'_> {
         self.impact(x, self.answer(x))
     }
 
-    /// The hits at some places (m from the knob end), with the errors of a contact by truncation, by steps and by the
-    /// wall where they are known: these are not estimated again. Each is the one of [`Self::strike`].
+    /// The hits at some places (m from the knob end). The errors of a contact due to truncation, steps and wall may be
+    /// given and are then not estimated again. Each hit equals that of [`Self::strike`].
     pub fn strike_all(&self, places: &[(f64, Option<[f64; 3]>)]) -> Vec<Impact> {
         let answers = self.answers(places).into_iter();
         answers.zip(places).map(|(answer, (x, _))| self.impact(*x, answer)).collect()
@@ -134,7 +134,7 @@ impl Hitter<'_> {
         Impact { x, bat_speed, rigid_exit_speed, outcome, flags }
     }
 
-    /// The force at `x` (m) in time, by the contact model; None where that model has no answer.
+    /// The force at `x` (m) in time, by the contact model; `None` if that model has no answer.
     pub fn force(&self, x: f64) -> Option<Vec<Piece>> {
         let (felt, closing) = (self.felt(x), self.closing(x)?);
         let (collider, law) = (self.collider.as_ref()?, self.law_at(x, closing)?);
@@ -143,7 +143,7 @@ impl Hitter<'_> {
     }
 
     /// Force and compression of the ball at `x` (m) in time, by the contact model, at `parts` instants
-    /// in every piece of the force; None where that model has no answer.
+    /// in every piece of the force; `None` if that model has no answer.
     pub fn history(&self, x: f64, parts: usize) -> Option<Vec<Moment>> {
         let (pieces, felt, speed) = (self.force(x)?, self.felt(x), self.closing(x)?);
         let modes = [&self.wall_modes[..], &self.modes].concat();

@@ -91,10 +91,10 @@ impl<'a> Struck<'a> {
         felt
     }
 
-    /// The other end of what a held bat may be where the errors of its slow modes hide all further ones: from
+    /// The other extreme for a held bat whose slow modes have errors that hide all further modes: from
     /// [`Self::with_modes`] and [`Self::flexibility`] at `x` (m), with the flexibility (m/N) by which it differs from
-    /// [`Self::completed`]. A flexibility that is hidden is added; where it is known, but not how slow the further modes
-    /// are, all of it goes to the slowest that they can be.
+    /// [`Self::completed`]. A hidden flexibility is added. If it is known, but not the frequencies of the further
+    /// modes, all of it is assigned to the lowest possible one.
     pub fn otherwise(
         &self,
         x: f64,
@@ -134,7 +134,7 @@ impl<'a> Struck<'a> {
     }
 }
 
-/// What the modes leave is known if it is this many times its error.
+/// The remainder beyond the modes counts as known if it is this many times its error.
 const KNOWN: f64 = 10.0;
 
 /// Lets the last of the modes represent all further ones, as described at [`Struck::felt`], and returns the flexibility

@@ -1,5 +1,5 @@
-//! How fast does the ball leave along the barrel? A [`Trial`] takes as many modes, elements and steps as the wanted exit
-//! speeds need.
+//! How fast does the ball leave along the barrel? A [`Trial`] takes as many modes, elements and steps as the requested
+//! accuracy of the exit speeds needs.
 
 use std::borrow::Cow;
 
@@ -16,7 +16,7 @@ use crate::collision::strike::UNRESOLVED;
 use crate::modes::prepared::{Prepared, prepare};
 use crate::modes::solve::{Request, Solution, Solver, solve};
 
-/// Why a sweep takes no further round of more modes and finer steps.
+/// Why a sweep ended its rounds of more modes and finer steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[must_use]
 pub enum RoundsEnd {
@@ -24,10 +24,10 @@ pub enum RoundsEnd {
     Met,
     /// No more modes and no finer steps are available.
     Settled,
-    /// The last round made the answers no better: the hit magnifies what is small, and its exit speed is not
-    /// defined better than stated.
+    /// The last round did not improve the answers: the hit magnifies small changes, and its exit speed is not defined
+    /// more closely than stated.
     Unsettled,
-    /// The next round would take more work than is done for a hit ([`MOST_WORK`]).
+    /// The next round would exceed the limit on the work ([`MOST_WORK`]).
     Stopped,
 }
 
@@ -35,21 +35,21 @@ pub enum RoundsEnd {
 #[derive(Debug, Clone, Serialize)]
 #[non_exhaustive]
 pub struct Sweep {
-    /// The modes that were struck.
+    /// The modes of the hits.
     pub solution: Solution,
-    /// The steps that were taken.
+    /// The modes and steps of the last round.
     pub effort: Effort,
     /// Impacts, one for each place in the order of the places.
     pub impacts: Vec<Impact>,
-    /// Estimated bound on the change of an exit speed by the modes left out, relative to the closing
-    /// speed; None where the model leaves out no modes.
+    /// Estimated bound on the change of an exit speed due to omitted modes, relative to the closing speed; `None` for a
+    /// model without omitted modes.
     pub truncation: Option<f64>,
-    /// Why no better answers were computed: whether what was asked was reached.
+    /// Why the rounds ended, and thus whether the requested accuracy was reached.
     pub end: RoundsEnd,
 }
 
 impl Sweep {
-    /// The sweep along the bat that was made as stiff as it was tapped, if one was.
+    /// The sweep with the bat whose moduli were fitted to its tap, if it has one.
     pub(super) fn of_tapped(mut self, bat: Cow<'_, Bat>) -> Self {
         self.solution = self.solution.of_tapped(bat);
         self
@@ -60,7 +60,7 @@ impl Sweep {
         self.end == RoundsEnd::Met
     }
 
-    /// The impact whose exit speed is known worst.
+    /// The impact whose exit speed has the largest error.
     pub fn worst(&self) -> Option<(&Impact, &Outcome)> {
         let of = |impact: &Impact| impact.outcome.as_ref().map_or(f64::NEG_INFINITY, |o| o.error);
         let worst = self.impacts.iter().max_by(|a, b| of(a).total_cmp(&of(b)))?;
@@ -68,34 +68,33 @@ impl Sweep {
     }
 }
 
-/// Who meets whom, and by which model.
+/// A collision model in a scene.
 #[derive(Debug, Clone, Copy)]
 pub struct Trial<'a> {
-    /// How the bat's bending is counted.
+    /// How the bending of the bat is treated.
     pub model: Model,
     /// Swing, ball and pitch.
     pub scene: &'a Scene,
 }
 
-/// How accurate the exit speeds are to be, and what they may be computed from.
+/// Requested accuracy of the exit speeds, and the means to reach it.
 ///
-/// The accuracy of the modes follows from it: they are found as well as the exit speeds need.
+/// The accuracy of the modes follows from that of the exit speeds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Accuracy {
-    /// Allowed error of an exit speed, relative to the closing speed; not enforced where `elements` is
-    /// given.
+    /// Allowed error of an exit speed, relative to the closing speed; not enforced if `elements` is given.
     pub exit_speed: f64,
-    /// Number of modes, and no others; None counts as many as the exit speeds need, and where ball and
-    /// modes do not act on each other those of [`Request::default`].
+    /// Exact number of modes. `None` takes as many as the exit speeds need or, for a model without interaction of ball
+    /// and modes, those of [`Request::default`].
     pub modes: Option<usize>,
-    /// Fixed number of elements; None plans it.
+    /// Fixed number of elements; `None` plans it.
     pub elements: Option<usize>,
     /// Fixed degree of the elements, as [`Request::degree`].
     pub degree: Option<usize>,
     /// How the modes are found.
     pub solver: Solver,
-    /// The beam theory; [`Theory::Auto`] takes the one that [`Self::modes`] need, those of
-    /// [`Request::default`] where it is None.
+    /// The beam theory; [`Theory::Auto`] takes the one that the number of modes needs ([`Self::modes`], or that of
+    /// [`Request::default`]).
     pub theory: Theory,
 }
 
@@ -112,14 +111,14 @@ impl Accuracy {
         Self { theory: Theory::EulerBernoulli, ..Self::default() }
     }
 
-    /// The request of modes that an accuracy starts from.
+    /// The first request for modes.
     pub(super) fn request(&self) -> Request {
         let Self { exit_speed, modes, elements, degree, solver, theory } = *self;
         let modes = modes.unwrap_or(Request::default().modes);
         Request { modes, tolerance: exit_speed, elements, degree, solver, theory }
     }
 
-    /// Whether as many modes are taken as the exit speeds need.
+    /// Whether the number of modes is chosen for the exit speeds.
     fn planned(&self, trial: Trial) -> bool {
         trial.touches() && self.modes.is_none()
     }
@@ -160,7 +159,7 @@ pub fn sweep(
     sweep_telling(bat, Trial { model, scene }, accuracy, places, &nobody)
 }
 
-/// Strikes the bat at all places as [`sweep`] does, and tells how many of them have been struck.
+/// Strikes the bat at all places as [`sweep`] does, and reports the progress.
 ///
 /// # Errors
 ///
@@ -180,22 +179,22 @@ pub fn sweep_telling(
     Ok(first.go_on((&bat, trial), accuracy, places, solution, tell)?.of_tapped(bat))
 }
 
-/// More modes are not taken for an exit speed.
+/// Most modes for an exit speed.
 const MOST: usize = 120;
-/// Steps are not made better than this.
+/// Best accuracy of the steps.
 const FINEST: f64 = 1e-12;
-/// Two rounds that leave more than this share of the error show that the answer is not defined
-/// better. A ball that returns less than `DEAD` seldom settles, and costs most: one round shows it. The
-/// example `tuning_settling` prints what rounds leave, by the ball's restitution.
+/// If two rounds leave more than this share of the error, the answer is not defined more closely. A ball with a
+/// restitution below `DEAD` seldom converges and costs most, so one round decides. The example `tuning_settling` prints
+/// the share that rounds leave, by the ball's restitution.
 const IDLE: f64 = 0.8;
 const IDLE_DEAD: f64 = 0.3;
 const DEAD: f64 = 0.05;
-/// The modes' own tolerance as a share of the tolerance of the exit speed. By the example `tuning_modes`
-/// modes to 1e-5 move it by less than 1e-8: the share is for the bound, which is far above.
+/// The modes' own tolerance as a share of the tolerance of the exit speed. According to the example `tuning_modes`,
+/// modes to 1e-5 change it by less than 1e-8. The share is small because the bound on this effect is far above it.
 const MODES: f64 = 3e-4;
-/// The modes' own tolerance is not made smaller than this where dashpots couple them.
+/// Smallest tolerance of the modes if dashpots couple them.
 const DAMPED: f64 = 1e-9;
-/// Share of a change by fewer modes that steps may make of it (example `tuning_settling`).
+/// Largest error of the steps, as a share of the change by fewer modes (example `tuning_settling`).
 const BLURRED: f64 = 0.003;
 
 impl Trial<'_> {
@@ -204,13 +203,13 @@ impl Trial<'_> {
         matches!(self.model, Model::Pulse(_) | Model::Contact)
     }
 
-    /// The worst error of a round by which the answers still get better, after those of the two rounds before.
+    /// The largest error of a round that counts as an improvement, given those of the two rounds before.
     fn most_left(&self, before: [f64; 2]) -> f64 {
         if self.scene.cor < DEAD { IDLE_DEAD * before[1] } else { IDLE * before[0] }
     }
 
-    /// Of a request whose tolerance is that of exit speeds: with its modes and no others if they are
-    /// asked for, or if their number is nothing to the model.
+    /// The accuracy for a request whose tolerance is that of exit speeds. Its number of modes is exact if the user
+    /// `asked` for it or if the model does not depend on it.
     pub fn accuracy(&self, request: &Request, asked: bool) -> Accuracy {
         let Request { modes, tolerance, elements, degree, solver, theory } = *request;
         let modes = (asked || !self.touches()).then_some(modes);
@@ -218,16 +217,16 @@ impl Trial<'_> {
     }
 }
 
-/// By which modes and steps a round of hits is computed.
+/// The modes and steps of one round of hits.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) struct Round {
-    /// The modes that the bat is struck with.
+    /// The modes of the bat.
     pub request: Request,
     effort: Effort,
 }
 
 impl Round {
-    /// Those of the first round.
+    /// The first round.
     pub fn first(bat: &Bat, trial: Trial, accuracy: &Accuracy) -> Self {
         let (request, planned) = (&accuracy.request(), accuracy.planned(trial));
         let accuracy = (10.0 * request.tolerance).clamp(1e-11, 1e-3);
@@ -236,13 +235,13 @@ impl Round {
             first.modes = enough(trial, request, bat);
         }
         if trial.touches() {
-            // What a mode's own error does to a hit is bounded from far above: it is to be no part.
+            // The bound on the effect of the modes' own errors is far above it; this keeps it negligible.
             first.tolerance = (MODES * request.tolerance).clamp(1e-13, 1e-6);
         }
         Self { request: first, effort: Effort { accuracy, completed: planned, unsettled: false } }
     }
 
-    /// Strikes the bat at all places (m) with these modes, and with better ones as long as that helps.
+    /// Strikes the bat at all places (m) with these modes, and with better ones as long as the answers improve.
     ///
     /// # Errors
     ///
@@ -278,7 +277,7 @@ impl Round {
             before = [before[1], worst.error];
             let mut next = now.finer(&worst, request.tolerance, planned, work);
             if bat.damped() {
-                // Motions with dashpots take long to know better, and a hit needs none.
+                // Accurate motions with dashpots take long to compute, and a hit does not need them.
                 next.request.tolerance =
                     next.request.tolerance.max(DAMPED.min(now.request.tolerance));
             }
@@ -289,7 +288,7 @@ impl Round {
                     now = next;
                     continue;
                 }
-                // Where better modes are not available, this answer stands.
+                // If better modes are not available, this answer is kept.
                 if now.request.tolerance >= 1e-13
                     && let Ok(finer) = solve(bat, &next.request)
                 {
@@ -314,8 +313,8 @@ impl Round {
         }
     }
 
-    /// More modes, where one of those left out is slow compared with the contact, and what they are;
-    /// None where no more are available or the modes are given.
+    /// A larger request for modes and its solution, if an omitted mode is slow compared with the contact; `None` if
+    /// more modes are not available or their number is given.
     fn slow_modes(&self, hitter: &Hitter, bat: &Bat) -> Option<(Request, Solution)> {
         if !self.effort.completed || self.request.elements.is_some() {
             return None;
@@ -325,9 +324,9 @@ impl Round {
         (modes > self.request.modes).then(|| Some((more, solve(bat, &more).ok()?))).flatten()
     }
 
-    /// Those of the next round: more modes, finer steps, better modes, as the errors call for them.
+    /// The next round: more modes, finer steps or more accurate modes, as the errors require.
     fn finer(&self, worst: &Worst, tolerance: f64, planned: bool, work: u64) -> Self {
-        /// Where a round took that share of all work that is done, no round is wasted on a few modes more.
+        /// If a round takes this share of the allowed work, the next one takes as many modes as it needs at once.
         const DEAR: u64 = MOST_WORK / 16;
         let Self { mut request, mut effort } = *self;
         if planned && worst.truncation > 0.3 * tolerance {
@@ -337,13 +336,13 @@ impl Round {
             let more = if work > DEAR { needed.clamp(1.5, 3.0) } else { 1.5 };
             request.modes = ((more * request.modes as f64) as usize).min(MOST);
         }
-        // What is compared differs by its steps too.
+        // The compared answers also differ by their steps.
         let blurred =
             worst.truncation > 0.3 * tolerance && worst.steps > BLURRED * worst.truncation;
         if (blurred || worst.steps > 0.3 * tolerance) && effort.accuracy > FINEST {
             effort.accuracy = (0.1 * effort.accuracy).max(FINEST);
         }
-        // The exit speed is more sensitive than the frequencies: ask these for more.
+        // The exit speed is more sensitive than the frequencies, which must then be more accurate.
         let left = worst.error - worst.truncation - worst.steps - worst.wall;
         if left > 0.5 * tolerance {
             request.tolerance *= (0.3 * tolerance / left).clamp(1e-6, 0.1);
@@ -353,7 +352,7 @@ impl Round {
     }
 }
 
-/// The largest errors of some trial.
+/// The largest errors of several outcomes.
 struct Worst {
     error: f64,
     truncation: f64,
@@ -373,13 +372,13 @@ impl Worst {
     }
 }
 
-/// The places whose hits are not known well enough yet: what is, stays.
+/// The places whose hits are not yet accurate enough; the others keep their hits.
 fn open(impacts: &[Impact], tolerance: f64, places: usize) -> Vec<usize> {
     let unknown = |k: &usize| impacts.get(*k).is_none_or(|impact| doubt(impact) > tolerance);
     (0..places).filter(unknown).collect()
 }
 
-/// Puts new hits at those places; what was known better than now stays.
+/// Replaces the hits at those places, except where the old error is smaller.
 fn keep_better(impacts: &mut Vec<Impact>, places: &[usize], struck: Vec<Impact>) {
     if impacts.is_empty() {
         *impacts = struck;
@@ -392,7 +391,7 @@ fn keep_better(impacts: &mut Vec<Impact>, places: &[usize], struck: Vec<Impact>)
     }
 }
 
-/// The stated error of an exit speed, infinite where the hit is unresolved.
+/// The stated error of an exit speed, infinite if the hit is unresolved.
 fn doubt(impact: &Impact) -> f64 {
     match &impact.outcome {
         _ if impact.flags.contains(&UNRESOLVED) => f64::INFINITY,
@@ -401,12 +400,11 @@ fn doubt(impact: &Impact) -> f64 {
     }
 }
 
-/// How many modes a touch needs for that tolerance, measured on a dowel, a cone and an R161: the
-/// error falls as `n^−6.5` where frequencies rise as `n²`, and as `n^−3.2` where shear lets them
-/// rise as `n`. The example `tuning_modes` prints such a table: `n^−5.7` to `n^−6.2`, and `n^−2.9` to
-/// `n^−3.2`, from 1e-5 and 1e-4 with 10 modes on. What is stated of it is some times larger: with shear 10
-/// modes state 6e-4 and 20 state 9e-5, and a second round costs more than what it is spared. Never more than
-/// a mesh of one element per piece can have.
+/// The number of modes that a contact needs for that tolerance, measured on a dowel, a cone and an R161: the error
+/// falls as `n^−6.5` where frequencies rise as `n²`, and as `n^−3.2` where shear lets them rise as `n`. The example
+/// `tuning_modes` prints such a table: `n^−5.7` to `n^−6.2`, and `n^−2.9` to `n^−3.2`, from 1e-5 and 1e-4 with 10 modes
+/// on. The stated error is a few times larger: with shear 6e-4 for 10 modes and 9e-5 for 20. A second round would cost
+/// more than the modes that are saved. The number is at most that of a mesh with one element per piece.
 fn enough(Trial { model, scene }: Trial, request: &Request, bat: &Bat) -> usize {
     let digits = -request.tolerance.log10();
     let rate = match (model, request.theory.shears()) {
@@ -419,7 +417,7 @@ fn enough(Trial { model, scene }: Trial, request: &Request, bat: &Bat) -> usize 
         Model::Contact if request.theory.shears() => 20.0,
         _ => 10.0,
     };
-    // A ball that returns little lets go at once, which stirs twice as many.
+    // A ball that returns little releases its force at once, which excites twice as many modes.
     let stirred = if scene.cor < 0.2 { 2.0 } else { 1.0 };
     let count = stirred * few * 10.0_f64.powf((digits - 4.0) / rate);
     let most = match request.elements {

@@ -67,8 +67,8 @@ pub const FINE: (usize, f64) = (128, 1e-6);
 pub const FEW: (usize, f64) = (32, 2e-5);
 /// Number of steps of a closer pass between two places of the first.
 const BETWEEN: usize = 4;
-/// Number of steps between two places of the first pass if the bat catches up with the ball late or again: touches come
-/// and go there within a millimetre, and the exit speed with them.
+/// Number of steps between two places of the first pass if the bat catches up with the ball late or again: touches
+/// there appear and vanish within a millimetre, and change the exit speed.
 const BETWEEN_LATER: usize = 8;
 /// Number of stretches between such places that are searched even more closely.
 const CLOSER_LATER: usize = 8;

@@ -61,7 +61,7 @@ impl Scene {
             }
             (WallChoice::On, _) => {
                 let found = format!("on with `model` {}", model.name());
-                let expected = "`model` contact: only there a wall gives way";
+                let expected = "`model` contact: only there a wall is compliant";
                 return Err(Error::value("`wall`", found, expected));
             }
             (_, Model::Contact) if rings(bat) => match (choice, tolerance) {

@@ -171,7 +171,7 @@ fn largest(start: Vec<f64>, wanted: usize, residual: f64, operators: Operators) 
     let mut context = Context { size, operators };
     let mut problem = memory.problem(wanted, residual, &mut context)?;
     let status = {
-        // A search that panicked left nothing behind that the next one reads.
+        // A search that panicked leaves no state that the next one reads.
         let _alone = ARPACK.lock().unwrap_or_else(PoisonError::into_inner);
         // SAFETY: `problem` has the layout of the shim's struct; every array is as long as the
         // shim says it must be and outlives the call, as does `context`, which only the two

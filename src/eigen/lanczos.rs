@@ -31,8 +31,8 @@ pub struct Lanczos<R> {
     pub vectors: Vec<R>,
 }
 
-/// Factor on the residual of the eigenpair after the wanted ones: it only has to be found, and the error of its value
-/// goes as the square of the residual.
+/// Factor on the residual of the eigenpair after the wanted ones: its value need not be accurate, and the error of a
+/// value is proportional to the square of the residual.
 const NEARLY: f64 = 100.0;
 
 /// What the iteration must find.
@@ -187,8 +187,8 @@ impl<R: Real> Lanczos<R> {
         allow(&mut self.next);
         let (basis, next, parts) = (&self.basis, &mut self.next, &mut self.parts);
         let mut size = dot(next, next).sqrt();
-        // How far the length has fallen below 0.7 of what it was, in the lanes that are not done (1 at first); 0 in the
-        // others.
+        // Amount by which the new length falls short of 0.7 times the old one (1 at first); 0 in the lanes that are
+        // done.
         let mut lost = R::splat(1.0);
         for _ in 0..3 {
             parts.clear();

@@ -1,6 +1,6 @@
 //! What are the extreme eigenvalues of an operator, or of two matrices?
 //!
-//! This chapter knows matrices, not bats. [`crate::solve()`] uses [`lanczos`]; [`dense`], [`shift_invert`] and, with
+//! This chapter is about matrices, not bats. [`crate::solve()`] uses [`lanczos`]; [`dense`], [`shift_invert`] and, with
 //! the feature `arpack`, ARPACK are independent checks. [`fronts`] factors long matrices of dense blocks, as for the
 //! walls of hollow bats.
 

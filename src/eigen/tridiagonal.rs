@@ -19,7 +19,7 @@ pub struct Tridiagonal<R> {
 const MOST_SWEEPS: usize = 60;
 
 impl<R: Real> Tridiagonal<R> {
-    /// Finds all eigenpairs of the matrix with that diagonal of n entries and the n − 1 entries beside it; further
+    /// Finds all eigenpairs of the matrix with that diagonal of n entries and the n − 1 off-diagonal entries; further
     /// entries of `off` are ignored.
     ///
     /// Implicit QL with Wilkinson's shift (Bowdler, Martin, Reinsch, Wilkinson, Numer. Math. 11 (1968) 293). It runs
@@ -100,8 +100,8 @@ fn block_ends<R: Real>(d: &[R], e: &[R], low: usize) -> R {
     ends
 }
 
-/// One implicit QL sweep on the block from `low` to its end, in every lane. A lane takes the same steps whatever the
-/// others do, and none after its block has ended.
+/// One implicit QL sweep on the block from `low` to its end, in every lane. The steps of a lane do not depend on the
+/// other lanes, and end with its block.
 #[inline(always)]
 fn sweep<R: Real>(d: &mut [R], e: &mut [R], vectors: &mut [R], low: usize, ends: R) {
     let (zero, one) = (R::default(), R::splat(1.0));

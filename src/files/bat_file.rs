@@ -70,7 +70,7 @@ impl Bat {
     }
 
     /// Reads a bat file that a person has named. Its `csv` may be anywhere; if it is outside the bat file's folder, the
-    /// person is to be told.
+    /// caller must inform the person.
     ///
     /// # Errors
     ///
@@ -179,7 +179,7 @@ fn length_unit(object: &Object) -> Result<(String, f64)> {
 
 fn from_document(document: &Document, folder: &Folder) -> Result<Bat> {
     let root = Node::root(document)?.members()?;
-    // Before the keys are checked: another format may have others.
+    // Checked before the keys, because another format may have other keys.
     root.check_format("sweetspot-bat/1")?;
     let mut mistakes = Mistakes::default();
     let root = root.only(KEYS, &mut mistakes);

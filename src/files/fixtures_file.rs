@@ -45,8 +45,8 @@ fn list<P: Part>(
     start: impl Fn() -> P,
     length: Option<f64>,
 ) -> Result<Vec<P>> {
-    /// Most parts of one kind: the work grows faster than their number, since a stretch knows every tape on it and
-    /// absorbers damp together.
+    /// Most parts of one kind: the work grows faster than their number, since every stretch lists all tapes on it and
+    /// absorbers damp each other's motion.
     const MOST: usize = 400;
     const GROWING: [&str; 3] = ["regions", "tapes", "absorbers"];
     let Some(node) = root.get(key) else { return Ok(vec![]) };

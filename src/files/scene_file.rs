@@ -86,7 +86,7 @@ pub fn read(node: &Node, ball: Ball) -> Result<Setup> {
     mistakes.end(setup)
 }
 
-/// The setup with these members, which come from no file.
+/// The setup with these members, which do not come from a file.
 ///
 /// # Errors
 ///

@@ -37,7 +37,7 @@ pub fn account(mode: &mut Mode, ratio: f64, (elements, over): (usize, bool), fac
 /// Much slower modes leave their round-off in the compliance. If they and all other slower modes were removed from a
 /// mode (`apart`), the residual beyond `left` shows it, and half of that is the frequency's. Thick parts on thin ones
 /// leave round-off too, as in a chain of cylinders. The residual of a usual bat is a few ε times the square of the
-/// `ratio` and costs nothing. If the iteration stopped at a larger residual, it hides the round-off.
+/// `ratio` and is not counted. If the iteration stopped at a larger residual, it hides the round-off.
 pub fn lost(residual: f64, left: f64, ratio: f64, apart: bool) -> f64 {
     const USUAL: f64 = 3.0 * f64::EPSILON;
     /// Iterations stop at more than this; a smaller residual is round-off.
@@ -58,7 +58,7 @@ pub fn lost(residual: f64, left: f64, ratio: f64, apart: bool) -> f64 {
 /// Turns a relative round-off of a frequency into that of the shape, the nodes and the modal mass.
 ///
 /// The round-off of the shape is a share of its largest deflection. Where the shape is flat, between stiff springs or
-/// in a thick part beside a thin one, the slope tells how far that moves a node.
+/// in a thick part next to a thin one, the slope gives the shift of a node.
 fn blur(mode: &mut Mode, sums: f64) {
     let usual = 10.0 * mode.shape.length() / mode.nodes.len().max(1) as f64;
     mode.error.nodes += sums * usual.max(LOCAL * mode.doubt.flattest);
@@ -67,8 +67,8 @@ fn blur(mode: &mut Mode, sums: f64) {
     mode.error.shape += 10.0 * sums;
 }
 
-/// Adds the effect of a relative round-off of the frequency, such as that of the sections: a frequency goes as
-/// `√(EI/ρA)`.
+/// Adds the effect of a relative round-off of the frequency, such as that of the sections: a frequency is proportional
+/// to `√(EI/ρA)`.
 pub fn add_round_off(mode: &mut Mode, relative: f64) {
     mode.error.round_off += relative;
     blur(mode, relative);
@@ -162,13 +162,14 @@ fn part(all: &[Known], k: usize, other: usize, residual: f64) -> SharedMotion {
 /// Adds the effect of other modes to a mode's errors. `beyond` is ω (rad/s) of the first mode above the list, `left`
 /// the residuals at which an iteration stopped.
 ///
-/// The defect weights the share `c` of another mode `j` by the gap `|1 − λ/λ_j|`, so it hardly sees the nearest ones.
-/// The eigensolver leaves at most `c = residual/gap` of them (Davis and Kahan), which costs Rayleigh's quotient
+/// The defect weights the share `c` of another mode `j` by the gap `|1 − λ/λ_j|`, so the nearest ones hardly contribute
+/// to it. The eigensolver leaves at most `c = residual/gap` of them (Davis and Kahan), which costs Rayleigh's quotient
 /// `c² gap`. The mesh mixes in `c ≈ 2 √(e e_j)/gap`, with `e` the relative errors of both frequencies: the off-diagonal
 /// part in [`share`] over a gap reduced by the possible errors. For the two nearest modes all of it counts, because it
-/// is the whole error where a deflection is superconvergent, at the ends. For the others, only what the defect does not
-/// see counts. In a shape of modal mass m the share is `c √(m/m_j)` beside a remainder of `√(1 − c²)`. If there is no
-/// mode above or below, the other side counts twice. Frequencies closer to each other than ε count as ε apart.
+/// is the whole error where a deflection is superconvergent, at the ends. For the others, only the part that is missing
+/// from the defect counts. In a shape of modal mass m the share is `c √(m/m_j)` beside a remainder of `√(1 − c²)`. If
+/// there is no mode above or below, the other side counts twice. Frequencies closer to each other than ε count as ε
+/// apart.
 pub fn add_neighbours(modes: &mut [Mode], beyond: Option<f64>, left: &[f64], factored: bool) {
     let (mut lightest, mut worst) = (f64::INFINITY, 0.0_f64);
     let mut all: Vec<Known> = Vec::with_capacity(modes.len() + 1);
@@ -217,7 +218,7 @@ pub fn add_neighbours(modes: &mut [Mode], beyond: Option<f64>, left: &[f64], fac
         let cost_of = |left: &f64| 0.5 * left * (left / nearest).min(1.0);
         mode.error.discretization += left.get(k).map_or(0.0, cost_of) + errors[k] - all[k].error;
         mode.error.modal_mass += mixed * (2.0 + mixed) + lost;
-        // At most the whole shape may be another mode's; its nodes may then be anywhere.
+        // At most, the whole shape is that of another mode, and the nodes may be anywhere.
         mode.error.shape += (mixed * beside).min(1.0);
         let spread = (mixed * length / mode.nodes.len().max(1) as f64).max(2.0 * moved);
         let shifted = if lost < UNKNOWN { spread * beside } else { length };

@@ -36,7 +36,7 @@ pub struct Damped {
     pub ratio: f64,
     /// The part of ζ due to the materials.
     pub of_materials: f64,
-    /// `−Re s` (1/s): the amplitude goes as `e^{−decay t}`; for two real s, the slower one.
+    /// `−Re s` (1/s): the amplitude is proportional to `e^{−decay t}`; for two real s, the slower one.
     pub decay: f64,
     /// Possible error of s relative to |s|, due to the mesh, to the small number of strains, and to treating modes one
     /// by one if that was done.
@@ -120,7 +120,7 @@ pub enum DampingMethod {
     Materials,
     /// There are dashpots, but each mode may be treated alone: the complex modes differ by this much.
     Modal(f64),
-    /// Complex modes; modes treated alone would be off by this much.
+    /// Complex modes; modes treated one by one would have this error.
     Complex(f64),
 }
 

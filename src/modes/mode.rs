@@ -102,7 +102,7 @@ impl Mode {
         if let Some(fixed) = view.fixed {
             // At a clamp the deflection has a multiple zero.
             let near = BESIDE_CLAMP * shape.length();
-            // A pinned end stands still and is no node: round-off may put one beside it.
+            // A pinned end does not move and is not a node, but round-off may put one beside it.
             let ends = [0.0, shape.length()];
             let at_end = |pin: &&f64| ends.iter().any(|end| (*pin - end).abs() <= near);
             let pins = fixed.placed.pins.iter().filter(at_end);
@@ -135,8 +135,8 @@ impl Mode {
             round_off: 0.0,
             residual: motion.residual.lane(lane),
             nodes: node_error,
-            // The mass goes as the square of the shape. If the parts of its change cancel by chance, the shape's change
-            // is the better measure.
+            // The mass is proportional to the square of the shape. If the parts of its change cancel by chance, the
+            // shape's change is the better measure.
             modal_mass: 2.0 * f64::max((motion.work.lane(lane) / kinetic - change).abs(), worst),
             shape: worst,
         };

@@ -12,7 +12,7 @@
 //!
 //! For `p = 3` this is the known `(kh)⁴/1440`.
 //!
-//! A taper bends the curvature too. Under a constant moment it goes as `1/EI ∝ r⁻⁴`. On an element over which `ln r`
+//! A taper bends the curvature too. Under a constant moment it is `∝ 1/EI ∝ r⁻⁴`. On an element over which `ln r`
 //! changes by `t`, its series gives, with `m = p − 1`,
 //!
 //! ```text
@@ -228,7 +228,7 @@ impl Plan {
             return Self { mesh: self.mesh.clone(), degree: self.degree + 1, reason };
         }
         let share = 0.5 * tolerance / count;
-        // The error of a kink inside an element goes at best as the fifth power of its length.
+        // The error due to a kink inside an element is at best proportional to the fifth power of its length.
         let over = self.mesh.over_stations();
         let order = if over { 4.0 } else { 2.0 * (self.degree - 1) as f64 };
         let parts = |k: usize| {

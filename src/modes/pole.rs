@@ -19,8 +19,8 @@ pub struct Pole {
     pub error: f64,
     /// Share of the rigid motions in the kinetic energy.
     pub rigid_share: f64,
-    /// Share of the strains in the sum of both energies: a half for an oscillation, more for a motion that creeps back,
-    /// less for one that a dashpot stops.
+    /// Share of the strains in the sum of both energies: a half for an oscillation, more for a slow return to rest,
+    /// less for a motion that a dashpot stops.
     pub strain_share: f64,
 }
 
@@ -64,8 +64,8 @@ pub fn grouped(poles: Vec<Pole>, rigid: usize) -> FreeMotions {
     let (mut real, pairs): (Vec<Pole>, Vec<Pole>) = poles.into_iter().partition(|p| p.s.im == 0.0);
     real.sort_by(|a, b| b.rigid_share.total_cmp(&a.rigid_share));
     let strained = real.split_off(rigid.min(real.len()));
-    // Of two real poles that belong together, one creeps back and the other is stopped, with nearly equal strains. The
-    // slowest chooses its partner first.
+    // Of two real poles that belong together, one is a slow return to rest and the other a motion that is stopped, with
+    // nearly equal strains. The slowest chooses its partner first.
     let (mut slow, mut fast): (Vec<Pole>, Vec<Pole>) =
         strained.into_iter().partition(|pole| pole.strain_share > 0.5);
     slow.sort_by(|a, b| b.s.norm().total_cmp(&a.s.norm()));

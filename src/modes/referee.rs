@@ -1,4 +1,4 @@
-//! What do solvers find that factor the assembled stiffness?
+//! Which modes do solvers find that factor the assembled stiffness?
 //!
 //! They are independent checks: choose one by [`Solver`] in [`crate::modes::solve::Request::solver`].
 
@@ -108,8 +108,8 @@ fn check<const N: usize, const W: usize>(
     }
 }
 
-/// The `count` lowest bending modes, and the next if there is one, by a solver that factors `K`. The statics, which
-/// factors nothing, stands for shift-invert here.
+/// The `count` lowest bending modes, and the next if there is one, by a solver that factors `K`. [`Solver::Statics`],
+/// which factors nothing, is solved by shift-invert here.
 fn of_pencil<const N: usize, const W: usize>(
     statics: &Statics<f64, N, W>,
     elements: &[Element<f64, N, W>],

@@ -14,7 +14,7 @@ use crate::modes::request::{CONVERGED, Request, stop_at, wanted};
 use crate::modes::solution::{Ending, Solution, Timing};
 use crate::modes::task::Task;
 
-/// A refinement that leaves more than this share of the error has gained nothing.
+/// A refinement that leaves more than this share of the error has stalled.
 const STALLED: f64 = 0.7;
 /// Most refinements before the result is returned as it is.
 const MOST_ROUNDS: usize = 12;
@@ -55,12 +55,12 @@ pub(crate) fn refine(bat: &Bat, request: &Request) -> Result<Solution> {
     damped(bat, request, by_other_elements(bat, request, found))
 }
 
-/// A solution that refinement did not bring within its tolerance, as a coarse mesh beside a sharp step may not: that of
-/// the elements for a smaller tolerance, if it is.
+/// A solution that refinement did not bring within its tolerance, as may happen on a coarse mesh beside a sharp step,
+/// is replaced by that on the elements for a smaller tolerance if this one is within it.
 fn by_other_elements(bat: &Bat, request: &Request, found: Solution) -> Solution {
-    /// What the tolerance is divided by, in turn.
+    /// Divisors of the tolerance, tried in this order.
     const FINER: [f64; 3] = [30.0, 300.0, 3000.0];
-    /// No elements are planned for a smaller one.
+    /// Elements are not planned for a smaller tolerance.
     const LEAST: f64 = 1e-10;
     if found.met() || request.elements.is_some() || found.round_off() > request.tolerance {
         return found;
@@ -93,8 +93,8 @@ fn beyond_numbers(bat: &Bat, error: Error) -> Error {
     }
     let thin = if thin > 0.0 { format!("{thin:.1e} m thin") } else { "a point".to_owned() };
     let found = format!(
-        "a bat that is {thin} at its thinnest and {thick:.1e} m elsewhere: what the one gives way and the \
-         other does not hold in one number"
+        "a bat that is {thin} at its thinnest and {thick:.1e} m elsewhere: the compliances of both do not \
+         fit in one number"
     );
     let expected = "a point that is cut off, or one of a shape nearer to a cone";
     Error::value("profile", found, expected)

@@ -118,8 +118,8 @@ const MOST_GIGABYTES: f64 = 8.0;
 pub const CONVERGED: f64 = 1e-13;
 /// With more unknowns than this, modes are evaluated one by one, not side by side.
 pub const LARGE: usize = 20_000;
-/// Number of modes of a large mesh that are evaluated at a time, each by its own thread: more would take about as much
-/// memory again as the mesh.
+/// Number of modes of a large mesh that are evaluated at a time, each by its own thread: evaluating more would take
+/// about as much memory as the mesh itself.
 pub const AT_ONCE: usize = 2;
 
 /// The request to the planner.

@@ -252,8 +252,8 @@ impl<'a> Account<'a> {
 
 /// Whether it is certain that no mode is missing, not even a near twin just beyond the list, which an iteration that
 /// ends at `residual` cannot tell from the last mode. The number of modes below a frequency in the last wide gap of the
-/// list must equal the number in the list. If that cannot be counted, or the iteration tells as much as the count
-/// would, the nodes decide: mode n of a free Euler–Bernoulli bat has n + 1.
+/// list must equal the number in the list. If that cannot be counted, or the count would not add to what the iteration
+/// shows, the nodes decide: mode n of a free Euler–Bernoulli bat has n + 1.
 fn none_missing(view: &View<f64>, modes: &[Mode], beyond: Option<f64>, residual: f64) -> bool {
     const WIDE: f64 = 1e-9;
     let oscillates = view.fixed.is_none() && !view.theory.turns();

@@ -13,10 +13,10 @@ use crate::modes::theory_choice;
 /// The bat with one factor on every E and G, so that its first bending mode has the tapped frequency. A bat without a
 /// tap, or already fitted, is returned unchanged.
 ///
-/// The frequencies of a free bat go as the square root of the factor, so one step finds it; springs, joints and hands
-/// do not grow with it. The exponent of a frequency is the share of the bat's own strain energy in the mode's, which
-/// two solutions give. The first bending mode is the first one with a share of at least a half, not a mode in which the
-/// bat moves rigidly on its springs.
+/// The frequencies of a free bat are proportional to the square root of the factor, so one step finds it; springs,
+/// joints and hands do not grow with it. The exponent of a frequency is the share of the bat's own strain energy in the
+/// mode's, which two solutions give. The first bending mode is the first one with a share of at least a half, not a
+/// mode in which the bat moves rigidly on its springs.
 ///
 /// # Errors
 ///
@@ -51,7 +51,7 @@ pub fn tuned(mut bat: Bat, theory: Theory, tolerance: f64) -> Result<Bat> {
         if nearest == 0.0 || ratio.ln().abs() < (tapped / nearest).ln().abs() {
             nearest = found;
         }
-        // As close as arithmetic knows the frequency, or half of --tol.
+        // As close as the round-off of the frequency, or half of --tol.
         let known = here.modes[bending].error.total().min(50.0 * tolerance);
         if (ratio - 1.0).abs() <= known.max(2.0 * tolerance) {
             bat.heard();

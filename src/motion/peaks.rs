@@ -86,7 +86,7 @@ pub fn of(grid: &[f64], modes: &[[f64; 2]], size: &impl Fn(f64) -> f64) -> Vec<P
     let mut peaks: Vec<Peak> = bounded.collect();
     let within = |f: f64| grid.first().is_some_and(|low| f > *low) && grid.last() > Some(&f);
     for (k, [natural, ratio]) in modes.iter().copied().enumerate() {
-        // A pole goes as the inverse of the distance.
+        // Near a pole the response is proportional to the inverse of the distance.
         let beside = |far: f64| size(natural * (1.0 + far));
         if ratio <= 0.0 && within(natural) && beside(1e-8) > 5.0 * beside(1e-7) {
             let (mode, frequency) = (k + 1, natural);
@@ -179,8 +179,8 @@ mod tests {
         assert!((peak.frequency / 100.0 - (1.0 - 2.0 * ratio * ratio).sqrt()).abs() < 1e-7);
     }
 
-    /// However coarse the asked grid: the points around the natural frequencies come within 1 % of
-    /// every peak of a sum of modes.
+    /// Even if the requested grid is coarse, the points around the natural frequencies come within 1 % of every peak of
+    /// a sum of modes.
     #[test]
     fn a_grid_with_the_points_around_its_modes_misses_no_peak() {
         let modes: Vec<[f64; 2]> = [170.0, 571.0, 1161.0].map(|f| [f, 3e-3]).to_vec();

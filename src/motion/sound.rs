@@ -27,7 +27,7 @@ use crate::modes::solve::Solution;
 pub struct Tone {
     /// Frequency (Hz).
     pub frequency_hz: f64,
-    /// Decay rate (1/s): the amplitude goes as `e^{−decay t}`.
+    /// Decay rate (1/s): the amplitude is proportional to `e^{−decay t}`.
     pub decay_1_s: f64,
     /// Initial acceleration at the impact point (m/s²).
     pub amplitude_m_s2: f64,

@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use super::folder::Folder;
 
-/// How far the numbers of a document repeat.
+/// The repeatability of the numbers of a document.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Numbers {
     /// To the requested accuracy.

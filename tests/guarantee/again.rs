@@ -185,8 +185,8 @@ fn energies(bat: &Bat, mesh: &Mesh, theory: Theory, trial: &Trial) -> [Twofold; 
     [sigma, left / strain]
 }
 
-/// Rayleigh's quotient lies in its interval, and the residual is bounded, whether a trial is a mode or nonsense: a
-/// rounding that is forgotten anywhere puts nonsense outside.
+/// Rayleigh's quotient lies in its interval, and the residual is bounded, whether a trial is a mode or arbitrary; a
+/// rounding error that is neglected anywhere puts an arbitrary trial outside.
 #[test]
 fn quotients_and_residuals_hold_what_twice_the_digits_say() {
     let linear = sweetspot::bat::profile::Interpolation::Linear;
@@ -223,7 +223,7 @@ fn quotients_and_residuals_hold_what_twice_the_digits_say() {
                 assert!(width < 1e-11, "{width:e}");
                 let over = found.residual / residual.high;
                 assert!(over > 1.0 - 1e-9, "{theory:?} {over}");
-                // The least EI of a cell in place of EI, and the bound of a sum: some times too much.
+                // The least EI of a cell in place of EI, and the bound of a sum: too large by a factor of a few.
                 let small = residual.high < 1e-24 * sigma.high * sigma.high;
                 assert!(over < 30.0 || small, "{theory:?} {over}");
                 looked += 1;

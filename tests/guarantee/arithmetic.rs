@@ -26,7 +26,7 @@ impl Random {
         2.0 * self.share() - 1.0
     }
 
-    /// Of any size that neither overflows nor underflows in a product.
+    /// A number of any size whose products neither overflow nor underflow.
     fn any(&mut self) -> f64 {
         let special = [0.0, 1.0, -1.0, 1.0 + f64::EPSILON, 1.0 - 0.5 * f64::EPSILON, 3.0, 1e-100];
         match (self.share() * 8.0) as usize {
@@ -228,7 +228,7 @@ pub fn gauss_in_two() -> &'static [(Twofold, Twofold)] {
     })
 }
 
-/// A missing bound shows where every value is off by a whole radius.
+/// A missing bound is detected where every value is wrong by a whole radius.
 #[test]
 fn radii_go_through_every_operation() {
     let mut random = Random::new(9);

@@ -1,4 +1,4 @@
-//! Trials that are wrong in every way: no interval may leave out the frequency that it is of.
+//! Trials that are wrong in every way: every interval must still contain its frequency.
 
 use sweetspot::bat::fixtures::{Absorber, Attachment, Fixtures, Grip, Held, Joint, Support};
 use sweetspot::bat::profile::{Interpolation, Stations};
@@ -27,7 +27,7 @@ fn plan(bat: &Bat, elements: usize, degree: usize) -> Plan {
     Plan { mesh: Mesh::along(bat, elements), degree, ..Plan::default() }
 }
 
-/// A bat from its other end, with its joints and its masses on springs.
+/// A bat turned end for end, with its joints and its masses on springs.
 fn reversed(bat: &Bat) -> Bat {
     let length = bat.length();
     bat.with(|parts| {
@@ -171,7 +171,7 @@ fn tens_of_thousands_of_lies_prove_nothing_false() {
                     lies[k] = with(&own[k], random.signed(), &own[other]);
                     lies[other] = with(&own[other], random.signed(), &own[k]);
                 }
-                // One that is not there, one that is there twice, one that is another.
+                // One missing, one twice, one replaced by another.
                 4 => {
                     lies.remove(k);
                     assert!(scene.proven_by(&lies, &told) <= k, "{told}: {k} left out");
@@ -271,7 +271,7 @@ fn enclosures_from_different_meshes_overlap() {
         let held = (40..80).contains(&round) || round >= 100;
         let fixtures = if held { holding(&mut random) } else { Fixtures::default() };
         let fixtures = if round < 80 { fixtures } else { giving(&mut random, fixtures) };
-        // Hands on some of all kinds.
+        // Some bats of every kind have hands.
         let mut grip = || Grip {
             from: 0.05 * random.share(),
             to: 0.1 + 0.2 * random.share(),

@@ -269,7 +269,7 @@ fn what_is_taken_for_the_softness_is_nowhere_below_it() {
             let exact = 1.0 / stiff.at[g];
             assert!(taken >= exact * (1.0 - 1e-13), "{ratio} {g} {}", taken / exact - 1.0);
             assert!(taken <= exact * (1.0 + 3.0 * soft.share + 1e-12), "{ratio} {g}");
-            // And the share is needed: somewhere the polynomial alone is below.
+            // The share is needed: somewhere the polynomial alone is below.
         }
         let below = (0..40).any(|g| at.at[g] * stiff.at[g] < 1.0 - 0.01 * soft.share);
         assert!(below, "{ratio}");

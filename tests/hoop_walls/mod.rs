@@ -40,7 +40,7 @@ pub fn open_barrel(wall: f64) -> Bat {
     barrel_in_parts(wall, &[0.58, 0.8382])
 }
 
-/// The same, the formula of its barrel written anew between these places (m), where columns of elements then
+/// The same with the formula of its barrel written again between these places (m), where columns of elements then
 /// begin.
 pub fn barrel_in_parts(wall: f64, places: &[f64]) -> Bat {
     let taper = "0.0115 + 0.0218*(3*((x - 0.28)/0.3)^2 - 2*((x - 0.28)/0.3)^3)";
@@ -54,7 +54,7 @@ pub fn barrel_in_parts(wall: f64, places: &[f64]) -> Bat {
     let mut pieces =
         vec![piece(0.0, 0.28, "0.0115", "0.0115 - 0.0026"), piece(0.28, 0.58, taper, &bore)];
     for (k, pair) in places.windows(2).enumerate() {
-        // A formula goes on beyond a border; another one, of the same values, does not.
+        // The same formula continues beyond a border; another formula with the same values does not.
         let outer = format!("0.0333 + {k}*0*x");
         pieces.push(piece(pair[0], pair[1], &outer, &format!("0.0333 - {wall}")));
     }

@@ -43,7 +43,7 @@ fn main() {
     }
 }
 
-/// Time of a command (ms); None where the program fails.
+/// Time of a command (ms); `None` if the program fails.
 fn time(program: &Path, args: &[&str]) -> Option<f64> {
     let mut command = Command::new(program);
     command.args(args).env("RAYON_NUM_THREADS", "1");

@@ -48,7 +48,7 @@ pub fn run(args: &Args) -> Result<Done> {
     Ok(Done::new(args.output.deliver(table, || advice::document(&advice))?, code))
 }
 
-/// The exit code, after a word about frequencies that are less accurate than the tolerance.
+/// The exit code, after a warning about frequencies that are less accurate than the tolerance.
 fn verdict(args: &Args, advice: &Advice) -> u8 {
     let full = &advice.full_model;
     let solution = &full.solved.solution;

@@ -132,7 +132,7 @@ fn spacing(text: &str) -> std::result::Result<f64, String> {
     }
 }
 
-/// A slope that a tool may have.
+/// A slope that a tool can follow.
 fn slope(text: &str) -> std::result::Result<f64, String> {
     let value = typed::number(text).filter(|value| SLOPES.contains(value));
     value.ok_or_else(|| "expected a slope from 0.01 to 10".to_owned())
@@ -211,7 +211,7 @@ fn wish(args: &Args, aim_file: Option<&AimFile>) -> Result<Wish> {
     Ok(wish)
 }
 
-/// An error about the wish at its place in the aim file, or by the option that it is of.
+/// An error about the wish at its place in the aim file, or at its option.
 fn placed(error: Error, aim_file: Option<&AimFile>, args: &Args) -> Error {
     let of_file = aim_file.map_or([0; 3], |file| {
         [file.wish.targets.len(), file.wish.diameter.len(), file.wish.keep.len()]

@@ -35,9 +35,9 @@ use crate::value::{READING, SCALE, Use};
 /// A bat on one screen
 ///
 /// Where is its sweet spot, how fast does the ball leave there, how wide is the zone, what is its swing weight, how
-/// does it ring? Beside every answer stands its uncertainty for the bat in hand, and the main cause: the wood, which
-/// differs from piece to piece, or the measurements. The last lines say which measurement would reduce it, and how much
-/// error the computation adds.
+/// does it ring? Each answer has its uncertainty for the bat in hand and the main cause: the wood, which differs from
+/// piece to piece, or the measurements. The last lines say which measurement would reduce it, and how much error the
+/// computation adds.
 ///
 /// With --full also: a sketch with the nodes of the modes and the zone of the best exit speeds; ten modes, their
 /// errors, and the effects that the model leaves out; the solver's proof on a dowel with exact frequencies; the parts
@@ -58,18 +58,18 @@ pub struct Args {
     #[command(flatten)]
     scene: SceneArgs,
 
-    /// How far the calipers may be off, one standard deviation [default: 0.1 mm; of diameters that
-    /// all lie on a step of 1/16, 1/32 or 1/64 in or of 1 mm its share, 1/16 in 0.46 mm]
+    /// Error of the calipers, one standard deviation [default: 0.1 mm; if all diameters lie on a step of 1/16, 1/32 or
+    /// 1/64 in or of 1 mm, that of the step: 0.46 mm for 1/16 in]
     #[arg(long, value_name = "m", help_heading = "How it was measured",
           value_parser = |s: &str| reading(&READING, s))]
     calipers: Option<f64>,
 
-    /// How far the rule may be off, one standard deviation
+    /// Error of the rule, one standard deviation
     #[arg(long, value_name = "m", default_value = "1 mm", help_heading = "How it was measured",
           value_parser = |s: &str| reading(&READING, s))]
     rule: f64,
 
-    /// How far the scale may be off, one standard deviation; for a bat that was weighed
+    /// Error of the scale, one standard deviation; for a bat that was weighed
     #[arg(long, value_name = "kg", default_value = "1 g", help_heading = "How it was measured",
           value_parser = |s: &str| reading(&SCALE, s))]
     scale: f64,
@@ -168,7 +168,7 @@ fn lathe(args: &Args, analysis: &Analysis) -> Result<Option<LatheMap>> {
     LatheMap::in_short(&analysis.bat, hits, &hit)
 }
 
-/// How far a reading may be off.
+/// The error of a reading.
 fn reading(of: &Use, text: &str) -> std::result::Result<f64, String> {
     let value = of.read(text)?;
     match value >= 0.0 && of.has(value) {

@@ -22,7 +22,7 @@ use crate::value::PLACE;
 ///
 /// The bat is at rest and turns about a pivot 6 in from the knob end; a ball at 136 mph hits it every half inch. The
 /// table gives the rebound speed of the ball, the collision efficiency e_A, BBCOR and its numerical error at the places
-/// around the largest BBCOR, or with --full at every place. Below it the largest value stands beside the limit.
+/// around the largest BBCOR, or with --full at every place. Below it the largest value is compared with the limit.
 /// Supports, springs and hands of the bat file are removed. A computed value is not a certificate: it is only as good
 /// as the known restitution of the ball and the known wall of a hollow barrel.
 #[derive(clap::Args)]
@@ -42,7 +42,7 @@ pub struct Args {
     #[arg(long, value_name = "m", help_heading = "The test", value_parser = PLACE)]
     to: Option<f64>,
 
-    /// Whether a hollow barrel's wall gives way by its own hoop modes: auto, on or off
+    /// Whether a hollow barrel's wall deflects in its own hoop modes: auto, on or off
     ///
     /// auto: if that changes BBCOR by more than 0.15 of --tol, by an estimate, and the number of modes is not given.
     #[arg(long, value_name = "WHEN", default_value = "auto", help_heading = "The test",

@@ -31,7 +31,7 @@ use crate::value::{PLACE, SPACING};
 /// and node, vibration, and the exit speeds at equal places from the tip and from the knob, each difference with its
 /// error.
 ///
-/// With --measured FILE, one bat's computed modes stand beside measured ones: the pairs, their differences, the
+/// With --measured FILE, one bat's computed modes are compared with measured ones: the pairs, their differences, the
 /// damping, and whether the measured shapes are sound; with --full also the MAC of any two, rigid motion in the shapes,
 /// their mass orthogonality, and the error due to the small number of points.
 #[derive(clap::Args)]
@@ -91,7 +91,7 @@ pub struct Args {
     output: AnswerArgs,
 }
 
-/// Most bats that fit beside each other.
+/// Most bats that fit side by side.
 const MOST: usize = 6;
 
 pub fn run(args: &Args) -> Result<Done> {

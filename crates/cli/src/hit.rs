@@ -177,7 +177,7 @@ pub fn verdict(solve: &SolveArgs, sweep: &Sweep, output: &OutputArgs) -> u8 {
     let worst = sweep.worst().map_or(String::new(), |(impact, outcome)| {
         let limit = match sweep.end {
             _ if outcome.wall > 0.5 * outcome.error => {
-                ": how far the wall gives way under the ball is known no better"
+                ": the compliance of the wall is not known more accurately"
             }
             RoundsEnd::Stopped => {
                 ": stopped there, as a better one would take more than ten times as long as a usual hit; fewer \

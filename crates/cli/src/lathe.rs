@@ -184,9 +184,9 @@ fn stretches(args: &Args, bat: &Bat) -> Result<(Vec<[f64; 2]>, f64)> {
     mistakes.end((all, depth))
 }
 
-/// The outputs if none are given.
+/// The default outputs.
 fn answers(bat: &Bat, request: &Request, hit: &HitTerms, at: Option<f64>) -> Result<Vec<Answer>> {
-    /// So many frequencies.
+    /// Number of frequencies.
     const FREQUENCIES: usize = 5;
     let mut answers =
         vec![Answer::Mass, Answer::BalancePoint, Answer::Inertia, Answer::CenterOfPercussion];

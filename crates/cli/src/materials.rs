@@ -63,7 +63,7 @@ fn columns(us: bool) -> [Shown<'static, BuiltIn>; 3] {
     }
 }
 
-/// A line for each material, and below it where the numbers are from and where it breaks.
+/// A line for each material, and below it the source of the numbers and the strength.
 fn table(units: Units) -> String {
     let name: Shown<BuiltIn> = (first(20, "Material"), &|m| m.name.to_owned());
     let systems = [(Units::Us, false), (Units::Si, true)].into_iter();

@@ -100,7 +100,7 @@ fn sweet_spot(bat: &Bat, units: Units) -> String {
 
 /// All of the bat in the usual scene.
 fn analysed(bat: &Bat) -> Result<Analysis> {
-    /// Modes that hits are computed by at first, and the accuracy, as of `analyze`.
+    /// The first number of modes for the hits, and the accuracy, as in `analyze`.
     const MODES: usize = 10;
     const TOLERANCE: f64 = 1e-4;
     let request = Request { modes: MODES, tolerance: TOLERANCE, ..Request::default() };
@@ -139,7 +139,7 @@ fn verdict(bat: &Bat, measured: &Measured) -> String {
     )
 }
 
-/// A path as a shell takes it.
+/// A path as a word of a shell.
 fn quoted(path: &Path) -> String {
     let name = printed(path);
     if name.contains(char::is_whitespace) { format!("\"{name}\"") } else { name }

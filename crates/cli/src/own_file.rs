@@ -24,7 +24,7 @@ pub struct OwnFile {
 /// The file at a path.
 #[derive(Debug)]
 pub enum AtPath {
-    /// Nothing, not even a link that leads nowhere.
+    /// There is nothing, not even a link that leads nowhere.
     Free,
     /// A file of this program that no other process holds, and its text.
     Own(OwnFile, String),

@@ -27,7 +27,7 @@ pub fn run() -> ExitCode {
     };
     let mut out = io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        // A closed pipe is no error: its reader has read enough.
+        // A closed pipe is not an error: its reader has read enough.
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
             let _ = writeln!(io::stderr(), "error: cannot write to standard output: {error}");
             ExitCode::from(2)

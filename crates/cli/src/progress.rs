@@ -93,7 +93,7 @@ impl Counted {
     pub fn new(quiet: bool, what: &'static str, all: u64, before: u64) -> Self {
         let mut progress = Progress::new(quiet, what);
         progress.before = before as f64 / all as f64;
-        // The work may take days, and a reader of a log wants to know too.
+        // The work may take days, and a reader of a log needs the progress too.
         if !quiet && matches!(progress.shown, ProgressLook::Not) {
             progress.shown =
                 ProgressLook::Lines(Mutex::new(LastLine { at: Instant::now(), any: false }));
@@ -101,7 +101,7 @@ impl Counted {
         Self { progress, what, all, before, done: AtomicU64::new(before) }
     }
 
-    /// So many more are done.
+    /// Adds a number of finished items.
     pub fn more(&self, some: u64) {
         let done = self.done.fetch_add(some, Ordering::Relaxed) + some;
         let rate = (done - self.before) as f64 / self.progress.begun.elapsed().as_secs_f64();

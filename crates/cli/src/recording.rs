@@ -44,11 +44,12 @@ pub fn readings(path: &Path, bat: &Bat, quiet: bool) -> Result<BatReadings> {
     Ok(wood.readings)
 }
 
-/// The tone of recorded taps that is the first bending mode of a bat, by the text of its file, as a bat file has it.
+/// The tone of recorded taps that is the first bending mode of a bat, by the text of its file, as written in a bat
+/// file.
 ///
 /// # Errors
 ///
-/// What cannot be listened to, and taps without that tone.
+/// For a file that cannot be read, and for taps without that tone.
 pub fn first_tone(path: &Path, text: &str) -> std::result::Result<String, Complaint> {
     let wrong = |error: Error| match error {
         Error::Value(complaint) => complaint,

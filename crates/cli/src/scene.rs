@@ -75,7 +75,7 @@ pub struct SceneArgs {
     #[arg(long, value_name = "m", default_value = "6 in", value_parser = PLACE)]
     hands: f64,
 
-    /// Whether a hollow barrel's wall gives way by its own hoop modes: auto, on or off
+    /// Whether a hollow barrel's wall deflects in its own hoop modes: auto, on or off
     ///
     /// For the contact model. auto: if that changes BBCOR by more than 0.15 of --tol, by an estimate, and the number of
     /// modes is not given.

@@ -1,4 +1,4 @@
-//! What happens when somebody stops the program? No partly written file stays, and no partial line on the terminal.
+//! What happens when the program is stopped? No partly written file and no partial line on the terminal remain.
 
 use std::io::{IsTerminal, Write};
 use std::sync::atomic::{AtomicBool, Ordering};

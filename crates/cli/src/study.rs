@@ -111,7 +111,7 @@ fn clear(out: &Path, yes: bool) -> Result<()> {
             Error::Value(complaint.hinted("nothing there was changed"))
         };
         if !std::io::stdin().is_terminal() || !std::io::stderr().is_terminal() {
-            return Err(refused(format!("{there}, and nobody to ask")));
+            return Err(refused(format!("{there}, and no terminal for the question")));
         }
         let mut said = String::new();
         let mut errors = std::io::stderr();

@@ -1,4 +1,4 @@
-//! Colour: for a terminal that wants it.
+//! Colour, for terminals that support it.
 
 use std::env;
 use std::io::{IsTerminal, stdout};

@@ -171,7 +171,7 @@ pub fn hoops(rows: &[CheckedHoop]) -> String {
     title.to_owned() + &lines(&barrels, columns) + "\n"
 }
 
-/// Stated errors beside proven frequencies: a line for every kind of bat and every theory, and one for all.
+/// Stated errors compared with proven frequencies: a line for every kind of bat and every theory, and one for all.
 pub fn proven(rows: &[ProvenBat]) -> String {
     type Bats<'a> = (&'static str, Vec<&'a ProvenBat>);
     fn sum(bats: &Bats, of: fn(&ProvenBat) -> usize) -> usize {

@@ -1,4 +1,4 @@
-//! `sweetspot tap BAT RECORDING…`: what does a recording of taps tell about the bat?
+//! `sweetspot tap BAT RECORDING…`: what follows from a recording of taps about the bat?
 
 use std::path::PathBuf;
 

@@ -54,9 +54,9 @@ pub const CANNON_SPEED: Use = Use::new(Quantity::Speed, [0.0, 70.0], &["mph", "k
 pub const SWING: Use = Use::new(Quantity::AngularSpeed, [0.0, 60.0], &["deg/s", "rpm"]);
 /// Stiffness of a ball or of a barrel's wall.
 pub const STIFFNESS: Use = Use::new(Quantity::Stiffness, [1e5, 1e12], &["lbf/in"]);
-/// How far a reading of a length may be off.
+/// The error of a reading of a length.
 pub const READING: Use = Use::new(Quantity::Length, [0.0, 0.01], &["mm", "in"]);
-/// How far a scale may be off.
+/// The error of a scale.
 pub const SCALE: Use = Use::new(Quantity::Mass, [0.0, 0.1], &["g", "oz"]);
 /// Mass of a part of a bat.
 pub const PART_MASS: Use = Use::new(Quantity::Mass, [0.0, 1.5], &["oz", "g"]);
@@ -153,7 +153,7 @@ pub fn with_minus(command: Command) -> Command {
     command.mut_subcommands(with_minus)
 }
 
-/// The angular speed of a swing; a speed of the barrel gets a hint how to give it.
+/// The angular speed of a swing; a speed of the barrel gets a hint about its option.
 pub fn swing_speed(text: &str) -> std::result::Result<f64, String> {
     let speed = text.trim();
     let answer = format!("for the speed of a point of the barrel write --bat-speed \"{speed}");
@@ -183,7 +183,7 @@ pub fn tolerance(text: &str) -> std::result::Result<f64, String> {
     }
 }
 
-/// How long something may take, from the command line.
+/// A time limit from the command line.
 pub fn budget(text: &str) -> std::result::Result<Duration, String> {
     let seconds = units::parse_or_si(text, Quantity::Time).map_err(|wrong| wrong.to_string())?;
     let expected = "expected a time from 1 us to 1 day, such as \"5 ms\"";

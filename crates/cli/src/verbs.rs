@@ -75,7 +75,7 @@ enum Verb {
     Licences(licences::Args),
 }
 
-/// Verbs of the trade that this version does not know yet.
+/// Verbs of the trade that this version does not have yet.
 const LATER_VERBS: &[&str] = &["fit", "tune", "sweep"];
 
 /// Parses the command line and runs the verb. Wrong usage ends the program here.

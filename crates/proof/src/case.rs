@@ -117,9 +117,9 @@ pub struct Check {
     pub(super) speed_m_per_s: Option<f64>,
     /// The known number, in the quantity's unit.
     pub expected: f64,
-    /// How large the relative error may be.
+    /// Allowed relative error.
     pub(super) relative: Option<f64>,
-    /// How large the error may be, in the quantity's unit.
+    /// Allowed error, in the quantity's unit.
     pub(super) absolute: Option<f64>,
     /// Shown with its difference, but neither passed nor missed; the note gives the reason.
     #[serde(default)]
@@ -164,7 +164,7 @@ pub enum Known {
     CenterOfPercussionM,
     /// Swing weight: moment of inertia about the point 6 in from the knob (oz in²).
     InertiaPivotOzIn2,
-    /// Something of a hit.
+    /// A figure of a hit.
     #[serde(untagged)]
     Hit(KnownFigure),
 }
@@ -233,7 +233,7 @@ mod tests {
     use super::*;
     use crate::bundled::CASES;
 
-    /// Checks that no reader could take for a pass: every tolerance is one, every reason is there.
+    /// No check can be mistaken for a pass: every tolerance is valid and every reason is given.
     #[test]
     fn every_check_has_a_tolerance_and_a_reason_or_is_for_information() {
         for (name, text) in CASES {

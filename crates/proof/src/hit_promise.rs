@@ -77,7 +77,7 @@ struct Hit {
 pub enum ReferenceCourse {
     /// Ball and bat touch once.
     Single,
-    /// The ball is compressed anew before it leaves.
+    /// The ball is compressed again before it leaves.
     Reload,
     /// The bat catches up with the ball.
     Later,

@@ -46,7 +46,7 @@ pub struct CheckedHoop {
     pub truth: f64,
     /// The stated error.
     pub stated: f64,
-    /// How far the reference itself may be off.
+    /// Error of the reference itself.
     pub known_to: f64,
 }
 

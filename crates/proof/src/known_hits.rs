@@ -1,4 +1,4 @@
-//! What is known about a ball on a rigid wall and a ball on a bat?
+//! Which values are known for a ball on a rigid wall and a ball on a bat?
 //!
 //! The function to call is [`crate::validation::run`].
 //!
@@ -146,7 +146,7 @@ impl Throw {
         })
     }
 
-    /// The result of the contact on a bat, NaN where it has none.
+    /// The result of the contact on a bat, NaN if it has none.
     ///
     /// # Errors
     ///

@@ -23,9 +23,9 @@ pub const MODES: usize = 60;
 /// The requested tolerances, as negative powers of ten.
 pub const DIGITS: std::ops::RangeInclusive<i32> = 2..=12;
 
-/// How many times the stated error a true one may be.
+/// Largest allowed ratio of true to stated error.
 pub const ALWAYS: f64 = 3.0;
-/// How many times the true error a stated one may be in nine cases of ten.
+/// Largest allowed ratio of stated to true error in nine cases of ten.
 pub const MOSTLY: f64 = 30.0;
 /// True errors below this are luck or round-off, so their nearness to the stated ones is meaningless.
 pub const VISIBLE: f64 = 1e-13;
@@ -37,7 +37,7 @@ const NODE_KNOWN_TO: f64 = 1e-12;
 /// Known nodes closer to an end than this are left out (m).
 const BESIDE_AN_END: f64 = 1e-4;
 
-/// The bats: name, and the validation cases that know them; the dowel is known in closed form.
+/// The bats: name, and the validation cases with their known values; the dowel is known in closed form.
 pub const BATS: &[(&str, &[&str])] = &[
     ("dowel", &[]),
     ("cone 1:2.64", &["cone_1_2p64_60", "cone_1_2p64"]),

@@ -70,7 +70,7 @@ pub fn bats(answers: &[PublishedCase]) -> Vec<&str> {
     bats.into_iter().map(|(_, bat)| bat).collect()
 }
 
-/// How far the furthest frequency, node, exit speed and time are off, as the end of a sentence.
+/// The largest deviations of a frequency, node, exit speed and time, as the end of a sentence.
 pub fn furthest(rows: &[&KnownNumber]) -> String {
     let largest = |relative: bool, unit: &str| {
         let rows =
@@ -294,7 +294,7 @@ pub fn percent(share: f64) -> String {
     format!("{} %", signed(100.0 * share, 1))
 }
 
-/// The number with its sign, and none where it rounds to zero.
+/// The number with its sign, but without a sign if it rounds to zero.
 pub fn signed(value: f64, decimals: usize) -> String {
     let size = number(value.abs(), decimals);
     match size.parse() {

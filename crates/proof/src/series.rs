@@ -1,21 +1,21 @@
-//! What does a polynomial on [−1, 1] stand for that is known to within a bound?
+//! Which polynomials on [−1, 1] are known to within a bound?
 //!
-//! A [`Series`] `Σ c_j P_j(ξ)` with floating-point `c_j` and a radius stands for every polynomial of that
-//! degree that nowhere on [−1, 1] is farther from it; [`Values`] are what such a polynomial is at Gauss
-//! points, each to within one radius. Operations are done in plain numbers, in any order, and what they may
-//! have rounded goes into the radius by a bound that is proven beforehand:
+//! A [`Series`] `Σ c_j P_j(ξ)` with floating-point `c_j` and a radius represents every polynomial of that degree whose
+//! distance from it is nowhere on [−1, 1] larger than the radius. [`Values`] are the values of such a polynomial at
+//! Gauss points, each to within one radius. Operations use plain numbers, in any order, and their possible rounding is
+//! added to the radius by a bound that is proven beforehand:
 //!
-//! - a sum of `n` products is off by at most `γ_n Σ|a_i||b_i|`, `γ_n = nu/(1 − nu)`;
-//! - `|P_j| ≤ 1`, and a table's numbers are off by `u` of themselves at most, so that a value at a point is
-//!   off by `(n + 2) u Σ|c_j|` at most;
-//! - values that are off by `δ` at most at the points belong to a polynomial of degree `d` that is off by
-//!   `(d + 1) δ` at most anywhere: with `‖e‖² = Σ w_g e_g² = ∫e²` and Cauchy's inequality,
-//!   `|e(ξ)| ≤ ‖e‖ [Σ_{j ≤ d} (2j + 1)/2]^½ ≤ √2 δ (d + 1)/√2`;
-//! - its coefficients `Σ_g q_jg v_g` are rounded by `(N + 2) u Σ_g |q_jg v_g|` at most, and that sum is at most
-//!   `[(2j + 1)/2]^½ ‖v‖ ≤ (2j + 1)^½ max|v_g|`, by Cauchy's inequality again.
+//! - a sum of `n` products has an error of at most `γ_n Σ|a_i||b_i|`, `γ_n = nu/(1 − nu)`;
+//! - `|P_j| ≤ 1`, and the numbers of a table have a relative error of at most `u`, so that a value at a point has an
+//!   error of at most `(n + 2) u Σ|c_j|`;
+//! - values with an error of at most `δ` at the points belong to a polynomial of degree `d` whose error is at most `(d
+//!   + 1) δ` everywhere: with `‖e‖² = Σ w_g e_g² = ∫e²` and Cauchy's inequality, `|e(ξ)| ≤ ‖e‖ [Σ_{j ≤ d} (2j + 1)/2]^½
+//!   ≤ √2 δ (d + 1)/√2`;
+//! - its coefficients `Σ_g q_jg v_g` have a rounding error of at most `(N + 2) u Σ_g |q_jg v_g|`, and that sum is at
+//!   most `[(2j + 1)/2]^½ ‖v‖ ≤ (2j + 1)^½ max|v_g|`, by Cauchy's inequality again.
 //!
-//! Bounds are themselves computed in plain numbers, from sums and products of what is not negative; each is
-//! made larger by `SLACK`, thousands of times what that can round.
+//! Bounds are themselves computed in plain numbers, from sums and products of non-negative numbers. Each is enlarged by
+//! `SLACK`, thousands of times their possible rounding.
 //!
 //! # Source
 //!
@@ -32,10 +32,10 @@ use crate::gauss::Gauss;
 pub const MOST: usize = 40;
 /// Share by which every bound is made larger than it was computed.
 const SLACK: f64 = 1e-9;
-/// What is added to every bound for what may have underflowed.
+/// Addition to every bound, for possible underflow.
 const UNDERFLOW: f64 = 1e-290;
 
-/// A bound that is surely not below what these operations in plain numbers should have given.
+/// A bound that is certainly at least the exact result of these operations, from their result in plain numbers.
 fn bound(computed: f64) -> f64 {
     // NaN must not pass for a bound.
     if computed >= 0.0 { computed * (1.0 + SLACK) + UNDERFLOW } else { f64::INFINITY }
@@ -49,12 +49,12 @@ pub struct Series {
     radius: f64,
 }
 
-/// What polynomials of a degree may be at Gauss points.
+/// Values of polynomials of a degree at Gauss points.
 #[derive(Debug, Clone, Copy)]
 pub struct Values<const N: usize> {
     /// The values, nearly.
     pub at: [f64; N],
-    /// How far each may be off.
+    /// Largest error of each value.
     pub radius: f64,
     /// The degree of the polynomial.
     pub degree: usize,
@@ -84,7 +84,7 @@ impl Series {
     ///
     /// # Panics
     ///
-    /// If the number of points does not tell polynomials of that degree apart.
+    /// If the number of points does not distinguish polynomials of that degree.
     pub fn through<const N: usize>(gauss: &Gauss<N>, values: &Values<N>) -> Self {
         Self::near(gauss, &values.at, values.degree, values.radius)
     }
@@ -120,7 +120,7 @@ impl Series {
         self.coefficients[j]
     }
 
-    /// How far a polynomial may be from the series.
+    /// Largest distance of a polynomial from the series.
     pub fn radius(&self) -> f64 {
         self.radius
     }
@@ -172,15 +172,15 @@ impl Series {
         self
     }
 
-    /// The part up to a degree, with exactly these coefficients, and how far the series and every polynomial that it
-    /// stands for may be from it.
+    /// The part up to a degree, with exactly these coefficients, and the largest distance of the series and of every
+    /// polynomial that it represents.
     pub fn lowered(&self, degree: usize) -> (Self, f64) {
         let terms = self.terms.min(degree + 1);
         let rest: f64 = self.own()[terms..].iter().map(|c| c.abs()).sum();
         (Self::exact(&self.own()[..terms]), bound(self.radius + rest))
     }
 
-    /// `∫_{−1}^ξ` of it: `∫P_j = (P_{j+1} − P_{j−1})/(2j + 1)`, which is 0 at both ends but for `j = 0`.
+    /// `∫_{−1}^ξ` of it: `∫P_j = (P_{j+1} − P_{j−1})/(2j + 1)`, which is 0 at both ends except for `j = 0`.
     ///
     /// # Panics
     ///
@@ -266,13 +266,13 @@ impl Sub for Series {
 }
 
 impl<const N: usize> Values<N> {
-    /// Values that are one number everywhere.
+    /// Values of a constant.
     pub fn constant(number: Interval) -> Self {
         let middle = number.middle();
         Self { at: [middle; N], radius: bound(number.distance(middle)), degree: 0 }
     }
 
-    /// The values, each off by so much more at most.
+    /// The values with a radius larger by that much.
     pub fn wider(mut self, off: f64) -> Self {
         self.radius = bound(self.radius + off);
         self
@@ -295,7 +295,7 @@ impl<const N: usize> Values<N> {
         Self { at, radius: bound(off), degree: self.degree + other.degree }
     }
 
-    /// The values and those of another.
+    /// The sum of the values and those of another.
     pub fn sum(&self, other: &Self) -> Self {
         let at = std::array::from_fn(|g| self.at[g] + other.at[g]);
         let size = self.size() + other.size();

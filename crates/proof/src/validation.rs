@@ -33,7 +33,7 @@ pub struct KnownNumber {
     pub found: f64,
     /// In the sense of the tolerance: relative, or absolute in the quantity's unit.
     pub error: f64,
-    /// How large the error may be, in the same sense.
+    /// Allowed error, in the same sense.
     pub tolerance: f64,
     /// Whether both are relative.
     pub relative: bool,
@@ -134,7 +134,7 @@ impl Truth {
     }
 }
 
-/// The uniform bar that a bat with one radius is.
+/// A bat with one radius as a uniform bar.
 fn dowel(bat: &Bat) -> Dowel {
     Dowel {
         length: bat.length(),
@@ -285,7 +285,7 @@ fn all_found(case: &Case) -> Result<Vec<f64>> {
 mod tests {
     use super::*;
 
-    /// Whatever theory the bat is solved by.
+    /// With every theory of the solution.
     #[test]
     fn the_dowel_is_as_near_to_its_closed_form_as_is_stated() {
         for theory in [Theory::Auto, Theory::EulerBernoulli, Theory::Timoshenko] {

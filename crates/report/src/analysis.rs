@@ -67,11 +67,11 @@ pub struct Analysis {
     pub spread: Spread,
     /// The reliability of the answers, from everything known about them.
     pub verdict: Verdict,
-    /// What the model needs. None for a bat of more than a thousand pieces, where it would take long, and where it
-    /// could not be found for the reason in [`Self::failed`].
+    /// The effect of each part of the model. `None` for a bat of more than a thousand pieces, which would take long,
+    /// and if it could not be computed for the reason in [`Self::failed`].
     pub advice: Option<Advice>,
-    /// How the barrel of a hollow bat rings and how its wall affects the ball. None for other bats, and where it could
-    /// not be found for the reason in [`Self::failed`].
+    /// The hoop modes of a hollow barrel and the effect of its wall on the ball. `None` for other bats, and if they
+    /// could not be computed for the reason in [`Self::failed`].
     pub barrel: Option<Barrel>,
     /// What could not be found, with the reason, one sentence each.
     pub failed: Vec<String>,
@@ -107,7 +107,7 @@ impl Analysis {
         let strength = strength(&bat, &task, &hits, &figures);
         let [truth, stated] = dowel_proof(&task.proof)?;
         let proof = Proof { modes: task.proof.modes, truth, stated };
-        tell(0.7, "what calipers, scale and wood leave open");
+        tell(0.7, "the uncertainty due to wood, scale and calipers");
         let spot = &figures.spot;
         let analysed = Analysed {
             bat: &bat,
@@ -144,7 +144,7 @@ impl Analysis {
     }
 }
 
-/// Bats of more pieces are not computed anew with anything changed.
+/// Bats with more pieces are not recomputed with changes.
 const MOST_PIECES: usize = 1000;
 
 /// At the sweet spot, and five inches towards the hands, where a ball jams them.
@@ -156,7 +156,7 @@ fn strength(bat: &Bat, task: &Task, hits: &Sweep, figures: &Figures) -> Vec<Stre
     places.into_iter().filter(|x| *x > 0.0).filter_map(at).collect()
 }
 
-/// A result if there is one; a failure is noted with its reason.
+/// A result if there is one; a failure is recorded with its reason.
 fn found<T>(of: Option<Result<T>>, what: &str, failed: &mut Vec<String>) -> Option<T> {
     let noted = |error| failed.push(format!("Not found: {what} ({error})"));
     of?.map_err(noted).ok()

@@ -82,7 +82,7 @@ fn curves(case: &Case) -> Result<Vec<Series>> {
     ])
 }
 
-/// The exit speeds that the case knows.
+/// The exit speeds in the case.
 fn known(case: &Case, name: &str, error: f64) -> Series {
     let wanted = Known::Hit(KnownFigure::ExitSpeedMPerS);
     let checks = case.checks.iter().filter(|check| check.quantity == wanted);

@@ -26,7 +26,7 @@ pub fn verdict(answers: &[PublishedCase]) -> String {
     )
 }
 
-/// What does not depend on the answers; each mark `@…` stands for a part that does.
+/// The text that does not depend on the answers; each mark `@…` is replaced by a part that does.
 const PAGE: &str = include_str!("proof_page.md");
 
 /// The page, as Markdown.

@@ -11,7 +11,7 @@ use crate::engine::{Bat, Complaint, Error, Result, STANDARD_PIVOT, Solution};
 pub struct Figure {
     /// The value.
     pub value: f64,
-    /// How far it may be off, 0 or more.
+    /// Possible error, 0 or more.
     pub error: f64,
 }
 

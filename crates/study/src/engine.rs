@@ -1,4 +1,4 @@
-//! What the studies use of the engine, by its names.
+//! The names of the engine that the studies use.
 
 pub use sweetspot::base::error::{Complaint, Error, FilePosition, Result, nearest};
 pub use sweetspot::base::linear::{dot, inverse};

@@ -9,7 +9,7 @@ use crate::read_to::diameters_read_to;
 /// How exactly a bat was measured, as standard deviations.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Readings {
-    /// All diameters, of bores too, by the same amount (m): how calipers are off.
+    /// Common error of all diameters, of bores too (m), as of calipers.
     pub diameter: f64,
     /// Length (m).
     pub length: f64,

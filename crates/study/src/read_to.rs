@@ -25,7 +25,7 @@ impl ReadTo {
     }
 }
 
-/// The grids, the coarsest first. Finer than these a rounding is less than calipers are off.
+/// The grids, the coarsest first. The rounding to a finer grid is less than the error of calipers.
 const GRIDS: [ReadTo; 4] = [
     ReadTo { step: INCH / 16.0, name: "1/16 in" },
     ReadTo { step: 1e-3, name: "1 mm" },
@@ -36,11 +36,11 @@ const GRIDS: [ReadTo; 4] = [
 const ROUNDED: [f64; 3] = [1e-6 * INCH, 0.5e-3 * INCH, 5e-3 * INCH];
 /// So rarely does chance put all diameters of a column on a grid.
 const CHANCE: f64 = 1e-3;
-/// So many different numbers tell a grid.
+/// Least number of different values that identify a grid.
 const FEWEST: usize = 3;
 
-/// The coarsest step to which all outer diameters of a bat were read, before its edits; None where they lie on
-/// no grid, as of calipers, and for a formula, which was not read off an instrument.
+/// The coarsest step to which all outer diameters of a bat were read, before its edits; `None` for values on no grid,
+/// as from calipers, and for a formula, which was not read off an instrument.
 pub fn diameters_read_to(bat: &Bat) -> Option<ReadTo> {
     let profile = bat.unedited().profile();
     if profile.formulas.is_some() {

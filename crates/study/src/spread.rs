@@ -29,7 +29,7 @@ use crate::engine::{
 };
 pub use crate::inputs::{Input, Readings};
 
-/// Something that is not known exactly.
+/// A property that is not known exactly.
 #[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 #[non_exhaustive]
 pub struct Source {
@@ -112,7 +112,7 @@ impl Estimate {
 pub struct Spread {
     /// The sources of uncertainty.
     pub sources: Vec<Source>,
-    /// How far each answer may be off.
+    /// The uncertainty of each answer.
     #[serde(rename = "answers")]
     pub estimates: Vec<Estimate>,
     /// Sources that could not be included, a phrase each.
@@ -143,7 +143,7 @@ pub struct Analysed<'a> {
 const TOLERANCE: f64 = 1e-6;
 
 /// The answers of one bat, or the effect of a source on them, in the order of [`COUNTED`]; `None` if there is none, as
-/// for a place that no ball hits.
+/// for a place that is not hit.
 type Answers = Vec<Option<f64>>;
 
 /// A reading of the whole bat that settles a property of all its materials.
@@ -204,9 +204,9 @@ impl Spread {
         Self { sources, estimates, left_out }
     }
 
-    /// The answers alone, of a bat that would take long to be computed anew.
+    /// The answers without uncertainties, for a bat that would take long to recompute.
     pub fn uncounted(analysed: &Analysed) -> Self {
-        let left_out = vec!["all of it, as so many pieces would take long".to_owned()];
+        let left_out = vec!["all of it, because so many pieces take long".to_owned()];
         Self { sources: vec![], estimates: estimates(&analysed.answers(), &[]), left_out }
     }
 
@@ -235,9 +235,9 @@ pub fn place(answer: Answer) -> Option<usize> {
     COUNTED.iter().position(|counted| *counted == answer)
 }
 
-/// The readings of the whole bat: a scale sets its densities, a tap its stiffness. They were of the bat
-/// before its edits; of an edited one they settle the properties alone, a frequency going as the root of
-/// the stiffness.
+/// The readings of the whole bat: a scale sets its densities, a tap its stiffness. They belong to the bat before its
+/// edits. For an edited bat they only determine the properties, with a frequency proportional to the root of the
+/// stiffness.
 fn settled(analysed: &Analysed, readings: &Readings, left_out: &mut Vec<String>) -> Vec<Settled> {
     let before = analysed.bat.unedited();
     let edited = !analysed.bat.edits().is_empty();
@@ -340,7 +340,7 @@ fn settle(rows: &mut [Row], factor: &Answers, answer: usize) -> Option<Answers> 
         let Some(moved) = parts[answer] else { continue };
         let held = parts.iter().zip(&by).map(|(part, by)| Some((*part)? - (*by)? * moved));
         *parts = held.collect();
-        // Not but for round-off.
+        // Zero, apart from round-off.
         parts[answer] = Some(0.0);
     }
     Some(by)
@@ -383,7 +383,7 @@ impl Analysed<'_> {
             let by = if k % 2 == 0 { -step } else { step };
             let mut scene = self.scene.clone();
             if parameter.input == Input::Patch {
-                // δ goes as the square of the patch's radius.
+                // δ is proportional to the square of the patch's radius.
                 let ball = &mut scene.ball;
                 let compression = by.exp() * ball.patch_compression();
                 ball.contact_radius_m = Some((ball.radius_m * compression).sqrt());
@@ -440,8 +440,8 @@ fn answers(bat: &Bat, solution: &Solution, hit: Option<([f64; 2], [f64; 2])>) ->
 }
 
 /// Relative standard deviation of every frequency of a bat of one wood due to the wood alone, without a computation:
-/// `½ √(v_E² + v_ρ²)`, because a frequency goes as `√(E/ρ)`; the density contributes only if the bat was not weighed.
-/// `None` if the stiffness was tapped, or if no scatter is known.
+/// `½ √(v_E² + v_ρ²)`, because a frequency is proportional to `√(E/ρ)`; the density contributes only if the bat was not
+/// weighed. `None` if the stiffness was tapped, or if no scatter is known.
 pub fn of_frequencies(bat: &Bat) -> Option<f64> {
     let [(_, material)] = &materials(bat)[..] else { return None };
     let weighed = bat.unedited().weighed();

@@ -1,7 +1,7 @@
 //! How reliable are the answers of a hit?
 //!
-//! [`Verdict::of`] a hit is computed once, and every screen about it uses the result, so that no screen is more certain
-//! than another.
+//! [`Verdict::of`] is computed once for a hit. Every screen about the hit uses the result, so that no screen is more
+//! certain than another.
 
 use crate::engine::{Bat, HoopInHit, Impact, LATER, Scene, Sweep, WallFigures, WhyRigid};
 use crate::ignored::{SHEAR, ignored, thinnest_wall, wall_left_out};
@@ -9,7 +9,7 @@ use crate::ignored::{SHEAR, ignored, thinnest_wall, wall_left_out};
 /// A reason why the answers of a hit are less certain than their computation.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Doubt {
-    /// The density that the mass asks for is not that of the material.
+    /// The density that follows from the mass is not that of the material.
     Density(String),
     /// Shear is left out because there is no shear modulus; the sentence says what it would change.
     Shear(String),
@@ -97,8 +97,8 @@ impl Verdict {
     }
 }
 
-/// The reason why the wall of a hollow barrel is rigid in a hit that it would change, in a sentence; `None` if it gives
-/// way, or if it changes less than the tolerance.
+/// The reason why the wall of a hollow barrel is rigid in a hit that it would change, in a sentence; `None` if it
+/// deflects, or if it changes less than the tolerance.
 pub fn rigid_wall(bat: &Bat, scene: &Scene) -> Option<String> {
     if let HoopInHit::LeftOut(WhyRigid::Small { .. }) = scene.hoop {
         return None;

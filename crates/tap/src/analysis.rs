@@ -1,4 +1,4 @@
-//! All of it: taps, tones, what is to be said of the recording, and why it is refused.
+//! The whole analysis: taps, tones, warnings about the recording, and the reason if it is refused.
 
 use crate::filter::{Pass, filtered, levels, median, quantile};
 use crate::hum;
@@ -9,26 +9,26 @@ use crate::tones::{Ringing, Tone, tones};
 
 /// Tones are sought up to this share of the rate.
 const HIGHEST: f64 = 0.42;
-/// Below this rate it is said (1/s).
+/// Below this sample rate there is a warning (1/s).
 const LOW_RATE: f64 = 16_000.0;
-/// Clipped: this share of the large samples is near the largest, which is near full scale.
+/// A recording is clipped if this share of its large samples is near the largest, which is near full scale.
 const CLIPPED: f64 = 0.08;
 const FULL: f64 = 0.95;
-/// Hiss that rises so far while a tap rings is gain control (dB).
+/// Rise of the hiss while a tap rings that indicates gain control (dB).
 const RISEN: f64 = 3.0;
-/// What spoils loss factors.
+/// Defects of a recording that make loss factors wrong.
 const SPOILT: [Code; 3] = [Code::Clipped, Code::AutomaticGain, Code::SpoiltFile];
-/// Loss factors by early and late windows that differ by this, of their logarithm, are the room's.
+/// If the logarithms of loss factors differ by this between early and late windows, they are those of the room.
 const ROOM: f64 = 0.3;
 
 /// A tap.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tap {
-    /// Which recording it is in.
+    /// Index of its recording.
     pub recording: usize,
     /// When it begins (s).
     pub at: f64,
-    /// How often it bounced.
+    /// Number of bounces.
     pub bounces: usize,
     /// Whether its ringing is used.
     pub used: bool,
@@ -36,7 +36,7 @@ pub struct Tap {
     pub rings: [usize; 2],
 }
 
-/// What a warning or a refusal is of; [`Code::text`] says what each means.
+/// The subject of a warning or a refusal; [`Code::text`] gives its meaning.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Code {
     Clipped,
@@ -53,39 +53,39 @@ pub enum Code {
 }
 
 impl Code {
-    /// Its name in files, and what it means and what to do.
+    /// Its name in files, and its meaning with advice.
     fn told(self) -> [&'static str; 2] {
         match self {
             Self::Clipped => [
                 "clipped",
-                "The recording is too loud and clipped: frequencies hold, loss factors do not and are left out. Record \
-                 again with less gain, or tap more softly.",
+                "The recording is too loud and clipped: its frequencies are right, its loss factors are wrong and \
+                 left out. Record again with less gain, or tap more softly.",
             ],
             Self::AutomaticGain => [
                 "automatic_gain",
-                "The recorder turns its gain while a tap rings: frequencies hold, loss factors do not and are left out. \
-                 Turn \"enhanced recording\" or automatic gain off.",
+                "The recorder changes its gain while a tap rings: frequencies are right, loss factors are wrong and \
+                 left out. Turn \"enhanced recording\" or automatic gain off.",
             ],
             Self::OneTap => [
                 "one_tap",
-                "There is one tap alone: only several tell how far each is off, and which sound is no tap.",
+                "There is only one tap: only several show how accurate each is, and which sound is not a tap.",
             ],
             Self::Room => [
                 "room",
-                "The room is heard in how the tones die: bring the phone within a hand's breadth of the barrel.",
+                "The room affects the decay of the tones: bring the phone within a hand's breadth of the barrel.",
             ],
             Self::SpoiltFile => {
-                ["spoilt_file", "Parts of the file are spoilt: silence stands for them."]
+                ["spoilt_file", "Parts of the file are damaged and were replaced by silence."]
             }
             Self::LowRate => {
                 ["low_rate", "The recording has few samples a second: high tones are not in it."]
             }
             Self::Bounces => {
-                ["bounces", "Taps bounced: what rings after the last bounce was taken."]
+                ["bounces", "Taps bounced: the ringing after the last bounce was used."]
             }
-            Self::Hum => ["hum", "Hum of the mains was left out."],
+            Self::Hum => ["hum", "Hum of the mains was removed."],
             Self::FewTones => {
-                ["few_tones", "Only two tones were found: labels and wood rest on little."]
+                ["few_tones", "Only two tones were found: labels and wood are uncertain."]
             }
             Self::NoTap => [
                 "no_tap",
@@ -104,42 +104,42 @@ impl Code {
         self.told()[0]
     }
 
-    /// What it means, and what to do.
+    /// Its meaning, with advice.
     pub fn text(self) -> &'static str {
         self.told()[1]
     }
 }
 
-/// What was seen of one recording.
+/// The condition of one recording.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Condition {
-    /// Frequency of the hum that was taken off (Hz).
+    /// Frequency of the hum that was removed (Hz).
     pub hum: Option<f64>,
-    /// By how much hiss rises while a tap rings (dB); None where that is not seen.
+    /// Rise of the hiss while a tap rings (dB); `None` if it cannot be measured.
     pub gain_rise: Option<f64>,
     /// Whether it is clipped.
     pub clipped: bool,
 }
 
-/// What recordings of one bat say.
+/// The results of recordings of one bat.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Analysis {
-    /// What was seen of every recording.
+    /// The condition of every recording.
     pub conditions: Vec<Condition>,
     /// The taps of all.
     pub taps: Vec<Tap>,
     /// The tones.
     pub tones: Vec<Tone>,
-    /// Whether loss factors are to be believed: not of clipped recordings, nor of those whose gain turns.
+    /// Whether loss factors are reliable: not if a recording is clipped or spoilt, or if its gain changes.
     pub has_loss: bool,
-    /// What is to be said, and of which recording if not of all together.
+    /// Warnings, each with the index of its recording, or `None` if it concerns all together.
     pub warnings: Vec<(Code, Option<usize>)>,
-    /// Why it is refused.
+    /// Reason of a refusal.
     pub refused: Option<Code>,
 }
 
 impl Analysis {
-    /// Listens to recordings of one bat, up to that frequency (Hz) if one is given.
+    /// Analyses recordings of one bat, up to that frequency (Hz) if one is given.
     pub fn of(recordings: &[Recording], highest: Option<f64>) -> Self {
         let heard: Vec<Heard> = recordings.iter().map(Heard::of).collect();
         let (mut taps, mut ringing, mut sought) = (vec![], vec![], vec![]);
@@ -190,7 +190,7 @@ impl Heard {
             None => recording.samples.clone(),
         };
         let taps = onsets(&samples, rate);
-        // The next tap's ringing is heard ahead of it where a codec smears it.
+        // A codec may smear the next tap, so that it begins early.
         let ahead = (0.008 * rate) as usize;
         let rings: Vec<[usize; 2]> = taps
             .iter()
@@ -207,7 +207,7 @@ impl Heard {
     }
 }
 
-/// By how much the hiss above 5 kHz rises after a tap until the next one, the median over taps (dB).
+/// Rise of the hiss above 5 kHz after a tap until the next one, the median over the taps (dB).
 fn gain_rise(samples: &[f64], rate: f64, rings: &[[usize; 2]]) -> Option<f64> {
     if rate < 24_000.0 {
         return None;
@@ -277,7 +277,7 @@ mod tests {
         Recording::of("x", std::iter::repeat_n(0.0, 4000).chain(sound).collect(), rate).unwrap()
     }
 
-    /// The tones of two planes of the grain, each in a recording of its own, are told apart from 0.6 of their
+    /// The tones of two planes of the grain, each plane in its own recording, are distinguished from 0.6 of their
     /// half-power widths on.
     #[test]
     fn two_planes_of_the_grain_have_tones_of_their_own() {

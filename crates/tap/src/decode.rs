@@ -32,9 +32,9 @@ pub fn is_recording(path: &Path) -> bool {
 pub struct Part {
     /// From that time on (s).
     pub from: f64,
-    /// Until then (s); None for the end.
+    /// Up to that time (s); `None` for the end.
     pub to: Option<f64>,
-    /// The channel, from 1; None for the loudest.
+    /// The channel, from 1; `None` for the loudest.
     pub channel: Option<usize>,
 }
 
@@ -54,8 +54,8 @@ pub fn read(path: &Path, part: Part) -> Result<Recording, Unreadable> {
 ///
 /// # Errors
 ///
-/// [`Unreadable::Sound`] for contents that are no sound that is read here: voice notes (Opus, AMR), HE-AAC, files that
-/// are spoilt, empty, or longer than [`LONGEST`](crate::recording::LONGEST).
+/// [`Unreadable::Sound`] for sound in a format that is not supported (voice notes in Opus or AMR, HE-AAC), and for
+/// files that are damaged, empty, or longer than [`LONGEST`](crate::recording::LONGEST).
 pub fn decode(name: &str, bytes: Vec<u8>, part: Part) -> Result<Recording, Unreadable> {
     if bytes.len() as u64 > LARGEST {
         let expected = format!("at most {} MB: a minute of taps is enough", LARGEST / 1_000_000);
@@ -93,7 +93,7 @@ pub fn decode(name: &str, bytes: Vec<u8>, part: Part) -> Result<Recording, Unrea
     Ok(Recording { container, codec, channels: count, from: part.from, spoilt, ..recording })
 }
 
-/// Refuses what messengers write by what is to be done.
+/// Refuses the voice notes of messengers, with advice.
 fn voice_note(bytes: &[u8]) -> Result<(), Unreadable> {
     let head = &bytes[..bytes.len().min(4096)];
     let has = |word: &[u8]| head.windows(word.len()).any(|part| part == word);
@@ -150,8 +150,8 @@ struct Sound {
     spoilt: usize,
 }
 
-/// The samples of every channel in the part, and their rate. A spoilt packet is silence as long as the packet
-/// before it; a file that ends before its sound does is spoilt too.
+/// The samples of every channel in the part, and their rate. A damaged packet becomes silence of the length of the
+/// packet before it; a file that ends before its sound counts as damaged too.
 fn sound(
     format: &mut dyn FormatReader,
     decoder: &mut dyn AudioDecoder,
@@ -308,7 +308,7 @@ mod tests {
         }
     }
 
-    /// A packet of AAC that cannot be decoded is told, and what follows keeps its time.
+    /// An AAC packet that cannot be decoded is reported, and the following ones keep their time.
     #[test]
     fn spoilt_packets_are_silence_and_are_told() {
         let good = include_bytes!("../../../fuzz/corpus/recording/taps.m4a");
@@ -321,7 +321,7 @@ mod tests {
         };
         let read: Vec<Recording> = (300..1200).step_by(20).filter_map(spoilt).collect();
         assert!(read.iter().any(|read| read.spoilt > 0));
-        // A recording that lacks some of its sound says so.
+        // A recording that lacks some of its sound reports that.
         let length = whole.samples.len();
         assert!(read.iter().all(|read| read.samples.len() == length || read.spoilt > 0));
     }

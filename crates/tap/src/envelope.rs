@@ -1,11 +1,11 @@
-//! How loud one tone is in time: its band, turned to frequency 0 and averaged.
+//! The level of one tone in time: its band, shifted to frequency 0 and averaged.
 
 use std::f64::consts::{PI, TAU};
 
 use faer::c64;
 
-/// Levels (dB) of the tone of that frequency (Hz) at that number of moments of some samples, by windows of cos² of
-/// that length (s) which lie inside of it; with the moment of each window's middle (s).
+/// Levels (dB) of the tone of that frequency (Hz) at that number of moments, each with the time of the middle of its
+/// window (s). The windows are cos² of that length (s) and lie inside the samples.
 pub fn envelope(samples: &[f64], rate: f64, hz: f64, window: f64, moments: usize) -> Vec<[f64; 2]> {
     let length = ((window * rate) as usize).max(2);
     let Some(room) = samples.len().checked_sub(length) else { return vec![] };
@@ -28,7 +28,7 @@ pub fn envelope(samples: &[f64], rate: f64, hz: f64, window: f64, moments: usize
 mod tests {
     use super::*;
 
-    /// A damped tone falls by `20 δ t/ln 10` dB, whatever the window.
+    /// A damped tone falls by `20 δ t/ln 10` dB, with any window.
     #[test]
     fn a_damped_tone_falls_on_a_line() {
         let (rate, decay) = (8000.0, 30.0);

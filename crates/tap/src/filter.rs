@@ -1,4 +1,4 @@
-//! Filters that go with time, so that nothing is heard before its onset, and levels of short frames.
+//! Causal filters, so that nothing appears before its onset, and levels of short frames.
 //!
 //! # Source
 //!
@@ -7,7 +7,7 @@
 
 use std::f64::consts::PI;
 
-/// What a filter lets through.
+/// The frequencies that a filter passes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Pass {
     /// Frequencies above this one (Hz).
@@ -55,7 +55,7 @@ pub fn levels(samples: &[f64], frame: usize) -> Vec<f64> {
     samples.chunks(frame.max(1)).map(level).collect()
 }
 
-/// The largest value; −∞ of none.
+/// The largest value; −∞ if there are none.
 pub fn most(values: &[f64]) -> f64 {
     values.iter().copied().fold(f64::NEG_INFINITY, f64::max)
 }
@@ -66,13 +66,13 @@ fn sorted(values: &[f64]) -> Vec<f64> {
     sorted
 }
 
-/// The value below which that share of all lies; 0 of none.
+/// The value below which that share of all lies; 0 if there are none.
 pub fn quantile(values: &[f64], share: f64) -> f64 {
     let place = share * values.len().saturating_sub(1) as f64;
     sorted(values).get(place.round() as usize).copied().unwrap_or(0.0)
 }
 
-/// The middle one; the mean of the middle two of an even number; 0 of none.
+/// The middle one; the mean of the middle two of an even number; 0 if there are none.
 pub fn median(values: &[f64]) -> f64 {
     match sorted(values)[..] {
         [] => 0.0,
@@ -85,7 +85,7 @@ mod tests {
     use super::*;
     use std::f64::consts::TAU;
 
-    /// `|H|² = 1/(1 + (f/f_c)^±8)` with frequencies as the bilinear transform bends them.
+    /// `|H|² = 1/(1 + (f/f_c)^±8)` with frequencies warped by the bilinear transform.
     #[test]
     fn butterworth_passes_what_its_formula_says() {
         let rate = 8000.0;

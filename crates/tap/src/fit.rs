@@ -7,8 +7,9 @@
 //! D(ν; f, δ) = Σ_n e^{(−δ + 2πi (f − ν)) n/r} = (1 − z^N)/(1 − z),   z = e^{(−δ + 2πi (f − ν))/r}
 //! ```
 //!
-//! exactly, of N samples at rate r. Frequencies f and decays δ are those of the object, amplitudes and ground those of
-//! a tap. The latter are linear and eliminated (variable projection); the former by Gauss-Newton with damped steps.
+//! exactly, for N samples at the rate r. Frequencies f and decays δ belong to the object, amplitudes a and ground c to
+//! a tap. Amplitudes and ground are linear and eliminated (variable projection); the others follow by damped
+//! Gauss-Newton.
 //!
 //! # Source
 //!
@@ -50,7 +51,7 @@ impl Pole {
 /// A band of one tap's transform.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Band {
-    /// Which tap it is of.
+    /// Index of its tap.
     pub tap: usize,
     rate: f64,
     samples: usize,
@@ -59,11 +60,11 @@ pub struct Band {
     weight: f64,
 }
 
-/// Fewer lines do not say what is tone and what is ground.
+/// Least number of lines that distinguishes a tone from the ground.
 const FEWEST_LINES: usize = 7;
 
 impl Band {
-    /// The lines of these samples within `half` of the middle (Hz); None where they are too few.
+    /// The lines of these samples within `half` of the middle (Hz); `None` if there are too few.
     pub fn new(tap: usize, samples: &[f64], rate: f64, middle: f64, half: f64) -> Option<Self> {
         let step = rate / samples.len().max(1) as f64;
         let first = ((middle - half) / step).ceil().max(1.0) as usize;
@@ -81,7 +82,7 @@ impl Band {
                 (*a, *b) = (x + twice * *a - *b, *a);
             }
         }
-        // Goertzel's sums, turned by (N − 1) samples, which is one sample back.
+        // Goertzel's sums, shifted by N − 1 samples, which equals one sample back.
         let line = |(k, turn): (usize, &f64)| {
             let sum = c64::from(one[k]) - c64::cis(-turn) * two[k];
             ((first + k) as f64 * step, sum * c64::cis(*turn))
@@ -100,7 +101,7 @@ impl Band {
         (1.0 - (exponent * self.samples as f64).exp()) / (1.0 - exponent.exp())
     }
 
-    /// The parts of these poles in every line, by the real and the imaginary part of an amplitude, then the ground.
+    /// Columns of these poles in every line, for real and imaginary part of each amplitude, then those of the ground.
     fn columns(&self, poles: &[Pole]) -> Vec<Vec<c64>> {
         let own = |pole: &Pole| {
             let both = |(nu, _): &(f64, c64)| {
@@ -120,7 +121,7 @@ impl Band {
         poles.iter().flat_map(own).chain(ground).collect()
     }
 
-    /// What is left beside these poles and the ground.
+    /// The residual of these poles and the ground.
     fn left(&self, poles: &[Pole]) -> Vec<c64> {
         let mut target: Vec<c64> = self.lines.iter().map(|(_, x)| *x).collect();
         Basis::of(self.columns(poles), real_dot).take_off(&mut target);
@@ -136,33 +137,33 @@ impl Band {
         self.square(poles) / self.square(&[]).max(1e-300)
     }
 
-    /// The logarithm of the first pole's amplitude where the band begins, beside the others.
+    /// The logarithm of the first pole's amplitude at the beginning of the band, given the other poles.
     pub fn amplitude(&self, poles: &[Pole]) -> f64 {
         let own = self.square(&poles[1..]) - self.square(poles);
         let of_one = square(&self.columns(&poles[..1])[0]);
         0.5 * (own.max(1e-300) / of_one.max(1e-300)).ln()
     }
 
-    /// Degrees of freedom beside that number of poles.
+    /// Degrees of freedom with that number of poles.
     fn freedom(&self, poles: usize) -> f64 {
         (2 * self.lines.len()).saturating_sub(2 * poles + 4).max(1) as f64
     }
 
-    /// Weighs the band by what is left of it beside these poles.
+    /// Weights the band by the residual of these poles.
     pub fn weigh(&mut self, poles: &[Pole]) {
         self.weight = (self.freedom(poles.len()) / self.square(poles).max(1e-300)).sqrt();
     }
 }
 
-/// Poles and what is known of them.
+/// Fitted poles and their uncertainty.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fit {
     /// The poles.
     pub poles: Vec<Pole>,
-    /// Standard deviations of every pole's frequency (relative) and decay (of its logarithm), by what is left.
+    /// Standard deviations of every pole's frequency (relative) and decay (of its logarithm), from the residual.
     // The Cramér-Rao bound.
     pub deviations: Vec<[f64; 2]>,
-    /// Weighed sum of squares.
+    /// Weighted sum of squares.
     pub square: f64,
 }
 
@@ -174,12 +175,12 @@ fn square(values: &[c64]) -> f64 {
 const MOST_STEPS: usize = 30;
 const SETTLED: f64 = 1e-6;
 
-/// Poles where a sum of squares is least, what was computed at them, the sum, and the normal matrix.
+/// The poles of least squares, the value computed at them, the sum of squares, and the normal matrix.
 pub(crate) type Descended<A> = (Vec<Pole>, A, f64, Vec<Vec<f64>>);
 
-/// The least sum of squares from these poles on, by Gauss-Newton with damped steps. `at` computes it, `normal` the
-/// normal matrix and the downhill direction by frequencies in units of δ/π and logarithms of decays. `ends` says
-/// whether a step that lowered the sum by so much was the last, and None where the poles run away.
+/// Finds the least sum of squares from these poles, by Gauss-Newton with damped steps. `at` computes it. `normal`
+/// computes the normal matrix and the downhill direction by frequencies in units of δ/π and logarithms of decays.
+/// `ends` says whether a step that lowered the sum by that much was the last; it returns `None` if the poles diverge.
 pub(crate) fn descended<A>(
     start: &[Pole],
     at: impl Fn(&[Pole]) -> (A, f64),
@@ -229,8 +230,8 @@ fn with(normal: &[Vec<f64>], right: &[f64], damped: f64) -> Vec<Vec<f64>> {
     normal.iter().enumerate().map(row).collect()
 }
 
-/// The poles that fit all bands best, begun at these; `beside` are poles of other tones, which stay. None where they
-/// run away: below a tenth or beyond ten times the decay they began with, or a frequency that leaves its band.
+/// The poles that fit all bands best, from these starting values; `beside` are poles of other tones, which are kept.
+/// `None` if the poles diverge: a decay below a tenth or above ten times its start, or a frequency outside its band.
 pub fn fit(bands: &[Band], start: &[Pole], beside: &[Pole]) -> Option<Fit> {
     let residual = |poles: &[Pole]| {
         let all = [poles, beside].concat();
@@ -271,9 +272,9 @@ pub fn fit(bands: &[Band], start: &[Pole], beside: &[Pole]) -> Option<Fit> {
     Some(Fit { deviations: deviations.collect(), poles, square })
 }
 
-/// Derivatives of what is left by the steps of every pole.
+/// Derivatives of the residual by the steps of every pole.
 fn slopes(poles: &[Pole], here: &[c64], residual: &impl Fn(&[Pole]) -> Vec<c64>) -> Vec<Vec<c64>> {
-    /// Of a derivative by differences: far above round-off, far below what bends.
+    /// Step of a difference quotient: far above round-off, far below the curvature.
     const STEP: f64 = 1e-5;
     let along = |k: usize| {
         let mut step = [0.0; 2];
@@ -329,7 +330,7 @@ mod tests {
         assert!((one.poles[0].hz / truth[0].hz - 1.0).abs() < 1e-9);
     }
 
-    /// In white noise errors over their deviations have a mean square of 1, within four deviations of that.
+    /// In white noise, errors over their standard deviations have a mean square of 1, within four standard deviations.
     #[test]
     fn deviations_are_those_of_white_noise() {
         let pole = Pole { hz: 611.3, decay: 20.0 };

@@ -1,8 +1,8 @@
-//! Hum of the mains: one frequency near 50 or 60 Hz and its harmonics, found and taken off.
+//! Hum of the mains: one frequency near 50 or 60 Hz and its harmonics, found and removed.
 //!
-//! The hum is `Σ_h a_h cos(2π h f₀ t) + b_h sin(2π h f₀ t)`. f₀ is where the periodogram over its surroundings, its
-//! logarithm summed over 15 harmonics, is largest; the amplitudes of 20 harmonics are those of least squares over the
-//! quieter half of the recording.
+//! The hum is `Σ_h a_h cos(2π h f₀ t) + b_h sin(2π h f₀ t)`. f₀ maximises the logarithm of the periodogram over its
+//! surroundings, summed over 15 harmonics. The amplitudes of 20 harmonics are fitted to the quieter half of the
+//! recording.
 
 use std::f64::consts::TAU;
 
@@ -10,22 +10,22 @@ use crate::filter::{Pass, filtered, levels, median, most};
 use crate::least_squares::solve;
 use crate::transform::power;
 
-/// Mains of the world (Hz), and how far they may be off, relative; a clock of a recorder is a thousandth of that.
+/// Mains frequencies (Hz), and their largest relative deviation; that of a recorder's clock is a thousandth of it.
 const MAINS: [f64; 2] = [50.0, 60.0];
 const OFF: f64 = 0.006;
-/// Harmonics that are summed, and that are taken off.
+/// Number of harmonics that are summed, and that are removed.
 const SUMMED: usize = 15;
 const REMOVED: usize = 20;
-/// So many harmonics of hum, each by that factor, stand out of the periodogram around them.
+/// Least number of harmonics that exceed the periodogram around them, and the least factor.
 const FEWEST: usize = 4;
 const STANDS_OUT: f64 = 20.0;
-/// Within these distances of them (Hz) there is no line that is larger over that factor.
+/// A line counts as hum if no line within these distances (Hz) reaches it divided by this factor.
 const APART: [f64; 2] = [0.6, 12.0];
 const ALONE: f64 = 2.0;
-/// Shorter recordings do not tell hum from tones (s).
+/// Shortest recording in which hum and tones can be distinguished (s).
 const SHORTEST: f64 = 0.7;
 
-/// The frequency of the hum (Hz); None where there is none.
+/// The frequency of the hum (Hz); `None` if there is none.
 pub fn hum(samples: &[f64], rate: f64) -> Option<f64> {
     let seconds = samples.len() as f64 / rate;
     if seconds < SHORTEST {
@@ -34,7 +34,7 @@ pub fn hum(samples: &[f64], rate: f64) -> Option<f64> {
     let count = samples.len() as f64;
     let hann = |n: usize| 0.5 - 0.5 * (TAU * (n as f64 + 0.5) / count).cos();
     let mut windowed: Vec<f64> = samples.iter().enumerate().map(|(n, x)| x * hann(n)).collect();
-    // Twice as many lines as samples, so that a line between two is seen.
+    // Twice as many lines as samples, so that a peak between two lines is found.
     windowed.resize(2 * samples.len(), 0.0);
     let spectrum = power(&windowed);
     let step = rate / windowed.len().next_power_of_two() as f64;
@@ -44,7 +44,7 @@ pub fn hum(samples: &[f64], rate: f64) -> Option<f64> {
         let next = spectrum.get(k + 1).copied().unwrap_or(0.0);
         spectrum.get(k).map_or(0.0, |here| (1.0 - part) * here + part * next)
     };
-    // Each harmonic over what is around it: neither a tap's tone nor one loud harmonic decides.
+    // Each harmonic relative to its surroundings, so that neither the tone of a tap nor one loud harmonic decides.
     let ratios = |f0: f64| {
         (1..=SUMMED).map(move |h| h as f64 * f0).map(|hz| {
             let away = [4.8, 6.0, 7.2, 8.4, 9.6, 10.8, 12.0];
@@ -52,7 +52,7 @@ pub fn hum(samples: &[f64], rate: f64) -> Option<f64> {
             at(hz) / median(&around).max(1e-300)
         })
     };
-    // Taps at even times have lines too, but at all multiples of their rate.
+    // Evenly spaced taps have lines too, but at all multiples of their rate.
     let is_alone = |hz: f64| {
         let line = |hz: f64| ((hz / step) as usize).min(spectrum.len());
         let [below, above] = [[hz - APART[1], hz - APART[0]], [hz + APART[0], hz + APART[1]]];
@@ -76,7 +76,7 @@ pub fn hum(samples: &[f64], rate: f64) -> Option<f64> {
         .map(|(k, _)| k + 1)
         .collect();
     let alone = heard.iter().filter(|h| is_alone(**h as f64 * best)).count();
-    // The h-th harmonic tells f₀ h times as exactly.
+    // The h-th harmonic gives f₀ h times as accurately.
     let weight: f64 = heard.iter().map(|h| (h * h) as f64).sum();
     let sum: f64 =
         heard.iter().map(|h| *h as f64 * top(&spectrum, *h as f64 * best / step) * step).sum();
@@ -147,7 +147,7 @@ mod tests {
         (0..count).map(|_| next()).collect()
     }
 
-    /// Taps at exactly even times have lines at all multiples of their rate, some of them at those of the mains.
+    /// Taps at exactly even times have lines at all multiples of their rate, some of them at harmonics of the mains.
     #[test]
     fn evenly_spaced_taps_are_no_hum_and_hide_none() {
         let (rate, noise) = (8000.0, noise(48_000));

@@ -4,7 +4,7 @@ use std::ops::{AddAssign, Mul};
 
 use faer::c64;
 
-/// The solution of a symmetric, positive system whose last column is the right side; None where it is singular.
+/// The solution of a symmetric, positive system whose last column is the right side; `None` if it is singular.
 pub fn solve(mut rows: Vec<Vec<f64>>) -> Option<Vec<f64>> {
     let count = rows.len();
     for i in 0..count {
@@ -26,7 +26,7 @@ pub fn solve(mut rows: Vec<Vec<f64>>) -> Option<Vec<f64>> {
     solution.iter().all(|x| x.is_finite()).then_some(solution)
 }
 
-/// The inverse of a symmetric, positive matrix; None where it is singular.
+/// The inverse of a symmetric, positive matrix; `None` if it is singular.
 pub fn inverse(matrix: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
     let column = |k: usize| {
         let with =
@@ -46,7 +46,7 @@ pub fn real_dot(a: &[c64], b: &[c64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a.re * b.re + a.im * b.im).sum()
 }
 
-/// Takes a share of a column off another one.
+/// Subtracts a multiple of a column from another one.
 pub fn take<S: Copy>(from: &mut [c64], share: S, column: &[c64])
 where
     c64: Mul<S, Output = c64>,
@@ -68,7 +68,7 @@ where
 {
     /// The basis of these columns, by [`dot`] or [`real_dot`].
     pub fn of(columns: impl IntoIterator<Item = Vec<c64>>, dot: fn(&[c64], &[c64]) -> S) -> Self {
-        /// A column of which less is left is one of those before.
+        /// A column with a smaller remainder depends on those before it.
         const LEAST: f64 = 1e-12;
         let mut basis = Self { columns: vec![], triangle: vec![], dot };
         for mut column in columns {
@@ -86,7 +86,7 @@ where
         basis
     }
 
-    /// Takes what the columns span off a target; the shares of Q in it.
+    /// Removes from a target its projection on the columns; returns its components along Q.
     pub fn take_off(&self, target: &mut [c64]) -> Vec<S> {
         let mut share = |column: &Vec<c64>| {
             let share = (self.dot)(column, target);

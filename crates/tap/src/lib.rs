@@ -1,16 +1,16 @@
-//! What does a recording of taps say?
+//! Which taps and tones does a recording contain?
 //!
 //! | file | question |
 //! |---|---|
-//! | [`transform`], [`filter`], [`least_squares`] | what is it computed with |
+//! | [`transform`], [`filter`], [`least_squares`] | mathematical tools |
 //! | [`recording`] | what was recorded |
-//! | [`hum`] | is there hum, and what is left without it |
-//! | [`onsets`] | when does a tap begin, when does it ring alone |
+//! | [`hum`] | is there hum, and what does the recording sound like without it |
+//! | [`onsets`] | when does a tap begin, and when does its ringing begin |
 //! | [`spectrum`] | which tones may there be |
 //! | [`fit`](mod@fit), [`pencil`] | which damped tones do all taps share; where do two in one band begin |
-//! | [`envelope`](mod@envelope) | how loud is one tone in time |
-//! | [`tones`](mod@tones) | the tones, and what is known of them |
-//! | [`analysis`] | all of it, what is to be said, why it is refused |
+//! | [`envelope`](mod@envelope) | the level of one tone in time |
+//! | [`tones`](mod@tones) | the tones, with their errors |
+//! | [`analysis`] | the whole analysis, with warnings, or the reason for a refusal |
 //! | `decode` | how is a file read (feature `audio`) |
 
 #![forbid(unsafe_code)]

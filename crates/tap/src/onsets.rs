@@ -1,8 +1,8 @@
-//! When does a tap begin, when does it ring alone?
+//! When does a tap begin, and when does its ringing begin?
 //!
-//! A tap is a rise of the band from 400 Hz to 12 kHz in frames of 2 ms. It begins with the first sample above a quarter
-//! of the largest in the next 30 ms: codecs are heard up to 20 ms early. Ringing begins after the last bounce, which is
-//! found in what linear prediction leaves: ringing is predicted by the samples before, a blow is not.
+//! A tap is a rise of the level in the band from 400 Hz to 12 kHz, in frames of 2 ms. It begins with the first sample
+//! above a quarter of the largest one in the next 30 ms, because codecs smear it up to 20 ms ahead. Ringing begins
+//! after the last bounce. Bounces are found in the residual of linear prediction: it predicts ringing, but not a blow.
 //!
 //! # Source
 //!
@@ -12,26 +12,26 @@ use crate::filter::{Pass, filtered, levels, most, quantile};
 
 /// Frame (s).
 const FRAME: f64 = 2e-3;
-/// A tap rises by that over the loudest of the three frames before, stands that above the quiet of the recording, and
-/// is at most so far below the loudest (dB).
+/// Least rise of a tap above the loudest of the three frames before it, least level above the quiet of the recording,
+/// and largest distance below the loudest tap (dB).
 const RISE: f64 = 9.0;
 const ABOVE_QUIET: f64 = 15.0;
 const BELOW_LOUDEST: f64 = 40.0;
-/// Where the beginning is looked for (s), and the share of the largest there.
+/// Time in which the beginning is sought (s), and its share of the largest sample there.
 const LOOK: f64 = 0.03;
 const SHARE: f64 = 0.25;
-/// Onsets closer than that are one tap (s).
+/// Onsets closer than this are one tap (s).
 const APART: f64 = 0.15;
-/// A tap falls by so much in that time (dB, s).
+/// Least fall of a tap, and the time in which it falls (dB, s).
 const FALL: f64 = 12.0;
 const FALLEN: f64 = 0.6;
-/// Bounces rise by that and stand so far above the usual (dB), between these times after a tap (s).
+/// Least rise of a bounce, its least level above the usual (dB), and the times after a tap to search for it (s).
 const BOUNCE: f64 = 4.0;
 const BOUNCE_ABOVE: f64 = 4.5;
 const BOUNCES: [f64; 2] = [0.01, 0.14];
-/// Bounces are no further below their tap than that (dB).
+/// Largest distance of a bounce below its tap (dB).
 const FAINT: f64 = 25.0;
-/// Samples by which the next one is predicted.
+/// Number of samples that predict the next one.
 const ORDER: usize = 64;
 
 /// A tap in a recording.
@@ -41,7 +41,7 @@ pub struct Onset {
     pub at: usize,
     /// First sample of the last bounce, or of the tap.
     pub rings: usize,
-    /// How often it bounced.
+    /// Number of bounces.
     pub bounces: usize,
 }
 
@@ -85,7 +85,7 @@ fn before(levels: &[f64], frame: usize) -> f64 {
     most(&levels[frame.saturating_sub(3)..frame])
 }
 
-/// The first sample from there on above a share of the largest among the next ones.
+/// The first sample from `from` on that exceeds a share of the largest among the next ones.
 fn begins(samples: &[f64], from: usize, look: usize) -> usize {
     let part = &samples[from..(from + look).min(samples.len())];
     let most = part.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
@@ -95,7 +95,7 @@ fn begins(samples: &[f64], from: usize, look: usize) -> usize {
 fn with_bounces(samples: &[f64], rate: f64, at: usize) -> Onset {
     let frame = (FRAME * rate).round() as usize;
     let end = (at + (BOUNCES[1] * rate) as usize).min(samples.len());
-    // Blows stand out of what a linear prediction leaves, in which ringing is no more.
+    // Blows stand out of the residual of a linear prediction, which removes ringing.
     let struck = unpredicted(&samples[at.saturating_sub(ORDER)..end]);
     let struck = &struck[at.min(ORDER)..];
     let loud = levels(struck, frame);
@@ -116,7 +116,7 @@ fn with_bounces(samples: &[f64], rate: f64, at: usize) -> Onset {
     onset
 }
 
-/// What is left of samples by linear prediction, by Levinson's recursion on their correlation.
+/// The residual of a linear prediction of the samples, by Levinson's recursion on their correlation.
 fn unpredicted(samples: &[f64]) -> Vec<f64> {
     let product = |lag: usize| samples.iter().zip(&samples[lag..]).map(|(a, b)| a * b).sum::<f64>();
     let mut correlation: Vec<f64> =

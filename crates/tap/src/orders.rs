@@ -1,8 +1,8 @@
 //! How many resonances do responses share, and which?
 //!
-//! One more at a time: that which would lower the weighed sum of squares most, among the places where most is left and
-//! the flanks of those that are there; then all are fitted together. It ends where the next would lower the sum by no
-//! more than noise does. What was found with every number of poles tells which are stable.
+//! One pole is added at a time: the one that lowers the weighted sum of squares most. It is sought where the residual
+//! is largest and on the flanks of the poles found so far; then all poles are fitted together. The search ends when the
+//! next pole would lower the sum by no more than noise does. The results for every number show which are stable.
 
 use crate::fit::Pole;
 use crate::resonances::{Damping, Projection, Responses, Shared, shared};
@@ -16,34 +16,34 @@ pub struct Orders {
     pub orders: Vec<Vec<Pole>>,
     /// The last of them.
     pub fit: Shared,
-    /// By how much every pole lowers the sum of squares, over what noise would.
+    /// Decrease of the sum of squares due to every pole, over that due to noise.
     pub weights: Vec<f64>,
 }
 
-/// Poles at most.
+/// Most poles.
 const MOST: usize = 40;
-/// Places that are tried for the next pole, and how many of them are fitted.
+/// Number of places that are tried for the next pole, and number of those that are fitted.
 const PLACES: usize = 14;
 const TRIES: usize = 12;
 /// Loss factors with which they are tried.
 const TRIED: [f64; 6] = [0.0015, 0.004, 0.01, 0.02, 0.04, 0.1];
-/// A pole of another place is tried so far from one that is there, over its loss factor.
+/// Distance of a tried place from an existing pole, over its loss factor.
 const FLANK: f64 = 0.4;
-/// By how much dashpots must lower the sum of squares to be taken in place of the material.
+/// Least decrease of the sum of squares for which dashpots are assumed in place of the material's loss.
 const DOUBT: f64 = 12.0;
-/// Beyond the band a pole may stand for modes that are there, so far (of the band's end).
+/// Distance beyond the band (as a share of its end) at which a pole may represent modes there.
 const BEYOND: f64 = 0.12;
 
-/// By how much a pole lowers the sum of squares of noise, at most: a Gamma variable of as many complex numbers as there
-/// are responses, the largest of a few hundred.
+/// Largest decrease of the sum of squares that a pole causes in noise: a Gamma variable of as many complex numbers as
+/// there are responses, the largest of a few hundred.
 fn by_chance(responses: usize) -> f64 {
     let count = responses as f64 + 1.0;
     count + 6.0 * count.sqrt() + 16.0
 }
 
-/// Whether two poles are so near that they are one, which moved a little between responses.
+/// Whether two poles are so near that they are one pole that moved a little between responses.
 fn has_echo(poles: &[Pole]) -> bool {
-    /// Over the half-power width of the wider one; twins that can be told apart are farther off.
+    /// Distance over the half-power width of the wider one; twins that can be distinguished are farther apart.
     const NEAR: f64 = 0.1;
     let near = |a: &Pole, b: &Pole| {
         (a.hz - b.hz).abs() < NEAR * f64::max(a.hz * a.loss(), b.hz * b.loss())
@@ -52,18 +52,18 @@ fn has_echo(poles: &[Pole]) -> bool {
 }
 
 impl Orders {
-    /// Seeks the poles of responses, each kind of damping by itself. None where there are none.
+    /// Seeks the poles of responses for each kind of damping. `None` if there are none.
     pub fn of(all: &mut [Responses]) -> Option<Self> {
         let count: usize = all.iter().map(|one| one.values.len()).sum();
         let mut best = Self::damped(all, Damping::Material)?;
-        // What the same poles leave tells whether it is worth while to seek them as of dashpots.
+        // The residual of these poles with dashpots shows whether a search with dashpots is worth while.
         let as_dashpots = shared(all, &best.fit.poles, Damping::Dashpots);
         if as_dashpots.is_some_and(|fit| fit.square + DOUBT < best.fit.square) {
             let cost = |one: &Self| one.fit.square + by_chance(count) * one.fit.poles.len() as f64;
             let other = Self::damped(all, Damping::Dashpots);
             best = other.filter(|other| cost(other) < cost(&best)).unwrap_or(best);
         }
-        // Noise is now what the poles leave.
+        // The noise is now the residual of the poles.
         for one in all.iter_mut() {
             let at = Projection::new(one, &best.fit.poles, best.damping);
             one.weigh_left(&at.left);
@@ -98,7 +98,7 @@ impl Orders {
         Some(Self { damping, orders, fit: fit?, weights: vec![] })
     }
 
-    /// By how much every pole lowers the sum of squares.
+    /// Decrease of the sum of squares due to every pole, over that due to noise.
     fn weighed(&self, all: &[Responses], count: usize) -> Vec<f64> {
         let without = |p: usize| {
             let mut poles = self.fit.poles.clone();
@@ -110,7 +110,7 @@ impl Orders {
     }
 }
 
-/// Poles that may come next, with by how much they would lower the sum of squares, the best first.
+/// Candidates for the next pole, each with its decrease of the sum of squares, the best first.
 fn candidates(
     all: &[Responses],
     here: &[Projection],
@@ -138,7 +138,7 @@ fn candidates(
     found
 }
 
-/// The frequencies at which most is left, each the largest within its surroundings.
+/// The frequencies of the largest residuals, each the largest within its surroundings.
 fn most_left(of: &Responses, at: &Projection) -> Vec<f64> {
     let lines = of.hz.len();
     let power = |l: usize| at.left.iter().map(|left| left[l].norm_sqr()).sum::<f64>();
@@ -193,7 +193,7 @@ mod tests {
         Responses::new(hz.clone(), values, None)
     }
 
-    /// Twins 1 % apart and two more, of which no response has all; and none in noise alone.
+    /// Twins 1 % apart and two more, of which no response has all; in noise there are none.
     #[test]
     fn as_many_poles_are_found_as_there_are() {
         let truth = [
@@ -220,7 +220,7 @@ mod tests {
             }
             assert!(found.weights.iter().all(|weight| *weight > 1.0), "{found:?}");
         }
-        // A pole that moves by 0.002 % between two groups of responses, as with another mass on the body, is one.
+        // A pole that moves by 0.002 % between two groups of responses, as with another mass on the body, is one pole.
         let mut moved = truth;
         moved.iter_mut().for_each(|pole| *pole = Pole::of(1.00002 * pole.hz, pole.loss()));
         let two = [(&truth, 7), (&moved, 8)];

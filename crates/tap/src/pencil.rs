@@ -1,8 +1,8 @@
-//! Where do several tones in one band begin? The matrix pencil of all taps together.
+//! Starting values for several tones in one band, by the matrix pencil of all taps together.
 //!
-//! The band of a tap, transformed back, is a row of K values `y_m = Σ_p a_p z_p^m` beside noise. Their Hankel matrices,
-//! of all taps one above the other, have a row space that the powers of the poles span. Of its strongest vectors V,
-//! with its last row left out and with its first, `V₁ Z = V₂`: the eigenvalues of Z are the z_p.
+//! The inverse transform of a tap's band is a row of K values `y_m = Σ_p a_p z_p^m` plus noise. The Hankel matrices of
+//! all taps, one below the other, have a row space that the powers of the poles span. Let V be its strongest vectors,
+//! V₁ without their last row and V₂ without their first. Then `V₁ Z = V₂`, and the eigenvalues of Z are the z_p.
 //!
 //! # Source
 //!
@@ -16,19 +16,19 @@ use faer::c64;
 use crate::fit::{Band, Pole};
 use crate::least_squares::{dot, take};
 
-/// Values of a row at most, so that the work stays small.
+/// Most values in a row, to limit the work.
 const LONGEST: usize = 48;
 /// Turns of the iteration for the strongest two vectors.
 const TURNS: usize = 60;
 
-/// Two poles that begin a fit of these bands; None where the band does not have two that die out.
+/// Two poles as starting values for a fit of these bands; `None` if the band does not have two decaying ones.
 pub fn two_poles(bands: &[Band]) -> Option<[Pole; 2]> {
     let shortest = bands.iter().map(|band| band.lines().len()).min()?;
     let row = (shortest / 2).min(LONGEST);
     if row < 4 {
         return None;
     }
-    // All taps have lines as far apart as their lengths: only those of equal length share powers of poles.
+    // The distance of a tap's lines depends on its length, so only taps of equal length share the powers of the poles.
     let step = |band: &Band| band.lines()[1].0 - band.lines()[0].0;
     let same = |band: &&Band| {
         let ratio = step(band) * band.lines().len() as f64
@@ -61,7 +61,7 @@ pub fn two_poles(bands: &[Band]) -> Option<[Pole; 2]> {
     poles.iter().all(dies).then_some(poles)
 }
 
-/// The band's lines transformed back about its middle, tapered so that its ends do not ring.
+/// The inverse transform of the band's lines about its middle, tapered so that its ends do not ring.
 fn back(band: &Band) -> Vec<c64> {
     let lines = band.lines();
     let (count, middle) = (lines.len(), (lines.len() / 2) as f64);
@@ -73,7 +73,7 @@ fn back(band: &Band) -> Vec<c64> {
         let turn = |k: usize| c64::cis(TAU * (k as f64 - middle) * m as f64 / count as f64);
         lines.iter().enumerate().map(|(k, (_, x))| x * turn(k) * taper(k)).sum()
     };
-    // The first values and the last are those of the cut, not of the tone.
+    // The first and the last values are affected by the cut.
     let edge = 1 + count / 16;
     (edge..count - edge).map(value).collect()
 }
@@ -124,7 +124,7 @@ fn shifted(vectors: &[Vec<c64>; 2]) -> Option<[c64; 2]> {
 mod tests {
     use super::*;
 
-    /// Two damped tones without noise; the band's ends leave 3 % of the smaller gap.
+    /// Two damped tones without noise; the ends of the band cause an error of 3 % of the smaller gap.
     #[test]
     fn two_damped_tones_are_told_apart() {
         let rate = 16_000.0;

@@ -1,25 +1,25 @@
 //! A recording: sound as a row of samples, and where it came from.
 
-/// The longest recording that is listened to (s).
+/// The longest recording that is analysed (s).
 pub const LONGEST: f64 = 120.0;
 /// The largest file that is read (bytes).
 pub const LARGEST: u64 = 50_000_000;
-/// Sample rates that are taken (1/s).
+/// Sample rates that are accepted (1/s).
 pub const RATES: [f64; 2] = [4000.0, 192_000.0];
 
-/// Why a file or its samples cannot be listened to.
+/// Why a file or its samples cannot be analysed.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Unreadable {
     /// The file cannot be opened.
     #[error("cannot be read: {0}")]
     File(#[from] std::io::Error),
-    /// Its contents are no sound that is known here.
+    /// Its contents are not sound in a supported format.
     #[error("{found}; expected {expected}")]
     Sound {
-        /// What was found.
+        /// The finding.
         found: String,
-        /// What was expected, or what to do.
+        /// The expected contents, or advice.
         expected: String,
     },
 }
@@ -36,17 +36,17 @@ impl Unreadable {
 pub struct Recording {
     /// The file's name.
     pub name: String,
-    /// The file's kind, such as "m4a"; None for bare samples.
+    /// The file's kind, such as "m4a"; `None` for bare samples.
     pub container: Option<String>,
-    /// How the sound is written in it, such as "AAC"; None for bare samples.
+    /// Its codec, such as "AAC"; `None` for bare samples.
     pub codec: Option<String>,
     /// Samples per second.
     pub rate: f64,
-    /// How many channels the file has.
+    /// Number of channels in the file.
     pub channels: usize,
     /// Time of the first sample in the file (s).
     pub from: f64,
-    /// How many pieces of the file cannot be decoded; silence stands for them.
+    /// Number of packets that cannot be decoded, which are replaced by silence.
     pub spoilt: usize,
     /// The samples of one channel; full scale is 1.
     pub samples: Vec<f64>,
@@ -58,7 +58,7 @@ pub fn loudest(channels: Vec<Vec<f32>>) -> Option<Vec<f32>> {
     channels.into_iter().max_by(|a, b| power(a).total_cmp(&power(b)))
 }
 
-/// Refuses rates that are not listened to.
+/// Refuses sample rates outside [`RATES`].
 pub(crate) fn is_rate(rate: f64) -> Result<(), Unreadable> {
     if (RATES[0]..=RATES[1]).contains(&rate) {
         return Ok(());
@@ -67,7 +67,7 @@ pub(crate) fn is_rate(rate: f64) -> Result<(), Unreadable> {
     Err(Unreadable::sound(format!("a rate of {rate} 1/s"), expected))
 }
 
-/// Refuses a number of samples that is too long to listen to.
+/// Refuses more samples than [`LONGEST`].
 pub(crate) fn is_short(samples: usize, rate: f64) -> Result<(), Unreadable> {
     if samples as f64 <= LONGEST * rate {
         return Ok(());
@@ -84,8 +84,7 @@ impl Recording {
     ///
     /// # Errors
     ///
-    /// [`Unreadable::Sound`] for samples that are no numbers, for more than [`LONGEST`] and for a rate beyond
-    /// [`RATES`].
+    /// [`Unreadable::Sound`] for samples that are not numbers, more than [`LONGEST`] or a rate beyond [`RATES`].
     pub fn of(name: &str, samples: Vec<f64>, rate: f64) -> Result<Self, Unreadable> {
         is_rate(rate)?;
         if let Some(k) = samples.iter().position(|x| !x.is_finite()) {
@@ -105,8 +104,8 @@ impl Recording {
         self.samples.iter().fold(0.0_f64, |most, x| most.max(x.abs()))
     }
 
-    /// The share of samples above 0.9 of the largest among those above half of it: 0.02 to 0.04 of taps, more where
-    /// they are clipped, whatever a codec made of that.
+    /// The share of samples above 0.9 of the largest among those above half of it: 0.02 to 0.04 for taps, and more if
+    /// they are clipped, with any codec.
     pub fn clipped_share(&self) -> f64 {
         let largest = self.largest();
         let above =
@@ -127,7 +126,8 @@ mod tests {
         assert!(told(vec![0.0; 4000 * 121], 4000.0).to_string().contains("more than 120 s"));
     }
 
-    /// Of a sine, `arccos(0.9)/arccos(0.5)` of what is above half is above 0.9; of a cut one more.
+    /// In a sine, the share `arccos(0.9)/arccos(0.5)` of the samples above half is above 0.9; in a clipped one the
+    /// share is larger.
     #[test]
     fn a_cut_top_is_seen() {
         let sine = |cut: f64| {

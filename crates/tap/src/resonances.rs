@@ -7,9 +7,9 @@
 //! D_p(f) = f_p² (1 + i η_p) − f²     or     f_p² + i η_p f f_p − f²
 //! ```
 //!
-//! Poles are those of the body; residues A and what modes beyond the band leave, c, are those of a response. The
-//! latter are linear and eliminated (variable projection, in Kaufman's simplification of the derivative); the former by
-//! the steps of [`fit`](mod@crate::fit). Noise is known line by line, and weighs.
+//! Poles belong to the body. Residues A, and the contributions c of modes beyond the band, belong to a response; they
+//! are linear and are eliminated (variable projection, in Kaufman's simplification of the derivative). The poles follow
+//! by the steps of [`fit`](mod@crate::fit). The noise of every line is known and is used as its weight.
 //!
 //! # Source
 //!
@@ -24,7 +24,7 @@ use crate::least_squares::{Basis, dot, inverse};
 /// How a body is damped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Damping {
-    /// By its material: a loss factor, the same at any frequency.
+    /// By its material: a loss factor that is equal at all frequencies.
     Material,
     /// By dashpots, in proportion to velocity; the ratio is half the loss factor.
     Dashpots,
@@ -43,16 +43,16 @@ pub struct Responses {
     scales: Vec<f64>,
 }
 
-/// Lines on either side over which noise is taken as even.
+/// Number of lines on either side over which the noise is taken as constant.
 const AROUND: usize = 12;
 /// Median of the square of a complex normal number over its mean.
 const MEDIAN: f64 = std::f64::consts::LN_2;
 
 impl Responses {
-    /// Responses with the noise that they show themselves: what is left of fourth differences over the lines.
+    /// Responses with the noise in their own values: the residual of fourth differences over the lines.
     ///
-    /// `noise`, where coherence tells it, is relative and for every line. It can only add, since it is often told too
-    /// well.
+    /// `noise` is relative, for every line, if coherence gives it. It can only increase the noise, because coherence
+    /// often makes it too small.
     pub fn new(hz: Vec<f64>, values: Vec<Vec<c64>>, noise: Option<Vec<f64>>) -> Self {
         let (lines, scales) = (vec![1.0; hz.len()], vec![1.0; values.len()]);
         let mut all = Self { hz, values, lines, scales };
@@ -67,7 +67,7 @@ impl Responses {
         all
     }
 
-    /// Takes the noise from what is left of every response.
+    /// Sets the noise from the residual of every response.
     fn weigh(&mut self, left: &[Vec<c64>]) {
         for turn in 0..2 {
             for (scale, left) in self.scales.iter_mut().zip(left) {
@@ -91,7 +91,7 @@ impl Responses {
         }
     }
 
-    /// Takes the noise from what a fit leaves, over the noise that was taken before.
+    /// Sets the noise from the residual of a fit, which is given over the noise set before.
     pub fn weigh_left(&mut self, left: &[Vec<c64>]) {
         let part = |(j, one): (usize, &Vec<c64>)| {
             one.iter().enumerate().map(|(l, r)| *r * self.noise(j, l)).collect()
@@ -110,12 +110,12 @@ impl Responses {
         self.hz[self.hz.len() - 1]
     }
 
-    /// Weights of a residue A (1/kg), the product of both deflections over the modal mass, at pole `p` of so many.
+    /// Weights of a residue A (1/kg), the product of both deflections over the modal mass, at pole `p` of `poles`.
     pub fn residue(p: usize, poles: usize) -> Vec<c64> {
         (0..BEYOND + poles).map(|k| c64::from(f64::from(k == BEYOND + p))).collect()
     }
 
-    /// Weights of a response as it goes on at a complex square `z` of the frequency (Hz²), without the pole `without`.
+    /// Weights that continue a response to a complex square `z` of the frequency (Hz²), without the pole `without`.
     pub fn at(&self, poles: &[Pole], without: Option<usize>, z: c64) -> Vec<c64> {
         let beyond = std::iter::successors(Some(c64::ONE), |p| Some(p * z / self.top().powi(2)));
         let within = poles.iter().enumerate().map(|(p, pole)| match Some(p) == without {
@@ -137,10 +137,10 @@ fn rough(values: &[c64]) -> Vec<c64> {
     (0..values.len()).map(at).collect()
 }
 
-/// What a resonance is at a frequency, −f²/D, and its derivatives by the steps of its pole.
+/// The value of a resonance at a frequency, −f²/D, and its derivatives by the steps of its pole.
 fn resonance(pole: Pole, damping: Damping, f: f64) -> [c64; 3] {
     let (p, loss) = (pole.hz, pole.loss());
-    // At a given decay η f_p is the same whatever the frequency of the pole.
+    // For a given decay, η f_p does not depend on the frequency of the pole.
     let (by, slope) = match damping {
         Damping::Material => (p, loss * p),
         Damping::Dashpots => (f, 0.0),
@@ -165,10 +165,10 @@ pub fn at(square: c64) -> Pole {
 /// Powers of the frequency by which modes beyond the band answer.
 const BEYOND: usize = 5;
 
-/// A set of responses at given poles: what they leave, and the weights of all columns.
+/// A set of responses at given poles: the residuals, and the coefficients of all columns.
 pub struct Projection {
     basis: Basis<c64>,
-    /// What is left of every response, over its noise.
+    /// Residual of every response, over its noise.
     pub left: Vec<Vec<c64>>,
     /// Coefficients of every response, over its noise: of the powers, then residues.
     coefficients: Vec<Vec<c64>>,
@@ -202,13 +202,13 @@ impl Projection {
         of.hz.iter().zip(&of.lines).map(one).collect()
     }
 
-    /// What is left of a column beside all others.
+    /// The remainder of a column after projection on all others.
     fn beside(&self, mut column: Vec<c64>) -> Vec<c64> {
         self.basis.take_off(&mut column);
         column
     }
 
-    /// The weighed sum of squares, 1 per line of noise.
+    /// The weighted sum of squares, 1 per line of noise.
     pub fn square(&self) -> f64 {
         self.left.iter().flatten().map(|r| r.norm_sqr()).sum()
     }
@@ -218,14 +218,14 @@ impl Projection {
         self.coefficients[j][BEYOND + p]
     }
 
-    /// A weighed sum of the coefficients of response `j` (1/kg), by [`Responses::residue`] or [`Responses::at`].
+    /// A weighted sum of the coefficients of response `j` (1/kg), by [`Responses::residue`] or [`Responses::at`].
     pub fn value(&self, of: &Responses, j: usize, weights: &[c64]) -> c64 {
         let sum: c64 = weights.iter().zip(&self.coefficients[j]).map(|(w, c)| w * c).sum();
         sum * of.scales[j]
     }
 
-    /// Standard deviation (1/kg) of that sum, both its parts together, at poles that are known: the size of `x` with
-    /// `x R = weights`.
+    /// Standard deviation (1/kg) of that sum, real and imaginary part together, at known poles: the size of `x` with `x
+    /// R = weights`.
     pub fn deviation(&self, of: &Responses, j: usize, weights: &[c64]) -> f64 {
         let mut row: Vec<c64> = vec![];
         for (column, weight) in self.basis.triangle.iter().zip(weights) {
@@ -235,7 +235,7 @@ impl Projection {
         row.iter().map(|x| x.norm_sqr()).sum::<f64>().sqrt() * of.scales[j]
     }
 
-    /// By how much another pole would lower the sum of squares, if none of the others moved.
+    /// Decrease of the sum of squares due to one more pole, if the others do not move.
     pub fn gain(&self, of: &Responses, pole: Pole, damping: Damping) -> f64 {
         let column = Self::column(of, pole, damping, 0);
         let before = dot(&column, &column).re;
@@ -259,14 +259,14 @@ fn back(triangle: &[Vec<c64>], mut right: Vec<c64>) -> Vec<c64> {
     right
 }
 
-/// Poles that fit, and what is known of them.
+/// Fitted poles and their covariance.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shared {
     /// The poles.
     pub poles: Vec<Pole>,
     /// Covariance of the poles: frequencies over `η f`, and logarithms of loss factors, in turn.
     covariance: Vec<Vec<f64>>,
-    /// Weighed sum of squares.
+    /// Weighted sum of squares.
     pub square: f64,
 }
 
@@ -318,7 +318,7 @@ fn normal(
     (matrix, downhill)
 }
 
-/// The poles that fit all responses best, begun at these; None where one runs away.
+/// The poles that fit all responses best, from these starting values; `None` if one diverges.
 pub fn shared(all: &[Responses], start: &[Pole], damping: Damping) -> Option<Shared> {
     let is_sound = |pole: &Pole| (LOSSES[0]..LOSSES[1]).contains(&pole.loss()) && pole.hz > 0.0;
     let (poles, _, square, matrix) = descended(
@@ -384,7 +384,7 @@ mod tests {
                     assert!((residue.re - residues[p]).abs() < 1e-6 && residue.im.abs() < 1e-6);
                 }
             }
-            // What goes on at complex frequencies is what stands on the lines at real ones; for dashpots nearly.
+            // Continued to complex frequencies it agrees with the values at real ones; for dashpots approximately.
             let (f, within) =
                 (all[0].hz[900], if damping == Damping::Material { 1e-9 } else { 0.1 });
             let on = at.value(&all[0], 1, &all[0].at(&found.poles, None, (f * f).into()));
@@ -393,7 +393,7 @@ mod tests {
         }
     }
 
-    /// In white noise errors over their deviations have a mean square of 1, within four deviations of that.
+    /// In white noise, errors over their standard deviations have a mean square of 1, within four standard deviations.
     #[test]
     fn deviations_are_those_of_white_noise() {
         let (pole, draws) = (Pole::of(411.3, 0.01), 100);

@@ -1,8 +1,8 @@
-//! Which tones may there be: peaks of the spectrum after the taps that stand out of ground and surroundings.
+//! Which tones may there be? Peaks of the spectrum after the taps that exceed the ground and their surroundings.
 //!
-//! Low tones ring for long and lie close to each other; high ones are over soon. So there are three spectra, of windows
-//! that rise in a twentieth of their length and fall over the rest. The ground is that of the quietest quarter of
-//! windows before and between taps, smoothed over frequency, so that a tone that still rings is no ground.
+//! Low tones ring for long and lie close to each other; high ones end soon. There are therefore three spectra, with
+//! windows that rise in a twentieth of their length and fall over the rest. The ground is that of the quietest quarter
+//! of windows before and between taps, smoothed over frequency, so that a tone still ringing is not taken for ground.
 
 use std::f64::consts::PI;
 
@@ -12,15 +12,15 @@ use crate::transform::power;
 /// Lengths of windows (s), and which frequencies each is for (Hz).
 const SCALES: [(f64, [f64; 2]); 3] =
     [(0.5, [60.0, 700.0]), (0.16, [450.0, 2200.0]), (0.06, [1500.0, 20_000.0])];
-/// A peak stands so far above the ground and its surroundings (dB).
+/// Least level of a peak above the ground, and above its surroundings (dB).
 const ABOVE_GROUND: f64 = 8.0;
 const ABOVE_AROUND: f64 = 5.0;
-/// Surroundings of a peak, and where it is the largest, relative.
+/// Relative widths of a peak's surroundings, and of the range in which it is the largest.
 const AROUND: f64 = 0.08;
 const LARGEST: f64 = 0.012;
-/// Over which the ground is smoothed, relative.
+/// Relative width over which the ground is smoothed.
 const SMOOTH: f64 = 0.15;
-/// A peak is no further below the highest (dB).
+/// Largest distance of a peak below the highest (dB).
 const RANGE: f64 = 55.0;
 
 /// A peak.
@@ -32,10 +32,10 @@ pub struct Peak {
     pub level: f64,
 }
 
-/// Levels over frequency of what rings and of the ground.
+/// Levels of the ringing and of the ground over frequency.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spectrum {
-    /// Between two lines (Hz).
+    /// Distance of two lines (Hz).
     pub step: f64,
     /// Levels of the taps (dB).
     pub levels: Vec<f64>,
@@ -63,7 +63,7 @@ pub fn peaks(samples: &[f64], rate: f64, rings: &[[usize; 2]], highest: f64) -> 
 }
 
 impl Spectrum {
-    /// The spectrum of what rings in these stretches, in windows of that length (s).
+    /// The spectrum of the ringing in these stretches, in windows of that length (s).
     pub fn of(samples: &[f64], rate: f64, rings: &[[usize; 2]], seconds: f64) -> Self {
         let length = (seconds * rate) as usize;
         let line = rate / length.next_power_of_two() as f64;
@@ -124,7 +124,7 @@ fn windowed(samples: &[f64]) -> Vec<f64> {
     samples.iter().enumerate().map(|(n, x)| x * shape(n)).collect()
 }
 
-/// Where it may be quiet: all before the first tap, and the last halves between taps.
+/// Possibly quiet frames: everything before the first tap, and the second halves between taps.
 fn quiet_frames(count: usize, rings: &[[usize; 2]], length: usize) -> Vec<[usize; 2]> {
     let first = rings.first().map_or(count, |[from, _]| from.saturating_sub(length / 8));
     let between = rings.iter().map(|[from, to]| [from + (to - from) / 2, *to]);
@@ -137,7 +137,7 @@ fn quiet_frames(count: usize, rings: &[[usize; 2]], length: usize) -> Vec<[usize
         }
     }
     if all.is_empty() {
-        // Only the ends of taps: shorter windows, of less power than the ground has.
+        // Only the ends of taps: these windows are shorter and have less power than the ground.
         all.extend(rings.iter().map(|[from, to]| [to.saturating_sub(length).max(*from), *to]));
     }
     all
@@ -145,7 +145,7 @@ fn quiet_frames(count: usize, rings: &[[usize; 2]], length: usize) -> Vec<[usize
 
 /// The median of every line's surroundings.
 fn smoothed(levels: &[f64]) -> Vec<f64> {
-    // Where it changes little, every line has what the line of its group has.
+    // Where it changes little, all lines of a group have the value of one.
     let mut smooth = Vec::with_capacity(levels.len());
     while smooth.len() < levels.len() {
         let k = smooth.len();

@@ -1,4 +1,4 @@
-//! Tones that the taps share, with what is known of their frequencies and decays.
+//! Tones common to the taps, with their frequencies, decays and errors.
 //!
 //! The error of a tone is
 //!
@@ -6,15 +6,15 @@
 //! s² = max(k spread/√n, c D)² + CRB² + floor²,    k = 1 + 1/(n − 1)
 //! ```
 //!
-//! of the logarithm of its loss factor η, and η/2 of that of its frequency: what turns a pole `−δ + 2πi f` turns it
-//! alike in both directions, so that 2 Δf/(f η) and Δ ln η have one deviation, and both say what it is. The spread is
-//! that over n taps; D how far fits to an early and to a late window differ, half its own and half the median over the
-//! tones: it sees the echo of the room, which all taps share where the microphone stays; CRB the bound by what is left
-//! of the bands.
+//! for the logarithm of its loss factor η, and η/2 of that for the logarithm of its frequency. A disturbance that moves
+//! a pole `−δ + 2πi f` moves it equally in both directions, so that 2 Δf/(f η) and Δ ln η have one deviation, which
+//! both measure. The spread is that over n taps. D is the difference of fits to an early and a late window, half its
+//! own and half the median over the tones; it measures the echo of the room, which is common to all taps if the
+//! microphone does not move. CRB is the bound that follows from the residual of the bands.
 //!
-//! The room's answer to a tap grows against a tone as `e^{2(δ − δ_r)t}`, δ_r its own decay (J.-D. Polack, Playing
-//! billiards in the concert hall, Appl. Acoust. 38 (1993) 235): ringing is taken from the end of the blow on, since a
-//! high tone that is heard 4 ms late has more of the room than of the bat.
+//! The room's answer to a tap grows relative to a tone as `e^{2(δ − δ_r)t}`, with δ_r the decay of the room (J.-D.
+//! Polack, Playing billiards in the concert hall, Appl. Acoust. 38 (1993) 235). Ringing is therefore used from the end
+//! of the blow on: 4 ms later, a high tone would have more of the room than of the bat.
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -23,43 +23,44 @@ use crate::filter::{median, most, quantile};
 use crate::fit::{Band, Fit, Pole, fit};
 use crate::pencil::two_poles;
 
-/// Ringing that is fitted begins so long after the onset (s), when the blow is over, and ends after that many decay
-/// times and that long (s).
+/// Beginning of the fitted ringing after the onset (s), after the blow; its end, in decay times; its longest duration
+/// (s).
 const BEGINS: f64 = 0.8e-3;
 const DECAYS: f64 = 3.0;
 const LONGEST: f64 = 1.2;
-/// Early and late windows, in decay times; the early one begins as the whole.
+/// Early and late windows, in decay times; the early one begins with the whole.
 const EARLY: f64 = 1.3;
 const LATE: [f64; 2] = [0.8, 2.5];
-/// Tones up to this number of half bands away bend a band's ground.
+/// Tones up to this number of half bands away affect a band's ground.
 const BESIDE: f64 = 2.0;
 /// Loss factors of a bat's tones.
 pub const LOSSES: [f64; 2] = [0.0008, 0.08];
-/// What is left of a tone's bands, of their power beside the ground, at most.
+/// Largest residual of a tone's bands, as a share of their power above the ground.
 const MISFIT: f64 = 0.30;
-/// The share of taps a tone is heard in, at least, and how far they may spread.
+/// Least share of the taps in which a tone occurs, for all tones and in the first pass.
 const HEARD: f64 = 0.6;
 const SOME: f64 = 0.25;
-/// A tap of whose band so much is left is not heard at all.
+/// A tap with at least this residual in the band does not contain the tone. Below, the largest spread of the taps.
 const LOST: f64 = 0.8;
 const SPREAD: f64 = 0.012;
-/// Two poles for one: where the squares fall so far, both decay within that factor and they are so far apart, in δ/π.
+/// Two poles replace one if the sum of squares falls to this share, their decays differ by at most this factor, and
+/// they are at least this far apart, in δ/π.
 const TWIN: f64 = 0.35;
 const TWIN_DECAYS: f64 = 2.5;
 const TWIN_APART: f64 = 0.3;
-/// Twins of the two planes of the grain are no further apart, relative; what is further is another tone.
+/// Largest relative distance of twins of the two planes of the grain; tones farther apart are different ones.
 const PLANES: f64 = 0.03;
-/// A tap whose five strongest tones are left so badly, and so much worse than the others, is none.
+/// A tap is discarded if its five strongest tones have at least this residual, and this many times the others'.
 const NO_TAP: f64 = 0.3;
 const WORSE: f64 = 4.0;
-/// Share of D, by 60 recordings of `search/taps.py --seed 101`, and errors that are never less: of f, and of ln η.
+/// Share of D, fitted to 60 recordings of `search/taps.py --seed 101`, and least errors of f and of ln η.
 const SEEN: f64 = 0.6;
 const FLOOR: [f64; 2] = [5e-5, 0.01];
 
 /// A stretch in which one tap rings.
 #[derive(Debug, Clone, Copy)]
 pub struct Ringing<'a> {
-    /// Which recording it is in.
+    /// Index of its recording.
     pub recording: usize,
     /// The samples, from the onset to the next one.
     pub samples: &'a [f64],
@@ -74,7 +75,7 @@ pub struct Tone {
     pub pole: Pole,
     /// Standard deviations of the frequency (relative), and of the logarithm of the loss factor.
     pub deviations: [f64; 2],
-    /// In how many taps it was heard.
+    /// Number of taps in which it was found.
     pub taps: usize,
     /// Amplitude at the onset over that of the strongest tone (dB).
     pub level: f64,
@@ -87,24 +88,24 @@ pub struct Tone {
 pub struct Tones {
     /// The tones, rising.
     pub tones: Vec<Tone>,
-    /// Which taps are used.
+    /// Whether each tap is used.
     pub used: Vec<bool>,
-    /// How far early and late windows differ, of ln η.
+    /// Difference of early and late windows, in ln η.
     pub room: f64,
 }
 
-/// A tone on its way.
+/// A tone during the search.
 #[derive(Debug, Clone)]
 struct Found {
     whole: Fit,
-    /// What is left of every tap.
+    /// The residual of every tap.
     misfits: Vec<(usize, f64)>,
     /// Logarithms of frequencies and loss factors in single taps, by pole.
     singles: Vec<Vec<(usize, [f64; 2])>>,
     level: f64,
 }
 
-/// Which window of the ringing.
+/// A window of the ringing.
 #[derive(Clone, Copy, PartialEq)]
 enum Window {
     Whole,
@@ -114,7 +115,7 @@ enum Window {
 
 /// The tones of these taps, sought at these frequencies (Hz) of every recording.
 pub fn tones(taps: &[Ringing], peaks: &[Vec<f64>]) -> Tones {
-    // What is no tap has none of the tones: first those are sought that some taps share.
+    // A sound that is not a tap has none of the tones, so tones common to some taps are sought first.
     let rough = heard(taps, peaks, SOME);
     let used: Vec<bool> = (0..taps.len()).map(|tap| !is_none(taps, &rough, tap)).collect();
     let kept = taps.iter().zip(&used).filter(|(_, used)| **used);
@@ -151,9 +152,9 @@ fn others(poles: &[Vec<Pole>], own: usize) -> Vec<Pole> {
     others.flat_map(|(_, poles)| poles.iter().copied()).collect()
 }
 
-/// Whether the strongest tones are left so badly of a tap that it is none.
+/// Whether a tap is not one, because the strongest tones have a large residual in it.
 fn is_none(taps: &[Ringing], found: &[Found], tap: usize) -> bool {
-    // Tones that its recording has: of the other plane of the grain a tap has none.
+    // Tones of its own recording only: a tap has no tones of the other plane of the grain.
     let own =
         |(k, misfit): &(usize, f64)| taps[*k].recording == taps[tap].recording && *misfit < NO_TAP;
     let mut strongest: Vec<&Found> =
@@ -166,8 +167,7 @@ fn is_none(taps: &[Ringing], found: &[Found], tap: usize) -> bool {
     own > NO_TAP && own > WORSE * quantile(&all, 0.25)
 }
 
-/// The tones of these taps: of every recording alone, since two planes of the grain have tones of their own, then of
-/// all taps together.
+/// The tones of these taps: of every recording (each plane of the grain has its own tones), then of all taps together.
 fn heard(taps: &[Ringing], peaks: &[Vec<f64>], least: f64) -> Vec<Found> {
     let mut found: Vec<Vec<Pole>> = vec![];
     for (recording, peaks) in peaks.iter().enumerate() {
@@ -194,7 +194,7 @@ fn heard(taps: &[Ringing], peaks: &[Vec<f64>], least: f64) -> Vec<Found> {
     kept
 }
 
-/// The tones of taps of one recording, its own pole first: each peak alone, then beside the others in its band.
+/// The tones of taps of one recording, its own pole first: each peak alone, then together with the others in its band.
 fn alone(taps: &[Ringing], peaks: &[f64], least: f64) -> Vec<Vec<Pole>> {
     let mut first: Vec<Vec<Pole>> = vec![];
     for pole in peaks.iter().filter_map(|hz| begun(taps, *hz)) {
@@ -205,7 +205,7 @@ fn alone(taps: &[Ringing], peaks: &[f64], least: f64) -> Vec<Vec<Pole>> {
     let beside = |k: usize| {
         let pole = first[k][0];
         let mut poles = tone(taps, least, pole, &others(&first, k))?.whole.poles;
-        // Of two tones in one band each peak finds both: each goes on with its own.
+        // Each peak finds both of two tones in one band; each continues with its own.
         let away = |other: &Pole| (other.hz - pole.hz).abs();
         poles.sort_by(|a, b| away(a).total_cmp(&away(b)));
         Some(poles)
@@ -213,7 +213,7 @@ fn alone(taps: &[Ringing], peaks: &[f64], least: f64) -> Vec<Vec<Pole>> {
     (0..first.len()).filter_map(beside).collect()
 }
 
-/// Whether two poles cannot be told apart.
+/// Whether two poles cannot be distinguished.
 fn is_same(a: &Pole, b: &Pole) -> bool {
     (a.hz - b.hz).abs() < TWIN_APART * a.decay.max(b.decay) / PI
 }
@@ -261,13 +261,13 @@ fn near(others: &[Pole], pole: Pole) -> Vec<Pole> {
     others.iter().filter(near).copied().collect()
 }
 
-/// A tone fitted to all taps, begun at one pole; twins where they are far better. None where there is no tone.
+/// A tone fitted to all taps from one starting pole, or twins if they are far better. `None` if there is no tone.
 fn tone(taps: &[Ringing], least: f64, start: Pole, others: &[Pole]) -> Option<Found> {
     let beside = near(others, start);
     let mut bands = bands(taps, start, Window::Whole);
     let share = |bands: &[Band], poles: &[Pole]| -> Vec<(usize, f64)> {
         let all = [poles, &beside].concat();
-        // What the others make of it is no part of the tone.
+        // The contribution of other tones is not part of this one.
         let left = |band: &Band| band.misfit(&all) / band.misfit(&beside).max(1e-300);
         bands.iter().map(|band| (band.tap, left(band))).collect()
     };
@@ -305,7 +305,7 @@ fn tone(taps: &[Ringing], least: f64, start: Pole, others: &[Pole]) -> Option<Fo
     Some(Found { whole, misfits: of_all, singles, level })
 }
 
-/// Whether a tone is in enough taps of one of the recordings: two planes of the grain have tones of their own.
+/// Whether a tone is in enough taps of one of the recordings: each plane of the grain has its own tones.
 fn is_enough(taps: &[Ringing], least: f64, is_heard: impl Fn(usize) -> bool) -> bool {
     let mut count = BTreeMap::<usize, [f64; 2]>::new();
     for (k, tap) in taps.iter().enumerate() {
@@ -321,7 +321,7 @@ fn weigh(bands: &mut [Band], poles: &[Pole], beside: &[Pole]) {
     bands.iter_mut().for_each(|band| band.weigh(&all));
 }
 
-/// Two poles in place of one, where they fit far better.
+/// Two poles in place of one, if they fit far better.
 fn twins(bands: &[Band], one: &Fit, beside: &[Pole]) -> Option<Fit> {
     let start = two_poles(bands)?;
     let single = one.poles[0];
@@ -343,7 +343,7 @@ fn level(bands: &[Band], poles: &[Pole], beside: &[Pole]) -> f64 {
     20.0 / 10.0_f64.ln() * median(&bands.iter().map(of).collect::<Vec<_>>())
 }
 
-/// Standard deviation over taps by the middle half, of frequency (0) or loss factor (1).
+/// Robust standard deviation over taps, of frequency (0) or loss factor (1).
 fn robust(all: &[(usize, [f64; 2])], part: usize) -> f64 {
     let values: Vec<f64> = all.iter().map(|(_, one)| one[part]).collect();
     let middle = median(&values);
@@ -354,12 +354,12 @@ fn robust(all: &[(usize, [f64; 2])], part: usize) -> f64 {
             let squares: f64 = away.iter().map(|x| x * x).sum();
             (squares / (away.len() - 1) as f64).sqrt()
         }
-        // Of a normal distribution the median away is 0.6745 of it; no less than what the outer ones say by a third.
+        // For a normal distribution the median deviation is 0.6745 of it; at least what the 85th percentile gives.
         _ => (1.4826 * median(&away)).max(quantile(&away, 0.85) / 1.44),
     }
 }
 
-/// By how much the fits to early and late windows differ, pole by pole: of f in δ/π, and of ln η.
+/// Differences of the fits to early and late windows, pole by pole: of f in δ/π, and of ln η.
 fn early_and_late(taps: &[Ringing], poles: &[Pole], others: &[Pole]) -> [Option<[f64; 2]>; 2] {
     let beside = near(others, poles[0]);
     let of = |window| {
@@ -378,7 +378,7 @@ fn early_and_late(taps: &[Ringing], poles: &[Pole], others: &[Pole]) -> [Option<
 /// Standard deviations of a pole's frequency (relative) and of the logarithm of its loss factor.
 fn deviations(one: &Found, p: usize, difference: Option<[f64; 2]>, room: f64) -> [f64; 2] {
     let singles = &one.singles[p];
-    // Of f told in δ/π half of what is that of ln η is.
+    // The deviation of f in δ/π is half of that of ln η.
     let units = [0.5 * one.whole.poles[p].loss(), 1.0];
     let count = singles.len() as f64;
     let factor = if count > 1.5 { 1.0 + 1.0 / (count - 1.0) } else { 2.0 };
@@ -390,7 +390,7 @@ fn deviations(one: &Found, p: usize, difference: Option<[f64; 2]>, room: f64) ->
         .map(|part| (shared * units[part]).hypot(one.whole.deviations[p][part]).hypot(FLOOR[part]))
 }
 
-/// Noise turns a pole alike in both directions: 2 Δf π/δ and Δ ln η have one deviation.
+/// Noise moves a pole equally in both directions: 2 Δf π/δ and Δ ln η have one deviation.
 fn circular([f, loss]: [f64; 2]) -> f64 {
     (0.5 * ((2.0 * f).powi(2) + loss.powi(2))).sqrt()
 }

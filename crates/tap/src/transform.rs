@@ -4,8 +4,7 @@ use std::f64::consts::TAU;
 
 use faer::c64;
 
-/// The power spectrum `|Σ x_n e^{-2πi kn/N}|²`, k from 0 to N/2, of real samples that zeros fill to N, the next power
-/// of two.
+/// The power spectrum `|Σ x_n e^{-2πi kn/N}|²`, k from 0 to N/2, of real samples, zero-padded to N, a power of two.
 pub fn power(samples: &[f64]) -> Vec<f64> {
     let length = samples.len().next_power_of_two();
     let mut values: Vec<c64> = samples.iter().map(|x| c64::from(*x)).collect();

@@ -62,7 +62,7 @@ pub struct Universal {
     pub datasets: Vec<Dataset>,
     /// The line of each dataset's number in the file, from 1.
     pub lines: Vec<usize>,
-    /// Datasets that this crate does not know.
+    /// Datasets that this crate does not read.
     pub skipped: Vec<Skipped>,
     /// The units the file was written in, if they were not SI.
     pub converted_from: Option<Units>,
@@ -180,8 +180,7 @@ pub struct NodalData {
     pub complex: bool,
     /// Numbers per node.
     pub per_node: usize,
-    /// Label and values of every node; the imaginary parts of real data are 0. A node that is not
-    /// there has zeros.
+    /// Label and values of every node; the imaginary parts of real data are 0. A node that is missing has zeros.
     pub values: Vec<(i64, Vec<Complex>)>,
 }
 

@@ -151,7 +151,7 @@ impl<'a> Line<'a> {
         self.bytes.trim_ascii().is_empty()
     }
 
-    /// The text of columns (from 0), without surrounding blanks. Bytes that are no UTF-8 are read as Latin-1, which
+    /// The text of columns (from 0), without surrounding blanks. Bytes that are not UTF-8 are read as Latin-1, which
     /// older programs write.
     pub fn text(self, start: usize, width: usize) -> String {
         let bytes = self.columns(start, width).trim_ascii();

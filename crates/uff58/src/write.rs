@@ -96,7 +96,7 @@ impl Out {
         self.real(value, 20, 12, 'E')
     }
 
-    /// So many columns of ASCII, cut and filled up.
+    /// A text in that number of columns of ASCII, cut or padded.
     fn name(&mut self, text: &str, width: usize) -> &mut Self {
         let ascii = |c: char| if matches!(c, ' '..='~') { c } else { '?' };
         let text: String = text.trim().chars().map(ascii).take(width).collect();

@@ -1,21 +1,21 @@
-//! A clock that stands still: what is timed takes no time.
+//! A clock that does not run: every measured duration is 0.
 
 #![forbid(unsafe_code)]
 
 pub use std::time::Duration;
 
-/// The one instant there is.
+/// The only instant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Instant;
 
 impl Instant {
-    /// The one instant there is.
+    /// The only instant.
     #[must_use]
     pub fn now() -> Self {
         Self
     }
 
-    /// No time at all.
+    /// A duration of 0.
     #[must_use]
     pub fn elapsed(&self) -> Duration {
         Duration::ZERO

@@ -1,15 +1,14 @@
-//! How long is a pixel, and from how far was the picture taken?
+//! What is the size of a pixel, and from what distance was the picture taken?
 //!
 //! A pinhole at the distance `D` above the axis sees a cylinder of radius `r` as `f r / √(D² − r²)` to each side, and
 //! the near rim of a flat end at `x` from its foot as if the end were at `x / (1 − r/D)`: ends look longer than the
-//! bat. The largest diameter gives the scale, and what the bat then looks too long gives `D`.
+//! bat. The largest diameter gives the scale, and the excess of the apparent length then gives `D`.
 
 use sweetspot::base::error::{Error, Result};
 
 use crate::trace::edges::Edges;
 
-/// What was measured on the bat itself (m): its length, and its largest diameter by calipers; and how far from the
-/// lens it lay, if that is known.
+/// Measurements (m): the bat's length, its largest diameter by calipers and, if known, its distance from the lens.
 #[derive(Debug, Clone, Copy)]
 pub struct Told {
     pub length: f64,
@@ -17,7 +16,7 @@ pub struct Told {
     pub distance: Option<f64>,
 }
 
-/// Half the width of the bat by pixels from where its knob end seems to be.
+/// Half the width of the bat at every pixel from its apparent knob end.
 pub struct Outline {
     half: Vec<f64>,
     /// The first column, the apparent length and the middle of the picture, from the knob end (px).
@@ -28,25 +27,25 @@ pub struct Outline {
     pub turned: bool,
 }
 
-/// The picture's scale, and where it was taken from.
+/// The picture's scale and the position of the camera.
 #[derive(Debug, Clone, Copy)]
 pub struct Camera {
-    /// Pixels of a metre on the axis: across the widest part, and along it, where the two ends settle it. A tip may be
-    /// round, which is seen where the distance is told.
+    /// Pixels per metre on the axis: across the widest part, and along it if the two ends determine that. The tip may
+    /// be round, which can be seen only if the distance is given.
     pub per_m: f64,
     along: f64,
     /// One over its distance from the axis (1/m).
     pub nearness: f64,
-    /// Where it is above the axis, from the knob end (m).
+    /// Its position along the axis, from the knob end (m).
     pub foot: f64,
-    /// By how much the knob and the tip seem to reach beyond themselves (m).
+    /// Apparent excess of the knob and of the tip beyond the true ends (m).
     pub beyond: [f64; 2],
-    /// Where the largest diameter is (m).
+    /// Position of the largest diameter (m).
     pub widest: f64,
 }
 
 impl Outline {
-    /// The outline with the knob first, which is at the end of the thinner half; `middle` is that of the picture.
+    /// The outline with the knob first (the end of the thinner half); `middle` is the middle of the picture.
     pub fn of(edges: &Edges, middle: [f64; 2]) -> Self {
         let mut half: Vec<f64> = (0..edges.columns()).map(|k| edges.half(k)).collect();
         let [from, to] = edges.axis.ends;
@@ -62,9 +61,9 @@ impl Outline {
         Self { half, first, length: to - from, foot, turned }
     }
 
-    /// The outline without what perspective smears over it: a circle of radius `r` about the axis is seen as an ellipse
-    /// that reaches `κ r` to both sides along it, and an outline is the largest of all at each place. The largest
-    /// circles that fit below are `r² = min (A² + (s/κ)²)`, over places `s` away where half the width is `A`.
+    /// The outline without the blur of perspective. A circle of radius `r` about the axis appears as an ellipse that
+    /// extends `κ r` to both sides along the axis, and the outline is the largest of all ellipses at each place. The
+    /// largest circles below it are `r² = min (A² + (s/κ)²)`, over places at the distance `s` with the half width `A`.
     pub fn sharpened(&self, camera: &Camera) -> Self {
         let count = self.half.len();
         let widest = self.half.iter().copied().fold(0.0, f64::max);
@@ -74,7 +73,7 @@ impl Outline {
             let reach = (smear * widest).ceil() as usize;
             let near = k.saturating_sub(reach)..(k + reach + 1).min(count);
             let seen = near.map(|j| self.half[j].powi(2) + (j.abs_diff(k) as f64 / smear).powi(2));
-            // Beyond the ends nothing is seen.
+            // There is no outline beyond the ends.
             let end = u.min(self.length - u).max(0.0) / smear;
             let own = self.half[k].powi(2);
             let value =
@@ -98,9 +97,9 @@ impl Camera {
     ///
     /// [`Error::Value`] where length and diameter do not fit together in the picture.
     pub fn of(outline: &Outline, told: Told) -> Result<Self> {
-        /// One over the least distance (1/m) that a picture is taken from.
+        /// One over the least distance of a camera (1/m).
         const NEAREST: f64 = 2.0;
-        /// A bat may look that much too short, by a tilt of some degrees.
+        /// Share by which a bat may look too short, because of a tilt of some degrees.
         const SHORT: f64 = 0.015;
         let apparent = |nearness: f64| {
             let camera = Self::at(nearness, outline, told);
@@ -134,9 +133,9 @@ impl Camera {
         Ok(apparent(0.5 * (far + near)).0)
     }
 
-    /// The camera if it were that near.
+    /// The camera for that nearness (1/m).
     fn at(nearness: f64, outline: &Outline, told: Told) -> Self {
-        /// The widest part is a mean over so much to each side (m), as calipers find it, and not at the tip (m).
+        /// The widest part is a mean over this length to each side (m), as by calipers, and this far from the tip (m).
         const CALIPERS: f64 = 5e-3;
         const TIP: f64 = 0.02;
         let radius = 0.5 * told.diameter;
@@ -159,9 +158,9 @@ impl Camera {
         camera
     }
 
-    /// By how much an end seems to reach beyond itself (m): a rounded one less than a flat one.
+    /// Apparent excess of an end (m), which is less for a rounded end than for a flat one.
     fn beyond(&self, end: usize, outline: &Outline, length: f64) -> f64 {
-        /// How far from the end (m) what is seen as the end may be.
+        /// Largest distance of the visible end from the true one (m).
         const DEEP: f64 = 0.03;
         let seen = (0..=30).map(|k| {
             let inside = DEEP * f64::from(k) / 30.0;
@@ -173,14 +172,14 @@ impl Camera {
         seen.fold(0.0, f64::max)
     }
 
-    /// Whether the bat looks shorter than its ends allow, as one does whose ends are not level.
+    /// Whether the bat looks shorter than its ends allow, as if its ends were not level.
     pub fn doubtful(&self, told: Told) -> bool {
-        /// One over the distance (1/m) within which bats are photographed.
+        /// One over the largest usual distance of a camera (1/m).
         const FAR: f64 = 0.1;
         told.distance.is_none() && self.nearness < FAR
     }
 
-    /// The radius (m) at a place of the bat (m), in the mean of so much to each side.
+    /// The radius (m) at a place of the bat (m), as a mean over that length to each side.
     pub fn radius(&self, outline: &Outline, x: f64, beside: f64) -> f64 {
         let half = outline.half(self.along * (x + self.beyond[0]), self.along * beside);
         half / self.per_m.hypot(half * self.nearness)

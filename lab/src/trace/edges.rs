@@ -1,24 +1,24 @@
-//! Where exactly are the bat's two edges and its ends?
+//! Where exactly are the two edges and the ends of the bat?
 //!
-//! Columns across the bat's axis, a pixel apart, are searched for the greatest change of colour between a thing and
-//! the ground. Each edge is the path along the bat that meets most of it for the least turning (dynamic programming);
-//! then it is set between pixels by a parabola through the change at three of them.
+//! Columns across the bat's axis, a pixel apart, are searched for the greatest change of colour between an object and
+//! the ground. Each edge is the path along the bat with the largest sum of changes less a price for turning (dynamic
+//! programming). It is then located between pixels by a parabola through the changes at three of them.
 
 use crate::trace::find::Found;
 use crate::trace::picture::{Colour, Ground, Picture, distance, mean};
 
-/// Standard deviation of the bell whose slope is laid over the colours (px).
+/// Standard deviation of the Gaussian whose derivative filters the colours (px).
 const BELL: f32 = 1.4;
-/// Pixels to each side that the bell reaches.
+/// Extent of the Gaussian to each side (px).
 const REACH: usize = 4;
-/// Columns to each side that are averaged.
+/// Number of columns to each side that are averaged.
 const BESIDE: usize = 2;
 
 /// The edges of a bat on a picture, in pixels along its axis and across it.
 pub struct Edges {
     /// The axis, and the two ends along it.
     pub axis: Found,
-    /// Where the first column is, from the origin.
+    /// Position of the first column, from the origin.
     pub first: f64,
     /// Both edges at every column, a pixel apart.
     pub across: [Vec<f64>; 2],
@@ -34,7 +34,7 @@ impl Edges {
         self.across[0].len()
     }
 
-    /// The straight middle line: its height at the origin, its slope, and how far the middle leaves it (px).
+    /// The straight middle line: its height at the origin, its slope, and the middle's largest deviation from it (px).
     pub fn middle(&self) -> [f64; 3] {
         let n = self.columns() as f64;
         let all = || {
@@ -59,7 +59,7 @@ struct Columns<'a> {
     wide: usize,
 }
 
-/// The change of colour, and how much more of a thing than of ground lies inside than outside, by columns.
+/// The change of colour by columns, and the excess of object over ground on the inner over the outer side.
 struct Change {
     slope: Vec<f32>,
     score: [Vec<f32>; 2],
@@ -109,7 +109,7 @@ impl Columns<'_> {
     }
 }
 
-/// The greatest change of colour at each pixel of a line, the line smoothed by a bell.
+/// The greatest change of colour at each pixel of a line that is smoothed by a Gaussian.
 fn slopes(line: &[Colour]) -> Vec<f32> {
     let weight = |d: usize| d as f32 * (-0.5 * (d as f32 / BELL).powi(2)).exp();
     let weights: Vec<f32> = (1..=REACH).map(weight).collect();
@@ -127,9 +127,9 @@ fn slopes(line: &[Colour]) -> Vec<f32> {
         .collect()
 }
 
-/// At each pixel of a line: by how much further from the ground it is beyond than before it, as a share of both.
+/// At each pixel of a line: increase of the distance from the ground from before it to beyond it, as a share of both.
 fn shares(off: &[f32], noise: f32) -> Vec<f32> {
-    /// Pixels from here on to each side that are averaged.
+    /// Number of pixels on each side that are averaged.
     const WINDOW: [usize; 2] = [2, 9];
     let last = off.len() - 1;
     let mean = |at: &dyn Fn(usize) -> usize| {
@@ -143,8 +143,8 @@ fn shares(off: &[f32], noise: f32) -> Vec<f32> {
         .collect()
 }
 
-/// What a change of colour is worth as an edge: more where the ground begins behind it. Beside a shadow that is as
-/// far from the ground as the bat it counts by itself.
+/// The value of a change of colour as an edge: it is larger if the ground begins behind it. Beside a shadow that
+/// differs from the ground as much as the bat does, the change alone counts.
 fn weighed(slope: f32, share: f32) -> f32 {
     slope * (0.35 + 0.65 * share.max(0.0))
 }
@@ -161,9 +161,9 @@ fn between(values: &[f32], j: usize) -> f64 {
     top as f64 + if bend < 0.0 { (0.5 * (a - c) / bend).clamp(-0.5, 0.5) } else { 0.0 }
 }
 
-/// The path over the columns that meets most for the least turning: a row for each column.
+/// The path over the columns with the largest sum less the price of turning: a row for each column.
 fn path(score: &[f32], rows: usize, allowed: impl Fn(usize, usize) -> bool) -> Vec<usize> {
-    /// Price of a step of one row (of two four times), and of a leap over any number.
+    /// Price of a step of one row (four times that for two rows), and of a jump over any number.
     const PRICE: (f32, f32) = (0.05, 2.0);
     const STEPS: usize = 3;
     const NEVER: f32 = -1e6;
@@ -197,13 +197,13 @@ fn path(score: &[f32], rows: usize, allowed: impl Fn(usize, usize) -> bool) -> V
     rows_of
 }
 
-/// Rows that an edge may leave a pin.
+/// Largest distance of an edge from a pin, in rows.
 const PINNED: f64 = 1.5;
 
-/// Where pins of an edge, in their order, let it be at a place along the axis: at a row, give or take a number of rows.
-/// Between two of them that is near the straight line.
+/// The rows where the pins of an edge, in order, allow it at a place along the axis: a row and a tolerance. Between two
+/// pins that is near the straight line.
 fn corridor(pins: &[[f64; 2]], u: f64) -> Option<[f64; 2]> {
-    /// Rows besides, and as a share of the way between two pins.
+    /// Tolerance in rows, and as a share of the distance to a pin.
     const BESIDE: (f64, f64) = (3.0, 0.02);
     if let Some([_, at]) = pins.iter().find(|pin| (pin[0] - u).abs() <= 2.0) {
         return Some([*at, PINNED]);
@@ -213,13 +213,13 @@ fn corridor(pins: &[[f64; 2]], u: f64) -> Option<[f64; 2]> {
     Some([one + (other - one) * (u - a) / (b - a), BESIDE.0 + BESIDE.1 * (b - a)])
 }
 
-/// The edges of a bat that was found. `pins` are places (px) that a hand has set upon an edge or an end.
+/// The edges of a bat that was found. `pins` are places (px) that the user has set on an edge or an end.
 pub fn edges(picture: &Picture, ground: &Ground, found: Found, pins: &[[f64; 2]]) -> Edges {
-    /// Of the largest half width, what is looked at across; and px besides.
+    /// Searched width on each side, as a share of the largest half width and in additional px.
     const ROOM: (f64, f64) = (1.25, 16.0);
     let mut found = found;
     let mut edges = None;
-    // The axis of what stands out is turned by shadows; that of the edges is the bat's.
+    // Shadows turn the axis of the object that was found; that of the edges is the bat's.
     for _ in 0..2 {
         let wide = (ROOM.0 * found.half + ROOM.1).ceil() as usize;
         let columns = Columns { picture, ground, found, wide };
@@ -242,7 +242,7 @@ pub fn edges(picture: &Picture, ground: &Ground, found: Found, pins: &[[f64; 2]]
 
 impl Columns<'_> {
     fn edges(&self, pins: &[[f64; 2]]) -> Edges {
-        /// Rows about the axis where no edge is.
+        /// Rows about the axis that are not searched.
         const CORE: usize = 2;
         let first = self.found.ends[0].ceil();
         let count = (self.found.ends[1].floor() - first) as usize;
@@ -275,11 +275,11 @@ impl Columns<'_> {
         Edges { axis: Found { ends, ..self.found }, first, across }
     }
 
-    /// Where an end is: the greatest change of colour along the axis, of the inner part of the width.
+    /// The position of an end: the greatest change of colour along the axis, in the inner part of the width.
     fn end(&self, end: usize, across: &[Vec<f64>; 2], pins: &[[f64; 2]]) -> f64 {
-        /// Pixels to each side of where the bat was found to end that are looked at.
+        /// Searched pixels on each side of the end that was found.
         const AROUND: usize = 80;
-        /// Of half the width, what is averaged across.
+        /// Averaged part of half the width.
         const INNER: f64 = 0.3;
         let count = across[0].len();
         let near =
@@ -317,7 +317,7 @@ impl Columns<'_> {
     }
 }
 
-/// The middle of five neighbours, against strays.
+/// The median of five neighbours, to remove outliers.
 fn middles(values: &[f64]) -> Vec<f64> {
     (0..values.len())
         .map(|k| {

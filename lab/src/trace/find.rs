@@ -1,18 +1,18 @@
-//! Where on the picture does a bat lie?
+//! Where in the picture is the bat?
 
 use sweetspot::base::error::{Error, Result};
 
 use crate::trace::picture::{Ground, Picture, distance, mean};
 
-/// Where the bat lies (px): the middle of what stands out from the ground, the direction of its axis, how far it
-/// reaches to both sides along it and, half, across it.
+/// The position of the bat (px): the middle of the object that differs from the ground, the direction of its axis, its
+/// extent to both sides along the axis, and half its width.
 #[derive(Debug, Clone, Copy)]
 pub struct Found {
     pub middle: [f64; 2],
     pub along: [f64; 2],
     pub ends: [f64; 2],
     pub half: f64,
-    /// How far it is from the ground in colour, over the ground's noise.
+    /// Its contrast: distance from the ground in colour, over the ground's noise.
     pub contrast: f32,
 }
 
@@ -23,14 +23,14 @@ impl Found {
         [x + u * c - v * s, y + u * s + v * c]
     }
 
-    /// How far along the axis and across it a place of the picture is.
+    /// Coordinates of a place of the picture along the axis and across it.
     pub fn along_across(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let ([x, y], [c, s]) = ([x - self.middle[0], y - self.middle[1]], self.along);
         [x * c + y * s, y * c - x * s]
     }
 }
 
-/// A picture in cells: how far each is from the ground.
+/// A picture in cells: distance of each from the ground in colour.
 struct Cells {
     size: usize,
     width: usize,
@@ -40,7 +40,7 @@ struct Cells {
 
 impl Cells {
     fn of(picture: &Picture, ground: &Ground) -> Self {
-        /// Cells along the longer side.
+        /// Number of cells along the longer side.
         const ALONG: usize = 800;
         let size = picture.width.max(picture.height).div_ceil(ALONG);
         let (width, height) = ((picture.width / size).max(1), (picture.height / size).max(1));
@@ -53,8 +53,8 @@ impl Cells {
         Self { size, width, height, off: off.collect() }
     }
 
-    /// How far a bat is from the ground, which fills some hundredths of a picture or, if it is small, some thousandths:
-    /// the first of these shares at which something stands out from the ground by that contrast.
+    /// The level above which a cell belongs to an object. The bat fills some hundredths of a picture or, if it is
+    /// small, some thousandths: the level is that of the first of these shares that reaches the contrast.
     fn level(&self, contrast: f32) -> f32 {
         const SHARES: [f64; 3] = [0.98, 0.995, 0.998];
         let mut all = self.off.clone();
@@ -92,7 +92,7 @@ impl Cells {
     }
 }
 
-/// An error where something is so.
+/// An error if a condition holds.
 fn refuse(so: bool, found: String, expected: &str) -> Result<()> {
     if so { Err(Error::value("the picture", found, expected)) } else { Ok(()) }
 }
@@ -101,16 +101,16 @@ fn refuse(so: bool, found: String, expected: &str) -> Result<()> {
 ///
 /// # Errors
 ///
-/// [`Error::Value`] where nothing stands out from the ground, where something is cut off by the picture's edge, where
-/// several things lie there, where the one that does is not as slender as a bat, and where it is too small.
+/// [`Error::Value`] if nothing differs from the ground, if an object is cut off by the edge of the picture, if there
+/// are several objects, and if the object is too small or not as slender as a bat.
 pub fn find(picture: &Picture, ground: &Ground) -> Result<Found> {
-    /// Times the ground's noise that a bat differs from it, in the mean of its cells.
+    /// Least contrast of a bat over the ground's noise, as the mean of its cells.
     const CONTRAST: f32 = 4.0;
-    /// Of the largest thing's area, what another one has at least.
+    /// Least area of a second object, as a share of the largest.
     const ANOTHER: f64 = 0.06;
-    /// Times as long as wide on average: a bat is 15 to 25.
+    /// Least ratio of length to mean width: a bat has 15 to 25.
     const SLENDER: [f64; 2] = [8.0, 40.0];
-    /// Pixels along the bat.
+    /// Least number of pixels along the bat.
     const LEAST: f64 = 700.0;
     let cells = Cells::of(picture, ground);
     let bat = cells.level(CONTRAST * ground.noise);

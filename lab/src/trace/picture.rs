@@ -1,4 +1,4 @@
-//! What colour is a place of the picture, and what would it be without a bat?
+//! What is the colour of a place in the picture, and what would it be without a bat?
 
 use sweetspot::base::error::{Error, Result};
 use sweetspot::base::linear::inverse;
@@ -6,20 +6,20 @@ use sweetspot::base::linear::inverse;
 /// Red, green and blue, 0 to 255.
 pub type Colour = [f32; 3];
 
-/// A picture as a canvas gives it: four bytes a pixel, line by line from the top.
+/// A picture as a canvas gives it: four bytes per pixel, line by line from the top.
 pub struct Picture<'a> {
     pub width: usize,
     pub height: usize,
     bytes: &'a [u8],
 }
 
-/// Pixels along a side that a picture has at most.
+/// Most pixels along a side of a picture.
 const MOST: usize = 8192;
 
 impl<'a> Picture<'a> {
     /// # Errors
     ///
-    /// [`Error::Value`] where there are not four bytes for each pixel.
+    /// [`Error::Value`] if there are not four bytes for each pixel.
     pub fn new(width: usize, height: usize, bytes: &'a [u8]) -> Result<Self> {
         if width.max(height) > MOST {
             let found = format!("{width} by {height} pixels");
@@ -33,7 +33,7 @@ impl<'a> Picture<'a> {
         Ok(Self { width, height, bytes })
     }
 
-    /// The colour of a pixel; outside of the picture that of its nearest one.
+    /// The colour of a pixel; outside the picture, that of the nearest pixel in it.
     pub fn pixel(&self, x: isize, y: isize) -> Colour {
         let inside = |at: isize, size: usize| at.clamp(0, size as isize - 1) as usize;
         let at = 4 * (inside(y, self.height) * self.width + inside(x, self.width));
@@ -65,23 +65,23 @@ pub fn distance(one: Colour, other: Colour) -> f32 {
     one.iter().zip(other).map(|(a, b)| (a - b) * (a - b)).sum::<f32>().sqrt()
 }
 
-/// The ground that the bat lies on: each colour is a quadratic of the place.
+/// The ground that the bat lies on: each colour is a quadratic function of the place.
 pub struct Ground {
     size: [f64; 2],
     factors: [[f64; TERMS]; 3],
-    /// How far a pixel of it is off, in the middle of all.
+    /// Median deviation of its pixels.
     pub noise: f32,
 }
 
-/// Of a quadratic of two numbers.
+/// Number of terms of a quadratic function of two numbers.
 const TERMS: usize = 6;
 
 impl Ground {
-    /// The ground by what is seen along the frame of the picture, without what does not fit to the rest.
+    /// The ground, fitted to the pixels along the frame of the picture without outliers.
     pub fn of(picture: &Picture) -> Self {
-        /// The width of the frame as a share of the picture's shorter side, and pixels that are looked at.
+        /// The width of the frame as a share of the picture's shorter side, and the number of pixels that are used.
         const FRAME: (f64, usize) = (0.06, 20_000);
-        /// How often it is fitted, and how much further (in noises) than the middle one a pixel may be off.
+        /// Number of fits, and largest deviation of a used pixel beyond the median (in noises).
         const ROUNDS: (usize, f32) = (4, 3.0);
         let Picture { width, height, .. } = *picture;
         let deep = ((width.min(height) as f64 * FRAME.0) as usize).max(1);
@@ -114,7 +114,7 @@ impl Ground {
         [1.0, x, y, x * x, x * y, y * y]
     }
 
-    /// The least squares of what is seen.
+    /// The least-squares fit to these pixels.
     fn fit(&mut self, seen: &[(f64, f64, Colour)]) {
         let mut matrix = vec![vec![0.0; TERMS]; TERMS];
         let mut right = [[0.0; TERMS]; 3];

@@ -1,4 +1,4 @@
-//! Which diameters has the bat, and how far may they be off?
+//! What are the diameters of the bat, and their errors?
 
 use serde::{Deserialize, Serialize};
 use sweetspot::base::error::Result;
@@ -7,37 +7,37 @@ use sweetspot::bat::stations::{Interpolation, Stations};
 
 use crate::trace::camera::{Camera, Outline, Told};
 
-/// What one picture says of the bat, at places that depend on its length alone. Deviations are standard ones.
+/// The result of one picture, at places that depend only on the length of the bat. Deviations are standard deviations.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Seen {
     pub x_m: Vec<f64>,
     pub diameter_m: Vec<f64>,
-    /// Of every diameter by its own reading.
+    /// Deviation of every diameter due to its own reading.
     reading_m: f64,
-    /// If one end lies nearer to the lens, by [`TILT`].
+    /// Change of every diameter if one end is nearer to the lens by [`TILT`].
     tilt_m: Vec<f64>,
-    /// By calipers, lens and places, in all pictures alike.
+    /// Deviation due to calipers, lens and places, common to all pictures.
     common_m: Vec<f64>,
     turned: bool,
 }
 
-/// How far a bat is from level, as a standard deviation, on one picture, and in the mean of two end for end.
+/// Standard deviation of the bat's tilt in one picture, and in the mean of two taken end for end.
 const TILT: [f64; 2] = [2.5, 0.5];
-/// How far calipers are off (m).
+/// Error of calipers (m).
 const CALIPERS: f64 = 1e-4;
-/// Where a place along the bat is off (m): by its length as it was read; and as a share of what an end seems to reach
-/// beyond itself, where the distance was told and where it follows from the ends, which may be round.
+/// Error of a place along the bat: that of the measured length (m), and a share of the apparent excess of an end, if
+/// the distance was given and if it follows from the ends, which may be round.
 const ALONG: (f64, [f64; 2]) = (7e-4, [0.15, 0.4]);
-/// What is taken for one over a distance (1/m) that was not told and looks greater.
+/// Assumed value of one over a distance (1/m) that was not given and seems to be larger.
 const USUAL: f64 = 1.0 / 3.0;
-/// How far a lens draws too large or too small at half the bat's length from the middle.
+/// Relative distortion of a lens at half the bat's length from the middle.
 const LENS: f64 = 0.004;
 
-/// Lengths (m) of the knob and of the tip, and how far apart places are there.
+/// Lengths (m) of the knob and of the tip, and the distance of places there.
 const KNOB: [f64; 2] = [0.06, 0.004];
 const TIP: [f64; 2] = [0.024, 0.006];
 
-/// The places (m): closely along the knob and at the tip, else 15 mm apart.
+/// The places (m): close together along the knob and at the tip, elsewhere 15 mm apart.
 fn places(length: f64) -> Vec<f64> {
     const APART: f64 = 0.015;
     let knob = (0..(KNOB[0] / KNOB[1]).round() as usize).map(|k| KNOB[1] * k as f64);
@@ -49,11 +49,11 @@ fn places(length: f64) -> Vec<f64> {
 }
 
 impl Seen {
-    /// What an outline says, with the contrast of bat and ground over the noise.
+    /// The result of an outline, given the contrast of bat and ground over the noise.
     pub fn of(outline: &Outline, camera: &Camera, told: Told, contrast: f32) -> Self {
-        /// An edge between pixels (px), and the contrast below which it is less certain.
+        /// Error of an edge (px), and the contrast below which it is larger.
         const EDGE: (f64, f64) = (0.3, 12.0);
-        /// What is averaged to each side (m), at the knob and elsewhere.
+        /// Length averaged to each side (m), at the knob and elsewhere.
         const BESIDE: [f64; 2] = [5e-4, 2.5e-3];
         /// Distance (px) from the ends at which readings begin.
         const INSIDE: f64 = 2.0;
@@ -76,7 +76,7 @@ impl Seen {
             let from = |at: f64| ((at - camera.foot) / half).powi(2);
             let lens = LENS * (from(*x) - from(camera.widest));
             let slope = (radius(x + 2e-3, BESIDE[0]) - radius(x - 2e-3, BESIDE[0])) / 4e-3;
-            // What perspective smears over a step is taken out as well as the distance is known.
+            // The blur of a step by perspective is removed as accurately as the distance is known.
             let smeared = share * (x - camera.foot) * r * nearness;
             let along = slope * place.hypot(smeared);
             2.0 * (r * scale).hypot(r * lens).hypot(along)
@@ -105,19 +105,19 @@ impl Seen {
     }
 }
 
-/// What all pictures of one bat say together.
+/// The result of all pictures of one bat.
 pub struct Shape {
     pub stations: Stations,
-    /// Of any diameter between knob and tip (m): the root of the mean square.
+    /// Error of a diameter between knob and tip (m), as root mean square.
     pub deviation: f64,
     /// Whether pictures show it from both ends.
     pub both: bool,
-    /// By how much more than their deviations two pictures differ, if they do.
+    /// Difference of two pictures over their deviations, if it is too large.
     pub apart: Option<f64>,
 }
 
 impl Shape {
-    /// The mean of what pictures of equal places say.
+    /// The mean of the results of pictures with equal places.
     ///
     /// # Errors
     ///
@@ -142,7 +142,7 @@ impl Shape {
             let all = || seen.iter().map(|one| one.diameter_m[k]);
             all().fold(0.0, f64::max) - all().fold(f64::INFINITY, f64::min)
         };
-        // Two ends that lie unevenly differ by twice the tilt of one.
+        // A bat that is not level shows twice its tilt as the difference of two opposite pictures.
         let allowed =
             |k: usize| 3.0 * (2.0 * reading).hypot(2.0 * first.tilt_m[k]).hypot(first.common_m[k]);
         let length = first.x_m.last().copied().unwrap_or_default();
@@ -160,11 +160,11 @@ impl Shape {
     }
 }
 
-/// The stations without those that the others meet by themselves, within a part of what they may be off.
+/// The necessary stations: a station is left out if the curve through the others is within a part of its error.
 fn few(x: &[f64], diameters: &[f64], deviations: &[f64]) -> Result<Stations> {
-    /// Of a deviation, how far the bat may leave a station that is left out.
+    /// Allowed distance of the curve from a station that is left out, as a share of the deviation.
     const SHARE: f64 = 0.2;
-    /// Digits that are written (m).
+    /// Resolution of the written diameters (m).
     const DIGIT: f64 = 1e-5;
     let stations = |kept: &[usize]| Stations {
         x: kept.iter().map(|k| (x[*k] / DIGIT).round() * DIGIT).collect(),

@@ -14,7 +14,7 @@ use crate::trace::find::find;
 use crate::trace::picture::{Ground, Picture};
 use crate::trace::shape::{Seen, Shape};
 
-/// What the page asks of a picture.
+/// The page's question about a picture.
 #[derive(Deserialize)]
 struct Asked {
     width: usize,
@@ -28,16 +28,16 @@ struct Asked {
     material: String,
     #[serde(default)]
     pins: Vec<[f64; 2]>,
-    /// What other pictures of this bat said.
+    /// Results of other pictures of this bat.
     #[serde(default)]
     others: Vec<Seen>,
 }
 
-/// One picture's edges, and the bat by all pictures so far.
+/// The edges in one picture, and the bat from all pictures so far.
 ///
 /// # Errors
 ///
-/// [`Error::Value`] for what cannot be traced.
+/// [`Error::Value`] for a picture that cannot be traced.
 pub fn answer(asked: &Value, bytes: &[u8], units: Units) -> Result<Value> {
     let asked: Asked = Asked::deserialize(asked)
         .map_err(|error| Error::value("the request", error, "a picture with its bat's length"))?;
@@ -53,7 +53,7 @@ pub fn answer(asked: &Value, bytes: &[u8], units: Units) -> Result<Value> {
     let camera = Camera::of(&outline, told)?;
     let seen = Seen::of(&outline.sharpened(&camera), &camera, told, found.contrast);
     let others = asked.others.iter().filter(|one| {
-        // Pictures of a bat that was told another length have other places.
+        // Pictures for which another length was given have other places.
         one.x_m == seen.x_m && one.is_whole()
     });
     let (contrast, bow) = (found.contrast, edges.middle()[2] / camera.per_m);
@@ -91,9 +91,9 @@ fn small(units: Units, value: f64) -> String {
     format!("{:.*} {name}", decimals(factor * value), factor * value)
 }
 
-/// An edge in the picture's pixels, for the eye.
+/// An edge in pixels of the picture, for display.
 fn polyline(edges: &Edges, side: usize) -> Vec<[f64; 2]> {
-    /// Points of a line.
+    /// Number of points of a line.
     const POINTS: usize = 240;
     let last = edges.columns() - 1;
     let columns = (0..=POINTS).map(|k| k * last / POINTS);
@@ -132,7 +132,7 @@ fn bat_file(asked: &Asked, shape: &Shape, pictures: usize) -> String {
     format!("{bat:#}\n")
 }
 
-/// What limits trust, in sentences, of a bat by its contrast over the noise and the bend of its middle line (m).
+/// Limits of the result in sentences, given the contrast over the noise and the bend of the middle line (m).
 fn words(
     [contrast, bow]: [f64; 2],
     camera: &Camera,

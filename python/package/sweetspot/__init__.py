@@ -1,11 +1,11 @@
-"""What a baseball bat does when it meets a ball.
+"""What happens when a baseball bat hits a ball.
 
 >>> import sweetspot as ss
 >>> bat = ss.Bat.from_file("r161")
 >>> bat.modes(3).frequency_hz.round()
 array([ 175.,  581., 1187.])
 
-Numbers are in SI; texts carry their unit: ``bat.hit(bat_speed="72 mph")``.
+Numbers are in SI; texts contain their unit: ``bat.hit(bat_speed="72 mph")``.
 """
 
 from ._bat import Bat, built_in_bats

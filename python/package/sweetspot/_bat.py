@@ -23,7 +23,7 @@ Quantity = float | str
 
 
 def _plain(value: Any) -> Any:
-    """What JSON can hold."""
+    """The value in types that JSON has."""
     if value is None or isinstance(value, (str, bool, int, float)) and not isinstance(value, np.generic):
         return value
     if isinstance(value, Mapping):
@@ -34,7 +34,7 @@ def _plain(value: Any) -> Any:
         return [_plain(item) for item in value]
     if isinstance(value, (Decimal, Fraction)):
         return float(value)
-    # NumPy, columns of pandas, polars and others, arrays of Arrow, and what else calls itself an array.
+    # NumPy, columns of pandas, polars and others, arrays of Arrow, and other types with `__array__`.
     for known, take in (
         ("to_numpy", lambda: value.to_numpy()),
         ("to_pylist", lambda: value.to_pylist()),
@@ -44,14 +44,14 @@ def _plain(value: Any) -> Any:
         if hasattr(value, known) and not isinstance(value, (np.ndarray, np.generic)):
             return _plain(take())
     if isinstance(value, (np.ndarray, np.generic)):
-        # A number whose kind Python has not, such as np.longdouble, stays what it is.
+        # A number of a type that Python does not have, such as np.longdouble, is returned unchanged by tolist.
         found = value.tolist()
         return float(found) if isinstance(found, np.floating) else _plain(found)
     return value
 
 
 def whole(name: str, value: Any, least: int, most: int = 2**32 - 1) -> int:
-    """A whole number that is neither less nor more, or an exception with its name."""
+    """The value as a whole number from ``least`` to ``most``, or an exception that names it."""
     is_whole = isinstance(value, (int, np.integer)) and not isinstance(value, bool)
     if not is_whole or not least <= value <= most:
         expected = f"{least} or more" if most >= 2**32 - 1 else f"{least} to {most}"
@@ -61,7 +61,7 @@ def whole(name: str, value: Any, least: int, most: int = 2**32 - 1) -> int:
 
 
 class Matrices(dict):
-    """Arrays by their names, of which stiffness and mass can be unpacked: ``K, M = bat.matrices()``."""
+    """Arrays by their names. Stiffness and mass can be unpacked: ``K, M = bat.matrices()``."""
 
     def __iter__(self) -> Any:
         return iter((self["K"], self["M"]))
@@ -69,24 +69,24 @@ class Matrices(dict):
 
 @all_told
 class Bat:
-    """A bat of a profile and a material. Places count from the knob end.
+    """A bat with a profile and a material. Places are measured from the knob end.
 
     Parameters
     ----------
-    x : places of the stations, rising, in ``unit``.
+    x : places of the stations, increasing, in ``unit``.
     diameter : outer diameters there, in ``unit``; or ``radius``.
     material : name of a built-in material, or a dictionary with ``density`` (kg/m³), ``youngs_modulus`` (Pa)
         and, if known, ``shear_modulus`` (Pa), as in a bat file.
-    inner_diameter : diameters of the bore, in ``unit``; solid without.
+    inner_diameter : diameters of the bore, in ``unit``; without it the bat is solid.
     unit : unit of the lengths, such as ``"m"``, ``"mm"`` or ``"in"``.
     mass : mass on a scale (kg, or a text with its unit); the density follows from it.
     interpolation : ``"pchip"`` or ``"linear"``.
-    members : further members of a bat file, such as ``attachments=[{"x": "0 in", "mass": "1 oz"}]``.
+    members : other members of a bat file, such as ``attachments=[{"x": "0 in", "mass": "1 oz"}]``.
 
     Raises
     ------
     SweetspotError
-        If it cannot be a bat, with every mistake.
+        If these values do not describe a bat; it lists every mistake.
     """
 
     def __init__(
@@ -129,7 +129,7 @@ class Bat:
 
     @classmethod
     def from_file(cls, path: str | Path) -> Bat:
-        """The bat of a bat file, or a built-in one by its name, such as ``"r161"``."""
+        """The bat of a file, or a built-in bat by its name, such as ``"r161"``."""
         path = Path(path)
         if not path.is_file() and (text := _core.built_in(str(path))) is not None:
             return cls._of(str(path), text, Path())
@@ -146,16 +146,16 @@ class Bat:
 
     @classmethod
     def from_document(cls, document: Mapping[str, Any], folder: str | Path = "") -> Bat:
-        """The bat of the members of a bat file; a table of stations is sought in ``folder``."""
+        """A bat from the members of a bat file; a table of stations is read from ``folder``."""
         return cls._of("Bat", json.dumps(_plain(document)), Path(folder))
 
     @property
     def document(self) -> dict[str, Any]:
-        """The members of its bat file."""
+        """The members of the bat's file."""
         return json.loads(self._text.removeprefix("\ufeff"))
 
     def edit(self, *edits: Mapping[str, Any]) -> Bat:
-        """This bat after changes, in their order, as a bat file writes them.
+        """This bat after these changes, in their order. Each is written as in a bat file.
 
         ``bat.edit({"cut": {"from": "24 in", "to": "30 in", "depth": "1 mm"}}, {"knob": "1 oz"})``
         """
@@ -189,7 +189,7 @@ class Bat:
 
     @property
     def warnings(self) -> list[str]:
-        """What is unusual about its file."""
+        """What is unusual about the bat's file."""
         return self._summary()[5]
 
     def _summary(self, pivot: float = 0.1524) -> tuple[str, float, float, float, float, list[str]]:
@@ -200,8 +200,8 @@ class Bat:
     ) -> Modes:
         """The first ``n`` bending modes, each frequency within ``tol`` (relative).
 
-        Without a ``theory`` ("euler-bernoulli", "rayleigh", "timoshenko") the simplest that is accurate enough
-        on this bat is taken. Shapes are told at so many even ``points``.
+        Without a ``theory`` ("euler-bernoulli", "rayleigh", "timoshenko") the simplest one that is accurate enough
+        for this bat is used. ``points`` is the number of evenly spaced places of the shapes.
         """
         document, pictures = self._core.modes(whole("n", n, 0), tol, theory, whole("points", points, 0))
         return Modes(json.loads(document), dict(pictures))
@@ -218,7 +218,7 @@ class Bat:
         """Hits at places ``at`` (m; without, 101 from the middle to the tip), exit speeds within ``tol`` of the
         closing speed.
 
-        ``scene`` says how, with the names of the options of ``sweetspot hit``: ``bat_speed="72 mph"``,
+        ``scene`` describes the hit by the options of ``sweetspot hit``: ``bat_speed="72 mph"``,
         ``swing_speed``, ``pitch``, ``pivot``, ``hands``, ``cor``, ``model`` and so on; numbers are in SI.
         """
         try:
@@ -229,10 +229,11 @@ class Bat:
         return Hit(json.loads(document), dict(pictures))
 
     def tap(self, recording: str | Path | Sequence[float] | np.ndarray, rate: float | None = None) -> Taps:
-        """What a recording of this bat's taps says: tones, which mode each is, the wood.
+        """Analyses a recording of taps on this bat: the tones, the mode of each, and the wood.
 
-        ``recording`` is a file (m4a, wav, mp3, flac, ogg), or the samples of one channel with their ``rate`` (1/s), full
-        scale 1. What cannot be listened to raises; without a tap or a tone ``document["refused"]`` says why.
+        ``recording`` is a file (m4a, wav, mp3, flac, ogg), or the samples of one channel, full scale 1, with their
+        ``rate`` (1/s). A recording that cannot be read raises; if it has no tap or no tone, ``document["refused"]``
+        says why.
         """
         if isinstance(recording, (str, os.PathLike)):
             document, pictures = self._core.tap_file(Path(recording))
@@ -248,10 +249,10 @@ class Bat:
         return Taps(json.loads(document), dict(pictures))
 
     def matrices(self, n: int = 10, tol: float = 1e-4, *, theory: str | None = None) -> Matrices:
-        """Arrays of the finite elements that the first ``n`` modes were found with: ``K, M = bat.matrices()``.
+        """Arrays of the finite elements with which the first ``n`` modes were computed: ``K, M = bat.matrices()``.
 
-        ``K`` and ``M`` are the dense stiffness (N/m, N, N m) and mass (kg, kg m, kg m²) matrices; the others are
-        those of the archive that ``sweetspot modes --matrices`` writes.
+        ``K`` and ``M`` are the dense stiffness (N/m, N, N m) and mass (kg, kg m, kg m²) matrices; the other arrays
+        are those of the archive that ``sweetspot modes --matrices`` writes.
         """
         import io
 
@@ -276,7 +277,7 @@ class Bat:
 def _dense(
     data: np.ndarray, indices: np.ndarray, indptr: np.ndarray, shape: np.ndarray
 ) -> np.ndarray:
-    """A matrix that is stored by compressed rows."""
+    """The dense form of a matrix in compressed rows."""
     matrix = np.zeros(tuple(int(n) for n in shape))
     rows = np.repeat(np.arange(len(indptr) - 1), np.diff(indptr))
     matrix[rows, indices] = data
@@ -284,5 +285,5 @@ def _dense(
 
 
 def built_in_bats() -> list[str]:
-    """The names of the bats that are built in."""
+    """The names of the built-in bats."""
     return _core.built_in_names()

@@ -1,4 +1,4 @@
-"""What is wrong, where, and what was expected."""
+"""The exceptions: what was found, where, and what was expected."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ Named = TypeVar("Named")
 
 
 class SweetspotError(ValueError):
-    """Something that was given is wrong, or could not be read or written.
+    """An argument or a file is wrong, or could not be read or written.
 
     ``mistakes`` has all of them, up to ten: dictionaries with ``file``, ``line``, ``column``, ``place`` (the
     field), ``found``, ``expected`` and ``hint``, each None where there is none. ``file``, ``line``,
@@ -32,7 +32,7 @@ class SweetspotError(ValueError):
 
 
 class SweetspotTypeError(SweetspotError, TypeError):
-    """Something of another kind than was expected, or an argument that there is not."""
+    """A value of another type than was expected, or an argument that does not exist."""
 
 
 def _again(kind: type[SweetspotError], message: str, document: str) -> SweetspotError:
@@ -40,7 +40,7 @@ def _again(kind: type[SweetspotError], message: str, document: str) -> Sweetspot
 
 
 def told(function: Callable[..., Any]) -> Callable[..., Any]:
-    """The function with what Python says of wrong arguments as the package's error."""
+    """The function, with exceptions of Python about wrong arguments turned into those of the package."""
 
     @functools.wraps(function)
     def call(*args: Any, **named: Any) -> Any:
@@ -57,7 +57,7 @@ def told(function: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def all_told(named: type[Named]) -> type[Named]:
-    """A class whose functions that anybody may call are :func:`told`."""
+    """A class with every public function wrapped by :func:`told`."""
     for name, member in list(vars(named).items()):
         if name.startswith("_") and name not in ("__init__", "__getitem__"):
             continue

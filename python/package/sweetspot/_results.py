@@ -1,4 +1,4 @@
-"""What came of a bat: modes, hits and taps, as arrays and as pictures."""
+"""Results for a bat: modes, hits and taps, as arrays and as pictures."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 
 
 def _array(values: Any) -> np.ndarray:
-    """Numbers as an array, NaN where there is none."""
+    """The numbers as an array, with NaN for None."""
     return np.array([np.nan if value is None else value for value in values], dtype=float)
 
 
@@ -27,15 +27,15 @@ def _table(columns: dict[str, np.ndarray], digits: dict[str, int]) -> str:
 
 @dataclass(frozen=True)
 class Shown:
-    """Something with columns and pictures, which a notebook shows."""
+    """A result with columns and pictures that a notebook shows."""
 
     document: dict[str, Any]
-    """The document that the command line writes, as dictionaries and lists."""
+    """The document that the program writes, as dictionaries and lists."""
     pictures: dict[str, str] = field(repr=False)
     """Pictures by their names, each an SVG text."""
 
     def columns(self) -> dict[str, np.ndarray]:
-        """The numbers as a table: arrays of one length by their names, which end in their units."""
+        """The numbers as a table: arrays of equal length by their names, which end in the unit."""
         raise NotImplementedError
 
     def to_pandas(self) -> Any:
@@ -53,7 +53,7 @@ class Shown:
 
 @dataclass(frozen=True, repr=False)
 class Modes(Shown):
-    """Bending modes of a bat, the lowest first. Places count from the knob end."""
+    """Bending modes of a bat, the lowest first. Places are measured from the knob end."""
 
     @property
     def frequency_hz(self) -> np.ndarray:
@@ -62,7 +62,7 @@ class Modes(Shown):
 
     @property
     def frequency_error_hz(self) -> np.ndarray:
-        """How far each frequency may be off (Hz), shape (n,)."""
+        """Largest error of each frequency (Hz), shape (n,)."""
         errors = (mode["error"] for mode in self._modes)
         relative = _array(error["discretization"] + error["round_off"] for error in errors)
         return relative * self.frequency_hz
@@ -74,12 +74,12 @@ class Modes(Shown):
 
     @property
     def nodes_m(self) -> list[np.ndarray]:
-        """The places (m) where each mode stands still, one array a mode."""
+        """The places (m) where each mode does not move: one array for each mode."""
         return [_array(mode["nodes_m"]) for mode in self._modes]
 
     @property
     def nodes_error_m(self) -> np.ndarray:
-        """How far a node of each mode may be off (m), shape (n,)."""
+        """Largest error of the nodes of each mode (m), shape (n,)."""
         return _array(mode["error"]["nodes_m"] for mode in self._modes)
 
     @property
@@ -99,11 +99,11 @@ class Modes(Shown):
 
     @property
     def theory(self) -> str:
-        """The beam theory that was taken."""
+        """The beam theory that was used."""
         return str(self.document["model"]["theory"])
 
     def columns(self) -> dict[str, np.ndarray]:
-        """One row a mode: order, frequency and its error (Hz), modal mass (kg)."""
+        """One row for each mode: order, frequency and its error (Hz), modal mass (kg)."""
         return {
             "mode": np.arange(1, len(self._modes) + 1),
             "frequency_hz": self.frequency_hz,
@@ -127,7 +127,7 @@ class Modes(Shown):
 
 @dataclass(frozen=True, repr=False)
 class Hit(Shown):
-    """Hits along a bat. Places count from the knob end."""
+    """Hits along a bat. Places are measured from the knob end."""
 
     @property
     def x_m(self) -> np.ndarray:
@@ -136,12 +136,12 @@ class Hit(Shown):
 
     @property
     def exit_speed_m_s(self) -> np.ndarray:
-        """Speed of the ball after the hit (m/s), NaN where they do not meet, shape (places,)."""
+        """Speed of the ball after the hit (m/s), NaN where ball and bat do not meet, shape (places,)."""
         return _array(hit["exit_speed_m_s"] for hit in self._hits)
 
     @property
     def exit_speed_error_m_s(self) -> np.ndarray:
-        """How far each exit speed may be off (m/s), shape (places,)."""
+        """Largest error of each exit speed (m/s), shape (places,)."""
         closing = [hit["bat_speed_m_s"] for hit in self._hits]
         closing = np.array(closing, dtype=float) + self.document["scene"]["ball_speed_m_s"]
         return closing * _array((hit.get("error") or {}).get("exit_speed") for hit in self._hits)
@@ -153,7 +153,7 @@ class Hit(Shown):
 
     @property
     def best_m(self) -> float:
-        """Where the fastest ball is hit (m)."""
+        """The place of the hit with the fastest ball (m)."""
         return self._best["x_m"]
 
     @property
@@ -162,7 +162,7 @@ class Hit(Shown):
         return self._best["value"]
 
     def columns(self) -> dict[str, np.ndarray]:
-        """One row a place: place (m), exit speed and its error (m/s), energy in vibration (J)."""
+        """One row for each place: place (m), exit speed and its error (m/s), energy in vibration (J)."""
         return {
             "x_m": self.x_m,
             "exit_speed_m_s": self.exit_speed_m_s,
@@ -189,7 +189,7 @@ class Hit(Shown):
 
 @dataclass(frozen=True, repr=False)
 class Taps(Shown):
-    """What a recording of a bat's taps says, the lowest tone first. Intervals hold in 95 of 100 cases."""
+    """Analysis of a recording of taps on a bat, the lowest tone first. Intervals hold in 95 of 100 cases."""
 
     @property
     def frequency_hz(self) -> np.ndarray:
@@ -198,39 +198,39 @@ class Taps(Shown):
 
     @property
     def frequency_interval_hz(self) -> np.ndarray:
-        """Where each frequency lies (Hz), shape (n, 2)."""
+        """The 95 % interval of each frequency (Hz), shape (n, 2)."""
         return np.array([tone["frequency_interval95_hz"] for tone in self._tones], dtype=float).reshape(-1, 2)
 
     @property
     def loss_factor(self) -> np.ndarray:
-        """Loss factors, NaN where they are not to be believed, shape (n,)."""
+        """Loss factors, NaN where they are not reliable, shape (n,)."""
         return _array(tone["loss_factor"] for tone in self._tones)
 
     @property
     def loss_factor_interval(self) -> np.ndarray:
-        """Where each loss factor lies, shape (n, 2)."""
+        """The 95 % interval of each loss factor, shape (n, 2)."""
         none = [None, None]
         return np.array([_array(tone["loss_factor_interval95"] or none) for tone in self._tones]).reshape(-1, 2)
 
     @property
     def mode(self) -> list[str | None]:
-        """Which mode each tone is, such as "bending 1" or "hoop 2 1"; None for a tone of no mode of this bat."""
+        """The mode of each tone, such as "bending 1" or "hoop 2 1"; None for a tone that is not a mode of this bat."""
         modes = (tone["mode"] for tone in self._tones)
         return [" ".join(str(value) for value in mode.values()) if mode else None for mode in modes]
 
     @property
     def sure(self) -> np.ndarray:
-        """The chance that each mode is right, NaN without one, shape (n,)."""
+        """The probability that each mode is right, NaN for a tone without a mode, shape (n,)."""
         return _array(tone["sure"] for tone in self._tones)
 
     @property
     def computed_hz(self) -> np.ndarray:
-        """What the bat of the wood that was found has there (Hz), NaN without a mode, shape (n,)."""
+        """The frequency of that mode computed with the wood that was found (Hz), NaN without a mode, shape (n,)."""
         return _array(tone["computed_hz"] for tone in self._tones)
 
     @property
     def wood(self) -> dict[str, Any] | None:
-        """The wood, as `sweetspot calibrate --json` has it; None where no tone is a bending mode."""
+        """The wood, as `sweetspot calibrate --json` writes it; None if no tone is a bending mode."""
         return self.document["wood"]
 
     @property
@@ -239,7 +239,7 @@ class Taps(Shown):
         return bool(self.document["fits"])
 
     def columns(self) -> dict[str, np.ndarray]:
-        """One row a tone: frequency and where it is computed (Hz), loss factor, how sure its mode is."""
+        """One row for each tone: frequency, computed frequency (Hz), loss factor, probability of its mode."""
         return {
             "frequency_hz": self.frequency_hz,
             "computed_hz": self.computed_hz,

@@ -1,4 +1,4 @@
-"""Many bats: rows of a study, each a function of the study and its number."""
+"""Studies of many bats. Each row depends only on the study and on the number of the row."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ from ._errors import SweetspotError, all_told, told
 
 @all_told
 class Study:
-    """A study that can be run: a file, or the members of one.
+    """A study that can be run, from a file or from its members.
 
-    ``spec`` is the path of a study file or a dictionary with its members; files that it names are in its folder or
-    below, or in ``folder``. Files elsewhere are refused: only what a person names at a keyboard reads them.
+    ``spec`` is the path of a study file or a dictionary with its members. The files that it names are in its folder,
+    or in ``folder``, or below. Files elsewhere are refused; only a study named on a command line may read them.
     """
 
     def __init__(self, spec: str | Path | Mapping[str, Any], folder: str | Path = "") -> None:
@@ -48,7 +48,7 @@ class Study:
 
     @property
     def parts(self) -> int:
-        """How many parts there are."""
+        """The number of parts."""
         return -(-self.rows // self.rows_per_part)
 
     @property
@@ -57,32 +57,32 @@ class Study:
         return self._core.columns()
 
     def result(self, text: bytes) -> StudyResult:
-        """Rows of it from the text of a part, or of several without the heads of all but the first."""
+        """The rows in the text of a part, or of several parts of which only the first has its head."""
         return StudyResult(text, self._core.numbers())
 
     def warnings(self) -> list[str]:
-        """What is strange and stops nobody: of the bats, and of what varies without effect on what is asked."""
+        """Warnings about the bats, and about variations without an effect on the requested answers."""
         return self._core.warnings()
 
     def part(self, k: int, jobs: int | None = None) -> bytes:
-        """Part k as a CSV file, made on so many threads (all processors without)."""
+        """Part k as a CSV file, computed on ``jobs`` threads, by default one for each processor."""
         return self.made([k], jobs)[0]
 
     def made(self, parts: list[int], jobs: int | None = None) -> list[bytes]:
-        """Some parts as CSV files, made together on so many threads (all processors without)."""
+        """Several parts as CSV files, computed together on ``jobs`` threads, by default one for each processor."""
         parts = [whole("part", k, 0, self.parts - 1) for k in parts]
         jobs = None if jobs is None else whole("jobs", jobs, 1, _core.MOST_JOBS)
         return self._core.parts(parts, self.rows_per_part, jobs)
 
     def open(self, out: str | Path) -> None:
-        """Makes the folder of the study with its manifest, or raises if it is another study's.
+        """Makes the folder of the study with its manifest, or raises if the folder belongs to another study.
 
-        Of a folder that was begun with larger parts the study takes their number of rows.
+        If the folder was begun with larger parts, the study uses their number of rows.
         """
         self.rows_per_part = self._core.open(Path(out))
 
     def kept(self, out: str | Path, k: int, parquet: bool = False) -> bytes | None:
-        """Part k if it is in the opened folder, or raises if it is not as the study makes it."""
+        """Part k if it is in the opened folder. Raises if its contents cannot be those of that part."""
         out, k = Path(out), whole("part", k, 0, self.parts - 1)
         if not parquet:
             return self._core.kept(out, self.rows_per_part, k)
@@ -95,7 +95,7 @@ class Study:
         return path.read_bytes()
 
     def keep(self, out: str | Path, k: int, part: bytes, parquet: bool = False) -> None:
-        """Writes part k and its sum into the opened folder: it is there whole, or not."""
+        """Writes part k and its checksum into the opened folder, either completely or not at all."""
         if parquet:
             from pyarrow import parquet as engine
 
@@ -120,23 +120,23 @@ class Study:
             )
 
     def shipped(self) -> str:
-        """The study with everything it needs, to be sent to another machine."""
+        """The study with everything that it needs, as a text that can be sent to another machine."""
         return self._core.alone()
 
 
 @functools.lru_cache(maxsize=4)
 def _arrived(shipped: str) -> _core.Study:
-    """The study on this machine."""
+    """The study that was sent to this machine."""
     return _core.Study.arrived(shipped)
 
 
 def make(shipped: str, k: int, rows_per_part: int) -> bytes:
-    """Part k of a study that was sent here, on one thread."""
+    """Part k of a study that was sent to this machine, computed on one thread."""
     return bytes(_arrived(shipped).parts([k], rows_per_part, 1)[0])
 
 
 def _wrong_in(table: Any, names: list[str], numbers: list[str], rows: range) -> str | None:
-    """What is wrong with the rows of a table that was read back, if anything is."""
+    """The first mistake in the rows of a table that was read back, or None."""
     if table.column_names != names:
         return "other columns"
     columns = {name: table[name].to_pylist() for name in names}
@@ -156,7 +156,7 @@ def _wrong_in(table: Any, names: list[str], numbers: list[str], rows: range) -> 
 
 
 def part_path(out: Path, k: int, parquet: bool = False) -> Path:
-    """Where part k is kept."""
+    """The file of part k."""
     return out / f"part-{k:06}.{'parquet' if parquet else 'csv'}"
 
 
@@ -226,14 +226,14 @@ def _column(name: str, cells: tuple[str, ...], is_number: bool) -> np.ndarray:
 
 
 def _text(cell: str) -> str:
-    """A text without the apostrophe that stands before what a spreadsheet would compute."""
+    """A text without the apostrophe that was put before it so that a spreadsheet does not compute it."""
     rest = cell.lstrip("'")
     guarded = rest.startswith(("=", "+", "-", "@", "\t", "＝", "＋", "－", "＠", "\\r"))
     return cell[1:] if guarded and cell.startswith("'") else cell
 
 
 def _together(rows_per_part: int, jobs: int | None) -> int:
-    """How many parts are made together."""
+    """The number of parts that are computed together."""
     return max(1, 64 * min(jobs or os.cpu_count() or 1, 64) // rows_per_part)
 
 
@@ -246,12 +246,12 @@ def run_study(
     jobs: int | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> StudyResult:
-    """Runs a study on this machine and gives its rows.
+    """Runs a study on this machine and returns its rows.
 
-    ``spec`` is the path of a study file or a dictionary with its members (its files are sought in ``folder``).
-    With ``out`` the parts are kept in that folder, and parts that are there are not made again. ``jobs`` is a
-    number of threads. ``progress`` is told how many parts of how many are done. Bats that are strange, and
-    what varies without an effect on anything that is asked, are warned of.
+    ``spec`` is the path of a study file or a dictionary with its members (its files are read from ``folder``).
+    With ``out`` the parts are kept in that folder, and parts that are already there are not computed again.
+    ``jobs`` is a number of threads. ``progress`` is called with the number of finished parts and of all parts.
+    Unusual bats, and variations without an effect on the requested answers, cause warnings.
     """
     study = Study(spec, folder)
     jobs = None if jobs is None else whole("jobs", jobs, 1, _core.MOST_JOBS)
@@ -264,7 +264,7 @@ def run_study(
     while (k := len(parts)) < study.parts:
         part = None if out is None else study.kept(out, k)
         if part is None:
-            # Small parts are made together, so that every thread has rows.
+            # Small parts are computed together, so that every thread has rows.
             together = range(k, min(k + _together(study.rows_per_part, jobs), study.parts))
             together = [j for j in together if out is None or not part_path(out, j).exists()]
             together = [j for n, j in enumerate(together) if j == k + n]
@@ -276,7 +276,7 @@ def run_study(
             parts.append(part)
         if progress is not None:
             progress(len(parts), study.parts)
-    # The head stands in every part.
+    # Every part has the head.
     rows = [part if k == 0 else part.split(b"\n", 1)[1] for k, part in enumerate(parts)]
     return study.result(b"".join(rows))
 

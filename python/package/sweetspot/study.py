@@ -28,36 +28,36 @@ NO_WHEEL = "a worker has no package sweetspot: install the wheel wherever worker
 
 
 Parts = Iterator[tuple[int, bytes]]
-# A worker that dies is no fault of the part it was at; a part that kills so many, alone, is.
+# A part that was computed when a worker died is tried again. It is given up if this many workers die with it alone.
 DEATHS = 3
-# Tasks for each worker: one to do and others that wait for it.
+# Tasks for each worker: one that it computes and others that wait.
 WINDOW = 3
 
 
 class Lost(Exception):
-    """A part that no worker comes back from."""
+    """A part that ends every worker that computes it."""
 
 
 class Pool(Protocol):
-    """Workers of one kind, which are at some tasks."""
+    """Workers of one engine and their tasks."""
 
     def room(self) -> int:
-        """How many tasks they may have."""
+        """The largest number of tasks at a time."""
 
     def start(self, k: int) -> Any:
         """A task that makes part k."""
 
     def ended(self, tasks: list[Any]) -> list[tuple[Any, bytes | None]]:
-        """Waits for some of the tasks: what they made, None where a worker died."""
+        """Waits until some of the tasks have ended. Returns their parts, None where a worker died."""
 
     def close(self) -> None:
-        """Ends them."""
+        """Ends the workers."""
 
 
 def shared_out(pool: Pool, parts: list[int]) -> Parts:
-    """The parts as workers make them, some tasks at a time.
+    """Gives out the parts to workers, and yields each part when it is finished.
 
-    Parts that were under way when a worker died are tried again one at a time, with nothing beside them.
+    Parts that were being computed when a worker died are tried again one at a time, without other tasks.
     """
     left, again, deaths = deque(parts), deque(), Counter()
     running: dict[Any, int] = {}
@@ -80,16 +80,16 @@ def shared_out(pool: Pool, parts: list[int]) -> Parts:
                     raise Lost(f"part {k} ended its worker {DEATHS} times, with nothing beside it (memory, perhaps)")
                 again.append(k)
     finally:
-        # An engine that cannot be closed (after a worker's death, for example) does not hide why the study ended.
+        # An error in closing an engine (after a worker's death, for example) must not hide why the study ended.
         with undisturbed(), suppress(Exception):
             pool.close()
 
 
 @contextmanager
 def undisturbed() -> Iterator[None]:
-    """Lets a signal wait until an engine has started or ended: one that is interrupted leaves processes behind.
+    """Delays a signal until an engine has started or ended, because an interrupted engine leaves processes behind.
 
-    A second one does not wait.
+    A second signal takes effect at once.
     """
     heard: list[int] = []
     known: dict[int, Any] = {}
@@ -116,7 +116,7 @@ def undisturbed() -> Iterator[None]:
 
 
 class Local:
-    """Processes of this machine. They end with the one that started them, however that ends."""
+    """Processes of this machine. They end when the process that started them ends, in whatever way."""
 
     def __init__(self, shipped: str, rows_per_part: int, workers: int | None, address: str | None) -> None:
         if address is not None:
@@ -144,7 +144,7 @@ class Local:
     def ended(self, tasks: list[Future[bytes]]) -> list[tuple[Future[bytes], bytes | None]]:
         done = wait(tasks, return_when=FIRST_COMPLETED).done
         if any(isinstance(task.exception(), BrokenProcessPool) for task in done):
-            # All end with it.
+            # The other tasks fail too.
             done = wait(tasks).done
             self.close()
         dead = lambda task: isinstance(task.exception(), BrokenProcessPool)
@@ -153,14 +153,14 @@ class Local:
     def close(self) -> None:
         if self._pool is not None:
             pool, self._pool = self._pool, None
-            # Whoever holds the other end hears that this one is closed.
+            # The workers notice that this end of the pipe is closed.
             self._held.close()
             pool.shutdown(wait=True, cancel_futures=True)
             self._alive.close()
 
 
 def _follow(alive: Connection) -> None:
-    """Ends this process as soon as the one that started it does, or closes its end."""
+    """Ends this process when the process that started it ends or closes its end of the pipe."""
 
     def listen() -> None:
         try:
@@ -169,7 +169,7 @@ def _follow(alive: Connection) -> None:
             pass
         os._exit(1)
 
-    # Who presses ^C means the one that shares out.
+    # ^C is meant for the process that gives out the parts.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=listen, daemon=True).start()
 
@@ -192,7 +192,7 @@ class Ray:
         self._deaths = tuple(getattr(engine.exceptions, name) for name in named if hasattr(engine.exceptions, name))
 
     def room(self) -> int:
-        # Asked anew, as machines come and go.
+        # Asked every time, because machines come and go.
         return WINDOW * max(1, int(self._engine.cluster_resources().get("CPU", 1)))
 
     def start(self, k: int) -> Any:
@@ -220,12 +220,12 @@ class Dask:
         import distributed
 
         own = {"n_workers": workers or PROCESSORS, "threads_per_worker": 1, "dashboard_address": None}
-        # A scheduler that runs tries a task again by itself, on the next worker.
+        # Otherwise Dask would try a task again on another worker by itself.
         with dask.config.set({"distributed.scheduler.allowed-failures": 0}):
             connect = lambda: distributed.Client(address) if address else distributed.Client(**own)
             self._client = reached("dask", address, connect)
         self._engine, self._given = distributed, (shipped, rows_per_part)
-        # One that cannot read what it is to do would die without a word.
+        # A worker without the package would die without a message.
         self._client.run(eval, "__import__('sweetspot').__name__")
 
     def room(self) -> int:
@@ -250,11 +250,11 @@ class Dask:
 
 
 def reached(engine: str, address: str | None, connect: Callable[[], Any]) -> Any:
-    """What is at the address, or the engine's own."""
+    """Connects to the engine at the address, or starts one."""
     try:
         host, _, port = (address or "").rpartition("://")[2].rpartition(":")
         if port.isdigit():
-            # Engines wait for minutes before they say that nobody is there.
+            # Engines would wait for minutes before they report that nothing answers.
             socket.create_connection((host.strip("[]"), int(port)), timeout=10).close()
         return connect()
     except Exception as error:
@@ -270,13 +270,13 @@ ENGINES: dict[str, Callable[..., Pool]] = {"local": Local, "ray": Ray, "dask": D
 
 
 class Unwritten(Exception):
-    """A part that could not be kept."""
+    """A part that could not be written."""
 
 
 def run(
     spec: Path, out: Path, engine: str, workers: int | None, address: str | None, parquet: bool, quiet: bool
 ) -> None:
-    """Makes every part that is not there."""
+    """Computes every part that is not in the folder yet."""
     study, outside = Study.named_by_a_person(spec)
     for other in outside if not quiet else ():
         print(f"note: {spec} names {other}, which is outside of its folder", file=sys.stderr)
@@ -306,7 +306,7 @@ def run(
 
 
 class Ended(BaseException):
-    """A signal that ends the program."""
+    """Raised by a signal that ends the program."""
 
 
 def _end(number: int, _: Any) -> None:
@@ -314,7 +314,7 @@ def _end(number: int, _: Any) -> None:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Exit code 0, 2 for what was asked wrongly, 3 for parts that could not be made."""
+    """Runs a study and returns the exit code: 0, 2 for wrong arguments or files, 3 for parts that could not be made."""
     parser = argparse.ArgumentParser("python -m sweetspot.study", description=__doc__)
     parser.add_argument("study", type=Path, metavar="STUDY.json", help="study file")
     parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder of the parts")

@@ -191,7 +191,7 @@ mod tests {
         ("power", |f| f.power(Jet::constant(-1.7)), |z| exp(times((-1.7, 0.0), ln(z)))),
     ];
 
-    /// Every value and every slope at a place of a box is in what the box gives.
+    /// The ranges of a box contain the value and the slope at each of its points.
     #[test]
     fn a_box_holds_the_values_and_slopes_at_its_places() {
         let (mut seed, mut held) = (7, 0);

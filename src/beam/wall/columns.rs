@@ -15,7 +15,7 @@ const MOST: f64 = 400.0;
 const STEP: f64 = 0.15;
 /// Usual length of a column as a multiple of the radius there.
 const LENGTH: f64 = 1.8;
-/// Greatest thickness of a part of a layer as a share of the radius: in a core a motion goes as `r^n`.
+/// Greatest thickness of a part of a layer as a share of the radius: in a core a motion is proportional to `r^n`.
 const THICKNESS: f64 = 0.3;
 /// Cuts across the wall lie in geometric steps from a corner, and none is closer to it than this share of the distance
 /// to the column's far end.

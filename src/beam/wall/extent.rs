@@ -100,7 +100,7 @@ impl Extent {
                 (piece.start + s * piece.length, piece.at(s).outer)
             })
         });
-        // Beyond the widest place a tube may taper too, but that part is no handle.
+        // Beyond the widest place a tube may taper too, but that part is not a handle.
         let mut places: Vec<(f64, f64)> = places.collect();
         let widest = (0..places.len()).rev().max_by(|a, b| places[*a].1.total_cmp(&places[*b].1));
         places.truncate(widest.map_or(0, |widest| widest + 1));

@@ -1,4 +1,4 @@
-//! A bat's modes in time, and the ball that meets them: touch by touch until it is gone for good.
+//! A bat's modes in time and the ball that hits it: touch by touch, until the ball is gone for good.
 
 use std::sync::OnceLock;
 
@@ -27,7 +27,7 @@ pub struct Collider {
     pub(super) tuning: Tuning,
 }
 
-/// Touches that are followed; what more could give is part of the error.
+/// Most touches that are computed; the possible effect of more is part of the error.
 pub(super) const MOST_TOUCHES: usize = 64;
 /// A ball counts as gone after a flight of this time (s), or of this multiple of the longest step, about a hundred times
 /// as long as it was pressed: by then a swung bat has turned away, and hands that would bring it back have moved.
@@ -41,7 +41,7 @@ impl Collider {
         let pole = |[omega, ratio]: &[f64; 2]| {
             c64::new(-ratio * omega, omega * ((1.0 - ratio) * (1.0 + ratio)).sqrt())
         };
-        // What fills the last lanes weighs nothing.
+        // The modes that fill the last lanes have no weight.
         let filled = modes.len().next_multiple_of(LANES);
         let fill = std::iter::repeat(c64::new(0.0, 1.0 / time));
         let poles: Vec<c64> = modes.iter().map(pole).chain(fill).take(filled).collect();
@@ -54,18 +54,18 @@ impl Collider {
         }
     }
 
-    /// A collider of these modes with other lengths of the steps.
+    /// This collider with other lengths of the steps.
     pub fn tuned(self, tuning: Tuning) -> Self {
         Self { tuning, ..self }
     }
 
-    /// The encounter at that place, ball and bat nearing at `speed` (m/s), with as many modes as there
-    /// are gains, in steps whose force is off by about `accuracy`, relative.
+    /// The encounter at that place for a closing speed of `speed` (m/s), with as many modes as there are gains, in
+    /// steps whose force has a relative error of about `accuracy`.
     pub fn meet(&self, felt: &DrivingPoint, law: &dyn Law, speed: f64, accuracy: f64) -> Encounter {
         self.meet_beside(felt, &[], law, speed, accuracy)
     }
 
-    /// The encounter, and how its impulse changes to first order for each of other bats, of no more
+    /// The encounter, and the first-order change of its impulse for each of the other bats, which have at most as many
     /// modes, and with the closing speed.
     pub fn meet_beside(
         &self,
@@ -134,7 +134,7 @@ impl Collider {
     }
 }
 
-/// A ball about to meet a bat.
+/// The data of one encounter.
 pub struct Meeting<'a> {
     collider: &'a Collider,
     felt: &'a DrivingPoint,
@@ -144,13 +144,13 @@ pub struct Meeting<'a> {
     history: Option<&'a mut Vec<Piece>>,
 }
 
-/// A meeting of ball and bat by the ball's law.
+/// An encounter by the ball's law.
 struct Touches<'a, L> {
     law: L,
     meeting: Meeting<'a>,
 }
 
-/// What the force law of one hit is made of.
+/// Data of the ball for the force law of one hit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct LawTerms {
@@ -160,18 +160,17 @@ pub struct LawTerms {
     pub exponent: f64,
     /// Coefficient of restitution e₀ on a rigid wall in this hit.
     pub restitution: f64,
-    /// Speed (m/s) at which the ball would bring as much energy to a rigid wall, for laws of balls that are stiffer
-    /// the faster they are met. Later touches of the same hit keep it, as they keep e₀.
+    /// Speed (m/s) at which the ball would bring as much energy to a rigid wall, for balls that are stiffer in faster
+    /// hits. Later touches of the same hit keep it, as they keep e₀.
     pub speed: f64,
 }
 
-/// Any law, as a hit holds it: the whole encounter behind one call, so that each law has its own
-/// compiled steps.
+/// Any law in a hit. One call computes the whole encounter, so that each law has its own compiled steps.
 pub trait Law: Send + Sync {
     /// The encounter of [`Collider::meet`]; its force in time goes to the `history`, if there is one.
     fn meet(&self, meeting: Meeting<'_>) -> Encounter;
 
-    /// The compression (m) that takes that energy (J).
+    /// The compression (m) that stores that energy (J).
     fn pressed_by(&self, energy: f64) -> f64;
 
     /// Stiffness and both exponents of a law of powers ([`ForceLaw::powers`]).
@@ -205,10 +204,10 @@ impl<L: ForceLaw> WithSimd for Touches<'_, L> {
     }
 }
 
-/// The compression (m) at which a ball of that law and a flexibility (m/N) together have that energy (J).
+/// The compression (m) at which a ball of that law and a flexibility (m/N) together store that energy (J).
 fn deepest(law: &impl ForceLaw, rest: f64, energy: f64) -> f64 {
     let mut x = law.compression(energy);
-    // From above, and convex: Newton's method comes down to it.
+    // The function is convex and the start is above the root, so Newton's method descends to it.
     for _ in 0..60 {
         let [force, slope] = law.force(x, None);
         let more = law.energy(x, None)[0] + 0.5 * rest * force * force - energy;
@@ -239,7 +238,7 @@ impl<L: ForceLaw> Touch<'_, L> {
                 met.endless = true;
                 break;
             }
-            // A force that has gone may come back before the ball is round again.
+            // A force that has gone may return before the ball is round again.
             let left = self.reach(&run.now);
             if run.now.compression > 0.0 && self.glide(&mut run, &mut means, [0.0, left]) {
                 (met.late, run.level, run.last) = (true, USUAL, None);
@@ -266,7 +265,7 @@ impl<L: ForceLaw> Touch<'_, L> {
         met
     }
 
-    /// Lets ball and bat move while there is next to no force; whether it comes back.
+    /// Moves ball and bat on while there is next to no force. Returns whether the force comes back.
     fn glide(&self, run: &mut Run, means: &mut StepTables, between: [f64; 2]) -> bool {
         let start = run.now.time;
         let landing = self.fly(run, between, f64::INFINITY);
@@ -293,7 +292,7 @@ impl<L: ForceLaw> Touch<'_, L> {
         met.in_modes = (0..self.felt.gains.len()).map(|n| self.in_mode(now, n)).collect();
     }
 
-    /// The most impulse (N s) that later touches can give: all energy there is in the ball's flight.
+    /// Upper bound of the impulse (N s) of later touches: as if all remaining energy went into the motion of the ball.
     pub(super) fn most_that_follows(&self, now: &State) -> f64 {
         let energy = self.energy - now.lost - now.spent;
         let fastest = (2.0 * energy * self.felt.inverse_mass).sqrt();
@@ -403,7 +402,7 @@ mod tests {
         }
     }
 
-    /// What was recorded has the meeting's impulse, ends with it and leaves its energy in a mode.
+    /// The recorded force has the encounter's impulse, ends with it and leaves its energy in a mode.
     #[test]
     fn the_recorded_force_is_the_force() {
         for (at, restitution, accuracy) in
@@ -439,7 +438,7 @@ mod tests {
 
     /// The dowel of the WPI report at 0.7 of its length, 50 rad/s about a point 63.5 mm beyond the
     /// knob, a ball of 5 oz at 90 mph, k = 1e7 N/m^1.5, e₀ = ½: exit speeds with 0 to 30 modes by
-    /// an eighth-order Runge-Kutta method, the branches' ends located.
+    /// an eighth-order Runge-Kutta method that locates the ends of the branches.
     #[test]
     fn other_methods_find_the_same_exit_speeds() {
         let (ball, incoming): (f64, f64) = (0.141_747_6, 40.2336);

@@ -1,5 +1,5 @@
-//! The points of a step, and the force through them: a polynomial, so that what it does to a mode is
-//! exact ([`crate::motion::phi`]). Modes are taken several side by side.
+//! The points of a step, and the force through them: a polynomial, so that the motion of a mode under it is exact
+//! ([`crate::motion::phi`]). Several modes are computed side by side.
 
 /// Points of a step, both ends included.
 pub const POINTS: usize = 5;

@@ -1,7 +1,7 @@
-//! One number for each of some places that are hit side by side, and the functions of a contact in them.
+//! One number for each of several places that are hit side by side, and the functions that a contact needs of them.
 //!
-//! Plain loops over arrays, which the compiler turns into vector instructions. Only operations that every machine
-//! rounds alike are used, so that a place has the same bits whichever lane it is in and whatever is in the other lanes.
+//! These are plain loops over arrays, which the compiler turns into vector instructions. They use only operations that
+//! every machine rounds alike, so that a place has the same bits in every lane and whatever the other lanes contain.
 //!
 //! # Source
 //!
@@ -13,7 +13,7 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Each<const W: usize>(pub [f64; W]);
 
-/// What the expression gives for every lane.
+/// The value of the expression in every lane.
 macro_rules! each {
     ($k:ident => $value:expr) => {{
         let mut each = [0.0; W];
@@ -122,7 +122,7 @@ impl<const W: usize> Each<W> {
         each!(k => if self.0[k] < other.0[k] { 1.0 } else { 0.0 })
     }
 
-    /// Where it is no more than the other; not where either is not a number.
+    /// Condition: at most the other. False if either is NaN.
     #[inline(always)]
     pub fn within(self, other: Self) -> Self {
         each!(k => if self.0[k] <= other.0[k] { 1.0 } else { 0.0 })
@@ -170,8 +170,8 @@ impl<const W: usize> Each<W> {
         !self.fails().everywhere()
     }
 
-    /// The power `p` of numbers that are more than 0 and not subnormal, some at once: `2^(p log₂ x)`, within about
-    /// `p` ε log₂ x, and 0 below `2^−1000`.
+    /// The power `p` of several positive, normal numbers at once: `2^(p log₂ x)`, within about `p` ε log₂ x; 0 below
+    /// `2^−1000`.
     #[inline(always)]
     pub fn powers<const N: usize>(numbers: [Self; N], p: Self) -> [Self; N] {
         let mut powers = Self::logarithms(numbers);
@@ -220,7 +220,7 @@ impl<const W: usize> Each<W> {
         whole
     }
 
-    /// `2^y`, by a polynomial of what a whole number leaves through Chebyshev's points; 0 below −1000.
+    /// `2^y` by a polynomial of the part left by the nearest whole number, through Chebyshev's points; 0 below −1000.
     #[inline(always)]
     fn exponentials<const N: usize>(y: [Self; N]) -> [Self; N] {
         const SERIES: [f64; 12] = [
@@ -250,10 +250,10 @@ impl<const W: usize> Each<W> {
         sum
     }
 
-    /// The nearest whole number, in the last bits of each, and what is left.
+    /// The nearest whole number, as an integer in the low bits, and the remainder.
     #[inline(always)]
     fn nearest(self) -> ([u64; W], Self) {
-        /// `1.5 · 2^52`: added to it, a number is rounded to a whole one.
+        /// `1.5 · 2^52`: a number added to it is rounded to a whole one.
         const ROUND: f64 = 6_755_399_441_055_744.0;
         let (mut bits, up) = ([0; W], self + ROUND);
         let mut k = 0;
@@ -331,7 +331,7 @@ mod tests {
     use super::*;
     use crate::base::golden;
 
-    /// Within some roundings of the machine's own functions, of numbers of every size.
+    /// Equal to the machine's own functions within some roundings, for numbers of every size.
     #[test]
     fn powers_and_angles_are_those_of_the_machine() {
         for k in 0..20_000 {
@@ -345,7 +345,7 @@ mod tests {
             for l in 0..4 {
                 let (x, p) = (x.0[l], p.0[l]);
                 let exact = x.powf(p);
-                // An exponent is off by its own rounding.
+                // The rounding of the exponent is amplified.
                 let off = 1e-15 + 3e-16 * p * x.ln().abs();
                 assert!(
                     (power.0[l] - exact).abs() <= off * exact + 1e-300,

@@ -1,5 +1,4 @@
-//! Ball and bat while they touch: a lossy spring between a mass and a body that turns, moves and
-//! rings.
+//! Ball and bat in contact: a lossy spring between a mass and a body that translates, rotates and vibrates.
 //!
 //! With `x` the ball's compression, `F(x)` its force ([`crate::collision::contact::force_law`]) and the bat's
 //! motions at the impact point,
@@ -13,29 +12,29 @@
 //!
 //! Each mode is the memory `v(t) = ∫ e^{s(t−τ)} F dτ` of the force, `s = −ζω + iω_d`, with `y =
 //! −(c/ω_d) Im v` and `y′ = −(c/ω_d) Im sv`. In a step the force is a polynomial through Lobatto's
-//! points, at which the first equation holds; its effect on `z` and `v` is then exact, however fast
-//! a mode swings, and the tables for that depend on the modes and the step's length alone. A small
-//! bump is added to the force of every step so that the energy is right to round-off; how much
-//! energy that takes shows how good the steps are. The loading's end and the ball's departure are
-//! located inside a step by Newton's method on the exact motion. How the impulse would change with the
-//! bat goes along ([`crate::collision::contact::tangent`]).
+//! points, at which the first equation holds. Its effect on `z` and `v` is then exact, however fast a mode vibrates,
+//! and the tables for it depend only on the modes and the step's length. A small bump is added to the force of every
+//! step so that the energy balance closes to round-off; the energy of this correction measures the error of the steps.
+//! The end of loading and the departure of the ball are located inside a step by Newton's method on the exact motion.
+//! The derivative of the impulse by the bat's properties is computed along with it
+//! ([`crate::collision::contact::tangent`]).
 //!
-//! The ball may be caught again ([`crate::collision::contact::flight`]), while its force has almost gone or after it
-//! has left. One that left is round again: a later touch begins on the first branch of the law, with
-//! the e₀ of the first. The meeting ends when the ball is gone for good.
+//! The bat may catch up with the ball ([`crate::collision::contact::flight`]) while the force has almost gone, or after
+//! the ball has left. A ball that has left is round again: a later touch begins on the first branch of the law, with
+//! the e₀ of the first. The encounter ends when the ball is gone for good.
 //!
 //! # Source
 //!
-//! Modal coupling: A. M. Nathan, Am. J. Phys. 68, 979 (2000), who leaves time to a Runge-Kutta
-//! method. Exact motion under a polynomial load: variation of constants. Energy by projection: E. Hairer, C. Lubich,
-//! G. Wanner, Geometric Numerical Integration (2006), section IV.4.
+//! Modal coupling: A. M. Nathan, Am. J. Phys. 68, 979 (2000), who integrates in time by a Runge-Kutta method. Exact
+//! motion under a polynomial load: variation of constants. Energy by projection: E. Hairer, C. Lubich, G. Wanner,
+//! Geometric Numerical Integration (2006), section IV.4.
 
 use crate::collision::contact::touch::DrivingPoint;
 
-/// A meeting that needs more steps than this has failed.
+/// An encounter that needs more steps than this has failed.
 pub const MOST_STEPS: usize = 20_000;
 
-/// What a meeting of ball and bat left behind.
+/// The result of an encounter of ball and bat.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Encounter {
     /// Impulse `J` of all touches (N s).
@@ -48,7 +47,7 @@ pub struct Encounter {
     pub first_end: f64,
     /// Impulse of the first touch (N s).
     pub first_impulse: f64,
-    /// How many times they touch.
+    /// Number of touches.
     pub touches: usize,
     /// Largest force (N).
     pub peak_force: f64,
@@ -60,28 +59,29 @@ pub struct Encounter {
     pub lost_in_bat: f64,
     /// Energy of every mode (J).
     pub in_modes: Vec<f64>,
-    /// Energy that the steps were off by before it was put right, relative to what was available.
+    /// Sum of the energy errors of the steps before their correction, relative to the available energy.
     pub corrected: f64,
-    /// How often the force rose above the largest compression again.
+    /// Number of times that the ball was compressed again beyond its largest compression.
     pub reloads: usize,
     /// The force had almost gone when the bat caught up with the ball.
     pub late: bool,
-    /// Impulse (N s) that touches beyond those that were followed might give.
+    /// Possible impulse (N s) of touches beyond those that were computed.
     pub open: f64,
-    /// Steps that were tried.
+    /// Number of steps tried.
     pub steps: usize,
     /// Change of the impulse (N s) for each varied bat, to first order.
     pub changes: Vec<f64>,
     /// Change of the first touch's impulse (N s) for each varied bat, to first order.
     pub first_changes: Vec<f64>,
-    /// Change of the impulse (N s) with the closing speed, times that speed, to first order; None without varied bats.
+    /// Change of the impulse (N s) with the closing speed, times that speed, to first order; `None` without varied
+    /// bats.
     pub faster: Option<f64>,
-    /// The steps came to no end.
+    /// The steps did not come to an end.
     pub endless: bool,
 }
 
 impl Encounter {
-    /// Whether the steps came to no end because there were too many of them: finer ones would be more.
+    /// Whether the steps did not come to an end because there were too many of them; finer steps would be even more.
     pub fn is_exhausted(&self) -> bool {
         self.endless && self.steps >= MOST_STEPS
     }
@@ -96,20 +96,20 @@ impl Encounter {
         self.touches > 1
     }
 
-    /// Whether a small change may be magnified: the ball was pressed anew, or met again.
+    /// Whether a small change may be magnified: the ball was compressed again or touched again.
     pub fn is_delicate(&self) -> bool {
         self.reloads > 0 || self.late || self.again()
     }
 
-    /// Whether the steps came to an end and the energies close, ball and bat having neared at `speed`
-    /// (m/s): what is left of the rigid motions' energy is all that is not lost or in the modes.
+    /// Whether the steps came to an end and the energies balance for that closing speed (m/s): the loss of rigid energy
+    /// must equal the energy lost and in the modes.
     pub fn is_sound(&self, felt: &DrivingPoint, speed: f64) -> bool {
-        /// Share of the energy that may be missing or too much.
+        /// Allowed error of the balance, as a share of the energy.
         const BOUND: f64 = 1e-9;
         let after = speed - self.impulse * felt.inverse_mass;
         let [before, after] = [speed, after].map(|v| 0.5 * v * v / felt.inverse_mass);
         let lost = self.lost_in_ball + self.lost_in_bat + self.in_modes.iter().sum::<f64>();
-        // A balance that is not a number does not close.
+        // A balance that is NaN does not close.
         !self.endless && (before - after - lost).abs() <= BOUND * before
     }
 }

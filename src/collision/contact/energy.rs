@@ -1,4 +1,4 @@
-//! The energy of a step: the bump on its force that puts it right, and what damping takes.
+//! The energy of a step: the bump on its force that corrects it, and the loss by damping.
 
 use faer::c64;
 
@@ -9,26 +9,26 @@ use crate::collision::contact::table::Piece;
 use crate::collision::contact::touch::{State, Touch};
 use crate::motion::phi::{driven, moments, shortened};
 
-/// A bump may change the impulse by this many times the energy that it puts right, both relative.
+/// A bump may change the impulse by at most this many times the energy that it corrects, both relative.
 const ILL: f64 = 3.0;
-/// An energy, relative, that one bump puts right.
+/// Relative energy error that one bump corrects.
 const SMALL: f64 = 1e-8;
-/// Energies, relative, that shorter steps do not make better.
+/// Relative energy error that shorter steps do not reduce.
 const ROUND_OFF: f64 = 1e-12;
 
-/// What holds a step's force within bounds.
+/// Limits on a step's force.
 #[derive(Debug, Clone, Copy)]
 pub struct Limits {
     /// The largest compression, once the ball is on its way back.
     pub top: Option<Top>,
     /// The step's largest force (N).
     pub most: f64,
-    /// Share of the impulse that a bump may change.
+    /// Largest share of the impulse by which a bump may change it.
     pub slight: f64,
 }
 
 impl Limits {
-    /// Whether that force is less than zero somewhere; on its way back it is small, and steep.
+    /// Whether that force is negative somewhere; on the way back it is small and steep.
     #[inline(always)]
     pub fn pulls(&self, piece: &Piece) -> bool {
         self.top.is_some_and(|top| piece.pulls(top.force))
@@ -36,11 +36,10 @@ impl Limits {
 }
 
 impl<L: ForceLaw> Touch<'_, L> {
-    /// Adds a bump to the force of a step of that length, so that the energy is right again;
-    /// returns by how much it was not, relative. Where the compression is about to turn or hardly a
-    /// force is left none does work: None, for a shorter step, if the bump would be more than twice
-    /// the largest force or change the impulse by more than the `slight` share and by more than the
-    /// energy was off by.
+    /// Adds a bump to the force of a step of that length so that the energy balance closes; returns the relative error
+    /// before. Near the largest compression and at the end of the force, a bump does no work. `None` asks for a shorter
+    /// step: the bump would be more than twice the largest force, or would change the impulse by more than the `slight`
+    /// share and by more than the energy error.
     #[inline(always)]
     pub fn correct(
         &self,
@@ -66,7 +65,7 @@ impl<L: ForceLaw> Touch<'_, L> {
             let [moved, work] = self.done_by(next, bump);
             let slope = next.speed * speed / self.felt.inverse_mass + work;
             let size = -defect / (slope + next.force * (closing + moved));
-            // Where the compression does not change no force does work.
+            // A force does no work while the compression does not change.
             let kick = (size * speed / self.speed).abs();
             let ill = kick > slight.max(ILL * defect.abs() / self.energy);
             if size.is_nan() || size.abs() > 2.0 * most || ill {
@@ -86,7 +85,7 @@ impl<L: ForceLaw> Touch<'_, L> {
                     }
                 }
             }
-            // What is left is the square of this, and seen with the next step's.
+            // The remaining error is the square of this, and is corrected with that of the next step.
             if defect.abs() <= SMALL * self.energy {
                 self.settle(next, top);
                 next.defect = 0.0;
@@ -96,8 +95,8 @@ impl<L: ForceLaw> Touch<'_, L> {
         Some(off)
     }
 
-    /// What a bump of 1 N does to the modes: how far it moves them (m/N), and the rate of their energy
-    /// with its size (J/N).
+    /// Effect of a bump of 1 N on the modes: their displacement (m/N), and the rate of their energy with its size
+    /// (J/N).
     #[inline(always)]
     fn done_by(&self, next: &State, bump: &[[Lanes; 2]]) -> [f64; 2] {
         let count = self.swings.len();
@@ -115,7 +114,7 @@ impl<L: ForceLaw> Touch<'_, L> {
         [sum(moved), sum(work)]
     }
 
-    /// What damping takes from the beginning of a step to a time in it, `∫ Σ 2ζω m_n q′² dt` (J).
+    /// Energy lost by damping from the beginning of a step to a time in it, `∫ Σ 2ζω m_n q′² dt` (J).
     pub fn loss(&self, now: &State, step: &Step, time: f64) -> f64 {
         let force = shortened(step.powers, time / step.length);
         let of_mode = |(n, s): (usize, &c64)| {
@@ -128,8 +127,7 @@ impl<L: ForceLaw> Touch<'_, L> {
 
     /// `∫₀¹ (Im sv)²` of a mode with that memory under `Σ f_k τ^k`, over the time's share τ.
     ///
-    /// A slow mode by Lobatto's rule; of the others `v = A e^{zτ} + P(τ)`, all products of which have
-    /// closed integrals.
+    /// A slow mode by Lobatto's rule; for the others `v = A e^{zτ} + P(τ)`, whose products have closed integrals.
     fn square(&self, s: c64, time: f64, memory: c64, force: &[f64; POINTS]) -> f64 {
         const SLOW: f64 = 0.25;
         let z = s * time;

@@ -1,4 +1,4 @@
-//! Where a step ends early: the largest compression, the return to it, the end of the contact.
+//! Where does a step end early: at the largest compression, at the return to it, or at the end of the contact?
 
 use crate::collision::contact::collocation::{LANES, Lanes, POINTS, sum};
 use crate::collision::contact::energy::Limits;
@@ -19,22 +19,22 @@ pub enum Event {
     Gone,
 }
 
-/// What a step stops at, and within which limits.
+/// The event at which a step stops, and the limits on its force.
 #[derive(Debug, Clone, Copy)]
 pub struct Stop {
     /// Why it stops.
     pub event: Event,
-    /// What holds its force.
+    /// Limits on its force.
     pub limits: Limits,
 }
 
-/// Share of a step by which a state may be moved along it by a series.
+/// Largest move of a state by a series, as a share of the step.
 const NUDGED: f64 = 1e-4;
-/// Share of the energy that a contact may leave unaccounted for.
+/// Allowed error of the energy balance at the end of a contact, as a share of the energy.
 pub const CLOSED: f64 = 1e-11;
 
 impl<L: ForceLaw> Touch<'_, L> {
-    /// What happens in a step.
+    /// The event in a step, if there is one.
     #[inline(always)]
     pub fn event(&self, step: &Step, next: &State, top: Option<Top>) -> Option<Event> {
         match top {
@@ -47,8 +47,8 @@ impl<L: ForceLaw> Touch<'_, L> {
         }
     }
 
-    /// Whether the ringing surface may leave the ball and return between two points of a step: it does
-    /// not where the compression there is more than `max|x″| g²/8`, g the way between two points.
+    /// Whether the vibrating surface may leave the ball and return between two points of a step. It does not if the
+    /// compression there is more than `max|x″| g²/8`, with g the time between two points.
     #[inline(always)]
     pub fn may_pass(&self, now: &State, step: &Step, next: &State) -> bool {
         let least = step.compression[1..].iter().fold(now.compression, |least, x| least.min(*x));
@@ -64,7 +64,7 @@ impl<L: ForceLaw> Touch<'_, L> {
         least < 0.125 * bend * way * way
     }
 
-    /// What is zero at the event, and its rate.
+    /// The quantity that is zero at the event, and its rate.
     #[inline(always)]
     pub fn distance(&self, event: Event, state: &State, top: Option<Top>) -> [f64; 2] {
         if event == Event::Turned {
@@ -79,14 +79,14 @@ impl<L: ForceLaw> Touch<'_, L> {
         }
         let rate = self.rate(state);
         match top.filter(|_| event == Event::Again) {
-            // There the force is known, whatever the step's is.
+            // The force is known there and need not be that of the step.
             Some(top) => [self.reach(state) - top.compression - self.felt.rest * top.force, rate],
             None => [self.reach(state) - self.felt.rest * state.force, rate],
         }
     }
 
-    /// The state at the event; the energy it was off by, relative, or None where that cannot be put
-    /// right.
+    /// Moves the state to the event. Returns the relative energy error before its correction, or `None` if it cannot be
+    /// corrected.
     #[inline(always)]
     pub fn stop(&self, stop: Stop, now: &State, step: &mut Step, next: &mut State) -> Option<f64> {
         let Stop { event, limits: Limits { top, .. } } = stop;
@@ -112,7 +112,7 @@ impl<L: ForceLaw> Touch<'_, L> {
         let mut corrected = self.round_off(stop, now, step, &mut time, next)?;
         self.settle(next, top);
         if event == Event::Gone && self.open(next, top) > CLOSED {
-            // The force's last bit ends within the step: a step of that length has it whole.
+            // The last of the force ends within the step: a step of that length represents it exactly.
             let (mut last, mut end) = (*step, time);
             for _ in 0..4 {
                 let table = StepTable::new(self.rule, self.poles, end);
@@ -126,7 +126,7 @@ impl<L: ForceLaw> Touch<'_, L> {
                 }
                 end += by;
             }
-            // What the shorter step replaces was off in vain.
+            // Only the correction of the shorter step counts.
             corrected = self.round_off(stop, now, &last, &mut end, next)?;
             *step = last;
         }
@@ -134,13 +134,13 @@ impl<L: ForceLaw> Touch<'_, L> {
         Some(corrected)
     }
 
-    /// The share of the energy that is not accounted for.
+    /// Relative error of the energy balance.
     #[inline(always)]
     pub fn open(&self, state: &State, top: Option<Top>) -> f64 {
         (self.whole_energy(state, top) - self.energy).abs() / self.energy
     }
 
-    /// Puts the energy of a state at an event right, and the event again.
+    /// Corrects the energy of a state at an event, and then the time of the event.
     #[inline(always)]
     pub fn round_off(
         &self,
@@ -157,7 +157,7 @@ impl<L: ForceLaw> Touch<'_, L> {
         let (mut known, mut bump) = (f64::NAN, vec![<[Lanes; 2]>::default(); self.swings.len()]);
         for _ in 0..4 {
             let length = *time;
-            // A bump is small: one that ends a little earlier or later does as well.
+            // A bump is small, so its end need not be exact.
             let as_before = (length - known).abs() <= 1e-6 * length;
             if !as_before {
                 known = length;
@@ -206,7 +206,7 @@ impl<L: ForceLaw> Touch<'_, L> {
     }
 }
 
-/// Where in [0, 1] the cubic with those values and slopes at both ends is zero.
+/// The zero in [0, 1] of the cubic with those values and slopes at both ends.
 #[inline(always)]
 fn crossing(from: f64, from_slope: f64, to: f64, to_slope: f64) -> f64 {
     let rise = to - from;

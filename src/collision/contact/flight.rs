@@ -1,5 +1,5 @@
-//! Ball and bat while no force acts between them: the ball flies, the bat rings, and where they meet
-//! next is found without missing a touch.
+//! Ball and bat while no force acts between them: the ball flies, the bat vibrates, and their next touch is found
+//! without missing one.
 //!
 //! ```text
 //! g(t) = z + z′t + Σ y_n                 how far the two have come together, y_n = −(c/ω_d) Im(v e^{st})
@@ -8,10 +8,10 @@
 //! τ = (√(g′² + 2 B d) − g′)/B            after τ at least, g has grown by d
 //! ```
 //!
-//! With the second line for the first modes, their sums g′ and B, and the third one for those beyond, τ is
-//! the longest that any number of modes tells. A step of τ never passes the level that is d away, and close
-//! to it is Newton's. The ball is gone for good where τ has no end, or where it is faster than the surface can
-//! be.
+//! The second line applies to the first modes, with their sums g′ and B, and the third to the others; τ is the longest
+//! time that results for any number of first modes. A step of τ never passes the level at the distance d, and close to
+//! the level it equals Newton's step. The ball is gone for good if τ is infinite, or if the ball is faster than the
+//! surface can be.
 
 use crate::collision::contact::collocation::{LANES, sum};
 use crate::collision::contact::each::Each;
@@ -29,24 +29,24 @@ pub enum Landing {
     Parts,
     /// The ball is gone for good.
     Gone,
-    /// The flight has no end within the number of looks that are taken.
+    /// The flight has not ended within the largest number of steps.
     Open,
 }
 
-/// More looks are not taken in one flight.
+/// Most steps of one flight.
 const MOST_LOOKS: usize = 20_000;
 
-/// What a flight knows of its modes from some lanes on, and before them.
+/// Bounds on the motion of the modes from some lanes on, and of those before them.
 #[derive(Debug, Clone, Copy, Default)]
 struct Bound {
-    /// Those from there on stay within this (m).
+    /// Largest displacement by the modes from there on (m).
     within: f64,
-    /// How much those before bend at most (m/s²).
+    /// Largest acceleration by the modes before (m/s²).
     bend: f64,
 }
 
 impl<L: ForceLaw> Touch<'_, L> {
-    /// Flies until `z + Σ y` is at one of the two levels (m), the ball is gone, or the flight has
+    /// Moves ball and bat on until `z + Σ y` is at one of the two levels (m), the ball is gone, or the flight has
     /// lasted for `longest` (s), after which the ball counts as gone.
     #[inline(always)]
     pub(super) fn fly(&self, run: &mut Run, levels: [f64; 2], longest: f64) -> Landing {
@@ -93,7 +93,7 @@ impl<L: ForceLaw> Touch<'_, L> {
         landing
     }
 
-    /// The time (s) before which `z + Σ y` comes to neither of the two levels (m).
+    /// The time (s) up to which `z + Σ y` certainly reaches neither of the two levels (m).
     #[inline(always)]
     fn free_for(&self, state: &State, bounds: &[Bound], [low, high]: [f64; 2]) -> f64 {
         let (mut reach, mut rate) = (state.closing, state.speed);
@@ -106,7 +106,7 @@ impl<L: ForceLaw> Touch<'_, L> {
                     rate -= of.weight[l] * (of.decay[l] * im[l] + of.swing[l] * re[l]);
                 }
             }
-            // With all modes a level is reached but for round-off.
+            // With all modes in the bound, a level is passed only by round-off.
             let least = if k == self.swings.len() { 0.0 } else { f64::NEG_INFINITY };
             let ways = [high - reach - within, reach - low - within].map(|way| way.max(least));
             up = up.max(not_before(ways[0], rate, *bend));
@@ -120,7 +120,7 @@ impl<L: ForceLaw> Touch<'_, L> {
         (0..self.felt.gains.len()).map(|n| self.in_mode(state, n)).sum()
     }
 
-    /// Lets that time (s) pass without a force.
+    /// Moves the states on by that time (s) without a force.
     #[inline(always)]
     pub(super) fn drift(&self, states: &mut [&mut State], time: f64) {
         for state in &mut *states {
@@ -147,8 +147,8 @@ impl<L: ForceLaw> Touch<'_, L> {
     }
 }
 
-/// The shortest time (s) in which something grows by `way` (m) that grows at `rate` (m/s) and whose
-/// rate changes by at most `bend` (m/s²); 0 where it may be there already.
+/// The shortest time (s) in which a quantity grows by `way` (m), given its `rate` (m/s) and the largest change `bend`
+/// of its rate (m/s²); 0 if it may be there already.
 fn not_before(way: f64, rate: f64, bend: f64) -> f64 {
     if way < 0.0 {
         return 0.0;
@@ -157,7 +157,7 @@ fn not_before(way: f64, rate: f64, bend: f64) -> f64 {
         return f64::INFINITY;
     }
     let root = (rate * rate + 2.0 * bend * way).sqrt();
-    // Without the loss of digits of the other form.
+    // The other form would lose digits.
     if rate > 0.0 { 2.0 * way / (root + rate) } else { (root - rate) / bend }
 }
 
@@ -183,8 +183,8 @@ mod tests {
         assert_eq!(not_before(-0.01, -2.0, 1e4), 0.0);
     }
 
-    /// Longer looks, against looks that are short: at the end of a flight ball and bat are where it says, moving as
-    /// it says, and on the way there they were never beyond a level; whatever rings, from both kinds of starts.
+    /// Compared with short steps: at the end of a flight ball and bat are at the stated place with the stated speed,
+    /// and they were never beyond a level before, whichever modes vibrate, from both kinds of starts.
     #[test]
     fn a_flight_passes_no_level_and_ends_at_one() {
         const MODES: usize = 6;

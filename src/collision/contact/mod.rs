@@ -2,14 +2,14 @@
 //!
 //! | file | question |
 //! |---|---|
-//! | [`each`] | one number for each of some places; powers and angles of them |
-//! | [`force_law`] | what does a contact ask of a ball's law |
-//! | [`collocation`] | the points of a step and the modes' exact answer to a force through them |
-//! | [`touch`] | what is felt at the place; the state of ball and bat |
-//! | [`table`], [`step`], [`energy`] | what a step does to the modes; one step; its energy put right |
+//! | [`each`] | one number for each of several places; their powers, sines and cosines |
+//! | [`force_law`] | what does a contact need from a ball's law |
+//! | [`collocation`] | the points of a step and the modes' exact response to a force through them |
+//! | [`touch`] | the bat's response at the impact point; the state of ball and bat |
+//! | [`table`], [`step`], [`energy`] | the effect of a step on the modes; one step; the correction of its energy |
 //! | [`events`] | where the force turns, ends or begins again |
-//! | [`tangent`] | what would another bat change, to first order |
-//! | [`encounter`] | the equations; what an encounter leaves behind |
+//! | [`tangent`] | the first-order change by another bat |
+//! | [`encounter`] | the equations; the result of an encounter |
 //! | [`pressing`], [`flight`] | one touch; when do they touch again |
 //! | [`collider`] | the whole encounter, until the ball is gone for good |
 //! | [`abreast`] | the same for places side by side |

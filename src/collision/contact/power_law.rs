@@ -6,8 +6,8 @@
 //! β = (1 + α)/e₀² − 1                so that on a rigid wall it returns e₀² of the energy
 //! ```
 //!
-//! Below `x_m` the law is reversible; at `x_m` it is on the first branch again. In every state
-//! what it stores and what it has lost are closed forms.
+//! Below `x_m` the law is reversible; at `x_m` it is on the first branch again. The stored and the lost energy have
+//! closed forms in every state.
 //!
 //! # Source
 //!
@@ -27,8 +27,8 @@ pub struct PowerLaw {
     pub unloading: f64,
 }
 
-/// A ball that returns less is computed as one with this `e₀`: its force falls as steeply as can be
-/// told in floating point, and what it returns is 1e-10 of the energy.
+/// A ball with a smaller e₀ is computed with this one: its force falls as steeply as floating point can represent, and
+/// it returns 1e-10 of the energy.
 pub const LEAST_RESTITUTION: f64 = 1e-5;
 
 impl PowerLaw {
@@ -79,8 +79,8 @@ impl ForceLaw for PowerLaw {
         top.map_or(self.exponent, |_| self.unloading)
     }
 
-    /// The forces (N) a little way from compressions x > 0 where they are known: `F (1 + δ)^β` by its
-    /// binomial series, `δ = by/x`. None where one is not near.
+    /// The forces (N) at compressions x > 0 that differ little from those where they are known: `F (1 + δ)^β` by its
+    /// binomial series, `δ = by/x`. `None` if one differs too much.
     #[inline(always)]
     fn near<const N: usize>(
         &self,
@@ -89,7 +89,7 @@ impl ForceLaw for PowerLaw {
         by: [f64; N],
         top: Option<Top>,
     ) -> Option<[f64; N]> {
-        /// `βδ` whose powers beyond the terms are below ε.
+        /// The `βδ` up to which the omitted terms are below ε.
         const NEAR: f64 = 0.05;
         const TERMS: [f64; 8] = [8.0, 7.0, 6.0, 5.0, 4.0, 3.0, 2.0, 1.0];
         let exponent = self.exponent(top);

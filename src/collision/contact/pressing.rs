@@ -1,5 +1,5 @@
-//! The ball is pressed and springs back: step after step, each as long as the accuracy lets it be, from
-//! the first touch until the force has gone.
+//! The ball is compressed and springs back, step after step from the first touch until the force has gone. Each step is
+//! as long as the accuracy allows.
 
 use std::sync::OnceLock;
 
@@ -17,16 +17,16 @@ use crate::collision::contact::touch::{DrivingPoint, State, Touch};
 
 /// Halvings of the longest step.
 pub(super) const LEVELS: usize = 42;
-/// Share of the largest compression by which its return may be missed.
+/// Allowed error of a return to the largest compression, as a share of it.
 const MISSED: f64 = 1e-8;
-/// Share of the energy that the force may still give when it is let go.
+/// Share of the energy that the force may still contain when it is dropped.
 const NOTHING: f64 = 1e-14;
-/// Halvings of the longest step while there is a force, and the most for seeing whether the surface
-/// passes by the ball between two points.
+/// Halvings of the longest step while there is a force; and the most halvings to check whether the surface passes the
+/// ball between two points.
 pub(super) const USUAL: usize = 2;
 const WATCHFUL: usize = 6;
 
-/// Where a meeting has come to.
+/// The present state of an encounter.
 pub(super) struct Run {
     pub now: State,
     pub next: State,
@@ -39,7 +39,7 @@ pub(super) struct Run {
     /// Whether the force has almost gone.
     pub faint: bool,
     pub steps: usize,
-    /// What the force does to the compression, of levels that were needed.
+    /// Effect of the force on the compression, for the levels used so far.
     pub couplings: Vec<(usize, Coupling)>,
     /// Changes by varied bats and by the closing speed.
     pub tangents: Vec<Tangent>,
@@ -48,7 +48,7 @@ pub(super) struct Run {
 }
 
 impl Run {
-    /// From that state on, with no changes followed.
+    /// A run from that state, without changes by varied bats.
     pub fn new(now: State) -> Self {
         let still = State::at_first(now.memories.len(), 0.0);
         Self {
@@ -66,17 +66,17 @@ impl Run {
     }
 }
 
-/// What became of a step.
+/// The outcome of a step.
 enum Taken {
     /// The step failed and is repeated, shorter.
     Finer,
-    /// The step is done and the next one follows.
+    /// The step is done and another one follows.
     On,
     /// The step was the last: the ball has left, or its force has gone.
     Parted,
 }
 
-/// Tables of steps, made when first needed, and who wants to know the force.
+/// Tables of steps, made when first needed, and the record of the force if it is wanted.
 pub(super) struct StepTables<'a> {
     pub all: &'a [c64],
     pub tables: &'a [OnceLock<StepTable>],
@@ -92,8 +92,7 @@ impl StepTables<'_> {
     }
 }
 
-/// A part of the force that is done: what the energy was off by, relative, the force, and how the
-/// compression went.
+/// A part of the force that is done: the relative energy error before its correction, the force, and the compression.
 struct DoneStep {
     off: f64,
     piece: Piece,
@@ -101,7 +100,7 @@ struct DoneStep {
 }
 
 impl<L: ForceLaw> Touch<'_, L> {
-    /// The level of a touch's first step: the force begins as a power of the time.
+    /// The level of a touch's first step, in which the force begins as a power of the time.
     #[inline(always)]
     pub(super) fn first_level(&self, now: &State, longest: f64) -> usize {
         let first = (3.0 * self.accuracy).powf(1.0 / (1.0 + self.law.exponent(None))) * self.way;
@@ -109,7 +108,7 @@ impl<L: ForceLaw> Touch<'_, L> {
         level.clamp(USUAL, LEVELS - 1)
     }
 
-    /// Steps until the ball has left or its force has gone; whether they come to an end.
+    /// Takes steps until the ball has left or its force has gone. Returns whether they come to an end.
     #[inline(always)]
     pub(super) fn press(&self, run: &mut Run, means: &mut StepTables, met: &mut Encounter) -> bool {
         while run.steps < MOST_STEPS && met.corrected <= 1.0 {
@@ -175,7 +174,7 @@ impl<L: ForceLaw> Touch<'_, L> {
         }
     }
 
-    /// A step to its end; None where it is to be shorter.
+    /// A step to its end; `None` if a shorter one is needed.
     #[inline(always)]
     fn complete(
         &self,
@@ -190,7 +189,7 @@ impl<L: ForceLaw> Touch<'_, L> {
         (!limits.pulls(&piece)).then(|| DoneStep { off, piece, course: self.course(&step) })
     }
 
-    /// A step to an event in it; None where it is to be shorter.
+    /// A step to an event in it; `None` if a shorter one is needed.
     #[inline(always)]
     fn stop_short(
         &self,
@@ -204,7 +203,7 @@ impl<L: ForceLaw> Touch<'_, L> {
         let off = self.stop(Stop { event, limits }, now, &mut step, next)?;
         let piece = step.until(now, next);
         let missed = match (event, top) {
-            // The last bit of the force does too little work to put much right.
+            // The last of the force does too little work to correct much.
             (Event::Gone, _) => self.open(next, top) > CLOSED || limits.pulls(&piece),
             (Event::Again, Some(top)) => {
                 (next.compression - top.compression).abs() > MISSED * top.compression
@@ -270,7 +269,7 @@ impl<L: ForceLaw> Touch<'_, L> {
     fn is_coarse(&self, event: Option<Event>, run: &Run, step: &Step) -> bool {
         let Run { now, next, top, level, .. } = run;
         match event {
-            // The last of the force is a broken power of the time, and may be overlooked.
+            // The last of the force is a fractional power of the time, and its end may be overlooked.
             Some(Event::Gone) => {
                 self.law.energy(now.compression, *top)[0]
                     > self.tuning.last_energy * self.accuracy * self.energy
@@ -278,12 +277,12 @@ impl<L: ForceLaw> Touch<'_, L> {
             Some(_) => top.is_some_and(|t| step.force[POINTS - 1] < self.tuning.faint * t.force),
             None if *level >= WATCHFUL => false,
             None if top.is_some() => self.may_pass(now, step, next),
-            // It turned between two points and back.
+            // The compression reached a maximum and a minimum between two points.
             None => step.compression.windows(2).any(|pair| pair[1] < pair[0]),
         }
     }
 
-    /// Whether the ball springs back with a force that does nothing more.
+    /// Whether the ball springs back with a force of no further effect.
     #[inline(always)]
     fn is_over(&self, now: &State, top: Option<Top>) -> bool {
         if top.is_none() || self.rate(now) >= 0.0 {

@@ -22,19 +22,19 @@ pub struct Step {
     pub powers: [f64; POINTS],
 }
 
-/// A step's compression as a polynomial of the time over the length, and where the next step begins.
+/// The compression in a step as a polynomial of the time over the length, and the beginning of the next step.
 #[derive(Debug, Clone, Copy)]
 pub struct CompressionPath {
     /// How long the step is (s).
     pub length: f64,
-    /// Where the next step begins, in lengths of this one.
+    /// Beginning of the next step, in lengths of this one.
     pub from: f64,
     /// Coefficients (m) of the powers of the time over the length.
     pub powers: [f64; POINTS],
 }
 
 impl Step {
-    /// The force from the step's beginning to a moment in it.
+    /// The force from the beginning of the step to the next state.
     pub fn until(&self, now: &State, next: &State) -> Piece {
         let length = next.time - now.time;
         let mut powers = shortened(self.powers, length / self.length);
@@ -47,18 +47,18 @@ impl Step {
 /// Points of a step that lie ahead.
 pub(super) const AHEAD: usize = POINTS - 1;
 
-/// Share of the compression, times the branch's `fine`, by which a round of Newton's method raises it
-/// at most: the force grows by `e²` then.
+/// Largest rise of the compression in one round of Newton's method, as a share of it and times the branch's `fine`: the
+/// force then grows by `e²`.
 const RISE: f64 = 0.2;
 
-/// What a time does to a mode ([`moments`]).
+/// Factors that move a mode on by a time ([`moments`]).
 type Move = (c64, [c64; POINTS]);
 
-/// What the force at each point does to the compression at each one ahead (m/N).
+/// Effect of the force at each point on the compression at each point ahead (m/N).
 pub type Coupling = [[f64; POINTS]; AHEAD];
 
 impl<L: ForceLaw> Touch<'_, L> {
-    /// The coupling by a step of that table.
+    /// The coupling for a step of that table.
     #[inline(always)]
     pub fn coupling(&self, table: &StepTable) -> Coupling {
         let square = table.length * table.length * self.felt.inverse_mass;
@@ -93,16 +93,16 @@ impl<L: ForceLaw> Touch<'_, L> {
         const ROUNDS: usize = 16;
         let length = table.length;
         let fine = self.law.fine(top);
-        // Where on its way back the force is a thousandth, below which it is next to none.
+        // On the way back the force is a thousandth of its largest value here, and hardly matters below.
         let knee = top.map_or(0.0, |top| top.compression * (1.0 - 0.7 * fine));
-        // What is left is the square of this.
+        // The remaining error is the square of this.
         let enough = (1e-2 * self.accuracy.sqrt() * fine).max(4.0 * f64::EPSILON) * self.deepest;
         let free = self.free(table, coupling, now);
         let (mut x, mut f) = (self.foreseen(length, &free, now, top, last), [0.0; AHEAD]);
         let mut by = [f64::NAN; AHEAD];
         let (mut converged, mut found) = (false, false);
         for _ in 0..ROUNDS {
-            // A little way from the last ones by their series.
+            // Near the last compressions, by the series of the forces.
             let mut before = x;
             for i in 0..AHEAD {
                 before[i] -= by[i];
@@ -136,7 +136,7 @@ impl<L: ForceLaw> Touch<'_, L> {
         (Step { length, compression, force, powers: self.rule.through(&force) }, found)
     }
 
-    /// How far ball and bat would come together (m) at the points ahead without the force there.
+    /// Approach of ball and bat (m) at the points ahead without the force there.
     #[inline(always)]
     pub(super) fn free(&self, table: &StepTable, coupling: &Coupling, now: &State) -> [f64; AHEAD] {
         let count = self.swings.len();
@@ -159,7 +159,7 @@ impl<L: ForceLaw> Touch<'_, L> {
         free
     }
 
-    /// A guess of the compressions (m) ahead: the last step's goes on as it did, if that is less than
+    /// A guess of the compressions (m) ahead: the last step's polynomial continued, but at most the compressions
     /// without force.
     #[inline(always)]
     fn foreseen(
@@ -214,7 +214,7 @@ impl<L: ForceLaw> Touch<'_, L> {
         eliminate(&mut matrix, left.map(|left| [left])).map(|[by]| by)
     }
 
-    /// The compression of a step, to go on from its end.
+    /// The compression of a step, to continue from its end.
     #[inline(always)]
     pub fn course(&self, step: &Step) -> CompressionPath {
         CompressionPath {
@@ -224,19 +224,19 @@ impl<L: ForceLaw> Touch<'_, L> {
         }
     }
 
-    /// How far the force is from a polynomial: the impulse of its last term, relative, or of what the
-    /// two before it lead one to expect, since one term alone may be small by chance.
+    /// Error of the force as a polynomial: the relative impulse of its last term, or the value expected from the two
+    /// terms before it, because one term alone may be small by chance.
     #[inline(always)]
     pub fn error_of(&self, step: &Step) -> f64 {
-        /// Of what a geometric series would go on with.
+        /// Share of the next term of a geometric series.
         const EXPECTED: f64 = 0.1;
         let [before, next, last] = self.rule.last.map(|part| dot(&part, &step.force).abs());
         let expected = EXPECTED * next * (next / before).min(1.0);
-        // A ratio that is not a number is one of two zeros.
+        // The ratio is NaN if both terms are zero; `min` then gives 1.
         last.max(expected) * step.length * self.felt.inverse_mass / self.speed
     }
 
-    /// The state at the end of a step, but for compression, force and what damping takes.
+    /// The state at the end of a step, except compression, force and the loss by damping.
     #[inline(always)]
     pub fn advance(&self, table: &StepTable, now: &State, step: &Step, next: &mut State) {
         let (h, end) = (table.length, POINTS - 1);
@@ -288,10 +288,10 @@ impl<L: ForceLaw> Touch<'_, L> {
         self.moved(&self.moves(time), now, step, time, next);
     }
 
-    /// What [`Self::within`] needs of every mode for that time.
+    /// The factors of every mode that [`Self::within`] needs for that time.
     #[inline(always)]
     pub(super) fn moves(&self, time: f64) -> Vec<Move> {
-        // Not by an iterator: what that calls is compiled without the wider vectors.
+        // Not by an iterator: functions that it calls are compiled without the wider vectors.
         let mut moves = vec![Move::default(); self.felt.gains.len()];
         for (n, s) in self.modes() {
             moves[n] = moments(s * time);
@@ -337,8 +337,8 @@ impl<L: ForceLaw> Touch<'_, L> {
     }
 }
 
-/// Solves for the points ahead, for some right sides at once, by Gauss's and Jordan's method: so few
-/// unknowns fit the registers.
+/// Solves for the points ahead, for several right-hand sides at once, by Gauss–Jordan elimination: the few unknowns fit
+/// into registers.
 #[inline(always)]
 pub(super) fn eliminate<const SIDES: usize>(
     matrix: &mut [[f64; AHEAD]; AHEAD],

@@ -1,5 +1,5 @@
-//! The force in time, piece by piece, and what the force of a step does to the modes: a table for every
-//! length of a step, made once.
+//! The force in time, piece by piece, and the effect of a step's force on the modes: one table for every length of a
+//! step.
 
 use faer::c64;
 
@@ -24,33 +24,32 @@ impl Piece {
         self.start + self.length
     }
 
-    /// What it does in its first seconds.
+    /// Its beginning, of that length (s).
     #[inline(always)]
     pub fn first(&self, length: f64) -> Self {
         let powers = shortened(self.powers, length / self.length);
         Self { start: self.start, length, powers }
     }
 
-    /// What becomes of a mode's memory by its end.
+    /// A mode's memory at its end, given that at its beginning.
     #[inline(always)]
     pub fn drive(&self, s: c64, memory: c64) -> c64 {
         driven(s, memory, &self.powers, self.length)
     }
 
-    /// `∫∫F dt²` and `∫F dt` until its end: what it does to the place and the speed of a unit mass.
+    /// `∫∫F dt²` and `∫F dt` until its end: the displacement and the speed that it gives to a unit mass.
     #[inline(always)]
     pub fn push(&self) -> [f64; 2] {
         pushed(&self.powers, self.length)
     }
 
-    /// Whether it is less than zero somewhere by more than about a millionth of that force (N), which
-    /// no ball's is.
+    /// Whether it is negative somewhere by more than about a millionth of that force (N): a ball never pulls.
     #[inline(always)]
     pub fn pulls(&self, most: f64) -> bool {
         const LOOKS: u32 = 16;
-        /// Between two looks it may be some times less.
+        /// The force may be a few times as negative between two samples.
         const NOTHING: f64 = 3e-7;
-        // Closer towards the ends, where it is flat.
+        // Samples are closer towards the ends, where the force is flat.
         let force = |k: u32| {
             let at = f64::from(k) / f64::from(LOOKS);
             polynomial(&self.powers, at * at * (3.0 - 2.0 * at))
@@ -59,22 +58,22 @@ impl Piece {
     }
 }
 
-/// What a step does to some modes side by side; `[part]` is the real part, the imaginary part.
+/// Effect of a step on some modes side by side; `[part]` is the real part, the imaginary part.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Moves {
     /// `e^{sh s_i}`, by which every memory turns up to point i, `[i][part]`.
     pub turns: [[Lanes; 2]; POINTS],
-    /// `∫₀^{h s_i} e^{s(h s_i − τ)} L_j dτ`, what the force at point j does to every memory at point i,
+    /// `∫₀^{h s_i} e^{s(h s_i − τ)} L_j dτ`, the effect of the force at point j on every memory at point i,
     /// `[i][j][part]`.
     pub kernels: [[[Lanes; 2]; POINTS]; POINTS],
 }
 
-/// What a step of one length does to every mode.
+/// Effect of a step of one length on every mode.
 #[derive(Debug, Clone)]
 pub struct StepTable {
     /// Length of the step (s).
     pub length: f64,
-    /// What it does to the modes, some lanes of them at once.
+    /// Effect on the modes, lane by lane.
     pub moves: Vec<Moves>,
     /// `∫₀^h e^{s(h − τ)} σ(1 − σ) dτ` with σ = τ/h: the bump over the whole step, `[part]`.
     pub bump: Vec<[Lanes; 2]>,

@@ -1,7 +1,7 @@
-//! How the impulse would change, to first order, if the bat's gains and flexibility were a little different: with the
-//! meeting itself, on its own steps.
+//! The first-order change of the impulse if the bat's gains and flexibility were slightly different, computed together
+//! with the encounter, on its own steps.
 //!
-//! Of a bat with `c_n + δc_n` and `C + δC` the force is another by δF, and the compression by δx:
+//! For a bat with `c_n + δc_n` and `C + δC` the force changes by δF and the compression by δx:
 //!
 //! ```text
 //! δx + C δF = δz + Σ δy_n + q,    q = Σ y_n δc_n/c_n − F δC
@@ -10,8 +10,8 @@
 //! δF = ∂F/∂x δx + ∂F/∂x_m δx_m    on the way back, with the δx_m = δx of the moment it turned
 //! ```
 //!
-//! When it turns, when it is gone, met again or pressed anew come at other moments too, which is of second
-//! order: the rate of x is 0 at the first of these, and the force is the same on both sides of all others.
+//! The moments of turning, leaving, touching again and being compressed again shift too. This is a second-order effect:
+//! the rate of x is 0 at the first of these, and the force is equal on both sides of all others.
 //!
 //! # Source
 //!
@@ -67,7 +67,7 @@ pub(super) struct Walked<'a> {
 }
 
 impl<L: ForceLaw> Touch<'_, L> {
-    /// The difference of another bat, with no more modes, at the moment of the first touch.
+    /// The difference for another bat, with at most as many modes, at the moment of the first touch.
     pub(super) fn tangent(&self, other: &DrivingPoint) -> Tangent {
         let mut gains = other.gains.iter().copied().chain(std::iter::repeat(0.0));
         let mut change = |weight: f64, swing: f64| gains.next().map_or(0.0, |c| c / swing - weight);
@@ -83,13 +83,13 @@ impl<L: ForceLaw> Touch<'_, L> {
         }
     }
 
-    /// The difference of the same bat that a ball meets faster, by the closing speed itself.
+    /// The difference for the same bat and a faster ball; the change is the closing speed itself.
     pub(super) fn faster(&self) -> Tangent {
         let same = self.tangent(self.felt);
         Tangent { now: State::at_first(self.swings.len(), self.speed), ..same }
     }
 
-    /// Takes tangents along a step; `between` is any state of as many modes.
+    /// Moves tangents along a step; `between` is scratch space for a state with as many modes.
     #[inline(always)]
     pub(super) fn follow(&self, tangents: &mut [Tangent], between: &mut State, walked: Walked) {
         let Walked { now, next, top, table, coupling, step, event } = walked;
@@ -104,7 +104,7 @@ impl<L: ForceLaw> Touch<'_, L> {
                 tangent.given[i] = self.given(tangent, between, force);
             }
         }
-        // The matrix is the last one of Newton's method, the same for all.
+        // The matrix is the last one of Newton's method, and equal for all tangents.
         let [mut matrix, mut inverse] = [[[0.0; AHEAD]; AHEAD]; 2];
         for i in 0..AHEAD {
             for j in 0..AHEAD {
@@ -173,7 +173,7 @@ mod tests {
         }
     }
 
-    /// Another bat, the gain of a mode or (of none) the flexibility larger by that share.
+    /// A bat with one property larger by that share: the gain of a mode, or the flexibility if there is no such mode.
     fn other(which: usize, share: f64) -> DrivingPoint {
         let mut other = bat();
         match other.gains.get_mut(which) {
@@ -183,7 +183,7 @@ mod tests {
         other
     }
 
-    /// Against differences of meetings to both sides, whose own error is of second order.
+    /// Compared with central differences of encounters, whose own error is of second order.
     #[test]
     fn the_change_is_the_derivative_of_the_impulse() {
         const SHARE: f64 = 1e-3;
@@ -206,7 +206,7 @@ mod tests {
         }
     }
 
-    /// A bat of fewer modes is one whose last gains are 0.
+    /// A bat with fewer modes is one whose last gains are 0.
     #[test]
     fn a_mode_fewer_is_a_gain_of_zero() {
         let law = PowerLaw::new(6.53e7, 1.84, 0.5);
@@ -217,8 +217,8 @@ mod tests {
         assert!(met.changes[0].abs() > 1e-5 * met.impulse);
     }
 
-    /// A dead ball is pressed anew by the ringing bat, a livelier one leaves it and is met again, which magnifies:
-    /// the derivative is known all the same.
+    /// The vibrating bat compresses a dead ball again; a livelier ball leaves and is touched again, which magnifies
+    /// changes. The derivative is still known.
     #[test]
     fn where_the_ball_is_met_again_the_change_is_the_derivative_too() {
         const SHARE: f64 = 1e-6;

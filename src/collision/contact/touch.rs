@@ -1,15 +1,15 @@
-//! Ball and bat at one moment of a contact: how far they have come together, how fast, with what
-//! energies. The equations are those of [`crate::collision::contact::encounter`].
+//! Ball and bat at one moment of a contact: approach, speed and energies. The equations are those of
+//! [`crate::collision::contact::encounter`].
 
 use faer::c64;
 
 use crate::collision::contact::collocation::{LANES, Lanes, Lobatto, sum};
 use crate::collision::contact::force_law::{ForceLaw, Top};
 
-/// The bat as the ball feels it at one place.
+/// The bat's response to a force at one place.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct DrivingPoint {
-    /// `1/μ` (1/kg): the ball's own mass and the rigid bat's.
+    /// `1/μ` (1/kg), of the ball's mass and the effective mass of the rigid bat.
     pub inverse_mass: f64,
     /// `c_n = φ_n(a)²/m_n` (1/kg).
     pub gains: Vec<f64>,
@@ -24,7 +24,7 @@ pub struct State {
     pub time: f64,
     /// `b` of the bump `b s(1 − s)` on the force of the step that led here (N).
     pub bump: f64,
-    /// Energy that is wrong and not put right yet (J).
+    /// Energy error that is not yet corrected (J).
     pub defect: f64,
     /// Approach `z` of the ball to the rigid bat (m).
     pub closing: f64,
@@ -32,20 +32,20 @@ pub struct State {
     pub speed: f64,
     /// Real and imaginary parts of the memory `v` of every mode (N s).
     pub memories: Vec<[Lanes; 2]>,
-    /// Compression of the ball (m); NaN where it is still to be found.
+    /// Compression of the ball (m); NaN until it is computed.
     pub compression: f64,
     /// Force of the ball on the bat (N).
     pub force: f64,
     /// Impulse so far (N s).
     pub impulse: f64,
-    /// Energy the bat's damping has taken (J).
+    /// Energy lost by the bat's damping (J).
     pub lost: f64,
-    /// Energy lost in the ball by touches that are over (J).
+    /// Energy lost in the ball in earlier touches (J).
     pub spent: f64,
 }
 
 impl State {
-    /// The moment of the first touch, at that closing speed (m/s), nothing ringing, with the given number of lanes of
+    /// The moment of the first touch, at that closing speed (m/s), without vibration, for that number of lanes of
     /// modes.
     pub fn at_first(chunks: usize, speed: f64) -> Self {
         Self { speed, memories: vec![Default::default(); chunks], ..Self::default() }
@@ -58,7 +58,7 @@ impl State {
         c64::new(re[l], im[l])
     }
 
-    /// Makes that the memory of mode n.
+    /// Sets the memory of mode n.
     #[inline(always)]
     pub fn remember(&mut self, n: usize, memory: c64) {
         let ([re, im], l) = (&mut self.memories[n / LANES], n % LANES);
@@ -66,23 +66,23 @@ impl State {
     }
 }
 
-/// How long the steps of a contact are let be.
+/// Limits on the errors of a contact's steps, which determine their lengths.
 ///
-/// `cargo run --release --example tuning_steps` prints the steps that hits along three bats take and how far
-/// their impulses are off, with each value smaller and larger. Only the usual error tells on both: a
-/// tenth of it nearly doubles the steps of good accuracies. With all of them hits that press the ball once
-/// are within a hundredth of the accuracy; those that press it anew are not in the table.
+/// `cargo run --release --example tuning_steps` prints the number of steps and the errors of the impulse for hits along
+/// three bats, with each value smaller and larger. Only the usual error affects both: with a tenth of it, good
+/// accuracies take nearly twice as many steps. With these values, the impulse of hits that compress the ball once is
+/// right to a hundredth of the accuracy; hits that compress it again are not in the table.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tuning {
-    /// Error of a step of usual length that is let pass, over the accuracy.
+    /// Allowed error of a step of usual length, over the accuracy.
     pub usual_error: f64,
-    /// Error of a longer step, while the force has almost gone, over the accuracy.
+    /// Allowed error of a longer step while the force has almost gone, over the accuracy.
     pub long_error: f64,
     /// Share of the energy that the ball may still store when its last step begins, over the accuracy.
     pub last_energy: f64,
-    /// Share of the impulse that a bump may change, over the accuracy.
+    /// Largest share of the impulse by which a bump may change it, over the accuracy.
     pub slight: f64,
-    /// Share of its peak below which the force has almost gone, and steps may be longer.
+    /// Share of the peak force below which the force has almost gone, and steps may be longer.
     pub faint: f64,
 }
 
@@ -92,7 +92,7 @@ impl Default for Tuning {
     }
 }
 
-/// Some modes side by side, as they are felt at one place.
+/// Some modes side by side, with their response at one place.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Swings {
     /// Real part of `s` (1/s).
@@ -103,12 +103,12 @@ pub struct Swings {
     pub square: Lanes,
     /// `c/ω_d` (s/kg).
     pub weight: Lanes,
-    /// `c/ω_d²` (m/N), the mode's flexibility under a slow force; its energy with a memory.
+    /// `c/ω_d²` (m/N), the mode's flexibility under a slow force.
     pub flexibility: Lanes,
 }
 
 impl Swings {
-    /// Those modes, each by its `s` (1/s) and its `c` (1/kg).
+    /// The modes with these `s` (1/s) and `c` (1/kg).
     #[inline(always)]
     pub fn new(modes: [(c64, f64); LANES]) -> Self {
         let mut all = Self::default();
@@ -121,17 +121,17 @@ impl Swings {
     }
 }
 
-/// One place, one ball, one speed.
+/// A hit at one place, with one ball and one speed.
 pub struct Touch<'a, L> {
-    /// Where in a step the force is looked at.
+    /// The points of a step at which the force is computed.
     pub rule: &'a Lobatto,
-    /// `s` of every mode, of its lanes: those of no weight beyond the last mode fill the last lanes.
+    /// `s` of every mode; modes without weight fill the last lanes.
     pub poles: &'a [c64],
     /// The modes by lanes.
     pub swings: Vec<Swings>,
-    /// The bat as the ball feels it there.
+    /// The bat's response there.
     pub felt: &'a DrivingPoint,
-    /// Whether any mode dies out.
+    /// Whether any mode is damped.
     pub damped: bool,
     /// The ball's law.
     pub law: L,
@@ -139,24 +139,24 @@ pub struct Touch<'a, L> {
     pub speed: f64,
     /// `μ u²/2` at the first touch (J).
     pub energy: f64,
-    /// What the bat would compress the ball by if it did not ring (m).
+    /// Largest compression of the ball if the bat did not vibrate (m).
     pub deepest: f64,
-    /// How far the two would then have come together (m).
+    /// Approach of ball and bat at that compression (m).
     pub way: f64,
-    /// How far the steps' forces may be off, relative.
+    /// Allowed relative error of the steps' forces.
     pub accuracy: f64,
-    /// How long the steps are let be.
+    /// Limits on the errors of the steps.
     pub tuning: Tuning,
 }
 
 impl<L: ForceLaw> Touch<'_, L> {
-    /// The modes that are not there to fill the lanes.
+    /// The modes, without those that fill the lanes.
     #[inline(always)]
     pub fn modes(&self) -> impl Iterator<Item = (usize, &c64)> {
         self.poles.iter().enumerate().take(self.felt.gains.len())
     }
 
-    /// The sum over all modes of what `part` makes of them, of their memories and a lane.
+    /// The sum of `part` over all modes; its arguments are the modes, their memories and a lane.
     #[inline(always)]
     pub fn total(&self, state: &State, part: impl Fn(&Swings, &[Lanes; 2], usize) -> f64) -> f64 {
         let swings = &self.swings[..];
@@ -213,7 +213,7 @@ impl<L: ForceLaw> Touch<'_, L> {
     pub fn settle(&self, state: &mut State, top: Option<Top>) {
         let (reach, rest) = (self.reach(state), self.felt.rest);
         let (mut x, mut force) = (state.compression, state.force);
-        // From the force that is known, as long as it is not far.
+        // From the known force, if the compression is close enough.
         for _ in 0..3 {
             let slope = self.law.slope(x, force, top);
             let by = (reach - x - rest * force) / (1.0 + rest * slope);

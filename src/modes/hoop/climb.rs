@@ -18,12 +18,13 @@ use crate::modes::hoop::system::Wall;
 
 /// The sequence of meshes: degrees along and across, geometric steps towards ends, kinks and corners.
 ///
-/// The slowest error to fall is that at the wall's edge at a free end. The motion at its corners goes as `r^λ` with λ =
-/// 2.740 ± 1.119 i, the least root of `sin(λπ/2) = ±λ` beyond 1, whatever the material (M. L. Williams, J. Appl. Mech.
-/// 19, 526, 1952). One element reaches across the wall, so the error falls as a power of the degree. A wall that bends
-/// warps its sections by odd polynomials: an odd degree gains much, the even one after it a tenth or nothing. Every
-/// step from 5 across on therefore adds two degrees; steps of one would let two meshes agree on a wrong result. The
-/// errors for a tube of Poisson's ratio 0.45 by degree across: 5 1.8e-7, 6 1.7e-7, 7 1.6e-8, 8 1.6e-8, 9 2.8e-9.
+/// The slowest error to fall is that at the wall's edge at a free end. The motion at its corners is proportional to
+/// `r^λ` with λ = 2.740 ± 1.119 i, the least root of `sin(λπ/2) = ±λ` beyond 1, whatever the material (M. L. Williams,
+/// J. Appl. Mech. 19, 526, 1952). One element reaches across the wall, so the error falls as a power of the degree. A
+/// wall that bends warps its sections by odd polynomials: an odd degree gains much, the even one after it a tenth or
+/// nothing. Every step from 5 across on therefore adds two degrees; steps of one would let two meshes agree on a wrong
+/// result. The errors for a tube of Poisson's ratio 0.45 by degree across: 5 1.8e-7, 6 1.7e-7, 7 1.6e-8, 8 1.6e-8, 9
+/// 2.8e-9.
 const LADDER: [([usize; 2], [usize; 3]); 7] = [
     ([4, 2], [0, 0, 1]),
     ([5, 3], [1, 0, 1]),

@@ -1,7 +1,8 @@
 //! How does the wall of a hollow bat ring if its sections do not stay round?
 //!
 //! [`Hoop::of`](solve::Hoop::of) solves the wall as a solid of revolution, one harmonic `cos nθ` after the other, to a
-//! tolerance. [`Response::of`](response::Response::of) gives the data for a hit: how the wall gives way under a ball.
+//! tolerance. [`Response::of`](response::Response::of) gives the data for a hit: the compliance of the wall under a
+//! ball.
 //!
 //! | file | question |
 //! |---|---|

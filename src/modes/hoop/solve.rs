@@ -19,7 +19,7 @@ use crate::modes::hoop::spectrum::Spectrum;
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct HoopMode {
-    /// Waves around the barrel, n: the motion goes as cos nθ.
+    /// Waves around the barrel, n: the motion is proportional to cos nθ.
     pub harmonic: usize,
     /// Index of the mode among those of its harmonic, from 1.
     pub order: usize,

@@ -27,7 +27,7 @@ pub type Read<T> = std::result::Result<T, Complaint>;
 
 /// Why a question has no answer.
 pub enum Halt {
-    /// The person wants to answer the question before it anew.
+    /// The person wants to answer the previous question again.
     Back,
     /// The person wants to leave; the answers are kept.
     Left,
@@ -143,7 +143,7 @@ impl<R: BufRead> Dialogue<R> {
         }
     }
 
-    /// Asks whether to go on with a draft of before, by the name of its bat.
+    /// Asks whether to continue an earlier draft, by the name of its bat.
     fn resume(&mut self) -> Asked<()> {
         let Some(before) = self.before.take() else { return Ok(()) };
         let draft = self.kept_in().unwrap_or_default();
@@ -187,7 +187,7 @@ impl<R: BufRead> Dialogue<R> {
 
     fn tell(&self, text: &str) {
         let lines: Vec<String> = wrapped(text, 2).trim_end().split('\n').map(printable).collect();
-        // Without standard error the questions are not seen; the answers may come all the same.
+        // Without standard error the questions are not seen; but answers may still come.
         let _ = writeln!(std::io::stderr(), "{}", lines.join("\n"));
     }
 

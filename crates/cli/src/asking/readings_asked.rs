@@ -70,7 +70,7 @@ fn within(
     }
 }
 
-/// A number in that range with or without its unit; None where it is not known.
+/// A number in that range with or without its unit; `None` if it is not known.
 fn number(text: &str, unit: &str, [low, high]: [f64; 2]) -> Read<Option<f64>> {
     if ask::unknown(text) {
         return Ok(None);

@@ -84,7 +84,7 @@ fn above(Energies { quotient, residual, .. }: &Energies, a: f64) -> f64 {
     if gap > 0.0 { up(quotient.high + up(residual / gap)) } else { f64::INFINITY }
 }
 
-/// The conclusions from trials in any order; a trial without bounds is None.
+/// The conclusions from trials in any order; a trial without bounds is `None`.
 pub fn conclude(trials: &[Option<Energies>], norms: &Norms) -> Conclusion {
     let mut order: Vec<(usize, Energies)> =
         trials.iter().enumerate().filter_map(|(k, trial)| trial.map(|known| (k, known))).collect();

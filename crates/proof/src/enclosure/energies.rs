@@ -241,7 +241,7 @@ impl Moved {
 }
 
 impl Mass {
-    /// Deflection and rotation at its border, of the trial's own motion.
+    /// Deflection and rotation of the trial's own motion at its border.
     fn drifting(&self, moved: &Moved, drift: [f64; 2]) -> [Interval; 2] {
         let at = moved.borders[self.border];
         std::array::from_fn(|i| Interval::point(at[i]) + Interval::within(drift[i]))

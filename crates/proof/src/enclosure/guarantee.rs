@@ -50,7 +50,7 @@ pub struct Proof {
     pub proven: usize,
     /// How many motions were tried.
     pub trials: usize,
-    /// How many cells they are polynomials on, and the degree of their deflection.
+    /// Number of cells on which they are polynomials, and the degree of their deflection.
     pub cells: usize,
     /// Degree of the trials' deflection.
     pub degree: usize,
@@ -95,7 +95,7 @@ const STALLED: f64 = 0.7;
 const MOST_ROUNDS: usize = 6;
 /// Plans aim at this or less: elements then end at stations.
 const COARSEST: f64 = 1e-10;
-/// Plans aim at no less than this: arithmetic tells no finer one.
+/// Plans aim at no smaller width: arithmetic cannot resolve one.
 const FINEST: f64 = 1e-14;
 
 /// The solution for the requested modes of a bat, and the proven statements about them. The frequencies of the solution

@@ -1,4 +1,4 @@
-//! By how much do supports, springs and a bed reduce trace and norm of the compliance of the free bat?
+//! How far do supports, springs and a bed reduce trace and norm of the compliance of the free bat?
 //!
 //! Let `G` map loads to deflections of the free bat, with rigid motions removed from both, `M` be its mass, `R` the two
 //! rigid motions, and `b_j` the loads of unit reactions. Under loads `f` the held bat moves by `y = G(f − Bρ) − R r`,

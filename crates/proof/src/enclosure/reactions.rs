@@ -10,7 +10,7 @@
 //! that is 1 there and 0 beyond the two adjacent cells, `R = ⟨y, ψ⟩ − σ ∫EI χ χ_ψ`. These are plain numbers without any
 //! assumption. The last two are computed as intervals, so that force and moment are exactly in equilibrium.
 //!
-//! A bed presses by `r = σ k w`. Where no two contacts hold the bat, a line `α + β (x − x_m)` is added, which is
+//! A bed presses with `r = σ k w`. Where no two contacts hold the bat, a line `α + β (x − x_m)` is added, which is
 //! determined in place of the last two reactions; the residual has `∫(r − σ k w)²/k`.
 
 use crate::enclosure::beam::Proven;

@@ -29,7 +29,7 @@ struct Ring<'a> {
     material: &'a Material,
     inside: Option<Border>,
     outside: Border,
-    /// How hollow the ring counts in κ: 1 with an empty inside, 0 with one that carries shear like the ring.
+    /// Hollowness of the ring for κ: 1 with an empty inside, 0 with one that carries shear like the ring.
     empty: Interval,
 }
 

@@ -1,4 +1,4 @@
-//! As many elements and stations as memory holds, and as few as there can be.
+//! The largest numbers of elements and stations that memory holds, and the smallest.
 
 use std::time::{Duration, Instant};
 

@@ -1,4 +1,4 @@
-//! Changes that must have no effect, or change not a single bit.
+//! Changes that must have no effect, some of them on any bit.
 
 use std::thread;
 

@@ -66,7 +66,7 @@ pub fn length(length: f64) -> Result<Outcome> {
     of_size(Size { length, radius: like.radius * length / like.length, ..like })
 }
 
-/// A stiffness that no number can hold once it is multiplied by anything.
+/// A stiffness whose products exceed the range of numbers.
 pub fn out_of_range(modulus: f64) -> Result<Outcome> {
     Ok(refusal(ASKED, dowel(Size { modulus, ..Size::default() })))
 }
@@ -105,7 +105,7 @@ fn on_one_mesh(bat: &Bat) -> Result<Solution> {
     solve(bat, &Request { elements: Some(48), degree: Some(6), ..Request::plain() })
 }
 
-/// Frequencies go as √(E/ρ)/L. The R161 on one mesh with E, ρ and L by powers of ten.
+/// Frequencies are proportional to √(E/ρ)/L. The R161 on one mesh with E, ρ and L by powers of ten.
 fn by_decades(scales: impl Iterator<Item = [f64; 3]>) -> Result<Outcome> {
     let plain = on_one_mesh(&r161_times(1.0, 1.0, 1.0)?)?;
     let mut found = Vec::new();

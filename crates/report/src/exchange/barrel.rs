@@ -9,7 +9,7 @@ use sweetspot::modes::hoop::{Hoop, HoopMode, Outline};
 /// Rings of points on a barrel.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BarrelGrid {
-    /// The points, ring by ring from the handle to the tip; of a ring the first lies in the direction of +y.
+    /// The points, ring by ring from the handle to the tip; the first point of a ring lies in the direction of +y.
     pub grid: Grid,
     /// Places of the rings (m).
     pub x: Vec<f64>,
@@ -108,7 +108,7 @@ mod tests {
         };
         let change = (length(1e-4) - length(-1e-4)) / 2e-4;
         assert!(change.abs() < 1e-3, "{change}");
-        // Pressed in by 1, a circle that did not go round would be 2π shorter.
+        // Reduced in radius by 1, a circle without motion around would be 2π shorter.
         assert!((moved(0, &outline, 4)[0][1] - 1.0).abs() < 1e-15);
     }
 }

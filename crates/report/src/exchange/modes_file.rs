@@ -42,7 +42,7 @@ pub struct SampledMode {
 }
 
 impl ModeTable {
-    /// Outer and inner radius (m) at every place; at a step that on its right, but at the tip.
+    /// Outer and inner radius (m) at every place; at a step those to its right, except at the tip.
     pub fn radii(&self) -> [Vec<f64>; 2] {
         let sections = || self.x.iter().map(|x| self.bat.profile().at(*x));
         [sections().map(|s| s.outer).collect(), sections().map(|s| s.inner).collect()]

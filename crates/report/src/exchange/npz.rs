@@ -5,7 +5,7 @@
 //! NumPy's manual, `numpy.lib.format`: an archive is a zip file of `NAME.npy`; each begins with
 //! `\x93NUMPY`, a version, the length of its header, and the header, a Python dictionary of type,
 //! order and shape, filled up with blanks so that the numbers begin at a multiple of 64 bytes.
-//! Sparse matrices stand in the parts of SciPy's `csc_matrix((data, indices, indptr), shape)`.
+//! Sparse matrices are stored as the parts of SciPy's `csc_matrix((data, indices, indptr), shape)`.
 
 use std::io::{Cursor, Error, Result, Write};
 

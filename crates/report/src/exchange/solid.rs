@@ -27,7 +27,7 @@ impl Grid {
     /// circle, closed by discs at the ends. A radius of 0 is one point.
     pub fn surface(x: &[f64], r: &[f64], around: usize) -> Self {
         let last = x.len().saturating_sub(1);
-        // A disc is a ring of no radius at the same place.
+        // A disc is closed by a ring of radius 0 at the same place.
         let mut stops: Vec<(usize, f64)> = r.iter().copied().enumerate().collect();
         if r.first().is_some_and(|r| *r > 0.0) {
             stops.insert(0, (0, 0.0));
@@ -92,7 +92,7 @@ impl Grid {
 mod tests {
     use super::*;
 
-    /// Six times the volume that a closed surface encloses, outside of every cell outwards.
+    /// Six times the volume that a closed surface encloses, with the outside of every cell facing outwards.
     fn volume(grid: &Grid) -> f64 {
         let triangles = grid.cells.iter().flat_map(|cell| {
             (2..cell.len()).map(|k| [cell[0], cell[k - 1], cell[k]].map(|p| grid.points[p]))

@@ -11,7 +11,7 @@ pub const RATE: u32 = 44_100;
 /// The largest sample, 1 dB below full scale so that no player clips it.
 const LARGEST: f64 = 0.89 * i16::MAX as f64;
 
-/// A file of samples from −1 to 1, others cut, [`RATE`] in a second.
+/// A file of samples from −1 to 1, [`RATE`] per second; larger ones are clipped.
 pub fn file(samples: &[f64]) -> Vec<u8> {
     const BYTES: u32 = 2;
     let length = BYTES * samples.len() as u32;

@@ -8,7 +8,7 @@
 //! | [`folder`] | where are the rows stored, and which of them exist |
 //! | [`fresh`] | which files in a folder were written by studies |
 //! | [`table`] | which numbers are in the parts |
-//! | [`summary`] | what do they amount to, on one screen |
+//! | [`summary`] | what are the results, on one screen |
 
 pub mod source;
 pub mod sums;

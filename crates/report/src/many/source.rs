@@ -249,7 +249,7 @@ fn bat(
     let mut document: Value = serde_json::from_str(&text).unwrap_or_default();
     let Some(table) = document["profile"]["csv"].as_str() else { return Ok(text) };
     if let Some(varied) = study.varied.iter().find(|varied| varied.path == "bat.profile.unit") {
-        let found = format!("it for {file}, whose table may have units of its own");
+        let found = format!("it for {file}, whose table may have its own units");
         return Err(varied.wrong(Complaint::new("", found, "columns, such as bat.profile.x")));
     }
     let bytes = file::read_plain(&folder.find(table)?)?;

@@ -74,7 +74,7 @@ pub fn shares(table: &Table, rows: &Rows) -> String {
     }
     out + &wrapped(
         "\nShares of the variance with one standard deviation of sampling; of numbers that depend on each \
-         other the later one has what the earlier ones leave open.",
+         other the later one has only what the earlier ones do not explain.",
         0,
     )
 }

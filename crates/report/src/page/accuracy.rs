@@ -58,7 +58,7 @@ pub fn certified(analysis: &Analysis, units: Units) -> Vec<String> {
 
 /// A bat of more pieces than this is not proven in a report: it would take long.
 const MOST_PIECES: usize = 300;
-/// So many modes are proven in a report.
+/// Most modes that are proven in a report.
 const MOST_MODES: usize = 10;
 /// Intervals are this narrow as a share of the frequency.
 const WIDTH: f64 = 1e-9;

@@ -94,7 +94,7 @@ fn scene(comparison: &Comparison, units: Units) -> Vec<String> {
         shown::sentence(
             swing(comparison, units).split_whitespace().collect::<Vec<_>>().join(" ").as_str(),
         ),
-        "A difference within the errors stated of both computations counts as none.".to_owned(),
+        "Differences within the stated errors of both computations count as none.".to_owned(),
     ]
 }
 

@@ -258,11 +258,11 @@ impl<'a> Report<'a> {
 
     fn accuracy(&'a self, units: Units) -> Vec<Part<'a>> {
         let mut parts = vec![
-            Part::Heading("What wood, scale and calipers leave open"),
+            Part::Heading("The uncertainty due to wood, scale and calipers"),
             Part::List(accuracy::open(self.analysis, units)),
-            Part::Heading("What the computation adds"),
+            Part::Heading("The error of the computation"),
             Part::List(accuracy::certified(self.analysis, units)),
-            Part::Heading("What was left out, and what that costs"),
+            Part::Heading("What was left out, and its effect"),
             Part::List(accuracy::left_out(self.analysis)),
         ];
         let needed = accuracy::needed(self.analysis);

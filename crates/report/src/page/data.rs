@@ -35,7 +35,7 @@ pub struct Data<'a> {
     /// The ringing barrel of a hollow bat; left out for others.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub barrel: Option<RingingBarrel>,
-    /// Hits in time; empty where the model knows no force in time.
+    /// Hits in time; empty where the model has no force in time.
     pub moments: &'a [Moment],
     /// The sound of a tap on the tip.
     pub tap: Heard<'a>,
@@ -108,7 +108,7 @@ pub struct Heard<'a> {
 }
 
 impl<'a> Data<'a> {
-    /// The numbers of an analysis, rounded but for the summary.
+    /// The numbers of an analysis, rounded except those of the summary.
     pub fn new(
         analysis: &Analysis,
         summary: &'a Summary,

@@ -1,6 +1,6 @@
-//! One HTML page that needs nothing beside it, of sections told in both systems of units.
+//! One self-contained HTML page, whose sections exist in both systems of units.
 //!
-//! What reads the same in both stands once; the rest stands twice, and a switch without any script
+//! Content that is equal in both systems appears once. All other content appears twice, and a switch without any script
 //! shows one of them.
 
 use std::fmt::Write;
@@ -13,26 +13,26 @@ use crate::parts::{Fact, Fold, Input, Part, Section};
 const STYLE: &str = include_str!("style.css");
 const SCRIPT: &str = concat!(include_str!("shared.js"), include_str!("script.js"));
 
-/// Nothing may be fetched from anywhere, whatever a bat is called.
+/// The page fetches nothing, whatever the name of a bat contains.
 const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; \
                       img-src data:; base-uri 'none'; form-action 'none'";
 
-/// What a page is made of.
+/// The content of a page.
 #[derive(Debug, Clone)]
 pub struct Page<'a> {
     /// What kind of page it is, above its name.
     pub kind: &'static str,
-    /// Its name, and what stands in the browser's title after it.
+    /// Its name, and the text after it in the browser's title.
     pub name: [&'a str; 2],
     /// Where its numbers come from; may be empty.
     pub source: &'a str,
     /// Whether US units are shown first.
     pub us: bool,
-    /// What stands on it, in SI and in US units: the same sections and parts.
+    /// Its sections in SI and in US units, with the same parts in both.
     pub sections: [Vec<Section<'a>>; 2],
     /// The pictures that the parts name.
     pub figures: &'a [Figure],
-    /// What its script draws, as JSON; none where nothing moves.
+    /// The data for its script, as JSON; `None` if nothing moves.
     pub data: Option<String>,
     /// The address of the same bat's live page beside it.
     pub lab: Option<&'a str>,
@@ -112,7 +112,7 @@ impl Page<'_> {
         format!("<section id=\"{id}\"{class} aria-labelledby=\"{id}-title\">\n{inner}</section>\n")
     }
 
-    /// A part, once where both systems say the same.
+    /// A part, once if it is equal in both systems.
     fn part(&self, both: [&Part; 2]) -> String {
         let [si, us] = both.map(|part| self.written(part));
         if si == us {

@@ -1,5 +1,5 @@
-// What moves and sounds on the page: modes, the moment of the hit, hair-lines that read pictures off, and
-// the bat as it is heard.
+// The moving and the audible parts of a report's page: animated modes, the animated hit, hair-lines that read
+// values off the pictures, and the sound of the bat.
 "use strict";
 (() => {
   const { drawn, samples } = shared;
@@ -8,31 +8,31 @@
   const length = data.outline.length_mm;
   document.documentElement.classList.add("js");
 
-  /** Scrolls by itself, by keyboard too, only where it is too wide. */
+  /** A part that is too wide for the page can be focused, so that the keyboard scrolls it; others cannot. */
   const scrolls = new ResizeObserver((seen) => seen.forEach(({ target }) => {
     if (target.scrollWidth > target.clientWidth) target.setAttribute("tabindex", 0);
     else target.removeAttribute("tabindex");
   }));
   document.querySelectorAll(".scroll").forEach((part) => scrolls.observe(part));
 
-  /** Whether inches and miles an hour are shown, and what is called when that changes. */
+  /** `inUs`: whether inches and miles an hour are shown. `whenUnits` calls a function whenever that changes. */
   const inUs = () => document.getElementById("units-1").checked;
   const whenUnits = (then) => document.querySelectorAll("input[name=units]")
     .forEach((input) => input.addEventListener("change", then));
 
-  /** The value at a share between 0 and 1 of a list of even samples. */
+  /** The value, between evenly spaced samples, at a share of the way from the first (0) to the last (1). */
   const at = (list, share) => {
     const place = Math.min(Math.max(share, 0), 1) * (list.length - 1);
     const k = Math.min(Math.floor(place), list.length - 2);
     return list[k] + (place - k) * (list[k + 1] - list[k]);
   };
 
-  /** The outline of the bat (mm), its middle line bent by so much at every place, up being positive. */
+  /** The outline of the bat (mm) whose middle line is displaced by `bent` (mm, up positive) at every place. */
   const outline = (bent) => {
     const { x_mm: places, radius_mm: radii } = data.outline, last = places.length - 1;
     const upper = [], lower = [];
     places.forEach((x, k) => {
-      // The slope between the neighbours that are not at the same place.
+      // The slope between the nearest neighbours; at a step of the profile two entries are at the same place.
       let [a, b] = [Math.max(k - 1, 0), Math.min(k + 1, last)];
       if (places[a] === x && a > 0) a -= 1;
       if (places[b] === x && b < last) b += 1;
@@ -44,15 +44,15 @@
     return `M${upper.join("L")}L${lower.reverse().join("L")}Z`;
   };
   const widest = Math.max(...data.outline.radius_mm);
-  // What is a millimetre on a bat of 84 cm, for marks and margins.
+  // The unit of marks and margins: 1 mm on a bat of 84 cm, in proportion on others.
   const unit = length / 840;
   const straight = data.outline.x_mm.map(() => 0);
   const radiusAt = (x) => data.outline.radius_mm[data.outline.x_mm.findLastIndex((place) => place <= x)];
 
   /**
-   * Time that goes on while Play is pressed, a quarter as fast with Slow, and follows the slider.
-   * `draw(share)` shows the share of a round; `say(share, seconds)` is that in words, of a round that
-   * takes so long.
+   * The controls of an animation: Play, Slow (a quarter of the speed) and a slider. `seconds` is how long a run
+   * takes, `round` whether it repeats, `first` the share of a run, 0 to 1, that is shown at first. `draw(share)`
+   * draws that instant; `say(share, seconds)` describes it in words, for a run that takes that many seconds.
    */
   const player = (root, { seconds, round, first, draw, say }) => {
     const [play, slow] = [".play", ".slow"].map((name) => root.querySelector(name));
@@ -75,7 +75,7 @@
     };
     const step = (time) => {
       if (!playing) return;
-      // A page that was out of sight does not jump.
+      // After a time out of sight the animation goes on where it was.
       const passed = before ? Math.min(time - before, 100) : 0;
       before = time;
       share += pace() * passed / 1000 / seconds;
@@ -87,7 +87,7 @@
       if (playing) requestAnimationFrame(step);
     };
     play.addEventListener("click", () => {
-      // What has ended begins anew, and what has not been looked at yet from its beginning.
+      // An animation that has ended, or that was not used yet, starts from its beginning.
       if (!playing && !round && (share >= 1 || untouched)) share = 0;
       untouched = false;
       set(!playing);
@@ -111,7 +111,7 @@
     return { show, rewind, play: () => set(true) };
   };
 
-  /** Calls back with the number of the chosen one, now and whenever it is another. */
+  /** Calls `then` with the number of the chosen option whenever the choice changes. */
   const chosen = (root, name, then) => {
     for (const input of root.querySelectorAll(`input[name="${name}"]`)) {
       input.addEventListener("change", () => then(Number(input.value)));
@@ -152,14 +152,14 @@
     const [from, to] = [places[0], places.at(-1)], middle = to + 2.6 * thick, high = thick + size + pad;
     stage.setAttribute("viewBox", `${from - pad} ${-high} ${middle + high - from + pad} ${2 * high}`);
     let mode = all[0];
-    /** The barrel from the side, its waves on the lower side as half a turn on. */
+    /** The barrel from the side. With an odd number of waves around, the lower side moves the opposite way. */
     const side = (moved) => {
       const odd = mode.harmonic % 2 ? -1 : 1;
       const line = (sign, waves) => places.map((x, k) =>
         `${x} ${(sign * (radii[k] + moved * waves * mode.radial[k])).toFixed(2)}`);
       return `M${line(-1, 1).join("L")}L${line(1, odd).reverse().join("L")}Z`;
     };
-    /** The ring: a point at an angle moves outwards by U cos, around by V sin of n times it. */
+    /** The cross-section: the point at the angle θ moves outwards by U cos nθ and around by V sin nθ. */
     const ring = (moved) => {
       const size = mode.radial.map(Math.abs), k = size.indexOf(Math.max(...size)), n = mode.harmonic;
       const points = Array.from({ length: 72 }, (_, j) => {
@@ -186,7 +186,7 @@
   const moment = (root) => {
     const stage = root.querySelector(".stage");
     const radius = data.ball_radius_mm;
-    /** The bending as drawn (mm): too large, but at the ball as large as it is. */
+    /** The bending as drawn (mm): enlarged, and shifted so that it is true at the ball. */
     const enlarged = (one, bending) => {
       const there = 1000 * one.x_m / length, w = bending.map((value) => one.factor * value / 100);
       const off = at(w, there) * (1 - 1 / one.factor);
@@ -209,11 +209,11 @@
       bat.setAttribute("d", outline(data.outline.x_mm.map((place) => at(w, place / length))));
       const there = 1000 * hit.x_m / length;
       const gap = at(hit.gap_mm, share), force = at(hit.force_kn, share);
-      // However much it is squeezed, there is something to see of it.
+      // Drawn with at least a fifth of its height, so that it stays visible.
       const flat = Math.max(radius - Math.max(0, -gap) / 2, 0.2 * radius);
       const foot = -at(w, there) - radiusAt(1000 * hit.x_m);
       const middle = foot - Math.max(0, gap) - flat;
-      // As much ball as before, squeezed flatter.
+      // The squeezed ball keeps its volume.
       const shape = { cx: 1000 * hit.x_m, cy: middle, rx: radius * Math.sqrt(radius / flat), ry: flat };
       for (const [key, value] of Object.entries(shape)) ball.setAttribute(key, value.toFixed(2));
       const tall = 1.6 * radius * force / most, x = 1000 * hit.x_m, u = unit;
@@ -230,7 +230,7 @@
       return `${time.toFixed(2)} ms: force ${force(at(hit.force_kn, share))}, ${state}. ` +
         `${Math.round(1000 * seconds / span())} times slower than life`;
     };
-    // Who asked for less motion, and paper, see the instant of the largest force.
+    // The instant of the largest force is shown on paper, and to those whose system asks for reduced motion.
     const peak = () => hit.force_kn.indexOf(Math.max(...hit.force_kn)) / (hit.force_kn.length - 1);
     const first = () => calm.matches ? peak() : 0;
     const film = player(root, { seconds: 12, round: false, first: first(), draw, say });
@@ -244,7 +244,7 @@
     return once(stage, film);
   };
 
-  /** A film begins by itself when it is first seen, where nobody asked for less motion. */
+  /** Starts an animation when it first comes into sight, unless the system asks for reduced motion. */
   const once = (stage, film) => {
     if (calm.matches) return;
     const watch = new IntersectionObserver((seen) => {
@@ -254,11 +254,11 @@
     calm.addEventListener("change", () => { if (calm.matches) film.rewind(); });
   };
 
-  /** A hair-line over every picture of something along the barrel; all of them go together. */
+  /** The functions that move the hair-line of each picture along the barrel; all show the same place. */
   const hairs = [];
   const places = data.curve.x_m, last = places.length - 1;
   const spot = data.summary.sweet_spot_m ?? places[0];
-  /** The number of the place nearest to one (m). */
+  /** The number of the place nearest to `x` (m). */
   const nearest = (x) => places.reduce((best, place, k) =>
     Math.abs(place - x) < Math.abs(places[best] - x) ? k : best, 0);
   let shownAt = 0;
@@ -281,7 +281,7 @@
       ["Left in vibration", energy(curve.vibration_j[k], 2)],
     ])];
   };
-  /** How far along the places one of them is, and back. */
+  /** The share of the way from the first place to the last at which place `k` is, and the place nearest to a share. */
   const share = (k) => (places[k] - places[0]) / (places[last] - places[0]);
   const atShare = (s) => nearest(places[0] + s * (places[last] - places[0]));
   const hair = (sheet) => {
@@ -295,7 +295,7 @@
       return { picture, line, left, right, width };
     });
     slider.max = 1000;
-    // The middle of the slider's handle stands below the line of the form that is shown.
+    // The middle of the slider's handle is kept below the hair-line of the picture that is shown (wide or narrow).
     const fit = () => {
       const form = forms.find(({ picture }) => picture.checkVisibility());
       if (!form) return;
@@ -332,7 +332,7 @@
       picture.addEventListener("pointerdown", follow);
     }
     slider.addEventListener("input", () => point(atShare(slider.value / 1000)));
-    // Arrows go from place to place, and so over the sweet spot.
+    // The arrow keys go from place to place, and so do not pass over the sweet spot.
     const steps = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: 10, PageDown: -10 };
     slider.addEventListener("keydown", (event) => {
       if (!(event.key in steps)) return;
@@ -341,7 +341,7 @@
     });
   };
 
-  /** The bat as it is heard: its modes, each a tone that dies out. */
+  /** Plays the sound of the bat: one decaying tone for each mode. */
   let speaker = null;
   const heard = ({ tones }) => {
     speaker ??= new AudioContext();
@@ -371,7 +371,7 @@
     if (hairs.length) point(nearest(spot));
     whenUnits(() => point(shownAt));
   }
-  // A closed part would be missing on paper.
+  // Parts that are closed would be missing on paper.
   addEventListener("beforeprint", () =>
     document.querySelectorAll("section:not(.screen) > details").forEach((part) => { part.open = true; }));
 })();

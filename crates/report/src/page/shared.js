@@ -1,4 +1,4 @@
-// What the pages of a report and the lab share: elements of pictures, and tones that die out.
+// Code that the page of a report and the lab share: elements of pictures, and decaying tones.
 "use strict";
 const shared = (() => {
   /** A new SVG element within another. */
@@ -9,8 +9,8 @@ const shared = (() => {
   };
 
   /**
-   * Samples (m/s²) of tones that begin together and die out, `rate` of them a second: until the slowest has
-   * fallen to a thousandth, but 0.3 s at least and 3 s at most.
+   * Samples (m/s²), `rate` of them a second, of decaying tones that begin together. They last until the slowest decay
+   * has fallen to a thousandth, but at least 0.3 s and at most 3 s.
    */
   const samples = (tones, rate) => {
     const slowest = Math.min(...tones.map((tone) => tone.decay_1_s));

@@ -49,7 +49,7 @@ pub fn speed(units: Units, value: f64) -> String {
     units.show(format!("{:.2} m/s", rounded(value, 2)), format!("{us:.1} mph"))
 }
 
-/// So many decimals, or a power of ten where that would be all zeros or very long; 0 is not −0.
+/// A number with that many decimals, or with a power of ten where that would be all zeros or very long; 0 is not −0.
 pub fn decimals(value: f64, decimals: i32) -> String {
     match value.abs() {
         0.0 | 1e-2..1e6 => {

@@ -14,12 +14,12 @@ pub enum Cell {
     Words(String),
     /// Text that is shown as it is: a count, a yes or no, a formatted number.
     Written(String),
-    /// Nothing that is known.
+    /// No known value.
     Empty,
 }
 
 impl Cell {
-    /// As files have it: a number reads back to the same bits, and a text that a spreadsheet would compute has an
+    /// The cell in a file: a number reads back to the same bits, and a text that a spreadsheet would evaluate has an
     /// apostrophe before it.
     pub fn in_file(self) -> String {
         match self {

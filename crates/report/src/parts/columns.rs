@@ -51,8 +51,8 @@ impl Columns {
         self.row(self.0.iter().map(|column| &column.head))
     }
 
-    /// One line, without blanks at its end. A cell that is too wide takes the blanks after it, and a line of more than
-    /// 80 columns all that can be spared.
+    /// One line, without blanks at its end. A cell that is too wide uses the blanks after it; a line of more than 80
+    /// columns uses all that can be spared.
     pub fn row<S: AsRef<str>>(&self, cells: impl IntoIterator<Item = S>) -> String {
         let (mut line, mut end) = (String::new(), 0);
         for (TextColumn { width, gap, left, .. }, cell) in self.0.iter().zip(cells) {

@@ -17,7 +17,7 @@ pub struct Input {
 }
 
 impl Input {
-    /// Longer ones are cut in a page.
+    /// Longer texts are cut in a page.
     pub const MOST: usize = 60_000;
 
     /// Reads a file that was read before. A pipe gives an empty text, because it has been read.
@@ -30,7 +30,7 @@ impl Input {
         Ok(Self::new(path, &String::from_utf8_lossy(&bytes)))
     }
 
-    /// One that was read.
+    /// A file that was read.
     pub fn new(path: &Path, text: &str) -> Self {
         let text = text.trim_start_matches('\u{feff}').to_owned();
         Self { name: path.display().to_string(), text }

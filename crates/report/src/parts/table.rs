@@ -9,9 +9,9 @@ use crate::parts::units::Units;
 /// A column of a table whose rows are of type `T`.
 #[derive(Debug, Clone, Copy)]
 pub struct Column<T> {
-    /// Above it for people; empty for one that files alone have.
+    /// Its head for people; empty for a column of files only.
     head: &'static str,
-    /// Its name in files, which ends in its unit; empty for one that files do not have.
+    /// Its name in files, which ends in its unit; empty for a column that is not in files.
     name: &'static str,
     quantity: Quantity,
     /// Whether it appears in both systems of units where both are shown.
@@ -30,7 +30,7 @@ impl<T> Column<T> {
         Self { head, name, quantity, both: false, of }
     }
 
-    /// A column that files alone have.
+    /// A column of files only.
     pub const fn in_files(name: &'static str, of: fn(&T) -> Cell) -> Self {
         Self::new("", name, Quantity::Ratio(0), of)
     }
@@ -117,7 +117,7 @@ impl Table {
         self.head.iter().enumerate().map(named).collect()
     }
 
-    /// For a page: it scrolls by itself where it is too wide, by keyboard too. Nothing without rows.
+    /// For a page: the table scrolls separately if it is too wide, also by keyboard. Empty without rows.
     pub fn html(&self) -> String {
         if self.rows.is_empty() {
             return String::new();

@@ -8,7 +8,7 @@ use sweetspot::bat::body::Bat;
 pub struct Unit {
     /// As in a label: `cm`.
     pub name: &'static str,
-    /// How many are one SI unit: 100 for cm.
+    /// Number of these units per SI unit: 100 for cm.
     pub per: f64,
 }
 
@@ -33,7 +33,7 @@ pub enum Paper {
     Narrow,
 }
 
-/// Units and room of a picture. One picture counts in one system of units.
+/// Units and room of a picture, which has one system of units.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Sheet {
     /// Whether it counts in inches and miles an hour, not in cm and m/s.

@@ -247,7 +247,7 @@ fn damping(advice: &Advice) -> Vec<Part<'static>> {
         return parts;
     }
     let pairs = solution.damping.modes.iter().zip(&solution.modes);
-    // A mode that only creeps back has no frequency to compare.
+    // A mode that does not oscillate has no frequency to compare.
     let moved = pairs.map(|(damped, mode)| match damped.swinging() / mode.omega {
         0.0 => "creeps".to_owned(),
         share => two_digits(100.0 * (share - 1.0)),

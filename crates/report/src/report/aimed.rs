@@ -196,7 +196,7 @@ pub fn warning(outcome: &Outcome, us: bool) -> Option<String> {
 }
 
 /// The cut list as CSV: a line for each pass at each station, in mm and in inches. A line with pass 0 and a negative
-/// cut stands for added wood.
+/// cut means added wood.
 pub fn cuts_csv(outcome: &Outcome, pass: f64) -> String {
     let mut table = Csv::new([
         "x_mm",

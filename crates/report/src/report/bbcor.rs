@@ -15,9 +15,9 @@ use sweetspot::collision::bbcor::{
 use sweetspot_study::ignored;
 use sweetspot_study::spread::of_frequencies;
 
-/// BBCOR along a bat as laboratories measure it, with the bat at rest on a pivot. It is computed and is no certificate.
-/// SI units, named at the end of each member; positions count from the knob end; a value that does not exist is null.
-/// Later versions with the same number may have more members.
+/// BBCOR along a bat as laboratories measure it, with the bat at rest on a pivot. It is computed and is not a
+/// certificate. SI units, named at the end of each member; positions count from the knob end; a value that does not
+/// exist is null. Later versions with the same number may have more members.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[schemars(title = "BBCOR file of sweetspot, sweetspot-bbcor/1")]
 pub struct BbcorFile {

@@ -11,7 +11,7 @@ use sweetspot::files::json_node::Node;
 use sweetspot::{Bat, Material, Result};
 use sweetspot_study::calibrate::calibration::{Calibration, Estimated, Verdict};
 
-/// Members that a calibrated file has anew, or no more: densities and moduli are known now.
+/// Members that a calibrated file replaces or omits, because densities and moduli are known now.
 const ANEW: [&str; 4] = ["source", "comment", "material", "weighed"];
 
 /// The text of the file. `before` is the bat and the text of its file, `measured` the name of the readings.
@@ -58,8 +58,8 @@ pub fn text((bat, before): (&Bat, &str), found: &Calibration, measured: &str) ->
     Ok(schema::text(&Value::Object(new)))
 }
 
-/// The mass and first frequency of the calibrated wood, so that every reader of the bat knows the uncertainty of its
-/// density and stiffness. None where neither was measured.
+/// The mass and first frequency of the calibrated wood, which give the uncertainty of its density and stiffness. `None`
+/// if neither was measured.
 fn weighed(found: &Calibration) -> Option<Value> {
     let mut weighed = Map::new();
     if found.readings.mass.is_some() {

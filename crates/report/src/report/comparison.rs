@@ -82,7 +82,7 @@ impl Scale {
         decimals.into_iter().find(shows).unwrap_or_else(|| format!("{by:+.0e}"))
     }
 
-    /// How far it may be off.
+    /// The error of a difference, in words.
     fn within(&self, difference: Difference, value: f64) -> String {
         let within = difference.within * self.factor;
         match within {
@@ -146,7 +146,7 @@ pub fn hit(comparison: &Comparison, units: Units) -> String {
     wrapped(&scene, 5) + &wrapped(&swing(comparison, units), 5)
 }
 
-/// How the swings of the bats go together.
+/// The law that relates the swings of the bats.
 pub fn swing(comparison: &Comparison, units: Units) -> String {
     let first = &comparison.bats[0];
     match (first.law, comparison.terms.barrel) {
@@ -182,7 +182,7 @@ fn shown(comparison: &Comparison) -> impl Iterator<Item = &ComparedFigure> {
     })
 }
 
-/// The name of a row with its unit; a place from the tip follows the same from the knob end.
+/// The name of a row with its unit; a place from the tip comes after the same place from the knob end.
 fn label(row: &ComparedFigure, scale: &Scale) -> String {
     match (row.from, scale.name) {
         (From::Tip, unit) => format!("    from the tip, {unit}"),

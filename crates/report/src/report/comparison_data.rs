@@ -88,7 +88,7 @@ pub struct ComparedBat {
     pub edits: Vec<Edit>,
     /// Angular speed of the swing (rad/s).
     pub swing_rad_s: f64,
-    /// Who sees the energies: the ground, or of a held bat its hands.
+    /// Frame of the energies: the ground, or the hands for a held bat.
     #[schemars(extend("enum" = ["ground", "hands"]))]
     pub energies_seen_from: &'static str,
     /// Beam theory.
@@ -126,7 +126,7 @@ pub struct Speeds {
     pub distance_m: f64,
     /// Exit speeds (m/s).
     pub exit_speed_m_s: Vec<Option<f64>>,
-    /// How far they may be off (m/s).
+    /// Errors of these speeds (m/s).
     pub error_m_s: Vec<Option<f64>>,
 }
 

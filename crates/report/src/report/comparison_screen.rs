@@ -43,7 +43,7 @@ pub fn screen(comparison: &Comparison, units: Units) -> Screen {
     }
     // Doubts precede anything that can be read off a table.
     let trust = doubted(comparison, one) + &beside_pieces(comparison, one);
-    // What two bats differ in has room; the heads of several tell their doubts in a word.
+    // The differences of two bats have room; for several bats, the heads name the doubts in a word.
     let last = u8::from(comparison.bats.len() > 2);
     let differences = (last, "what differs", out);
     let along = (last + 2, "where along the barrel", words);

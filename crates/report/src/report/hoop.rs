@@ -202,7 +202,7 @@ fn harmonics(wall: &PressedWall) -> String {
         let rest: f64 = others.into_iter().map(percent).sum();
         all.push(format!("all others {} %", significant(rest, 1)));
     }
-    format!("Of how far it gives way {}.", all.join(", "))
+    format!("Of its compliance {}.", all.join(", "))
 }
 
 /// How the ball comes back.

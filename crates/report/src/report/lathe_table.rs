@@ -150,7 +150,7 @@ fn shown(map: &LatheMap, units: TableUnits) -> Vec<LatheColumn> {
     let speed = pick(("m/s", 1.0, 3), ("mph", miles_per_hour(1.0), 3));
     add(Answer::Mass, "mass", 7, pick(("g", 1e3, 2), ("oz", ounces(1.0), 3)), 0.0);
     let own = map.terms.exponents().get(2).copied();
-    // A law of the batter's own takes its room.
+    // A law of the batter's own leaves no room for this column.
     if own.is_none() {
         add(Answer::BalancePoint, "bal.", 7, length, 0.0);
     }

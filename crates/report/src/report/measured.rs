@@ -16,7 +16,7 @@ use sweetspot_study::measured::words::words;
 /// Measured modes that a screen has.
 const FEW: usize = 6;
 
-/// Pairs of modes and words; `full` with every mode and how the shapes go together.
+/// Pairs of modes and words; `full` with every mode and the comparison of the shapes.
 pub fn text(bat: &Bat, study: &Study, units: Units, full: bool) -> String {
     let mut out = format!("{}\n{}", bat.name(), edited(bat, units));
     out += &source(study, units);

@@ -53,7 +53,7 @@ fn named(output: &OutputSpread, us: bool) -> (String, f64) {
     (format!("{}{unit}", output.name), per)
 }
 
-/// How far a percentile may be off.
+/// The error of a percentile.
 fn error(one: &Percentile, per: f64) -> String {
     match one.error {
         None => "-".to_owned(),

@@ -92,7 +92,8 @@ impl TapReport<'_> {
         out
     }
 
-    /// A tone's frequency, the time in which it dies to half, its loss factor, what it is, and how sure that is.
+    /// A tone's frequency, the time in which it falls to half, its loss factor, its mode, and the probability of that
+    /// mode.
     pub fn cells(&self, k: usize) -> [String; 5] {
         let (tone, label) = (&self.analysis.tones[k], self.label(k));
         let is = match (self.tapped, label.mode) {

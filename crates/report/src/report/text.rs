@@ -46,7 +46,7 @@ pub fn edited(bat: &Bat, units: Units) -> String {
     edits::noted(bat, units).map_or(String::new(), |note| wrapped(&format!("  {note}"), 4))
 }
 
-/// So many decimals, or a power of ten where that would be all zeros or very long.
+/// A number with that many decimals, or with a power of ten where that would be all zeros or very long.
 fn fixed(value: f64, decimals: usize) -> String {
     match value.abs() {
         0.0 | 1e-2..1e6 => format!("{value:.decimals$}"),

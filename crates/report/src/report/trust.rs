@@ -113,7 +113,7 @@ pub fn table(analysis: &Analysis, units: Units) -> String {
     };
     row("sweet spot", Answer::ExitSpeedPlace);
     row("fastest ball", Answer::ExitSpeed);
-    // Around a later contact speeds come and go within a millimetre.
+    // Near a later contact the exit speed changes within a millimetre.
     if !analysis.verdict.doubts.contains(&Doubt::LaterContact) {
         row("1 % less at", Answer::Zone(false));
         row("     and at", Answer::Zone(true));
@@ -364,7 +364,7 @@ fn far_more_exact(analysis: &Analysis) -> bool {
         && frequencies.into_iter().zip(&solution.modes).all(frequency)
 }
 
-/// How far the wood alone leaves every frequency open, in a line; empty where that is not known.
+/// The uncertainty of every frequency due to the wood alone, in a line; empty if it is not known.
 pub fn of_wood(bat: &Bat) -> String {
     let Some(open) = of_frequencies(bat) else { return String::new() };
     let text = format!(
@@ -377,7 +377,7 @@ pub fn of_wood(bat: &Bat) -> String {
 
 /// Where the uncertainty of a hit is shown.
 pub const IN_ANALYZE: &str =
-    "Trust: what wood, scale and calipers leave open of this: sweetspot analyze\n";
+    "Trust: its uncertainty due to wood, scale and calipers: sweetspot analyze\n";
 
 /// What is not known exactly about a bat, and the resulting uncertainty of each answer, to first order, with
 /// independent sources.

@@ -15,7 +15,7 @@ pub fn wall_words(bat: &Bat, scene: &Scene, wall: &HoopWall) -> String {
         format!(": by estimate that is {} of BBCOR", significant(gain, 1))
     });
     format!(
-        "the barrel's wall gives way by {} hoop modes of its own, of harmonics 0 and 2 to {last} around \
+        "the barrel's wall gives way by {} hoop modes, of harmonics 0 and 2 to {last} around \
          it{why}",
         wall.modes().len()
     )

@@ -56,7 +56,7 @@ pub struct Scene {
     pub cor: f64,
     /// Position at which the hands feel the hit (m).
     pub hands_m: f64,
-    /// Who sees the energies: the ground, or of a held bat its hands.
+    /// Frame of the energies: the ground, or the hands for a held bat.
     #[schemars(extend("enum" = ["ground", "hands"]))]
     pub energies_seen_from: String,
     /// The compliance of the barrel under the ball; left out for a rigid barrel.
@@ -138,7 +138,7 @@ pub struct Impact {
     pub flags: Vec<String>,
     /// The distribution of the energy; null without an outcome.
     pub energy_j: Option<Energy>,
-    /// How far the numbers above may be off.
+    /// Errors of the numbers above.
     pub error: HitError,
 }
 
@@ -152,7 +152,7 @@ pub struct HitError {
 /// The figures by which bats are compared, computed from this model.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Figures {
-    /// Always false: these figures are no certificate under any standard.
+    /// Always false: these figures are not a certificate under any standard.
     pub certified: bool,
     /// Exit speed at the sweet spot (m/s).
     pub bat_ball_speed_m_s: Option<f64>,

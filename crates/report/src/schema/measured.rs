@@ -68,7 +68,7 @@ pub struct MeasuredMode {
     /// Whether the bat bends, or moves as a rigid body on its supports.
     #[schemars(extend("enum" = ["bending", "rigid"]))]
     pub kind: &'static str,
-    /// How far a rigid mode's shape is from a straight line, as a share of its size.
+    /// Deviation of a rigid mode's shape from a straight line, as a share of its size.
     pub off_a_straight_line: Option<f64>,
     /// How nearly all points move in phase or against it, 1 if all do.
     pub phase_collinearity: Option<f64>,
@@ -76,7 +76,7 @@ pub struct MeasuredMode {
     pub out_of_phase: Option<f64>,
     /// Rigid motion in the shape, as a share of its size.
     pub rigid_share: Option<f64>,
-    /// Rigid motion in its computed partner as the same points see it.
+    /// Rigid motion in its computed partner at the same points.
     pub rigid_share_of_computed: Option<f64>,
 }
 

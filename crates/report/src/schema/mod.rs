@@ -49,13 +49,13 @@ struct Head<D: Document> {
     generator: Generator,
 }
 
-/// A document: the name of its format, the program that wrote it, and what it says.
+/// A document: the name of its format, the program that wrote it, and its content.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(bound = "D: Document + Serialize")]
 pub struct Written<D: Document> {
     #[serde(flatten)]
     head: Head<D>,
-    /// What it says.
+    /// Its content.
     #[serde(flatten)]
     pub body: D,
 }

@@ -32,7 +32,7 @@ pub struct ModesFile {
     /// The basis of the proven frequencies; only where they were requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub proof: Option<Proof>,
-    /// Left out where equal input was to give equal bytes.
+    /// Left out if equal input must give equal bytes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub timing: Option<Timing>,
 }
@@ -152,7 +152,7 @@ pub struct Mode {
     /// Interval that contains this frequency for every bat within the requested tolerances of this one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub proven_within: Option<ProvenFrequency>,
-    /// How far the numbers above may be off.
+    /// Errors of the numbers above.
     pub error: ModeError,
     /// The deflection along the bat.
     pub shape: Shape,

@@ -21,7 +21,7 @@ pub enum Switch {
     TypicalShear,
     /// Both: from Euler–Bernoulli to Timoshenko.
     Theory,
-    /// One kind of thing on the bat.
+    /// One kind of part on the bat.
     Part(ModelPart),
     /// All of [`ModelPart::ATTACHED`] together.
     Attachments,
@@ -61,11 +61,11 @@ pub struct Effect {
     pub without: Rc<Solved>,
     /// Relative change of each frequency, negative where the part lowers it.
     pub shift_by_mode: Option<Vec<f64>>,
-    /// How far each change may be off.
+    /// Error of each change.
     pub shift_error_by_mode: Option<Vec<f64>>,
-    /// Shift of every node of each mode towards the tip (m); null where their number changes.
+    /// Shift of every node of each mode towards the tip (m); null if their number changes.
     pub node_shift_m_by_mode: Option<Vec<Option<Vec<f64>>>>,
-    /// How far the shifts of each mode's nodes may be off (m).
+    /// Error of the shifts of each mode's nodes (m).
     pub node_shift_error_m_by_mode: Option<Vec<f64>>,
     /// Change of the mass (kg).
     pub mass_kg: f64,

@@ -13,7 +13,7 @@ pub struct Model {
     /// Beam theory.
     #[schemars(with = "String", extend("enum" = Theory::ALL.map(Theory::name)))]
     pub theory: Theory,
-    /// The parts beside the bare bat, in words.
+    /// The parts in addition to the bare bat, in words.
     // In the order of [`ModelPart::ALL`].
     #[schemars(with = "Vec<String>")]
     pub parts: Vec<ModelPart>,
@@ -33,12 +33,12 @@ impl Model {
         Self { theory: self.theory, parts: kept.collect() }
     }
 
-    /// This model by another theory.
+    /// This model with another theory.
     pub fn by(&self, theory: Theory) -> Self {
         Self { theory, ..self.clone() }
     }
 
-    /// How many switches are on: rotary inertia, shear, and one for each kind of part.
+    /// Number of switches that are on: rotary inertia, shear, and one for each kind of part.
     pub fn size(&self) -> usize {
         usize::from(self.theory.turns()) + usize::from(self.theory.shears()) + self.parts.len()
     }
@@ -71,7 +71,7 @@ pub struct Solved {
     pub frequencies_hz: Vec<f64>,
     /// Relative error of each frequency.
     pub error_by_mode: Vec<f64>,
-    /// The bat as the model sees it.
+    /// The bat with the parts of the model.
     #[serde(skip)]
     pub bat: Bat,
     /// Modes of the model.

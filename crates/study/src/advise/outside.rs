@@ -10,9 +10,9 @@ pub fn outside(bat: &Bat) -> Vec<String> {
     });
     let mut outside = vec![
         if hollow {
-            "hoop modes: the wall of this hollow bat also rings as a ring and gives way under \
-             the ball (trampoline effect); the sections of a beam stay round, but a hit counts \
-             these modes (--wall) and sweetspot hoop shows them"
+            "hoop modes: the wall of this hollow bat also vibrates as a ring and is compliant \
+             under the ball (trampoline effect); the sections of a beam stay round, but a hit \
+             includes these modes (--wall) and sweetspot hoop shows them"
         } else {
             "hoop modes of hollow barrels: sections stay round; this bat has no empty bore"
         },

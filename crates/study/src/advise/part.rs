@@ -17,7 +17,7 @@ named! {
         Springs = "springs to ground",
         /// Masses that hang on springs.
         Absorbers = "absorbers",
-        /// Joints that give way to bending.
+        /// Joints that are flexible in bending.
         Joints = "joints",
         /// Pins and clamps.
         Supports = "supports",

@@ -17,7 +17,7 @@ pub struct Smallest {
     pub left_out: Vec<&'static str>,
     /// Largest relative difference of a frequency from the full model's.
     pub deviation: f64,
-    /// How far that difference may be off.
+    /// Error of that difference.
     pub deviation_error: f64,
 }
 
@@ -74,7 +74,7 @@ fn models(full: &Model) -> impl Iterator<Item = Model> + '_ {
     })
 }
 
-/// The largest |f/f_full − 1| and its possible error; None where the modes are others.
+/// The largest |f/f_full − 1| and its possible error; `None` if the modes do not correspond.
 fn deviation(solved: &Solved, full: &Solved) -> Option<[f64; 2]> {
     if !solved.pairs_with(full) {
         return None;

@@ -39,7 +39,7 @@ pub struct Outcome {
     pub iterations: usize,
     /// Bats that were computed.
     pub bats_solved: usize,
-    /// Why the search ended before it stood still; null where it did not.
+    /// Why the search ended before it converged; null if it converged.
     pub stopped: Option<&'static str>,
     /// The other free choices.
     pub free: Vec<Choice>,
@@ -58,7 +58,7 @@ pub struct Outcome {
     /// How its stations were laid.
     #[serde(skip)]
     pub grid: Grid,
-    /// Factor by which they are rounded finer than wished, so that every goal is met.
+    /// Factor by which the stations are rounded more finely than requested, so that every goal is met.
     #[serde(skip)]
     pub finer: f64,
     /// Greatest slope of the changed surface, if it is limited: radius over length.
@@ -85,23 +85,23 @@ pub struct AimedTarget {
     pub at_most: Option<f64>,
     /// The value of the bat as it was.
     pub start: f64,
-    /// The value of the new bat; null where it has none.
+    /// The value of the new bat; null if it has none.
     pub found: Option<f64>,
     /// Whether it is met.
     pub met: bool,
-    /// How much smaller the norm (mm) would be if the binding bound gave way by one unit; 0 if none binds, null if the
-    /// target is missed.
+    /// Decrease of the norm (mm) if the binding bound is relaxed by one unit; 0 if no bound binds, null if the target
+    /// is missed.
     pub price_mm: Option<f64>,
     /// Its allowed range.
     #[serde(skip)]
     pub band: Band,
-    /// The price where it is missed too; None where the change is not a least one that meets all goals.
+    /// The price, also for a missed target; `None` if the change is not a least one that meets all goals.
     #[serde(skip)]
     pub price: Option<f64>,
 }
 
 impl AimedTarget {
-    /// The target of that band, which comes to that value at that price.
+    /// The target of that band, with its value and price.
     pub(super) fn new(band: Band, value: f64, price: Option<f64>) -> Self {
         let known = |value: f64| value.is_finite().then_some(value);
         let met = band.has(value);
@@ -119,7 +119,7 @@ impl AimedTarget {
         }
     }
 
-    /// The value of the new bat; NaN where it has none.
+    /// The value of the new bat; NaN if it has none.
     pub fn value(&self) -> f64 {
         self.found.unwrap_or(f64::NAN)
     }
@@ -159,7 +159,7 @@ impl Outcome {
             && self.broken_rules() == 0
     }
 
-    /// Says whether it is met; targets that are met are in no conflict.
+    /// Determines whether each target is met; the conflict is removed if all are.
     pub(super) fn judge(&mut self) {
         self.met = self.is_met();
         if self.targets_met() {
@@ -167,7 +167,7 @@ impl Outcome {
         }
     }
 
-    /// Whether every target, and every rule that is one, is met.
+    /// Whether every target is met, including the rules among the targets.
     pub fn targets_met(&self) -> bool {
         self.targets.iter().all(|target| target.met)
     }

@@ -64,7 +64,7 @@ pub struct Bench {
     pub bat: Bat,
     /// How bats are computed.
     pub terms: Terms,
-    /// The curves that the diameter may change by.
+    /// The possible curves of the change of the diameter.
     pub splines: Splines,
     /// The free choices besides the shape.
     pub extras: Vec<Extra>,
@@ -75,14 +75,14 @@ pub struct Bench {
 
 /// A changed bat and its goals.
 pub struct Look {
-    /// Value of every goal; NaN where the bat has none.
+    /// Value of every goal; NaN if the bat has none.
     pub values: Vec<f64>,
     piece: Workpiece,
     p: Vec<f64>,
 }
 
 impl Bench {
-    /// The bat with the freedom that a wish leaves. Diameters are checked against the limits where nothing may change.
+    /// The bat with the free choices of a wish. Where nothing may change, its diameters are checked against the limits.
     ///
     /// # Errors
     ///
@@ -135,7 +135,7 @@ impl Bench {
 
     /// The value of a free choice, in SI.
     pub fn extra(&self, p: &[f64], k: usize) -> f64 {
-        /// Closer to its start than this share of a unit, a choice is at its start: the program is no more accurate.
+        /// A choice closer to its start than this share of a unit counts as unchanged: the program's own accuracy.
         const NEAR: f64 = 1e-6;
         let (extra, by) = (&self.extras[k], p[self.splines.len() + k]);
         let by = if by.abs() < NEAR { 0.0 } else { by };
@@ -235,7 +235,7 @@ impl Bench {
         rigid_wall(bat, &Scene { hoop: scene.hoop.left_out(), ..scene.clone() })
     }
 
-    /// How that bat is swung and hit. The wall of every bat would have to be solved, and stays rigid.
+    /// The scene of that bat. Its wall stays rigid, because it would have to be solved for every bat.
     fn swung(&self, bat: &Bat) -> HitTerms {
         let mut hit = self.terms.hit.clone();
         hit.scene.hoop = hit.scene.hoop.left_out();
@@ -283,7 +283,7 @@ impl Bench {
         Ok(rows)
     }
 
-    /// A difference of two bats with another free choice.
+    /// Derivatives by a free choice besides the shape, as a difference of two bats.
     fn slope_of_extra(&self, look: &Look, k: usize) -> Result<Vec<f64>> {
         /// Step, in units of the choice.
         const STEP: f64 = 0.02;

@@ -27,7 +27,7 @@ const BESIDE: f64 = 1e-4;
 pub struct Steepness {
     /// Greatest |r′|.
     pub most: f64,
-    /// How far rounded stations may put the slope off.
+    /// Possible error of the slope due to rounded stations.
     pub ripple: f64,
 }
 
@@ -68,7 +68,7 @@ impl Steepness {
         places(bat, EVERY).filter(|(_, _, x)| changes(*x)).map(room).collect()
     }
 
-    /// How much steeper the new bat is anywhere than it may be; 0 where it is not.
+    /// Largest excess of the new bat's slope over the allowed one; 0 if there is none.
     pub fn broken_by(&self, old: &Bat, new: &Bat) -> f64 {
         let at = |piece: &Piece, k: usize| {
             let s = (k as f64 + 0.5) / LOOKS as f64;

@@ -1,11 +1,11 @@
 //! Where are the stations of the changed bat?
 //!
-//! They are the bat's own, with their digits where nothing changes, and others at even places where the diameter
-//! changes.
+//! They are the bat's own stations, with unchanged digits where nothing changes, and further ones at even places where
+//! the diameter changes.
 //!
 //! A curve through stations depends on two stations on both sides. At a domed tip, beside a stretch that is kept, or
-//! between stations that are far apart, it would depart from the changed curve. There, further stations halve the
-//! distance until it does not. They have finer digits, and so have those where the change ends.
+//! between stations that are far apart, it would depart from the changed curve. There, stations are added halfway until
+//! it does not. These have more digits, and so have the stations where the change ends.
 
 use serde::Serialize;
 
@@ -250,7 +250,7 @@ impl Laying<'_> {
     }
 }
 
-/// From the knob on; at a step the one to the left first.
+/// Sorts from the knob; at a step the station to its left comes first.
 fn sort(places: &mut [StationPlace]) {
     places.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.inside.total_cmp(&b.inside)));
 }

@@ -125,8 +125,8 @@ impl<'a> Limits<'a> {
         Ok(())
     }
 
-    /// The error that the limits leave no room at `x`, where the nearest smooth curve is too thick by `by` (m), or
-    /// below 0 too thin.
+    /// The error that the limits leave no room at `x`, where the nearest smooth curve is too thick by `by` (m), too
+    /// thin if negative.
     pub fn no_room(&self, x: f64, by: f64) -> Error {
         let at = shown_length(x);
         let here = 2.0 * self.bat.profile().at(x).outer;

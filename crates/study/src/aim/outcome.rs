@@ -231,7 +231,7 @@ impl Writing<'_> {
         (bench, first, once): (&Bench, &Searched, bool),
         finer: f64,
     ) -> Result<(Rounded, usize)> {
-        /// So far inside its band a goal is sought anew, in tolerances.
+        /// The distance inside its band at which a goal is sought again, in tolerances.
         const INSIDE: f64 = 0.25;
         let limits = &Limits::new(self.wish, &bench.bat);
         let (wanted, grid) = (&self.bands, Grid { round: self.grid.round / finer, ..self.grid });

@@ -31,7 +31,7 @@ impl Bounded {
         self.row.iter().zip(p).map(|(a, p)| a * p).sum()
     }
 
-    /// Whether those unknowns keep the bounds but for that much.
+    /// Whether those unknowns keep the bounds within `slack`.
     pub fn is_kept(&self, p: &[f64], slack: f64) -> bool {
         (self.low - slack..=self.high + slack).contains(&self.at(p))
     }
@@ -62,7 +62,7 @@ pub struct Program {
 pub struct Least {
     /// The unknowns p.
     pub p: Vec<f64>,
-    /// The decrease of `pᵀHp + Σ μ t` if a wish's bound gave way by one unit: 0 if it does not bind, above 0 at the
+    /// The decrease of `pᵀHp + Σ μ t` if a wish's bound is relaxed by one unit: 0 if it does not bind, above 0 at the
     /// upper bound, below 0 at the lower one.
     pub prices: Vec<f64>,
 }
@@ -181,7 +181,7 @@ mod tests {
         vec![vec![1.0, 0.0], vec![0.0, 1.0]]
     }
 
-    /// The point of the plane x + y = 2 nearest to the origin is (1, 1). `|p|² = s²/2`, so a bound that gives way by 1
+    /// The point of the plane x + y = 2 nearest to the origin is (1, 1). `|p|² = s²/2`, so a bound that is relaxed by 1
     /// saves s = 2.
     #[test]
     fn the_least_is_where_geometry_has_it_and_its_price_is_the_derivative() {

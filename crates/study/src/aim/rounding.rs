@@ -42,7 +42,7 @@ pub struct Rounded {
     pub norm: f64,
     /// Its worst miss, in tolerances; a broken limit counts by its share of the rounding.
     pub worst: f64,
-    /// How much steeper it is than it may be: radius over length.
+    /// Excess of its slope over the allowed one: radius over length.
     pub steeper: f64,
     /// Bats that were computed for it.
     pub drafts: usize,

@@ -19,7 +19,7 @@ const STEPS_TAKEN: &str = "24 steps";
 const TRUST: f64 = 3.0;
 /// The trust region grows to this many times its size if the limits leave no room in it.
 const WIDEST: f64 = 32.0;
-/// The search has ended where a step changes no coefficient by more than that (mm).
+/// The search has converged if a step changes no coefficient by more than this (mm).
 const STILL: f64 = 1e-3;
 /// A step that reduces the objective by less than this share ends the search: at a corner of the limits, steps would
 /// continue without end.
@@ -62,14 +62,14 @@ pub struct Searched {
     pub values: Vec<f64>,
     /// How the goals change with the unknowns.
     pub slopes: Vec<Vec<f64>>,
-    /// How much less the square of the norm (mm²) would be if a band's bound gave way by one tolerance: above
-    /// 0 at the upper bound, below 0 at the lower one.
+    /// Decrease of the squared norm (mm²) if a band's bound is relaxed by one tolerance: above 0 at the upper bound,
+    /// below 0 at the lower one.
     pub prices: Vec<f64>,
     /// Quadratic programs.
     pub iterations: usize,
     /// Bats that were computed.
     pub bats: usize,
-    /// Why it ended before it stood still; None where it did not.
+    /// Why it ended before it converged; `None` if it converged.
     pub stopped: Option<&'static str>,
 }
 
@@ -179,7 +179,7 @@ impl<'a> Search<'a> {
             };
             let Some((next, taken, tried)) = self.descend((&p, merit), &least.p, bands, weights)
             else {
-                // With slopes from this very bat, no part of a step improves it: nothing nearer is nearby.
+                // No part of a step improves the bat although the slopes are its own: there is no better bat nearby.
                 if of_slopes == p || step <= 10.0 * STILL {
                     return Ok(ended(p, look.values, count, None));
                 }

@@ -142,7 +142,7 @@ impl BSpline {
         knots
     }
 
-    /// Whether it may be other than 0 there.
+    /// Whether it may differ from 0 there.
     pub fn reaches(&self, x: f64) -> bool {
         x >= self.knots[0] && x <= self.knots[4]
     }
@@ -162,7 +162,7 @@ impl BSpline {
         rising * self.value(i, degree - 1, x) + falling * self.value(i + 1, degree - 1, x)
     }
 
-    /// The derivative of that order of the same.
+    /// The derivative of that order of the same spline.
     fn derivative(&self, i: usize, degree: usize, order: usize, x: f64) -> f64 {
         if order == 0 {
             return self.value(i, degree, x);

@@ -4,8 +4,8 @@
 //! Stations where nothing changes keep their digits.
 //!
 //! The curve between rounded stations is a new one. It may violate a limit: if wood is only taken off, it bulges before
-//! the first lower station, by some 7 µm for 0.1 mm. The station beside the violation then gives way, with as many more
-//! digits as that needs; in a kept stretch, by some µm at most.
+//! the first lower station, by some 7 µm for 0.1 mm. The limit of the station beside the violation is then moved, and
+//! the station gets the digits that this needs; in a kept stretch it moves by some µm at most.
 
 use crate::aim::laying::{Laying, Station};
 use crate::aim::limits::Broken;
@@ -33,7 +33,7 @@ pub struct Drafting<'a> {
     pub densities: &'a [Vec<f64>],
 }
 
-/// Most that a station of a kept stretch gives way to a limit (m).
+/// Largest move of a station in a kept stretch to satisfy a limit (m).
 const GIVES_WAY: f64 = 1e-5;
 /// Least effect of a station on the curve, as a share of its own move.
 const LEAST_FELT: f64 = 1e-2;
@@ -128,8 +128,8 @@ impl Drafting<'_> {
     }
 }
 
-/// Moves the limit of a station at which the curve is too thick by `by` (m), or below 0 too thin; false if it may not
-/// move. Its rounding becomes as fine as needed.
+/// Moves the limit of a station at which the curve is too thick by `by` (m), or too thin if negative; false if it may
+/// not move. Its rounding becomes as fine as needed.
 fn gives_way(station: &mut Station, by: f64, round: f64) -> bool {
     let needed = 1.2 * by.abs();
     let step = round * 10.0_f64.powf((needed / round).log10().floor().min(0.0));

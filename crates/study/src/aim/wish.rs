@@ -9,7 +9,7 @@ use crate::engine::{
     Bat, Complaint, Error, Material, Quantity, Result, Weighed, inches, ounces, significant,
 };
 
-/// Something that can be aimed at.
+/// A quantity that can be a target.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Goal {
     /// An answer of the bat.
@@ -122,7 +122,7 @@ pub struct Band {
     pub scale: f64,
     /// The present value.
     pub start: f64,
-    /// The rule it is of; None for a target.
+    /// The rule that it belongs to; `None` for a target.
     pub rule: Option<&'static str>,
 }
 
@@ -172,7 +172,7 @@ impl Goal {
         if self == Self::Drop { "" } else { self.answer().unit() }
     }
 
-    /// The quantity it is; None of energies, accelerations and pure numbers, which have no unit but SI.
+    /// The quantity of the value; `None` for energies, accelerations and pure numbers, which have only SI units.
     pub fn quantity(self) -> Option<Quantity> {
         match self.unit() {
             "kg" => Some(Quantity::Mass),
@@ -261,7 +261,7 @@ impl Band {
         if value.is_finite() { over / self.scale } else { f64::INFINITY }
     }
 
-    /// Whether a value is inside, but for rounding.
+    /// Whether a value is inside, apart from rounding.
     pub fn has(&self, value: f64) -> bool {
         self.miss(value) <= 1e-9
     }

@@ -1,6 +1,6 @@
 //! Which tones does the bat have for every possible wood?
 //!
-//! A bat of one material, whatever its fixtures weigh, has tones that go as
+//! A bat of one material, whatever its fixtures weigh, has tones of the form
 //!
 //! ```text
 //! f_n(E, G) = √(E/E₀) F_n(G/E)
@@ -24,7 +24,7 @@ const ISOTROPIC: f64 = 0.3;
 /// Values of G/E and of E at which the bat is solved.
 const SOLVED: [usize; 2] = [8, 9];
 /// Steps of the search: of ln √E, and of ln G/E. Tones then move by 0.3 % at most from one to the next, which is
-/// less than a search takes them to be off.
+/// less than the error that a search assumes.
 const STEPS: [f64; 2] = [3e-3, 0.08];
 
 /// Tones of the bat over G/E and E.
@@ -125,7 +125,7 @@ fn weighed(search: &Search) -> Result<Logs> {
     Ok(logs)
 }
 
-/// So many numbers, evenly from one end to the other.
+/// That many numbers, evenly spaced from one end to the other.
 fn between([from, to]: [f64; 2], count: usize) -> Vec<f64> {
     let step = (to - from) / (count.max(2) - 1) as f64;
     (0..count).map(|k| from + step * k as f64).collect()

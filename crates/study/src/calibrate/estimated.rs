@@ -27,7 +27,7 @@ pub enum Verdict {
     Determined,
     /// The readings and the prior knowledge.
     Partly,
-    /// Only with another one: the readings know a product or a quotient of the two.
+    /// Only together with another one: the readings determine a product or a quotient of the two.
     OnlyTogether,
     /// The readings do not determine it: only the prior knowledge.
     NotDetermined,
@@ -67,7 +67,7 @@ pub struct Estimated {
 }
 
 impl Estimated {
-    /// How many times the file's it is, where that is more than pieces of one material differ by.
+    /// Ratio to the file's value, if it is beyond the difference between pieces of one material.
     pub fn foreign(&self) -> Option<f64> {
         let own = matches!(self.property, Property::YoungsModulus | Property::Density);
         let (times, [deviations, factor]) = (self.value / self.prior, FOREIGN);
@@ -126,7 +126,7 @@ impl<'a> Uncertainties<'a> {
         property.parts(self.before.len())
     }
 
-    /// A held property's own prior part: the readings add nothing to it.
+    /// The prior part of a held property: the readings do not change it.
     fn of_its_own(&self, property: Property) -> f64 {
         if self.is_free(property) {
             return 0.0;
@@ -149,7 +149,7 @@ impl<'a> Uncertainties<'a> {
         [centre, centre * log.exp()]
     }
 
-    /// Information about it and about its own unknown, the smaller of both.
+    /// Information about the estimate or about its own unknown, whichever is less.
     fn learned(&self, property: Property) -> f64 {
         if !self.is_free(property) {
             return 0.0;

@@ -80,14 +80,14 @@ pub struct Datum {
     #[serde(rename = "name")]
     #[schemars(with = "String")]
     pub kind: DatumKind,
-    /// Index of the line; `None` if it is no line.
+    /// Index of the line; `None` if it is not a line.
     #[serde(skip)]
     pub line: Option<usize>,
     /// The reading.
     pub measured: f64,
-    /// How far the reading may be off.
+    /// Standard deviation of the reading.
     pub reading_sd: f64,
-    /// How far reading and beam together may be off.
+    /// Standard deviation of reading and beam model together.
     pub sd: f64,
 }
 
@@ -130,7 +130,7 @@ pub struct Search<'a> {
     pub about: Logs,
 }
 
-/// Left out by more standard deviations than this, a datum does not fit the others.
+/// A datum is an outlier if it differs by more standard deviations than this from the fit to all others.
 pub const OUTLIER: f64 = 3.0;
 
 /// A datum.
@@ -186,7 +186,7 @@ fn times(matrix: &[Vec<f64>], vector: &[f64]) -> Vec<f64> {
     matrix.iter().map(product).collect()
 }
 
-/// One place of the search, linearised.
+/// The problem linearised at one point of the search.
 struct Linear {
     chi2: f64,
     gradient: Vec<f64>,

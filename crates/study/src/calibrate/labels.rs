@@ -2,8 +2,8 @@
 //!
 //! Lines rise with the modes. They are compared with the modes of every possible wood ([`Chart`]), not only with those
 //! of the file's wood. At each wood the best labelling is found, and the best few of these are fitted. At a price, a
-//! line may be a stranger, no bending mode at all (hum, torsion, a hoop of a hollow barrel, the second of two planes of
-//! the grain), and a mode may be unheard.
+//! line may be a stranger, which is not a bending mode (hum, torsion, a hoop of a hollow barrel, the second of two
+//! planes of the grain), and a mode may be unheard.
 
 use std::collections::BTreeMap;
 
@@ -19,16 +19,16 @@ pub const STRANGER: f64 = 12.0;
 const CHANGED: f64 = 12.0;
 /// Cost in χ² of a mode below the highest heard one without a line; the first mode is often too faint to be heard.
 const UNHEARD: [f64; 2] = [1.0, 2.5];
-/// How far a computed tone may be off in the search, relative: the beam, and the two planes of the grain.
+/// Relative error of a computed tone in the search, due to the beam model and the two planes of the grain.
 const SEARCHED: f64 = 4e-3;
-/// How open E and G/E are in the search alone, as standard deviations of natural logarithms.
+/// Standard deviations of the natural logarithms of E and G/E in the search only.
 const OPEN: f64 = 0.35;
 /// Labellings that are fitted: the cheapest, and the cheapest that contradict the first.
 const MOST_FITTED: [usize; 2] = [6, 3];
 /// The highest mode that a line may be.
 pub const MOST_MODES: usize = 20;
 
-/// The mode of each line; `None` for a line of none of them.
+/// The mode of each line; `None` for a line that is not one of them.
 pub type Labels = Vec<Option<usize>>;
 
 /// The labels that a search may use.
@@ -123,7 +123,7 @@ pub fn best(search: &Search, told: LabelChoice, modes: usize) -> Result<Vec<Labe
     Ok(fitted)
 }
 
-/// The readings with wood that is as open as in a search: E and G/E each by itself.
+/// The readings with the wide prior of a search, in which E and G/E are independent.
 fn opened(readings: &BatReadings) -> BatReadings {
     let known = readings.priors;
     let own = match known.shear {

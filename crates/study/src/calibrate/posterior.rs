@@ -7,8 +7,8 @@
 //! p(θ) = Σ w_k N(θ; θ_k, C_k),   w_k ∝ exp(−½ χ²(θ_k)),   θ_k the best fit with γ_k,  γ_k evenly spaced
 //! ```
 //!
-//! The determinant of C_k, a factor of w_k, is the same for all: tones go as powers of E and density, so their
-//! derivatives by logarithms are constant. If G/E is well known, one Gaussian is enough.
+//! The determinant of C_k, a factor of w_k, is the same for all: tones are proportional to powers of E and density, so
+//! their derivatives by logarithms are constant. If G/E is well known, one Gaussian is enough.
 //!
 //! # Source
 //!
@@ -57,7 +57,7 @@ impl Posterior {
             mean: fit.logs[..unknowns].to_vec(),
             covariance: fit.covariance.clone(),
         };
-        // A fit that has not settled has no distribution worth more.
+        // For a fit that has not converged a better distribution is not worth while.
         if own < KNOWN || !fit.settled {
             return Ok(Self(vec![part(1.0, fit)]));
         }
@@ -124,7 +124,7 @@ impl Posterior {
     }
 }
 
-/// Gaussians from one value of G/E to the next, between which means and covariances go straight, and χ² as well.
+/// Gaussians from one value of G/E to the next, between which means, covariances and χ² are interpolated linearly.
 fn between(pair: &[Fit], best: f64, unknowns: usize) -> Vec<Component> {
     let [from, to] = [&pair[0], &pair[1]];
     let at = |k: usize| {

@@ -9,7 +9,7 @@ use serde::Serialize;
 pub struct Reading {
     /// The reading.
     pub value: f64,
-    /// How far it may be off, one standard deviation.
+    /// Its error, one standard deviation.
     pub deviation: f64,
 }
 
@@ -59,7 +59,7 @@ impl RingDown {
     }
 }
 
-/// How far G was open before anything was measured, as the standard deviation of a natural logarithm.
+/// Prior uncertainty of G, as the standard deviation of a natural logarithm.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ShearPrior {
@@ -69,7 +69,7 @@ pub enum ShearPrior {
     Alone(f64),
 }
 
-/// How far a bat's wood was open before anything was measured, as standard deviations of natural logarithms.
+/// Prior uncertainty of a bat's wood, as standard deviations of natural logarithms.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Priors {
     /// Of E.
@@ -88,7 +88,7 @@ pub struct Priors {
 
 impl Default for Priors {
     /// Wood of one species: E 22 %, density 10 % (the scatter of [`sweetspot::Material::scatter`]), correlated by 0.6;
-    /// G/E 35 %, which covers 0.058 to 0.111 of species; handle and barrel of one billet, by own choice 0.95 and 8 %.
+    /// G/E 35 %, which covers 0.058 to 0.111 of species; handle and barrel of one billet 0.95 and 8 %, our choice.
     fn default() -> Self {
         Self {
             youngs_modulus: 0.22,
@@ -117,7 +117,7 @@ pub struct BatReadings {
     pub unlike: usize,
     /// Tones that died out.
     pub ring_down: Vec<RingDown>,
-    /// How far the model may be off in a frequency, relative, one standard deviation.
+    /// Relative error of the model in a frequency, one standard deviation.
     pub model: f64,
     /// The prior knowledge.
     pub priors: Priors,

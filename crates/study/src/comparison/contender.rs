@@ -38,7 +38,7 @@ pub struct Terms {
     pub every: f64,
     /// Number of steps in the search for the best places, and the share of the outer half to which they are located.
     pub look: (usize, f64),
-    /// Speed that a point of every bat's barrel has; None where the swings are alike or by a law.
+    /// Speed of one point of every barrel; `None` if the swings are equal or follow a law.
     pub barrel: Option<BarrelSpeed>,
 }
 
@@ -208,7 +208,7 @@ impl<'a> Sought<'a> {
         Self { looked, length, located: LOCATED.max(0.5 * look.1), hitter }
     }
 
-    /// How far the exit speed may be off (m/s), and the closing speed (m/s).
+    /// Error of the exit speed (m/s), and the closing speed (m/s).
     fn speed_error(&self, x: f64) -> [f64; 2] {
         self.error_of(&self.hitter.strike(x))
     }
@@ -218,7 +218,7 @@ impl<'a> Sought<'a> {
         self.hitter.strike(peak.x)
     }
 
-    /// How far the exit speed of a hit may be off (m/s), and its closing speed (m/s).
+    /// Error of the exit speed of a hit (m/s), and its closing speed (m/s).
     fn error_of(&self, impact: &Impact) -> [f64; 2] {
         let closing = impact.bat_speed + self.hitter.scene.ball_speed;
         // Without an outcome the error is the whole speed.
@@ -269,7 +269,7 @@ impl<'a> Sought<'a> {
         near.max(self.looked.looked_every.unwrap_or(0.0))
     }
 
-    /// How far from a greatest value it is less by `by` at most, on the side where that is farther.
+    /// Largest distance from the peak at which the value is lower by at most `by`, on the side where that is farther.
     fn reach(&self, peak: Peak, by: f64, value: impl Fn(&Glance) -> Option<f64>) -> f64 {
         let floor = peak.value - by;
         let enough =

@@ -2,12 +2,12 @@
 
 use crate::engine::{Bat, significant};
 
-/// Least relative change of a density that is no rounding.
+/// Least relative change of a density that is more than rounding.
 const REAL: f64 = 1e-9;
 
 /// A sentence if both bats have the same weighed mass; `name` is the second bat, `first` the first. The density of the
-/// second was then set anew, and the mass does not show what it has more or less of. That is right for bats of
-/// different makers, but not for a bat that was changed from the other.
+/// second was then set anew, so the mass does not show a difference in material. That is right for bats of different
+/// makers, but not for a bat that was changed from the other.
 pub fn hidden(first: (&str, &Bat), other: (&str, &Bat)) -> Option<String> {
     let [a, b] = [first.1.unedited(), other.1.unedited()];
     let [weighed, again] = [a, b].map(|bat| bat.weighed().mass);

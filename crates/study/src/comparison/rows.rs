@@ -59,7 +59,7 @@ pub struct ComparedFigure {
 pub struct Compared {
     /// The value.
     pub value: f64,
-    /// How far the value may be off.
+    /// Error of the value.
     pub error: f64,
     /// The difference from the first bat.
     #[serde(flatten)]
@@ -76,7 +76,7 @@ pub struct Difference {
     /// The value less that of the first bat.
     #[serde(rename = "difference")]
     pub by: f64,
-    /// How far the difference may be off.
+    /// Error of the difference.
     // The errors of both values added.
     #[serde(rename = "difference_error")]
     pub within: f64,
@@ -156,8 +156,8 @@ pub fn figures(bats: &[Contender]) -> Vec<ComparedFigure> {
     rows.all
 }
 
-/// Whether energies of all bats are seen from the ground, or all as hands or a clamp see them: others
-/// are of different motions.
+/// Whether the energies of all bats are relative to the ground, or those of all relative to hands or a clamp; otherwise
+/// they belong to different motions.
 pub fn energies_compare(bats: &[Contender]) -> bool {
     let held = |c: &Contender| c.bat.fixtures().holding();
     bats.windows(2).all(|pair| held(&pair[0]) == held(&pair[1]))
@@ -198,7 +198,7 @@ impl Rows<'_> {
         self.add(key, name, unit, |c| Some(Figure::exact(of(c))));
     }
 
-    /// An energy, where all bats' energies are seen from the same place.
+    /// An energy, if the energies of all bats are relative to the same frame.
     fn energy(&mut self, key: &str, name: &str, of: impl Fn(&Contender) -> Option<Figure>) {
         let same = energies_compare(self.bats);
         self.add(key, name, Unit::Joules, |c| of(c).filter(|_| same));

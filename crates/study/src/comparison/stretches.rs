@@ -13,7 +13,7 @@ pub struct Stretch {
     pub harder: Option<Harder>,
     /// The largest difference of the exit speeds (m/s).
     pub largest_difference_m_s: f64,
-    /// How far that difference may be off (m/s).
+    /// Error of that difference (m/s).
     pub largest_difference_error_m_s: f64,
     /// Place of the largest difference, as a distance from the tip (m).
     pub largest_at_from_tip_m: f64,

@@ -55,7 +55,7 @@ written! {
         rules = text().like("mlb");
         /// Whether wood may only be taken off. By default false.
         remove_only = truth();
-        /// Whether wood may be added to a bat that was weighed, which otherwise is only cut. Without it false.
+        /// Whether wood may be added to a bat that was weighed, which otherwise is only cut. By default false.
         add = truth();
         /// Stretches that stay as they are. By default the knob, 0 to 30 mm.
         keep = few(MOST, in_words::<AimEnds>(STRETCH, aim_text::stretch));
@@ -102,7 +102,7 @@ const TARGET: [&str; 2] = [
     "A target: in words, as on the command line, or in parts.",
     "In words, such as \"swing weight -3 % within 5 oz in2\".",
 ];
-/// The same of stretches.
+/// Descriptions of a stretch and of its words.
 const STRETCH: [&str; 2] =
     ["A stretch of the bat: in words, or its ends.", "In words, such as \"0 to 30 mm\"."];
 

@@ -60,7 +60,7 @@ pub fn amount(text: &str, goal: Goal) -> Said<Amount> {
             typed::number(share).ok_or_else(|| wrong(&text, "a percentage, such as 97 %"))?;
         return Ok(Amount::Share(0.01 * share));
     }
-    // A bare number in SI that no bat has was meant in another unit.
+    // A bare number that is impossible in SI was meant in another unit.
     if let Some((number, most)) =
         typed::number(&text).zip(most_of_a_bat(goal)).filter(|(n, m)| n.abs() > *m)
     {
@@ -468,7 +468,7 @@ mod tests {
         assert!((x - 6.5 * 0.0254).abs() < 1e-15);
     }
 
-    /// A bare number in SI that no bat has was meant in another unit, which is asked for.
+    /// A bare number that is impossible in SI was meant in another unit, and the error asks for the unit.
     #[test]
     fn bare_numbers_that_no_bat_has_ask_for_their_unit() {
         for text in ["mass 30", "mass at most 30", "swing weight at most 9000", "best ball 100"] {

@@ -38,7 +38,7 @@ impl<T: 'static> Form<T> {
         Self { read, schema, more: Map::new(), measures: None }
     }
 
-    /// Says which quantity it is.
+    /// Adds the quantity of the value.
     pub fn measuring(self, quantity: Quantity) -> Self {
         Self { measures: Some(quantity), ..self }
     }
@@ -51,7 +51,7 @@ impl<T: 'static> Form<T> {
         self
     }
 
-    /// Says something besides, by a keyword of schemas.
+    /// Adds a keyword to the schema.
     pub fn saying(mut self, keyword: &str, value: impl Into<Value>) -> Self {
         self.more.insert(keyword.to_owned(), value.into());
         self

@@ -28,9 +28,9 @@ written! {
         lines = list(object::<LineForm>());
         /// Tones that died out.
         ring_down = list(object::<ToneForm>());
-        /// How far the beam may be off in a frequency, relative, one standard deviation. Without it 0.3 %.
+        /// Relative error of the beam model in a frequency, one standard deviation. By default 0.3 %.
         model = share().like("0.3 %");
-        /// How far the wood was open before. Without it wood of one species about the bat file's.
+        /// Prior uncertainty of the wood. By default that of one species around the bat file's values.
         priors = object::<PriorsForm>();
     }
     |of| -> BatReadings {
@@ -78,7 +78,7 @@ written! {
         within = amount(Quantity::Frequency).like(0.3);
         /// Number of the bending mode, from 1. By default the program finds it.
         mode = order();
-        /// Loss factor of the tone, whose mode is told.
+        /// Loss factor of the tone, whose mode must be given.
         loss_factor = number().within((Excluded(0.0), Excluded(0.5)), LOSS);
     }
     |of| -> (SpectralLine, Option<RingDown>) {
@@ -133,8 +133,7 @@ written! {
 }
 
 written! {
-    /// How far the wood was open before anything was measured: standard deviations of natural logarithms, and
-    /// correlations.
+    /// Prior uncertainty of the wood: standard deviations of natural logarithms, and correlations.
     PriorsForm {
         /// Of Young's modulus. Without it 22 %.
         youngs_modulus = share();

@@ -57,13 +57,13 @@ written! {
     ScatterForm("scatter", "Scatter file") {
         /// Name of the scatter.
         name = text();
-        /// The ball: a ball file, from the folder of this one, or the name of a built-in ball. Without it a baseball.
+        /// The ball: a ball file, from the folder of this one, or the name of a built-in ball. By default a baseball.
         ball = text();
         /// The mean hit: the options of sweetspot hit, such as swing_speed, by their names.
         scene = later::<BTreeMap<String, Said>>();
         /// The outputs for every bat, by name; exit_speed_m_s@impact is the speed at the impact point.
         outputs = later::<Vec<String>>().saying("minItems", 1).like(["f1_hz", AT_IMPACT].to_vec());
-        /// Wanted accuracy of frequencies, relative, and of exit speeds, relative to the closing speed. Without it 1e-4.
+        /// Wanted accuracy of frequencies, relative, and of exit speeds, relative to the closing speed. Default 1e-4.
         tol = share();
         /// Triples of two differences and the correlation of their normal numbers; the later one is reported with the
         /// earlier one known.
@@ -177,7 +177,7 @@ written! {
         normal = amount(Quantity::Length).like("0.5 in")
             .within((Excluded(0.0), Included(0.2)), "a length above 0 and up to 0.2 m"),
             needed "\"normal\": a standard deviation, such as \"0.5 in\"";
-        /// The place in the middle, from the knob end. Without it where the ball leaves fastest.
+        /// The place in the middle, from the knob end. By default the place where the ball leaves fastest.
         at = amount(Quantity::Length).like("27.7 in");
     }
     |_| -> (Difference, Option<f64>) {

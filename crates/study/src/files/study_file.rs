@@ -110,7 +110,7 @@ written! {
         /// list.
         bat = Form::of::<Bats>(bats_named),
             needed "\"bat\": a bat file or the name of a built-in bat";
-        /// The ball: a ball file, from the study's folder, or the name of a built-in ball. Without it a baseball.
+        /// The ball: a ball file, from the study's folder, or the name of a built-in ball. By default a baseball.
         ball = text();
         /// The hit: the options of sweetspot hit, such as swing_speed, by their names.
         scene = later::<BTreeMap<String, Said>>();
@@ -125,14 +125,14 @@ written! {
             .saying("enum", json!(Spread::ALL.map(Spread::name)));
         /// Points drawn for each combination of the lists. Without it 1000.
         points = whole().saying("minimum", 1);
-        /// Another seed draws other points. Without it 0.
+        /// Another seed draws other points. By default 0.
         seed = whole();
         /// The outputs for every bat, by name.
         outputs = Form::of::<Vec<String>>(|node| asked::outputs(node, Answer::named))
             .saying("minItems", 1)
             .like(json!(["f1_hz", "exit_speed_max.value", "exit_speed_m_s@0.70"])),
             needed "\"outputs\": a list of names, such as \"f1_hz\"";
-        /// Wanted accuracy of frequencies, relative, and of exit speeds, relative to the closing speed. Without it 1e-4.
+        /// Wanted accuracy of frequencies, relative, and of exit speeds, relative to the closing speed. Default 1e-4.
         tol = number()
             .within((Excluded(0.0), Excluded(1.0)), "a number between 0 and 1, such as 1e-4");
     }

@@ -190,7 +190,7 @@ impl Rows {
         let trial = |k: usize, bat: &Bat| self.trial(rows[k], bat);
         let bats = rows.iter().map(|row| self.bat(varying, row));
         let Some((_, model)) = &varying.model else {
-            // Each is its own model.
+            // Each bat is its own model.
             let alone = |(k, bat): (usize, Result<Bat>)| match bat {
                 Ok(bat) => Asked::of_each(&bat.clone(), vec![(asked, Ok(bat))], |_, b| trial(k, b)),
                 Err(error) => vec![Err(error)],
@@ -220,7 +220,7 @@ impl Rows {
         first.chain(inputs).chain(answers).chain(last).collect()
     }
 
-    /// Which columns are numbers in every row, or tell whether something is so (`met`).
+    /// Columns that are numbers in every row, or truth values (`met`).
     pub fn numbers(&self) -> Vec<usize> {
         let before = 1 + usize::from(self.several());
         let varied = &self.study.varied;

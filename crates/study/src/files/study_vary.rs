@@ -85,7 +85,7 @@ struct Variation {
 struct Listed {
     /// As the study writes it.
     said: Value,
-    /// As it goes into a document, without naming a file.
+    /// The value for a document, without the name of a file.
     meant: Value,
 }
 
@@ -365,7 +365,7 @@ fn way(node: &Node, wanted: &mut Wanted) -> Result<Variation> {
     Ok(Variation { axis, numbers: vec![], listed: vec![], unit })
 }
 
-/// The numbers of values that all have the same unit, and that.
+/// The numbers of values that all have the same unit, and the unit.
 fn of_one_unit(items: &[Node]) -> Option<(Vec<f64>, String)> {
     let all: Option<Vec<(f64, String)>> = items.iter().map(|item| number(item).ok()).collect();
     let (numbers, mut units): (Vec<f64>, Vec<String>) = all?.into_iter().unzip();

@@ -1,4 +1,4 @@
-//! What in a study is unusual, or without effect, but no mistake?
+//! What in a study is unusual or without effect, although not a mistake?
 
 use std::path::Path;
 

@@ -40,9 +40,9 @@ pub enum WishedChange<'a> {
     AtLeast(&'a str),
     /// This.
     To(&'a str),
-    /// So much more.
+    /// An increase by that amount.
     More(&'a str),
-    /// So much less.
+    /// A decrease by that amount.
     Less(&'a str),
     /// An amount, and no word of where to.
     Plain(&'a str),
@@ -59,7 +59,7 @@ fn list(name: &str) -> &'static [&'static str] {
     LISTS.iter().find(|(known, _)| *known == name).map_or(&[], |(_, words)| words)
 }
 
-/// The words of all lists whose names begin so, each with the rest of its list's name.
+/// The words of all lists whose names begin with `start`, each with the rest of its list's name.
 pub fn named(start: &'static str) -> impl Iterator<Item = (&'static str, &'static str)> {
     let lists =
         LISTS.iter().filter_map(move |(name, words)| Some((name.strip_prefix(start)?, words)));

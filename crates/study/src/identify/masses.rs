@@ -48,14 +48,14 @@ pub(super) struct Unloaded {
 const TURNS: usize = 60;
 /// The root is there where a turn moves it by no more than this, relative.
 const SETTLED: f64 = 1e-11;
-/// `re(1 − m Σ φ²/m_n)` of masses that a bat carries, at least: they lower its frequency by 30 %.
+/// Least `re(1 − m Σ φ²/m_n)` of masses that a bat may carry: they then lower its frequency by 30 %.
 const CARRIED: f64 = 0.5;
 /// A frequency may fall by this much when the masses are removed: it is then that of a mode in which they do not move.
 const STILL: f64 = 1e-4;
 /// Largest remaining error of masses in a row, over the square of the lowering of a frequency: from virtual tests of
 /// solid and hollow bats, with at least [`PER_MODE`] accelerometers for every mode up to that one, and with fewer.
 const SECOND: [f64; 2] = [0.7, 5.0];
-/// So many accelerometers for a mode keep it apart from the others.
+/// Number of accelerometers per mode that separates it from the others.
 const PER_MODE: usize = 3;
 
 impl Masses {
@@ -109,7 +109,7 @@ impl Masses {
         if falls || !sound { Err(too_much()) } else { Ok(Unloaded { pole, residues, deviations }) }
     }
 
-    /// `z′ rest/(rest − m a)`; None where the masses are more than is carried.
+    /// `z′ rest/(rest − m a)`; `None` if the masses exceed the limit [`CARRIED`].
     fn freed(&self, start: c64, rest: c64, a: c64) -> Option<c64> {
         let left = c64::ONE - a * self.mass / rest;
         (left.re >= CARRIED).then(|| start / left)

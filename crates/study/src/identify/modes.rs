@@ -68,9 +68,9 @@ pub struct TestKnown {
     pub window: Option<f64>,
 }
 
-/// A frequency that is known no better than this, relative, is that of no mode: one beyond the band.
+/// A pole whose frequency has a larger relative error is not a mode of the band.
 const VAGUE: f64 = 0.005;
-/// A pole with a larger error of the logarithm of its loss factor is no mode.
+/// A pole with a larger error of the logarithm of its loss factor is not a mode.
 const UNSURE: f64 = 0.35;
 /// Poles of two orders nearer than this, over the half-power width, are one.
 const STABLE: f64 = 0.5;

@@ -147,7 +147,7 @@ impl ResponseSet {
             Some(r) => {
                 let (x, who) = (self.references[r].x, self.fixed());
                 let found = format!(
-                    "{count} places of the {who}, that at {x} m with points of its own alone"
+                    "{count} places of the {who}, that at {x} m without a point of the others"
                 );
                 let expected = "one place, or places that share a point that roved";
                 Err(Error::value(&self.responses[0].measured.source, found, expected))

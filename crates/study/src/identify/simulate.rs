@@ -174,7 +174,7 @@ impl VirtualTest {
         }
     }
 
-    /// Takes out places by chance, never the first.
+    /// Removes places at random, but never the first.
     fn leave_out(&self, places: &mut Vec<f64>) {
         for k in 0..self.missing {
             let at = 1 + hash::of(self.seed, 1, k as u64) as usize % (places.len() - 1);

@@ -44,7 +44,7 @@ pub struct Output {
     pub name: Answer,
     /// Its value for the unchanged bat; null if it has none.
     pub value: Option<f64>,
-    /// How far the value may be off; null where that is not known.
+    /// Error of the value; null if it is not known.
     pub error: Option<f64>,
     /// Method for its changes.
     pub method: Method,
@@ -81,7 +81,7 @@ pub struct TurnedBand {
 /// A finite cut of a band, solved whole.
 #[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct FiniteCut {
-    /// How much comes off the diameter (mm).
+    /// Depth of the cut, taken off the diameter (mm).
     pub cut_mm: f64,
     /// Changes of hits per millimetre for a swing of the same energy.
     pub same_energy: Changes,
@@ -161,7 +161,7 @@ impl TurnedBand {
         told(changes.as_ref(), answer)
     }
 
-    /// The same of the finite cut.
+    /// As [`Self::derivative`], by the finite cut.
     pub fn when_cut(&self, answer: Answer, exponent: f64) -> Option<f64> {
         let finite = self.finite.as_ref()?;
         let changes = match exponent {
@@ -172,7 +172,7 @@ impl TurnedBand {
         told(changes, answer)
     }
 
-    /// How far the derivative of an answer may be off.
+    /// Error of the derivative of an answer.
     pub fn error(&self, answer: Answer) -> Option<f64> {
         told(self.error.as_ref(), answer)
     }

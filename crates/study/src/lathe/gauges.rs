@@ -34,7 +34,7 @@ pub enum WhyNotSmooth {
     Rivals,
     /// The value has a corner at its best place: no derivative.
     Corner,
-    /// The finite cut does not go where the derivative points.
+    /// The change by the finite cut does not agree with the derivative.
     Cut,
 }
 
@@ -98,7 +98,7 @@ struct Sought {
     x: f64,
     /// Distance of the places of a difference (m).
     apart: f64,
-    /// How far off (m) the best place may be on a bat of other modes.
+    /// Possible shift (m) of the best place on a bat with other modes.
     reach: f64,
 }
 
@@ -335,7 +335,7 @@ impl<'a> OuterHalf<'a> {
         Stencil { hitter: self.hitter, probe, apart: APART * self.ends[1] }
     }
 
-    /// How far a search by slopes may go from where a search by values ended (m).
+    /// Largest distance (m) between the place found by slopes and the place found by values.
     fn reach(&self) -> f64 {
         1.5 * (self.ends[1] - self.ends[0]) / STEPS as f64
     }

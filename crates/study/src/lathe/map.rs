@@ -81,8 +81,8 @@ const MM: f64 = 1e-3;
 const MANY: usize = 200;
 
 impl LatheMap {
-    /// A map of wide bands and few answers, for who only wants to know where a cut does most; None for a bat
-    /// of more pieces than are computed anew.
+    /// A map with wide bands and few answers, to show where a cut has the largest effect; `None` for a bat with too
+    /// many pieces.
     ///
     /// # Errors
     ///

@@ -100,7 +100,7 @@ impl SectionSlopes {
                 size += (sample.weight * by * parts).abs();
             }
         }
-        // The parts go as the square of the motion, and the modal mass has its own error.
+        // The parts are proportional to the square of the motion, and the modal mass has its own error.
         let off = 2.0 * mode.error.shape + mode.error.modal_mass + mode.error.round_off;
         [sum, size * off + 1e-13 * size]
     }
@@ -149,7 +149,7 @@ pub fn by_added_mass(mode: &Mode, x: f64, offset: f64) -> [f64; 2] {
     [unit * (w + offset * turn).powi(2), unit * turn * turn]
 }
 
-/// `δf` per length of bat for sections that change so, and the sum of its parts without their signs.
+/// `δf` per length of bat for sections with these slopes, and the sum of the absolute values of its parts.
 fn density(theory: Theory, mode: &Mode, [w, turn, bend, slip]: [f64; 4], by: Worth) -> [f64; 2] {
     let (f, squared) = (mode.frequency(), mode.omega * mode.omega);
     let unit = 1.0 / (8.0 * PI * PI * f * mode.modal_mass);

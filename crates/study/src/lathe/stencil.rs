@@ -26,8 +26,8 @@ impl Stencil<'_> {
         Some([c, slope, (16.0 * (b + d) - 30.0 * c - a - e) / (12.0 * h * h)])
     }
 
-    /// Newton's steps to where the slope is 0, and the derivatives there; None where that is farther off than
-    /// `reach` (m).
+    /// Newton's steps to where the slope is 0, and the derivatives there; `None` if that is farther away than `reach`
+    /// (m).
     pub fn polished(&self, start: f64, reach: f64) -> Option<(f64, [f64; 3])> {
         const NEWTON: usize = 12;
         let mut x = start;
@@ -65,7 +65,7 @@ impl Stencil<'_> {
     }
 }
 
-/// So many times the slope of a reading along the bat at `x`.
+/// A multiple of the slope of a reading along the bat at `x`.
 pub(super) fn by_slope(x: f64, probe: Probe, h: f64, factor: f64) -> Vec<(f64, Probe, f64)> {
     let unit = factor / (12.0 * h);
     [(-2.0, 1.0), (-1.0, -8.0), (1.0, 8.0), (2.0, -1.0)]

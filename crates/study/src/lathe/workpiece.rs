@@ -47,7 +47,7 @@ pub struct Workpiece {
     samples: SectionSlopes,
     answers: Vec<Answer>,
     values: Vec<Option<Figure>>,
-    /// How it is hit for all differences: a wall is solved roughly, of all bats alike.
+    /// The hit for all differences; a wall is solved approximately, in the same way for all bats.
     hit: Option<Hit>,
     /// The results of the pass along it.
     look: Look,
@@ -124,7 +124,7 @@ impl Workpiece {
         Ok(Self { hit, ..piece })
     }
 
-    /// Makes a pass along the bat for the places of answers about a hit; exit speeds may be off by that share of the
+    /// Makes a pass along the bat for the places of answers about a hit; the error of exit speeds is that share of the
     /// closing speed.
     fn looked(&self, hit: Option<&Hit>, off: f64) -> Result<Look> {
         let (bat, solution) = (&self.bat, &self.solution);
@@ -228,7 +228,7 @@ impl Workpiece {
         let looked = |k: &usize| !whole[*k].central || (*k * HALF_STEPS) % last < HALF_STEPS;
         let halved: Vec<usize> =
             (0..changes.len()).filter(|k| care == Care::Checked && looked(k)).collect();
-        // How much the ways differ is seen by one step.
+        // One step is enough for the difference of the ways.
         let half = threads::map(halved.len(), |k| {
             self.difference(&changes[halved[k]], 0.5, &now, By::Gauges)
         });

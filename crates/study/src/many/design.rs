@@ -281,8 +281,8 @@ mod tests {
         assert_eq!(parts, (0..100).collect::<Vec<_>>());
     }
 
-    /// Correlated scores have the correlation asked for, and a number keeps its distribution: of a uniform
-    /// one with a normal one the correlation of values is `√(3/π) r`.
+    /// Correlated scores have the correlation asked for, and a number keeps its distribution: the values of a uniform
+    /// and a normal number have the correlation `√(3/π) r`.
     #[test]
     fn numbers_go_with_each_other_as_asked_and_stay_what_they_are() {
         let count = 1 << 14;
@@ -302,7 +302,7 @@ mod tests {
         let mut uniform: Vec<f64> = rows.iter().map(|row| row[1]).collect();
         uniform.sort_by(f64::total_cmp);
         let off = |(k, v): (usize, &f64)| (v - (k as f64 + 0.5) / count as f64).abs();
-        // Of as many that are thrown the worst is off by about 7e-3 (Kolmogorov).
+        // For the same number of random points the largest deviation is about 7e-3 (Kolmogorov).
         let worst = uniform.iter().enumerate().map(off).fold(0.0, f64::max);
         assert!(worst < 3e-3, "{worst}");
     }

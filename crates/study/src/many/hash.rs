@@ -69,7 +69,7 @@ mod tests {
         }
     }
 
-    /// One bit of the input turns half of the output's.
+    /// One bit of the input changes half of the output's.
     #[test]
     fn every_bit_stirs_every_other() {
         for bit in 0..64 {

@@ -23,7 +23,7 @@ static JOE_KUO: LazyLock<Vec<Vec<u64>>> = LazyLock::new(|| {
     rows.map(|row| row.split(' ').map(|n| n.parse().expect("a number")).collect()).collect()
 });
 
-/// So many coordinates a point may have.
+/// Most coordinates of a point.
 pub const MOST_COORDINATES: usize = 64;
 
 /// Sobol's sequence in a cube.
@@ -158,7 +158,7 @@ mod tests {
         let errors: Vec<f64> = (0..32).map(|seed| mean(seed, 1024) - 1.0).collect();
         let worst = errors.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
         let bias = errors.iter().sum::<f64>() / 32.0;
-        // 1024 points that are thrown are off by 9e-3 as a rule.
+        // The error of 1024 random points is usually 9e-3.
         assert!(worst < 1e-4 && bias.abs() < 0.5 * worst, "{worst:e} {bias:e}");
     }
 }

@@ -42,7 +42,7 @@ impl FrequencyUnit {
         }
     }
 
-    /// The other one.
+    /// The other unit.
     pub fn other(self) -> Self {
         match self {
             Self::Hertz => Self::RadPerS,
@@ -88,7 +88,7 @@ impl Measured {
         !self.along.is_empty()
     }
 
-    /// The same with its frequencies read in the other unit, which is then known.
+    /// These modes with the frequencies read in the other unit, which is then certain.
     pub fn read_otherwise(mut self) -> Self {
         if let Some(otherwise) = self.otherwise.take() {
             self.modes.iter_mut().for_each(|mode| mode.frequency *= otherwise.factor());

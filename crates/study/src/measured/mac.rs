@@ -45,7 +45,7 @@ pub fn scale(measured: &[c64], computed: &[c64]) -> c64 {
 }
 
 /// Modal phase collinearity, `|φᵀφ|²/(φᴴφ)²`, the MAC of a shape and its conjugate: 1 where all
-/// points move in phase or against it, 0 where the motion runs round.
+/// points move in phase or against it, 0 where the phase runs around.
 pub fn collinearity(shape: &[c64]) -> f64 {
     let conjugate: Vec<c64> = shape.iter().map(|v| v.conj()).collect();
     mac(&conjugate, shape)

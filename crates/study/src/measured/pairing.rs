@@ -1,6 +1,6 @@
-//! Which measured mode is which computed one.
+//! Which computed mode is each measured one?
 
-/// Shapes less alike than this (MAC) are not of one mode.
+/// Shapes with a smaller MAC do not belong to one mode.
 pub const LEAST: f64 = 0.5;
 /// Reduction of a MAC for each octave between the frequencies: with few points several computed modes may look similar,
 /// and the frequency decides.

@@ -146,7 +146,7 @@ fn highest(measured: &[(f64, c64)], [low, high]: [f64; 2], of: &Peak) -> Option<
     Some(Peak { frequency, height: Some(size(top)), half_power, ..*of })
 }
 
-/// The size between measured values, by straight lines; without end beyond the last.
+/// The size between measured values, by straight lines; infinite beyond the last.
 fn straight(measured: &[(f64, c64)], f: f64) -> f64 {
     let next = measured.partition_point(|(at, _)| *at < f);
     let Some((high, above)) = measured.get(next) else { return f64::INFINITY };
@@ -162,7 +162,7 @@ mod tests {
     use super::*;
 
     /// Samples of 1/(1 − r² + iη), 0.5 Hz apart: the peak within half a step and the damping within
-    /// 2 % of η/2; samples as far apart as the width tell no damping.
+    /// 2 % of η/2; samples as far apart as the width give no damping.
     #[test]
     fn a_sampled_mode_has_its_peak_and_its_damping() {
         let (natural, loss) = (170.3, 0.04);

@@ -1,7 +1,7 @@
 //! A smooth curve through measured points: the natural cubic spline.
 //!
-//! Straight beyond the first and the last point, where its curvature is zero: at the ends of a free
-//! bat nothing bends it.
+//! The spline is straight beyond the first and the last point, and its curvature is zero there, because the ends of a
+//! free bat have no bending moment.
 
 /// A curve through points.
 #[derive(Debug, Clone, PartialEq)]
@@ -74,8 +74,7 @@ mod tests {
         }
     }
 
-    /// The error of a cubic spline goes as h⁴ where the ends do not bend: here sin, over its half
-    /// wave.
+    /// The error of a cubic spline is proportional to h⁴ if the ends have no curvature: here for a half wave of sin.
     #[test]
     fn a_finer_curve_is_nearer_by_the_fourth_power() {
         use std::f64::consts::PI;

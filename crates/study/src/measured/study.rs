@@ -69,14 +69,14 @@ pub struct Shapes {
     pub rows: Vec<String>,
     /// MAC of measured (rows) with computed modes (columns).
     pub mac: Vec<Vec<f64>>,
-    /// MAC of the computed modes among themselves as the same points see them.
+    /// MAC of the computed modes among themselves at the same points.
     #[serde(rename = "mac_of_computed")]
     pub own_mac: Vec<Vec<f64>>,
     /// Mass orthogonality of every two measured modes; null for a bat with absorbers.
     // 1 for the same mode. The motion of absorbers was not measured.
     #[serde(rename = "common_in_mass")]
     pub common: Option<Vec<Vec<f64>>>,
-    /// Mass orthogonality of their computed partners as the same points see them; null without one.
+    /// Mass orthogonality of their computed partners at the same points; null without one.
     // And with absorbers.
     #[serde(rename = "common_in_mass_of_computed")]
     pub sampled_common: Vec<Vec<Option<f64>>>,
@@ -255,7 +255,7 @@ impl Study {
         self.lone_computed = below.filter(alone).collect();
     }
 
-    /// What the shapes say.
+    /// The checks of the shapes.
     fn look(&self, bat: &Bat, seen: MatchedShapes) -> Shapes {
         let MatchedShapes { placed, computed, mac } = seen;
         let whole = bat.fixtures().absorbers.is_empty();
@@ -290,15 +290,15 @@ impl Study {
     }
 }
 
-/// Both at the measured points: the measured shapes where they are on the bat, the computed ones,
-/// and the MAC of each with each.
+/// The measured shapes that are on the bat and the computed shapes, both at the measured points, and the MAC of each
+/// with each.
 struct MatchedShapes {
     placed: Placed,
     computed: Vec<Vec<c64>>,
     mac: Vec<Vec<f64>>,
 }
 
-/// A matrix of the ones that are there, with a gap for every one that is not.
+/// A matrix with a row and a column for every shape that is present, and gaps for those that are missing.
 fn spread(matrix: &[Vec<f64>], present: &[Option<Curve>]) -> Vec<Vec<Option<f64>>> {
     let mut next = 0..;
     let numbers: Vec<Option<usize>> =

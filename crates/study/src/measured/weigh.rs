@@ -90,7 +90,8 @@ impl Scale {
         })
     }
 
-    /// Every product over the square root of both own ones, as a size: 1 on the diagonal.
+    /// The size of every product over the square root of the products of both curves with themselves: 1 on the
+    /// diagonal.
     pub fn common(&self, curves: &[Curve]) -> Vec<Vec<f64>> {
         let own: Vec<f64> = curves.iter().map(|c| self.product(c, c).re.sqrt()).collect();
         let entry = |i: usize, j: usize| {
@@ -101,7 +102,7 @@ impl Scale {
         (0..curves.len()).map(|i| (0..curves.len()).map(|j| entry(i, j)).collect()).collect()
     }
 
-    /// MassAt of rigid motion in a curve, relative to its size `√(φᴴMφ)`: the size of its projection on translation and
+    /// Share of rigid motion in a curve, relative to its size `√(φᴴMφ)`: the size of its projection on translation and
     /// rotation.
     pub fn rigid_share(&self, curve: &Curve) -> f64 {
         let shift = self.line(1.0, 0.0);

@@ -5,7 +5,7 @@
 //! | [`turning`] | how does a lathe miss the profile |
 //! | [`spreads`] | what differs, and how |
 //! | [`rows`] | which bat and which hit is row k |
-//! | [`scattered`] | percentiles with errors, and what makes them so |
+//! | [`scattered`] | percentiles with errors, and the causes of the variation |
 
 pub mod turning;
 pub mod spreads;

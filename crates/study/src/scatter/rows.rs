@@ -114,7 +114,7 @@ impl ScatterRows {
         self.designs[scramble].row(point).values
     }
 
-    /// The independent numbers behind them, each of that kind, and the difference that each belongs to.
+    /// The independent numbers behind them, the kind of each, and the difference that it belongs to.
     pub fn numbers(&self, k: u64) -> Vec<f64> {
         let (scramble, point) = self.place(k);
         self.designs[scramble].numbers(point)

@@ -15,7 +15,7 @@ pub const SHARES: [f64; 7] = [0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99];
 pub const WRITTEN: [usize; 3] = [1, 3, 5];
 /// Values whose standard deviation is at most this share of their mean are equal up to round-off.
 const ROUND_OFF: f64 = 1e-9;
-/// Of Student's distribution with seven degrees of freedom 95 % lie within this many standard deviations.
+/// 95 % of Student's distribution with seven degrees of freedom lie within this many standard deviations.
 const STUDENT: f64 = 2.364_624_251;
 
 /// A percentile.
@@ -38,7 +38,7 @@ pub struct OutputSpread {
     /// Its unit.
     pub unit: &'static str,
     /// The mean of all rows.
-    // None without two answers, and so is the standard deviation.
+    // `None` with fewer than two answers, as is the standard deviation.
     pub mean: Option<f64>,
     /// The standard deviation of all rows.
     pub sd: Option<f64>,
@@ -48,7 +48,7 @@ pub struct OutputSpread {
     /// The causes of its variation; null if it does not vary or the rows are too few.
     #[serde(rename = "shares")]
     pub indices: Option<Indices>,
-    /// The values of all rows; None for a row without one.
+    /// The values of all rows; `None` for a row without one.
     #[serde(skip)]
     pub values: Vec<Option<f64>>,
 }
@@ -62,7 +62,7 @@ pub struct ReasonCounted {
     pub rows: usize,
 }
 
-/// Something that differs.
+/// One thing that differs between the rows.
 #[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct InputSpread {
     /// Its name.
@@ -95,7 +95,7 @@ pub struct Scattered {
     pub inputs: Vec<InputSpread>,
     /// The outputs, their variation, and its causes.
     pub outputs: Vec<OutputSpread>,
-    /// Why a row has no answer, row by row; empty where it has.
+    /// Why a row has no answer, row by row; empty if it has one.
     #[serde(skip)]
     pub missing: Vec<String>,
 }

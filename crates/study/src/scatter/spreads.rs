@@ -19,7 +19,7 @@ pub const SOFTENED: f64 = 1.3;
 /// Number of scrambles; their differences give each percentile's error.
 pub const SCRAMBLES: u64 = 8;
 
-/// Something that differs.
+/// What differs between two bats or two swings.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Differs {
@@ -76,7 +76,7 @@ impl Differs {
         }
     }
 
-    /// How many numbers it takes on a bat of that length (m).
+    /// Number of random numbers that it takes on a bat of that length (m).
     pub fn numbers(self, length: f64) -> usize {
         match self {
             Self::Turned(turning) => turning.splines(length),

@@ -57,7 +57,7 @@ impl Turning {
         let Stations { x, outer, inner, interpolation } = self.stations(profile);
         let turned = |(k, radius): (usize, &f64)| {
             let least = inner[k] + LEAST * (radius - inner[k]);
-            // A pointed tip stays one.
+            // A pointed tip stays pointed.
             let off = if *radius > 0.0 { 0.5 * self.error(x[k], numbers) } else { 0.0 };
             (radius + off).max(least)
         };

@@ -1,6 +1,6 @@
 //! The tones of a recording as lines for the search of labels.
 //!
-//! A constant loss factor η makes wood stiffer with frequency: E goes as `f^(2η/π)`, so that
+//! A constant loss factor η makes wood stiffer with frequency: E is proportional to `f^(2η/π)`, so that
 //!
 //! ```text
 //! f_n = F_n (f_n/f₁)^(η/π)

@@ -1,9 +1,9 @@
 //! Which tones of a hollow bat belong to its wall?
 //!
-//! The bending modes and the hoop modes of a metal barrel are interspersed. Bending frequencies go with √E, which is
-//! nearly known for a metal. The wall's tones depend also on its thickness: all of them have one further factor. Over
-//! both factors the cheapest labels are found as for bending modes ([`Lines::cheapest`]), with the wall's tones among
-//! the others.
+//! The bending modes and the hoop modes of a metal barrel are interspersed. Bending frequencies are proportional to √E,
+//! which is nearly known for a metal. The wall's tones also depend on its thickness, so all of them have one further
+//! factor. The cheapest labels over both factors are found as for bending modes ([`Lines::cheapest`]), with the wall's
+//! tones among the others.
 
 use std::collections::BTreeMap;
 
@@ -52,7 +52,7 @@ pub enum BatMode {
     },
 }
 
-/// Labels that come next.
+/// The next best labels.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct NextLabels {
     /// The mode of each line, in the order of the tones, twins as one.

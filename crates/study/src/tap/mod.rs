@@ -1,4 +1,4 @@
-//! Which mode of the bat is each recorded tone, and what is the wood by all of them?
+//! Which mode of the bat is each recorded tone, and what wood follows from all of them?
 //!
 //! | file | question |
 //! |---|---|

@@ -1,4 +1,4 @@
-//! Labels of the tones of a recording, their probability, and the wood by all of them.
+//! Labels of the tones of a recording, their probability, and the wood that follows from all of them.
 
 use sweetspot_tap::analysis::Analysis;
 
@@ -20,7 +20,7 @@ const NEAR: f64 = 0.01;
 /// The label of a tone.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct ToneLabel {
-    /// The mode; None where it is no mode of this bat.
+    /// The mode; `None` if it is not a mode of this bat.
     pub mode: Option<BatMode>,
     /// The computed frequency of the fitted bat there (Hz).
     pub computed: Option<f64>,
@@ -28,7 +28,7 @@ pub struct ToneLabel {
     pub sure: f64,
 }
 
-/// A given label: the tone near that frequency (Hz) is that bending mode, or no mode.
+/// A given label: the tone near that frequency (Hz) is that bending mode, or not a mode.
 pub type Told = (f64, Option<usize>);
 
 /// The results of the tones of a bat.
@@ -38,7 +38,7 @@ pub struct Tapped {
     pub labels: Vec<ToneLabel>,
     /// The second best labels.
     pub second: Option<NextLabels>,
-    /// The wood; None where no tone is a bending mode of the bat.
+    /// The wood; `None` if no tone is a bending mode of the bat.
     pub wood: Option<Calibration>,
     /// An upper limit of the loss factor of the wood: that of the least damped tone.
     pub loss: Option<Within>,
@@ -190,7 +190,7 @@ fn near(analysis: &Analysis, heard: &[HeardLine], hz: f64) -> Result<usize> {
     })
 }
 
-/// The calibration; None where no line is a mode of the bat in any wood.
+/// The calibration; `None` if no line is a mode of the bat in any wood.
 fn calibrated(
     bat: &Bat,
     readings: BatReadings,
@@ -206,8 +206,8 @@ fn calibrated(
     }
 }
 
-/// The probability that a label is right, from the additional cost of the next labels, and from how far the cost of the
-/// tone is below the price of a tone of no mode.
+/// The probability that a label is right, from the additional cost of the next labels, and from the distance of the
+/// tone's cost below the price of a tone that is not a mode.
 fn sure(margin: Option<f64>, chi2: f64) -> f64 {
     let margin = margin.unwrap_or(f64::INFINITY).min(STRANGER - chi2).max(0.0);
     1.0 / (1.0 + (-0.5 * margin).exp())

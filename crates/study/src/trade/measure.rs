@@ -37,7 +37,7 @@ const RATIO: f64 = 1.5;
 const MOST_UNKNOWNS: f64 = 2e6;
 /// Rungs without a gain after which a ladder ends.
 const PATIENCE: usize = 3;
-/// As many elements as the columns go to.
+/// Largest number of elements in the columns.
 const FINEST_COLUMN: usize = 8192;
 /// Shares of the time: until the columns are measured, until the ladder ends, until the end.
 const COLUMNS: f64 = 0.25;

@@ -1,6 +1,6 @@
 //! What is the cost of a digit on this bat, with which elements and which solver?
 //!
-//! [`measure::measure`] times a ladder of them against one reference.
+//! [`measure::measure`] times a ladder of elements and solvers and compares them with one reference.
 //!
 //! ```text
 //! Bat ─▶ Reference ─▶ runs (degree, elements, solver: time, error) ─▶ front ─▶ words

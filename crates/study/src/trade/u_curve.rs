@@ -55,7 +55,7 @@ pub struct End {
 /// The reason why a solver ended.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub enum Reason {
-    /// So many elements are more than the solver takes.
+    /// The solver does not take that many elements.
     #[serde(rename = "too large")]
     TooLarge,
     /// This number of elements would have taken too long.
@@ -93,7 +93,7 @@ pub struct Losses {
     /// The first number beyond the best at which 4 digits are left.
     #[serde(rename = "error_1e-4")]
     pub four_digits: Option<usize>,
-    /// The first number beyond the best at which nothing is left.
+    /// The first number beyond the best at which no digit is left.
     #[serde(rename = "error_1")]
     pub nothing: Option<usize>,
 }
@@ -118,7 +118,7 @@ impl MeshErrors {
 }
 
 impl Losses {
-    /// The losses of a curve of errors by number of elements; None of a curve without points.
+    /// The losses of a curve of errors by number of elements; `None` for a curve without points.
     fn of(series: &[(usize, f64)]) -> Option<Self> {
         let least = series.iter().min_by(|a, b| a.1.total_cmp(&b.1));
         let (best_elements, least_error) = *least?;

@@ -37,7 +37,7 @@ pub struct BarrelTest {
 
 impl BarrelTest {
     /// A ball at the speed of laboratories, 6 in from the tip of that bat, every frequency to that accuracy; exit
-    /// speeds to 1e-4, as three digits of BBCOR need it: the patch leaves far more open.
+    /// speeds to 1e-4, as three digits of BBCOR need it: the uncertainty due to the patch is far larger.
     pub fn of(bat: &Bat, ball: Ball, accuracy: Accuracy) -> Self {
         const ENOUGH: f64 = 1e-4;
         let tol = accuracy.exit_speed;
@@ -91,9 +91,9 @@ pub struct HoopModel {
 pub struct BarrelStruck {
     /// Frequency of the first mode of harmonic 2 (Hz), as accurate as the hit needs it.
     pub first_hz: Option<f64>,
-    /// The wall under the ball; None where the ball does not meet the stretch that is modelled.
+    /// The wall under the ball; `None` if the ball does not meet the modelled stretch.
     pub wall: Option<PressedWall>,
-    /// How the ball comes back; None without a wall under it and for a ball without a force law.
+    /// The rebound of the ball; `None` without a wall under it and for a ball without a force law.
     pub rebound: Option<Rebound>,
 }
 
@@ -113,7 +113,7 @@ pub struct Rebound {
     /// BBCOR with the patch of a ball compressed twice and half as much, the lesser first: the uncertainty due to the
     /// size of the patch.
     pub range: [f64; 2],
-    /// How far `wall` may be off by the program's own errors.
+    /// Error of `wall` due to the computation.
     pub error: f64,
     /// Largest force between ball and bat (N).
     pub peak_force_n: f64,
@@ -125,7 +125,7 @@ pub struct Rebound {
     pub initial_j: f64,
 }
 
-/// BBCOR is printed to three digits, and the patch leaves ten times as much uncertain.
+/// BBCOR is printed to three digits; the uncertainty due to the patch is ten times as large.
 const SAID: f64 = 1e-3;
 /// Default number of hoop modes.
 const MODES: usize = 10;
@@ -276,7 +276,7 @@ fn has_poisson(material: &Material) -> bool {
     material.poisson_ratios.is_some() || poisson_ratio(material).is_some()
 }
 
-/// The bat with Poisson's ratio where it is not known that much off the usual one.
+/// The bat with an unknown Poisson's ratio assumed that much off the usual one.
 fn assuming(bat: &Bat, by: f64) -> Result<Bat> {
     bat.with(|parts| {
         let regions = parts.fixtures.regions.iter_mut();

@@ -64,8 +64,7 @@ pub struct BarrelCompression {
 
 impl PressedWall {
     /// The wall at `x` (m) under a ball that is compressed by as much as its patch takes
-    /// ([`Ball::patch_compression`]); None where the patch is not on
-    /// the stretch that is modelled.
+    /// ([`Ball::patch_compression`]); `None` if the patch is not on the modelled stretch.
     pub fn under(wall: &HoopWall, bat: &Bat, ball: &Ball, x: f64) -> Option<Self> {
         let section = bat.profile().at(x);
         let compression_m = ball.patch_compression();

@@ -1,4 +1,4 @@
-//! The energy of a step, and the bump on its force that puts it right, as [`crate::collision::contact::energy`] has it.
+//! The energy of a step, and the bump on its force that corrects it, as in [`crate::collision::contact::energy`].
 
 use crate::collision::contact::abreast::places::{Abreast, Move};
 use crate::collision::contact::collocation::LANES;
@@ -6,7 +6,7 @@ use crate::collision::contact::each::Each;
 use crate::collision::contact::table::StepTable;
 
 impl<const W: usize> Abreast<'_, W> {
-    /// What the ball has lost (J).
+    /// Energy lost in the ball (J).
     #[inline(always)]
     pub(super) fn lost(&self) -> Each<W> {
         let Some([x, force]) = self.top else { return Each::default() };
@@ -15,7 +15,7 @@ impl<const W: usize> Abreast<'_, W> {
         x * force * shares
     }
 
-    /// Adds a bump to the force so that the energy is right; where that is sane.
+    /// Adds a bump to the force so that the energy balance closes. Returns the places where the bump is small enough.
     #[inline(always)]
     pub(super) fn correct(
         &mut self,
@@ -68,7 +68,7 @@ impl<const W: usize> Abreast<'_, W> {
         sane
     }
 
-    /// What a bump of 1 N does to mode n in a step of that length, as real and imaginary part.
+    /// Effect of a bump of 1 N on mode n in a step of that length, as real and imaginary part.
     #[inline(always)]
     pub(super) fn bump(
         &self,
@@ -90,8 +90,8 @@ impl<const W: usize> Abreast<'_, W> {
         }
     }
 
-    /// Compression and force from the motions, `x + C F(x) = z + Σ y`, by a step of Newton's method from ones that are
-    /// close.
+    /// Compression and force from the motions, `x + C F(x) = z + Σ y`, by one step of Newton's method from values that
+    /// are close.
     #[inline(always)]
     pub(super) fn settle(&mut self) {
         let (reach, x, force) = (self.reach(&self.next), self.next.compression, self.next.force);

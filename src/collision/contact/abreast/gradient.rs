@@ -1,5 +1,5 @@
-//! How the impulse changes with the bat, by the transpose of what [`crate::collision::contact::tangent`] does with the
-//! change of a bat: one way back through the steps for any number of other bats.
+//! How the impulse changes with the bat: the transpose of the derivative in [`crate::collision::contact::tangent`]. One
+//! pass back through the steps serves any number of other bats.
 //!
 //! ```text
 //! δx = M⁻¹ r,  M = 1 + (G + C) S     r what the change of the motion and q make of x, S the slopes of the force
@@ -7,8 +7,8 @@
 //! ∂J/∂(c_n/ω_n) = −Σ ν_i Im v_n(t_i),  ∂J/∂C = −Σ ν_i F_i
 //! ```
 //!
-//! P is what the step does to a motion without a force, K what the forces at its points do, R what the motion before does
-//! to r.
+//! P is the effect of the step on a motion without force, K that of the forces at its points, and R the effect of the
+//! motion before on r.
 //!
 //! # Source
 //!
@@ -23,28 +23,28 @@ use crate::collision::contact::step::AHEAD;
 use crate::collision::contact::table::StepTable;
 use crate::collision::contact::touch::DrivingPoint;
 
-/// How the impulse changes with the state at a moment; it grows with itself as 1.
+/// Derivatives of the impulse by the state at a moment; that by the impulse so far is 1.
 #[derive(Default)]
 struct Dual<const W: usize> {
     pub closing: Each<W>,
     pub speed: Each<W>,
     pub force: Each<W>,
-    /// With the largest compression, on the way back.
+    /// By the largest compression, on the way back.
     pub top: Each<W>,
     pub memories: Vec<[Each<W>; 2]>,
 }
 
-/// How the impulse changes with what differs: with `c/ω` of the last modes and with the flexibility.
+/// Derivatives of the impulse by the properties that differ: `c/ω` of the last modes and the flexibility.
 pub(super) struct Gradient<const W: usize> {
     pub weights: Vec<Each<W>>,
     pub rest: Each<W>,
-    /// With the closing speed, times that speed.
+    /// By the closing speed, times that speed.
     pub speed: Each<W>,
 }
 
 impl<const W: usize> Abreast<'_, W> {
-    /// How the impulse changes with the bat, from the last step of every place back to the first: the transpose of what
-    /// [`crate::collision::contact::tangent`] does with the change of a bat.
+    /// The derivatives of the impulse by the bat's properties, from the last step of every place back to the first.
+    /// `lasts` limits the steps that count.
     #[inline(always)]
     pub(super) fn gradient(&self, lasts: Each<W>) -> Gradient<W> {
         let weights = vec![Each::default(); self.differ];
@@ -105,7 +105,7 @@ impl<const W: usize> Abreast<'_, W> {
         dual.force = which.choose(Each::default(), dual.force);
     }
 
-    /// The dual before a step, and what the step adds to the gradient.
+    /// The dual before a step; adds the step's part of the gradient.
     #[inline(always)]
     fn step_back(
         &self,
@@ -166,8 +166,8 @@ impl<const W: usize> Abreast<'_, W> {
         dual.top = taken.choose(top, dual.top);
     }
 
-    /// The dual of the memories before a step, of the places that took it, where that by the motion without the forces
-    /// at the points ahead is given.
+    /// The dual of the memories before a step at the places that took it, given the dual of the motion without the
+    /// forces at the points ahead.
     #[inline(always)]
     fn memories_back(
         &self,
@@ -201,7 +201,7 @@ impl<const W: usize> Abreast<'_, W> {
         }
     }
 
-    /// The dual by the forces at the points of a step, to its end or to where the compression turns.
+    /// The dual of the forces at the points of a step, up to its end or to the largest compression.
     #[inline(always)]
     fn by_forces(
         &self,
@@ -233,7 +233,7 @@ impl<const W: usize> Abreast<'_, W> {
         by
     }
 
-    /// The dual by the forces at the points of a step that ends where the compression turns.
+    /// The dual of the forces at the points of a step that ends at the largest compression.
     #[inline(always)]
     fn by_forces_to(
         &self,
@@ -263,7 +263,7 @@ impl<const W: usize> Abreast<'_, W> {
         by
     }
 
-    /// The change of the impulse (N s) at a place by another bat, to first order.
+    /// The change of the impulse (N s) at a place for another bat, to first order.
     pub(super) fn change(&self, gradient: &Gradient<W>, other: &DrivingPoint, l: usize) -> f64 {
         let first = self.weights.len() - self.differ;
         let mut change = (other.rest - self.rest.0[l]) * gradient.rest.0[l];

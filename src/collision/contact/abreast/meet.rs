@@ -17,25 +17,25 @@ use crate::collision::contact::power_law::PowerLaw;
 use crate::collision::contact::pressing::Run;
 use crate::collision::contact::touch::{DrivingPoint, State, Touch};
 
-/// The exponents on the way back that are followed side by side: a force that ends less smoothly, or is steeper, is
-/// followed by itself.
+/// Exponents on the way back that can be computed side by side. A force that is steeper, or that ends less smoothly, is
+/// computed alone.
 const EXPONENTS: [f64; 2] = [6.0, 60.0];
 
-/// One of several places that are hit.
+/// One of several impact points.
 #[derive(Debug, Clone, Copy)]
 pub struct Place<'a> {
     /// The bat as the ball feels it there.
     pub felt: &'a DrivingPoint,
-    /// Varied bats, of no more modes.
+    /// Varied bats, with at most as many modes.
     pub others: &'a [DrivingPoint],
     /// The ball's law.
     pub law: PowerLaw,
-    /// Speed (m/s) at which ball and bat near.
+    /// Closing speed (m/s).
     pub speed: f64,
 }
 
 impl Place<'_> {
-    /// In how many of the last modes varied bats differ, 1 at least where there are any.
+    /// Number of the last modes in which varied bats differ; at least 1 if there are any.
     fn differ(&self) -> usize {
         let gains = &self.felt.gains;
         let same = |other: &DrivingPoint| {
@@ -54,15 +54,15 @@ impl PowerLaw {
     }
 }
 
-/// How many places go side by side.
+/// Number of places that are computed side by side.
 pub const ABREAST: usize = 4;
 
 impl Collider {
-    /// The encounters at places of one bat, side by side; None where one has to be met by itself.
+    /// The encounters at places of one bat, computed side by side; `None` where one must be computed alone.
     ///
-    /// An encounter depends on its own place alone: it has the same bits one by one.
+    /// An encounter depends only on its own place: it has the same bits when computed alone.
     pub fn meet_abreast(&self, places: &[Place], accuracy: f64) -> Vec<Option<Encounter>> {
-        /// Beyond this, steps that are as long as each place lets them be are fewer by half.
+        /// For better accuracies, steps whose length is chosen for each place are half as many.
         const FINEST: f64 = 2e-8;
         let mut all = vec![None; places.len()];
         if accuracy < FINEST || self.poles.iter().any(|s| s.re != 0.0) {
@@ -72,12 +72,12 @@ impl Collider {
         let fits = |k: &usize| {
             places[*k].law.goes_abreast() && (1..=self.poles.len()).contains(&modes(*k))
         };
-        // Steps are of the same lengths, and of the same modes.
+        // Steps have equal lengths, and the bats equal numbers of modes.
         let alike = |a: &usize, b: &usize| {
             places[*a].law.exponent == places[*b].law.exponent && modes(*a) == modes(*b)
         };
         let mut open: Vec<usize> = (0..places.len()).filter(fits).collect();
-        // Where steps of the usual lengths are too coarse, by those of half the length.
+        // If steps of the usual lengths are too coarse, steps of half the length are used.
         for finer in 0..2 {
             let mut coarse = vec![];
             for which in open.chunk_by(alike).flat_map(|alike| alike.chunks(ABREAST)) {
@@ -104,7 +104,7 @@ impl Collider {
     }
 }
 
-/// As many places as there are lanes, or fewer.
+/// At most as many places as there are lanes.
 struct Lanes<'a, const W: usize> {
     collider: &'a Collider,
     places: &'a [&'a Place<'a>],
@@ -125,7 +125,7 @@ impl<const W: usize> WithSimd for Lanes<'_, W> {
         let differ = places.iter().map(|place| place.differ()).max().unwrap_or(0);
         let mut abreast = Abreast::<W>::new(collider, &touches, differ);
         abreast.press(&touches, &Schedule::new(accuracy, touches[0].law.exponent, finer));
-        // No closures here: these are compiled without the wider vectors.
+        // No closures here: they would be compiled without the wider vectors.
         let (mut whole, mut first) = (None, None);
         if differ > 0 {
             whole = Some(abreast.gradient(Each::all(f64::INFINITY)));
@@ -160,12 +160,12 @@ impl<const W: usize> WithSimd for Lanes<'_, W> {
 }
 
 impl<const W: usize> Abreast<'_, W> {
-    /// What comes after the force was let go at a place: the ball is gone, or the bat catches up with it.
+    /// What follows at a place after the remaining force was released: the ball is gone, or the bat catches up with it.
     #[inline(always)]
     pub(super) fn leave(&mut self, l: usize, touch: &Touch<PowerLaw>) -> Stage {
         let mut run = Run::new(self.state(l, touch));
         let released = run.now.time;
-        // It may have left within the last step.
+        // The ball may have left within the last step.
         for _ in 0..3 {
             let reach = touch.reach(&run.now);
             if reach >= 0.0 {
@@ -233,7 +233,8 @@ impl<const W: usize> Abreast<'_, W> {
         state
     }
 
-    /// Goes on from there at a place, after a flight since that time (s), with a new touch where it `parted`.
+    /// Continues from that state at a place, after a flight since that time (s), with a new touch if ball and bat have
+    /// `parted`.
     #[inline(always)]
     fn resume(&mut self, l: usize, state: &State, since: f64, parted: bool) {
         let now = &mut self.now;
@@ -254,7 +255,7 @@ impl<const W: usize> Abreast<'_, W> {
     }
 }
 
-/// Why a place was not met: whether its steps were too coarse.
+/// Why a place was not computed: whether its steps were too coarse.
 struct TooCoarse(bool);
 
 #[cfg(test)]
@@ -297,7 +298,7 @@ mod tests {
         collider(10).meet_abreast(places, accuracy)
     }
 
-    /// One by one, side by side, and with other places in the other lanes.
+    /// The same result alone, side by side, and with other places in the other lanes.
     #[test]
     fn a_place_has_the_same_bits_whatever_is_beside_it() {
         let (felt, law) = (dowels(), PowerLaw::new(6.53e7, 1.84, 0.5));
@@ -308,7 +309,7 @@ mod tests {
             felt.iter().zip(&others).map(|(f, o)| place((f, &o[..]))).collect();
         for accuracy in [1e-3, 1e-6] {
             let all = met(&places, accuracy);
-            // The others are met one by one.
+            // The others are computed one by one.
             assert!(all.iter().flatten().count() > 35);
             let again = all.iter().flatten().filter(|met| met.is_delicate()).count();
             assert!((3..30).contains(&again), "{again}");
@@ -322,7 +323,7 @@ mod tests {
         }
     }
 
-    /// Against steps one by one that are far finer: a ball that is met once, again, late, pressed anew.
+    /// Compared with much finer steps one by one: a ball that touches once, again, late, or is pressed again.
     #[test]
     fn side_by_side_a_ball_is_met_as_one_by_one() {
         let felt = dowels();
@@ -332,7 +333,7 @@ mod tests {
             let places: Vec<Place> = places.collect();
             for accuracy in [1e-3, 1e-5, 1e-7] {
                 for (place, met) in places.iter().zip(met(&places, accuracy)) {
-                    // Where it fails it is met one by one.
+                    // A place that fails is computed alone.
                     let Some(met) = met else { continue };
                     let exact = collider(10).meet(place.felt, &law, SPEED, 1e-11);
                     assert!(met.is_sound(place.felt, SPEED));
@@ -349,8 +350,8 @@ mod tests {
         }
     }
 
-    /// Against differences of meetings to both sides: with the gain of a mode, the flexibility and the closing speed,
-    /// in the end and when the ball leaves for the first time.
+    /// Compared with central differences of encounters: derivatives by the gain of a mode, the flexibility and the
+    /// closing speed, at the end and when the ball leaves for the first time.
     #[test]
     fn the_changes_are_the_derivatives_of_the_impulse() {
         const SHARE: f64 = 1e-6;
@@ -368,7 +369,7 @@ mod tests {
             let others: Vec<DrivingPoint> =
                 [1, 7, 9, 10].map(|which| other(felt, which, SHARE)).to_vec();
             let place = Place { felt, others: &others, law, speed: SPEED };
-            // Where it fails it is met one by one.
+            // A place that fails is computed alone.
             let Some(all) = met(&[place], 1e-7).remove(0) else { continue };
             seen += 1;
             let impulse = |felt: &DrivingPoint, speed: f64| {

@@ -1,18 +1,19 @@
-//! Places of one bat that are hit side by side, by the equations of [`crate::collision::contact::encounter`].
+//! Hits at several places of one bat, computed side by side by the equations of
+//! [`crate::collision::contact::encounter`].
 //!
-//! The lengths of the steps follow from their accuracy and the ball's exponent alone, so that all places share the
-//! tables of the steps, and a place has the same bits whatever is in the other lanes. These are met alone: a place whose
-//! steps would have to be shorter, a bat with damping or without modes, a ball whose law is no power or ends too steeply
-//! or not smoothly enough, and accuracies better than 2e-8.
+//! The lengths of the steps follow from their accuracy and the ball's exponent alone. All places therefore share the
+//! tables of the steps, and a place has the same bits whatever the other lanes contain. The following are computed
+//! alone: a place that needs shorter steps, a bat with damping or without modes, a ball whose law is not a power or
+//! ends too steeply or not smoothly enough, and accuracies better than 2e-8.
 //!
 //! | file | question |
 //! |---|---|
 //! | [`schedule`] | how long are the steps |
-//! | [`places`] | what is known of the places, and how hard does each ball push back |
-//! | [`solve`] | which forces act in a step, and what do they do to the motions |
+//! | [`places`] | the state of ball and bat at every place; how hard does each ball push back |
+//! | [`solve`] | which forces act in a step, and which motions do they cause |
 //! | [`turn`] | where is the compression largest |
 //! | [`energy`] | how is the energy put right |
-//! | [`press`] | step after step there and back; what is left when the force has gone |
+//! | [`press`] | step after step to the largest compression and back; the release of the last force |
 //! | [`gradient`] | how does the impulse change with the bat |
 //! | [`meet`] | the whole encounter, place by place |
 

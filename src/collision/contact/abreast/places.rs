@@ -1,4 +1,4 @@
-//! Places side by side: what is known of them, and how hard the ball pushes back at each.
+//! Places side by side: their data and state, and the force of the ball at each.
 
 use crate::collision::contact::abreast::schedule::Stage;
 use crate::collision::contact::collider::Collider;
@@ -26,13 +26,14 @@ pub(super) struct Motion<const W: usize> {
     pub memories: Vec<[Each<W>; 2]>,
 }
 
-/// What the force at each point of a step does to the compression at each one ahead (m/N).
+/// Effect of the force at each point of a step on the compression at each point ahead (m/N).
 pub(super) type Coupling<const W: usize> = [[Each<W>; POINTS]; AHEAD];
 
-/// What a time does to one mode: `e^{iωt}`, and `E_k` ([`crate::motion::phi`]), each as real and imaginary part.
+/// Factors that move one mode on by a time: `e^{iωt}`, and `E_k` ([`crate::motion::phi`]), each as real and imaginary
+/// part.
 pub(super) type Move<const W: usize> = ([Each<W>; 2], [[Each<W>; 2]; POINTS]);
 
-/// Places that are pressed side by side.
+/// Hits at several places, computed side by side.
 pub(super) struct Abreast<'a, const W: usize> {
     pub collider: &'a Collider,
     pub omegas: Vec<f64>,
@@ -49,50 +50,51 @@ pub(super) struct Abreast<'a, const W: usize> {
     pub exponent: Each<W>,
     pub unloading: Each<W>,
     pub accuracy: f64,
-    /// What every place has tried.
+    /// Number of runs of steps at every place.
     pub runs: Each<W>,
     pub couplings: Vec<(usize, Coupling<W>)>,
     pub now: Motion<W>,
     pub next: Motion<W>,
-    /// The largest compression (m) and its force (N), while the places that step are on their way back.
+    /// The largest compression (m) and its force (N), if the places that step are on their way back.
     pub top: Option<[Each<W>; 2]>,
-    /// The same of every place's last turn.
+    /// The largest compression (m) and its force (N) of every place's last turn.
     pub tops: [Each<W>; 2],
-    /// The last step's compression: its length, where it ends in lengths of it, and its powers.
+    /// The compression in the last step: length of the step, its end as a share of the length, coefficients of the
+    /// powers.
     pub last: ([Each<W>; 2], [Each<W>; POINTS]),
-    /// Where that is known.
+    /// Places where [`Self::last`] is known.
     pub known: Each<W>,
-    /// What the ball lost by touches that are over (J).
+    /// Energy that the ball lost in earlier touches (J).
     pub spent: Each<W>,
-    /// Where the force had almost gone, and rose again.
+    /// Places where the force had almost gone, and places where it then rose again.
     pub faint: Each<W>,
     pub late: Each<W>,
     pub defect: Each<W>,
     pub corrected: Each<W>,
     pub failed: Each<W>,
-    /// Where that is because the steps are too long.
+    /// Places that failed because the steps are too long.
     pub coarse: Each<W>,
-    /// How many of the last modes other bats have otherwise, and what is kept for them.
+    /// Number of the last modes in which other bats differ, and the records for them.
     pub differ: usize,
     pub kept: Vec<Kept<W>>,
     pub steps: Each<W>,
-    /// What comes next at every place, and what came so far.
+    /// The next stage at every place, and its encounter so far.
     pub stages: [Stage; W],
     pub met: [Encounter; W],
-    /// When every place's touch began (s), and how much was kept when its first one ended.
+    /// When every place's touch began (s), and the number of records when its first touch ended.
     pub began: [f64; W],
     pub first: Each<W>,
 }
 
-/// What is kept for the changes by varied bats.
+/// One record for the changes of the impulse by varied bats.
 pub(super) enum Kept<const W: usize> {
     /// A step.
     Step(Walked<W>),
-    /// A flight of that time (s) at some places, and where a touch was over before.
+    /// A flight of that time (s) at some places, and those of them where a touch was over before.
     Flight { which: Each<W>, time: Each<W>, parted: Each<W> },
 }
 
-/// What is kept of a step.
+/// Record of a step.
 pub(super) struct Walked<const W: usize> {
     pub level: usize,
     /// The largest compression (m) and its force (N), on the way back.
@@ -118,8 +120,8 @@ pub(super) struct Turned<const W: usize> {
 }
 
 impl<'a, const W: usize> Abreast<'a, W> {
-    /// Places before the first touch; the last one fills the lanes that are left. Varied bats differ in that number
-    /// of the last modes.
+    /// Places before the first touch; the last one fills the unused lanes. Varied bats differ in that number of the
+    /// last modes.
     pub(super) fn new(
         collider: &'a Collider,
         touches: &[Touch<'a, PowerLaw>],
@@ -174,13 +176,13 @@ impl<'a, const W: usize> Abreast<'a, W> {
         }
     }
 
-    /// The power that the force goes by now.
+    /// The exponent of the force at present.
     #[inline(always)]
     pub(super) fn power(&self) -> Each<W> {
         if self.top.is_some() { self.unloading } else { self.exponent }
     }
 
-    /// The forces (N) at compressions (m): none at 0 and below.
+    /// The forces (N) at compressions (m); 0 for a compression of 0 or less.
     #[inline(always)]
     pub(super) fn forces<const N: usize>(&self, x: [Each<W>; N]) -> [Each<W>; N] {
         let [from, scale] = self.top.unwrap_or([Each::all(1.0), self.stiffness]);
@@ -195,8 +197,8 @@ impl<'a, const W: usize> Abreast<'a, W> {
         forces
     }
 
-    /// The forces (N) at compressions (m) a little way `by` from others where they are known: `F (1 + δ)^p` by its
-    /// series where δ is small.
+    /// The forces (N) at compressions (m) that differ by `by` from others where the forces are known: `F (1 + δ)^p` by
+    /// its series if δ is small.
     #[inline(always)]
     pub(super) fn near<const N: usize>(
         &self,
@@ -204,7 +206,7 @@ impl<'a, const W: usize> Abreast<'a, W> {
         known: [Each<W>; N],
         by: [Each<W>; N],
     ) -> [Each<W>; N] {
-        /// `pδ` whose powers beyond the terms are below ε.
+        /// The `pδ` up to which the omitted terms are below ε.
         const NEAR: f64 = 0.05;
         const TERMS: usize = 8;
         let power = self.power();
@@ -267,7 +269,7 @@ impl<'a, const W: usize> Abreast<'a, W> {
 }
 
 /// 1/μ, flexibility, closing speed, energy, depth, stiffness and both exponents of every place, and `c/ω` of its modes; the
-/// last place fills the lanes that are left.
+/// last place fills the unused lanes.
 #[inline(always)]
 fn lanes<const W: usize>(
     touches: &[Touch<PowerLaw>],

@@ -1,7 +1,7 @@
-//! Step after step: the balls are pressed at all places, spring back, and the force is let go.
+//! Step after step, the balls are compressed at all places and spring back, until the last of the force is released.
 //!
-//! The force is let go once what the ball stores is a small share of the energy: that energy goes into the motions as
-//! one impulse J, which the energy fixes,
+//! The remaining force is released once the energy stored in the ball is a small share of the whole: this energy goes
+//! into the motions as one impulse J, which the energy balance determines,
 //!
 //! ```text
 //! ½ a J² − r J = D,    a = 1/μ + Σ c_n, r the rate of x, D the energy that is left in the ball
@@ -17,14 +17,14 @@ use crate::collision::contact::pressing::USUAL;
 use crate::collision::contact::step::AHEAD;
 use crate::collision::contact::touch::Touch;
 
-/// Usual steps there or back at the accuracy 1e-3, at most.
+/// Most steps of the usual length to the largest compression or back, at the accuracy 1e-3.
 const MOST: usize = 48;
-/// Most runs of steps from one change to the next at a place, and most steps; a place that needs more is met alone.
+/// Most runs of steps from one change to the next at a place, and most steps; places that need more are done alone.
 const RUNS: f64 = 400.0;
 const STEPS: f64 = 4000.0;
-/// Share of the largest compression by which its return may be missed, over the accuracy.
+/// Allowed error of a return to the largest compression, as a share of it and over the accuracy.
 const MISSED: f64 = 1e-3;
-/// Share of the energy of their parting that the force may still give when it is let go.
+/// Energy that the force may still contain when it is released, as a share of the energy with which ball and bat part.
 const SLIGHT: f64 = 1e-4;
 
 impl<const W: usize> Abreast<'_, W> {
@@ -42,7 +42,7 @@ impl<const W: usize> Abreast<'_, W> {
         }
     }
 
-    /// Which places are at that stage.
+    /// The places at that stage.
     #[inline(always)]
     fn at_stage(&self, stage: Stage) -> Each<W> {
         let mut which = Each::default();
@@ -52,7 +52,7 @@ impl<const W: usize> Abreast<'_, W> {
         which
     }
 
-    /// Steps of all places at that stage until each is at another one.
+    /// Takes steps at all places of that stage until each has reached another one.
     #[inline(always)]
     fn run(&mut self, stage: Stage, touches: &[Touch<PowerLaw>], schedule: &Schedule) {
         let back = matches!(stage, Stage::Back | Stage::Late);
@@ -76,7 +76,7 @@ impl<const W: usize> Abreast<'_, W> {
                     .below(self.tops[1] * self.collider.tuning.faint)
                     .and(idle.fails()));
                 let leaves = self.rate(&self.now).below(Each::default());
-                // What is left is also little compared with the energy of their parting.
+                // The rest must also be small compared with the energy with which ball and bat part.
                 let (stored, rate) = (self.stored(), self.rate(&self.now));
                 let little = (self.lightness * stored).within(rate * rate * SLIGHT);
                 gone = leaves.and(little).and(stored.within(cut)).and(idle.or(self.failed).fails());
@@ -98,8 +98,8 @@ impl<const W: usize> Abreast<'_, W> {
         self.failed = self.failed.or(done.fails());
     }
 
-    /// One step of all places that are not idle; where the compression turned in it, or was the largest again on the way
-    /// back.
+    /// One step at all places that are not idle. Returns the places where the compression reached its maximum, or on
+    /// the way back reached it again.
     #[inline(always)]
     fn step(&mut self, level: usize, idle: Each<W>) -> Each<W> {
         let table = self.collider.table(level);
@@ -130,7 +130,7 @@ impl<const W: usize> Abreast<'_, W> {
         }
         self.remember(([Each::all(table.length), length / table.length], course), idle);
         fine = fine.and(self.correct(table, length, [event, idle], moves.as_deref()));
-        // A comparison with NaN fails: a compression that is NaN is not within itself.
+        // A comparison with NaN fails, so this rejects a compression that is NaN.
         fine = fine.and(self.next.compression.within(self.next.compression));
         let failed = idle.fails().and(fine.fails());
         (self.coarse, self.failed) = (self.coarse.or(failed), self.failed.or(failed));
@@ -165,7 +165,8 @@ impl<const W: usize> Abreast<'_, W> {
     }
 
     /// Where, on the way back, the surface may leave the ball and return between two points of a step
-    /// ([`crate::collision::contact::events`]), or the last of the force, a broken power of the time, is more than little.
+    /// ([`crate::collision::contact::events`]), or where too much energy is left in the last of the force, a fractional
+    /// power of the time.
     #[inline(always)]
     fn may_pass(&self, solved: &Solved<W>, length: f64) -> Each<W> {
         let Some([top, _]) = self.top else { return Each::default() };
@@ -191,7 +192,8 @@ impl<const W: usize> Abreast<'_, W> {
         ends.choose(much, least.below(bend * (0.125 * way * way)))
     }
 
-    /// Where the compression turns in a step, or is the largest again at its end; and where it goes one way else.
+    /// The places where the compression reaches its maximum in a step, or reaches it again by its end; and the places
+    /// whose points show no other turn.
     #[inline(always)]
     fn event(&self, solved: &Solved<W>) -> (Each<W>, Each<W>) {
         let mut smooth = Each::all(1.0);
@@ -209,7 +211,7 @@ impl<const W: usize> Abreast<'_, W> {
         (self.rate(&self.next).below(Each::default()), smooth)
     }
 
-    /// Keeps a step's compression for the guess of the next one's, but at idle places.
+    /// Keeps a step's compression for the guess of the next one, except at idle places.
     #[inline(always)]
     fn remember(&mut self, (ends, powers): ([Each<W>; 2], [Each<W>; POINTS]), idle: Each<W>) {
         let (last_ends, last_powers) = &mut self.last;
@@ -222,7 +224,7 @@ impl<const W: usize> Abreast<'_, W> {
         self.known = self.known.or(idle.fails());
     }
 
-    /// Leaves the next state as it is now at those places.
+    /// Sets the next state to the present one at those places.
     #[inline(always)]
     pub(super) fn hold(&mut self, which: Each<W>) {
         if !which.somewhere() {
@@ -243,7 +245,7 @@ impl<const W: usize> Abreast<'_, W> {
         }
     }
 
-    /// What the ball and the flexibility that follows at once store (J).
+    /// Energy stored in the ball and in the flexibility that follows at once (J).
     #[inline(always)]
     pub(super) fn stored(&self) -> Each<W> {
         let of_ball =
@@ -251,7 +253,7 @@ impl<const W: usize> Abreast<'_, W> {
         of_ball + self.rest * self.now.force * self.now.force * 0.5
     }
 
-    /// Lets the force go at those places.
+    /// Releases the remaining force at those places.
     #[inline(always)]
     fn release(&mut self, gone: Each<W>) {
         let (now, mut modes) = (&self.now, Each::default());
@@ -275,7 +277,7 @@ impl<const W: usize> Abreast<'_, W> {
         }
     }
 
-    /// Keeps of a step what the changes need.
+    /// Records the data of a step that the changes need.
     #[inline(always)]
     pub(super) fn keep(&mut self, level: usize, solved: &Solved<W>, taken: Each<W>) {
         let (table, first) = (self.collider.table(level), self.weights.len() - self.differ);
@@ -298,11 +300,11 @@ impl<const W: usize> Abreast<'_, W> {
         self.kept.push(Kept::Step(walked));
     }
 
-    /// Keeps of a turn what the changes need.
+    /// Records the data of a turn that the changes need.
     #[inline(always)]
     pub(super) fn keep_turn(&mut self, which: Each<W>, time: Each<W>, moves: Vec<Move<W>>) {
         let (next, first) = (&self.next, self.weights.len() - self.differ);
-        // On the way that follows the turn, or that began before it.
+        // The slope of the branch towards larger compressions, at the turn.
         let slope = self.exponent * next.force / next.compression;
         let memories = next.memories[first..].iter().map(|[_, im]| *im).collect();
         if let Some(Kept::Step(walked)) = self.kept.last_mut() {

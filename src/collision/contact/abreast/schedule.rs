@@ -1,36 +1,37 @@
-//! How long the steps of places side by side are.
+//! The lengths of the steps of places that are computed side by side.
 
 use crate::collision::contact::pressing::USUAL;
 
-/// What comes next at a place.
+/// The next stage at a place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Stage {
     /// A touch begins.
     Touch,
-    /// The ball is pressed beyond its largest compression.
+    /// The ball is compressed beyond its largest compression so far.
     Anew,
     /// The ball springs back.
     Back,
-    /// The ball springs back, and the force that was let go returns.
+    /// The ball springs back, and the force that was released returns.
     Late,
     /// The ball is gone for good.
     Over,
 }
 
-/// The lengths of the steps, as levels: they follow from the accuracy of the steps and the exponent of the law, as
-/// steps one by one have them on the way to the largest compression.
+/// The lengths of the steps, as levels. They follow from the accuracy of the steps and the exponent of the law, like
+/// those of steps one by one on the way to the largest compression.
 pub(super) struct Schedule {
     first: usize,
     /// The level of a usual step.
     pub usual: usize,
-    /// Steps a level at the beginning.
+    /// Number of steps at each level at the beginning.
     each: usize,
-    /// How much finer the steps back begin.
+    /// Number of levels by which the first steps back are finer.
     back: usize,
 }
 
 impl Schedule {
-    /// Of steps of that accuracy for a law whose force begins as that power, `finer` levels below the usual ones.
+    /// A schedule for steps of that accuracy and a law whose force begins as that power, `finer` levels below the usual
+    /// ones.
     pub fn new(accuracy: f64, exponent: f64, finer: usize) -> Self {
         let first = (1.12 / (3.0 * accuracy).powf(1.0 / (1.0 + exponent))).log2().ceil();
         let usual = ((1e-3 / accuracy).log2() / 5.5).max(0.0) as usize + USUAL + finer;

@@ -71,7 +71,7 @@ impl<const W: usize> Abreast<'_, W> {
         sum
     }
 
-    /// The forces of a step by Newton's method; idle places are not waited for.
+    /// The forces of a step by Newton's method; idle places need not converge.
     #[inline(always)]
     pub(super) fn solve(
         &self,
@@ -80,7 +80,7 @@ impl<const W: usize> Abreast<'_, W> {
         idle: Each<W>,
     ) -> Solved<W> {
         const ROUNDS: usize = 16;
-        /// Share of the compression, times `fine`, by which a round raises it at most on the way back.
+        /// Largest rise of the compression in one round on the way back, as a share of it and times `fine`.
         const RISE: f64 = 0.2;
         let fine = (Each::all(10.0) / self.power()).min(Each::all(1.0));
         let knee = self.top.map(|[x, _]| x * (Each::all(1.0) - fine * 0.7));
@@ -121,7 +121,8 @@ impl<const W: usize> Abreast<'_, W> {
         Solved { x, force: [self.now.force, a, b, c, d], slope, found }
     }
 
-    /// A guess of the compressions (m) ahead: the last step's goes on as it did, if that is less than without force.
+    /// A guess of the compressions (m) ahead: the last step's polynomial continued, but at most the compressions
+    /// without force.
     #[inline(always)]
     fn foreseen(&self, length: f64, free: &[Each<W>; AHEAD], most: Each<W>) -> [Each<W>; AHEAD] {
         let (mut x, ([last, from], powers)) = (*free, &self.last);

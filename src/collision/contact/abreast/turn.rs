@@ -1,4 +1,4 @@
-//! Where the compression is largest, or the largest again, by Newton's method on the exact motion.
+//! Where is the compression largest, or as large again? By Newton's method on the exact motion.
 
 use crate::collision::contact::abreast::places::{Abreast, Motion, Move};
 use crate::collision::contact::collocation::POINTS;
@@ -8,8 +8,8 @@ use crate::collision::contact::each::Each;
 const FOUND: f64 = 1e-6;
 
 impl<const W: usize> Abreast<'_, W> {
-    /// Moves the places that turn in this step to where they do: the length of the step at every place, and what that
-    /// time does to the modes.
+    /// Moves the places that turn in this step to their turn. Returns the length of the step at every place, the
+    /// factors that move the modes by that time, and the places where the turn was found.
     #[inline(always)]
     pub(super) fn turn(
         &mut self,
@@ -40,7 +40,8 @@ impl<const W: usize> Abreast<'_, W> {
         (time, moves, left.abs().within(Each::all(FOUND * length)))
     }
 
-    /// What is 0 at the turn, and its rate: the rate of the compression, or on the way back how far it is from the largest.
+    /// The quantity that is 0 at the turn, and its rate: the rate of the compression, or on the way back the distance
+    /// from the largest compression.
     #[inline(always)]
     pub(super) fn distance(&self, state: &Motion<W>) -> [Each<W>; 2] {
         let rate = self.rate(state);
@@ -151,7 +152,7 @@ pub(super) fn moments<const W: usize>(angle: Each<W>) -> Move<W> {
     ([cos, sin], all)
 }
 
-/// Where in [0, 1] the cubic with those values and slopes at both ends is zero.
+/// The zero in [0, 1] of the cubic with those values and slopes at both ends.
 #[inline(always)]
 fn crossing<const W: usize>(
     from: Each<W>,
@@ -172,7 +173,7 @@ fn crossing<const W: usize>(
         low = above.choose(s, low);
         high = above.choose(high, s);
         let newton = s - value / slope;
-        // Once it is found, the last digits may leave the interval.
+        // Once the zero is found, the last digits may leave the interval.
         let found = (newton - s).abs().within(Each::all(1e-10));
         let inside = low.below(newton).and(newton.below(high)).or(found);
         s = inside.choose(newton, (low + high) * 0.5);

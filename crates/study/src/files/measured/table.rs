@@ -89,7 +89,7 @@ fn shapes(table: &Sheet) -> Result<Measured> {
     Ok(Measured { modes, along, from_knob: true, ..Measured::default() })
 }
 
-/// The modes of the header, without anything but their names.
+/// The modes of the header, with their names only.
 fn named(table: &Sheet) -> Result<Vec<MeasuredMode>> {
     let names = &table.header.cells[1..];
     if names.is_empty() {
@@ -149,7 +149,7 @@ fn frequency(table: &Sheet, cell: (&SheetRow, usize), name: (&SheetRow, usize)) 
     Ok(factor * table.number(cell, field, [0.0, HIGHEST / factor])?)
 }
 
-/// A damping ratio, or percents of it, of which a cell may have the sign; it may be left empty.
+/// A damping ratio, or a percentage, whose cell may contain the sign; it may be left empty.
 fn damping(table: &Sheet, at: (&SheetRow, usize), field: &str, name: &str) -> Result<Option<f64>> {
     let cell = at.0.cells[at.1];
     let number = cell.strip_suffix('%').map(str::trim_end);

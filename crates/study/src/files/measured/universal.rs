@@ -154,7 +154,7 @@ fn skipped(universal: &Universal) -> Option<String> {
     let mut numbers: Vec<i64> = universal.skipped.iter().map(|skipped| skipped.number).collect();
     numbers.sort_unstable();
     numbers.dedup();
-    // One of nodes would have been read.
+    // A dataset 2414 on nodes would have been read.
     let named = |number: &i64| match number {
         2414 => "2414 (data on elements, not at nodes)".to_owned(),
         number => number.to_string(),
