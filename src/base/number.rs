@@ -26,6 +26,18 @@ pub fn signed(value: f64, decimals: usize) -> String {
     format!("{:+.decimals$}", rounded(value, decimals as i32))
 }
 
+/// A bound to that many significant digits, rounded up.
+pub fn bound(value: f64, digits: usize) -> String {
+    let near = format!("{value:.*e}", digits - 1);
+    match (near.parse::<f64>(), near.split_once('e').and_then(|(_, power)| power.parse().ok())) {
+        (Ok(rounded), Some(power)) if rounded < value => {
+            let last = 10.0_f64.powi(power) * 10.0_f64.powi(1 - digits as i32);
+            format!("{:.*e}", digits - 1, rounded + last)
+        }
+        _ => near,
+    }
+}
+
 /// A share in per cent.
 pub fn percent(share: f64, decimals: usize) -> String {
     format!("{:.decimals$} %", 100.0 * share)
@@ -44,5 +56,8 @@ mod tests {
         assert_eq!(shortest(1e-7), "1e-7");
         assert_eq!((signed(-0.001, 2), signed(1.005, 1)), ("+0.00".into(), "+1.0".into()));
         assert_eq!(percent(0.123, 1), "12.3 %");
+        assert_eq!((bound(1.1e-4, 1), bound(1.0e-4, 1)), ("2e-4".into(), "1e-4".into()));
+        assert_eq!((bound(9.4e-7, 1), bound(1.02e-4, 2)), ("1e-6".into(), "1.1e-4".into()));
+        assert_eq!((bound(0.0, 1), bound(f64::INFINITY, 1)), ("0e0".into(), "inf".into()));
     }
 }

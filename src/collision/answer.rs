@@ -167,7 +167,14 @@ impl Hitter<'_> {
         let blow = |k: usize| {
             let (Approach { x, closing, known, .. }, _) = places[k];
             let (felt, others) = (&felt[k], &others[k] as &dyn Fn() -> Vec<DrivingPoint>);
-            Blow { x: *x, felt, others, closing: *closing, compared: known.is_none() }
+            Blow {
+                x: *x,
+                felt,
+                others,
+                closing: *closing,
+                compared: known.is_none(),
+                slower: false,
+            }
         };
         let blows: Vec<Blow> = (0..places.len()).map(blow).collect();
         let met = self.meet_all(&blows, self.effort.accuracy);
@@ -271,10 +278,15 @@ impl Hitter<'_> {
                 // follow the force at once, `y = C F − D F″ + …`, where `F″` of a half sine is `(π/T)² F`. On a stiff
                 // bat T is 2.86 to 3.14 times the time in which the ball would be compressed at its first speed; a wall
                 // makes it longer.
+                // Where a softer wall has no effect to first order, slower modes still have one, and the reverse: both
+                // count.
                 let wall = self.under(x).map_or(0.0, |under| {
                     let late = under.late * (std::f64::consts::PI / (2.86 * self.pressed)).powi(2);
                     let rest = felt.rest + under.unsure + late;
-                    count_first(both(&DrivingPoint { rest, ..felt.clone() }, accuracy))
+                    let softer = DrivingPoint { rest, ..felt.clone() };
+                    let slower = self.meet_slower(x, felt, closing, accuracy);
+                    let slower = slower.map_or([1.0; 2], |(other, _)| apart(&other));
+                    count_first(both(&softer, accuracy)) + count_first(slower)
                 });
                 [left_out, steps, wall]
             });

@@ -200,7 +200,8 @@ pub struct Outcome {
     pub peak_force: Option<f64>,
     /// Largest compression of the ball (m), if the model has one.
     pub peak_compression: Option<f64>,
-    /// BBCOR of the free bat: `e_A (1 + r) + r` with `r = m/M_eff`.
+    /// BBCOR of the free bat: `e_A (1 + r) + r` with `r = m/M_eff`. A bat that is held has its own M_eff, here and
+    /// below.
     pub bbcor: f64,
     /// BBCOR of the bat held 6 in from the knob: `e_A (1 + r) + r` with `r = m Q²/I`.
     pub bbcor_pivoted: f64,

@@ -4,8 +4,8 @@
 //! bat (on a test rig's pin, or in hands) is relative to its hands: the bat is at rest and the ball comes at the
 //! closing speed. The impulse is the same in both cases.
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, OnceLock};
 
 use crate::base::error::{Error, Result};
 use crate::bat::body::{Bat, STANDARD_PIVOT};
@@ -45,6 +45,8 @@ pub struct Hitter<'a> {
     /// Approximate duration of the compression on a stiff bat (s); NaN without a force law.
     pub(super) pressed: f64,
     pub(super) collider: Option<Collider>,
+    /// The same with hoop modes of the wall that are slower by their possible error; `None` without such modes.
+    slower: OnceLock<Option<Collider>>,
     /// The wall's response to the ball, and the error of that, relative to the closing speed.
     wall: Option<Wall>,
     pub(super) wall_error: f64,
@@ -157,6 +159,7 @@ impl<'a> Hitter<'a> {
             modes,
             pressed,
             collider,
+            slower: OnceLock::new(),
             wall,
             wall_error,
             hoop,
@@ -194,13 +197,16 @@ impl<'a> Hitter<'a> {
         (self.collider.is_some() && more > 1.0).then_some(count.ceil() as usize)
     }
 
-    /// `e_A` of a ball that leaves from `x` with that speed (m/s), and from it the BBCOR of the free
-    /// bat and of the bat held at the standard pivot.
+    /// `e_A` of a ball that leaves from `x` with that speed (m/s), and from it the BBCOR of the free bat and of the bat
+    /// held at the standard pivot. A bat that is held has its own effective mass in both.
     pub fn figures(&self, x: f64, exit_speed: f64) -> [f64; 3] {
         let bat_speed = self.bat.speed_at(x, self.motion);
         let efficiency = (exit_speed - bat_speed) / (bat_speed + self.scene.ball_speed);
         let bbcor = |r: f64| efficiency * (1.0 + r) + r;
         let ball = self.scene.ball.mass_kg;
+        if self.held {
+            return [efficiency, bbcor(ball * self.recoil(x)), bbcor(ball * self.recoil(x))];
+        }
         let pivoted = ball * (x - STANDARD_PIVOT).powi(2) / self.pivot_inertia;
         [efficiency, bbcor(ball / self.bat.recoil_mass(x)), bbcor(pivoted)]
     }
@@ -306,8 +312,31 @@ impl<'a> Hitter<'a> {
         closing: f64,
         accuracy: f64,
     ) -> Option<(Encounter, f64)> {
-        self.meet_all(&[Blow { x, felt, others: &Vec::new, closing, compared: true }], accuracy)
-            .pop()?
+        let others = &Vec::new;
+        let blow = Blow { x, felt, others, closing, compared: true, slower: false };
+        self.meet_all(&[blow], accuracy).pop()?
+    }
+
+    /// The meeting with hoop modes of the wall that are slower by their possible error.
+    pub(super) fn meet_slower(
+        &self,
+        x: f64,
+        felt: &DrivingPoint,
+        closing: f64,
+        accuracy: f64,
+    ) -> Option<(Encounter, f64)> {
+        let others = &Vec::new;
+        let blow = Blow { x, felt, others, closing, compared: true, slower: true };
+        self.meet_all(&[blow], accuracy).pop()?
+    }
+
+    fn collider(&self, slower: bool) -> Option<&Collider> {
+        let made = || {
+            let (off, wall) = (self.hoop.as_ref()?.off(), self.wall_modes.iter());
+            let wall: Vec<_> = wall.map(|[omega, ratio]| [omega * (1.0 - off), *ratio]).collect();
+            collider(&self.modes, &wall, self.pressed).ok()
+        };
+        if slower { self.slower.get_or_init(made).as_ref() } else { self.collider.as_ref() }
     }
 
     /// The encounters at several places, each with the accuracy of its steps; they are computed side by side if
@@ -334,7 +363,8 @@ impl<'a> Hitter<'a> {
     /// The encounters that can be computed side by side.
     fn meet_abreast(&self, blows: &[Blow], accuracy: f64) -> Vec<Option<(Encounter, f64)>> {
         let mut all = vec![None; blows.len()];
-        let Some(collider) = &self.collider else { return all };
+        let slower = blows.first().is_some_and(|blow| blow.slower);
+        let Some(collider) = self.collider(slower) else { return all };
         let others = |blow: &Blow| if blow.compared { (blow.others)() } else { vec![] };
         let others: Vec<Vec<DrivingPoint>> = blows.iter().map(others).collect();
         let (mut places, mut which) = (vec![], vec![]);
@@ -358,7 +388,7 @@ impl<'a> Hitter<'a> {
     /// The encounter at a place alone, with steps as short as it needs.
     pub(super) fn meet_alone(&self, blow: &Blow, accuracy: f64) -> Option<(Encounter, f64)> {
         let Blow { x, felt, closing, .. } = *blow;
-        let (collider, law) = (self.collider.as_ref()?, self.law_at(x, closing)?);
+        let (collider, law) = (self.collider(blow.slower)?, self.law_at(x, closing)?);
         let others = if blow.compared { (blow.others)() } else { vec![] };
         let meet = |accuracy| {
             let met = collider.meet_beside(felt, &others, &*law, closing, accuracy);
@@ -379,6 +409,8 @@ pub(super) struct Blow<'a> {
     pub closing: f64,
     /// Whether it is compared with those also where ball and bat touch once.
     pub compared: bool,
+    /// Whether it meets slower hoop modes, as all of its group.
+    pub slower: bool,
 }
 
 /// The error for a bat (kg) that a ball (kg) carries along; its first mode turns through that phase (rad) meanwhile.

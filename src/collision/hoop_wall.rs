@@ -72,7 +72,7 @@ pub struct WallFelt {
     pub slow: f64,
     /// The part of that beyond the modes (m s²/N).
     pub late: f64,
-    /// Flexibility (m/N) that may be missing: that of omitted harmonics, and that due to the errors of the modes and of
+    /// Flexibility (m/N) that may be missing beyond the modes: that of omitted harmonics, and that due to the error of
     /// the elements close to the patch.
     pub unsure: f64,
 }
@@ -190,8 +190,7 @@ impl HoopWall {
             felt.full.gains.extend(share.gains);
             felt.full.rest += local;
             felt.late += (share.slowness - of_slow).max(0.0);
-            // A relative error of ω is doubled in 1/ω².
-            felt.unsure += 2.0 * self.off() * of_modes + self.fineness.missed * local;
+            felt.unsure += self.fineness.missed * local;
             felt.flexibility.push((share.harmonic, share.flexibility));
             felt.soft += share.flexibility;
             felt.slow += share.slowness;

@@ -65,7 +65,8 @@ impl Hitter<'_> {
         let mut blows = vec![];
         for (x, closing, felt) in approaches.iter().flatten() {
             let (x, closing) = (*x, *closing);
-            blows.push(Blow { x, felt, others: &Vec::new, closing, compared: true });
+            let others = &Vec::new;
+            blows.push(Blow { x, felt, others, closing, compared: true, slower: false });
         }
         let mut met = self.meet_all(&blows, SMOOTH).into_iter();
         let seen = |approach: &Option<(f64, f64, DrivingPoint)>| {

@@ -73,7 +73,7 @@ pub enum Answer {
     Vibration,
     /// Place where the least energy stays in vibration (m).
     VibrationPlace,
-    /// The largest BBCOR of the outer half of the free bat.
+    /// The largest BBCOR of the outer half of the bat, free or as it is held.
     Bbcor,
     /// Exit speed of a ball that hits there, from the knob end (m, m/s).
     ExitSpeedAt(f64),

@@ -76,14 +76,14 @@ impl AfterHit {
     }
 }
 
-/// One line of the hit itself.
-pub fn impact(impact: &hit::Impact, units: Units) -> String {
+/// One line of the hit itself, which ends at that time (s).
+pub fn impact(impact: &hit::Impact, end: f64, units: Units) -> String {
     let Some(outcome) = &impact.outcome else { return String::new() };
     format!(
         "     at {}\n     the ball leaves at {}, after {:.2} ms, {:.1} kN at most\n",
         units.place(impact.x, 2),
         units.inline(units.speed(outcome.exit_speed)),
-        1e3 * outcome.contact_time.unwrap_or(0.0),
+        1e3 * end,
         1e-3 * outcome.peak_force.unwrap_or(0.0)
     )
 }

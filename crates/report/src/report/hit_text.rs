@@ -286,11 +286,11 @@ pub fn stated(figures: &Figures, units: Units) -> Vec<(String, String)> {
     let mut line = |what: &str, value: String| lines.push((what.to_owned(), value));
     line("bat-ball speed", speed(outcome.exit_speed));
     line("collision efficiency e_A", format!("{:.3}", outcome.collision_efficiency));
-    line("BBCOR there, of a free bat", format!("{:.3}", outcome.bbcor));
+    line("BBCOR there, free (or as it is held)", format!("{:.3}", outcome.bbcor));
     line("BBCOR there, held 6 in from the knob", format!("{:.3}", outcome.bbcor_pivoted));
     let most = |peak: Peak| format!("{:.3} at {}", peak.value, place(peak.x));
     if let Some(peak) = figures.bbcor_max {
-        line("largest BBCOR, of a free bat", most(peak));
+        line("largest BBCOR, free (or as it is held)", most(peak));
     }
     if let Some(peak) = figures.bbcor_pivoted_max {
         line("largest BBCOR, held 6 in from the knob", most(peak));

@@ -7,7 +7,7 @@ use crate::analysis::Analysis;
 use crate::parts::{Columns, Units, WIDE, first, wrapped};
 use crate::report::answer_unit::{AnswerUnit, decimals};
 use crate::report::text::edited;
-use sweetspot::base::number::{percent, significant};
+use sweetspot::base::number::{bound, percent, significant};
 use sweetspot::base::units::{inches, ounces};
 use sweetspot::bat::material::Scatter;
 use sweetspot::collision::Model;
@@ -176,7 +176,8 @@ fn doubted(doubt: &Doubt, units: Units) -> String {
             "Beyond the ball's measured law: over 2 ms in touch, or under 0.44 returned.".to_owned()
         }
         Doubt::ExitSpeeds { error } => format!(
-            "Exit speeds are less accurate than was asked: the worst within {error:.0e} of the closing speed."
+            "Exit speeds are less accurate than was asked: the worst within {} of the closing speed.",
+            bound(*error, 2)
         ),
     }
 }
@@ -316,10 +317,10 @@ fn computation(analysis: &Analysis) -> String {
     let mut told = vec![];
     let shown = solution.modes.iter().take(3).map(|mode| mode.error.total());
     if let Some(worst) = shown.reduce(f64::max) {
-        told.push(format!("frequencies within {worst:.0e}"));
+        told.push(format!("frequencies within {}", bound(worst, 1)));
     }
     if let Some((_, outcome)) = hits.worst() {
-        told.push(format!("exit speeds within {:.0e}", outcome.error));
+        told.push(format!("exit speeds within {}", bound(outcome.error, 1)));
     }
     let asked = analysis.task.hits.tolerance;
     let verdict = match (analysis.task.hits.elements, solution.met() && hits.met()) {

@@ -28,6 +28,8 @@ const LARGEST_STEP: f64 = 0.3;
 const MOST_STEPS: usize = 40;
 /// A fit has converged when its step is below this: such a step changes no printed digit.
 const SETTLED: f64 = 1e-7;
+/// Change of χ² that a step promises, below which the fit has settled in any case.
+const LEAST_GAIN: f64 = 1e-6;
 /// A fit farther than this many prior standard deviations, and than that factor, has diverged.
 const RUNAWAY: [f64; 2] = [4.0, 8.0];
 
@@ -236,7 +238,11 @@ impl Search<'_> {
                     break None;
                 }
             };
-            let Some((next, there, linear)) = downhill else { break };
+            let Some((next, there, linear)) = downhill else {
+                // In the round-off of χ² no step is downhill.
+                settled = dot(&step, &here.gradient).abs() < LEAST_GAIN;
+                break;
+            };
             (logs, shown, here, steps) = (next, there, linear, steps + 1);
             settled = largest < SETTLED;
         }

@@ -150,7 +150,7 @@ pub fn figures(bats: &[Contender]) -> Vec<ComparedFigure> {
     rows.energy("vibration_at_best", "vibration at the best place", |c| c.vibration);
     rows.energy("least_vibration", "least vibration", |c| c.least_vibration);
     rows.place("least_vibration_place", "  where", |c| c.least_place);
-    rows.add("largest_bbcor", "largest BBCOR, free bat", Unit::One, |c| c.bbcor[0]);
+    rows.add("largest_bbcor", "largest BBCOR, free or as held", Unit::One, |c| c.bbcor[0]);
     let name = "largest BBCOR, held at 6 in";
     rows.add("largest_bbcor_pivoted", name, Unit::One, |c| c.bbcor[1]);
     rows.all

@@ -154,7 +154,7 @@ impl Barrel {
             clamped_change: change(bat, KnobSide::Clamped),
         };
         let other = |by: f64| change(&assuming(bat, by).ok()?, KnobSide::Free);
-        let by_poisson = match knows_poisson(bat) {
+        let by_poisson = match knows_poisson(bat, [hoop.from(), hoop.to()]) {
             true => None,
             false => other(-SPREAD).zip(other(SPREAD)).map(|(less, more)| [less, more]),
         };
@@ -266,9 +266,11 @@ fn rebound(
 /// Possible difference of Poisson's ratio from the assumed one.
 const SPREAD: f64 = 0.05;
 
-/// Whether Poisson's ratio of everything in the bat is known.
-fn knows_poisson(bat: &Bat) -> bool {
-    bat.layups().iter().all(|layup| layup.materials().all(has_poisson))
+/// Whether Poisson's ratio of everything on that stretch (m) is known.
+fn knows_poisson(bat: &Bat, [from, to]: [f64; 2]) -> bool {
+    let pieces = bat.profile().pieces.iter();
+    let mut there = pieces.filter(|piece| piece.start < to && piece.start + piece.length > from);
+    there.all(|piece| bat.layup(piece).materials().all(has_poisson))
 }
 
 /// Whether a material has a Poisson's ratio, or those of a composite.
