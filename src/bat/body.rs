@@ -6,6 +6,7 @@
 use std::sync::Arc;
 
 use crate::base::error::{Error, Result};
+use crate::base::marks::written_out;
 use crate::base::mistakes::Mistakes;
 use crate::base::number::significant;
 use crate::base::quadrature::{RunningSum, converged, gauss};
@@ -213,6 +214,11 @@ impl Bat {
     /// Name of the bat.
     pub fn name(&self) -> &str {
         &self.parts.name
+    }
+
+    /// The name as one line, for a screen.
+    pub fn title(&self) -> String {
+        written_out(self.name())
     }
 
     /// Where the numbers of the bat come from.

@@ -96,7 +96,7 @@ fn head(outcome: &Outcome, us: bool) -> String {
     );
     let warning = warning(outcome, us).map(|line| format!("Warning: {line}"));
     let rigid = outcome.rigid_wall.as_ref().map(|why| format!("Left out: {why}"));
-    let lines = [format!("{}: {verdict}", outcome.start.name()), change].into_iter();
+    let lines = [format!("{}: {verdict}", outcome.start.title()), change].into_iter();
     let lines = lines.chain(warning).chain(rigid).chain(to_know(outcome, us));
     lines.map(|line| wrapped(&line, 2)).collect::<String>() + "\n"
 }

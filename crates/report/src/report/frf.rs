@@ -153,7 +153,11 @@ pub fn text(told: &ToldResponse, full: bool, every: bool) -> String {
         *told;
     let most = if full { usize::MAX } else { PEAKS };
     let [at, to] = [at, to].map(|x| units.inline(units.length(x)));
-    let title = format!("Frequency response: {} from a force at {at} to {to}", kind.name());
+    let title = format!(
+        "Frequency response of {}: {} from a force at {at} to {to}",
+        bat.title(),
+        kind.name()
+    );
     let mut out = wrapped(&title, 4) + &edited(bat, units);
     if full || every || measured.is_none() {
         out += &answers(told, if full || every { usize::MAX } else { FREQUENCIES });

@@ -113,7 +113,7 @@ pub fn csv(bat: &Bat, barrel: &Barrel) -> String {
 
 /// The lowest modes, at most the given number, and the effect of the wall, for the terminal.
 pub fn text(bat: &Bat, barrel: &Barrel, most: usize, units: Units) -> [String; 2] {
-    let mut out = format!("Hoop modes of {}\n{}", bat.name(), edited(bat, units));
+    let mut out = format!("Hoop modes of {}\n{}", bat.title(), edited(bat, units));
     let [from, to] = [barrel.hoop().from(), barrel.hoop().to()];
     let stretch = format!(
         "  the wall as an elastic solid from {} to {} from the knob end; n waves around, m along",

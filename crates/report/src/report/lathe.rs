@@ -30,11 +30,11 @@ fn title(map: &LatheMap, scene: &Scene, units: Units) -> String {
          each band, the curve between stations unchanged",
         significant(scene.swing, 4),
         units.inline(units.length(scene.pivot)),
-        scene.ball.name,
+        scene.ball.title(),
         units.inline(units.speed(scene.ball_speed)),
         shown.per_name(),
     );
-    format!("What a cut does to {}\n{}{}", bat.name(), edited(bat, units), wrapped(&swing, 4))
+    format!("What a cut does to {}\n{}{}", bat.title(), edited(bat, units), wrapped(&swing, 4))
 }
 
 /// The text of a screen: where a cut has the largest effects, and the text below the tables; None where that is not
