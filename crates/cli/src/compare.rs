@@ -160,7 +160,7 @@ fn bats_beside(args: &Args) -> Result<Done> {
         warnings.extend(prepared.warning.map(|w| format!("{}: {w}", path.display())));
         entries.push(Entry { bat: prepared.bat, scene, law, request: prepared.request });
     }
-    scene::warn(&setup, &args.output);
+    scene::warn(&setup, entries.iter().map(|entry: &Entry| &entry.bat), &args.output);
     let terms = Terms {
         model,
         exactly: args.count.is_some(),
