@@ -81,6 +81,11 @@ pub struct Args {
     #[arg(long, value_name = "FILE", conflicts_with = "measured", help_heading = "Output")]
     report: Option<PathBuf>,
 
+    /// Damping by the materials: material, or assumed: a metal without a loss factor has the published one
+    #[arg(long, value_name = "WHOSE", hide_short_help = true, hide_possible_values = true,
+          value_parser = ["material", "assumed"])]
+    damping: Option<String>,
+
     #[command(flatten)]
     scene: SceneArgs,
 
@@ -110,7 +115,7 @@ fn measured_beside(args: &Args, file: &Path) -> Result<Done> {
         return Err(Error::value("compare", found, "one bat file"));
     };
     let measured = measured::read(file, &args.beside.read()?)?;
-    let bat = read(path, &EditArgs::default(), args.output.quiet)?;
+    let bat = read(path, &EditArgs::damped(&args.damping), args.output.quiet)?;
     let modes = args.count.map_or(10, usize::from);
     let Prepared { bat, request, warning } = args.solve.prepare(bat, modes, &args.output)?;
     let first = match (args.knob_first, args.tip_first) {
@@ -194,8 +199,9 @@ fn bats_beside(args: &Args) -> Result<Done> {
 /// mass hides.
 fn bats(args: &Args) -> Result<Vec<(&Path, Bat)>> {
     let mut bats: Vec<(&Path, Bat)> = vec![];
+    let damped = EditArgs::damped(&args.damping);
     for path in &args.bats {
-        bats.push((path, read(path, &EditArgs::default(), args.output.quiet)?));
+        bats.push((path, read(path, &damped, args.output.quiet)?));
     }
     let (path, first) = bats[0].clone();
     for (file, other) in &bats[1..] {
@@ -207,7 +213,8 @@ fn bats(args: &Args) -> Result<Vec<(&Path, Bat)>> {
     for what_if in &args.edits {
         let WhatIf { name, edits } = what_if;
         let bat = edited(&first, edits, |k| format!("--edit {name}, {}", edits[k].change.verb()))?;
-        bats.push((path, bat.with(|parts| parts.name = format!("{}: {name}", first.name()))?));
+        let bat = bat.with(|parts| parts.name = format!("{}: {name}", first.name()))?;
+        bats.push((path, damped.edit(bat)?));
     }
     Ok(bats)
 }

@@ -170,12 +170,8 @@ impl TestArgs {
 impl Args {
     /// The options about the files.
     fn known(&self) -> Result<Known> {
-        let unit = self.unit.as_deref().map(|text| (file_unit(text), text));
-        let (unit, label) = match unit {
-            None => (None, None),
-            Some((Ok(unit), _)) => (Some(unit), None),
-            Some((Err(_), text)) => (None, Some(text.to_owned())),
-        };
+        let unit = self.unit.as_deref().and_then(|text| file_unit(text).ok());
+        let label = self.unit.clone().filter(|_| unit.is_none());
         let places = self.places.as_deref().map(places::read).transpose()?;
         Ok(Known { unit, label, kind: self.kind, places, ..Known::default() })
     }

@@ -5,13 +5,12 @@ use std::fmt::Write;
 use crate::csv::Csv;
 use crate::parts::{Cell, Columns, Units, numbers, wrapped};
 use crate::schema::hit::Impact;
-use crate::schema::ring as file;
+use crate::schema::{Written, ring as file};
 use sweetspot::Bat;
 use sweetspot::base::units::{gravities, inches, miles_per_hour};
 use sweetspot::collision::aftermath::{Aftermath, Instant, PeakMotion, Strained, Watched};
 use sweetspot::collision::hit;
 use sweetspot::collision::strength::{Limit, Load, Strength, nearest};
-use sweetspot::files::schema::document::{Format, Generator};
 
 /// The reported effects of a hit.
 pub struct AfterHit {
@@ -292,11 +291,9 @@ pub fn document(
     report: &AfterHit,
     impact: Impact,
     ignored: Vec<String>,
-) -> file::RingFile {
+) -> Written<file::RingFile> {
     let along = |of: fn(&Strained) -> f64| report.envelope.iter().map(of).collect::<Vec<_>>();
-    file::RingFile::Hit(Box::new(file::AfterHit {
-        format: Format::new(),
-        generator: Generator::this(),
+    Written::of(file::RingFile::Hit(Box::new(file::AfterHit {
         edits: after.bat().edits().to_vec(),
         modes: after.count(),
         at_m: after.place,
@@ -315,5 +312,5 @@ pub fn document(
         strength: report.loads.clone(),
         impact,
         ignored,
-    }))
+    })))
 }

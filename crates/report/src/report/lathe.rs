@@ -14,6 +14,7 @@ use sweetspot::bat::body::STANDARD_PIVOT;
 use sweetspot::bat::edit::Edit;
 use sweetspot::collision::{Model, Scene};
 use sweetspot_study::answers::Answer;
+use sweetspot_study::ignored::in_hit;
 use sweetspot_study::lathe::found::{LatheFound, TurnedBand, WholeChange};
 use sweetspot_study::lathe::gauges::WhyNotSmooth;
 use sweetspot_study::lathe::map::LatheMap;
@@ -226,6 +227,9 @@ pub struct LatheFile {
     /// The results.
     #[serde(flatten)]
     pub found: LatheFound,
+    /// Neglected effects and their consequences; left out where none is known.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub ignored: Vec<String>,
 }
 
 document!(LatheFile, "lathe");
@@ -240,6 +244,7 @@ pub fn document(map: &LatheMap, scene: &Scene, model: Model) -> Written<LatheFil
         scene: scene_out(bat, scene),
         theory: map.piece.solution().theory.name().to_owned(),
         found: map.found.clone(),
+        ignored: in_hit(bat, scene),
     })
 }
 
