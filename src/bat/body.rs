@@ -197,7 +197,7 @@ impl Bat {
 
     fn of(mut parts: Parts, weighed: Weighed, factors: [f64; 2]) -> Result<Self> {
         let Parts { profile, fixtures, .. } = &mut parts;
-        fixtures.check(profile.length())?;
+        fixtures.check(profile)?;
         fixtures.settle(&profile.borders());
         let (layups, edits) = (vec![Layup::of(parts.material.clone())], vec![]);
         let mut bat = Self { parts, layups, weighed, factors, heard: false, edits, unedited: None };
@@ -464,11 +464,8 @@ impl Bat {
                 let softest = 1e-9 * material.youngs_modulus;
                 if let Some(shear) = material.shear_modulus.filter(|shear| *shear < softest) {
                     let expected = format!("{softest:e} Pa and more, a billionth of E");
-                    return Err(Error::value(
-                        name("shear_modulus"),
-                        format!("{shear:e} Pa"),
-                        expected,
-                    ));
+                    let found = format!("{shear:e} Pa");
+                    return Err(Error::value(name("shear_modulus"), found, expected));
                 }
             }
         }
