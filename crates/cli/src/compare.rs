@@ -143,11 +143,8 @@ fn bats_beside(args: &Args) -> Result<Done> {
             1 => "1 bat".to_owned(),
             count => format!("{count} bats"),
         };
-        return Err(Error::value(
-            "compare",
-            found,
-            format!("2 to {MOST} that can be compared: files, or --edit of the first"),
-        ));
+        let expected = format!("2 to {MOST} that can be compared: files, or --edit of the first");
+        return Err(Error::value("compare", found, expected));
     }
     if let Some(path) = &args.report {
         page::file::expected_page(path, &[&args.output.plots])?;
