@@ -385,6 +385,17 @@ fn the_nearest_bat_is_written_with_exit_code_3() {
     folder.json(&["modes", "near.json", "-n", "1", "--json", "-"]);
 }
 
+/// A search that its steps ended has not shown that a target cannot be had.
+#[test]
+fn what_was_not_reached_is_not_called_impossible() {
+    let folder = Folder::new("aim-far");
+    let output = folder.run(&["aim", "r161", "--target", "f1 900 Hz"]);
+    let text = String::from_utf8_lossy(&output.stdout).replace('\n', " ");
+    assert_eq!(output.status.code(), Some(3), "{text}");
+    let stopped = text.contains("as far as was searched");
+    assert!(stopped && text.contains("not reached") && !text.contains("cannot"), "{text}");
+}
+
 /// Wood is removed from a bat whose radius is a formula in several pieces as from any other: the kept part keeps its
 /// curve, and nothing is added.
 #[test]

@@ -404,6 +404,11 @@ fn every_bound_of_the_schema_is_the_readers() {
     let mut agree = |bat: &Value, path: &str, value: f64, right: bool| {
         // A member that the bat does not have, in place of the other one.
         let mut changed = bat.clone();
+        // A pointed end bears none of these.
+        if ["/attachments", "/absorbers", "/supports"].iter().any(|list| path.starts_with(list)) {
+            changed["profile"]["diameter"][0] = json!(2);
+            changed["profile"]["wall_thickness"][0] = json!(1);
+        }
         let (parent, key) = path.rsplit_once('/').unwrap();
         let parent = changed.pointer_mut(parent).unwrap();
         if path == "/absorbers/0/stiffness" {

@@ -63,9 +63,13 @@ fn furnished(name: &str) -> Folder {
              "diameter": [{ "from": "4 in", "to": "18 in", "at_least": "24 mm" }] }"#,
     );
     // docs/tap.md describes it; a file's ending is a hint.
-    for name in ["taps.m4a", "one.m4a", "two.m4a"] {
-        folder.write(name, include_bytes!("golden/taps.wav"));
+    let mut taps = include_bytes!("golden/taps.wav").to_vec();
+    for name in ["taps.m4a", "one.m4a"] {
+        folder.write(name, &taps);
     }
+    // Another recording, by its last sample.
+    *taps.last_mut().unwrap() ^= 1;
+    folder.write("two.m4a", taps);
     // docs/wood.md describes them.
     folder.write("readings.json", include_str!("golden/readings-1.json"));
     let bats = r#"{ "format": "sweetspot-scatter/1", "density": { "lognormal": "4 %" }, "tol": 1e-2,

@@ -429,16 +429,28 @@ fn nothing_in_a_file_reaches_the_terminal_raw() {
             .any(|c| c.is_control() && c != '\n' || strange.contains(c) && !c.is_ascii());
         assert!(!raw, "{said:?}");
     }
-    // Nor on standard output, by a name.
+    // Nor on standard output, by a name; and a name is no line of its own.
     folder.write(
         "my.json",
-        GOOD.replace("\"material\"", "\"name\": \"a\\u001b[31m\\u202e\", \"material\""),
+        GOOD.replace("\"material\"", "\"name\": \"a\\u001b[31m\\u202e\\nb\", \"material\""),
     );
-    for verb in ["modes", "analyze", "advise", "compare"] {
-        let args = [&[verb, "my.json"], &["my.json"][..usize::from(verb == "compare")]].concat();
-        let output = folder.run(&args);
+    for verb in [
+        "modes",
+        "analyze",
+        "analyze --full",
+        "advise",
+        "compare my.json",
+        "hit",
+        "ring --hit 0.5",
+        "bbcor",
+        "frf --at 0.5",
+        "lathe",
+        "trade",
+    ] {
+        let [verb, rest @ ..] = &verb.split(' ').collect::<Vec<_>>()[..] else { unreachable!() };
+        let output = folder.run(&[&[verb, "my.json"], rest].concat());
         let said = String::from_utf8(output.stdout).unwrap();
-        assert!(said.contains(r"\u{1b}[31m"), "{verb} {said:?}");
+        assert!(said.contains(r"a\u{1b}[31m\u{202e}\nb"), "{verb} {said:?}");
         assert!(!said.contains(['\u{1b}', '\u{202e}']), "{verb} {said:?}");
     }
     folder.write("t.csv", "x_m,radius_m\n0,\u{1b}[31m7\n");

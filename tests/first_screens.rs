@@ -371,3 +371,13 @@ fn a_note_that_no_wood_of_its_kind_has_is_doubted() {
         assert!((share / usual - 1.0).abs() < 0.05 || hertz != "80", "{hertz}: {share} {usual}");
     }
 }
+
+/// A bat that flies turns ever further from the swing: at its ends the largest displacement is the last one.
+#[test]
+fn a_displacement_that_still_grows_has_no_largest() {
+    let folder = Folder::new("growing");
+    let hit = ["ring", "r161", "--hit", "70 cm", "--watch"];
+    let of = |place: &str| folder.text(&[&hit[..], &[place]].concat());
+    assert!(of("84 cm").contains(") and growing\n"), "{}", of("84 cm"));
+    assert!(!of("15.24 cm").contains("growing"));
+}

@@ -2,7 +2,9 @@
 
 use crate::common;
 
-use common::{LENGTH, cone};
+use std::f64::consts::PI;
+
+use common::{DENSITY, LENGTH, MODULUS, RADIUS, cone, dowel};
 use sweetspot::bat::fixtures::{
     Absorber, Attachment, Fixtures, Grip, Held, Joint, Region, Support, Tape,
 };
@@ -254,6 +256,30 @@ fn rigid_motions_are_found_and_named() {
     }
 }
 
+/// A pointed end gives way to any force without end: what acts on it is refused, by its list.
+#[test]
+fn nothing_is_fastened_to_a_point() {
+    let point = cone(0.0, 0.03);
+    let on = |x: f64| {
+        let weight = Fixtures { attachments: weights(&[(x, 0.02)]), ..Fixtures::default() };
+        let spring = Fixtures { attachments: springs(&[(x, 1e4, 0.0)]), ..Fixtures::default() };
+        let pin = Fixtures { supports: pins(&[x]), ..Fixtures::default() };
+        [("attachments", weight), ("attachments", spring), ("supports", pin)]
+    };
+    for x in [0.0, 0.01] {
+        for (list, fixtures) in on(x) {
+            let bat = Bat::builder(point.profile().clone(), point.material().clone());
+            let built = bat.fixtures(fixtures).build().map_err(|why| why.to_string());
+            match x == 0.0 {
+                true => {
+                    assert!(built.is_err_and(|why| why.contains(list) && why.contains("point")))
+                }
+                false => assert!(built.is_ok(), "{built:?}"),
+            }
+        }
+    }
+}
+
 /// The two inches-and-centimetres forms of one place differ in their last digit.
 const SIX_INCHES: f64 = 6.0 * 0.0254;
 const FIFTEEN_CENTIMETRES: f64 = 0.1524;
@@ -288,6 +314,38 @@ fn two_pins_apart_by_round_off_are_one_pin() {
             }
             let two = spectrum(Fixtures { supports, ..Fixtures::default() }, theory);
             assert_eq!(two, one, "{theory:?} {apart}");
+        }
+    }
+}
+
+/// The moments over the inner pins of a dowel on pins at equal distances ℓ are `sin(kπi/N)` with
+/// `cos(kπ/N) = (coth λ − cot λ)/(csc λ − csch λ)`, `λ⁴ = ω² ρA ℓ⁴/EI`, and 0 at the slowest, `λ = π` (three-moment
+/// equation of a vibrating beam). So many modes lie close together.
+#[test]
+fn a_dowel_on_many_pins_has_a_mode_for_every_stretch() {
+    for stretches in [3, 33, 39, 99, 149] {
+        let x = |k: usize| (LENGTH * k as f64 / stretches as f64).min(LENGTH);
+        let supports = pins(&(0..=stretches).map(x).collect::<Vec<_>>());
+        let bare = dowel();
+        let bat = Bat::builder(bare.profile().clone(), bare.material().clone());
+        let bat = bat.fixtures(Fixtures { supports, ..Fixtures::default() }).build().unwrap();
+        let modes = 20.min(stretches);
+        let request = Request { modes, tolerance: 1e-8, ..Request::plain() };
+        let solution = solve(&bat, &request).unwrap();
+        assert!(solution.met(), "{stretches} {}", solution.ending);
+        let scale = RADIUS / 2.0 * (MODULUS / DENSITY).sqrt() * (stretches as f64 / LENGTH).powi(2);
+        for (k, mode) in solution.modes.iter().enumerate() {
+            let wanted = (k as f64 * PI / stretches as f64).cos();
+            let ratio =
+                |l: f64| (1.0 / l.tanh() - 1.0 / l.tan()) / (1.0 / l.sin() - 1.0 / l.sinh());
+            let (mut low, mut high) = (PI, 4.73);
+            while k > 0 && high - low > 1e-12 {
+                let middle = 0.5 * (low + high);
+                if ratio(middle) > wanted { low = middle } else { high = middle }
+            }
+            let exact = scale * low * low / (2.0 * PI);
+            let off = mode.frequency() / exact - 1.0;
+            assert!(off.abs() < 1e-7, "{stretches} {k} {off:e}");
         }
     }
 }

@@ -439,6 +439,13 @@ fn the_program_says_what_the_wall_does() {
     ] {
         assert_eq!(folder.run(args).status.code(), Some(2), "{args:?}");
     }
+    // A wall for a bat that has none is doubted.
+    let doubted = |bat: &str| {
+        let args = ["hit", bat, "--points", "3", "--wall-stiffness", "4e6"];
+        let told = String::from_utf8(folder.run(&args).stderr).unwrap();
+        told.contains("--wall-stiffness gives a wall to a solid bat")
+    };
+    assert!(doubted("r161.json") && !doubted("tube.json"));
     // The energy of the wall is listed next to the vibration, and in the reason for the best place.
     let (hollow, solid) = (hit(&[]), folder.text(&["hit", "r161.json", "--points", "5"]));
     let head = |text: &str| text.lines().find(|line| line.contains("vibra-")).unwrap().to_owned();

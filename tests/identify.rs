@@ -176,6 +176,11 @@ fn what_is_missing_is_said() {
         (&["--simulate", "bat.json", "--points", "2"], "3 to 100"),
         (&["--simulate", "bat.json", "--points", "6", "--missing", "4"], "3 at most"),
         (&["--simulate", "bat.json", "--noise", "3"], "-200 to 0 dB"),
+        // What the program drew is not blamed on the masses told.
+        (
+            &["--simulate", "r161", "--accelerometer", "90 g", "--rove", "accelerometers"],
+            "such a test does not find the modes",
+        ),
     ] {
         let output = folder.run(&[&["identify"], args].concat());
         let told = String::from_utf8_lossy(&output.stderr).replace('\n', " ");

@@ -349,17 +349,22 @@ fn the_first_separation_states_its_error() {
 }
 
 /// A nearly dead ball stays on the bat and is hit by its vibration, with a law that was never measured; a usual ball is
-/// not, and its law was measured.
+/// not, and its law was measured. A ball that is pressed harder than any measured one is beyond the law too, and so is
+/// one that is pressed by more than its radius.
 #[test]
 fn hits_beyond_the_ball_s_law_are_flagged() {
     let bat = bundled_bat("meshes/r161.json").unwrap();
-    let flags = |cor: f64, places: &[f64]| -> Vec<bool> {
-        let scene = Scene { cor, ..Scene::default() };
+    let at_speed = |cor: f64, ball_speed: f64, places: &[f64]| -> Vec<bool> {
+        let scene = Scene { cor, ball_speed, ..Scene::default() };
         let hits = sweep(&bat, Model::Contact, &scene, &Accuracy::default(), places).unwrap();
         let has = |impact: &Impact| impact.flags.contains(&"ball_law_beyond");
         hits.impacts.iter().map(has).collect()
     };
+    let flags = |cor: f64, places: &[f64]| at_speed(cor, Scene::default().ball_speed, places);
     let barrel = [0.6, 0.65, 0.7, 0.75];
+    // The fastest pitch at the plate, and one twice as fast.
+    assert_eq!(at_speed(0.5, 42.5, &barrel), [false; 4]);
+    assert_eq!(at_speed(0.5, 85.0, &barrel), [true; 4]);
     assert_eq!(flags(0.5, &barrel), [false; 4]);
     assert_eq!(flags(0.3, &barrel), [true; 4]);
     assert_eq!(flags(0.44, &barrel), [false; 4]);

@@ -742,3 +742,18 @@ fn outputs_without_a_column_are_in_the_files() {
     let screen = folder.text(&args);
     assert!(screen.contains("--json and --csv have them"), "{screen}");
 }
+
+/// A dowel moves as far at either end: which one is the largest deflection, to which its modal masses are scaled, turns
+/// with a cut. An R161's ends differ.
+#[test]
+fn a_modal_mass_between_two_ends_has_no_slope_to_trust() {
+    let folder = Folder::new("lathe-ends");
+    let outputs =
+        ["--outputs", "modal_mass_mode_1_kg,f1_hz", "--bands", "10 cm", "--json", "-", "--quiet"];
+    for (bat, uneven) in [("dowel", true), ("r161", false)] {
+        let found = folder.json(&[&["lathe", bat], &outputs[..]].concat());
+        let told = found["not_smooth_at"].as_array().unwrap();
+        assert_eq!(told.len(), usize::from(uneven), "{bat}: {told:?}");
+        assert!(told.iter().all(|one| one["name"] == "modal_mass_mode_1_kg"), "{bat}: {told:?}");
+    }
+}

@@ -718,3 +718,15 @@ fn matrices_are_written_whole() {
         assert_eq!((size[0], size[1], size[2]), (18, 18, lines.count()), "{name}");
     }
 }
+
+/// A bat without modes recoils as a body, with the inertia of its sections.
+#[test]
+fn a_hit_without_modes_is_the_rigid_one() {
+    let folder = Folder::new("no-modes");
+    let speed = |more: &[&str]| {
+        let args = [&["hit", "r161", "--at", "0.7", "--json", "-"], more].concat();
+        folder.json(&args)["impacts"][0]["exit_speed_m_s"].as_f64().unwrap()
+    };
+    let (none, rigid) = (speed(&["-n", "0"]), speed(&["--model", "rigid"]));
+    assert!((none / rigid - 1.0).abs() < 1e-12, "{none} {rigid}");
+}

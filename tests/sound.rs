@@ -144,6 +144,25 @@ fn assumed_damping_is_that_of_a_metal_and_is_named_and_wood_has_none() {
     assert!((0.99 * 0.5e-4..0.5e-4).contains(&ratio(&assumed)), "{}", ratio(&assumed));
     let named = |told: &Value| told["model"]["ignored"].to_string().contains("0.0001 of the metal");
     assert!(!named(&plain) && named(&assumed));
+    // The other verbs with damping in their answers name it too.
+    for (verb, place) in [
+        ("hit --points 1", "/ignored"),
+        ("hoop", "/notes"),
+        ("frf --at 0.7", "/ignored"),
+        ("lathe --bands 0.4m", "/ignored"),
+        ("compare softball_made_up", "/bats/0/ignored"),
+    ] {
+        let words: Vec<&str> = verb.split(' ').collect();
+        let told = |more: &[&str]| {
+            let args =
+                [&[words[0], &metal], &words[1..], &["--json", "-", "--quiet"], more].concat();
+            let told: Value = serde_json::from_str(&folder.text(&args)).unwrap();
+            told.pointer(place).map_or(String::new(), Value::to_string)
+        };
+        let [plain, assumed] = [told(&[]), told(&["--damping", "assumed"])];
+        assert!(!plain.contains("0.0001 of the metal"), "{verb}: {plain}");
+        assert!(assumed.contains("0.0001 of the metal"), "{verb}: {assumed}");
+    }
     let output = folder.run(&["modes", &wood, "--damping", "assumed"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&output.stderr).contains("loss_factor"));

@@ -129,6 +129,17 @@ fn what_is_no_tap_is_refused() {
         let (found, code) = heard(&folder, &["tap", "r161", name]);
         assert_eq!((code, &found["refused"]["code"]), (1, &Value::from("no_tap")), "{name}");
     }
+    // A copy of a recording holds no further taps.
+    let one = wav::file(&taps(&[174.0, 581.0, 1187.0, 1858.0]));
+    folder.write("one.wav", &one);
+    folder.write("copy.wav", &one);
+    for again in ["one.wav", "copy.wav"] {
+        let told = folder.run(&["tap", "r161", "one.wav", again]);
+        let said = String::from_utf8_lossy(&told.stderr);
+        assert!(
+            told.status.code() == Some(2) && said.contains(&format!("{again}: found the same"))
+        );
+    }
     folder.write("note.ogg", b"OggS\0\x02..........OpusHead");
     let told = folder.run(&["tap", "r161", "note.ogg"]);
     assert_eq!(told.status.code(), Some(2));

@@ -6,6 +6,7 @@
 use std::sync::Arc;
 
 use crate::base::error::{Error, Result};
+use crate::base::marks::written_out;
 use crate::base::mistakes::Mistakes;
 use crate::base::number::significant;
 use crate::base::quadrature::{RunningSum, converged, gauss};
@@ -196,7 +197,7 @@ impl Bat {
 
     fn of(mut parts: Parts, weighed: Weighed, factors: [f64; 2]) -> Result<Self> {
         let Parts { profile, fixtures, .. } = &mut parts;
-        fixtures.check(profile.length())?;
+        fixtures.check(profile)?;
         fixtures.settle(&profile.borders());
         let (layups, edits) = (vec![Layup::of(parts.material.clone())], vec![]);
         let mut bat = Self { parts, layups, weighed, factors, heard: false, edits, unedited: None };
@@ -213,6 +214,11 @@ impl Bat {
     /// Name of the bat.
     pub fn name(&self) -> &str {
         &self.parts.name
+    }
+
+    /// The name as one line, for a screen.
+    pub fn title(&self) -> String {
+        written_out(self.name())
     }
 
     /// Where the numbers of the bat come from.
@@ -458,11 +464,8 @@ impl Bat {
                 let softest = 1e-9 * material.youngs_modulus;
                 if let Some(shear) = material.shear_modulus.filter(|shear| *shear < softest) {
                     let expected = format!("{softest:e} Pa and more, a billionth of E");
-                    return Err(Error::value(
-                        name("shear_modulus"),
-                        format!("{shear:e} Pa"),
-                        expected,
-                    ));
+                    let found = format!("{shear:e} Pa");
+                    return Err(Error::value(name("shear_modulus"), found, expected));
                 }
             }
         }

@@ -4,30 +4,40 @@ use crate::base::error::{Error, Result};
 use crate::base::mistakes::{self, Mistakes};
 use crate::bat::fixtures::{Attachment, Fixtures, Held, Region};
 use crate::bat::part::{Part, SOFTEST};
-use crate::bat::profile::SAME_PLACE;
+use crate::bat::profile::{Profile, SAME_PLACE};
 
 /// Frequencies closer than this, relative, count as equal.
 const LEAST_GAP: f64 = 1e-9;
 
 impl Fixtures {
-    /// Checks that every value is possible on a bat of that length (m).
+    /// Checks that every value is possible on a bat of that profile.
     ///
     /// # Errors
     ///
     /// [`Error::Value`] with the path of the key in a bat file as its field, or several of them.
-    pub fn check(&self, length: f64) -> Result<()> {
-        let mut mistakes = Mistakes::default();
+    pub fn check(&self, profile: &Profile) -> Result<()> {
+        let (length, mut mistakes) = (profile.length(), Mistakes::default());
         mistakes.note(each("regions", &self.regions, length));
         mistakes.note(each("attachments", &self.attachments, length));
         mistakes.note(each("tapes", &self.tapes, length));
         mistakes.note(each("absorbers", &self.absorbers, length));
         mistakes.note(each("joints", &self.joints, length));
         mistakes.note(each("supports", &self.supports, length));
-        if let Some(grip) = &self.grip {
-            mistakes.note(grip.check("grip", length));
-        }
+        mistakes.note(self.grip.iter().try_for_each(|grip| grip.check("grip", length)));
         mistakes.end(())?;
-        self.check_apart(length)
+        self.check_apart(length)?;
+        self.check_points(profile)
+    }
+
+    /// Checks that nothing acts on a point of the bat, which would give way to any force without end.
+    fn check_points(&self, profile: &Profile) -> Result<()> {
+        let attached = self.attachments.iter().map(|on| ("attachments", on.x));
+        let hung = self.absorbers.iter().map(|on| ("absorbers", on.x));
+        let held = self.supports.iter().map(|on| ("supports", on.x));
+        let point = |(_, x): &(_, f64)| profile.at(*x).outer == 0.0;
+        let Some((list, x)) = attached.chain(hung).chain(held).find(point) else { return Ok(()) };
+        let found = format!("one at {x} m, where the bat ends in a point");
+        Err(Error::value(list, found, "another place, or a radius there: a point bears no force"))
     }
 
     /// Checks that fixtures which exclude each other are at different places.

@@ -63,9 +63,11 @@ impl<S: Real> Placed<S> {
         Some(first..first + terms)
     }
 
-    /// Number of masses that hang on springs.
-    pub fn hung(&self) -> usize {
-        self.points.iter().filter(|point| point.spring.is_some()).count()
+    /// Number of modes that may lie close together: every mass on a spring, and every stretch between contacts or
+    /// joints, has its own.
+    pub fn local(&self) -> usize {
+        let hung = self.points.iter().filter(|point| point.spring.is_some()).count();
+        hung + self.contacts.len() + self.joints.len()
     }
 
     /// A new strain for a spring of that stiffness (N/m or N m/rad).

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::base::error::{Error, Result};
+use crate::base::marks::written_out;
 use crate::collision::contact::collider::{Law, LawTerms};
 use crate::collision::contact::power_law;
 
@@ -55,6 +56,11 @@ pub struct Ball {
 }
 
 impl Ball {
+    /// The name as one line, for a screen.
+    pub fn title(&self) -> String {
+        written_out(&self.name)
+    }
+
     /// A baseball, in the middle of the rules' limits: 5 to 5¼ oz, and 9 to 9¼ in around.
     pub fn baseball() -> Self {
         Self {

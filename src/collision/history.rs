@@ -64,11 +64,3 @@ pub fn history(
     }
     all
 }
-
-/// The energy (J) that the ball does not return: `∮ F dx`, by straight lines.
-pub fn loop_area(moments: &[Moment]) -> f64 {
-    let work = |pair: &[Moment]| {
-        0.5 * (pair[0].force + pair[1].force) * (pair[1].compression - pair[0].compression)
-    };
-    moments.windows(2).map(work).sum()
-}

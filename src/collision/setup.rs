@@ -107,8 +107,11 @@ impl Setup {
         "loss_share",
     ];
 
-    /// Members with an implausible speed, most likely a bare number in another unit, and the warning for each.
-    pub fn warnings(&self) -> Vec<(&'static str, String)> {
+    /// Members that are strange for one of these bats, such as a speed in another unit, and the warning for each.
+    pub fn warnings<'a>(
+        &self,
+        bats: impl IntoIterator<Item = &'a Bat>,
+    ) -> Vec<(&'static str, String)> {
         let all = [
             ("pitch", self.pitch, 60.0, "m/s", "\"90 mph\""),
             ("swing_speed", self.swing_speed, 100.0, "rad/s", "about 43 rad/s"),
@@ -118,7 +121,10 @@ impl Setup {
         let told = |(member, value, _, unit, usual)| {
             (member, format!("is {value} {unit}; usual is {usual}"))
         };
-        strange.map(told).collect()
+        let solid = |bat: &Bat| bat.profile().pieces.iter().all(|piece| piece.at(0.5).inner == 0.0);
+        let on_solid = self.wall_stiffness.is_some() && bats.into_iter().any(solid);
+        let wall = ("wall_stiffness", "gives a wall to a solid bat; leave it out there".to_owned());
+        strange.map(told).chain(on_solid.then_some(wall)).collect()
     }
 
     /// The scene on that bat, and the origin of its swing. `tolerance` is that of exit speeds over the closing speed,

@@ -97,11 +97,8 @@ impl Hit {
         let spot = SweetSpot::find(&hitter);
         let best = spot.exit_speed_max.and_then(|peak| best_at(&hitter, peak.x));
         let Some(best) = best else {
-            return Err(Error::value(
-                "swing",
-                "no place where ball and bat meet",
-                "a ball that the bat meets",
-            ));
+            let found = "no place where ball and bat meet";
+            return Err(Error::value("swing", found, "a ball that the bat meets"));
         };
         let error = |impact: &Impact| {
             let closing = impact.bat_speed + scene.ball_speed;

@@ -83,9 +83,9 @@ where
         self.iterate(self.wanted(count, f64::INFINITY, earliest))
     }
 
-    /// The request to the iteration: every absorber may have nearly the same frequency as another mode.
+    /// The request to the iteration: fixtures may have modes of nearly the same frequency.
     fn wanted(&self, count: usize, residual: f64, earliest: usize) -> Wanted {
-        let clustered = self.statics.fixed.as_ref().map_or(0, |fixed| fixed.placed.hung());
+        let clustered = self.statics.fixed.as_ref().map_or(0, |fixed| fixed.placed.local());
         Wanted { count, residual, earliest, clustered }
     }
 

@@ -39,6 +39,8 @@ pub struct Choice {
 pub fn theory(bat: &Bat, request: &Request) -> Result<Choice> {
     // An impossible request is refused before any work.
     request.check(1)?;
+    // Without a mode, that of the first: a rigid bat recoils with the inertia of its sections too.
+    let (asked, request) = (request.modes, &Request { modes: request.modes.max(1), ..*request });
     let known = bat.knows_shear();
     // Shear and rotary inertia affect the fast modes most: if a few slow ones need both, all do.
     if known && request.modes > FEW {
@@ -53,7 +55,7 @@ pub fn theory(bat: &Bat, request: &Request) -> Result<Choice> {
         (true, _) => Theory::Rayleigh,
         (false, _) => Theory::EulerBernoulli,
     };
-    let warning = (!known && shear > request.tolerance).then(|| {
+    let warning = (!known && asked > 0 && shear > request.tolerance).then(|| {
         format!(
             "shear is left out, because a material has no \"shear_modulus\"; with the G/E of its \
              kind mode 1 is {} % too high without it, and one of the modes {} %",

@@ -151,7 +151,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let Prepared { bat, request, warning } = args.solve.prepare(bat, 10, &args.output)?;
     let (setup, model) = args.scene.setup()?;
     let (scene, law) = setup.scene(&bat, Some(request.tolerance)).map_err(as_options)?;
-    scene::warn(&setup, &args.output);
+    scene::warn(&setup, [&bat], &args.output);
     let hit = HitTerms { scene: scene.clone(), model, exactly: false };
     let terms = Terms { request, hit, law };
     let placed = |error: Error| placed(error, aim_file.as_ref(), args);

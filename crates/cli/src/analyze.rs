@@ -126,7 +126,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let (Solved { bat, solution, warning }, proven) =
         args.guarantee.solve_for(bat, &args.bat, &solve, &args.output)?;
     let (scene, law) = setup.scene(&bat, Some(args.solve.tol)).map_err(as_options)?;
-    scene::warn(&setup, &args.output);
+    scene::warn(&setup, [&bat], &args.output);
     let inputs = args.report.as_ref().map(|_| inputs(args, &text)).transpose()?;
     let beside = args.report.as_ref().filter(|_| args.lab);
     let lab = beside.map(|report| lab::beside(report, &bat, &text)).transpose()?;

@@ -81,6 +81,11 @@ pub struct Args {
     #[arg(long, value_name = "FILE", conflicts_with = "measured", help_heading = "Output")]
     report: Option<PathBuf>,
 
+    /// Damping by the materials: material, or assumed: a metal without a loss factor has the published one
+    #[arg(long, value_name = "WHOSE", hide_short_help = true, hide_possible_values = true,
+          value_parser = ["material", "assumed"])]
+    damping: Option<String>,
+
     #[command(flatten)]
     scene: SceneArgs,
 
@@ -110,7 +115,7 @@ fn measured_beside(args: &Args, file: &Path) -> Result<Done> {
         return Err(Error::value("compare", found, "one bat file"));
     };
     let measured = measured::read(file, &args.beside.read()?)?;
-    let bat = read(path, &EditArgs::default(), args.output.quiet)?;
+    let bat = read(path, &EditArgs::damped(&args.damping), args.output.quiet)?;
     let modes = args.count.map_or(10, usize::from);
     let Prepared { bat, request, warning } = args.solve.prepare(bat, modes, &args.output)?;
     let first = match (args.knob_first, args.tip_first) {
@@ -138,11 +143,8 @@ fn bats_beside(args: &Args) -> Result<Done> {
             1 => "1 bat".to_owned(),
             count => format!("{count} bats"),
         };
-        return Err(Error::value(
-            "compare",
-            found,
-            format!("2 to {MOST} that can be compared: files, or --edit of the first"),
-        ));
+        let expected = format!("2 to {MOST} that can be compared: files, or --edit of the first");
+        return Err(Error::value("compare", found, expected));
     }
     if let Some(path) = &args.report {
         page::file::expected_page(path, &[&args.output.plots])?;
@@ -160,7 +162,7 @@ fn bats_beside(args: &Args) -> Result<Done> {
         warnings.extend(prepared.warning.map(|w| format!("{}: {w}", path.display())));
         entries.push(Entry { bat: prepared.bat, scene, law, request: prepared.request });
     }
-    scene::warn(&setup, &args.output);
+    scene::warn(&setup, entries.iter().map(|entry: &Entry| &entry.bat), &args.output);
     let terms = Terms {
         model,
         exactly: args.count.is_some(),
@@ -194,8 +196,9 @@ fn bats_beside(args: &Args) -> Result<Done> {
 /// mass hides.
 fn bats(args: &Args) -> Result<Vec<(&Path, Bat)>> {
     let mut bats: Vec<(&Path, Bat)> = vec![];
+    let damped = EditArgs::damped(&args.damping);
     for path in &args.bats {
-        bats.push((path, read(path, &EditArgs::default(), args.output.quiet)?));
+        bats.push((path, read(path, &damped, args.output.quiet)?));
     }
     let (path, first) = bats[0].clone();
     for (file, other) in &bats[1..] {
@@ -207,7 +210,8 @@ fn bats(args: &Args) -> Result<Vec<(&Path, Bat)>> {
     for what_if in &args.edits {
         let WhatIf { name, edits } = what_if;
         let bat = edited(&first, edits, |k| format!("--edit {name}, {}", edits[k].change.verb()))?;
-        bats.push((path, bat.with(|parts| parts.name = format!("{}: {name}", first.name()))?));
+        let bat = bat.with(|parts| parts.name = format!("{}: {name}", first.name()))?;
+        bats.push((path, damped.edit(bat)?));
     }
     Ok(bats)
 }

@@ -10,7 +10,7 @@ use sweetspot::Error;
 use sweetspot::base::error::{Complaint, Excerpt, FilePosition};
 use sweetspot::base::marks;
 use sweetspot_report::report::mistakes::ErrorFile;
-use sweetspot_report::schema;
+use sweetspot_report::schema::{self, Written};
 
 /// Columns of a narrow terminal.
 const WIDTH: usize = 80;
@@ -32,7 +32,7 @@ pub fn render(error: &Error, coloured: bool) -> String {
 }
 
 /// Prints the mistakes for other programs, in one line on standard error, if the command line asks for JSON.
-pub fn as_json(document: impl FnOnce() -> ErrorFile) {
+pub fn as_json(document: impl FnOnce() -> Written<ErrorFile>) {
     let mut options = std::env::args_os().skip(1).take_while(|word| word != "--");
     if options.any(|word| word == "--json" || word.as_encoded_bytes().starts_with(b"--json=")) {
         // If standard error is closed, the message is lost.

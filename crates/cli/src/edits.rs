@@ -61,6 +61,11 @@ pub struct EditArgs {
 }
 
 impl EditArgs {
+    /// No edits, and that value of `--damping`.
+    pub fn damped(whose: &Option<String>) -> Self {
+        Self { changes: vec![], damping: whose.clone() }
+    }
+
     /// The bat after these edits, with the chosen damping.
     ///
     /// # Errors

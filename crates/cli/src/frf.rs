@@ -117,12 +117,8 @@ pub fn run(args: &Args) -> Result<Done> {
 
 /// The options about a file of responses.
 fn known(args: &Args) -> Result<Known> {
-    let unit = args.unit.as_deref().map(|text| (file_unit(text), text));
-    let (unit, label) = match unit {
-        None => (None, None),
-        Some((Ok(unit), _)) => (Some(unit), None),
-        Some((Err(_), text)) => (None, Some(text.to_owned())),
-    };
+    let unit = args.unit.as_deref().and_then(|text| file_unit(text).ok());
+    let label = args.unit.clone().filter(|_| unit.is_none());
     let places = args.places.read()?;
     let told = [args.at.is_some(), args.to.is_some()];
     Ok(Known { which: args.function, unit, label, kind: args.kind, places, told })

@@ -101,7 +101,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let Prepared { bat, request, warning } = prepared;
     let tolerance = (!args.bat.asked()).then_some(request.tolerance);
     let (scene, law) = setup.scene(&bat, tolerance).map_err(as_options)?;
-    scene::warn(&setup, &args.output);
+    scene::warn(&setup, [&bat], &args.output);
     let places = args.place.places(&bat)?;
     let progress = args.output.progress("modes");
     let tell = |share, what: &str| progress.say(share, what);

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use sweetspot::base::error::Complaint;
 use sweetspot::motion::frf::ResponseKind;
 use sweetspot::{Error, Result};
 use sweetspot_report::exchange::{frf_uff, shared_uff};
@@ -142,12 +143,7 @@ fn noise(text: &str) -> std::result::Result<f64, String> {
 }
 
 impl TestArgs {
-    fn test(
-        &self,
-        accelerometer: Option<f64>,
-        window: Option<f64>,
-        top: Option<f64>,
-    ) -> VirtualTest {
+    fn test(&self, of: &Args) -> VirtualTest {
         /// The default mass of an accelerometer (kg) and the default band (Hz).
         const USUAL: (f64, f64) = (0.005, 2000.0);
         VirtualTest {
@@ -156,12 +152,12 @@ impl TestArgs {
             missing: self.missing,
             double_hits: self.double_hits,
             reference: self.reference,
-            accelerometer: accelerometer.unwrap_or(USUAL.0),
+            accelerometer: of.accelerometer.unwrap_or(USUAL.0),
             hammer: self.hammer,
             tip: self.tip,
             noise: self.noise,
-            window,
-            top: top.unwrap_or(USUAL.1),
+            window: of.window,
+            top: of.to_hz.unwrap_or(USUAL.1),
             seed: self.seed,
         }
     }
@@ -170,12 +166,8 @@ impl TestArgs {
 impl Args {
     /// The options about the files.
     fn known(&self) -> Result<Known> {
-        let unit = self.unit.as_deref().map(|text| (file_unit(text), text));
-        let (unit, label) = match unit {
-            None => (None, None),
-            Some((Ok(unit), _)) => (Some(unit), None),
-            Some((Err(_), text)) => (None, Some(text.to_owned())),
-        };
+        let unit = self.unit.as_deref().and_then(|text| file_unit(text).ok());
+        let label = self.unit.clone().filter(|_| unit.is_none());
         let places = self.places.as_deref().map(places::read).transpose()?;
         Ok(Known { unit, label, kind: self.kind, places, ..Known::default() })
     }
@@ -198,13 +190,10 @@ impl Args {
             ("--kind", self.kind.is_some()),
             ("--from-hz", self.from_hz.is_some()),
         ];
-        match given.iter().find(|(_, given)| *given && self.virtual_test.simulate.is_some()) {
-            Some((name, _)) => {
-                let expected = "measured responses, or --simulate and no such files";
-                Err(Error::value(*name, "it beside --simulate", expected))
-            }
-            None => Ok(()),
-        }
+        let beside = |(_, given): &&(_, bool)| *given && self.virtual_test.simulate.is_some();
+        let Some((name, _)) = given.iter().find(beside) else { return Ok(()) };
+        let expected = "measured responses, or --simulate without it";
+        Err(Error::value(*name, "it beside --simulate", expected))
     }
 
     fn test(&self) -> Result<TestKnown> {
@@ -233,7 +222,7 @@ pub fn run(args: &Args) -> Result<Done> {
         None => None,
         Some(bat) => {
             let bat = read_with_text(bat, &EditArgs::default(), args.said.quiet)?.0;
-            let wanted = args.virtual_test.test(args.accelerometer, args.window, args.to_hz);
+            let wanted = args.virtual_test.test(args);
             test.accelerometer = Some(wanted.accelerometer).filter(|mass| *mass > 0.0);
             Some((wanted.of(&bat)?, bat))
         }
@@ -242,7 +231,14 @@ pub fn run(args: &Args) -> Result<Done> {
         Some((one, _)) => one.set.clone(),
         None => ResponseSet::read(&args.responses, &args.known()?, band)?,
     };
-    let found = Identified::of(&set, &test)?;
+    let found = Identified::of(&set, &test).map_err(|error| match (&simulated, error) {
+        (Some(_), Error::Value(told)) => {
+            let expected =
+                "lighter ones, less noise or a longer window: such a test does not find the modes";
+            Error::Value(Complaint { expected: expected.to_owned(), ..told })
+        }
+        (_, error) => error,
+    })?;
     let about = simulated.as_ref().map(|(one, bat)| (one, bat.name()));
     let report = IdentifyReport { set: &set, found: &found, simulated: about };
     let table = args.said.screen(LINES, |full| report.text(full));

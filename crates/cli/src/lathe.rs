@@ -97,7 +97,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let Prepared { bat, request, warning } = prepared;
     let tolerance = (!args.bat.asked()).then_some(request.tolerance);
     let (scene, law) = setup.scene(&bat, tolerance).map_err(as_options)?;
-    scene::warn(&setup, &args.output);
+    scene::warn(&setup, [&bat], &args.output);
     let (bands, cut) = stretches(args, &bat)?;
     let at = args.at.map(|x| on_the_bat(&bat, "--at", x)).transpose()?;
     let hit = HitTerms { scene, model, exactly: args.bat.asked() };

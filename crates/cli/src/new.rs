@@ -81,7 +81,7 @@ fn shown(bat: &Bat, measured: &Measured, path: &Path) -> String {
     let [name, page] = [path, &path.with_extension("html")].map(quoted);
     let above = format!(
         "{}{}\n{}\nWrote {name}. Next:\n  sweetspot analyze {name} --report {page}\n\n",
-        wrapped(bat.name(), 0),
+        wrapped(&bat.title(), 0),
         sketch::draw(bat, &rows, units, glyphs()),
         wrapped(&verdict(bat, measured), 0),
     );

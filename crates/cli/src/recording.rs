@@ -30,11 +30,8 @@ pub fn readings(path: &Path, bat: &Bat, quiet: bool) -> Result<BatReadings> {
     let analysis = Analysis::of(&[recording], None);
     if let Some(refused) = analysis.refused {
         let found = refused.name().replace('_', " ");
-        return Err(Error::value(
-            printed(path),
-            found,
-            "taps of this bat: sweetspot tap says more",
-        ));
+        let expected = "taps of this bat: sweetspot tap says more";
+        return Err(Error::value(printed(path), found, expected));
     }
     analysis.warnings.iter().for_each(|(code, _)| warn(&format!("note: {}", code.text()), quiet));
     let tapped = Tapped::of(bat, &analysis, &[])?;

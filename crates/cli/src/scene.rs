@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use sweetspot::Result;
 use sweetspot::collision::Model;
 use sweetspot::collision::setup::Setup;
 use sweetspot::collision::wall_choice::WallChoice;
 use sweetspot::files::balls::{ball, is_built_in};
+use sweetspot::{Bat, Result};
 
 use crate::common::as_options;
 use crate::output::OutputArgs;
@@ -161,9 +161,9 @@ impl SceneArgs {
     }
 }
 
-/// Warns of implausible speeds.
-pub fn warn(setup: &Setup, output: &OutputArgs) {
-    for (member, strange) in setup.warnings() {
+/// Warns of what is strange for a hit on one of these bats.
+pub fn warn<'a>(setup: &Setup, bats: impl IntoIterator<Item = &'a Bat>, output: &OutputArgs) {
+    for (member, strange) in setup.warnings(bats) {
         output.warn(&format!("warning: --{} {strange}", member.replace('_', "-")));
     }
 }

@@ -16,7 +16,7 @@ use crate::calibrate::label;
 use crate::common::{as_options, examples, read_with_text};
 use crate::done::{Done, FAILED};
 use crate::edits::EditArgs;
-use crate::output::{CsvArgs, FullArgs, LINES, apart, draw, put, warn};
+use crate::output::{CsvArgs, FullArgs, LINES, apart, draw, printed, put, warn};
 use crate::recording::read;
 use crate::style;
 use crate::value::{MOMENT, TOP_FREQUENCY};
@@ -123,6 +123,13 @@ pub fn run(args: &Args) -> Result<Done> {
     let part = part(args)?;
     let recordings = args.recordings.iter().map(|path| read(path, part));
     let recordings = recordings.collect::<Result<Vec<_>>>()?;
+    let again =
+        |k: &usize| recordings[..*k].iter().any(|one| one.samples == recordings[*k].samples);
+    if let Some(k) = (1..recordings.len()).find(again) {
+        let found = "the same taps as in a recording before it";
+        let expected = "each recording once: more of the same tells nothing more";
+        return Err(Error::value(printed(&args.recordings[k]), found, expected));
+    }
     let analysis = Analysis::of(&recordings, args.highest);
     let tapped = match args.only_tones {
         true => None,

@@ -58,13 +58,13 @@ impl FileKind {
         Self::written::<lathe::LatheFile>(),
         Self::written::<comparison_data::CompareFile>(),
         Self::written::<MeasuredFile>(),
-        Self::of::<RingFile>(),
+        Self::written::<RingFile>(),
         Self::written::<FrfFile>(),
         Self::written::<FrfSetFile>(),
         Self::written::<advice::AdviceFile>(),
         Self::written::<calibrate::CalibrateFile>(),
         Self::written::<IdentifyFile>(),
-        Self::of::<TapFile>(),
+        Self::written::<TapFile>(),
         Self::written::<scatter::ScatterResult>(),
         Self::of::<StudyManifest>(),
         #[cfg(feature = "aim")]
@@ -72,7 +72,7 @@ impl FileKind {
         Self::written::<trade::TradeFile>(),
         Self::written::<u_curve::UCurveFile>(),
         Self::written::<MaterialsFile>(),
-        Self::of::<mistakes::ErrorFile>(),
+        Self::written::<mistakes::ErrorFile>(),
         Self::of::<Data>(),
     ];
 

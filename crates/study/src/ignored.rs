@@ -95,7 +95,7 @@ fn material_damping(bat: &Bat) -> Vec<String> {
 }
 
 /// A note about a metal with the published loss factor of its kind.
-fn published_damping(bat: &Bat) -> Option<String> {
+pub fn published_damping(bat: &Bat) -> Option<String> {
     let mut materials = bat.layups().iter().flat_map(|layup| layup.materials());
     let published = |m: &Material| m.published_loss().filter(|loss| m.losses() == [*loss; 2]);
     let loss = materials.find_map(published)?;

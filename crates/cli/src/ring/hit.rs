@@ -30,7 +30,7 @@ pub fn run(args: &Args, bat: Bat, x: f64) -> Result<Done> {
     let Prepared { bat, request, warning } = prepared;
     let tolerance = (!args.bat.asked()).then_some(request.tolerance);
     let (scene, _) = setup.scene(&bat, tolerance).map_err(as_options)?;
-    scene::warn(&setup, &args.output);
+    scene::warn(&setup, [&bat], &args.output);
     let solution = solve(&bat, &request)?;
     args.solve.say_raised(&solution, &args.output);
     let effort = Effort { completed: !args.bat.asked(), ..Effort::default() };

@@ -4,7 +4,6 @@ use std::io::{IsTerminal, stdout};
 
 use sweetspot::base::file;
 use sweetspot::collision::Ball;
-use sweetspot::files::schema::document::{Format, Generator};
 use sweetspot::files::{force_file, shape_file};
 use sweetspot::motion::force::ForceHistory;
 use sweetspot::motion::ringing::Ringing;
@@ -13,6 +12,7 @@ use sweetspot::motion::sound::{Sound, WallTones};
 use sweetspot::{Bat, Error, Result, Solution};
 use sweetspot_report::plot::ringing::{self, Moving};
 use sweetspot_report::report::motion::{self, Frames};
+use sweetspot_report::schema::Written;
 use sweetspot_report::schema::ring::{Motion, RingFile};
 
 use crate::common::{Solved, on_the_bat};
@@ -84,10 +84,8 @@ fn document(
     x_m: Vec<f64>,
     times_s: Vec<f64>,
     deflection_m: Vec<Vec<f64>>,
-) -> RingFile {
-    RingFile::Motion(Motion {
-        format: Format::new(),
-        generator: Generator::this(),
+) -> Written<RingFile> {
+    Written::of(RingFile::Motion(Motion {
         edits: bat.edits().to_vec(),
         modes: solution.modes.len(),
         theory: solution.theory.name(),
@@ -97,7 +95,7 @@ fn document(
         x_m,
         times_s,
         deflection_m,
-    })
+    }))
 }
 
 /// The cause of the motion.

@@ -239,7 +239,7 @@ impl<'a> Report<'a> {
             Part::List(hoop::answers(barrel, units)),
         ];
         let notes: Vec<String> =
-            hoop_notes::notes(barrel, units).iter().map(|note| sentence(note)).collect();
+            hoop_notes::notes(bat, barrel, units).iter().map(|note| sentence(note)).collect();
         if !notes.is_empty() {
             parts.extend([Part::Heading("What was assumed of the wall"), Part::List(notes)]);
         }

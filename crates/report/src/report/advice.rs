@@ -71,7 +71,7 @@ pub fn report(advice: &Advice, units: Units, full: bool) -> (String, Vec<Part<'s
         let names: Vec<&str> = names.collect();
         parts.push(Part::Text(format!("{OUTSIDE}: {}", names.join(", "))));
     }
-    (format!("Advice on {}", whole.bat.name()), parts)
+    (format!("Advice on {}", whole.bat.title()), parts)
 }
 
 /// A row of a table: its name, and a cell for each mode.

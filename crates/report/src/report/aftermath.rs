@@ -5,13 +5,12 @@ use std::fmt::Write;
 use crate::csv::Csv;
 use crate::parts::{Cell, Columns, Units, numbers, wrapped};
 use crate::schema::hit::Impact;
-use crate::schema::ring as file;
+use crate::schema::{Written, ring as file};
 use sweetspot::Bat;
 use sweetspot::base::units::{gravities, inches, miles_per_hour};
 use sweetspot::collision::aftermath::{Aftermath, Instant, PeakMotion, Strained, Watched};
 use sweetspot::collision::hit;
 use sweetspot::collision::strength::{Limit, Load, Strength, nearest};
-use sweetspot::files::schema::document::{Format, Generator};
 
 /// The reported effects of a hit.
 pub struct AfterHit {
@@ -113,24 +112,26 @@ pub fn text(report: &AfterHit, units: Units, full: bool) -> String {
 
 /// When a place begins to move, and its largest displacement, velocity and acceleration.
 fn motion(seen: &Watched, damped: bool, units: Units) -> String {
-    let PeakMotion { displacement_m: moved, velocity_m_s: speed, acceleration_m_s2 } = seen.peak;
+    let PeakMotion { displacement_m: most, velocity_m_s: speed, acceleration_m_s2 } = seen.peak;
     let [a, b, c] = seen.when.map(|t| format!("at {:.2} ms", 1e3 * t));
     let (place, begins) = (units.place(seen.x_m, 2), 1e3 * seen.begins_s);
     let mut out = format!("  at {place}, which begins to move after {begins:.2} ms\n");
     let mut line = |what: &str, size: String, when: String| {
         let _ = writeln!(out, "{}", format!("    {what:<36} {size} {when}").trim_end());
     };
-    let moved = units.show(format!("{:.2} mm", 1e3 * moved), format!("{:.3} in", inches(moved)));
-    line("largest displacement", units.inline(moved), a);
+    let moved = units.show(format!("{:.2} mm", 1e3 * most), format!("{:.3} in", inches(most)));
+    let growing = seen.displacement_m.last().is_some_and(|last| last.abs() >= most);
+    line(
+        "largest displacement",
+        units.inline(moved),
+        if growing { "and growing".into() } else { a },
+    );
     let speed = units.show(format!("{speed:.2} m/s"), format!("{:.1} mph", miles_per_hour(speed)));
     line("largest velocity", units.inline(speed), b);
-    if damped {
-        let shaken = format!("{acceleration_m_s2:.0} m/s² ({:.0} g)", gravities(acceleration_m_s2));
-        line("largest acceleration", shaken, c);
-    } else {
-        let how = "without end: nothing damps the bat";
-        line("largest acceleration", how.to_owned(), String::new());
-    }
+    let shaken = format!("{acceleration_m_s2:.0} m/s² ({:.0} g)", gravities(acceleration_m_s2));
+    let endless = "without end: nothing damps the bat".to_owned();
+    let (size, when) = if damped { (shaken, c) } else { (endless, String::new()) };
+    line("largest acceleration", size, when);
     out
 }
 
@@ -292,11 +293,9 @@ pub fn document(
     report: &AfterHit,
     impact: Impact,
     ignored: Vec<String>,
-) -> file::RingFile {
+) -> Written<file::RingFile> {
     let along = |of: fn(&Strained) -> f64| report.envelope.iter().map(of).collect::<Vec<_>>();
-    file::RingFile::Hit(Box::new(file::AfterHit {
-        format: Format::new(),
-        generator: Generator::this(),
+    Written::of(file::RingFile::Hit(Box::new(file::AfterHit {
         edits: after.bat().edits().to_vec(),
         modes: after.count(),
         at_m: after.place,
@@ -315,5 +314,5 @@ pub fn document(
         strength: report.loads.clone(),
         impact,
         ignored,
-    }))
+    })))
 }

@@ -90,6 +90,11 @@ pub fn asked(band: &Band, us: bool) -> String {
     }
 }
 
+/// Whether every search for the members came to rest: another might meet them otherwise.
+pub fn settled(conflict: &Conflict) -> bool {
+    conflict.members.iter().all(|member| member.settled)
+}
+
 /// The contradictory targets, in words.
 pub fn conflict_words(conflict: &Conflict, targets: &[AimedTarget], us: bool) -> String {
     let band = |k: usize| &targets[k].band;
@@ -103,6 +108,7 @@ pub fn conflict_words(conflict: &Conflict, targets: &[AimedTarget], us: bool) ->
         members => {
             let all: Vec<String> = members.iter().map(|member| wish(member.target)).collect();
             let mut words = match members.len() {
+                _ if !settled(conflict) => format!("{} not reached under these limits", all.join(" and ")),
                 1 => format!("{} cannot be had under these limits", all[0]),
                 2 => format!("{} cannot both be had", all.join(" and ")),
                 _ => format!("{} cannot all be had", all.join(" and ")),

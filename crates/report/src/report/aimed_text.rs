@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use crate::parts::{Columns, Piece, first, labels, lines, numbers, wrapped};
-use crate::report::aimed::{asked, called, conflict_words, shown, size, warning};
+use crate::report::aimed::{asked, called, conflict_words, settled, shown, size, warning};
 use sweetspot::base::number::{rounded, shortest, signed, significant};
 use sweetspot::base::units::{inches, ounce_square_inches, ounces};
 use sweetspot::bat::weighed::Weighed;
@@ -77,7 +77,7 @@ fn head(outcome: &Outcome, us: bool) -> String {
         (true, false, false) => "the new bat meets every target",
         (true, true, _) => "the new bat meets every target, but breaks a rule",
         (true, _, true) => "the new bat meets every target, but breaks a limit",
-        _ if outcome.conflict.is_some() => {
+        _ if outcome.conflict.as_ref().is_some_and(settled) => {
             "the targets cannot all be had; the new bat comes nearest"
         }
         _ => "the new bat does not meet every target; it comes nearest",
@@ -96,7 +96,7 @@ fn head(outcome: &Outcome, us: bool) -> String {
     );
     let warning = warning(outcome, us).map(|line| format!("Warning: {line}"));
     let rigid = outcome.rigid_wall.as_ref().map(|why| format!("Left out: {why}"));
-    let lines = [format!("{}: {verdict}", outcome.start.name()), change].into_iter();
+    let lines = [format!("{}: {verdict}", outcome.start.title()), change].into_iter();
     let lines = lines.chain(warning).chain(rigid).chain(to_know(outcome, us));
     lines.map(|line| wrapped(&line, 2)).collect::<String>() + "\n"
 }

@@ -78,7 +78,7 @@ pub fn report(tested: &Tested, units: Units, full: bool) -> (String, Vec<Part<'s
     let pivot = units.inline(units.length(protocol.pivot_m));
     let mut notes = vec![format!(
         "bat at rest on a pivot {pivot} from the knob end; {} at {speed}, cor {cor}{source}",
-        protocol.ball.name
+        protocol.ball.title()
     )];
     notes.extend(edits::noted(bat, units));
     notes.extend(scene.hoop.wall().map(|wall| wall_words(bat, scene, wall)));
@@ -95,7 +95,7 @@ pub fn report(tested: &Tested, units: Units, full: bool) -> (String, Vec<Part<'s
         ]);
     }
     parts.extend(verdict(tested, units, full).into_iter().map(Part::Text));
-    (format!("BBCOR of {} (computed, not certified)", bat.name()), parts)
+    (format!("BBCOR of {} (computed, not certified)", bat.title()), parts)
 }
 
 /// The places around the largest, as many as a first screen shows.

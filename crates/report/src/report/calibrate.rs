@@ -19,7 +19,7 @@ use sweetspot_study::calibrate::next::Proposal;
 
 /// Parameters, data and words, 80 columns wide.
 pub fn text(bat: &Bat, found: &Calibration) -> [Piece; 3] {
-    let above = format!("The material of {}\n{}", bat.name(), parameters(&found.parameters));
+    let above = format!("The material of {}\n{}", bat.title(), parameters(&found.parameters));
     let mut out = String::new();
     for tone in &found.loss_factors {
         let [lost, damped] = [tone.loss_factor, tone.damping_ratio].map(|v| significant(v, 3));

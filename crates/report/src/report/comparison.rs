@@ -122,7 +122,7 @@ pub fn bats(comparison: &Comparison, units: Units, full: bool) -> String {
             false if about.is_empty() => String::new(),
             false => format!(" (in doubt: {})", about.join(", ").replace('_', " ")),
         };
-        out += &wrapped(&format!("  {}  {}{more}", letter(k), bat.name()), 5);
+        out += &wrapped(&format!("  {}  {}{more}", letter(k), bat.title()), 5);
         let left_out = in_hit(bat, scene).into_iter().filter(|_| full);
         let notes = edits::noted(bat, units)
             .into_iter()
@@ -140,7 +140,7 @@ pub fn hit(comparison: &Comparison, units: Units) -> String {
         "Hit: model {}, swung about a point {} {side} the knob end, {} at {}",
         comparison.terms.model.name(),
         units.inline(units.length(pivot.abs())),
-        ball.name,
+        ball.title(),
         units.inline(units.speed(*ball_speed)),
     );
     wrapped(&scene, 5) + &wrapped(&swing(comparison, units), 5)
@@ -370,7 +370,7 @@ pub fn words(comparison: &Comparison, units: Units) -> Vec<String> {
         all.push(NO_ENERGIES.to_owned());
     }
     for contender in &comparison.bats {
-        let of = |text| format!("{}: {text}", contender.bat.name());
+        let of = |text| format!("{}: {text}", contender.bat.title());
         all.extend(doubts(&contender.verdict, units).into_iter().map(of));
     }
     all

@@ -1,6 +1,7 @@
 //! The changes to a bat after it was weighed, in the notation of the command line.
 
 use crate::parts::Units;
+use sweetspot::base::marks::written_out;
 use sweetspot::base::number::significant;
 use sweetspot::base::units::{self, ounces};
 use sweetspot::bat::edit::{Change, Edit};
@@ -24,7 +25,7 @@ pub fn noted(bat: &Bat, units: Units) -> Option<String> {
 
 fn named(edit: &Edit, units: Units, inches: bool) -> String {
     match &edit.name {
-        Some(name) => format!("{name} ({})", words(&edit.change, units, inches)),
+        Some(name) => format!("{} ({})", written_out(name), words(&edit.change, units, inches)),
         None => words(&edit.change, units, inches),
     }
 }

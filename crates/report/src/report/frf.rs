@@ -12,6 +12,7 @@ use crate::schema::frf::{
 use sweetspot::Bat;
 use sweetspot::motion::frf::{Frf, ResponseKind, Sample};
 use sweetspot::motion::peaks::Peak;
+use sweetspot_study::ignored::published_damping;
 use sweetspot_study::measured::response::{Laid, MeasuredResponse};
 
 /// A response to report.
@@ -59,6 +60,7 @@ pub fn document(told: &ToldResponse) -> Written<FrfFile> {
         measured: told.measured.map(|(response, laid)| beside(kind, response, laid)),
         damping_ratios_as_measured: frf.damping_ratios().to_vec(),
         frequencies_within: frf.solution.worst(),
+        ignored: published_damping(bat).into_iter().collect(),
     })
 }
 
@@ -153,7 +155,11 @@ pub fn text(told: &ToldResponse, full: bool, every: bool) -> String {
         *told;
     let most = if full { usize::MAX } else { PEAKS };
     let [at, to] = [at, to].map(|x| units.inline(units.length(x)));
-    let title = format!("Frequency response: {} from a force at {at} to {to}", kind.name());
+    let title = format!(
+        "Frequency response of {}: {} from a force at {at} to {to}",
+        bat.title(),
+        kind.name()
+    );
     let mut out = wrapped(&title, 4) + &edited(bat, units);
     if full || every || measured.is_none() {
         out += &answers(told, if full || every { usize::MAX } else { FREQUENCIES });

@@ -56,7 +56,7 @@ const FEW: usize = 18;
 /// The rows for people; without `full` those of the least similar responses.
 pub fn text(bat: &Bat, source: &str, rows: &[RowOfSet], (units, full): (Units, bool)) -> String {
     let units = units.first();
-    let title = format!("Measured frequency responses of {source} beside {}", bat.name());
+    let title = format!("Measured frequency responses of {source} beside {}", bat.title());
     let mut out = wrapped(&title, 4) + &edited(bat, units);
     out += &rows.first().map_or(String::new(), |row| row.damping.clone());
     let mut shown: Vec<&RowOfSet> = rows.iter().collect();

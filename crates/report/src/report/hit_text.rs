@@ -11,7 +11,7 @@ use sweetspot::base::units::{gravities, inches, miles_per_hour};
 use sweetspot::collision::columns::{self, Column};
 use sweetspot::collision::figures::{BarrelSpeed, Figures, Moved};
 use sweetspot::collision::sweet_spot::Peak;
-use sweetspot::collision::{Impact, Model, Scene, Sweep, SweetSpot};
+use sweetspot::collision::{Impact, Model, Scene, Sweep, SweetSpot, hit::Wall};
 use sweetspot_study::ignored;
 
 /// The meaning of the flags of hits, and their letters in the table.
@@ -377,13 +377,14 @@ pub fn scene(bat: &Bat, scene: &Scene, model: &str, units: Units) -> String {
     let side = if scene.pivot < 0.0 { "inside" } else { "beyond" };
     let barrel = BarrelSpeed::of(bat, scene, BarrelSpeed::BROADCAST);
     let mut out = format!(
-        "Hit: model {model}\n     swing {:.1} rad/s about a point {} {side} the knob end:\n     \
+        "Hit with {}: model {model}\n     swing {:.1} rad/s about a point {} {side} the knob end:\n     \
          {} where the bat is {} from the tip\n     {} at {}, cor {}\n",
+        bat.title(),
         scene.swing,
         units.inline(units.length(scene.pivot.abs())),
         units.inline(units.speed(barrel.speed)),
         units.inline(units.length(barrel.from_tip)),
-        scene.ball.name,
+        scene.ball.title(),
         units.inline(units.speed(scene.ball_speed)),
         match scene.ball.cor_by_speed.is_empty() {
             true => scene.cor.to_string(),
@@ -393,12 +394,8 @@ pub fn scene(bat: &Bat, scene: &Scene, model: &str, units: Units) -> String {
     if !bat.edits().is_empty() {
         out += &wrapped(&format!("     the bat is edited: {}", edits::listed(bat, units)), 5);
     }
-    if let Some(wall) = scene.wall {
-        let _ = writeln!(
-            out,
-            "     the barrel's wall gives way: {:.3e} N/m, {} kg",
-            wall.stiffness, wall.mass
-        );
+    if let Some(Wall { stiffness, mass }) = scene.wall {
+        let _ = writeln!(out, "     the barrel's wall gives way: {stiffness:.3e} N/m, {mass} kg");
     }
     if let Some(wall) = scene.hoop.wall() {
         out += &wrapped(&format!("     {}", wall_words(bat, scene, wall)), 5);

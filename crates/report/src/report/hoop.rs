@@ -85,7 +85,7 @@ pub fn document(
         bbcor: barrel.struck.rebound.clone(),
         compression: barrel.compressed(),
         wall_sweep: tried.to_vec(),
-        notes: notes(barrel, Units::Si),
+        notes: notes(bat, barrel, Units::Si),
         tolerance_met: barrel.met(),
     })
 }
@@ -113,7 +113,7 @@ pub fn csv(bat: &Bat, barrel: &Barrel) -> String {
 
 /// The lowest modes, at most the given number, and the effect of the wall, for the terminal.
 pub fn text(bat: &Bat, barrel: &Barrel, most: usize, units: Units) -> [String; 2] {
-    let mut out = format!("Hoop modes of {}\n{}", bat.name(), edited(bat, units));
+    let mut out = format!("Hoop modes of {}\n{}", bat.title(), edited(bat, units));
     let [from, to] = [barrel.hoop().from(), barrel.hoop().to()];
     let stretch = format!(
         "  the wall as an elastic solid from {} to {} from the knob end; n waves around, m along",
@@ -121,7 +121,7 @@ pub fn text(bat: &Bat, barrel: &Barrel, most: usize, units: Units) -> [String; 2
         units.inline(units.length(to))
     );
     out += &wrapped(&stretch, 2);
-    [out + &modes(bat, barrel, most, units), sentences(barrel, units)]
+    [out + &modes(bat, barrel, most, units), sentences(bat, barrel, units)]
 }
 
 /// The lowest modes of two and more waves around.
@@ -142,13 +142,13 @@ fn modes(bat: &Bat, barrel: &Barrel, most: usize, units: Units) -> String {
 }
 
 /// The wall under the ball, the rebound, the compression and the remarks, each broken into lines.
-fn sentences(barrel: &Barrel, units: Units) -> String {
+fn sentences(bat: &Bat, barrel: &Barrel, units: Units) -> String {
     let mut out = String::from("\n");
     for line in answers(barrel, units) {
         out += &wrapped(&line, 2);
     }
     // The limits of the answer are last in the document and first here.
-    for note in notes(barrel, units).iter().rev() {
+    for note in notes(bat, barrel, units).iter().rev() {
         out += &wrapped(&format!("note: {note}"), 2);
     }
     out

@@ -1,14 +1,16 @@
 //! The assumptions about a barrel and the limits of its model, in sentences.
 
 use crate::parts::Units;
+use sweetspot::Bat;
 use sweetspot::base::number::significant;
 use sweetspot::beam::wall::elastic::ASSUMED_POISSON_RATIO;
 use sweetspot::collision::Ball;
 use sweetspot::modes::hoop::{Note, Patch};
+use sweetspot_study::ignored::published_damping;
 use sweetspot_study::trampoline::barrel::Barrel;
 
 /// A sentence each, without a capital and a full stop at its ends.
-pub fn notes(barrel: &Barrel, units: Units) -> Vec<String> {
+pub fn notes(bat: &Bat, barrel: &Barrel, units: Units) -> Vec<String> {
     let mut all: Vec<String> = barrel.hoop().notes().iter().map(|note| said(note, units)).collect();
     if let Some([less, more]) = barrel.by_poisson {
         let [less, more] = [less, more].map(|change| significant(100.0 * change, 2));
@@ -18,6 +20,7 @@ pub fn notes(barrel: &Barrel, units: Units) -> Vec<String> {
              the beam is computed without shear, which moves BBCOR too)"
         ));
     }
+    all.extend(published_damping(bat));
     all.extend(alive(barrel));
     all.extend(dented(barrel));
     all.extend(unpressed(barrel, units));

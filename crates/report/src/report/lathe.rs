@@ -14,6 +14,7 @@ use sweetspot::bat::body::STANDARD_PIVOT;
 use sweetspot::bat::edit::Edit;
 use sweetspot::collision::{Model, Scene};
 use sweetspot_study::answers::Answer;
+use sweetspot_study::ignored::in_hit;
 use sweetspot_study::lathe::found::{LatheFound, TurnedBand, WholeChange};
 use sweetspot_study::lathe::gauges::WhyNotSmooth;
 use sweetspot_study::lathe::map::LatheMap;
@@ -30,11 +31,11 @@ fn title(map: &LatheMap, scene: &Scene, units: Units) -> String {
          each band, the curve between stations unchanged",
         significant(scene.swing, 4),
         units.inline(units.length(scene.pivot)),
-        scene.ball.name,
+        scene.ball.title(),
         units.inline(units.speed(scene.ball_speed)),
         shown.per_name(),
     );
-    format!("What a cut does to {}\n{}{}", bat.name(), edited(bat, units), wrapped(&swing, 4))
+    format!("What a cut does to {}\n{}{}", bat.title(), edited(bat, units), wrapped(&swing, 4))
 }
 
 /// The text of a screen: where a cut has the largest effects, and the text below the tables; None where that is not
@@ -226,6 +227,9 @@ pub struct LatheFile {
     /// The results.
     #[serde(flatten)]
     pub found: LatheFound,
+    /// Neglected effects and their consequences; left out where none is known.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub ignored: Vec<String>,
 }
 
 document!(LatheFile, "lathe");
@@ -240,6 +244,7 @@ pub fn document(map: &LatheMap, scene: &Scene, model: Model) -> Written<LatheFil
         scene: scene_out(bat, scene),
         theory: map.piece.solution().theory.name().to_owned(),
         found: map.found.clone(),
+        ignored: in_hit(bat, scene),
     })
 }
 

@@ -18,7 +18,7 @@ const FEW: usize = 6;
 
 /// Pairs of modes and words; `full` with every mode and the comparison of the shapes.
 pub fn text(bat: &Bat, study: &Study, units: Units, full: bool) -> String {
-    let mut out = format!("{}\n{}", bat.name(), edited(bat, units));
+    let mut out = format!("{}\n{}", bat.title(), edited(bat, units));
     out += &source(study, units);
     out += &modes(study, if full { usize::MAX } else { FEW });
     let shapes = study.shapes.as_ref().filter(|_| full && !study.bending.is_empty());

@@ -5,10 +5,9 @@ use std::path::Path;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::schema::document;
+use crate::schema::{Written, document};
 use sweetspot::Error;
 use sweetspot::base::error::{Complaint, FilePosition};
-use sweetspot::files::schema::document::{Format, Generator};
 
 /// Why there is no answer: every mistake found, with its place and what to do. With `--json` it is the last line on
 /// standard error, after the same text for people. The exit code is 2, or 3 where an accuracy was not reached. Later
@@ -16,10 +15,6 @@ use sweetspot::files::schema::document::{Format, Generator};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(title = "What is wrong, by sweetspot, sweetspot-error/1")]
 pub struct ErrorFile {
-    /// Name of the format and its version: sweetspot-error/1.
-    pub format: Format<ErrorFile>,
-    /// The program that wrote the document.
-    pub generator: Generator,
     /// The mistakes in the order of the file, one at least.
     pub mistakes: Vec<Mistake>,
     /// Number of further mistakes that are not listed.
@@ -48,7 +43,7 @@ pub struct Mistake {
 }
 
 /// The `sweetspot-error/1` document of an error.
-pub fn document(error: &Error) -> ErrorFile {
+pub fn document(error: &Error) -> Written<ErrorFile> {
     match error {
         Error::Several { shown, more } => file(shown.iter().map(mistake).collect(), *more),
         one => file(vec![mistake(one)], 0),
@@ -56,12 +51,12 @@ pub fn document(error: &Error) -> ErrorFile {
 }
 
 /// That of one mistake on the command line.
-pub fn of_option(complaint: &Complaint) -> ErrorFile {
+pub fn of_option(complaint: &Complaint) -> Written<ErrorFile> {
     file(vec![complained(complaint)], 0)
 }
 
-fn file(mistakes: Vec<Mistake>, more: usize) -> ErrorFile {
-    ErrorFile { format: Format::new(), generator: Generator::this(), mistakes, more }
+fn file(mistakes: Vec<Mistake>, more: usize) -> Written<ErrorFile> {
+    Written::of(ErrorFile { mistakes, more })
 }
 
 fn mistake(error: &Error) -> Mistake {
@@ -110,12 +105,12 @@ mod tests {
     fn every_mistake_keeps_its_place() {
         let value = |field: &str| Error::Value(Complaint::new(field, 1, "2").hinted("do"));
         let several = Error::Several { shown: vec![value("a"), value("")], more: 3 };
-        let told = document(&several);
+        let told = document(&several).body;
         let places: Vec<_> = told.mistakes.iter().map(|m| m.place.as_deref()).collect();
         assert_eq!((places, told.more), (vec![Some("a"), None], 3));
         assert_eq!(told.mistakes[0].hint.as_deref(), Some("do"));
         let source = std::io::Error::other("no");
-        let told = document(&Error::Read { path: "b.json".into(), source });
+        let told = document(&Error::Read { path: "b.json".into(), source }).body;
         assert_eq!(told.mistakes[0].file.as_deref(), Some("b.json"));
         assert!(told.mistakes[0].found.contains("cannot read b.json: no"));
     }

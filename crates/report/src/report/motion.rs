@@ -20,7 +20,7 @@ pub const MORE: &str = "Every place at every instant: --csv FILE (- = here); dra
 /// The deflection of both ends at every instant, and the largest along the bat with its place.
 pub fn screen((bat, solution): (&Bat, &Solution), motion: &Frames, units: Units) -> String {
     let modes = solution.modes.len();
-    let title = format!("Deflection of {} by {modes} bending modes", bat.name());
+    let title = format!("Deflection of {} by {modes} bending modes", bat.title());
     let us = units.us_first();
     let (small, place) = if us { ("in", "in") } else { ("mm", "cm") };
     let columns =

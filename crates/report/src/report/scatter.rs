@@ -23,7 +23,7 @@ const REASONS: usize = 3;
 /// The causes of the scatter of every output in words, 80 columns wide, with three percentiles; `full` gives all
 /// percentiles and every share.
 pub fn text(rows: &ScatterRows, found: &Scattered, full: bool) -> String {
-    let (count, name) = (rows.count(), rows.bat.name());
+    let (count, name) = (rows.count(), rows.bat.title());
     let said = format!("{count} bats like {name}, {} of them as accurate as asked", found.met);
     let mut out = wrapped(&said, 2);
     for ReasonCounted { reason, rows } in found.reasons.iter().take(REASONS) {

@@ -9,11 +9,14 @@ use crate::parts::columns::{Columns, first, labels, numbers};
 use crate::parts::table::Column;
 use crate::parts::terminal::{Piece, wrapped};
 use crate::report::calibrate::{short, shown};
-use crate::schema::tap::{TapFile, TapMoment, TapRecording, TapSaid, TapTone};
+use crate::schema::{
+    Written,
+    tap::{TapFile, TapMoment, TapRecording, TapSaid, TapTone},
+};
 use sweetspot::base::error::Error;
 use sweetspot::base::number::{percent, significant};
 use sweetspot::bat::body::Bat;
-use sweetspot::files::schema::document::{BatName, Format, Generator};
+use sweetspot::files::schema::document::BatName;
 use sweetspot_study::calibrate::calibration::{Estimated, Verdict};
 use sweetspot_study::calibrate::readings::{Reading, SpectralLine};
 use sweetspot_study::tap::heard::Within;
@@ -169,12 +172,10 @@ impl TapReport<'_> {
     }
 
     /// The `sweetspot-tap/1` document.
-    pub fn document(&self) -> TapFile {
+    pub fn document(&self) -> Written<TapFile> {
         let Self { bat, recordings, analysis, tapped } = self;
         let recording = recordings.iter().zip(&analysis.conditions);
-        TapFile {
-            format: Format::new(),
-            generator: Generator::this(),
+        Written::of(TapFile {
             bat: BatName::of(bat),
             recordings: recording.map(|(one, seen)| of_recording(one, seen)).collect(),
             taps: analysis.taps.iter().map(|tap| of_tap(tap, analysis.refused.is_some())).collect(),
@@ -185,7 +186,7 @@ impl TapReport<'_> {
             fits: tapped.map(Tapped::fits),
             warnings: self.warned(Some(TELL)),
             refused: analysis.refused.map(|code| said(code.name(), code.text())),
-        }
+        })
     }
 
     fn tone(&self, k: usize) -> TapTone {

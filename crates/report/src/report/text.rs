@@ -14,7 +14,7 @@ use sweetspot_study::trade::reference::solver_name;
 pub fn summary(bat: &Bat, units: Units) -> String {
     let inertia = bat.inertia();
     let length = bat.length();
-    let mut out = format!("{}\n{}", bat.name(), edited(bat, units));
+    let mut out = format!("{}\n{}", bat.title(), edited(bat, units));
     let mut line = |what: &str, value: String| {
         let _ = writeln!(out, "  {what:<34} {value}");
     };

@@ -20,7 +20,7 @@ use sweetspot_study::verdict::{Doubt, Verdict};
 
 /// The bat, the answers and their reliability.
 pub fn screen(analysis: &Analysis, units: Units) -> [String; 2] {
-    let name = analysis.bat.name();
+    let name = analysis.bat.title();
     let mut out = format!("{}\n", name.chars().take(WIDE).collect::<String>());
     out += &edited(&analysis.bat, units);
     out += &wrapped(&scene(analysis, units), 2);

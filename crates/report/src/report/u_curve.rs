@@ -29,7 +29,7 @@ pub fn heading(what: &str, bat: &Bat, reference: &Reference) -> (String, Vec<Str
         agreement.max(f64::EPSILON)
     );
     let edited = edits::noted(bat, Units::Both);
-    (format!("{what}: {}", bat.name()), edited.into_iter().chain([truth]).collect())
+    (format!("{what}: {}", bat.title()), edited.into_iter().chain([truth]).collect())
 }
 
 /// The loss of accuracy of a frequency of a solver.

@@ -50,6 +50,9 @@ pub struct FrfFile {
     pub damping_ratios_as_measured: Vec<f64>,
     /// Largest relative error of a mode's frequency.
     pub frequencies_within: f64,
+    /// Neglected effects of an assumed damping; left out where there are none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub ignored: Vec<String>,
 }
 
 document!(FrfFile, "frf");

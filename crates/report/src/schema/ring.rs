@@ -9,7 +9,6 @@ use sweetspot::Theory;
 use sweetspot::bat::edit::Edit;
 use sweetspot::collision::aftermath::{Strained, Watched};
 use sweetspot::collision::strength::Load;
-use sweetspot::files::schema::document::{Format, Generator};
 
 /// The motion of a bat in time after a hit, after a blow, under a force or from an initial shape. SI units, named at
 /// the end of each member; positions count from the knob end, times from the first contact; a value that does not exist
@@ -29,10 +28,6 @@ document!(RingFile, "ring");
 /// The motion after a hit, relative to the swing.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct AfterHit {
-    /// Name of the format and its version: sweetspot-ring/1.
-    pub format: Format<RingFile>,
-    /// The program that wrote the file.
-    pub generator: Generator,
     /// Changes made to the bat after it was weighed; left out where there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub edits: Vec<Edit>,
@@ -78,10 +73,6 @@ pub struct Along {
 /// The deflection along the bat in time.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Motion {
-    /// Name of the format and its version: sweetspot-ring/1.
-    pub format: Format<RingFile>,
-    /// The program that wrote the file.
-    pub generator: Generator,
     /// Changes made to the bat after it was weighed; left out where there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub edits: Vec<Edit>,

@@ -3,7 +3,8 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use sweetspot::files::schema::document::{BatName, Document, Format, Generator};
+use crate::schema::document;
+use sweetspot::files::schema::document::BatName;
 use sweetspot_study::calibrate::calibration::Calibration;
 use sweetspot_study::tap::heard::Within;
 use sweetspot_study::tap::hoops::{BatMode, NextLabels};
@@ -13,10 +14,6 @@ use sweetspot_study::tap::hoops::{BatMode, NextLabels};
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 #[schemars(title = "Taps of sweetspot, sweetspot-tap/1")]
 pub struct TapFile {
-    /// Name of the format and its version: sweetspot-tap/1.
-    pub format: Format<TapFile>,
-    /// The program that wrote the file.
-    pub generator: Generator,
     /// The bat.
     pub bat: BatName,
     /// The recordings, in the order in which they were named.
@@ -41,9 +38,7 @@ pub struct TapFile {
     pub refused: Option<TapSaid>,
 }
 
-impl Document for TapFile {
-    const NAME: &'static str = "tap";
-}
+document!(TapFile, "tap");
 
 /// A recording.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]

@@ -36,7 +36,8 @@ impl Rows {
             told.push(format!("{more} more bats are strange in some way"));
         }
         told.extend(self.first_strange(VariedFile::Scene, |row| {
-            let strange = self.setup(row).ok()?.warnings().into_iter();
+            let bat = self.bats.iter().find_map(|bat| self.bat(bat, row).ok());
+            let strange = self.setup(row).ok()?.warnings(&bat).into_iter();
             Some(strange.map(|(member, strange)| format!("scene.{member} {strange}")).collect())
         }));
         told.extend(self.idle());

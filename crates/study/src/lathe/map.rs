@@ -6,7 +6,7 @@
 use crate::answers::Answer;
 use crate::comparison::contender::Figure;
 use crate::engine::{
-    Bat, Bore, Change, Cork, Cup, DiameterChange, Edit, Error, Material, Request, Result,
+    Bat, Bore, Change, Cork, Cup, DiameterChange, Edit, Error, Material, Peak, Request, Result,
     STANDARD_PIVOT, threads,
 };
 use crate::lathe::found::{
@@ -263,16 +263,18 @@ impl Mapping<'_> {
         Ok(finite.into_iter().enumerate().map(cut).collect())
     }
 
-    /// Searched answers whose finite cut of a band contradicts the derivative. If both differ by more than [`APART`],
+    /// Searched answers and modal masses whose finite cut of a band contradicts the derivative. If both differ by more than [`APART`],
     /// half of the cut distinguishes a curve, for which half of the difference remains, from a jump.
     fn cuts_that_jump(&self, cuts: &[Cut]) -> Result<Vec<Rivals>> {
         let answers = &self.terms.answers;
+        let is_mass = |k: &usize| matches!(answers[*k], Answer::ModalMass(_));
         let of_band = |band: &Cut| -> Result<Vec<Rivals>> {
             let (Some(slopes), Ok(finite)) = (&band.slopes, &band.finite) else {
                 return Ok(vec![]);
             };
             let pair = |k: usize, change: Option<f64>| {
-                let slope = slopes.same_swing[k].filter(|_| answers[k].is_searched())?;
+                let slope =
+                    slopes.same_swing[k].filter(|_| answers[k].is_searched() || is_mass(&k))?;
                 let apart = (change? - slope.value).abs() - slope.error;
                 Some((apart, slope.value.abs().max(change?.abs())))
             };
@@ -296,18 +298,20 @@ impl Mapping<'_> {
                 return Ok(vec![]);
             }
             let peaks = self.piece.peaks(&change(self.terms.cut))?;
-            let one = |k: usize| Some(Rivals::of(answers[k], WhyNotSmooth::Cut, peaks[k]?));
+            let one = |k: usize| {
+                // The largest deflection of a mode may be at either end.
+                let value = self.piece.compared()[k]?.value;
+                let ends = [0.0, self.piece.bat().length()].map(|x| Peak { x, value });
+                let peaks = peaks[k].or(Some(ends).filter(|_| is_mass(&k)))?;
+                Some(Rivals::of(answers[k], WhyNotSmooth::Cut, peaks))
+            };
             Ok(far.into_iter().filter_map(one).collect())
         };
         let all = threads::map(cuts.len(), |k| of_band(&cuts[k]));
-        let mut told: Vec<Rivals> = vec![];
-        for jump in all.into_iter().collect::<Result<Vec<_>>>()?.into_iter().flatten() {
-            // Once is enough.
-            if told.iter().all(|known| known.answer != jump.answer) {
-                told.push(jump);
-            }
-        }
-        Ok(told)
+        let jumps = all.into_iter().collect::<Result<Vec<_>>>()?.concat();
+        // Once is enough.
+        let first = |k: &usize| jumps[..*k].iter().all(|known| known.answer != jumps[*k].answer);
+        Ok((0..jumps.len()).filter(first).map(|k| jumps[k].clone()).collect())
     }
 
     /// How far formula and differences are apart.

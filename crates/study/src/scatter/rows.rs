@@ -284,13 +284,10 @@ fn check(bat: &Bat, plan: &ScatterPlan) -> Result<()> {
         let expected = "a bat whose profile has stations";
         return Err(Error::value("turning", "a profile of formulas", expected));
     }
-    match plan.impact.filter(|x| !(0.0..=bat.length()).contains(x)) {
-        Some(x) => {
-            let expected = format!("a place on the bat, 0 to {} m", bat.length());
-            Err(Error::value("impact.at", format!("{x} m"), expected))
-        }
-        None => Ok(()),
-    }
+    let beyond = plan.impact.filter(|x| !(0.0..=bat.length()).contains(x));
+    let Some(x) = beyond else { return Ok(()) };
+    let expected = format!("a place on the bat, 0 to {} m", bat.length());
+    Err(Error::value("impact.at", format!("{x} m"), expected))
 }
 
 /// Place of the fastest ball (m).
