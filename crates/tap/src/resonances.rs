@@ -112,17 +112,14 @@ impl Responses {
 
     /// Weights of a residue A (1/kg), the product of both deflections over the modal mass, at pole `p` of so many.
     pub fn residue(p: usize, poles: usize) -> Vec<c64> {
-        (0..BEYOND + poles).map(|k| c64::from(f64::from(k == BEYOND + p))).collect()
+        (0..POWERS + poles).map(|k| c64::from(f64::from(k == POWERS + p))).collect()
     }
 
-    /// Weights of a response as it goes on at a complex square `z` of the frequency (Hz²), without the pole `without`.
-    pub fn at(&self, poles: &[Pole], without: Option<usize>, z: c64) -> Vec<c64> {
+    /// Weights of a response as it goes on at a complex square `z` of the frequency (Hz²).
+    pub fn at(&self, poles: &[Pole], z: c64) -> Vec<c64> {
         let beyond = std::iter::successors(Some(c64::ONE), |p| Some(p * z / self.top().powi(2)));
-        let within = poles.iter().enumerate().map(|(p, pole)| match Some(p) == without {
-            true => c64::ZERO,
-            false => -z / (square(*pole) - z),
-        });
-        beyond.take(BEYOND).chain(within).collect()
+        let within = poles.iter().map(|pole| -z / (square(*pole) - z));
+        beyond.take(POWERS).chain(within).collect()
     }
 }
 
@@ -162,8 +159,8 @@ pub fn at(square: c64) -> Pole {
     Pole::of(square.re.max(0.0).sqrt(), square.im / square.re)
 }
 
-/// Powers of the frequency by which modes beyond the band answer.
-const BEYOND: usize = 5;
+/// Powers of the frequency by which rigid motions, then modes beyond the band answer.
+pub const POWERS: usize = 5;
 
 /// A set of responses at given poles: what they leave, and the weights of all columns.
 pub struct Projection {
@@ -178,7 +175,7 @@ impl Projection {
     /// The responses at these poles.
     pub fn new(of: &Responses, poles: &[Pole], damping: Damping) -> Self {
         let top = of.top();
-        let powers = (0..BEYOND).map(|k| {
+        let powers = (0..POWERS).map(|k| {
             let power = |(f, g): (&f64, &f64)| c64::from((f / top).powi(2 * k as i32) / g);
             of.hz.iter().zip(&of.lines).map(power).collect()
         });
@@ -215,7 +212,7 @@ impl Projection {
 
     /// Residue of response `j` at pole `p`, over its noise.
     fn residue(&self, j: usize, p: usize) -> c64 {
-        self.coefficients[j][BEYOND + p]
+        self.coefficients[j][POWERS + p]
     }
 
     /// A weighed sum of the coefficients of response `j` (1/kg), by [`Responses::residue`] or [`Responses::at`].
