@@ -384,7 +384,7 @@ mod tests {
             // What goes on at complex frequencies is what stands on the lines at real ones; for dashpots nearly.
             let (f, within) =
                 (all[0].hz[900], if damping == Damping::Material { 1e-9 } else { 0.1 });
-            let on = at.value(&all[0], 1, &all[0].at(&found.poles, None, (f * f).into()));
+            let on = at.value(&all[0], 1, &all[0].at(&found.poles, (f * f).into()));
             let off = (on - all[0].values[1][900]).norm();
             assert!(off < within * all[0].values[1][900].norm(), "{off}");
         }
