@@ -26,7 +26,7 @@ const MOST: usize = 40;
 const PLACES: usize = 14;
 const TRIES: usize = 12;
 /// Loss factors with which they are tried.
-const TRIED: [f64; 6] = [0.0015, 0.004, 0.01, 0.02, 0.04, 0.1];
+const TRIED: [f64; 7] = [0.0003, 0.0015, 0.004, 0.01, 0.02, 0.04, 0.1];
 /// A pole of another place is tried so far from one that is there, over its loss factor.
 const FLANK: f64 = 0.4;
 /// By how much dashpots must lower the sum of squares to be taken in place of the material.

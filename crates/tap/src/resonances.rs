@@ -276,7 +276,7 @@ impl Shared {
 }
 
 /// Loss factors of bodies that ring.
-pub const LOSSES: [f64; 2] = [1e-4, 0.3];
+pub const LOSSES: [f64; 2] = [3e-6, 0.3];
 
 /// Projections of every group of responses, and their sum of squares.
 fn projected(all: &[Responses], poles: &[Pole], damping: Damping) -> (Vec<Projection>, f64) {
