@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Random sets of responses with a known truth: does `sweetspot identify` find the modes, and do its intervals hold?
 
-    search/identify.py --program target/debug/sweetspot --seed 1 --cases 200 [--keep DIR] [--jobs 2]
+    search/identify.py --program target/debug/sweetspot --seed 1 --cases 200 [--masses] [--keep DIR] [--jobs 2]
 
 A set is of a tapered beam in dense matrices of its own (Euler-Bernoulli, 48 elements, free ends, masses of 0.4 to 1.4 kg),
 hung free, with 3 to 10 modes in the band and those beyond it. Loss factors are 0.002 to 0.03 and differ by 15 % from mode
@@ -59,7 +59,24 @@ def modes_of(m, k):
     return np.sqrt(np.abs(values)) / (2 * math.pi), (half.T @ vectors)[::2]
 
 
-def response_set(seed):
+def answers(every, row, watched, w2, mass):
+    """Accelerances `row` (products of deflections, by mode) at complex squares `w2`, with a mass at every watched place.
+
+    `H' = H (1 + m H_ww)^-1` between the force and the watched places, of all the modes.
+    """
+    def between(products):
+        return sum(product[..., None] * (-w2 / ((2 * math.pi * f) ** 2 * (1 + 1j * loss) - w2)) for (f, loss, _), product in
+                   zip(every, products))
+    if not mass:
+        return between(row)
+    shapes = [shape[watched] for *_, shape in every]
+    loaded = np.moveaxis(between([np.outer(s, s) for s in shapes]), -1, 0) * mass + np.eye(len(watched))
+    if len(watched) == 1:
+        return between(row) / loaded[:, 0, 0]
+    return np.linalg.solve(loaded, between(row).T[:, :, None])[:, :, 0].T
+
+
+def response_set(seed, masses=False):
     """A random set: its truth, its places, its responses as measured."""
     draw = np.random.default_rng(seed)
     uniform, log = draw.uniform, lambda a, b: math.exp(draw.uniform(math.log(a), math.log(b)))
@@ -72,7 +89,7 @@ def response_set(seed):
     first = uniform(90, 250)
     m, k = beam(length, mass, stiffness)
     stiffness = stiffness * (first / modes_of(m, k)[0][2]) ** 2
-    twins = seed % 5 == 0
+    twins = seed % 5 == 0 and not masses
     wanted = int(draw.integers(3, 11))
     eta = log(0.002, 0.03)
     planes = [(stiffness, 1.0)]
@@ -84,15 +101,16 @@ def response_set(seed):
     points = int(draw.integers(6, 25))
     places = np.sort(draw.choice(np.arange(1, ELEMENTS), points - 1, replace=False))
     places = np.append(places, ELEMENTS)
-    truth, every, edges = [], [], []
+    truth, every, edges, beyond = [], [], [], []
     for stiff, share in planes:
         hz, shapes = modes_of(*beam(length, mass, stiff))
         for n, f in enumerate(hz):
             loss = eta * (1 + 0.15 * draw.standard_normal()) if f > 0 else 0.0
             loss = min(max(loss, 0.002), 0.03) if f > 0 else 0.0
-            every.append((f, loss, share * shapes[places, n] * shapes[ELEMENTS, n]))
+            every.append((f, loss, math.sqrt(share) * shapes[:, n]))
             if 2 <= n < 2 + count:
                 truth.append({"hz": f, "loss": loss, "shape": shapes[places, n]})
+        beyond.append(hz[2 + count])
         edges.append([max(hz[1 + count], 0) , hz[2 + count]])
     low, high = max(e[0] for e in edges), min(e[1] for e in edges)
     top = low + uniform(0.3, 0.7) * (high - low)
@@ -100,10 +118,13 @@ def response_set(seed):
     step = max(step, top / 4000)
     step = float(f"{step:.3g}")  # what six digits of a file hold
     lines = np.arange(math.ceil(0.3 * first / step), math.floor(top / step)) * step
-    w2 = (2 * math.pi * lines) ** 2
-    exact = np.zeros((points, len(lines)), complex)
-    for f, loss, residue in every:
-        exact += residue[:, None] * (-w2 / ((2 * math.pi * f) ** 2 * (1 + 1j * loss) - w2))[None, :]
+    extra = np.random.default_rng([seed, 1])
+    mass = math.exp(extra.uniform(math.log(1e-3), math.log(0.02))) if masses else 0.0
+    window = extra.uniform(0.17, 0.5) / step if masses and seed % 2 else 0.0
+    hammer_roves = bool(extra.integers(0, 2)) if masses else None
+    w2 = (2 * math.pi * lines - (1j / window if window else 0.0)) ** 2
+    row = [shape[places] * shape[ELEMENTS] for *_, shape in every]
+    exact = answers(every, row, [ELEMENTS] if hammer_roves else places, w2, mass)
     hammer, tip = uniform(0.1, 0.3), 2e5 * math.exp(uniform(0.0, 1.0) * math.log(100))
     near = 1 / (1 / hammer + 1 / 0.15)
     contact = math.pi * math.sqrt(near / tip)
@@ -116,9 +137,10 @@ def response_set(seed):
     noise = draw.standard_normal(exact.shape) + 1j * draw.standard_normal(exact.shape)
     measured = exact + size * noise / math.sqrt(2) / np.maximum(force, 0.05)
     kind = list(KINDS)[int(draw.integers(0, 3))]
+    us, roves = bool(draw.integers(0, 2)), bool(draw.integers(0, 2))
     return {"seed": seed, "truth": truth, "x": places * length / ELEMENTS, "hz": lines, "step": step, "measured": measured,
-            "kind": kind, "us": bool(draw.integers(0, 2)), "hammer_roves": bool(draw.integers(0, 2)), "twins": twins,
-            "level": level, "eta": eta}
+            "kind": kind, "us": us, "hammer_roves": hammer_roves if masses else roves, "twins": twins,
+            "level": level, "eta": eta, "mass": mass, "window": window, "beyond": beyond}
 
 
 def universal(case):
@@ -169,7 +191,9 @@ def scored(case, found):
                      "f_holds": f["hz95"][0] <= t["hz"] <= f["hz95"][1],
                      "loss_holds": f["loss95"][0] <= t["loss"] <= f["loss95"][1]})
     missed = [case["truth"][i]["hz"] for i in range(len(case["truth"])) if i not in mine]
-    false = [f["hz"] for j, f in enumerate(found) if j not in taken]
+    # Masses pull modes into the band that are beyond it without them.
+    pulled = [hz for hz in case["beyond"] if case["mass"]]
+    false = [f["hz"] for j, f in enumerate(found) if j not in taken and not any(abs(f["hz"] / hz - 1) < 0.02 for hz in pulled)]
     return {"rows": rows, "missed": missed, "false": false, "wanted": len(case["truth"]), "found": len(found)}
 
 
@@ -192,7 +216,10 @@ def told(name, all_scores):
 def identified(args, case, folder):
     path = folder / f"set{case['seed']}.uff"
     path.write_text(universal(case))
-    done = subprocess.run([args.program, "identify", str(path), "--json", "-", "--quiet"], capture_output=True, text=True, timeout=900)
+    told = [word for option, value, unit in (("--accelerometer", case["mass"], "kg"), ("--window", case["window"], "s"))
+            if value for word in (option, f"{value!r} {unit}")]
+    words = [args.program, "identify", str(path), *told, "--json", "-", "--quiet"]
+    done = subprocess.run(words, capture_output=True, text=True, timeout=900)
     if done.returncode not in (0, 1):
         print(f"seed {case['seed']}: {done.stderr.strip()}")
         return []
@@ -208,6 +235,7 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--cases", type=int, default=200)
     parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--masses", action="store_true", help="with accelerometers that weigh, and windows")
     parser.add_argument("--keep", type=Path)
     parser.add_argument("-v", action="store_true", dest="verbose")
     args = parser.parse_args()
@@ -216,19 +244,22 @@ def main():
         folder.mkdir(parents=True, exist_ok=True)
 
         def one(k):
-            case = response_set(1000 * args.seed + k)
+            case = response_set(1000 * args.seed + k, args.masses)
             score = scored(case, identified(args, case, folder))
             if args.verbose or score["missed"] or score["false"]:
                 hz = lambda all: ", ".join(f"{f:.1f}" for f in all) or "none"
                 print(f"seed {case['seed']}: {case['level']:.0f} dB, loss factor {case['eta']:.4f}, twins {case['twins']}, "
                       f"{len(case['x'])} points, {score['wanted']} modes; missed {hz(score['missed'])}; false {hz(score['false'])}")
-            return case["twins"], score
+            return case, score
 
         with ThreadPoolExecutor(args.jobs) as pool:
             scores = list(pool.map(one, range(args.cases)))
-    told("all", [s for _, s in scores])
-    told("twins", [s for twins, s in scores if twins])
-    told("no twins", [s for twins, s in scores if not twins])
+    groups = {"all": lambda case: True, "twins": lambda case: case["twins"], "no twins": lambda case: not case["twins"]}
+    if args.masses:
+        groups = {"all": groups["all"], "one accelerometer": lambda case: case["hammer_roves"],
+                  "accelerometers in a row": lambda case: not case["hammer_roves"], "window": lambda case: case["window"] > 0}
+    for name, is_in in groups.items():
+        told(name, [score for case, score in scores if is_in(case)])
 
 
 if __name__ == "__main__":

@@ -26,7 +26,7 @@ const MOST: usize = 40;
 const PLACES: usize = 14;
 const TRIES: usize = 12;
 /// Loss factors with which they are tried.
-const TRIED: [f64; 6] = [0.0015, 0.004, 0.01, 0.02, 0.04, 0.1];
+const TRIED: [f64; 7] = [0.0003, 0.0015, 0.004, 0.01, 0.02, 0.04, 0.1];
 /// Distance of a tried place from an existing pole, over its loss factor.
 const FLANK: f64 = 0.4;
 /// Least decrease of the sum of squares for which dashpots are assumed in place of the material's loss.

@@ -112,17 +112,14 @@ impl Responses {
 
     /// Weights of a residue A (1/kg), the product of both deflections over the modal mass, at pole `p` of `poles`.
     pub fn residue(p: usize, poles: usize) -> Vec<c64> {
-        (0..BEYOND + poles).map(|k| c64::from(f64::from(k == BEYOND + p))).collect()
+        (0..POWERS + poles).map(|k| c64::from(f64::from(k == POWERS + p))).collect()
     }
 
-    /// Weights that continue a response to a complex square `z` of the frequency (Hz²), without the pole `without`.
-    pub fn at(&self, poles: &[Pole], without: Option<usize>, z: c64) -> Vec<c64> {
+    /// Weights of a response as it goes on at a complex square `z` of the frequency (Hz²).
+    pub fn at(&self, poles: &[Pole], z: c64) -> Vec<c64> {
         let beyond = std::iter::successors(Some(c64::ONE), |p| Some(p * z / self.top().powi(2)));
-        let within = poles.iter().enumerate().map(|(p, pole)| match Some(p) == without {
-            true => c64::ZERO,
-            false => -z / (square(*pole) - z),
-        });
-        beyond.take(BEYOND).chain(within).collect()
+        let within = poles.iter().map(|pole| -z / (square(*pole) - z));
+        beyond.take(POWERS).chain(within).collect()
     }
 }
 
@@ -162,8 +159,8 @@ pub fn at(square: c64) -> Pole {
     Pole::of(square.re.max(0.0).sqrt(), square.im / square.re)
 }
 
-/// Powers of the frequency by which modes beyond the band answer.
-const BEYOND: usize = 5;
+/// Powers of the frequency by which rigid motions, then modes beyond the band answer.
+pub const POWERS: usize = 5;
 
 /// A set of responses at given poles: the residuals, and the coefficients of all columns.
 pub struct Projection {
@@ -178,7 +175,7 @@ impl Projection {
     /// The responses at these poles.
     pub fn new(of: &Responses, poles: &[Pole], damping: Damping) -> Self {
         let top = of.top();
-        let powers = (0..BEYOND).map(|k| {
+        let powers = (0..POWERS).map(|k| {
             let power = |(f, g): (&f64, &f64)| c64::from((f / top).powi(2 * k as i32) / g);
             of.hz.iter().zip(&of.lines).map(power).collect()
         });
@@ -215,7 +212,7 @@ impl Projection {
 
     /// Residue of response `j` at pole `p`, over its noise.
     fn residue(&self, j: usize, p: usize) -> c64 {
-        self.coefficients[j][BEYOND + p]
+        self.coefficients[j][POWERS + p]
     }
 
     /// A weighted sum of the coefficients of response `j` (1/kg), by [`Responses::residue`] or [`Responses::at`].
@@ -279,7 +276,7 @@ impl Shared {
 }
 
 /// Loss factors of bodies that ring.
-pub const LOSSES: [f64; 2] = [1e-4, 0.3];
+pub const LOSSES: [f64; 2] = [3e-6, 0.3];
 
 /// Projections of every group of responses, and their sum of squares.
 fn projected(all: &[Responses], poles: &[Pole], damping: Damping) -> (Vec<Projection>, f64) {
@@ -387,7 +384,7 @@ mod tests {
             // Continued to complex frequencies it agrees with the values at real ones; for dashpots approximately.
             let (f, within) =
                 (all[0].hz[900], if damping == Damping::Material { 1e-9 } else { 0.1 });
-            let on = at.value(&all[0], 1, &all[0].at(&found.poles, None, (f * f).into()));
+            let on = at.value(&all[0], 1, &all[0].at(&found.poles, (f * f).into()));
             let off = (on - all[0].values[1][900]).norm();
             assert!(off < within * all[0].values[1][900].norm(), "{off}");
         }

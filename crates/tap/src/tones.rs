@@ -3,18 +3,21 @@
 //! The error of a tone is
 //!
 //! ```text
-//! s² = max(k spread/√n, c D)² + CRB² + floor²,    k = 1 + 1/(n − 1)
+//! s² = W² max(k² S, R) + CRB² + floor²,    k = 1 + 1/(2(n − 1))
 //! ```
 //!
-//! for the logarithm of its loss factor η, and η/2 of that for the logarithm of its frequency. A disturbance that moves
-//! a pole `−δ + 2πi f` moves it equally in both directions, so that 2 Δf/(f η) and Δ ln η have one deviation, which
-//! both measure. The spread is that over n taps. D is the difference of fits to an early and a late window, half its
-//! own and half the median over the tones; it measures the echo of the room, which is common to all taps if the
-//! microphone does not move. CRB is the bound that follows from the residual of the bands.
+//! for the logarithm of its loss factor η, and η/2 of that for the logarithm of its frequency. A disturbance moves a
+//! pole `−δ + 2πi f` equally in both directions, so that 2 Δf/(f η) and Δ ln η have one deviation, which both measure.
+//! S and R are levels of the room's echo, and W is the deviation that an echo of level 1 gives the tone. S follows
+//! from the variance over n taps; R from how far fits to an early and to a late window differ, which sees the echo
+//! that all taps share where the microphone stays. Both are the median over the tones, but for a tone's own share. CRB
+//! is the bound by what is left of the bands.
 //!
-//! The room's answer to a tap grows relative to a tone as `e^{2(δ − δ_r)t}`, with δ_r the decay of the room (J.-D.
-//! Polack, Playing billiards in the concert hall, Appl. Acoust. 38 (1993) 235). Ringing is therefore used from the end
-//! of the blow on: 4 ms later, a high tone would have more of the room than of the bat.
+//! The room's answer to a tap grows against a tone as `e^{2(δ − δ_r)t}`, δ_r its own decay (J.-D. Polack, Playing
+//! billiards in the concert hall, Appl. Acoust. 38 (1993) 235). So what it adds to a tone is a random walk, and a fit
+//! takes the walk's slope over a window, weighed by `e^{−2δt}`: [`walked`] has the deviations of such slopes. Ringing
+//! is taken from the end of the blow on, since a high tone that is heard 4 ms late has more of the room than of the
+//! bat.
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -23,13 +26,12 @@ use crate::filter::{median, most, quantile};
 use crate::fit::{Band, Fit, Pole, fit};
 use crate::pencil::two_poles;
 
-/// Beginning of the fitted ringing after the onset (s), after the blow; its end, in decay times; its longest duration
-/// (s).
+/// Beginning of the fitted ringing after the onset (s), after the blow, and its longest duration (s).
 const BEGINS: f64 = 0.8e-3;
-const DECAYS: f64 = 3.0;
 const LONGEST: f64 = 1.2;
-/// Early and late windows, in decay times; the early one begins with the whole.
-const EARLY: f64 = 1.3;
+/// The window that is fitted, an early and a late one, in decay times from there on.
+const WHOLE: [f64; 2] = [0.0, 3.0];
+const EARLY: [f64; 2] = [0.0, 1.3];
 const LATE: [f64; 2] = [0.8, 2.5];
 /// Tones up to this number of half bands away affect a band's ground.
 const BESIDE: f64 = 2.0;
@@ -53,8 +55,13 @@ const PLANES: f64 = 0.03;
 /// A tap is discarded if its five strongest tones have at least this residual, and this many times the others'.
 const NO_TAP: f64 = 0.3;
 const WORSE: f64 = 4.0;
-/// Share of D, fitted to 60 recordings of `search/taps.py --seed 101`, and least errors of f and of ln η.
-const SEEN: f64 = 0.6;
+/// Decay of a furnished room (1/s): 60 dB in 0.35 s.
+const ROOM: f64 = 20.0;
+/// A tone's own share in the levels of the room, by 200 recordings of `search/taps.py`, seeds 21 and 22.
+const OWN: f64 = 0.25;
+/// Median of the square of a complex normal number over its mean.
+const MEDIAN: f64 = std::f64::consts::LN_2;
+/// Least errors of f and of ln η.
 const FLOOR: [f64; 2] = [5e-5, 0.01];
 
 /// A stretch in which one tap rings.
@@ -105,14 +112,6 @@ struct Found {
     level: f64,
 }
 
-/// A window of the ringing.
-#[derive(Clone, Copy, PartialEq)]
-enum Window {
-    Whole,
-    Early,
-    Late,
-}
-
 /// The tones of these taps, sought at these frequencies (Hz) of every recording.
 pub fn tones(taps: &[Ringing], peaks: &[Vec<f64>]) -> Tones {
     // A sound that is not a tap has none of the tones, so tones common to some taps are sought first.
@@ -123,19 +122,36 @@ pub fn tones(taps: &[Ringing], peaks: &[Vec<f64>]) -> Tones {
     let found = heard(&taps, peaks, HEARD);
     let poles: Vec<Vec<Pole>> = found.iter().map(|one| one.whole.poles.clone()).collect();
     let differences = |k: usize| early_and_late(&taps, &poles[k], &others(&poles, k));
-    let differences: Vec<[Option<[f64; 2]>; 2]> = (0..found.len()).map(differences).collect();
-    let all = differences.iter().flatten().flatten();
-    let room = median(&all.map(|difference| circular(*difference)).collect::<Vec<_>>());
+    let differences: Vec<[Option<f64>; 2]> = (0..found.len()).map(differences).collect();
+    let all: Vec<f64> = differences.iter().flatten().flatten().copied().collect();
+    let room = median(&all).sqrt();
     let loudest = most(&found.iter().map(|one| one.level).collect::<Vec<_>>());
-    let mut tones = vec![];
+    let mut levels = vec![];
     for (one, differences) in found.iter().zip(&differences) {
+        for (p, pole) in one.whole.poles.iter().enumerate() {
+            let [whole, apart] = walked(pole.decay);
+            let count = one.singles[p].len() as f64;
+            let own = (count > 1.5).then(|| one.variance(p) / (count * whole));
+            levels.push([own, differences[p].map(|square| square / apart)]);
+        }
+    }
+    let mut own = levels.iter();
+    let usual = [(0, 1.0), (1, MEDIAN)].map(|(k, share)| {
+        let all: Vec<f64> = levels.iter().filter_map(|level| level[k]).collect();
+        if all.is_empty() { 0.0 } else { median(&all) / share }
+    });
+    let mut tones = vec![];
+    for one in &found {
         for (p, pole) in one.whole.poles.iter().enumerate() {
             let away = |hz: &f64| (hz / pole.hz - 1.0).abs();
             let all = poles.iter().flatten().map(|other| other.hz).filter(|hz| *hz != pole.hz);
             let twin = all.min_by(|a, b| away(a).total_cmp(&away(b)));
+            let of =
+                |k: usize, own: Option<f64>| usual[k] + OWN * (own.unwrap_or(usual[k]) - usual[k]);
+            let [spread, echo] = own.next().map_or(usual, |[a, b]| [of(0, *a), of(1, *b)]);
             tones.push(Tone {
                 pole: *pole,
-                deviations: deviations(one, p, differences[p], room),
+                deviations: one.deviations(p, spread, echo),
                 taps: one.singles[p].len(),
                 level: one.level - loudest,
                 twin: twin.filter(|hz| away(hz) < PLANES),
@@ -220,7 +236,7 @@ fn is_same(a: &Pole, b: &Pole) -> bool {
 
 /// A pole that begins the fit at that frequency: the best of several decays.
 fn begun(taps: &[Ringing], hz: f64) -> Option<Pole> {
-    let bands = bands(taps, Pole::of(hz, 0.007), Window::Whole);
+    let bands = bands(taps, Pole::of(hz, 0.007), WHOLE);
     let left =
         |pole: &Pole| median(&bands.iter().map(|band| band.misfit(&[*pole])).collect::<Vec<_>>());
     let starts = [0.0015, 0.003, 0.006, 0.012, 0.024, 0.045].map(|loss| Pole::of(hz, loss));
@@ -238,17 +254,13 @@ fn half(pole: Pole) -> f64 {
     (0.16 * pole.hz).min(30.0 * pole.decay).max(24.0)
 }
 
-fn bands(taps: &[Ringing], pole: Pole, window: Window) -> Vec<Band> {
+fn bands(taps: &[Ringing], pole: Pole, window: [f64; 2]) -> Vec<Band> {
     let of = |(k, tap): (usize, &Ringing)| {
-        let decay = 1.0 / pole.decay;
-        let room = tap.samples.len() as f64 / tap.rate;
-        let [from, to] = match window {
-            Window::Whole => [BEGINS, BEGINS + (DECAYS * decay).min(LONGEST)],
-            Window::Early => [BEGINS, BEGINS + EARLY * decay],
-            Window::Late => [BEGINS + LATE[0] * decay, BEGINS + LATE[1] * decay],
+        let place = |u: f64| {
+            let t = BEGINS + (u / pole.decay).min(LONGEST);
+            ((t * tap.rate) as usize).min(tap.samples.len())
         };
-        let place = |t: f64| ((t.min(room) * tap.rate) as usize).min(tap.samples.len());
-        let part = &tap.samples[place(from)..place(to)];
+        let part = &tap.samples[place(window[0])..place(window[1])];
         Band::new(k, part, tap.rate, pole.hz, half(pole))
     };
     taps.iter().enumerate().filter_map(of).collect()
@@ -264,7 +276,7 @@ fn near(others: &[Pole], pole: Pole) -> Vec<Pole> {
 /// A tone fitted to all taps from one starting pole, or twins if they are far better. `None` if there is no tone.
 fn tone(taps: &[Ringing], least: f64, start: Pole, others: &[Pole]) -> Option<Found> {
     let beside = near(others, start);
-    let mut bands = bands(taps, start, Window::Whole);
+    let mut bands = bands(taps, start, WHOLE);
     let share = |bands: &[Band], poles: &[Pole]| -> Vec<(usize, f64)> {
         let all = [poles, &beside].concat();
         // The contribution of other tones is not part of this one.
@@ -296,7 +308,7 @@ fn tone(taps: &[Ringing], least: f64, start: Pole, others: &[Pole]) -> Option<Fo
         }
     }
     let is_shared = |all: &Vec<(usize, [f64; 2])>| {
-        robust(all, 0) < SPREAD && is_enough(taps, least, |tap| all.iter().any(|one| one.0 == tap))
+        is_enough(taps, least, |tap| all.iter().any(|one| one.0 == tap))
     };
     if !singles.iter().all(is_shared) {
         return None;
@@ -343,54 +355,116 @@ fn level(bands: &[Band], poles: &[Pole], beside: &[Pole]) -> f64 {
     20.0 / 10.0_f64.ln() * median(&bands.iter().map(of).collect::<Vec<_>>())
 }
 
-/// Robust standard deviation over taps, of frequency (0) or loss factor (1).
-fn robust(all: &[(usize, [f64; 2])], part: usize) -> f64 {
-    let values: Vec<f64> = all.iter().map(|(_, one)| one[part]).collect();
-    let middle = median(&values);
-    let away: Vec<f64> = values.iter().map(|value| (value - middle).abs()).collect();
-    match away.len() {
-        0 | 1 => 0.0,
-        2..=4 => {
-            let squares: f64 = away.iter().map(|x| x * x).sum();
-            (squares / (away.len() - 1) as f64).sqrt()
-        }
-        // For a normal distribution the median deviation is 0.6745 of it; at least what the 85th percentile gives.
-        _ => (1.4826 * median(&away)).max(quantile(&away, 0.85) / 1.44),
-    }
-}
-
-/// Differences of the fits to early and late windows, pole by pole: of f in δ/π, and of ln η.
-fn early_and_late(taps: &[Ringing], poles: &[Pole], others: &[Pole]) -> [Option<[f64; 2]>; 2] {
+/// Differences of the fits to early and late windows, pole by pole, as [`circular`].
+fn early_and_late(taps: &[Ringing], poles: &[Pole], others: &[Pole]) -> [Option<f64>; 2] {
     let beside = near(others, poles[0]);
     let of = |window| {
         let mut bands = bands(taps, poles[0], window);
         weigh(&mut bands, poles, &beside);
         fit(&bands, poles, &beside)
     };
-    let (Some(early), Some(late)) = (of(Window::Early), of(Window::Late)) else { return [None; 2] };
+    let (Some(early), Some(late)) = (of(EARLY), of(LATE)) else { return [None; 2] };
     let difference = |p: usize| {
         let (a, b) = (early.poles.get(p)?, late.poles.get(p)?);
-        Some([(a.hz - b.hz) * PI / poles[p].decay, (a.decay / b.decay).ln()])
+        Some(circular([(a.hz / b.hz).ln(), (a.loss() / b.loss()).ln()], poles[p].loss()))
     };
     [0, 1].map(difference)
 }
 
-/// Standard deviations of a pole's frequency (relative) and of the logarithm of its loss factor.
-fn deviations(one: &Found, p: usize, difference: Option<[f64; 2]>, room: f64) -> [f64; 2] {
-    let singles = &one.singles[p];
-    // The deviation of f in δ/π is half of that of ln η.
-    let units = [0.5 * one.whole.poles[p].loss(), 1.0];
-    let count = singles.len() as f64;
-    let factor = if count > 1.5 { 1.0 + 1.0 / (count - 1.0) } else { 2.0 };
-    let [f, loss] = [0, 1].map(|part| robust(singles, part) / units[part]);
-    let spread = (0.5 * (f.powi(2) + loss.powi(2))).sqrt();
-    let own = difference.map_or(room, circular);
-    let shared = (factor * spread / count.sqrt()).max(SEEN * 0.5 * (own + room));
-    [0, 1]
-        .map(|part| (shared * units[part]).hypot(one.whole.deviations[p][part]).hypot(FLOOR[part]))
+/// The square of the one deviation of 2 Δf/(f η) and Δ ln η, of differences of ln f and ln η.
+fn circular([f, ln]: [f64; 2], loss: f64) -> f64 {
+    0.5 * ((2.0 * f / loss).powi(2) + ln.powi(2))
 }
 
-/// Noise moves a pole equally in both directions: 2 Δf π/δ and Δ ln η have one deviation.
-fn circular([f, loss]: [f64; 2]) -> f64 {
-    (0.5 * ((2.0 * f).powi(2) + loss.powi(2))).sqrt()
+/// Variances of the slope that the room's walk has for a tone of that decay (1/s): over the whole window, and of the
+/// difference of early and late ones. With time in decay times u and `q = δ_r/δ` its steps are `√q e^{(1 − q)u}`.
+fn walked(decay: f64) -> [f64; 2] {
+    const STEPS: usize = 240;
+    const STEP: f64 = WHOLE[1] / STEPS as f64;
+    let at = |k: usize| STEP * (k as f64 + 0.5);
+    // The effect of a step at u on the slope of a window: the integral from u on of `e^{−2u} (u − mean)`.
+    let turned = |[from, to]: [f64; 2]| {
+        let [first, last] = [from, to].map(|u| (-2.0 * u).exp());
+        let mean = 0.5 + (from * first - to * last) / (first - last);
+        let rest = |u: f64| (-2.0 * u).exp() * (2.0 * (u - mean) + 1.0);
+        let after = |u: f64| if (from..to).contains(&u) { rest(u) - rest(to) } else { 0.0 };
+        let after: Vec<f64> = (0..STEPS).map(|k| after(at(k))).collect();
+        let size = STEP * after.iter().sum::<f64>();
+        after.into_iter().map(|x| x / size).collect::<Vec<f64>>()
+    };
+    let [whole, early, late] = [WHOLE, EARLY, LATE].map(turned);
+    let quick = ROOM / decay;
+    let step = |k: usize| STEP * quick * (2.0 * (1.0 - quick) * at(k)).exp();
+    let sum = |turn: &dyn Fn(usize) -> f64| (0..STEPS).map(|k| turn(k).powi(2) * step(k)).sum();
+    [sum(&|k| whole[k]), sum(&|k| early[k] - late[k])]
+}
+
+impl Found {
+    /// The variance over taps of one of its poles, [`circular`].
+    fn variance(&self, p: usize) -> f64 {
+        let singles = &self.singles[p];
+        let count = singles.len() as f64;
+        let mean = |part: usize| singles.iter().map(|(_, one)| one[part]).sum::<f64>() / count;
+        let mean = [0, 1].map(mean);
+        let away = |one: &[f64; 2]| {
+            circular([one[0] - mean[0], one[1] - mean[1]], self.whole.poles[p].loss())
+        };
+        singles.iter().map(|(_, one)| away(one)).sum::<f64>() / (count - 1.0)
+    }
+
+    /// Standard deviations of the frequency of one of its poles (relative) and of the logarithm of its loss factor, at
+    /// these levels of the room.
+    fn deviations(&self, p: usize, spread: f64, echo: f64) -> [f64; 2] {
+        let pole = self.whole.poles[p];
+        let count = self.singles[p].len() as f64;
+        let factor = if count > 1.5 { 1.0 + 0.5 / (count - 1.0) } else { 1.0 };
+        let shared = (walked(pole.decay)[0] * (factor * factor * spread).max(echo)).sqrt();
+        // The deviation of the frequency is half of that of ln η.
+        let units = [0.5 * pole.loss(), 1.0];
+        [0, 1].map(|part| {
+            (shared * units[part]).hypot(self.whole.deviations[p][part]).hypot(FLOOR[part])
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The slopes of unit steps agree with weighted least squares.
+    #[test]
+    fn a_walk_turns_the_slope_as_its_steps_do() {
+        let at = |k: usize| (k as f64 + 0.5) * WHOLE[1] / 600.0;
+        let slope = |step: usize, [from, to]: [f64; 2]| {
+            let rows = (0..600).filter(|k| (from..to).contains(&at(*k)));
+            let sums = rows.fold([0.0; 5], |[w, x, xx, y, xy], k| {
+                let (weight, u, e) = ((-2.0 * at(k)).exp(), at(k), f64::from(k >= step));
+                [
+                    w + weight,
+                    x + weight * u,
+                    xx + weight * u * u,
+                    y + weight * e,
+                    xy + weight * u * e,
+                ]
+            });
+            let [w, x, xx, y, xy] = sums;
+            (w * xy - x * y) / (w * xx - x * x)
+        };
+        for decay in [5.0, 20.0, 35.0, 300.0] {
+            let q = ROOM / decay;
+            let sum = |turned: &dyn Fn(usize) -> f64| -> f64 {
+                let one = |k: usize| {
+                    q * (2.0 * (1.0 - q) * at(k)).exp() * turned(k).powi(2) * WHOLE[1] / 600.0
+                };
+                (0..600).map(one).sum()
+            };
+            let whole = sum(&|k| slope(k, WHOLE));
+            let apart = sum(&|k| slope(k, EARLY) - slope(k, LATE));
+            let found = walked(decay);
+            assert!(
+                (found[0] / whole - 1.0).abs() < 0.03 && (found[1] / apart - 1.0).abs() < 0.03,
+                "{decay} {found:?} {whole} {apart}"
+            );
+        }
+    }
 }

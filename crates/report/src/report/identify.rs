@@ -209,7 +209,7 @@ impl IdentifyReport<'_> {
         if lowered < 0.0 {
             let most = percent(-lowered, 2);
             let alone = set.hammer_roves && set.references.len() == 1;
-            let how = if alone { "" } else { ", to first order; the second is in the intervals" };
+            let how = if alone { "" } else { "; the intervals count what one column leaves" };
             let text = format!(
                 "The accelerometers' masses lowered the frequencies by up to {most}; that is taken off{how}."
             );

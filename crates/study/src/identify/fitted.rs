@@ -3,7 +3,7 @@
 use faer::c64;
 use sweetspot_tap::fit::Pole;
 use sweetspot_tap::orders::Orders;
-use sweetspot_tap::resonances::{Projection, Responses};
+use sweetspot_tap::resonances::{POWERS, Projection, Responses};
 
 use crate::identify::set::ResponseSet;
 
@@ -24,6 +24,21 @@ pub(super) struct Fitted<'a> {
     projections: Vec<Projection>,
     /// The poles, and the results for every number of poles.
     pub found: &'a Orders,
+    /// The poles that are modes.
+    pub kept: Vec<usize>,
+}
+
+/// A part of a response, at a complex square of the frequency.
+#[derive(Clone, Copy)]
+pub(super) enum Part {
+    /// The residue at a pole.
+    Residue(usize),
+    /// What rigid motions answer.
+    Rigid,
+    /// What modes beyond the band, and poles that are no mode, answer.
+    Beyond(c64),
+    /// All of it.
+    All(c64),
 }
 
 impl<'a> Fitted<'a> {
@@ -33,10 +48,11 @@ impl<'a> Fitted<'a> {
         groups: &'a [Group],
         all: Vec<Responses>,
         found: &'a Orders,
+        kept: Vec<usize>,
     ) -> Self {
         let project = |one: &Responses| Projection::new(one, &found.fit.poles, found.damping);
         let projections = all.iter().map(project).collect();
-        Self { set, groups, all, projections, found }
+        Self { set, groups, all, projections, found, kept }
     }
 
     /// The poles.
@@ -51,29 +67,33 @@ impl<'a> Fitted<'a> {
         place.expect("every response is in a group")
     }
 
-    /// Residue (1/kg) of response `k` at pole `p`.
-    pub fn residue(&self, k: usize, p: usize) -> c64 {
-        let (g, j) = self.place(k);
-        self.projections[g].value(&self.all[g], j, &Responses::residue(p, self.poles().len()))
+    /// The weights of a response's coefficients in a part of it.
+    fn weights(&self, of: &Responses, part: Part) -> Vec<c64> {
+        let poles = self.poles();
+        match part {
+            Part::Residue(p) => Responses::residue(p, poles.len()),
+            Part::Rigid => of.at(poles, c64::ZERO),
+            Part::All(z) => of.at(poles, z),
+            Part::Beyond(z) => {
+                let mut weights = of.at(poles, z);
+                weights[0] = c64::ZERO;
+                self.kept.iter().for_each(|p| weights[POWERS + p] = c64::ZERO);
+                weights
+            }
+        }
     }
 
-    /// Standard deviation (1/kg) of that residue, real and imaginary part together, at known poles.
-    pub fn deviation(&self, k: usize, p: usize) -> f64 {
+    /// A part of response `k` (1/kg).
+    pub fn value(&self, k: usize, part: Part) -> c64 {
         let (g, j) = self.place(k);
-        self.projections[g].deviation(&self.all[g], j, &Responses::residue(p, self.poles().len()))
+        let of = &self.all[g];
+        self.projections[g].value(of, j, &self.weights(of, part))
     }
 
-    /// Standard deviation (1/kg) of response `k` at a complex square of the frequency, likewise.
-    pub fn deviation_at(&self, k: usize, z: c64) -> f64 {
+    /// Its standard deviation (1/kg), real and imaginary part together, at known poles.
+    pub fn deviation(&self, k: usize, part: Part) -> f64 {
         let (g, j) = self.place(k);
-        let weights = self.all[g].at(self.poles(), None, z);
-        self.projections[g].deviation(&self.all[g], j, &weights)
-    }
-
-    /// Response `k` (1/kg) at a complex square of the frequency, without the pole `without`.
-    pub fn at(&self, k: usize, without: Option<usize>, z: c64) -> c64 {
-        let (g, j) = self.place(k);
-        let weights = self.all[g].at(self.poles(), without, z);
-        self.projections[g].value(&self.all[g], j, &weights)
+        let of = &self.all[g];
+        self.projections[g].deviation(of, j, &self.weights(of, part))
     }
 }

@@ -12,7 +12,7 @@ use sweetspot_tap::resonances::{Damping, LOSSES, Responses, at, square};
 
 use crate::calibrate::calibration::NINETY_FIVE;
 use crate::engine::{Error, ResponseKind, Result};
-use crate::identify::fitted::{Fitted, Group};
+use crate::identify::fitted::{Fitted, Group, Part};
 use crate::identify::masses::{Masses, Unloaded};
 use crate::identify::set::{Place, ResponseSet};
 use crate::measured::mac::collinearity;
@@ -100,18 +100,19 @@ impl Identified {
             let opposite = None;
             return Ok(Self { modes, damping, orders, sum, band, grids, coherent, opposite });
         };
-        let fitted = Fitted::new(set, &groups, all, &found);
-        let kept: Vec<usize> =
-            (0..found.fit.poles.len()).filter(|p| is_mode(&found, *p, band)).collect();
-        let opposite = fitted.opposite(&kept);
+        let poles = 0..found.fit.poles.len();
+        let kept = poles.filter(|p| is_mode(&found, *p, band)).collect();
+        let fitted = Fitted::new(set, &groups, all, &found, kept);
+        let opposite = fitted.opposite();
         if let Some(x) = opposite.filter(|_| masses.is_some()) {
             let found = format!("hammer and accelerometer at {x} m point opposite ways");
             let expected = "one way: turn the sign of the responses over, or leave the mass out";
             return Err(Error::value("--accelerometer", found, expected));
         }
-        let mut modes = kept
-            .into_iter()
-            .map(|p| fitted.mode(p, known, masses.as_ref()))
+        let mut modes = fitted
+            .kept
+            .iter()
+            .map(|p| fitted.mode(*p, known, masses.as_ref()))
             .collect::<Result<Vec<SharedMode>>>()?;
         modes.sort_by(|a, b| a.frequency.value.total_cmp(&b.frequency.value));
         let (damping, orders) = (found.damping, found.orders);
@@ -177,7 +178,7 @@ impl Fitted<'_> {
         let pole = self.poles()[p];
         let unloaded = masses.map(|masses| masses.without(self, p)).transpose()?;
         let loaded = || {
-            let residue = |k: usize| self.residue(k, p);
+            let residue = |k: usize| self.value(k, Part::Residue(p));
             let residues = (0..self.set.responses.len()).map(residue).collect();
             Unloaded { pole, residues, deviations: [0.0; 2] }
         };
@@ -203,11 +204,12 @@ impl Fitted<'_> {
     }
 
     /// Place of the first reference (m) at whose drive point most of these poles have a negative residue.
-    fn opposite(&self, kept: &[usize]) -> Option<f64> {
+    fn opposite(&self) -> Option<f64> {
         let turned = |reference: &usize| {
             let Some(drive) = self.set.drive(*reference) else { return false };
-            let negative = kept.iter().filter(|p| self.residue(drive, **p).re < 0.0).count();
-            2 * negative > kept.len()
+            let negative =
+                self.kept.iter().filter(|p| self.value(drive, Part::Residue(**p)).re < 0.0).count();
+            2 * negative > self.kept.len()
         };
         let first = (0..self.set.references.len()).find(turned)?;
         Some(self.set.references[first].x)

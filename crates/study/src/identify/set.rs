@@ -127,7 +127,12 @@ impl ResponseSet {
 
     /// The response of that reference with hammer and accelerometer at one place.
     pub fn drive(&self, reference: usize) -> Option<usize> {
-        let x = self.references[reference].x;
+        self.beside(reference, reference)
+    }
+
+    /// The response of one reference at the place of another.
+    pub fn beside(&self, reference: usize, other: usize) -> Option<usize> {
+        let x = self.references[other].x;
         let own = |one: &SetResponse| {
             one.reference == reference && (self.points[one.point].x - x).abs() < SAME
         };
