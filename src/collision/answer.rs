@@ -169,14 +169,8 @@ impl Hitter<'_> {
         let blow = |k: usize| {
             let (Approach { x, closing, known, .. }, _) = places[k];
             let (felt, others) = (&felt[k], &others[k] as &dyn Fn() -> Vec<DrivingPoint>);
-            Blow {
-                x: *x,
-                felt,
-                others,
-                closing: *closing,
-                compared: known.is_none(),
-                slower: false,
-            }
+            let compared = known.is_none();
+            Blow { others, compared, ..Blow::alone(*x, felt, *closing) }
         };
         let blows: Vec<Blow> = (0..places.len()).map(blow).collect();
         let met = self.meet_all(&blows, self.effort.accuracy);
@@ -242,7 +236,7 @@ impl Hitter<'_> {
         };
         // A contact that does not end gives no information.
         let both = |felt: &DrivingPoint, accuracy: f64| {
-            let other = self.meet(x, felt, closing, accuracy);
+            let other = self.meet(Blow::alone(x, felt, closing), accuracy);
             other.map_or([1.0; 2], |(other, _)| apart(&other))
         };
         let first_error = Cell::new(0.0);
@@ -286,8 +280,9 @@ impl Hitter<'_> {
                     let late = under.late * (std::f64::consts::PI / (2.86 * self.pressed)).powi(2);
                     let rest = felt.rest + under.unsure + late;
                     let softer = DrivingPoint { rest, ..felt.clone() };
-                    let slower = self.meet_slower(x, felt, closing, accuracy);
-                    let slower = slower.map_or([1.0; 2], |(other, _)| apart(&other));
+                    let slower = Blow { slower: true, ..Blow::alone(x, felt, closing) };
+                    let slower =
+                        self.meet(slower, accuracy).map_or([1.0; 2], |(other, _)| apart(&other));
                     count_first(both(&softer, accuracy)) + count_first(slower)
                 });
                 [left_out, steps, wall]

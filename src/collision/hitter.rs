@@ -305,28 +305,7 @@ impl<'a> Hitter<'a> {
     }
 
     /// The encounter and the accuracy of its steps, which may have to be better than requested.
-    pub(super) fn meet(
-        &self,
-        x: f64,
-        felt: &DrivingPoint,
-        closing: f64,
-        accuracy: f64,
-    ) -> Option<(Encounter, f64)> {
-        let others = &Vec::new;
-        let blow = Blow { x, felt, others, closing, compared: true, slower: false };
-        self.meet_all(&[blow], accuracy).pop()?
-    }
-
-    /// The meeting with hoop modes of the wall that are slower by their possible error.
-    pub(super) fn meet_slower(
-        &self,
-        x: f64,
-        felt: &DrivingPoint,
-        closing: f64,
-        accuracy: f64,
-    ) -> Option<(Encounter, f64)> {
-        let others = &Vec::new;
-        let blow = Blow { x, felt, others, closing, compared: true, slower: true };
+    pub(super) fn meet(&self, blow: Blow, accuracy: f64) -> Option<(Encounter, f64)> {
         self.meet_all(&[blow], accuracy).pop()?
     }
 
@@ -411,6 +390,13 @@ pub(super) struct Blow<'a> {
     pub compared: bool,
     /// Whether it meets slower hoop modes, as all of its group.
     pub slower: bool,
+}
+
+impl<'a> Blow<'a> {
+    /// One that is compared with no varied bats.
+    pub fn alone(x: f64, felt: &'a DrivingPoint, closing: f64) -> Self {
+        Self { x, felt, others: &Vec::new, closing, compared: true, slower: false }
+    }
 }
 
 /// The error for a bat (kg) that a ball (kg) carries along; its first mode turns through that phase (rad) meanwhile.

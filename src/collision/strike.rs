@@ -64,9 +64,7 @@ impl Hitter<'_> {
         let approaches: Vec<_> = places.iter().map(approach).collect();
         let mut blows = vec![];
         for (x, closing, felt) in approaches.iter().flatten() {
-            let (x, closing) = (*x, *closing);
-            let others = &Vec::new;
-            blows.push(Blow { x, felt, others, closing, compared: true, slower: false });
+            blows.push(Blow::alone(*x, felt, *closing));
         }
         let mut met = self.meet_all(&blows, SMOOTH).into_iter();
         let seen = |approach: &Option<(f64, f64, DrivingPoint)>| {

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::collision::contact::encounter::Encounter;
 use crate::collision::contact::touch::DrivingPoint;
-use crate::collision::hitter::Hitter;
+use crate::collision::hitter::{Blow, Hitter};
 use crate::collision::strike::SMOOTH;
 
 /// The wall of a hollow barrel under the ball.
@@ -67,7 +67,7 @@ impl Hitter<'_> {
         let (closing, beyond) = (self.closing(x)?, self.struck.flexibility(x));
         let beyond = self.effort.completed.then_some(beyond);
         let bent = || self.bent(x, self.by_modes(x), beyond);
-        let hit = |felt: &DrivingPoint| Some(self.meet(x, felt, closing, SMOOTH)?.0);
+        let hit = |felt: &DrivingPoint| Some(self.meet(Blow::alone(x, felt, closing), SMOOTH)?.0);
         let bbcor = |met: &Encounter| {
             let exit = met.impulse / self.scene.ball.mass_kg - self.scene.ball_speed;
             let [_, free, pivoted] = self.figures(x, exit);

@@ -177,7 +177,7 @@ pub fn verdict(solve: &SolveArgs, sweep: &Sweep, output: &OutputArgs) -> u8 {
     let worst = sweep.worst().map_or(String::new(), |(impact, outcome)| {
         let limit = match sweep.end {
             _ if outcome.wall > 0.5 * outcome.error => {
-                ": the compliance of the wall is not known more accurately"
+                ": the wall's compliance is as accurate as this --tol makes it; 1e-5 is best"
             }
             RoundsEnd::Stopped => {
                 ": stopped there, as a better one would take more than ten times as long as a usual hit; fewer \

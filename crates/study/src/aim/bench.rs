@@ -98,7 +98,12 @@ impl Bench {
             }
         }
         let pointed = [0.0, length].map(|x| bat.profile().at(x).outer == 0.0);
-        let splines = Splines::beside(&wish.keep, length, pointed);
+        // Under a sleeve the diameter is that of the sleeve.
+        let pieces = bat.profile().pieces.iter();
+        let sleeved = pieces.filter(|piece| !bat.layup(piece).sleeves.is_empty());
+        let sleeved = sleeved.map(|piece| [piece.start, piece.start + piece.length]);
+        let keep: Vec<[f64; 2]> = wish.keep.iter().copied().chain(sleeved).collect();
+        let splines = Splines::beside(&keep, length, pointed);
         let extras = extras(&wish.free, bat);
         if splines.is_empty() && extras.is_empty() {
             let expected = "a stretch of more than 2 cm that may change";

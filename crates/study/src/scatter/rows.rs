@@ -9,7 +9,7 @@ use crate::answers::Answer;
 use crate::comparison::contender::Figure;
 use crate::engine::{
     Bat, Error, FEW, HitsAlong, Hitter, Material, Request, Result, Setup, Trial as Hit, prepare,
-    sweep,
+    shown_length, sweep,
 };
 use crate::many::design::Design;
 use crate::many::indices::VariateKind;
@@ -191,6 +191,12 @@ impl ScatterRows {
     }
 
     fn trial(&self, values: &[f64], bat: &Bat) -> Result<Trial> {
+        let impact = self.impact + self.one(values, Differs::Impact);
+        if !(0.0..=bat.length()).contains(&impact) {
+            let expected =
+                format!("a ball that meets the bat, 0 to {}", shown_length(bat.length()));
+            return Err(Error::value("impact", shown_length(impact), expected));
+        }
         let faster = 1.0 + self.one(values, Differs::SwingSpeed);
         let livelier = self.one(values, Differs::Cor);
         let mut setup = self.plan.setup.clone();
