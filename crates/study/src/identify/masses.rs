@@ -150,7 +150,7 @@ impl Masses {
             shape.iter_mut().zip(other).for_each(|(x, other)| *x += by * other);
         }
         let sum = over(&own) / own[self.drive];
-        (sum.norm_sqr().is_finite()).then_some((sum, shape))
+        sum.norm_sqr().is_finite().then_some((sum, shape))
     }
 
     /// A part of every response of the column.
