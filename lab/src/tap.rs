@@ -53,7 +53,7 @@ pub fn answer(of: &Question, sound: &[u8]) -> Result<Value> {
     Ok(json!({
         "document": document,
         "heard": report.heard(0),
-        "tones": document.tones.iter().enumerate().map(tone).collect::<Vec<_>>(),
+        "tones": document.body.tones.iter().enumerate().map(tone).collect::<Vec<_>>(),
         "wood": report.wood(),
         "words": report.words(None),
         "bat_file": file.transpose()?,

@@ -65,7 +65,7 @@ const GYRATION: f64 = 0.27;
 /// Error that is left of a frequency where there are several accelerometers, root mean square over the square of the
 /// share by which the masses lower it: this much, and that much for one accelerometer for every mode up to that one,
 /// which falls with their number by this power. It is that of 300 beams without noise, as `search/identify.py --masses`
-/// draws them.
+/// roughly draws them.
 const LEFT: [f64; 3] = [0.1, 0.75, -1.7];
 
 /// Motions with one shape each: what one answers at two places is its share times both its deflections.
@@ -150,7 +150,7 @@ impl Masses {
             shape.iter_mut().zip(other).for_each(|(x, other)| *x += by * other);
         }
         let sum = over(&own) / own[self.drive];
-        (sum.norm_sqr().is_finite()).then_some((sum, shape))
+        sum.norm_sqr().is_finite().then_some((sum, shape))
     }
 
     /// A part of every response of the column.
