@@ -104,8 +104,7 @@ impl Use {
             .map_err(|complaint| complaint.to_string())
     }
 
-    /// Refuses a bare number that is implausible in the unit of bare numbers here, and plausible in
-    /// another.
+    /// Refuses a bare number that is implausible in the unit of bare numbers here, and plausible in another.
     ///
     /// # Errors
     ///

@@ -10,8 +10,7 @@ use sweetspot::{Bat, Result, Solution};
 use sweetspot_study::lathe::map::LatheMap;
 use sweetspot_study::trade::u_curve::Curve;
 
-/// The bat and its modes: `profile`, `shapes`. With a swing, its pivot beyond the knob end (m) is
-/// marked.
+/// The bat and its modes: `profile`, `shapes`. With a swing, its pivot beyond the knob end (m) is marked.
 pub fn of_modes(
     sheet: Sheet,
     bat: &Bat,

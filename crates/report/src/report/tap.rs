@@ -95,8 +95,7 @@ impl TapReport<'_> {
         out
     }
 
-    /// A tone's frequency, the time in which it falls to half, its loss factor, its mode, and the probability of that
-    /// mode.
+    /// Frequency of a tone, the time in which it falls to half, loss factor, mode, and the probability of that mode.
     pub fn cells(&self, k: usize) -> [String; 5] {
         let (tone, label) = (&self.analysis.tones[k], self.label(k));
         let is = match (self.tapped, label.mode) {

@@ -64,8 +64,8 @@ const BALANCE: f64 = 0.58;
 const GYRATION: f64 = 0.27;
 /// Error that is left of a frequency where there are several accelerometers, root mean square over the square of the
 /// share by which the masses lower it: this much, and that much for one accelerometer for every mode up to that one,
-/// which falls with their number by this power. It is that of 300 beams without noise, as `search/identify.py --masses`
-/// roughly draws them.
+/// which falls with their number by this power. It was found on 300 beams without noise, similar to
+/// those of `search/identify.py --masses`.
 const LEFT: [f64; 3] = [0.1, 0.75, -1.7];
 
 /// Motions with one shape each: what one answers at two places is its share times both its deflections.
