@@ -333,7 +333,8 @@ impl<'a> HitsAlong<'a> {
 }
 
 /// Those of the steps where touches come and go, by their first place, in which the best place of some value may be: the
-/// better value at both ends, and as much more as such values differ from each other, reaches the best one of all.
+/// better value at both ends, and as much more as such values differ from each other and by further touches, reaches the
+/// best one of all.
 fn promising(hitter: &Hitter, seen: &[Option<Glance>], unsettled: Vec<usize>) -> Vec<usize> {
     let values = |glance: &Option<Glance>| match glance {
         None => [f64::NEG_INFINITY; 8],
@@ -350,10 +351,13 @@ fn promising(hitter: &Hitter, seen: &[Option<Glance>], unsettled: Vec<usize>) ->
         let both = unsettled.iter().flat_map(|k| [values[*k][of], values[k + 1][of]]);
         both.filter(|value| value.is_finite()).fold(from, by)
     };
-    let reach: [f64; 8] = std::array::from_fn(|of| {
+    let mut reach: [f64; 8] = std::array::from_fn(|of| {
         let best = values.iter().fold(f64::NEG_INFINITY, |best, value| best.max(value[of]));
         best - (ends(f64::max, f64::MIN, of) - ends(f64::min, f64::MAX, of))
     });
+    let by_touches = |glance: &Glance| (glance.exit_speed - glance.first_exit).abs();
+    let touched = unsettled.iter().flat_map(|k| [&seen[*k], &seen[k + 1]]).flatten();
+    reach[0] -= touched.map(by_touches).fold(0.0, f64::max);
     let reaches = |k: &usize| {
         let [here, next] = [values[*k], values[k + 1]];
         (0..8).any(|of| here[of].max(next[of]) >= reach[of])
