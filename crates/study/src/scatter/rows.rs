@@ -193,9 +193,8 @@ impl ScatterRows {
     fn trial(&self, values: &[f64], bat: &Bat) -> Result<Trial> {
         let impact = self.impact + self.one(values, Differs::Impact);
         if !(0.0..=bat.length()).contains(&impact) {
-            let expected =
-                format!("a ball that meets the bat, 0 to {}", shown_length(bat.length()));
-            return Err(Error::value("impact", shown_length(impact), expected));
+            let expected = format!("0 to {}", shown_length(bat.length()));
+            return Err(Error::value("impact", "a place beyond the bat's end", expected));
         }
         let faster = 1.0 + self.one(values, Differs::SwingSpeed);
         let livelier = self.one(values, Differs::Cor);

@@ -141,8 +141,12 @@ impl Scattered {
                 Ok(found) => {
                     let all: Vec<_> = found.figures.iter().map(value).collect();
                     let whole = all.iter().all(Option::is_some);
-                    let why = if whole { "" } else { "the bat has no such answer" };
-                    (all, why.to_owned(), found.met && whole)
+                    let why = match (whole, found.off) {
+                        (true, _) => String::new(),
+                        (false, Some(off)) => off.to_string(),
+                        (false, None) => "the bat has no such answer".to_owned(),
+                    };
+                    (all, why, found.met && whole)
                 }
                 Err(error) => (vec![None; asked], error.to_string(), false),
             };
