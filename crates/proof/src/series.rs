@@ -8,9 +8,9 @@
 //! - a sum of `n` products has an error of at most `γ_n Σ|a_i||b_i|`, `γ_n = nu/(1 − nu)`;
 //! - `|P_j| ≤ 1`, and the numbers of a table have a relative error of at most `u`, so that a value at a point has an
 //!   error of at most `(n + 2) u Σ|c_j|`;
-//! - values with an error of at most `δ` at the points belong to a polynomial of degree `d` whose error is at most `(d
-//!   + 1) δ` everywhere: with `‖e‖² = Σ w_g e_g² = ∫e²` and Cauchy's inequality, `|e(ξ)| ≤ ‖e‖ [Σ_{j ≤ d} (2j + 1)/2]^½
-//!   ≤ √2 δ (d + 1)/√2`;
+//! - values with an error of at most `δ` at the points belong to a polynomial of degree `d` whose error is at most
+//!   `(d + 1) δ` everywhere: with `‖e‖² = Σ w_g e_g² = ∫e²` and Cauchy's inequality,
+//!   `|e(ξ)| ≤ ‖e‖ [Σ_{j ≤ d} (2j + 1)/2]^½ ≤ √2 δ (d + 1)/√2`;
 //! - its coefficients `Σ_g q_jg v_g` have a rounding error of at most `(N + 2) u Σ_g |q_jg v_g|`, and that sum is at
 //!   most `[(2j + 1)/2]^½ ‖v‖ ≤ (2j + 1)^½ max|v_g|`, by Cauchy's inequality again.
 //!

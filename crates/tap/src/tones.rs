@@ -15,7 +15,7 @@
 //!
 //! The room's answer to a tap grows against a tone as `e^{2(δ − δ_r)t}`, δ_r its own decay (J.-D. Polack, Playing
 //! billiards in the concert hall, Appl. Acoust. 38 (1993) 235). So what it adds to a tone is a random walk, and a fit
-//! takes the walk's slope over a window, weighed by `e^{−2δt}`: [`walked`] has the deviations of such slopes. Ringing
+//! takes the walk's slope over a window, weighed by `e^{−2δt}`: `walked` has the deviations of such slopes. Ringing
 //! is taken from the end of the blow on, since a high tone that is heard 4 ms late has more of the room than of the
 //! bat.
 
