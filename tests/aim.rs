@@ -602,3 +602,14 @@ fn limits_that_leave_no_room_are_told_with_their_place() {
     assert_eq!(output.status.code(), Some(2), "{said}");
     assert!(said.contains("leave no room at") && said.contains("--diameter"), "{said}");
 }
+
+/// Where a sleeve is around the bat its own diameter cannot change; the rest of the bat takes the change.
+#[test]
+fn a_sleeve_keeps_what_it_covers() {
+    let folder = Folder::new("aim-sleeve");
+    let sleeve = "24 in to 30 in, 1 mm, aluminium-7075";
+    let wish = ["aim", "r161", "--sleeve", sleeve, "--target", "mass -2 %", "--json", "-"];
+    let found = folder.json(&wish);
+    let [start, end] = ["start", "found"].map(|key| found["targets"][0][key].as_f64().unwrap());
+    assert!((end / start - 0.98).abs() < 1e-3, "{start} {end}");
+}

@@ -433,3 +433,16 @@ fn a_density_that_is_no_aluminium_is_told() {
     let words = found["words"].to_string();
     assert!(words.contains("1.71 times that of aluminium-7075"), "{words}");
 }
+
+/// Readings that fit to the round-off of χ², where no step is downhill any more, agree with the bat.
+#[test]
+fn readings_that_fit_perfectly_agree() {
+    let folder = Folder::new("calibrate_exact");
+    folder.write(
+        "readings.json",
+        r#"{ "format": "sweetspot-readings/1", "mass": "0.8816 kg",
+            "lines": [ { "hz": 151.86, "mode": 1 }, { "hz": 524.61, "mode": 2 } ] }"#,
+    );
+    let found = folder.json(&["calibrate", "corked", "readings.json", "--json", "-"]);
+    assert_eq!(found["fits"], true, "{found}");
+}

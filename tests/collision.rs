@@ -1,5 +1,6 @@
 //! The hit on whole bats: the rigid limit, the energy ledger, and the dowel of the WPI report.
 
+use sweetspot::bat::fixtures::{Held, Support};
 use sweetspot::collision::ball::Ball;
 use sweetspot::collision::energy_loss::EnergyLoss;
 use sweetspot::collision::hit::{Effort, Model, Scene};
@@ -62,6 +63,23 @@ fn a_rigid_hit_balances_its_energy_and_returns_the_coefficient_of_restitution() 
             if cor == 1.0 {
                 assert_eq!(energy.dissipated_ball, 0.0);
             }
+        }
+    }
+}
+
+/// BBCOR of a bat that does not bend is the ball's restitution, also on a pin: by the effective mass of the bat as held.
+#[test]
+fn a_rigid_bat_on_a_pin_returns_the_coefficient_of_restitution() {
+    let (bat, _) = solved("meshes/r161.json");
+    for pin in [0.0, 0.1524, 0.3] {
+        let support = Support { x: pin, kind: Held::Pinned };
+        let held = bat.with(|parts| parts.fixtures.supports = vec![support]).unwrap();
+        let solution = solve(&held, &Request::default()).unwrap();
+        let (scene, effort) = (scene(50.0), Effort::default());
+        let hitter = Hitter::new(Model::Rigid, &scene, &held, &solution, effort).unwrap();
+        for x in [0.5, 0.7, 0.84] {
+            let outcome = hitter.strike(x).outcome.unwrap();
+            assert!((outcome.bbcor - outcome.cor).abs() < 1e-12, "{pin} {x} {}", outcome.bbcor);
         }
     }
 }

@@ -305,6 +305,22 @@ fn stated_errors_hold_with_a_wall() {
     }
 }
 
+/// The error of one place holds too where a softer wall changes nothing to first order, as 75.9 cm along this bat.
+#[test]
+fn the_error_of_a_single_place_holds_with_a_wall() {
+    let bat = bundled_bat("meshes/northwestern_aluminium.json").unwrap();
+    let hit = |tolerance: f64| {
+        let scene = Scene::default();
+        let scene = scene.with_wall(WallChoice::On, &bat, Model::Contact, Some(tolerance)).unwrap();
+        let accuracy = Accuracy { exit_speed: tolerance, ..Accuracy::default() };
+        let hits = sweep(&bat, Model::Contact, &scene, &accuracy, &[0.7592]).unwrap();
+        let outcome = hits.impacts[0].outcome.as_ref().unwrap();
+        (outcome.exit_speed / (hits.impacts[0].bat_speed + scene.ball_speed), outcome.error)
+    };
+    let ((rough, error), (fine, known)) = (hit(1e-3), hit(1e-5));
+    assert!((rough - fine).abs() <= 3.0 * error + known, "{rough} {fine} {error:e}");
+}
+
 /// A wall of one spring with a mass follows from its stiffness and mass, and has no effect as it becomes stiff.
 #[test]
 fn a_thick_wall_changes_nothing() {

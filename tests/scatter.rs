@@ -224,3 +224,18 @@ fn without_a_file_bats_differ_as_analyze_says_beside_the_sweet_spot() {
     assert_eq!(output.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&output.stderr).contains("a scatter file"));
 }
+
+/// Balls that are drawn beyond the end of the bat are no hits at the tip: with the mean at the tip, half of them.
+#[test]
+fn a_ball_beyond_the_end_misses() {
+    let folder = folder(
+        "beyond",
+        r#"{ "format": "sweetspot-scatter/1", "impact": { "normal": "1 in", "at": "84 cm" },
+            "outputs": ["exit_speed_m_s@impact"] }"#,
+    );
+    let found = run(&folder, &["--points", "64"]);
+    let reason = &found["reasons"][0];
+    let rows = reason["rows"].as_u64().unwrap();
+    assert!((31..=33).contains(&rows), "{reason}");
+    assert!(reason["reason"].as_str().unwrap().contains("beyond the bat's end"), "{reason}");
+}

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use crate::many::indices::Indices;
-use crate::many::rows::in_groups;
+use crate::many::rows::{BatAnswers, in_groups};
 use crate::scatter::rows::{Output, ScatterRows, value};
 use crate::scatter::spreads::SCRAMBLES;
 
@@ -100,6 +100,11 @@ pub struct Scattered {
     pub missing: Vec<String>,
 }
 
+/// Why a row lacks an answer.
+fn lacking(found: &BatAnswers) -> String {
+    found.off.as_ref().map_or("the bat has no such answer".to_owned(), ToString::to_string)
+}
+
 impl Scattered {
     /// Computes all rows, on all threads; `tell` receives the number of finished rows.
     ///
@@ -141,11 +146,7 @@ impl Scattered {
                 Ok(found) => {
                     let all: Vec<_> = found.figures.iter().map(value).collect();
                     let whole = all.iter().all(Option::is_some);
-                    let why = match (whole, found.off) {
-                        (true, _) => String::new(),
-                        (false, Some(off)) => off.to_string(),
-                        (false, None) => "the bat has no such answer".to_owned(),
-                    };
+                    let why = if whole { String::new() } else { lacking(&found) };
                     (all, why, found.met && whole)
                 }
                 Err(error) => (vec![None; asked], error.to_string(), false),
