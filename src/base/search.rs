@@ -93,14 +93,21 @@ fn crossing([mut good, mut bad]: [f64; 2], value: impl Fn(f64) -> f64) -> f64 {
     good
 }
 
-/// Places between two others: an aimed one, one close by on both sides, and the middle of the longer part.
+/// Places between two others, none of them close to another: an aimed one, one close by on both sides, and the middle of
+/// the longer part.
 fn about(aim: f64, [low, high]: [f64; 2], width: f64) -> Vec<f64> {
     /// Of the distance of both.
     const NEAR: f64 = 0.005;
     let by = width.max(NEAR * (high - low));
     let middle = if aim - low > high - aim { 0.5 * (low + aim) } else { 0.5 * (aim + high) };
-    let places = [aim - by, aim, aim + by, middle].into_iter();
-    places.filter(|x| *x > low && *x < high).collect()
+    let mut places: Vec<f64> = vec![];
+    for x in [aim, aim - by, aim + by, middle] {
+        let apart = |other: &f64| (x - other).abs() > 0.5 * by;
+        if x > low && x < high && [low, high].iter().chain(&places).all(apart) {
+            places.push(x);
+        }
+    }
+    places
 }
 
 #[cfg(test)]
