@@ -21,7 +21,7 @@ pub fn written_out(text: &str) -> String {
     text.chars().map(written).collect()
 }
 
-/// Equivalent JSON, with `\uXXXX` for each character in its texts that acts on a terminal.
+/// Equivalent JSON, with an escape `\u` for each character in its texts that acts on a terminal.
 pub fn json(text: &str) -> String {
     let written = |c: char| match acts(c) && !c.is_ascii_whitespace() {
         true => format!("\\u{:04x}", u32::from(c)),

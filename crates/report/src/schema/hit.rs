@@ -123,10 +123,10 @@ pub struct Impact {
     pub peak_compression_m: Option<f64>,
     /// Collision efficiency e_A = (v_out − V)/(v_in + V), V the bat's speed at the impact point.
     pub collision_efficiency: Option<f64>,
-    /// Bat-ball coefficient of restitution of the free bat: e_A (1 + r) + r, r the ball's mass over
-    /// the bat's effective mass there.
+    /// Bat-ball coefficient of restitution of the free bat, of a held one as it is held: e_A (1 + r) + r, r the ball's
+    /// mass over the bat's effective mass there.
     pub bbcor: Option<f64>,
-    /// Bat-ball coefficient of restitution of the bat held 6 in from the knob.
+    /// Bat-ball coefficient of restitution of the bat held 6 in from the knob; of a held bat as `bbcor`.
     pub bbcor_pivoted: Option<f64>,
     /// Number of bending modes that took part.
     pub modes_used: Option<usize>,

@@ -14,7 +14,7 @@ pub enum Probe {
     HandsVelocity,
     /// Acceleration at the hands (m/s²).
     HandsAcceleration,
-    /// BBCOR of the free bat.
+    /// BBCOR of the bat, free or as it is held.
     Bbcor,
 }
 
