@@ -81,6 +81,15 @@ const MM: f64 = 1e-3;
 const MANY: usize = 200;
 
 impl LatheMap {
+    /// The answers whose changes are told in a few lines.
+    pub const ON_A_SCREEN: [Answer; 5] = [
+        Answer::Mass,
+        Answer::Inertia,
+        Answer::Frequency(1),
+        Answer::ExitSpeed,
+        Answer::ExitSpeedPlace,
+    ];
+
     /// A map with wide bands and few answers, to show where a cut has the largest effect; `None` for a bat with too
     /// many pieces.
     ///
