@@ -128,6 +128,9 @@ pub fn conflict_words(conflict: &Conflict, targets: &[AimedTarget], us: bool) ->
                 let aside: Vec<String> = conflict.aside.iter().map(|k| wish(*k)).collect();
                 words += &format!("; {} left aside there", aside.join(" and "));
             }
+            if settled(conflict) {
+                words += "; all this by changes with a knot every 5 cm: a sharper cut may do more";
+            }
             words
         }
     }

@@ -169,8 +169,14 @@ fn targets(outcome: &Outcome, us: bool) -> String {
             out += &format!("  missed by {}\n", missed_by(band, target.value(), us));
         }
     }
+    // The search weighs other free choices too.
+    let size = if outcome.free.is_empty() {
+        "the norm"
+    } else {
+        "the size of all changes, free choices too,"
+    };
     let priced: Vec<String> =
-        outcome.targets.iter().filter_map(|target| priced(target, us)).collect();
+        outcome.targets.iter().filter_map(|target| priced(target, size, us)).collect();
     if !priced.is_empty() {
         out += &wrapped(&format!("Price: {}.", priced.join("; ")), 2);
     }
@@ -190,7 +196,7 @@ fn missed_by(band: &Band, value: f64, us: bool) -> String {
 }
 
 /// The cost of tightening a target that binds.
-fn priced(AimedTarget { band, price, .. }: &AimedTarget, us: bool) -> Option<String> {
+fn priced(AimedTarget { band, price, .. }: &AimedTarget, size: &str, us: bool) -> Option<String> {
     let price = price.filter(|price| *price > 0.0)?;
     let (step, words) = match (band.goal.unit(), us) {
         ("kg", false) => (1e-3, "1 g".to_owned()),
@@ -206,7 +212,7 @@ fn priced(AimedTarget { band, price, .. }: &AimedTarget, us: bool) -> Option<Str
         true => format!("{} in", significant(inches(1e-3 * price * step), 2)),
         false => format!("{} mm", significant(price * step, 2)),
     };
-    Some(format!("{words} more of the {} changes the norm by {cost}", called(band.goal)))
+    Some(format!("{words} more of the {} changes {size} by {cost}", called(band.goal)))
 }
 
 fn before_and_after(outcome: &Outcome, us: bool, full: bool) -> String {

@@ -120,9 +120,17 @@ fn verdict(tested: &Tested, units: Units, full: bool) -> Vec<String> {
     };
     let source = if full { format!(" ({LIMIT_SOURCE})") } else { String::new() };
     let mut said = vec![format!(
-        "Largest {bbcor:.4}, {place} from the tip: {against} {LIMIT:.2}{source}. It rises with the ball's cor by \
-         about as much; a laboratory's ball and limit decide, not this."
+        "Largest of {} places {bbcor:.4}, {place} from the tip: {against} {LIMIT:.2}{source}. It rises with the \
+         ball's cor by about as much; a laboratory's ball and limit decide, not this.",
+        scan.places.len()
     )];
+    let there = scan
+        .places
+        .iter()
+        .find(|place| Some(place.x_m) == scan.largest.as_ref().map(|most| most.x_m));
+    if there.is_some_and(|place| place.flags.iter().any(|flag| flag == "ball_law_beyond")) {
+        said.push("The ball's law was not measured for such a hit (docs/limits.md).".to_owned());
+    }
     if let Some(wall) = scan.wall.as_ref().filter(|wall| wall.is_deep()) {
         let [low, high] = wall.bbcor.range;
         said.push(format!(

@@ -97,8 +97,8 @@ fn beside_pieces(comparison: &Comparison, units: Units) -> String {
         out += &wrapped(&text, 7);
     }
     if same.len() < others.len() && told.is_empty() {
-        let text = "Trust: how much two pieces of these materials differ is not known here; \"within\" is the \
-                    computation alone.";
+        let text = "Trust: how much two pieces of these materials differ is not counted here (a material of unknown \
+                    scatter, or a bat that was weighed and tapped); \"within\" is the computation alone.";
         out += &wrapped(text, 7);
     }
     out

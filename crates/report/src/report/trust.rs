@@ -173,7 +173,9 @@ fn doubted(doubt: &Doubt, units: Units) -> String {
             "The fastest ball is struck again as it leaves: small changes move that far.".to_owned()
         }
         Doubt::BallLaw => {
-            "Beyond the ball's measured law: over 2 ms in touch, or under 0.44 returned.".to_owned()
+            "Beyond the ball's measured law: over 2 ms in touch, under 0.44 returned, or pressed harder than by a \
+             rigid wall at 80 m/s."
+                .to_owned()
         }
         Doubt::ExitSpeeds { error } => format!(
             "Exit speeds are less accurate than was asked: the worst within {} of the closing speed.",
