@@ -84,10 +84,8 @@ struct Border {
 pub fn columns(layers: &Layers, grading: Grading) -> Vec<Column> {
     let stretches = &layers.stretches;
     let first = &stretches[0];
-    let graded = |soft: bool| match soft {
-        true => Grading { corner: grading.soft, ..grading },
-        false => grading,
-    };
+    let graded =
+        |soft: bool| if soft { Grading { corner: grading.soft, ..grading } } else { grading };
     let of = |left: &Stretch, right: &Stretch| graded(left.stays_stiff(right, &layers.materials));
     let own = graded(first.is_soft_within(&layers.materials));
     let mut lefts = vec![end(first, &first.radii(first.from), grading.knob, own)];

@@ -268,7 +268,6 @@ impl Proven {
     /// [`Error::Value`] where the sections of the bat have values too far from 1 to be bounded.
     pub fn of(bat: &Bat, layout: &Layout, mesh: &Mesh, theory: Theory) -> Result<Self> {
         let origin = bat.inertia().balance_point;
-        let gauss = &GAUSS_24;
         let (mut cells, mut begin) =
             (Vec::with_capacity(mesh.len()), vec![usize::MAX; layout.curves.len()]);
         // Cells lie end to end from knob to tip: a gap would be another bat.
@@ -303,29 +302,11 @@ impl Proven {
         let bed = layout.bed.map(|bed| Bed { borders: bed.borders.map(border), ..bed });
         let root = root(&cells);
         let (length, stiff) = (bat.length(), cells[root].bending.at[0]);
-        let arm = |contact: &Contact| match cells.get(contact.border) {
-            Some(cell) => (cell.middle - cell.half).middle(),
-            None => length - origin,
+        let arm = |contact: &Contact| {
+            cells.get(contact.border).map_or(length - origin, |cell| cell.begin().middle())
         };
         let base = base(&contacts, arm, length, stiff / length.powi(3));
-        let mut gram = [Interval::point(0.0); 3];
-        for cell in &cells {
-            let arm = cell.arm();
-            let own = cell.mass.product(&arm).product(&arm).integral(gauss);
-            let turning = cell.turning.as_ref().map(|(turning, _)| turning.integral(gauss));
-            let parts = [
-                cell.mass_series[0].integral(),
-                cell.mass_series[1].integral(),
-                own + turning.unwrap_or(Interval::point(0.0)),
-            ];
-            gram.iter_mut().zip(parts).for_each(|(sum, part)| *sum = *sum + cell.half * part);
-        }
-        for Mass { mass, inertia, offset, arm, .. } in &masses {
-            let arm = *arm + *offset;
-            gram[0] = gram[0] + *mass;
-            gram[1] = gram[1] + *mass * arm;
-            gram[2] = gram[2] + *mass * arm.square() + *inertia;
-        }
+        let gram = gram(&cells, &masses);
         Ok(Self { theory, cells, masses, contacts, bed, base, root, gram, origin })
     }
 }
@@ -339,10 +320,39 @@ impl Mass {
 }
 
 impl Cell {
+    /// The arm at its left end (m).
+    pub fn begin(&self) -> Interval {
+        self.middle - self.half
+    }
+
     /// The arm at the points (m).
     pub fn arm(&self) -> Values<POINTS> {
         Series::of(&[self.middle, self.half]).values(&GAUSS_24)
     }
+}
+
+/// [`Proven::gram`].
+fn gram(cells: &[Cell], masses: &[Mass]) -> [Interval; 3] {
+    let gauss = &GAUSS_24;
+    let mut gram = [Interval::point(0.0); 3];
+    for cell in cells {
+        let arm = cell.arm();
+        let own = cell.mass.product(&arm).product(&arm).integral(gauss);
+        let turning = cell.turning.as_ref().map(|(turning, _)| turning.integral(gauss));
+        let parts = [
+            cell.mass_series[0].integral(),
+            cell.mass_series[1].integral(),
+            own + turning.unwrap_or(Interval::point(0.0)),
+        ];
+        gram.iter_mut().zip(parts).for_each(|(sum, part)| *sum = *sum + cell.half * part);
+    }
+    for Mass { mass, inertia, offset, arm, .. } in masses {
+        let arm = *arm + *offset;
+        gram[0] = gram[0] + *mass;
+        gram[1] = gram[1] + *mass * arm;
+        gram[2] = gram[2] + *mass * arm.square() + *inertia;
+    }
+    gram
 }
 
 fn cell(

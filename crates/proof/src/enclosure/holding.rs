@@ -23,6 +23,7 @@
 use crate::enclosure::contacts::{Bed, Contact};
 use crate::enclosure::energies::{from_left, from_right};
 use crate::enclosure::gives::{Give, YieldingPart, kink, softness, stretch};
+use crate::enclosure::moved::Along;
 use crate::enclosure::stretches::{Met, Rigid, Stretch};
 use crate::gauss::GAUSS_40;
 use crate::series::{Series, Values};
@@ -62,7 +63,7 @@ struct Motion {
 
 /// Loads along the stretches, and steps of V and m at borders.
 struct Loads {
-    cells: Vec<(Series, Option<Series>)>,
+    cells: Vec<Along>,
     steps: Vec<[Interval; 2]>,
     /// The force on every mass (N).
     masses: Vec<Interval>,
@@ -122,10 +123,7 @@ impl Holding<'_> {
 
     /// Position of a border (m).
     fn place(&self, border: usize) -> Interval {
-        match self.stretches.get(border) {
-            Some(stretch) => stretch.middle - stretch.half,
-            None => self.rigid.length,
-        }
+        self.stretches.get(border).map_or(self.rigid.length, Stretch::begin)
     }
 
     /// The compliant parts, with their masses.

@@ -70,14 +70,17 @@ pub struct Moved {
     pub rigid: [Interval; 2],
 }
 
+/// A quantity of the deflection along a cell, and its counterpart of rotation or shear.
+pub type Along = (Series, Option<Series>);
+
 /// The motion of a trial, with the quantities derived from it along the bat.
 pub struct Tried {
     /// The motion.
     pub moved: Moved,
     /// ρA w, and ρI θ where sections turn, on every cell.
-    pub loads: Vec<(Series, Option<Series>)>,
+    pub loads: Vec<Along>,
     /// EI χ, and κGA γ in a theory with shear, on every cell.
-    pub strains: Vec<(Series, Option<Series>)>,
+    pub strains: Vec<Along>,
     /// A number near its Rayleigh quotient (s²).
     pub z: f64,
 }
@@ -112,7 +115,7 @@ impl Proven {
         }
         let first = self.integrated(trial, [0.0; 2]);
         let [push, turn] = self.rigid(&first)?.map(Interval::middle);
-        let arm = (self.cells[self.root].middle - self.cells[self.root].half).middle();
+        let arm = self.cells[self.root].begin().middle();
         let mut moved = self.integrated(trial, [-(push + turn * arm), -turn]);
         moved.rigid = self.rigid(&moved)?;
         self.add_drift(&mut moved);
@@ -187,7 +190,7 @@ impl Proven {
     /// The arm of a border (m).
     pub fn arm(&self, border: usize) -> Interval {
         match self.cells.get(border) {
-            Some(cell) => cell.middle - cell.half,
+            Some(cell) => cell.begin(),
             None => self.cells[border - 1].middle + self.cells[border - 1].half,
         }
     }

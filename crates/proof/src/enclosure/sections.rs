@@ -199,10 +199,7 @@ impl<'a> Rings<'a> {
         let own = self.summed(|ring| {
             ring.squares(gauss).times(Interval::pi() * self.heavier * data(ring.material.density))
         });
-        match self.layup.tape == 0.0 {
-            true => own,
-            false => own.sum(&Values::constant(data(self.layup.tape))),
-        }
+        if self.layup.tape == 0.0 { own } else { own.sum(&Values::constant(data(self.layup.tape))) }
     }
 
     /// ρI (kg m) at the points: `ρ π/4 (b⁴ − a⁴)` of every ring, and of tape on the surface `½ m r²`.

@@ -182,6 +182,11 @@ fn halved(
 }
 
 impl Stretch {
+    /// Its beginning from the end of the bat (m).
+    pub fn begin(&self) -> Interval {
+        self.middle - self.half
+    }
+
     fn of(
         bat: &Bat,
         layout: &Layout,

@@ -325,16 +325,7 @@ fn way(node: &Node, wanted: &mut Wanted) -> Result<Variation> {
     }
     // The last number of these two has no unit.
     let with_unit = if matches!(way, "grid" | "lognormal") { count - 1 } else { count };
-    let numbers = mistakes::all(items[..with_unit].iter().map(number))?;
-    let unit = numbers[0].1.clone();
-    if let Some(k) = numbers.iter().position(|(_, other)| *other != unit) {
-        let expected = match &*unit {
-            "" => "a bare number, as the first".to_owned(),
-            unit => format!("the unit \"{unit}\", as the first has"),
-        };
-        return Err(items[k].error(items[k].shown(), expected));
-    }
-    let numbers: Vec<f64> = numbers.into_iter().map(|(number, _)| number).collect();
+    let (numbers, unit) = alike(&items[..with_unit])?;
     if way == "grid" {
         let count = items[2].whole()?;
         if !(2..=1_000_000).contains(&count) {
@@ -346,6 +337,13 @@ fn way(node: &Node, wanted: &mut Wanted) -> Result<Variation> {
         };
         return Ok(list((0..count).map(at).collect(), vec![], unit));
     }
+    wanted.drawn.push(distribution(way, &numbers, &items, node)?);
+    let axis = Axis::Drawn(wanted.drawn.len() - 1);
+    Ok(Variation { axis, numbers: vec![], listed: vec![], unit })
+}
+
+/// The distribution of that name with these numbers; that of a logarithm is the second item.
+fn distribution(way: &str, numbers: &[f64], items: &[Node], node: &Node) -> Result<Distribution> {
     let distribution = match way {
         "uniform" => Distribution::Uniform { from: numbers[0], to: numbers[1] },
         "normal" => Distribution::Normal { mean: numbers[0], deviation: numbers[1] },
@@ -360,21 +358,28 @@ fn way(node: &Node, wanted: &mut Wanted) -> Result<Variation> {
             node.complain(Complaint { field: String::new(), found, ..complaint })
         })
     })?;
-    wanted.drawn.push(distribution);
-    let axis = Axis::Drawn(wanted.drawn.len() - 1);
-    Ok(Variation { axis, numbers: vec![], listed: vec![], unit })
+    Ok(distribution)
+}
+
+/// The numbers of values that must all have the unit of the first, and the unit.
+fn alike(items: &[Node]) -> Result<(Vec<f64>, String)> {
+    let (numbers, units): (Vec<f64>, Vec<String>) =
+        mistakes::all(items.iter().map(number))?.into_iter().unzip();
+    if let Some(k) = units.iter().position(|other| *other != units[0]) {
+        let expected = match &*units[0] {
+            "" => "a bare number, as the first".to_owned(),
+            unit => format!("the unit \"{unit}\", as the first has"),
+        };
+        return Err(items[k].error(items[k].shown(), expected));
+    }
+    Ok((numbers, units[0].clone()))
 }
 
 /// The numbers of values that all have the same unit, and the unit.
 fn of_one_unit(items: &[Node]) -> Option<(Vec<f64>, String)> {
-    let all: Option<Vec<(f64, String)>> = items.iter().map(|item| number(item).ok()).collect();
-    let (numbers, mut units): (Vec<f64>, Vec<String>) = all?.into_iter().unzip();
-    units.dedup();
-    let [unit] = &units[..] else { return None };
-    Quantity::ALL
-        .iter()
-        .any(|quantity| units::factor(unit, *quantity).is_ok())
-        .then(|| (numbers, unit.clone()))
+    let (numbers, unit) = alike(items).ok()?;
+    let known = Quantity::ALL.iter().any(|quantity| units::factor(&unit, *quantity).is_ok());
+    known.then_some((numbers, unit))
 }
 
 /// A number and its unit, which may be empty.
