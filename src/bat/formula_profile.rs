@@ -1,7 +1,6 @@
 //! A profile from formulas: it is cut at corners and features, and checked everywhere.
 
-use crate::base::error::{Complaint, Error, Result, shortened};
-use crate::base::golden;
+use crate::base::{Complaint, Error, Result, golden, shortened};
 use crate::bat::formula::Formula;
 use crate::bat::formula_bounds::Bounds;
 use crate::bat::profile::{

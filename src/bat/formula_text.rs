@@ -22,7 +22,7 @@ use winnow::error::{ErrMode, ParserError};
 use winnow::stream::{LocatingSlice, Location, Stateful, Stream};
 use winnow::token::{one_of, take_while};
 
-use crate::base::error::{Complaint, nearest, shortened};
+use crate::base::{Complaint, nearest, shortened};
 use crate::bat::formula_tree::{FUNCTIONS, Node};
 
 /// Longest formula that is read (characters).

@@ -15,8 +15,8 @@
 
 use std::ops::{Index, IndexMut};
 
+use crate::base::Real;
 use crate::base::linear::{determinant, solve_two};
-use crate::base::real::Real;
 use crate::beam::element::MOST_WIDTH;
 use crate::beam::fixed::unit;
 use crate::beam::placed::Placed;

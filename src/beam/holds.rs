@@ -12,7 +12,7 @@
 //! Worked out here: a Riccati recursion along the bat. A. E. Bryson, Y.-C. Ho, Applied Optimal Control (1975), chapter
 //! 5, has the sweep method for problems in time.
 
-use crate::base::real::{Over, Real};
+use crate::base::{Over, Real};
 use crate::beam::bed::Bed;
 use crate::beam::footing::{Crossing, Footing, Meeting, Rest, product};
 

@@ -4,8 +4,7 @@
 
 use serde::Serialize;
 
-use crate::bat::body::Bat;
-use crate::bat::profile::SAME_PLACE;
+use crate::bat::{Bat, SAME_PLACE};
 
 /// One element: a stretch of the profile.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

@@ -2,14 +2,9 @@
 
 use std::sync::LazyLock;
 
-use crate::base::lanes::{Lanes, WIDTH};
-use crate::base::quadrature::gauss;
-use crate::base::real::Real;
-use crate::bat::body::Bat;
+use crate::base::{Lanes, Real, WIDTH, gauss};
 use crate::bat::formula_profile::LAST;
-use crate::bat::layup::{Layup, Worth};
-use crate::bat::profile::{Cubics, Radii, Section};
-use crate::bat::theory::Theory;
+use crate::bat::{Bat, Cubics, Layup, Radii, Section, Theory, Worth};
 use crate::beam::mesh::{Element, Mesh, Part};
 use crate::beam::rule::{GaussPoint, MOST_POINTS, Rule};
 

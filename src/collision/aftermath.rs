@@ -14,7 +14,7 @@ use faer::c64;
 
 use serde::Serialize;
 
-use crate::bat::body::Bat;
+use crate::bat::Bat;
 use crate::collision::contact::collocation::polynomial;
 use crate::collision::contact::table::Piece;
 use crate::collision::struck::Struck;

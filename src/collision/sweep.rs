@@ -5,10 +5,8 @@ use std::borrow::Cow;
 
 use serde::Serialize;
 
-use crate::base::error::Result;
-use crate::base::telling::{Tell, nobody};
-use crate::bat::body::Bat;
-use crate::bat::theory::Theory;
+use crate::base::{Result, Tell, nobody};
+use crate::bat::{Bat, Theory};
 use crate::collision::along::strikes;
 use crate::collision::hit::{Effort, Impact, MOST_WORK, Model, Outcome, Scene, greater};
 use crate::collision::hitter::Hitter;

@@ -2,9 +2,7 @@
 
 use std::ops::Range;
 
-use crate::base::error::{Complaint, Error, Result};
-use crate::base::mistakes::{self, Mistakes};
-use crate::base::units::Quantity;
+use crate::base::{Complaint, Error, Mistakes, Quantity, Result, mistakes};
 use crate::files::document::Document;
 use crate::files::sheet::{self, Sheet, SheetRow};
 

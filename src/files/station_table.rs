@@ -1,10 +1,7 @@
 //! Columns of stations as a user wrote them, in a bat file or a CSV file, each value with its place.
 
-use crate::base::error::{Complaint, Error, Result};
-use crate::base::mistakes::{self, Mistakes};
-use crate::base::typed;
-use crate::base::units::Quantity;
-use crate::bat::profile::{Interpolation, Stations};
+use crate::base::{Complaint, Error, Mistakes, Quantity, Result, mistakes, typed};
+use crate::bat::{Interpolation, Stations};
 use crate::files::csv_file::Csv;
 use crate::files::document::Document;
 use crate::files::json_node::{Node, Object};

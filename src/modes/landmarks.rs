@@ -1,9 +1,7 @@
 //! Where is a deflection zero, where is it largest, and how far may its zeros be off?
 
-use crate::base::real::{Over, Real};
-use crate::beam::motion::Motion;
-use crate::beam::rule::MOST_POINTS;
-use crate::beam::view::View;
+use crate::base::{Over, Real};
+use crate::beam::{MOST_POINTS, Motion, View};
 use crate::modes::shape::Shape;
 
 /// A motion from knob to tip in one lane, at the points of its elements.

@@ -7,9 +7,8 @@ use std::sync::Arc;
 
 use serde::Serialize;
 
-use crate::base::real::{Over, Real};
-use crate::beam::motion::Motion;
-use crate::beam::view::View;
+use crate::base::{Over, Real};
+use crate::beam::{Motion, View};
 use crate::modes::certainty::{BESIDE_CLAMP, Doubt, RESTING};
 use crate::modes::landmarks::Track;
 

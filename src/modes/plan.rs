@@ -38,12 +38,9 @@ use std::time::Duration;
 
 use serde::Serialize;
 
-use crate::bat::body::Bat;
-use crate::bat::profile::{Piece, Radii};
-use crate::bat::theory::Theory;
-use crate::beam::mesh::Mesh;
-use crate::beam::rule::{DEGREES, Rule};
+use crate::bat::{Bat, Piece, Radii, Theory};
 use crate::beam::sections::missed;
+use crate::beam::{DEGREES, Mesh, Rule};
 use crate::modes::stations::Stations;
 use crate::modes::survey::{MANY, Sample, Survey};
 

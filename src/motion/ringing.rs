@@ -13,9 +13,8 @@
 
 use faer::c64;
 
-use crate::base::error::Result;
-use crate::base::quadrature::gauss;
-use crate::bat::body::Bat;
+use crate::base::{Result, gauss};
+use crate::bat::Bat;
 use crate::modes::compliance::RigidMotion;
 use crate::modes::damping::{DampingMethod, accuracy};
 use crate::modes::mode::Shape;

@@ -18,14 +18,11 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use crate::promise::{ALWAYS, MOSTLY, VISIBLE};
-use sweetspot::base::error::{Error, Result};
-use sweetspot::base::telling::Tell;
-use sweetspot::base::threads;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::theory::Theory;
-use sweetspot::collision::ball::Ball;
-use sweetspot::collision::hit::{Model, Scene, Wall};
+use sweetspot::base::{Error, Result, Tell, threads};
+use sweetspot::bat::{Bat, Theory};
+use sweetspot::collision::hit::Wall;
 use sweetspot::collision::sweep::{Trial, sweep};
+use sweetspot::collision::{Ball, Model, Scene};
 use sweetspot::modes::solve::Request;
 
 /// The path of the hits in the project.

@@ -11,16 +11,10 @@
 use std::f64::consts::TAU;
 
 use crate::promise::ALWAYS;
-use sweetspot::base::error::Result;
-use sweetspot::base::golden;
-use sweetspot::base::telling::Tell;
-use sweetspot::base::threads;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::fixtures::{Fixtures, Region};
-use sweetspot::bat::formula::Formula;
-use sweetspot::bat::layup::Layup;
-use sweetspot::bat::material::Material;
-use sweetspot::bat::profile::{FormulaPiece, Interpolation, Profile, Stations};
+use sweetspot::base::{Result, Tell, golden, threads};
+use sweetspot::bat::{
+    Bat, Fixtures, Formula, FormulaPiece, Interpolation, Layup, Material, Profile, Region, Stations,
+};
 use sweetspot::modes::hoop::{Hoop, HoopRequest};
 
 /// Tolerances at which every barrel is solved.

@@ -7,19 +7,15 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use sweetspot::base::error::{Error, Result};
-use sweetspot::bat::body::Bat;
-use sweetspot::collision::ball::Ball;
+use sweetspot::base::{Error, Result};
+use sweetspot::bat::Bat;
 use sweetspot::collision::contact::collider::Collider;
 use sweetspot::collision::contact::collocation::{POINTS, polynomial};
-use sweetspot::collision::contact::force_law::ForceLaw;
 use sweetspot::collision::contact::power_law::PowerLaw;
 use sweetspot::collision::contact::table::Piece;
 use sweetspot::collision::contact::touch::DrivingPoint;
 use sweetspot::collision::energy_loss::EnergyLoss;
-use sweetspot::collision::hit::{Effort, Model, Outcome, Scene};
-use sweetspot::collision::hitter::Hitter;
-use sweetspot::collision::sweet_spot::SweetSpot;
+use sweetspot::collision::{Ball, Effort, ForceLaw, Hitter, Model, Outcome, Scene, SweetSpot};
 use sweetspot::modes::solve::Solution;
 
 /// A ball thrown at a free bat, or at a wall.

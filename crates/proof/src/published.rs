@@ -7,10 +7,8 @@ use std::fmt::Write;
 use crate::bundled::CASES;
 use crate::case::{Case, Check, Known, Provenance};
 use crate::validation::{KnownNumber, run};
-use sweetspot::base::error::Result;
-use sweetspot::base::telling::Tell;
-use sweetspot::base::units::inches;
-use sweetspot::bat::theory::Theory;
+use sweetspot::base::{Result, Tell, inches};
+use sweetspot::bat::Theory;
 use sweetspot::modes::solve::{Request, solve};
 
 /// A case with its rows, one for each check.

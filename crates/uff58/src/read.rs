@@ -8,8 +8,7 @@ use super::{
     Analysis, Complex, Dataset, Header, NodalData, Node, Nodes, Skipped, Stamp, TraceLine, Units,
     Universal,
 };
-use sweetspot::base::error::Result;
-use sweetspot::base::file;
+use sweetspot::base::{Result, file};
 
 /// Columns of eight integers, of coordinates.
 const INTEGERS: [usize; 8] = [10; 8];

@@ -16,7 +16,7 @@
 //! E. L. Wilson, AIAA Journal 3 (1965) 2269: solids of revolution under loads without that symmetry, one Fourier term
 //! after the other.
 
-use crate::base::lanes::vectorized;
+use crate::base::vectorized;
 use crate::beam::wall::columns::LayerElement;
 use crate::beam::wall::elastic::Elastic;
 use crate::beam::wall::shapes::Shapes;

@@ -7,7 +7,7 @@
 
 use std::ops::Range;
 
-use crate::base::error::{Error, Result};
+use crate::base::{Error, Result};
 use crate::beam::wall::cell::{Cell, Rule};
 use crate::beam::wall::columns::Column;
 use crate::beam::wall::layers::{SAME_RADIUS, meet};

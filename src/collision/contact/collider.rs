@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use faer::c64;
 use pulp::{Simd, WithSimd};
 
-use crate::base::lanes::widest;
+use crate::base::widest;
 use crate::collision::contact::collocation::{LANES, Lobatto, POINTS};
 use crate::collision::contact::encounter::Encounter;
 use crate::collision::contact::flight::Landing;

@@ -2,7 +2,7 @@
 
 use faer::c64;
 
-use crate::base::linear::dot;
+use crate::base::dot;
 use crate::collision::contact::collocation::{LANES, POINTS, polynomial, sum};
 use crate::collision::contact::force_law::{ForceLaw, Top};
 use crate::collision::contact::table::{Piece, StepTable};

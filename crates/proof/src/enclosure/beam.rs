@@ -11,13 +11,9 @@ use crate::enclosure::radii::{Curved, NUMBER, curved, place};
 use crate::enclosure::sections::Rings;
 use crate::gauss::GAUSS_24;
 use crate::series::{Series, Values};
-use sweetspot::base::error::{Error, Result};
-use sweetspot::base::interval::Interval;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::fixtures::{Absorber, Attachment, Fixtures, Joint};
-use sweetspot::bat::profile::Piece;
-use sweetspot::bat::theory::Theory;
-use sweetspot::beam::mesh::Mesh;
+use sweetspot::base::{Error, Interval, Result};
+use sweetspot::bat::{Absorber, Attachment, Bat, Fixtures, Joint, Piece, Theory};
+use sweetspot::beam::Mesh;
 
 /// Points of the energies: they determine polynomials of degree 23 and integrate those of degree 47 exactly.
 pub const POINTS: usize = 24;

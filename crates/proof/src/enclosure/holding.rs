@@ -27,7 +27,7 @@ use crate::enclosure::moved::Along;
 use crate::enclosure::stretches::{Met, Rigid, Stretch};
 use crate::gauss::GAUSS_40;
 use crate::series::{Series, Values};
-use sweetspot::base::interval::Interval;
+use sweetspot::base::Interval;
 
 /// Number of restrained Legendre coefficients of the deflection of a bed.
 pub const OF_A_BED: usize = 8;

@@ -37,10 +37,8 @@ use crate::enclosure::holding::{Hold, Holding, OF_A_BED};
 use crate::enclosure::stretches::{Met, Rigid, Stretch, rigid, stretches};
 use crate::gauss::GAUSS_40;
 use crate::series::{Series, Values};
-use sweetspot::base::error::{Error, Result};
-use sweetspot::base::interval::Interval;
-use sweetspot::bat::body::Bat;
-use sweetspot::bat::theory::Theory;
+use sweetspot::base::{Error, Interval, Result};
+use sweetspot::bat::{Bat, Theory};
 
 /// Trace (s²) and square of the Hilbert-Schmidt norm (s⁴) of T.
 #[derive(Debug, Clone, Copy, PartialEq)]

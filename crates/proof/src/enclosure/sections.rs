@@ -3,9 +3,9 @@
 use crate::enclosure::radii::{Cubic, Curved, NUMBER};
 use crate::gauss::{GAUSS_40, Gauss};
 use crate::series::{Series, Values};
-use sweetspot::base::interval::{Interval, down, up};
-use sweetspot::bat::layup::{Layer, Layup};
-use sweetspot::bat::material::Material;
+use sweetspot::base::Interval;
+use sweetspot::base::interval::{down, up};
+use sweetspot::bat::{Layer, Layup, Material};
 
 /// Degree of the polynomials that approximate 1/EI, κGA of a tube and 1/κGA.
 const DEGREE: usize = 12;
