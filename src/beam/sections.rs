@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use crate::base::{Lanes, Real, WIDTH, gauss};
 use crate::bat::formula_profile::LAST;
 use crate::bat::{Bat, Cubics, Layup, Radii, Section, Theory, Worth};
-use crate::beam::mesh::{Element, Mesh, Part};
+use crate::beam::mesh::{Element, ElementPart, Mesh};
 use crate::beam::rule::{GaussPoint, MOST_POINTS, Rule};
 
 /// The sections at the points of the rule on one element.
@@ -36,7 +36,7 @@ pub fn over<const Q: usize>(
     of: impl Fn(&Layup, Section) -> [f64; Q],
 ) -> [[f64; MOST_POINTS]; Q] {
     let mut moments = Moments::<Q>::new(rule.moments_of_sections());
-    for Part { piece, of_piece: [from, to], of_element: [begin, end] } in e.parts(bat) {
+    for ElementPart { piece, of_piece: [from, to], of_element: [begin, end] } in e.parts(bat) {
         let piece = &bat.profile().pieces[piece];
         let (layup, share) = (bat.layup(piece), end - begin);
         let Radii::Cubic(cubics) = &piece.radii else { continue };

@@ -82,10 +82,10 @@ impl Csv {
 }
 
 /// Key, factor to SI and unit of a column.
-type Scale = (&'static str, f64, String);
+type ColumnScale = (&'static str, f64, String);
 
 /// Key, factor to SI and unit of every column.
-fn scales(sheet: &Sheet, columns: &[(&'static str, Quantity, f64)]) -> Result<Vec<Scale>> {
+fn scales(sheet: &Sheet, columns: &[(&'static str, Quantity, f64)]) -> Result<Vec<ColumnScale>> {
     /// Number of columns that are checked. There are fewer keys, so a longer header has a mistake among the first ones.
     const LOOKED_AT: usize = 100;
     let mut seen = Vec::new();
@@ -105,7 +105,7 @@ fn scales(sheet: &Sheet, columns: &[(&'static str, Quantity, f64)]) -> Result<Ve
 fn read_row(
     sheet: &Sheet,
     row: &SheetRow,
-    scales: &[Scale],
+    scales: &[ColumnScale],
     columns: &mut [(&'static str, Vec<f64>)],
 ) -> Result<()> {
     let mut mistakes = Mistakes::default();
@@ -136,7 +136,7 @@ fn names_it(name: &str, key: &str) -> bool {
 fn column(
     written: &str,
     columns: &[(&'static str, Quantity, f64)],
-) -> std::result::Result<Scale, Complaint> {
+) -> std::result::Result<ColumnScale, Complaint> {
     let name = sheet::normal(written);
     // Longer keys first, so that a shorter one is not found in them.
     let known = columns.iter().filter(|(key, ..)| names_it(&name, key));

@@ -17,8 +17,8 @@ pub struct Track<'a> {
 }
 
 /// Room for the places of one element: ξ and deflection at both ends and at the points.
-type Places = [(f64, f64); MOST_POINTS + 2];
-const NO_PLACES: Places = [(0.0, 0.0); MOST_POINTS + 2];
+type Room = [(f64, f64); MOST_POINTS + 2];
+const NO_PLACES: Room = [(0.0, 0.0); MOST_POINTS + 2];
 
 impl Track<'_> {
     /// The motion in that lane.
@@ -67,7 +67,7 @@ impl Track<'_> {
 impl Shape {
     /// Deflection at the left end, the points and the right end of element `k`, from its values at
     /// the points.
-    fn places<'r>(&self, k: usize, track: &Track, room: &'r mut Places) -> &'r mut [(f64, f64)] {
+    fn places<'r>(&self, k: usize, track: &Track, room: &'r mut Room) -> &'r mut [(f64, f64)] {
         let points = track.xi.len();
         let [left, right] = self.ends(k);
         let inner = track.samples[k * points..(k + 1) * points].iter();

@@ -58,7 +58,7 @@ impl CheckedHoop {
 }
 
 /// A barrel with its known frequencies (Hz) for n = 2 and 3 and their possible errors.
-struct Barrel {
+struct TestBarrel {
     name: String,
     bat: Bat,
     from: Option<f64>,
@@ -77,7 +77,7 @@ pub fn rows(tell: Tell, random: usize) -> Result<Vec<CheckedHoop>> {
     Ok(checked.into_iter().collect::<Result<Vec<_>>>()?.concat())
 }
 
-fn solve(barrel: &Barrel, tol: f64) -> Result<Hoop> {
+fn solve(barrel: &TestBarrel, tol: f64) -> Result<Hoop> {
     let harmonics = HARMONICS.to_vec();
     let request = HoopRequest { tol, harmonics, up_to_hz: 1.0, least: MODES, ..Default::default() };
     match barrel.from {
@@ -86,7 +86,7 @@ fn solve(barrel: &Barrel, tol: f64) -> Result<Hoop> {
     }
 }
 
-fn check(barrel: &Barrel) -> Result<Vec<CheckedHoop>> {
+fn check(barrel: &TestBarrel) -> Result<Vec<CheckedHoop>> {
     let (known, known_to) = match barrel.known {
         Some((known, known_to)) => (known.concat(), known_to),
         None => {
@@ -170,8 +170,8 @@ const OPEN_BARREL: Frequencies = [
 const PLUGGED_BARREL: Frequencies =
     [[2_036.593_97, 2_586.862_61, 3_379.647_15], [5_502.597_34, 5_747.838_06, 6_239.308_72]];
 
-fn barrels(count: usize) -> Result<Vec<Barrel>> {
-    let named = |name: &str, bat: Bat, from, known| Barrel {
+fn barrels(count: usize) -> Result<Vec<TestBarrel>> {
+    let named = |name: &str, bat: Bat, from, known| TestBarrel {
         name: name.to_owned(),
         bat,
         from,
@@ -187,7 +187,12 @@ fn barrels(count: usize) -> Result<Vec<Barrel>> {
     ];
     for k in 0..count {
         let bat = random(k)?;
-        barrels.push(Barrel { name: format!("random {}", k + 1), bat, from: None, known: None });
+        barrels.push(TestBarrel {
+            name: format!("random {}", k + 1),
+            bat,
+            from: None,
+            known: None,
+        });
     }
     Ok(barrels)
 }

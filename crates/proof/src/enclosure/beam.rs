@@ -20,7 +20,7 @@ pub const POINTS: usize = 24;
 
 /// A stretch of the bat in one piece of the profile.
 #[derive(Debug, Clone)]
-pub struct Cell {
+pub struct BeamCell {
     /// Half its length (m).
     pub half: Interval,
     /// Its middle, from the origin of the arms (m).
@@ -73,7 +73,7 @@ pub struct Proven {
     /// The beam theory.
     pub theory: Theory,
     /// Its cells from knob to tip.
-    pub cells: Vec<Cell>,
+    pub cells: Vec<BeamCell>,
     /// The masses on it, by rising border.
     pub masses: Vec<Mass>,
     /// The contacts that hold it at places.
@@ -146,7 +146,7 @@ pub struct Layout {
     /// The factor on densities due to a weighed mass, in addition to the factors already in the densities of the bat.
     pub heavier: Interval,
     /// The attached masses by rising place, with joints last at equal places.
-    pub masses: Vec<Placed>,
+    pub masses: Vec<PlacedMass>,
     /// The contacts, each at the border before a piece.
     pub contacts: Vec<Contact>,
     /// The bed that holds it, between borders of pieces.
@@ -157,7 +157,7 @@ pub struct Layout {
 
 /// A point mass at its place on the bat, or a joint, whose mass is 0.
 #[derive(Debug, Clone, Copy)]
-pub struct Placed {
+pub struct PlacedMass {
     /// The piece of the profile that begins there.
     pub piece: usize,
     /// Its mass (kg).
@@ -194,7 +194,7 @@ impl Layout {
             let border = (0..borders.len()).min_by(|a, b| near(a).total_cmp(&near(b)));
             border.expect("a bat has borders")
         };
-        let placed = |on: &Attachment, give: Option<Give>| Placed {
+        let placed = |on: &Attachment, give: Option<Give>| PlacedMass {
             piece: border_at(on.x),
             mass: data(on.mass),
             inertia: data(on.rotary_inertia),
@@ -217,7 +217,7 @@ impl Layout {
         let fixed = attachments.iter().map(|on| placed(on, None));
         let hung = (joints.len()..).zip(absorbers).map(hung);
         let joints = joints.iter().enumerate().map(joint);
-        let mut masses: Vec<Placed> = fixed.chain(hung).chain(joints).collect();
+        let mut masses: Vec<PlacedMass> = fixed.chain(hung).chain(joints).collect();
         masses.sort_by_key(|placed| placed.piece);
         let whole = place(length, turned);
         let (contacts, bed) = (contacts(bat, border_at), bed(bat, border_at));
@@ -283,7 +283,7 @@ impl Proven {
             return Err(Error::value("mesh", "elements that end before the bat", "all of the bat"));
         }
         let border = |piece: usize| begin.get(piece).copied().unwrap_or(cells.len());
-        let mass = |placed: &Placed| Mass {
+        let mass = |placed: &PlacedMass| Mass {
             border: border(placed.piece),
             mass: placed.mass,
             inertia: placed.inertia,
@@ -315,7 +315,7 @@ impl Mass {
     }
 }
 
-impl Cell {
+impl BeamCell {
     /// The arm at its left end (m).
     pub fn begin(&self) -> Interval {
         self.middle - self.half
@@ -328,7 +328,7 @@ impl Cell {
 }
 
 /// [`Proven::gram`].
-fn gram(cells: &[Cell], masses: &[Mass]) -> [Interval; 3] {
+fn gram(cells: &[BeamCell], masses: &[Mass]) -> [Interval; 3] {
     let gauss = &GAUSS_24;
     let mut gram = [Interval::point(0.0); 3];
     for cell in cells {
@@ -358,7 +358,7 @@ fn cell(
     heavier: Interval,
     theory: Theory,
     origin: f64,
-) -> Result<Cell> {
+) -> Result<BeamCell> {
     let gauss = &GAUSS_24;
     let rings = Rings::of(bat.layup(&bat.profile().pieces[piece]), curve, heavier);
     let half = Interval::point(0.5) * curve.length;
@@ -387,11 +387,11 @@ fn cell(
         return Err(unbounded());
     }
     let bending = rings.bending(gauss);
-    Ok(Cell { half, middle, bending, bending_least, mass, mass_series, turning, shear })
+    Ok(BeamCell { half, middle, bending, bending_least, mass, mass_series, turning, shear })
 }
 
 /// The middle one of the cells whose bending stiffness is at least half the largest.
-fn root(cells: &[Cell]) -> usize {
+fn root(cells: &[BeamCell]) -> usize {
     let greatest = cells.iter().map(|cell| cell.bending.at[0]).fold(0.0, f64::max);
     let stiff = |k: &usize| cells[*k].bending.at[0] >= 0.5 * greatest;
     let count = (0..cells.len()).filter(stiff).count();

@@ -19,9 +19,9 @@
 //! the tip side of the masses at its place. This holds because the left side is smallest for `z = σ`. Where κGA differs
 //! from a polynomial `c` by a relative difference of at most `β`, `‖V + zκGAγ‖ ≤ ‖V + zcγ‖ + β z ‖cγ‖`.
 
-use crate::enclosure::beam::{Cell, Mass, Proven};
+use crate::enclosure::beam::{BeamCell, Mass, Proven};
 use crate::enclosure::gives::{Give, YieldingPart};
-use crate::enclosure::moved::{Along, Moved, Trial, Tried};
+use crate::enclosure::moved::{Along, Trial, TrialMotion, Tried};
 use crate::enclosure::reactions::Reactions;
 use crate::gauss::GAUSS_24;
 use crate::series::Series;
@@ -99,7 +99,7 @@ impl Proven {
     }
 
     /// Twice the strain energy, with that of supports, springs and bed.
-    fn of_holds(&self, moved: &Moved, mut strain: Interval) -> Interval {
+    fn of_holds(&self, moved: &TrialMotion, mut strain: Interval) -> Interval {
         for (contact, value) in self.contacts.iter().zip(moved.held(&self.contacts)) {
             let stiffness = contact.stiffness.unwrap_or(ZERO);
             strain = strain + stiffness * Interval::point(value).square();
@@ -182,7 +182,7 @@ impl Proven {
     /// there, on either side of the steps.
     fn cross(
         &self,
-        moved: &Moved,
+        moved: &TrialMotion,
         reactions: &[Interval],
         border: usize,
         sign: f64,
@@ -214,7 +214,7 @@ impl Proven {
     }
 }
 
-impl Cell {
+impl BeamCell {
     /// Twice the strain energy of curvature and shear strain over half the length, `EIχ` and `κGAγ`.
     fn strained(&self, bend: &Series, slip: Option<Series>) -> (Interval, Along) {
         let gauss = &GAUSS_24;
@@ -252,7 +252,7 @@ impl Cell {
     }
 }
 
-impl Moved {
+impl TrialMotion {
     /// Largest difference of the motion of the trial at a border, seen from the adjacent cell on the inside (towards
     /// the tip for `sign` 1): the drift of that cell and the step at the border.
     pub fn drift_at(&self, border: usize, sign: f64) -> [f64; 2] {
@@ -263,13 +263,13 @@ impl Moved {
 
 impl Mass {
     /// Deflection and rotation of the trial's own motion at its border.
-    fn drifting(&self, moved: &Moved, drift: [f64; 2]) -> [Interval; 2] {
+    fn drifting(&self, moved: &TrialMotion, drift: [f64; 2]) -> [Interval; 2] {
         let at = moved.borders[self.border];
         std::array::from_fn(|i| Interval::point(at[i]) + Interval::within(drift[i]))
     }
 
     /// Upper bound of the term of this compliant part in the residual, `(K (Tk) − z K s)²/K`.
-    fn residual(&self, moved: &Moved, moment: Interval, drift: [f64; 2], z: f64) -> f64 {
+    fn residual(&self, moved: &TrialMotion, moment: Interval, drift: [f64; 2], z: f64) -> f64 {
         let Some(Give { number, way, stiffness }) = self.give else { return 0.0 };
         let load = match way {
             YieldingPart::Joint => moment,
@@ -308,7 +308,7 @@ pub fn from_right(
 }
 
 /// The part of a cell in the residual.
-fn of_cell(cell: &Cell, [force, moment]: &[Series; 2], (bent, sheared): &Along, z: f64) -> f64 {
+fn of_cell(cell: &BeamCell, [force, moment]: &[Series; 2], (bent, sheared): &Along, z: f64) -> f64 {
     let z = Interval::point(z);
     let left = (*moment - bent.times(z)).square_at_most();
     let mut sum = up(left / cell.bending_least);

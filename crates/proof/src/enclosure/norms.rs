@@ -30,7 +30,7 @@
 //! G. Fichera, Numerical and Quantitative Analysis (1978): orthogonal invariants of a compact operator. The kernel is
 //! derived here.
 
-use crate::enclosure::beam::{Layout, Placed};
+use crate::enclosure::beam::{Layout, PlacedMass};
 use crate::enclosure::contacts::{Bed, Contact};
 use crate::enclosure::gives::{Give, YieldingPart, softness};
 use crate::enclosure::holding::{Hold, Holding, OF_A_BED};
@@ -80,8 +80,8 @@ impl Norms {
     /// [`Error::Value`] where no short stretch has a polynomial near 1/EI.
     pub fn of(bat: &Bat, layout: &Layout, theory: Theory) -> Result<Self> {
         let (mut stretches, borders) = stretches(bat, layout, theory)?;
-        let met = |placed: &Placed| {
-            let Placed { piece, mass, inertia, centre, give, .. } = *placed;
+        let met = |placed: &PlacedMass| {
+            let PlacedMass { piece, mass, inertia, centre, give, .. } = *placed;
             Met { before: borders[piece], centre, mass, inertia, give }
         };
         let masses: Vec<Met> = layout.masses.iter().map(met).collect();

@@ -117,14 +117,14 @@ impl ResponseFile<'_> {
         kind: ResponseKind,
         wrong: &impl Fn(usize, String, &str) -> Error,
     ) -> Result<(f64, Vec<String>)> {
-        let mut labels = Labels::of(function, kind);
+        let mut labels = AxisUnits::of(function, kind);
         let named = [1, 2].map(|k| &*function.axes[k].unit);
         if self.universal.names_units() {
             return Ok((1.0, Vec::from_iter(self.contradiction(&labels, named)?)));
         }
         let mut assumed = vec![];
         if let Some(text) = self.known.label.as_deref() {
-            labels = Labels::read(text, "", kind);
+            labels = AxisUnits::read(text, "", kind);
             if labels.answer.is_none() || labels.force.is_none() {
                 let expected = format!("a unit of {} such as {}", kind.name(), example(kind));
                 return Err(Error::value("--unit", text, expected));
@@ -162,7 +162,7 @@ impl ResponseFile<'_> {
     }
 
     /// A message if the units of axes with these names contradict the file's own.
-    fn contradiction(&self, labels: &Labels, named: [&str; 2]) -> Result<Option<String>> {
+    fn contradiction(&self, labels: &AxisUnits, named: [&str; 2]) -> Result<Option<String>> {
         if self.known.label.is_some() {
             let expected = "no unit given beside it";
             return Err(Error::value(&self.name, "its own units, in a dataset 164", expected));
@@ -229,14 +229,14 @@ fn turns_back(values: &[(f64, c64)]) -> bool {
 }
 
 /// The factors to SI of the units named by the axes.
-struct Labels {
+struct AxisUnits {
     answer: Option<f64>,
     force: Option<f64>,
     /// Whether the answer's axis has another unit of force than the force's own.
     torn: bool,
 }
 
-impl Labels {
+impl AxisUnits {
     fn of(function: &Function, kind: ResponseKind) -> Self {
         Self::read(&function.axes[1].unit, &function.axes[2].unit, kind)
     }
@@ -521,7 +521,7 @@ mod tests {
             (Receptance, "in/lbf", "", 0.0254, POUND_FORCE),
             (Receptance, "mm", "N", 1e-3, 1.0),
         ] {
-            let found = Labels::read(own, below, kind);
+            let found = AxisUnits::read(own, below, kind);
             let near = |a: Option<f64>, b: f64| a.is_some_and(|a| (a / b - 1.0).abs() < 1e-12);
             assert!(near(found.answer, answer), "{own} {below}: {:?}", found.answer);
             assert!(near(found.force, force), "{own} {below}: {:?}", found.force);
@@ -529,7 +529,7 @@ mod tests {
         for (kind, own) in
             [(Accelerance, "V"), (Accelerance, "m/s"), (Mobility, "g"), (Receptance, "EU")]
         {
-            assert_eq!(Labels::read(own, "", kind).answer, None, "{own}");
+            assert_eq!(AxisUnits::read(own, "", kind).answer, None, "{own}");
         }
     }
 }

@@ -15,8 +15,8 @@ use crate::files::measured::{Beside, FEWEST};
 use crate::measured::data::{FrequencyUnit, Measured, MeasuredMode, Otherwise};
 use uff58::{Analysis, NodalData, Node, Universal, six_digits};
 
-/// The motion of a node.
-type Motion = [c64; 3];
+/// The motion of a node along x, y and z.
+type Xyz = [c64; 3];
 
 /// Reads measured modes, with the additional facts.
 ///
@@ -393,7 +393,7 @@ fn points(at: &[Vector], axis: Vector) -> Vec<NodeGroup> {
 }
 
 /// The motion of these nodes in a shape; a node outside the shape does not move.
-fn motions(data: &NodalData, labels: &[i64]) -> Vec<Motion> {
+fn motions(data: &NodalData, labels: &[i64]) -> Vec<Xyz> {
     let values: BTreeMap<i64, &Vec<uff58::Complex>> =
         data.values.iter().map(|(label, values)| (*label, values)).collect();
     let part = |values: &Vec<uff58::Complex>, k: usize| {
@@ -408,7 +408,7 @@ fn motions(data: &NodalData, labels: &[i64]) -> Vec<Motion> {
 }
 
 /// The mean over the nodes of every point.
-fn averaged(motions: &[Motion], points: &[NodeGroup], of: impl Fn(&Motion) -> c64) -> Vec<c64> {
+fn averaged(motions: &[Xyz], points: &[NodeGroup], of: impl Fn(&Xyz) -> c64) -> Vec<c64> {
     let mean = |point: &NodeGroup| {
         let sum = point.members.iter().fold(c64::new(0.0, 0.0), |sum, k| sum + of(&motions[*k]));
         sum / point.members.len() as f64
@@ -418,9 +418,9 @@ fn averaged(motions: &[Motion], points: &[NodeGroup], of: impl Fn(&Motion) -> c6
 
 /// The deflection in the direction normal to the axis in which a mode moves most: its values, the
 /// direction in words, and its share of all the motion.
-fn deflection(motions: &[Motion], points: &[NodeGroup], axis: Vector) -> (Vec<c64>, String, f64) {
+fn deflection(motions: &[Xyz], points: &[NodeGroup], axis: Vector) -> (Vec<c64>, String, f64) {
     let [one, other] = normals(axis);
-    let along = |motion: &Motion, direction: Vector| {
+    let along = |motion: &Xyz, direction: Vector| {
         (0..3).fold(c64::new(0.0, 0.0), |sum, k| sum + motion[k] * direction[k])
     };
     let common = |a: Vector, b: Vector| -> f64 {
