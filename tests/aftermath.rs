@@ -94,14 +94,14 @@ fn the_handle_hears_of_the_hit_after_half_a_millisecond() {
 /// a force F at a of a uniform free bar is known in closed form, and `ε = r M/EI`.
 #[test]
 fn a_slow_push_strains_as_statics_says() {
-    use sweetspot::collision::contact::table::Piece;
+    use sweetspot::collision::contact::table::ForcePiece;
     let bat = bundled_bat("meshes/dowel.json").unwrap();
     let request = Request { modes: 60, tolerance: 1e-6, ..Request::plain() };
     let solution = solve(&bat, &request).unwrap();
     // Half a second up to 100 N: modes of 240 Hz and more follow.
     let force = 100.0;
     let piece =
-        Piece { start: 0.0, length: 0.5, powers: [0.0, 0.0, 3.0 * force, -2.0 * force, 0.0] };
+        ForcePiece { start: 0.0, length: 0.5, powers: [0.0, 0.0, 3.0 * force, -2.0 * force, 0.0] };
     let a = 0.6;
     let after = Aftermath::new(&bat, &solution, a, vec![piece]);
     let now = &after.at(&[0.499_999_999])[0];

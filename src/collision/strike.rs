@@ -1,7 +1,7 @@
 //! A hit at one place: in full, at a glance, and in time.
 
 use crate::collision::answer::HitAnswer;
-use crate::collision::contact::table::Piece;
+use crate::collision::contact::table::ForcePiece;
 use crate::collision::contact::touch::DrivingPoint;
 use crate::collision::history::{Moment, history};
 use crate::collision::hit::{Energy, Impact, Model, Outcome, Scene};
@@ -134,7 +134,7 @@ impl Hitter<'_> {
     }
 
     /// The force at `x` (m) in time, by the contact model; `None` if that model has no answer.
-    pub fn force(&self, x: f64) -> Option<Vec<Piece>> {
+    pub fn force(&self, x: f64) -> Option<Vec<ForcePiece>> {
         let (felt, closing) = (self.felt(x), self.closing(x)?);
         let (collider, law) = (self.collider.as_ref()?, self.law_at(x, closing)?);
         let meet = |accuracy| collider.meet_recorded(&felt, &*law, closing, accuracy);

@@ -2,9 +2,8 @@
 //!
 //! [`tuned`] finds the one factor on all its moduli.
 
-use crate::base::error::{Error, Result};
-use crate::bat::body::Bat;
-use crate::bat::theory::Theory;
+use crate::base::{Error, Result};
+use crate::bat::{Bat, Theory};
 use crate::modes::mode::Mode;
 use crate::modes::refine::refine;
 use crate::modes::request::Request;

@@ -18,10 +18,9 @@ use faer::c64;
 
 use serde::{Serialize, Serializer};
 
-use crate::base::error::{Error, Result};
-use crate::base::linear::dot;
-use crate::bat::body::Bat;
-use crate::beam::degree::Elements;
+use crate::base::{Error, Result, dot};
+use crate::bat::Bat;
+use crate::beam::Elements;
 use crate::modes::driven::{Driven, DrivenStrains, UnitForce};
 use crate::modes::prepared::{Prepared, prepare};
 use crate::modes::reduced::Reduced;

@@ -73,12 +73,12 @@ pub struct Gauge {
     /// bat.
     pub off: [f64; 2],
     /// How its places were found; `None` if they were given.
-    sought: Option<Sought>,
+    sought: Option<Located>,
 }
 
 /// The value that a search found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Wanted {
+enum Feature {
     /// The best value.
     Value,
     /// Its place.
@@ -89,8 +89,8 @@ enum Wanted {
 
 /// The data of a search for the places of a gauge.
 #[derive(Debug, Clone, Copy)]
-struct Sought {
-    wanted: Wanted,
+struct Located {
+    wanted: Feature,
     probe: Probe,
     /// Place of the best value (m).
     best: f64,
@@ -109,12 +109,12 @@ impl Gauge {
     }
 
     /// The best value of a probe there, its place, or an end of the zone.
-    fn of(sought: Sought, [_, slope, bend]: [f64; 3], sign: f64) -> Self {
-        let Sought { wanted, probe, best, x, apart, .. } = sought;
+    fn of(sought: Located, [_, slope, bend]: [f64; 3], sign: f64) -> Self {
+        let Located { wanted, probe, best, x, apart, .. } = sought;
         let (terms, off) = match wanted {
-            Wanted::Value => (vec![(best, probe, 1.0)], [1.0, 0.0]),
-            Wanted::Place => (by_slope(best, probe, apart, -1.0 / bend), [0.0, 1.0 / bend.abs()]),
-            Wanted::Edge => {
+            Feature::Value => (vec![(best, probe, 1.0)], [1.0, 0.0]),
+            Feature::Place => (by_slope(best, probe, apart, -1.0 / bend), [0.0, 1.0 / bend.abs()]),
+            Feature::Edge => {
                 let greatest = (1.0 - NEARLY * sign) / slope;
                 let terms = vec![(x, probe, -1.0 / slope), (best, probe, greatest)];
                 // The speed there is uncertain, and so is the greatest one.
@@ -131,14 +131,14 @@ impl Gauge {
         let by = Stencil { hitter, probe: sought.probe, apart: share * sought.apart };
         let found = || {
             let (best, top) = by.polished(sought.best, sought.reach, by.exactly())?;
-            let sought = Sought { best, x: best, apart: by.apart, ..sought };
-            if sought.wanted != Wanted::Edge {
+            let sought = Located { best, x: best, apart: by.apart, ..sought };
+            if sought.wanted != Feature::Edge {
                 return Some(Self::of(sought, top, 1.0));
             }
             let sign = top[0].signum();
             let (x, edge) =
                 by.edge(self.sought?.x, top[0] * (1.0 - NEARLY * sign), by.closely())?;
-            Some(Self::of(Sought { x, ..sought }, edge, sign))
+            Some(Self::of(Located { x, ..sought }, edge, sign))
         };
         found().unwrap_or_else(|| self.clone())
     }
@@ -363,10 +363,10 @@ impl<'a> OuterHalf<'a> {
             self.rivals.push(Rivals::of(answer, why, [peak, other]));
             return (None, Some(value));
         }
-        let wanted = if place { Wanted::Place } else { Wanted::Value };
+        let wanted = if place { Feature::Place } else { Feature::Value };
         let reach = self.reach();
         let gauge = smooth.map(|(by, apart)| {
-            let sought = Sought { wanted, probe, best: peak.x, x: peak.x, apart, reach };
+            let sought = Located { wanted, probe, best: peak.x, x: peak.x, apart, reach };
             Gauge::of(sought, by, 1.0)
         });
         (gauge.or_else(|| (!place).then(|| Gauge::at(peak.x, probe))), Some(value))
@@ -482,7 +482,7 @@ impl<'a> OuterHalf<'a> {
         };
         let reach = self.reach();
         let sought =
-            Sought { wanted: Wanted::Edge, probe: Probe::Speed, best: peak.x, x, apart, reach };
+            Located { wanted: Feature::Edge, probe: Probe::Speed, best: peak.x, x, apart, reach };
         (Some(Gauge::of(sought, by, sign)), Some(x))
     }
 
