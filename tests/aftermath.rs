@@ -125,7 +125,7 @@ fn a_slow_push_strains_as_statics_says() {
 /// A maximum found in a short time is also found in a longer one.
 #[test]
 fn a_longer_look_finds_no_less() {
-    use sweetspot_report::report::aftermath::AfterHit;
+    use sweetspot_report::schema::ring::AfterHit;
     let (bat, solution) = r161();
     let scene = Scene::default();
     let hitter = Hitter::new(Model::Contact, &scene, &bat, &solution, Effort::default()).unwrap();
@@ -135,7 +135,7 @@ fn a_longer_look_finds_no_less() {
         let report = AfterHit::new(&bat, &after, &[0.13], until);
         let peak = report.watched[0].peak;
         let motion = [peak.displacement_m, peak.velocity_m_s, peak.acceleration_m_s2];
-        let now = [motion[0], motion[1], motion[2], report.after.unwrap().strain];
+        let now = [motion[0], motion[1], motion[2], report.strain_max.unwrap().strain];
         assert!(now.iter().zip(before).all(|(now, before)| *now >= before), "{until} {now:?}");
         before = now;
     }

@@ -78,7 +78,8 @@ fn best(
 ) -> Value {
     let Solved { bat, .. } = solved;
     let place = |x: f64| shown::place(bat, of.units, x);
-    let vibration = vibration.map(|energy| shown::shown(energy, of.units.energy(energy, 2)));
+    let vibration =
+        vibration.map(|energy| shown::shown(energy, Quantity::Energy.said(of.units, energy)));
     json!({
         "best": {
             "place": place(peak.x),

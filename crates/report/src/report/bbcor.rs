@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::parts::cell::Quantity::{Error, Length, Ratio, Speed, Words};
-use crate::parts::{Column, Part, Table, Units};
+use crate::parts::{Column, Part, Quantity, Table, Units};
 use crate::report::edits;
 use crate::report::wall_text::{wall_facts, wall_words};
 use crate::schema::{Written, document};
@@ -68,14 +68,14 @@ const NEAR: f64 = 0.01;
 pub fn report(tested: &Tested, units: Units, full: bool) -> (String, Vec<Part<'static>>) {
     let Tested { bat, scene, scan, .. } = tested;
     let Scan { protocol, places, largest, .. } = scan;
-    let speed = units.inline(units.speed(protocol.ball_speed_m_s));
+    let speed = Quantity::Speed.said(units, protocol.ball_speed_m_s);
     let cor = if protocol.ball.cor_by_speed.is_empty() {
         protocol.cor.to_string()
     } else {
         "by its speed".to_owned()
     };
     let source = if full { format!(": {}", protocol.cor_source) } else { String::new() };
-    let pivot = units.inline(units.length(protocol.pivot_m));
+    let pivot = Quantity::Length.said(units, protocol.pivot_m);
     let mut notes = vec![format!(
         "bat at rest on a pivot {pivot} from the knob end; {} at {speed}, cor {cor}{source}",
         protocol.ball.title()
@@ -84,8 +84,7 @@ pub fn report(tested: &Tested, units: Units, full: bool) -> (String, Vec<Part<'s
     notes.extend(scene.hoop.wall().map(|wall| wall_words(bat, scene, wall)));
     notes.extend(ignored::in_hit(bat, scene).iter().map(|effect| format!("left out: {effect}")));
     let shown = if full { &places[..] } else { around(places, largest.as_ref()) };
-    let mut parts =
-        vec![Part::List(notes), Part::Table(Table::of("The scan", &COLUMNS, shown, units))];
+    let mut parts = vec![Part::List(notes), Part::Table(Table::of("", &COLUMNS, shown, units))];
     let left = places.len() - shown.len();
     parts.extend((left > 0).then(|| Part::List(vec![format!("and {left} places more")])));
     if let Some(wall) = scan.wall.as_ref().filter(|_| full) {
@@ -112,7 +111,7 @@ fn verdict(tested: &Tested, units: Units, full: bool) -> Vec<String> {
     let Some(Largest { from_tip_m, bbcor, besr, bpf, .. }) = scan.largest else {
         return vec!["No place of the scan has a figure.".to_owned()];
     };
-    let place = units.inline(units.length(from_tip_m));
+    let place = Quantity::Length.said(units, from_tip_m);
     let against = match scan.within_limit {
         Some(true) => "below the limit of",
         Some(false) => "above the limit of",

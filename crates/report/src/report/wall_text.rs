@@ -1,9 +1,8 @@
 //! The effect of the wall of a hollow barrel in a hit, in words.
 
-use crate::parts::{Fact, Units};
+use crate::parts::{Fact, Quantity, Units};
 use sweetspot::Bat;
 use sweetspot::base::number::significant;
-use sweetspot::base::units::inches;
 use sweetspot::collision::Scene;
 use sweetspot::collision::hoop_wall::HoopWall;
 use sweetspot::collision::wall_figures::WallFigures;
@@ -23,7 +22,7 @@ pub fn wall_words(bat: &Bat, scene: &Scene, wall: &HoopWall) -> String {
 
 /// The effect of the wall of a hollow barrel at a place, and on BBCOR there.
 pub fn wall_facts(wall: &WallFigures, units: Units) -> Vec<Fact> {
-    let short = |x: f64| units.beside(format!("{:.1} mm", 1e3 * x), format!("{:.2} in", inches(x)));
+    let short = |x: f64| Quantity::Small.said(units, x);
     let [along, around] = wall.patch_half_lengths_m.map(|half| 2.0 * half);
     let [low, high] = wall.bbcor.range;
     let deep =
