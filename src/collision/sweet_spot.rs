@@ -309,6 +309,17 @@ impl<'a> HitsAlong<'a> {
         (0..self.last()).filter(far).any(|k| highest_between(&self.places, &seen, k) > level)
     }
 
+    /// Largest amount by which a value may exceed `best` between the closest places, where the ball is met again: it
+    /// changes between two of them as much as from one to the other.
+    pub fn missed(&self, best: f64, value: impl Fn(&Glance) -> Option<f64>) -> f64 {
+        let seen = self.values(value);
+        let step = (self.ends[1] - self.ends[0]) / self.steps as f64;
+        let close = |k: &usize| self.places[k + 1] - self.places[*k] < 0.75 * step;
+        let above = |k: usize| seen[k].max(seen[k + 1]) + (seen[k] - seen[k + 1]).abs() - best;
+        let all = (0..self.last()).filter(close).map(above);
+        all.filter(|above| above.is_finite()).fold(0.0, f64::max)
+    }
+
     /// The zone around the peak in which the exit speed stays within 1 %, by the Illinois method on both sides.
     pub fn zone(&self, peak: Peak) -> [f64; 2] {
         let floor = peak.value - 0.01 * peak.value.abs();

@@ -228,13 +228,15 @@ impl<'a> Sought<'a> {
 
     /// Speed, place and vibration of the fastest ball, by the hit there.
     pub fn best(&self, peak: Peak, hit: &Impact) -> [Figure; 3] {
-        let [error, closing] = self.error_of(hit);
+        let [own, closing] = self.error_of(hit);
+        let missed = self.looked.missed(peak.value, |seen| Some(seen.exit_speed));
+        let error = own + missed;
         let off = self.place_error(peak, error, |seen| Some(seen.exit_speed));
         let energy = |x: f64| self.hitter.glance(x).and_then(|seen| seen.vibration);
         let here = energy(peak.x).unwrap_or(0.0);
         let apart = |x: f64| energy(x).map_or(0.0, |there| (there - here).abs());
         let beside = apart((peak.x - off).max(0.0)).max(apart((peak.x + off).min(self.length)));
-        let moved = self.hitter.scene.ball.mass_kg * error * closing;
+        let moved = self.hitter.scene.ball.mass_kg * own * closing;
         [
             Figure::new(peak.value, error),
             Figure::new(peak.x, off),
@@ -245,7 +247,8 @@ impl<'a> Sought<'a> {
     /// Place and value of the least vibration.
     pub fn least(&self, peak: Peak) -> [Figure; 2] {
         let [error, closing] = self.speed_error(peak.x);
-        let moved = self.hitter.scene.ball.mass_kg * error * closing;
+        let missed = self.looked.missed(-peak.value, |seen| Some(-seen.vibration?));
+        let moved = self.hitter.scene.ball.mass_kg * error * closing + missed;
         let upside_down = Peak { x: peak.x, value: -peak.value };
         let off = self.place_error(upside_down, moved, |seen| Some(-seen.vibration?));
         [Figure::new(peak.x, off), Figure::new(peak.value, moved)]
@@ -316,6 +319,9 @@ impl<'a> Sought<'a> {
         let fast = self.hitter.figures(peak.x, error)[which];
         // BBCOR is linear in the exit speed.
         let off = if closing > 0.0 { (fast - slow).abs() } else { 0.0 };
-        Some(Figure::new(peak.value, off))
+        let missed = self
+            .looked
+            .missed(peak.value, |seen| Some(self.hitter.figures(seen.x, seen.exit_speed)[which]));
+        Some(Figure::new(peak.value, off + missed))
     }
 }

@@ -218,9 +218,9 @@ fn searched(
     let hitter = Hitter::new(model, scene, bat, &sweep.solution, sweep.effort)?;
     let asked = |which: fn(&Answer) -> bool| answers.iter().any(which);
     // An answer about a given place needs no search.
-    let sought = asked(|answer| answer.is_searched() && answer.place().is_none())
+    let along = asked(|answer| answer.is_searched() && answer.place().is_none())
         .then(|| Sought::new(&hitter, FEW));
-    let sought = |which| sought.as_ref().filter(|_| asked(which));
+    let sought = |which| along.as_ref().filter(|_| asked(which));
     let mut found = vec![];
     let fastest = sought(|answer| {
         matches!(answer, Answer::ExitSpeed | Answer::ExitSpeedPlace | Answer::Zone(_))
@@ -246,7 +246,13 @@ fn searched(
     ];
     let felt = [0, 1].map(|k| Some(felt[k]?.looked.least_felt(k)?.x));
     if asked(|answer| answer.of_the_hands()) {
-        found.extend(hands(bat, (scene, model), (sweep, &hitter), felt)?);
+        for (answer, mut figure) in hands(bat, (scene, model), (sweep, &hitter), felt)? {
+            let least = [Answer::HandsVelocity, Answer::HandsAcceleration];
+            if let (Some(k), Some(sought)) = (least.iter().position(|a| *a == answer), &along) {
+                figure.error += sought.looked.missed(-figure.value, |seen| Some(-seen.hands[k]));
+            }
+            found.push((answer, figure));
+        }
     }
     Ok(found)
 }
