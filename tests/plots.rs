@@ -27,6 +27,7 @@ use sweetspot_report::plot::picture::Picture;
 use sweetspot_report::plot::png::png;
 use sweetspot_report::plot::sets::{self, Hits};
 use sweetspot_report::plot::sheet::{Paper, Sheet};
+use sweetspot_report::plot::subject::Subject;
 use sweetspot_report::plot::svg::Shape;
 use sweetspot_report::plot::theme::{FRAME, GRID, Ink, MUTED, PAPER, SERIES, TEXT, TINT};
 use sweetspot_report::plot::{
@@ -182,7 +183,7 @@ fn hoop_modes_and_walls_are_whole_in_every_form() {
 #[test]
 fn no_mark_of_a_row_hides_another() {
     let bats = ["r161", "r161", "r161", "torpedo"].map(bat);
-    let side = |bat| profile::MarkedBat { name: "one of them", bat, swing_pivot: Some(0.06) };
+    let side = |bat| Subject { name: "one of them", bat, drawn: Some(0.06) };
     let side: Vec<_> = bats.iter().map(side).collect();
     for paper in [Paper::File, Paper::Narrow] {
         let picture = profile::picture(Sheet { us: false, paper }, &side);
@@ -249,21 +250,13 @@ fn several_bats_fit_into_one_picture() {
     let all: Vec<Struck> = ["r161", "torpedo", "northwestern_aluminium"]
         .map(|name| struck(bat(name), Model::Contact, Scene::default()))
         .into();
-    let side = all.iter().map(|s| profile::MarkedBat {
+    let side =
+        all.iter().map(|s| Subject { name: s.bat.name(), bat: &s.bat, drawn: Some(s.scene.pivot) });
+    let bent = all.iter().map(|s| Subject { name: s.bat.name(), bat: &s.bat, drawn: &s.solution });
+    let along = all.iter().map(|s| Subject {
         name: s.bat.name(),
         bat: &s.bat,
-        swing_pivot: Some(s.scene.pivot),
-    });
-    let bent = all.iter().map(|s| shapes::ShapeCurves {
-        name: s.bat.name(),
-        bat: &s.bat,
-        solution: &s.solution,
-    });
-    let along = all.iter().map(|s| exit_speed::SpeedCurves {
-        name: s.bat.name(),
-        bat: &s.bat,
-        impacts: &s.sweep.impacts,
-        spot: &s.spot,
+        drawn: (&s.sweep.impacts[..], &s.spot),
     });
     let side = profile::picture(SHEET, &side.collect::<Vec<_>>());
     let bent = shapes::picture(SHEET, &bent.collect::<Vec<_>>(), 5).unwrap();
@@ -281,10 +274,7 @@ fn a_bat_of_less_than_six_inches_has_no_place_of_the_standards() {
     let ends = sweetspot::bat::profile::Interpolation::Linear;
     for (length, rows) in [(0.14, 1), (0.16, 3)] {
         let bat = common::bat(&[0.0, length], &[0.01, 0.02], &[0.0; 2], ends);
-        let picture = profile::picture(
-            SHEET,
-            &[profile::MarkedBat { name: "short", bat: &bat, swing_pivot: None }],
-        );
+        let picture = profile::picture(SHEET, &[Subject { name: "short", bat: &bat, drawn: None }]);
         check(&picture, "short");
         let document = Document::parse(&picture.svg).unwrap();
         let words = ["balance point", "pivot of standards", "centre of percussion of that"];
@@ -299,7 +289,7 @@ fn whoever_reads_the_curve_off_the_axes_finds_the_computed_speeds() {
     let struck = struck(bat("r161"), Model::Contact, Scene::default());
     let name = "R161";
     let (bat, impacts) = (&struck.bat, &struck.sweep.impacts);
-    let subject = exit_speed::SpeedCurves { name, bat, impacts, spot: &struck.spot };
+    let subject = Subject { name, bat, drawn: (&impacts[..], &struck.spot) };
     let picture = exit_speed::picture(SHEET, &[subject]).unwrap();
     let document = Document::parse(&picture.svg).unwrap();
     let height = number(document.root_element(), "height");
@@ -463,8 +453,8 @@ fn difference(one: &Pixmap, other: &Pixmap, below: u32) -> f64 {
 fn a_png_shows_what_others_draw_from_the_svg() {
     let names = ["r161", "torpedo", "northwestern_aluminium", "cone", "dowel", "house"];
     let bats = names.map(bat);
-    let side = |bat| profile::MarkedBat { name: "beside others", bat, swing_pivot: Some(0.1) };
-    let side: Vec<profile::MarkedBat> = bats.iter().map(side).collect();
+    let side = |bat| Subject { name: "beside others", bat, drawn: Some(0.1) };
+    let side: Vec<Subject<Option<f64>>> = bats.iter().map(side).collect();
     let mut all = pictures(&struck(bat("house"), Model::Contact, Scene::default()), Model::Contact);
     all.push(profile::picture(SHEET, &side));
     all.push(matrix::picture(&table()));

@@ -23,7 +23,7 @@ use sweetspot_study::lathe::workpiece::HitTerms;
 
 use crate::common::{BatFileArgs, Prepared, SolveArgs, about, as_options, examples, note_outside};
 use crate::done::{Done, NOT_REACHED};
-use crate::output::{LINES, OutputArgs, apart, make, put};
+use crate::output::{LINES, OutputArgs, apart, draw, make, put};
 use crate::scene::{self, SceneArgs};
 use crate::value::LITTLE;
 
@@ -163,8 +163,9 @@ pub fn run(args: &Args) -> Result<Done> {
     let outcome =
         outcome.read_back(written.with(|parts| parts.inches = bat.inches())?, &wish, &terms)?;
     drop(progress);
-    args.output
-        .draw(&args.plots, &outcome.start, |sheet| drawn(sheet, &setup, &outcome, &terms))?;
+    draw(&args.plots, args.output.quiet, || {
+        drawn(args.output.sheet(&outcome.start), &setup, &outcome, &terms)
+    })?;
     if let Some(folder) = &args.template {
         template(folder, &outcome)?;
     }

@@ -31,7 +31,7 @@ use crate::done::Done;
 use crate::guarantee::{self, GuaranteeArgs};
 use crate::hit::verdict as hit_verdict;
 use crate::lab;
-use crate::output::{LINES, OutputArgs, Screen, apart, make, printed};
+use crate::output::{LINES, OutputArgs, Screen, apart, draw, make, printed};
 use crate::scene::{self, SceneArgs};
 use crate::value::{READING, SCALE, Use};
 
@@ -278,7 +278,7 @@ impl AnalysisOutput<'_> {
             write("curve.csv", csv::impacts(&columns::CURVE, &analysis.hits.impacts))?;
         }
         let drawn = |sheet| sets::of_analysis(sheet, analysis, lathe);
-        args.output.draw(&args.plots, &analysis.bat, drawn)?;
+        draw(&args.plots, args.output.quiet, || drawn(args.output.sheet(&analysis.bat)))?;
         if let Some((path, inputs)) = args.report.as_ref().zip(inputs) {
             let us = args.output.sheet(&analysis.bat).us;
             let report = Report::new(analysis, command_line(), inputs, lathe)?;

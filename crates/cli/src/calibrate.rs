@@ -166,7 +166,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let drawn = || Ok(pictures_of::pictures(bat.name(), &found));
     let document = || calibrate::document(&bat, &found);
     let text_of = || calibrated_bat::text((&bat, &text), &found, &name);
-    let out = args.said.answer(&table, drawn, document, || calibrate::csv(&found))?;
+    let out = args.said.answer(table, drawn, document, || calibrate::csv(&found))?;
     let out = put(&args.out, out, text_of)?;
     if let Some(mut person) = person {
         person.done();

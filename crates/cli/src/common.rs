@@ -17,7 +17,7 @@ use sweetspot_report::parts::wrapped;
 use crate::done::NOT_REACHED;
 use crate::edits::EditArgs;
 use crate::help;
-use crate::output::{OutputArgs, warn};
+use crate::output::{FullArgs, warn};
 use crate::value::{TOP_FREQUENCY, TheoryChoice, budget, solver, theory, tolerance};
 
 /// The end of a verb's help: its example commands, the notation of values, and the built-in bats.
@@ -93,17 +93,17 @@ impl BatArgs {
     }
 
     /// Reads the bat and passes its warnings on.
-    pub fn read(&self, output: &OutputArgs) -> Result<Bat> {
+    pub fn read(&self, output: &FullArgs) -> Result<Bat> {
         read(&self.bat, &self.edits, output.quiet)
     }
 
     /// Reads the bat, passes its warnings on, and returns the text of its file too.
-    pub fn read_with_text(&self, output: &OutputArgs) -> Result<(Bat, String)> {
+    pub fn read_with_text(&self, output: &FullArgs) -> Result<(Bat, String)> {
         read_with_text(&self.bat, &self.edits, output.quiet)
     }
 
     /// Finds the modes of a bat that was read.
-    pub fn solve_for(&self, bat: Bat, solve: &SolveArgs, output: &OutputArgs) -> Result<Solved> {
+    pub fn solve_for(&self, bat: Bat, solve: &SolveArgs, output: &FullArgs) -> Result<Solved> {
         let prepared = self.prepare(bat, self.count(), solve, output)?;
         let Prepared { bat, request, warning } = prepared;
         let solution = match solve.budget {
@@ -120,7 +120,7 @@ impl BatArgs {
         bat: Bat,
         mut modes: usize,
         solve: &SolveArgs,
-        output: &OutputArgs,
+        output: &FullArgs,
     ) -> Result<Prepared> {
         let Some(limit) = self.up_to else { return solve.prepare(bat, modes, output) };
         // More modes may need a richer theory, and a richer theory has more modes up to the frequency. The number no
@@ -204,7 +204,7 @@ impl SolveArgs {
     }
 
     /// Prepares a bat to be solved: chooses its theory and fits its moduli to the tap.
-    pub fn prepare(&self, bat: Bat, modes: usize, output: &OutputArgs) -> Result<Prepared> {
+    pub fn prepare(&self, bat: Bat, modes: usize, output: &FullArgs) -> Result<Prepared> {
         prepare(bat, self.theory, self.request(modes), output.quiet)
     }
 
@@ -224,7 +224,7 @@ impl SolveArgs {
     }
 
     /// Reports that more elements were needed than given.
-    pub fn say_raised(&self, solution: &Solution, output: &OutputArgs) {
+    pub fn say_raised(&self, solution: &Solution, output: &FullArgs) {
         if let Some(asked) = self.elements.filter(|asked| (*asked as usize) < solution.mesh.len()) {
             output.warn(&format!(
                 "note: --elements {asked} raised to {}: one per smooth piece of the profile at least",
@@ -247,7 +247,7 @@ impl SolveArgs {
     }
 
     /// The exit code, after a warning about a result that is less accurate than asked, or late.
-    pub fn verdict(&self, solution: &Solution, output: &OutputArgs) -> u8 {
+    pub fn verdict(&self, solution: &Solution, output: &FullArgs) -> u8 {
         if solution.met() || !self.enforced() {
             return 0;
         }

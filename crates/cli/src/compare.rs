@@ -127,7 +127,7 @@ fn measured_beside(args: &Args, file: &Path) -> Result<Done> {
     let study = Study::new(&bat, measured, &request, args.count.is_some(), told)?;
     args.solve.say_raised(&study.solution, &args.output);
     let drawn = |sheet| Ok(plot::measured::pictures(sheet, bat.name(), &study));
-    args.output.draw(&args.output.plots, &bat, drawn)?;
+    args.output.draw(&bat, drawn)?;
     let units = args.output.units(&bat);
     let text = args.output.screen(LINES, |full| report::measured::text(&bat, &study, units, full));
     let name = path.display().to_string();

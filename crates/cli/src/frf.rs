@@ -283,8 +283,7 @@ fn one(args: &Args, bat: Bat, measured: Option<&MeasuredResponse>) -> Result<Don
     let every = args.grid.counted();
     let most = if every { usize::MAX } else { MANY };
     let table = args.output.screen(most, |full| report::text(&told, full, every));
-    args.output
-        .draw(&args.output.plots, &bat, |sheet| answered.picture(args, sheet, &bat, "response"))?;
+    args.output.draw(&bat, |sheet| answered.picture(args, sheet, &bat, "response"))?;
     let Answered { samples, grid, kind, places: [at, to], .. } = &answered;
     let text = args.output.deliver(table, || document)?;
     let text = args.output.csv.deliver(text, || report::csv(*kind, samples))?;

@@ -7,7 +7,7 @@ use sweetspot_report::report::proven::Proven;
 
 use crate::common::{BatArgs, Prepared, SolveArgs, Solved};
 use crate::done::NOT_REACHED;
-use crate::output::OutputArgs;
+use crate::output::FullArgs;
 use crate::value::LITTLE;
 
 #[derive(clap::Args)]
@@ -33,7 +33,7 @@ impl GuaranteeArgs {
         bat: Bat,
         args: &BatArgs,
         solve: &SolveArgs,
-        output: &OutputArgs,
+        output: &FullArgs,
     ) -> Result<(Solved, Option<Proven>)> {
         if !self.guarantee {
             return Ok((args.solve_for(bat, solve, output)?, None));
@@ -49,7 +49,7 @@ impl GuaranteeArgs {
 }
 
 /// The exit code, after a warning about an incomplete proof.
-pub fn verdict(Proven { guarantee, band }: &Proven, solve: &SolveArgs, output: &OutputArgs) -> u8 {
+pub fn verdict(Proven { guarantee, band }: &Proven, solve: &SolveArgs, output: &FullArgs) -> u8 {
     if !guarantee.met {
         output.warn(&format!("not proven as asked: {}", guarantee.shortfall(solve.tol)));
     }

@@ -10,13 +10,14 @@ use sweetspot_report::csv;
 use sweetspot_report::parts::{Part, terminal, wrapped};
 use sweetspot_report::plot::profile;
 use sweetspot_report::plot::sets::Hits;
+use sweetspot_report::plot::subject::Subject;
 use sweetspot_report::report::{hit_json, hit_text, sketch, tables, trust};
 use sweetspot_report::schema::hit::HitFile;
 use sweetspot_study::verdict::Verdict;
 
 use crate::common::{BatArgs, Prepared, SolveArgs, as_options, examples, on_the_bat};
 use crate::done::Done;
-use crate::output::{AnswerArgs, MANY, OutputArgs, drawing};
+use crate::output::{AnswerArgs, FullArgs, MANY, drawing};
 use crate::scene::{self, SceneArgs};
 use crate::value::PLACE;
 
@@ -113,8 +114,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let hitter = Hitter::new(model, &scene, &bat, &sweep.solution, sweep.effort)?;
     let figures = Figures::new(&bat, &hitter, law)?;
     let drawn = |sheet| {
-        let subject =
-            profile::MarkedBat { name: bat.name(), bat: &bat, swing_pivot: Some(scene.pivot) };
+        let subject = Subject { name: bat.name(), bat: &bat, drawn: Some(scene.pivot) };
         let hits = Hits { bat: &bat, model, scene: &scene, sweep: &sweep, spot: &figures.spot };
         let hits = hits.pictures(sheet, args.place.at)?;
         Ok([profile::picture(sheet, &[subject])].into_iter().chain(hits))
@@ -167,7 +167,7 @@ fn table(args: &Args, bat: &Bat, trial: Trial, sweep: &Sweep, figures: &Figures)
 }
 
 /// The exit code, after a warning about exit speeds that are less accurate than asked.
-pub fn verdict(solve: &SolveArgs, sweep: &Sweep, output: &OutputArgs) -> u8 {
+pub fn verdict(solve: &SolveArgs, sweep: &Sweep, output: &FullArgs) -> u8 {
     if sweep.met() || !solve.enforced() {
         return 0;
     }

@@ -243,7 +243,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let report = IdentifyReport { set: &set, found: &found, simulated: about };
     let table = args.said.screen(LINES, |full| report.text(full));
     let drawn = || Ok(plot::pictures(&set, &found, Sheet::file(false)));
-    let out = args.said.answer(&table, drawn, || report.document(), || report.csv())?;
+    let out = args.said.answer(table, drawn, || report.document(), || report.csv())?;
     let name = about.map_or("", |(_, name)| name);
     let out = put(&args.uff, out, || uff58::write(&frf_uff::responses(name, &set, &stamp)))?;
     let out = put(&args.out, out, || uff58::write(&shared_uff::modes(&set, &found.modes, &stamp)))?;

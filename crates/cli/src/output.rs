@@ -19,30 +19,19 @@ use crate::progress::{self, Progress};
 use crate::style::{self, broken};
 use crate::value::unit_system;
 
-/// Format and destination of the output.
+/// `--json`, and the amount of output.
 #[derive(clap::Args)]
 #[command(next_help_heading = "Output")]
-pub struct OutputArgs {
+pub struct JsonArgs {
     /// Write JSON to this file (- = standard output, and no table then)
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,
-
-    /// Units of the tables, and of pictures and reports: si, us or both (both units, the bat file's first; pictures and
-    /// reports use only that one)
-    #[arg(long, value_name = "SYSTEM", default_value = "both", value_parser = unit_system(),
-          hide_possible_values = true)]
-    units: Units,
 
     #[command(flatten)]
     amount: FullArgs,
 }
 
-impl OutputArgs {
-    /// The units for a bat: those asked for; for both, the file's first.
-    pub fn units(&self, bat: &Bat) -> Units {
-        self.units.of(bat)
-    }
-
+impl JsonArgs {
     /// Writes the JSON if it was asked for; returns the text for standard output.
     pub fn deliver<D: Serialize>(
         &self,
@@ -50,6 +39,92 @@ impl OutputArgs {
         document: impl FnOnce() -> D,
     ) -> Result<String> {
         put(&self.json, style::table(&table), || Ok(schema::text(&document())))
+    }
+}
+
+impl Deref for JsonArgs {
+    type Target = FullArgs;
+
+    fn deref(&self) -> &FullArgs {
+        &self.amount
+    }
+}
+
+/// The output of a verb with a table and pictures.
+#[derive(clap::Args)]
+#[command(next_help_heading = "Output")]
+pub struct DataArgs {
+    #[command(flatten)]
+    pub csv: CsvArgs,
+
+    /// Draw into this folder, as SVG and PNG
+    #[arg(long, value_name = "DIR")]
+    pub plots: Option<PathBuf>,
+
+    #[command(flatten)]
+    output: JsonArgs,
+}
+
+impl DataArgs {
+    /// Refuses two documents in one place: JSON, CSV, and these options of the verb.
+    ///
+    /// # Errors
+    ///
+    /// As [`apart`].
+    pub fn apart(&self, others: &[(&str, &Option<PathBuf>)]) -> Result<()> {
+        apart(&[&[("--json", &self.json), ("--csv", &self.csv.csv)], others].concat())
+    }
+
+    /// Whether more than one screen is asked for.
+    pub fn in_full(&self) -> bool {
+        self.full || [&self.json, &self.csv.csv, &self.plots].iter().any(|asked| asked.is_some())
+    }
+
+    /// Draws, and writes JSON and CSV, as far as that was asked for; returns the text for standard output.
+    pub fn answer<D: Serialize, P: IntoIterator<Item = Picture>>(
+        &self,
+        text: String,
+        pictures: impl FnOnce() -> Result<P>,
+        document: impl FnOnce() -> D,
+        table: impl FnOnce() -> String,
+    ) -> Result<String> {
+        draw(&self.plots, self.quiet, pictures)?;
+        self.csv.deliver(self.deliver(text, document)?, table)
+    }
+}
+
+impl Deref for DataArgs {
+    type Target = JsonArgs;
+
+    fn deref(&self) -> &JsonArgs {
+        &self.output
+    }
+}
+
+/// The output of a verb, in the units of the user.
+#[derive(clap::Args)]
+#[command(next_help_heading = "Output")]
+pub struct InUnits<O: clap::Args> {
+    #[command(flatten)]
+    output: O,
+
+    /// Units of the tables, and of pictures and reports: si, us or both (both units, the bat file's first; pictures and
+    /// reports use only that one)
+    #[arg(long, value_name = "SYSTEM", default_value = "both", value_parser = unit_system(),
+          hide_possible_values = true)]
+    units: Units,
+}
+
+/// The output of a verb without a table for other programs, in the units of the user.
+pub type OutputArgs = InUnits<JsonArgs>;
+
+/// The output of a verb with a table and pictures, in the units of the user.
+pub type AnswerArgs = InUnits<DataArgs>;
+
+impl<O: clap::Args> InUnits<O> {
+    /// The units for a bat: those asked for; for both, the file's first.
+    pub fn units(&self, bat: &Bat) -> Units {
+        self.units.of(bat)
     }
 
     /// The sheet for the pictures of a bat, in the units asked for, else those of its file.
@@ -61,23 +136,35 @@ impl OutputArgs {
     pub fn sketch(&self, bat: &Bat, rows: &[SketchRow]) -> String {
         sketch::draw(bat, rows, self.units(bat), glyphs())
     }
+}
 
-    /// Draws into the folder, if one was given, in the units of that bat.
+impl AnswerArgs {
+    /// Draws if that was asked for, in the units of that bat.
     pub fn draw<P: IntoIterator<Item = Picture>>(
         &self,
-        folder: &Option<PathBuf>,
         bat: &Bat,
         pictures: impl FnOnce(Sheet) -> Result<P>,
     ) -> Result<()> {
-        draw(folder, self.quiet, || pictures(self.sheet(bat)))
+        draw(&self.plots, self.quiet, || pictures(self.sheet(bat)))
+    }
+
+    /// As [`DataArgs::answer`], in the units of that bat.
+    pub fn answer<D: Serialize, P: IntoIterator<Item = Picture>>(
+        &self,
+        (bat, text): (&Bat, String),
+        pictures: impl FnOnce(Sheet) -> Result<P>,
+        document: impl FnOnce() -> D,
+        table: impl FnOnce() -> String,
+    ) -> Result<String> {
+        self.output.answer(text, || pictures(self.sheet(bat)), document, table)
     }
 }
 
-impl Deref for OutputArgs {
-    type Target = FullArgs;
+impl<O: clap::Args> Deref for InUnits<O> {
+    type Target = O;
 
-    fn deref(&self) -> &FullArgs {
-        &self.amount
+    fn deref(&self) -> &O {
+        &self.output
     }
 }
 
@@ -105,107 +192,9 @@ impl CsvArgs {
     }
 }
 
-/// The output of a verb with a table and pictures.
-#[derive(clap::Args)]
-#[command(next_help_heading = "Output")]
-pub struct AnswerArgs {
-    #[command(flatten)]
-    pub csv: CsvArgs,
-
-    /// Draw into this folder, as SVG and PNG
-    #[arg(long, value_name = "DIR")]
-    pub plots: Option<PathBuf>,
-
-    #[command(flatten)]
-    output: OutputArgs,
-}
-
-impl AnswerArgs {
-    /// Refuses two documents in one place: JSON, CSV, and these options of the verb.
-    ///
-    /// # Errors
-    ///
-    /// As [`apart`].
-    pub fn apart(&self, others: &[(&str, &Option<PathBuf>)]) -> Result<()> {
-        apart(&[&[("--json", &self.json), ("--csv", &self.csv.csv)], others].concat())
-    }
-
-    /// Whether more than one screen is asked for.
-    pub fn in_full(&self) -> bool {
-        self.full || [&self.json, &self.csv.csv, &self.plots].iter().any(|asked| asked.is_some())
-    }
-
-    /// Draws, and writes JSON and CSV, as far as that was asked for; returns the text for standard output.
-    pub fn answer<D: Serialize, P: IntoIterator<Item = Picture>>(
-        &self,
-        (bat, text): (&Bat, String),
-        pictures: impl FnOnce(Sheet) -> Result<P>,
-        document: impl FnOnce() -> D,
-        table: impl FnOnce() -> String,
-    ) -> Result<String> {
-        self.draw(&self.plots, bat, pictures)?;
-        self.csv.deliver(self.deliver(text, document)?, table)
-    }
-}
-
-impl Deref for AnswerArgs {
-    type Target = OutputArgs;
-
-    fn deref(&self) -> &OutputArgs {
-        &self.output
-    }
-}
-
 /// The option `--plots` of a verb that draws this.
 pub fn drawing(what: &'static str) -> impl Fn(Arg) -> Arg {
     move |arg| arg.help(format!("Draw {what} into this folder, as SVG and PNG"))
-}
-
-/// The output of a verb with a table and pictures, but without a choice of units.
-#[derive(clap::Args)]
-#[command(next_help_heading = "Output")]
-pub struct DataArgs {
-    /// Write JSON to this file (- = standard output, and no table then)
-    #[arg(long, value_name = "FILE")]
-    pub json: Option<PathBuf>,
-
-    #[command(flatten)]
-    pub csv: CsvArgs,
-
-    /// Draw into this folder, as SVG and PNG
-    #[arg(long, value_name = "DIR")]
-    pub plots: Option<PathBuf>,
-
-    #[command(flatten)]
-    amount: FullArgs,
-}
-
-impl DataArgs {
-    /// As [`AnswerArgs::apart`].
-    pub fn apart(&self, others: &[(&str, &Option<PathBuf>)]) -> Result<()> {
-        apart(&[&[("--json", &self.json), ("--csv", &self.csv.csv)], others].concat())
-    }
-
-    /// Draws, and writes JSON and CSV, as far as that was asked for; returns the text for standard output.
-    pub fn answer<D: Serialize, P: IntoIterator<Item = Picture>>(
-        &self,
-        text: &str,
-        pictures: impl FnOnce() -> Result<P>,
-        document: impl FnOnce() -> D,
-        table: impl FnOnce() -> String,
-    ) -> Result<String> {
-        draw(&self.plots, self.quiet, pictures)?;
-        let text = self.csv.deliver(style::table(text), table)?;
-        put(&self.json, text, || Ok(schema::text(&document())))
-    }
-}
-
-impl Deref for DataArgs {
-    type Target = FullArgs;
-
-    fn deref(&self) -> &FullArgs {
-        &self.amount
-    }
 }
 
 /// Amount of output.

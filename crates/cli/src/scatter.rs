@@ -94,7 +94,7 @@ pub fn run(args: &Args) -> Result<Done> {
     let table = args.said.screen(LINES, |full| scatter::text(&rows, &found, full));
     let document = || scatter::document(&rows.bat, &found);
     let lines = || scatter::csv(&rows, &found);
-    let text = args.said.answer(&table, || Ok(drawn(&found)), document, lines)?;
+    let text = args.said.answer(table, || Ok(drawn(&found)), document, lines)?;
     Ok(Done::new(text, 0))
 }
 

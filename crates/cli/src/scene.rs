@@ -9,7 +9,7 @@ use sweetspot::files::balls::{ball, is_built_in};
 use sweetspot::{Bat, Result};
 
 use crate::common::as_options;
-use crate::output::OutputArgs;
+use crate::output::FullArgs;
 use crate::value::{
     CONTACT_TIME, PART_MASS, PIVOT, PLACE, PLAY_SPEED, STIFFNESS, SWING_WEIGHT, cor, swing_speed,
 };
@@ -162,7 +162,7 @@ impl SceneArgs {
 }
 
 /// Warns of what is strange for a hit on one of these bats.
-pub fn warn<'a>(setup: &Setup, bats: impl IntoIterator<Item = &'a Bat>, output: &OutputArgs) {
+pub fn warn<'a>(setup: &Setup, bats: impl IntoIterator<Item = &'a Bat>, output: &FullArgs) {
     for (member, strange) in setup.warnings(bats) {
         output.warn(&format!("warning: --{} {strange}", member.replace('_', "-")));
     }

@@ -16,9 +16,8 @@ use crate::calibrate::label;
 use crate::common::{as_options, examples, read_with_text};
 use crate::done::{Done, FAILED};
 use crate::edits::EditArgs;
-use crate::output::{CsvArgs, FullArgs, LINES, apart, draw, printed, put, warn};
+use crate::output::{DataArgs, LINES, drawing, printed, put};
 use crate::recording::read;
-use crate::style;
 use crate::value::{MOMENT, TOP_FREQUENCY};
 
 /// Tones of a recorded tap, the mode of each, and the wood
@@ -35,7 +34,7 @@ use crate::value::{MOMENT, TOP_FREQUENCY};
 /// speak. The other plane of the grain has other tones: turn the bat a quarter for it, record a second file, and name
 /// both.
 #[derive(clap::Args)]
-#[command(after_long_help = examples("tap"), next_help_heading = "Output")]
+#[command(after_long_help = examples("tap"), mut_arg("plots", drawing("the waveform, the spectrum and the decays")), next_help_heading = "Output")]
 pub struct Args {
     /// Bat file (JSON), or the name of a built-in bat such as r161
     #[arg(help_heading = "The bat")]
@@ -79,19 +78,8 @@ pub struct Args {
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
 
-    /// Write JSON to this file (- = standard output, and no table then)
-    #[arg(long, value_name = "FILE")]
-    json: Option<PathBuf>,
-
     #[command(flatten)]
-    csv: CsvArgs,
-
-    /// Draw the waveform, the spectrum and the decays into this folder, as SVG and PNG
-    #[arg(long, value_name = "DIR")]
-    plots: Option<PathBuf>,
-
-    #[command(flatten)]
-    said: FullArgs,
+    said: DataArgs,
 }
 
 /// The part of the recordings that is used.
@@ -112,13 +100,7 @@ fn part(args: &Args) -> Result<Part> {
 }
 
 pub fn run(args: &Args) -> Result<Done> {
-    let written = [
-        ("--json", &args.json),
-        ("--csv", &args.csv.csv),
-        ("--out", &args.out),
-        ("--readings", &args.readings),
-    ];
-    apart(&written)?;
+    args.said.apart(&[("--out", &args.out), ("--readings", &args.readings)])?;
     let (bat, text) = read_with_text(&args.bat, &EditArgs::default(), args.said.quiet)?;
     let part = part(args)?;
     let recordings = args.recordings.iter().map(|path| read(path, part));
@@ -143,9 +125,8 @@ pub fn run(args: &Args) -> Result<Done> {
     };
     let table = args.said.screen(LINES, |_| report.text());
     let pictures = || Ok(plot::pictures(&report, Sheet::of(&bat)));
-    draw(&args.plots, args.said.quiet, pictures)?;
     let found = tapped.as_ref().and_then(|tapped| tapped.wood.as_ref());
-    let out = args.csv.deliver(style::table(&table), || report.csv())?;
+    let out = args.said.answer(table, pictures, || report.document(), || report.csv())?;
     let out = match found {
         Some(found) => {
             let names: Vec<&str> = recordings.iter().map(|one| &*one.name).collect();
@@ -155,12 +136,11 @@ pub fn run(args: &Args) -> Result<Done> {
         }
         None => {
             if args.out.is_some() || args.readings.is_some() {
-                warn("no wood was found: --out and --readings write nothing", args.said.quiet);
+                args.said.warn("no wood was found: --out and --readings write nothing");
             }
             out
         }
     };
-    let out = put(&args.json, out, || Ok(schema::text(&report.document())))?;
     let fails = analysis.refused.is_some() || tapped.is_some_and(|tapped| !tapped.fits());
     Ok(Done::new(out, if fails { FAILED } else { 0 }))
 }

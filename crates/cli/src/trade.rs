@@ -76,7 +76,7 @@ pub fn run(args: &Args) -> Result<Done> {
         let columns = curve::measure(&bat, &reference, solvers, MOST, time, &tell);
         let said = |full| told(&u_curve::report(&bat, (&reference, &columns), full));
         args.said.answer(
-            &args.said.screen(LINES, said),
+            args.said.screen(LINES, said),
             || Ok(sets::of_u_curve(bat.name(), &columns, modes)),
             || u_curve::document(&bat, reference.clone(), columns.clone()),
             || u_curve::csv(&columns),
@@ -85,7 +85,7 @@ pub fn run(args: &Args) -> Result<Done> {
         let trade = measure(&bat, modes, theory, time(TRADE), &tell)?;
         let said = |full| told(&trade::report(&bat, &trade, full));
         args.said.answer(
-            &args.said.screen(LINES, said),
+            args.said.screen(LINES, said),
             || Ok(front::picture(bat.name(), &trade)),
             || trade::document(&bat, trade.clone()),
             || trade::csv(&trade),

@@ -11,7 +11,7 @@ use sweetspot_report::exchange::wav;
 use sweetspot_study::ignored::{damping_in_sound, thinnest_wall};
 
 use crate::common::{BatArgs, SolveArgs, examples};
-use crate::output::OutputArgs;
+use crate::output::{AnswerArgs, drawing};
 use crate::scene::SceneArgs;
 use crate::value::{IMPULSE, PLACE, RINGING_TIME};
 use sweetspot_report::csv::Csv;
@@ -25,7 +25,9 @@ use sweetspot_report::parts::Cell;
 /// --impulse or --force, or with --initial, the deflection at even places and given instants is written as CSV; on a
 /// terminal, without --csv, the largest deflection at each instant is shown.
 #[derive(clap::Args)]
-#[command(after_long_help = examples("ring"))]
+#[command(after_long_help = examples("ring"),
+          mut_arg("csv", |arg| arg.help("Write CSV to this file (- = standard output, the default where that is not a terminal)")),
+          mut_arg("plots", drawing("the motion (after a hit that of the watched places, their spectrum and the strain along the bat)")))]
 pub struct Args {
     #[command(flatten)]
     pub bat: BatArgs,
@@ -100,15 +102,6 @@ pub struct Args {
           value_parser = clap::value_parser!(u32).range(2..=100_000))]
     pub shape_points: u32,
 
-    /// Write CSV to this file (- = standard output, the default where that is not a terminal)
-    #[arg(long, value_name = "FILE", help_heading = "Output")]
-    pub csv: Option<PathBuf>,
-
-    /// Draw into this folder, as SVG and PNG: after a hit the motion of the watched places, their spectrum and the
-    /// strain along the bat; otherwise the deflected bat at the instants
-    #[arg(long, value_name = "DIR", help_heading = "Output")]
-    pub plots: Option<PathBuf>,
-
     /// Write the sound at the struck place to this file (.wav): after a hit or a blow
     ///
     /// A material without a loss factor gets one for the sound only, with a message.
@@ -119,7 +112,7 @@ pub struct Args {
     pub solve: SolveArgs,
 
     #[command(flatten)]
-    pub output: OutputArgs,
+    pub output: AnswerArgs,
 }
 
 /// Writes the sound of a bat with its wall under such a ball; returns what was assumed and what is missing.

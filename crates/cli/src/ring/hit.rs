@@ -56,7 +56,6 @@ pub fn run(args: &Args, bat: Bat, x: f64) -> Result<Done> {
     });
     let heard = sound.transpose()?.into_iter().flatten();
     let heard: String = heard.map(|told| wrapped(&format!("Sound: {told}"), 2)).collect();
-    args.output.draw(&args.plots, &bat, |sheet| Ok(ringing::after_hit(sheet, &after, &report)))?;
     let code = args.solve.verdict(&solution, &args.output);
     let text = args.output.screen(LINES, |full| {
         let units = args.output.units(&bat);
@@ -65,12 +64,14 @@ pub fn run(args: &Args, bat: Bat, x: f64) -> Result<Done> {
         let text = scene + &hit + &aftermath::text(&report, units, full);
         [(1, "motion and strength", text), (0, "", heard.clone())]
     });
-    let text = args.output.deliver(text, || {
+    let document = || {
         let ignored = ignored::in_hit(&bat, &scene);
         aftermath::document(report.clone(), hit_json::impact(&bat, &impact), ignored)
-    })?;
+    };
+    let drawn = |sheet| Ok(ringing::after_hit(sheet, &after, &report));
+    let frames = || frames_after(args, &bat, &solution, &after);
+    let text = args.output.answer((&bat, text), drawn, document, frames)?;
     let text = put(&args.history, text, || Ok(aftermath::history(&report)))?;
-    let text = put(&args.csv, text, || Ok(frames_after(args, &bat, &solution, &after)))?;
     Ok(Done::new(text, code).with(warning))
 }
 

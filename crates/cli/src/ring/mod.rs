@@ -11,19 +11,13 @@ mod hit;
 mod motion;
 
 use crate::done::Done;
-use crate::output::apart;
 use sweetspot::Result;
 
 pub use args::Args;
 
 /// Runs the verb.
 pub fn run(args: &Args) -> Result<Done> {
-    apart(&[
-        ("--json", &args.output.json),
-        ("--csv", &args.csv),
-        ("--history", &args.history),
-        ("--wav", &args.wav),
-    ])?;
+    args.output.apart(&[("--history", &args.history), ("--wav", &args.wav)])?;
     let _progress = args.output.progress("modes and motion");
     let bat = args.bat.read(&args.output)?;
     match args.hit {

@@ -63,12 +63,12 @@ pub fn run(args: &Args, bat: Bat) -> Result<Done> {
         times_s: times,
         deflection_m: frames,
     };
-    args.output.draw(&args.plots, &bat, |sheet| Ok(ringing::moving(sheet, bat.name(), &moved)))?;
+    args.output.draw(&bat, |sheet| Ok(ringing::moving(sheet, bat.name(), &moved)))?;
     let screen = motion::screen(&bat, &moved, args.output.units(&bat));
     let most = if args.output.full { usize::MAX } else { LINES };
     let table = csv(&moved.x_m, &moved.times_s, &moved.deflection_m);
     let code = args.solve.verdict(&solution, &args.output);
-    let text = match &args.csv {
+    let text = match &args.output.csv.csv {
         Some(path) if path.as_os_str() != "-" => {
             file::write(path, table.as_bytes())?;
             String::new()

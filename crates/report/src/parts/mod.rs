@@ -22,5 +22,5 @@ pub use input::Input;
 pub use part::{Fact, Fold, Part, Section};
 pub use table::{Column, Table};
 pub use terminal::{LINES, MANY, Piece, Screen, wrapped};
-pub use typeset::{sentence, typeset};
+pub use typeset::{counted, sentence, typeset};
 pub use units::Units;

@@ -1,6 +1,7 @@
 //! Several bats in the same pictures, and the differences of their exit speeds.
 
 use crate::plot::sets::{Hits, of_touches};
+use crate::plot::subject::Subject;
 use crate::plot::{
     Axis, Chart, Panel, Picture, Series, Sheet, exit_speed, heights, ledger, place, profile,
     shapes, spot,
@@ -25,35 +26,31 @@ const DIAGRAM: f64 = 230.0;
 pub fn pictures(sheet: Sheet, comparison: &Comparison) -> Result<Vec<Picture>> {
     let bats = &comparison.bats;
     let names: Vec<String> = (0..bats.len()).map(|k| name(comparison, k)).collect();
-    let both = || bats.iter().zip(&names);
-    let side: Vec<_> = both()
-        .map(|(c, name)| profile::MarkedBat { name, bat: &c.bat, swing_pivot: Some(c.scene.pivot) })
-        .collect();
-    let bent: Vec<_> = both()
-        .map(|(c, name)| shapes::ShapeCurves { name, bat: &c.bat, solution: &c.sweep.solution })
-        .collect();
-    let along: Vec<_> = both()
-        .map(|(c, name)| exit_speed::SpeedCurves {
-            name,
-            bat: &c.bat,
-            impacts: &c.sweep.impacts,
-            spot: &c.spot,
-        })
-        .collect();
-    let spotted: Vec<_> =
-        both().map(|(c, name)| spot::SpotMarks { name, bat: &c.bat, spot: &c.spot }).collect();
-    let mut all: Vec<Picture> = spot::picture(sheet, &spotted).into_iter().collect();
-    all.push(profile::picture(sheet, &side));
-    all.extend(shapes::picture(sheet, &bent, MODES));
+    let mut all: Vec<Picture> =
+        spot::picture(sheet, &drawn(bats, &names, |c| &c.spot)).into_iter().collect();
+    all.push(profile::picture(sheet, &drawn(bats, &names, |c| Some(c.scene.pivot))));
+    all.extend(shapes::picture(sheet, &drawn(bats, &names, |c| &c.sweep.solution), MODES));
+    let along = drawn(bats, &names, |c| (&c.sweep.impacts[..], &c.spot));
     all.extend(exit_speed::picture(sheet, &along));
     all.extend(ledgers(sheet, comparison, &names));
-    let hits = both().filter_map(|(Contender { bat, scene, sweep, spot, .. }, name)| {
-        let model = comparison.terms.model;
-        Some((name.as_str(), Hits { bat, model, scene, sweep, spot }, spot.exit_speed_max?.x))
-    });
+    let hits =
+        bats.iter().zip(&names).filter_map(|(Contender { bat, scene, sweep, spot, .. }, name)| {
+            let model = comparison.terms.model;
+            Some((name.as_str(), Hits { bat, model, scene, sweep, spot }, spot.exit_speed_max?.x))
+        });
     all.extend(of_touches(sheet, &hits.collect::<Vec<_>>())?);
     all.extend(difference(sheet, comparison, &names));
     Ok(all)
+}
+
+/// The bats with these names, and what is drawn of each.
+fn drawn<'a, T>(
+    bats: &'a [Contender],
+    names: &'a [String],
+    of: fn(&'a Contender) -> T,
+) -> Vec<Subject<'a, T>> {
+    let named = bats.iter().zip(names);
+    named.map(|(c, name)| Subject { name, bat: &c.bat, drawn: of(c) }).collect()
 }
 
 /// The distribution of the energy for each bat.

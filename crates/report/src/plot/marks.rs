@@ -1,21 +1,14 @@
 //! The important places of a bat, its materials and its fixtures, as rows.
 
+use crate::plot::subject::Subject;
 use crate::plot::{PlaceRow, Sheet, digits, short};
 use sweetspot::base::units::ounces;
 use sweetspot::bat::body::STANDARD_PIVOT;
 use sweetspot::bat::fixtures::{Held, Region};
 use sweetspot::{Bat, Material};
 
-/// A bat, the name it has in the picture, and where its swing turns.
-#[derive(Debug, Clone, Copy)]
-pub struct MarkedBat<'a> {
-    /// Name of the bat.
-    pub name: &'a str,
-    /// The bat.
-    pub bat: &'a Bat,
-    /// Rotation centre beyond the knob end (m), negative inside the handle; none if the bat is not swung.
-    pub swing_pivot: Option<f64>,
-}
+/// A bat whose swing turns there beyond the knob end (m), negative inside the handle; None if it is not swung.
+pub type MarkedBat<'a> = Subject<'a, Option<f64>>;
 
 /// Balance points, pivots, centres of percussion; for one bat also its materials and fixtures.
 pub fn marked(sheet: Sheet, subjects: &[MarkedBat]) -> Vec<PlaceRow> {
@@ -26,12 +19,12 @@ pub fn marked(sheet: Sheet, subjects: &[MarkedBat]) -> Vec<PlaceRow> {
     };
     let on_bat = |s: &MarkedBat| (STANDARD_PIVOT <= s.bat.length()).then_some(STANDARD_PIVOT);
     let standard = |s: &MarkedBat| s.bat.inertia().center_of_percussion(on_bat(s)?);
-    let swung = |s: &MarkedBat| s.bat.inertia().center_of_percussion(-s.swing_pivot?);
+    let swung = |s: &MarkedBat| s.bat.inertia().center_of_percussion(-s.drawn?);
     let mut rows: Vec<PlaceRow> = [
         of("balance point", &|s| Some(s.bat.inertia().balance_point)),
         of("pivot of standards", &on_bat),
         of("centre of percussion of that pivot", &standard),
-        of("pivot of the swing", &|s| s.swing_pivot.map(|beyond| -beyond)),
+        of("pivot of the swing", &|s| s.drawn.map(|beyond| -beyond)),
         of("centre of percussion of the swing", &swung),
     ]
     .into_iter()

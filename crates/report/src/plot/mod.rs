@@ -38,6 +38,7 @@ pub mod axis;
 pub mod plane;
 pub mod series;
 pub mod place;
+pub mod subject;
 pub mod chart;
 pub mod bars;
 pub mod outline;

@@ -1,6 +1,7 @@
 //! Bats from the side, their diameter along them, and the places that matter.
 
 use crate::plot::marks::marked;
+use crate::plot::subject::{lengths, longest, names};
 use crate::plot::{
     Anchor, Chart, Frame, Lying, Panel, Pen, Picture, PlaceRow, SMALL, Series, Sheet, Svg, bats,
     digits, sections, series, short,
@@ -17,10 +18,8 @@ const THICK: [f64; 2] = [14.0, 84.0];
 
 /// The bats in one picture, `profile`.
 pub fn picture(sheet: Sheet, subjects: &[MarkedBat]) -> Picture {
-    let longest = subjects.iter().map(|s| s.bat.length()).fold(0.0, f64::max);
     let rows: Vec<PlaceRow> = marked(sheet, subjects);
-    let lengths: Vec<(&str, f64)> = subjects.iter().map(|s| (s.name, s.bat.length())).collect();
-    let ends = ends(longest, &rows);
+    let ends = ends(longest(subjects), &rows);
     let thickest = subjects.iter().map(|s| widest(s.bat)).fold(0.0, f64::max);
     let Frame { left, right, .. } = Frame::across(sheet, [0.0; 2]);
     let [times, per_metre] = thickness(thickest, (right - left) / (ends[1] - ends[0]));
@@ -37,9 +36,9 @@ pub fn picture(sheet: Sheet, subjects: &[MarkedBat]) -> Picture {
     let curves = subjects.iter().enumerate().flat_map(|(k, s)| curves(k, s)).rev().collect();
     let diameters = Panel::around(DIAGRAM, ("diameter", sheet.length()), curves, &[0.0]);
     let ((title, facts), alt) = (words(sheet, subjects), described(subjects, &rows));
-    let names: Vec<&str> = subjects.iter().map(|s| s.name).collect();
-    let chart = Chart::along(sheet, ("profile", &title), ["", &facts], (ends, &lengths));
-    let chart = chart.keys(&bats(&names)).panel(lying).panel(diameters);
+    let along = (ends, &lengths(subjects)[..]);
+    let chart = Chart::along(sheet, ("profile", &title), ["", &facts], along);
+    let chart = chart.keys(&bats(&names(subjects))).panel(lying).panel(diameters);
     chart.rows(rows).guides(axis(0)).picture(sheet, &alt)
 }
 

@@ -1,6 +1,7 @@
 //! The pictures that belong to a result.
 
 use crate::analysis::Analysis;
+use crate::plot::subject::Subject;
 use crate::plot::{
     Picture, Sheet, contact, exit_speed, hands, hoop, lathe, ledger, profile, shapes, spot, u_curve,
 };
@@ -18,9 +19,8 @@ pub fn of_modes(
     swing_pivot: Option<f64>,
 ) -> Vec<Picture> {
     let name = bat.name();
-    let side = profile::picture(sheet, &[profile::MarkedBat { name, bat, swing_pivot }]);
-    let bent =
-        shapes::picture(sheet, &[shapes::ShapeCurves { name, bat, solution }], shapes::MODES);
+    let side = profile::picture(sheet, &[Subject { name, bat, drawn: swing_pivot }]);
+    let bent = shapes::picture(sheet, &[Subject { name, bat, drawn: solution }], shapes::MODES);
     std::iter::once(side).chain(bent).collect()
 }
 
@@ -49,7 +49,7 @@ impl Hits<'_> {
     pub fn pictures(&self, sheet: Sheet, at: Option<f64>) -> Result<Vec<Picture>> {
         let Self { bat, sweep, spot, .. } = *self;
         let (name, impacts) = (bat.name(), &sweep.impacts);
-        let along = exit_speed::SpeedCurves { name, bat, impacts, spot };
+        let along = Subject { name, bat, drawn: (&impacts[..], spot) };
         let mut all: Vec<Picture> = exit_speed::picture(sheet, &[along]).into_iter().collect();
         all.extend(ledger::picture(sheet, name, bat, impacts, 0.0));
         if let Some(x) = at.or(spot.exit_speed_max.map(|peak| peak.x)) {
@@ -92,7 +92,7 @@ pub fn of_analysis(
     map: Option<&LatheMap>,
 ) -> Result<Vec<Picture>> {
     let Analysis { bat, solution, task, hits, figures, .. } = analysis;
-    let subject = spot::SpotMarks { name: bat.name(), bat, spot: &figures.spot };
+    let subject = Subject { name: bat.name(), bat, drawn: &figures.spot };
     let mut pictures: Vec<Picture> = spot::picture(sheet, &[subject]).into_iter().collect();
     pictures.extend(of_modes(sheet, bat, solution, Some(task.scene.pivot)));
     let (model, scene, spot) = (task.model, &task.scene, &figures.spot);

@@ -1,5 +1,6 @@
 //! Bending modes drawn on the bat, with their frequencies and nodes.
 
+use crate::plot::subject::{Subject, lengths, longest, names};
 use crate::plot::{
     Anchor, Chart, FRAME, Frame, LABEL, MUTED, Panel, Pen, Picture, Plane, Point, SMALL, Sheet,
     Svg, TINT, bats, digits, place, sections, series, width,
@@ -7,16 +8,8 @@ use crate::plot::{
 use sweetspot::bat::profile::Section;
 use sweetspot::{Bat, Mode, Solution};
 
-/// A bat, the name it has in the picture, and its modes.
-#[derive(Debug, Clone, Copy)]
-pub struct ShapeCurves<'a> {
-    /// Name of the bat.
-    pub name: &'a str,
-    /// The bat.
-    pub bat: &'a Bat,
-    /// Modes of the bat.
-    pub solution: &'a Solution,
-}
+/// A bat with its modes.
+pub type ShapeCurves<'a> = Subject<'a, &'a Solution>;
 
 /// Modes of a usual picture.
 pub const MODES: usize = 5;
@@ -29,12 +22,10 @@ const RIGHT: f64 = 96.0;
 
 /// The first modes, at most the given number, a row each; picture `shapes`. None without modes.
 pub fn picture(sheet: Sheet, subjects: &[ShapeCurves], most: usize) -> Option<Picture> {
-    let count = subjects.iter().map(|s| s.solution.modes.len()).max()?.min(most);
+    let count = subjects.iter().map(|s| s.drawn.modes.len()).max()?.min(most);
     if count == 0 {
         return None;
     }
-    let longest = subjects.iter().map(|s| s.bat.length()).fold(0.0, f64::max);
-    let lengths: Vec<(&str, f64)> = subjects.iter().map(|s| (s.name, s.bat.length())).collect();
     let row = ROW.max(18.0 * subjects.len() as f64 + 26.0);
     let panel = Panel::plain(row * count as f64).over(|svg, plane| {
         for order in 0..count {
@@ -43,9 +34,9 @@ pub fn picture(sheet: Sheet, subjects: &[ShapeCurves], most: usize) -> Option<Pi
         }
     });
     let (title, name, facts) = words(sheet, subjects);
-    let names: Vec<&str> = subjects.iter().map(|s| s.name).collect();
-    let chart = Chart::along(sheet, ("shapes", title), [name, &facts], ([0.0, longest], &lengths));
-    let chart = chart.keys(&bats(&names)).right(RIGHT - sheet.right()).panel(panel);
+    let along = ([0.0, longest(subjects)], &lengths(subjects)[..]);
+    let chart = Chart::along(sheet, ("shapes", title), [name, &facts], along);
+    let chart = chart.keys(&bats(&names(subjects))).right(RIGHT - sheet.right()).panel(panel);
     Some(chart.picture(sheet, &described(sheet, subjects, count)))
 }
 
@@ -77,7 +68,7 @@ fn described(sheet: Sheet, subjects: &[ShapeCurves], count: usize) -> String {
         format!("mode {order} at {hertz:.1} Hz, nodes at {nodes} {} from the knob end", unit.name)
     };
     let of = |s: &ShapeCurves| {
-        let modes: Vec<String> = s.solution.modes.iter().take(count).map(told).collect();
+        let modes: Vec<String> = s.drawn.modes.iter().take(count).map(told).collect();
         format!("{}: {}.", s.name, modes.join("; "))
     };
     subjects.iter().map(of).collect::<Vec<_>>().join(" ")
@@ -92,7 +83,7 @@ fn mode_row(svg: &mut Svg, plane: &Plane, axis: f64, (subjects, order): (&[Shape
     let mut y = axis - 0.5 * lines;
     svg.text([right + 14.0, y], SMALL, &format!("mode {}", order + 1));
     for (k, subject) in subjects.iter().enumerate() {
-        let Some(mode) = subject.solution.modes.get(order) else { continue };
+        let Some(mode) = subject.drawn.modes.get(order) else { continue };
         bent(svg, plane, axis, (k, subject.bat, mode));
         y += 18.0;
         let hertz = frequency(mode.frequency());
@@ -103,7 +94,7 @@ fn mode_row(svg: &mut Svg, plane: &Plane, axis: f64, (subjects, order): (&[Shape
         svg.text([from, y], LABEL.ink(series(k).0), &hertz);
     }
     for (k, subject) in subjects.iter().enumerate() {
-        let Some(mode) = subject.solution.modes.get(order) else { continue };
+        let Some(mode) = subject.drawn.modes.get(order) else { continue };
         nodes(svg, plane, axis, (k, mode, subjects.len()));
     }
 }

@@ -1,23 +1,15 @@
 //! Bats drawn large with their sweet spots on them.
 
 use crate::plot::profile::widest;
+use crate::plot::subject::{Subject, lengths, longest, names};
 use crate::plot::{
     Anchor, Frame, LABEL, Lying, Mark, NUMBERS, PAPER, Paper, Pen, Picture, Plane, SERIES, Sheet,
     Svg, Type, fitted, head, place, series, width,
 };
-use sweetspot::Bat;
 use sweetspot::collision::SweetSpot;
 
-/// A bat, the name it has in the picture, and its sweet spot.
-#[derive(Debug, Clone, Copy)]
-pub struct SpotMarks<'a> {
-    /// Name of the bat.
-    pub name: &'a str,
-    /// The bat.
-    pub bat: &'a Bat,
-    /// Its sweet spot by every definition.
-    pub spot: &'a SweetSpot,
-}
+/// A bat with its sweet spot by every definition.
+pub type SpotMarks<'a> = Subject<'a, &'a SweetSpot>;
 
 /// Room above a bat for the place of its sweet spot, and below it for the zone (px).
 const ABOVE: f64 = 36.0;
@@ -32,10 +24,9 @@ const LARGE: Type = Type { size: 15.0, ..LABEL };
 /// The bats one below the other, to one scale and with their true thickness; picture `sweet_spot`. None where no bat
 /// has a sweet spot.
 pub fn picture(sheet: Sheet, subjects: &[SpotMarks]) -> Option<Picture> {
-    subjects.iter().find_map(|s| s.spot.exit_speed_max)?;
-    let longest = subjects.iter().map(|s| s.bat.length()).fold(0.0, f64::max);
-    let lengths: Vec<(&str, f64)> = subjects.iter().map(|s| (s.name, s.bat.length())).collect();
-    let [knob, _] = place::axes(sheet, [0.0, longest], &lengths);
+    subjects.iter().find_map(|s| s.drawn.exit_speed_max)?;
+    let longest = longest(subjects);
+    let [knob, _] = place::axes(sheet, [0.0, longest], &lengths(subjects));
     let per_metre = (sheet.width() - 2.0 * SIDE) / longest;
     let mut svg = Svg::on(sheet);
     let title = if subjects.len() == 1 { "The sweet spot" } else { "The sweet spots" };
@@ -59,17 +50,13 @@ pub fn picture(sheet: Sheet, subjects: &[SpotMarks]) -> Option<Picture> {
     let frame = Frame { left: SIDE, top: first, right: sheet.width() - SIDE, bottom: top };
     Plane::strip(frame, &knob).below(&mut svg);
     svg.height = top + NUMBERS;
-    let alt = format!("{title} drawn on {}. {facts}", names(subjects));
+    let alt = format!("{title} drawn on {}. {facts}", names(subjects).join(", "));
     Some(Picture::new("sweet_spot", title, &alt, svg))
-}
-
-fn names(subjects: &[SpotMarks]) -> String {
-    subjects.iter().map(|s| s.name).collect::<Vec<_>>().join(", ")
 }
 
 fn words<'a>(sheet: Sheet, subjects: &[SpotMarks<'a>]) -> (&'a str, String) {
     let told = |s: &SpotMarks| {
-        let x = s.spot.exit_speed_max?.x;
+        let x = s.drawn.exit_speed_max?.x;
         Some(format!("{} from the knob end", place::along(sheet, x)))
     };
     match subjects {
@@ -84,7 +71,7 @@ impl Lying<'_> {
         let (bat, ink) = (subject.bat, series(k).0);
         self.draw(svg, bat, ink);
         let (radius, sheet) = (self.per_metre * widest(bat), svg.sheet);
-        if let Some([from, to]) = subject.spot.zone {
+        if let Some([from, to]) = subject.drawn.zone {
             self.stretch(svg, bat, ([from, to], ink));
             let [a, b] = [from, to].map(|x| self.plane.across(x));
             let y = self.axis + radius + 8.0;
@@ -95,7 +82,7 @@ impl Lying<'_> {
             let words = format!("within 1 %: {from} to {to} {}", unit.name);
             centred(svg, [0.5 * (a + b), y + 18.0], LABEL, &words);
         }
-        if let Some(peak) = subject.spot.exit_speed_max {
+        if let Some(peak) = subject.drawn.exit_speed_max {
             let x = self.plane.across(peak.x);
             let top = self.axis - radius;
             svg.line(&[[x, top - 14.0], [x, self.axis]], Pen::new(ink, 1.5));

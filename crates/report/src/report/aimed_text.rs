@@ -2,7 +2,9 @@
 
 use std::fmt::Write;
 
-use crate::parts::{Columns, Piece, Quantity, Units, first, labels, lines, numbers, wrapped};
+use crate::parts::{
+    Columns, Piece, Quantity, Units, counted, first, labels, lines, numbers, wrapped,
+};
 use crate::report::aimed::{asked, called, conflict_words, settled, shown, size, warning};
 use sweetspot::base::number::{rounded, shortest, signed, significant};
 use sweetspot::base::units::{inches, ounce_square_inches, ounces};
@@ -51,10 +53,6 @@ pub fn text(outcome: &Outcome, (pass, us, full): (f64, bool, bool)) -> [Piece; 5
 /// A diameter, in the maker's unit.
 fn across(value: f64, us: bool) -> String {
     Quantity::Small.scale(us).finer().text(value)
-}
-
-fn counted(count: usize, what: &str) -> String {
-    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
 /// A place on the bat, in the maker's unit.

@@ -1,12 +1,11 @@
 //! Modes that measured responses share: table, JSON, CSV, words.
 
 use crate::csv;
-use crate::parts::{Column, Piece, Shown, first, lines, numbers, wrapped};
-use crate::schema::Written;
+use crate::parts::{Column, Piece, Shown, counted, first, lines, numbers, wrapped};
 use crate::schema::identify::{
-    IdentifyFile, IdentifyMode, IdentifyPlace, IdentifyPlanned, IdentifyPoint, IdentifySaid,
-    IdentifySimulated,
+    IdentifyFile, IdentifyMode, IdentifyPlace, IdentifyPlanned, IdentifyPoint, IdentifySimulated,
 };
+use crate::schema::{Said, Written};
 use sweetspot::Mode;
 use sweetspot::base::number::{percent, significant};
 use sweetspot_study::identify::modes::{Identified, SharedMode, placed};
@@ -52,7 +51,6 @@ impl IdentifyReport<'_> {
         let (count, points) = (self.set.responses.len(), self.set.points.len());
         let places: Vec<String> = self.set.references.iter().map(|one| at(one.x)).collect();
         let (places, roved, fixed) = (places.join(" and "), roved(self.set), self.set.fixed());
-        let plural = if count == 1 { "" } else { "s" };
         let damped = match damping {
             Damping::Material => "damped as by a loss factor",
             Damping::Dashpots => "damped as by dashpots",
@@ -61,8 +59,9 @@ impl IdentifyReport<'_> {
         let test = self.simulated.map_or(String::new(), |(test, bat)| tested(&test.test, bat));
         test + &wrapped(
             &format!(
-                "{count} response{plural}, {low} to {high} Hz: {fixed} at {places}, {roved} at {points} place{}; {damped}",
-                if points == 1 { "" } else { "s" }
+                "{}, {low} to {high} Hz: {fixed} at {places}, {roved} at {}; {damped}",
+                counted(count, "response"),
+                counted(points, "place")
             ),
             2,
         )
@@ -129,14 +128,16 @@ impl IdentifyReport<'_> {
     }
 
     /// Where to suspend the bat and where to put the reference.
-    fn advice(&self, test: &Simulated) -> Vec<IdentifySaid> {
-        let one = |code: &str, text: String| IdentifySaid { code: code.to_owned(), text };
+    fn advice(&self, test: &Simulated) -> Vec<Said> {
         let [hang, other] = test.hang().map(at);
         let [place, least] = test.reference();
         let fixed = self.set.fixed();
         let mut all = vec![
-            one("hang", format!("Hang the bat at {hang} and {other}: the modes move least there.")),
-            one(
+            Said::new(
+                "hang",
+                format!("Hang the bat at {hang} and {other}: the modes move least there."),
+            ),
+            Said::new(
                 "reference",
                 format!(
                     "Put the {fixed} at {}: every mode has {} of its largest deflection there, or more.",
@@ -151,32 +152,31 @@ impl IdentifyReport<'_> {
         if !deaf.is_empty() {
             let text =
                 format!("At {} the {fixed} is near a node of mode {}.", at(own), deaf.join(", "));
-            all.push(one("near_node", text));
+            all.push(Said::new("near_node", text));
         }
         if test.force_db < WEAK {
             let text = format!(
                 "The hammer's force falls by {:.0} dB within the band: take a harder tip or a lighter hammer.",
                 -test.force_db
             );
-            all.push(one("weak_force", text));
+            all.push(Said::new("weak_force", text));
         }
         if test.assumed_loss {
             let text = format!("The bat's materials have no loss factor: {ASSUMED_LOSS} is taken.");
-            all.push(one("loss_factor", text));
+            all.push(Said::new("loss_factor", text));
         }
         all
     }
 
     /// All warnings.
-    pub fn said(&self) -> Vec<IdentifySaid> {
+    pub fn said(&self) -> Vec<Said> {
         let (set, found) = (self.set, self.found);
-        let one = |code: &str, text: String| IdentifySaid { code: code.to_owned(), text };
         let test = self.simulated.filter(|(test, _)| !test.modes.is_empty());
         let mut all = test.map_or(vec![], |(test, _)| self.advice(test));
         if found.modes.is_empty() {
             let text = "No mode stands out of the noise: is the band the one in which the bat rings, and is every \
                         response of this bat?";
-            all.push(one("no_mode", text.to_owned()));
+            all.push(Said::new("no_mode", text));
             return all;
         }
         if set.points.len() < 3 {
@@ -184,17 +184,17 @@ impl IdentifyReport<'_> {
                 "{} point tells no shape: strike more places, three at least and two more than there are modes.",
                 set.points.len()
             );
-            all.push(one("no_shape", text.replacen("2 point tells", "2 points tell", 1)));
+            all.push(Said::new("no_shape", text.replacen("2 point tells", "2 points tell", 1)));
         }
         if let Some(x) = found.opposite {
             let text = format!(
                 "Hammer and accelerometer at {} point opposite ways: turn the sign of the responses over for modal masses.",
                 at(x)
             );
-            all.push(one("opposite_ways", text));
+            all.push(Said::new("opposite_ways", text));
         } else if found.modes.iter().all(|mode| mode.modal_mass.is_none()) {
             let text = "No modal masses: they need a response whose hammer and accelerometer are at one place.";
-            all.push(one("no_drive_point", text.to_owned()));
+            all.push(Said::new("no_drive_point", text.to_owned()));
         }
         let whirls = found.modes.iter().filter(|mode| mode.collinearity < WHIRLING);
         let list: Vec<String> = whirls.map(|mode| frequency(&mode.frequency)).collect();
@@ -203,7 +203,7 @@ impl IdentifyReport<'_> {
                 "Not all points move in phase: {}. Two modes near each other do that.",
                 list.join(", ")
             );
-            all.push(one("out_of_phase", text));
+            all.push(Said::new("out_of_phase", text));
         }
         let lowered = found.modes.iter().filter_map(|mode| mode.lowered).fold(0.0, f64::min);
         if lowered < 0.0 {
@@ -213,16 +213,15 @@ impl IdentifyReport<'_> {
             let text = format!(
                 "The accelerometers' masses lowered the frequencies by up to {most}; that is taken off{how}."
             );
-            all.push(one("masses", text));
+            all.push(Said::new("masses", text));
         }
         all.extend(self.of_responses());
         all
     }
 
     /// Warnings about the responses themselves.
-    fn of_responses(&self) -> Vec<IdentifySaid> {
+    fn of_responses(&self) -> Vec<Said> {
         let (set, found) = (self.set, self.found);
-        let one = |code: &str, text: String| IdentifySaid { code: code.to_owned(), text };
         let mut all = vec![];
         if found.coherent < set.responses.len() {
             let why = match found.coherent {
@@ -230,12 +229,12 @@ impl IdentifyReport<'_> {
                 some => format!("as {some} of {} have coherence", set.responses.len()),
             };
             let text = format!("The noise is taken from the responses themselves, {why}.");
-            all.push(one("no_coherence", text));
+            all.push(Said::new("no_coherence", text));
         }
         if found.grids > 1 {
             let text =
                 format!("The responses are over {} different grids of frequencies.", found.grids);
-            all.push(one("grids", text));
+            all.push(Said::new("grids", text));
         }
         all
     }

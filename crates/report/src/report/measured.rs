@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use faer::c64;
 
-use crate::parts::{Columns, Quantity, Units, labels, numbers, wrapped};
+use crate::parts::{Columns, Quantity, Units, counted, labels, numbers, wrapped};
 use crate::report::text::edited;
 use crate::schema::{Written, measured as file};
 use sweetspot::Bat;
@@ -35,9 +35,8 @@ pub fn text(bat: &Bat, study: &Study, units: Units, full: bool) -> String {
 /// The file, the numbers of modes and points, and the assumptions.
 fn source(study: &Study, units: Units) -> String {
     let measured = &study.measured;
-    let count = measured.modes.len();
-    let mut text = format!("Measured: {}, {count} mode", measured.source);
-    text += if count == 1 { "" } else { "s" };
+    let modes = counted(measured.modes.len(), "mode");
+    let text = format!("Measured: {}, {modes}", measured.source);
     let mut out = match &study.shapes {
         None => wrapped(&format!("{text}, frequencies alone"), 10),
         Some(shapes) => {

@@ -6,13 +6,13 @@ use serde_json::{Value, json};
 
 use crate::csv;
 use crate::parts::columns::{Columns, first, labels, numbers};
+use crate::parts::counted;
 use crate::parts::table::Column;
 use crate::parts::terminal::{Piece, wrapped};
 use crate::report::calibrate::{short, shown};
-use crate::schema::{
-    Written,
-    tap::{TapFile, TapMoment, TapRecording, TapSaid, TapTone},
-};
+use crate::report::identify::frequency;
+use crate::schema::tap::{TapFile, TapMoment, TapRecording, TapTone};
+use crate::schema::{Said, Written};
 use sweetspot::base::error::Error;
 use sweetspot::base::number::{percent, significant};
 use sweetspot::bat::body::Bat;
@@ -24,7 +24,6 @@ use sweetspot_study::tap::hoops::BatMode;
 use sweetspot_study::tap::tapped::{Tapped, ToneLabel};
 use sweetspot_tap::analysis::{Analysis, Code, Condition, Tap};
 use sweetspot_tap::recording::{Recording, Unreadable};
-use sweetspot_tap::tones::Tone;
 
 /// Beyond this half-width an interval is shown as "about".
 const ABOUT: f64 = 0.4;
@@ -67,10 +66,10 @@ impl TapReport<'_> {
             (Some(a), _) => format!(" at {:.1} s", a.at),
             _ => String::new(),
         };
-        let mut facts = vec![format!("{} {}{times}", used.len(), plural("tap", used.len()))];
+        let mut facts = vec![counted(used.len(), "tap") + &times];
         let others = own.len() - used.len();
         if others > 0 && self.analysis.refused.is_none() {
-            facts.push(format!("{others} other {} left out", plural("sound", others)));
+            facts.push(format!("{} left out", counted(others, "other sound")));
         }
         let kinds = [recording.container.as_deref(), recording.codec.as_deref()];
         let rate = format!("{} kHz", significant(1e-3 * recording.rate, 4));
@@ -104,7 +103,7 @@ impl TapReport<'_> {
             (Some(_), Some(mode)) => named(mode),
         };
         [
-            frequency(tone),
+            frequency(&Within::frequency(tone)),
             format!("{} ms", significant(1e3 * LN_2 / tone.pole.decay, 3)),
             if self.analysis.has_loss { loss(&Within::loss(tone)) } else { "-".to_owned() },
             is,
@@ -136,17 +135,17 @@ impl TapReport<'_> {
 
     /// What spoils the recordings, named where there are several, and the labels; `tell` is the way to state the mode
     /// of a tone.
-    fn warned(&self, tell: Option<&str>) -> Vec<TapSaid> {
+    fn warned(&self, tell: Option<&str>) -> Vec<Said> {
         let of = |(code, recording): &(Code, Option<usize>)| {
             let name = recording.filter(|_| self.recordings.len() > 1);
             let name = name.map(|k| format!("{}: ", self.recordings[k].name));
-            said(code.name(), name.unwrap_or_default() + code.text())
+            Said::new(code.name(), name.unwrap_or_default() + code.text())
         };
-        let mut all: Vec<TapSaid> = self.analysis.warnings.iter().map(of).collect();
+        let mut all: Vec<Said> = self.analysis.warnings.iter().map(of).collect();
         all.extend(self.tapped.and_then(|tapped| tapped.unsolved.as_deref()).map(unsolved));
         if self.tapped.is_some_and(Tapped::is_unsure) {
             let text = format!("Not every label is sure{}.", tell.unwrap_or_default());
-            all.push(said("unsure", text));
+            all.push(Said::new("unsure", text));
         }
         all
     }
@@ -184,7 +183,7 @@ impl TapReport<'_> {
             loss_factor_at_most: tapped.and_then(|tapped| tapped.loss),
             fits: tapped.map(Tapped::fits),
             warnings: self.warned(Some(TELL)),
-            refused: analysis.refused.map(|code| said(code.name(), code.text())),
+            refused: analysis.refused.map(|code| Said::new(code.name(), code.text())),
         })
     }
 
@@ -243,8 +242,8 @@ const NONE: &str =
     "No tone is a bending mode of this bat, of any wood: the bat file is another bat's.";
 const TELL: &str = ": tell the mode of a tone that you know, such as --mode \"1187 = 3\"";
 
-fn unsolved(why: &str) -> TapSaid {
-    said(
+fn unsolved(why: &str) -> Said {
+    Said::new(
         "wall",
         format!(
             "The modes of the wall are not known ({why}): its tones are told as bending modes or as none."
@@ -271,23 +270,12 @@ fn mode_in_file(mode: BatMode) -> String {
     named(mode).replace(['(', ',', ')'], "")
 }
 
-fn plural(word: &str, count: usize) -> String {
-    if count == 1 { word.to_owned() } else { format!("{word}s") }
-}
-
 /// The name of a mode.
 pub fn named(mode: BatMode) -> String {
     match mode {
         BatMode::Bending { order } => format!("bending {order}"),
         BatMode::Hoop { harmonic, order } => format!("hoop ({harmonic}, {order})"),
     }
-}
-
-fn frequency(tone: &Tone) -> String {
-    let Within { value, interval95: [low, high] } = Within::frequency(tone);
-    let by = 0.5 * (high - low);
-    let decimals = (1 - by.log10().floor() as i32).clamp(0, 3) as usize;
-    format!("{value:.decimals$} Hz ± {by:.decimals$}")
 }
 
 fn half(loss: &Within) -> f64 {
@@ -329,10 +317,6 @@ fn of_tap(tap: &Tap, refused: bool) -> TapMoment {
         bounces: tap.bounces,
         why_not: why_not.map(str::to_owned),
     }
-}
-
-fn said(code: &str, text: impl Into<String>) -> TapSaid {
-    TapSaid { code: code.to_owned(), text: text.into() }
 }
 
 /// The error for a recording that cannot be read, with the name that is shown.

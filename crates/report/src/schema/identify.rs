@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::schema::document;
+use crate::schema::{Said, document};
 
 /// The modes common to the measured frequency responses of one bat. SI units, named at the end of each member; a value
 /// that does not exist is null. Later versions with the same number may have more members.
@@ -27,7 +27,7 @@ pub struct IdentifyFile {
     /// Results of the virtual test; null where responses were measured.
     pub simulated: Option<IdentifySimulated>,
     /// Warnings about the responses.
-    pub warnings: Vec<IdentifySaid>,
+    pub warnings: Vec<Said>,
 }
 
 document!(IdentifyFile, "identify");
@@ -120,13 +120,4 @@ pub struct IdentifyPlanned {
     pub found_hz: Option<f64>,
     /// Similarity of the shape found, 0 to 1; null where the mode is missed.
     pub mac: Option<f64>,
-}
-
-/// A warning about responses.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct IdentifySaid {
-    /// Its name for programs.
-    pub code: String,
-    /// What it means and what to do.
-    pub text: String,
 }

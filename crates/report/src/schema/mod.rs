@@ -41,6 +41,22 @@ macro_rules! document {
 }
 pub(crate) use document;
 
+/// A warning of a document.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct Said {
+    /// Its name for programs.
+    pub code: String,
+    /// What it means and what to do.
+    pub text: String,
+}
+
+impl Said {
+    /// A warning of that name.
+    pub fn new(code: &str, text: impl Into<String>) -> Self {
+        Self { code: code.to_owned(), text: text.into() }
+    }
+}
+
 /// The beginning of a document.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 struct Head<D: Document> {

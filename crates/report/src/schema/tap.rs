@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::schema::document;
+use crate::schema::{Said, document};
 use sweetspot::files::schema::document::BatName;
 use sweetspot_study::calibrate::calibration::Calibration;
 use sweetspot_study::tap::heard::Within;
@@ -33,9 +33,9 @@ pub struct TapFile {
     /// Whether the tones fit the bat; null where no labels were sought.
     pub fits: Option<bool>,
     /// Warnings about the recordings.
-    pub warnings: Vec<TapSaid>,
+    pub warnings: Vec<Said>,
     /// Why nothing was found; null where tones were found.
-    pub refused: Option<TapSaid>,
+    pub refused: Option<Said>,
 }
 
 document!(TapFile, "tap");
@@ -107,13 +107,4 @@ pub struct TapTone {
     pub computed_hz: Option<f64>,
     /// The chance that the mode is right, 0 to 1; null without one.
     pub sure: Option<f64>,
-}
-
-/// A warning about a recording.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct TapSaid {
-    /// Its name for programs.
-    pub code: String,
-    /// What it means and what to do.
-    pub text: String,
 }
