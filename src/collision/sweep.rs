@@ -55,6 +55,18 @@ impl Sweep {
         self
     }
 
+    /// Strikes the bat of this sweep in another way, with its modes as long as they are accurate enough.
+    ///
+    /// # Errors
+    ///
+    /// As [`sweep`].
+    pub fn again(&self, bat: &Bat, trial: Trial, to: &Accuracy, places: &[f64]) -> Result<Self> {
+        let accuracy = &Accuracy { theory: self.solution.theory, ..*to };
+        let mut first = Round::first(bat, trial, accuracy);
+        first.request.modes = self.solution.modes.len();
+        first.go_on((bat, trial), accuracy, places, self.solution.clone(), &nobody)
+    }
+
     /// Whether every hit is resolved and its exit speed within the tolerance by its own estimate.
     pub fn met(&self) -> bool {
         self.end == RoundsEnd::Met
