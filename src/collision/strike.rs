@@ -95,6 +95,9 @@ impl Hitter<'_> {
             velocity += energy * gain;
             acceleration += energy * gain * omega * omega;
         }
+        if self.struck.bat.fixtures().keeps_still([x, self.scene.hands]) {
+            (velocity, acceleration) = (0.0, 0.0);
+        }
         let exit = |impulse: f64| impulse / self.scene.ball.mass_kg - self.scene.ball_speed;
         Glance {
             x,

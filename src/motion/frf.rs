@@ -74,7 +74,7 @@ impl ResponseKind {
 }
 
 /// The receptance at one frequency.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Sample {
     /// Frequency (Hz).
@@ -100,6 +100,8 @@ pub struct Frf {
     /// The forced and the watched point.
     places: [UnitForce; 2],
     points: [f64; 2],
+    /// Whether the response is 0, because a support keeps the watched point at rest.
+    pub still: bool,
     /// Damping ratios of the modes in place of the bat's; empty if the bat's apply.
     ratios: Vec<f64>,
 }
@@ -140,7 +142,8 @@ impl Frf {
             reduced.place(*x);
         });
         let places = [at, to].map(|x| reduced.place(x));
-        Ok(Self { solution, reduced, places, points: [at, to], ratios: vec![] })
+        let (points, still) = ([at, to], bat.fixtures().keeps_still([at, to]));
+        Ok(Self { solution, reduced, places, points, still, ratios: vec![] })
     }
 
     /// The response with measured damping ratios of its modes in place of the materials' loss factors; a mode without
@@ -163,6 +166,9 @@ impl Frf {
     /// The deflection (m/N) under a constant force. For a free bat it is the bending alone, balanced by the bat's
     /// inertia.
     pub fn static_compliance(&self) -> f64 {
+        if self.still {
+            return 0.0;
+        }
         let [at, to] = self.points.map(|x| self.reduced.flexible.row(x));
         dot(&at, &to) / self.reduced.flexible.energy_unit
     }
@@ -214,6 +220,9 @@ impl Frf {
     /// The peaks between the ends of a rising grid of frequencies (Hz), in the unit of that kind, with the present
     /// strains: [`Self::receptances`] adds those that are missing.
     pub fn peaks(&self, kind: ResponseKind, grid: &[f64]) -> Vec<Peak> {
+        if self.still {
+            return vec![];
+        }
         let driven = self.reduced.driven();
         let size = |f: f64| (self.receptance(&driven, f) * kind.of(f)).norm();
         peaks::of(grid, &self.modes(), &size)
@@ -237,6 +246,10 @@ impl Frf {
         if let Some(f) = frequencies.iter().find(|f| !possible(**f)) {
             let expected = if free { "above 0 Hz: nothing holds the bat" } else { "0 Hz or more" };
             return Err(Error::value("frequencies", format!("{f} Hz"), expected));
+        }
+        if self.still {
+            let zero = |f: &f64| Sample { frequency: *f, ..Sample::default() };
+            return Ok(frequencies.iter().map(zero).collect());
         }
         let mut probes: Vec<f64> = frequencies.to_vec();
         probes.sort_by(f64::total_cmp);
