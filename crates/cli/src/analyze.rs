@@ -317,7 +317,7 @@ fn everything(analysis: &Analysis, output: &OutputArgs) -> String {
         hit_text::why(figures, units),
         hit_text::beyond(hits, &task.scene, units),
         hit_text::figures(figures, units),
-        aftermath::strengths(&analysis.strength, units),
+        aftermath::strengths(bat, &analysis.strength, units),
         barrel.collect::<String>(),
     )
 }

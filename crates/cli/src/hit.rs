@@ -94,7 +94,10 @@ impl PlaceArgs {
 
 pub fn run(args: &Args) -> Result<Done> {
     args.output.apart(&[])?;
-    let bat = args.bat.read(&args.output)?;
+    let bat = match &args.output.csv.csv {
+        None => args.bat.read_with_text(&args.output)?.0,
+        Some(_) => args.bat.read(&args.output)?,
+    };
     let (setup, model) = args.scene.setup()?;
     args.solve.refuse_budget("hit")?;
     let prepared = args.bat.prepare(bat, args.bat.count(), &args.solve, &args.output)?;

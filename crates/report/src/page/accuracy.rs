@@ -1,7 +1,7 @@
 //! How reliable are the numbers: what is certified, what was neglected, and the error that causes.
 
 use crate::analysis::Analysis;
-use crate::page::shown::{self, speed};
+use crate::page::shown;
 use crate::parts::Units;
 use crate::report::{advice, hit_text, trust};
 use sweetspot::{Request, Theory};
@@ -126,7 +126,7 @@ fn exit_speeds(analysis: &Analysis, units: Units) -> Option<String> {
 fn small(units: Units, value: f64) -> String {
     let mph = sweetspot::base::units::miles_per_hour(value);
     if value >= 0.01 {
-        return speed(units, value);
+        return units.speed(value);
     }
     units.show(format!("{} m/s", shown::error(value)), format!("{} mph", shown::error(mph)))
 }

@@ -88,7 +88,7 @@ fn edited(comparison: &Comparison, units: Units) -> Vec<String> {
 /// The conditions common to all hits.
 fn scene(comparison: &Comparison, units: Units) -> Vec<String> {
     let first = &comparison.bats[0];
-    let speed = shown::speed(units, first.scene.ball_speed);
+    let speed = units.speed(first.scene.ball_speed);
     vec![
         format!("{} at {speed}.", first.scene.ball.name),
         shown::sentence(

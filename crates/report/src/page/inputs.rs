@@ -3,9 +3,10 @@
 use serde_json::Value;
 
 use crate::analysis::Analysis;
-use crate::page::shown::{self, NONE, length, speed};
+use crate::page::shown::{self, NONE, length};
 use crate::parts::{Table, Units};
 use crate::report::resolved::resolved;
+use crate::report::wall_text::by;
 use crate::schema;
 use sweetspot::collision::figures::BarrelSpeed;
 use sweetspot::collision::{Model, Scene};
@@ -17,16 +18,15 @@ pub fn scene(analysis: &Analysis, units: Units) -> Table {
     let mut line = |(what, value): (&str, String)| table.row([what.to_owned(), value]);
     model(analysis).into_iter().for_each(&mut line);
     swing(analysis, units).into_iter().for_each(&mut line);
-    line(("pitch", speed(units, scene.ball_speed)));
+    line(("pitch", units.speed(scene.ball_speed)));
     ball(scene, units).into_iter().for_each(&mut line);
     line(("hands feel the hit at", format!("{} from the knob", length(units, scene.hands))));
     if let Some(wall) = scene.wall {
-        line(("the barrel's wall, stiffness", format!("{} N/m", shown::plain(wall.stiffness))));
-        line(("  its mass", format!("{} kg", shown::plain(wall.mass))));
+        line(("the barrel's wall, stiffness", units.stiffness(wall.stiffness)));
+        line(("  its mass", shown::mass(units, wall.mass)));
     }
     if let Some(wall) = scene.hoop.wall() {
-        let modes = format!("by {} hoop modes", wall.modes().len());
-        line(("the barrel's wall gives way", modes));
+        line(("the barrel's wall gives way", by(wall)));
     }
     if analysis.bat.fixtures().holding() {
         line(("the bat is held", "energies are as its hands see them".to_owned()));
@@ -68,7 +68,7 @@ fn swing(analysis: &Analysis, units: Units) -> Vec<SceneRow> {
     let pivot = length(units, scene.pivot.abs());
     lines.push(("rotation centre of the swing", format!("{pivot} {side} the knob end")));
     let barrel = BarrelSpeed::of(&analysis.bat, scene, BarrelSpeed::BROADCAST);
-    lines.push(("speed of the bat 6 in from the tip", speed(units, barrel.speed)));
+    lines.push(("speed of the bat 6 in from the tip", units.speed(barrel.speed)));
     lines
 }
 

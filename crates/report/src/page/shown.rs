@@ -2,7 +2,7 @@
 
 use crate::parts::Units;
 use sweetspot::base::number::rounded;
-use sweetspot::base::units::{POUND_FORCE, inches, miles_per_hour, ounce_square_inches, ounces};
+use sweetspot::base::units::{POUND_FORCE, inches, ounce_square_inches, ounces};
 
 /// The sign for a missing number.
 pub const NONE: &str = "–";
@@ -33,20 +33,9 @@ pub fn inertia(units: Units, value: f64) -> String {
     units.show(format!("{value:.4} kg m²"), format!("{:.0} oz in²", ounce_square_inches(value)))
 }
 
-/// A force (N).
-pub fn force(units: Units, value: f64) -> String {
-    units.show(format!("{:.2} kN", 1e-3 * value), format!("{:.0} lbf", value / POUND_FORCE))
-}
-
 /// An impulse (N s).
 pub fn impulse(units: Units, value: f64) -> String {
     units.show(format!("{value:.3} N s"), format!("{:.3} lbf s", value / POUND_FORCE))
-}
-
-/// A speed (m/s).
-pub fn speed(units: Units, value: f64) -> String {
-    let us = rounded(miles_per_hour(value), 1);
-    units.show(format!("{:.2} m/s", rounded(value, 2)), format!("{us:.1} mph"))
 }
 
 /// A number with that many decimals, or with a power of ten where that would be all zeros or very long; 0 is not −0.

@@ -76,7 +76,7 @@ impl Summary {
         let scene = format!(
             "swing {} rad/s, pitch {}",
             shown::decimals(self.swing_rad_s, 1),
-            shown::speed(units, self.ball_speed_m_s)
+            units.speed(self.ball_speed_m_s)
         );
         let zone = format!("{} to {} from the knob", shown::bare(units, from), length(units, to));
         let [tip, scene] = [(tip, Answer::ExitSpeedPlace), (scene, Answer::ExitSpeed)]
@@ -84,7 +84,7 @@ impl Summary {
         let (place, width) = (length(units, x), length(units, to - from));
         vec![
             fact("sweet_spot_m", "Sweet spot, from the knob", place, tip),
-            fact("exit_speed_m_s", "Fastest ball", shown::speed(units, speed), scene),
+            fact("exit_speed_m_s", "Fastest ball", units.speed(speed), scene),
             fact("zone_m", "Sweet zone, within 1 % of it", width, zone),
         ]
     }

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::analysis::Analysis;
-use crate::page::shown::{self, NONE, bare, decimals, length_unit, speed};
+use crate::page::shown::{self, NONE, bare, decimals, length_unit};
 use crate::parts::{Table, Units};
 use crate::report::hit_text::{self, SpotLine};
 use sweetspot::Bat;
@@ -134,7 +134,7 @@ pub fn figures(analysis: &Analysis, units: Units) -> Table {
     let mut table = Table::new(hit_text::STATED, &["Figure", "Value"]);
     let Some(best) = &figures.best else { return table };
     let Some(outcome) = &best.outcome else { return table };
-    table.row(["bat speed there".to_owned(), speed(units, best.bat_speed)]);
+    table.row(["bat speed there".to_owned(), units.speed(best.bat_speed)]);
     of_the_hit(outcome, units).into_iter().for_each(|(what, value)| table.row([what, &value]));
     // The wall has a part of the page to itself.
     let mut solid = figures.clone();
@@ -152,7 +152,7 @@ fn of_the_hit(outcome: &Outcome, units: Units) -> Vec<(&'static str, String)> {
         lines.push(("time of contact", format!("{:.3} ms", 1e3 * time)));
     }
     if let Some(force) = outcome.peak_force {
-        lines.push(("largest force", shown::force(units, force)));
+        lines.push(("largest force", units.force(force, 2)));
     }
     lines
 }

@@ -1,8 +1,8 @@
 //! In which units are numbers shown?
 
-use sweetspot::base::number::rounded;
+use sweetspot::base::number::{rounded, significant};
 use sweetspot::base::units::{
-    FOOT_POUND, PSI, inches, miles_per_hour, ounce_square_inches, ounces,
+    FOOT, FOOT_POUND, INCH, POUND_FORCE, PSI, inches, miles_per_hour, ounce_square_inches, ounces,
 };
 use sweetspot::bat::body::Bat;
 
@@ -75,6 +75,18 @@ impl Units {
         self.beside(format!("{:.decimals$} MPa", 1e-6 * pascals), psi)
     }
 
+    /// A force, given in N, shown in kN with that number of decimals and in whole pounds.
+    pub fn force(self, newtons: f64, decimals: usize) -> String {
+        let us = format!("{:.0} lbf", newtons / POUND_FORCE);
+        self.beside(format!("{:.decimals$} kN", 1e-3 * newtons), us)
+    }
+
+    /// A stiffness, given in N/m.
+    pub fn stiffness(self, value: f64) -> String {
+        let si = format!("{} MN/m", significant(1e-6 * value, 3));
+        self.beside(si, format!("{} lbf/in", significant(value * INCH / POUND_FORCE, 3)))
+    }
+
     /// A length, given in metres.
     pub fn length(self, metres: f64) -> String {
         self.show(format!("{metres:.4} m"), format!("{:.2} in", inches(metres)))
@@ -140,6 +152,7 @@ pub fn in_trade(unit: &str, us: bool) -> (&str, f64) {
         "kg" if us => ("oz", ounces(1.0)),
         "kg m²" | "kg_m2" if us => ("oz in²", ounce_square_inches(1.0)),
         "m/s" if us => ("mph", miles_per_hour(1.0)),
+        "m/s²" if us => ("ft/s²", 1.0 / FOOT),
         unit => (unit, 1.0),
     }
 }

@@ -1,5 +1,6 @@
 //! The bat coloured by the effect of a cut at each place, with a strip for each output.
 
+use crate::parts::in_trade;
 use crate::plot::profile::widest;
 use crate::plot::{
     Anchor, Chart, FRAME, Frame, Ink, LABEL, Lying, Panel, Pen, Picture, SERIES, SMALL, Sheet, Svg,
@@ -174,7 +175,8 @@ fn strips(sheet: Sheet, map: &LatheMap) -> Vec<Strip> {
     add(Answer::ExitSpeed, "fastest ball, same energy of the swing", speed, 0.5);
     let hands = answers.iter().copied().find(|a| matches!(a, Answer::HandsAccelerationAt(_)));
     if let Some(answer) = hands {
-        add(answer, "acceleration that the hands feel", ("m/s²", 1.0, 0), 0.0);
+        let (unit, per) = in_trade("m/s²", us);
+        add(answer, "acceleration that the hands feel", (unit, per, 0), 0.0);
     }
     all
 }

@@ -58,9 +58,9 @@ impl AfterHit<'_> {
         let last = INSTANTS.min(IN_ALL / curves);
         let times: Vec<f64> = (0..=last).map(|k| self.until * k as f64 / last as f64).collect();
         let instants = self.after.at(&times);
-        let shaken = Unit { name: "km/s²", per: 1e-3 };
         let kinds = [("displacement", sheet.small()), ("velocity", sheet.speed())];
-        let kinds = kinds.into_iter().chain(self.damped.then_some(("acceleration", shaken)));
+        let kinds =
+            kinds.into_iter().chain(self.damped.then_some(("acceleration", sheet.acceleration())));
         let kinds: Vec<(&str, Unit)> = kinds.collect();
         let curves = |kind: usize| -> Vec<Series> {
             let curve = |(k, (x, _)): (usize, &(f64, &[Line]))| {

@@ -1,6 +1,6 @@
 //! The sheet of a picture: the units and the available room.
 
-use sweetspot::base::units::{FOOT_POUND, POUND_FORCE, inches, miles_per_hour};
+use sweetspot::base::units::{FOOT, FOOT_POUND, POUND_FORCE, inches, miles_per_hour};
 use sweetspot::bat::body::Bat;
 
 /// A unit of an axis: its name, and its number per SI unit.
@@ -77,6 +77,11 @@ impl Sheet {
     /// Speeds.
     pub fn speed(self) -> Unit {
         self.unit(("m/s", 1.0), ("mph", miles_per_hour(1.0)))
+    }
+
+    /// Accelerations.
+    pub fn acceleration(self) -> Unit {
+        self.unit(("km/s²", 1e-3), ("kft/s²", 1e-3 / FOOT))
     }
 
     /// Energies.

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use crate::csv::Csv;
-use crate::parts::{Cell, Columns, Units, numbers, wrapped};
+use crate::parts::{Cell, Columns, Units, in_trade, numbers, wrapped};
 use crate::schema::hit::Impact;
 use crate::schema::{Written, ring as file};
 use sweetspot::Bat;
@@ -79,17 +79,17 @@ impl AfterHit {
 pub fn impact(impact: &hit::Impact, end: f64, units: Units) -> String {
     let Some(outcome) = &impact.outcome else { return String::new() };
     format!(
-        "     at {}\n     the ball leaves at {}, after {:.2} ms, {:.1} kN at most\n",
+        "     at {}\n     the ball leaves at {}, after {:.2} ms, {} at most\n",
         units.place(impact.x, 2),
         units.inline(units.speed(outcome.exit_speed)),
         1e3 * end,
-        1e-3 * outcome.peak_force.unwrap_or(0.0)
+        units.force(outcome.peak_force.unwrap_or(0.0), 1)
     )
 }
 
 /// The tables for the terminal; `full` adds strains along the bat and the spectrum. Where the strength is known, the
 /// largest strain is included in any case.
-pub fn text(report: &AfterHit, units: Units, full: bool) -> String {
+pub fn text(bat: &Bat, report: &AfterHit, units: Units, full: bool) -> String {
     let mut out = format!(
         "\nMotion against the swing, {:.1} ms from the first touch, hands without mass\n",
         1e3 * report.until
@@ -99,11 +99,11 @@ pub fn text(report: &AfterHit, units: Units, full: bool) -> String {
     }
     if !full {
         let strains = if report.loads.is_empty() { strains(report, units) } else { String::new() };
-        return (out + &strains + &strength(report, units)).replace("\n\n", "\n");
+        return (out + &strains + &strength(bat, report, units)).replace("\n\n", "\n");
     }
     out += &strains(report, units);
     out += &along(report, units);
-    out += &strength(report, units);
+    out += &strength(bat, report, units);
     if let Some(seen) = report.watched.first() {
         out += &spectrum(seen, report.damped, units);
     }
@@ -126,9 +126,10 @@ fn motion(seen: &Watched, damped: bool, units: Units) -> String {
         units.inline(moved),
         if growing { "and growing".into() } else { a },
     );
-    let speed = units.show(format!("{speed:.2} m/s"), format!("{:.1} mph", miles_per_hour(speed)));
-    line("largest velocity", units.inline(speed), b);
-    let shaken = format!("{acceleration_m_s2:.0} m/s² ({:.0} g)", gravities(acceleration_m_s2));
+    line("largest velocity", units.inline(units.speed(speed)), b);
+    let (unit, per) = in_trade("m/s²", units.us_first());
+    let [shaken, g] = [per * acceleration_m_s2, gravities(acceleration_m_s2)];
+    let shaken = format!("{shaken:.0} {unit} ({g:.0} g)");
     let endless = "without end: nothing damps the bat".to_owned();
     let (size, when) = if damped { (shaken, c) } else { (endless, String::new()) };
     line("largest acceleration", size, when);
@@ -194,10 +195,17 @@ fn along(report: &AfterHit, units: Units) -> String {
     out
 }
 
+/// The heading of the load relative to the strength, which is that of clear wood in a bat of wood.
+fn heading(bat: &Bat) -> &'static str {
+    match bat.material().scatter() {
+        Some(_) => "Strength (clear wood along the grain; grain, knots, dents not known)\n",
+        None => "Strength\n",
+    }
+}
+
 /// The load relative to the strength.
-fn strength(report: &AfterHit, units: Units) -> String {
-    let mut out =
-        String::from("\nStrength (clear wood along the grain; grain, knots, dents not known)\n");
+fn strength(bat: &Bat, report: &AfterHit, units: Units) -> String {
+    let mut out = format!("\n{}", heading(bat));
     if report.loads.is_empty() {
         let unknown = "  no material has a known strength: \"strength\" and \"strain_to_failure\" of \
                        the material in the bat file say what it bears";
@@ -250,13 +258,11 @@ pub fn reached(load: &Load, units: Units) -> String {
 }
 
 /// The load on the bat in hits at some places, for a screen.
-pub fn strengths(all: &[Strength], units: Units) -> String {
+pub fn strengths(bat: &Bat, all: &[Strength], units: Units) -> String {
     if all.iter().all(|at| at.limits.is_empty()) {
         return String::new();
     }
-    let mut out = String::from(
-        "Strength (clear wood along the grain; slope of grain, knots and dents not known)\n",
-    );
+    let mut out = heading(bat).to_owned();
     for at in all {
         for load in &at.limits {
             let text = reached(load, units);

@@ -44,7 +44,8 @@ struct Scale {
     name: &'static str,
 }
 
-fn scale(unit: Unit, us: bool) -> Scale {
+fn scale(unit: Unit, units: Units) -> Scale {
+    let (us, (energy, per)) = (units.us_first(), units.of_energy());
     let of = |factor, decimals, name| Scale { factor, decimals, name };
     match (unit, us) {
         (Unit::Metres, false) => of(100.0, 2, "cm"),
@@ -57,7 +58,7 @@ fn scale(unit: Unit, us: bool) -> Scale {
         (Unit::MetresPerSecond, true) => of(miles_per_hour(1.0), 2, "mph"),
         (Unit::Hertz, _) => of(1.0, 1, "Hz"),
         (Unit::RadiansPerSecond, _) => of(1.0, 2, "rad/s"),
-        (Unit::Joules, _) => of(1.0, 2, "J"),
+        (Unit::Joules, _) => of(per, 2, energy),
         (Unit::One, _) => of(1.0, 4, ""),
     }
 }
@@ -193,14 +194,13 @@ fn label(row: &ComparedFigure, scale: &Scale) -> String {
 
 /// The values of all bats.
 fn overview(comparison: &Comparison, units: Units) -> String {
-    let us = units.us_first();
     let width = (48 / comparison.bats.len()).min(10);
     let bats = (0..comparison.bats.len()).map(|k| numbers(width, letter(k)));
     let columns =
         Columns::new([first(32, "All (places from the knob end)")].into_iter().chain(bats));
     let mut out = format!("\n{}", columns.heads());
     for row in shown(comparison) {
-        let scale = scale(row.unit, us);
+        let scale = scale(row.unit, units);
         let values = row.values.iter();
         let values = values.map(|v| v.map_or(String::new(), |figure| scale.value(figure.value)));
         let label = format!("  {}", label(row, &scale));
@@ -244,12 +244,7 @@ fn alone(figure: &ComparedFigure, unit: &str) -> String {
 pub fn rows(comparison: &Comparison, units: Units) -> Vec<ComparisonRow> {
     let bats = comparison.bats.len();
     let row = |figure: &ComparedFigure| {
-        let (name, factor) = units.of_energy();
-        let scale = match figure.unit {
-            // Too wide a name for the columns of a terminal.
-            Unit::Joules => Scale { factor, decimals: 2, name },
-            unit => scale(unit, units.us_first()),
-        };
+        let scale = scale(figure.unit, units);
         let differences = || (1..bats).map(|bat| figure.difference(bat));
         let told = |d: Option<Difference>| d.map_or(String::new(), |d| scale.difference(d));
         let value = |v: &Option<Compared>| v.map_or(String::new(), |v| scale.value(v.value));
@@ -284,14 +279,14 @@ fn pair(comparison: &Comparison, bat: usize, units: Units) -> String {
 
 /// Figures of one bat compared with those of the first.
 pub fn figures(all: &[&ComparedFigure], bat: usize, units: Units) -> String {
-    let (us, name) = (units.us_first(), letter(bat));
+    let name = letter(bat);
     let less = format!("{name} less A");
     let title = format!("{name} beside A");
     let other = if units.both() { less.clone() } else { String::new() };
     let heads = [title, "A".into(), name.to_string(), less, "within".into(), other];
     let mut out = format!("\n{}", columns(heads).heads());
     for figure in all {
-        let scale = scale(figure.unit, us);
+        let scale = scale(figure.unit, units);
         out += &compared(figure, bat, &format!("  {}", label(figure, &scale)), units);
     }
     out
@@ -311,20 +306,20 @@ fn by_place(title: &str, rows: &[(&f64, &ComparedFigure)], bat: usize, units: Un
     if lines.is_empty() {
         return String::new();
     }
-    let unit = scale(Unit::MetresPerSecond, units.us_first()).name;
+    let unit = scale(Unit::MetresPerSecond, units).name;
     format!("{title}, {unit}\n{}", lines.concat())
 }
 
 /// A line of two values and their difference.
 fn compared(figure: &ComparedFigure, bat: usize, label: &str, units: Units) -> String {
-    let scale_here = scale(figure.unit, units.us_first());
+    let scale_here = scale(figure.unit, units);
     let value = |k: usize| figure.values[k].map_or(String::new(), |f| scale_here.value(f.value));
     let difference = figure.difference(bat);
     let size = figure.values[0].map_or(0.0, |f| f.value);
     let in_other = difference.filter(|d| units.both() && d.beyond_errors);
     let in_other = in_other.map_or(String::new(), |d| {
-        let other = scale(figure.unit, !units.us_first());
-        if other.name == scale_here.name {
+        let other = scale(figure.unit, if units.us_first() { Units::Si } else { Units::Us });
+        if figure.unit == Unit::Joules || other.name == scale_here.name {
             String::new()
         } else {
             format!("{} {}", other.difference(d), other.name)

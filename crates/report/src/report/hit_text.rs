@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::parts::{Columns, Units, numbers, wrapped};
+use crate::parts::{Columns, Units, in_trade, numbers, wrapped};
 use crate::report::wall_text::{wall_facts, wall_words};
 use crate::report::{curve, edits};
 use sweetspot::Bat;
@@ -20,7 +20,7 @@ const FLAGS: [(&str, char, &str); 8] = [
     ("late_contact", 'l', "the bat caught up when the force had almost gone"),
     ("second_contact", 's', "hit again after it left; the speed is that in the end"),
     ("ball_law_beyond", 'b', "not measured for such a hit (docs/limits.md)"),
-    ("no_contact", 'n', "the bat runs away from the ball"),
+    ("no_contact", 'n', "ball and bat do not approach each other"),
     ("no_section", 'p', "the bat ends in a point"),
     ("no_real_solution", 'i', "the model has no real solution"),
     ("unresolved", 'u', "not resolved: the energies do not close"),
@@ -197,7 +197,7 @@ pub fn meaning(model: Model) -> String {
 
 /// The effects neglected in a hit with as many modes as it needs.
 pub fn beyond(sweep: &Sweep, scene: &Scene, units: Units) -> String {
-    let Some(truncation) = sweep.truncation else { return String::new() };
+    let Some((truncation, _)) = sweep.truncation.zip(sweep.worst()) else { return String::new() };
     let closing = |i: &Impact| i.bat_speed + scene.ball_speed;
     let fastest = sweep.impacts.iter().map(closing).fold(0.0, f64::max);
     let change = truncation * fastest;
@@ -236,10 +236,7 @@ pub fn spot_lines(bat: &Bat, spot: &SweetSpot, units: Units) -> Vec<SpotLine> {
         spot.first_separation_max.filter(|_| spot.exit_speed_max != spot.first_separation_max);
     peak("first contact", first, &speed);
     peak("least vibration", spot.vibration_min, &|energy| units.energy(energy, 2));
-    let slow = |v: f64| match units.us_first() {
-        true => format!("{:.1} mph", miles_per_hour(v)),
-        false => format!("{v:.2} m/s"),
-    };
+    let slow = |v: f64| units.first().speed(v);
     peak("least hand speed, undamped", spot.hands_velocity_min, &slow);
     if bat.damped() {
         let shaken = |a: f64| format!("{:.0} g", gravities(a));
@@ -330,7 +327,7 @@ pub fn figures(figures: &Figures, units: Units) -> String {
     if lines.is_empty() { lines } else { format!("{STATED}\n{lines}") }
 }
 
-/// How the sweet spot moves, in mm towards the tip, and how the best speed changes.
+/// How the sweet spot moves, in mm or in towards the tip, and how the best speed changes.
 pub fn moves(bat: &Bat, figures: &Figures, units: Units) -> String {
     if figures.spot.exit_speed_max.is_none() || figures.moves.is_empty() {
         return String::new();
@@ -342,21 +339,21 @@ pub fn moves(bat: &Bat, figures: &Figures, units: Units) -> String {
         format!("{}\n", line.trim_end())
     };
     let heads = ["fastest", "least", "least hand", "least hand", "best"].map(str::to_owned);
-    let mut out = row("How it moves, mm to tip", heads);
+    let (unit, per, places) =
+        if units.us_first() { ("in", inches(1.0), 2) } else { ("mm", 1e3, 1) };
+    let (mph, faster) = in_trade("m/s", units.us_first());
+    let mut out = row(&format!("How it moves, {unit} to tip"), heads);
     out += &row("", ["ball", "vibr.", "speed", "shaking", "speed"].map(str::to_owned));
     let spot = &figures.spot;
     for Moved { change, sweet_spot: moved } in &figures.moves {
         let by = |of: fn(&SweetSpot) -> Option<Peak>| match (of(spot), of(moved)) {
-            (Some(before), Some(after)) => signed(1e3 * (after.x - before.x), 1),
+            (Some(before), Some(after)) => signed(per * (after.x - before.x), places),
             _ => String::new(),
         };
         let faster = match (spot.exit_speed_max, moved.exit_speed_max) {
             (Some(before), Some(after)) => {
-                let change = after.value - before.value;
-                match units.us_first() {
-                    true => format!("{} mph", signed(miles_per_hour(change), 1)),
-                    false => format!("{} m/s", signed(change, 2)),
-                }
+                let decimals = if units.us_first() { 1 } else { 2 };
+                format!("{} {mph}", signed(faster * (after.value - before.value), decimals))
             }
             _ => String::new(),
         };
@@ -395,7 +392,8 @@ pub fn scene(bat: &Bat, scene: &Scene, model: &str, units: Units) -> String {
         out += &wrapped(&format!("     the bat is edited: {}", edits::listed(bat, units)), 5);
     }
     if let Some(Wall { stiffness, mass }) = scene.wall {
-        let _ = writeln!(out, "     the barrel's wall gives way: {stiffness:.3e} N/m, {mass} kg");
+        let (stiffness, mass) = (units.stiffness(stiffness), units.inline(units.mass(mass)));
+        let _ = writeln!(out, "     the barrel's wall gives way: {stiffness}, {mass}");
     }
     if let Some(wall) = scene.hoop.wall() {
         out += &wrapped(&format!("     {}", wall_words(bat, scene, wall)), 5);

@@ -10,7 +10,7 @@ use crate::report::text::edited;
 use crate::schema::{Written, document};
 use sweetspot::Bat;
 use sweetspot::base::number::{rounded, significant};
-use sweetspot::base::units::{POUND_FORCE, inches};
+use sweetspot::base::units::inches;
 use sweetspot::bat::edit::Edit;
 use sweetspot::modes::hoop::{HoopMode, Outline};
 use sweetspot_study::trampoline::barrel::{Barrel, HoopModel, Rebound};
@@ -18,7 +18,6 @@ use sweetspot_study::trampoline::pressed::{BarrelCompression, HarmonicShare, Pre
 use sweetspot_study::trampoline::thickness::{FACTORS, WallTried};
 
 const MM: f64 = 1e-3;
-const MEGA: f64 = 1e6;
 
 /// How the barrel of a hollow bat rings, how its wall deforms under a ball, and how that affects the ball. SI units,
 /// named at the end of each member; positions count from the knob end; a value that does not exist is null. Later
@@ -168,7 +167,7 @@ pub fn answers(barrel: &Barrel, units: Units) -> Vec<String> {
     let BarrelCompression { deflection_m, force_n } = wall.compressed(&barrel.test.ball);
     all.push(format!(
         "Barrel compression: {} for {} between two opposite sides.",
-        forces(units, force_n),
+        units.force(force_n, 2),
         small(units, deflection_m)
     ));
     all
@@ -179,10 +178,10 @@ fn pressed(barrel: &Barrel, wall: &PressedWall, units: Units) -> String {
     let times = |over_ball| format!(" ({} times the ball)", significant(over_ball, 2));
     let ball = wall.over_ball.map_or(String::new(), times);
     format!(
-        "Wall under a {}, {} from the tip: {} MN/m{ball}; {} thick, patch {}.",
+        "Wall under a {}, {} from the tip: {}{ball}; {} thick, patch {}.",
         barrel.test.ball.name,
         units.inline(units.length(wall.from_tip_m)),
-        significant(wall.stiffness_n_m / MEGA, 3),
+        units.stiffness(wall.stiffness_n_m),
         small(units, wall.thickness_m),
         patch(units, wall),
     )
@@ -237,13 +236,6 @@ fn small(units: Units, length: f64) -> String {
     units.beside(si, us)
 }
 
-/// A force (N).
-fn forces(units: Units, force: f64) -> String {
-    let si = format!("{} kN", significant(1e-3 * force, 3));
-    let us = format!("{:.0} lbf", force / POUND_FORCE);
-    units.beside(si, us)
-}
-
 /// The end of a short answer for a hollow bat, with the first hoop mode; None without one.
 pub fn in_a_line(barrel: &Barrel) -> Option<String> {
     let lowest = barrel.hoop().lowest(1);
@@ -277,9 +269,7 @@ pub fn sweep(tried: &[WallTried], units: Units) -> String {
             (labels(18, "wall under the ball"), &|one| small(units, one.thickness_m)),
             (numbers(7, "times"), &|one| format!("{:.1}", one.factor)),
             (numbers(11, "n=2, m=1"), &|one| format!("{:.0} Hz", one.frequency_hz)),
-            (numbers(11, "stiffness"), &|one| {
-                format!("{} MN/m", significant(one.stiffness_n_m / MEGA, 3))
-            }),
+            (numbers(15, "stiffness"), &|one| units.first().stiffness(one.stiffness_n_m)),
             (numbers(7, "stiff"), &|one| format!("{:.3}", one.stiff)),
             (numbers(7, "BBCOR"), &|one| format!("{:.3}", one.wall)),
             (labels(15, "range"), &|one| format!("{:.3} to {:.3}", one.range[0], one.range[1])),

@@ -158,7 +158,7 @@ fn doubted(doubt: &Doubt, units: Units) -> String {
             let [low, high] = wall.bbcor.range;
             format!(
                 "The wall dents by {} of its {} {unit}: beyond half of it this theory ends; the ball's figures are \
-                 rough, free BBCOR {:.3} ({:.3} stiff; {low:.3} to {high:.3}).",
+                 rough, BBCOR {:.3} ({:.3} stiff; {low:.3} to {high:.3}).",
                 deep(wall.dent_m),
                 deep(wall.thickness_m),
                 wall.bbcor.with,
