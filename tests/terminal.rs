@@ -671,7 +671,7 @@ fn us_units_alone_leave_no_stiffness_force_or_acceleration_in_si() {
         &["ring", "bbcor_made_up", "--hit", "26 in", "--damping", "assumed"],
         &["frf", "r161", "--at", "20 in"],
     ] {
-        let text = folder.text(&[args, &["--units", "us"]].concat());
+        let text = folder.text(&[args, &["--units", "us", "--quiet"]].concat());
         let words = text.split(|c: char| c.is_whitespace() || "();:,".contains(c));
         let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
         let left: Vec<&&str> = words.iter().filter(|word| SI.contains(*word)).collect();
