@@ -750,6 +750,17 @@ fn words_of_different_verbs_agree() {
         let told = said(&[verb, "northwestern_aluminium"]);
         assert_eq!(told.matches("is no material of bats").count(), 1, "{verb}: {told}");
     }
+    let grip = r#", "grip": { "from": "0 in", "to": "6 in", "stiffness": 4e8, "damping": 200 }"#;
+    for (held, said_free) in [("", true), (grip, false)] {
+        let tube = format!(
+            r#"{{ "format": "sweetspot-bat/1", "material": "aluminium-7075", "profile": {{ "unit": "in",
+                "x": [0, 6, 20, 27, 33], "diameter": [1.0, 0.9, 1.6, 2.4, 2.5],
+                "wall_thickness": [0.1, 0.1, 0.1, 0.1, 0.1] }}{held} }}"#
+        );
+        folder.write("tube.json", tube);
+        let told = said(&["analyze", "tube.json"]);
+        assert!(told.contains("figures are rough, ") && told.contains("free BBCOR") == said_free);
+    }
     let still = said(&["hit", "r161", "--swing-speed", "0", "--pitch", "0"]);
     assert!(still.contains("do not approach each other") && !still.contains("0.0e0"), "{still}");
     let aimed = said(&["aim", "r161", "--target", "swing weight -1 %", "--rules", "ncaa"]);

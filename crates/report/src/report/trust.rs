@@ -151,16 +151,17 @@ fn doubted(doubt: &Doubt, units: Units) -> String {
     match doubt {
         Doubt::Density(text) => format!("Look at the file: {text}"),
         Doubt::Shear(text) => format!("Shear is left out: {text}."),
-        Doubt::Dent(wall) => {
+        Doubt::Dent(wall, held) => {
             let us = units.us_first();
             let (per, digits, unit) = if us { (inches(1.0), 2, "in") } else { (1e3, 1, "mm") };
             let deep = |length: f64| format!("{:.digits$}", per * length);
             let [low, high] = wall.bbcor.range;
             format!(
                 "The wall dents by {} of its {} {unit}: beyond half of it this theory ends; the ball's figures are \
-                 rough, BBCOR {:.3} ({:.3} stiff; {low:.3} to {high:.3}).",
+                 rough, {}BBCOR {:.3} ({:.3} stiff; {low:.3} to {high:.3}).",
                 deep(wall.dent_m),
                 deep(wall.thickness_m),
+                if *held { "" } else { "free " },
                 wall.bbcor.with,
                 wall.bbcor.stiff
             )
